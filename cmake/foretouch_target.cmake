@@ -1,0 +1,40 @@
+# What every target of the house has in common.
+
+# Warnings, checks and sanitizers. -ffp-contract=off: the error bounds of docs/guarantees.md count one
+# rounding an operation; a contracted multiply-add would round elsewhere and differ between CPUs.
+function(foretouch_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+    -Woverloaded-virtual -ffp-contract=off
+    $<$<BOOL:${FORETOUCH_WERROR}>:-Werror>)
+  target_compile_definitions(${target} PRIVATE
+    FORETOUCH_CHECKS=$<IF:$<CONFIG:Debug>,2,$<IF:$<CONFIG:RelWithDebInfo>,1,0>>)
+  if(FORETOUCH_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${FORETOUCH_SANITIZE}
+                           -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${FORETOUCH_SANITIZE})
+  endif()
+endfunction()
+
+# foretouch_library(<folder> HEADERS ... SOURCES ... LINKS ... PRIVATE_LINKS ...)
+# makes target foretouch_<folder>, alias foretouch::<folder>, installed and exported.
+function(foretouch_library folder)
+  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  set(target foretouch_${folder})
+  add_library(${target} ${ARG_SOURCES} ${ARG_HEADERS})
+  add_library(foretouch::${folder} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    POSITION_INDEPENDENT_CODE ON)
+  foretouch_compile_options(${target})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/foretouch>)
+  target_link_libraries(${target} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
+  foreach(header ${ARG_HEADERS})
+    set_property(GLOBAL APPEND PROPERTY FORETOUCH_HEADERS ${folder}/${header})
+  endforeach()
+  install(TARGETS ${target} EXPORT foretouchTargets)
+  install(FILES ${ARG_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/foretouch/${folder})
+endfunction()

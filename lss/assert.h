@@ -1,0 +1,31 @@
+// lss/assert.h: the two tiers of checks for our own mistakes.
+// Bad input never reaches these: it is an Error (articulated/result.h). Geometry never reaches them
+// either: "cannot tell" is a verdict.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace foretouch::internal {
+
+[[noreturn]] inline void assertionFailed(const char* condition, const char* file, int line) {
+  std::fprintf(stderr, "%s:%d: broken invariant: %s\n", file, line, condition);
+  std::abort();
+}
+
+}  // namespace foretouch::internal
+
+// Cheap checks, on in Debug and RelWithDebInfo (FORETOUCH_CHECKS >= 1).
+#if defined(FORETOUCH_CHECKS) && FORETOUCH_CHECKS >= 1
+#define FORETOUCH_ASSERT(condition) \
+  ((condition) ? (void)0 : ::foretouch::internal::assertionFailed(#condition, __FILE__, __LINE__))
+#else
+#define FORETOUCH_ASSERT(condition) ((void)sizeof((condition) ? 1 : 0))
+#endif
+
+// Costly invariants and tolerances, on in Debug only (FORETOUCH_CHECKS >= 2).
+#if defined(FORETOUCH_CHECKS) && FORETOUCH_CHECKS >= 2
+#define FORETOUCH_VALIDATE(condition) FORETOUCH_ASSERT(condition)
+#else
+#define FORETOUCH_VALIDATE(condition) ((void)sizeof((condition) ? 1 : 0))
+#endif

@@ -1,0 +1,21 @@
+// lss/fit.h: an LSS that contains a set of points.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "lss/lss.h"
+
+namespace foretouch {
+
+/// An LSS that contains every point, rounding included (the radius is rounded up; a test owns
+/// this). Small rather than smallest: the best by volume of a few axis directions (principal axes,
+/// coordinate axes, the farthest pair found by two sweeps), each with a near-minimal enclosing
+/// circle across. Precondition: `points` is not empty and finite (asserted). O(points).
+[[nodiscard]] Lss fitLss(const std::vector<Eigen::Vector3d>& points);
+
+/// Distance of a point to the LSS's axis, metres.
+[[nodiscard]] double axisDistance(const Lss& lss, const Eigen::Vector3d& point);
+
+}  // namespace foretouch

@@ -1,0 +1,33 @@
+// lss/lss.h: the line-swept sphere (LSS), the volume that bounds a link.
+// Lengths in metres. Readers from elsewhere call it a capsule.
+// Source: [Redon04] for LSS as the bounding volume of an avatar's links (REFERENCES.md).
+#pragma once
+
+#include <limits>
+
+#include <Eigen/Core>
+
+namespace foretouch {
+
+/// All points within `radius` of the segment from `a` to `b` (the axis).
+/// A zero-length axis is legal and means a sphere; a zero radius is legal and means a segment.
+struct Lss {
+  Eigen::Vector3d a = Eigen::Vector3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  double radius = 0.0;  ///< Metres, finite, >= 0.
+};
+
+/// True if every coordinate is finite and the radius is finite and not negative.
+[[nodiscard]] inline bool isValid(const Lss& lss) {
+  return lss.a.allFinite() && lss.b.allFinite() && lss.radius >= 0.0 &&
+         lss.radius <= std::numeric_limits<double>::max();
+}
+
+/// Volume in cubic metres: a cylinder and two half spheres.
+[[nodiscard]] inline double volume(const Lss& lss) {
+  constexpr double kPi = 3.14159265358979323846;
+  const double r2 = lss.radius * lss.radius;
+  return kPi * r2 * ((lss.b - lss.a).norm() + 4.0 / 3.0 * lss.radius);
+}
+
+}  // namespace foretouch

@@ -1,0 +1,16 @@
+// lss/triangle.h: a two-sided triangle of a scene or of a link's surface. Metres.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+namespace foretouch {
+
+/// The closed convex hull of three points. Zero area (a segment or a point) is legal.
+/// Two-sided: the order of the vertices carries no meaning.
+struct Triangle {
+  std::array<Eigen::Vector3d, 3> vertices;
+};
+
+}  // namespace foretouch
