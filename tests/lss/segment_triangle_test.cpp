@@ -1,8 +1,8 @@
 #include "lss/segment_triangle.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 #include "tests/support/precise.h"
 #include "tests/support/random_geometry.h"
@@ -54,7 +54,8 @@ TEST(ClosestPoints, EveryOrderOfVerticesAndEndsGivesTheSameDistance) {
     std::array<int, 3> order = {0, 1, 2};
     do {
       const Triangle t{{p.v[order[0]], p.v[order[1]], p.v[order[2]]}};
-      // Two noisy answers, each within rounding of the truth unless segment and edge nearly line up.
+      // Two noisy answers, each within rounding of the truth unless segment and edge nearly line
+      // up.
       EXPECT_NEAR(closestPoints(p.b, p.a, t).distance, expected, 1e-9) << "case " << i;
     } while (std::next_permutation(order.begin(), order.end()));
   }

@@ -1,9 +1,9 @@
 #include "lss/separation.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <iostream>
+
+#include <gtest/gtest.h>
 
 #include "tests/support/precise.h"
 #include "tests/support/random_geometry.h"

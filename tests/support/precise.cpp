@@ -8,7 +8,9 @@ Precise3 operator+(const Precise3& a, const Precise3& b) {
 Precise3 operator-(const Precise3& a, const Precise3& b) {
   return {a.c[0] - b.c[0], a.c[1] - b.c[1], a.c[2] - b.c[2]};
 }
-Precise3 operator*(const Real& s, const Precise3& a) { return {s * a.c[0], s * a.c[1], s * a.c[2]}; }
+Precise3 operator*(const Real& s, const Precise3& a) {
+  return {s * a.c[0], s * a.c[1], s * a.c[2]};
+}
 Real dot(const Precise3& a, const Precise3& b) {
   return a.c[0] * b.c[0] + a.c[1] * b.c[1] + a.c[2] * b.c[2];
 }
@@ -16,18 +18,19 @@ Precise3 cross(const Precise3& a, const Precise3& b) {
   return {a.c[1] * b.c[2] - a.c[2] * b.c[1], a.c[2] * b.c[0] - a.c[0] * b.c[2],
           a.c[0] * b.c[1] - a.c[1] * b.c[0]};
 }
-Real norm(const Precise3& a) { return sqrt(dot(a, a)); }
+Real norm(const Precise3& a) {
+  return sqrt(dot(a, a));
+}
 
 PreciseQuaternion operator*(const PreciseQuaternion& a, const PreciseQuaternion& b) {
-  return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
-          a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-          a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
 Precise3 rotate(const PreciseQuaternion& q, const Precise3& v) {
-  const PreciseQuaternion p = q * PreciseQuaternion{0, v.c[0], v.c[1], v.c[2]} *
-                              PreciseQuaternion{q.w, -q.x, -q.y, -q.z};
+  const PreciseQuaternion p =
+      q * PreciseQuaternion{0, v.c[0], v.c[1], v.c[2]} * PreciseQuaternion{q.w, -q.x, -q.y, -q.z};
   return {p.x, p.y, p.z};
 }
 
@@ -92,8 +95,8 @@ Real pointSegment2(const Precise3& p, const Precise3& c, const Precise3& v) {
 
 Real segmentSegment2(const Precise3& a, const Precise3& u, const Precise3& c, const Precise3& v) {
   Real best = pointSegment2(a, c, v);
-  for (const Real& d2 : {pointSegment2(a + u, c, v), pointSegment2(c, a, u),
-                         pointSegment2(c + v, a, u)}) {
+  for (const Real& d2 :
+       {pointSegment2(a + u, c, v), pointSegment2(c, a, u), pointSegment2(c + v, a, u)}) {
     if (d2 < best) best = d2;
   }
   const Precise3 n = cross(u, v);

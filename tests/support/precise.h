@@ -1,13 +1,15 @@
-// tests/support/precise.h: fifty-digit forward kinematics and distances, the yardstick for rounding.
-// Shares no code with what it checks; slow on purpose. Formulas are textbook: quaternion slerp by sine
-// weights, and the distance as the least over every pair of features whose foot points are inside.
+// tests/support/precise.h: fifty-digit forward kinematics and distances, the yardstick for
+// rounding. Shares no code with what it checks; slow on purpose. Formulas are textbook: quaternion
+// slerp by sine weights, and the distance as the least over every pair of features whose foot
+// points are inside.
 #pragma once
+
+#include <array>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <array>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <vector>
 
 namespace foretouch::test {
 
@@ -34,7 +36,8 @@ struct PreciseQuaternion {
 };
 PreciseQuaternion operator*(const PreciseQuaternion& a, const PreciseQuaternion& b);
 Precise3 rotate(const PreciseQuaternion& q, const Precise3& v);
-/// Unit inputs are not needed; the arc is chosen by the sign of the double dot product in w, x, y, z.
+/// Unit inputs are not needed; the arc is chosen by the sign of the double dot product in w, x, y,
+/// z.
 PreciseQuaternion slerp(const Eigen::Quaternion<double, Eigen::DontAlign>& from,
                         const Eigen::Quaternion<double, Eigen::DontAlign>& to, const Real& t);
 

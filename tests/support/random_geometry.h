@@ -1,18 +1,20 @@
-// tests/support/random_geometry.h: random inputs with a fair share of the awkward ones. The seed is the
-// case's index, so a failing case replays alone.
+// tests/support/random_geometry.h: random inputs with a fair share of the awkward ones. The seed is
+// the case's index, so a failing case replays alone.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <random>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace foretouch::test {
 
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : engine_(0x9e3779b97f4a7c15u ^ (seed * 0xbf58476d1ce4e5b9u)) {}
+  explicit Random(std::uint64_t seed)
+      : engine_(0x9e3779b97f4a7c15u ^ (seed * 0xbf58476d1ce4e5b9u)) {}
 
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
@@ -55,21 +57,21 @@ inline RandomPair randomPair(Random& random, double size, const Eigen::Vector3d&
   p.b = center + random.inBox(size);
   for (auto& vertex : p.v) vertex = center + random.inBox(size);
   switch (random.below(20)) {
-    case 0: p.b = p.a; break;                                       // a sphere
-    case 1: p.v[2] = p.v[1]; break;                                 // a segment
-    case 2: p.v[1] = p.v[2] = p.v[0]; break;                        // a point
-    case 3: p.v[2] = p.v[0] + 0.5 * (p.v[1] - p.v[0]); break;       // no area (to rounding)
-    case 4:                                                          // sliver
+    case 0: p.b = p.a; break;                                  // a sphere
+    case 1: p.v[2] = p.v[1]; break;                            // a segment
+    case 2: p.v[1] = p.v[2] = p.v[0]; break;                   // a point
+    case 3: p.v[2] = p.v[0] + 0.5 * (p.v[1] - p.v[0]); break;  // no area (to rounding)
+    case 4:                                                    // sliver
       p.v[2] = p.v[0] + random.uniform(0, 1) * (p.v[1] - p.v[0]) +
                random.magnitude(1e-13, 1e-3) * random.inBox(size);
       break;
-    case 5: p.b = p.a + (p.v[1] - p.v[0]); break;                   // parallel to an edge
-    case 6:                                                          // nearly parallel to an edge
+    case 5: p.b = p.a + (p.v[1] - p.v[0]); break;  // parallel to an edge
+    case 6:                                        // nearly parallel to an edge
       p.b = p.a + (p.v[1] - p.v[0]) + random.magnitude(1e-14, 1e-3) * random.inBox(size);
       break;
-    case 7: p.a = p.v[0]; break;                                    // touching a vertex
+    case 7: p.a = p.v[0]; break;  // touching a vertex
     case 8: p.a = p.v[0] + 0.3 * (p.v[1] - p.v[0]) + 0.3 * (p.v[2] - p.v[0]); break;  // on the face
-    case 9:                                                          // close above the face
+    case 9:  // close above the face
       p.a = p.v[0] + 0.3 * (p.v[1] - p.v[0]) + 0.3 * (p.v[2] - p.v[0]) +
             random.magnitude(1e-12, 1e-2) * random.direction();
       break;

@@ -16,6 +16,6 @@ std::optional<std::string> sharedData(const std::string& relativePath);
 }  // namespace foretouch::test
 
 /// Ends the test as skipped, by name, where `variable` (a std::optional<std::string>) is empty.
-#define FORETOUCH_REQUIRE_SHARED(variable, relativePath)                      \
-  const auto variable = ::foretouch::test::sharedData(relativePath);          \
+#define FORETOUCH_REQUIRE_SHARED(variable, relativePath)             \
+  const auto variable = ::foretouch::test::sharedData(relativePath); \
   if (!variable) GTEST_SKIP() << "shared data absent: " << (relativePath)

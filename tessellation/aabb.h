@@ -1,0 +1,41 @@
+// tessellation/aabb.h: an axis-aligned box in the world W. Metres.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Core>
+
+namespace foretouch {
+
+struct Aabb {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  /// Empty until something is put in.
+  Eigen::Vector3d min = Eigen::Vector3d::Constant(kInfinity);
+  Eigen::Vector3d max = Eigen::Vector3d::Constant(-kInfinity);
+
+  void add(const Eigen::Vector3d& point) {
+    min = min.cwiseMin(point);
+    max = max.cwiseMax(point);
+  }
+  void add(const Aabb& other) {
+    min = min.cwiseMin(other.min);
+    max = max.cwiseMax(other.max);
+  }
+  /// Moves every face outward by at least `distance`, rounding outward.
+  void grow(double distance) {
+    for (int i = 0; i < 3; ++i) {
+      min[i] = std::nextafter(min[i] - distance, -kInfinity);
+      max[i] = std::nextafter(max[i] + distance, kInfinity);
+    }
+  }
+  /// Closed boxes: touching counts.
+  [[nodiscard]] bool overlaps(const Aabb& other) const {
+    return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
+  }
+  [[nodiscard]] bool contains(const Eigen::Vector3d& point) const {
+    return (min.array() <= point.array()).all() && (point.array() <= max.array()).all();
+  }
+};
+
+}  // namespace foretouch

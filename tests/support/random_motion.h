@@ -1,0 +1,67 @@
+// tests/support/random_motion.h: random chains and poses, for the product and for the fifty-digit
+// yardstick alike, with a share of half turns, tiny turns, flipped signs and far origins.
+#pragma once
+
+#include <vector>
+
+#include "articulated/pose.h"
+#include "articulated/skeleton.h"
+#include "tests/support/precise.h"
+#include "tests/support/random_geometry.h"
+
+namespace foretouch::test {
+
+struct RandomMotion {
+  Skeleton skeleton;
+  Pose from, to;
+  std::vector<PreciseJoint> precise;
+};
+
+/// The chain's own yardstick form.
+inline std::vector<PreciseJoint> preciseJoints(const Skeleton& skeleton, const Pose& from,
+                                               const Pose& to) {
+  std::vector<PreciseJoint> joints;
+  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    joints.push_back({skeleton.parent(j), from.rotations[i], to.rotations[i], from.translations[i],
+                      to.translations[i]});
+  }
+  return joints;
+}
+
+/// A turn by an ordinary angle, or one of the awkward ones. Angles within 1e-9 of a half turn are
+/// left out: there rounding of the input chooses the arc, which is a test of its own.
+inline double randomAngle(Random& random) {
+  switch (random.below(10)) {
+    case 0: return 0.0;
+    case 1: return random.magnitude(1e-16, 1e-3);
+    case 2: return 3.14159265358979 - random.magnitude(1e-9, 1e-2);
+    default: return random.uniform(0.0, 2.5);
+  }
+}
+
+inline RandomMotion randomMotion(Random& random, int joints) {
+  RandomMotion m;
+  RawSkeleton raw;
+  for (int j = 0; j < joints; ++j) {
+    const bool chain = random.chance(0.7);
+    const JointId parent = j == 0 ? kNoParent : (chain ? j - 1 : random.below(j));
+    const double size = j == 0 && random.chance(0.2) ? 1e4 : random.magnitude(1e-2, 0.6);
+    raw.joints.push_back(
+        {"joint" + std::to_string(j), parent, size * random.direction(), random.rotation()});
+    const Quaternion start = random.rotation();
+    Quaternion end = start * random.turn(randomAngle(random));
+    if (random.chance(0.3)) end.coeffs() = -end.coeffs();
+    m.from.rotations.push_back(start);
+    m.to.rotations.push_back(end);
+    m.from.translations.push_back(raw.joints.back().offset);
+    const bool drifts = j == 0 || random.chance(0.3);
+    m.to.translations.push_back(raw.joints.back().offset +
+                                (drifts ? random.magnitude(1e-6, 0.5) : 0.0) * random.direction());
+  }
+  m.skeleton = Skeleton::build(raw).value();
+  m.precise = preciseJoints(m.skeleton, m.from, m.to);
+  return m;
+}
+
+}  // namespace foretouch::test
