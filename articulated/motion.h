@@ -1,0 +1,110 @@
+// articulated/motion.h: the in-between motion: what an articulated body does between two poses.
+//
+// Definition (part of the promise, docs/guarantees.md): over t in [0,1] each joint's
+// parent-relative rotation turns at constant rate about a fixed axis on the shorter arc (slerp),
+// each joint's parent-relative translation is linear, and a link's world motion is the composition
+// down the chain. "Shorter arc" is decided by the sign of the dot product of the two quaternions as
+// computed in double in the order w, x, y, z; zero counts as positive. Lengths in metres, angles in
+// radians, derivatives per unit of t.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/pose.h"
+#include "articulated/skeleton.h"
+
+namespace foretouch {
+
+/// Pose and velocity of one link at one t, in the world W. What rounding may have done to it is
+/// bounded by MotionBounds::originRounding and MotionBounds::rotationRounding.
+struct LinkState {
+  Eigen::Matrix3d R_WL = Eigen::Matrix3d::Identity();  ///< Rotation L to W.
+  Eigen::Vector3d p_WL = Eigen::Vector3d::Zero();      ///< Origin of L in W.
+  Eigen::Vector3d w_WL = Eigen::Vector3d::Zero();      ///< Angular velocity in W.
+  Eigen::Vector3d v_WL = Eigen::Vector3d::Zero();      ///< Velocity of the origin in W.
+
+  [[nodiscard]] Eigen::Vector3d pointAt(const Eigen::Vector3d& p_L) const {
+    return p_WL + R_WL * p_L;
+  }
+  [[nodiscard]] Eigen::Vector3d velocityAt(const Eigen::Vector3d& p_L) const {
+    return v_WL + w_WL.cross(R_WL * p_L);
+  }
+};
+
+/// Bounds that hold at every t in [0,1], for one link. A point of the link at distance rho from its
+/// origin has |velocity| <= speed + angularSpeed*rho and
+/// |acceleration| <= acceleration + (angularAcceleration + angularSpeed^2)*rho.
+/// Derived in articulated/motion_bounds.md; rounded up, so that they also hold for the computed
+/// motion.
+struct MotionBounds {
+  double angularSpeed = 0.0;
+  double angularAcceleration = 0.0;
+  double speed = 0.0;         ///< Of the link's origin.
+  double acceleration = 0.0;  ///< Of the link's origin.
+  double reach = 0.0;         ///< Of the link's origin from the world's.
+  /// Bounds on |computed - true| of LinkState's p_WL (m), R_WL (spectral norm), v_WL and w_WL.
+  double originRounding = 0.0;
+  double rotationRounding = 0.0;
+  double velocityRounding = 0.0;
+  double spinRounding = 0.0;
+
+  [[nodiscard]] double speedAt(double rho) const { return speed + angularSpeed * rho; }
+  [[nodiscard]] double accelerationAt(double rho) const {
+    return acceleration + (angularAcceleration + angularSpeed * angularSpeed) * rho;
+  }
+  /// Of LinkState::pointAt() and velocityAt() for a point at distance rho, their own sums included.
+  [[nodiscard]] double positionRoundingAt(double rho) const {
+    return originRounding + (rotationRounding + kPointRounding) * rho +
+           kPointRounding * (reach + rho);
+  }
+  [[nodiscard]] double velocityRoundingAt(double rho) const {
+    return velocityRounding +
+           (spinRounding + angularSpeed * (rotationRounding + kPointRounding)) * rho +
+           kPointRounding * speedAt(rho);
+  }
+  /// Sixteen unit roundoffs: a matrix times a vector, a cross product and a sum (motion_bounds.md
+  /// 3).
+  static constexpr double kPointRounding = 16.0 * 0x1p-53;
+};
+
+/// The in-between motion of one skeleton from one validated pose to another. Immutable; evaluation
+/// is const, thread-safe and allocates nothing. Building costs O(joints), a state O(depth of the
+/// link).
+class ChainMotion {
+ public:
+  /// Precondition: both poses were made for `skeleton` by validatedPose() or restPose() (asserted).
+  ChainMotion(const Skeleton& skeleton, const Pose& from, const Pose& to);
+
+  [[nodiscard]] std::int32_t numLinks() const { return static_cast<std::int32_t>(joints_.size()); }
+
+  /// `t` in [0,1].
+  [[nodiscard]] LinkState stateAt(LinkId link, double t) const;
+
+  /// All links at once, in order; `states` is resized. O(joints).
+  void statesAt(double t, std::vector<LinkState>& states) const;
+
+  [[nodiscard]] const MotionBounds& bounds(LinkId link) const {
+    return bounds_[static_cast<std::size_t>(link)];
+  }
+
+ private:
+  /// One joint's own motion in its parent's frame: R(t) = R0 + sin(angle*t)*S + (1-cos(angle*t))*C.
+  struct JointMotion {
+    Eigen::Matrix3d R0, S, C;
+    Eigen::Vector3d translation, translationRate;  // parent frame
+    Eigen::Vector3d rotationRate;                  // parent frame; constant, as the axis is fixed
+    double angle = 0.0;
+    JointId parent = kNoParent;
+  };
+  static JointMotion jointMotion(const Skeleton& skeleton, const Pose& from, const Pose& to,
+                                 JointId joint);
+  static LinkState composed(const LinkState& parent, const JointMotion& joint, double t);
+  [[nodiscard]] MotionBounds boundsOf(const JointMotion& joint) const;
+
+  std::vector<JointMotion> joints_;
+  std::vector<MotionBounds> bounds_;
+};
+
+}  // namespace foretouch

@@ -1,0 +1,138 @@
+// Holds ChainMotion and its bounds against fifty-digit forward kinematics.
+#include <algorithm>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "articulated/motion.h"
+#include "tests/support/random_motion.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using test::PreciseFrame;
+using test::Random;
+using test::RandomMotion;
+using test::Real;
+
+double asDouble(const Real& x) {
+  return static_cast<double>(x);
+}
+
+/// Worst share of each rounding bound that was used, over all cases.
+struct Shares {
+  double origin = 0.0, rotation = 0.0, velocity = 0.0, spin = 0.0;
+};
+
+/// Velocity by a symmetric difference in fifty digits: its own error is about 1e-30.
+test::Precise3 preciseVelocity(const RandomMotion& m, int link, double t, const Vector3d& p_L) {
+  const Real h("1e-15");
+  const auto before = test::preciseFrames(m.precise, Real(t) - h);
+  const auto after = test::preciseFrames(m.precise, Real(t) + h);
+  const auto i = static_cast<std::size_t>(link);
+  return (1 / (2 * h)) * (after[i].at(p_L) - before[i].at(p_L));
+}
+
+void compare(const RandomMotion& m, double t, Random& random, Shares& shares) {
+  const ChainMotion motion(m.skeleton, m.from, m.to);
+  const auto frames = test::preciseFrames(m.precise, Real(t));
+  std::vector<LinkState> all;
+  motion.statesAt(t, all);
+  for (LinkId link = 0; link < motion.numLinks(); ++link) {
+    const auto i = static_cast<std::size_t>(link);
+    const LinkState state = motion.stateAt(link, t);
+    ASSERT_EQ(state.p_WL, all[i].p_WL) << "one link alone and all at once must agree bit for bit";
+    ASSERT_EQ(state.R_WL, all[i].R_WL);
+    const MotionBounds& b = motion.bounds(link);
+    const double rho = random.magnitude(1e-3, 2.0);
+    const Vector3d p_L = rho * random.direction();
+    const double used = asDouble(test::norm(test::Precise3(state.p_WL) - frames[i].origin));
+    ASSERT_LE(used, b.originRounding);
+    shares.origin = std::max(shares.origin, used / b.originRounding);
+    const Vector3d unit = random.direction();
+    const double turned =
+        asDouble(test::norm(test::Precise3(state.R_WL * unit) -
+                            test::rotate(frames[i].rotation, test::Precise3(unit))));
+    const double turnBound = b.rotationRounding + MotionBounds::kPointRounding;
+    ASSERT_LE(turned, turnBound);
+    shares.rotation = std::max(shares.rotation, turned / turnBound);
+    ASSERT_LE(asDouble(test::norm(test::Precise3(state.pointAt(p_L)) - frames[i].at(p_L))),
+              b.positionRoundingAt(p_L.norm()));
+    const test::Precise3 v = preciseVelocity(m, link, t, p_L);
+    const double velocityUsed = asDouble(test::norm(test::Precise3(state.velocityAt(p_L)) - v));
+    ASSERT_LE(velocityUsed, b.velocityRoundingAt(p_L.norm()));
+    shares.velocity = std::max(shares.velocity, velocityUsed / b.velocityRoundingAt(p_L.norm()));
+    ASSERT_LE(asDouble(test::norm(v)), b.speedAt(p_L.norm()));
+  }
+}
+
+// Owns kJointRotation, kJointRate, kProduct and MotionBounds::kPointRounding.
+TEST(ChainMotion, RoundingStaysBelowItsBounds) {
+  Shares shares;
+  for (int i = 0; i < 400; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const RandomMotion m = test::randomMotion(random, 1 + random.below(12));
+    compare(m, random.chance(0.2) ? 1.0 : random.uniform(1e-6, 1.0), random, shares);
+    if (HasFatalFailure()) return;
+  }
+  std::cout << "worst shares of the rounding bounds used: origin " << shares.origin << ", rotation "
+            << shares.rotation << ", velocity " << shares.velocity << "\n";
+  for (const double share : {shares.origin, shares.rotation, shares.velocity}) {
+    EXPECT_LT(share, 0.5);
+    EXPECT_GT(share, 1e-3) << "the test no longer sees any rounding";
+  }
+}
+
+// x(t) - chord over [s,e] is at most A h^2/8, and |x(e) - x(s)| at most V h: what the sweep and the
+// advancement use. Checked on the true motion, on spans of every length.
+TEST(MotionBounds, SpeedAndAccelerationBoundTheTrueMotion) {
+  double tightestChord = 0.0, tightestSpeed = 0.0;
+  for (int i = 0; i < 1500; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const RandomMotion m = test::randomMotion(random, 1 + random.below(8));
+    const ChainMotion motion(m.skeleton, m.from, m.to);
+    const double h = random.magnitude(1e-4, 1.0), s = random.uniform(0.0, 1.0 - h);
+    const auto begin = test::preciseFrames(m.precise, Real(s));
+    const auto end = test::preciseFrames(m.precise, Real(s) + Real(h));
+    const Real share(random.uniform(0.0, 1.0));
+    const auto between = test::preciseFrames(m.precise, Real(s) + share * Real(h));
+    for (LinkId link = 0; link < motion.numLinks(); ++link) {
+      const auto l = static_cast<std::size_t>(link);
+      const Vector3d p_L = random.magnitude(1e-3, 1.0) * random.direction();
+      const MotionBounds& b = motion.bounds(link);
+      const auto chord = begin[l].at(p_L) + share * (end[l].at(p_L) - begin[l].at(p_L));
+      const double sagitta = asDouble(test::norm(between[l].at(p_L) - chord));
+      const double allowed = b.accelerationAt(p_L.norm()) * h * h / 8.0;
+      ASSERT_LE(sagitta, allowed + 1e-40);
+      if (allowed > 0.0) tightestChord = std::max(tightestChord, sagitta / allowed);
+      const double moved = asDouble(test::norm(end[l].at(p_L) - begin[l].at(p_L)));
+      ASSERT_LE(moved, b.speedAt(p_L.norm()) * h);
+      tightestSpeed = std::max(tightestSpeed, moved / (b.speedAt(p_L.norm()) * h));
+    }
+  }
+  // A bound that nothing comes near would be useless.
+  EXPECT_GT(tightestChord, 0.8);
+  EXPECT_GT(tightestSpeed, 0.9);
+}
+
+TEST(MotionBounds, AngularBoundsHold) {
+  for (int i = 0; i < 500; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const RandomMotion m = test::randomMotion(random, 1 + random.below(6));
+    const ChainMotion motion(m.skeleton, m.from, m.to);
+    const double t = random.uniform(0.01, 0.9), h = 1e-5;
+    for (LinkId link = 0; link < motion.numLinks(); ++link) {
+      const Vector3d w0 = motion.stateAt(link, t).w_WL, w1 = motion.stateAt(link, t + h).w_WL;
+      const MotionBounds& b = motion.bounds(link);
+      EXPECT_LE(w0.norm(), b.angularSpeed);
+      EXPECT_LE((w1 - w0).norm() / h, b.angularAcceleration + 1e-8);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace foretouch
