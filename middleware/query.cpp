@@ -1,0 +1,253 @@
+#include "middleware/query.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lss/assert.h"
+#include "lss/segment_triangle.h"
+#include "middleware/backtracking.h"
+#include "middleware/scene_internal.h"
+
+namespace foretouch {
+
+using internal::Candidate;
+using internal::Pieces;
+
+/// Memory that one thread's queries reuse.
+struct QueryScratch::Impl {
+  std::vector<std::vector<LinkState>> nodes;  // per piece boundary, per link
+  std::vector<AxisBounds> axisBounds;         // per LSS of the link at hand
+  std::vector<Aabb> boxes;                    // per LSS of the link at hand, per piece
+  std::vector<TriangleId> found;
+  std::vector<Candidate> candidates;
+  std::vector<ObjectId> ignoredObjects;  // of the link at hand, ascending
+};
+
+QueryScratch::QueryScratch() : impl_(std::make_unique<Impl>()) {}
+QueryScratch::~QueryScratch() = default;
+QueryScratch::QueryScratch(QueryScratch&&) noexcept = default;
+QueryScratch& QueryScratch::operator=(QueryScratch&&) noexcept = default;
+
+const char* toString(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Clear: return "clear";
+    case Verdict::Contact: return "contact";
+    case Verdict::StartsInContact: return "starts_in_contact";
+    case Verdict::Undecided: return "undecided";
+  }
+  return "undecided";
+}
+
+const char* toString(UndecidedReason reason) {
+  switch (reason) {
+    case UndecidedReason::None: return "none";
+    case UndecidedReason::WorkBudget: return "work-budget";
+    case UndecidedReason::Resolution: return "resolution";
+  }
+  return "none";
+}
+
+namespace {
+
+/// Pieces are made so short that no link moves farther than this (m) in one, up to kMaxPiecesUsed.
+/// Longer pieces mean more candidates that are not near, shorter ones more forward kinematics; only
+/// speed depends on it.
+constexpr double kPieceTravel = 0.08;
+constexpr int kMaxPiecesUsed = 12;
+static_assert(kMaxPiecesUsed <= internal::kMaxPieces);
+
+Result<Done> checked(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+                     const QueryOptions& options) {
+  if (!(options.tolerance >= kMinTolerance) || !std::isfinite(options.tolerance)) {
+    return Error{ErrorCode::OutOfRange, "tolerance", -1, -1,
+                 "expected a finite number of metres, at least 1e-9"};
+  }
+  if (motion.numLinks() != avatar.numLinks()) {
+    return Error{ErrorCode::Mismatch, "motion", -1, -1,
+                 "expected a motion of this avatar's skeleton, found another number of joints"};
+  }
+  const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
+  for (const IgnoredPair& pair : options.ignored) {
+    if (pair.link < 0 || pair.link >= avatar.numLinks() ||
+        pair.object < IgnoredPair::kEveryObject || pair.object >= numObjects) {
+      return Error{ErrorCode::OutOfRange, "ignored", -1, pair.link,
+                   "expected a link of the avatar and an object of the scene"};
+    }
+  }
+  return Done{};
+}
+
+Result<const internal::TriangleCuller*> cullerOf(const Scene& scene, Culler which) {
+  if (which == Culler::FlatBvh) {
+    return static_cast<const internal::TriangleCuller*>(&scene.parts().bvh);
+  }
+  const auto built = scene.parts().pointQueryCuller();
+  if (!built.ok()) return built.error();
+  return static_cast<const internal::TriangleCuller*>(built.value());
+}
+
+/// One query over all links of one step.
+class StepQuery {
+ public:
+  StepQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+            const QueryOptions& options, const internal::TriangleCuller& culler,
+            QueryScratch::Impl& scratch)
+      : avatar_(avatar),
+        motion_(motion),
+        scene_(scene),
+        options_(options),
+        culler_(culler),
+        scratch_(scratch) {}
+
+  StepContacts run() {
+    cutIntoPieces();
+    StepContacts step;
+    step.links.reserve(static_cast<std::size_t>(avatar_.numLinks()));
+    for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+      step.links.push_back(firstContactOf(link, step.counters));
+    }
+    step.counters.states += static_cast<std::uint64_t>(avatar_.numLinks() * (pieces_.count + 1));
+    return step;
+  }
+
+ private:
+  void cutIntoPieces() {
+    double travel = 0.0;
+    for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+      for (const Lss& lss : avatar_.lss(link)) {
+        travel = std::max(travel, axisBounds(lss, motion_.bounds(link)).speed);
+      }
+    }
+    const double wanted = std::ceil(travel / kPieceTravel);
+    pieces_.count = static_cast<int>(std::min<double>(kMaxPiecesUsed, std::max(1.0, wanted)));
+    scratch_.nodes.resize(static_cast<std::size_t>(pieces_.count) + 1);
+    for (int k = 0; k <= pieces_.count; ++k) {
+      motion_.statesAt(pieces_.timeOf(k), scratch_.nodes[static_cast<std::size_t>(k)]);
+    }
+  }
+
+  LinkContact firstContactOf(LinkId link, QueryCounters& counters) {
+    scratch_.candidates.clear();
+    if (!collectIgnored(link) && !avatar_.lss(link).empty()) {
+      const Aabb swept = sweep(link);
+      scratch_.found.clear();
+      culler_.collect(swept, scratch_.found, counters.nodes);
+      for (const TriangleId id : scratch_.found) addCandidates(id);
+      counters.candidates += scratch_.candidates.size();
+    }
+    const internal::LinkQuery query{
+        link,   avatar_.lss(link), scratch_.axisBounds, motion_,
+        scene_, pieces_,           options_.tolerance,  options_.maxAdvancements};
+    return internal::backtrack(query, scratch_.candidates, counters);
+  }
+
+  /// True if the link is ignored altogether.
+  bool collectIgnored(LinkId link) {
+    scratch_.ignoredObjects.clear();
+    for (const IgnoredPair& pair : options_.ignored) {
+      if (pair.link != link) continue;
+      if (pair.object == IgnoredPair::kEveryObject) return true;
+      scratch_.ignoredObjects.push_back(pair.object);
+    }
+    std::sort(scratch_.ignoredObjects.begin(), scratch_.ignoredObjects.end());
+    return false;
+  }
+
+  /// Boxes of every LSS of the link on every piece, grown by the tolerance; returns their union.
+  Aabb sweep(LinkId link) {
+    Aabb all;
+    scratch_.axisBounds.clear();
+    scratch_.boxes.clear();
+    for (const Lss& lss : avatar_.lss(link)) {
+      const AxisBounds bounds = axisBounds(lss, motion_.bounds(link));
+      scratch_.axisBounds.push_back(bounds);
+      AxisEnds begin = axisEnds(lss, nodeState(0, link));
+      for (int k = 0; k < pieces_.count; ++k) {
+        const AxisEnds end = axisEnds(lss, nodeState(k + 1, link));
+        const double span = pieces_.timeOf(k + 1) - pieces_.timeOf(k);
+        scratch_.boxes.push_back(sweptBox(lss, bounds, begin, end, span, options_.tolerance));
+        all.add(scratch_.boxes.back());
+        begin = end;
+      }
+    }
+    return all;
+  }
+
+  [[nodiscard]] const LinkState& nodeState(int k, LinkId link) const {
+    return scratch_.nodes[static_cast<std::size_t>(k)][static_cast<std::size_t>(link)];
+  }
+
+  /// The double-precision test that makes every culler's answer the same.
+  void addCandidates(TriangleId id) {
+    if (!scratch_.ignoredObjects.empty() &&
+        std::binary_search(scratch_.ignoredObjects.begin(), scratch_.ignoredObjects.end(),
+                           scene_.object(id))) {
+      return;
+    }
+    const Aabb box = internal::boxOf(scene_.triangle(id));
+    const auto numLss = static_cast<std::int32_t>(scratch_.axisBounds.size());
+    for (std::int32_t lss = 0; lss < numLss; ++lss) {
+      std::uint32_t meets = 0;
+      for (int k = 0; k < pieces_.count; ++k) {
+        const auto index = static_cast<std::size_t>(lss * pieces_.count + k);
+        meets |= static_cast<std::uint32_t>(scratch_.boxes[index].overlaps(box)) << k;
+      }
+      if (meets != 0) scratch_.candidates.push_back({id, lss, meets, 0.0});
+    }
+  }
+
+  const Avatar& avatar_;
+  const ChainMotion& motion_;
+  const Scene& scene_;
+  const QueryOptions& options_;
+  const internal::TriangleCuller& culler_;
+  QueryScratch::Impl& scratch_;
+  Pieces pieces_;
+};
+
+}  // namespace
+
+Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& motion,
+                                   const Scene& scene, const QueryOptions& options,
+                                   QueryScratch& scratch) {
+  const auto check = checked(avatar, motion, scene, options);
+  if (!check.ok()) return check.error();
+  const auto culler = cullerOf(scene, options.culler);
+  if (!culler.ok()) return culler.error();
+  return StepQuery(avatar, motion, scene, options, *culler.value(), scratch.impl()).run();
+}
+
+Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& motion,
+                                   const Scene& scene, const QueryOptions& options) {
+  QueryScratch scratch;
+  return firstContacts(avatar, motion, scene, options, scratch);
+}
+
+bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
+               const Scene& scene, const QueryOptions& options, QueryScratch& scratch) {
+  FORETOUCH_ASSERT(link >= 0 && link < avatar.numLinks());
+  const auto isIgnored = [&](ObjectId object) {
+    return std::any_of(options.ignored.begin(), options.ignored.end(), [&](const IgnoredPair& p) {
+      return p.link == link && (p.object == IgnoredPair::kEveryObject || p.object == object);
+    });
+  };
+  const LinkState state = motion.stateAt(link, t);
+  for (const Lss& lss : avatar.lss(link)) {
+    const AxisEnds ends = axisEnds(lss, state);
+    Aabb box;
+    box.add(ends.a);
+    box.add(ends.b);
+    box.grow(lss.radius);
+    std::vector<TriangleId>& found = scratch.impl().found;
+    found.clear();
+    std::uint64_t visited = 0;
+    scene.parts().bvh.collect(box, found, visited);
+    for (const TriangleId id : found) {
+      if (isIgnored(scene.object(id))) continue;
+      if (closestPoints(ends.a, ends.b, scene.triangle(id)).distance <= lss.radius) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace foretouch

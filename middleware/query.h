@@ -1,0 +1,130 @@
+// middleware/query.h: the question Foretouch answers: what does each link meet first between two
+// poses? Lengths in metres in the world W; t is normalised, 0 at the earlier pose and 1 at the
+// later. The promise, its proof and the constants in it: docs/guarantees.md.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/avatar.h"
+#include "articulated/motion.h"
+#include "articulated/result.h"
+#include "middleware/scene.h"
+
+namespace foretouch {
+
+enum class Verdict : std::uint8_t {
+  Clear,            ///< Proven: the link's surface never touches the scene on [0,1].
+  Contact,          ///< Free on [0, toi); at toi the separation is in [0, tolerance].
+  StartsInContact,  ///< Separation <= 0 at t = 0 (to within rounding); toi == 0.
+  Undecided,        ///< Free on [0, freeUntil), nothing claimed after it; `reason` says why.
+};
+
+/// "clear", "contact", "starts_in_contact", "undecided".
+[[nodiscard]] const char* toString(Verdict verdict);
+
+enum class UndecidedReason : std::uint8_t {
+  None,
+  WorkBudget,  ///< QueryOptions::maxAdvancements was spent.
+  Resolution,  ///< Doubles cannot resolve the tolerance at these coordinates.
+};
+
+[[nodiscard]] const char* toString(UndecidedReason reason);
+
+/// What one link meets first on one motion.
+/// Sound: toi and freeUntil never exceed the true time of first contact, rounding included.
+/// Tight: for Contact, the separation at toi is <= tolerance.
+/// The witness points, normal and triangle are those of the pair with the lowest toi; equal toi:
+/// the smaller separation, then the lexicographically smaller witness point and normal, then the
+/// lowest triangle. So the answer does not depend on threads, on the culler or on the triangles'
+/// order.
+struct LinkContact {
+  LinkId link = 0;
+  Verdict verdict = Verdict::Clear;
+  UndecidedReason reason = UndecidedReason::None;
+  double toi = 1.0;        ///< Time of impact, rounded down; valid for Contact and StartsInContact.
+  double freeUntil = 1.0;  ///< Equals toi for Contact and StartsInContact, 1 for Clear.
+  double separation =
+      0.0;  ///< At toi, of witness points to LSS surface, >= 0 (0 if StartsInContact).
+  double penetration =
+      0.0;  ///< How deep the axis's distance is inside the radius; 0 unless StartsInContact.
+  TriangleId triangle = -1;
+  std::int32_t lss = -1;                                ///< Which of the link's LSS.
+  Eigen::Vector3d p_WScene = Eigen::Vector3d::Zero();   ///< Witness point on the triangle.
+  Eigen::Vector3d p_WLink = Eigen::Vector3d::Zero();    ///< Witness point on the LSS's surface.
+  Eigen::Vector3d nhat_SL_W = Eigen::Vector3d::Zero();  ///< Unit normal from the scene to the link.
+};
+
+/// Both answer alike, byte for byte; the point-query one is the slower reference.
+enum class Culler : std::uint8_t {
+  FlatBvh,     ///< Embree's builder (rtcBuildBVH), flattened; our traversal.
+  PointQuery,  ///< An RTCScene and rtcPointQuery.
+};
+
+/// A link, or a link and one object, whose contacts are not asked for.
+struct IgnoredPair {
+  LinkId link = 0;
+  ObjectId object = kEveryObject;
+  static constexpr ObjectId kEveryObject = -1;
+};
+
+struct QueryOptions {
+  double tolerance = 1e-3;  ///< eps in metres; finite, >= kMinTolerance.
+  Culler culler = Culler::FlatBvh;
+  std::vector<IgnoredPair> ignored;
+  /// Distance evaluations a link may cost before its verdict becomes Undecided.
+  std::uint64_t maxAdvancements = std::numeric_limits<std::uint64_t>::max();
+};
+
+/// Below this (m) a tolerance is refused outright; above it, coordinates decide (UndecidedReason).
+inline constexpr double kMinTolerance = 1e-9;
+
+/// Work done, for measurements that no machine load changes.
+struct QueryCounters {
+  std::uint64_t nodes = 0;         ///< BVH nodes visited (FlatBvh) or callbacks (PointQuery).
+  std::uint64_t candidates = 0;    ///< (LSS, triangle) pairs that passed the culling.
+  std::uint64_t advancements = 0;  ///< Distance evaluations.
+  std::uint64_t states = 0;        ///< Link states evaluated (forward kinematics).
+};
+
+struct StepContacts {
+  std::vector<LinkContact> links;  ///< One a link of the avatar, in order.
+  QueryCounters counters;
+};
+
+/// Scratch memory that is kept between queries; one a thread.
+class QueryScratch {
+ public:
+  QueryScratch();
+  ~QueryScratch();
+  QueryScratch(QueryScratch&&) noexcept;
+  QueryScratch& operator=(QueryScratch&&) noexcept;
+  struct Impl;
+  [[nodiscard]] Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The first contact of every link of `avatar` while it moves as `motion` says.
+/// Errors are bad options (tolerance, an ignored pair out of range) or a motion of another avatar.
+/// Geometry never produces one: see Verdict.
+[[nodiscard]] Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& motion,
+                                                 const Scene& scene, const QueryOptions& options,
+                                                 QueryScratch& scratch);
+[[nodiscard]] Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& motion,
+                                                 const Scene& scene,
+                                                 const QueryOptions& options = {});
+
+/// What a discrete check sees: does any LSS of the link touch a triangle at this one instant?
+/// Ignored pairs are passed over. Decided by the computed distance (no claim within rounding of
+/// zero).
+[[nodiscard]] bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
+                             const Scene& scene, const QueryOptions& options,
+                             QueryScratch& scratch);
+
+}  // namespace foretouch

@@ -1,0 +1,111 @@
+#include "middleware/scene.h"
+
+#include <algorithm>
+#include <string>
+
+#include "articulated/skeleton.h"
+#include "lss/assert.h"
+#include "middleware/scene_internal.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+
+bool lexicographicallyLess(const Vector3d& p, const Vector3d& q) {
+  return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+}
+
+bool isFinite(const Triangle& triangle) {
+  return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
+                     [](const Vector3d& v) { return v.allFinite(); });
+}
+
+Result<Done> checked(const RawScene& raw) {
+  if (raw.triangles.size() > kMaxTriangles) {
+    return Error{ErrorCode::LimitExceeded, "", -1, -1,
+                 "expected at most " + std::to_string(kMaxTriangles) + " triangles, found " +
+                     std::to_string(raw.triangles.size())};
+  }
+  if (raw.objectOf.size() != raw.triangles.size()) {
+    return Error{ErrorCode::Mismatch, "", -1, -1, "expected one object index a triangle"};
+  }
+  for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
+    const auto index = static_cast<std::int64_t>(i);
+    if (raw.objectOf[i] < 0 ||
+        static_cast<std::size_t>(raw.objectOf[i]) >= raw.objectNames.size()) {
+      return Error{ErrorCode::OutOfRange, "", -1, index,
+                   "triangle " + std::to_string(i) + ": expected an object index below " +
+                       std::to_string(raw.objectNames.size())};
+    }
+    for (const Vector3d& vertex : raw.triangles[i].vertices) {
+      if (vertex.allFinite() && vertex.cwiseAbs().maxCoeff() > kMaxCoordinate) {
+        return Error{ErrorCode::OutOfRange, "", -1, index,
+                     "triangle " + std::to_string(i) + ": expected coordinates within 1e7 m"};
+      }
+    }
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<Scene> Scene::build(RawScene raw) {
+  const auto check = checked(raw);
+  if (!check.ok()) return check.error();
+  auto parts = std::make_shared<internal::SceneParts>();
+  parts->audit = auditScene(raw);
+  if (parts->audit.triangles == 0) {
+    return Error{ErrorCode::Empty, "", -1, -1, "expected at least one finite triangle, found none"};
+  }
+  parts->triangles = std::move(raw.triangles);
+  parts->objectOf = std::move(raw.objectOf);
+  parts->objectNames = std::move(raw.objectNames);
+  parts->origin = 0.5 * (parts->audit.boxMin + parts->audit.boxMax);
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < parts->triangles.size(); ++i) {
+    Triangle& triangle = parts->triangles[i];
+    if (!isFinite(triangle)) continue;
+    std::sort(triangle.vertices.begin(), triangle.vertices.end(), lexicographicallyLess);
+    parts->finiteIds.push_back(static_cast<TriangleId>(i));
+    boxes.push_back(internal::boxOf(triangle));
+  }
+  auto bvh = internal::FlatBvh::build(boxes, parts->finiteIds, parts->origin);
+  if (!bvh.ok()) return bvh.error();
+  parts->bvh = std::move(bvh).value();
+  return Scene(std::move(parts));
+}
+
+std::size_t Scene::numTriangles() const {
+  return parts_->triangles.size();
+}
+
+const Triangle& Scene::triangle(TriangleId id) const {
+  FORETOUCH_ASSERT(id >= 0 && static_cast<std::size_t>(id) < parts_->triangles.size());
+  return parts_->triangles[static_cast<std::size_t>(id)];
+}
+
+ObjectId Scene::object(TriangleId id) const {
+  FORETOUCH_ASSERT(id >= 0 && static_cast<std::size_t>(id) < parts_->objectOf.size());
+  return parts_->objectOf[static_cast<std::size_t>(id)];
+}
+
+const std::vector<std::string>& Scene::objectNames() const {
+  return parts_->objectNames;
+}
+
+const SceneAudit& Scene::audit() const {
+  return parts_->audit;
+}
+
+Result<const internal::PointQueryCuller*> internal::SceneParts::pointQueryCuller() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (pointQueryCuller_ == nullptr) {
+    auto built = PointQueryCuller::build(triangles, finiteIds, origin);
+    if (!built.ok()) return built.error();
+    pointQueryCuller_ = std::move(built).value();
+  }
+  return static_cast<const PointQueryCuller*>(pointQueryCuller_.get());
+}
+
+}  // namespace foretouch

@@ -1,0 +1,72 @@
+// middleware/scene.h: the static scene: triangles with their objects' names, ready to be queried.
+// World W: metres, right-handed, +Y up. No Embree type shows here.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/result.h"
+#include "lss/triangle.h"
+
+namespace foretouch {
+
+using TriangleId = std::int32_t;
+using ObjectId = std::int32_t;
+inline constexpr std::size_t kMaxTriangles = 50'000'000;
+
+/// Triangles as they came from a file or from memory, unchecked.
+struct RawScene {
+  std::vector<Triangle> triangles;
+  std::vector<ObjectId> objectOf;        ///< Per triangle: index into objectNames.
+  std::vector<std::string> objectNames;  ///< Need not be unique.
+};
+
+/// What a scene holds that a user may want to know of. Degenerate triangles are legal and kept: a
+/// triangle without area still is a segment or a point that can be touched.
+struct SceneAudit {
+  std::size_t triangles = 0;         ///< Kept.
+  std::size_t droppedNonFinite = 0;  ///< Dropped: a vertex with NaN or infinity has no place.
+  std::size_t zeroArea = 0;          ///< Kept: the three vertices lie on a line, as doubles tell.
+  std::size_t duplicates = 0;        ///< Kept: the same three points as an earlier triangle.
+  Eigen::Vector3d boxMin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d boxMax = Eigen::Vector3d::Zero();
+  double shortestEdge = 0.0, longestEdge = 0.0;  ///< Metres; the shortest that is not zero.
+};
+
+namespace internal {
+struct SceneParts;
+}
+
+/// An immutable scene with its acceleration structures. Cheap to copy (shared); safe to query from
+/// many threads at once. Triangle ids are the positions in RawScene::triangles, dropped ones
+/// included.
+class Scene {
+ public:
+  /// Checks counts, object indices and |coordinate| <= kMaxCoordinate, drops triangles that are not
+  /// finite, builds the acceleration structures. Error where no triangle is left.
+  static Result<Scene> build(RawScene raw);
+
+  [[nodiscard]] std::size_t numTriangles() const;
+  /// The vertices in lexicographic order: what two triangles share they then evaluate alike, bit
+  /// for bit.
+  [[nodiscard]] const Triangle& triangle(TriangleId id) const;
+  [[nodiscard]] ObjectId object(TriangleId id) const;
+  [[nodiscard]] const std::vector<std::string>& objectNames() const;
+  [[nodiscard]] const SceneAudit& audit() const;
+
+  /// For the query's own sources (middleware/scene_internal.h).
+  [[nodiscard]] const internal::SceneParts& parts() const { return *parts_; }
+
+ private:
+  explicit Scene(std::shared_ptr<const internal::SceneParts> parts) : parts_(std::move(parts)) {}
+  std::shared_ptr<const internal::SceneParts> parts_;
+};
+
+/// Counts and measures what build() would keep; also for scenes that build() refuses.
+[[nodiscard]] SceneAudit auditScene(const RawScene& raw);
+
+}  // namespace foretouch
