@@ -1,0 +1,108 @@
+// The arrows of the house: which folder may include which. One direction, no exceptions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folder -> the folders it may include, itself left out.
+const std::map<std::string, std::set<std::string>> kArrows = {
+    {"lss", {}},
+    {"articulated", {"lss"}},
+    {"tessellation", {"articulated", "lss"}},
+    {"middleware", {"tessellation", "articulated", "lss"}},
+    {"tools", {"middleware", "tessellation", "articulated", "lss"}},
+    {"examples", {"articulated", "lss"}},
+};
+
+/// Libraries that only these files' folders may include, by the include's first word.
+const std::map<std::string, std::set<std::string>> kLibraries = {
+    {"embree3", {"middleware"}},
+    {"assimp", {"middleware"}},
+    {"nlohmann", {"articulated", "tools"}},
+    {"CLI", {"tools"}},
+};
+
+struct Include {
+  fs::path file;
+  std::string target;
+  bool quoted;
+};
+
+std::vector<Include> includesOf(const fs::path& folder) {
+  static const std::regex pattern(R"rx(^\s*#\s*include\s*([<"])([^>"]+)[>"])rx");
+  std::vector<Include> found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const auto extension = entry.path().extension();
+    if (extension != ".h" && extension != ".cpp") continue;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      std::smatch match;
+      if (std::regex_search(line, match, pattern)) {
+        found.push_back({entry.path(), match[2], match[1] == "\""});
+      }
+    }
+  }
+  return found;
+}
+
+std::string firstWord(const std::string& path) { return path.substr(0, path.find('/')); }
+
+TEST(IncludeArrows, PointOneWay) {
+  const fs::path root(FORETOUCH_SOURCE_DIR);
+  int seen = 0;
+  for (const auto& [folder, allowed] : kArrows) {
+    for (const Include& include : includesOf(root / folder)) {
+      if (!include.quoted) continue;
+      ++seen;
+      const std::string target = firstWord(include.target);
+      EXPECT_TRUE(target == folder || allowed.count(target) != 0)
+          << include.file << " includes " << include.target;
+    }
+  }
+  EXPECT_GT(seen, 50);
+}
+
+TEST(IncludeArrows, EveryFolderWithSourcesIsListed) {
+  const std::set<std::string> others = {"tests", "docs", "cmake", "build", "out"};
+  for (const auto& entry : fs::directory_iterator(fs::path(FORETOUCH_SOURCE_DIR))) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_directory() || name.front() == '.' || others.count(name) != 0) continue;
+    EXPECT_EQ(kArrows.count(name), 1u) << name << " has no arrows";
+  }
+}
+
+TEST(IncludeArrows, LibrariesStayInTheirRooms) {
+  const fs::path root(FORETOUCH_SOURCE_DIR);
+  for (const auto& [folder, unused] : kArrows) {
+    for (const Include& include : includesOf(root / folder)) {
+      const auto library = kLibraries.find(firstWord(include.target));
+      if (library == kLibraries.end()) continue;
+      EXPECT_EQ(library->second.count(folder), 1u) << include.file << " includes " << include.target;
+    }
+  }
+}
+
+// The oracle may not share code with what it judges.
+TEST(IncludeArrows, OracleSharesNoCodeWithTheProduct) {
+  int files = 0;
+  for (const Include& include : includesOf(fs::path(FORETOUCH_SOURCE_DIR) / "tests" / "support")) {
+    const std::string name = include.file.filename().string();
+    if (name.rfind("oracle", 0) != 0 && name.rfind("precise", 0) != 0) continue;
+    ++files;
+    EXPECT_EQ(kArrows.count(firstWord(include.target)), 0u)
+        << include.file << " includes " << include.target;
+  }
+  EXPECT_GT(files, 5);
+}
+
+}  // namespace
