@@ -1,0 +1,50 @@
+// articulated/avatar.h: an articulated body: a skeleton whose links are bounded by LSS.
+// A link is the rigid body that moves with a joint; both share one index and one frame L.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "articulated/skeleton.h"
+#include "lss/lss.h"
+
+namespace foretouch {
+
+/// At most this many LSS on one link.
+inline constexpr std::size_t kMaxLssPerLink = 4096;
+
+/// Where a link's triangles are kept. Not loaded by link fidelity.
+struct MeshReference {
+  std::string file;  ///< Relative to the avatar file, or absolute; empty: the link has no mesh.
+  std::string node;  ///< The node of that file that holds the link's triangles.
+};
+
+/// A skeleton with, per link, its LSS (in L, metres) and optionally its mesh. A link without LSS is
+/// legal (a joint that carries nothing, e.g. a root above the hips) and is never in contact.
+class Avatar {
+ public:
+  /// Checks counts, finiteness, radii >= 0 and |coordinates| <= kMaxCoordinate; at least one link
+  /// must have an LSS. Error::index is the offending link. `meshes` may be empty (none) or one a
+  /// link.
+  static Result<Avatar> build(Skeleton skeleton, std::vector<std::vector<Lss>> lssPerLink,
+                              std::vector<MeshReference> meshes = {});
+
+  [[nodiscard]] const Skeleton& skeleton() const { return skeleton_; }
+  [[nodiscard]] std::int32_t numLinks() const { return skeleton_.numJoints(); }
+  [[nodiscard]] const std::vector<Lss>& lss(LinkId link) const {
+    return lss_[static_cast<std::size_t>(link)];
+  }
+  [[nodiscard]] const MeshReference& mesh(LinkId link) const {
+    return meshes_[static_cast<std::size_t>(link)];
+  }
+  [[nodiscard]] std::int32_t numLss() const;
+
+ private:
+  explicit Avatar(Skeleton skeleton) : skeleton_(std::move(skeleton)) {}
+  Skeleton skeleton_;
+  std::vector<std::vector<Lss>> lss_;
+  std::vector<MeshReference> meshes_;
+};
+
+}  // namespace foretouch

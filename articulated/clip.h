@@ -1,0 +1,36 @@
+// articulated/clip.h: a mocap clip: a skeleton, and its parent-relative poses at a fixed rate.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "articulated/pose.h"
+#include "articulated/skeleton.h"
+
+namespace foretouch {
+
+/// Poses at constant spacing. Lengths are in metres once the reader's scale has been applied.
+struct Clip {
+  Skeleton skeleton;                ///< Rest offsets are the file's OFFSETs times the scale.
+  double frameTimeS = 0.0;          ///< Seconds between frames, finite and > 0.
+  std::vector<Pose> frames;         ///< Validated poses, in the joints' order of `skeleton`.
+  /// Per joint: does the file give it a translation that moves (position channels)?
+  std::vector<bool> hasTranslation;
+  /// Per joint: does the file give it rotation channels? One without keeps its rest rotation.
+  std::vector<bool> hasRotation;
+  /// Per joint: the End Site offsets below it (metres, in the joint's frame); usually none or one.
+  std::vector<std::vector<Eigen::Vector3d>> endSites;
+  /// What the reader tolerated, one sentence each, for the user to see (renamed duplicates, a wrong
+  /// frame count, ...). At most kMaxClipNotes; the last one then says how many were left out.
+  std::vector<std::string> notes;
+
+  [[nodiscard]] double durationS() const {
+    return frames.empty() ? 0.0 : static_cast<double>(frames.size() - 1) * frameTimeS;
+  }
+};
+
+inline constexpr std::size_t kMaxClipNotes = 32;
+
+}  // namespace foretouch

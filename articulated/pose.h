@@ -1,0 +1,26 @@
+// articulated/pose.h: where every joint is at one instant.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "articulated/skeleton.h"
+
+namespace foretouch {
+
+/// Parent-relative pose of every joint of one Skeleton, in its order (roots: in the world W).
+/// `rotations[j]` replaces the rest rotation, `translations[j]` (metres) replaces the rest offset.
+struct Pose {
+  std::vector<Quaternion> rotations;
+  std::vector<Eigen::Vector3d> translations;
+};
+
+/// The pose in which every joint has its rest values.
+[[nodiscard]] Pose restPose(const Skeleton& skeleton);
+
+/// Checks a pose against its skeleton (joint count, finite values, |translation| <= kMaxCoordinate,
+/// quaternion norms within kMaxQuaternionNormError) and renormalises its rotations.
+/// Error::index is the offending joint.
+[[nodiscard]] Result<Pose> validatedPose(const Skeleton& skeleton, Pose pose);
+
+}  // namespace foretouch

@@ -1,0 +1,85 @@
+// articulated/skeleton.h: the tree of joints, in its authoring form and in its validated form.
+// Lengths in metres, rotations as unit quaternions (w, x, y, z). A joint's frame J sits at its
+// articulation; its parent-relative pose places J in the parent's frame (the root's: in the world
+// W). The two-form idea follows ozz-animation's raw and runtime skeletons (REFERENCES.md).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "articulated/result.h"
+
+namespace foretouch {
+
+/// Unaligned, so that the layout of public structs does not depend on the caller's -m flags.
+using Quaternion = Eigen::Quaternion<double, Eigen::DontAlign>;
+
+/// Index of a joint in its Skeleton; of the link that moves with it; of the LSS that bound that
+/// link.
+using JointId = std::int32_t;
+using LinkId = JointId;
+inline constexpr JointId kNoParent = -1;
+
+/// Upper limits of what a skeleton may be; larger ones are refused, from any source.
+inline constexpr std::int32_t kMaxJoints = 4096;
+inline constexpr std::int32_t kMaxChainDepth = 256;
+/// Largest magnitude (m) of an offset, a translation or a scene coordinate. Doubles resolve 2 nm
+/// there.
+inline constexpr double kMaxCoordinate = 1e7;
+/// A quaternion's norm may be off by this much (files round to six digits); it is renormalised.
+inline constexpr double kMaxQuaternionNormError = 1e-3;
+/// Longest name of a joint, in bytes.
+inline constexpr std::size_t kMaxNameBytes = 1024;
+
+/// What an author or a file says of a joint, unchecked.
+struct RawJoint {
+  std::string name;
+  JointId parent =
+      kNoParent;  ///< Index into RawSkeleton::joints, before this joint; kNoParent: a root.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< Rest translation in the parent's frame.
+  Quaternion rotation = Quaternion::Identity();      ///< Rest rotation in the parent's frame.
+};
+
+struct RawSkeleton {
+  std::vector<RawJoint> joints;
+};
+
+/// The unit quaternion that `q` stands for; nothing where its norm is off by more than
+/// kMaxQuaternionNormError or not finite. Applied twice it changes nothing: a quaternion that is
+/// already unit up to rounding is returned bit for bit, so that files survive being rewritten.
+[[nodiscard]] std::optional<Quaternion> unitQuaternion(const Quaternion& q);
+
+/// What keeps `name` from being the name of a joint, as the end of a sentence ("is empty"); nothing
+/// where it is legal: 1 to kMaxNameBytes bytes of UTF-8 without control characters.
+[[nodiscard]] std::optional<std::string> nameProblem(std::string_view name);
+
+/// A validated, immutable skeleton: at least one joint, parents before children, unique legal names
+/// (nameProblem), finite offsets within kMaxCoordinate, unit rotations. Several roots are legal.
+class Skeleton {
+ public:
+  /// Checks every rule above and renormalises rotations. Error::index is the offending joint.
+  static Result<Skeleton> build(const RawSkeleton& raw);
+
+  [[nodiscard]] std::int32_t numJoints() const { return static_cast<std::int32_t>(joints_.size()); }
+  [[nodiscard]] const std::string& name(JointId joint) const { return at(joint).name; }
+  [[nodiscard]] JointId parent(JointId joint) const { return at(joint).parent; }
+  [[nodiscard]] const Eigen::Vector3d& restOffset(JointId joint) const { return at(joint).offset; }
+  [[nodiscard]] const Quaternion& restRotation(JointId joint) const { return at(joint).rotation; }
+  /// Linear in the number of joints; meant for set-up.
+  [[nodiscard]] std::optional<JointId> find(std::string_view name) const;
+
+ private:
+  [[nodiscard]] const RawJoint& at(JointId joint) const {
+    FORETOUCH_ASSERT(joint >= 0 && joint < numJoints());
+    return joints_[static_cast<std::size_t>(joint)];
+  }
+  std::vector<RawJoint> joints_;
+};
+
+}  // namespace foretouch
