@@ -1,10 +1,11 @@
 // articulated/clip.h: a mocap clip: a skeleton, and its parent-relative poses at a fixed rate.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "articulated/pose.h"
 #include "articulated/skeleton.h"
@@ -13,9 +14,9 @@ namespace foretouch {
 
 /// Poses at constant spacing. Lengths are in metres once the reader's scale has been applied.
 struct Clip {
-  Skeleton skeleton;                ///< Rest offsets are the file's OFFSETs times the scale.
-  double frameTimeS = 0.0;          ///< Seconds between frames, finite and > 0.
-  std::vector<Pose> frames;         ///< Validated poses, in the joints' order of `skeleton`.
+  Skeleton skeleton;         ///< Rest offsets are the file's OFFSETs times the scale.
+  double frameTimeS = 0.0;   ///< Seconds between frames, finite and > 0.
+  std::vector<Pose> frames;  ///< Validated poses, in the joints' order of `skeleton`.
   /// Per joint: does the file give it a translation that moves (position channels)?
   std::vector<bool> hasTranslation;
   /// Per joint: does the file give it rotation channels? One without keeps its rest rotation.

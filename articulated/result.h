@@ -1,5 +1,5 @@
-// articulated/result.h: how bad input is reported. An Error names the file, the place in it and what
-// was expected; the outcome of geometry is never an Error but a Verdict (middleware/query.h).
+// articulated/result.h: how bad input is reported. An Error names the file, the place in it and
+// what was expected; the outcome of geometry is never an Error but a Verdict (middleware/query.h).
 #pragma once
 
 #include <cstdint>
@@ -12,30 +12,31 @@
 namespace foretouch {
 
 enum class ErrorCode : std::uint8_t {
-  FileNotFound,     ///< The path does not exist or cannot be opened.
-  FileUnreadable,   ///< It opened, but reading failed (a directory, an I/O error).
-  FileUnwritable,   ///< Results could not be written or renamed into place.
-  Syntax,           ///< The text breaks the format's grammar.
-  LimitExceeded,    ///< Larger, deeper or longer than the stated limit.
-  NonFinite,        ///< NaN or infinity where a number is needed.
-  OutOfRange,       ///< A finite number outside its legal range.
-  UnknownName,      ///< A name that matches nothing.
-  DuplicateName,    ///< A name that must be unique is not.
-  BadHierarchy,     ///< A cycle, a parent after its child, no root.
-  Empty,            ///< Nothing of what is needed: no joints, no frames, no triangles.
-  Mismatch,         ///< Two inputs do not fit each other.
-  ImportFailed,     ///< The importer refused the file.
-  ImportCrashed,    ///< The importer process died or ran into its limits.
-  DeviceFailed,     ///< Embree refused to work (out of memory, unsupported CPU).
+  FileNotFound,    ///< The path does not exist or cannot be opened.
+  FileUnreadable,  ///< It opened, but reading failed (a directory, an I/O error).
+  FileUnwritable,  ///< Results could not be written or renamed into place.
+  Syntax,          ///< The text breaks the format's grammar.
+  LimitExceeded,   ///< Larger, deeper or longer than the stated limit.
+  NonFinite,       ///< NaN or infinity where a number is needed.
+  OutOfRange,      ///< A finite number outside its legal range.
+  UnknownName,     ///< A name that matches nothing.
+  DuplicateName,   ///< A name that must be unique is not.
+  BadHierarchy,    ///< A cycle, a parent after its child, no root.
+  Empty,           ///< Nothing of what is needed: no joints, no frames, no triangles.
+  Mismatch,        ///< Two inputs do not fit each other.
+  ImportFailed,    ///< The importer refused the file.
+  ImportCrashed,   ///< The importer process died or ran into its limits.
+  DeviceFailed,    ///< Embree refused to work (out of memory, unsupported CPU).
 };
 
 /// What was wrong, where, and what was expected instead.
 struct Error {
   ErrorCode code = ErrorCode::Syntax;
-  std::string file;         ///< The file's path, or the option or argument; empty for values in memory.
-  std::int64_t line = -1;   ///< 1-based line of a text file; -1 where there is none.
-  std::int64_t index = -1;  ///< 0-based index of the joint, link, frame or triangle; -1 where there is none.
-  std::string message;      ///< What was found and what was expected, one sentence, no trailing dot.
+  std::string file;  ///< The file's path, or the option or argument; empty for values in memory.
+  std::int64_t line = -1;  ///< 1-based line of a text file; -1 where there is none.
+  std::int64_t index =
+      -1;  ///< 0-based index of the joint, link, frame or triangle; -1 where there is none.
+  std::string message;  ///< What was found and what was expected, one sentence, no trailing dot.
 };
 
 /// The code as a stable word, e.g. "file-not-found".
@@ -44,12 +45,15 @@ struct Error {
 /// One line for a person: "clip.bvh:12: expected CHANNELS, found 'OFFSET'".
 [[nodiscard]] std::string describe(const Error& error);
 
-/// A value, or the Error that kept it from being made. `value()` of a failed Result is a bug (asserted).
+/// A value, or the Error that kept it from being made. `value()` of a failed Result is a bug
+/// (asserted).
 template <typename T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}      // NOLINT: implicit by intent
-  Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit by intent
+  Result(T value)
+      : content_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit by intent
+  Result(Error error)
+      : content_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit by intent
 
   [[nodiscard]] bool ok() const { return content_.index() == 0; }
   explicit operator bool() const { return ok(); }
