@@ -1,0 +1,126 @@
+// tests/oracle/oracle_sample_test.cpp: a sample of the sweep, short enough for every change. The
+// whole: oracle_sweep.
+#include <algorithm>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "tests/oracle/sweep.h"
+#include "tests/oracle/sweep_placement.h"
+#include "tests/support/shared_data.h"
+
+namespace foretouch::test {
+namespace {
+
+struct SampleScene {
+  const char* name;
+  const char* file;
+  std::uint64_t fewestContacts;  // about half of what the sample holds: it must keep its reach
+};
+
+class OracleSample : public ::testing::TestWithParam<SampleScene> {};
+
+TEST_P(OracleSample, EveryAnswerKeepsThePromise) {
+  FORETOUCH_REQUIRE_SHARED(file, GetParam().file);
+  const std::string data = *sharedDataFolder();
+  const auto scene = loadScene(GetParam().name, data);
+  ASSERT_TRUE(scene.ok()) << describe(scene.error());
+  SweepTally total;
+  for (const char* name : {"cmu_01_01_playground_jumps.bvh", "bandai1_kick_normal_001.bvh",
+                           "fair_dab.bvh", "pybvh_per_joint_orders.bvh"}) {
+    FORETOUCH_REQUIRE_SHARED(path, std::string("mocap/") + name);
+    const auto clip = loadClip(*path);
+    ASSERT_TRUE(clip.ok()) << describe(clip.error());
+    for (const Placement& placement : choosePlacements(clip.value(), scene.value(), 1)) {
+      for (const double rate : {5.0, 30.0}) {
+        for (const double tolerance : {1e-3, 1e-5}) {
+          SweepOptions options;
+          options.rateHz = rate;
+          options.tolerance = tolerance;
+          options.maxSteps = 100;
+          total.add(sweep(clip.value(), scene.value(), placement, options));
+        }
+      }
+    }
+  }
+  std::cout << GetParam().name << ": " << total.summary() << "\n";
+  RecordProperty("judged", std::to_string(total.judged));
+  for (const std::string& line : total.violations) ADD_FAILURE() << line;
+  EXPECT_EQ(total.broken(), 0u);
+  EXPECT_EQ(total.of(oracle::Finding::Unproved), 0u);
+  EXPECT_EQ(total.of(oracle::Verdict::Undecided), 0u);  // no budget was set
+  EXPECT_GT(total.of(oracle::Verdict::Contact), GetParam().fewestContacts);
+  EXPECT_GT(total.of(oracle::Verdict::Clear), total.judged / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, OracleSample,
+    ::testing::Values(SampleScene{"kitchen", "scenes/kitchen_fatihrmutfak.ply", 700},
+                      SampleScene{"office", "scenes/cpr_office.dae", 500},
+                      SampleScene{"collision-world", "scenes/collision-world.glb", 600},
+                      SampleScene{"undulating", "scenes/undulating.obj", 300}),
+    [](const auto& sample) {
+      std::string name = sample.param.name;
+      for (char& c : name) c = c == '-' ? '_' : c;
+      return name;
+    });
+
+/// The control: the same steps with lies planted in the answers, each of which must be named.
+class OracleSampleControl : public ::testing::Test {
+ protected:
+  void tellLies(const std::function<void(LinkContact&)>& tamper) {
+    FORETOUCH_REQUIRE_SHARED(file, "scenes/collision-world.glb");
+    FORETOUCH_REQUIRE_SHARED(path, "mocap/bandai1_kick_normal_001.bvh");
+    const auto scene = loadScene("collision-world", *sharedDataFolder());
+    ASSERT_TRUE(scene.ok()) << describe(scene.error());
+    const auto clip = loadClip(*path);
+    ASSERT_TRUE(clip.ok()) << describe(clip.error());
+    const auto placements = choosePlacements(clip.value(), scene.value(), 1);
+    ASSERT_EQ(placements.size(), 1u);
+    SweepOptions options;
+    options.tolerance = 1e-6;  // so that almost no contact is one of mere nearness
+    honest_ = sweep(clip.value(), scene.value(), placements[0], options);
+    options.tamper = tamper;
+    lied_ = sweep(clip.value(), scene.value(), placements[0], options);
+    contacts_ = honest_.of(oracle::Verdict::Contact);
+    ASSERT_GT(contacts_, 30u);
+    EXPECT_EQ(honest_.broken(), 0u);
+  }
+  SweepTally honest_, lied_;
+  std::uint64_t contacts_ = 0;
+};
+
+TEST_F(OracleSampleControl, NamesContactsThatAreKeptBack) {
+  tellLies([](LinkContact& c) {
+    if (c.verdict == Verdict::Contact) c = LinkContact{c.link};
+  });
+  EXPECT_GT(lied_.of(oracle::Finding::Missed), contacts_ * 9 / 10);
+}
+
+TEST_F(OracleSampleControl, NamesContactsThatAreLate) {
+  tellLies([](LinkContact& c) {
+    if (c.verdict == Verdict::Contact) c.toi = c.freeUntil = std::min(1.0, c.toi + 1e-3);
+  });
+  EXPECT_GT(lied_.of(oracle::Finding::Late), contacts_ * 9 / 10);
+}
+
+TEST_F(OracleSampleControl, NamesContactsThatAreEarly) {
+  tellLies([](LinkContact& c) {
+    if (c.verdict == Verdict::Contact) c.toi = c.freeUntil = 0.99 * c.toi;
+  });
+  EXPECT_GT(lied_.of(oracle::Finding::Early), contacts_ * 9 / 10);
+}
+
+TEST_F(OracleSampleControl, NamesStartsThatAreNone) {
+  tellLies([](LinkContact& c) {
+    if (c.verdict != Verdict::Clear) return;
+    c.verdict = Verdict::StartsInContact;
+    c.toi = c.freeUntil = 0.0;
+  });
+  const auto links = lied_.of(oracle::Finding::WrongStart);
+  EXPECT_GT(links, 1000u);
+  EXPECT_GE(links, honest_.of(oracle::Verdict::Clear));
+}
+
+}  // namespace
+}  // namespace foretouch::test

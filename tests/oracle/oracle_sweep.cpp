@@ -1,0 +1,145 @@
+// tests/oracle/oracle_sweep.cpp: the sweep at any length: clips x scenes x placements x rates x
+// tolerances. Exit code 0: every promise kept; 1: one broken; 2: bad use or nothing to do.
+#include <chrono>
+#include <iostream>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "tests/oracle/sweep.h"
+#include "tests/oracle/sweep_placement.h"
+#include "tests/support/shared_data.h"
+
+namespace {
+
+using foretouch::test::SweepClip;
+using foretouch::test::SweepOptions;
+using foretouch::test::SweepScene;
+using foretouch::test::SweepTally;
+
+struct Arguments {
+  std::vector<std::string> clips{"all"};
+  std::vector<std::string> scenes = foretouch::test::sceneNames();
+  std::vector<double> rates{5, 10, 30};
+  std::vector<double> tolerances{1e-3, 1e-5};
+  int maxSteps = 200, threads = 2, placements = 2;
+  std::string data, culler = "flat";
+  double budgetS = 0.0;
+};
+
+std::optional<Arguments> parse(int argc, char** argv, int& code) {
+  Arguments a;
+  a.data = foretouch::test::sharedDataFolder().value_or("");
+  CLI::App app{"Judges the answers of real clips in real scenes by an independent oracle"};
+  app.add_option("--clips", a.clips, "BVH files, by name in DATA/mocap or by path; or 'all'")
+      ->delimiter(',');
+  app.add_option("--scenes", a.scenes, "Scenes by name")->delimiter(',');
+  app.add_option("--rates", a.rates, "Pose rates in Hz")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  app.add_option("--tolerances", a.tolerances, "Tolerances in metres")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  app.add_option("--placements", a.placements, "Places a clip and scene")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--max-steps", a.maxSteps, "Steps a combination")->check(CLI::PositiveNumber);
+  app.add_option("--threads", a.threads, "Worker threads")->check(CLI::Range(1, 256));
+  app.add_option("--culler", a.culler, "flat or point")->check(CLI::IsMember({"flat", "point"}));
+  app.add_option("--data", a.data, "Folder with mocap/ and scenes/");
+  app.add_option("--budget-s", a.budgetS, "Stop after so many seconds; 0: never");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    code = app.exit(error) == 0 ? 0 : 2;
+    return std::nullopt;
+  }
+  if (a.clips == std::vector<std::string>{"all"}) a.clips = foretouch::test::clipPaths(a.data);
+  return a;
+}
+
+std::vector<SweepClip> loadClips(const Arguments& a) {
+  std::vector<SweepClip> clips;
+  for (const std::string& name : a.clips) {
+    const bool isPath = name.find('/') != std::string::npos;
+    auto clip = foretouch::test::loadClip(isPath ? name : a.data + "/mocap/" + name);
+    if (clip) {
+      clips.push_back(std::move(clip).value());
+    } else {
+      std::cout << "left out: " << describe(clip.error()) << "\n";
+    }
+  }
+  return clips;
+}
+
+class Run {
+ public:
+  explicit Run(const Arguments& a) : arguments_(a) {
+    if (a.budgetS <= 0.0) return;
+    deadline_ = std::chrono::steady_clock::now() +
+                std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                    std::chrono::duration<double>(a.budgetS));
+  }
+
+  void clipInScene(const SweepClip& clip, const SweepScene& scene) {
+    for (const auto& placement : choosePlacements(clip, scene, arguments_.placements)) {
+      for (const double rate : arguments_.rates) {
+        for (const double tolerance : arguments_.tolerances) {
+          if (total_.outOfTime) return;
+          combination(clip, scene, placement, rate, tolerance);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] bool outOfTime() const { return total_.outOfTime; }
+
+  int report() const {
+    if (total_.outOfTime) std::cout << "the budget was spent\n";
+    std::cout << "total: " << total_.summary() << "\n";
+    for (const std::string& line : total_.violations) std::cout << "  " << line << "\n";
+    if (total_.judged == 0) return 2;
+    return total_.broken() > 0 || total_.of(foretouch::oracle::Finding::Unproved) > 0 ? 1 : 0;
+  }
+
+ private:
+  void combination(const SweepClip& clip, const SweepScene& scene,
+                   const foretouch::test::Placement& placement, double rate, double tolerance) {
+    SweepOptions options;
+    options.rateHz = rate;
+    options.tolerance = tolerance;
+    options.maxSteps = arguments_.maxSteps;
+    options.threads = arguments_.threads;
+    options.culler =
+        arguments_.culler == "point" ? foretouch::Culler::PointQuery : foretouch::Culler::FlatBvh;
+    options.deadline = deadline_;
+    const SweepTally tally = sweep(clip, scene, placement, options);
+    std::cout << clip.name << " x " << scene.name << ", " << rate << " Hz, eps " << tolerance
+              << ", probed contact rate " << placement.contactRate << ": " << tally.summary()
+              << std::endl;
+    total_.add(tally);
+  }
+
+  const Arguments& arguments_;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  SweepTally total_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int code = 0;
+  const auto arguments = parse(argc, argv, code);
+  if (!arguments) return code;
+  const auto clips = loadClips(*arguments);
+  Run run(*arguments);
+  for (const std::string& name : arguments->scenes) {
+    if (run.outOfTime()) break;
+    const auto scene = foretouch::test::loadScene(name, arguments->data);
+    if (!scene) {
+      std::cerr << describe(scene.error()) << "\n";
+      return 2;
+    }
+    for (const SweepClip& clip : clips) run.clipInScene(clip, scene.value());
+  }
+  return run.report();
+}

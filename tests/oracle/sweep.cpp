@@ -1,0 +1,183 @@
+// tests/oracle/sweep.cpp: the loop over steps and links.
+#include "tests/oracle/sweep.h"
+
+#include <algorithm>
+#include <atomic>
+#include <iomanip>
+#include <sstream>
+#include <thread>
+
+namespace foretouch::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::size_t kMostViolations = 20;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class Sweeper {
+ public:
+  Sweeper(const SweepClip& clip, const SweepScene& scene, const Placement& placement,
+          const SweepOptions& options)
+      : clip_(clip), scene_(scene), placement_(placement), options_(options) {
+    query_.tolerance = options.tolerance;
+    query_.culler = options.culler;
+    stride_ = std::min(strideFor(clip.clip, options.rateHz),
+                       static_cast<int>(clip.clip.frames.size()) - 1);
+    steps_ = clip.numSteps(stride_);
+    chosen_ = std::min(options.maxSteps, steps_);
+  }
+
+  SweepTally run() {
+    std::vector<SweepTally> tallies(static_cast<std::size_t>(std::max(1, options_.threads)));
+    std::vector<std::thread> workers;
+    for (std::size_t i = 1; i < tallies.size(); ++i) {
+      workers.emplace_back([this, &tallies, i] { work(tallies[i]); });
+    }
+    work(tallies[0]);
+    for (std::thread& worker : workers) worker.join();
+    SweepTally total;
+    for (const SweepTally& tally : tallies) total.add(tally);
+    std::sort(total.violations.begin(), total.violations.end());
+    return total;
+  }
+
+ private:
+  void work(SweepTally& tally) {
+    QueryScratch scratch;
+    for (int i = next_++; i < chosen_; i = next_++) {
+      if (options_.deadline && Clock::now() > *options_.deadline) {
+        tally.outOfTime = true;
+        return;
+      }
+      step(static_cast<int>(static_cast<std::int64_t>(i) * steps_ / chosen_), scratch, tally);
+    }
+  }
+
+  void step(int n, QueryScratch& scratch, SweepTally& tally) const {
+    const Skeleton& skeleton = clip_.avatar.skeleton();
+    const auto frame = static_cast<std::size_t>(n * stride_);
+    const Pose from = placed(skeleton, clip_.clip.frames[frame], placement_);
+    const Pose to =
+        placed(skeleton, clip_.clip.frames[frame + static_cast<std::size_t>(stride_)], placement_);
+    const auto asked = Clock::now();
+    const ChainMotion motion(skeleton, from, to);
+    const auto answer = firstContacts(clip_.avatar, motion, scene_.scene, query_, scratch);
+    tally.querySeconds += secondsSince(asked);
+    ++tally.steps;
+    if (!answer) {
+      ++tally.failedQueries;
+      note(tally, where(n) + " query failed: " + describe(answer.error()));
+      return;
+    }
+    const oracle::Motion truth(oracleJoints(skeleton, from, to));
+    for (LinkContact contact : answer.value().links) {
+      if (options_.tamper) options_.tamper(contact);
+      judge(n, contact, truth, tally);
+    }
+  }
+
+  void judge(int n, const LinkContact& contact, const oracle::Motion& truth,
+             SweepTally& tally) const {
+    const auto& capsules = clip_.capsules[static_cast<std::size_t>(contact.link)];
+    if (capsules.empty() && contact.verdict == Verdict::Clear) return;
+    const auto start = Clock::now();
+    const oracle::Answer answer = oracleAnswer(contact);
+    const oracle::Judgement judgement = oracle::Judge(scene_.oracle, truth, contact.link, capsules)
+                                            .judge(answer, options_.tolerance);
+    const double seconds = secondsSince(start);
+    tally.judgeSeconds += seconds;
+    tally.slowestJudgementS = std::max(tally.slowestJudgementS, seconds);
+    ++tally.judged;
+    ++tally.verdicts[static_cast<std::size_t>(answer.verdict)];
+    ++tally.findings[static_cast<std::size_t>(judgement.finding)];
+    tally.grazing += judgement.grazing;
+    tally.looks += judgement.looks;
+    if (judgement.finding == oracle::Finding::Ok) return;
+    std::ostringstream line;
+    line << where(n) << " link " << contact.link << " '"
+         << clip_.avatar.skeleton().name(contact.link) << "' lss " << contact.lss << " triangle "
+         << contact.triangle << ": " << toString(answer.verdict) << std::setprecision(17)
+         << ", toi " << answer.toi << ", free until " << answer.freeUntil << ", separation "
+         << answer.separation << ", penetration " << answer.penetration << " -> "
+         << toString(judgement.finding) << (judgement.what.empty() ? "" : " (") << judgement.what
+         << (judgement.what.empty() ? "" : ")") << ": at t " << std::setprecision(21)
+         << judgement.time << " the separation is " << judgement.separation;
+    note(tally, line.str());
+  }
+
+  [[nodiscard]] std::string where(int n) const {
+    std::ostringstream text;
+    text << clip_.name << " x " << scene_.name << std::setprecision(17) << ", scale " << clip_.scale
+         << ", placed at (" << placement_.position.x() << ", " << placement_.position.y() << ", "
+         << placement_.position.z() << ") yaw " << placement_.yaw << ", eps " << options_.tolerance
+         << ", step " << n << " (frames " << n * stride_ << " to " << (n + 1) * stride_ << ")";
+    return text.str();
+  }
+
+  static void note(SweepTally& tally, const std::string& line) {
+    if (tally.violations.size() < kMostViolations) tally.violations.push_back(line);
+  }
+
+  const SweepClip& clip_;
+  const SweepScene& scene_;
+  const Placement& placement_;
+  const SweepOptions& options_;
+  QueryOptions query_;
+  int stride_ = 1, steps_ = 0, chosen_ = 0;
+  std::atomic<int> next_{0};
+};
+
+}  // namespace
+
+void SweepTally::add(const SweepTally& other) {
+  steps += other.steps;
+  judged += other.judged;
+  for (std::size_t i = 0; i < kVerdicts; ++i) verdicts[i] += other.verdicts[i];
+  for (std::size_t i = 0; i < kFindings; ++i) findings[i] += other.findings[i];
+  failedQueries += other.failedQueries;
+  grazing += other.grazing;
+  looks += other.looks;
+  querySeconds += other.querySeconds;
+  judgeSeconds += other.judgeSeconds;
+  slowestJudgementS = std::max(slowestJudgementS, other.slowestJudgementS);
+  for (const std::string& line : other.violations) {
+    if (violations.size() < kMostViolations) violations.push_back(line);
+  }
+  outOfTime = outOfTime || other.outOfTime;
+}
+
+std::uint64_t SweepTally::broken() const {
+  std::uint64_t sum = failedQueries;
+  for (const auto finding : {oracle::Finding::Missed, oracle::Finding::Late, oracle::Finding::Early,
+                             oracle::Finding::WrongStart, oracle::Finding::Inconsistent}) {
+    sum += of(finding);
+  }
+  return sum;
+}
+
+std::string SweepTally::summary() const {
+  using oracle::Finding;
+  using oracle::Verdict;
+  std::ostringstream text;
+  text << steps << " steps, " << judged << " link-steps: " << of(Verdict::Contact) << " contact, "
+       << of(Verdict::StartsInContact) << " starts in contact, " << of(Verdict::Clear) << " clear, "
+       << of(Verdict::Undecided) << " undecided";
+  for (const auto finding : {Finding::Missed, Finding::Late, Finding::Early, Finding::WrongStart,
+                             Finding::Inconsistent, Finding::Unproved}) {
+    text << ", " << of(finding) << " " << toString(finding);
+  }
+  if (failedQueries > 0) text << ", " << failedQueries << " failed queries";
+  text << std::setprecision(3) << "; " << grazing << " grazing spans; query " << querySeconds
+       << " s, judge " << judgeSeconds << " s (slowest " << 1e3 * slowestJudgementS << " ms)";
+  return text.str();
+}
+
+SweepTally sweep(const SweepClip& clip, const SweepScene& scene, const Placement& placement,
+                 const SweepOptions& options) {
+  return Sweeper(clip, scene, placement, options).run();
+}
+
+}  // namespace foretouch::test

@@ -1,0 +1,56 @@
+// tests/oracle/sweep.h: asks the product about many steps of a real clip in a real scene, and has
+// every answer judged by the oracle.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/oracle/sweep_inputs.h"
+
+namespace foretouch::test {
+
+struct SweepOptions {
+  double rateHz = 10.0;
+  double tolerance = 1e-3;
+  int maxSteps = 200;  ///< Spread evenly over the clip, its first step included.
+  int threads = 1;
+  Culler culler = Culler::FlatBvh;
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+  /// Applied to every answer before it is judged: for controls that plant lies.
+  std::function<void(LinkContact&)> tamper;
+};
+
+struct SweepTally {
+  static constexpr std::size_t kFindings = 7, kVerdicts = 4;
+  std::uint64_t steps = 0, judged = 0;  ///< Judged: links with a surface, once a step.
+  std::array<std::uint64_t, kVerdicts> verdicts{};
+  std::array<std::uint64_t, kFindings> findings{};
+  std::uint64_t failedQueries = 0;
+  std::uint64_t grazing = 0, looks = 0;
+  double querySeconds = 0.0, judgeSeconds = 0.0;  ///< Summed over threads.
+  double slowestJudgementS = 0.0;
+  std::vector<std::string> violations;  ///< All that replaying one needs; the first twenty.
+  bool outOfTime = false;
+
+  void add(const SweepTally& other);
+  [[nodiscard]] std::uint64_t of(oracle::Verdict v) const {
+    return verdicts[static_cast<std::size_t>(v)];
+  }
+  [[nodiscard]] std::uint64_t of(oracle::Finding f) const {
+    return findings[static_cast<std::size_t>(f)];
+  }
+  /// Broken promises. An unproved judgement is not one, but is shown beside them.
+  [[nodiscard]] std::uint64_t broken() const;
+  /// One line of counts.
+  [[nodiscard]] std::string summary() const;
+};
+
+[[nodiscard]] SweepTally sweep(const SweepClip& clip, const SweepScene& scene,
+                               const Placement& placement, const SweepOptions& options);
+
+}  // namespace foretouch::test

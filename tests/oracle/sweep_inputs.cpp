@@ -1,0 +1,197 @@
+// tests/oracle/sweep_inputs.cpp: loading, scaling, placing and converting.
+#include "tests/oracle/sweep_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "articulated/bvh_avatar.h"
+#include "articulated/bvh_reader.h"
+#include "middleware/scene_import.h"
+
+namespace foretouch::test {
+namespace {
+
+oracle::Vec3d own(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+std::array<double, 4> own(const Quaternion& q) {
+  return {q.w(), q.x(), q.y(), q.z()};
+}
+
+/// The largest side of the rest skeleton's box, in file units: arm span or height, alike for
+/// people.
+double restExtent(const Clip& clip) {
+  const Skeleton& skeleton = clip.skeleton;
+  const Pose rest = restPose(skeleton);
+  std::vector<LinkState> states;
+  ChainMotion(skeleton, rest, rest).statesAt(0.0, states);
+  Eigen::Vector3d low = states.front().p_WL, high = low;
+  for (std::size_t j = 0; j < states.size(); ++j) {
+    std::vector<Eigen::Vector3d> points{states[j].p_WL};
+    for (const auto& site : clip.endSites[j]) points.push_back(states[j].pointAt(site));
+    for (const auto& p : points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  return (high - low).maxCoeff();
+}
+
+void findStand(SweepClip& clip) {
+  const auto& frames = clip.clip.frames;
+  std::vector<LinkState> states;
+  const auto statesOf = [&](const Pose& pose) {
+    ChainMotion(clip.clip.skeleton, pose, pose).statesAt(0.0, states);
+  };
+  clip.lowest = std::numeric_limits<double>::infinity();
+  for (const Pose& pose : frames) {
+    statesOf(pose);
+    for (const LinkState& s : states) clip.lowest = std::min(clip.lowest, s.p_WL.y());
+  }
+  statesOf(frames[frames.size() / 2]);
+  clip.standsAt.setZero();
+  for (const LinkState& s : states) {
+    clip.standsAt += s.p_WL / static_cast<double>(states.size());
+  }
+}
+
+std::vector<std::vector<oracle::Capsule>> capsulesOf(const Avatar& avatar) {
+  std::vector<std::vector<oracle::Capsule>> capsules(static_cast<std::size_t>(avatar.numLinks()));
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    for (const Lss& lss : avatar.lss(link)) {
+      capsules[static_cast<std::size_t>(link)].push_back({{own(lss.a), own(lss.b)}, lss.radius});
+    }
+  }
+  return capsules;
+}
+
+struct KnownScene {
+  const char* name;
+  const char* file;
+  UpAxis up;
+};
+// Units are metres in all four. The office says Z_UP itself, which the importer obeys.
+constexpr KnownScene kScenes[] = {
+    {"kitchen", "scenes/kitchen_fatihrmutfak.ply", UpAxis::Z},
+    {"office", "scenes/cpr_office.dae", UpAxis::Y},
+    {"collision-world", "scenes/collision-world.glb", UpAxis::Y},
+    {"undulating", "scenes/undulating.obj", UpAxis::Y},
+};
+
+}  // namespace
+
+int strideFor(const Clip& clip, double rateHz) {
+  return std::max(1, static_cast<int>(std::lround(1.0 / (rateHz * clip.frameTimeS))));
+}
+
+Result<SweepClip> loadClip(const std::string& path) {
+  constexpr double kPersonM = 1.7;
+  auto unscaled = readBvhFile(path);
+  if (!unscaled) return unscaled.error();
+  const double extent = restExtent(unscaled.value());
+  if (unscaled.value().frames.size() < 2 || !(extent > 0.0)) {
+    return Error{ErrorCode::Empty, path, -1, -1, "fewer than two frames, or no extent"};
+  }
+  BvhOptions options;
+  options.scale = kPersonM / extent;
+  auto clip = readBvhFile(path, options);
+  if (!clip) return clip.error();
+  auto avatar = avatarFromClip(clip.value());
+  if (!avatar) return avatar.error();
+  auto capsules = capsulesOf(avatar.value());
+  SweepClip result{std::filesystem::path(path).filename().string(),
+                   options.scale,
+                   std::move(clip).value(),
+                   std::move(avatar).value(),
+                   std::move(capsules),
+                   Eigen::Vector3d::Zero(),
+                   0.0};
+  findStand(result);
+  return result;
+}
+
+std::vector<std::string> sceneNames() {
+  std::vector<std::string> names;
+  for (const KnownScene& known : kScenes) names.emplace_back(known.name);
+  return names;
+}
+
+Result<SweepScene> loadScene(const std::string& name, const std::string& dataFolder) {
+  const auto* known = std::find_if(std::begin(kScenes), std::end(kScenes),
+                                   [&](const KnownScene& k) { return name == k.name; });
+  if (known == std::end(kScenes)) {
+    return Error{ErrorCode::UnknownName, name, -1, -1, "not a scene of the sweep"};
+  }
+  SceneImportOptions options;
+  options.up = known->up;
+  auto imported = importScene(dataFolder + "/" + known->file, options);
+  if (!imported) return imported.error();
+  std::vector<oracle::Triangle> triangles;
+  for (const Triangle& t : imported.value().scene.triangles) {
+    triangles.push_back({own(t.vertices[0]), own(t.vertices[1]), own(t.vertices[2])});
+  }
+  auto scene = Scene::build(std::move(imported.value().scene));
+  if (!scene) return scene.error();
+  if (scene.value().audit().droppedNonFinite > 0) {
+    return Error{ErrorCode::NonFinite, name, -1, -1, "the oracle needs finite triangles"};
+  }
+  return SweepScene{name, std::move(scene).value(), oracle::Scene(std::move(triangles))};
+}
+
+std::vector<std::string> clipPaths(const std::string& dataFolder) {
+  std::vector<std::string> paths;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(dataFolder + "/mocap", ignored)) {
+    if (entry.path().extension() == ".bvh") paths.push_back(entry.path().string());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+Pose placed(const Skeleton& skeleton, const Pose& pose, const Placement& placement) {
+  const Quaternion turn(std::cos(0.5 * placement.yaw), 0.0, std::sin(0.5 * placement.yaw), 0.0);
+  Pose moved = pose;
+  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
+    if (skeleton.parent(j) != kNoParent) continue;
+    const auto i = static_cast<std::size_t>(j);
+    moved.rotations[i] = turn * pose.rotations[i];
+    moved.translations[i] = placement.position + turn * pose.translations[i];
+  }
+  // Renormalises what the turn rounded. The poses were valid and stay so.
+  return std::move(validatedPose(skeleton, std::move(moved))).value();
+}
+
+std::vector<oracle::Joint> oracleJoints(const Skeleton& skeleton, const Pose& from,
+                                        const Pose& to) {
+  std::vector<oracle::Joint> joints;
+  joints.reserve(static_cast<std::size_t>(skeleton.numJoints()));
+  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    joints.push_back({skeleton.parent(j), own(from.rotations[i]), own(to.rotations[i]),
+                      own(from.translations[i]), own(to.translations[i])});
+  }
+  return joints;
+}
+
+oracle::Answer oracleAnswer(const LinkContact& contact) {
+  oracle::Answer answer;
+  switch (contact.verdict) {
+    case Verdict::Clear: answer.verdict = oracle::Verdict::Clear; break;
+    case Verdict::Contact: answer.verdict = oracle::Verdict::Contact; break;
+    case Verdict::StartsInContact: answer.verdict = oracle::Verdict::StartsInContact; break;
+    case Verdict::Undecided: answer.verdict = oracle::Verdict::Undecided; break;
+  }
+  answer.toi = contact.toi;
+  answer.freeUntil = contact.freeUntil;
+  answer.separation = contact.separation;
+  answer.penetration = contact.penetration;
+  answer.triangle = contact.triangle;
+  answer.capsule = contact.lss;
+  answer.onScene = own(contact.p_WScene);
+  answer.onLink = own(contact.p_WLink);
+  answer.normal = own(contact.nhat_SL_W);
+  return answer;
+}
+
+}  // namespace foretouch::test

@@ -1,0 +1,65 @@
+// tests/oracle/sweep_inputs.h: real clips and scenes, each in the product's form and in the
+// oracle's. The one place where the product's types become the oracle's.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/clip.h"
+#include "articulated/result.h"
+#include "middleware/query.h"
+#include "middleware/scene.h"
+#include "tests/support/oracle_judge.h"
+
+namespace foretouch::test {
+
+struct SweepClip {
+  std::string name;
+  double scale =
+      1.0;  ///< Metres per file unit, chosen so that the rest skeleton is a person's size.
+  Clip clip;
+  Avatar avatar;
+  std::vector<std::vector<oracle::Capsule>> capsules;  ///< Per link.
+  // Of the clip as it is: where its middle frame stands, and its lowest joint over all frames.
+  Eigen::Vector3d standsAt = Eigen::Vector3d::Zero();
+  double lowest = 0.0;
+
+  [[nodiscard]] int numSteps(int stride) const {
+    return (static_cast<int>(clip.frames.size()) - 1) / stride;
+  }
+};
+
+/// Frames from one step to the next: `replay --rate` keeps every k-th frame likewise.
+[[nodiscard]] int strideFor(const Clip& clip, double rateHz);
+
+/// Reads the clip at the scale that makes the rest skeleton's largest extent 1.7 m.
+/// Error where it cannot be read or has fewer than two frames.
+[[nodiscard]] Result<SweepClip> loadClip(const std::string& path);
+
+struct SweepScene {
+  std::string name;
+  Scene scene;
+  oracle::Scene oracle;  ///< The triangles as the importer handed them over, same numbering.
+};
+
+/// The scenes that the sweep knows by name, with their files and up axes.
+[[nodiscard]] std::vector<std::string> sceneNames();
+[[nodiscard]] Result<SweepScene> loadScene(const std::string& name, const std::string& dataFolder);
+
+/// Every BVH file's path in data/mocap, sorted.
+[[nodiscard]] std::vector<std::string> clipPaths(const std::string& dataFolder);
+
+/// Where a clip is put: turned about +Y, then moved. Metres, radians.
+struct Placement {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double yaw = 0.0;
+  double contactRate = 0.0;  ///< Share of probed steps with a contact that does not start so.
+};
+[[nodiscard]] Pose placed(const Skeleton& skeleton, const Pose& pose, const Placement& placement);
+
+[[nodiscard]] std::vector<oracle::Joint> oracleJoints(const Skeleton& skeleton, const Pose& from,
+                                                      const Pose& to);
+[[nodiscard]] oracle::Answer oracleAnswer(const LinkContact& contact);
+
+}  // namespace foretouch::test

@@ -1,0 +1,129 @@
+// tests/oracle/sweep_placement.cpp: drawing places and probing them.
+#include "tests/oracle/sweep_placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "tests/support/random_geometry.h"
+
+namespace foretouch::test {
+namespace {
+
+constexpr double kLowRate = 0.05, kHighRate = 0.6;
+constexpr double kPi = 3.14159265358979323846;
+
+oracle::Box boxOfAll(const oracle::Scene& scene) {
+  oracle::Box box;
+  for (int i = 0; i < scene.numTriangles(); ++i) box.add(scene.boxOf(i));
+  return box;
+}
+
+/// Where the vertical line through (x, z) meets the triangle, seen from above.
+std::optional<double> heightAt(const oracle::Triangle& t, double x, double z) {
+  const auto e1 = t[1] - t[0], e2 = t[2] - t[0];
+  const double area = e1.x * e2.z - e1.z * e2.x;
+  if (!(std::abs(area) > 1e-9)) return std::nullopt;
+  const double px = x - t[0].x, pz = z - t[0].z;
+  const double u = (px * e2.z - pz * e2.x) / area, v = (e1.x * pz - e1.z * px) / area;
+  if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0)) return std::nullopt;
+  return t[0].y + u * e1.y + v * e2.y;
+}
+
+std::optional<Placement> drawPlacement(Random& random, const SweepClip& clip,
+                                       const SweepScene& scene, const oracle::Box& bounds) {
+  const double x = random.uniform(bounds.low.x, bounds.high.x);
+  const double z = random.uniform(bounds.low.z, bounds.high.z);
+  std::vector<int> below;
+  const oracle::Box column{{x, bounds.low.y, z}, {x, bounds.high.y, z}};
+  const auto all = static_cast<std::size_t>(scene.oracle.numTriangles());
+  if (!scene.oracle.collect(column, all, below)) return std::nullopt;
+  std::vector<double> heights;
+  for (const int id : below) {
+    if (const auto y = heightAt(scene.oracle.triangle(id), x, z)) heights.push_back(*y);
+  }
+  if (heights.empty()) return std::nullopt;
+  std::sort(heights.begin(), heights.end());
+  // Half of the time the lowest surface, a floor mostly; else any, a table's top or a roof.
+  const int level = random.chance(0.5) ? 0 : random.below(static_cast<int>(heights.size()));
+  Placement placement;
+  placement.yaw = random.uniform(-kPi, kPi);
+  const Quaternion turn(std::cos(0.5 * placement.yaw), 0.0, std::sin(0.5 * placement.yaw), 0.0);
+  const double clearance = random.uniform(0.0, 0.15);
+  placement.position = -(turn * clip.standsAt) + Eigen::Vector3d(x, 0.0, z);
+  placement.position.y() = heights[static_cast<std::size_t>(level)] + clearance - clip.lowest;
+  return placement;
+}
+
+struct Probed {
+  Placement placement;
+  int contacts = 0, starts = 0;  // links, over all probed steps
+};
+
+void probe(const SweepClip& clip, const SweepScene& scene, Probed& probed) {
+  constexpr int kProbes = 24;
+  constexpr double kProbeRateHz = 10.0;
+  const auto& frames = clip.clip.frames;
+  const int stride =
+      std::min(strideFor(clip.clip, kProbeRateHz), static_cast<int>(frames.size()) - 1);
+  const int steps = clip.numSteps(stride), probes = std::min(kProbes, steps);
+  const Skeleton& skeleton = clip.avatar.skeleton();
+  QueryScratch scratch;
+  int touching = 0;
+  for (int i = 0; i < probes; ++i) {
+    const int frame = static_cast<int>(static_cast<std::int64_t>(i) * steps / probes) * stride;
+    const ChainMotion motion(
+        skeleton, placed(skeleton, frames[static_cast<std::size_t>(frame)], probed.placement),
+        placed(skeleton, frames[static_cast<std::size_t>(frame + stride)], probed.placement));
+    const auto answer = firstContacts(clip.avatar, motion, scene.scene, {}, scratch);
+    if (!answer) continue;
+    const int before = probed.contacts;
+    for (const LinkContact& c : answer.value().links) {
+      probed.contacts += c.verdict == Verdict::Contact;
+      probed.starts += c.verdict == Verdict::StartsInContact;
+    }
+    touching += probed.contacts > before;
+  }
+  probed.placement.contactRate = static_cast<double>(touching) / std::max(1, probes);
+}
+
+/// Many first contacts, and few links that are stuck in something and so have none.
+double worth(const Probed& p) {
+  return static_cast<double>(p.contacts) * p.contacts / (10 + p.starts);
+}
+
+/// 0 inside the band, else how far outside.
+double offBand(const Placement& p) {
+  return std::max({0.0, kLowRate - p.contactRate, p.contactRate - kHighRate});
+}
+
+}  // namespace
+
+std::vector<Placement> choosePlacements(const SweepClip& clip, const SweepScene& scene, int count) {
+  constexpr int kDraws = 40;
+  std::uint64_t seed = 14695981039346656037u;  // FNV-1a of both names: the same on every platform
+  for (const char c : clip.name + "/" + scene.name) {
+    seed = (seed ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  }
+  Random random(seed);
+  const oracle::Box bounds = boxOfAll(scene.oracle);
+  std::vector<Probed> drawn;
+  for (int i = 0; i < kDraws; ++i) {
+    const auto placement = drawPlacement(random, clip, scene, bounds);
+    if (!placement) continue;
+    drawn.push_back({*placement});
+    probe(clip, scene, drawn.back());
+  }
+  // In the band first; there, the most telling.
+  std::stable_sort(drawn.begin(), drawn.end(), [](const Probed& a, const Probed& b) {
+    const double offA = offBand(a.placement), offB = offBand(b.placement);
+    return offA != offB ? offA < offB : worth(a) > worth(b);
+  });
+  std::vector<Placement> best;
+  for (const Probed& p : drawn) {
+    if (best.size() < static_cast<std::size_t>(count)) best.push_back(p.placement);
+  }
+  return best;
+}
+
+}  // namespace foretouch::test

@@ -1,0 +1,148 @@
+// tests/support/oracle_distance.cpp: the least distance over pairs of features.
+#include "tests/support/oracle_distance.h"
+
+#include <limits>
+#include <optional>
+
+namespace foretouch::oracle {
+namespace {
+
+template <typename S>
+class Least {
+ public:
+  void offer(const Vec3<S>& onSegment, const Vec3<S>& onTriangle) {
+    const Vec3<S> difference = onSegment - onTriangle;
+    const S squared = dot(difference, difference);
+    if (squared >= squared_) return;
+    squared_ = squared;
+    best_.onSegment = onSegment;
+    best_.onTriangle = onTriangle;
+  }
+  [[nodiscard]] Closest<S> result() const {
+    Closest<S> closest = best_;
+    closest.distance = std::sqrt(squared_);
+    return closest;
+  }
+
+ private:
+  S squared_ = std::numeric_limits<S>::infinity();
+  Closest<S> best_;
+};
+
+/// The foot of p on a segment: an end point, or the point inside it.
+template <typename S>
+Vec3<S> footOnSegment(const Vec3<S>& p, const Vec3<S>& a, const Vec3<S>& b) {
+  const Vec3<S> along = b - a;
+  const S length2 = dot(along, along);
+  if (!(length2 > 0)) return a;
+  const S s = dot(p - a, along) / length2;
+  if (s <= 0) return a;
+  // From the nearer end, so that the foot errs by rounding times the distance to that end only.
+  if (s <= S(0.5)) return a + s * along;
+  const S rest = dot(b - p, along) / length2;
+  return rest <= 0 ? b : b - rest * along;
+}
+
+/// Both feet inside: the common perpendicular of the two lines. Found with `across` freed of its
+/// part along the segment, so that nearly parallel lines lose no more than that part's digits.
+template <typename S>
+void offerLines(const Vec3<S>& a, const Vec3<S>& b, const Vec3<S>& c, const Vec3<S>& d,
+                Least<S>& least) {
+  const Vec3<S> along = b - a, across = d - c, gap = a - c;
+  const S length2 = dot(along, along);
+  if (!(length2 > 0)) return;
+  const Vec3<S> sideways = across - (dot(across, along) / length2) * along;
+  const S width2 = dot(sideways, sideways);
+  if (!(width2 > 0)) return;
+  const Vec3<S> gapSideways = gap - (dot(gap, along) / length2) * along;
+  const S t = dot(gapSideways, sideways) / width2;
+  if (!(t > 0 && t < 1)) return;
+  const Vec3<S> onEdge = c + t * across;
+  const S s = dot(onEdge - a, along) / length2;
+  if (!(s > 0 && s < 1)) return;
+  least.offer(a + s * along, onEdge);
+}
+
+/// A triangle's plane: the first axis along its longest edge, the second towards the third vertex.
+template <typename S>
+struct Face {
+  Vec3<S> origin, first, second, normal;
+  S length = 0, height = 0, apex = 0;  // apex: the third vertex's place along the first axis
+  bool flat = true;                    // no area: its edges say all
+
+  explicit Face(const std::array<Vec3<S>, 3>& v) {
+    int longest = 0;
+    S best = -1;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3<S> e = v[(i + 1) % 3] - v[i];
+      if (dot(e, e) > best) {
+        best = dot(e, e);
+        longest = i;
+      }
+    }
+    origin = v[longest];
+    length = std::sqrt(best);
+    if (!(length > 0)) return;
+    first = (1 / length) * (v[(longest + 1) % 3] - origin);
+    const Vec3<S> side = v[(longest + 2) % 3] - origin;
+    apex = dot(side, first);
+    Vec3<S> up = side - apex * first;
+    up = up - dot(up, first) * first;  // once more: the first pass leaves rounding along `first`
+    height = norm(up);
+    if (!(height > 0)) return;
+    second = (1 / height) * up;
+    normal = cross(first, second);
+    flat = false;
+  }
+  [[nodiscard]] S elevation(const Vec3<S>& p) const { return dot(p - origin, normal); }
+  /// The foot of p on the plane where it lies inside the triangle.
+  [[nodiscard]] std::optional<Vec3<S>> foot(const Vec3<S>& p) const {
+    const Vec3<S> r = p - origin;
+    const S x = dot(r, first);
+    const S y = dot(r - x * first, second);
+    // Above the base, and between the two other sides at that height.
+    const S share = y / height;
+    const bool inside =
+        y > 0 && share < 1 && x > share * apex && length - x > share * (length - apex);
+    if (!inside) return std::nullopt;
+    return origin + x * first + y * second;
+  }
+};
+
+template <typename S>
+void offerFace(const Vec3<S>& a, const Vec3<S>& b, const Face<S>& face, Least<S>& least) {
+  for (const Vec3<S>* p : {&a, &b}) {
+    if (const auto foot = face.foot(*p)) least.offer(*p, *foot);
+  }
+  const S above = face.elevation(a), below = face.elevation(b);
+  if ((above < 0) == (below < 0) || above == below) return;
+  const Vec3<S> piercing = a + (above / (above - below)) * (b - a);
+  if (face.foot(piercing)) least.offer(piercing, piercing);
+}
+
+}  // namespace
+
+template <typename S>
+Closest<S> closestPoints(const Vec3<S>& a, const Vec3<S>& b, const std::array<Vec3<S>, 3>& v) {
+  Least<S> least;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3<S>& c = v[i];
+    const Vec3<S>& d = v[(i + 1) % 3];
+    least.offer(a, footOnSegment(a, c, d));
+    least.offer(b, footOnSegment(b, c, d));
+    least.offer(footOnSegment(c, a, b), c);
+    offerLines(a, b, c, d, least);
+  }
+  const Face<S> face(v);
+  if (!face.flat) offerFace(a, b, face, least);
+  return least.result();
+}
+
+template Closest<double> closestPoints(const Vec3d&, const Vec3d&, const std::array<Vec3d, 3>&);
+template Closest<Real> closestPoints(const Vec3r&, const Vec3r&, const std::array<Vec3r, 3>&);
+
+Real pointSegmentDistance(const Vec3r& p, const Vec3r& a, const Vec3r& b) {
+  return norm(p - footOnSegment(p, a, b));
+}
+
+}  // namespace foretouch::oracle

@@ -1,0 +1,36 @@
+// tests/support/oracle_distance.h: the oracle's own distance of a segment and a triangle.
+// The least over all pairs of features whose closest points lie inside both: end point and face,
+// segment and edge, end point and edge, vertex and segment; zero where the segment pierces the
+// face. Nothing is clamped and nothing is told from signs of areas: the triangle gets an
+// orthonormal frame along its longest edge, so slivers lose no digits (coordinates in it err by
+// rounding times the distance, not times the triangle's length over its height). A feature that
+// rounding leaves out is one whose closest point lies within rounding of a neighbouring feature,
+// which is then counted.
+#pragma once
+
+#include <array>
+
+#include "tests/support/oracle_vector.h"
+
+namespace foretouch::oracle {
+
+template <typename S>
+struct Closest {
+  S distance = 0;
+  Vec3<S> onSegment, onTriangle;
+};
+
+/// Any input is legal, zero lengths and zero areas included. The error is a few roundings of the
+/// largest difference of coordinates. Instances: double, Real.
+template <typename S>
+Closest<S> closestPoints(const Vec3<S>& a, const Vec3<S>& b, const std::array<Vec3<S>, 3>& v);
+
+extern template Closest<double> closestPoints(const Vec3d&, const Vec3d&,
+                                              const std::array<Vec3d, 3>&);
+extern template Closest<Real> closestPoints(const Vec3r&, const Vec3r&,
+                                            const std::array<Vec3r, 3>&);
+
+/// Distance of a point and a segment.
+Real pointSegmentDistance(const Vec3r& p, const Vec3r& a, const Vec3r& b);
+
+}  // namespace foretouch::oracle
