@@ -1,0 +1,35 @@
+// examples/posture.h: from what a choreographer says of a moment (where hips, feet and hands are)
+// to the rotation of every joint.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "articulated/pose.h"
+#include "articulated/skeleton.h"
+
+namespace foretouch::examples {
+
+/// Metres in the room's frame W and degrees, unless said otherwise. A yaw of 0 faces +Z, of 90 +X.
+struct Posture {
+  struct Foot {
+    Eigen::Vector3d ball = Eigen::Vector3d::Zero();  ///< Under the joint of the toes, on the sole.
+    double yaw = 0.0, pitch = 0.0;                   ///< Pitch > 0: the heel is up.
+  };
+  struct Hand {
+    /// The wrist, seen from the middle between the shoulders in the chest's frame: to its own side,
+    /// up, forward.
+    Eigen::Vector3d wrist = Eigen::Vector3d::Zero();
+    double grip = 0.0;  ///< 0: flat, 1: a fist.
+  };
+  Eigen::Vector3d hips = Eigen::Vector3d::Zero();
+  double yaw = 0.0, pitch = 0.0, roll = 0.0;   ///< Of the hips; pitch > 0: bent forward.
+  double twist = 0.0, bend = 0.0, lean = 0.0;  ///< Of the chest against the hips: yaw, pitch, roll.
+  double gaze = 0.0, nod = 0.0;                ///< Of the head against the chest: yaw, pitch.
+  Foot leftFoot, rightFoot;
+  Hand leftHand, rightHand;
+};
+
+/// Limbs are solved in closed form (two bones and a target); one out of reach is pointed at.
+[[nodiscard]] Pose poseOf(const Skeleton& dancer, const Posture& posture);
+
+}  // namespace foretouch::examples
