@@ -1,0 +1,196 @@
+// tests/tools/program_test.cpp: help, exit codes and the small commands of the program.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "articulated/avatar_file.h"
+#include "tests/tools/program_run.h"
+#include "tests/tools/small_world.h"
+
+namespace foretouch::test {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Program, SaysItsVersion) {
+  const Ended ended = runForetouch({"--version"});
+  EXPECT_EQ(ended.exitCode, 0);
+  EXPECT_EQ(ended.out.rfind("foretouch ", 0), 0u) << ended.out;
+  EXPECT_EQ(ended.err, "");
+}
+
+TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
+  const Ended top = runForetouch({"--help"});
+  EXPECT_EQ(top.exitCode, 0);
+  for (const std::string command : {"demo", "replay", "avatar", "scene"}) {
+    EXPECT_TRUE(holds(top.out, "\n  " + command)) << command;
+  }
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"demo", "--help"},
+                                             {"replay", "--help"},
+                                             {"avatar", "bvh", "--help"},
+                                             {"avatar", "check", "--help"},
+                                             {"scene", "check", "--help"}}) {
+    const Ended ended = runForetouch(command);
+    EXPECT_EQ(ended.exitCode, 0);
+    EXPECT_TRUE(holds(ended.out, "Example")) << ended.out;
+    EXPECT_TRUE(holds(ended.out, "\n  foretouch " + command[0])) << ended.out;
+    EXPECT_EQ(ended.err, "");
+  }
+  const Ended replay = runForetouch({"replay", "--help"});
+  for (const char* option :
+       {"--scene ", "--avatar ", "--motion ", "--rate ", "--scale ", "--motion-up ", "--up ",
+        "--scene-scale ", "--place ", "--fidelity ", "--tolerance ", "--threads ", "--ignore ",
+        "--map ", "--culler ", "--output ", "--compare-rigid ", "--rays "}) {
+    EXPECT_TRUE(holds(replay.out, std::string("\n  ") + option)) << option;
+  }
+}
+
+TEST(Program, EndsWithTwoOnBadUse) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"dance"},
+                                             {"avatar"},
+                                             {"scene"},
+                                             {"replay"},
+                                             {"replay", "--scene"},
+                                             {"demo", "extra"},
+                                             {"avatar", "check"},
+                                             {"avatar", "check", "a.json", "--map", "m.json"},
+                                             {"--bogus"}}) {
+    const Ended ended = runForetouch(arguments);
+    EXPECT_EQ(ended.exitCode, 2);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_EQ(ended.err.rfind("foretouch: ", 0), 0u) << ended.err;
+    EXPECT_TRUE(holds(ended.err, " --help\n")) << ended.err;
+  }
+}
+
+TEST(Program, EndsWithTwoWhereItsOutputDoesNotArrive) {
+  ProgramRun run({"--help"}, {}, "/dev/full");
+  const Ended ended = run.ended();
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_TRUE(holds(ended.err, "standard output")) << ended.err;
+}
+
+TEST(AvatarBvh, MakesAnAvatarThatTheCheckAccepts) {
+  const SmallWorld world;
+  const std::string made = world.folder / "made.json";
+  // Its bones measure 0.3 and 0.5 units; doubled, they make something of plausible size.
+  const Ended make =
+      runForetouch({"avatar", "bvh", world.folder / "clip.bvh", "--scale", "2", "-o", made});
+  EXPECT_EQ(make.exitCode, 0) << make.err;
+  const auto avatar = readAvatarFile(made);
+  ASSERT_TRUE(avatar.ok());
+  EXPECT_EQ(avatar.value().skeleton().name(1), "Arm");
+  EXPECT_EQ(avatar.value().skeleton().restOffset(1), Eigen::Vector3d(0, 0.6, 0));
+
+  const Ended check = runForetouch({"avatar", "check", made});
+  EXPECT_EQ(check.exitCode, 0) << check.err;
+  EXPECT_TRUE(holds(check.out, "links")) << check.out;
+  const Ended matched = runForetouch(
+      {"avatar", "check", made, "--motion", world.folder / "clip.bvh", "--scale", "2"});
+  EXPECT_EQ(matched.exitCode, 0) << matched.err;
+  EXPECT_TRUE(holds(matched.out, "2 of 2")) << matched.out;
+}
+
+TEST(AvatarBvh, MultipliesRadii) {
+  const SmallWorld world;
+  std::vector<double> radii;
+  for (const std::string scale : {"1", "0.5"}) {
+    const std::string made = world.folder / "made.json";
+    ASSERT_EQ(runForetouch(
+                  {"avatar", "bvh", world.folder / "clip.bvh", "--radius-scale", scale, "-o", made})
+                  .exitCode,
+              0);
+    const Avatar avatar = readAvatarFile(made).value();
+    for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+      for (const Lss& lss : avatar.lss(link)) radii.push_back(lss.radius);
+    }
+  }
+  ASSERT_GE(radii.size(), 2u);
+  EXPECT_NEAR(radii[radii.size() / 2], 0.5 * radii[0], 1e-15);
+}
+
+TEST(AvatarBvh, RefusesBadInputAndLeavesNothing) {
+  const SmallWorld world;
+  world.folder.write("broken.bvh", "HIERARCHY\nROOT");
+  const auto before = world.folder.names();
+  const std::string made = world.folder / "made.json";
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"avatar", "bvh", world.folder / "broken.bvh", "-o", made},
+           {"avatar", "bvh", world.folder / "absent.bvh", "-o", made},
+           {"avatar", "bvh", world.folder / "clip.bvh", "-o", world.folder / "clip.bvh"},
+           {"avatar", "bvh", world.folder / "clip.bvh", "-o", world.folder / "no/made.json"},
+           {"avatar", "bvh", world.folder / "clip.bvh", "-o", made, "--scale", "0"},
+           {"avatar", "bvh", world.folder / "clip.bvh", "-o", made, "--radius-scale", "nan"},
+           {"avatar", "bvh", world.folder / "clip.bvh"}}) {
+    const Ended ended = runForetouch(arguments);
+    EXPECT_EQ(ended.exitCode, 2) << ended.err;
+    EXPECT_EQ(ended.err.rfind("foretouch: ", 0), 0u) << ended.err;
+    EXPECT_EQ(world.folder.names(), before);
+  }
+  EXPECT_EQ(contentOf(world.folder / "clip.bvh"), clipThroughWall());
+}
+
+TEST(AvatarCheck, SaysNoToUnlikelySizesAndToClipsThatDoNotMatch) {
+  const SmallWorld world;
+  const Ended plain = runForetouch({"avatar", "check", world.folder / "man.json"});
+  EXPECT_EQ(plain.exitCode, 0) << plain.err;
+
+  std::string big = kManAvatar;
+  big.replace(big.find("0,0.5,0"), 7, "0,500,0");
+  const Ended inCentimetres =
+      runForetouch({"avatar", "check", world.folder.write("big.json", big)});
+  EXPECT_EQ(inCentimetres.exitCode, 1);
+  EXPECT_TRUE(holds(inCentimetres.err, "is the unit")) << inCentimetres.err;
+
+  std::string other = clipThroughWall();
+  other.replace(other.find("Hips"), 4, "Root");
+  const std::string half = world.folder.write("half.bvh", other);
+  const Ended partly =
+      runForetouch({"avatar", "check", world.folder / "man.json", "--motion", half});
+  EXPECT_EQ(partly.exitCode, 0) << partly.err;
+  EXPECT_TRUE(holds(partly.out, "1 of 2")) << partly.out;
+  EXPECT_TRUE(holds(partly.out, "'Root'")) << partly.out;
+  const Ended mapped =
+      runForetouch({"avatar", "check", world.folder / "man.json", "--motion", half, "--map",
+                    world.folder.write("map.json", R"({"Hips": "Root"})")});
+  EXPECT_TRUE(holds(mapped.out, "2 of 2")) << mapped.out << mapped.err;
+
+  other.replace(other.find("Arm"), 3, "Leg");
+  const Ended none = runForetouch({"avatar", "check", world.folder / "man.json", "--motion",
+                                   world.folder.write("none.bvh", other)});
+  EXPECT_EQ(none.exitCode, 1);
+  EXPECT_TRUE(holds(none.err, "no joint of the avatar")) << none.err;
+
+  EXPECT_EQ(runForetouch({"avatar", "check", world.folder / "absent.json"}).exitCode, 2);
+}
+
+TEST(SceneCheck, MeasuresObjectsAndSize) {
+  const SmallWorld world;
+  const Ended ended = runForetouch({"scene", "check", world.folder / "wall.obj"});
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_TRUE(holds(ended.out, "18 x 7 x 18 m")) << ended.out;
+  EXPECT_TRUE(holds(ended.out, "2  'wall'")) << ended.out;
+  EXPECT_TRUE(holds(ended.out, "2  'floor'")) << ended.out;
+  const Ended turned = runForetouch(
+      {"scene", "check", world.folder / "wall.obj", "--up", "z", "--scene-scale", "10"});
+  EXPECT_TRUE(holds(turned.out, "180 x 180 x 70 m")) << turned.out;
+}
+
+TEST(SceneCheck, SaysNoToUnlikelySizesAndTwoToBadFiles) {
+  const SmallWorld world;
+  const Ended tiny =
+      runForetouch({"scene", "check", world.folder / "wall.obj", "--scene-scale", "0.01"});
+  EXPECT_EQ(tiny.exitCode, 1);
+  EXPECT_TRUE(holds(tiny.err, "is the unit")) << tiny.err;
+  EXPECT_EQ(runForetouch({"scene", "check", world.folder / "absent.obj"}).exitCode, 2);
+  EXPECT_EQ(runForetouch({"scene", "check", world.folder / "wall.obj", "--up", "q"}).exitCode, 2);
+}
+
+}  // namespace
+}  // namespace foretouch::test

@@ -1,0 +1,107 @@
+#include "tools/arguments.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "articulated/text_file.h"
+
+namespace foretouch::tools {
+namespace {
+
+Error refusal(const std::string& option, const std::string& expected, const std::string& found) {
+  return {ErrorCode::OutOfRange, option, -1, -1,
+          "expected " + expected + ", found " + inQuotes(found)};
+}
+
+/// True if `text` as a whole is a number that fits and is finite.
+template <typename Number>
+bool readAll(const std::string& text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && rest == end && std::isfinite(static_cast<double>(number));
+}
+
+std::vector<std::string> splitAtCommas(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+Result<double> parseNumber(const std::string& option, const std::string& text) {
+  double number = 0.0;
+  if (readAll(text, number)) return number;
+  return refusal(option, "a finite number", text);
+}
+
+Result<double> parsePositive(const std::string& option, const std::string& text) {
+  double number = 0.0;
+  if (readAll(text, number) && number > 0.0) return number;
+  return refusal(option, "a finite number greater than 0", text);
+}
+
+Result<double> parseTolerance(const std::string& option, const std::string& text) {
+  double number = 0.0;
+  if (readAll(text, number) && number >= kMinTolerance) return number;
+  return refusal(option, "a finite number of metres, at least 1e-9", text);
+}
+
+Result<int> parseThreads(const std::string& option, const std::string& text) {
+  int number = 0;
+  if (readAll(text, number) && number >= 1 && number <= kMaxThreads) return number;
+  return refusal(option, "a whole number from 1 to " + std::to_string(kMaxThreads), text);
+}
+
+Result<Placement> parsePlacement(const std::string& option, const std::string& text) {
+  const std::vector<std::string> parts = splitAtCommas(text);
+  double numbers[4] = {0.0, 0.0, 0.0, 0.0};
+  bool good = parts.size() == 3 || parts.size() == 4;
+  for (std::size_t i = 0; good && i < parts.size(); ++i) good = readAll(parts[i], numbers[i]);
+  Placement placement;
+  placement.origin = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+  placement.yawDeg = numbers[3];
+  if (good && placement.origin.cwiseAbs().maxCoeff() <= kMaxCoordinate) return placement;
+  return refusal(option, "x,y,z or x,y,z,yaw: finite metres within 1e7, and degrees", text);
+}
+
+Result<UpAxis> parseUpAxis(const std::string& option, const std::string& text) {
+  if (text == "y") return UpAxis::Y;
+  if (text == "z") return UpAxis::Z;
+  return refusal(option, "y or z", text);
+}
+
+Result<Culler> parseCuller(const std::string& option, const std::string& text) {
+  if (text == "flat") return Culler::FlatBvh;
+  if (text == "point-query") return Culler::PointQuery;
+  return refusal(option, "flat or point-query", text);
+}
+
+Result<Done> checkFidelity(const std::string& option, const std::string& text) {
+  if (text == "link") return Done{};
+  if (text == "exact" || text == "avatar" || text == "ellipsoid") {
+    return Error{ErrorCode::OutOfRange, option, -1, -1,
+                 "'" + text + "' is not available in this version; available: link"};
+  }
+  return refusal(option, "link", text);
+}
+
+Result<Done> checkIsNoInput(const std::string& output, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code missing;
+    if (!input.empty() && std::filesystem::equivalent(output, input, missing)) {
+      return Error{ErrorCode::FileUnwritable, output, -1, -1,
+                   "is an input as well; expected another file to write"};
+    }
+  }
+  return Done{};
+}
+
+}  // namespace foretouch::tools

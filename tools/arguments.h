@@ -1,0 +1,39 @@
+// tools/arguments.h: option values as typed in, checked. Errors name the option, what was expected
+// and what was found.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/joint_match.h"
+#include "articulated/result.h"
+#include "middleware/query.h"
+#include "middleware/scene_import.h"
+
+namespace foretouch::tools {
+
+/// More threads than this are refused: a slip of the finger, not a machine.
+inline constexpr int kMaxThreads = 256;
+
+/// A finite decimal number and nothing else: no "nan", "inf", hexadecimal, unit or space.
+[[nodiscard]] Result<double> parseNumber(const std::string& option, const std::string& text);
+/// The same, greater than zero.
+[[nodiscard]] Result<double> parsePositive(const std::string& option, const std::string& text);
+/// Metres, at least kMinTolerance.
+[[nodiscard]] Result<double> parseTolerance(const std::string& option, const std::string& text);
+/// A whole number from 1 to kMaxThreads.
+[[nodiscard]] Result<int> parseThreads(const std::string& option, const std::string& text);
+/// "x,y,z" or "x,y,z,yaw": metres within kMaxCoordinate, and degrees.
+[[nodiscard]] Result<Placement> parsePlacement(const std::string& option, const std::string& text);
+/// "y" or "z".
+[[nodiscard]] Result<UpAxis> parseUpAxis(const std::string& option, const std::string& text);
+/// "flat" or "point-query".
+[[nodiscard]] Result<Culler> parseCuller(const std::string& option, const std::string& text);
+/// Only "link" is available; the other rungs are refused by name.
+[[nodiscard]] Result<Done> checkFidelity(const std::string& option, const std::string& text);
+
+/// Refuses an output file that is one of the inputs. Empty paths are passed over.
+[[nodiscard]] Result<Done> checkIsNoInput(const std::string& output,
+                                          const std::vector<std::string>& inputs);
+
+}  // namespace foretouch::tools

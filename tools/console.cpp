@@ -1,0 +1,54 @@
+#include "tools/console.h"
+
+#include <cstdio>
+
+namespace foretouch::tools {
+namespace {
+
+/// File names and foreign text may hold line breaks and terminal sequences: one error is one line.
+std::string onOneLine(std::string text) {
+  for (char& c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = '?';
+  }
+  return text;
+}
+
+void printLine(const char* lead, const std::string& text) {
+  const std::string line = lead + onOneLine(text) + "\n";
+  static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
+}
+
+}  // namespace
+
+void printError(const std::string& text) {
+  printLine("foretouch: ", text);
+}
+
+ExitCode failed(const Error& error) {
+  printError(describe(error));
+  return ExitCode::BadInput;
+}
+
+void printNote(const std::string& text) {
+  printLine("note: ", text);
+}
+
+void printAside(const std::string& text) {
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
+
+void printOut(const std::string& text) {
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stdout));
+}
+
+bool outputArrived() {
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
+Error inFile(Error error, const std::string& file) {
+  if (error.file.empty()) error.file = file;
+  return error;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,27 @@
+// tools/interrupt.h: lets a run that is told to stop clean up first.
+#pragma once
+
+#include <array>
+#include <csignal>
+
+namespace foretouch::tools {
+
+/// While one lives, SIGINT, SIGTERM and SIGHUP are only noted. Its destructor puts back what was
+/// and delivers a noted signal: the program then ends by it, as the shell expects, with everything
+/// that was built after the guard already taken down. At most one at a time. Signals that the
+/// parent had the program ignore (nohup) stay ignored.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+  ~InterruptGuard();
+
+  [[nodiscard]] bool requested() const;
+
+ private:
+  static constexpr std::array<int, 3> kSignals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, kSignals.size()> before_{};
+};
+
+}  // namespace foretouch::tools

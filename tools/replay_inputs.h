@@ -1,0 +1,62 @@
+// tools/replay_inputs.h: what a replay is asked for, and the checked inputs it then works on.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/clip.h"
+#include "articulated/joint_match.h"
+#include "articulated/result.h"
+#include "middleware/query.h"
+#include "middleware/scene.h"
+#include "middleware/scene_import.h"
+#include "tools/step_selection.h"
+
+namespace foretouch::tools {
+
+/// The options of a replay, each legal by itself.
+struct ReplayRequest {
+  std::string scenePath, avatarPath, motionPath;
+  std::string mapPath;           ///< Empty: joints are matched by name alone.
+  std::optional<double> rateHz;  ///< Empty: every frame.
+  double motionScale = 1.0;      ///< Metres per unit of the clip.
+  double sceneScale = 1.0;       ///< Metres per unit of the scene.
+  UpAxis sceneUp = UpAxis::Y;
+  Placement placement;
+  double tolerance = 1e-3;
+  Culler culler = Culler::FlatBvh;
+  std::vector<std::string> ignore;
+};
+
+struct ReplayInputs {
+  ReplayRequest request;
+  Scene scene;
+  Avatar avatar;
+  Clip clip;
+  JointMatch match;
+  StepSelection steps;
+  QueryOptions query;
+
+  [[nodiscard]] double timeOfStep(std::int64_t step) const {
+    return static_cast<double>(step * steps.stride) * clip.frameTimeS;
+  }
+};
+
+/// Reads, checks and fits the inputs to one another. Errors name the file or option.
+[[nodiscard]] Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request);
+
+/// What the reader tolerated, what did not match and what looks like a wrong unit: one sentence
+/// each, bounded in number.
+[[nodiscard]] std::vector<std::string> remarksOn(const ReplayInputs& inputs);
+
+/// The avatar in the pose of a frame, where the placement puts it. Error where that is farther out
+/// than coordinates may be. `frame` is within the clip.
+[[nodiscard]] Result<Pose> poseAtFrame(const ReplayInputs& inputs, std::int64_t frame);
+
+/// "'a', 'b' and 7 more": the first of many names.
+[[nodiscard]] std::string firstOf(const std::vector<std::string>& names);
+
+}  // namespace foretouch::tools
