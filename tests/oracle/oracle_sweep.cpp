@@ -25,6 +25,7 @@ struct Arguments {
   int maxSteps = 200, threads = 2, placements = 2;
   std::string data, culler = "flat";
   double budgetS = 0.0;
+  bool everyClip = false;
 };
 
 std::optional<Arguments> parse(int argc, char** argv, int& code) {
@@ -53,11 +54,13 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
     code = app.exit(error) == 0 ? 0 : 2;
     return std::nullopt;
   }
-  if (a.clips == std::vector<std::string>{"all"}) a.clips = foretouch::test::clipPaths(a.data);
+  a.everyClip = a.clips == std::vector<std::string>{"all"};
+  if (a.everyClip) a.clips = foretouch::test::clipPaths(a.data);
   return a;
 }
 
-std::vector<SweepClip> loadClips(const Arguments& a) {
+/// Nothing where a clip that was asked for by name cannot be swept.
+std::optional<std::vector<SweepClip>> loadClips(const Arguments& a) {
   std::vector<SweepClip> clips;
   for (const std::string& name : a.clips) {
     const bool isPath = name.find('/') != std::string::npos;
@@ -65,7 +68,8 @@ std::vector<SweepClip> loadClips(const Arguments& a) {
     if (clip) {
       clips.push_back(std::move(clip).value());
     } else {
-      std::cout << "left out: " << describe(clip.error()) << "\n";
+      std::cerr << "left out: " << describe(clip.error()) << "\n";
+      if (!a.everyClip) return std::nullopt;
     }
   }
   return clips;
@@ -131,6 +135,7 @@ int main(int argc, char** argv) {
   const auto arguments = parse(argc, argv, code);
   if (!arguments) return code;
   const auto clips = loadClips(*arguments);
+  if (!clips) return 2;
   Run run(*arguments);
   for (const std::string& name : arguments->scenes) {
     if (run.outOfTime()) break;
@@ -139,7 +144,7 @@ int main(int argc, char** argv) {
       std::cerr << describe(scene.error()) << "\n";
       return 2;
     }
-    for (const SweepClip& clip : clips) run.clipInScene(clip, scene.value());
+    for (const SweepClip& clip : *clips) run.clipInScene(clip, scene.value());
   }
   return run.report();
 }

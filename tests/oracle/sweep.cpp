@@ -65,7 +65,9 @@ class Sweeper {
     const auto asked = Clock::now();
     const ChainMotion motion(skeleton, from, to);
     const auto answer = firstContacts(clip_.avatar, motion, scene_.scene, query_, scratch);
-    tally.querySeconds += secondsSince(asked);
+    const double seconds = secondsSince(asked);
+    tally.querySeconds += seconds;
+    tally.slowestQueryS = std::max(tally.slowestQueryS, seconds);
     ++tally.steps;
     if (!answer) {
       ++tally.failedQueries;
@@ -142,6 +144,7 @@ void SweepTally::add(const SweepTally& other) {
   looks += other.looks;
   querySeconds += other.querySeconds;
   judgeSeconds += other.judgeSeconds;
+  slowestQueryS = std::max(slowestQueryS, other.slowestQueryS);
   slowestJudgementS = std::max(slowestJudgementS, other.slowestJudgementS);
   for (const std::string& line : other.violations) {
     if (violations.size() < kMostViolations) violations.push_back(line);
@@ -171,7 +174,8 @@ std::string SweepTally::summary() const {
   }
   if (failedQueries > 0) text << ", " << failedQueries << " failed queries";
   text << std::setprecision(3) << "; " << grazing << " grazing spans; query " << querySeconds
-       << " s, judge " << judgeSeconds << " s (slowest " << 1e3 * slowestJudgementS << " ms)";
+       << " s (slowest step " << 1e3 * slowestQueryS << " ms), judge " << judgeSeconds
+       << " s (slowest link " << 1e3 * slowestJudgementS << " ms)";
   return text.str();
 }
 

@@ -33,7 +33,7 @@ struct SweepTally {
   std::uint64_t failedQueries = 0;
   std::uint64_t grazing = 0, looks = 0;
   double querySeconds = 0.0, judgeSeconds = 0.0;  ///< Summed over threads.
-  double slowestJudgementS = 0.0;
+  double slowestQueryS = 0.0, slowestJudgementS = 0.0;
   std::vector<std::string> violations;  ///< All that replaying one needs; the first twenty.
   bool outOfTime = false;
 
