@@ -47,7 +47,8 @@ void ReplaySummary::add(const ReplayedStep& step) {
     if (!missed) continue;
     ++total_.missedByPoses;
     ++ofLink_[static_cast<std::size_t>(contact.link)].missedByPoses;
-    if (firstMissed_.size() < kKeptMissed) {
+    const bool isFirstOfStep = contact.link == answer.missedByPoses.front();
+    if (isFirstOfStep && firstMissed_.size() < kKeptMissed) {
       const double timeS = answer.t0S + contact.toi * (answer.t1S - answer.t0S);
       firstMissed_.push_back({answer.step, contact, timeS});
     }

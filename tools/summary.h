@@ -35,7 +35,8 @@ class ReplaySummary {
   /// `threads` shared the machine while latencies were taken.
   [[nodiscard]] std::string text(int threads) const;
 
-  /// The first kKeptMissed contacts that a check of the poses misses.
+  /// Contacts that a check of the poses misses: the earliest of a step, of the first kKeptMissed
+  /// steps that have one.
   [[nodiscard]] const std::vector<MissedContact>& firstMissed() const { return firstMissed_; }
   static constexpr std::size_t kKeptMissed = 5;
 
