@@ -33,6 +33,11 @@ struct Aabb {
   [[nodiscard]] bool overlaps(const Aabb& other) const {
     return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
   }
+  /// 0 where they overlap, else the distance of the nearest points, as rounded.
+  [[nodiscard]] double distance(const Aabb& other) const {
+    const Eigen::Vector3d apart = (other.min - max).cwiseMax(min - other.max).cwiseMax(0.0);
+    return apart.norm();
+  }
   [[nodiscard]] bool contains(const Eigen::Vector3d& point) const {
     return (min.array() <= point.array()).all() && (point.array() <= max.array()).all();
   }
