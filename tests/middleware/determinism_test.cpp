@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lss/segment_triangle.h"
 #include "middleware/query.h"
 #include "tests/middleware/random_scene.h"
 
@@ -102,6 +103,39 @@ TEST(Determinism, CoincidentTrianglesGoToTheLowest) {
       firstContacts(avatar, ChainMotion(avatar.skeleton(), from, to), Scene::build(raw).value());
   EXPECT_EQ(result.value().links[0].verdict, Verdict::Contact);
   EXPECT_EQ(result.value().links[0].triangle, 0);
+}
+
+// Of everything that is touched at t = 0 the nearest to the axis is reported, whatever was passed
+// over on the way to it.
+TEST(Determinism, StartInContactReportsTheDeepest) {
+  int starting = 0;
+  QueryScratch scratch;
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const RawScene raw = test::clutter(random, 600, 1, Vector3d::Zero());
+    const Scene scene = Scene::build(raw).value();
+    const test::RandomBody body = test::bodyInClutter(random, 6, Vector3d::Zero());
+    const ChainMotion motion = body.motion();
+    const StepContacts step = answer(body, scene, Culler::FlatBvh, scratch);
+    for (const LinkContact& contact : step.links) {
+      if (contact.verdict != Verdict::StartsInContact) continue;
+      ++starting;
+      const LinkState state = motion.stateAt(contact.link, 0.0);
+      double deepest = 1.0;
+      for (const Lss& lss : body.avatar.lss(contact.link)) {
+        for (std::size_t t = 0; t < raw.triangles.size(); ++t) {
+          const Triangle& triangle = scene.triangle(static_cast<TriangleId>(t));
+          const double gap =
+              closestPoints(state.pointAt(lss.a), state.pointAt(lss.b), triangle).distance -
+              lss.radius;
+          deepest = std::min(deepest, gap);
+        }
+      }
+      EXPECT_NEAR(contact.penetration, -deepest, 1e-12);
+    }
+  }
+  EXPECT_GT(starting, 50);
 }
 
 TEST(Determinism, ThreadsDoNotShow) {

@@ -77,18 +77,22 @@ std::string binaryPly(const std::vector<Eigen::Vector3f>& vertices,
   return ply;
 }
 
-std::string gltfWithNodes(const std::string& nodes) {
+std::string gltfWithNodes(const std::string& nodes, int copies) {
   std::string buffer;
-  for (const float number : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) append(buffer, number);
+  for (int i = 0; i < copies; ++i) {
+    for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) append(buffer, x);
+  }
+  const std::string bytes = std::to_string(buffer.size());
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
          R"(,"meshes":[{"name":"triangle","primitives":[{"attributes":{"POSITION":0},"mode":4}]},
 {"name":"wire","primitives":[{"attributes":{"POSITION":1},"mode":0},
 {"attributes":{"POSITION":1},"mode":1}]}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+"accessors":[{"bufferView":0,"componentType":5126,"count":)" +
+         std::to_string(3 * copies) + R"(,"type":"VEC3"},
 {"bufferView":0,"componentType":5126,"count":2,"type":"VEC3"}],
-"bufferViews":[{"buffer":0,"byteLength":36}],
-"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)" +
-         base64(buffer) + R"("}]})";
+"bufferViews":[{"buffer":0,"byteLength":)" +
+         bytes + R"(}],"buffers":[{"byteLength":)" + bytes +
+         R"(,"uri":"data:application/octet-stream;base64,)" + base64(buffer) + R"("}]})";
 }
 
 std::string base64(std::string_view bytes) {

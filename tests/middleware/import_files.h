@@ -40,9 +40,9 @@ inline constexpr std::string_view kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1
 std::string binaryPly(const std::vector<Eigen::Vector3f>& vertices,
                       const std::vector<std::array<int, 3>>& faces);
 
-/// A glTF file whose mesh 0 is the triangle above and mesh 1 two points and a line; `nodes` is the
-/// JSON array of nodes, of which 0 is the root.
-std::string gltfWithNodes(const std::string& nodes);
+/// A glTF file whose mesh 0 is the triangle above, `copies` times, and mesh 1 two points and a
+/// line; `nodes` is the JSON array of nodes, of which 0 is the root.
+std::string gltfWithNodes(const std::string& nodes, int copies = 1);
 
 std::string base64(std::string_view bytes);
 

@@ -92,6 +92,17 @@ TEST(Aabb, GrowsOutwardPastRounding) {
   EXPECT_TRUE(box.contains(Vector3d(1e4, 1e4, 1e4)));
 }
 
+TEST(Aabb, DistanceIsThatOfTheNearestPoints) {
+  Aabb left, right;
+  left.add(Vector3d(0, 0, 0));
+  left.add(Vector3d(1, 1, 1));
+  right.add(Vector3d(4, 5, 0.5));
+  EXPECT_DOUBLE_EQ(left.distance(right), 5.0);
+  EXPECT_DOUBLE_EQ(right.distance(left), 5.0);
+  right.add(Vector3d(1, 1, 1));
+  EXPECT_EQ(left.distance(right), 0.0);
+}
+
 TEST(Aabb, TouchingBoxesOverlapAndAnEmptyOneNever) {
   Aabb left, right;
   left.add(Vector3d(0, 0, 0));
