@@ -216,10 +216,11 @@ void FlatBvh::collect(const Aabb& box, std::vector<TriangleId>& ids, std::uint64
     // One flag a child, without branches, so that the compiler can use its vectors.
     std::uint8_t overlaps[kWidth];
     for (int i = 0; i < kWidth; ++i) {
+      const auto atMost = [](float x, float y) { return static_cast<unsigned>(x <= y); };
       overlaps[i] = static_cast<std::uint8_t>(
-          (node.lower[0][i] <= local.upper[0]) & (local.lower[0] <= node.upper[0][i]) &
-          (node.lower[1][i] <= local.upper[1]) & (local.lower[1] <= node.upper[1][i]) &
-          (node.lower[2][i] <= local.upper[2]) & (local.lower[2] <= node.upper[2][i]));
+          atMost(node.lower[0][i], local.upper[0]) & atMost(local.lower[0], node.upper[0][i]) &
+          atMost(node.lower[1][i], local.upper[1]) & atMost(local.lower[1], node.upper[1][i]) &
+          atMost(node.lower[2][i], local.upper[2]) & atMost(local.lower[2], node.upper[2][i]));
     }
     for (int i = 0; i < kWidth; ++i) {
       if (!overlaps[i]) continue;

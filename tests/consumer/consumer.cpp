@@ -19,6 +19,7 @@ int main() {
   const ChainMotion motion(avatar.skeleton(), from, to);
   const LinkContact contact = firstContacts(avatar, motion, scene).value().links[0];
   std::printf("%s at t = %.4f, %.2f mm from %s\n", toString(contact.verdict), contact.toi,
-              1000 * contact.separation, scene.objectNames()[scene.object(contact.triangle)].c_str());
+              1000 * contact.separation,
+              scene.objectNames()[scene.object(contact.triangle)].c_str());
   return contact.verdict == Verdict::Contact && contact.toi > 0.3 && contact.toi < 0.5 ? 0 : 1;
 }

@@ -1,14 +1,15 @@
 // The arrows of the house: which folder may include which. One direction, no exceptions.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace {
 
@@ -55,7 +56,9 @@ std::vector<Include> includesOf(const fs::path& folder) {
   return found;
 }
 
-std::string firstWord(const std::string& path) { return path.substr(0, path.find('/')); }
+std::string firstWord(const std::string& path) {
+  return path.substr(0, path.find('/'));
+}
 
 TEST(IncludeArrows, PointOneWay) {
   const fs::path root(FORETOUCH_SOURCE_DIR);
@@ -87,9 +90,22 @@ TEST(IncludeArrows, LibrariesStayInTheirRooms) {
     for (const Include& include : includesOf(root / folder)) {
       const auto library = kLibraries.find(firstWord(include.target));
       if (library == kLibraries.end()) continue;
-      EXPECT_EQ(library->second.count(folder), 1u) << include.file << " includes " << include.target;
+      EXPECT_EQ(library->second.count(folder), 1u)
+          << include.file << " includes " << include.target;
     }
   }
+}
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Readme, ShowsTheExampleThatIsBuiltAndRun) {
+  const fs::path root(FORETOUCH_SOURCE_DIR);
+  const std::string example = contentOf(root / "tests" / "consumer" / "consumer.cpp");
+  ASSERT_FALSE(example.empty());
+  EXPECT_NE(contentOf(root / "README.md").find("```cpp\n" + example + "```"), std::string::npos);
 }
 
 // The oracle may not share code with what it judges.
