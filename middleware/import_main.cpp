@@ -23,6 +23,7 @@
 
 #include "middleware/import_polygon.h"
 #include "middleware/import_protocol.h"
+#include "middleware/import_text.h"
 
 namespace foretouch::internal {
 namespace {
@@ -118,6 +119,7 @@ struct Model {
   std::vector<MeshTriangles> meshes;
   std::vector<Placement> placements;  // with triangles only
   ImportTotals totals;
+  std::size_t nameBytes = 0;  // as the parent will count them
 };
 
 void addPlacement(Model& model, const aiNode& node, unsigned mesh, const Transform& toWorld) {
@@ -130,15 +132,19 @@ void addPlacement(Model& model, const aiNode& node, unsigned mesh, const Transfo
   totals.skippedPrimitives += triangles.skippedPrimitives;
   totals.skippedFaces += triangles.skippedFaces;
   if (triangles.triangles.empty()) return;
+  const aiString& meshName = model.scene->mMeshes[mesh]->mName;
+  const aiString& name = node.mName.length > 0 ? node.mName : meshName;
   totals.triangles += triangles.triangles.size();
   ++totals.objects;
-  if (totals.triangles > kMaxTriangles || totals.objects > kMaxImportObjects) {
+  model.nameBytes += readableText({name.data, name.length}, kMaxObjectNameBytes).size();
+  if (totals.triangles > kMaxTriangles || totals.objects > kMaxImportObjects ||
+      model.nameBytes > kMaxImportNameBytes) {
     throw Failure{ImportFailure::TooLarge,
-                  "more than " + std::to_string(kMaxTriangles) + " triangles or " +
-                      std::to_string(kMaxImportObjects) + " placed meshes, instances counted"};
+                  "instances counted, it has more than " + std::to_string(kMaxTriangles) +
+                      " triangles, " + std::to_string(kMaxImportObjects) + " objects or " +
+                      std::to_string(kMaxImportNameBytes) + " bytes of names"};
   }
-  const aiString& meshName = model.scene->mMeshes[mesh]->mName;
-  model.placements.push_back({mesh, node.mName.length > 0 ? &node.mName : &meshName, toWorld});
+  model.placements.push_back({mesh, &name, toWorld});
 }
 
 /// Depth first, parents before children, children in order: on a stack of our own, as the depth of

@@ -52,11 +52,18 @@ class Descriptor {
   int fd_ = -1;
 };
 
+/// A host may have closed its standard streams; what it opens next gets their numbers, and the
+/// child is going to overwrite those. So everything meant for the child is moved above them.
+Descriptor aboveStandardStreams(int fd) {
+  Descriptor original(fd);
+  if (fd < 0 || fd > STDERR_FILENO) return original;
+  return Descriptor(fcntl(fd, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+}
+
 struct Pipe {
   Descriptor readEnd, writeEnd;
 
-  /// False with errno set. Keeps clear of descriptors 0 to 2, which a host may have closed and the
-  /// child is going to overwrite.
+  /// False with errno set.
   bool open() {
     std::array<int, 2> fds{};
     if (pipe2(fds.data(), O_CLOEXEC) != 0) return false;
@@ -64,17 +71,23 @@ struct Pipe {
     writeEnd = aboveStandardStreams(fds[1]);
     return readEnd.isOpen() && writeEnd.isOpen();
   }
-
- private:
-  static Descriptor aboveStandardStreams(int fd) {
-    Descriptor original(fd);
-    if (fd > STDERR_FILENO) return original;
-    return Descriptor(fcntl(fd, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
-  }
 };
 
-struct Pipes {
-  Pipe output, errors, exec;  // exec carries the errno of a failed start, or closes on success
+/// What leads to the child. `exec` carries the errno of a failed start, or closes on success.
+struct Channels {
+  Pipe output, errors, exec;
+  Descriptor nullInput;
+
+  /// False with errno set.
+  bool open() {
+    nullInput = aboveStandardStreams(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+    return nullInput.isOpen() && output.open() && errors.open() && exec.open();
+  }
+  void closeChildsEnds() {
+    output.writeEnd.close();
+    errors.writeEnd.close();
+    exec.writeEnd.close();
+  }
 };
 
 /// Everything the child needs, made before fork: after it only async-signal-safe calls are allowed,
@@ -95,15 +108,13 @@ bool limitTo(decltype(RLIMIT_CPU) resource, rlim_t soft, rlim_t hard) {
 }
 
 bool setLimits(const ChildPlan& plan) {
-  return limitTo(RLIMIT_CORE, 0, 0) && limitTo(RLIMIT_FSIZE, 0, 0) &&
+  return limitTo(RLIMIT_CORE, 0, 0) && (kUnderSanitizer || limitTo(RLIMIT_FSIZE, 0, 0)) &&
          limitTo(RLIMIT_NOFILE, kMaxOpenFiles, kMaxOpenFiles) &&
-         // SIGXCPU at the soft limit tells a timeout from other deaths; a second later comes
-         // SIGKILL.
+         // SIGXCPU at the soft limit tells a timeout from other deaths; a second later, SIGKILL.
          limitTo(RLIMIT_CPU, plan.cpuSeconds, plan.cpuSeconds + 1) &&
          prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
          // Last: while we are a copy of a large parent, no page can be added any more.
-         (!kLimitsAddressSpace ||
-          limitTo(RLIMIT_AS, plan.addressSpaceBytes, plan.addressSpaceBytes));
+         (kUnderSanitizer || limitTo(RLIMIT_AS, plan.addressSpaceBytes, plan.addressSpaceBytes));
 }
 
 /// Handlers of the host must not run in the child, and what it ignores or blocks must work there.
@@ -207,8 +218,20 @@ class Child {
   int status_ = 0;
 };
 
-/// Forks with every signal blocked, so that no handler of the host runs in the child.
-pid_t forkQuietly(const ChildPlan& plan) {
+/// Forks with every signal blocked, so that no handler of the host runs in the child. -1 with errno
+/// set where that failed.
+pid_t start(const std::string& program, const std::string& argument, const ProcessLimits& limits,
+            const Channels& channels) {
+  std::string programCopy = program, argumentCopy = argument;  // execve() wants them writable
+  const ChildPlan plan{programCopy.c_str(),
+                       {programCopy.data(), argumentCopy.data(), nullptr},
+                       static_cast<rlim_t>(limits.addressSpaceBytes),
+                       static_cast<rlim_t>(std::max(1.0, std::ceil(limits.seconds))),
+                       channels.nullInput.get(),
+                       channels.output.writeEnd.get(),
+                       channels.errors.writeEnd.get(),
+                       channels.exec.writeEnd.get(),
+                       getpid()};
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -332,33 +355,18 @@ ProcessEnd runLimited(const std::string& program, const std::string& argument,
   const auto allowed = std::chrono::duration<double>(limits.seconds);
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(allowed);
   ProcessEnd end;
-  Pipes pipes;
-  const Descriptor nullDevice(open("/dev/null", O_RDONLY | O_CLOEXEC));
-  std::string programCopy = program, argumentCopy = argument;  // execve() wants them writable
-  pid_t pid = -1;
-  if (nullDevice.isOpen() && pipes.output.open() && pipes.errors.open() && pipes.exec.open()) {
-    pid = forkQuietly({programCopy.c_str(),
-                       {programCopy.data(), argumentCopy.data(), nullptr},
-                       static_cast<rlim_t>(limits.addressSpaceBytes),
-                       static_cast<rlim_t>(std::max(1.0, std::ceil(limits.seconds))),
-                       nullDevice.get(),
-                       pipes.output.writeEnd.get(),
-                       pipes.errors.writeEnd.get(),
-                       pipes.exec.writeEnd.get(),
-                       getpid()});
-  }
+  Channels channels;
+  const pid_t pid = channels.open() ? start(program, argument, limits, channels) : -1;
   if (pid < 0) {
     end.code = errno;
     return end;
   }
   Child child(pid);
-  pipes.output.writeEnd.close();
-  pipes.errors.writeEnd.close();
-  pipes.exec.writeEnd.close();
-  end.code = startError(pipes.exec.readEnd, child, deadline);
+  channels.closeChildsEnds();
+  end.code = startError(channels.exec.readEnd, child, deadline);
   if (end.code != 0) return end;
 
-  Streams streams(std::move(pipes.output.readEnd), std::move(pipes.errors.readEnd),
+  Streams streams(std::move(channels.output.readEnd), std::move(channels.errors.readEnd),
                   end.errorOutput);
   const ReadEnd read = streams.run(child, deadline, take);
   const bool byItself =

@@ -9,18 +9,18 @@
 
 namespace foretouch::internal {
 
-/// The sanitizers reserve terabytes of address space: under them this one limit cannot be set, and
-/// they turn deaths by signal into exits.
+/// The sanitizers' runtimes reserve terabytes of address space, write files as they start, and turn
+/// deaths by signal into exits: under them, address space and file size go unlimited.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kLimitsAddressSpace = false;
+inline constexpr bool kUnderSanitizer = true;
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-inline constexpr bool kLimitsAddressSpace = false;
+inline constexpr bool kUnderSanitizer = true;
 #else
-inline constexpr bool kLimitsAddressSpace = true;
+inline constexpr bool kUnderSanitizer = false;
 #endif
 #else
-inline constexpr bool kLimitsAddressSpace = true;
+inline constexpr bool kUnderSanitizer = false;
 #endif
 
 struct ProcessLimits {

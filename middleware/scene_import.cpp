@@ -229,10 +229,8 @@ Result<ImportedScene> importChecked(const std::string& path, const SceneImportOp
   const auto importer = findImporter(path, options);
   if (!importer.ok()) return importer.error();
   ImportReader reader;
-  // A path that opens with a dash would be an option to the importer.
   const ProcessEnd end = internal::runLimited(
-      importer.value(), path[0] == '-' ? "./" + path : path,
-      {options.memoryLimitBytes, options.timeLimitS},
+      importer.value(), path, {options.memoryLimitBytes, options.timeLimitS},
       [&](std::string_view bytes) { return reader.feed(bytes) == ImportReader::State::Reading; });
   if (reader.state() != ImportReader::State::Complete) {
     return failureOfRun(path, importer.value(), options, reader, end);

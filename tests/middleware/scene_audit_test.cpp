@@ -136,6 +136,27 @@ TEST(AuditScene, DecidesZeroAreaFromEndToEndOfTheDoubles) {
   EXPECT_LT(onLine, 4500);
 }
 
+TEST(AuditScene, DecidesZeroAreaWhereProductsUnderflow) {
+  int onLine = 0;
+  for (unsigned seed = 0; seed < 4000; ++seed) {
+    std::mt19937_64 random(seed);
+    // Points t * (1, 3, 5): exact, as t has 50 bits; but their differences round, and the products
+    // of those have few digits left.
+    const int exponent = -500 - static_cast<int>(random() % 50);
+    Triangle t;
+    for (Vector3d& v : t.vertices) {
+      const auto bits = static_cast<double>(random() >> 14);
+      const double place = std::ldexp(bits, exponent - 20 - static_cast<int>(random() % 40));
+      v = Vector3d(place, 3 * place, 5 * place);
+    }
+    if (seed % 4 == 0) t.vertices[seed % 3].y() = std::nextafter(t.vertices[seed % 3].y(), 1.0);
+    ASSERT_EQ(hasZeroArea(t), onOneLine(t)) << "seed " << seed;
+    onLine += onOneLine(t);
+  }
+  EXPECT_GE(onLine, 3000);
+  EXPECT_LT(onLine, 3100);
+}
+
 TEST(AuditScene, CountsDuplicatesLikeASetOfPointSets) {
   std::size_t found = 0;
   constexpr std::array<double, 3> pick = {0.0, 1.0, 0.1};
