@@ -1,6 +1,7 @@
 // lss/triangle.h: a two-sided triangle of a scene or of a link's surface. Metres.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include <Eigen/Core>
@@ -12,5 +13,11 @@ namespace foretouch {
 struct Triangle {
   std::array<Eigen::Vector3d, 3> vertices;
 };
+
+/// No NaN and no infinity in it.
+[[nodiscard]] inline bool isFinite(const Triangle& triangle) {
+  return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
+                     [](const Eigen::Vector3d& v) { return v.allFinite(); });
+}
 
 }  // namespace foretouch

@@ -16,11 +16,6 @@ bool lexicographicallyLess(const Vector3d& p, const Vector3d& q) {
   return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
 }
 
-bool isFinite(const Triangle& triangle) {
-  return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
-                     [](const Vector3d& v) { return v.allFinite(); });
-}
-
 Result<Done> checked(const RawScene& raw) {
   if (raw.triangles.size() > kMaxTriangles) {
     return Error{ErrorCode::LimitExceeded, "", -1, -1,

@@ -15,11 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-bool isFinite(const Triangle& triangle) {
-  return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
-                     [](const Vector3d& v) { return v.allFinite(); });
-}
-
 // Exact sign of a determinant. A long double of 64 bits and 15 bits of exponent holds the product
 // of two half doubles exactly and never leaves its range, whatever the doubles are.
 using Wide = long double;

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,11 @@ struct Recording {
   double rateHz;
   bool isHuman;
 };
+
+/// The case's name, for test listings.
+void PrintTo(const Recording& tested, std::ostream* out) {
+  *out << tested.file;
+}
 
 const std::vector<Recording>& recordings() {
   static const std::vector<Recording> list = {

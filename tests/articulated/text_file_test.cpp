@@ -1,45 +1,32 @@
 #include "articulated/text_file.h"
 
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "tests/support/temp_folder.h"
 
 namespace foretouch {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own, gone after the test.
 class Folder : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "foretouch-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    path_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(path_); }
-
-  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
-  [[nodiscard]] std::vector<std::string> names() const {
-    std::vector<std::string> out;
-    for (const auto& entry : fs::directory_iterator(path_)) out.push_back(entry.path().filename());
-    std::sort(out.begin(), out.end());
-    return out;
-  }
-  fs::path path_;
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::set<std::string> names() const { return folder_.names(); }
+  test::TempFolder folder_;
 };
 
 using ReadWholeFile = Folder;
 using PendingFileTest = Folder;
 
-std::string contentOf(const std::string& path) {
+std::string readBack(const std::string& path) {
   auto text = readWholeFile(path, 1u << 26);
   return text.ok() ? text.value() : "unreadable: " + describe(text.error());
 }
@@ -51,14 +38,14 @@ void writeText(const std::string& path, const std::string& text) {
 TEST_F(ReadWholeFile, ReadsEveryByte) {
   const std::string text("a\0b\r\n\xff", 6);
   writeText(file("f"), text);
-  EXPECT_EQ(contentOf(file("f")), text);
+  EXPECT_EQ(readBack(file("f")), text);
   writeText(file("empty"), "");
-  EXPECT_EQ(contentOf(file("empty")), "");
+  EXPECT_EQ(readBack(file("empty")), "");
 }
 
 TEST_F(ReadWholeFile, RefusesWhatIsMissingOrNoFileOrTooLarge) {
   EXPECT_EQ(readWholeFile(file("none"), 10).error().code, ErrorCode::FileNotFound);
-  EXPECT_EQ(readWholeFile(path_.string(), 10).error().code, ErrorCode::FileUnreadable);
+  EXPECT_EQ(readWholeFile(folder_.path(), 10).error().code, ErrorCode::FileUnreadable);
   EXPECT_EQ(readWholeFile("/dev/zero", 10).error().code, ErrorCode::FileUnreadable);
   writeText(file("ten"), "0123456789");
   EXPECT_EQ(readWholeFile(file("ten"), 9).error().code, ErrorCode::LimitExceeded);
@@ -73,7 +60,7 @@ TEST_F(ReadWholeFile, DoesNotWaitForAPipe) {
 TEST_F(ReadWholeFile, LimitHoldsForFilesThatStateNoSize) {
   // A file in /proc states a size of 0 whatever it holds.
   EXPECT_EQ(readWholeFile("/proc/self/status", 10).error().code, ErrorCode::LimitExceeded);
-  EXPECT_GT(contentOf("/proc/self/status").size(), 10u);
+  EXPECT_GT(readBack("/proc/self/status").size(), 10u);
 }
 
 TEST_F(PendingFileTest, AppearsOnlyWithCommit) {
@@ -83,8 +70,8 @@ TEST_F(PendingFileTest, AppearsOnlyWithCommit) {
   pending.value().write("two");
   EXPECT_FALSE(fs::exists(file("out")));
   ASSERT_TRUE(pending.value().commit().ok());
-  EXPECT_EQ(contentOf(file("out")), "one two");
-  EXPECT_EQ(names(), std::vector<std::string>{"out"});
+  EXPECT_EQ(readBack(file("out")), "one two");
+  EXPECT_EQ(names(), std::set<std::string>{"out"});
 }
 
 TEST_F(PendingFileTest, DroppedItLeavesNothingAndTheOldFileStands) {
@@ -95,8 +82,8 @@ TEST_F(PendingFileTest, DroppedItLeavesNothingAndTheOldFileStands) {
     pending.value().write(std::string(3u << 20, 'x'));  // beyond its buffer: part is on the disk
     EXPECT_EQ(names().size(), 2u);
   }
-  EXPECT_EQ(names(), std::vector<std::string>{"out"});
-  EXPECT_EQ(contentOf(file("out")), "old");
+  EXPECT_EQ(names(), std::set<std::string>{"out"});
+  EXPECT_EQ(readBack(file("out")), "old");
 }
 
 TEST_F(PendingFileTest, ReplacesAndKeepsPermissions) {
@@ -106,7 +93,7 @@ TEST_F(PendingFileTest, ReplacesAndKeepsPermissions) {
   ASSERT_TRUE(pending.ok());
   pending.value().write("new");
   ASSERT_TRUE(pending.value().commit().ok());
-  EXPECT_EQ(contentOf(file("out")), "new");
+  EXPECT_EQ(readBack(file("out")), "new");
   struct stat status {};
   ASSERT_EQ(::stat(file("out").c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0624u);
@@ -120,7 +107,7 @@ TEST_F(PendingFileTest, FollowsASymbolicLink) {
   pending.value().write("new");
   ASSERT_TRUE(pending.value().commit().ok());
   EXPECT_TRUE(fs::is_symlink(file("link")));
-  EXPECT_EQ(contentOf(file("real")), "new");
+  EXPECT_EQ(readBack(file("real")), "new");
 }
 
 TEST_F(PendingFileTest, MovedFromItOwnsNothing) {
@@ -131,11 +118,11 @@ TEST_F(PendingFileTest, MovedFromItOwnsNothing) {
     moved.write("x");
     ASSERT_TRUE(moved.commit().ok());
   }
-  EXPECT_EQ(contentOf(file("out")), "x");
+  EXPECT_EQ(readBack(file("out")), "x");
 }
 
 TEST_F(PendingFileTest, SaysWhyAFolderOrAMissingOneCannotBeWritten) {
-  EXPECT_EQ(PendingFile::create(path_.string()).error().code, ErrorCode::FileUnwritable);
+  EXPECT_EQ(PendingFile::create(folder_.path()).error().code, ErrorCode::FileUnwritable);
   const auto missing = PendingFile::create(file("none/out"));
   ASSERT_FALSE(missing.ok());
   EXPECT_EQ(missing.error().code, ErrorCode::FileUnwritable);
@@ -147,9 +134,9 @@ TEST_F(PendingFileTest, SaysWhyAReadOnlyFolderCannotBeWritten) {
   // The superuser may write anywhere; where there is /proc, not even there.
   const bool isSuperuser = ::geteuid() == 0;
   const std::string target = isSuperuser ? "/proc/foretouch-out" : file("out");
-  if (!isSuperuser) fs::permissions(path_, fs::perms::owner_read | fs::perms::owner_exec);
+  if (!isSuperuser) fs::permissions(folder_.path(), fs::perms::owner_read | fs::perms::owner_exec);
   const auto pending = PendingFile::create(target);
-  fs::permissions(path_, fs::perms::owner_all);
+  fs::permissions(folder_.path(), fs::perms::owner_all);
   ASSERT_FALSE(pending.ok());
   EXPECT_EQ(pending.error().code, ErrorCode::FileUnwritable);
   EXPECT_TRUE(names().empty());

@@ -1,6 +1,7 @@
 // The promise of firstContacts() against closed forms: sound (never late) and tight (within
 // tolerance).
 #include <cmath>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,11 @@ struct Family {
   test::CaseMaker make;
   double leastHits, mostHits;  // share of cases in which the link is touched
 };
+
+/// The case's name, for test listings.
+void PrintTo(const Family& tested, std::ostream* out) {
+  *out << tested.name;
+}
 
 class FirstContacts : public testing::TestWithParam<Family> {};
 

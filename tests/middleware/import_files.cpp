@@ -14,36 +14,6 @@ namespace foretouch::test {
 
 namespace fs = std::filesystem;
 
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (fs::temp_directory_path() / "foretouch-test-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) std::abort();
-  folder_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
-
-std::string TemporaryFolder::path(const std::string& name) const {
-  return folder_ + "/" + name;
-}
-
-std::string TemporaryFolder::write(const std::string& name, std::string_view content) const {
-  const std::string file = path(name);
-  std::ofstream stream(file, std::ios::binary);
-  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-  stream.close();
-  if (!stream) std::abort();
-  return file;
-}
-
-std::string TemporaryFolder::script(const std::string& name, const std::string& body) const {
-  const std::string file = write(name, "#!/bin/sh\n" + body + "\n");
-  fs::permissions(file, fs::perms::owner_all);
-  return file;
-}
-
 SceneImportOptions withImporter() {
   SceneImportOptions options;
   options.importer = FORETOUCH_TEST_IMPORTER;

@@ -9,26 +9,9 @@
 #include <Eigen/Core>
 
 #include "middleware/scene_import.h"
+#include "tests/support/temp_folder.h"
 
 namespace foretouch::test {
-
-/// A folder of its own, gone with its contents at the end of the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-
-  [[nodiscard]] std::string path(const std::string& name) const;
-  /// Writes a file and returns its path.
-  std::string write(const std::string& name, std::string_view content) const;
-  /// Writes an executable shell script and returns its path.
-  std::string script(const std::string& name, const std::string& body) const;
-
- private:
-  std::string folder_;
-};
 
 /// Options that name the importer under test.
 SceneImportOptions withImporter();

@@ -51,7 +51,7 @@ class ImporterProcess : public testing::Test {
     return error.message.find(text) != std::string::npos;
   }
 
-  TemporaryFolder folder_;
+  TempFolder folder_;
   std::string model_;
   std::size_t descriptors_ = 0;
 };

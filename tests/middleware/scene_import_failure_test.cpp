@@ -42,19 +42,19 @@ class ImportSceneFailure : public testing::Test {
     return failureOf(folder_.write(name, content)).code;
   }
 
-  TemporaryFolder folder_;
+  TempFolder folder_;
   std::size_t descriptors_ = 0;
 };
 
 TEST_F(ImportSceneFailure, NamesWhatIsNoModelFile) {
-  EXPECT_EQ(failureOf(folder_.path("absent.obj")).code, ErrorCode::FileNotFound);
+  EXPECT_EQ(failureOf(folder_ / "absent.obj").code, ErrorCode::FileNotFound);
   EXPECT_EQ(failureOf("").code, ErrorCode::FileNotFound);
-  EXPECT_EQ(failureOf(folder_.path("")).code, ErrorCode::FileUnreadable);
+  EXPECT_EQ(failureOf(folder_ / "").code, ErrorCode::FileUnreadable);
   EXPECT_EQ(codeOf("empty.obj", ""), ErrorCode::Empty);
   EXPECT_EQ(codeOf("no-extension", kTriangleObj), ErrorCode::UnknownName);
   EXPECT_EQ(codeOf("trailing.", kTriangleObj), ErrorCode::UnknownName);
   EXPECT_EQ(codeOf("unknown.foretouch", kTriangleObj), ErrorCode::UnknownName);
-  const std::string fifo = folder_.path("pipe.obj");
+  const std::string fifo = folder_ / "pipe.obj";
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
   EXPECT_EQ(failureOf(fifo).code, ErrorCode::FileUnreadable);
 }
@@ -82,7 +82,7 @@ TEST_F(ImportSceneFailure, RefusesOptionsOutOfRange) {
 TEST_F(ImportSceneFailure, SaysWhereTheImporterWasLookedFor) {
   const std::string model = folder_.write("t.obj", kTriangleObj);
   SceneImportOptions options;
-  for (const std::string& place : {folder_.path("nowhere"), folder_.path(""), model}) {
+  for (const std::string& place : {folder_ / "nowhere", folder_ / "", model}) {
     options.importer = place;  // absent, a folder, not executable
     const Error error = failureOf(model, options);
     EXPECT_EQ(error.code, ErrorCode::FileNotFound);

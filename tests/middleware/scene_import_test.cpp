@@ -34,7 +34,7 @@ class ImportScene : public testing::Test {
     return imported(folder_.write(name, content), options);
   }
 
-  TemporaryFolder folder_;
+  TempFolder folder_;
   const Matrix3d unitTriangle_ = rows({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
 };
 
@@ -234,7 +234,7 @@ TEST_F(ImportScene, ReadsSideFilesFromTheModelsOwnFolder) {
 TEST_F(ImportScene, ReadsPathsRelativeToTheCallersFolder) {
   folder_.write("-dash name é.obj", kTriangleObj);
   const std::filesystem::path before = std::filesystem::current_path();
-  std::filesystem::current_path(folder_.path(""));
+  std::filesystem::current_path(folder_ / "");
   const auto scene = imported("-dash name é.obj");
   std::filesystem::current_path(before);
   EXPECT_EQ(scene.scene.triangles.size(), 1U);

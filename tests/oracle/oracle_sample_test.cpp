@@ -2,6 +2,7 @@
 // whole: oracle_sweep.
 #include <algorithm>
 #include <iostream>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
@@ -17,6 +18,11 @@ struct SampleScene {
   const char* file;
   std::uint64_t fewestContacts;  // about half of what the sample holds: it must keep its reach
 };
+
+/// The case's name, for test listings.
+void PrintTo(const SampleScene& tested, std::ostream* out) {
+  *out << tested.name;
+}
 
 class OracleSample : public ::testing::TestWithParam<SampleScene> {};
 

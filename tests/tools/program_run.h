@@ -5,7 +5,7 @@
 #include <sys/types.h>
 #include <vector>
 
-#include "tests/tools/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace foretouch::test {
 

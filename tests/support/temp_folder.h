@@ -1,4 +1,4 @@
-// tests/tools/temp_folder.h: a folder of a test's own, gone when the test is.
+// tests/support/temp_folder.h: a folder of a test's own, gone when the test is.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdlib.h>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ namespace foretouch::test {
 class TempFolder {
  public:
   TempFolder() {
-    std::string name = testing::TempDir() + "/foretouch-tools-XXXXXX";
+    std::string name = testing::TempDir() + "/foretouch-test-XXXXXX";
     if (::mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
     path_ = name;
   }
@@ -26,12 +27,24 @@ class TempFolder {
     std::filesystem::remove_all(path_, ignored);
   }
 
+  [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::string operator/(const std::string& name) const { return path_ + "/" + name; }
 
   /// Writes a file and gives its path.
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(*this / name, std::ios::binary) << text;
-    return *this / name;
+  std::string write(const std::string& name, std::string_view content) const {
+    const std::string path = *this / name;
+    std::ofstream stream(path, std::ios::binary);
+    stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+    stream.close();
+    if (!stream) ADD_FAILURE() << "cannot write " << path;
+    return path;
+  }
+
+  /// Writes an executable shell script and gives its path.
+  std::string script(const std::string& name, const std::string& body) const {
+    const std::string path = write(name, "#!/bin/sh\n" + body + "\n");
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    return path;
   }
 
   /// The names of what is in it.
