@@ -53,7 +53,7 @@ class Backtracker {
   LinkContact run() {
     best_.link = query_.link;
     startCandidates();
-    while (!heap_.empty() && heap_.front().freeUntil <= horizon_) {
+    while (!heap_.empty() && !hasContact() && heap_.front().freeUntil <= horizon_) {
       if (spent_ >= query_.maxAdvancements) {
         giveUp(heap_.front().freeUntil, UndecidedReason::WorkBudget);
         break;
@@ -61,6 +61,7 @@ class Backtracker {
       std::pop_heap(heap_.begin(), heap_.end(), Later{});
       advance(heap_.back());
     }
+    if (hasContact()) settleTies();
     return best_;
   }
 
@@ -88,13 +89,9 @@ class Backtracker {
   /// or takes it as the link's contact.
   void advance(Candidate& candidate) {
     const double t = candidate.freeUntil;
-    if (t == horizon_ && hasContact() && surelyFartherThanBest(candidate, t)) {
-      heap_.pop_back();
-      return;
-    }
     const PairState pair = pairAt(candidate, t);
     if (pair.gapUpper <= query_.tolerance) {
-      offerContact(candidate, pair, t);
+      best_ = contactOf(candidate, pair, t);
       heap_.pop_back();
       return;
     }
@@ -159,6 +156,20 @@ class Backtracker {
     return best_.verdict == Verdict::Contact || best_.verdict == Verdict::StartsInContact;
   }
 
+  /// Of the contacts at the very instant of the first one found, finds the one that is reported.
+  /// What is left in the heap is not earlier; what is later does not matter. The budget has no say
+  /// here: the verdict stands, and the choice must not depend on the order of looking.
+  void settleTies() {
+    const double t = best_.toi;
+    for (const Candidate& candidate : heap_) {
+      if (candidate.freeUntil != t || surelyFartherThanBest(candidate, t)) continue;
+      const PairState pair = pairAt(candidate, t);
+      if (pair.gapUpper > query_.tolerance) continue;
+      const LinkContact contact = contactOf(candidate, pair, t);
+      if (comesFirst(contact, best_)) best_ = contact;
+    }
+  }
+
   /// A limb deep in furniture touches thousands of triangles at once, and of equal times the
   /// smallest separation wins: the boxes' distance tells most of them without looking closer. The
   /// slack is far above the rounding of either side, so nothing that could win is dropped.
@@ -178,15 +189,6 @@ class Backtracker {
     best_.verdict = Verdict::Undecided;
     best_.reason = reason;
     best_.freeUntil = best_.toi = horizon_ = t;
-  }
-
-  void offerContact(const Candidate& candidate, const PairState& pair, double t) {
-    const LinkContact contact = contactOf(candidate, pair, t);
-    const bool hasContact =
-        best_.verdict == Verdict::Contact || best_.verdict == Verdict::StartsInContact;
-    if (hasContact && !comesFirst(contact, best_)) return;
-    best_ = contact;
-    horizon_ = t;
   }
 
   [[nodiscard]] LinkContact contactOf(const Candidate& candidate, const PairState& pair,

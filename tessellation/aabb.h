@@ -22,11 +22,14 @@ struct Aabb {
     min = min.cwiseMin(other.min);
     max = max.cwiseMax(other.max);
   }
-  /// Moves every face outward by at least `distance`, rounding outward.
+  /// Moves every face outward by at least `distance` (>= 0), rounding included: the difference
+  /// rounds by half a unit in the last place of at most |face| + distance, and four of these are
+  /// added.
   void grow(double distance) {
+    constexpr double kRounding = 4.0 * 0x1p-53;
     for (int i = 0; i < 3; ++i) {
-      min[i] = std::nextafter(min[i] - distance, -kInfinity);
-      max[i] = std::nextafter(max[i] + distance, kInfinity);
+      min[i] -= distance + kRounding * (std::abs(min[i]) + distance);
+      max[i] += distance + kRounding * (std::abs(max[i]) + distance);
     }
   }
   /// Closed boxes: touching counts.

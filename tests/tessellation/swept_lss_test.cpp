@@ -87,7 +87,7 @@ TEST(Aabb, GrowsOutwardPastRounding) {
   Aabb box;
   box.add(Vector3d(1e4, 1e4, 1e4));
   box.grow(1e-13);
-  EXPECT_LT(box.min.x(), 1e4);
+  EXPECT_LT(box.min.x(), 1e4);  // 1e-13 alone would be lost
   EXPECT_GT(box.max.x(), 1e4);
   EXPECT_TRUE(box.contains(Vector3d(1e4, 1e4, 1e4)));
 }
