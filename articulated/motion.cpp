@@ -32,17 +32,23 @@ Matrix3d crossMatrix(const Vector3d& v) {
   return m;
 }
 
-/// Rotation vector (axis times angle, in the child's frame) from `from` to `to` on the shorter arc.
-Vector3d rotationVector(const Quaternion& from, const Quaternion& to) {
+/// +1 or -1: whether the shorter arc from `from` leads to `to` or to -`to`, for the quaternions as
+/// given. Rounding of a normalisation must not have a say: near a half turn it would choose the
+/// arc.
+double arcSign(const Quaternion& from, const Quaternion& to) {
   const double dot = from.w() * to.w() + from.x() * to.x() + from.y() * to.y() + from.z() * to.z();
-  const double sign = dot < 0.0 ? -1.0 : 1.0;
+  return dot < 0.0 ? -1.0 : 1.0;
+}
+
+/// Rotation vector (axis times angle, in the child's frame) from `from` to sign*`to`, both unit.
+Vector3d rotationVector(const Quaternion& from, const Quaternion& to, double sign) {
   const Vector3d v0 = from.vec(), v1 = sign * to.vec();
   const double w0 = from.w(), w1 = sign * to.w();
   // conj(from) * to; the vector part is exact to a few kU of the quaternions' unit size.
   const Vector3d v = w0 * v1 - w1 * v0 - v0.cross(v1);
   const double sine = v.norm();
   if (!(sine > 0.0)) return Vector3d::Zero();
-  const double angle = 2.0 * std::atan2(sine, std::abs(dot));
+  const double angle = 2.0 * std::atan2(sine, w0 * w1 + v0.dot(v1));
   return (angle / sine) * v;
 }
 
@@ -56,7 +62,8 @@ ChainMotion::JointMotion ChainMotion::jointMotion(const Skeleton& skeleton, cons
   m.translation = from.translations[j];
   m.translationRate = to.translations[j] - from.translations[j];
   const Quaternion q0 = from.rotations[j].normalized();
-  const Vector3d turn = rotationVector(q0, to.rotations[j].normalized());
+  const Vector3d turn =
+      rotationVector(q0, to.rotations[j].normalized(), arcSign(from.rotations[j], to.rotations[j]));
   m.angle = turn.norm();
   m.R0 = q0.toRotationMatrix();
   const Matrix3d K = m.angle > 0.0 ? crossMatrix(turn / m.angle) : Matrix3d(Matrix3d::Zero());

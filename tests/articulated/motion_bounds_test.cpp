@@ -85,6 +85,31 @@ TEST(ChainMotion, RoundingStaysBelowItsBounds) {
   }
 }
 
+// At a half turn both arcs are equally short and the definition decides: by the sign of the dot
+// product of the quaternions as given, however small. An answer for the other arc would be about
+// another motion.
+TEST(ChainMotion, HalfTurnsTakeTheArcOfTheDotProductsSign) {
+  int negative = 0;
+  constexpr int kCases = 2000;
+  for (int i = 0; i < kCases; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    RandomMotion m = test::randomMotion(random, 1);
+    const Quaternion from = m.from.rotations[0];
+    Quaternion to = from * random.turn(3.14159265358979323846);
+    if (random.chance(0.5)) to.coeffs() = -to.coeffs();
+    m.to.rotations[0] = to;
+    const auto precise = test::preciseJoints(m.skeleton, m.from, m.to);
+    const Vector3d p_L = random.direction();
+    const auto truth = test::preciseFrames(precise, Real(0.5))[0].at(p_L);
+    const LinkState state = ChainMotion(m.skeleton, m.from, m.to).stateAt(0, 0.5);
+    ASSERT_LE(asDouble(test::norm(test::Precise3(state.pointAt(p_L)) - truth)), 1e-11);
+    negative += from.w() * to.w() + from.x() * to.x() + from.y() * to.y() + from.z() * to.z() < 0.0;
+  }
+  EXPECT_GT(negative, kCases / 4);
+  EXPECT_LT(negative, kCases * 3 / 4);
+}
+
 // x(t) - chord over [s,e] is at most A h^2/8, and |x(e) - x(s)| at most V h: what the sweep and the
 // advancement use. Checked on the true motion, on spans of every length.
 TEST(MotionBounds, SpeedAndAccelerationBoundTheTrueMotion) {
