@@ -32,6 +32,15 @@ struct Later {
   }
 };
 
+/// Farther first, so that the heap's top is the nearest; total likewise.
+struct Farther {
+  bool operator()(const Candidate& x, const Candidate& y) const {
+    if (x.nearest != y.nearest) return x.nearest > y.nearest;
+    if (x.triangle != y.triangle) return x.triangle > y.triangle;
+    return x.lss > y.lss;
+  }
+};
+
 /// One LSS and one triangle at one instant, with everything rounding may have done on the safe
 /// side.
 struct PairState {
@@ -157,31 +166,39 @@ class Backtracker {
   }
 
   /// Of the contacts at the very instant of the first one found, finds the one that is reported.
-  /// What is left in the heap is not earlier; what is later does not matter. The budget has no say
-  /// here: the verdict stands, and the choice must not depend on the order of looking.
+  /// What is left in the heap is not earlier, and what is later does not matter. A limb deep in
+  /// furniture touches thousands of triangles at once and the smallest separation wins, so the
+  /// nearest boxes are looked at first, until the boxes alone tell that no better one is left. The
+  /// budget has no say here: the verdict stands, and the choice must not depend on it.
   void settleTies() {
     const double t = best_.toi;
-    for (const Candidate& candidate : heap_) {
-      if (candidate.freeUntil != t || surelyFartherThanBest(candidate, t)) continue;
-      const PairState pair = pairAt(candidate, t);
-      if (pair.gapUpper > query_.tolerance) continue;
-      const LinkContact contact = contactOf(candidate, pair, t);
-      if (comesFirst(contact, best_)) best_ = contact;
+    const auto tiesEnd = std::partition(heap_.begin(), heap_.end(),
+                                        [t](const Candidate& c) { return c.freeUntil == t; });
+    heap_.erase(tiesEnd, heap_.end());
+    for (Candidate& candidate : heap_) candidate.nearest = leastGap(candidate, t);
+    std::make_heap(heap_.begin(), heap_.end(), Farther{});
+    while (!heap_.empty() && heap_.front().nearest <= best_.separation - best_.penetration) {
+      std::pop_heap(heap_.begin(), heap_.end(), Farther{});
+      const PairState pair = pairAt(heap_.back(), t);
+      if (pair.gapUpper <= query_.tolerance) {
+        const LinkContact contact = contactOf(heap_.back(), pair, t);
+        if (comesFirst(contact, best_)) best_ = contact;
+      }
+      heap_.pop_back();
     }
   }
 
-  /// A limb deep in furniture touches thousands of triangles at once, and of equal times the
-  /// smallest separation wins: the boxes' distance tells most of them without looking closer. The
-  /// slack is far above the rounding of either side, so nothing that could win is dropped.
-  [[nodiscard]] bool surelyFartherThanBest(const Candidate& candidate, double t) {
+  /// A lower bound on the gap that contactOf() would find, by the boxes of axis and triangle. The
+  /// slack, thousands of roundings of the coordinates, keeps it below whatever either side rounds
+  /// to.
+  [[nodiscard]] double leastGap(const Candidate& candidate, double t) {
     const Lss& lss = query_.lss[static_cast<std::size_t>(candidate.lss)];
     const AxisEnds ends = axisEnds(lss, stateAt(t));
     Aabb axis;
     axis.add(ends.a);
     axis.add(ends.b);
     const double gap = axis.distance(boxOf(query_.scene.triangle(candidate.triangle))) - lss.radius;
-    const double slack = 1e-9 * (1.0 + std::abs(gap));
-    return gap > best_.separation - best_.penetration + slack;
+    return gap - 1e-12 * (1.0 + std::abs(gap) + axis.max.cwiseAbs().maxCoeff());
   }
 
   void giveUp(double t, UndecidedReason reason) {

@@ -34,6 +34,7 @@ struct Candidate {
   TriangleId triangle = -1;
   std::int32_t lss = -1;
   std::uint32_t pieces = 0;  // bit k: piece k
+  double nearest = 0.0;      // among ties: the gap is not smaller, as boxes tell
   double freeUntil = 0.0;    // proven: separation > 0 on [0, freeUntil), >= floor there unless 0
 };
 

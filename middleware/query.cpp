@@ -192,7 +192,7 @@ class StepQuery {
         const auto index = static_cast<std::size_t>(lss * pieces_.count + k);
         meets |= static_cast<std::uint32_t>(scratch_.boxes[index].overlaps(box)) << k;
       }
-      if (meets != 0) scratch_.candidates.push_back({id, lss, meets, 0.0});
+      if (meets != 0) scratch_.candidates.push_back({id, lss, meets, 0.0, 0.0});
     }
   }
 
