@@ -74,6 +74,12 @@ class Backtracker {
     return best_;
   }
 
+  LinkContact runAtStart() {
+    best_.link = query_.link;
+    lookNearestFirst(0.0);
+    return best_;
+  }
+
  private:
   void startCandidates() {
     for (Candidate& candidate : heap_) {
@@ -166,26 +172,38 @@ class Backtracker {
   }
 
   /// Of the contacts at the very instant of the first one found, finds the one that is reported.
-  /// What is left in the heap is not earlier, and what is later does not matter. A limb deep in
-  /// furniture touches thousands of triangles at once and the smallest separation wins, so the
-  /// nearest boxes are looked at first, until the boxes alone tell that no better one is left. The
-  /// budget has no say here: the verdict stands, and the choice must not depend on it.
+  /// What is left in the heap is not earlier, and what is later does not matter.
   void settleTies() {
     const double t = best_.toi;
     const auto tiesEnd = std::partition(heap_.begin(), heap_.end(),
                                         [t](const Candidate& c) { return c.freeUntil == t; });
     heap_.erase(tiesEnd, heap_.end());
+    lookNearestFirst(t);
+  }
+
+  /// Finds the contact at `t` that is reported, if there is one. A limb deep in furniture touches
+  /// thousands of triangles at once and the smallest separation wins, so the nearest boxes are
+  /// looked at first, until the boxes alone tell that no better one is left. Once there is a
+  /// contact the budget has no say: the verdict stands, and which contact is reported must not
+  /// depend on it.
+  void lookNearestFirst(double t) {
     for (Candidate& candidate : heap_) candidate.nearest = leastGap(candidate, t);
     std::make_heap(heap_.begin(), heap_.end(), Farther{});
-    while (!heap_.empty() && heap_.front().nearest <= best_.separation - best_.penetration) {
+    while (!heap_.empty() && heap_.front().nearest <= reach()) {
+      if (!hasContact() && spent_ >= query_.maxAdvancements) return;
       std::pop_heap(heap_.begin(), heap_.end(), Farther{});
       const PairState pair = pairAt(heap_.back(), t);
       if (pair.gapUpper <= query_.tolerance) {
         const LinkContact contact = contactOf(heap_.back(), pair, t);
-        if (comesFirst(contact, best_)) best_ = contact;
+        if (!hasContact() || comesFirst(contact, best_)) best_ = contact;
       }
       heap_.pop_back();
     }
+  }
+
+  /// What is farther than this is no contact, or none that could be reported.
+  [[nodiscard]] double reach() const {
+    return hasContact() ? best_.separation - best_.penetration : query_.tolerance;
   }
 
   /// A lower bound on the gap that contactOf() would find, by the boxes of axis and triangle. The
@@ -284,6 +302,11 @@ double safeStep(double clearance, double speed, double acceleration) {
     return closing > 0.0 ? kStepShrink * (2.0 * clearance / closing) : kInfinity;
   }
   return acceleration > 0.0 ? kStepShrink * ((speed + root) / acceleration) : kInfinity;
+}
+
+LinkContact contactAtStart(const LinkQuery& query, std::vector<Candidate>& candidates,
+                           QueryCounters& counters) {
+  return Backtracker(query, candidates, counters).runAtStart();
 }
 
 LinkContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,

@@ -17,6 +17,7 @@ using internal::Pieces;
 struct QueryScratch::Impl {
   std::vector<std::vector<LinkState>> nodes;  // per piece boundary, per link
   std::vector<AxisBounds> axisBounds;         // per LSS of the link at hand
+  std::vector<Aabb> startBoxes;               // per LSS of the link at hand, at t = 0
   std::vector<Aabb> boxes;                    // per LSS of the link at hand, per piece
   std::vector<TriangleId> found;
   std::vector<Candidate> candidates;
@@ -127,17 +128,21 @@ class StepQuery {
   }
 
   LinkContact firstContactOf(LinkId link, QueryCounters& counters) {
-    scratch_.candidates.clear();
-    if (!collectIgnored(link) && !avatar_.lss(link).empty()) {
-      const Aabb swept = sweep(link);
-      scratch_.found.clear();
-      culler_.collect(swept, scratch_.found, counters.nodes);
-      for (const TriangleId id : scratch_.found) addCandidates(id);
-      counters.candidates += scratch_.candidates.size();
-    }
+    LinkContact contact;
+    contact.link = link;
+    if (collectIgnored(link) || avatar_.lss(link).empty()) return contact;
+    const Aabb swept = sweep(link);
+    scratch_.found.clear();
+    culler_.collect(swept, scratch_.found, counters.nodes);
     const internal::LinkQuery query{
         link,   avatar_.lss(link), scratch_.axisBounds, motion_,
         scene_, pieces_,           options_.tolerance,  options_.maxAdvancements};
+    gather(scratch_.startBoxes, 1);
+    counters.candidates += scratch_.candidates.size();
+    contact = internal::contactAtStart(query, scratch_.candidates, counters);
+    if (contact.verdict != Verdict::Clear) return contact;
+    gather(scratch_.boxes, pieces_.count);
+    counters.candidates += scratch_.candidates.size();
     return internal::backtrack(query, scratch_.candidates, counters);
   }
 
@@ -153,15 +158,18 @@ class StepQuery {
     return false;
   }
 
-  /// Boxes of every LSS of the link on every piece, grown by the tolerance; returns their union.
+  /// Boxes of every LSS of the link at the start and on every piece, grown by the tolerance;
+  /// returns their union.
   Aabb sweep(LinkId link) {
     Aabb all;
     scratch_.axisBounds.clear();
+    scratch_.startBoxes.clear();
     scratch_.boxes.clear();
     for (const Lss& lss : avatar_.lss(link)) {
       const AxisBounds bounds = axisBounds(lss, motion_.bounds(link));
       scratch_.axisBounds.push_back(bounds);
       AxisEnds begin = axisEnds(lss, nodeState(0, link));
+      scratch_.startBoxes.push_back(sweptBox(lss, bounds, begin, begin, 0.0, options_.tolerance));
       for (int k = 0; k < pieces_.count; ++k) {
         const AxisEnds end = axisEnds(lss, nodeState(k + 1, link));
         const double span = pieces_.timeOf(k + 1) - pieces_.timeOf(k);
@@ -177,23 +185,29 @@ class StepQuery {
     return scratch_.nodes[static_cast<std::size_t>(k)][static_cast<std::size_t>(link)];
   }
 
-  /// The double-precision test that makes every culler's answer the same.
-  void addCandidates(TriangleId id) {
-    if (!scratch_.ignoredObjects.empty() &&
-        std::binary_search(scratch_.ignoredObjects.begin(), scratch_.ignoredObjects.end(),
-                           scene_.object(id))) {
-      return;
-    }
-    const Aabb box = internal::boxOf(scene_.triangle(id));
+  /// The candidates among the triangles found, by `count` boxes an LSS. This double-precision test
+  /// makes every culler's answer the same.
+  void gather(const std::vector<Aabb>& boxes, int count) {
+    scratch_.candidates.clear();
     const auto numLss = static_cast<std::int32_t>(scratch_.axisBounds.size());
-    for (std::int32_t lss = 0; lss < numLss; ++lss) {
-      std::uint32_t meets = 0;
-      for (int k = 0; k < pieces_.count; ++k) {
-        const auto index = static_cast<std::size_t>(lss * pieces_.count + k);
-        meets |= static_cast<std::uint32_t>(scratch_.boxes[index].overlaps(box)) << k;
+    for (const TriangleId id : scratch_.found) {
+      if (isIgnored(id)) continue;
+      const Aabb box = internal::boxOf(scene_.triangle(id));
+      for (std::int32_t lss = 0; lss < numLss; ++lss) {
+        std::uint32_t meets = 0;
+        for (int k = 0; k < count; ++k) {
+          const auto index = static_cast<std::size_t>(lss * count + k);
+          meets |= static_cast<std::uint32_t>(boxes[index].overlaps(box)) << k;
+        }
+        if (meets != 0) scratch_.candidates.push_back({id, lss, meets, 0.0, 0.0});
       }
-      if (meets != 0) scratch_.candidates.push_back({id, lss, meets, 0.0, 0.0});
     }
+  }
+
+  [[nodiscard]] bool isIgnored(TriangleId id) const {
+    return !scratch_.ignoredObjects.empty() &&
+           std::binary_search(scratch_.ignoredObjects.begin(), scratch_.ignoredObjects.end(),
+                              scene_.object(id));
   }
 
   const Avatar& avatar_;
