@@ -4,7 +4,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -39,17 +38,28 @@ struct Include {
   bool quoted;
 };
 
+/// The included path of a line such as `#include "lss/lss.h"`, with its quote or bracket before it;
+/// empty for any other line.
+std::string includedIn(std::string line) {
+  line.erase(std::remove_if(line.begin(), line.end(), [](char c) { return c == ' ' || c == '\t'; }),
+             line.end());
+  const std::string directive = "#include";
+  if (line.rfind(directive, 0) != 0) return "";
+  const std::size_t end = line.find_first_of("\">", directive.size() + 1);
+  if (end == std::string::npos) return "";
+  return line.substr(directive.size(), end - directive.size());
+}
+
 std::vector<Include> includesOf(const fs::path& folder) {
-  static const std::regex pattern(R"rx(^\s*#\s*include\s*([<"])([^>"]+)[>"])rx");
   std::vector<Include> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const auto extension = entry.path().extension();
     if (extension != ".h" && extension != ".cpp") continue;
     std::ifstream file(entry.path());
     for (std::string line; std::getline(file, line);) {
-      std::smatch match;
-      if (std::regex_search(line, match, pattern)) {
-        found.push_back({entry.path(), match[2], match[1] == "\""});
+      const std::string included = includedIn(line);
+      if (!included.empty()) {
+        found.push_back({entry.path(), included.substr(1), included.front() == '"'});
       }
     }
   }
