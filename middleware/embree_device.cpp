@@ -4,8 +4,21 @@
 
 namespace foretouch::internal {
 
+namespace {
+
+// Embree and its TBB are not built with ThreadSanitizer, so it cannot see how they synchronise and
+// takes their parallel build for races. One thread builds the same tree; our own threads stay in
+// view.
+#if defined(__SANITIZE_THREAD__)
+constexpr const char* kConfiguration = "threads=1,user_threads=1";
+#else
+constexpr const char* kConfiguration = nullptr;
+#endif
+
+}  // namespace
+
 Result<EmbreeDevice> newEmbreeDevice() {
-  EmbreeDevice device(rtcNewDevice(nullptr));
+  EmbreeDevice device(rtcNewDevice(kConfiguration));
   if (device == nullptr) {
     return Error{
         ErrorCode::DeviceFailed, "", -1, -1,
