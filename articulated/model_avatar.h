@@ -1,0 +1,65 @@
+// articulated/model_avatar.h: a rigged model as an avatar: bones become links, every triangle goes
+// to one link, and LSS are fitted so that they contain the link's triangles. Metres.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/avatar.h"
+#include "articulated/model.h"
+#include "articulated/result.h"
+#include "lss/triangle.h"
+
+namespace foretouch {
+
+struct ModelAvatarOptions {
+  std::string meshFile;  ///< What the avatar's MeshReference::file says; empty: no references.
+  int maxLssPerLink = 4;  ///< A link's triangles are split among at most this many LSS.
+};
+
+/// A vertex that follows the blend of several links: the sum of weight * (link's pose applied to
+/// p_L), the weights summing to one.
+struct SkinInfluence {
+  LinkId link = 0;
+  double weight = 0.0;                              ///< > 0
+  Eigen::Vector3d p_L = Eigen::Vector3d::Zero();  ///< The vertex in the link's frame, at bind time.
+};
+struct Skin {
+  std::vector<std::vector<SkinInfluence>> vertices;  ///< Never empty lists; largest weight first.
+  std::vector<std::array<std::int32_t, 3>> triangles;
+};
+
+/// Where the model's parts went. triangles = sum over all links; nothing is lost unsaid.
+struct ModelAvatarReport {
+  std::size_t triangles = 0;            ///< Given to links.
+  std::size_t droppedNonFinite = 0;     ///< A vertex with NaN or infinity has no place.
+  std::size_t unweighted = 0;           ///< Given to their mesh's own node: no usable weight.
+  std::size_t badWeights = 0;           ///< Weights that were NaN, infinite or negative: left out.
+  std::size_t shared = 0;               ///< Triangles whose vertices several links move.
+  double excessVolume = 0.0;            ///< Volume of the LSS less that of the links' convex hulls, m^3; >= 0.
+  double hullVolume = 0.0;              ///< Of the links' convex hulls (or a stated lower bound), m^3.
+  std::vector<std::string> bonesWithoutTriangles;
+  std::vector<std::string> notes;       ///< Renamed duplicates, scaled joints, mirrored nodes, ...
+};
+
+struct ModelAvatar {
+  Avatar avatar;
+  /// Per link, in the link's frame L. Rounded to float, so that a GLB holds it exactly; the LSS are
+  /// fitted to what it is after that.
+  std::vector<std::vector<Triangle>> surface;
+  Skin skin;                                   ///< The same triangles, in the same order link by link.
+  std::vector<std::int32_t> nodeOfLink;        ///< Index into Model::nodes.
+  ModelAvatarReport report;
+};
+
+/// Every LSS list contains all of its link's triangles, rounding included (a test owns this).
+/// Error where no node carries a triangle or an LSS.
+[[nodiscard]] Result<ModelAvatar> avatarFromModel(const Model& model,
+                                                  const ModelAvatarOptions& options = {});
+
+}  // namespace foretouch

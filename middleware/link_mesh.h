@@ -1,0 +1,30 @@
+// middleware/link_mesh.h: the triangles that an avatar file refers to. "mesh": {"file": F, "node":
+// N} means, of model F in metres: the triangles of skinned meshes that bone N owns (by
+// avatarFromModel()'s rule), at bind time, and those of unskinned meshes at node N, both in N's
+// frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/result.h"
+#include "lss/triangle.h"
+#include "middleware/model_import.h"
+
+namespace foretouch {
+
+/// Per link, in its frame; links without a mesh get none. `avatarPath`: relative files are looked
+/// for beside it. Each file is imported once, in the import child. Error where a file cannot be
+/// read or has no such node.
+[[nodiscard]] Result<std::vector<std::vector<Triangle>>> loadLinkMeshes(
+    const Avatar& avatar, const std::string& avatarPath, const ModelImportOptions& options = {});
+
+/// Writes per-link triangles as a GLB that loadLinkMeshes() reads back bit for bit: a node a link,
+/// placed by the skeleton's rest pose so that a viewer shows the body, its mesh in the link's frame.
+/// Precondition: coordinates are floats (avatarFromModel() rounds), as glTF holds no doubles.
+[[nodiscard]] Result<Done> writeLinkMeshes(const Skeleton& skeleton,
+                                           const std::vector<std::vector<Triangle>>& triangles,
+                                           const std::string& path);
+
+}  // namespace foretouch
