@@ -20,6 +20,7 @@ constexpr double kDistanceRounding = 16.0 * 0x1p-53;
 
 /// Steps of the enclosing-circle iteration; its excess shrinks like 1/steps ([BadoiuClarkson03]).
 constexpr int kCircleSteps = 64;
+constexpr int kQuickCircleSteps = 8;
 
 const Vector3d& farthestFrom(const Points& points, const Vector3d& from) {
   return *std::max_element(points.begin(), points.end(), [&](const Vector3d& p, const Vector3d& q) {
@@ -29,10 +30,11 @@ const Vector3d& farthestFrom(const Points& points, const Vector3d& from) {
 
 /// A point of the line along `direction` around which all points lie in a near-minimal cylinder:
 /// step towards the farthest point by 1/(i+1), [BadoiuClarkson03] for balls, here across the line.
-Vector3d lineThrough(const Points& points, const Vector3d& direction, const Vector3d& start) {
+Vector3d lineThrough(const Points& points, const Vector3d& direction, const Vector3d& start,
+                     int steps) {
   const auto across = [&](const Vector3d& p) { return Vector3d(p - direction.dot(p) * direction); };
   Vector3d center = across(start);
-  for (int i = 1; i <= kCircleSteps; ++i) {
+  for (int i = 1; i <= steps; ++i) {
     const Vector3d* farthest = &points.front();
     double largest = -1.0;
     for (const Vector3d& p : points) {
@@ -73,14 +75,22 @@ Lss alongLine(const Points& points, const Vector3d& direction, const Vector3d& c
   return lss;
 }
 
-std::vector<Vector3d> directionsToTry(const Points& points, const Vector3d& mean) {
+std::vector<Vector3d> principalAxes(const Points& points, const Vector3d& mean) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const Vector3d& p : points) covariance += (p - mean) * (p - mean).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  std::vector<Vector3d> directions = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+  std::vector<Vector3d> axes = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   if (solver.info() == Eigen::Success) {
-    for (int i = 0; i < 3; ++i) directions.push_back(solver.eigenvectors().col(i));
+    for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)] = solver.eigenvectors().col(i);
   }
+  return axes;
+}
+
+std::vector<Vector3d> directionsToTry(const Points& points, const Vector3d& mean,
+                                      FitEffort effort) {
+  std::vector<Vector3d> directions = principalAxes(points, mean);
+  if (effort == FitEffort::Quick) return directions;
+  for (int i = 0; i < 3; ++i) directions.push_back(Vector3d::Unit(i));
   const Vector3d& one = farthestFrom(points, mean);
   const Vector3d span = farthestFrom(points, one) - one;
   if (span.norm() > 0.0) directions.push_back(span.normalized());
@@ -96,14 +106,15 @@ double axisDistance(const Lss& lss, const Vector3d& point) {
   return (w - s * u).norm();
 }
 
-Lss fitLss(const Points& points) {
+Lss fitLss(const Points& points, FitEffort effort) {
   FORETOUCH_ASSERT(!points.empty());
+  const int steps = effort == FitEffort::Quick ? kQuickCircleSteps : kCircleSteps;
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& p : points) mean += p / static_cast<double>(points.size());
   Lss best;
   double bestVolume = std::numeric_limits<double>::infinity();
-  for (const Vector3d& direction : directionsToTry(points, mean)) {
-    const Lss lss = alongLine(points, direction, lineThrough(points, direction, mean));
+  for (const Vector3d& direction : directionsToTry(points, mean, effort)) {
+    const Lss lss = alongLine(points, direction, lineThrough(points, direction, mean, steps));
     if (volume(lss) < bestVolume) {
       bestVolume = volume(lss);
       best = lss;

@@ -10,14 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Absorbs what underflow may lose (m): squares of lengths below about 1e-154 vanish entirely.
-constexpr double kUnderflow = 1e-150;
-/// Shrinks a computed unit vector so that its true norm is at most 1 (normalising errs by 4 u).
-constexpr double kUnitShrink = 1.0 - 0x1p-50;
-/// Where the closest points are nearer than this fraction of the pair's extent, their difference is
-/// a noisy direction and the features' own normal is tried as well.
-constexpr double kNoisyDirection = 1e-3;
-
 /// The pair, relative to the triangle's first vertex.
 struct LocalPair {
   Vector3d a, b, e1, e2;
@@ -27,7 +19,7 @@ struct LocalPair {
 void tryDirection(const LocalPair& pair, const Vector3d& direction, Separation& best) {
   const double norm = direction.norm();
   if (!(norm > 0.0) || !std::isfinite(norm)) return;
-  const Vector3d nhat = (kUnitShrink / norm) * direction;
+  const Vector3d nhat = (internal::kUnitShrink / norm) * direction;
   const double top = std::max(0.0, std::max(nhat.dot(pair.e1), nhat.dot(pair.e2)));
   const double clearanceA = nhat.dot(pair.a) - top - pair.slack;
   const double clearanceB = nhat.dot(pair.b) - top - pair.slack;
@@ -46,7 +38,7 @@ Separation separation(const Vector3d& a, const Vector3d& b, const Triangle& tria
                  triangle.vertices[2] - origin, 0.0};
   const double extent =
       pair.a.lpNorm<1>() + pair.b.lpNorm<1>() + pair.e1.lpNorm<1>() + pair.e2.lpNorm<1>();
-  pair.slack = kSeparationRounding * extent + kUnderflow;
+  pair.slack = kSeparationRounding * extent + internal::kUnderflow;
 
   Separation result;
   result.closest = closestPoints(a, b, triangle);
@@ -55,7 +47,7 @@ Separation separation(const Vector3d& a, const Vector3d& b, const Triangle& tria
   // it.
   result.clearanceA = result.clearanceB = -pair.slack;
   tryDirection(pair, result.closest.difference, result);
-  if (result.closest.distance < kNoisyDirection * extent) {
+  if (result.closest.distance < internal::kNoisyDirection * extent) {
     tryDirection(pair, result.closest.featureNormal, result);
     tryDirection(pair, -result.closest.featureNormal, result);
   }

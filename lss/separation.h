@@ -19,6 +19,16 @@ inline constexpr double kUnitRoundoff = 0x1p-53;
 /// breaks the proof, not yet the measured worst case (tests/lss/separation_test.cpp).
 inline constexpr double kSeparationRounding = 16.0 * kUnitRoundoff;
 
+namespace internal {
+/// Absorbs what underflow may lose (m): squares of lengths below about 1e-154 vanish entirely.
+inline constexpr double kUnderflow = 1e-150;
+/// Shrinks a computed unit vector so that its true norm is at most 1 (normalising errs by 4 u).
+inline constexpr double kUnitShrink = 1.0 - 0x1p-50;
+/// Where the closest points are nearer than this fraction of the pair's extent, their difference is
+/// a noisy direction and the features' own normal is tried as well.
+inline constexpr double kNoisyDirection = 1e-3;
+}  // namespace internal
+
 /// What is proven of one segment and one triangle at one instant. Distances in metres.
 /// For every point x of the segment a + s(b-a) and every point y of the triangle
 /// nhat.(x - y) >= (1-s)*clearanceA + s*clearanceB, with |nhat| <= 1; so the distance is at least
