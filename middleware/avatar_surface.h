@@ -13,6 +13,9 @@
 
 namespace foretouch {
 
+/// All links together.
+inline constexpr std::size_t kMaxSurfaceTriangles = 50'000'000;
+
 namespace internal {
 struct SurfaceParts;
 }

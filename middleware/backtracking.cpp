@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include <Eigen/Geometry>
 
 #include "lss/assert.h"
-#include "lss/separation.h"
 #include "middleware/culler.h"
+#include "middleware/exact/feature.h"
+#include "middleware/exact/start.h"
 
 namespace foretouch::internal {
 namespace {
@@ -19,8 +21,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A step never goes below this share of the tolerance, so that contact is found from outside.
 constexpr double kFloorShare = 0.25;
-/// Rounds steps down past the rounding of their formula (some ten roundings of positive terms).
-constexpr double kStepShrink = 1.0 - 1e-12;
 
 /// Later first, so that the standard heap's top is the earliest; the triangle makes the order
 /// total.
@@ -28,7 +28,8 @@ struct Later {
   bool operator()(const Candidate& x, const Candidate& y) const {
     if (x.freeUntil != y.freeUntil) return x.freeUntil > y.freeUntil;
     if (x.triangle != y.triangle) return x.triangle > y.triangle;
-    return x.lss > y.lss;
+    if (x.lss != y.lss) return x.lss > y.lss;
+    return y.part < x.part;
   }
 };
 
@@ -37,27 +38,15 @@ struct Farther {
   bool operator()(const Candidate& x, const Candidate& y) const {
     if (x.nearest != y.nearest) return x.nearest > y.nearest;
     if (x.triangle != y.triangle) return x.triangle > y.triangle;
-    return x.lss > y.lss;
+    if (x.lss != y.lss) return x.lss > y.lss;
+    return y.part < x.part;
   }
-};
-
-/// One LSS and one triangle at one instant, with everything rounding may have done on the safe
-/// side.
-struct PairState {
-  Separation axis;    // of the axis and the triangle
-  double gapA, gapB;  // proven: the plane's clearance of each end, less radius
-  double gapUpper;    // proven: the separation of LSS surface and triangle is at most this
-  double radius;
-  Vector3d velocityA, velocityB;
-
-  [[nodiscard]] double gapLower() const { return std::min(gapA, gapB); }
-  [[nodiscard]] double estimate() const { return axis.closest.distance - radius; }
 };
 
 class Backtracker {
  public:
   Backtracker(const LinkQuery& query, std::vector<Candidate>& heap, QueryCounters& counters)
-      : query_(query), heap_(heap), counters_(counters) {}
+      : query_(query), heap_(heap), counters_(counters), states_(query, counters) {}
 
   LinkContact run() {
     best_.link = query_.link;
@@ -68,7 +57,7 @@ class Backtracker {
         break;
       }
       std::pop_heap(heap_.begin(), heap_.end(), Later{});
-      advance(heap_.back());
+      advance();
     }
     if (hasContact()) settleTies();
     return best_;
@@ -101,19 +90,23 @@ class Backtracker {
   }
 
   /// Looks at the candidate (the heap's last, just popped) at its instant and moves it on, ends it,
-  /// or takes it as the link's contact.
-  void advance(Candidate& candidate) {
+  /// puts the parts below in its place, or takes it as the link's contact.
+  void advance() {
+    Candidate& candidate = heap_.back();
     const double t = candidate.freeUntil;
     const PairState pair = pairAt(candidate, t);
+    const bool isSurface = query_.isSurface(candidate.part);
     if (pair.gapUpper <= query_.tolerance) {
-      best_ = contactOf(candidate, pair, t);
+      if (!isSurface) return descend(Later{}, [](Candidate&) {});
+      best_ = contactOf(query_, candidate, pair, t);
       heap_.pop_back();
       return;
     }
-    const double next = t + stepFrom(candidate, pair);
+    const double next = t + stepFrom(pair, kFloorShare * query_.tolerance);
     // Rounding the sum may have moved it up by half a unit in the last place.
     const double reached = next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
     if (!(reached > t)) {
+      if (!isSurface) return descend(Later{}, [](Candidate&) {});
       giveUp(t, UndecidedReason::Resolution);
       heap_.pop_back();
       return;
@@ -126,45 +119,26 @@ class Backtracker {
     }
   }
 
-  [[nodiscard]] double stepFrom(const Candidate& candidate, const PairState& pair) const {
-    const double floor = kFloorShare * query_.tolerance;
-    if (!(pair.gapLower() > floor)) return 0.0;
-    const AxisBounds& bounds = query_.axisBounds[static_cast<std::size_t>(candidate.lss)];
-    const double speedA = pair.axis.nhat.dot(pair.velocityA) - bounds.velocityRoundingA;
-    const double speedB = pair.axis.nhat.dot(pair.velocityB) - bounds.velocityRoundingB;
-    return std::min(safeStep(pair.gapA - floor, speedA, bounds.accelerationA),
-                    safeStep(pair.gapB - floor, speedB, bounds.accelerationB));
-  }
-
-  [[nodiscard]] const LinkState& stateAt(double t) {
-    if (t != stateTime_) {
-      state_ = query_.motion.stateAt(query_.link, t);
-      stateTime_ = t;
-      ++counters_.states;
+  /// Puts the two parts below in the place of the heap's last candidate. `prepare` makes each ready
+  /// for the order that the heap is in.
+  template <typename Order, typename Prepare>
+  void descend(const Order& order, const Prepare& prepare) {
+    const Candidate parent = heap_.back();
+    heap_.pop_back();
+    const std::array<Part, 2> parts = query_.below(parent.lss, parent.part);
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (i == 1 && parts[1] == parts[0]) return;
+      Candidate child = parent;
+      child.part = parts[i];
+      prepare(child);
+      heap_.push_back(child);
+      std::push_heap(heap_.begin(), heap_.end(), order);
     }
-    return state_;
   }
 
   [[nodiscard]] PairState pairAt(const Candidate& candidate, double t) {
-    ++counters_.advancements;
     ++spent_;
-    const auto index = static_cast<std::size_t>(candidate.lss);
-    const Lss& lss = query_.lss[index];
-    const AxisBounds& bounds = query_.axisBounds[index];
-    const LinkState& state = stateAt(t);
-    const AxisEnds ends = axisEnds(lss, state);
-    PairState pair;
-    pair.axis = separation(ends.a, ends.b, query_.scene.triangle(candidate.triangle));
-    pair.radius = lss.radius;
-    // The differences below round once each, by at most kUnitRoundoff of what is subtracted.
-    const double radiusSlack = 4.0 * kUnitRoundoff * (lss.radius + std::abs(pair.axis.upper));
-    pair.gapA = pair.axis.clearanceA - bounds.positionRoundingA - lss.radius - radiusSlack;
-    pair.gapB = pair.axis.clearanceB - bounds.positionRoundingB - lss.radius - radiusSlack;
-    pair.gapUpper = pair.axis.upper + std::max(bounds.positionRoundingA, bounds.positionRoundingB) -
-                    lss.radius + radiusSlack;
-    pair.velocityA = state.velocityAt(lss.a);
-    pair.velocityB = state.velocityAt(lss.b);
-    return pair;
+    return pairOf(query_, candidate, states_.at(t), counters_);
   }
 
   [[nodiscard]] bool hasContact() const {
@@ -187,14 +161,20 @@ class Backtracker {
   /// contact the budget has no say: the verdict stands, and which contact is reported must not
   /// depend on it.
   void lookNearestFirst(double t) {
-    for (Candidate& candidate : heap_) candidate.nearest = leastGap(candidate, t);
+    for (Candidate& candidate : heap_) candidate.nearest = leastGap(query_, candidate, states_.at(t));
     std::make_heap(heap_.begin(), heap_.end(), Farther{});
     while (!heap_.empty() && heap_.front().nearest <= reach()) {
       if (!hasContact() && spent_ >= query_.maxAdvancements) return;
       std::pop_heap(heap_.begin(), heap_.end(), Farther{});
       const PairState pair = pairAt(heap_.back(), t);
+      if (pair.gapUpper <= query_.tolerance && !query_.isSurface(heap_.back().part)) {
+        descend(Farther{}, [&](Candidate& part) {
+          part.nearest = std::max(part.nearest, leastGap(query_, part, states_.at(t)));
+        });
+        continue;
+      }
       if (pair.gapUpper <= query_.tolerance) {
-        const LinkContact contact = contactOf(heap_.back(), pair, t);
+        const LinkContact contact = contactOf(query_, heap_.back(), pair, t);
         if (!hasContact() || comesFirst(contact, best_)) best_ = contact;
       }
       heap_.pop_back();
@@ -206,71 +186,11 @@ class Backtracker {
     return hasContact() ? best_.separation - best_.penetration : query_.tolerance;
   }
 
-  /// A lower bound on the gap that contactOf() would find, by the boxes of axis and triangle. The
-  /// slack, thousands of roundings of the coordinates, keeps it below whatever either side rounds
-  /// to.
-  [[nodiscard]] double leastGap(const Candidate& candidate, double t) {
-    const Lss& lss = query_.lss[static_cast<std::size_t>(candidate.lss)];
-    const AxisEnds ends = axisEnds(lss, stateAt(t));
-    Aabb axis;
-    axis.add(ends.a);
-    axis.add(ends.b);
-    const double gap = axis.distance(boxOf(query_.scene.triangle(candidate.triangle))) - lss.radius;
-    return gap - 1e-12 * (1.0 + std::abs(gap) + axis.max.cwiseAbs().maxCoeff());
-  }
-
   void giveUp(double t, UndecidedReason reason) {
     if (best_.verdict != Verdict::Clear) return;  // a contact at this very instant stands
     best_.verdict = Verdict::Undecided;
     best_.reason = reason;
     best_.freeUntil = best_.toi = horizon_ = t;
-  }
-
-  [[nodiscard]] LinkContact contactOf(const Candidate& candidate, const PairState& pair,
-                                      double t) const {
-    LinkContact contact;
-    contact.link = query_.link;
-    // At t = 0 nothing before it proves the pair apart: what cannot be proven apart counts as
-    // touching.
-    const bool starts = t == 0.0 && pair.gapLower() <= 0.0;
-    contact.verdict = starts ? Verdict::StartsInContact : Verdict::Contact;
-    contact.toi = contact.freeUntil = t;
-    contact.separation = starts ? 0.0 : std::min(query_.tolerance, std::max(0.0, pair.estimate()));
-    contact.penetration = starts ? std::max(0.0, -pair.estimate()) : 0.0;
-    contact.triangle = candidate.triangle;
-    contact.lss = candidate.lss;
-    contact.nhat_SL_W = contactNormal(pair);
-    contact.p_WScene = pair.axis.closest.onTriangle;
-    contact.p_WLink = pair.axis.closest.onSegment - pair.radius * contact.nhat_SL_W;
-    return contact;
-  }
-
-  /// Scene to link. Where axis and triangle meet, their difference has no direction: then the
-  /// normal of the features, then any unit vector.
-  [[nodiscard]] static Vector3d contactNormal(const PairState& pair) {
-    if (pair.axis.nhat.squaredNorm() > 0.5) return pair.axis.nhat.normalized();
-    if (pair.axis.closest.distance > 0.0) return pair.axis.closest.difference.stableNormalized();
-    if (pair.axis.closest.featureNormal.stableNorm() > 0.0) {
-      return pair.axis.closest.featureNormal.stableNormalized();
-    }
-    return Vector3d::UnitY();
-  }
-
-  /// The order of contacts with equal toi, as query.h states it.
-  [[nodiscard]] static bool comesFirst(const LinkContact& x, const LinkContact& y) {
-    if (x.verdict != y.verdict) return x.verdict == Verdict::StartsInContact;
-    const auto key = [](const LinkContact& c) {
-      return std::array<double, 7>{c.separation - c.penetration,
-                                   c.p_WScene.x(),
-                                   c.p_WScene.y(),
-                                   c.p_WScene.z(),
-                                   c.nhat_SL_W.x(),
-                                   c.nhat_SL_W.y(),
-                                   c.nhat_SL_W.z()};
-    };
-    const auto keyX = key(x), keyY = key(y);
-    if (keyX != keyY) return keyX < keyY;
-    return x.triangle != y.triangle ? x.triangle < y.triangle : x.lss < y.lss;
   }
 
   const LinkQuery& query_;
@@ -279,9 +199,17 @@ class Backtracker {
   LinkContact best_;
   double horizon_ = kInfinity;  // nothing later than this can change the answer
   std::uint64_t spent_ = 0;
-  LinkState state_;
-  double stateTime_ = -1.0;
+  StateCache states_;
 };
+
+/// Scene to link. Where part and triangle meet, their difference has no direction: then the
+/// normal of the features, then any unit vector.
+Vector3d contactNormal(const PairState& pair) {
+  if (pair.nhat.squaredNorm() > 0.5) return pair.nhat.normalized();
+  if (pair.distance > 0.0) return pair.difference.stableNormalized();
+  if (pair.featureNormal.stableNorm() > 0.0) return pair.featureNormal.stableNormalized();
+  return Vector3d::UnitY();
+}
 
 }  // namespace
 
@@ -293,19 +221,76 @@ int Pieces::at(double t) const {
   return k;
 }
 
-double safeStep(double clearance, double speed, double acceleration) {
-  FORETOUCH_ASSERT(clearance > 0.0 && acceleration >= 0.0);
-  const double root = std::sqrt(speed * speed + 2.0 * acceleration * clearance);
-  // Two forms of the positive root, each a sum of terms of one sign.
-  if (speed <= 0.0) {
-    const double closing = root - speed;
-    return closing > 0.0 ? kStepShrink * (2.0 * clearance / closing) : kInfinity;
+std::array<Part, 2> LinkQuery::below(std::int32_t lss, Part part) const {
+  const LssHierarchy& hierarchy = parts.surface->hierarchy(lss);
+  HierarchyChild child = hierarchy.root();
+  if (part.isWhole() && child.isTriangle()) return {Part::of(child), Part::of(child)};
+  if (!part.isWhole()) child = HierarchyChild::node(part.index());
+  const auto& children = hierarchy.node(child.index()).children;
+  return {Part::of(children[0]), Part::of(children[1])};
+}
+
+double leastGap(const LinkQuery& query, const Candidate& candidate, const LinkState& state) {
+  const Aabb box = query.parts.boxOfPoints(candidate.lss, candidate.part, state);
+  const double radius = candidate.part.isTriangle()
+                            ? 0.0
+                            : query.parts.lssOf(candidate.lss, candidate.part).radius;
+  const double gap = box.distance(boxOf(query.scene.triangle(candidate.triangle))) - radius;
+  return gap - 1e-12 * (1.0 + std::abs(gap) + box.max.cwiseAbs().maxCoeff());
+}
+
+PairState pairOf(const LinkQuery& query, const Candidate& candidate, const LinkState& state,
+                 QueryCounters& counters) {
+  ++counters.advancements;
+  if (candidate.part.isTriangle()) ++counters.leafTests;
+  if (query.isExact() && !candidate.part.isTriangle()) ++counters.hierarchyTests;
+  return query.parts.pair(candidate.lss, candidate.part, state,
+                          query.scene.triangle(candidate.triangle));
+}
+
+LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const PairState& pair,
+                      double t) {
+  LinkContact contact;
+  contact.link = query.link;
+  // At t = 0 nothing before it proves the pair apart: what cannot be proven apart counts as
+  // touching.
+  const bool starts = t == 0.0 && pair.gapLower() <= 0.0;
+  contact.verdict = starts ? Verdict::StartsInContact : Verdict::Contact;
+  contact.toi = contact.freeUntil = t;
+  contact.separation = starts ? 0.0 : std::min(query.tolerance, std::max(0.0, pair.estimate()));
+  contact.penetration = starts ? std::max(0.0, -pair.estimate()) : 0.0;
+  contact.triangle = candidate.triangle;
+  contact.lss = candidate.lss;
+  contact.nhat_SL_W = contactNormal(pair);
+  contact.p_WScene = pair.onScene;
+  contact.p_WLink = pair.onHull - pair.radius * contact.nhat_SL_W;
+  if (candidate.part.isTriangle()) {
+    contact.linkTriangle = candidate.part.index();
+    contact.linkFeature = featureAt(pair.hull, pair.onHull);
+    contact.sceneFeature = featureAt(query.scene.triangle(candidate.triangle), pair.onScene);
   }
-  return acceleration > 0.0 ? kStepShrink * ((speed + root) / acceleration) : kInfinity;
+  return contact;
+}
+
+bool comesFirst(const LinkContact& x, const LinkContact& y) {
+  if (x.verdict != y.verdict) return x.verdict == Verdict::StartsInContact;
+  const auto key = [](const LinkContact& c) {
+    return std::array<double, 7>{c.separation - c.penetration,
+                                 c.p_WScene.x(),
+                                 c.p_WScene.y(),
+                                 c.p_WScene.z(),
+                                 c.nhat_SL_W.x(),
+                                 c.nhat_SL_W.y(),
+                                 c.nhat_SL_W.z()};
+  };
+  const auto keyX = key(x), keyY = key(y);
+  if (keyX != keyY) return keyX < keyY;
+  return std::tie(x.triangle, x.lss, x.linkTriangle) < std::tie(y.triangle, y.lss, y.linkTriangle);
 }
 
 LinkContact contactAtStart(const LinkQuery& query, std::vector<Candidate>& candidates,
                            QueryCounters& counters) {
+  if (query.isExact()) return meshContactAtStart(query, candidates, counters);
   return Backtracker(query, candidates, counters).runAtStart();
 }
 

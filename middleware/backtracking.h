@@ -8,15 +8,15 @@
 // bound, [Tang09] C2A Lemma 4.1; here each end has its own clearance, speed and acceleration.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "articulated/avatar.h"
 #include "articulated/motion.h"
+#include "middleware/link_pair.h"
 #include "middleware/query.h"
 #include "middleware/scene.h"
-#include "tessellation/swept_lss.h"
 
 namespace foretouch::internal {
 
@@ -29,26 +29,74 @@ struct Pieces {
 };
 inline constexpr int kMaxPieces = 32;
 
-/// One LSS of the link against one triangle, on the pieces in which their boxes meet.
+/// One part of the link against one triangle, on the pieces in which their boxes meet. A query
+/// begins with whole LSS; at exact fidelity one that comes within the tolerance gives way to the
+/// two parts below it, from that instant on.
 struct Candidate {
   TriangleId triangle = -1;
   std::int32_t lss = -1;
   std::uint32_t pieces = 0;  // bit k: piece k
-  double nearest = 0.0;      // among ties: the gap is not smaller, as boxes tell
+  double nearest = 0.0;      // among ties: the gap is not smaller, as boxes or separations tell
   double freeUntil = 0.0;    // proven: separation > 0 on [0, freeUntil), >= floor there unless 0
+  Part part = Part::whole();
 };
 
 /// What backtrack() needs to know of one link; all references outlive the call.
 struct LinkQuery {
   LinkId link;
-  const std::vector<Lss>& lss;
-  const std::vector<AxisBounds>& axisBounds;  // one an LSS
+  LinkParts parts;
   const ChainMotion& motion;
   const Scene& scene;
   Pieces pieces;
   double tolerance;
   std::uint64_t maxAdvancements;
+
+  [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }
+  /// Nothing is below it: what it touches, the link touches.
+  [[nodiscard]] bool isSurface(Part part) const { return !isExact() || part.isTriangle(); }
+  /// The two parts below one that is not the surface itself (one, twice, where the LSS bounds a
+  /// single triangle).
+  [[nodiscard]] std::array<Part, 2> below(std::int32_t lss, Part part) const;
 };
+
+/// The link's states at the instants that are asked for, the last one kept: neighbouring candidates
+/// ask for the same.
+class StateCache {
+ public:
+  StateCache(const LinkQuery& query, QueryCounters& counters)
+      : query_(query), counters_(counters) {}
+  [[nodiscard]] const LinkState& at(double t) {
+    if (t != time_) {
+      state_ = query_.motion.stateAt(query_.link, t);
+      time_ = t;
+      ++counters_.states;
+    }
+    return state_;
+  }
+
+ private:
+  const LinkQuery& query_;
+  QueryCounters& counters_;
+  LinkState state_;
+  double time_ = -1.0;
+};
+
+/// A lower bound on the separation that pair() would compute, by the boxes of part and triangle.
+/// Its slack, thousands of roundings of the coordinates, keeps it below whatever either side rounds
+/// to.
+[[nodiscard]] double leastGap(const LinkQuery& query, const Candidate& candidate,
+                              const LinkState& state);
+
+/// The candidate's pair at one instant, counted.
+[[nodiscard]] PairState pairOf(const LinkQuery& query, const Candidate& candidate,
+                               const LinkState& state, QueryCounters& counters);
+
+/// What is reported of a pair that is in contact at `t`.
+[[nodiscard]] LinkContact contactOf(const LinkQuery& query, const Candidate& candidate,
+                                    const PairState& pair, double t);
+
+/// The order of contacts with equal toi, as query.h states it.
+[[nodiscard]] bool comesFirst(const LinkContact& x, const LinkContact& y);
 
 /// The link's contact at t = 0, which ends the matter, or a verdict of Clear that says only that
 /// none was found there (within the budget). `candidates`: all pairs whose boxes, grown by the
@@ -60,10 +108,5 @@ struct LinkQuery {
 /// The link's first contact on [0,1]. Consumes `candidates` (used as a heap).
 [[nodiscard]] LinkContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,
                                     QueryCounters& counters);
-
-/// Largest s >= 0, rounded down, such that clearance + s*speed - acceleration*s^2/2 >= 0 on all of
-/// [0, s]; infinity where it never falls below. `clearance` > 0, `acceleration` >= 0; `speed` is
-/// the rate at which the clearance grows (negative: closing). Exposed for its test.
-[[nodiscard]] double safeStep(double clearance, double speed, double acceleration);
 
 }  // namespace foretouch::internal

@@ -7,6 +7,7 @@
 #include "lss/segment_triangle.h"
 #include "middleware/backtracking.h"
 #include "middleware/scene_internal.h"
+#include "middleware/surface_internal.h"
 
 namespace foretouch {
 
@@ -48,6 +49,14 @@ const char* toString(UndecidedReason reason) {
   return "none";
 }
 
+const char* toString(Fidelity fidelity) {
+  switch (fidelity) {
+    case Fidelity::Link: return "link";
+    case Fidelity::Exact: return "exact";
+  }
+  return "link";
+}
+
 namespace {
 
 /// Pieces are made so short that no link moves farther than this (m) in one, up to kMaxPiecesUsed.
@@ -67,6 +76,11 @@ Result<Done> checked(const Avatar& avatar, const ChainMotion& motion, const Scen
     return Error{ErrorCode::Mismatch, "motion", -1, -1,
                  "expected a motion of this avatar's skeleton, found another number of joints"};
   }
+  if (options.fidelity == Fidelity::Exact &&
+      (!options.surface || options.surface->numLinks() != avatar.numLinks())) {
+    return Error{ErrorCode::Mismatch, "fidelity", -1, -1,
+                 "expected the surface of this avatar, which exact fidelity needs"};
+  }
   const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
   for (const IgnoredPair& pair : options.ignored) {
     if (pair.link < 0 || pair.link >= avatar.numLinks() ||
@@ -85,6 +99,12 @@ Result<const internal::TriangleCuller*> cullerOf(const Scene& scene, Culler whic
   const auto built = scene.parts().pointQueryCuller();
   if (!built.ok()) return built.error();
   return static_cast<const internal::TriangleCuller*>(built.value());
+}
+
+/// Null at link fidelity.
+const internal::LinkSurface* surfaceOf(const QueryOptions& options, LinkId link) {
+  if (options.fidelity != Fidelity::Exact) return nullptr;
+  return options.surface->parts().links[static_cast<std::size_t>(link)].get();
 }
 
 /// One query over all links of one step.
@@ -130,13 +150,20 @@ class StepQuery {
   LinkContact firstContactOf(LinkId link, QueryCounters& counters) {
     LinkContact contact;
     contact.link = link;
+    surface_ = surfaceOf(options_, link);
     if (collectIgnored(link) || avatar_.lss(link).empty()) return contact;
+    if (surface_ != nullptr && surface_->triangles().empty()) return contact;
     const Aabb swept = sweep(link);
     scratch_.found.clear();
     culler_.collect(swept, scratch_.found, counters.nodes);
     const internal::LinkQuery query{
-        link,   avatar_.lss(link), scratch_.axisBounds, motion_,
-        scene_, pieces_,           options_.tolerance,  options_.maxAdvancements};
+        link,
+        {avatar_.lss(link), scratch_.axisBounds, motion_.bounds(link), surface_},
+        motion_,
+        scene_,
+        pieces_,
+        options_.tolerance,
+        options_.maxAdvancements};
     gather(scratch_.startBoxes, 1);
     counters.candidates += scratch_.candidates.size();
     contact = internal::contactAtStart(query, scratch_.candidates, counters);
@@ -194,12 +221,15 @@ class StepQuery {
       if (isIgnored(id)) continue;
       const Aabb box = internal::boxOf(scene_.triangle(id));
       for (std::int32_t lss = 0; lss < numLss; ++lss) {
+        if (surface_ != nullptr && !surface_->hasTriangles(lss)) continue;
         std::uint32_t meets = 0;
         for (int k = 0; k < count; ++k) {
           const auto index = static_cast<std::size_t>(lss * count + k);
           meets |= static_cast<std::uint32_t>(boxes[index].overlaps(box)) << k;
         }
-        if (meets != 0) scratch_.candidates.push_back({id, lss, meets, 0.0, 0.0});
+        if (meets != 0) {
+          scratch_.candidates.push_back({id, lss, meets, 0.0, 0.0, internal::Part::whole()});
+        }
       }
     }
   }
@@ -216,6 +246,7 @@ class StepQuery {
   const QueryOptions& options_;
   const internal::TriangleCuller& culler_;
   QueryScratch::Impl& scratch_;
+  const internal::LinkSurface* surface_ = nullptr;  // of the link at hand, at exact fidelity
   Pieces pieces_;
 };
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,6 +14,8 @@
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "articulated/result.h"
+#include "middleware/avatar_surface.h"
+#include "middleware/exact/leaf.h"
 #include "middleware/scene.h"
 
 namespace foretouch {
@@ -40,7 +43,8 @@ enum class UndecidedReason : std::uint8_t {
 /// Tight: for Contact, the separation at toi is <= tolerance.
 /// The witness points, normal and triangle are those of the pair with the lowest toi; equal toi:
 /// the smaller separation, then the lexicographically smaller witness point and normal, then the
-/// lowest triangle. So the answer does not depend on threads, on the culler or on the triangles'
+/// lowest triangle. (At exact fidelity, of the scene's triangles that a link touches at t = 0 the
+/// one deepest in the link's LSS, and the lowest of the link's triangles.) So the answer does not depend on threads, on the culler or on the triangles'
 /// order.
 struct LinkContact {
   LinkId link = 0;
@@ -57,7 +61,20 @@ struct LinkContact {
   Eigen::Vector3d p_WScene = Eigen::Vector3d::Zero();   ///< Witness point on the triangle.
   Eigen::Vector3d p_WLink = Eigen::Vector3d::Zero();    ///< Witness point on the LSS's surface.
   Eigen::Vector3d nhat_SL_W = Eigen::Vector3d::Zero();  ///< Unit normal from the scene to the link.
+  /// At exact fidelity: which of the link's triangles, and which features of it and of the scene's
+  /// triangle hold the witness points. -1 at link fidelity.
+  std::int32_t linkTriangle = -1;
+  FeatureKind linkFeature = FeatureKind::Face, sceneFeature = FeatureKind::Face;
 };
+
+/// What a link's surface is.
+enum class Fidelity : std::uint8_t {
+  Link,   ///< Its LSS.
+  Exact,  ///< The triangles of its mesh. Contacts are a subset of Link's, and never earlier.
+};
+
+/// "link", "exact".
+[[nodiscard]] const char* toString(Fidelity fidelity);
 
 /// Both answer alike, byte for byte; the point-query one is the slower reference.
 enum class Culler : std::uint8_t {
@@ -75,6 +92,8 @@ struct IgnoredPair {
 struct QueryOptions {
   double tolerance = 1e-3;  ///< eps in metres; finite, >= kMinTolerance.
   Culler culler = Culler::FlatBvh;
+  Fidelity fidelity = Fidelity::Link;
+  std::optional<AvatarSurface> surface;  ///< Of the same avatar; needed for Fidelity::Exact.
   std::vector<IgnoredPair> ignored;
   /// Distance evaluations a link may cost before its verdict becomes Undecided.
   std::uint64_t maxAdvancements = std::numeric_limits<std::uint64_t>::max();
@@ -87,7 +106,9 @@ inline constexpr double kMinTolerance = 1e-9;
 struct QueryCounters {
   std::uint64_t nodes = 0;         ///< BVH nodes visited (FlatBvh) or callbacks (PointQuery).
   std::uint64_t candidates = 0;    ///< (LSS, triangle) pairs that passed the culling.
-  std::uint64_t advancements = 0;  ///< Distance evaluations.
+  std::uint64_t advancements = 0;  ///< Distance evaluations, all kinds together.
+  std::uint64_t hierarchyTests = 0;  ///< At exact fidelity: of an LSS or a node below it.
+  std::uint64_t leafTests = 0;       ///< At exact fidelity: of two triangles.
   std::uint64_t states = 0;        ///< Link states evaluated (forward kinematics).
 };
 

@@ -1,0 +1,120 @@
+#include "middleware/avatar_surface.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "articulated/text_file.h"
+#include "lss/assert.h"
+#include "lss/fit.h"
+#include "middleware/surface_internal.h"
+
+namespace foretouch {
+namespace {
+
+using internal::LinkSurface;
+
+/// How far (m) a triangle may lie outside its LSS. Below a quarter of the least tolerance, at which
+/// advancement stops, so that an LSS that is proven apart still proves its triangles apart.
+constexpr double kContainmentSlack = 1e-10;
+
+double outside(const Lss& lss, const Triangle& triangle) {
+  double farthest = 0.0;
+  for (const Eigen::Vector3d& vertex : triangle.vertices) {
+    farthest = std::max(farthest, axisDistance(lss, vertex) - lss.radius);
+  }
+  return farthest;
+}
+
+Error linkError(const Avatar& avatar, LinkId link, ErrorCode code, const std::string& what) {
+  return Error{code, "", -1, link,
+               "link " + std::to_string(link) + " " + inQuotes(avatar.skeleton().name(link)) +
+                   ": " + what};
+}
+
+/// Which LSS of the link contains each triangle.
+Result<std::vector<std::vector<std::int32_t>>> assigned(const Avatar& avatar, LinkId link,
+                                                        const std::vector<Triangle>& triangles) {
+  const std::vector<Lss>& lss = avatar.lss(link);
+  std::vector<std::vector<std::int32_t>> idsOfLss(lss.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const std::string name = "triangle " + std::to_string(i);
+    if (!isFinite(triangles[i])) {
+      return linkError(avatar, link, ErrorCode::NonFinite, name + " is not finite");
+    }
+    double least = lss.empty() ? kMaxCoordinate : outside(lss[0], triangles[i]);
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < lss.size() && least > 0.0; ++k) {
+      const double distance = outside(lss[k], triangles[i]);
+      if (distance < least) {
+        least = distance;
+        best = k;
+      }
+    }
+    if (!(least <= kContainmentSlack)) {
+      char metres[32];
+      std::snprintf(metres, sizeof metres, "%.3g", least);
+      return linkError(avatar, link, ErrorCode::OutOfRange,
+                       "expected every triangle inside one of the link's " +
+                           std::to_string(lss.size()) + " LSS; " + name + " is " +
+                           (lss.empty() ? "inside none" : std::string(metres) + " m outside"));
+    }
+    idsOfLss[best].push_back(static_cast<std::int32_t>(i));
+  }
+  return idsOfLss;
+}
+
+}  // namespace
+
+const LssHierarchy& LinkSurface::hierarchy(std::int32_t lss) const {
+  FORETOUCH_ASSERT(hasTriangles(lss));
+  std::call_once(built_, [this] {
+    hierarchies_.resize(idsOfLss_.size());
+    for (std::size_t i = 0; i < idsOfLss_.size(); ++i) {
+      if (!idsOfLss_[i].empty()) hierarchies_[i].emplace(triangles_, idsOfLss_[i]);
+    }
+  });
+  return *hierarchies_[static_cast<std::size_t>(lss)];
+}
+
+Result<AvatarSurface> AvatarSurface::build(const Avatar& avatar,
+                                           std::vector<std::vector<Triangle>> trianglesPerLink) {
+  if (trianglesPerLink.size() != static_cast<std::size_t>(avatar.numLinks())) {
+    return Error{ErrorCode::Mismatch, "", -1, -1,
+                 "expected triangles for " + std::to_string(avatar.numLinks()) + " links, found " +
+                     std::to_string(trianglesPerLink.size())};
+  }
+  auto parts = std::make_shared<internal::SurfaceParts>();
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    std::vector<Triangle>& triangles = trianglesPerLink[static_cast<std::size_t>(link)];
+    auto idsOfLss = assigned(avatar, link, triangles);
+    if (!idsOfLss.ok()) return idsOfLss.error();
+    parts->numTriangles += triangles.size();
+    if (parts->numTriangles > kMaxSurfaceTriangles) {
+      return linkError(avatar, link, ErrorCode::LimitExceeded,
+                       "expected at most " + std::to_string(kMaxSurfaceTriangles) +
+                           " triangles on all links together");
+    }
+    parts->links.push_back(
+        std::make_unique<LinkSurface>(std::move(triangles), std::move(idsOfLss).value()));
+  }
+  if (parts->numTriangles == 0) {
+    return Error{ErrorCode::Empty, "", -1, -1, "expected triangles on at least one link"};
+  }
+  return AvatarSurface(std::move(parts));
+}
+
+std::int32_t AvatarSurface::numLinks() const {
+  return static_cast<std::int32_t>(parts_->links.size());
+}
+
+const std::vector<Triangle>& AvatarSurface::triangles(LinkId link) const {
+  return parts_->links[static_cast<std::size_t>(link)]->triangles();
+}
+
+std::size_t AvatarSurface::numTriangles() const {
+  return parts_->numTriangles;
+}
+
+}  // namespace foretouch

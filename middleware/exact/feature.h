@@ -1,0 +1,17 @@
+// middleware/exact/feature.h: which feature of a triangle a witness point lies on.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lss/triangle.h"
+#include "middleware/exact/leaf.h"
+
+namespace foretouch {
+
+/// The vertex, else the edge, within 1e-9 of the triangle's size of `point`; else the face. Metres.
+[[nodiscard]] FeatureKind featureAt(const Triangle& triangle, const Eigen::Vector3d& point);
+
+/// "vertex", "edge", "face".
+[[nodiscard]] const char* toString(FeatureKind kind);
+
+}  // namespace foretouch

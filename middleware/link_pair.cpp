@@ -1,0 +1,130 @@
+#include "middleware/link_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lss/assert.h"
+#include "lss/separation.h"
+#include "lss/triangle_separation.h"
+
+namespace foretouch::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Rounds steps down past the rounding of their formula (some ten roundings of positive terms).
+constexpr double kStepShrink = 1.0 - 1e-12;
+/// Covers the rounding of norms and of a few operations on bounds.
+constexpr double kInflation = 1.0 + 1e-12;
+
+PairState pairOfLss(const Lss& lss, const AxisBounds& bounds, const LinkState& state,
+                    const Triangle& triangle) {
+  const AxisEnds ends = axisEnds(lss, state);
+  const Separation axis = separation(ends.a, ends.b, triangle);
+  // The differences below round once each, by at most kUnitRoundoff of what is subtracted.
+  const double radiusSlack = 4.0 * kUnitRoundoff * (lss.radius + std::abs(axis.upper));
+  PairState pair;
+  pair.points = 2;
+  pair.radius = lss.radius;
+  pair.nhat = axis.nhat;
+  pair.gap = {axis.clearanceA - bounds.positionRoundingA - lss.radius - radiusSlack,
+              axis.clearanceB - bounds.positionRoundingB - lss.radius - radiusSlack, kInfinity};
+  pair.gapUpper = axis.upper + std::max(bounds.positionRoundingA, bounds.positionRoundingB) -
+                  lss.radius + radiusSlack;
+  pair.distance = axis.closest.distance;
+  pair.onHull = axis.closest.onSegment;
+  pair.onScene = axis.closest.onTriangle;
+  pair.difference = axis.closest.difference;
+  pair.featureNormal = axis.closest.featureNormal;
+  pair.velocity[0] = state.velocityAt(lss.a);
+  pair.velocity[1] = state.velocityAt(lss.b);
+  pair.acceleration = {bounds.accelerationA, bounds.accelerationB, 0.0};
+  pair.velocityRounding = {bounds.velocityRoundingA, bounds.velocityRoundingB, 0.0};
+  return pair;
+}
+
+PairState pairOfTriangle(const Triangle& part_L, const MotionBounds& bounds,
+                         const LinkState& state, const Triangle& triangle) {
+  PairState pair;
+  for (std::size_t i = 0; i < 3; ++i) pair.hull.vertices[i] = state.pointAt(part_L.vertices[i]);
+  const TriangleSeparation s = triangleSeparation(pair.hull, triangle);
+  pair.points = 3;
+  pair.nhat = s.nhat;
+  double worstRounding = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double rho = part_L.vertices[i].norm() * kInflation;
+    const double rounding = bounds.positionRoundingAt(rho) * kInflation;
+    worstRounding = std::max(worstRounding, rounding);
+    pair.gap[i] = s.clearance[i] - rounding - 4.0 * kUnitRoundoff * std::abs(s.clearance[i]);
+    pair.velocity[i] = state.velocityAt(part_L.vertices[i]);
+    pair.acceleration[i] = bounds.accelerationAt(rho) * kInflation;
+    pair.velocityRounding[i] = bounds.velocityRoundingAt(rho) * kInflation;
+  }
+  pair.gapUpper = (s.upper + worstRounding) * kInflation;
+  pair.distance = s.distance;
+  pair.onHull = s.onOne;
+  pair.onScene = s.onOther;
+  pair.difference = s.difference;
+  pair.featureNormal = s.featureNormal;
+  return pair;
+}
+
+}  // namespace
+
+double PairState::gapLower() const {
+  return std::min(gap[0], points == 3 ? std::min(gap[1], gap[2]) : gap[1]);
+}
+
+const Lss& LinkParts::lssOf(std::int32_t lssIndex, Part part) const {
+  FORETOUCH_ASSERT(!part.isTriangle());
+  const auto index = static_cast<std::size_t>(lssIndex);
+  return part.isWhole() ? lss[index] : surface->hierarchy(lssIndex).node(part.index()).lss;
+}
+
+PairState LinkParts::pair(std::int32_t lssIndex, Part part, const LinkState& state,
+                          const Triangle& triangle) const {
+  if (part.isTriangle()) {
+    return pairOfTriangle(surface->triangle(part.index()), bounds, state, triangle);
+  }
+  const auto index = static_cast<std::size_t>(lssIndex);
+  if (part.isWhole()) return pairOfLss(lss[index], axisBounds[index], state, triangle);
+  const Lss& node = lssOf(lssIndex, part);
+  return pairOfLss(node, foretouch::axisBounds(node, bounds), state, triangle);
+}
+
+Aabb LinkParts::boxOfPoints(std::int32_t lssIndex, Part part, const LinkState& state) const {
+  Aabb box;
+  if (part.isTriangle()) {
+    for (const Vector3d& v : surface->triangle(part.index()).vertices) box.add(state.pointAt(v));
+    return box;
+  }
+  const AxisEnds ends = axisEnds(lssOf(lssIndex, part), state);
+  box.add(ends.a);
+  box.add(ends.b);
+  return box;
+}
+
+double safeStep(double clearance, double speed, double acceleration) {
+  FORETOUCH_ASSERT(clearance > 0.0 && acceleration >= 0.0);
+  const double root = std::sqrt(speed * speed + 2.0 * acceleration * clearance);
+  // Two forms of the positive root, each a sum of terms of one sign.
+  if (speed <= 0.0) {
+    const double closing = root - speed;
+    return closing > 0.0 ? kStepShrink * (2.0 * clearance / closing) : kInfinity;
+  }
+  return acceleration > 0.0 ? kStepShrink * ((speed + root) / acceleration) : kInfinity;
+}
+
+double stepFrom(const PairState& pair, double floor) {
+  if (!(pair.gapLower() > floor)) return 0.0;
+  double step = kInfinity;
+  for (std::size_t i = 0; i < pair.points; ++i) {
+    const double speed = pair.nhat.dot(pair.velocity[i]) - pair.velocityRounding[i];
+    step = std::min(step, safeStep(pair.gap[i] - floor, speed, pair.acceleration[i]));
+  }
+  return step;
+}
+
+}  // namespace foretouch::internal
