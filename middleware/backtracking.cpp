@@ -97,7 +97,7 @@ class Backtracker {
     const PairState pair = pairAt(candidate, t);
     const bool isSurface = query_.isSurface(candidate.part);
     if (pair.gapUpper <= query_.tolerance) {
-      if (!isSurface) return descend(Later{}, [](Candidate&) {});
+      if (!isSurface) return descendFrom(pair, t);
       best_ = contactOf(query_, candidate, pair, t);
       heap_.pop_back();
       return;
@@ -106,7 +106,7 @@ class Backtracker {
     // Rounding the sum may have moved it up by half a unit in the last place.
     const double reached = next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
     if (!(reached > t)) {
-      if (!isSurface) return descend(Later{}, [](Candidate&) {});
+      if (!isSurface) return descendFrom(pair, t);
       giveUp(t, UndecidedReason::Resolution);
       heap_.pop_back();
       return;
@@ -119,6 +119,20 @@ class Backtracker {
     }
   }
 
+  /// From an instant on, the two parts below take the place of the heap's last candidate; the plane
+  /// that was found for it moves them on where it can.
+  void descendFrom(const PairState& pair, double t) {
+    descend(Later{}, [&](Candidate& part) {
+      ++counters_.planeTests;
+      const double step = query_.parts.stepByPlane(part.lss, part.part, states_.at(t),
+                                                   query_.scene.triangle(part.triangle), pair.nhat,
+                                                   query_.tolerance);
+      if (!(step > 0.0)) return;
+      const double next = t + step;
+      part.freeUntil = nextPossible(part, next >= 1.0 ? 1.0 : std::nextafter(next, 0.0));
+    });
+  }
+
   /// Puts the two parts below in the place of the heap's last candidate. `prepare` makes each ready
   /// for the order that the heap is in.
   template <typename Order, typename Prepare>
@@ -127,10 +141,11 @@ class Backtracker {
     heap_.pop_back();
     const std::array<Part, 2> parts = query_.below(parent.lss, parent.part);
     for (std::size_t i = 0; i < 2; ++i) {
-      if (i == 1 && parts[1] == parts[0]) return;
+      if (i == 1 && parts[1] == parts[0]) break;
       Candidate child = parent;
       child.part = parts[i];
       prepare(child);
+      if (!(child.freeUntil < 1.0) || child.freeUntil > horizon_) continue;
       heap_.push_back(child);
       std::push_heap(heap_.begin(), heap_.end(), order);
     }

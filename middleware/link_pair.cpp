@@ -94,6 +94,39 @@ PairState LinkParts::pair(std::int32_t lssIndex, Part part, const LinkState& sta
   return pairOfLss(node, foretouch::axisBounds(node, bounds), state, triangle);
 }
 
+double LinkParts::stepByPlane(std::int32_t lssIndex, Part part, const LinkState& state,
+                              const Triangle& triangle, const Vector3d& nhat,
+                              double floor) const {
+  std::array<Vector3d, 3> points_L;
+  std::size_t count = 3;
+  double radius = 0.0;
+  if (part.isTriangle()) {
+    points_L = surface->triangle(part.index()).vertices;
+  } else {
+    const Lss& bound = lssOf(lssIndex, part);
+    points_L = {bound.a, bound.b, Vector3d::Zero()};
+    count = 2;
+    radius = bound.radius;
+  }
+  const Vector3d& origin = triangle.vertices[0];
+  const Vector3d e1 = triangle.vertices[1] - origin, e2 = triangle.vertices[2] - origin;
+  const double top = std::max(0.0, std::max(nhat.dot(e1), nhat.dot(e2)));
+  const double extentOfTriangle = e1.lpNorm<1>() + e2.lpNorm<1>();
+  double step = kInfinity;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3d w = state.pointAt(points_L[i]) - origin;
+    const double rho = points_L[i].norm() * kInflation;
+    const double slack = kSeparationRounding * (w.lpNorm<1>() + extentOfTriangle + radius) +
+                         bounds.positionRoundingAt(rho) * kInflation;
+    const double gap = nhat.dot(w) - top - radius - slack;
+    if (!(gap > floor)) return 0.0;
+    const double speed = nhat.dot(state.velocityAt(points_L[i])) -
+                         bounds.velocityRoundingAt(rho) * kInflation;
+    step = std::min(step, safeStep(gap - floor, speed, bounds.accelerationAt(rho) * kInflation));
+  }
+  return step;
+}
+
 Aabb LinkParts::boxOfPoints(std::int32_t lssIndex, Part part, const LinkState& state) const {
   Aabb box;
   if (part.isTriangle()) {

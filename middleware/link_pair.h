@@ -67,6 +67,12 @@ struct LinkParts {
   [[nodiscard]] const Lss& lssOf(std::int32_t lssIndex, Part part) const;
   [[nodiscard]] PairState pair(std::int32_t lssIndex, Part part, const LinkState& state,
                                const Triangle& triangle) const;
+  /// For how long the part stays at `floor` or more above the plane of another pair of the same
+  /// triangle at the same instant: a cheap proof, as a plane that separates an LSS often separates
+  /// what is in it. 0 where it proves nothing.
+  [[nodiscard]] double stepByPlane(std::int32_t lssIndex, Part part, const LinkState& state,
+                                   const Triangle& triangle, const Eigen::Vector3d& nhat,
+                                   double floor) const;
   /// A box around the part's points at `state`, as computed.
   [[nodiscard]] Aabb boxOfPoints(std::int32_t lssIndex, Part part, const LinkState& state) const;
 };

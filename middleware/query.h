@@ -108,6 +108,7 @@ struct QueryCounters {
   std::uint64_t candidates = 0;    ///< (LSS, triangle) pairs that passed the culling.
   std::uint64_t advancements = 0;  ///< Distance evaluations, all kinds together.
   std::uint64_t hierarchyTests = 0;  ///< At exact fidelity: of an LSS or a node below it.
+  std::uint64_t planeTests = 0;      ///< At exact fidelity: of a part against its parent's plane.
   std::uint64_t leafTests = 0;       ///< At exact fidelity: of two triangles.
   std::uint64_t states = 0;        ///< Link states evaluated (forward kinematics).
 };

@@ -84,13 +84,14 @@ Result<Culler> parseCuller(const std::string& option, const std::string& text) {
   return refusal(option, "flat or point-query", text);
 }
 
-Result<Done> checkFidelity(const std::string& option, const std::string& text) {
-  if (text == "link") return Done{};
-  if (text == "exact" || text == "avatar" || text == "ellipsoid") {
+Result<Fidelity> parseFidelity(const std::string& option, const std::string& text) {
+  if (text == "link") return Fidelity::Link;
+  if (text == "exact") return Fidelity::Exact;
+  if (text == "avatar" || text == "ellipsoid") {
     return Error{ErrorCode::OutOfRange, option, -1, -1,
-                 "'" + text + "' is not available in this version; available: link"};
+                 "'" + text + "' is not available in this version; available: link, exact"};
   }
-  return refusal(option, "link", text);
+  return refusal(option, "link or exact", text);
 }
 
 Result<Done> checkIsNoInput(const std::string& output, const std::vector<std::string>& inputs) {

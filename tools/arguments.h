@@ -30,7 +30,7 @@ inline constexpr int kMaxThreads = 256;
 /// "flat" or "point-query".
 [[nodiscard]] Result<Culler> parseCuller(const std::string& option, const std::string& text);
 /// Only "link" is available; the other rungs are refused by name.
-[[nodiscard]] Result<Done> checkFidelity(const std::string& option, const std::string& text);
+[[nodiscard]] Result<Fidelity> parseFidelity(const std::string& option, const std::string& text);
 
 /// Refuses an output file that is one of the inputs. Empty paths are passed over.
 [[nodiscard]] Result<Done> checkIsNoInput(const std::string& output,

@@ -146,7 +146,7 @@ Result<Done> replay(const ReplayInputs& inputs, const ReplayOptions& options,
     rigid.emplace(std::move(built).value());
   }
   const StepFormat format(inputs.avatar, inputs.scene);
-  const StepExtras extras{rigid ? &*rigid : nullptr, options.rays};
+  const StepExtras extras{rigid ? &*rigid : nullptr, options.compareLink, options.rays};
   std::vector<StepSolver> solvers;
   for (int i = 0; i < options.threads; ++i) {
     solvers.emplace_back(inputs, format, extras);

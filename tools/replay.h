@@ -12,6 +12,7 @@ namespace foretouch::tools {
 struct ReplayOptions {
   int threads = 1;            ///< 1 to kMaxThreads.
   bool compareRigid = false;  ///< Also answers each step by the rigid model.
+  bool compareLink = false;   ///< Also answers each step at link fidelity.
   bool rays = false;          ///< Also times a set of rays a step.
 };
 

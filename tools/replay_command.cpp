@@ -25,7 +25,7 @@ struct ReplayTexts {
   std::string scale = "1", sceneScale = "1", motionUp = "y", up = "y", place = "0,0,0,0";
   std::string fidelity = "link", tolerance = "0.001", culler = "flat", threads = "cores";
   std::vector<std::string> ignore;
-  bool compareRigid = false, rays = false;
+  bool compareRigid = false, compareLink = false, rays = false;
 };
 
 /// Takes parsed values apart from errors, keeping the first error.
@@ -56,10 +56,11 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   request.ignore = texts.ignore;
   job.outputPath = texts.output;
   job.options.compareRigid = texts.compareRigid;
+  job.options.compareLink = texts.compareLink;
   job.options.rays = texts.rays;
 
   Settling settle;
-  settle.require(checkFidelity("--fidelity", texts.fidelity));
+  settle.into(request.fidelity, parseFidelity("--fidelity", texts.fidelity));
   settle.into(request.placement, parsePlacement("--place", texts.place));
   UpAxis motionUp = UpAxis::Y;
   settle.into(motionUp, parseUpAxis("--motion-up", texts.motionUp));
@@ -178,7 +179,7 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   option("--up", texts->up, "y|z", "Which axis of the scene points up");
   option("--place", texts->place, "X,Y,Z[,YAW]",
          "Where the clip's origin stands in the scene: metres, and degrees about +Y");
-  option("--fidelity", texts->fidelity, "RUNG", "How finely the avatar is modelled: link");
+  option("--fidelity", texts->fidelity, "RUNG", "What touches: the links' LSS (link), or their meshes (exact)");
   option("--tolerance", texts->tolerance, "M", "Largest separation (m) of a reported contact");
   option("--threads", texts->threads, "N", "Threads");
   option("--map", texts->map, "FILE", R"(Joint names that differ: {"avatar joint": "clip joint"})");
@@ -188,6 +189,8 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
       ->allow_extra_args(false);
   command->add_flag("--compare-rigid", texts->compareRigid,
                     "Also count what a model that knows only each link's own two poses misses");
+  command->add_flag("--compare-link", texts->compareLink,
+                    "With --fidelity exact: also count the LSS contacts that the meshes refute");
   command->add_flag("--rays", texts->rays, "Also time 16 occlusion rays a step, as a yardstick");
   command->footer(kExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });

@@ -8,6 +8,7 @@
 #include "articulated/avatar_file.h"
 #include "articulated/bvh_reader.h"
 #include "articulated/text_file.h"
+#include "middleware/link_mesh.h"
 #include "tools/console.h"
 #include "tools/ignored_pairs.h"
 #include "tools/joint_map.h"
@@ -24,6 +25,18 @@ Result<Scene> loadScene(const ReplayRequest& request) {
   auto scene = Scene::build(std::move(imported.value().scene));
   if (!scene.ok()) return inFile(scene.error(), request.scenePath);
   return scene;
+}
+
+/// The meshes that the avatar file refers to, where the fidelity asks for them.
+Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, QueryOptions& query) {
+  query.fidelity = request.fidelity;
+  if (request.fidelity == Fidelity::Link) return Done{};
+  auto meshes = loadLinkMeshes(avatar, request.avatarPath);
+  if (!meshes.ok()) return inFile(meshes.error(), request.avatarPath);
+  auto surface = AvatarSurface::build(avatar, std::move(meshes).value());
+  if (!surface.ok()) return inFile(surface.error(), request.avatarPath);
+  query.surface = std::move(surface).value();
+  return Done{};
 }
 
 /// Total length of the matched joints' offsets to matched parents, in the avatar and in the clip:
@@ -60,6 +73,8 @@ Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
   QueryOptions query;
   query.tolerance = request.tolerance;
   query.culler = request.culler;
+  const auto surface = loadSurface(request, avatar.value(), query);
+  if (!surface.ok()) return surface.error();
   auto ignored =
       parseIgnoredPairs(request.ignore, avatar.value().skeleton(), scene.value().objectNames());
   if (!ignored.ok()) return ignored.error();

@@ -28,6 +28,7 @@ struct ReplayRequest {
   Placement placement;
   double tolerance = 1e-3;
   Culler culler = Culler::FlatBvh;
+  Fidelity fidelity = Fidelity::Link;
   std::vector<std::string> ignore;
 };
 

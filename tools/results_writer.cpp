@@ -68,7 +68,8 @@ std::string headerLine(const ReplayInputs& inputs) {
   text += fmt::format(R"(,"rate":{},"k":{},"frame_time":{},"steps":{})",
                       request.rateHz ? number(*request.rateHz) : "null", inputs.steps.stride,
                       number(inputs.clip.frameTimeS), inputs.steps.count);
-  text += fmt::format(R"(,"tolerance":{},"fidelity":"link")", number(request.tolerance));
+  text += fmt::format(R"(,"tolerance":{},"fidelity":"{}")", number(request.tolerance),
+                      toString(request.fidelity));
   text += fmt::format(R"(,"scale":{},"motion_up":"{}","place":[{},{},{},{}])",
                       number(request.motionScale), request.placement.motionUpZ ? "z" : "y",
                       number(origin.x()), number(origin.y()), number(origin.z()),
@@ -113,9 +114,15 @@ void StepFormat::append(const LinkContact& contact, const StepAnswer& answer,
   if (contact.verdict == Verdict::StartsInContact) {
     text += fmt::format(R"(,"penetration":{})", number(contact.penetration));
   }
-  text += fmt::format(R"(,"point":{},"on_link":{},"normal":{},"triangle":{},"object":{}}})",
+  text += fmt::format(R"(,"point":{},"on_link":{},"normal":{},"triangle":{},"object":{})",
                       numbers(contact.p_WScene), numbers(contact.p_WLink),
                       numbers(contact.nhat_SL_W), contact.triangle, objects_[object]);
+  if (contact.linkTriangle >= 0) {
+    text += fmt::format(R"(,"link_triangle":{},"link_feature":"{}","scene_feature":"{}")",
+                        contact.linkTriangle, toString(contact.linkFeature),
+                        toString(contact.sceneFeature));
+  }
+  text += '}';
 }
 
 }  // namespace foretouch::tools

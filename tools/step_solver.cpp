@@ -99,6 +99,12 @@ Result<Done> StepSolver::addExtras(const ChainMotion& motion, const StepContacts
     if (!counts.ok()) return counts.error();
     replayed.rigid = counts.value();
   }
+  if (extras_.link) {
+    const auto counts = compareWithLink(inputs_.avatar, motion, contacts, inputs_.scene,
+                                        inputs_.query, scratch_);
+    if (!counts.ok()) return counts.error();
+    replayed.link = counts.value();
+  }
   if (extras_.rays) {
     const std::array<RaySegment, kRaysPerSet> rays = raysAlong(motion);
     const Clock::time_point start = Clock::now();

@@ -8,6 +8,7 @@
 #include "articulated/motion.h"
 #include "articulated/result.h"
 #include "middleware/query.h"
+#include "tools/fidelity_comparison.h"
 #include "tools/replay_inputs.h"
 #include "tools/results_writer.h"
 #include "tools/rigid_comparison.h"
@@ -18,12 +19,14 @@ struct ReplayedStep {
   StepAnswer answer;
   std::string line;  ///< Of the results file.
   std::optional<RigidCounts> rigid;
+  std::optional<FidelityCounts> link;
   std::optional<double> raySetUs;
 };
 
 /// What is done beside the query, for comparison.
 struct StepExtras {
   const RigidComparison* rigid = nullptr;  ///< Null: no comparison.
+  bool link = false;  ///< Also answer at link fidelity.
   bool rays = false;  ///< Also time a set of rays (middleware/ray_yardstick.h).
 };
 

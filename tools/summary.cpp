@@ -21,6 +21,12 @@ std::string row(const char* what, std::int64_t number, const std::string& remark
   return fmt::format("{:<22}{:>10}{}{}\n", what, number, remark.empty() ? "" : "   ", remark);
 }
 
+double mean(const std::vector<float>& values) {
+  double sum = 0.0;
+  for (const float value : values) sum += static_cast<double>(value);
+  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
 }  // namespace
 
 double percentile(std::vector<float>& values, double share) {
@@ -58,10 +64,17 @@ void ReplaySummary::add(const ReplayedStep& step) {
     if (!rigid_) rigid_.emplace();
     rigid_->add(*step.rigid);
   }
+  if (step.link) {
+    if (!link_) link_.emplace();
+    link_->add(*step.link);
+  }
   if (step.raySetUs) raySetsUs_.push_back(static_cast<float>(*step.raySetUs));
   work_.nodes += answer.counters.nodes;
   work_.candidates += answer.counters.candidates;
   work_.advancements += answer.counters.advancements;
+  work_.hierarchyTests += answer.counters.hierarchyTests;
+  work_.planeTests += answer.counters.planeTests;
+  work_.leafTests += answer.counters.leafTests;
   latenciesUs_.push_back(static_cast<float>(answer.latencyUs));
 }
 
@@ -74,7 +87,7 @@ void ReplaySummary::count(const LinkContact& contact) {
 }
 
 std::string ReplaySummary::text(int threads) const {
-  return head(threads) + verdicts() + byLink() + rigid() + cost();
+  return head(threads) + verdicts() + byLink() + rigid() + link() + cost();
 }
 
 std::string ReplaySummary::head(int threads) const {
@@ -82,10 +95,10 @@ std::string ReplaySummary::head(int threads) const {
   const auto stride = static_cast<double>(inputs_.steps.stride);
   return fmt::format(
       "{} in {}: {} triangles, {} links\n{:.5g} of {:.5g} poses a second, tolerance {:.3g} m, "
-      "link fidelity, {} {}\n\n",
+      "{} fidelity, {} {}\n\n",
       inputs_.request.motionPath, inputs_.request.scenePath, inputs_.scene.audit().triangles,
-      inputs_.avatar.numLinks(), clipHz / stride, clipHz, inputs_.request.tolerance, threads,
-      threads == 1 ? "thread" : "threads");
+      inputs_.avatar.numLinks(), clipHz / stride, clipHz, inputs_.request.tolerance,
+      toString(inputs_.request.fidelity), threads, threads == 1 ? "thread" : "threads");
 }
 
 std::string ReplaySummary::verdicts() const {
@@ -139,11 +152,23 @@ std::string ReplaySummary::rigid() const {
       rigid_->early, rigid_->falseContacts, rigid_->undecided);
 }
 
+std::string ReplaySummary::link() const {
+  if (!link_) return "";
+  return fmt::format(
+      "\nlink fidelity finds {} contacts; the meshes refute {} ({}) and delay {} ({});\n"
+      "earlier than the LSS, or where they are clear: {}; not compared: {}; its mean latency: "
+      "{:.1f} us\n",
+      link_->lssContacts, link_->refuted, shareOf(link_->refuted, link_->lssContacts),
+      link_->later, shareOf(link_->later, link_->lssContacts), link_->broken, link_->undecided,
+      link_->lssUs / static_cast<double>(std::max<std::int64_t>(1, steps_)));
+}
+
 std::string ReplaySummary::cost() const {
   std::vector<float> latencies = latenciesUs_;
   const double median = percentile(latencies, 0.5);
   std::string text = fmt::format(
-      "\nlatency of a step, us    p50 {:.1f}   p90 {:.1f}   p99 {:.1f}   max {:.1f}\n", median,
+      "\nlatency of a step, us    mean {:.1f}   p50 {:.1f}   p90 {:.1f}   p99 {:.1f}   max {:.1f}\n",
+      mean(latenciesUs_), median,
       percentile(latencies, 0.9), percentile(latencies, 0.99), percentile(latencies, 1.0));
   if (!raySetsUs_.empty()) {
     std::vector<float> raySets = raySetsUs_;
@@ -158,6 +183,12 @@ std::string ReplaySummary::cost() const {
   text += fmt::format(
       "work of a step, mean     nodes {:.1f}   candidates {:.1f}   advancements {:.1f}\n",
       aStep(work_.nodes), aStep(work_.candidates), aStep(work_.advancements));
+  if (inputs_.request.fidelity == Fidelity::Exact) {
+    text += fmt::format(
+        "of these advancements    LSS hierarchy {:.1f}   triangle pairs {:.1f}   (and by planes "
+        "{:.1f})\n",
+        aStep(work_.hierarchyTests), aStep(work_.leafTests), aStep(work_.planeTests));
+  }
   return text;
 }
 

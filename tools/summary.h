@@ -53,6 +53,7 @@ class ReplaySummary {
   [[nodiscard]] std::string verdicts() const;
   [[nodiscard]] std::string byLink() const;
   [[nodiscard]] std::string rigid() const;
+  [[nodiscard]] std::string link() const;
   [[nodiscard]] std::string cost() const;
 
   const ReplayInputs& inputs_;
@@ -61,6 +62,7 @@ class ReplaySummary {
   std::vector<Counts> ofLink_;
   std::vector<MissedContact> firstMissed_;
   std::optional<RigidCounts> rigid_;
+  std::optional<FidelityCounts> link_;
   QueryCounters work_;
   std::vector<float> latenciesUs_, raySetsUs_;
 };

@@ -77,15 +77,17 @@ TEST(ParseCuller, KnowsTwoCullers) {
   EXPECT_FALSE(parseCuller("--culler", "bvh").ok());
 }
 
-TEST(CheckFidelity, NamesWhatIsAvailableForRungsThatAreNot) {
-  EXPECT_TRUE(checkFidelity("--fidelity", "link").ok());
-  for (const char* rung : {"exact", "avatar", "ellipsoid"}) {
-    const auto checked = checkFidelity("--fidelity", rung);
-    ASSERT_FALSE(checked.ok());
-    EXPECT_NE(checked.error().message.find("not available in this version; available: link"),
-              std::string::npos);
+TEST(ParseFidelity, NamesWhatIsAvailableForRungsThatAreNot) {
+  EXPECT_EQ(parseFidelity("--fidelity", "link").value(), Fidelity::Link);
+  EXPECT_EQ(parseFidelity("--fidelity", "exact").value(), Fidelity::Exact);
+  for (const char* rung : {"avatar", "ellipsoid"}) {
+    const auto parsed = parseFidelity("--fidelity", rung);
+    ASSERT_FALSE(parsed.ok());
+    EXPECT_NE(
+        parsed.error().message.find("not available in this version; available: link, exact"),
+        std::string::npos);
   }
-  EXPECT_FALSE(checkFidelity("--fidelity", "best").ok());
+  EXPECT_FALSE(parseFidelity("--fidelity", "best").ok());
 }
 
 TEST(CheckIsNoInput, SeesTheSameFileUnderAnotherName) {
