@@ -1,8 +1,8 @@
-// middleware/exact/linear_query.h: points that move along straight lines at constant speed over t in
-// [0,1]: do two features meet, and when first? The answer is exact: no false negative and no false
-// positive, degenerate cases included (always coplanar, parallel, zero area, touching at t = 0 or t
-// = 1, vertex on edge). Sources: [Brochu12] for exactness as the aim, [Wang21] for the query set,
-// derivation in middleware/exact/linear_query.md.
+// middleware/exact/linear_query.h: points that move along straight lines at constant speed over t
+// in [0,1]: do two features meet, and when first? The answer is exact: no false negative and no
+// false positive, degenerate cases included (always coplanar, parallel, zero area, touching at t =
+// 0 or t = 1, vertex on edge). Sources: [Brochu12] for exactness as the aim, [Wang21] for the query
+// set, derivation in middleware/exact/linear_query.md.
 //
 // Every query is one question: when does the origin first lie in a moving polygon? Vertex against
 // face: a triangle of differences; edge against edge: a parallelogram; vertex against edge and
@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
-#include "middleware/exact/leaf.h"
 #include "lss/triangle.h"
+#include "middleware/exact/leaf.h"
 
 namespace foretouch {
 
@@ -33,7 +33,8 @@ struct LinearPoint {
 [[nodiscard]] LeafAnswer vertexVertex(const LinearPoint& one, const LinearPoint& other);
 
 /// First contact of two moving triangles that may start in contact: an exact triangle-triangle test
-/// at t = 0, then the six vertex-face and nine edge-edge queries. Features are those of the earliest.
+/// at t = 0, then the six vertex-face and nine edge-edge queries. Features are those of the
+/// earliest.
 struct TrianglePairAnswer {
   LeafAnswer leaf;
   bool startsInContact = false;

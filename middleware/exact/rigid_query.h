@@ -13,8 +13,8 @@
 namespace foretouch {
 
 /// x(t) = x0 + t*(x1 - x0), q(t) = q0 + t*(q1 - q0); a point p of the body is at x + R(q)p. The
-/// quaternions need not be unit. Precondition: q0.q1 >= 0 and both have norm in [0.5, 2] (asserted),
-/// so that |q(t)| > 0.
+/// quaternions need not be unit. Precondition: q0.q1 >= 0 and both have norm in [0.5, 2]
+/// (asserted), so that |q(t)| > 0.
 struct NlerpMotion {
   Eigen::Vector3d x0, x1;
   Quaternion q0, q1;
@@ -25,7 +25,7 @@ struct NlerpMotion {
 /// [0, toiLow). Tight: at some instant of [toiLow, toiHigh] the separation is at most
 /// band + rigidBand(...).
 struct RigidAnswer {
-  LeafAnswer leaf;  ///< `stage` is never Exact.
+  LeafAnswer leaf;               ///< `stage` is never Exact.
   bool startsInContact = false;  ///< Separation <= band at t = 0, up to rigidBand().
   Feature moving, fixed;
 };
