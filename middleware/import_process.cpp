@@ -94,7 +94,7 @@ struct Channels {
 /// as another thread may hold the allocator's lock for ever.
 struct ChildPlan {
   const char* program;
-  std::array<char*, 3> arguments;
+  char* const* arguments;
   rlim_t addressSpaceBytes, cpuSeconds;
   int nullInput, output, errors, exec;
   pid_t parent;
@@ -145,7 +145,7 @@ void resetSignals() {
   // kernels lack the call; the host's marks then have to do.
   close_range(STDERR_FILENO + 1, UINT_MAX, CLOSE_RANGE_CLOEXEC);
   if (!ready || !setLimits(plan)) reportAndExit(plan.exec);
-  execve(plan.program, plan.arguments.data(), environ);
+  execve(plan.program, plan.arguments, environ);
   reportAndExit(plan.exec);
 }
 
@@ -220,11 +220,14 @@ class Child {
 
 /// Forks with every signal blocked, so that no handler of the host runs in the child. -1 with errno
 /// set where that failed.
-pid_t start(const std::string& program, const std::string& argument, const ProcessLimits& limits,
-            const Channels& channels) {
-  std::string programCopy = program, argumentCopy = argument;  // execve() wants them writable
-  const ChildPlan plan{programCopy.c_str(),
-                       {programCopy.data(), argumentCopy.data(), nullptr},
+pid_t start(const std::string& program, std::vector<std::string> arguments,
+            const ProcessLimits& limits, const Channels& channels) {
+  arguments.insert(arguments.begin(), program);  // a copy: execve() wants them writable
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const ChildPlan plan{program.c_str(),
+                       argv.data(),
                        static_cast<rlim_t>(limits.addressSpaceBytes),
                        static_cast<rlim_t>(std::max(1.0, std::ceil(limits.seconds))),
                        channels.nullInput.get(),
@@ -349,14 +352,14 @@ void describeEnd(const Child& child, ReadEnd read, bool byItself, ProcessEnd& en
 
 }  // namespace
 
-ProcessEnd runLimited(const std::string& program, const std::string& argument,
+ProcessEnd runLimited(const std::string& program, const std::vector<std::string>& arguments,
                       const ProcessLimits& limits,
                       const std::function<bool(std::string_view)>& take) {
   const auto allowed = std::chrono::duration<double>(limits.seconds);
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(allowed);
   ProcessEnd end;
   Channels channels;
-  const pid_t pid = channels.open() ? start(program, argument, limits, channels) : -1;
+  const pid_t pid = channels.open() ? start(program, arguments, limits, channels) : -1;
   if (pid < 0) {
     end.code = errno;
     return end;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace foretouch::internal {
 
@@ -43,11 +44,13 @@ struct ProcessEnd {
   std::string errorOutput;  ///< The last bytes it wrote to stderr, as they came.
 };
 
-/// Runs `program argument`, handing its standard output to `take` until that returns false. The
-/// limits are set between fork and exec, so they hold whatever the program is and before its first
-/// instruction. When this returns, or throws what `take` threw, the process and those it started
-/// are dead and collected, and every descriptor is closed. May be called from several threads.
-[[nodiscard]] ProcessEnd runLimited(const std::string& program, const std::string& argument,
+/// Runs `program` with `arguments`, handing its standard output to `take` until that returns false.
+/// The limits are set between fork and exec, so they hold whatever the program is and before its
+/// first instruction. When this returns, or throws what `take` threw, the process and those it
+/// started are dead and collected, and every descriptor is closed. May be called from several
+/// threads.
+[[nodiscard]] ProcessEnd runLimited(const std::string& program,
+                                    const std::vector<std::string>& arguments,
                                     const ProcessLimits& limits,
                                     const std::function<bool(std::string_view)>& take);
 

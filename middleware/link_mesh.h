@@ -21,8 +21,9 @@ namespace foretouch {
     const Avatar& avatar, const std::string& avatarPath, const ModelImportOptions& options = {});
 
 /// Writes per-link triangles as a GLB that loadLinkMeshes() reads back bit for bit: a node a link,
-/// placed by the skeleton's rest pose so that a viewer shows the body, its mesh in the link's frame.
-/// Precondition: coordinates are floats (avatarFromModel() rounds), as glTF holds no doubles.
+/// placed by the skeleton's rest pose so that a viewer shows the body, its mesh in the link's
+/// frame. Precondition: coordinates are floats (avatarFromModel() rounds), as glTF holds no
+/// doubles.
 [[nodiscard]] Result<Done> writeLinkMeshes(const Skeleton& skeleton,
                                            const std::vector<std::vector<Triangle>>& triangles,
                                            const std::string& path);

@@ -1,0 +1,163 @@
+#include "middleware/link_mesh.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <new>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "articulated/text_file.h"
+#include "middleware/import_model_stream.h"
+#include "middleware/import_text.h"
+#include "middleware/link_mesh_skinned.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using Surfaces = std::vector<std::vector<Triangle>>;
+
+// A frame whose axes are unit and at right angles up to this is taken as rigid: files hold floats.
+constexpr double kRigidSlack = 1e-5;
+
+Error meshError(ErrorCode code, const std::string& file, LinkId link, std::string message) {
+  return Error{code, file, -1, link, std::move(message)};
+}
+
+/// The only node of that name, as the import makes names readable.
+Result<std::int32_t> nodeNamed(const Model& model, const std::string& name, const std::string& file,
+                               LinkId link) {
+  const std::string readable = internal::readableText(name, internal::kMaxModelNameBytes);
+  std::optional<std::int32_t> found;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (model.nodes[i].name != readable) continue;
+    if (found.has_value()) {
+      return meshError(ErrorCode::DuplicateName, file, link,
+                       "several nodes are named " + inQuotes(name));
+    }
+    found = static_cast<std::int32_t>(i);
+  }
+  if (!found.has_value()) {
+    return meshError(ErrorCode::UnknownName, file, link, "no node is named " + inQuotes(name));
+  }
+  return *found;
+}
+
+bool isRigid(const Eigen::Matrix3d& m) {
+  return (m.transpose() * m - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kRigidSlack &&
+         m.determinant() > 0.0;
+}
+
+/// Bones, and frames that scale or mirror, need avatarFromModel()'s rule: what a link's frame is
+/// then is its decision.
+bool needsAvatarRule(const Model& model, const std::vector<std::int32_t>& nodes) {
+  const auto hasBones = [](const ModelMesh& mesh) { return !mesh.bones.empty(); };
+  if (std::any_of(model.meshes.begin(), model.meshes.end(), hasBones)) return true;
+  std::vector<bool> rigid;
+  rigid.reserve(model.nodes.size());
+  for (const ModelNode& node : model.nodes) {
+    rigid.push_back((node.parent < 0 || rigid[static_cast<std::size_t>(node.parent)]) &&
+                    isRigid(node.toParent.linear));
+  }
+  return std::any_of(nodes.begin(), nodes.end(),
+                     [&](std::int32_t node) { return !rigid[static_cast<std::size_t>(node)]; });
+}
+
+/// As a GLB holds it, and as avatarFromModel() rounds it.
+Vector3d rounded(const Vector3d& v) {
+  return v.cast<float>().cast<double>();
+}
+
+/// The triangles of the node's own meshes, per node.
+Surfaces ownTriangles(const Model& model, const std::vector<std::int32_t>& nodes) {
+  std::map<std::int32_t, std::vector<Triangle>> ofNode;
+  for (const std::int32_t node : nodes) ofNode[node];
+  for (const ModelMesh& mesh : model.meshes) {
+    const auto wanted = ofNode.find(mesh.node);
+    if (wanted == ofNode.end()) continue;
+    for (const auto& t : mesh.triangles) {
+      const auto corner = [&](std::size_t k) {
+        return rounded(mesh.vertices[static_cast<std::size_t>(t[k])]);
+      };
+      wanted->second.push_back({{corner(0), corner(1), corner(2)}});
+    }
+  }
+  Surfaces surfaces;
+  for (const std::int32_t node : nodes) surfaces.push_back(ofNode[node]);
+  return surfaces;
+}
+
+/// A promised surface that is not there, or has no place, would be a contact that is missed.
+std::optional<Error> badSurface(const std::vector<Triangle>& surface, const std::string& node,
+                                const std::string& file, LinkId link) {
+  if (surface.empty()) {
+    return meshError(ErrorCode::Empty, file, link,
+                     "the node " + inQuotes(node) + " has no triangles");
+  }
+  if (!std::all_of(surface.begin(), surface.end(), isFinite)) {
+    return meshError(ErrorCode::NonFinite, file, link,
+                     "a triangle of node " + inQuotes(node) + " is not finite");
+  }
+  return std::nullopt;
+}
+
+/// Fills in the surfaces of `links`, all of which refer to `path`.
+Result<Done> loadFile(const Avatar& avatar, const std::string& path,
+                      const std::vector<LinkId>& links, const ModelImportOptions& options,
+                      Surfaces& surfaces) {
+  const auto model = importModel(path, options);
+  if (!model.ok()) return model.error();
+  std::vector<std::int32_t> nodes;
+  for (const LinkId link : links) {
+    const auto node = nodeNamed(model.value(), avatar.mesh(link).node, path, link);
+    if (!node.ok()) return node.error();
+    nodes.push_back(node.value());
+  }
+  Result<Surfaces> found = needsAvatarRule(model.value(), nodes)
+                               ? internal::surfacesOfBones(model.value(), nodes, path)
+                               : Result<Surfaces>(ownTriangles(model.value(), nodes));
+  if (!found.ok()) return found.error();
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    std::vector<Triangle>& surface = found.value()[i];
+    if (auto error = badSurface(surface, avatar.mesh(links[i]).node, path, links[i])) {
+      return *error;
+    }
+    surfaces[static_cast<std::size_t>(links[i])] = std::move(surface);
+  }
+  return Done{};
+}
+
+Result<Surfaces> loadChecked(const Avatar& avatar, const std::string& avatarPath,
+                             const ModelImportOptions& options) {
+  const std::filesystem::path folder = std::filesystem::path(avatarPath).parent_path();
+  std::map<std::string, std::vector<LinkId>> linksOfFile;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    const std::string& file = avatar.mesh(link).file;
+    if (!file.empty()) linksOfFile[(folder / file).string()].push_back(link);
+  }
+  Surfaces surfaces(static_cast<std::size_t>(avatar.numLinks()));
+  for (const auto& [path, links] : linksOfFile) {
+    const auto loaded = loadFile(avatar, path, links, options, surfaces);
+    if (!loaded.ok()) return loaded.error();
+  }
+  return Result<Surfaces>(std::move(surfaces));
+}
+
+}  // namespace
+
+Result<Surfaces> loadLinkMeshes(const Avatar& avatar, const std::string& avatarPath,
+                                const ModelImportOptions& options) {
+  try {
+    return loadChecked(avatar, avatarPath, options);
+  } catch (const std::bad_alloc&) {
+    return meshError(ErrorCode::LimitExceeded, avatarPath, -1,
+                     "not enough memory for the links' triangles");
+  } catch (const std::system_error& error) {
+    return meshError(ErrorCode::FileUnreadable, avatarPath, -1, error.what());
+  }
+}
+
+}  // namespace foretouch
