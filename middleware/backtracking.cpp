@@ -10,6 +10,7 @@
 #include "lss/assert.h"
 #include "middleware/culler.h"
 #include "middleware/exact/feature.h"
+#include "middleware/exact/linear_query.h"
 #include "middleware/exact/start.h"
 
 namespace foretouch::internal {
@@ -267,9 +268,12 @@ LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const 
                       double t) {
   LinkContact contact;
   contact.link = query.link;
-  // At t = 0 nothing before it proves the pair apart: what cannot be proven apart counts as
-  // touching.
-  const bool starts = t == 0.0 && pair.gapLower() <= 0.0;
+  // At t = 0 nothing before it proves the pair apart: of an LSS what cannot be proven apart counts
+  // as touching; triangles, where the computed vertices are, have an exact answer.
+  const bool starts =
+      t == 0.0 && pair.gapLower() <= 0.0 &&
+      (!candidate.part.isTriangle() ||
+       trianglesMeet(pair.hull, query.scene.triangle(candidate.triangle)));
   contact.verdict = starts ? Verdict::StartsInContact : Verdict::Contact;
   contact.toi = contact.freeUntil = t;
   contact.separation = starts ? 0.0 : std::min(query.tolerance, std::max(0.0, pair.estimate()));

@@ -6,6 +6,7 @@
 #include "lss/assert.h"
 #include "lss/segment_triangle.h"
 #include "middleware/backtracking.h"
+#include "middleware/exact/linear_query.h"
 #include "middleware/scene_internal.h"
 #include "middleware/surface_internal.h"
 
@@ -13,6 +14,32 @@ namespace foretouch {
 
 using internal::Candidate;
 using internal::Pieces;
+
+namespace {
+
+/// The objects whose contacts with the link at hand are not asked for.
+class IgnoredObjects {
+ public:
+  /// True if the link is ignored altogether.
+  bool collect(const QueryOptions& options, LinkId link) {
+    objects_.clear();
+    for (const IgnoredPair& pair : options.ignored) {
+      if (pair.link != link) continue;
+      if (pair.object == IgnoredPair::kEveryObject) return true;
+      objects_.push_back(pair.object);
+    }
+    std::sort(objects_.begin(), objects_.end());
+    return false;
+  }
+  [[nodiscard]] bool has(ObjectId object) const {
+    return std::binary_search(objects_.begin(), objects_.end(), object);
+  }
+
+ private:
+  std::vector<ObjectId> objects_;  // ascending
+};
+
+}  // namespace
 
 /// Memory that one thread's queries reuse.
 struct QueryScratch::Impl {
@@ -22,7 +49,7 @@ struct QueryScratch::Impl {
   std::vector<Aabb> boxes;                    // per LSS of the link at hand, per piece
   std::vector<TriangleId> found;
   std::vector<Candidate> candidates;
-  std::vector<ObjectId> ignoredObjects;  // of the link at hand, ascending
+  IgnoredObjects ignored;  // of the link at hand
 };
 
 QueryScratch::QueryScratch() : impl_(std::make_unique<Impl>()) {}
@@ -107,6 +134,33 @@ const internal::LinkSurface* surfaceOf(const QueryOptions& options, LinkId link)
   return options.surface->parts().links[static_cast<std::size_t>(link)].get();
 }
 
+bool touches(const Lss& lss, const LinkState& state, const Triangle& triangle) {
+  const AxisEnds ends = axisEnds(lss, state);
+  return closestPoints(ends.a, ends.b, triangle).distance <= lss.radius;
+}
+
+/// Does any of the link's triangles under one LSS meet `triangle`? Decided exactly for the vertices
+/// as computed.
+bool meshTouches(const internal::LinkSurface& surface, std::int32_t lss, const LinkState& state,
+                 const Triangle& triangle) {
+  const LssHierarchy& hierarchy = surface.hierarchy(lss);
+  std::vector<HierarchyChild> stack{hierarchy.root()};
+  while (!stack.empty()) {
+    const HierarchyChild child = stack.back();
+    stack.pop_back();
+    if (!child.isTriangle()) {
+      const LssHierarchy::Node& node = hierarchy.node(child.index());
+      if (!touches(node.lss, state, triangle)) continue;
+      stack.insert(stack.end(), node.children.begin(), node.children.end());
+      continue;
+    }
+    Triangle moved = surface.triangle(child.index());
+    for (Eigen::Vector3d& vertex : moved.vertices) vertex = state.pointAt(vertex);
+    if (trianglesMeet(moved, triangle)) return true;
+  }
+  return false;
+}
+
 /// One query over all links of one step.
 class StepQuery {
  public:
@@ -151,7 +205,7 @@ class StepQuery {
     LinkContact contact;
     contact.link = link;
     surface_ = surfaceOf(options_, link);
-    if (collectIgnored(link) || avatar_.lss(link).empty()) return contact;
+    if (scratch_.ignored.collect(options_, link) || avatar_.lss(link).empty()) return contact;
     if (surface_ != nullptr && surface_->triangles().empty()) return contact;
     const Aabb swept = sweep(link);
     scratch_.found.clear();
@@ -171,18 +225,6 @@ class StepQuery {
     gather(scratch_.boxes, pieces_.count);
     counters.candidates += scratch_.candidates.size();
     return internal::backtrack(query, scratch_.candidates, counters);
-  }
-
-  /// True if the link is ignored altogether.
-  bool collectIgnored(LinkId link) {
-    scratch_.ignoredObjects.clear();
-    for (const IgnoredPair& pair : options_.ignored) {
-      if (pair.link != link) continue;
-      if (pair.object == IgnoredPair::kEveryObject) return true;
-      scratch_.ignoredObjects.push_back(pair.object);
-    }
-    std::sort(scratch_.ignoredObjects.begin(), scratch_.ignoredObjects.end());
-    return false;
   }
 
   /// Boxes of every LSS of the link at the start and on every piece, grown by the tolerance;
@@ -218,7 +260,7 @@ class StepQuery {
     scratch_.candidates.clear();
     const auto numLss = static_cast<std::int32_t>(scratch_.axisBounds.size());
     for (const TriangleId id : scratch_.found) {
-      if (isIgnored(id)) continue;
+      if (scratch_.ignored.has(scene_.object(id))) continue;
       const Aabb box = internal::boxOf(scene_.triangle(id));
       for (std::int32_t lss = 0; lss < numLss; ++lss) {
         if (surface_ != nullptr && !surface_->hasTriangles(lss)) continue;
@@ -232,12 +274,6 @@ class StepQuery {
         }
       }
     }
-  }
-
-  [[nodiscard]] bool isIgnored(TriangleId id) const {
-    return !scratch_.ignoredObjects.empty() &&
-           std::binary_search(scratch_.ignoredObjects.begin(), scratch_.ignoredObjects.end(),
-                              scene_.object(id));
   }
 
   const Avatar& avatar_;
@@ -271,25 +307,28 @@ Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& moti
 bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
                const Scene& scene, const QueryOptions& options, QueryScratch& scratch) {
   FORETOUCH_ASSERT(link >= 0 && link < avatar.numLinks());
-  const auto isIgnored = [&](ObjectId object) {
-    return std::any_of(options.ignored.begin(), options.ignored.end(), [&](const IgnoredPair& p) {
-      return p.link == link && (p.object == IgnoredPair::kEveryObject || p.object == object);
-    });
-  };
+  const internal::LinkSurface* const surface = surfaceOf(options, link);
+  std::vector<TriangleId>& found = scratch.impl().found;
+  IgnoredObjects& ignored = scratch.impl().ignored;
+  if (ignored.collect(options, link)) return false;
   const LinkState state = motion.stateAt(link, t);
-  for (const Lss& lss : avatar.lss(link)) {
+  for (std::size_t i = 0; i < avatar.lss(link).size(); ++i) {
+    const Lss& lss = avatar.lss(link)[i];
+    const auto index = static_cast<std::int32_t>(i);
+    if (surface != nullptr && !surface->hasTriangles(index)) continue;
     const AxisEnds ends = axisEnds(lss, state);
     Aabb box;
     box.add(ends.a);
     box.add(ends.b);
     box.grow(lss.radius);
-    std::vector<TriangleId>& found = scratch.impl().found;
     found.clear();
     std::uint64_t visited = 0;
     scene.parts().bvh.collect(box, found, visited);
     for (const TriangleId id : found) {
-      if (isIgnored(scene.object(id))) continue;
-      if (closestPoints(ends.a, ends.b, scene.triangle(id)).distance <= lss.radius) return true;
+      if (ignored.has(scene.object(id)) || !touches(lss, state, scene.triangle(id))) continue;
+      if (surface == nullptr || meshTouches(*surface, index, state, scene.triangle(id))) {
+        return true;
+      }
     }
   }
   return false;

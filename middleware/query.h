@@ -142,7 +142,7 @@ class QueryScratch {
                                                  const Scene& scene,
                                                  const QueryOptions& options = {});
 
-/// What a discrete check sees: does any LSS of the link touch a triangle at this one instant?
+/// What a discrete check sees: does the link's surface touch a triangle at this one instant?
 /// Ignored pairs are passed over. Decided by the computed distance (no claim within rounding of
 /// zero).
 [[nodiscard]] bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
