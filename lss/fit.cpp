@@ -67,11 +67,7 @@ Lss alongLine(const Points& points, const Vector3d& direction, const Vector3d& c
   }
   if (begin > end) begin = end = 0.5 * (begin + end);  // the caps alone reach: a sphere
   Lss lss{center + begin * direction, center + end * direction, 0.0};
-  const double axisLength = (lss.b - lss.a).norm();
-  for (const Vector3d& p : points) {
-    const double lost = kDistanceRounding * ((p - lss.a).norm() + axisLength);
-    lss.radius = std::max(lss.radius, axisDistance(lss, p) + lost);
-  }
+  for (const Vector3d& p : points) growToContain(lss, p);
   return lss;
 }
 
@@ -104,6 +100,11 @@ double axisDistance(const Lss& lss, const Vector3d& point) {
   const double uu = u.squaredNorm();
   const double s = uu > 0.0 ? std::min(1.0, std::max(0.0, w.dot(u) / uu)) : 0.0;
   return (w - s * u).norm();
+}
+
+void growToContain(Lss& lss, const Vector3d& point) {
+  const double lost = kDistanceRounding * ((point - lss.a).norm() + (lss.b - lss.a).norm());
+  lss.radius = std::max(lss.radius, axisDistance(lss, point) + lost);
 }
 
 Lss fitLss(const Points& points, FitEffort effort) {
