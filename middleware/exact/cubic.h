@@ -25,6 +25,17 @@ inline std::pair<Cubic, Cubic> halve(const Cubic& c) {
   return {{c[0], a, e, m}, {m, f, d, c[3]}};
 }
 
+/// The part on [from, to], by blossoming; adds at most 16 u times the largest |coefficient|.
+inline Cubic restrictTo(const Cubic& c, double from, double to) {
+  const double p = 1.0 - from, q = 1.0 - to;
+  const double a0 = p * c[0] + from * c[1], a1 = p * c[1] + from * c[2],
+               a2 = p * c[2] + from * c[3];
+  const double b0 = q * c[0] + to * c[1], b1 = q * c[1] + to * c[2], b2 = q * c[2] + to * c[3];
+  const double aa0 = p * a0 + from * a1, aa1 = p * a1 + from * a2;
+  const double bb0 = q * b0 + to * b1, bb1 = q * b1 + to * b2;
+  return {p * aa0 + from * aa1, q * aa0 + to * aa1, p * bb0 + from * bb1, q * bb0 + to * bb1};
+}
+
 /// 1 or -1 where all coefficients are beyond `bound` on that side, else 0.
 inline int strictSign(const Cubic& c, double bound) {
   if (c[0] > bound && c[1] > bound && c[2] > bound && c[3] > bound) return 1;

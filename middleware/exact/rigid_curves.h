@@ -1,0 +1,46 @@
+// middleware/exact/rigid_curves.h: where a nlerp motion takes the vertices of a triangle,
+// multiplied by |q|^2: cubics in t. Derivation and rounding: middleware/exact/rigid_query.md. Not
+// installed.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "lss/separation.h"
+#include "middleware/exact/cubic.h"
+#include "middleware/exact/rigid_query.h"
+
+namespace foretouch::internal {
+
+/// Rounding of everything that is computed from the curves, relative to RigidCurves::scale()
+/// (rigid_query.md 3); a test holds it against fifty digits. Doubling it doubles the near misses
+/// that are reported as contact; halving it breaks the proof.
+inline constexpr double kRigidRounding = 128.0 * kUnitRoundoff;
+
+/// Positions are relative to the fixed triangle's first vertex, metres.
+class RigidCurves {
+ public:
+  RigidCurves(const NlerpMotion& motion, const Triangle& moving_L, const Eigen::Vector3d& origin_W);
+
+  /// |q(t)|^2 as a cubic.
+  [[nodiscard]] const Cubic& weight() const { return weight_; }
+  /// n.(weight * position of vertex i), for a direction no longer than 1.
+  [[nodiscard]] Cubic along(const Eigen::Vector3d& n, int i) const;
+  /// The moving triangle at t; each vertex off by at most positionError(t).
+  [[nodiscard]] Triangle at(double t) const;
+  [[nodiscard]] double positionError(double t) const {
+    return kRigidRounding * scale_ / valueAt(weight_, t);
+  }
+  /// Largest |q|^2 times the extents of translation and triangle (m): values of `along` are off by
+  /// at most kRigidRounding of it.
+  [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] double largestWeight() const { return largestWeight_; }
+
+ private:
+  std::array<std::array<Eigen::Vector3d, 4>, 3> curves_;  // Bernstein control points
+  Cubic weight_;
+  double scale_, largestWeight_;
+};
+
+}  // namespace foretouch::internal
