@@ -16,6 +16,10 @@ constexpr int kClusterDepth = 8;
 /// More halvings than any two roots of polynomials with the admitted coefficients can need to come
 /// apart (linear_query.md 4): a loop that reaches it is a bug.
 constexpr int kSeparationDepth = 200000;
+/// Bits that a guess in doubles is trusted with, and guesses that are made before it is asked
+/// whether the sign is zero. Cost only.
+constexpr int kNarrowingBits = 40;
+constexpr int kNarrowings = 2;
 
 int signOf(const Integer& value) {
   return value.sign();
@@ -137,6 +141,25 @@ void bisect(Root& root) {
                  : Dyadic{2 * root.low.numerator, root.low.log2 + 1};
 }
 
+/// Narrows the bracket by up to `bits` bits at once, at least by one: a guess in doubles, held
+/// against exact signs on both sides.
+void narrow(Root& root, int bits) {
+  const double guess = rootOf(inDoubles(bernstein(*root.of, root.low)));
+  const double cells = std::ldexp(1.0, bits);
+  const double cell = std::clamp(std::floor(guess * cells), 0.0, cells - 1.0);
+  const Dyadic low{(root.low.numerator << bits) + Integer(cell), root.low.log2 + bits};
+  const int atLow = cell == 0.0 ? root.signBefore : signAt(*root.of, low);
+  const int atHigh = cell == cells - 1.0 ? -root.signBefore : signAt(*root.of, nextAt(low));
+  if (atLow == 0 || atHigh == 0) {
+    root.isDyadic = true;
+    root.low = atLow == 0 ? low : nextAt(low);
+  } else if (atLow == root.signBefore && atHigh == -root.signBefore) {
+    root.low = low;
+  } else {
+    bisect(root);
+  }
+}
+
 }  // namespace
 
 int Polynomial::degree() const {
@@ -160,7 +183,10 @@ Roots::Roots(const Polynomial& p) : p_(p) {
     FORETOUCH_ASSERT(isolated);
     (void)isolated;
   }
-  for (int i = 0; i < count_; ++i) refine(roots_[i]);
+  for (int i = 0; i < count_; ++i) {
+    Root& root = roots_[i];
+    while (!root.isDyadic && root.low.log2 < kRootBits) narrow(root, kRootBits - root.low.log2);
+  }
 }
 
 /// Halves spans until each holds one root or none; false where more than `depth` would be needed.
@@ -191,44 +217,19 @@ bool Roots::isolate(int depth) {
   return true;
 }
 
-/// Narrows a bracket to kRootBits: a guess in doubles first, held against exact signs on both
-/// sides.
-void Roots::refine(Root& root) const {
-  if (root.isDyadic || root.low.log2 >= kRootBits) return;
-  const int more = kRootBits - root.low.log2;
-  const double guess = rootOf(inDoubles(bernstein(p_, root.low)));
-  const double cells = std::ldexp(1.0, more);
-  const double cell = std::clamp(std::floor(guess * cells), 0.0, cells - 1.0);
-  const Dyadic low{(root.low.numerator << more) + Integer(cell), kRootBits};
-  const bool first = cell == 0.0, last = cell == cells - 1.0;
-  const int atLow = first ? root.signBefore : signAt(p_, low);
-  const int atHigh = last ? -root.signBefore : signAt(p_, nextAt(low));
-  if (atLow == 0 || atHigh == 0) {
-    root.isDyadic = true;
-    root.low = atLow == 0 ? low : nextAt(low);
-  } else if (atLow == root.signBefore && atHigh == -root.signBefore) {
-    root.low = low;
-  }
-  while (!root.isDyadic && root.low.log2 < kRootBits) bisect(root);
-}
-
 int signAt(const Polynomial& p, Root& root) {
   if (p.isZero()) return 0;
-  bool isFactor = false, asked = false;
-  Polynomial common;
-  for (int depth = 0; depth < kSeparationDepth; ++depth) {
+  for (int round = 0; round < kSeparationDepth; ++round) {
     if (root.isDyadic) return signAt(p, root.low);
     const int sign = strictSign(bernstein(p, root.low));
     if (sign != 0) return sign;
-    if (!asked) {
-      asked = true;
-      common = greatestCommonDivisor(*root.of, p);
-      // A simple root of root.of, alone in its bracket: a divisor has it, once, or has none there;
-      // variations exceed the roots by an even number.
-      isFactor = variations(bernstein(common, root.low)) % 2 == 1;
+    // A simple root of root.of, alone in its bracket: a divisor has it, once, or has none there;
+    // variations exceed the roots by an even number.
+    if (round == kNarrowings) {
+      const Polynomial common = greatestCommonDivisor(*root.of, p);
+      if (variations(bernstein(common, root.low)) % 2 == 1) return 0;
     }
-    if (isFactor) return 0;
-    bisect(root);
+    narrow(root, kNarrowingBits);
   }
   FORETOUCH_ASSERT(false);
   return 0;

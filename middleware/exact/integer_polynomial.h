@@ -51,7 +51,6 @@ class Roots {
 
  private:
   bool isolate(int depth);
-  void refine(Root& root) const;
 
   Polynomial p_;
   std::array<Root, 4> roots_;

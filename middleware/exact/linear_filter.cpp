@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "lss/separation.h"
 #include "middleware/exact/cubic.h"
+#include "middleware/exact/filter_corners.h"
 #include "middleware/exact/moving_polygon.h"
 
 namespace foretouch::internal {
@@ -16,14 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Rounding relative to the largest value that the extents allow: of the coefficients of f, of one
-/// halving, of f's value at an instant, of a side's value at an instant, of a corner's dot product
-/// with a direction. Counted in linear_query.md 3; halving any of them breaks the proof.
-constexpr double kVolumeRounding = 16.0 * kUnitRoundoff;
-constexpr double kHalvingRounding = 4.0 * kUnitRoundoff;
-constexpr double kValueRounding = 16.0 * kUnitRoundoff;
-constexpr double kSideRounding = 16.0 * kUnitRoundoff;
-constexpr double kPlaneRounding = 12.0 * kUnitRoundoff;
 /// Absorbs underflow of products of two or three lengths of 1e-116 or more.
 constexpr double kUnderflow = 1e-300;
 
@@ -33,12 +25,6 @@ constexpr int kFilterDepth = 12;
 /// Half widths of the bracket put around a root: the first leaves the sides of the polygon little
 /// room to change sign, the second is what the accuracy allows.
 constexpr std::array<double, 2> kHalfBrackets = {0x1p-44, 0.25 * kLeafTimeAccuracy};
-
-struct Corners {
-  std::array<Vector3d, 4> from, to;
-  Vector3d extent = Vector3d::Zero();  // of each axis: the largest |component|
-  int count = 0;
-};
 
 struct Span {
   double start, width;
@@ -60,32 +46,10 @@ bool separatedOnAnAxis(const MovingPolygon& polygon) {
   return false;
 }
 
-Corners cornersOf(const MovingPolygon& polygon) {
-  Corners corners;
-  corners.count = polygon.count;
-  for (int i = 0; i < polygon.count; ++i) {
-    corners.from[i] = polygon.plus[i]->from - polygon.minus[i]->from;
-    corners.to[i] = polygon.plus[i]->to - polygon.minus[i]->to;
-    corners.extent = corners.extent.cwiseMax(corners.from[i].cwiseAbs());
-    corners.extent = corners.extent.cwiseMax(corners.to[i].cwiseAbs());
-  }
-  return corners;
-}
-
-/// Three times the Bernstein coefficients of det(corner 0, corner 1, corner 2).
-Cubic volumeOf(const Corners& c) {
-  const Vector3d first = c.from[0].cross(c.from[1]);
-  const Vector3d twiceMiddle = c.from[0].cross(c.to[1]) + c.to[0].cross(c.from[1]);
-  const Vector3d last = c.to[0].cross(c.to[1]);
-  return {3.0 * first.dot(c.from[2]), twiceMiddle.dot(c.from[2]) + first.dot(c.to[2]),
-          twiceMiddle.dot(c.to[2]) + last.dot(c.from[2]), 3.0 * last.dot(c.to[2])};
-}
-
 class Filter {
  public:
   explicit Filter(const Corners& corners)
-      : corners_(corners),
-        volumeScale_(18.0 * corners.extent.x() * corners.extent.y() * corners.extent.z()) {}
+      : corners_(corners), volumeScale_(corners.largestVolume()) {}
 
   StageAnswer decide() {
     const bool volumes = corners_.count >= 3;
@@ -149,8 +113,7 @@ class Filter {
   Decision originInside(double low, double high) const {
     for (int axis = 0; axis < 3; ++axis) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      const double bound =
-          kSideRounding * 2.0 * corners_.extent[u] * corners_.extent[v] + kUnderflow;
+      const double bound = kSideRounding * corners_.largestSide(u, v) + kUnderflow;
       int positive = 0, negative = 0;
       for (int j = 0; j < corners_.count; ++j) {
         const int sign = sideSign(j, u, v, low, high, bound);
@@ -165,17 +128,8 @@ class Filter {
 
   /// Sign of component u x v of corner j x corner j+1 where it is strict all over [low, high].
   int sideSign(int j, int u, int v, double low, double high, double bound) const {
-    const int next = j + 1 == corners_.count ? 0 : j + 1;
-    const Vector3d &a = corners_.from[j], &b = corners_.from[next];
-    const Vector3d &c = corners_.to[j], &d = corners_.to[next];
-    const double first = a[u] * b[v] - a[v] * b[u];
-    const double twiceMiddle = (a[u] * d[v] - a[v] * d[u]) + (c[u] * b[v] - c[v] * b[u]);
-    const double last = c[u] * d[v] - c[v] * d[u];
-    const auto at = [&](double t) {
-      const double s = 1.0 - t;
-      return s * s * first + s * t * twiceMiddle + t * t * last;
-    };
-    const double atLow = at(low), atHigh = at(high);
+    const Side side = sideOf(corners_, j, u, v);
+    const double atLow = valueAt(side, low), atHigh = valueAt(side, high);
     if (atLow > bound && atHigh > bound) return 1;
     return atLow < -bound && atHigh < -bound ? -1 : 0;
   }
@@ -200,7 +154,7 @@ class Filter {
     if (separates(sum)) return true;
     for (int i = 0; i < corners_.count; ++i) {
       const Vector3d& a = middle[i];
-      const Vector3d ab = middle[i + 1 == corners_.count ? 0 : i + 1] - a;
+      const Vector3d ab = middle[corners_.next(i)] - a;
       const double length2 = ab.squaredNorm();
       const double s = length2 > 0.0 ? std::clamp(-a.dot(ab) / length2, 0.0, 1.0) : 0.0;
       if (separates(a + s * ab)) return true;
