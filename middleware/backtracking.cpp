@@ -9,6 +9,7 @@
 
 #include "lss/assert.h"
 #include "middleware/culler.h"
+#include "middleware/exact/chain_piece.h"
 #include "middleware/exact/feature.h"
 #include "middleware/exact/linear_query.h"
 #include "middleware/exact/start.h"
@@ -103,9 +104,7 @@ class Backtracker {
       heap_.pop_back();
       return;
     }
-    const double next = t + stepFrom(pair, kFloorShare * query_.tolerance);
-    // Rounding the sum may have moved it up by half a unit in the last place.
-    const double reached = next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
+    const double reached = provenFrom(candidate, pair, t);
     if (!(reached > t)) {
       if (!isSurface) return descendFrom(pair, t);
       giveUp(t, UndecidedReason::Resolution);
@@ -118,6 +117,21 @@ class Backtracker {
     } else {
       heap_.pop_back();
     }
+  }
+
+  /// Up to which t the pair is proven apart, from `t` on.
+  [[nodiscard]] double provenFrom(const Candidate& candidate, const PairState& pair, double t) {
+    const double floor = kFloorShare * query_.tolerance;
+    if (query_.leafMethod == LeafMethod::Cubics && candidate.part.isTriangle()) {
+      ++counters_.cubicTests;
+      const double reached = freeUntilByCubics(
+          query_.motion, query_.link, t, 1.0, query_.parts.surface->triangle(candidate.part.index()),
+          query_.scene.triangle(candidate.triangle), floor, kFloorShare * query_.tolerance);
+      if (reached > t) return reached;
+    }
+    const double next = t + stepFrom(pair, floor);
+    // Rounding the sum may have moved it up by half a unit in the last place.
+    return next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
   }
 
   /// From an instant on, the two parts below take the place of the heap's last candidate; the plane

@@ -50,6 +50,7 @@ struct LinkQuery {
   Pieces pieces;
   double tolerance;
   std::uint64_t maxAdvancements;
+  LeafMethod leafMethod = LeafMethod::Advancement;
 
   [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }
   /// Nothing is below it: what it touches, the link touches.

@@ -217,7 +217,8 @@ class StepQuery {
         scene_,
         pieces_,
         options_.tolerance,
-        options_.maxAdvancements};
+        options_.maxAdvancements,
+        options_.leafMethod};
     gather(scratch_.startBoxes, 1);
     counters.candidates += scratch_.candidates.size();
     contact = internal::contactAtStart(query, scratch_.candidates, counters);

@@ -89,11 +89,19 @@ struct IgnoredPair {
   static constexpr ObjectId kEveryObject = -1;
 };
 
+/// How a pair of triangles is carried through time. Both keep the promise; they may report contact
+/// at different instants within it.
+enum class LeafMethod : std::uint8_t {
+  Advancement,  ///< Conservative advancement, as of LSS. The faster one (docs/performance.md).
+  Cubics,       ///< Pieces of the motion as nlerp bodies, by their contact functions ([Canny86]).
+};
+
 struct QueryOptions {
   double tolerance = 1e-3;  ///< eps in metres; finite, >= kMinTolerance.
   Culler culler = Culler::FlatBvh;
   Fidelity fidelity = Fidelity::Link;
   std::optional<AvatarSurface> surface;  ///< Of the same avatar; needed for Fidelity::Exact.
+  LeafMethod leafMethod = LeafMethod::Advancement;
   std::vector<IgnoredPair> ignored;
   /// Distance evaluations a link may cost before its verdict becomes Undecided.
   std::uint64_t maxAdvancements = std::numeric_limits<std::uint64_t>::max();
@@ -109,6 +117,7 @@ struct QueryCounters {
   std::uint64_t advancements = 0;  ///< Distance evaluations, all kinds together.
   std::uint64_t hierarchyTests = 0;  ///< At exact fidelity: of an LSS or a node below it.
   std::uint64_t planeTests = 0;      ///< At exact fidelity: of a part against its parent's plane.
+  std::uint64_t cubicTests = 0;      ///< At exact fidelity by LeafMethod::Cubics: pieces of pairs.
   std::uint64_t leafTests = 0;       ///< At exact fidelity: of two triangles.
   std::uint64_t states = 0;        ///< Link states evaluated (forward kinematics).
 };

@@ -84,6 +84,12 @@ Result<Culler> parseCuller(const std::string& option, const std::string& text) {
   return refusal(option, "flat or point-query", text);
 }
 
+Result<LeafMethod> parseLeafMethod(const std::string& option, const std::string& text) {
+  if (text == "advancement") return LeafMethod::Advancement;
+  if (text == "cubics") return LeafMethod::Cubics;
+  return refusal(option, "advancement or cubics", text);
+}
+
 Result<Fidelity> parseFidelity(const std::string& option, const std::string& text) {
   if (text == "link") return Fidelity::Link;
   if (text == "exact") return Fidelity::Exact;

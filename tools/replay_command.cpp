@@ -23,7 +23,7 @@ namespace {
 struct ReplayTexts {
   std::string scene, avatar, motion, map, output, rate = "all";
   std::string scale = "1", sceneScale = "1", motionUp = "y", up = "y", place = "0,0,0,0";
-  std::string fidelity = "link", tolerance = "0.001", culler = "flat", threads = "cores";
+  std::string fidelity = "link", leaves = "advancement", tolerance = "0.001", culler = "flat", threads = "cores";
   std::vector<std::string> ignore;
   bool compareRigid = false, compareLink = false, rays = false;
 };
@@ -61,6 +61,7 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
 
   Settling settle;
   settle.into(request.fidelity, parseFidelity("--fidelity", texts.fidelity));
+  settle.into(request.leafMethod, parseLeafMethod("--leaves", texts.leaves));
   settle.into(request.placement, parsePlacement("--place", texts.place));
   UpAxis motionUp = UpAxis::Y;
   settle.into(motionUp, parseUpAxis("--motion-up", texts.motionUp));
@@ -180,6 +181,8 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   option("--place", texts->place, "X,Y,Z[,YAW]",
          "Where the clip's origin stands in the scene: metres, and degrees about +Y");
   option("--fidelity", texts->fidelity, "RUNG", "What touches: the links' LSS (link), or their meshes (exact)");
+  option("--leaves", texts->leaves, "advancement|cubics",
+         "Exact fidelity's way with pairs of triangles; both keep the promise");
   option("--tolerance", texts->tolerance, "M", "Largest separation (m) of a reported contact");
   option("--threads", texts->threads, "N", "Threads");
   option("--map", texts->map, "FILE", R"(Joint names that differ: {"avatar joint": "clip joint"})");

@@ -30,6 +30,7 @@ Result<Scene> loadScene(const ReplayRequest& request) {
 /// The meshes that the avatar file refers to, where the fidelity asks for them.
 Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, QueryOptions& query) {
   query.fidelity = request.fidelity;
+  query.leafMethod = request.leafMethod;
   if (request.fidelity == Fidelity::Link) return Done{};
   auto meshes = loadLinkMeshes(avatar, request.avatarPath);
   if (!meshes.ok()) return inFile(meshes.error(), request.avatarPath);

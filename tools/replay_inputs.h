@@ -29,6 +29,7 @@ struct ReplayRequest {
   double tolerance = 1e-3;
   Culler culler = Culler::FlatBvh;
   Fidelity fidelity = Fidelity::Link;
+  LeafMethod leafMethod = LeafMethod::Advancement;
   std::vector<std::string> ignore;
 };
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lss/assert.h"
+#include "middleware/exact/feature.h"
 
 namespace foretouch::tools {
 namespace {

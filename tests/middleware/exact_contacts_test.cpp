@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <ostream>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -163,7 +164,7 @@ void PrintTo(const Family& family, std::ostream* out) {
   *out << family.name;
 }
 
-class ExactContacts : public testing::TestWithParam<Family> {};
+class ExactContacts : public testing::TestWithParam<std::tuple<Family, LeafMethod>> {};
 
 /// In fifty digits, of the avatar's and the scene's doubles as given.
 test::Real preciseSeparation(const MeshCase& c, const Avatar& avatar, const Pose& from,
@@ -199,7 +200,7 @@ TEST_P(ExactContacts, OfSwingingMeshesAreSoundAndTight) {
   for (int i = 0; i < kCases; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));
-    MeshCase c = GetParam().make(random);
+    MeshCase c = std::get<Family>(GetParam()).make(random);
     c.placeRotation = random.rotation();
     c.placeTranslation = random.inBox(random.chance(0.2) ? 1e3 : 2.0);
     const Avatar avatar = c.avatar();
@@ -210,6 +211,7 @@ TEST_P(ExactContacts, OfSwingingMeshesAreSoundAndTight) {
     QueryOptions options;
     options.tolerance = tolerances[random.below(3)];
     options.fidelity = Fidelity::Exact;
+    options.leafMethod = std::get<LeafMethod>(GetParam());
     options.surface = AvatarSurface::build(avatar, {{}, c.mesh}).value();
     const auto result =
         firstContacts(avatar, ChainMotion(avatar.skeleton(), from, to),
@@ -240,10 +242,12 @@ TEST_P(ExactContacts, OfSwingingMeshesAreSoundAndTight) {
   EXPECT_GT(features, 0.9 * contacts);
 }
 
-INSTANTIATE_TEST_SUITE_P(ClosedForms, ExactContacts,
-                         testing::Values(Family{"screwing blade", screwingBlade},
-                                         Family{"door to thorn", doorToThorn},
-                                         Family{"door to slanted edge", doorToSlantedEdge}));
+INSTANTIATE_TEST_SUITE_P(
+    ClosedForms, ExactContacts,
+    testing::Combine(testing::Values(Family{"screwing blade", screwingBlade},
+                                     Family{"door to thorn", doorToThorn},
+                                     Family{"door to slanted edge", doorToSlantedEdge}),
+                     testing::Values(LeafMethod::Advancement, LeafMethod::Cubics)));
 
 }  // namespace
 }  // namespace foretouch

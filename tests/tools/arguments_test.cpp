@@ -77,6 +77,12 @@ TEST(ParseCuller, KnowsTwoCullers) {
   EXPECT_FALSE(parseCuller("--culler", "bvh").ok());
 }
 
+TEST(ParseLeafMethod, KnowsItsTwoWays) {
+  EXPECT_EQ(parseLeafMethod("--leaves", "advancement").value(), LeafMethod::Advancement);
+  EXPECT_EQ(parseLeafMethod("--leaves", "cubics").value(), LeafMethod::Cubics);
+  EXPECT_FALSE(parseLeafMethod("--leaves", "roots").ok());
+}
+
 TEST(ParseFidelity, NamesWhatIsAvailableForRungsThatAreNot) {
   EXPECT_EQ(parseFidelity("--fidelity", "link").value(), Fidelity::Link);
   EXPECT_EQ(parseFidelity("--fidelity", "exact").value(), Fidelity::Exact);

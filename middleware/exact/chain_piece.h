@@ -1,0 +1,31 @@
+// middleware/exact/chain_piece.h: a stretch of a chain's motion as a nlerp body, whose cubics answer
+// for it within a certified band. Not installed.
+//
+// Over a span both motions have the same end poses; a point with |acceleration| <= A stays within
+// A*h^2/8 of its chord, so the two paths are apart by at most the sum of the two bounds
+// (middleware/exact/rigid_query.md, last section).
+#pragma once
+
+#include "articulated/motion.h"
+#include "lss/triangle.h"
+#include "middleware/exact/rigid_query.h"
+
+namespace foretouch::internal {
+
+struct ChainPiece {
+  NlerpMotion motion;
+  double deviation = 0.0;  ///< Metres, rounded up: of points within `rho` of the link's origin.
+};
+
+/// The link from `begin` to `end`, two states of it `span` apart in t.
+[[nodiscard]] ChainPiece chainPiece(const LinkState& begin, const LinkState& end, double span,
+                                    const MotionBounds& bounds, double rho);
+
+/// Up to which t a triangle of the link is proven to keep more than `floor` away from a triangle of
+/// the scene, from `t` on and not beyond `horizon`; `t` itself where nothing is proven. One piece,
+/// made so short that its deviation is at most `band`.
+[[nodiscard]] double freeUntilByCubics(const ChainMotion& motion, LinkId link, double t,
+                                       double horizon, const Triangle& part_L,
+                                       const Triangle& fixed_W, double floor, double band);
+
+}  // namespace foretouch::internal
