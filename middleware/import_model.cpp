@@ -72,12 +72,21 @@ class AssimpModel {
       more.nameBytes = node.name.size();
       builder_.count(more);
       const auto index = static_cast<std::int32_t>(builder_.model.nodes.size());
-      ++nodesOfName_.emplace(node.name, NodeOfName{index, 0}).first->second.count;
+      addName(node.name, index, visited.node->mNumMeshes > 0);
       builder_.model.nodes.push_back(std::move(node));
     }
   }
 
-  /// -1 where there is none. assimp refers to nodes by name alone.
+  void addName(const std::string& name, std::int32_t index, bool hasMesh) {
+    const auto [entry, isNew] = nodesOfName_.emplace(name, NodeOfName{index, hasMesh, 1});
+    if (isNew) return;
+    NodeOfName& named = entry->second;
+    ++named.count;
+    if (named.hasMesh && !hasMesh) named = {index, false, named.count};
+  }
+
+  /// -1 where there is none. assimp refers to nodes by name alone; exporters name a mesh like the
+  /// bone that it belongs to, so a node without a mesh is the likelier one.
   std::int32_t nodeNamed(const std::string& name, const char* what) {
     const auto found = nodesOfName_.find(name);
     if (found == nodesOfName_.end()) {
@@ -86,8 +95,8 @@ class AssimpModel {
       return -1;
     }
     if (found->second.count > 1) {
-      builder_.note("several nodes are named " + quoted(name) + ": " + what +
-                    " that names it takes the first");
+      builder_.note("several nodes are named " + quoted(name) +
+                    ": bones and animations take the first without a mesh");
     }
     return found->second.index;
   }
@@ -213,14 +222,16 @@ class AssimpModel {
   }
 
   struct NodeOfName {
-    std::int32_t index, count;
+    std::int32_t index;
+    bool hasMesh;
+    int count;
   };
 
   const aiScene& scene_;
   double unit_;
   ModelBuilder& builder_;
   std::vector<VisitedNode> visited_;
-  std::map<std::string, NodeOfName> nodesOfName_;  // the first of each name
+  std::map<std::string, NodeOfName> nodesOfName_;  // the first without a mesh, else the first
   std::vector<MeshTriangles> cut_;
   std::uint64_t skippedPrimitives_ = 0, skippedFaces_ = 0;
 };

@@ -29,7 +29,8 @@ std::string quoted(const std::string& name) {
   throw Failure{ImportFailure::Refused, text};
 }
 
-/// urdfdom says what is wrong in its log alone: the first error there is the nearest to the cause.
+/// urdfdom says what is wrong in its log alone, and of some errors nowhere else: a link whose
+/// shapes it could not read is handed on without them. The first error is the nearest to the cause.
 class FirstError : public console_bridge::OutputHandler {
  public:
   FirstError() { console_bridge::useOutputHandler(this); }
@@ -37,9 +38,7 @@ class FirstError : public console_bridge::OutputHandler {
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && text_.empty()) text_ = text;
   }
-  [[nodiscard]] std::string text() const {
-    return text_.empty() ? "urdfdom gives no reason" : text_;
-  }
+  [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
   std::string text_;
@@ -55,7 +54,8 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& xml) {
   } catch (const std::exception& error) {
     refuse(error.what());
   }
-  if (robot == nullptr || robot->getRoot() == nullptr) refuse(reason.text());
+  if (!reason.text().empty()) refuse(reason.text());
+  if (robot == nullptr || robot->getRoot() == nullptr) refuse("urdfdom gives no reason");
   return robot;
 }
 

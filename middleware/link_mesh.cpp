@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "articulated/text_file.h"
+#include "lss/single.h"
 #include "middleware/import_model_stream.h"
 #include "middleware/import_text.h"
 #include "middleware/link_mesh_skinned.h"
@@ -17,7 +18,6 @@
 namespace foretouch {
 namespace {
 
-using Eigen::Vector3d;
 using Surfaces = std::vector<std::vector<Triangle>>;
 
 // A frame whose axes are unit and at right angles up to this is taken as rigid: files hold floats.
@@ -66,12 +66,8 @@ bool needsAvatarRule(const Model& model, const std::vector<std::int32_t>& nodes)
                      [&](std::int32_t node) { return !rigid[static_cast<std::size_t>(node)]; });
 }
 
-/// As a GLB holds it, and as avatarFromModel() rounds it.
-Vector3d rounded(const Vector3d& v) {
-  return v.cast<float>().cast<double>();
-}
-
-/// The triangles of the node's own meshes, per node.
+/// The triangles of the node's own meshes, per node; rounded as a GLB holds them, and as
+/// avatarFromModel() rounds.
 Surfaces ownTriangles(const Model& model, const std::vector<std::int32_t>& nodes) {
   std::map<std::int32_t, std::vector<Triangle>> ofNode;
   for (const std::int32_t node : nodes) ofNode[node];
@@ -80,7 +76,7 @@ Surfaces ownTriangles(const Model& model, const std::vector<std::int32_t>& nodes
     if (wanted == ofNode.end()) continue;
     for (const auto& t : mesh.triangles) {
       const auto corner = [&](std::size_t k) {
-        return rounded(mesh.vertices[static_cast<std::size_t>(t[k])]);
+        return nearestFloat(mesh.vertices[static_cast<std::size_t>(t[k])]);
       };
       wanted->second.push_back({{corner(0), corner(1), corner(2)}});
     }

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "articulated/text_file.h"
+#include "lss/single.h"
 #include "middleware/import_text.h"
 #include "middleware/link_mesh.h"
 
@@ -36,14 +37,9 @@ Error glbError(ErrorCode code, const std::string& path, LinkId link, std::string
   return Error{code, path, -1, link, std::move(message)};
 }
 
-bool isFloat(double number) {
-  return static_cast<double>(static_cast<float>(number)) == number;
-}
-
 bool holdsFloats(const Triangle& triangle) {
-  return std::all_of(triangle.vertices.begin(), triangle.vertices.end(), [](const Vector3d& v) {
-    return isFloat(v.x()) && isFloat(v.y()) && isFloat(v.z());
-  });
+  return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
+                     [](const Vector3d& v) { return nearestFloat(v) == v; });
 }
 
 /// Nodes are found again by name, so the names must survive the reader and stay apart.
