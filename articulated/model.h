@@ -35,9 +35,10 @@ struct ModelNode {
   std::string name;          ///< UTF-8 without control characters; may be empty or repeated.
   std::int32_t parent = -1;  ///< Index of an earlier node; -1: a root.
   Affine toParent;           ///< At rest. May scale, shear or mirror: files do.
-  std::vector<Lss> lss;      ///< Spheres and capsules that the file states as such, in the node's frame.
+  std::vector<Lss>
+      lss;  ///< Spheres and capsules that the file states as such, in the node's frame.
   ModelJointType joint = ModelJointType::Free;
-  std::string jointName;     ///< URDF names joints apart from links; else empty.
+  std::string jointName;  ///< URDF names joints apart from links; else empty.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of the joint, in the node's frame, unit.
   double lowerLimit = 0.0, upperLimit = 0.0;        ///< Radians or metres; equal: none stated.
 };
@@ -57,8 +58,8 @@ struct ModelBone {
 /// A mesh where a node puts it; a mesh that n nodes place appears n times.
 struct ModelMesh {
   std::string name;
-  std::int32_t node = -1;                 ///< Whose frame the vertices are in.
-  std::vector<Eigen::Vector3d> vertices;  ///< May hold NaN: files do.
+  std::int32_t node = -1;                              ///< Whose frame the vertices are in.
+  std::vector<Eigen::Vector3d> vertices;               ///< May hold NaN: files do.
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< Indices are in range.
   std::vector<ModelBone> bones;                        ///< Empty: moves rigidly with its node.
 };

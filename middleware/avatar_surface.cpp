@@ -28,9 +28,9 @@ double outside(const Lss& lss, const Triangle& triangle) {
 }
 
 Error linkError(const Avatar& avatar, LinkId link, ErrorCode code, const std::string& what) {
-  return Error{code, "", -1, link,
-               "link " + std::to_string(link) + " " + inQuotes(avatar.skeleton().name(link)) +
-                   ": " + what};
+  return Error{
+      code, "", -1, link,
+      "link " + std::to_string(link) + " " + inQuotes(avatar.skeleton().name(link)) + ": " + what};
 }
 
 /// Which LSS of the link contains each triangle.

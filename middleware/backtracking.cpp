@@ -125,7 +125,8 @@ class Backtracker {
     if (query_.leafMethod == LeafMethod::Cubics && candidate.part.isTriangle()) {
       ++counters_.cubicTests;
       const double reached = freeUntilByCubics(
-          query_.motion, query_.link, t, 1.0, query_.parts.surface->triangle(candidate.part.index()),
+          query_.motion, query_.link, t, 1.0,
+          query_.parts.surface->triangle(candidate.part.index()),
           query_.scene.triangle(candidate.triangle), floor, kFloorShare * query_.tolerance);
       if (reached > t) return reached;
     }
@@ -191,7 +192,8 @@ class Backtracker {
   /// contact the budget has no say: the verdict stands, and which contact is reported must not
   /// depend on it.
   void lookNearestFirst(double t) {
-    for (Candidate& candidate : heap_) candidate.nearest = leastGap(query_, candidate, states_.at(t));
+    for (Candidate& candidate : heap_)
+      candidate.nearest = leastGap(query_, candidate, states_.at(t));
     std::make_heap(heap_.begin(), heap_.end(), Farther{});
     while (!heap_.empty() && heap_.front().nearest <= reach()) {
       if (!hasContact() && spent_ >= query_.maxAdvancements) return;
@@ -262,9 +264,8 @@ std::array<Part, 2> LinkQuery::below(std::int32_t lss, Part part) const {
 
 double leastGap(const LinkQuery& query, const Candidate& candidate, const LinkState& state) {
   const Aabb box = query.parts.boxOfPoints(candidate.lss, candidate.part, state);
-  const double radius = candidate.part.isTriangle()
-                            ? 0.0
-                            : query.parts.lssOf(candidate.lss, candidate.part).radius;
+  const double radius =
+      candidate.part.isTriangle() ? 0.0 : query.parts.lssOf(candidate.lss, candidate.part).radius;
   const double gap = box.distance(boxOf(query.scene.triangle(candidate.triangle))) - radius;
   return gap - 1e-12 * (1.0 + std::abs(gap) + box.max.cwiseAbs().maxCoeff());
 }
@@ -284,10 +285,9 @@ LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const 
   contact.link = query.link;
   // At t = 0 nothing before it proves the pair apart: of an LSS what cannot be proven apart counts
   // as touching; triangles, where the computed vertices are, have an exact answer.
-  const bool starts =
-      t == 0.0 && pair.gapLower() <= 0.0 &&
-      (!candidate.part.isTriangle() ||
-       trianglesMeet(pair.hull, query.scene.triangle(candidate.triangle)));
+  const bool starts = t == 0.0 && pair.gapLower() <= 0.0 &&
+                      (!candidate.part.isTriangle() ||
+                       trianglesMeet(pair.hull, query.scene.triangle(candidate.triangle)));
   contact.verdict = starts ? Verdict::StartsInContact : Verdict::Contact;
   contact.toi = contact.freeUntil = t;
   contact.separation = starts ? 0.0 : std::min(query.tolerance, std::max(0.0, pair.estimate()));

@@ -45,8 +45,8 @@ PairState pairOfLss(const Lss& lss, const AxisBounds& bounds, const LinkState& s
   return pair;
 }
 
-PairState pairOfTriangle(const Triangle& part_L, const MotionBounds& bounds,
-                         const LinkState& state, const Triangle& triangle) {
+PairState pairOfTriangle(const Triangle& part_L, const MotionBounds& bounds, const LinkState& state,
+                         const Triangle& triangle) {
   PairState pair;
   for (std::size_t i = 0; i < 3; ++i) pair.hull.vertices[i] = state.pointAt(part_L.vertices[i]);
   const TriangleSeparation s = triangleSeparation(pair.hull, triangle);
@@ -95,8 +95,7 @@ PairState LinkParts::pair(std::int32_t lssIndex, Part part, const LinkState& sta
 }
 
 double LinkParts::stepByPlane(std::int32_t lssIndex, Part part, const LinkState& state,
-                              const Triangle& triangle, const Vector3d& nhat,
-                              double floor) const {
+                              const Triangle& triangle, const Vector3d& nhat, double floor) const {
   std::array<Vector3d, 3> points_L;
   std::size_t count = 3;
   double radius = 0.0;
@@ -120,8 +119,8 @@ double LinkParts::stepByPlane(std::int32_t lssIndex, Part part, const LinkState&
                          bounds.positionRoundingAt(rho) * kInflation;
     const double gap = nhat.dot(w) - top - radius - slack;
     if (!(gap > floor)) return 0.0;
-    const double speed = nhat.dot(state.velocityAt(points_L[i])) -
-                         bounds.velocityRoundingAt(rho) * kInflation;
+    const double speed =
+        nhat.dot(state.velocityAt(points_L[i])) - bounds.velocityRoundingAt(rho) * kInflation;
     step = std::min(step, safeStep(gap - floor, speed, bounds.accelerationAt(rho) * kInflation));
   }
   return step;

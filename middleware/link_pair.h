@@ -1,6 +1,6 @@
-// middleware/link_pair.h: a convex part of a moving link (an LSS, or a triangle of its mesh) against
-// a triangle of the scene at one instant: what is proven of their separation, and how long it lasts.
-// Proof with rounding: docs/guarantees.md 5. Not installed.
+// middleware/link_pair.h: a convex part of a moving link (an LSS, or a triangle of its mesh)
+// against a triangle of the scene at one instant: what is proven of their separation, and how long
+// it lasts. Proof with rounding: docs/guarantees.md 5. Not installed.
 #pragma once
 
 #include <array>
@@ -44,10 +44,10 @@ class Part {
 struct PairState {
   std::size_t points = 0;  // 2: an LSS's axis; 3: a triangle
   double radius = 0.0;
-  Eigen::Vector3d nhat;        // unit or zero, from the scene's triangle towards the part
-  std::array<double, 3> gap;   // proven: the plane's clearance of each point, less radius
-  double gapUpper = 0.0;       // proven: the separation of part and triangle is at most this
-  double distance = 0.0;       // as computed, of the hull without the radius
+  Eigen::Vector3d nhat;       // unit or zero, from the scene's triangle towards the part
+  std::array<double, 3> gap;  // proven: the plane's clearance of each point, less radius
+  double gapUpper = 0.0;      // proven: the separation of part and triangle is at most this
+  double distance = 0.0;      // as computed, of the hull without the radius
   Eigen::Vector3d onHull, onScene, difference, featureNormal;  // as in ClosestPoints
   Triangle hull;  // of a triangle's pair: the part in W, as computed
   std::array<Eigen::Vector3d, 3> velocity;

@@ -44,8 +44,8 @@ enum class UndecidedReason : std::uint8_t {
 /// The witness points, normal and triangle are those of the pair with the lowest toi; equal toi:
 /// the smaller separation, then the lexicographically smaller witness point and normal, then the
 /// lowest triangle. (At exact fidelity, of the scene's triangles that a link touches at t = 0 the
-/// one deepest in the link's LSS, and the lowest of the link's triangles.) So the answer does not depend on threads, on the culler or on the triangles'
-/// order.
+/// one deepest in the link's LSS, and the lowest of the link's triangles.) So the answer does not
+/// depend on threads, on the culler or on the triangles' order.
 struct LinkContact {
   LinkId link = 0;
   Verdict verdict = Verdict::Clear;
@@ -112,14 +112,14 @@ inline constexpr double kMinTolerance = 1e-9;
 
 /// Work done, for measurements that no machine load changes.
 struct QueryCounters {
-  std::uint64_t nodes = 0;         ///< BVH nodes visited (FlatBvh) or callbacks (PointQuery).
-  std::uint64_t candidates = 0;    ///< (LSS, triangle) pairs that passed the culling.
-  std::uint64_t advancements = 0;  ///< Distance evaluations, all kinds together.
+  std::uint64_t nodes = 0;           ///< BVH nodes visited (FlatBvh) or callbacks (PointQuery).
+  std::uint64_t candidates = 0;      ///< (LSS, triangle) pairs that passed the culling.
+  std::uint64_t advancements = 0;    ///< Distance evaluations, all kinds together.
   std::uint64_t hierarchyTests = 0;  ///< At exact fidelity: of an LSS or a node below it.
   std::uint64_t planeTests = 0;      ///< At exact fidelity: of a part against its parent's plane.
   std::uint64_t cubicTests = 0;      ///< At exact fidelity by LeafMethod::Cubics: pieces of pairs.
   std::uint64_t leafTests = 0;       ///< At exact fidelity: of two triangles.
-  std::uint64_t states = 0;        ///< Link states evaluated (forward kinematics).
+  std::uint64_t states = 0;          ///< Link states evaluated (forward kinematics).
 };
 
 struct StepContacts {

@@ -1,9 +1,11 @@
-// middleware/ray_yardstick.h: what a ray costs in the same scene and process. Absolute times drift on
-// shared machines; "as many ray-sets" does not. A ray decides nothing here: Embree's rays are float.
+// middleware/ray_yardstick.h: what a ray costs in the same scene and process. Absolute times drift
+// on shared machines; "as many ray-sets" does not. A ray decides nothing here: Embree's rays are
+// float.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
+
+#include <Eigen/Core>
 
 #include "articulated/result.h"
 #include "middleware/scene.h"

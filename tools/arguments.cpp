@@ -54,10 +54,14 @@ Result<double> parseTolerance(const std::string& option, const std::string& text
   return refusal(option, "a finite number of metres, at least 1e-9", text);
 }
 
-Result<int> parseThreads(const std::string& option, const std::string& text) {
+Result<int> parseCount(const std::string& option, const std::string& text, int most) {
   int number = 0;
-  if (readAll(text, number) && number >= 1 && number <= kMaxThreads) return number;
-  return refusal(option, "a whole number from 1 to " + std::to_string(kMaxThreads), text);
+  if (readAll(text, number) && number >= 1 && number <= most) return number;
+  return refusal(option, "a whole number from 1 to " + std::to_string(most), text);
+}
+
+Result<int> parseThreads(const std::string& option, const std::string& text) {
+  return parseCount(option, text, kMaxThreads);
 }
 
 Result<Placement> parsePlacement(const std::string& option, const std::string& text) {

@@ -21,7 +21,9 @@ inline constexpr int kMaxThreads = 256;
 [[nodiscard]] Result<double> parsePositive(const std::string& option, const std::string& text);
 /// Metres, at least kMinTolerance.
 [[nodiscard]] Result<double> parseTolerance(const std::string& option, const std::string& text);
-/// A whole number from 1 to kMaxThreads.
+/// A whole number from 1 to `most`.
+[[nodiscard]] Result<int> parseCount(const std::string& option, const std::string& text, int most);
+/// The same, to kMaxThreads.
 [[nodiscard]] Result<int> parseThreads(const std::string& option, const std::string& text);
 /// "x,y,z" or "x,y,z,yaw": metres within kMaxCoordinate, and degrees.
 [[nodiscard]] Result<Placement> parsePlacement(const std::string& option, const std::string& text);

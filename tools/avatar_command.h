@@ -1,4 +1,4 @@
-// tools/avatar_command.h: `foretouch avatar bvh` and `foretouch avatar check`.
+// tools/avatar_command.h: `foretouch avatar` and its subcommands.
 #pragma once
 
 #include "tools/console.h"

@@ -15,9 +15,9 @@ namespace foretouch::tools {
 /// Counts of links over one step or many: those whose LSS touch (contact, or from the start).
 struct FidelityCounts {
   std::int64_t lssContacts = 0;
-  std::int64_t refuted = 0;    ///< Of these, the mesh is clear.
-  std::int64_t later = 0;      ///< The mesh touches later.
-  std::int64_t broken = 0;     ///< The mesh touches where the LSS do not, or earlier: never, or a bug.
+  std::int64_t refuted = 0;  ///< Of these, the mesh is clear.
+  std::int64_t later = 0;    ///< The mesh touches later.
+  std::int64_t broken = 0;  ///< The mesh touches where the LSS do not, or earlier: never, or a bug.
   std::int64_t undecided = 0;  ///< Of either: not compared.
   double lssUs = 0.0;          ///< What the LSS' answer cost.
 

@@ -21,10 +21,11 @@ namespace {
 
 /// Values as typed in.
 struct ReplayTexts {
-  std::string scene, avatar, motion, map, output, rate = "all";
+  std::string scene, avatar, motion, animation, robot, map, output, rate = "all";
   std::string scale = "1", sceneScale = "1", motionUp = "y", up = "y", place = "0,0,0,0";
-  std::string fidelity = "link", leaves = "advancement", tolerance = "0.001", culler = "flat", threads = "cores";
-  std::vector<std::string> ignore;
+  std::string fidelity = "link", leaves = "advancement", tolerance = "0.001", culler = "flat",
+              threads = "cores";
+  std::vector<std::string> ignore, packages;
   bool compareRigid = false, compareLink = false, rays = false;
 };
 
@@ -52,6 +53,9 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   request.scenePath = texts.scene;
   request.avatarPath = texts.avatar;
   request.motionPath = texts.motion;
+  request.animation = texts.animation;
+  request.robotPath = texts.robot;
+  request.packagePaths = texts.packages;
   request.mapPath = texts.map;
   request.ignore = texts.ignore;
   job.outputPath = texts.output;
@@ -88,8 +92,9 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
 /// Refuses an output that is one of the inputs, and one that cannot be written, before any work.
 Result<Done> checkOutput(const ReplayJob& job) {
   const ReplayRequest& request = job.request;
-  const auto separate = checkIsNoInput(
-      job.outputPath, {request.scenePath, request.avatarPath, request.motionPath, request.mapPath});
+  const auto separate =
+      checkIsNoInput(job.outputPath, {request.scenePath, request.avatarPath, request.motionPath,
+                                      request.robotPath, request.mapPath});
   if (!separate.ok()) return separate.error();
   // Opening a pipe and closing it again would tell its reader that there is nothing more to come.
   std::error_code absent;
@@ -125,6 +130,10 @@ constexpr char kExamples[] = R"(Examples:
       --rate 10 --output contacts.jsonl
   foretouch replay --scene kitchen.ply --up z --avatar a.avatar.json --motion walk.bvh \
       --scale 0.01 --place 1.5,0,-2,90 --ignore '*:floor,LeftFoot' --output contacts.jsonl
+  foretouch replay --scene room.obj --avatar man.json --motion man.glb --animation Walk \
+      --output contacts.jsonl
+  foretouch replay --scene cell.dae --avatar arm.json --motion log.csv --robot arm.urdf \
+      --output contacts.jsonl
 
 --ignore takes pairs `link` or `link:object`, separated by commas; a trailing * stands for any
 ending. The results file is described in docs/formats.md.)";
@@ -171,16 +180,26 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   };
   option("--scene", texts->scene, "FILE", "Scene: any mesh format that assimp reads")->required();
   option("--avatar", texts->avatar, "FILE", "Avatar file (see foretouch avatar)")->required();
-  option("--motion", texts->motion, "CLIP", "BVH clip")->required();
+  option("--motion", texts->motion, "CLIP",
+         "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)")
+      ->required();
+  option("--animation", texts->animation, "NAME",
+         "Which animation of a model: its name, or its number from 0; the first if not given");
+  option("--robot", texts->robot, "URDF", "The robot that joint positions are about");
+  command
+      ->add_option("--package", texts->packages, "Folder of the robot's packages; may be repeated")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
   option("--output", texts->output, "FILE", "Results, as lines of JSON")->required();
-  option("--rate", texts->rate, "HZ", "Poses a second to use of the clip");
+  option("--rate", texts->rate, "HZ", "Poses a second to use of the clip; animations: 30 if all");
   option("--scale", texts->scale, "S", "Metres per unit of the clip: 0.01 for centimetres");
   option("--motion-up", texts->motionUp, "y|z", "Which axis of the clip points up");
   option("--scene-scale", texts->sceneScale, "S", "Metres per unit of the scene");
   option("--up", texts->up, "y|z", "Which axis of the scene points up");
   option("--place", texts->place, "X,Y,Z[,YAW]",
          "Where the clip's origin stands in the scene: metres, and degrees about +Y");
-  option("--fidelity", texts->fidelity, "RUNG", "What touches: the links' LSS (link), or their meshes (exact)");
+  option("--fidelity", texts->fidelity, "RUNG",
+         "What touches: the links' LSS (link), or their meshes (exact)");
   option("--leaves", texts->leaves, "advancement|cubics",
          "Exact fidelity's way with pairs of triangles; both keep the promise");
   option("--tolerance", texts->tolerance, "M", "Largest separation (m) of a reported contact");

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "articulated/avatar_file.h"
-#include "articulated/bvh_reader.h"
 #include "articulated/text_file.h"
 #include "middleware/link_mesh.h"
 #include "tools/console.h"
 #include "tools/ignored_pairs.h"
 #include "tools/joint_map.h"
+#include "tools/motion_file.h"
 
 namespace foretouch::tools {
 namespace {
@@ -25,6 +25,18 @@ Result<Scene> loadScene(const ReplayRequest& request) {
   auto scene = Scene::build(std::move(imported.value().scene));
   if (!scene.ok()) return inFile(scene.error(), request.scenePath);
   return scene;
+}
+
+Result<Motion> loadMotion(const ReplayRequest& request) {
+  MotionRequest motion;
+  motion.path = request.motionPath;
+  motion.scale = request.motionScale;
+  motion.up = request.placement.motionUpZ ? UpAxis::Z : UpAxis::Y;
+  motion.animation = request.animation;
+  motion.robot = request.robotPath;
+  motion.packagePaths = request.packagePaths;
+  motion.rateHz = request.rateHz.value_or(motion.rateHz);
+  return readMotion(motion);
 }
 
 /// The meshes that the avatar file refers to, where the fidelity asks for them.
@@ -60,13 +72,13 @@ double sizeOfClipToAvatar(const ReplayInputs& inputs) {
 Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
   auto avatar = readAvatarFile(request.avatarPath);
   if (!avatar.ok()) return inFile(avatar.error(), request.avatarPath);
-  auto clip = readBvhFile(request.motionPath, BvhOptions{request.motionScale});
-  if (!clip.ok()) return inFile(clip.error(), request.motionPath);
-  auto match = matchWithMap(avatar.value().skeleton(), clip.value().skeleton, request.mapPath,
-                            request.motionPath);
+  auto motion = loadMotion(request);
+  if (!motion.ok()) return motion.error();
+  Clip& clip = motion.value().clip;
+  auto match =
+      matchWithMap(avatar.value().skeleton(), clip.skeleton, request.mapPath, request.motionPath);
   if (!match.ok()) return match.error();
-  const auto steps =
-      selectSteps(clip.value().frames.size(), clip.value().frameTimeS, request.rateHz);
+  const auto steps = selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz);
   if (!steps.ok()) return inFile(steps.error(), request.motionPath);
   auto scene = loadScene(request);
   if (!scene.ok()) return scene.error();
@@ -80,13 +92,9 @@ Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
       parseIgnoredPairs(request.ignore, avatar.value().skeleton(), scene.value().objectNames());
   if (!ignored.ok()) return ignored.error();
   query.ignored = std::move(ignored).value();
-  return ReplayInputs{request,
-                      std::move(scene).value(),
-                      std::move(avatar).value(),
-                      std::move(clip).value(),
-                      std::move(match).value(),
-                      steps.value(),
-                      std::move(query)};
+  return ReplayInputs{request,          std::move(scene).value(), std::move(avatar).value(),
+                      std::move(clip),  std::move(match).value(), steps.value(),
+                      std::move(query), motion.value().isUpright};
 }
 
 std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
@@ -124,10 +132,12 @@ std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
 
 Result<Pose> poseAtFrame(const ReplayInputs& inputs, std::int64_t frame) {
   const Skeleton& skeleton = inputs.avatar.skeleton();
+  Placement placement = inputs.request.placement;
+  placement.motionUpZ = placement.motionUpZ && !inputs.isUpright;
   auto pose = validatedPose(skeleton, placed(skeleton,
                                              poseOfAvatar(skeleton, inputs.clip, inputs.match,
                                                           static_cast<std::size_t>(frame)),
-                                             inputs.request.placement));
+                                             placement));
   if (pose.ok()) return pose;
   Error error = inFile(pose.error(), inputs.request.motionPath);
   error.message = fmt::format("frame {}: {}", frame, error.message);

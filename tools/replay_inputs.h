@@ -23,7 +23,10 @@ struct ReplayRequest {
   std::string mapPath;           ///< Empty: joints are matched by name alone.
   std::optional<double> rateHz;  ///< Empty: every frame.
   double motionScale = 1.0;      ///< Metres per unit of the clip.
-  double sceneScale = 1.0;       ///< Metres per unit of the scene.
+  std::string animation;         ///< Of a motion that is a model.
+  std::string robotPath;         ///< Of a motion that is a table of joint positions.
+  std::vector<std::string> packagePaths;
+  double sceneScale = 1.0;  ///< Metres per unit of the scene.
   UpAxis sceneUp = UpAxis::Y;
   Placement placement;
   double tolerance = 1e-3;
@@ -41,6 +44,7 @@ struct ReplayInputs {
   JointMatch match;
   StepSelection steps;
   QueryOptions query;
+  bool isUpright = false;  ///< The clip was turned Y-up as it was read (Motion::isUpright).
 
   [[nodiscard]] double timeOfStep(std::int64_t step) const {
     return static_cast<double>(step * steps.stride) * clip.frameTimeS;

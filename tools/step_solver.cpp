@@ -100,8 +100,8 @@ Result<Done> StepSolver::addExtras(const ChainMotion& motion, const StepContacts
     replayed.rigid = counts.value();
   }
   if (extras_.link) {
-    const auto counts = compareWithLink(inputs_.avatar, motion, contacts, inputs_.scene,
-                                        inputs_.query, scratch_);
+    const auto counts =
+        compareWithLink(inputs_.avatar, motion, contacts, inputs_.scene, inputs_.query, scratch_);
     if (!counts.ok()) return counts.error();
     replayed.link = counts.value();
   }

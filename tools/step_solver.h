@@ -26,7 +26,7 @@ struct ReplayedStep {
 /// What is done beside the query, for comparison.
 struct StepExtras {
   const RigidComparison* rigid = nullptr;  ///< Null: no comparison.
-  bool link = false;  ///< Also answer at link fidelity.
+  bool link = false;                       ///< Also answer at link fidelity.
   bool rays = false;  ///< Also time a set of rays (middleware/ray_yardstick.h).
 };
 

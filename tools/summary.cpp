@@ -158,8 +158,8 @@ std::string ReplaySummary::link() const {
       "\nlink fidelity finds {} contacts; the meshes refute {} ({}) and delay {} ({});\n"
       "earlier than the LSS, or where they are clear: {}; not compared: {}; its mean latency: "
       "{:.1f} us\n",
-      link_->lssContacts, link_->refuted, shareOf(link_->refuted, link_->lssContacts),
-      link_->later, shareOf(link_->later, link_->lssContacts), link_->broken, link_->undecided,
+      link_->lssContacts, link_->refuted, shareOf(link_->refuted, link_->lssContacts), link_->later,
+      shareOf(link_->later, link_->lssContacts), link_->broken, link_->undecided,
       link_->lssUs / static_cast<double>(std::max<std::int64_t>(1, steps_)));
 }
 
@@ -167,9 +167,10 @@ std::string ReplaySummary::cost() const {
   std::vector<float> latencies = latenciesUs_;
   const double median = percentile(latencies, 0.5);
   std::string text = fmt::format(
-      "\nlatency of a step, us    mean {:.1f}   p50 {:.1f}   p90 {:.1f}   p99 {:.1f}   max {:.1f}\n",
-      mean(latenciesUs_), median,
-      percentile(latencies, 0.9), percentile(latencies, 0.99), percentile(latencies, 1.0));
+      "\nlatency of a step, us    mean {:.1f}   p50 {:.1f}   p90 {:.1f}   p99 {:.1f}   max "
+      "{:.1f}\n",
+      mean(latenciesUs_), median, percentile(latencies, 0.9), percentile(latencies, 0.99),
+      percentile(latencies, 1.0));
   if (!raySetsUs_.empty()) {
     std::vector<float> raySets = raySetsUs_;
     const double raySet = percentile(raySets, 0.5);

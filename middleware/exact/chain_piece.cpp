@@ -10,8 +10,8 @@ namespace {
 
 /// Covers the rounding of the bounds' own arithmetic.
 constexpr double kInflation = 1.0 + 1e-12;
-/// Of a quaternion drawn from a rotation matrix and of the products with it, per metre; thousands of
-/// roundings, far above what either loses.
+/// Of a quaternion drawn from a rotation matrix and of the products with it, per metre; thousands
+/// of roundings, far above what either loses.
 constexpr double kQuaternionRounding = 1e-13;
 constexpr int kMostHalvings = 60;
 

@@ -14,8 +14,7 @@ constexpr double kOnFeature = 1e-9;
 
 FeatureKind featureAt(const Triangle& triangle, const Eigen::Vector3d& point) {
   const auto& v = triangle.vertices;
-  const double size =
-      std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});
+  const double size = std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});
   const auto near = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return axisDistance(Lss{a, b, 0.0}, point) <= kOnFeature * size;
   };

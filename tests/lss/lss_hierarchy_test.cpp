@@ -88,8 +88,8 @@ TEST(LssHierarchy, EveryNodeContainsAllItsTrianglesRoundingIncluded) {
 }
 
 TEST(LssHierarchy, OneTriangleIsItsOwnTree) {
-  const std::vector<Triangle> triangles(3, Triangle{{Vector3d(0, 0, 0), Vector3d(1, 0, 0),
-                                                     Vector3d(0, 1, 0)}});
+  const std::vector<Triangle> triangles(
+      3, Triangle{{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)}});
   const LssHierarchy tree(triangles, {2});
   ASSERT_TRUE(tree.root().isTriangle());
   EXPECT_EQ(tree.root().index(), 2);

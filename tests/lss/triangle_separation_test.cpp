@@ -73,8 +73,8 @@ TEST(TriangleSeparation, BoundsHoldRoundingIncluded) {
     }
     const double slack = kSeparationRounding * extent;
     if (slack > 0.0) {
-      worstShare = std::max({worstShare, (s.lower() + slack - truth) / slack,
-                             (truth - (s.upper - slack)) / slack});
+      worstShare = std::max(
+          {worstShare, (s.lower() + slack - truth) / slack, (truth - (s.upper - slack)) / slack});
     }
     if (s.upper - s.lower() < 1e-9 * size) ++tight;
   }

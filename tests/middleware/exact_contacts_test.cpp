@@ -1,5 +1,5 @@
-// The promise of exact fidelity against closed forms: mesh links that swing and screw, touching with
-// a vertex, a face or an edge first.
+// The promise of exact fidelity against closed forms: mesh links that swing and screw, touching
+// with a vertex, a face or an edge first.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -56,8 +56,8 @@ struct MeshCase {
   }
 };
 
-/// The first t in [0,1] at which the angle from..to passes one of the two where r*cos(angle + phase)
-/// rises to `limit`.
+/// The first t in [0,1] at which the angle from..to passes one of the two where r*cos(angle +
+/// phase) rises to `limit`.
 std::optional<double> firstRise(double r, double phase, double limit, double from, double to) {
   if (std::abs(limit) >= r) return std::nullopt;
   std::optional<double> first;
@@ -93,7 +93,8 @@ MeshCase screwingBlade(Random& random) {
     if (farthestAt(c, c.from) > d - 1e-3) continue;  // starts clear
     for (const Vector3d& v : c.mesh[0].vertices) {
       // x of the turned point: cos*x + sin*z = r cos(angle - atan2(z, x))
-      const auto t = firstRise(std::hypot(v.x(), v.z()), -std::atan2(v.z(), v.x()), d, c.from, c.to);
+      const auto t =
+          firstRise(std::hypot(v.x(), v.z()), -std::atan2(v.z(), v.x()), d, c.from, c.to);
       if (t && (!c.impact || *t < *c.impact)) c.impact = t;
     }
     constexpr double kFar = 50.0;
@@ -213,9 +214,8 @@ TEST_P(ExactContacts, OfSwingingMeshesAreSoundAndTight) {
     options.fidelity = Fidelity::Exact;
     options.leafMethod = std::get<LeafMethod>(GetParam());
     options.surface = AvatarSurface::build(avatar, {{}, c.mesh}).value();
-    const auto result =
-        firstContacts(avatar, ChainMotion(avatar.skeleton(), from, to),
-                      Scene::build(std::move(raw)).value(), options, scratch);
+    const auto result = firstContacts(avatar, ChainMotion(avatar.skeleton(), from, to),
+                                      Scene::build(std::move(raw)).value(), options, scratch);
     ASSERT_TRUE(result.ok()) << describe(result.error());
     const LinkContact& got = result.value().links[kLink];
     hits += c.impact.has_value() ? 1 : 0;

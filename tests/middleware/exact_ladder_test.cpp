@@ -35,10 +35,9 @@ Bench makeBench(int seed, double share) {
   bench.link.tolerance = random.magnitude(1e-6, 1e-2);
   bench.exact = bench.link;
   bench.exact.fidelity = Fidelity::Exact;
-  bench.exact.surface =
-      AvatarSurface::build(bench.body.avatar,
-                           test::meshWithin(bench.body.avatar, random, 40, share))
-          .value();
+  bench.exact.surface = AvatarSurface::build(bench.body.avatar,
+                                             test::meshWithin(bench.body.avatar, random, 40, share))
+                            .value();
   return bench;
 }
 
@@ -155,15 +154,13 @@ TEST(ExactFidelity, CountsWhatItDescended) {
   EXPECT_GT(exact.counters.hierarchyTests, 0u);
   EXPECT_GT(exact.counters.planeTests, 0u);
   EXPECT_GT(exact.counters.leafTests, 0u);
-  EXPECT_EQ(exact.counters.advancements,
-            exact.counters.hierarchyTests + exact.counters.leafTests);
+  EXPECT_EQ(exact.counters.advancements, exact.counters.hierarchyTests + exact.counters.leafTests);
 }
 
 Avatar sphereAvatar() {
   RawSkeleton raw;
   raw.joints = {{"ball", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
-  return Avatar::build(Skeleton::build(raw).value(),
-                       {{{Vector3d::Zero(), Vector3d::Zero(), 1.0}}})
+  return Avatar::build(Skeleton::build(raw).value(), {{{Vector3d::Zero(), Vector3d::Zero(), 1.0}}})
       .value();
 }
 
