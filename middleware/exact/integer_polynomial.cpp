@@ -144,7 +144,10 @@ void bisect(Root& root) {
 /// Narrows the bracket by up to `bits` bits at once, at least by one: a guess in doubles, held
 /// against exact signs on both sides.
 void narrow(Root& root, int bits) {
-  const double guess = rootOf(inDoubles(bernstein(*root.of, root.low)));
+  const Coefficients b = bernstein(*root.of, root.low);
+  if (b[0] == 0 || b[3] == 0) return bisect(root);  // another root at an end misleads the guess
+  const double guess = rootOf(inDoubles(b));
+  if (!(guess >= 0.0 && guess <= 1.0)) return bisect(root);
   const double cells = std::ldexp(1.0, bits);
   const double cell = std::clamp(std::floor(guess * cells), 0.0, cells - 1.0);
   const Dyadic low{(root.low.numerator << bits) + Integer(cell), root.low.log2 + bits};
