@@ -6,6 +6,7 @@
 #include <map>
 #include <new>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -51,23 +52,35 @@ bool isRigid(const Eigen::Matrix3d& m) {
          m.determinant() > 0.0;
 }
 
-/// Bones, and frames that scale or mirror, need avatarFromModel()'s rule: what a link's frame is
-/// then is its decision.
-bool needsAvatarRule(const Model& model, const std::vector<std::int32_t>& nodes) {
-  const auto hasBones = [](const ModelMesh& mesh) { return !mesh.bones.empty(); };
-  if (std::any_of(model.meshes.begin(), model.meshes.end(), hasBones)) return true;
+bool hasBones(const Model& model) {
+  return std::any_of(model.meshes.begin(), model.meshes.end(),
+                     [](const ModelMesh& mesh) { return !mesh.bones.empty(); });
+}
+
+/// Do the frames of all these nodes, and of those above them, neither scale nor mirror?
+bool areRigid(const Model& model, const std::vector<std::int32_t>& nodes) {
   std::vector<bool> rigid;
   rigid.reserve(model.nodes.size());
   for (const ModelNode& node : model.nodes) {
     rigid.push_back((node.parent < 0 || rigid[static_cast<std::size_t>(node.parent)]) &&
                     isRigid(node.toParent.linear));
   }
-  return std::any_of(nodes.begin(), nodes.end(),
-                     [&](std::int32_t node) { return !rigid[static_cast<std::size_t>(node)]; });
+  return std::all_of(nodes.begin(), nodes.end(),
+                     [&](std::int32_t node) { return rigid[static_cast<std::size_t>(node)]; });
 }
 
-/// The triangles of the node's own meshes, per node; rounded as a GLB holds them, and as
-/// avatarFromModel() rounds.
+/// Are all vertices at these nodes floats? Those that have no place are passed over.
+bool areFloats(const Model& model, const std::vector<std::int32_t>& nodes) {
+  const std::set<std::int32_t> wanted(nodes.begin(), nodes.end());
+  return std::all_of(model.meshes.begin(), model.meshes.end(), [&](const ModelMesh& mesh) {
+    return wanted.count(mesh.node) == 0 ||
+           std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Eigen::Vector3d& v) {
+             return !v.allFinite() || nearestFloat(v) == v;
+           });
+  });
+}
+
+/// The triangles of the nodes' own meshes, per node.
 Surfaces ownTriangles(const Model& model, const std::vector<std::int32_t>& nodes) {
   std::map<std::int32_t, std::vector<Triangle>> ofNode;
   for (const std::int32_t node : nodes) ofNode[node];
@@ -76,7 +89,7 @@ Surfaces ownTriangles(const Model& model, const std::vector<std::int32_t>& nodes
     if (wanted == ofNode.end()) continue;
     for (const auto& t : mesh.triangles) {
       const auto corner = [&](std::size_t k) {
-        return nearestFloat(mesh.vertices[static_cast<std::size_t>(t[k])]);
+        return mesh.vertices[static_cast<std::size_t>(t[k])];
       };
       wanted->second.push_back({{corner(0), corner(1), corner(2)}});
     }
@@ -100,21 +113,32 @@ std::optional<Error> badSurface(const std::vector<Triangle>& surface, const std:
   return std::nullopt;
 }
 
+/// Bones, frames that scale or mirror, and vertices that are to be rounded need avatarFromModel()'s
+/// rule: an avatar's LSS contain what it made of them, to the last bit.
+Result<Surfaces> surfacesIn(const Model& model, const Avatar& avatar, const std::string& path,
+                            const std::vector<LinkId>& links) {
+  std::vector<std::string> names;
+  for (const LinkId link : links) names.push_back(avatar.mesh(link).node);
+  if (hasBones(model)) return internal::surfacesOfLinks(model, names, path);
+  std::vector<std::int32_t> nodes;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const auto node = nodeNamed(model, names[i], path, links[i]);
+    if (!node.ok()) return node.error();
+    nodes.push_back(node.value());
+  }
+  if (!areRigid(model, nodes) || !areFloats(model, nodes)) {
+    return internal::surfacesOfLinks(model, names, path);
+  }
+  return ownTriangles(model, nodes);
+}
+
 /// Fills in the surfaces of `links`, all of which refer to `path`.
 Result<Done> loadFile(const Avatar& avatar, const std::string& path,
                       const std::vector<LinkId>& links, const ModelImportOptions& options,
                       Surfaces& surfaces) {
   const auto model = importModel(path, options);
   if (!model.ok()) return model.error();
-  std::vector<std::int32_t> nodes;
-  for (const LinkId link : links) {
-    const auto node = nodeNamed(model.value(), avatar.mesh(link).node, path, link);
-    if (!node.ok()) return node.error();
-    nodes.push_back(node.value());
-  }
-  Result<Surfaces> found = needsAvatarRule(model.value(), nodes)
-                               ? internal::surfacesOfBones(model.value(), nodes, path)
-                               : Result<Surfaces>(ownTriangles(model.value(), nodes));
+  auto found = surfacesIn(model.value(), avatar, path, links);
   if (!found.ok()) return found.error();
   for (std::size_t i = 0; i < links.size(); ++i) {
     std::vector<Triangle>& surface = found.value()[i];

@@ -15,8 +15,10 @@
 namespace foretouch {
 
 /// Per link, in its frame; links without a mesh get none. `avatarPath`: relative files are looked
-/// for beside it. Each file is imported once, in the import child. Error where a file cannot be
-/// read or has no such node.
+/// for beside it. Each file is imported once, in the import child. Where its frames scale or its
+/// vertices are no floats, avatarFromModel()'s rule decides for unskinned meshes too. Error where a
+/// file cannot be read, a node is not there or there twice, or it has no triangles or one that is
+/// not finite: Error::index is the link.
 [[nodiscard]] Result<std::vector<std::vector<Triangle>>> loadLinkMeshes(
     const Avatar& avatar, const std::string& avatarPath, const ModelImportOptions& options = {});
 

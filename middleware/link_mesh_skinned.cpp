@@ -1,30 +1,27 @@
 #include "middleware/link_mesh_skinned.h"
 
-#include <algorithm>
-
 #include "articulated/model_avatar.h"
+#include "articulated/text_file.h"
 
 namespace foretouch::internal {
 
-Result<std::vector<std::vector<Triangle>>> surfacesOfBones(const Model& model,
-                                                           const std::vector<std::int32_t>& nodes,
+Result<std::vector<std::vector<Triangle>>> surfacesOfLinks(const Model& model,
+                                                           const std::vector<std::string>& names,
                                                            const std::string& path) {
-  auto made = avatarFromModel(model);
+  const auto made = avatarFromModel(model);
   if (!made.ok()) {
     Error error = made.error();
     error.file = path;
     return error;
   }
-  const ModelAvatar& avatar = made.value();
   std::vector<std::vector<Triangle>> surfaces;
-  for (const std::int32_t node : nodes) {
-    const auto link = std::find(avatar.nodeOfLink.begin(), avatar.nodeOfLink.end(), node);
-    if (link == avatar.nodeOfLink.end()) {
+  for (const std::string& name : names) {
+    const auto link = made.value().avatar.skeleton().find(name);
+    if (!link.has_value()) {
       return Error{ErrorCode::UnknownName, path, -1, -1,
-                   "the node '" + model.nodes[static_cast<std::size_t>(node)].name +
-                       "' is no link of the model's avatar"};
+                   "no link of the model is named " + inQuotes(name)};
     }
-    surfaces.push_back(avatar.surface[static_cast<std::size_t>(link - avatar.nodeOfLink.begin())]);
+    surfaces.push_back(made.value().surface[static_cast<std::size_t>(*link)]);
   }
   return surfaces;
 }

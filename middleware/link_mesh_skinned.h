@@ -1,7 +1,6 @@
-// middleware/link_mesh_skinned.h: triangles of nodes by avatarFromModel()'s rule. Not installed.
+// middleware/link_mesh_skinned.h: triangles of links by avatarFromModel()'s rule. Not installed.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,9 +10,10 @@
 
 namespace foretouch::internal {
 
-/// For each of `nodes` (of `model`) the triangles of the link that moves with it. Error, naming
-/// `path`, where the model makes no avatar or a node no link.
-[[nodiscard]] Result<std::vector<std::vector<Triangle>>> surfacesOfBones(
-    const Model& model, const std::vector<std::int32_t>& nodes, const std::string& path);
+/// For each of `names` the triangles of that link of the model's avatar. Links are named like their
+/// nodes; where nodes share a name, as avatarFromModel() tells them apart. Error, naming `path`,
+/// where the model makes no avatar or has no such link.
+[[nodiscard]] Result<std::vector<std::vector<Triangle>>> surfacesOfLinks(
+    const Model& model, const std::vector<std::string>& names, const std::string& path);
 
 }  // namespace foretouch::internal

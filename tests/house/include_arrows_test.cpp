@@ -28,7 +28,11 @@ const std::map<std::string, std::set<std::string>> kArrows = {
 const std::map<std::string, std::set<std::string>> kLibraries = {
     {"embree3", {"middleware"}},
     {"assimp", {"middleware"}},
-    {"nlohmann", {"articulated", "tools"}},
+    {"nlohmann", {"articulated", "middleware", "tools"}},
+    {"urdf_model", {"middleware"}},
+    {"urdf_parser", {"middleware"}},
+    {"tinyxml.h", {"middleware"}},
+    {"console_bridge", {"middleware"}},
     {"CLI", {"tools"}},
 };
 

@@ -12,10 +12,6 @@ foretouch_test(model_import_tests LABELS unit property oracle
   SOURCES import_files.cpp link_mesh_test.cpp model_files.cpp model_import_data_test.cpp model_import_gltf_test.cpp
           model_import_test.cpp model_stream_test.cpp urdf_import_test.cpp
   LINKS foretouch::middleware nlohmann_json::nlohmann_json)
-# Only where the library does not hold what loadLinkMeshes() calls for models with bones.
-if(NOT EXISTS ${PROJECT_SOURCE_DIR}/articulated/model_avatar.cpp)
-  target_sources(model_import_tests PRIVATE model_avatar_stub.cpp)
-endif()
 target_compile_definitions(model_import_tests PRIVATE
   FORETOUCH_TEST_IMPORTER="$<TARGET_FILE:foretouch-import>")
 add_dependencies(model_import_tests foretouch-import)

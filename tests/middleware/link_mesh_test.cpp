@@ -3,14 +3,17 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "articulated/model_avatar.h"
 #include "lss/single.h"
 #include "tests/middleware/import_files.h"
 #include "tests/middleware/model_files.h"
 #include "tests/support/random_geometry.h"
+#include "tests/support/shared_data.h"
 
 namespace foretouch::test {
 namespace {
@@ -222,6 +225,81 @@ TEST_F(LinkMeshes, ImportEachFileOnce) {
   EXPECT_TRUE(loaded.ok()) << describe(loaded.error());
   EXPECT_FALSE(loadLinkMeshes(avatar, folder_ / "a.avatar.json", options).ok());
 }
+
+/// The avatar of a model that refers to the model itself.
+ModelAvatar avatarOfFile(const std::string& path) {
+  const auto model = importModel(path, withModelImporter());
+  if (!model.ok()) throw std::runtime_error(describe(model.error()));
+  ModelAvatarOptions options;
+  options.meshFile = path;
+  return avatarFromModel(model.value(), options).value();
+}
+
+void expectTheSame(const Surfaces& loaded, const Surfaces& made) {
+  ASSERT_EQ(loaded.size(), made.size());
+  for (std::size_t link = 0; link < made.size(); ++link) {
+    ASSERT_EQ(loaded[link].size(), made[link].size()) << link;
+    for (std::size_t t = 0; t < made[link].size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        ASSERT_TRUE(sameBits(loaded[link][t].vertices[k], made[link][t].vertices[k])) << link;
+      }
+    }
+  }
+}
+
+TEST_F(LinkMeshes, FollowTheAvatarsRuleForBones) {
+  const std::string path = folder_.write("leg.gltf", skinnedGltf());
+  const ModelAvatar made = avatarOfFile(path);
+  const auto loaded = loadLinkMeshes(made.avatar, folder_ / "a.json", withModelImporter());
+  ASSERT_TRUE(loaded.ok()) << describe(loaded.error());
+  expectTheSame(loaded.value(), made.surface);
+  EXPECT_EQ(made.report.triangles, 1U);
+  EXPECT_EQ(failureOf(avatarWith("leg.gltf", "elbow")).code, ErrorCode::UnknownName);
+}
+
+TEST_F(LinkMeshes, FollowTheAvatarsRuleForScaledNodes) {
+  const std::string path =
+      folder_.write("scaled.gltf", gltfWithNodes(R"([{"name":"top","scale":[3,3,3],"children":[1]},
+{"name":"arm","mesh":0,"translation":[5,0,0]}])"));
+  const ModelAvatar made = avatarOfFile(path);
+  const auto loaded = loadLinkMeshes(made.avatar, folder_ / "a.json", withModelImporter());
+  ASSERT_TRUE(loaded.ok()) << describe(loaded.error());
+  expectTheSame(loaded.value(), made.surface);
+  // In metres: the link's frame does not scale, so its triangles do.
+  double longest = 0;
+  for (const auto& surface : loaded.value()) {
+    for (const Triangle& t : surface) {
+      longest = std::max(longest, (t.vertices[1] - t.vertices[0]).norm());
+    }
+  }
+  EXPECT_NEAR(longest, 3.0, 1e-5);
+}
+
+class LinkMeshesOfRealModels : public testing::TestWithParam<const char*> {};
+
+TEST_P(LinkMeshesOfRealModels, AreThoseOfTheirAvatars) {
+  FORETOUCH_REQUIRE_SHARED(path, GetParam());
+  const ModelAvatar made = avatarOfFile(*path);
+  const auto loaded = loadLinkMeshes(made.avatar, "", withModelImporter());
+  ASSERT_TRUE(loaded.ok()) << describe(loaded.error());
+  expectTheSame(loaded.value(), made.surface);
+  // And once more by way of a file of our own.
+  const TempFolder folder;
+  const auto written = writeLinkMeshes(made.avatar.skeleton(), made.surface, folder / "links.glb");
+  ASSERT_TRUE(written.ok()) << describe(written.error());
+  const auto again = loadLinkMeshes(avatarOf(made.avatar.skeleton(), made.surface, "links.glb"),
+                                    folder / "a.json", withModelImporter());
+  ASSERT_TRUE(again.ok()) << describe(again.error());
+  expectTheSame(again.value(), made.surface);
+}
+
+INSTANTIATE_TEST_SUITE_P(SharedData, LinkMeshesOfRealModels,
+                         testing::Values("avatars/cesium_man.gltf", "avatars/robot_expressive.glb",
+                                         "avatars/greenman.glb", "avatars/Fox.glb",
+                                         "avatars/Testwuson.X",
+                                         "avatars/kaykit_manny/manny_med_mod.gltf",
+                                         "robots/kuka_iiwa/model.urdf",
+                                         "robots/franka_panda/panda.urdf"));
 
 TEST_F(LinkMeshes, RefuseAHostileFile) {
   std::string nodes = "[";
