@@ -10,7 +10,7 @@ add_dependencies(import_tests foretouch-import)
 
 foretouch_test(model_import_tests LABELS unit property oracle
   SOURCES import_files.cpp link_mesh_test.cpp model_files.cpp model_import_data_test.cpp model_import_gltf_test.cpp
-          model_import_test.cpp model_stream_test.cpp urdf_import_test.cpp
+          model_import_test.cpp model_stream_test.cpp urdf_import_test.cpp urdf_shapes_test.cpp
   LINKS foretouch::middleware nlohmann_json::nlohmann_json)
 target_compile_definitions(model_import_tests PRIVATE
   FORETOUCH_TEST_IMPORTER="$<TARGET_FILE:foretouch-import>")
