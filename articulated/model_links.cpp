@@ -109,9 +109,7 @@ std::vector<bool> LinkFinder::links() {
     isLink[at(parent)] = true;
   }
   for (std::size_t i = 0; i < size_; ++i) {
-    const bool isIdleRoot = model_.nodes[i].parent < 0 && !isNeeded[i];
-    const bool isFolded = isIdlePivot(i) && !isNeeded[i];
-    if (isIdleRoot || isFolded) isLink[i] = false;
+    if (isIdlePivot(i) && !isNeeded[i]) isLink[i] = false;
   }
   return isLink;
 }

@@ -2,10 +2,10 @@
 // model_avatar and model_clip.
 //
 // The rule. A node is a link of its own accord if it owns triangles or LSS, is a bone of a skin,
-// has a joint that is not free, or is moved by an animation; so are the nodes above such ones,
-// except a root that is none itself. FBX pivots (X_$AssimpFbx$_Rotation above X) that carry nothing
-// are no links: what moves one makes X a link. All that is no link is folded into the frames below
-// it.
+// has a joint that is not free, or is moved by an animation; so are all nodes above such ones,
+// moving or not: another file's animation of the same rig may move them. FBX pivots
+// (X_$AssimpFbx$_Rotation above X) that carry nothing are no links: what moves one makes X a link.
+// All that is no link is folded into the frames below it.
 #pragma once
 
 #include <cstdint>

@@ -212,9 +212,9 @@ TEST(AvatarFromModel, GivesATriangleToTheHeaviestNodeAndTiesToTheLowest) {
   addBone(mesh, b, {{0, 3.0}, {1, 0.75}, {3, 1.0}, {4, 0.5}, {5, 0.0}});
   addBone(mesh, a, {{1, 0.25}, {2, 7.0}, {4, 0.5}, {5, 2.0}});
   const auto made = avatarFromModel(model).value();
-  EXPECT_EQ(namesOf(made.avatar.skeleton()), (std::vector<std::string>{"a", "b"}));
-  EXPECT_EQ(made.surface[0].size(), 1u);
+  EXPECT_EQ(namesOf(made.avatar.skeleton()), (std::vector<std::string>{"root", "a", "b"}));
   EXPECT_EQ(made.surface[1].size(), 1u);
+  EXPECT_EQ(made.surface[2].size(), 1u);
   EXPECT_EQ(made.report.shared, 2u);
   EXPECT_EQ(made.report.unweighted, 0u);
   EXPECT_EQ(made.report.badWeights, 0u);
@@ -234,9 +234,9 @@ TEST(AvatarFromModel, CountsWeightsThatAreNoneAndGivesUnweightedVerticesToTheMes
   EXPECT_EQ(made.report.badWeights, 5u);
   EXPECT_EQ(made.report.unweighted, 1u);
   EXPECT_EQ(made.report.triangles, 2u);
-  EXPECT_EQ(namesOf(made.avatar.skeleton()), (std::vector<std::string>{"own", "bone"}));
-  EXPECT_EQ(made.surface[0].size(), 1u);
+  EXPECT_EQ(namesOf(made.avatar.skeleton()), (std::vector<std::string>{"root", "own", "bone"}));
   EXPECT_EQ(made.surface[1].size(), 1u);
+  EXPECT_EQ(made.surface[2].size(), 1u);
   EXPECT_TRUE(isNoted(made.report, "'Ghost'"));
   EXPECT_EQ(made.report.shared, 1u);  // the second's last vertex follows its own node
 }
@@ -261,7 +261,7 @@ TEST(AvatarFromModel, DropsTrianglesWithoutAPlaceAndKeepsAllOthers) {
   EXPECT_EQ(made.skin.triangles.size(), 5u);
 }
 
-TEST(AvatarFromModel, KeepsJointsWithoutTrianglesAndLeavesIdleRootsAndLeavesOut) {
+TEST(AvatarFromModel, KeepsWhatIsAboveALinkAndNothingThatIsBesideOrBelow) {
   Model model;
   const auto scene = addNode(model, "Scene", -1);
   const auto armature = addNode(model, "Armature", scene, {1, 0, 0});
@@ -273,11 +273,11 @@ TEST(AvatarFromModel, KeepsJointsWithoutTrianglesAndLeavesIdleRootsAndLeavesOut)
   addBone(mesh, hips, {});
   const auto made = avatarFromModel(model).value();
   EXPECT_EQ(namesOf(made.avatar.skeleton()),
-            (std::vector<std::string>{"Armature", "Hips", "Spine"}));
+            (std::vector<std::string>{"Scene", "Armature", "Hips", "Spine"}));
   EXPECT_EQ(made.report.bonesWithoutTriangles, (std::vector<std::string>{"Hips"}));
   EXPECT_EQ(made.avatar.skeleton().parent(0), kNoParent);
-  EXPECT_EQ(made.avatar.skeleton().restOffset(0), Vector3d(1, 0, 0));
-  EXPECT_EQ(made.nodeOfLink, (std::vector<std::int32_t>{armature, hips, spine}));
+  EXPECT_EQ(made.avatar.skeleton().restOffset(1), Vector3d(1, 0, 0));
+  EXPECT_EQ(made.nodeOfLink, (std::vector<std::int32_t>{scene, armature, hips, spine}));
 }
 
 TEST(AvatarFromModel, FoldsPivotsIntoTheNodeTheyServe) {

@@ -224,6 +224,31 @@ TEST(ClipFromModel, ALegOfOtherLengthKeepsItsLength) {
   EXPECT_EQ(poseOfAvatar(avatar.skeleton(), clip, match, 30).translations[0], Vector3d(1, 0, 0));
 }
 
+/// One file holds the body, another the motion, and only the motion moves the rig's root.
+TEST(ClipFromModel, DrivesTheAvatarOfAnotherFileOfTheSameRig) {
+  const Matrix3d turn = Eigen::AngleAxisd(1.5, Vector3d::UnitX()).toRotationMatrix();
+  Model body;
+  const auto rig = addNode(body, "rig", -1, {0, 0.5, 0}, turn);
+  const auto hips = addNode(body, "hips", rig, {0, 0, 1}, turn.transpose());
+  addMesh(body, hips, oneTriangle());
+  Model motion = body;
+  motion.meshes.clear();
+  ModelAnimation animation;
+  animation.tracks.push_back({rig, {{0.0, {3, 0.5, 0}}}, {}, {{0.0, Quaternion(turn)}}});
+  animation.tracks.push_back({hips, {}, {}, {{0.0, Quaternion(turn.transpose())}}});
+  motion.animations.push_back(animation);
+
+  const auto made = avatarFromModel(body).value();
+  const Skeleton& skeleton = made.avatar.skeleton();
+  const Clip clip = clipFromModel(motion).value();
+  const auto match = matchJoints(skeleton, clip.skeleton).value();
+  EXPECT_TRUE(match.unmatchedAvatar.empty() && match.unmatchedClip.empty());
+  const auto states = test::statesIn(skeleton, poseOfAvatar(skeleton, clip, match, 0));
+  const Vector3d expected = Vector3d(3, 0.5, 0) + turn * Vector3d(0, 0, 1);
+  EXPECT_LT((states[1].p_WL - expected).norm(), 1e-12);
+  EXPECT_LT((states[1].R_WL - Matrix3d::Identity()).norm(), 1e-12);
+}
+
 TEST(ClipFromModel, SortsKeysAndLeavesOutWhatIsNone) {
   Model model = shifting();
   auto& track = model.animations[0].tracks[0];
