@@ -32,6 +32,8 @@ TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
        std::vector<std::vector<std::string>>{{"demo", "--help"},
                                              {"replay", "--help"},
                                              {"avatar", "bvh", "--help"},
+                                             {"avatar", "mesh", "--help"},
+                                             {"avatar", "urdf", "--help"},
                                              {"avatar", "check", "--help"},
                                              {"scene", "check", "--help"}}) {
     const Ended ended = runForetouch(command);
@@ -42,9 +44,11 @@ TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
   }
   const Ended replay = runForetouch({"replay", "--help"});
   for (const char* option :
-       {"--scene ", "--avatar ", "--motion ", "--rate ", "--scale ", "--motion-up ", "--up ",
-        "--scene-scale ", "--place ", "--fidelity ", "--tolerance ", "--threads ", "--ignore ",
-        "--map ", "--culler ", "--output ", "--compare-rigid ", "--rays "}) {
+       {"--scene ",       "--avatar ", "--motion ",   "--animation ", "--robot ",
+        "--package ",     "--rate ",   "--scale ",    "--motion-up ", "--up ",
+        "--scene-scale ", "--place ",  "--fidelity ", "--tolerance ", "--threads ",
+        "--ignore ",      "--map ",    "--culler ",   "--output ",    "--compare-rigid ",
+        "--rays "}) {
     EXPECT_TRUE(holds(replay.out, std::string("\n  ") + option)) << option;
   }
 }

@@ -1,0 +1,239 @@
+// The program with models, robots and their motions: made, checked and replayed as a user would.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "articulated/avatar_file.h"
+#include "articulated/joint_match.h"
+#include "articulated/model_avatar.h"
+#include "articulated/model_clip.h"
+#include "articulated/motion.h"
+#include "lss/lss_cover.h"
+#include "middleware/model_import.h"
+#include "tests/support/shared_data.h"
+#include "tests/tools/program_run.h"
+#include "tests/tools/small_world.h"
+#include "tools/audits.h"
+
+namespace foretouch::test {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Two boxes, 0.5 m wide, one on the other: 24 triangles.
+std::string twoBoxes() {
+  std::string text;
+  for (int box = 0; box < 2; ++box) {
+    text += "o box" + std::to_string(box) + "\n";
+    for (int i = 0; i < 8; ++i) {
+      text += "v " + std::to_string(0.5 * (i & 1)) + " " + std::to_string(box + (i >> 1 & 1)) +
+              " " + std::to_string(0.5 * (i >> 2)) + "\n";
+    }
+    for (const auto& face : {"1 2 4 3", "5 6 8 7", "1 2 6 5", "3 4 8 7", "1 3 7 5", "2 4 8 6"}) {
+      text += "f";
+      for (const char* c = face; *c != '\0'; c += *(c + 1) == '\0' ? 1 : 2) {
+        text += " " + std::to_string(*c - '0' + 8 * box);
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+/// Z-up: an arm of 0.9 m along x that turns about z.
+constexpr char kRobot[] = R"(<robot name="arm">
+<link name="base"/>
+<link name="arm"><collision><origin xyz="0.5 0 0" rpy="0 1.5707963267948966 0"/>
+<geometry><capsule radius="0.05" length="0.8"/></geometry></collision></link>
+<joint name="shoulder" type="revolute"><parent link="base"/><child link="arm"/>
+<axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+</robot>)";
+
+TEST(AvatarMesh, MakesAnAvatarAndItsMeshThatTheCheckAccepts) {
+  const TempFolder folder;
+  const std::string made = folder / "boxes.avatar.json";
+  const Ended make =
+      runForetouch({"avatar", "mesh", folder.write("boxes.obj", twoBoxes()), "-o", made});
+  ASSERT_EQ(make.exitCode, 0) << make.err;
+  EXPECT_TRUE(holds(make.out, "triangles read           24\n")) << make.out;
+  EXPECT_EQ(folder.names(),
+            (std::set<std::string>{"boxes.obj", "boxes.avatar.json", "boxes.avatar.mesh.glb"}));
+  const Avatar avatar = readAvatarFile(made).value();
+  std::size_t meshes = 0;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    if (avatar.mesh(link).file.empty()) continue;
+    EXPECT_EQ(avatar.mesh(link).file, "boxes.avatar.mesh.glb");
+    ++meshes;
+  }
+  EXPECT_EQ(meshes, 2u);
+  const Ended check = runForetouch({"avatar", "check", made});
+  EXPECT_EQ(check.exitCode, 0) << check.err;
+  EXPECT_TRUE(holds(check.out, "triangles of links       24\n")) << check.out;
+  EXPECT_TRUE(holds(check.out, "outside their LSS      0\n")) << check.out;
+}
+
+TEST(AvatarMesh, ScalesAndTurns) {
+  const TempFolder folder;
+  const std::string model = folder.write("boxes.obj", twoBoxes());
+  const Ended ended = runForetouch({"avatar", "mesh", model, "-o", folder / "a.json", "--scale",
+                                    "0.5", "--up", "z", "--max-lss", "1"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const Avatar avatar = readAvatarFile(folder / "a.json").value();
+  EXPECT_EQ(avatar.numLss(), 2);
+  const auto audit = tools::auditAvatar(avatar, restPose(avatar.skeleton()));
+  EXPECT_GT(audit.extent.z(), audit.extent.y());  // the stack's y became -z
+  EXPECT_LT(audit.extent.z(), 1.5);
+}
+
+TEST(AvatarMesh, RefusesBadInputAndLeavesNothing) {
+  const TempFolder folder;
+  const std::string model = folder.write("boxes.obj", twoBoxes());
+  folder.write("empty.obj", "v 0 0 0\n");
+  const auto before = folder.names();
+  const std::string made = folder / "a.json";
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"avatar", "mesh", folder / "absent.glb", "-o", made},
+           {"avatar", "mesh", folder / "empty.obj", "-o", made},
+           {"avatar", "mesh", model, "-o", model},
+           {"avatar", "mesh", model, "-o", folder / "no/a.json"},
+           {"avatar", "mesh", model, "-o", made, "--scale", "0"},
+           {"avatar", "mesh", model, "-o", made, "--up", "x"},
+           {"avatar", "mesh", model, "-o", made, "--max-lss", "0"},
+           {"avatar", "urdf", folder / "absent.urdf", "-o", made},
+           {"avatar", "mesh", model}}) {
+    const Ended ended = runForetouch(arguments);
+    EXPECT_EQ(ended.exitCode, 2) << ended.err;
+    EXPECT_EQ(ended.err.rfind("foretouch: ", 0), 0u) << ended.err;
+    EXPECT_EQ(folder.names(), before);
+  }
+}
+
+TEST(AvatarCheck, SaysNoToTrianglesOutsideTheirLssAndTwoToMeshesThatAreNotThere) {
+  const TempFolder folder;
+  const std::string made = folder / "a.json";
+  const std::string model = folder.write("boxes.obj", twoBoxes());
+  ASSERT_EQ(runForetouch({"avatar", "mesh", model, "-o", made}).exitCode, 0);
+  const Avatar good = readAvatarFile(made).value();
+  std::vector<std::vector<Lss>> thin;
+  std::vector<MeshReference> meshes;
+  for (LinkId link = 0; link < good.numLinks(); ++link) {
+    thin.push_back(good.lss(link));
+    for (Lss& lss : thin.back()) lss.radius -= 0.01;
+    meshes.push_back(good.mesh(link));
+  }
+  const Avatar bad = Avatar::build(good.skeleton(), thin, meshes).value();
+  ASSERT_TRUE(writeAvatarFile(bad, folder / "thin.json").ok());
+  const Ended check = runForetouch({"avatar", "check", folder / "thin.json"});
+  EXPECT_EQ(check.exitCode, 1);
+  EXPECT_TRUE(holds(check.err, "stick out of their link's LSS, the worst by 10 mm")) << check.err;
+  std::filesystem::remove(folder / "a.mesh.glb");
+  EXPECT_EQ(runForetouch({"avatar", "check", made}).exitCode, 2);
+}
+
+TEST(ReplayJointPositions, FindsWhatTheRobotMeets) {
+  const SmallWorld world;
+  const std::string robot = world.folder.write("arm.urdf", kRobot);
+  const std::string log =
+      world.folder.write("log.csv", "time,shoulder\n0,2.5\n0.1,2\n0.2,0.5\n0.3,0\n");
+  const Ended make = runForetouch({"avatar", "urdf", robot, "-o", world.folder / "arm.json"});
+  ASSERT_EQ(make.exitCode, 0) << make.err;
+  EXPECT_FALSE(holds(make.out, "excess")) << make.out;  // no triangles
+  std::vector<std::string> arguments = world.replay(
+      {"--robot", robot, "--place", "-0.5,0,0", "--output", world.folder / "out.jsonl"}, "wall.obj",
+      "arm.json", "log.csv");
+  const Ended replayed = runForetouch(arguments);
+  EXPECT_EQ(replayed.exitCode, 0) << replayed.err;
+  // The arm's far end, 0.95 m out, comes within 0.5 m of the base's plane where cos(q) 0.9 + 0.05
+  // is that: at q = 1.0472, between the second row and the third.
+  const std::string results = contentOf(world.folder / "out.jsonl");
+  const std::size_t step = results.find("{\"step\":1,");
+  ASSERT_NE(step, std::string::npos);
+  const std::string line = results.substr(step, results.find('\n', step) - step);
+  EXPECT_TRUE(holds(line, "\"link\":\"arm\",\"verdict\":\"contact\",\"toi\":0.63")) << line;
+  EXPECT_TRUE(holds(line, "\"object\":\"wall\"")) << line;
+  EXPECT_TRUE(holds(results, "\"unmatched_joints\":[]")) << results;
+}
+
+TEST(ReplayMotions, RefusesOptionsThatDoNotGoWithTheMotion) {
+  const SmallWorld world;
+  world.folder.write("log.csv", "time,shoulder\n0,0\n1,0\n");
+  world.folder.write("arm.urdf", kRobot);
+  world.folder.write("bad.csv", "time,shoulder\n0,0\n1,zero\n");
+  const auto out = world.folder / "out.jsonl";
+  const auto error = [&](const std::vector<std::string>& more, const std::string& motion) {
+    std::vector<std::string> options = {"--output", out};
+    options.insert(options.end(), more.begin(), more.end());
+    const Ended ended = runForetouch(world.replay(options, "wall.obj", "man.json", motion));
+    EXPECT_EQ(ended.exitCode, 2);
+    return ended.err;
+  };
+  EXPECT_TRUE(holds(error({"--animation", "Walk"}, "clip.bvh"), "--animation: expected a model"));
+  EXPECT_TRUE(holds(error({"--robot", "a.urdf"}, "clip.bvh"), "--robot: expected a table"));
+  EXPECT_TRUE(holds(error({}, "log.csv"), "log.csv: joint positions are about a robot"));
+  const std::string arm = world.folder / "arm.urdf";
+  EXPECT_TRUE(holds(error({"--robot", arm}, "bad.csv"), "bad.csv:3: expected a number"));
+  EXPECT_TRUE(holds(error({"--robot", arm}, "log.csv"), "log.csv: no joint of the avatar"));
+  EXPECT_TRUE(holds(error({}, "absent.glb"), "absent.glb: "));
+}
+
+TEST(ReplayModels, MovesAnAvatarByTheAnimationOfItsOwnFile) {
+  FORETOUCH_REQUIRE_SHARED(man, "avatars/cesium_man.gltf");
+  const SmallWorld world;
+  const std::string made = world.folder / "cesium.json";
+  ASSERT_EQ(runForetouch({"avatar", "mesh", *man, "-o", made}).exitCode, 0);
+  const Ended check = runForetouch({"avatar", "check", made, "--motion", *man});
+  EXPECT_EQ(check.exitCode, 0) << check.err;
+  EXPECT_FALSE(holds(check.out, "keep their rest")) << check.out;
+  const Ended replayed =
+      runForetouch({"replay", "--scene", world.folder / "wall.obj", "--avatar", made, "--motion",
+                    *man, "--rate", "10", "--output", world.folder / "out.jsonl"});
+  EXPECT_EQ(replayed.exitCode, 0) << replayed.err;
+  EXPECT_TRUE(holds(replayed.out, "steps                         20")) << replayed.out;
+}
+
+/// The body's file holds no motion, the motion's file no body; the rig's root turns Z-up to Y-up.
+TEST(ReplayModels, ADancerFromTwoFilesStandsUpright) {
+  FORETOUCH_REQUIRE_SHARED(body, "avatars/kaykit_manny/manny_med_mod.gltf");
+  FORETOUCH_REQUIRE_SHARED(moves, "avatars/kaykit_manny/Med_CombatMelee.glb");
+  const auto avatar = avatarFromModel(importModel(*body).value()).value().avatar;
+  const auto clip = clipFromModel(importModel(*moves).value()).value();
+  const auto match = matchJoints(avatar.skeleton(), clip.skeleton).value();
+  EXPECT_TRUE(match.unmatchedAvatar.empty());
+  const Pose pose =
+      validatedPose(avatar.skeleton(), poseOfAvatar(avatar.skeleton(), clip, match, 0)).value();
+  const auto audit = tools::auditAvatar(avatar, pose);
+  EXPECT_GT(audit.extent.y(), 2.0);
+  EXPECT_LT(audit.extent.z(), 1.5);
+}
+
+/// The makers' files, whatever they hold: no triangle is lost unsaid, none is outside its LSS.
+TEST(AvatarMesh, AccountsForEveryTriangleOfRealModels) {
+  FORETOUCH_REQUIRE_SHARED(folder, "avatars");
+  int models = 0;
+  for (const char* name : {"cesium_man.gltf", "robot_expressive.glb", "greenman.glb", "Fox.glb",
+                           "kaykit_manny/manny_med_mod.gltf", "makehuman/base.obj"}) {
+    SCOPED_TRACE(name);
+    const auto model = importModel(*folder + "/" + name);
+    if (!model.ok()) continue;  // a partial copy of the data
+    ++models;
+    std::size_t read = 0;
+    for (const ModelMesh& mesh : model.value().meshes) read += mesh.triangles.size();
+    const auto made = avatarFromModel(model.value()).value();
+    EXPECT_GT(read, 300u);
+    EXPECT_EQ(made.report.triangles + made.report.droppedNonFinite, read);
+    EXPECT_EQ(made.report.badWeights, 0u);
+    for (LinkId link = 0; link < made.avatar.numLinks(); ++link) {
+      const auto& triangles = made.surface[static_cast<std::size_t>(link)];
+      if (!triangles.empty()) {
+        EXPECT_EQ(measureCover(made.avatar.lss(link), triangles).outside, 0u);
+      }
+    }
+  }
+  EXPECT_GT(models, 0);
+}
+
+}  // namespace
+}  // namespace foretouch::test
