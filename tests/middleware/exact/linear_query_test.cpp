@@ -182,7 +182,7 @@ TEST(LinearQuery, ExtremesOfTheAdmittedRangeAreAnswered) {
   expectMiss(vertexFace(moving({-small, small, big}, {-small, small, -big}),
                         {still(0, 0, 0), still(big, 0, small), still(0, big, -small)}),
              LeafStage::Filter);
-  expectMiss(vertexFace(moving({-small, small, big}, {-small, small, -big}),
+  expectMiss(vertexFace(moving({-2 * small, small, big}, {-2 * small, small, -big}),
                         {still(0, 0, 0), still(big, 0, small), still(-big, big, -small)}),
              LeafStage::Exact);
   expectHit(vertexFace(moving({big, big, big}, {-big, -big, -big}),
