@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/avatar_command.h"
+#include "tools/bench_command.h"
 #include "tools/console.h"
 #include "tools/demo_command.h"
 #include "tools/replay_command.h"
@@ -43,6 +44,7 @@ ExitCode run(int argc, const char* const* argv) {
   addReplayCommand(program, exit);
   addAvatarCommand(program, exit);
   addSceneCommand(program, exit);
+  addBenchCommand(program, exit);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -17,8 +17,9 @@ struct Ball {
   [[nodiscard]] bool isNegative() const { return center < -radius; }
 };
 
-/// A rounding is at most 2^-64 of the result (x86-64's long double); twice that also covers what the
-/// radius loses to its own few roundings where the operands' radii are zero, and the growth the rest.
+/// A rounding is at most 2^-64 of the result (x86-64's long double); twice that also covers what
+/// the radius loses to its own few roundings where the operands' radii are zero, and the growth the
+/// rest.
 inline constexpr long double kBallRounding = 0x1p-63L, kBallGrowth = 1 + 0x1p-60L;
 
 inline Ball operator+(const Ball& a, const Ball& b) {
@@ -36,6 +37,8 @@ inline Ball operator*(const Ball& a, const Ball& b) {
                        kBallGrowth};
 }
 /// Exact: a power of two.
-inline Ball half(const Ball& a) { return {a.center / 2, a.radius / 2}; }
+inline Ball half(const Ball& a) {
+  return {a.center / 2, a.radius / 2};
+}
 
 }  // namespace foretouch::oracle

@@ -1,6 +1,7 @@
-// tests/support/rational_form.h: polynomials in t on [0,1] as forms sum c_i (1-t)^(n-i) t^i. A point
-// that moves from A to B has the coefficients (A, B) as they stand, products are convolutions, and
-// the values at t = 0 and t = 1 are the first and the last coefficient: nothing is ever divided.
+// tests/support/rational_form.h: polynomials in t on [0,1] as forms sum c_i (1-t)^(n-i) t^i. A
+// point that moves from A to B has the coefficients (A, B) as they stand, products are
+// convolutions, and the values at t = 0 and t = 1 are the first and the last coefficient: nothing
+// is ever divided.
 #pragma once
 
 #include <array>

@@ -37,8 +37,8 @@ struct Instant {
   }
 };
 
-/// Polynomials of which all must vanish in contact (`gates`); those whose roots are the other places
-/// where contact can begin; and the question itself.
+/// Polynomials of which all must vanish in contact (`gates`); those whose roots are the other
+/// places where contact can begin; and the question itself.
 struct Question {
   std::vector<Coefficients> gates, others;
   std::function<bool(const Instant&)> meet;

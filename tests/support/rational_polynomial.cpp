@@ -9,7 +9,9 @@
 namespace foretouch::oracle {
 namespace {
 
-int signOf(const Integer& i) { return i.sign(); }
+int signOf(const Integer& i) {
+  return i.sign();
+}
 
 void trim(Polynomial& p) {
   while (!p.empty() && p.back() == 0) p.pop_back();
@@ -99,8 +101,8 @@ int variationsAt(const Sequence& sequence, const Dyadic& t) {
   return variations(sequence, [&](const Polynomial& p) { return signAt(p, t); });
 }
 
-/// Splits until each part holds one root. Ends are never roots: of seven places to split at, at most
-/// as many are roots as the degree says, and the last is taken only if the others are.
+/// Splits until each part holds one root. Ends are never roots: of seven places to split at, at
+/// most as many are roots as the degree says, and the last is taken only if the others are.
 void isolate(const Polynomial& p, const Sequence& sequence, const Dyadic& low, int atLow,
              const Dyadic& high, int atHigh, std::vector<Root>& roots) {
   if (atLow == atHigh) return;

@@ -1,6 +1,6 @@
 // tests/support/rational_polynomial.h: real roots of integer polynomials, and the signs of other
-// polynomials at them, by Sturm sequences: exact, without a single rounding. Source: [Basu06] chapter
-// 2 (Sturm's theorem; Tarski queries for signs at roots).
+// polynomials at them, by Sturm sequences: exact, without a single rounding. Source: [Basu06]
+// chapter 2 (Sturm's theorem; Tarski queries for signs at roots).
 //
 // A form sum c_i (1-t)^(n-i) t^i is the polynomial sum c_i x^i in x = t/(1-t), whose positive roots
 // are the form's roots inside (0,1); signs agree.
@@ -12,8 +12,8 @@
 
 namespace foretouch::oracle {
 
-using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int,
-                                              boost::multiprecision::et_off>;
+using Integer =
+    boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
 /// Coefficients of x^0, x^1, ...; the last is not zero. Empty: the zero polynomial.
 using Polynomial = std::vector<Integer>;
 
