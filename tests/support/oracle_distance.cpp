@@ -4,6 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include "tests/support/oracle_wide.h"
+
 namespace foretouch::oracle {
 namespace {
 
@@ -20,7 +22,8 @@ class Least {
   }
   [[nodiscard]] Closest<S> result() const {
     Closest<S> closest = best_;
-    closest.distance = std::sqrt(squared_);
+    using std::sqrt;
+    closest.distance = sqrt(squared_);
     return closest;
   }
 
@@ -81,7 +84,8 @@ struct Face {
       }
     }
     origin = v[longest];
-    length = std::sqrt(best);
+    using std::sqrt;
+    length = sqrt(best);
     if (!(length > 0)) return;
     first = (1 / length) * (v[(longest + 1) % 3] - origin);
     const Vec3<S> side = v[(longest + 2) % 3] - origin;
@@ -110,14 +114,34 @@ struct Face {
 };
 
 template <typename S>
+std::optional<Vec3<S>> piercing(const Vec3<S>& a, const Vec3<S>& b, const Face<S>& face) {
+  const S above = face.elevation(a), below = face.elevation(b);
+  if ((above < 0) == (below < 0) || above == below) return std::nullopt;
+  const Vec3<S> p = a + (above / (above - below)) * (b - a);
+  if (!face.foot(p)) return std::nullopt;
+  return p;
+}
+
+template <typename S>
 void offerFace(const Vec3<S>& a, const Vec3<S>& b, const Face<S>& face, Least<S>& least) {
   for (const Vec3<S>* p : {&a, &b}) {
     if (const auto foot = face.foot(*p)) least.offer(*p, *foot);
   }
-  const S above = face.elevation(a), below = face.elevation(b);
-  if ((above < 0) == (below < 0) || above == below) return;
-  const Vec3<S> piercing = a + (above / (above - below)) * (b - a);
-  if (face.foot(piercing)) least.offer(piercing, piercing);
+  if (const auto p = piercing(a, b, face)) least.offer(*p, *p);
+}
+
+template <typename S>
+void offerEdges(const std::array<Vec3<S>, 3>& one, const std::array<Vec3<S>, 3>& other,
+                Least<S>& least) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3<S>&a = one[i], &b = one[(i + 1) % 3];
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vec3<S>&c = other[j], &d = other[(j + 1) % 3];
+      least.offer(a, footOnSegment(a, c, d));
+      least.offer(footOnSegment(c, a, b), c);
+      offerLines(a, b, c, d, least);
+    }
+  }
 }
 
 }  // namespace
@@ -138,8 +162,31 @@ Closest<S> closestPoints(const Vec3<S>& a, const Vec3<S>& b, const std::array<Ve
   return least.result();
 }
 
+template <typename S>
+Closest<S> closestPoints(const std::array<Vec3<S>, 3>& one, const std::array<Vec3<S>, 3>& other) {
+  Least<S> least;
+  offerEdges(one, other, least);
+  const Face<S> faceOne(one), faceOther(other);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t next = (i + 1) % 3;
+    if (!faceOther.flat) {
+      if (const auto foot = faceOther.foot(one[i])) least.offer(one[i], *foot);
+      if (const auto p = piercing(one[i], one[next], faceOther)) least.offer(*p, *p);
+    }
+    if (!faceOne.flat) {
+      if (const auto foot = faceOne.foot(other[i])) least.offer(*foot, other[i]);
+      if (const auto p = piercing(other[i], other[next], faceOne)) least.offer(*p, *p);
+    }
+  }
+  return least.result();
+}
+
 template Closest<double> closestPoints(const Vec3d&, const Vec3d&, const std::array<Vec3d, 3>&);
 template Closest<Real> closestPoints(const Vec3r&, const Vec3r&, const std::array<Vec3r, 3>&);
+template Closest<double> closestPoints(const std::array<Vec3d, 3>&, const std::array<Vec3d, 3>&);
+template Closest<Real> closestPoints(const std::array<Vec3r, 3>&, const std::array<Vec3r, 3>&);
+template Closest<Wide> closestPoints(const std::array<Vec3<Wide>, 3>&,
+                                     const std::array<Vec3<Wide>, 3>&);
 
 Real pointSegmentDistance(const Vec3r& p, const Vec3r& a, const Vec3r& b) {
   return norm(p - footOnSegment(p, a, b));

@@ -21,14 +21,13 @@ struct Closest {
 };
 
 /// Any input is legal, zero lengths and zero areas included. The error is a few roundings of the
-/// largest difference of coordinates. Instances: double, Real.
+/// largest difference of coordinates. Instances: double, Real, Wide.
 template <typename S>
 Closest<S> closestPoints(const Vec3<S>& a, const Vec3<S>& b, const std::array<Vec3<S>, 3>& v);
 
-extern template Closest<double> closestPoints(const Vec3d&, const Vec3d&,
-                                              const std::array<Vec3d, 3>&);
-extern template Closest<Real> closestPoints(const Vec3r&, const Vec3r&,
-                                            const std::array<Vec3r, 3>&);
+/// The same of two triangles; `onSegment` lies on the first. Where they meet, the distance is zero.
+template <typename S>
+Closest<S> closestPoints(const std::array<Vec3<S>, 3>& one, const std::array<Vec3<S>, 3>& other);
 
 /// Distance of a point and a segment.
 Real pointSegmentDistance(const Vec3r& p, const Vec3r& a, const Vec3r& b);

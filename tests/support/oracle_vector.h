@@ -44,12 +44,14 @@ Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
 }
 template <typename S>
 S norm(const Vec3<S>& a) {
-  return std::sqrt(dot(a, a));
+  using std::sqrt;
+  return sqrt(dot(a, a));
 }
 /// The largest coordinate's magnitude: what rounding is proportional to.
 template <typename S>
 S extent(const Vec3<S>& a) {
-  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+  using std::abs;
+  return std::max({abs(a.x), abs(a.y), abs(a.z)});
 }
 
 using Vec3d = Vec3<double>;

@@ -1,0 +1,164 @@
+// tests/support/oracle_rigid.cpp: q(t) stays in the plane of q0 and q1, so the body turns about a
+// fixed axis at the rate w = 2 K / |q|^2 with K = |q0 ^ q1| (the area they span), and
+//   |w'| = 4 K |q.q'| / |q|^4 <= 4 K |q'| / |q|^3,
+// so a point at distance r from the body's origin has |acceleration| <= (w^2 + |w'|) r.
+#include "tests/support/oracle_rigid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/oracle_certificate.h"
+
+namespace foretouch::oracle {
+namespace {
+
+/// Roundings of the first two looks, as a share of the local size: some hundred operations each.
+constexpr double kDoubleShare = 1e-12, kRealShare = 1e-16;
+
+template <typename S>
+struct Spin {
+  S w = 1;
+  Vec3<S> v;
+};
+
+template <typename S>
+Spin<S> spinOf(const std::array<double, 4>& q) {
+  return {S(q[0]), {S(q[1]), S(q[2]), S(q[3])}};
+}
+template <typename S>
+S dot4(const Spin<S>& a, const Spin<S>& b) {
+  return a.w * b.w + dot(a.v, b.v);
+}
+/// |q|^2 R(q) p = q (0, p) q*.
+template <typename S>
+Vec3<S> turned(const Spin<S>& q, const Vec3<S>& p) {
+  const Vec3<S> twice = S(2) * cross(q.v, p);
+  return dot4(q, q) * p + q.w * twice + cross(q.v, twice);
+}
+
+/// The body's placement at one instant, relative to the fixed triangle's first vertex.
+template <typename S>
+struct Placement {
+  Vec3<S> place, drift;
+  Spin<S> q;
+  S norm2 = 1;
+  Vec3<S> rate;      // angular velocity
+  S rateMost = 0;    // its bound over the span
+  S rateChange = 0;  // bound of its change
+};
+
+template <typename S>
+Placement<S> placementAt(const RigidPair& pair, const S& t, const S& half) {
+  using std::sqrt;
+  Placement<S> p;
+  // Differences of the given doubles first: far from the origin they lose nothing.
+  p.drift = pair.x1.as<S>() - pair.x0.as<S>();
+  p.place = pair.x0.as<S>() - pair.fixed[0].as<S>() + t * p.drift;
+  const Spin<S> q0 = spinOf<S>(pair.q0), q1 = spinOf<S>(pair.q1);
+  const Spin<S> dq{q1.w - q0.w, q1.v - q0.v};
+  p.q = {q0.w + t * dq.w, q0.v + t * dq.v};
+  p.norm2 = dot4(p.q, p.q);
+  // 2 Im(q' q*) / |q|^2
+  p.rate = S(2 / p.norm2) * (p.q.w * dq.v - dq.w * p.q.v + cross(p.q.v, dq.v));
+  const S speed = sqrt(dot4(dq, dq)), length = sqrt(p.norm2);
+  const S shortest = length - half * speed;
+  if (!(shortest > S(0.01) * length)) {  // too long a span to say anything
+    p.rateMost = p.rateChange = S(1e30);
+    return p;
+  }
+  const S area = norm(p.rate) * p.norm2 / 2;
+  p.rateMost = 2 * area / (shortest * shortest);
+  p.rateChange = 4 * area * speed / (shortest * shortest * shortest);
+  return p;
+}
+
+template <typename S>
+HullView<S> hullAt(const RigidPair& pair, const S& t, const S& half) {
+  const Placement<S> p = placementAt(pair, t, half);
+  HullView<S> hull;
+  hull.count = 3;
+  hull.halfSpan = half;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3<S> inBody = pair.moving[i].as<S>();
+    const Vec3<S> arm = S(1 / p.norm2) * turned(p.q, inBody);
+    hull.points[i] = p.place + arm;
+    hull.velocity[i] = p.drift + cross(p.rate, arm);
+    hull.bend[i] = (p.rateMost * p.rateMost + p.rateChange) * norm(inBody) * half * half / 2;
+    hull.stray = std::max(hull.stray, S(norm(hull.velocity[i]) * half + hull.bend[i]));
+  }
+  return hull;
+}
+
+template <typename S>
+std::array<Vec3<S>, 3> cornersOf(const RigidPair& pair) {
+  std::array<Vec3<S>, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = pair.fixed[i].as<S>() - pair.fixed[0].as<S>();
+  return corners;
+}
+
+}  // namespace
+
+RigidProver::RigidProver(const RigidPair& pair) : pair_(pair) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    extent_ = std::max({extent_, norm(pair.moving[i]), norm(pair.fixed[i] - pair.fixed[0])});
+  }
+  extent_ += std::max(norm(pair.x0 - pair.fixed[0]), norm(pair.x1 - pair.fixed[0]));
+}
+
+/// `share` of the local size covers all that S rounds, the instant included. A point that can stray
+/// far beyond that size proves nothing anyway.
+template <typename S>
+RigidProver::Look RigidProver::look(const Wide& from, const Wide& to, double level, double share) {
+  constexpr double kFar = 100;
+  const Wide middle = (from + to) / 2, half = (to - from) / 2;
+  const HullView<S> hull = hullAt<S>(pair_, static_cast<S>(middle), static_cast<S>(half));
+  const Certificate<S> c = certify(hull, cornersOf<S>(pair_));
+  const S margin = S(share) * (S(extent_) + std::min(hull.stray, S(kFar * extent_)));
+  if (c.least - margin > S(level)) return Look::Free;
+  if (c.distance + margin <= S(level)) {
+    outcome_.touching = static_cast<double>(middle);
+    outcome_.separation = static_cast<Wide>(c.distance);
+    return Look::Touching;
+  }
+  const bool surelyApart = c.distance - margin > S(level);
+  return surelyApart && c.least + margin <= S(level) ? Look::TooLong : Look::Doubtful;
+}
+
+RigidProver::Look RigidProver::lookTwice(const Wide& from, const Wide& to, double level) {
+  ++outcome_.looks;
+  Look result = look<double>(from, to, level, kDoubleShare);
+  if (result == Look::Doubtful) result = look<Real>(from, to, level, kRealShare);
+  if (result != Look::Doubtful) return result;
+  ++outcome_.wideLooks;
+  return look<Wide>(from, to, level, kRigidGuard);
+}
+
+// Depth is bounded by kShortestRigidSpan: at most 91 levels.
+bool RigidProver::proveSpan(const Wide& from, const Wide& to, double level) {
+  if (outcome_.looks > kMostLooks) return false;
+  const Look result = lookTwice(from, to, level);
+  if (result == Look::Free) return true;
+  if (result == Look::Touching) return false;
+  if (to - from < kShortestRigidSpan) {
+    ++outcome_.grazing;
+    return true;
+  }
+  const Wide middle = (from + to) / 2;
+  return proveSpan(from, middle, level) && proveSpan(middle, to, level);
+}
+
+// Middles never reach the ends: these two instants are looked at on their own.
+RigidSpan RigidProver::prove(double from, double to, double level) {
+  outcome_ = RigidSpan{};
+  const Wide first(from), last(to);
+  if (lookTwice(first, first, level) == Look::Touching) return outcome_;
+  if (lookTwice(last, last, level) == Look::Touching) return outcome_;
+  outcome_.free = proveSpan(first, last, level);
+  return outcome_;
+}
+
+Wide RigidProver::separationAt(double t) const {
+  return closestPoints(hullAt<Wide>(pair_, Wide(t), Wide(0)), cornersOf<Wide>(pair_)).distance;
+}
+
+}  // namespace foretouch::oracle
