@@ -183,6 +183,8 @@ Closest<S> closestPoints(const std::array<Vec3<S>, 3>& one, const std::array<Vec
 
 template Closest<double> closestPoints(const Vec3d&, const Vec3d&, const std::array<Vec3d, 3>&);
 template Closest<Real> closestPoints(const Vec3r&, const Vec3r&, const std::array<Vec3r, 3>&);
+template Closest<Wide> closestPoints(const Vec3<Wide>&, const Vec3<Wide>&,
+                                     const std::array<Vec3<Wide>, 3>&);
 template Closest<double> closestPoints(const std::array<Vec3d, 3>&, const std::array<Vec3d, 3>&);
 template Closest<Real> closestPoints(const std::array<Vec3r, 3>&, const std::array<Vec3r, 3>&);
 template Closest<Wide> closestPoints(const std::array<Vec3<Wide>, 3>&,

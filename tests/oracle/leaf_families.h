@@ -1,0 +1,30 @@
+// tests/oracle/leaf_families.h: linear leaf queries by families, each after its own kind of
+// trouble.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/support/random_geometry.h"
+#include "tests/support/rational_linear.h"
+
+namespace foretouch::test {
+
+struct LinearFamily {
+  std::string name;
+  oracle::LinearQuery (*draw)(Random& random);
+  double leastHits, mostHits;  ///< The share of true hits that the family is meant to have.
+};
+
+/// uniform, gaps, grazing, slivers, parallel, lattice, plane, far, scaled.
+const std::vector<LinearFamily>& linearFamilies();
+
+/// The query of a family: the same for the same seed and index, whatever else is drawn.
+oracle::LinearQuery drawLinear(std::size_t family, std::uint64_t seed, std::uint64_t index);
+
+/// 8 rows of hexadecimal doubles, as C reads them: the points at t = 0, then at t = 1.
+std::string inHex(const oracle::LinearQuery& query);
+
+}  // namespace foretouch::test
