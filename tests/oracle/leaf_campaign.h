@@ -18,6 +18,7 @@ struct LeafTally {
   std::uint64_t falseNegatives = 0, falsePositives = 0;
   /// The first contact outside [toiLow, toiHigh], or an interval that is none or too wide.
   std::uint64_t wrongTimes = 0;
+  std::uint64_t thrown = 0;      ///< Exceptions, which no query may throw.
   std::uint64_t nearHits = 0;    ///< Rigid: hits only by the band that the product states.
   std::uint64_t unproved = 0;    ///< Rigid: the oracle gave up; shows nothing.
   std::uint64_t hardTruths = 0;  ///< Truths that took rationals, or fifty digits.
@@ -27,7 +28,9 @@ struct LeafTally {
   static constexpr std::size_t kKeptFailures = 5;
   void fail(std::uint64_t& count, const std::string& text);
   void add(const LeafTally& other);
-  [[nodiscard]] std::uint64_t wrong() const { return falseNegatives + falsePositives + wrongTimes; }
+  [[nodiscard]] std::uint64_t wrong() const {
+    return falseNegatives + falsePositives + wrongTimes + thrown;
+  }
   [[nodiscard]] double hitShare() const {
     return queries == 0 ? 0.0 : static_cast<double>(trueHits) / static_cast<double>(queries);
   }

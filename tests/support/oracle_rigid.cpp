@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "tests/support/oracle_certificate.h"
 
@@ -115,11 +116,15 @@ RigidProver::Look RigidProver::look(const Wide& from, const Wide& to, double lev
   const Certificate<S> c = certify(hull, cornersOf<S>(pair_));
   const S margin = S(share) * (S(extent_) + std::min(hull.stray, S(kFar * extent_)));
   if (c.least - margin > S(level)) return Look::Free;
-  if (c.distance + margin <= S(level)) {
+  // In fifty digits, a distance within the guard of the level counts as reaching it: a pierced
+  // triangle is at distance zero, which no rounding can go below.
+  constexpr bool kLastResort = std::is_same_v<S, Wide>;
+  if (kLastResort ? c.distance - margin <= S(level) : c.distance + margin <= S(level)) {
     outcome_.touching = static_cast<double>(middle);
     outcome_.separation = static_cast<Wide>(c.distance);
     return Look::Touching;
   }
+  if (kLastResort) return Look::TooLong;
   const bool surelyApart = c.distance - margin > S(level);
   return surelyApart && c.least + margin <= S(level) ? Look::TooLong : Look::Doubtful;
 }
@@ -135,7 +140,7 @@ RigidProver::Look RigidProver::lookTwice(const Wide& from, const Wide& to, doubl
 
 // Depth is bounded by kShortestRigidSpan: at most 91 levels.
 bool RigidProver::proveSpan(const Wide& from, const Wide& to, double level) {
-  if (outcome_.looks > kMostLooks) return false;
+  if (outcome_.looks > kMostLooks || outcome_.wideLooks > kMostWideLooks) return false;
   const Look result = lookTwice(from, to, level);
   if (result == Look::Free) return true;
   if (result == Look::Touching) return false;

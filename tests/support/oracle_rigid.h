@@ -44,7 +44,7 @@ class RigidProver {
   [[nodiscard]] RigidSpan prove(double from, double to, double level);
   [[nodiscard]] Wide separationAt(double t) const;
 
-  static constexpr std::uint64_t kMostLooks = 20'000;
+  static constexpr std::uint64_t kMostLooks = 20'000, kMostWideLooks = 1'000;
 
  private:
   enum class Look { Free, Touching, TooLong, Doubtful };
