@@ -116,8 +116,8 @@ RigidProver::Look RigidProver::look(const Wide& from, const Wide& to, double lev
   const Certificate<S> c = certify(hull, cornersOf<S>(pair_));
   const S margin = S(share) * (S(extent_) + std::min(hull.stray, S(kFar * extent_)));
   if (c.least - margin > S(level)) return Look::Free;
-  // In fifty digits, a distance within the guard of the level counts as reaching it: a pierced
-  // triangle is at distance zero, which no rounding can go below.
+  // In thirty-four digits, a distance within the guard of the level counts as reaching it: a
+  // pierced triangle is at distance zero, which no rounding can go below.
   constexpr bool kLastResort = std::is_same_v<S, Wide>;
   if (kLastResort ? c.distance - margin <= S(level) : c.distance + margin <= S(level)) {
     outcome_.touching = static_cast<double>(middle);

@@ -1,7 +1,7 @@
 // tests/support/oracle_rigid.h: a triangle of a body whose position and unnormalised quaternion are
 // linear in t, against a triangle at rest: is the separation above a level all through a span? By
-// certified subdivision: double, long double, then fifty digits, each only for what the one before
-// cannot tell. Shares no code with the product.
+// certified subdivision: double, long double, then thirty-four digits, each only for what the one
+// before cannot tell. Shares no code with the product.
 #pragma once
 
 #include <array>
@@ -22,15 +22,15 @@ struct RigidPair {
 };
 
 struct RigidSpan {
-  bool free = false;               ///< Separation > level - kRigidGuard * scale proved throughout.
+  bool free = false;               ///< Separation > level - kRigidGuard * size proved throughout.
   std::optional<double> touching;  ///< Near an instant with separation <= level; then not free.
   Wide separation = 0;             ///< There.
   std::uint64_t grazing = 0;       ///< Spans that are shorter than kShortestRigidSpan, let pass.
   std::uint64_t looks = 0, wideLooks = 0;
 };
 
-/// Fifty digits lose less than this share of the scale.
-inline constexpr double kRigidGuard = 1e-40;
+/// Thirty-four digits lose less than this share of the size.
+inline constexpr double kRigidGuard = 1e-30;
 /// Such a span holds a separation within speed * 1e-27 of the level.
 inline constexpr double kShortestRigidSpan = 0x1p-90;
 

@@ -1,11 +1,10 @@
-// tests/support/oracle_wide.h: fifty digits, for what long double cannot tell.
+// tests/support/oracle_wide.h: thirty-four digits, for what long double cannot tell.
 #pragma once
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/float128.hpp>
 
 namespace foretouch::oracle {
 
-using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
-                                           boost::multiprecision::et_off>;
+using Wide = boost::multiprecision::float128;
 
 }  // namespace foretouch::oracle
