@@ -51,7 +51,7 @@ class Backtracker {
       : query_(query), heap_(heap), counters_(counters), states_(query, counters) {}
 
   LinkContact run() {
-    best_.link = query_.link;
+    best_.link = query_.parts.link;
     startCandidates();
     while (!heap_.empty() && !hasContact() && heap_.front().freeUntil <= horizon_) {
       if (spent_ >= query_.maxAdvancements) {
@@ -66,7 +66,7 @@ class Backtracker {
   }
 
   LinkContact runAtStart() {
-    best_.link = query_.link;
+    best_.link = query_.parts.link;
     lookNearestFirst(0.0);
     return best_;
   }
@@ -122,10 +122,11 @@ class Backtracker {
   /// Up to which t the pair is proven apart, from `t` on.
   [[nodiscard]] double provenFrom(const Candidate& candidate, const PairState& pair, double t) {
     const double floor = kFloorShare * query_.tolerance;
-    if (query_.leafMethod == LeafMethod::Cubics && candidate.part.isTriangle()) {
+    if (query_.leafMethod == LeafMethod::Cubics && query_.isExact() &&
+        candidate.part.isTriangle()) {
       ++counters_.cubicTests;
       const double reached = freeUntilByCubics(
-          query_.motion, query_.link, t, 1.0,
+          query_.parts.motion, query_.parts.link, t, 1.0,
           query_.parts.surface->triangle(candidate.part.index()),
           query_.scene.triangle(candidate.triangle), floor, kFloorShare * query_.tolerance);
       if (reached > t) return reached;
@@ -140,7 +141,7 @@ class Backtracker {
   void descendFrom(const PairState& pair, double t) {
     descend(Later{}, [&](Candidate& part) {
       ++counters_.planeTests;
-      const double step = query_.parts.stepByPlane(part.lss, part.part, states_.at(t),
+      const double step = query_.parts.stepByPlane(part.lss, part.part, states_.at(t).state,
                                                    query_.scene.triangle(part.triangle), pair.nhat,
                                                    query_.tolerance);
       if (!(step > 0.0)) return;
@@ -262,27 +263,27 @@ std::array<Part, 2> LinkQuery::below(std::int32_t lss, Part part) const {
   return {Part::of(children[0]), Part::of(children[1])};
 }
 
-double leastGap(const LinkQuery& query, const Candidate& candidate, const LinkState& state) {
-  const Aabb box = query.parts.boxOfPoints(candidate.lss, candidate.part, state);
+double leastGap(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed) {
+  const Aabb box = query.parts.boxOfPoints(candidate.lss, candidate.part, posed);
   const double radius =
       candidate.part.isTriangle() ? 0.0 : query.parts.lssOf(candidate.lss, candidate.part).radius;
   const double gap = box.distance(boxOf(query.scene.triangle(candidate.triangle))) - radius;
   return gap - 1e-12 * (1.0 + std::abs(gap) + box.max.cwiseAbs().maxCoeff());
 }
 
-PairState pairOf(const LinkQuery& query, const Candidate& candidate, const LinkState& state,
+PairState pairOf(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed,
                  QueryCounters& counters) {
   ++counters.advancements;
   if (candidate.part.isTriangle()) ++counters.leafTests;
   if (query.isExact() && !candidate.part.isTriangle()) ++counters.hierarchyTests;
-  return query.parts.pair(candidate.lss, candidate.part, state,
+  return query.parts.pair(candidate.lss, candidate.part, posed,
                           query.scene.triangle(candidate.triangle));
 }
 
 LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const PairState& pair,
                       double t) {
   LinkContact contact;
-  contact.link = query.link;
+  contact.link = query.parts.link;
   // At t = 0 nothing before it proves the pair apart: of an LSS what cannot be proven apart counts
   // as touching; triangles, where the computed vertices are, have an exact answer.
   const bool starts = t == 0.0 && pair.gapLower() <= 0.0 &&

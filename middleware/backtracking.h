@@ -43,9 +43,7 @@ struct Candidate {
 
 /// What backtrack() needs to know of one link; all references outlive the call.
 struct LinkQuery {
-  LinkId link;
   LinkParts parts;
-  const ChainMotion& motion;
   const Scene& scene;
   Pieces pieces;
   double tolerance;
@@ -66,19 +64,23 @@ class StateCache {
  public:
   StateCache(const LinkQuery& query, QueryCounters& counters)
       : query_(query), counters_(counters) {}
-  [[nodiscard]] const LinkState& at(double t) {
-    if (t != time_) {
-      state_ = query_.motion.stateAt(query_.link, t);
-      time_ = t;
+  [[nodiscard]] const PosedLink& at(double t) {
+    if (t == time_) return posed_;
+    if (query_.parts.skin != nullptr) {
+      query_.parts.motion.statesAt(t, posed_.all);
+      counters_.states += posed_.all.size();
+    } else {
+      posed_.state = query_.parts.motion.stateAt(query_.parts.link, t);
       ++counters_.states;
     }
-    return state_;
+    time_ = t;
+    return posed_;
   }
 
  private:
   const LinkQuery& query_;
   QueryCounters& counters_;
-  LinkState state_;
+  PosedLink posed_;
   double time_ = -1.0;
 };
 
@@ -86,11 +88,11 @@ class StateCache {
 /// Its slack, thousands of roundings of the coordinates, keeps it below whatever either side rounds
 /// to.
 [[nodiscard]] double leastGap(const LinkQuery& query, const Candidate& candidate,
-                              const LinkState& state);
+                              const PosedLink& posed);
 
 /// The candidate's pair at one instant, counted.
 [[nodiscard]] PairState pairOf(const LinkQuery& query, const Candidate& candidate,
-                               const LinkState& state, QueryCounters& counters);
+                               const PosedLink& posed, QueryCounters& counters);
 
 /// What is reported of a pair that is in contact at `t`.
 [[nodiscard]] LinkContact contactOf(const LinkQuery& query, const Candidate& candidate,

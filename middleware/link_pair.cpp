@@ -45,22 +45,20 @@ PairState pairOfLss(const Lss& lss, const AxisBounds& bounds, const LinkState& s
   return pair;
 }
 
-PairState pairOfTriangle(const Triangle& part_L, const MotionBounds& bounds, const LinkState& state,
-                         const Triangle& triangle) {
+PairState pairOfTriangle(const MovingTriangle& part, const Triangle& triangle) {
+  const TriangleSeparation s = triangleSeparation(part.triangle, triangle);
   PairState pair;
-  for (std::size_t i = 0; i < 3; ++i) pair.hull.vertices[i] = state.pointAt(part_L.vertices[i]);
-  const TriangleSeparation s = triangleSeparation(pair.hull, triangle);
   pair.points = 3;
   pair.nhat = s.nhat;
+  pair.hull = part.triangle;
+  pair.velocity = part.velocity;
+  pair.acceleration = part.acceleration;
+  pair.velocityRounding = part.velocityRounding;
   double worstRounding = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double rho = part_L.vertices[i].norm() * kInflation;
-    const double rounding = bounds.positionRoundingAt(rho) * kInflation;
-    worstRounding = std::max(worstRounding, rounding);
-    pair.gap[i] = s.clearance[i] - rounding - 4.0 * kUnitRoundoff * std::abs(s.clearance[i]);
-    pair.velocity[i] = state.velocityAt(part_L.vertices[i]);
-    pair.acceleration[i] = bounds.accelerationAt(rho) * kInflation;
-    pair.velocityRounding[i] = bounds.velocityRoundingAt(rho) * kInflation;
+    worstRounding = std::max(worstRounding, part.positionRounding[i]);
+    pair.gap[i] =
+        s.clearance[i] - part.positionRounding[i] - 4.0 * kUnitRoundoff * std::abs(s.clearance[i]);
   }
   pair.gapUpper = (s.upper + worstRounding) * kInflation;
   pair.distance = s.distance;
@@ -69,6 +67,18 @@ PairState pairOfTriangle(const Triangle& part_L, const MotionBounds& bounds, con
   pair.difference = s.difference;
   pair.featureNormal = s.featureNormal;
   return pair;
+}
+
+/// Adds one link's share of a skinned vertex. Sums of a handful of terms: twice the rounding of a
+/// point for each covers the products and the sum.
+void addInfluence(const SkinInfluence& influence, const LinkState& state,
+                  const MotionBounds& bounds, std::size_t corner, MovingTriangle& moving) {
+  const double w = influence.weight, rho = influence.p_L.norm() * kInflation;
+  moving.triangle.vertices[corner] += w * state.pointAt(influence.p_L);
+  moving.velocity[corner] += w * state.velocityAt(influence.p_L);
+  moving.acceleration[corner] += w * bounds.accelerationAt(rho) * kInflation;
+  moving.positionRounding[corner] += 2.0 * w * bounds.positionRoundingAt(rho) * kInflation;
+  moving.velocityRounding[corner] += 2.0 * w * bounds.velocityRoundingAt(rho) * kInflation;
 }
 
 }  // namespace
@@ -83,19 +93,46 @@ const Lss& LinkParts::lssOf(std::int32_t lssIndex, Part part) const {
   return part.isWhole() ? lss[index] : surface->hierarchy(lssIndex).node(part.index()).lss;
 }
 
-PairState LinkParts::pair(std::int32_t lssIndex, Part part, const LinkState& state,
-                          const Triangle& triangle) const {
-  if (part.isTriangle()) {
-    return pairOfTriangle(surface->triangle(part.index()), bounds, state, triangle);
+MovingTriangle LinkParts::movingTriangle(std::int32_t index, const PosedLink& posed) const {
+  MovingTriangle moving;
+  if (skin != nullptr) {
+    moving.acceleration = moving.positionRounding = moving.velocityRounding = {};
+    for (std::size_t i = 0; i < 3; ++i) {
+      moving.triangle.vertices[i].setZero();
+      moving.velocity[i].setZero();
+      const std::int32_t vertex = skin->triangle(link, index)[i];
+      for (const SkinInfluence& influence : skin->skin.vertices[static_cast<std::size_t>(vertex)]) {
+        addInfluence(influence, posed.all[static_cast<std::size_t>(influence.link)],
+                     motion.bounds(influence.link), i, moving);
+      }
+    }
+    return moving;
   }
+  const MotionBounds& bounds = motion.bounds(link);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3d& p_L = surface->triangle(index).vertices[i];
+    const double rho = p_L.norm() * kInflation;
+    moving.triangle.vertices[i] = posed.state.pointAt(p_L);
+    moving.velocity[i] = posed.state.velocityAt(p_L);
+    moving.acceleration[i] = bounds.accelerationAt(rho) * kInflation;
+    moving.positionRounding[i] = bounds.positionRoundingAt(rho) * kInflation;
+    moving.velocityRounding[i] = bounds.velocityRoundingAt(rho) * kInflation;
+  }
+  return moving;
+}
+
+PairState LinkParts::pair(std::int32_t lssIndex, Part part, const PosedLink& posed,
+                          const Triangle& triangle) const {
+  if (part.isTriangle()) return pairOfTriangle(movingTriangle(part.index(), posed), triangle);
   const auto index = static_cast<std::size_t>(lssIndex);
-  if (part.isWhole()) return pairOfLss(lss[index], axisBounds[index], state, triangle);
+  if (part.isWhole()) return pairOfLss(lss[index], axisBounds[index], posed.state, triangle);
   const Lss& node = lssOf(lssIndex, part);
-  return pairOfLss(node, foretouch::axisBounds(node, bounds), state, triangle);
+  return pairOfLss(node, foretouch::axisBounds(node, motion.bounds(link)), posed.state, triangle);
 }
 
 double LinkParts::stepByPlane(std::int32_t lssIndex, Part part, const LinkState& state,
                               const Triangle& triangle, const Vector3d& nhat, double floor) const {
+  const MotionBounds& bounds = motion.bounds(link);
   std::array<Vector3d, 3> points_L;
   std::size_t count = 3;
   double radius = 0.0;
@@ -126,13 +163,13 @@ double LinkParts::stepByPlane(std::int32_t lssIndex, Part part, const LinkState&
   return step;
 }
 
-Aabb LinkParts::boxOfPoints(std::int32_t lssIndex, Part part, const LinkState& state) const {
+Aabb LinkParts::boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const {
   Aabb box;
   if (part.isTriangle()) {
-    for (const Vector3d& v : surface->triangle(part.index()).vertices) box.add(state.pointAt(v));
+    for (const Vector3d& v : movingTriangle(part.index(), posed).triangle.vertices) box.add(v);
     return box;
   }
-  const AxisEnds ends = axisEnds(lssOf(lssIndex, part), state);
+  const AxisEnds ends = axisEnds(lssOf(lssIndex, part), posed.state);
   box.add(ends.a);
   box.add(ends.b);
   return box;

@@ -13,6 +13,7 @@
 #include "lss/lss_hierarchy.h"
 #include "lss/triangle.h"
 #include "middleware/scene.h"
+#include "middleware/skin_internal.h"
 #include "middleware/surface_internal.h"
 #include "tessellation/aabb.h"
 #include "tessellation/swept_lss.h"
@@ -57,15 +58,33 @@ struct PairState {
   [[nodiscard]] double estimate() const { return distance - radius; }
 };
 
+/// A link at one instant; of a skinned surface, all links.
+struct PosedLink {
+  LinkState state;
+  std::vector<LinkState> all;
+};
+
+/// A triangle of the link's surface at one instant, in W, and what bounds its vertices' motion.
+struct MovingTriangle {
+  Triangle triangle;
+  std::array<Eigen::Vector3d, 3> velocity;
+  std::array<double, 3> acceleration, positionRounding, velocityRounding;
+};
+
 /// A link's parts, their bounds and states. All references outlive it.
 struct LinkParts {
+  LinkId link;
   const std::vector<Lss>& lss;
   const std::vector<AxisBounds>& axisBounds;  // one an LSS
-  const MotionBounds& bounds;
-  const LinkSurface* surface = nullptr;  // null: link fidelity, every part is whole
+  const ChainMotion& motion;
+  const LinkSurface* surface = nullptr;  // exact fidelity; else null
+  const SkinParts* skin = nullptr;       // skinned fidelity; else null
+
+  /// The rigid surface's triangle, or the skin's, by its index within the link.
+  [[nodiscard]] MovingTriangle movingTriangle(std::int32_t index, const PosedLink& posed) const;
 
   [[nodiscard]] const Lss& lssOf(std::int32_t lssIndex, Part part) const;
-  [[nodiscard]] PairState pair(std::int32_t lssIndex, Part part, const LinkState& state,
+  [[nodiscard]] PairState pair(std::int32_t lssIndex, Part part, const PosedLink& posed,
                                const Triangle& triangle) const;
   /// For how long the part stays at `floor` or more above the plane of another pair of the same
   /// triangle at the same instant: a cheap proof, as a plane that separates an LSS often separates
@@ -73,8 +92,8 @@ struct LinkParts {
   [[nodiscard]] double stepByPlane(std::int32_t lssIndex, Part part, const LinkState& state,
                                    const Triangle& triangle, const Eigen::Vector3d& nhat,
                                    double floor) const;
-  /// A box around the part's points at `state`, as computed.
-  [[nodiscard]] Aabb boxOfPoints(std::int32_t lssIndex, Part part, const LinkState& state) const;
+  /// A box around the part's points, as computed.
+  [[nodiscard]] Aabb boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const;
 };
 
 /// Largest s >= 0, rounded down, such that clearance + s*speed - acceleration*s^2/2 >= 0 on all of

@@ -7,6 +7,7 @@
 #include "lss/segment_triangle.h"
 #include "middleware/backtracking.h"
 #include "middleware/exact/linear_query.h"
+#include "middleware/exact/skin_sweep.h"
 #include "middleware/scene_internal.h"
 #include "middleware/surface_internal.h"
 
@@ -80,6 +81,7 @@ const char* toString(Fidelity fidelity) {
   switch (fidelity) {
     case Fidelity::Link: return "link";
     case Fidelity::Exact: return "exact";
+    case Fidelity::Skinned: return "skinned";
   }
   return "link";
 }
@@ -107,6 +109,11 @@ Result<Done> checked(const Avatar& avatar, const ChainMotion& motion, const Scen
       (!options.surface || options.surface->numLinks() != avatar.numLinks())) {
     return Error{ErrorCode::Mismatch, "fidelity", -1, -1,
                  "expected the surface of this avatar, which exact fidelity needs"};
+  }
+  if (options.fidelity == Fidelity::Skinned &&
+      (!options.skin || options.skin->numLinks() != avatar.numLinks())) {
+    return Error{ErrorCode::Mismatch, "fidelity", -1, -1,
+                 "expected the skin of this avatar, which skinned fidelity needs"};
   }
   const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
   for (const IgnoredPair& pair : options.ignored) {
@@ -161,6 +168,22 @@ bool meshTouches(const internal::LinkSurface& surface, std::int32_t lss, const L
   return false;
 }
 
+bool skinTouches(const internal::LinkParts& parts, double t, const Scene& scene,
+                 const IgnoredObjects& ignored, std::vector<TriangleId>& found) {
+  internal::PosedLink posed;
+  parts.motion.statesAt(t, posed.all);
+  for (std::int32_t i = 0; i < parts.skin->numTriangles(parts.link); ++i) {
+    const Triangle moved = parts.movingTriangle(i, posed).triangle;
+    found.clear();
+    std::uint64_t visited = 0;
+    scene.parts().bvh.collect(internal::boxOf(moved), found, visited);
+    for (const TriangleId id : found) {
+      if (!ignored.has(scene.object(id)) && trianglesMeet(moved, scene.triangle(id))) return true;
+    }
+  }
+  return false;
+}
+
 /// One query over all links of one step.
 class StepQuery {
  public:
@@ -202,6 +225,7 @@ class StepQuery {
   }
 
   LinkContact firstContactOf(LinkId link, QueryCounters& counters) {
+    if (options_.fidelity == Fidelity::Skinned) return firstSkinContactOf(link, counters);
     LinkContact contact;
     contact.link = link;
     surface_ = surfaceOf(options_, link);
@@ -210,15 +234,7 @@ class StepQuery {
     const Aabb swept = sweep(link);
     scratch_.found.clear();
     culler_.collect(swept, scratch_.found, counters.nodes);
-    const internal::LinkQuery query{
-        link,
-        {avatar_.lss(link), scratch_.axisBounds, motion_.bounds(link), surface_},
-        motion_,
-        scene_,
-        pieces_,
-        options_.tolerance,
-        options_.maxAdvancements,
-        options_.leafMethod};
+    const internal::LinkQuery query = queryOf(link);
     gather(scratch_.startBoxes, 1);
     counters.candidates += scratch_.candidates.size();
     contact = internal::contactAtStart(query, scratch_.candidates, counters);
@@ -226,6 +242,71 @@ class StepQuery {
     gather(scratch_.boxes, pieces_.count);
     counters.candidates += scratch_.candidates.size();
     return internal::backtrack(query, scratch_.candidates, counters);
+  }
+
+  [[nodiscard]] internal::LinkQuery queryOf(LinkId link) const {
+    const internal::SkinParts* const skin =
+        options_.fidelity == Fidelity::Skinned ? &options_.skin->parts() : nullptr;
+    return {{link, avatar_.lss(link), scratch_.axisBounds, motion_, surface_, skin},
+            scene_,
+            pieces_,
+            options_.tolerance,
+            options_.maxAdvancements,
+            options_.leafMethod};
+  }
+
+  LinkContact firstSkinContactOf(LinkId link, QueryCounters& counters) {
+    LinkContact contact;
+    contact.link = link;
+    const internal::LinkQuery query = queryOf(link);
+    const std::int32_t numTriangles = query.parts.skin->numTriangles(link);
+    if (scratch_.ignored.collect(options_, link) || numTriangles == 0) return contact;
+    internal::sweepSkin(query.parts, scratch_.nodes, pieces_, options_.tolerance,
+                        scratch_.startBoxes, scratch_.boxes);
+    if (!isNearAnything(scratch_.boxes, counters)) return contact;
+    gatherSkin(scratch_.startBoxes, 1, numTriangles, counters);
+    contact = internal::contactAtStart(query, scratch_.candidates, counters);
+    if (contact.verdict != Verdict::Clear) return contact;
+    gatherSkin(scratch_.boxes, pieces_.count, numTriangles, counters);
+    return internal::backtrack(query, scratch_.candidates, counters);
+  }
+
+  bool isNearAnything(const std::vector<Aabb>& boxes, QueryCounters& counters) {
+    Aabb all;
+    for (const Aabb& box : boxes) all.add(box);
+    scratch_.found.clear();
+    culler_.collect(all, scratch_.found, counters.nodes);
+    return !scratch_.found.empty();
+  }
+
+  /// Pairs of the skin's triangles with the scene's, by `count` boxes a triangle of the skin.
+  void gatherSkin(const std::vector<Aabb>& boxes, int count, std::int32_t numTriangles,
+                  QueryCounters& counters) {
+    scratch_.candidates.clear();
+    for (std::int32_t i = 0; i < numTriangles; ++i) {
+      const Aabb* const own = boxes.data() + static_cast<std::ptrdiff_t>(i) * count;
+      Aabb all;
+      for (int k = 0; k < count; ++k) all.add(own[k]);
+      scratch_.found.clear();
+      culler_.collect(all, scratch_.found, counters.nodes);
+      for (const TriangleId id : scratch_.found) {
+        if (scratch_.ignored.has(scene_.object(id))) continue;
+        const std::uint32_t meets = piecesMeeting(own, count, internal::boxOf(scene_.triangle(id)));
+        if (meets == 0) continue;
+        scratch_.candidates.push_back(
+            {id, 0, meets, 0.0, 0.0, internal::Part::of(HierarchyChild::triangle(i))});
+      }
+    }
+    counters.candidates += scratch_.candidates.size();
+  }
+
+  /// Bit k: the k-th of `count` boxes meets `box`.
+  [[nodiscard]] static std::uint32_t piecesMeeting(const Aabb* boxes, int count, const Aabb& box) {
+    std::uint32_t meets = 0;
+    for (int k = 0; k < count; ++k) {
+      meets |= static_cast<std::uint32_t>(boxes[k].overlaps(box)) << k;
+    }
+    return meets;
   }
 
   /// Boxes of every LSS of the link at the start and on every piece, grown by the tolerance;
@@ -265,11 +346,7 @@ class StepQuery {
       const Aabb box = internal::boxOf(scene_.triangle(id));
       for (std::int32_t lss = 0; lss < numLss; ++lss) {
         if (surface_ != nullptr && !surface_->hasTriangles(lss)) continue;
-        std::uint32_t meets = 0;
-        for (int k = 0; k < count; ++k) {
-          const auto index = static_cast<std::size_t>(lss * count + k);
-          meets |= static_cast<std::uint32_t>(boxes[index].overlaps(box)) << k;
-        }
+        const std::uint32_t meets = piecesMeeting(boxes.data() + lss * count, count, box);
         if (meets != 0) {
           scratch_.candidates.push_back({id, lss, meets, 0.0, 0.0, internal::Part::whole()});
         }
@@ -312,6 +389,12 @@ bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, dou
   std::vector<TriangleId>& found = scratch.impl().found;
   IgnoredObjects& ignored = scratch.impl().ignored;
   if (ignored.collect(options, link)) return false;
+  if (options.fidelity == Fidelity::Skinned) {
+    const std::vector<AxisBounds> none;
+    const internal::LinkParts parts{link,   avatar.lss(link), none,
+                                    motion, nullptr,          &options.skin->parts()};
+    return skinTouches(parts, t, scene, ignored, found);
+  }
   const LinkState state = motion.stateAt(link, t);
   for (std::size_t i = 0; i < avatar.lss(link).size(); ++i) {
     const Lss& lss = avatar.lss(link)[i];

@@ -17,6 +17,7 @@
 #include "middleware/avatar_surface.h"
 #include "middleware/exact/leaf.h"
 #include "middleware/scene.h"
+#include "middleware/skinned_surface.h"
 
 namespace foretouch {
 
@@ -69,11 +70,12 @@ struct LinkContact {
 
 /// What a link's surface is.
 enum class Fidelity : std::uint8_t {
-  Link,   ///< Its LSS.
-  Exact,  ///< The triangles of its mesh. Contacts are a subset of Link's, and never earlier.
+  Link,     ///< Its LSS.
+  Exact,    ///< The triangles of its mesh. Contacts are a subset of Link's, and never earlier.
+  Skinned,  ///< The triangles of a skin, whose vertices follow the blend of several links.
 };
 
-/// "link", "exact".
+/// "link", "exact", "skinned".
 [[nodiscard]] const char* toString(Fidelity fidelity);
 
 /// Both answer alike, byte for byte; the point-query one is the slower reference.
@@ -101,6 +103,7 @@ struct QueryOptions {
   Culler culler = Culler::FlatBvh;
   Fidelity fidelity = Fidelity::Link;
   std::optional<AvatarSurface> surface;  ///< Of the same avatar; needed for Fidelity::Exact.
+  std::optional<SkinnedSurface> skin;    ///< Of the same avatar; needed for Fidelity::Skinned.
   LeafMethod leafMethod = LeafMethod::Advancement;
   std::vector<IgnoredPair> ignored;
   /// Distance evaluations a link may cost before its verdict becomes Undecided.

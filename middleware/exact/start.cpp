@@ -36,7 +36,7 @@ class StartSearch {
       : query_(query), heap_(heap), counters_(counters), states_(query, counters) {}
 
   LinkContact run() {
-    best_.link = query_.link;
+    best_.link = query_.parts.link;
     const Farther farther(query_.scene);
     // pieces == 0 marks a candidate whose `nearest` is no longer a box's bound but the LSS's own
     // separation: popped a second time, nothing that is left is deeper.
