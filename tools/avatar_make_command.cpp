@@ -72,10 +72,12 @@ std::string describe(const ModelAvatar& made, std::size_t read) {
   return row("triangles read", read) + row("  given to links", report.triangles) +
          row("  not finite, left out", report.droppedNonFinite) +
          row("  without weights", report.unweighted) +
-         row("  that several links move", report.shared) + row("bad weights", report.badWeights) +
+         row("  moved by several links", report.shared) + row("bad weights", report.badWeights) +
          row("links without triangles", bare) +
-         fmt::format("  {:<25}{}\n", "excess volume of LSS",
-                     excessInWords(report.hullVolume + report.excessVolume, report.hullVolume));
+         (report.triangles == 0 ? ""
+                                : fmt::format("  {:<25}{}\n", "excess volume of LSS",
+                                              excessInWords(report.hullVolume + report.excessVolume,
+                                                            report.hullVolume)));
 }
 
 /// Where the links' triangles go: beside the avatar file, under its name.
