@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -187,6 +188,20 @@ void noteShapes(ModelLinks& links, const std::vector<std::string>& names) {
   }
 }
 
+std::optional<Error> countError(std::size_t links) {
+  if (links == 0) {
+    return Error{ErrorCode::Empty, "", -1, -1,
+                 "the model has no node that carries or moves anything; expected bones, meshes, "
+                 "joints or an animation"};
+  }
+  if (links > at(kMaxJoints)) {
+    return Error{ErrorCode::LimitExceeded, "", -1, -1,
+                 "expected at most " + std::to_string(kMaxJoints) + " links, found " +
+                     std::to_string(links)};
+  }
+  return std::nullopt;
+}
+
 struct RigidFrame {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d position;
@@ -252,16 +267,7 @@ Result<ModelLinks> modelLinks(const Model& model, const ModelOwnership& ownershi
     links.linkOfNode[i] = static_cast<LinkId>(links.nodeOfLink.size());
     links.nodeOfLink.push_back(static_cast<std::int32_t>(i));
   }
-  if (links.nodeOfLink.empty()) {
-    return Error{ErrorCode::Empty, "", -1, -1,
-                 "the model has no node that carries or moves anything; expected bones, meshes, "
-                 "joints or an animation"};
-  }
-  if (links.nodeOfLink.size() > at(kMaxJoints)) {
-    return Error{ErrorCode::LimitExceeded, "", -1, -1,
-                 "expected at most " + std::to_string(kMaxJoints) + " links, found " +
-                     std::to_string(links.nodeOfLink.size())};
-  }
+  if (auto error = countError(links.nodeOfLink.size())) return *std::move(error);
   for (std::size_t i = 0; i < isLink.size(); ++i) {
     links.servedLink.push_back(links.linkOfNode[at(finder.served(i))]);
   }
