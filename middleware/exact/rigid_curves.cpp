@@ -19,24 +19,37 @@ Vector3d rotationForm(const Quaternion& a, const Quaternion& b, const Vector3d& 
 }  // namespace
 
 RigidCurves::RigidCurves(const NlerpMotion& motion, const Triangle& moving_L,
-                         const Vector3d& origin_W) {
-  const Quaternion &q0 = motion.q0, &q1 = motion.q1;
-  const double w0 = q0.coeffs().squaredNorm(), w2 = q1.coeffs().squaredNorm();
-  const double w1 = q0.coeffs().dot(q1.coeffs());
-  weight_ = {w0, (w0 + 2.0 * w1) / 3.0, (2.0 * w1 + w2) / 3.0, w2};
-  const Vector3d c0 = motion.x0 - origin_W, c1 = motion.x1 - origin_W;
+                         const Vector3d& origin_W)
+    : q0_(motion.q0), q1_(motion.q1), c0_(motion.x0 - origin_W), c1_(motion.x1 - origin_W) {
+  const double w0 = q0_.coeffs().squaredNorm(), w2 = q1_.coeffs().squaredNorm();
+  const double w1 = q0_.coeffs().dot(q1_.coeffs());
+  weight_ = elevated(w0, w1, w2);
   double extent = 0.0;
   for (int i = 0; i < 3; ++i) {
     const Vector3d& p = moving_L.vertices[i];
-    const Vector3d m0 = rotationForm(q0, q0, p), m1 = rotationForm(q0, q1, p);
-    const Vector3d m2 = rotationForm(q1, q1, p);
-    curves_[i] = {m0 + w0 * c0, (m0 + 2.0 * m1 + (w0 * c1 + 2.0 * w1 * c0)) / 3.0,
-                  (2.0 * m1 + m2 + (2.0 * w1 * c1 + w2 * c0)) / 3.0, m2 + w2 * c1};
+    const auto [m0, m1, m2] = turned(p);
+    curves_[i] = {m0 + w0 * c0_, (m0 + 2.0 * m1 + (w0 * c1_ + 2.0 * w1 * c0_)) / 3.0,
+                  (2.0 * m1 + m2 + (2.0 * w1 * c1_ + w2 * c0_)) / 3.0, m2 + w2 * c1_};
     extent = std::max(extent, p.lpNorm<1>());
   }
-  extent += std::max(c0.lpNorm<1>(), c1.lpNorm<1>());
+  extent += std::max(c0_.lpNorm<1>(), c1_.lpNorm<1>());
   largestWeight_ = std::max(w0, w2);
   scale_ = largestWeight_ * extent;
+}
+
+RigidCurves::Turned RigidCurves::turned(const Vector3d& v) const {
+  return {rotationForm(q0_, q0_, v), rotationForm(q0_, q1_, v), rotationForm(q1_, q1_, v)};
+}
+
+Cubic RigidCurves::towards(const Turned& n, const Vector3d& f) const {
+  const Vector3d from = c0_ - f, to = c1_ - f;
+  return {n[0].dot(from), (n[0].dot(to) + 2.0 * n[1].dot(from)) / 3.0,
+          (2.0 * n[1].dot(to) + n[2].dot(from)) / 3.0, n[2].dot(to)};
+}
+
+Quaternion RigidCurves::rotationAt(double t) const {
+  const Eigen::Vector4d q = (1.0 - t) * q0_.coeffs() + t * q1_.coeffs();
+  return Quaternion(Eigen::Vector4d(q.normalized()));
 }
 
 Cubic RigidCurves::along(const Vector3d& n, int i) const {

@@ -23,6 +23,12 @@ class RigidCurves {
  public:
   RigidCurves(const NlerpMotion& motion, const Triangle& moving_L, const Eigen::Vector3d& origin_W);
 
+  /// Control points of |q|^2 R(q) v, a quadratic, for a vector of the body.
+  using Turned = std::array<Eigen::Vector3d, 3>;
+  [[nodiscard]] Turned turned(const Eigen::Vector3d& v) const;
+  /// n.(translation - f), for a quadratic direction n.
+  [[nodiscard]] Cubic towards(const Turned& n, const Eigen::Vector3d& f) const;
+  [[nodiscard]] Quaternion rotationAt(double t) const;
   /// |q(t)|^2 as a cubic.
   [[nodiscard]] const Cubic& weight() const { return weight_; }
   /// n.(weight * position of vertex i), for a direction no longer than 1.
@@ -39,8 +45,15 @@ class RigidCurves {
 
  private:
   std::array<std::array<Eigen::Vector3d, 4>, 3> curves_;  // Bernstein control points
+  Quaternion q0_, q1_;
+  Eigen::Vector3d c0_, c1_;  // translation, relative to the origin
   Cubic weight_;
   double scale_, largestWeight_;
 };
+
+/// A quadratic's coefficients as a cubic's.
+inline Cubic elevated(double a, double b, double c) {
+  return {a, (a + 2.0 * b) / 3.0, (2.0 * b + c) / 3.0, c};
+}
 
 }  // namespace foretouch::internal

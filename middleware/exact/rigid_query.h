@@ -1,7 +1,8 @@
 // middleware/exact/rigid_query.h: a triangle of a rigid body whose translation and quaternion are
 // both linear in t (the quaternion unnormalised: nlerp) against a triangle at rest. Multiplied by
 // |q|^2 every contact function is a cubic in t ([Canny86]; middleware/exact/rigid_query.md derives
-// them). Decided by signs beyond proved rounding bounds, in doubles, then in wider floats.
+// them). Decided by signs beyond proved rounding bounds, in doubles. A few rounds; each costs about
+// a microsecond.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,16 +26,17 @@ struct NlerpMotion {
 /// [0, toiLow). Tight: at some instant of [toiLow, toiHigh] the separation is at most
 /// band + rigidBand(...).
 struct RigidAnswer {
-  LeafAnswer leaf;               ///< `stage` is never Exact.
+  LeafAnswer leaf;               ///< `stage` is Filter.
   bool startsInContact = false;  ///< Separation <= band at t = 0, up to rigidBand().
   Feature moving, fixed;
 };
 [[nodiscard]] RigidAnswer rigidTrianglePair(const NlerpMotion& motion, const Triangle& moving_L,
                                             const Triangle& fixed_W, double band);
 
-/// Metres: how near a miss may be that is reported as contact (rounding that the widest stage
-/// cannot tell from contact). `extent`: largest |coordinate| involved, relative to the fixed
-/// triangle's first vertex.
+/// Metres: how near a miss may be that is reported as contact (rounding that doubles cannot
+/// tell from contact). `extent`: the largest of |coordinate| of the translation and
+/// of the fixed triangle, both relative to the fixed triangle's first vertex, of |coordinate| of
+/// the moving triangle in the body's frame, and of the band.
 [[nodiscard]] double rigidBand(double extent);
 
 }  // namespace foretouch
