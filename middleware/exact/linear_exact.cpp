@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
+#include <cstdint>
+#include <utility>
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,6 @@
 // The filter's and the curves' rounding bounds, held against fifty digits.
 #include <algorithm>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 

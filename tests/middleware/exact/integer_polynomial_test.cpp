@@ -1,6 +1,7 @@
 #include "middleware/exact/integer_polynomial.h"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,8 @@
 // Properties of random linear queries: the stages agree, the order of the arguments does not
 // matter, planted contacts are found and what is said to be free is free.
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 

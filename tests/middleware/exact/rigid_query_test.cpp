@@ -1,6 +1,7 @@
 #include "middleware/exact/rigid_query.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 
