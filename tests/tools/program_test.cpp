@@ -25,7 +25,7 @@ TEST(Program, SaysItsVersion) {
 TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
   const Ended top = runForetouch({"--help"});
   EXPECT_EQ(top.exitCode, 0);
-  for (const std::string command : {"demo", "replay", "avatar", "scene"}) {
+  for (const std::string command : {"demo", "replay", "avatar", "scene", "bench"}) {
     EXPECT_TRUE(holds(top.out, "\n  " + command)) << command;
   }
   for (const std::vector<std::string>& command :
@@ -35,7 +35,8 @@ TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
                                              {"avatar", "mesh", "--help"},
                                              {"avatar", "urdf", "--help"},
                                              {"avatar", "check", "--help"},
-                                             {"scene", "check", "--help"}}) {
+                                             {"scene", "check", "--help"},
+                                             {"bench", "leaf", "--help"}}) {
     const Ended ended = runForetouch(command);
     EXPECT_EQ(ended.exitCode, 0);
     EXPECT_TRUE(holds(ended.out, "Example")) << ended.out;
