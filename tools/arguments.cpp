@@ -97,11 +97,13 @@ Result<LeafMethod> parseLeafMethod(const std::string& option, const std::string&
 Result<Fidelity> parseFidelity(const std::string& option, const std::string& text) {
   if (text == "link") return Fidelity::Link;
   if (text == "exact") return Fidelity::Exact;
+  if (text == "skinned") return Fidelity::Skinned;
   if (text == "avatar" || text == "ellipsoid") {
-    return Error{ErrorCode::OutOfRange, option, -1, -1,
-                 "'" + text + "' is not available in this version; available: link, exact"};
+    return Error{
+        ErrorCode::OutOfRange, option, -1, -1,
+        "'" + text + "' is not available in this version; available: link, exact, skinned"};
   }
-  return refusal(option, "link or exact", text);
+  return refusal(option, "link, exact or skinned", text);
 }
 
 Result<Done> checkIsNoInput(const std::string& output, const std::vector<std::string>& inputs) {

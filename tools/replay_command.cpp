@@ -23,8 +23,8 @@ namespace {
 struct ReplayTexts {
   std::string scene, avatar, motion, animation, robot, map, output, rate = "all";
   std::string scale = "1", sceneScale = "1", motionUp = "y", up = "y", place = "0,0,0,0";
-  std::string fidelity = "link", leaves = "advancement", tolerance = "0.001", culler = "flat",
-              threads = "cores";
+  std::string fidelity = "link", leaves = "advancement", skin, skinScale = "1", skinUp = "y",
+              tolerance = "0.001", culler = "flat", threads = "cores";
   std::vector<std::string> ignore, packages;
   bool compareRigid = false, compareLink = false, rays = false;
 };
@@ -66,6 +66,9 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   Settling settle;
   settle.into(request.fidelity, parseFidelity("--fidelity", texts.fidelity));
   settle.into(request.leafMethod, parseLeafMethod("--leaves", texts.leaves));
+  request.skinPath = texts.skin;
+  settle.into(request.skinScale, parsePositive("--skin-scale", texts.skinScale));
+  settle.into(request.skinUp, parseUpAxis("--skin-up", texts.skinUp));
   settle.into(request.placement, parsePlacement("--place", texts.place));
   UpAxis motionUp = UpAxis::Y;
   settle.into(motionUp, parseUpAxis("--motion-up", texts.motionUp));
@@ -199,7 +202,10 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   option("--place", texts->place, "X,Y,Z[,YAW]",
          "Where the clip's origin stands in the scene: metres, and degrees about +Y");
   option("--fidelity", texts->fidelity, "RUNG",
-         "What touches: the links' LSS (link), or their meshes (exact)");
+         "What touches: the links' LSS (link), their meshes (exact), or a skin (skinned)");
+  option("--skin", texts->skin, "BODY", "Skinned fidelity: the model that the avatar was made of");
+  option("--skin-scale", texts->skinScale, "S", "Metres per unit of that model");
+  option("--skin-up", texts->skinUp, "y|z", "Which axis of that model points up");
   option("--leaves", texts->leaves, "advancement|cubics",
          "Exact fidelity's way with pairs of triangles; both keep the promise");
   option("--tolerance", texts->tolerance, "M", "Largest separation (m) of a reported contact");

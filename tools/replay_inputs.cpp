@@ -12,6 +12,7 @@
 #include "tools/ignored_pairs.h"
 #include "tools/joint_map.h"
 #include "tools/motion_file.h"
+#include "tools/skin_file.h"
 
 namespace foretouch::tools {
 namespace {
@@ -44,6 +45,12 @@ Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, Que
   query.fidelity = request.fidelity;
   query.leafMethod = request.leafMethod;
   if (request.fidelity == Fidelity::Link) return Done{};
+  if (request.fidelity == Fidelity::Skinned) {
+    auto skin = loadSkin(request.skinPath, request.skinScale, request.skinUp, avatar);
+    if (!skin.ok()) return skin.error();
+    query.skin = std::move(skin).value();
+    return Done{};
+  }
   auto meshes = loadLinkMeshes(avatar, request.avatarPath);
   if (!meshes.ok()) return inFile(meshes.error(), request.avatarPath);
   auto surface = AvatarSurface::build(avatar, std::move(meshes).value());

@@ -33,6 +33,9 @@ struct ReplayRequest {
   Culler culler = Culler::FlatBvh;
   Fidelity fidelity = Fidelity::Link;
   LeafMethod leafMethod = LeafMethod::Advancement;
+  std::string skinPath;    ///< The model whose skin is the surface at skinned fidelity.
+  double skinScale = 1.0;  ///< Metres per unit of that model.
+  UpAxis skinUp = UpAxis::Y;
   std::vector<std::string> ignore;
 };
 

@@ -86,12 +86,13 @@ TEST(ParseLeafMethod, KnowsItsTwoWays) {
 TEST(ParseFidelity, NamesWhatIsAvailableForRungsThatAreNot) {
   EXPECT_EQ(parseFidelity("--fidelity", "link").value(), Fidelity::Link);
   EXPECT_EQ(parseFidelity("--fidelity", "exact").value(), Fidelity::Exact);
+  EXPECT_EQ(parseFidelity("--fidelity", "skinned").value(), Fidelity::Skinned);
   for (const char* rung : {"avatar", "ellipsoid"}) {
     const auto parsed = parseFidelity("--fidelity", rung);
     ASSERT_FALSE(parsed.ok());
-    EXPECT_NE(
-        parsed.error().message.find("not available in this version; available: link, exact"),
-        std::string::npos);
+    EXPECT_NE(parsed.error().message.find(
+                  "not available in this version; available: link, exact, skinned"),
+              std::string::npos);
   }
   EXPECT_FALSE(parseFidelity("--fidelity", "best").ok());
 }
