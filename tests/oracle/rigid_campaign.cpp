@@ -206,7 +206,7 @@ std::string described(const RigidQuery& query, const std::string& name, const Ri
 }
 
 /// Which promise is broken, if any.
-enum class Broken { Nothing, Missed, Late, Early, Unproved };
+enum class Broken { Nothing, Missed, Late, Early, Interval, Unproved };
 
 Broken judgeMiss(RigidProver& prover, double band, RigidSpan& span) {
   span = prover.prove(0.0, 1.0, band);
@@ -218,9 +218,8 @@ Broken judgeHit(RigidProver& prover, const RigidQuery& query, const RigidAnswer&
                 RigidSpan& span, bool& near) {
   const LeafAnswer& leaf = answer.leaf;
   const bool isInterval = leaf.toiLow >= 0 && leaf.toiLow <= leaf.toiHigh && leaf.toiHigh <= 1 &&
-                          leaf.toiHigh - leaf.toiLow <= kLeafTimeAccuracy &&
-                          answer.startsInContact == (leaf.toiHigh == 0.0 || answer.startsInContact);
-  if (!isInterval) return Broken::Late;
+                          leaf.toiHigh - leaf.toiLow <= kLeafTimeAccuracy;
+  if (!isInterval) return Broken::Interval;
   if (leaf.toiLow > 0) {
     // [0, toiLow) is open: at toiLow itself contact is no lie.
     span = prover.prove(0.0, std::nextafter(leaf.toiLow, 0.0), query.band);
@@ -300,6 +299,9 @@ void judgeRigid(const RigidQuery& query, const std::string& name, LeafTally& tal
       break;
     case Broken::Late:
       tally.fail(tally.wrongTimes, described(query, name, answer, "late", span));
+      break;
+    case Broken::Interval:
+      tally.fail(tally.wrongTimes, described(query, name, answer, "no interval", span));
       break;
     case Broken::Early:
       tally.fail(tally.falsePositives, described(query, name, answer, "early", span));

@@ -1,6 +1,10 @@
 // tests/support/oracle_judge.cpp: each verdict held against what was proved.
 #include "tests/support/oracle_judge.h"
 
+#include <utility>
+
+#include "tests/support/oracle_mesh.h"
+
 namespace foretouch::oracle {
 
 const char* toString(Finding finding) {
@@ -29,25 +33,33 @@ const char* toString(Verdict verdict) {
 Judge::Judge(const Scene& scene, const Motion& motion, int link,
              const std::vector<Capsule>& capsules)
     : scene_(scene) {
-  provers_.reserve(capsules.size());
   for (const Capsule& capsule : capsules) {
-    provers_.emplace_back(scene, motion, link, capsule);
-    guard_ = std::max(guard_, kWitnessGuard * provers_.back().scale());
+    add(std::make_unique<Prover>(scene, motion, link, capsule));
   }
+}
+
+Judge::Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Triangle>& mesh)
+    : scene_(scene) {
+  add(std::make_unique<MeshProver>(scene, motion, link, mesh));
+}
+
+void Judge::add(std::unique_ptr<MovingSurface> surface) {
+  guard_ = std::max(guard_, kWitnessGuard * surface->scale());
+  surfaces_.push_back(std::move(surface));
 }
 
 Real Judge::separationAt(Real t, double within) const {
   Real least = within;
-  for (const Prover& p : provers_) {
-    least = std::min(least, p.separationAt(t, static_cast<double>(least)));
+  for (const auto& s : surfaces_) {
+    least = std::min(least, s->separationAt(t, static_cast<double>(least)));
   }
   return least;
 }
 
 Judgement Judge::judgeFree(Real until, Finding ifNot) {
   Judgement judgement;
-  for (Prover& prover : provers_) {
-    const SpanOutcome outcome = prover.prove(0, until);
+  for (const auto& surface : surfaces_) {
+    const SpanOutcome outcome = surface->prove(0, until);
     judgement.grazing += outcome.grazing;
     judgement.looks += outcome.looks;
     if (outcome.free) continue;
@@ -83,14 +95,19 @@ Judgement Judge::judgeStart(const Answer&) {
 }
 
 std::string Judge::witnessContradiction(const Answer& a) const {
-  if (a.capsule < 0 || a.capsule >= static_cast<int>(provers_.size())) return "capsule index";
+  int piece = a.capsule;
+  std::size_t at = 0;
+  while (at < surfaces_.size() && piece >= surfaces_[at]->numPieces()) {
+    piece -= surfaces_[at++]->numPieces();
+  }
+  if (piece < 0 || at == surfaces_.size()) return "capsule index";
   if (a.triangle < 0 || a.triangle >= scene_.numTriangles()) return "triangle index";
-  const Prover& prover = provers_[static_cast<std::size_t>(a.capsule)];
-  const Real radius = prover.capsule().radius;
+  const MovingSurface& surface = *surfaces_[at];
+  const Real radius = surface.radius();
   const auto off = [&](Real value) { return !(std::abs(value) <= guard_); };  // true for NaN
 
   const Real signedSeparation = static_cast<Real>(a.separation) - a.penetration;
-  if (off(prover.separationFrom(a.triangle, a.toi) - signedSeparation)) return "separation";
+  if (off(surface.separationFrom(piece, a.triangle, a.toi) - signedSeparation)) return "separation";
   const Vec3r onScene = a.onScene.as<Real>(), onLink = a.onLink.as<Real>();
   const Vec3r n = a.normal.as<Real>();
   const Triangle& t = scene_.triangle(a.triangle);
@@ -98,9 +115,8 @@ std::string Judge::witnessContradiction(const Answer& a) const {
                                      t[2].as<Real>() - onScene};
   if (off(closestPoints(Vec3r{}, Vec3r{}, corners).distance)) return "point on the scene";
   if (off(norm(n) - 1)) return "normal's length";
-  const auto axis = prover.axisAt(a.toi);
   const Vec3r onAxis = onScene + (radius + signedSeparation) * n;
-  if (off(pointSegmentDistance(onAxis, axis[0], axis[1]))) return "normal's direction";
+  if (off(surface.distanceToCore(piece, onAxis, a.toi))) return "normal's direction";
   if (off(norm(onAxis - radius * n - onLink))) return "point on the link";
   return {};
 }
@@ -138,20 +154,25 @@ Judgement Judge::judge(const Answer& answer, double tolerance) {
   return main;
 }
 
-// Each round either raises `low` or at least halves what is left below a touching instant, as the
-// first instant that a proof looks at is the middle.
+// Halving: the earlier half is proved first, so each round leaves at most half of what was left.
 std::optional<Bracket> Judge::firstContact() {
   constexpr Real kResolution = 1e-9L;
   std::optional<Bracket> first;
-  for (Prover& prover : provers_) {
+  for (const auto& surface : surfaces_) {
     Bracket bracket{0, first ? first->high : 1};
-    SpanOutcome outcome = prover.prove(0, bracket.high);
-    if (!outcome.touching) continue;
-    while (outcome.touching) {
-      bracket = {outcome.freeUntil, *outcome.touching};
-      if (bracket.high - bracket.low <= kResolution || outcome.looks > Prover::kMostLooks) break;
-      // The upper end is known to touch; what counts is what lies before it.
-      outcome = prover.prove(bracket.low, bracket.high);
+    const SpanOutcome whole = surface->prove(0, bracket.high);
+    if (!whole.touching) continue;
+    bracket = {whole.freeUntil, *whole.touching};
+    while (bracket.high - bracket.low > kResolution) {
+      const Real middle = bracket.low + (bracket.high - bracket.low) / 2;
+      const SpanOutcome half = surface->prove(bracket.low, middle);
+      if (half.touching) {
+        bracket = {half.freeUntil, *half.touching};
+      } else if (half.free) {
+        bracket.low = middle;
+      } else {
+        break;  // the looks ran out
+      }
     }
     if (!first || bracket.high < first->high) first = bracket;
   }

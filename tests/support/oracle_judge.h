@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ struct Answer {
   double toi = 1.0, freeUntil = 1.0;
   double separation = 0.0, penetration = 0.0;
   int triangle = -1;  ///< Of the scene handed to the judge.
-  int capsule = -1;   ///< Of the list handed to the judge.
+  int capsule = -1;   ///< Of the list handed to the judge; of a mesh, its triangle.
   Vec3d onScene, onLink, normal;
 };
 
@@ -55,6 +56,8 @@ struct Bracket {
 class Judge {
  public:
   Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Capsule>& capsules);
+  /// The link's surface is `mesh`, triangles in the link's frame.
+  Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Triangle>& mesh);
 
   [[nodiscard]] Judgement judge(const Answer& answer, double tolerance);
 
@@ -62,7 +65,7 @@ class Judge {
   /// A touch that goes no deeper than the sound guard does not count.
   [[nodiscard]] std::optional<Bracket> firstContact();
 
-  /// The least over the link's capsules and the scene; `within` if nothing is nearer.
+  /// The least over the link's surface and the scene; `within` if nothing is nearer.
   [[nodiscard]] Real separationAt(Real t, double within = Box::kEmpty) const;
 
  private:
@@ -73,8 +76,10 @@ class Judge {
   [[nodiscard]] std::string contradiction(const Answer& answer) const;
   [[nodiscard]] std::string witnessContradiction(const Answer& answer) const;
 
+  void add(std::unique_ptr<MovingSurface> surface);
+
   const Scene& scene_;
-  std::vector<Prover> provers_;
+  std::vector<std::unique_ptr<MovingSurface>> surfaces_;
   Real guard_ = 0;
 };
 

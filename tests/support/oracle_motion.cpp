@@ -57,16 +57,14 @@ Motion::Quaternion Motion::rotationAt(const Turn& turn, Real t) {
 //   y'  = d + R (w x x + x'),                         |y'|  <= |d| + angle |x| + |x'|
 //   y'' = R (w x (w x x) + 2 w x x' + x''),           |y''| <= angle^2 |x| + 2 angle |x'| + |x''|
 // where |x| is at most its value at the span's middle plus halfSpan * sup |x'|.
-std::array<MovingPoint, 2> Motion::pointsAt(int link, const std::array<Vec3d, 2>& points, Real t,
-                                            Real halfSpan) const {
-  std::array<MovingPoint, 2> moving;
-  for (std::size_t i = 0; i < 2; ++i) moving[i].position = points[i].as<Real>();
+void Motion::carry(int link, MovingPoint* points, std::size_t count, Real t, Real halfSpan) const {
   for (int j = link; j >= 0; j = turns_[static_cast<std::size_t>(j)].parent) {
     const Turn& turn = turns_[static_cast<std::size_t>(j)];
     const Quaternion rotation = rotationAt(turn, t);
     const Vec3r spin = turn.angle * turn.axis;
     const Real drift = norm(turn.drift);
-    for (MovingPoint& p : moving) {
+    for (std::size_t i = 0; i < count; ++i) {
+      MovingPoint& p = points[i];
       const Real distance = norm(p.position) + halfSpan * p.speed;
       p.acceleration += turn.angle * (turn.angle * distance + 2 * p.speed);
       p.speed += drift + turn.angle * distance;
@@ -74,7 +72,6 @@ std::array<MovingPoint, 2> Motion::pointsAt(int link, const std::array<Vec3d, 2>
       p.position = turn.translation + t * turn.drift + rotated(rotation, p.position);
     }
   }
-  return moving;
 }
 
 Real Motion::reach(int link, Real rho) const {

@@ -39,9 +39,15 @@ class Motion {
 
   [[nodiscard]] int numLinks() const { return static_cast<int>(turns_.size()); }
 
-  /// The axis end points of a link at t. `points` are in the link's frame.
-  [[nodiscard]] std::array<MovingPoint, 2> pointsAt(int link, const std::array<Vec3d, 2>& points,
-                                                    Real t, Real halfSpan) const;
+  /// Points of a link at t, given in the link's frame.
+  template <std::size_t N = 2>
+  [[nodiscard]] std::array<MovingPoint, N> pointsAt(int link, const std::array<Vec3d, N>& points,
+                                                    Real t, Real halfSpan) const {
+    std::array<MovingPoint, N> moving;
+    for (std::size_t i = 0; i < N; ++i) moving[i].position = points[i].template as<Real>();
+    carry(link, moving.data(), N, t, halfSpan);
+    return moving;
+  }
 
   /// The largest distance from the world's origin that a point at distance `rho` from the link's
   /// origin, or any joint above it, can have: what rounding is proportional to.
@@ -59,6 +65,7 @@ class Motion {
     Real angle = 0;  // over the whole step, radians, >= 0
     Vec3r translation, drift;
   };
+  void carry(int link, MovingPoint* points, std::size_t count, Real t, Real halfSpan) const;
   static Quaternion normalised(const std::array<double, 4>& q);
   static Quaternion product(const Quaternion& a, const Quaternion& b);
   static Vec3r rotated(const Quaternion& q, const Vec3r& v);

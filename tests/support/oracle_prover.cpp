@@ -2,58 +2,21 @@
 // enough.
 #include "tests/support/oracle_prover.h"
 
+#include "tests/support/oracle_certificate.h"
+
 namespace foretouch::oracle {
 namespace {
 
-/// How much a distance in double may err, as a share of the coordinates' differences: some forty
-/// operations of 2^-53 each, taken fifty times over.
-constexpr double kDoubleMargin = 1e-12;
 /// A first span may meet very many triangles; cutting it is cheaper than looking at them all.
 constexpr std::size_t kMostCandidates = 256;
 /// Spans shorter than this keep all their candidates: what they meet no longer shrinks with them.
 constexpr Real kCrowdedSpan = 0x1p-8L;
 
-/// Axis and triangle relative to a nearby point, and what the axis may do within the half span.
-template <typename S>
-struct View {
-  std::array<Vec3<S>, 2> axis, velocity;
-  std::array<Vec3<S>, 3> corners;
-  std::array<S, 2> bend{};  // acceleration * halfSpan^2 / 2
-  S stray = 0, halfSpan = 0;
-};
-
-struct Certificate {
-  Real distance = 0;  // at the middle
-  Real least = 0;     // proved lower bound of the distance over the span
-};
-
-// The plane through the triangle's foremost corner along n, the direction of the closest points:
-// the axis stays in front of it by at least what its ends do, and an end's height over it changes
-// by at most |n.v| h + A h^2 / 2. Any unit n gives a valid bound; this one is nearly the best.
-template <typename S>
-Certificate certify(const View<S>& view) {
-  const Closest<S> closest = closestPoints(view.axis[0], view.axis[1], view.corners);
-  Certificate c{closest.distance, closest.distance - view.stray};
-  if (!(closest.distance > 0)) return c;
-  const Vec3<S> n = (1 / closest.distance) * (closest.onSegment - closest.onTriangle);
-  S front = dot(n, view.corners[0]);
-  for (const Vec3<S>& corner : view.corners) front = std::max(front, dot(n, corner));
-  S low = std::numeric_limits<S>::infinity();
-  for (std::size_t i = 0; i < 2; ++i) {
-    low = std::min(low, dot(n, view.axis[i]) - std::abs(dot(n, view.velocity[i])) * view.halfSpan -
-                            view.bend[i]);
-  }
-  c.least = std::max(c.least, static_cast<Real>(low - front));
-  return c;
-}
-
 }  // namespace
 
 struct Prover::Look {
   Real middle = 0;
-  Vec3d reference;  // what views are relative to
-  View<Real> exact;
-  View<double> quick;
+  HullLook hull;
   double around = 0;  // triangles farther from the axis than this need no look
   Box box;
 };
@@ -71,21 +34,9 @@ Prover::Look Prover::lookAt(Real from, Real to) const {
   // The larger half, so that rounding of the middle leaves no gap.
   const Real half = std::max(look.middle - from, to - look.middle);
   const auto ends = motion_.pointsAt(link_, capsule_.ends, look.middle, half);
-  look.reference = ends[0].position.as<double>();
-  look.exact.halfSpan = half;
-  look.quick.halfSpan = static_cast<double>(half);
-  for (std::size_t i = 0; i < 2; ++i) {
-    look.exact.axis[i] = ends[i].position - look.reference.as<Real>();
-    look.quick.axis[i] = look.exact.axis[i].as<double>();
-    look.exact.velocity[i] = ends[i].velocity;
-    look.quick.velocity[i] = ends[i].velocity.as<double>();
-    look.exact.bend[i] = ends[i].acceleration * half * half / 2;
-    look.quick.bend[i] = static_cast<double>(look.exact.bend[i]);
-    look.exact.stray = std::max(look.exact.stray, ends[i].stray(half));
-  }
-  look.quick.stray = static_cast<double>(look.exact.stray);
+  look.hull = hullLook(ends.data(), ends.size(), half);
   // Triangles outside this box are farther than stray + radius; the slack covers its own rounding.
-  look.around = (look.quick.stray + capsule_.radius) * (1 + kDoubleMargin) +
+  look.around = (look.hull.quick.stray + capsule_.radius) * (1 + kDoubleMargin) +
                 static_cast<double>(scale_) * kDoubleMargin;
   const Vec3d around{look.around, look.around, look.around};
   for (const MovingPoint& end : ends) {
@@ -100,8 +51,8 @@ Prover::Look Prover::lookAt(Real from, Real to) const {
 /// of its box.
 bool Prover::isNear(const Look& look, int triangle) const {
   const Scene::Ball& ball = scene_.ballOf(triangle);
-  const Vec3d from = ball.center - look.reference - look.quick.axis[0];
-  const Vec3d along = look.quick.axis[1] - look.quick.axis[0];
+  const Vec3d from = ball.center - look.hull.reference - look.hull.quick.points[0];
+  const Vec3d along = look.hull.quick.points[1] - look.hull.quick.points[0];
   const double length2 = dot(along, along), share = dot(from, along);
   Vec3d off = from;
   if (share >= length2) {
@@ -121,7 +72,7 @@ bool Prover::gather(const Look& look, const std::vector<int>* inherited,
     }
     return true;
   }
-  const bool crowded = look.exact.halfSpan < kCrowdedSpan;
+  const bool crowded = look.hull.exact.halfSpan < kCrowdedSpan;
   const auto everything = static_cast<std::size_t>(scene_.numTriangles());
   const bool complete =
       scene_.collect(look.box, crowded ? everything : kMostCandidates, candidates);
@@ -132,31 +83,14 @@ bool Prover::gather(const Look& look, const std::vector<int>* inherited,
 
 /// True if the triangle is proved free throughout the look's span.
 bool Prover::examine(const Look& look, int triangle) {
-  const Triangle& corners = scene_.triangle(triangle);
-  View<double> quick = look.quick;
-  double size = std::max(extent(quick.axis[0]), extent(quick.axis[1]));
-  for (std::size_t i = 0; i < 3; ++i) {
-    quick.corners[i] = corners[i] - look.reference;
-    size = std::max(size, extent(quick.corners[i]));
-  }
-  const Certificate rough = certify(quick);
-  const Real margin = kDoubleMargin * (static_cast<Real>(size) + look.exact.stray);
-  const Real radius = capsule_.radius;
-  if (rough.least - margin > radius) return true;
-  const bool surelyApart = rough.distance - margin > radius;
-  if (surelyApart && rough.least + margin < radius) return false;
-
-  View<Real> exact = look.exact;
-  for (std::size_t i = 0; i < 3; ++i) {
-    exact.corners[i] = corners[i].as<Real>() - look.reference.as<Real>();
-  }
-  const Certificate fine = certify(exact);
-  if (touches(fine.distance - radius)) {
+  Real separation = 0;
+  const HullCheck check =
+      checkHull(look.hull, capsule_.radius, guard_, scene_.triangle(triangle), separation);
+  if (check == HullCheck::Touching) {
     outcome_.touching = look.middle;
-    outcome_.separation = fine.distance - radius;
-    return false;
+    outcome_.separation = separation;
   }
-  return fine.least - radius > -guard_;
+  return check == HullCheck::Free;
 }
 
 // Depth is bounded by kShortestSpan: at most 41 levels.
@@ -218,8 +152,13 @@ Real Prover::pairSeparation(const std::array<Vec3r, 2>& axis, int triangle) cons
          static_cast<Real>(capsule_.radius);
 }
 
-Real Prover::separationFrom(int triangle, Real t) const {
+Real Prover::separationFrom(int, int triangle, Real t) const {
   return pairSeparation(axisAt(t), triangle);
+}
+
+Real Prover::distanceToCore(int, const Vec3r& point, Real t) const {
+  const auto axis = axisAt(t);
+  return pointSegmentDistance(point, axis[0], axis[1]);
 }
 
 Real Prover::separationAt(Real t, double within) const {

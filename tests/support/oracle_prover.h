@@ -9,6 +9,7 @@
 #include "tests/support/oracle_distance.h"
 #include "tests/support/oracle_motion.h"
 #include "tests/support/oracle_scene.h"
+#include "tests/support/oracle_surface.h"
 
 namespace foretouch::oracle {
 
@@ -18,39 +19,20 @@ struct Capsule {
   double radius = 0.0;
 };
 
-/// Two numbers of the proof. Lengths in metres; `scale` is the larger of 1 m and the chain's reach.
-/// The oracle's own rounding is about 1e-18 * scale, so this guard still sees a product that is
-/// late by a few of its own last places.
-inline constexpr Real kSoundGuard = 1e-15L;
-/// Spans shorter than this that neither prove free nor show contact hold a separation within
-/// (speed * 1e-12) of zero: a touch within rounding, counted and let pass.
-inline constexpr Real kShortestSpan = 0x1p-40L;
-
-struct SpanOutcome {
-  bool free = false;             ///< Separation > -guard proved throughout, grazing spans apart.
-  Real freeUntil = 0;            ///< Proved from the span's start up to here.
-  std::optional<Real> touching;  ///< An instant with separation < -guard; then not free.
-  Real separation = 0;           ///< At `touching`.
-  std::uint64_t grazing = 0, looks = 0;
-};
-
 /// Cuts a span in halves until each is proved: at its middle the distance exceeds all the way that
 /// the axis can go in half the span, or a plane between axis and triangle stays uncrossed.
-class Prover {
+class Prover final : public MovingSurface {
  public:
   Prover(const Scene& scene, const Motion& motion, int link, const Capsule& capsule);
 
-  [[nodiscard]] SpanOutcome prove(Real from, Real to);
+  [[nodiscard]] SpanOutcome prove(Real from, Real to) override;
+  [[nodiscard]] Real separationAt(Real t, double within = Box::kEmpty) const override;
+  [[nodiscard]] Real separationFrom(int piece, int triangle, Real t) const override;
+  [[nodiscard]] Real distanceToCore(int piece, const Vec3r& point, Real t) const override;
+  [[nodiscard]] Real radius() const override { return static_cast<Real>(capsule_.radius); }
+  [[nodiscard]] int numPieces() const override { return 1; }
+  [[nodiscard]] Real scale() const override { return scale_; }
 
-  /// At one instant, the least over the scene; `within` if nothing is nearer than that.
-  [[nodiscard]] Real separationAt(Real t, double within = Box::kEmpty) const;
-  /// At one instant, of one triangle.
-  [[nodiscard]] Real separationFrom(int triangle, Real t) const;
-  [[nodiscard]] std::array<Vec3r, 2> axisAt(Real t) const;
-  [[nodiscard]] const Capsule& capsule() const { return capsule_; }
-
-  /// The length that guards are multiplied with.
-  [[nodiscard]] Real scale() const { return scale_; }
   /// Looks at spans after which a proof is given up; SpanOutcome then is neither free nor touching.
   static constexpr std::uint64_t kMostLooks = 400'000;
 
@@ -62,6 +44,7 @@ class Prover {
   [[nodiscard]] bool isNear(const Look& look, int triangle) const;
   bool examine(const Look& look, int triangle);
   [[nodiscard]] Look lookAt(Real from, Real to) const;
+  [[nodiscard]] std::array<Vec3r, 2> axisAt(Real t) const;
   [[nodiscard]] Real pairSeparation(const std::array<Vec3r, 2>& axis, int triangle) const;
   /// Beyond doubt: inside by more than the guard, or the axis itself is pierced (all that there is
   /// to see of a capsule without radius).
