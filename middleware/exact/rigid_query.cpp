@@ -40,8 +40,10 @@ constexpr double kWindow = 32.0, kLeastWindow = 0x1p-20;
 constexpr double kUnitShrink = 1.0 - 0x1p-50;    // normalising errs by 4 u
 constexpr double kTurnedShrink = 1.0 - 0x1p-46;  // turning by a quaternion errs by below 30 u
 /// rigidBand: kErrorsFromContact position errors, (8 + 1) extents by 1-norms, |q|^2 within a factor
-/// of 32 of its largest: 6 * 128 * 9 * 32 u < 2^18 u.
-constexpr double kRigidBand = 0x1p-35;
+/// of 32 of its largest: 6 * 128 * 9 * 32 u < 2^18 u = 2^-35. Slivers need more: where both
+/// triangles are thinner than their distance is long, no plane that is tried separates them from
+/// about 1e-9 extents on (seen: 8e-10).
+constexpr double kRigidBand = 0x1p-28;
 constexpr double kUnderflow = 1e-150;
 
 /// Two triangles at one instant, relative to the fixed one's first vertex.
@@ -165,7 +167,8 @@ class Advancement {
     RigidAnswer answer;
     answer.leaf.hits = true;
     answer.leaf.toiLow = free;
-    answer.leaf.toiHigh = std::min(1.0, free + kLeafTimeAccuracy);
+    // The sum may round up by half a unit in the last place; one below keeps the stated width.
+    answer.leaf.toiHigh = std::min(1.0, std::nextafter(free + kLeafTimeAccuracy, 0.0));
     answer.startsInContact = free == 0.0;
     const double accuracy = std::max(1e3 * error, 0x1p-30 * closest.distance);
     answer.moving = featureAt(moving, closest.onMoving, accuracy);

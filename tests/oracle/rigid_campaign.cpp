@@ -220,6 +220,9 @@ Broken judgeHit(RigidProver& prover, const RigidQuery& query, const RigidAnswer&
   const bool isInterval = leaf.toiLow >= 0 && leaf.toiLow <= leaf.toiHigh && leaf.toiHigh <= 1 &&
                           leaf.toiHigh - leaf.toiLow <= kLeafTimeAccuracy;
   if (!isInterval) return Broken::Interval;
+  const double most = query.band + rigidBand(extentOf(query.pair));
+  if (answer.startsInContact && !prover.prove(0.0, 0.0, most).touching) return Broken::Early;
+  if (!answer.startsInContact && prover.prove(0.0, 0.0, query.band).touching) return Broken::Late;
   if (leaf.toiLow > 0) {
     // [0, toiLow) is open: at toiLow itself contact is no lie.
     span = prover.prove(0.0, std::nextafter(leaf.toiLow, 0.0), query.band);
@@ -228,7 +231,7 @@ Broken judgeHit(RigidProver& prover, const RigidQuery& query, const RigidAnswer&
   span = prover.prove(leaf.toiLow, leaf.toiHigh, query.band);
   if (span.touching) return Broken::Nothing;
   near = true;
-  span = prover.prove(leaf.toiLow, leaf.toiHigh, query.band + rigidBand(extentOf(query.pair)));
+  span = prover.prove(leaf.toiLow, leaf.toiHigh, most);
   if (span.touching) return Broken::Nothing;
   return span.free ? Broken::Early : Broken::Unproved;
 }

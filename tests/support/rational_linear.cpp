@@ -25,6 +25,10 @@ Polynomial polynomialOf(Coefficients c) {
   return c;
 }
 
+bool isZero(const Coefficients& c) {
+  return std::all_of(c.begin(), c.end(), [](const Integer& i) { return i == 0; });
+}
+
 /// An instant in [0,1], exactly: an end or a root inside.
 struct Instant {
   enum class Place { Start, Inside, End } place = Place::Start;
@@ -58,25 +62,32 @@ struct Segment {
   }
 };
 
-Question planarQuestion(const PlanarMeeting<Integer>& m) {
+std::vector<Segment> segmentsOf(const std::vector<OnSegment<Integer>>& all) {
+  return {all.begin(), all.end()};
+}
+
+/// `segments` are asked for only where the area vanishes or everything stays coplanar.
+Question planarQuestion(const PlanarMeeting<Integer>& m,
+                        const std::function<std::vector<Segment>()>& segments) {
   Question q;
   q.gates = {coefficients(m.coplanar)};
   const Coefficients area = coefficients(m.area);
   std::vector<Coefficients> inside;
   for (const auto& form : m.inside) inside.push_back(coefficients(form));
-  std::vector<Segment> segments(m.segments.begin(), m.segments.end());
-  q.others = inside;
-  q.others.push_back(area);
-  for (const Segment& s : segments) {
-    q.others.insert(q.others.end(), s.across.begin(), s.across.end());
-    q.others.push_back(s.along);
+  if (isZero(q.gates[0])) {
+    q.others = inside;
+    q.others.push_back(area);
+    for (const Segment& s : segments()) {
+      q.others.insert(q.others.end(), s.across.begin(), s.across.end());
+      q.others.push_back(s.along);
+    }
   }
   q.meet = [coplanar = q.gates[0], area, inside, segments](const Instant& at) {
     if (at.sign(coplanar) != 0) return false;
     const auto isIn = [&](const Coefficients& c) { return at.sign(c) >= 0; };
     if (at.sign(area) != 0) return std::all_of(inside.begin(), inside.end(), isIn);
-    return std::any_of(segments.begin(), segments.end(),
-                       [&](const Segment& s) { return s.holds(at); });
+    const std::vector<Segment> all = segments();
+    return std::any_of(all.begin(), all.end(), [&](const Segment& s) { return s.holds(at); });
   };
   return q;
 }
@@ -93,8 +104,10 @@ Question segmentQuestion(const OnSegment<Integer>& onSegment) {
 /// Two points are a point and a segment of length zero: (p-a).(p-a) <= 0.
 Question questionOf(LinearKind kind, const std::array<Moving<Integer>, 4>& p) {
   switch (kind) {
-    case LinearKind::VertexFace: return planarQuestion(vertexMeetsFace(p, true));
-    case LinearKind::EdgeEdge: return planarQuestion(edgeMeetsEdge(p, true));
+    case LinearKind::VertexFace:
+      return planarQuestion(vertexMeetsFace(p), [p] { return segmentsOf(faceSegments(p)); });
+    case LinearKind::EdgeEdge:
+      return planarQuestion(edgeMeetsEdge(p), [p] { return segmentsOf(edgeSegments(p)); });
     case LinearKind::VertexEdge: return segmentQuestion({p[0], p[1], p[2]});
     case LinearKind::VertexVertex: break;
   }
@@ -131,10 +144,6 @@ std::array<Moving<Integer>, 4> integersOf(const LinearQuery& query) {
     moving[i][2].c = {scaled(p.from.z), scaled(p.to.z)};
   }
   return moving;
-}
-
-bool isZero(const Coefficients& c) {
-  return std::all_of(c.begin(), c.end(), [](const Integer& i) { return i == 0; });
 }
 
 /// The polynomials at whose roots contact can begin: one gate that is not always open suffices.

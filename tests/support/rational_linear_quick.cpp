@@ -151,8 +151,7 @@ Span spanOf(const LinearQuery& query) {
   const auto p = ballsOf(query);
   Span span;
   if (query.kind == LinearKind::VertexFace || query.kind == LinearKind::EdgeEdge) {
-    const auto m =
-        query.kind == LinearKind::VertexFace ? vertexMeetsFace(p, false) : edgeMeetsEdge(p, false);
+    const auto m = query.kind == LinearKind::VertexFace ? vertexMeetsFace(p) : edgeMeetsEdge(p);
     span.zero.emplace_back(m.coplanar);
     for (const auto& form : m.inside) span.inside.emplace_back(form);
   } else if (query.kind == LinearKind::VertexEdge) {

@@ -29,11 +29,10 @@ struct PlanarMeeting {
   Form<S, 3> coplanar;
   Form<S, 4> area;  // n.n
   std::vector<Form<S, 4>> inside;
-  std::vector<OnSegment<S>> segments;
 };
 
 template <typename S>
-PlanarMeeting<S> vertexMeetsFace(const std::array<Moving<S>, 4>& p, bool withSegments) {
+PlanarMeeting<S> vertexMeetsFace(const std::array<Moving<S>, 4>& p) {
   const Moving<S> w = p[0] - p[1], first = p[2] - p[1], second = p[3] - p[1];
   const Form3<S, 2> normal = cross(first, second);
   PlanarMeeting<S> m;
@@ -41,15 +40,17 @@ PlanarMeeting<S> vertexMeetsFace(const std::array<Moving<S>, 4>& p, bool withSeg
   m.area = dot(normal, normal);
   const Form<S, 4> u = dot(cross(w, second), normal), v = dot(cross(first, w), normal);
   m.inside = {u, v, m.area - u - v};
-  if (!withSegments) return m;
-  for (const auto& [a, b] : {std::array{1, 2}, std::array{2, 3}, std::array{3, 1}}) {
-    m.segments.emplace_back(p[0], p[a], p[b]);
-  }
   return m;
 }
 
+/// A face without area is its three edges.
 template <typename S>
-PlanarMeeting<S> edgeMeetsEdge(const std::array<Moving<S>, 4>& p, bool withSegments) {
+std::vector<OnSegment<S>> faceSegments(const std::array<Moving<S>, 4>& p) {
+  return {{p[0], p[1], p[2]}, {p[0], p[2], p[3]}, {p[0], p[3], p[1]}};
+}
+
+template <typename S>
+PlanarMeeting<S> edgeMeetsEdge(const std::array<Moving<S>, 4>& p) {
   const Moving<S> w = p[2] - p[0], one = p[1] - p[0], other = p[3] - p[2];
   const Form3<S, 2> normal = cross(one, other);
   PlanarMeeting<S> m;
@@ -57,12 +58,13 @@ PlanarMeeting<S> edgeMeetsEdge(const std::array<Moving<S>, 4>& p, bool withSegme
   m.area = dot(normal, normal);
   const Form<S, 4> s = dot(cross(w, other), normal), r = dot(cross(w, one), normal);
   m.inside = {s, m.area - s, r, m.area - r};
-  if (!withSegments) return m;
-  for (const auto& [end, a, b] :
-       {std::array{0, 2, 3}, std::array{1, 2, 3}, std::array{2, 0, 1}, std::array{3, 0, 1}}) {
-    m.segments.emplace_back(p[end], p[a], p[b]);
-  }
   return m;
+}
+
+/// Parallel or point-like edges meet only where an end of one lies on the other.
+template <typename S>
+std::vector<OnSegment<S>> edgeSegments(const std::array<Moving<S>, 4>& p) {
+  return {{p[0], p[2], p[3]}, {p[1], p[2], p[3]}, {p[2], p[0], p[1]}, {p[3], p[0], p[1]}};
 }
 
 }  // namespace foretouch::oracle
