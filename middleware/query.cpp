@@ -77,6 +77,14 @@ const char* toString(UndecidedReason reason) {
   return "none";
 }
 
+const char* toString(LeafMethod method) {
+  switch (method) {
+    case LeafMethod::Advancement: return "advancement";
+    case LeafMethod::Cubics: return "cubics";
+  }
+  return "advancement";
+}
+
 const char* toString(Fidelity fidelity) {
   switch (fidelity) {
     case Fidelity::Link: return "link";

@@ -98,6 +98,9 @@ enum class LeafMethod : std::uint8_t {
   Cubics,       ///< Pieces of the motion as nlerp bodies, by their contact functions ([Canny86]).
 };
 
+/// "advancement", "cubics".
+[[nodiscard]] const char* toString(LeafMethod method);
+
 struct QueryOptions {
   double tolerance = 1e-3;  ///< eps in metres; finite, >= kMinTolerance.
   Culler culler = Culler::FlatBvh;

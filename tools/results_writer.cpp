@@ -55,6 +55,34 @@ std::string jsonString(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+namespace {
+
+/// What only exact and skinned fidelity depend on.
+std::string surfaceFields(const ReplayRequest& request) {
+  if (request.fidelity == Fidelity::Exact) {
+    return fmt::format(R"(,"leaves":"{}")", toString(request.leafMethod));
+  }
+  if (request.fidelity == Fidelity::Skinned) {
+    return fmt::format(R"(,"skin":{},"skin_scale":{},"skin_up":"{}")", fileName(request.skinPath),
+                       number(request.skinScale), request.skinUp == UpAxis::Z ? "z" : "y");
+  }
+  return "";
+}
+
+/// What only motions that are no BVH clips depend on.
+std::string motionFields(const ReplayRequest& request) {
+  std::string text;
+  if (!request.animation.empty()) {
+    text += fmt::format(R"(,"animation":{})", jsonString(request.animation));
+  }
+  if (!request.robotPath.empty()) {
+    text += fmt::format(R"(,"robot":{})", fileName(request.robotPath));
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string headerLine(const ReplayInputs& inputs) {
   const ReplayRequest& request = inputs.request;
   std::vector<std::string> links;
@@ -77,6 +105,7 @@ std::string headerLine(const ReplayInputs& inputs) {
                       number(request.placement.yawDeg));
   text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", number(request.sceneScale),
                       request.sceneUp == UpAxis::Z ? "z" : "y", list(request.ignore));
+  text += surfaceFields(request) + motionFields(request);
   text += fmt::format(R"(,"links":{},"unmatched_joints":{})", list(links),
                       list(inputs.match.unmatchedAvatar));
   return text + "}\n";
