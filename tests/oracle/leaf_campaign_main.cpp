@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tests/oracle/leaf_campaign.h"
+#include "tests/oracle/pair_campaign.h"
 #include "tests/oracle/rigid_campaign.h"
 
 namespace {
@@ -15,30 +16,32 @@ using foretouch::test::LeafJob;
 using foretouch::test::LeafTally;
 
 struct Arguments {
-  std::uint64_t linear = 180'000, rigid = 7'000, seed = 1;
+  std::uint64_t linear = 180'000, pairs = 8'000, rigid = 7'000, seed = 1;
   int threads = 2;
 };
 
-template <typename Families, typename Judge>
-bool run(const char* kind, const Families& families, std::uint64_t queries, const Arguments& a,
-         Judge judge) {
+template <typename Families>
+std::vector<std::string> namesOf(const Families& families) {
+  std::vector<std::string> names;
+  for (const auto& family : families) names.push_back(family.name);
+  return names;
+}
+
+bool run(const char* kind, std::vector<std::string> names, std::uint64_t queries,
+         const Arguments& a, std::vector<LeafTally> (*judge)(const LeafJob&)) {
   if (queries == 0) return true;
   const auto from = std::chrono::steady_clock::now();
-  const std::uint64_t each = (queries + families.size() - 1) / families.size();
+  const std::uint64_t each = (queries + names.size() - 1) / names.size();
   std::vector<LeafTally> tallies = judge(LeafJob{a.seed, each, a.threads});
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
-  std::vector<std::string> names;
   LeafTally all;
-  for (std::size_t i = 0; i < families.size(); ++i) {
-    names.push_back(families[i].name);
-    all.add(tallies[i]);
-  }
+  for (const LeafTally& tally : tallies) all.add(tally);
   all.failures.clear();
   names.emplace_back("all");
   tallies.push_back(all);
   std::cout << kind << ", seed " << a.seed << ", " << a.threads << " threads, " << took.count()
             << " s\n"
-            << tableOf(names, tallies) << std::endl;
+            << foretouch::test::tableOf(names, tallies) << std::endl;
   return all.wrong() == 0 && all.unproved == 0;
 }
 
@@ -48,6 +51,8 @@ int main(int argc, char** argv) {
   Arguments a;
   CLI::App app{"Judges exact leaf tests by rational and certified oracles"};
   app.add_option("--linear", a.linear, "Linear queries, spread over the families")
+      ->capture_default_str();
+  app.add_option("--pairs", a.pairs, "Pairs of moving triangles, spread over the families")
       ->capture_default_str();
   app.add_option("--rigid", a.rigid, "Rigid queries, spread over the families")
       ->capture_default_str();
@@ -60,9 +65,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  const bool linear = run("linear", foretouch::test::linearFamilies(), a.linear, a,
-                          [](const LeafJob& job) { return foretouch::test::judgeLinear(job); });
-  const bool rigid = run("rigid", foretouch::test::rigidFamilies(), a.rigid, a,
-                         [](const LeafJob& job) { return foretouch::test::judgeRigid(job); });
-  return linear && rigid ? 0 : 1;
+  using namespace foretouch::test;
+  const bool linear = run("linear", namesOf(linearFamilies()), a.linear, a, judgeLinear);
+  const bool pairs = run("pairs", pairFamilies(), a.pairs, a, judgePairs);
+  const bool rigid = run("rigid", namesOf(rigidFamilies()), a.rigid, a, judgeRigid);
+  return linear && pairs && rigid ? 0 : 1;
 }

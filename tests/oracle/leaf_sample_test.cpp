@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/oracle/leaf_campaign.h"
+#include "tests/oracle/pair_campaign.h"
 #include "tests/oracle/rigid_campaign.h"
 
 namespace foretouch::test {
@@ -32,6 +33,12 @@ TEST(LinearLeaf, AnswersASampleOfEveryFamilyRight) {
 
 TEST(RigidLeaf, AnswersASampleOfEveryFamilyRight) {
   expectAllRight(rigidFamilies(), judgeRigid(LeafJob{kSeed, 300, 2}));
+}
+
+TEST(TrianglePair, AnswersASampleOfEveryFamilyRight) {
+  std::vector<LinearFamily> families;
+  for (const std::string& name : pairFamilies()) families.push_back({name, nullptr, 0.1, 0.97});
+  expectAllRight(families, judgePairs(LeafJob{kSeed, 500, 2}));
 }
 
 TEST(LinearLeaf, IsDrawnTheSameAnywhere) {
