@@ -95,6 +95,11 @@ void judgeLinear(const LinearQuery& query, const std::string& name, LeafTally& t
                name + ", " + toString(query.kind) + ": threw " + e.what() + "\n" + inHex(query));
     return;
   }
+  judgeAnswer(query, answer, name, tally);
+}
+
+void judgeAnswer(const LinearQuery& query, const LeafAnswer& answer, const std::string& name,
+                 LeafTally& tally) {
   LinearTruth truth = oracle::linearTruth(query);
   if (truth.hits && answer.hits && !truth.byRationals && needsNarrower(answer, truth)) {
     truth = oracle::linearTruthByRationals(query);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "middleware/exact/leaf.h"
 #include "tests/oracle/leaf_families.h"
 
 namespace foretouch::test {
@@ -44,7 +45,10 @@ struct LeafJob {
 /// One tally a family, in the order of linearFamilies().
 std::vector<LeafTally> judgeLinear(const LeafJob& job);
 
-/// The product's answer to one query, judged.
+/// An answer to one query, judged.
+void judgeAnswer(const oracle::LinearQuery& query, const LeafAnswer& answer,
+                 const std::string& name, LeafTally& tally);
+/// The product's answer.
 void judgeLinear(const oracle::LinearQuery& query, const std::string& name, LeafTally& tally);
 
 /// Splits [0, queries) between threads; `judge` tells one query of one family.

@@ -41,6 +41,56 @@ TEST(TrianglePair, AnswersASampleOfEveryFamilyRight) {
   expectAllRight(families, judgePairs(LeafJob{kSeed, 500, 2}));
 }
 
+// Controls: answers that are wrong by little, or blindly, are each named for what they are.
+TEST(JudgeAnswer, NamesPlantedLies) {
+  constexpr std::uint64_t kEach = 200;
+  for (std::size_t f = 0; f < linearFamilies().size(); ++f) {
+    SCOPED_TRACE(linearFamilies()[f].name);
+    LeafTally always, never, right, late, early;
+    std::uint64_t hits = 0, misses = 0, movable = 0;
+    for (std::uint64_t i = 0; i < kEach; ++i) {
+      const oracle::LinearQuery query = drawLinear(f, kSeed, i);
+      const oracle::LinearTruth truth = oracle::linearTruthByRationals(query);
+      LeafAnswer hit;
+      hit.hits = true;
+      hit.toiLow = truth.low;
+      hit.toiHigh = truth.high;
+      judgeAnswer(query, hit, "always", always);
+      judgeAnswer(query, LeafAnswer{}, "never", never);
+      (truth.hits ? hits : misses) += 1;
+      if (!truth.hits) continue;
+      judgeAnswer(query, hit, "right", right);
+      if (!(truth.low > 1e-6 && truth.high < 1 - 1e-6)) continue;
+      ++movable;
+      const double off = truth.high - truth.low + 1e-15;
+      LeafAnswer wrong = hit;
+      wrong.toiLow += off;
+      wrong.toiHigh += off;
+      judgeAnswer(query, wrong, "late", late);
+      wrong.toiLow = hit.toiLow - 2 * off;
+      wrong.toiHigh = hit.toiHigh - 2 * off;
+      judgeAnswer(query, wrong, "early", early);
+    }
+    EXPECT_EQ(always.falsePositives, misses);
+    EXPECT_EQ(never.falseNegatives, hits);
+    EXPECT_EQ(right.wrong(), 0u);
+    EXPECT_EQ(late.wrongTimes, movable);
+    EXPECT_EQ(early.wrongTimes, movable);
+    EXPECT_GT(misses, 10u);
+    EXPECT_GT(movable, 5u);
+  }
+}
+
+TEST(JudgeAnswer, RefusesIntervalsThatAreNone) {
+  LeafTally tally;
+  LeafAnswer wide;
+  wide.hits = true;
+  wide.toiLow = 0.0;  // holds every first contact, and says nothing
+  for (std::uint64_t i = 0; i < 50; ++i) judgeAnswer(drawLinear(0, kSeed, i), wide, "", tally);
+  EXPECT_EQ(tally.wrong(), 50u);
+  EXPECT_GT(tally.wrongTimes, 10u);
+}
+
 TEST(LinearLeaf, IsDrawnTheSameAnywhere) {
   for (std::size_t f = 0; f < linearFamilies().size(); ++f) {
     EXPECT_EQ(inHex(drawLinear(f, 1, 5)), inHex(drawLinear(f, 1, 5)));

@@ -23,7 +23,7 @@ struct OnSegment {
 };
 
 /// Two features that span a plane where `area` is not zero: they meet there if `coplanar` is zero
-/// and every one of `inside` is >= 0. Where `area` is zero they meet if one of `segments` says so.
+/// and every one of `inside` is >= 0. Where `area` is zero, the segments below decide.
 template <typename S>
 struct PlanarMeeting {
   Form<S, 3> coplanar;

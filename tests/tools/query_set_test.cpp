@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/rational_linear.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
 namespace foretouch::tools {
@@ -111,6 +113,29 @@ TEST(ReadQuerySets, RefusesFoldersWithoutQueriesAndBadFiles) {
   EXPECT_EQ(std::filesystem::path(sets.error().file).filename(), "bad.csv");
   EXPECT_EQ(sets.error().line, 1);
   EXPECT_FALSE(readQuerySets({bad}).ok());
+}
+
+// The public labels and the rational oracle were made by different hands.
+TEST(ReadQuerySets, PublicLabelsAreWhatTheRationalOracleSays) {
+  FORETOUCH_REQUIRE_SHARED(folder, "ccd-queries/sample-queries");
+  const auto sets = readQuerySets({*folder});
+  ASSERT_TRUE(sets.ok()) << describe(sets.error());
+  const auto plain = [](const Eigen::Vector3d& v) { return oracle::Vec3d{v.x(), v.y(), v.z()}; };
+  std::size_t queries = 0;
+  for (const QuerySet& set : sets.value()) {
+    for (const LabelledQuery& labelled : set.queries) {
+      oracle::LinearQuery query;
+      query.kind = set.kind == QueryKind::VertexFace ? oracle::LinearKind::VertexFace
+                                                     : oracle::LinearKind::EdgeEdge;
+      for (std::size_t i = 0; i < 4; ++i) {
+        query.points[i] = {plain(labelled.points[i].from), plain(labelled.points[i].to)};
+      }
+      ++queries;
+      EXPECT_EQ(oracle::linearTruth(query).hits, labelled.hits) << set.name;
+      EXPECT_EQ(oracle::linearTruthByRationals(query).hits, labelled.hits) << set.name;
+    }
+  }
+  EXPECT_GT(queries, 1000u);
 }
 
 }  // namespace
