@@ -59,6 +59,35 @@ TEST_P(OracleSample, EveryAnswerKeepsThePromise) {
   EXPECT_GT(total.of(oracle::Verdict::Clear), total.judged / 4);
 }
 
+// Exact fidelity, by the triangles of a model's links.
+TEST(OracleSampleOfMeshes, EveryExactAnswerKeepsThePromise) {
+  FORETOUCH_REQUIRE_SHARED(file, "scenes/cpr_office.dae");
+  FORETOUCH_REQUIRE_SHARED(path, "avatars/robot_expressive.glb");
+  const auto scene = loadScene("office", *sharedDataFolder());
+  ASSERT_TRUE(scene.ok()) << describe(scene.error());
+  const auto clip = loadClip(*path);
+  ASSERT_TRUE(clip.ok()) << describe(clip.error());
+  SweepTally total;
+  for (const Placement& placement : choosePlacements(clip.value(), scene.value(), 2)) {
+    for (const LeafMethod method : {LeafMethod::Advancement, LeafMethod::Cubics}) {
+      for (const double tolerance : {1e-3, 1e-5, 1e-6}) {
+        SweepOptions options;
+        options.rateHz = 5.0;
+        options.tolerance = tolerance;
+        options.maxSteps = 16;
+        options.leafMethod = method;
+        total.add(sweep(clip.value(), scene.value(), placement, options));
+      }
+    }
+  }
+  std::cout << total.summary() << "\n";
+  for (const std::string& line : total.violations) ADD_FAILURE() << line;
+  EXPECT_EQ(total.broken(), 0u);
+  EXPECT_EQ(total.of(oracle::Finding::Unproved), 0u);
+  EXPECT_GT(total.of(oracle::Verdict::Contact), 60u);
+  EXPECT_GT(total.of(oracle::Verdict::Clear), total.judged / 4);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes, OracleSample,
     ::testing::Values(SampleScene{"kitchen", "scenes/kitchen_fatihrmutfak.ply", 700},

@@ -23,7 +23,7 @@ struct Arguments {
   std::vector<double> rates{5, 10, 30};
   std::vector<double> tolerances{1e-3, 1e-5};
   int maxSteps = 200, threads = 2, placements = 2;
-  std::string data, culler = "flat";
+  std::string data, culler = "flat", leaves = "advancement";
   double budgetS = 0.0;
   bool everyClip = false;
 };
@@ -32,7 +32,10 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
   Arguments a;
   a.data = foretouch::test::sharedDataFolder().value_or("");
   CLI::App app{"Judges the answers of real clips in real scenes by an independent oracle"};
-  app.add_option("--clips", a.clips, "BVH files, by name in DATA/mocap or by path; or 'all'")
+  app.add_option("--clips", a.clips,
+                 "BVH files, by name in DATA/mocap or by path; or 'all'. Animated models, by path, "
+                 "are judged at "
+                 "exact fidelity")
       ->delimiter(',');
   app.add_option("--scenes", a.scenes, "Scenes by name")->delimiter(',');
   app.add_option("--rates", a.rates, "Pose rates in Hz")
@@ -46,6 +49,8 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
   app.add_option("--max-steps", a.maxSteps, "Steps a combination")->check(CLI::PositiveNumber);
   app.add_option("--threads", a.threads, "Worker threads")->check(CLI::Range(1, 256));
   app.add_option("--culler", a.culler, "flat or point")->check(CLI::IsMember({"flat", "point"}));
+  app.add_option("--leaves", a.leaves, "advancement or cubics, of models")
+      ->check(CLI::IsMember({"advancement", "cubics"}));
   app.add_option("--data", a.data, "Folder with mocap/ and scenes/");
   app.add_option("--budget-s", a.budgetS, "Stop after so many seconds; 0: never");
   try {
@@ -115,6 +120,8 @@ class Run {
     options.threads = arguments_.threads;
     options.culler =
         arguments_.culler == "point" ? foretouch::Culler::PointQuery : foretouch::Culler::FlatBvh;
+    options.leafMethod = arguments_.leaves == "cubics" ? foretouch::LeafMethod::Cubics
+                                                       : foretouch::LeafMethod::Advancement;
     options.deadline = deadline_;
     const SweepTally tally = sweep(clip, scene, placement, options);
     std::cout << clip.name << " x " << scene.name << ", " << rate << " Hz, eps " << tolerance

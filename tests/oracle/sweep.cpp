@@ -24,6 +24,9 @@ class Sweeper {
       : clip_(clip), scene_(scene), placement_(placement), options_(options) {
     query_.tolerance = options.tolerance;
     query_.culler = options.culler;
+    query_.leafMethod = options.leafMethod;
+    query_.surface = clip.surface;
+    if (clip.surface) query_.fidelity = Fidelity::Exact;
     stride_ = std::min(strideFor(clip.clip, options.rateHz),
                        static_cast<int>(clip.clip.frames.size()) - 1);
     steps_ = clip.numSteps(stride_);
@@ -85,10 +88,19 @@ class Sweeper {
              SweepTally& tally) const {
     const auto& capsules = clip_.capsules[static_cast<std::size_t>(contact.link)];
     if (capsules.empty() && contact.verdict == Verdict::Clear) return;
+    const bool isExact = !clip_.meshes.empty();
+    if (isExact && clip_.meshes[static_cast<std::size_t>(contact.link)].empty()) {
+      if (contact.verdict != Verdict::Clear) note(tally, where(n) + " touches without a mesh");
+      return;
+    }
     const auto start = Clock::now();
     const oracle::Answer answer = oracleAnswer(contact);
-    const oracle::Judgement judgement = oracle::Judge(scene_.oracle, truth, contact.link, capsules)
-                                            .judge(answer, options_.tolerance);
+    const oracle::Judgement judgement =
+        isExact ? oracle::Judge(scene_.oracle, truth, contact.link,
+                                clip_.meshes[static_cast<std::size_t>(contact.link)])
+                      .judge(answer, options_.tolerance)
+                : oracle::Judge(scene_.oracle, truth, contact.link, capsules)
+                      .judge(answer, options_.tolerance);
     const double seconds = secondsSince(start);
     tally.judgeSeconds += seconds;
     tally.slowestJudgementS = std::max(tally.slowestJudgementS, seconds);

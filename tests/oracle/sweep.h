@@ -20,6 +20,7 @@ struct SweepOptions {
   int maxSteps = 200;  ///< Spread evenly over the clip, its first step included.
   int threads = 1;
   Culler culler = Culler::FlatBvh;
+  LeafMethod leafMethod = LeafMethod::Advancement;
   std::optional<std::chrono::steady_clock::time_point> deadline;
   /// Applied to every answer before it is judged: for controls that plant lies.
   std::function<void(LinkContact&)> tamper;

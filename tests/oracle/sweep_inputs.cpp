@@ -7,6 +7,9 @@
 
 #include "articulated/bvh_avatar.h"
 #include "articulated/bvh_reader.h"
+#include "articulated/model_avatar.h"
+#include "articulated/model_clip.h"
+#include "middleware/model_import.h"
 #include "middleware/scene_import.h"
 
 namespace foretouch::test {
@@ -85,8 +88,46 @@ int strideFor(const Clip& clip, double rateHz) {
   return std::max(1, static_cast<int>(std::lround(1.0 / (rateHz * clip.frameTimeS))));
 }
 
+/// A model's avatar, mesh and first animation, in metres of `scale` a unit.
+Result<SweepClip> loadModel(const std::string& path, double scale) {
+  ModelImportOptions options;
+  options.import.scale = scale;
+  const auto model = importModel(path, options);
+  if (!model) return model.error();
+  auto clip = clipFromModel(model.value());
+  if (!clip) return clip.error();
+  auto made = avatarFromModel(model.value());
+  if (!made) return made.error();
+  auto capsules = capsulesOf(made.value().avatar);
+  SweepClip result{std::filesystem::path(path).filename().string(),
+                   scale,
+                   std::move(clip).value(),
+                   std::move(made.value().avatar),
+                   std::move(capsules),
+                   std::nullopt,
+                   {},
+                   Eigen::Vector3d::Zero(),
+                   0.0};
+  for (const auto& triangles : made.value().surface) {
+    result.meshes.emplace_back();
+    for (const Triangle& t : triangles) {
+      result.meshes.back().push_back({own(t.vertices[0]), own(t.vertices[1]), own(t.vertices[2])});
+    }
+  }
+  auto surface = AvatarSurface::build(result.avatar, std::move(made.value().surface));
+  if (!surface) return surface.error();
+  result.surface = std::move(surface).value();
+  findStand(result);
+  return result;
+}
+
 Result<SweepClip> loadClip(const std::string& path) {
   constexpr double kPersonM = 1.7;
+  if (std::filesystem::path(path).extension() != ".bvh") {
+    const auto unscaledModel = loadModel(path, 1.0);
+    if (!unscaledModel) return unscaledModel.error();
+    return loadModel(path, kPersonM / restExtent(unscaledModel.value().clip));
+  }
   auto unscaled = readBvhFile(path);
   if (!unscaled) return unscaled.error();
   const double extent = restExtent(unscaled.value());
@@ -105,6 +146,8 @@ Result<SweepClip> loadClip(const std::string& path) {
                    std::move(clip).value(),
                    std::move(avatar).value(),
                    std::move(capsules),
+                   std::nullopt,
+                   {},
                    Eigen::Vector3d::Zero(),
                    0.0};
   findStand(result);
@@ -187,7 +230,7 @@ oracle::Answer oracleAnswer(const LinkContact& contact) {
   answer.separation = contact.separation;
   answer.penetration = contact.penetration;
   answer.triangle = contact.triangle;
-  answer.capsule = contact.lss;
+  answer.capsule = contact.linkTriangle >= 0 ? contact.linkTriangle : contact.lss;
   answer.onScene = own(contact.p_WScene);
   answer.onLink = own(contact.p_WLink);
   answer.normal = own(contact.nhat_SL_W);

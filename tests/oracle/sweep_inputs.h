@@ -2,6 +2,7 @@
 // oracle's. The one place where the product's types become the oracle's.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct SweepClip {
   Clip clip;
   Avatar avatar;
   std::vector<std::vector<oracle::Capsule>> capsules;  ///< Per link.
+  /// Of models: exact fidelity is asked for, and judged by the triangles of each link.
+  std::optional<AvatarSurface> surface;
+  std::vector<std::vector<oracle::Triangle>> meshes;
   // Of the clip as it is: where its middle frame stands, and its lowest joint over all frames.
   Eigen::Vector3d standsAt = Eigen::Vector3d::Zero();
   double lowest = 0.0;
@@ -33,7 +37,8 @@ struct SweepClip {
 /// Frames from one step to the next: `replay --rate` keeps every k-th frame likewise.
 [[nodiscard]] int strideFor(const Clip& clip, double rateHz);
 
-/// Reads the clip at the scale that makes the rest skeleton's largest extent 1.7 m.
+/// Reads the clip (or a rigged model and its first animation, at 30 Hz) at the scale that makes the
+/// rest skeleton's largest extent 1.7 m.
 /// Error where it cannot be read or has fewer than two frames.
 [[nodiscard]] Result<SweepClip> loadClip(const std::string& path);
 
