@@ -99,9 +99,6 @@ Result<AvatarSurface> AvatarSurface::build(const Avatar& avatar,
     parts->links.push_back(
         std::make_unique<LinkSurface>(std::move(triangles), std::move(idsOfLss).value()));
   }
-  if (parts->numTriangles == 0) {
-    return Error{ErrorCode::Empty, "", -1, -1, "expected triangles on at least one link"};
-  }
   return AvatarSurface(std::move(parts));
 }
 

@@ -26,7 +26,8 @@ class AvatarSurface {
  public:
   /// `trianglesPerLink`: one list a link, in L, finite and within kMaxCoordinate. Every triangle
   /// must lie in one of its link's LSS, up to rounding: exact contacts are looked for only where
-  /// LSS contacts are. Error::index is the offending link.
+  /// LSS contacts are. An LSS that contains none of its link's triangles stands for itself: what
+  /// no mesh models must not go unseen. Error::index is the offending link.
   static Result<AvatarSurface> build(const Avatar& avatar,
                                      std::vector<std::vector<Triangle>> trianglesPerLink);
 

@@ -97,7 +97,7 @@ class Backtracker {
     Candidate& candidate = heap_.back();
     const double t = candidate.freeUntil;
     const PairState pair = pairAt(candidate, t);
-    const bool isSurface = query_.isSurface(candidate.part);
+    const bool isSurface = query_.isSurface(candidate.lss, candidate.part);
     if (pair.gapUpper <= query_.tolerance) {
       if (!isSurface) return descendFrom(pair, t);
       best_ = contactOf(query_, candidate, pair, t);
@@ -200,7 +200,8 @@ class Backtracker {
       if (!hasContact() && spent_ >= query_.maxAdvancements) return;
       std::pop_heap(heap_.begin(), heap_.end(), Farther{});
       const PairState pair = pairAt(heap_.back(), t);
-      if (pair.gapUpper <= query_.tolerance && !query_.isSurface(heap_.back().part)) {
+      if (pair.gapUpper <= query_.tolerance &&
+          !query_.isSurface(heap_.back().lss, heap_.back().part)) {
         descend(Farther{}, [&](Candidate& part) {
           part.nearest = std::max(part.nearest, leastGap(query_, part, states_.at(t)));
         });

@@ -52,7 +52,9 @@ struct LinkQuery {
 
   [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }
   /// Nothing is below it: what it touches, the link touches.
-  [[nodiscard]] bool isSurface(Part part) const { return !isExact() || part.isTriangle(); }
+  [[nodiscard]] bool isSurface(std::int32_t lss, Part part) const {
+    return !isExact() || part.isTriangle() || !parts.surface->hasTriangles(lss);
+  }
   /// The two parts below one that is not the surface itself (one, twice, where the LSS bounds a
   /// single triangle).
   [[nodiscard]] std::array<Part, 2> below(std::int32_t lss, Part part) const;

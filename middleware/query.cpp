@@ -149,6 +149,13 @@ const internal::LinkSurface* surfaceOf(const QueryOptions& options, LinkId link)
   return options.surface->parts().links[static_cast<std::size_t>(link)].get();
 }
 
+/// Null at other fidelities, and of a link that owns none of the skin.
+const internal::SkinParts* skinOf(const QueryOptions& options, LinkId link) {
+  if (options.fidelity != Fidelity::Skinned) return nullptr;
+  const internal::SkinParts& parts = options.skin->parts();
+  return parts.numTriangles(link) > 0 ? &parts : nullptr;
+}
+
 bool touches(const Lss& lss, const LinkState& state, const Triangle& triangle) {
   const AxisEnds ends = axisEnds(lss, state);
   return closestPoints(ends.a, ends.b, triangle).distance <= lss.radius;
@@ -233,12 +240,12 @@ class StepQuery {
   }
 
   LinkContact firstContactOf(LinkId link, QueryCounters& counters) {
-    if (options_.fidelity == Fidelity::Skinned) return firstSkinContactOf(link, counters);
+    skin_ = skinOf(options_, link);
+    if (skin_ != nullptr) return firstSkinContactOf(link, counters);
     LinkContact contact;
     contact.link = link;
     surface_ = surfaceOf(options_, link);
     if (scratch_.ignored.collect(options_, link) || avatar_.lss(link).empty()) return contact;
-    if (surface_ != nullptr && surface_->triangles().empty()) return contact;
     const Aabb swept = sweep(link);
     scratch_.found.clear();
     culler_.collect(swept, scratch_.found, counters.nodes);
@@ -253,9 +260,7 @@ class StepQuery {
   }
 
   [[nodiscard]] internal::LinkQuery queryOf(LinkId link) const {
-    const internal::SkinParts* const skin =
-        options_.fidelity == Fidelity::Skinned ? &options_.skin->parts() : nullptr;
-    return {{link, avatar_.lss(link), scratch_.axisBounds, motion_, surface_, skin},
+    return {{link, avatar_.lss(link), scratch_.axisBounds, motion_, surface_, skin_},
             scene_,
             pieces_,
             options_.tolerance,
@@ -268,7 +273,7 @@ class StepQuery {
     contact.link = link;
     const internal::LinkQuery query = queryOf(link);
     const std::int32_t numTriangles = query.parts.skin->numTriangles(link);
-    if (scratch_.ignored.collect(options_, link) || numTriangles == 0) return contact;
+    if (scratch_.ignored.collect(options_, link)) return contact;
     internal::sweepSkin(query.parts, scratch_.nodes, pieces_, options_.tolerance,
                         scratch_.startBoxes, scratch_.boxes);
     if (!isNearAnything(scratch_.boxes, counters)) return contact;
@@ -353,7 +358,6 @@ class StepQuery {
       if (scratch_.ignored.has(scene_.object(id))) continue;
       const Aabb box = internal::boxOf(scene_.triangle(id));
       for (std::int32_t lss = 0; lss < numLss; ++lss) {
-        if (surface_ != nullptr && !surface_->hasTriangles(lss)) continue;
         const std::uint32_t meets = piecesMeeting(boxes.data() + lss * count, count, box);
         if (meets != 0) {
           scratch_.candidates.push_back({id, lss, meets, 0.0, 0.0, internal::Part::whole()});
@@ -368,7 +372,9 @@ class StepQuery {
   const QueryOptions& options_;
   const internal::TriangleCuller& culler_;
   QueryScratch::Impl& scratch_;
-  const internal::LinkSurface* surface_ = nullptr;  // of the link at hand, at exact fidelity
+  // Of the link at hand; null at other fidelities.
+  const internal::LinkSurface* surface_ = nullptr;
+  const internal::SkinParts* skin_ = nullptr;
   Pieces pieces_;
 };
 
@@ -397,17 +403,15 @@ bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, dou
   std::vector<TriangleId>& found = scratch.impl().found;
   IgnoredObjects& ignored = scratch.impl().ignored;
   if (ignored.collect(options, link)) return false;
-  if (options.fidelity == Fidelity::Skinned) {
+  if (const internal::SkinParts* const skin = skinOf(options, link)) {
     const std::vector<AxisBounds> none;
-    const internal::LinkParts parts{link,   avatar.lss(link), none,
-                                    motion, nullptr,          &options.skin->parts()};
+    const internal::LinkParts parts{link, avatar.lss(link), none, motion, nullptr, skin};
     return skinTouches(parts, t, scene, ignored, found);
   }
   const LinkState state = motion.stateAt(link, t);
   for (std::size_t i = 0; i < avatar.lss(link).size(); ++i) {
     const Lss& lss = avatar.lss(link)[i];
     const auto index = static_cast<std::int32_t>(i);
-    if (surface != nullptr && !surface->hasTriangles(index)) continue;
     const AxisEnds ends = axisEnds(lss, state);
     Aabb box;
     box.add(ends.a);
@@ -418,7 +422,8 @@ bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, dou
     scene.parts().bvh.collect(box, found, visited);
     for (const TriangleId id : found) {
       if (ignored.has(scene.object(id)) || !touches(lss, state, scene.triangle(id))) continue;
-      if (surface == nullptr || meshTouches(*surface, index, state, scene.triangle(id))) {
+      if (surface == nullptr || !surface->hasTriangles(index) ||
+          meshTouches(*surface, index, state, scene.triangle(id))) {
         return true;
       }
     }

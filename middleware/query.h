@@ -70,9 +70,11 @@ struct LinkContact {
 
 /// What a link's surface is.
 enum class Fidelity : std::uint8_t {
-  Link,     ///< Its LSS.
-  Exact,    ///< The triangles of its mesh. Contacts are a subset of Link's, and never earlier.
-  Skinned,  ///< The triangles of a skin, whose vertices follow the blend of several links.
+  Link,   ///< Its LSS.
+  Exact,  ///< The triangles of its mesh, and LSS that bound none. A subset of Link's contacts, and
+          ///< never earlier.
+  Skinned,  ///< The triangles of a skin, whose vertices follow the blend of several links; of a
+            ///< link without any, its LSS.
 };
 
 /// "link", "exact", "skinned".

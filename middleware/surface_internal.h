@@ -23,7 +23,7 @@ class LinkSurface {
   [[nodiscard]] const Triangle& triangle(std::int32_t id) const {
     return triangles_[static_cast<std::size_t>(id)];
   }
-  /// False: the LSS bounds no triangle, and touching it means nothing.
+  /// False: the LSS bounds no triangle and is itself the surface.
   [[nodiscard]] bool hasTriangles(std::int32_t lss) const {
     return !idsOfLss_[static_cast<std::size_t>(lss)].empty();
   }

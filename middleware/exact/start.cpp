@@ -79,8 +79,8 @@ class StartSearch {
       Candidate candidate = whole;
       candidate.part = stack_.back();
       stack_.pop_back();
-      const bool isSurface = query_.isSurface(candidate.part);
-      if (!candidate.part.isWhole()) {
+      const bool isSurface = query_.isSurface(candidate.lss, candidate.part);
+      if (isSurface || !candidate.part.isWhole()) {
         if (leastGap(query_, candidate, states_.at(0.0)) > query_.tolerance) continue;
         const PairState pair = look(candidate);
         if (pair.gapUpper > query_.tolerance) continue;
