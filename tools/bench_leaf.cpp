@@ -8,8 +8,7 @@
 namespace foretouch::tools {
 namespace {
 
-constexpr std::array<LeafStage, kLeafStages> kStages = {LeafStage::Filter, LeafStage::Extended,
-                                                        LeafStage::Exact};
+constexpr std::array<LeafStage, kLeafStages> kStages = {LeafStage::Filter, LeafStage::Exact};
 
 bool isLabelled(const TimedSet& set) {
   return !set.leaves.empty() && set.leaves.front().truth.has_value();
@@ -74,12 +73,12 @@ std::vector<LeafGroup> leafGroups(const LeafBench& bench) {
 
 std::string leafTable(const LeafBench& bench) {
   std::string text = fmt::format(
-      "{:<28} {:<12} {:<9} {:>9} {:>6} {:>26} {:>29} {:>41}\n"
-      "{:<28} {:<12} {:<9} {:>9} {:>6} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} "
+      "{:<28} {:<12} {:<9} {:>9} {:>6} {:>17} {:>19} {:>41}\n"
+      "{:<28} {:<12} {:<9} {:>9} {:>6} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} "
       "{:>10}\n",
       "", "", "", "", "", "decided by, %", "their mean, us", "time of a query, us", "set", "kind",
-      "truth", "queries", "wrong", "filter", "extended", "exact", "filter", "extended", "exact",
-      "mean", "median", "p99", "max");
+      "truth", "queries", "wrong", "filter", "exact", "filter", "exact", "mean", "median", "p99",
+      "max");
   for (const LeafGroup& group : leafGroups(bench)) text += row(group);
   text += fmt::format(
       "\ntime of a query: the least of {} passes over its set, less {:.3f} us for the clock\n",

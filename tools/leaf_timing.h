@@ -13,7 +13,7 @@
 
 namespace foretouch::tools {
 
-inline constexpr std::size_t kLeafStages = 3;
+inline constexpr std::size_t kLeafStages = 2;
 
 /// One query: the least time of all passes, less what reading the clock costs.
 struct TimedLeaf {

@@ -7,9 +7,8 @@ namespace foretouch {
 
 /// The arithmetic that decided: each stage answers or hands on to the next.
 enum class LeafStage : std::uint8_t {
-  Filter,    ///< Doubles with a proved rounding bound.
-  Extended,  ///< Wider floats with a proved rounding bound. Reserved: no query needs it so far.
-  Exact,     ///< Integers.
+  Filter,  ///< Doubles with a proved rounding bound.
+  Exact,   ///< Integers.
 };
 [[nodiscard]] const char* toString(LeafStage stage);
 

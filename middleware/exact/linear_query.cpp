@@ -64,7 +64,6 @@ MovingPolygon polygonOf(const LinearPoint& one, const LinearPoint& other) {
 const char* toString(LeafStage stage) {
   switch (stage) {
     case LeafStage::Filter: return "filter";
-    case LeafStage::Extended: return "extended";
     case LeafStage::Exact: return "exact";
   }
   return "unknown";

@@ -21,8 +21,8 @@ using Eigen::Vector3d;
 using internal::Cubic;
 
 /// Rounds of planes before contact is reported although it is not proved: errs early. The most that
-/// 300,000 awkward queries needed is 30.
-constexpr int kMaxPlanes = 200;
+/// a million awkward queries needed is between 200 and 400 (two slivers that slide past each other).
+constexpr int kMaxPlanes = 2000;
 /// Resolution of the instant up to which a plane is proved to separate.
 constexpr double kTimeResolution = 0x1p-50;
 constexpr int kMaxClips = 100;  // cost only: stopping early is sound

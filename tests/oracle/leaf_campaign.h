@@ -23,7 +23,7 @@ struct LeafTally {
   std::uint64_t nearHits = 0;    ///< Rigid: hits only by the band that the product states.
   std::uint64_t unproved = 0;    ///< Rigid: the oracle gave up; shows nothing.
   std::uint64_t hardTruths = 0;  ///< Truths that took rationals, or thirty-four digits.
-  std::array<std::uint64_t, 3> stages{};
+  std::array<std::uint64_t, 2> stages{};
   std::vector<std::string> failures;  ///< The first few, each with its query.
 
   static constexpr std::size_t kKeptFailures = 5;
