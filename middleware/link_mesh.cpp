@@ -12,8 +12,8 @@
 
 #include "articulated/text_file.h"
 #include "lss/single.h"
-#include "middleware/import_model_stream.h"
-#include "middleware/import_text.h"
+#include "middleware/import/model_stream.h"
+#include "middleware/import/text.h"
 #include "middleware/link_mesh_skinned.h"
 
 namespace foretouch {

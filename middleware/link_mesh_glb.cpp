@@ -13,7 +13,7 @@
 
 #include "articulated/text_file.h"
 #include "lss/single.h"
-#include "middleware/import_text.h"
+#include "middleware/import/text.h"
 #include "middleware/link_mesh.h"
 
 namespace foretouch {

@@ -6,8 +6,8 @@
 #include <system_error>
 #include <utility>
 
-#include "middleware/import_model_stream.h"
-#include "middleware/import_run.h"
+#include "middleware/import/model_stream.h"
+#include "middleware/import/run.h"
 
 namespace foretouch {
 namespace {

@@ -4,9 +4,9 @@
 #include <new>
 #include <system_error>
 
-#include "middleware/import_protocol.h"
-#include "middleware/import_run.h"
-#include "middleware/import_text.h"
+#include "middleware/import/protocol.h"
+#include "middleware/import/run.h"
+#include "middleware/import/text.h"
 
 namespace foretouch {
 namespace {

@@ -1,6 +1,4 @@
 // Faces of many corners: count, cover and area of what cutPolygon() makes of them.
-#include "middleware/import_polygon.h"
-
 #include <cmath>
 #include <limits>
 #include <random>
@@ -8,6 +6,8 @@
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "middleware/import/polygon.h"
 
 namespace foretouch::internal {
 namespace {

@@ -1,7 +1,5 @@
 // runLimited() through importScene(): stand-in importers that misbehave, and the limits they run
 // under.
-#include "middleware/import_process.h"
-
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -17,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/import/process.h"
 #include "middleware/scene_import.h"
 #include "tests/middleware/import_files.h"
 

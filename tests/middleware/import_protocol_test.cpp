@@ -1,6 +1,4 @@
 // The importer's stream: what the writer sends arrives, and nothing else is believed.
-#include "middleware/import_protocol.h"
-
 #include <cstring>
 #include <limits>
 #include <random>
@@ -8,6 +6,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "middleware/import/protocol.h"
 
 namespace foretouch::internal {
 namespace {

@@ -1,12 +1,11 @@
 // Text of untrusted files: what readableText() lets through.
-#include "middleware/import_text.h"
-
 #include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "articulated/text_file.h"
+#include "middleware/import/text.h"
 
 namespace foretouch::internal {
 namespace {

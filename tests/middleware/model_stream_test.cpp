@@ -1,11 +1,12 @@
 // The importer's stream of a model: what the writer sends arrives, and nothing else is believed.
+#include "middleware/import/model_stream.h"
+
 #include <cstring>
 #include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "middleware/import_model_stream.h"
 #include "tests/middleware/model_files.h"
 
 namespace foretouch::internal {

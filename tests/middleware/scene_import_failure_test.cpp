@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/import_process.h"
+#include "middleware/import/process.h"
 #include "middleware/scene_import.h"
 #include "tests/middleware/import_files.h"
 

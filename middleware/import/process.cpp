@@ -1,4 +1,4 @@
-#include "middleware/import_process.h"
+#include "middleware/import/process.h"
 
 #include <algorithm>
 #include <array>

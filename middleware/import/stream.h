@@ -1,4 +1,4 @@
-// middleware/import_stream.h: the frames in which foretouch-import answers its parent, whatever it
+// middleware/import/stream.h: the frames in which foretouch-import answers its parent, whatever it
 // was asked for. Not installed.
 //
 // A greeting (magic, version, byte order), then frames: type and payload size as 32-bit numbers,

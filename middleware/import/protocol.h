@@ -1,7 +1,7 @@
-// middleware/import_protocol.h: the stream in which foretouch-import hands a scene to its parent.
+// middleware/import/protocol.h: the stream in which foretouch-import hands a scene to its parent.
 // Not installed.
 //
-// In the frames of middleware/import_stream.h: totals first; then each object (its triangle count
+// In the frames of middleware/import/stream.h: totals first; then each object (its triangle count
 // and name) followed by its triangles; the trailer counts the triangles.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "middleware/import_stream.h"
+#include "middleware/import/stream.h"
 #include "middleware/scene_import.h"
 
 namespace foretouch::internal {

@@ -1,10 +1,10 @@
-#include "middleware/import_urdf_text.h"
+#include "middleware/import/urdf_text.h"
 
 #include <memory>
 #include <tinyxml.h>
 
-#include "middleware/import_assimp.h"
-#include "middleware/import_text.h"
+#include "middleware/import/assimp.h"
+#include "middleware/import/text.h"
 
 namespace foretouch::internal {
 namespace {

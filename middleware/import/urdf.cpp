@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "articulated/text_file.h"
-#include "middleware/import_assimp.h"
-#include "middleware/import_model.h"
-#include "middleware/import_text.h"
-#include "middleware/import_urdf_surface.h"
-#include "middleware/import_urdf_text.h"
+#include "middleware/import/assimp.h"
+#include "middleware/import/model.h"
+#include "middleware/import/text.h"
+#include "middleware/import/urdf_surface.h"
+#include "middleware/import/urdf_text.h"
 
 namespace foretouch::internal {
 namespace {

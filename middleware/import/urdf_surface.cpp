@@ -1,12 +1,12 @@
-#include "middleware/import_urdf_surface.h"
+#include "middleware/import/urdf_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "articulated/avatar.h"
-#include "middleware/import_assimp.h"
-#include "middleware/import_text.h"
+#include "middleware/import/assimp.h"
+#include "middleware/import/text.h"
 #include "middleware/scene.h"
 
 namespace foretouch::internal {

@@ -1,4 +1,4 @@
-#include "middleware/import_polygon.h"
+#include "middleware/import/polygon.h"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-// middleware/import_urdf_surface.h: the shapes of a URDF's links as triangles and LSS of a model's
+// middleware/import/urdf_surface.h: the shapes of a URDF's links as triangles and LSS of a model's
 // nodes. In foretouch-import only. Not installed.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
-#include "middleware/import_model.h"
-#include "middleware/import_urdf_text.h"
+#include "middleware/import/model.h"
+#include "middleware/import/urdf_text.h"
 
 namespace foretouch::internal {
 

@@ -1,4 +1,4 @@
-#include "middleware/import_text.h"
+#include "middleware/import/text.h"
 
 #include "articulated/text_file.h"
 

@@ -1,4 +1,4 @@
-#include "middleware/import_run.h"
+#include "middleware/import/run.h"
 
 #include <array>
 #include <cerrno>
@@ -13,8 +13,8 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "middleware/import_process.h"
-#include "middleware/import_text.h"
+#include "middleware/import/process.h"
+#include "middleware/import/text.h"
 
 namespace foretouch::internal {
 namespace {

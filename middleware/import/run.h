@@ -1,4 +1,4 @@
-// middleware/import_run.h: a question put to foretouch-import, from options to answer or error:
+// middleware/import/run.h: a question put to foretouch-import, from options to answer or error:
 // what importing a scene and importing a model have in common. Not installed.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "middleware/import_stream.h"
+#include "middleware/import/stream.h"
 #include "middleware/scene_import.h"
 
 namespace foretouch::internal {

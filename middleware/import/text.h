@@ -1,4 +1,4 @@
-// middleware/import_text.h: text out of model files and of the importer, made safe to show.
+// middleware/import/text.h: text out of model files and of the importer, made safe to show.
 // Not installed.
 #pragma once
 

@@ -1,4 +1,4 @@
-// middleware/import_process.h: one untrusted program run to its end, under limits. Not installed.
+// middleware/import/process.h: one untrusted program run to its end, under limits. Not installed.
 #pragma once
 
 #include <cstddef>

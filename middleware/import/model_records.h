@@ -1,5 +1,5 @@
-// middleware/import_model_records.h: how the numbers of a model lie in its stream's frames
-// (middleware/import_model_stream.h). No record has padding. Not installed.
+// middleware/import/model_records.h: how the numbers of a model lie in its stream's frames
+// (middleware/import/model_stream.h). No record has padding. Not installed.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/model.h"
-#include "middleware/import_model_stream.h"
+#include "middleware/import/model_stream.h"
 
 namespace foretouch::internal {
 

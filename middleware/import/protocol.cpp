@@ -1,9 +1,9 @@
-#include "middleware/import_protocol.h"
+#include "middleware/import/protocol.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "middleware/import_text.h"
+#include "middleware/import/text.h"
 
 namespace foretouch::internal {
 namespace {

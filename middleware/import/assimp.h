@@ -1,4 +1,4 @@
-// middleware/import_assimp.h: what the importer asks of assimp, for scenes as for models: a file
+// middleware/import/assimp.h: what the importer asks of assimp, for scenes as for models: a file
 // read raw, its faces as triangles, its unit. In foretouch-import only. Not installed.
 #pragma once
 
@@ -11,8 +11,8 @@
 #include <assimp/scene.h>
 
 #include "articulated/model.h"
-#include "middleware/import_polygon.h"
-#include "middleware/import_stream.h"
+#include "middleware/import/polygon.h"
+#include "middleware/import/stream.h"
 
 namespace foretouch::internal {
 

@@ -1,7 +1,7 @@
-// middleware/import_model_stream.h: the stream in which foretouch-import hands a model to its
+// middleware/import/model_stream.h: the stream in which foretouch-import hands a model to its
 // parent. Not installed.
 //
-// In the frames of middleware/import_stream.h: nodes, parents first; then each mesh, its vertices,
+// In the frames of middleware/import/stream.h: nodes, parents first; then each mesh, its vertices,
 // its triangles and its bones, each bone with its weights; then each animation, its tracks, each
 // with its keys; then notes. What holds others states their number first; the trailer counts the
 // frames.
@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "articulated/model.h"
-#include "middleware/import_stream.h"
+#include "middleware/import/stream.h"
 
 namespace foretouch::internal {
 

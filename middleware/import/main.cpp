@@ -1,6 +1,6 @@
 // foretouch-import: reads a model file and writes what it holds to standard output: its triangles
-// (middleware/import_protocol.h), or with --model its nodes, meshes, bones and animations
-// (middleware/import_model_stream.h). A helper of the library, run as a child under limits that its
+// (middleware/import/protocol.h), or with --model its nodes, meshes, bones and animations
+// (middleware/import/model_stream.h). A helper of the library, run as a child under limits that its
 // parent sets; the only program that links assimp and urdfdom.
 #include <algorithm>
 #include <cctype>
@@ -15,10 +15,10 @@
 #include <string_view>
 #include <unistd.h>
 
-#include "middleware/import_assimp.h"
-#include "middleware/import_model.h"
-#include "middleware/import_model_stream.h"
-#include "middleware/import_scene.h"
+#include "middleware/import/assimp.h"
+#include "middleware/import/model.h"
+#include "middleware/import/model_stream.h"
+#include "middleware/import/scene.h"
 
 namespace foretouch::internal {
 namespace {

@@ -1,4 +1,4 @@
-#include "middleware/import_scene.h"
+#include "middleware/import/scene.h"
 
 #include <array>
 #include <cstdint>
@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "middleware/import_assimp.h"
-#include "middleware/import_text.h"
+#include "middleware/import/assimp.h"
+#include "middleware/import/text.h"
 
 namespace foretouch::internal {
 namespace {

@@ -1,4 +1,4 @@
-// middleware/import_polygon.h: faces of more than three corners as triangles. Not installed.
+// middleware/import/polygon.h: faces of more than three corners as triangles. Not installed.
 //
 // Done here and not by the model reader: assimp 5.2.5 drops what is left of a polygon once it finds
 // no further ear (a hexagon out of plane came back as two triangles of four), and a surface that is

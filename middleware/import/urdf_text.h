@@ -1,4 +1,4 @@
-// middleware/import_urdf_text.h: a URDF's text reduced to what a surface needs, in the dialect that
+// middleware/import/urdf_text.h: a URDF's text reduced to what a surface needs, in the dialect that
 // urdfdom reads. In foretouch-import only. Not installed.
 #pragma once
 
@@ -25,7 +25,7 @@ struct UrdfText {
 /// Keeps links with their shapes and joints with their frames, axes, limits and mimics. What else
 /// is in such files (masses, materials, transmissions) would only be further reasons to refuse
 /// them. Joints get the limits, and limits the effort and velocity, without which urdfdom refuses
-/// them. Throws Failure (middleware/import_assimp.h) where `text` is no XML with a <robot>.
+/// them. Throws Failure (middleware/import/assimp.h) where `text` is no XML with a <robot>.
 [[nodiscard]] UrdfText readUrdfText(const std::string& text);
 
 }  // namespace foretouch::internal

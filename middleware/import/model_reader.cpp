@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "middleware/import_model_records.h"
-#include "middleware/import_model_stream.h"
-#include "middleware/import_text.h"
+#include "middleware/import/model_records.h"
+#include "middleware/import/model_stream.h"
+#include "middleware/import/text.h"
 
 namespace foretouch::internal {
 namespace {

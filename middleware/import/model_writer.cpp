@@ -1,5 +1,5 @@
-#include "middleware/import_model_records.h"
-#include "middleware/import_model_stream.h"
+#include "middleware/import/model_records.h"
+#include "middleware/import/model_stream.h"
 #include "middleware/scene.h"
 
 namespace foretouch::internal {

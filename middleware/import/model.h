@@ -1,4 +1,4 @@
-// middleware/import_model.h: a model as assimp or a URDF tells it, and what both keep count of
+// middleware/import/model.h: a model as assimp or a URDF tells it, and what both keep count of
 // while they build it. In foretouch-import only. Not installed.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "articulated/model.h"
-#include "middleware/import_model_stream.h"
+#include "middleware/import/model_stream.h"
 
 namespace foretouch::internal {
 
@@ -21,7 +21,7 @@ struct ModelQuestion {
 /// A model in the making that stays within the limits: each part is counted before it is added.
 class ModelBuilder {
  public:
-  /// Throws Failure (middleware/import_assimp.h) where the limits do not allow `more`.
+  /// Throws Failure (middleware/import/assimp.h) where the limits do not allow `more`.
   void count(const ModelSize& more);
   /// Keeps the first few distinct notes; the last one says how many were left out.
   void note(const std::string& text);

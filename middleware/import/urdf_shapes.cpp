@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "middleware/import_assimp.h"
-#include "middleware/import_urdf_surface.h"
+#include "middleware/import/assimp.h"
+#include "middleware/import/urdf_surface.h"
 
 namespace foretouch::internal {
 namespace {

@@ -1,4 +1,4 @@
-#include "middleware/import_model.h"
+#include "middleware/import/model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "middleware/import_assimp.h"
-#include "middleware/import_text.h"
+#include "middleware/import/assimp.h"
+#include "middleware/import/text.h"
 
 namespace foretouch::internal {
 namespace {

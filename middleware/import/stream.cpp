@@ -1,10 +1,10 @@
-#include "middleware/import_stream.h"
+#include "middleware/import/stream.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "middleware/import_text.h"
+#include "middleware/import/text.h"
 
 namespace foretouch::internal {
 namespace {

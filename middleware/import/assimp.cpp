@@ -1,4 +1,4 @@
-#include "middleware/import_assimp.h"
+#include "middleware/import/assimp.h"
 
 #include <algorithm>
 #include <filesystem>

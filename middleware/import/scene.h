@@ -1,14 +1,14 @@
-// middleware/import_scene.h: a scene read with assimp and written to the parent. In
+// middleware/import/scene.h: a scene read with assimp and written to the parent. In
 // foretouch-import only. Not installed.
 #pragma once
 
 #include <string>
 
-#include "middleware/import_protocol.h"
+#include "middleware/import/protocol.h"
 
 namespace foretouch::internal {
 
-/// Throws Failure (middleware/import_assimp.h). False where the parent is gone.
+/// Throws Failure (middleware/import/assimp.h). False where the parent is gone.
 [[nodiscard]] bool sendScene(const std::string& path, ImportWriter& writer);
 
 }  // namespace foretouch::internal
