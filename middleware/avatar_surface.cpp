@@ -67,14 +67,18 @@ Result<std::vector<std::vector<std::int32_t>>> assigned(const Avatar& avatar, Li
 
 }  // namespace
 
-const LssHierarchy& LinkSurface::hierarchy(std::int32_t lss) const {
-  FORETOUCH_ASSERT(hasTriangles(lss));
+void LinkSurface::prepare() const {
   std::call_once(built_, [this] {
     hierarchies_.resize(idsOfLss_.size());
     for (std::size_t i = 0; i < idsOfLss_.size(); ++i) {
       if (!idsOfLss_[i].empty()) hierarchies_[i].emplace(triangles_, idsOfLss_[i]);
     }
   });
+}
+
+const LssHierarchy& LinkSurface::hierarchy(std::int32_t lss) const {
+  FORETOUCH_ASSERT(hasTriangles(lss));
+  prepare();
   return *hierarchies_[static_cast<std::size_t>(lss)];
 }
 
@@ -108,6 +112,10 @@ std::int32_t AvatarSurface::numLinks() const {
 
 const std::vector<Triangle>& AvatarSurface::triangles(LinkId link) const {
   return parts_->links[static_cast<std::size_t>(link)]->triangles();
+}
+
+void AvatarSurface::prepare() const {
+  for (const auto& link : parts_->links) link->prepare();
 }
 
 std::size_t AvatarSurface::numTriangles() const {

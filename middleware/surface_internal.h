@@ -29,6 +29,7 @@ class LinkSurface {
   }
   /// Built on first use, once, whichever thread comes first. Precondition: hasTriangles(lss).
   [[nodiscard]] const LssHierarchy& hierarchy(std::int32_t lss) const;
+  void prepare() const;
 
  private:
   using Hierarchies = std::vector<std::optional<LssHierarchy>>;

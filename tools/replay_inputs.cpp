@@ -55,6 +55,7 @@ Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, Que
   if (!meshes.ok()) return inFile(meshes.error(), request.avatarPath);
   auto surface = AvatarSurface::build(avatar, std::move(meshes).value());
   if (!surface.ok()) return inFile(surface.error(), request.avatarPath);
+  surface.value().prepare();  // the first steps' latencies are the query's
   query.surface = std::move(surface).value();
   return Done{};
 }
