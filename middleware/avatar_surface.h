@@ -34,7 +34,8 @@ class AvatarSurface {
   [[nodiscard]] std::int32_t numLinks() const;
   [[nodiscard]] const std::vector<Triangle>& triangles(LinkId link) const;
   [[nodiscard]] std::size_t numTriangles() const;
-  /// Builds every hierarchy that is not built yet, for those whose first query must not wait for it.
+  /// Builds every hierarchy that is not built yet, for those whose first query must not wait for
+  /// it.
   void prepare() const;
 
   /// For the query's own sources.

@@ -4,54 +4,17 @@
 #include <cmath>
 
 #include "lss/assert.h"
-#include "lss/segment_triangle.h"
 #include "middleware/backtracking.h"
-#include "middleware/exact/linear_query.h"
 #include "middleware/exact/skin_sweep.h"
+#include "middleware/query_internal.h"
 #include "middleware/scene_internal.h"
 #include "middleware/surface_internal.h"
 
 namespace foretouch {
 
-using internal::Candidate;
 using internal::Pieces;
-
-namespace {
-
-/// The objects whose contacts with the link at hand are not asked for.
-class IgnoredObjects {
- public:
-  /// True if the link is ignored altogether.
-  bool collect(const QueryOptions& options, LinkId link) {
-    objects_.clear();
-    for (const IgnoredPair& pair : options.ignored) {
-      if (pair.link != link) continue;
-      if (pair.object == IgnoredPair::kEveryObject) return true;
-      objects_.push_back(pair.object);
-    }
-    std::sort(objects_.begin(), objects_.end());
-    return false;
-  }
-  [[nodiscard]] bool has(ObjectId object) const {
-    return std::binary_search(objects_.begin(), objects_.end(), object);
-  }
-
- private:
-  std::vector<ObjectId> objects_;  // ascending
-};
-
-}  // namespace
-
-/// Memory that one thread's queries reuse.
-struct QueryScratch::Impl {
-  std::vector<std::vector<LinkState>> nodes;  // per piece boundary, per link
-  std::vector<AxisBounds> axisBounds;         // per LSS of the link at hand
-  std::vector<Aabb> startBoxes;               // per LSS of the link at hand, at t = 0
-  std::vector<Aabb> boxes;                    // per LSS of the link at hand, per piece
-  std::vector<TriangleId> found;
-  std::vector<Candidate> candidates;
-  IgnoredObjects ignored;  // of the link at hand
-};
+using internal::skinOf;
+using internal::surfaceOf;
 
 QueryScratch::QueryScratch() : impl_(std::make_unique<Impl>()) {}
 QueryScratch::~QueryScratch() = default;
@@ -141,62 +104,6 @@ Result<const internal::TriangleCuller*> cullerOf(const Scene& scene, Culler whic
   const auto built = scene.parts().pointQueryCuller();
   if (!built.ok()) return built.error();
   return static_cast<const internal::TriangleCuller*>(built.value());
-}
-
-/// Null at link fidelity.
-const internal::LinkSurface* surfaceOf(const QueryOptions& options, LinkId link) {
-  if (options.fidelity != Fidelity::Exact) return nullptr;
-  return options.surface->parts().links[static_cast<std::size_t>(link)].get();
-}
-
-/// Null at other fidelities, and of a link that owns none of the skin.
-const internal::SkinParts* skinOf(const QueryOptions& options, LinkId link) {
-  if (options.fidelity != Fidelity::Skinned) return nullptr;
-  const internal::SkinParts& parts = options.skin->parts();
-  return parts.numTriangles(link) > 0 ? &parts : nullptr;
-}
-
-bool touches(const Lss& lss, const LinkState& state, const Triangle& triangle) {
-  const AxisEnds ends = axisEnds(lss, state);
-  return closestPoints(ends.a, ends.b, triangle).distance <= lss.radius;
-}
-
-/// Does any of the link's triangles under one LSS meet `triangle`? Decided exactly for the vertices
-/// as computed.
-bool meshTouches(const internal::LinkSurface& surface, std::int32_t lss, const LinkState& state,
-                 const Triangle& triangle) {
-  const LssHierarchy& hierarchy = surface.hierarchy(lss);
-  std::vector<HierarchyChild> stack{hierarchy.root()};
-  while (!stack.empty()) {
-    const HierarchyChild child = stack.back();
-    stack.pop_back();
-    if (!child.isTriangle()) {
-      const LssHierarchy::Node& node = hierarchy.node(child.index());
-      if (!touches(node.lss, state, triangle)) continue;
-      stack.insert(stack.end(), node.children.begin(), node.children.end());
-      continue;
-    }
-    Triangle moved = surface.triangle(child.index());
-    for (Eigen::Vector3d& vertex : moved.vertices) vertex = state.pointAt(vertex);
-    if (trianglesMeet(moved, triangle)) return true;
-  }
-  return false;
-}
-
-bool skinTouches(const internal::LinkParts& parts, double t, const Scene& scene,
-                 const IgnoredObjects& ignored, std::vector<TriangleId>& found) {
-  internal::PosedLink posed;
-  parts.motion.statesAt(t, posed.all);
-  for (std::int32_t i = 0; i < parts.skin->numTriangles(parts.link); ++i) {
-    const Triangle moved = parts.movingTriangle(i, posed).triangle;
-    found.clear();
-    std::uint64_t visited = 0;
-    scene.parts().bvh.collect(internal::boxOf(moved), found, visited);
-    for (const TriangleId id : found) {
-      if (!ignored.has(scene.object(id)) && trianglesMeet(moved, scene.triangle(id))) return true;
-    }
-  }
-  return false;
 }
 
 /// One query over all links of one step.
@@ -394,41 +301,6 @@ Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& moti
                                    const Scene& scene, const QueryOptions& options) {
   QueryScratch scratch;
   return firstContacts(avatar, motion, scene, options, scratch);
-}
-
-bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
-               const Scene& scene, const QueryOptions& options, QueryScratch& scratch) {
-  FORETOUCH_ASSERT(link >= 0 && link < avatar.numLinks());
-  const internal::LinkSurface* const surface = surfaceOf(options, link);
-  std::vector<TriangleId>& found = scratch.impl().found;
-  IgnoredObjects& ignored = scratch.impl().ignored;
-  if (ignored.collect(options, link)) return false;
-  if (const internal::SkinParts* const skin = skinOf(options, link)) {
-    const std::vector<AxisBounds> none;
-    const internal::LinkParts parts{link, avatar.lss(link), none, motion, nullptr, skin};
-    return skinTouches(parts, t, scene, ignored, found);
-  }
-  const LinkState state = motion.stateAt(link, t);
-  for (std::size_t i = 0; i < avatar.lss(link).size(); ++i) {
-    const Lss& lss = avatar.lss(link)[i];
-    const auto index = static_cast<std::int32_t>(i);
-    const AxisEnds ends = axisEnds(lss, state);
-    Aabb box;
-    box.add(ends.a);
-    box.add(ends.b);
-    box.grow(lss.radius);
-    found.clear();
-    std::uint64_t visited = 0;
-    scene.parts().bvh.collect(box, found, visited);
-    for (const TriangleId id : found) {
-      if (ignored.has(scene.object(id)) || !touches(lss, state, scene.triangle(id))) continue;
-      if (surface == nullptr || !surface->hasTriangles(index) ||
-          meshTouches(*surface, index, state, scene.triangle(id))) {
-        return true;
-      }
-    }
-  }
-  return false;
 }
 
 }  // namespace foretouch

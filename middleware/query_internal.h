@@ -1,0 +1,53 @@
+// middleware/query_internal.h: what the sources of the query share. Not installed.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "middleware/backtracking.h"
+#include "middleware/query.h"
+
+namespace foretouch {
+namespace internal {
+
+/// The objects whose contacts with the link at hand are not asked for.
+class IgnoredObjects {
+ public:
+  /// True if the link is ignored altogether.
+  bool collect(const QueryOptions& options, LinkId link) {
+    objects_.clear();
+    for (const IgnoredPair& pair : options.ignored) {
+      if (pair.link != link) continue;
+      if (pair.object == IgnoredPair::kEveryObject) return true;
+      objects_.push_back(pair.object);
+    }
+    std::sort(objects_.begin(), objects_.end());
+    return false;
+  }
+  [[nodiscard]] bool has(ObjectId object) const {
+    return std::binary_search(objects_.begin(), objects_.end(), object);
+  }
+
+ private:
+  std::vector<ObjectId> objects_;  // ascending
+};
+
+/// The surface that the link has at exact fidelity; null at others.
+[[nodiscard]] const LinkSurface* surfaceOf(const QueryOptions& options, LinkId link);
+/// The skin, at skinned fidelity; null at others, and of a link that owns none of it.
+[[nodiscard]] const SkinParts* skinOf(const QueryOptions& options, LinkId link);
+
+}  // namespace internal
+
+/// Memory that one thread's queries reuse.
+struct QueryScratch::Impl {
+  std::vector<std::vector<LinkState>> nodes;  // per piece boundary, per link
+  std::vector<AxisBounds> axisBounds;         // per LSS of the link at hand
+  std::vector<Aabb> startBoxes;               // per LSS of the link at hand, at t = 0
+  std::vector<Aabb> boxes;                    // per LSS of the link at hand, per piece
+  std::vector<TriangleId> found;
+  std::vector<internal::Candidate> candidates;
+  internal::IgnoredObjects ignored;  // of the link at hand
+};
+
+}  // namespace foretouch
