@@ -179,6 +179,55 @@ TEST(ReplayMotions, RefusesOptionsThatDoNotGoWithTheMotion) {
   EXPECT_TRUE(holds(error({}, "absent.glb"), "absent.glb: "));
 }
 
+/// A box slides into a wall face first: 0.25 m before it at step 0, half way it touches. Its LSS,
+/// half a diagonal thick, touches from the start.
+TEST(ReplayFidelity, TellsTheBoxFromTheLssAroundIt) {
+  const SmallWorld world;
+  const std::string boxes = world.folder.write("boxes.obj", twoBoxes());
+  ASSERT_EQ(runForetouch({"avatar", "mesh", boxes, "-o", world.folder / "boxes.json"}).exitCode, 0);
+  std::string clip = clipAlongX({-0.75, -0.25});
+  for (std::size_t at = clip.find("Hips"); at != std::string::npos; at = clip.find("Hips")) {
+    clip.replace(at, 4, "box0");
+  }
+  world.folder.write("slide.bvh", clip);
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> options = {"--output", world.folder / "out.jsonl", "--ignore", "box1"};
+    options.insert(options.end(), more.begin(), more.end());
+    const Ended ended = runForetouch(world.replay(options, "wall.obj", "boxes.json", "slide.bvh"));
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    return contentOf(world.folder / "out.jsonl");
+  };
+  const std::string link = run({});
+  EXPECT_TRUE(holds(link, "\"fidelity\":\"link\"")) << link;
+  EXPECT_FALSE(holds(link, "\"toi\":0.49")) << link;
+  for (const std::vector<std::string>& exact :
+       {std::vector<std::string>{"--fidelity", "exact", "--compare-link"},
+        {"--fidelity", "exact", "--leaves", "cubics"},
+        {"--fidelity", "skinned", "--skin", boxes}}) {
+    const std::string results = run(exact);
+    EXPECT_TRUE(holds(results, "\"fidelity\":\"" + exact[1] + "\"")) << results;
+    EXPECT_TRUE(holds(results, "\"link\":\"box0\",\"verdict\":\"contact\",\"toi\":0.49"))
+        << results;
+    EXPECT_TRUE(holds(results, "\"link_triangle\":")) << results;
+  }
+}
+
+TEST(ReplayFidelity, RefusesWhatItHasNoSurfaceFor) {
+  const SmallWorld world;
+  const auto error = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> options = {"--output", world.folder / "out.jsonl"};
+    options.insert(options.end(), more.begin(), more.end());
+    const Ended ended = runForetouch(world.replay(options));
+    EXPECT_EQ(ended.exitCode, 2);
+    return ended.err;
+  };
+  EXPECT_TRUE(holds(error({"--fidelity", "skinned"}), "--skin: expected the model"));
+  const std::string boxes = world.folder.write("boxes.obj", twoBoxes());
+  EXPECT_TRUE(holds(error({"--fidelity", "skinned", "--skin", boxes}),
+                    "boxes.obj: expected the avatar's 2 links"));
+  EXPECT_TRUE(holds(error({"--fidelity", "exact", "--leaves", "roots"}), "--leaves: "));
+}
+
 TEST(ReplayModels, MovesAnAvatarByTheAnimationOfItsOwnFile) {
   FORETOUCH_REQUIRE_SHARED(man, "avatars/cesium_man.gltf");
   const SmallWorld world;
