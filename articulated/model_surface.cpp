@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "lss/single.h"
+
 namespace foretouch::internal {
 namespace {
 
@@ -19,13 +21,7 @@ std::size_t at(std::int32_t index) {
 /// As a GLB will hold it; nothing where it is not finite or too far out.
 std::optional<Vector3d> asFloat(const Vector3d& p) {
   if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kMaxCoordinate) return std::nullopt;
-  Vector3d rounded;
-  for (int k = 0; k < 3; ++k) {
-    // GCC 12 at -O3 takes the way to float and back for nothing to do, unless it goes by memory.
-    const volatile float narrow = static_cast<float>(p[k]);
-    rounded[k] = static_cast<double>(narrow);
-  }
-  return rounded;
+  return nearestFloat(p);
 }
 
 /// Triangles as indices into Skin::vertices, per link.
