@@ -102,6 +102,12 @@ double axisDistance(const Lss& lss, const Vector3d& point) {
   return (w - s * u).norm();
 }
 
+double sticksOut(const Lss& lss, const Triangle& triangle) {
+  double farthest = 0.0;  // both sets are convex: the corners tell
+  for (const Vector3d& v : triangle.vertices) farthest = std::max(farthest, axisDistance(lss, v));
+  return farthest - lss.radius;
+}
+
 void growToContain(Lss& lss, const Vector3d& point) {
   const double lost = kDistanceRounding * ((point - lss.a).norm() + (lss.b - lss.a).norm());
   lss.radius = std::max(lss.radius, axisDistance(lss, point) + lost);

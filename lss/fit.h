@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "lss/lss.h"
+#include "lss/triangle.h"
 
 namespace foretouch {
 
@@ -27,5 +28,8 @@ void growToContain(Lss& lss, const Eigen::Vector3d& point);
 
 /// Distance of a point to the LSS's axis, metres.
 [[nodiscard]] double axisDistance(const Lss& lss, const Eigen::Vector3d& point);
+
+/// How far a triangle sticks out of an LSS, metres, as rounded; negative: how deep it is inside.
+[[nodiscard]] double sticksOut(const Lss& lss, const Triangle& triangle);
 
 }  // namespace foretouch

@@ -156,10 +156,7 @@ std::optional<Split> Coverer::bestSplit(const Part& part) {
 std::pair<std::size_t, double> deepestIn(const std::vector<Lss>& lss, const Triangle& triangle) {
   std::pair<std::size_t, double> deepest{0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < lss.size(); ++i) {
-    double out = -std::numeric_limits<double>::infinity();
-    for (const Vector3d& v : triangle.vertices) {
-      out = std::max(out, axisDistance(lss[i], v) - lss[i].radius);
-    }
+    const double out = sticksOut(lss[i], triangle);
     if (out < deepest.second) deepest = {i, out};
   }
   return deepest;

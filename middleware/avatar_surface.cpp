@@ -19,14 +19,6 @@ using internal::LinkSurface;
 /// advancement stops, so that an LSS that is proven apart still proves its triangles apart.
 constexpr double kContainmentSlack = 1e-10;
 
-double outside(const Lss& lss, const Triangle& triangle) {
-  double farthest = 0.0;
-  for (const Eigen::Vector3d& vertex : triangle.vertices) {
-    farthest = std::max(farthest, axisDistance(lss, vertex) - lss.radius);
-  }
-  return farthest;
-}
-
 Error linkError(const Avatar& avatar, LinkId link, ErrorCode code, const std::string& what) {
   return Error{
       code, "", -1, link,
@@ -43,10 +35,10 @@ Result<std::vector<std::vector<std::int32_t>>> assigned(const Avatar& avatar, Li
     if (!isFinite(triangles[i])) {
       return linkError(avatar, link, ErrorCode::NonFinite, name + " is not finite");
     }
-    double least = lss.empty() ? kMaxCoordinate : outside(lss[0], triangles[i]);
+    double least = lss.empty() ? kMaxCoordinate : sticksOut(lss[0], triangles[i]);
     std::size_t best = 0;
     for (std::size_t k = 1; k < lss.size() && least > 0.0; ++k) {
-      const double distance = outside(lss[k], triangles[i]);
+      const double distance = sticksOut(lss[k], triangles[i]);
       if (distance < least) {
         least = distance;
         best = k;

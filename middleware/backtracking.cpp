@@ -131,8 +131,13 @@ class Backtracker {
           query_.scene.triangle(candidate.triangle), floor, kFloorShare * query_.tolerance);
       if (reached > t) return reached;
     }
-    const double next = t + stepFrom(pair, floor);
-    // Rounding the sum may have moved it up by half a unit in the last place.
+    return after(t, stepFrom(pair, floor));
+  }
+
+  /// t + step, rounded down, and at most 1: the sum may have been moved up by half a unit in the
+  /// last place.
+  [[nodiscard]] static double after(double t, double step) {
+    const double next = t + step;
     return next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
   }
 
@@ -144,9 +149,7 @@ class Backtracker {
       const double step = query_.parts.stepByPlane(part.lss, part.part, states_.at(t).state,
                                                    query_.scene.triangle(part.triangle), pair.nhat,
                                                    query_.tolerance);
-      if (!(step > 0.0)) return;
-      const double next = t + step;
-      part.freeUntil = nextPossible(part, next >= 1.0 ? 1.0 : std::nextafter(next, 0.0));
+      if (step > 0.0) part.freeUntil = nextPossible(part, after(t, step));
     });
   }
 

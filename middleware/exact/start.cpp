@@ -7,8 +7,6 @@
 namespace foretouch::internal {
 namespace {
 
-using Eigen::Vector3d;
-
 /// Farther first, so that the heap's top is the nearest; by the triangles themselves where equal,
 /// so that the order does not depend on their numbers.
 class Farther {
