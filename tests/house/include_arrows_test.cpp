@@ -28,6 +28,7 @@ const std::map<std::string, std::set<std::string>> kArrows = {
 const std::map<std::string, std::set<std::string>> kLibraries = {
     {"embree3", {"middleware"}},
     {"assimp", {"middleware"}},
+    {"hwy", {"lss", "articulated", "tessellation", "middleware"}},
     {"nlohmann", {"articulated", "middleware", "tools"}},
     {"urdf_model", {"middleware"}},
     {"urdf_parser", {"middleware"}},

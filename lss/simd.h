@@ -1,0 +1,34 @@
+// lss/simd.h: which of the processor's vector instructions the lanes use. Every source with lanes
+// is compiled once for each of them (Google Highway), and the widest that the processor has is
+// taken when the program runs.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace foretouch {
+
+/// From the narrowest to the widest.
+enum class Simd {
+  Scalar,  ///< One lane: any processor.
+  Ssse3,   ///< 4 floats.
+  Sse4,    ///< 4 floats.
+  Avx2,    ///< 8 floats, fused multiply-add.
+  Avx512,  ///< 16 floats.
+  Other,   ///< Of another architecture, as Highway finds it.
+};
+
+/// "scalar", "ssse3", "sse4", "avx2", "avx512", "other".
+[[nodiscard]] const char* toString(Simd simd);
+[[nodiscard]] std::optional<Simd> simdFromName(std::string_view name);
+
+/// Those that this processor has and this library was built for, narrowest first; never empty.
+[[nodiscard]] std::vector<Simd> supportedSimd();
+/// The one in use.
+[[nodiscard]] Simd activeSimd();
+/// From now on, in the whole process, uses `simd`, or the widest if empty; false, and nothing is
+/// changed, where the processor lacks it. For tests and measurements: not while a query runs.
+bool useSimd(std::optional<Simd> simd);
+
+}  // namespace foretouch
