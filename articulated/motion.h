@@ -8,6 +8,7 @@
 // radians, derivatives per unit of t.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -44,6 +45,9 @@ struct MotionBounds {
   double speed = 0.0;         ///< Of the link's origin.
   double acceleration = 0.0;  ///< Of the link's origin.
   double reach = 0.0;         ///< Of the link's origin from the world's.
+  /// On |d^8/dt^8| of the link's origin: what interpolation through eight instants may be off by
+  /// (tessellation/lss_polynomials.md).
+  double eighthDerivative = 0.0;
   /// Bounds on |computed - true| of LinkState's p_WL (m), R_WL (spectral norm), v_WL and w_WL.
   double originRounding = 0.0;
   double rotationRounding = 0.0;
@@ -53,6 +57,10 @@ struct MotionBounds {
   [[nodiscard]] double speedAt(double rho) const { return speed + angularSpeed * rho; }
   [[nodiscard]] double accelerationAt(double rho) const {
     return acceleration + (angularAcceleration + angularSpeed * angularSpeed) * rho;
+  }
+  [[nodiscard]] double eighthDerivativeAt(double rho) const {
+    const double square = angularSpeed * angularSpeed, fourth = square * square;
+    return eighthDerivative + fourth * fourth * rho;
   }
   /// Of LinkState::pointAt() and velocityAt() for a point at distance rho, their own sums included.
   [[nodiscard]] double positionRoundingAt(double rho) const {
@@ -69,15 +77,39 @@ struct MotionBounds {
   static constexpr double kPointRounding = 16.0 * 0x1p-53;
 };
 
-/// The in-between motion of one skeleton from one validated pose to another. Immutable; evaluation
-/// is const, thread-safe and allocates nothing. Building costs O(joints), a state O(depth of the
-/// link).
+/// What one joint does in its parent's frame (roots: in W), as the poses say it: slerp on the arc
+/// from `from` to `to`, whose dot product is not negative as given, and from `translation` by
+/// `drift` within the unit of t. Quaternions w, x, y, z, unit within kUnitNormError.
+struct JointArc {
+  double from[4], to[4];
+  double translation[3], drift[3];
+  double versine =
+      0.0;  ///< 1 - cos of half the joint's turn: |to - from|^2/2; in [0,1] to rounding.
+  double length = 0.0;       ///< Bound on |translation + t*drift| over t in [0,1].
+  double driftLength = 0.0;  ///< Bound on |drift|.
+  JointId parent = kNoParent;
+
+  /// Bound on | |q| - 1 | of `from` and `to`: ten unit roundoffs (motion_bounds.md 3).
+  static constexpr double kUnitNormError = 10.0 * 0x1p-53;
+};
+
+/// The in-between motion of one skeleton from one validated pose to another. Constant between calls
+/// of assign(); evaluation is const, thread-safe and allocates nothing. Building costs O(joints)
+/// and no trigonometry; a state O(depth of the link), trigonometry included: whoever asks for many
+/// states of one motion keeps a MotionEvaluator.
 class ChainMotion {
  public:
-  /// Precondition: both poses were made for `skeleton` by validatedPose() or restPose() (asserted).
+  /// No links, until assign().
+  ChainMotion() = default;
+  /// As assign().
   ChainMotion(const Skeleton& skeleton, const Pose& from, const Pose& to);
 
-  [[nodiscard]] std::int32_t numLinks() const { return static_cast<std::int32_t>(joints_.size()); }
+  /// Becomes the motion from `from` to `to`; allocates only where there are more joints than ever
+  /// before. Precondition: both poses were made for `skeleton` by validatedPose() or restPose()
+  /// (asserted).
+  void assign(const Skeleton& skeleton, const Pose& from, const Pose& to);
+
+  [[nodiscard]] std::int32_t numLinks() const { return static_cast<std::int32_t>(arcs_.size()); }
 
   /// `t` in [0,1].
   [[nodiscard]] LinkState stateAt(LinkId link, double t) const;
@@ -88,23 +120,46 @@ class ChainMotion {
   [[nodiscard]] const MotionBounds& bounds(LinkId link) const {
     return bounds_[static_cast<std::size_t>(link)];
   }
+  /// Of the joint that the link moves with.
+  [[nodiscard]] const JointArc& arc(LinkId link) const {
+    return arcs_[static_cast<std::size_t>(link)];
+  }
 
  private:
+  std::vector<JointArc> arcs_;
+  std::vector<MotionBounds> bounds_;
+};
+
+/// States of one motion after another, bit for bit those of ChainMotion, with the trigonometry that
+/// does not depend on t done once a joint and motion. For one thread; memory is kept.
+class MotionEvaluator {
+ public:
+  MotionEvaluator() = default;
+  explicit MotionEvaluator(const ChainMotion& motion) { reset(motion); }
+
+  /// From now on of `motion`, which must outlive the last state asked for and not be assigned to.
+  void reset(const ChainMotion& motion);
+
+  /// `t` in [0,1]. O(depth of the link).
+  [[nodiscard]] LinkState stateAt(LinkId link, double t);
+  /// All links at once, in order; `states` is resized. O(joints).
+  void statesAt(double t, std::vector<LinkState>& states);
+
   /// One joint's own motion in its parent's frame: R(t) = R0 + sin(angle*t)*S + (1-cos(angle*t))*C.
   struct JointMotion {
     Eigen::Matrix3d R0, S, C;
-    Eigen::Vector3d translation, translationRate;  // parent frame
-    Eigen::Vector3d rotationRate;                  // parent frame; constant, as the axis is fixed
+    Eigen::Vector3d translation, translationRate;  ///< Parent frame.
+    Eigen::Vector3d rotationRate;  ///< Parent frame; constant, as the axis is fixed.
     double angle = 0.0;
     JointId parent = kNoParent;
   };
-  static JointMotion jointMotion(const Skeleton& skeleton, const Pose& from, const Pose& to,
-                                 JointId joint);
-  static LinkState composed(const LinkState& parent, const JointMotion& joint, double t);
-  [[nodiscard]] MotionBounds boundsOf(const JointMotion& joint) const;
 
+ private:
+  [[nodiscard]] const JointMotion& joint(JointId joint);
+
+  const ChainMotion* motion_ = nullptr;
   std::vector<JointMotion> joints_;
-  std::vector<MotionBounds> bounds_;
+  std::vector<std::uint8_t> isKnown_;
 };
 
 }  // namespace foretouch

@@ -1,0 +1,86 @@
+// articulated/chain_nodes.h: the frames of all links of a moving chain at eight instants at once,
+// in the processor's lanes and without trigonometry. The instants are the Chebyshev-Lobatto points
+// of a span of t, so that polynomials through them are near the best of their degree
+// (tessellation/lss_polynomials.h). Rounding: articulated/chain_nodes.md.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/motion.h"
+
+namespace foretouch {
+
+/// Instants a span: both ends and six between.
+inline constexpr int kNodes = 8;
+
+/// One link's frame at the nodes: rotations to W and origins in W relative to the origin that
+/// ChainNodes::evaluate() was given (m). Unit quaternions w, x, y, z and matrices, row after row,
+/// of the same rotations, both to rounding.
+struct alignas(64) LinkNodes {
+  double q[4][kNodes];
+  double R[9][kNodes];
+  double p[3][kNodes];
+};
+
+/// Frames of every link of a motion at the nodes of a span. Memory is kept between calls; for one
+/// thread.
+class ChainNodes {
+ public:
+  /// Frames at the nodes of [begin, end], 0 <= begin < end <= 1; positions are relative to `origin`
+  /// (in W), which is subtracted in double. O(links).
+  void evaluate(const ChainMotion& motion, double begin, double end, const Eigen::Vector3d& origin);
+
+  [[nodiscard]] std::int32_t numLinks() const { return numLinks_; }
+  [[nodiscard]] double begin() const { return begin_; }
+  [[nodiscard]] double end() const { return end_; }
+  [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
+  /// The instants of the frames, as doubles: within 2^-52 of begin + (end-begin)*time(k); the first
+  /// and the last are begin and end.
+  [[nodiscard]] double instant(int k) const { return instants_[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] const LinkNodes& link(LinkId link) const {
+    return nodes_[static_cast<std::size_t>(link)];
+  }
+
+  /// Bounds on |computed - true| at the instants: of `p` (m) and of `R` (spectral norm). "True" is
+  /// the motion as motion.h defines it for the poses as given.
+  [[nodiscard]] double positionRounding(LinkId link) const {
+    return roundings_[static_cast<std::size_t>(link)].position;
+  }
+  [[nodiscard]] double rotationRounding(LinkId link) const {
+    return roundings_[static_cast<std::size_t>(link)].rotation;
+  }
+  /// Bound on |p| of the link at the instants (m).
+  [[nodiscard]] double reach(LinkId link) const {
+    return roundings_[static_cast<std::size_t>(link)].reach;
+  }
+
+  /// (1 - cos(k pi/7))/2, the k-th Chebyshev-Lobatto point of [0,1], rounded.
+  [[nodiscard]] static double time(int k);
+
+ private:
+  /// Row after row for ascending powers of a joint's versine; a row holds all nodes.
+  struct Weights {
+    std::vector<std::array<double, kNodes>> from, to;
+  };
+  struct Rounding {
+    double quaternion = 0.0, rotation = 0.0, position = 0.0, reach = 0.0;
+  };
+  void setInstants(double begin, double end);
+  void extendWeights(std::size_t terms);
+  void boundRoundings(const ChainMotion& motion);
+
+  std::int32_t numLinks_ = 0;
+  double begin_ = 0.0, end_ = 0.0;  // an empty span: no instants yet
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  std::array<double, kNodes> instants_{};
+  Weights weights_;
+  std::vector<LinkNodes> nodes_;
+  std::vector<Rounding> roundings_;
+};
+
+}  // namespace foretouch
