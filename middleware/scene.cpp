@@ -57,15 +57,13 @@ Result<Scene> Scene::build(RawScene raw) {
   parts->objectOf = std::move(raw.objectOf);
   parts->objectNames = std::move(raw.objectNames);
   parts->origin = 0.5 * (parts->audit.boxMin + parts->audit.boxMax);
-  std::vector<Aabb> boxes;
   for (std::size_t i = 0; i < parts->triangles.size(); ++i) {
     Triangle& triangle = parts->triangles[i];
     if (!isFinite(triangle)) continue;
     std::sort(triangle.vertices.begin(), triangle.vertices.end(), lexicographicallyLess);
     parts->finiteIds.push_back(static_cast<TriangleId>(i));
-    boxes.push_back(internal::boxOf(triangle));
   }
-  auto bvh = internal::FlatBvh::build(boxes, parts->finiteIds, parts->origin);
+  auto bvh = internal::FlatBvh::build(parts->triangles, parts->finiteIds, parts->origin);
   if (!bvh.ok()) return bvh.error();
   parts->bvh = std::move(bvh).value();
   return Scene(std::move(parts));
