@@ -1,6 +1,7 @@
 #include "articulated/avatar.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 #include <string>
 #include <utility>
@@ -75,7 +76,9 @@ Result<Avatar> Avatar::build(Skeleton skeleton, std::vector<std::vector<Lss>> ls
     any = any || !lssPerLink[i].empty();
   }
   if (!any) return Error{ErrorCode::Empty, "", -1, -1, "expected an LSS on at least one link"};
+  static std::atomic<std::uint64_t> identities{0};
   Avatar avatar(std::move(skeleton));
+  avatar.identity_ = ++identities;
   avatar.lss_ = std::move(lssPerLink);
   meshes.resize(n);
   avatar.meshes_ = std::move(meshes);

@@ -39,10 +39,14 @@ class Avatar {
     return meshes_[static_cast<std::size_t>(link)];
   }
   [[nodiscard]] std::int32_t numLss() const;
+  /// The same for this avatar and its copies, another for every other avatar of the process: tells
+  /// what was derived from an avatar whether it still fits.
+  [[nodiscard]] std::uint64_t identity() const { return identity_; }
 
  private:
   explicit Avatar(Skeleton skeleton) : skeleton_(std::move(skeleton)) {}
   Skeleton skeleton_;
+  std::uint64_t identity_ = 0;
   std::vector<std::vector<Lss>> lss_;
   std::vector<MeshReference> meshes_;
 };

@@ -21,9 +21,6 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A step never goes below this share of the tolerance, so that contact is found from outside.
-constexpr double kFloorShare = 0.25;
-
 /// Later first, so that the standard heap's top is the earliest; the triangle makes the order
 /// total.
 struct Later {
@@ -75,14 +72,14 @@ class Backtracker {
   void startCandidates() {
     for (Candidate& candidate : heap_) {
       FORETOUCH_ASSERT(candidate.pieces != 0);
-      candidate.freeUntil = nextPossible(candidate, 0.0);
+      candidate.freeUntil = nextPossible(candidate, candidate.freeUntil);
     }
     std::make_heap(heap_.begin(), heap_.end(), Later{});
   }
 
   /// The earliest instant from `t` on at which the pair's boxes meet; infinity if none before 1.
   [[nodiscard]] double nextPossible(const Candidate& candidate, double t) const {
-    if (t >= 1.0) return kInfinity;
+    if (t >= candidate.end) return kInfinity;
     const int here = query_.pieces.at(t);
     if ((candidate.pieces >> here & 1u) != 0) return t;
     for (int k = here + 1; k < query_.pieces.count; ++k) {
@@ -112,6 +109,7 @@ class Backtracker {
       return;
     }
     candidate.freeUntil = nextPossible(candidate, reached);
+    candidate.nearest = -kInfinity;
     if (candidate.freeUntil <= horizon_ && candidate.freeUntil < 1.0) {
       std::push_heap(heap_.begin(), heap_.end(), Later{});
     } else {
@@ -196,8 +194,9 @@ class Backtracker {
   /// contact the budget has no say: the verdict stands, and which contact is reported must not
   /// depend on it.
   void lookNearestFirst(double t) {
-    for (Candidate& candidate : heap_)
-      candidate.nearest = leastGap(query_, candidate, states_.at(t));
+    for (Candidate& candidate : heap_) {
+      candidate.nearest = std::max(candidate.nearest, leastGap(query_, candidate, states_.at(t)));
+    }
     std::make_heap(heap_.begin(), heap_.end(), Farther{});
     while (!heap_.empty() && heap_.front().nearest <= reach()) {
       if (!hasContact() && spent_ >= query_.maxAdvancements) return;

@@ -20,6 +20,9 @@
 
 namespace foretouch::internal {
 
+/// A step never goes below this share of the tolerance, so that contact is found from outside.
+inline constexpr double kFloorShare = 0.25;
+
 /// The equal pieces into which [0,1] is cut for culling: piece k is [timeOf(k), timeOf(k+1)].
 struct Pieces {
   int count = 1;  // at most kMaxPieces
@@ -36,8 +39,10 @@ struct Candidate {
   TriangleId triangle = -1;
   std::int32_t lss = -1;
   std::uint32_t pieces = 0;  // bit k: piece k
-  double nearest = 0.0;      // among ties: the gap is not smaller, as boxes or separations tell
-  double freeUntil = 0.0;    // proven: separation > 0 on [0, freeUntil), >= floor there unless 0
+  // At freeUntil the gap is not smaller, as boxes, lanes or separations tell.
+  double nearest = -std::numeric_limits<double>::infinity();
+  double freeUntil = 0.0;  // proven: separation > 0 on [0, freeUntil), >= floor there unless 0
+  double end = 1.0;        // not asked for from then on
   Part part = Part::whole();
 };
 
@@ -48,7 +53,8 @@ struct LinkQuery {
   Pieces pieces;
   double tolerance;
   std::uint64_t maxAdvancements;
-  LeafMethod leafMethod = LeafMethod::Advancement;
+  LeafMethod leafMethod;
+  MotionEvaluator& evaluator;  // of parts.motion
 
   [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }
   /// Nothing is below it: what it touches, the link touches.
@@ -69,10 +75,10 @@ class StateCache {
   [[nodiscard]] const PosedLink& at(double t) {
     if (t == time_) return posed_;
     if (query_.parts.skin != nullptr) {
-      query_.parts.motion.statesAt(t, posed_.all);
+      query_.evaluator.statesAt(t, posed_.all);
       counters_.states += posed_.all.size();
     } else {
-      posed_.state = query_.parts.motion.stateAt(query_.parts.link, t);
+      posed_.state = query_.evaluator.stateAt(query_.parts.link, t);
       ++counters_.states;
     }
     time_ = t;

@@ -86,6 +86,17 @@ enum class Culler : std::uint8_t {
   PointQuery,  ///< An RTCScene and rtcPointQuery.
 };
 
+/// How first contacts are looked for. Both keep the promise; they may report contact at different
+/// instants within it.
+enum class Backtracking : std::uint8_t {
+  Lanes,   ///< Many pairs at once in the processor's vectors (lss/simd.h), in doubles where these
+           ///< cannot decide. Skins and limited budgets take the scalar way all the same.
+  Scalar,  ///< Pair by pair in doubles: the slower reference.
+};
+
+/// "lanes", "scalar".
+[[nodiscard]] const char* toString(Backtracking backtracking);
+
 /// A link, or a link and one object, whose contacts are not asked for.
 struct IgnoredPair {
   LinkId link = 0;
@@ -110,6 +121,7 @@ struct QueryOptions {
   std::optional<AvatarSurface> surface;  ///< Of the same avatar; needed for Fidelity::Exact.
   std::optional<SkinnedSurface> skin;    ///< Of the same avatar; needed for Fidelity::Skinned.
   LeafMethod leafMethod = LeafMethod::Advancement;
+  Backtracking backtracking = Backtracking::Lanes;
   std::vector<IgnoredPair> ignored;
   /// Distance evaluations a link may cost before its verdict becomes Undecided.
   std::uint64_t maxAdvancements = std::numeric_limits<std::uint64_t>::max();
@@ -121,8 +133,11 @@ inline constexpr double kMinTolerance = 1e-9;
 /// Work done, for measurements that no machine load changes.
 struct QueryCounters {
   std::uint64_t nodes = 0;           ///< BVH nodes visited (FlatBvh) or callbacks (PointQuery).
+  std::uint64_t leaves = 0;          ///< Leaves of the tree visited (Backtracking::Lanes).
   std::uint64_t candidates = 0;      ///< (LSS, triangle) pairs that passed the culling.
-  std::uint64_t advancements = 0;    ///< Distance evaluations, all kinds together.
+  std::uint64_t clusterSteps = 0;    ///< Evaluations in lanes of an LSS and a leaf's sphere.
+  std::uint64_t laneSteps = 0;       ///< Evaluations in lanes of an LSS and a triangle.
+  std::uint64_t advancements = 0;    ///< Scalar distance evaluations, all kinds together.
   std::uint64_t hierarchyTests = 0;  ///< At exact fidelity: of an LSS or a node below it.
   std::uint64_t planeTests = 0;      ///< At exact fidelity: of a part against its parent's plane.
   std::uint64_t cubicTests = 0;      ///< At exact fidelity by LeafMethod::Cubics: pieces of pairs.
@@ -152,6 +167,11 @@ class QueryScratch {
 /// The first contact of every link of `avatar` while it moves as `motion` says.
 /// Errors are bad options (tolerance, an ignored pair out of range) or a motion of another avatar.
 /// Geometry never produces one: see Verdict.
+/// The first form fills `step` and, once scratch and step have grown to what the scene asks for,
+/// allocates nothing.
+[[nodiscard]] Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion,
+                                         const Scene& scene, const QueryOptions& options,
+                                         QueryScratch& scratch, StepContacts& step);
 [[nodiscard]] Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& motion,
                                                  const Scene& scene, const QueryOptions& options,
                                                  QueryScratch& scratch);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "middleware/backtracking.h"
+#include "middleware/lane_scratch.h"
 #include "middleware/query.h"
 
 namespace foretouch {
@@ -47,6 +48,9 @@ struct QueryScratch::Impl {
   std::vector<Aabb> boxes;                    // per LSS of the link at hand, per piece
   std::vector<TriangleId> found;
   std::vector<internal::Candidate> candidates;
+  std::vector<internal::Candidate> atStart;  // those of them at t = 0
+  MotionEvaluator evaluator;
+  internal::LaneScratch lanes;
   internal::IgnoredObjects ignored;  // of the link at hand
 };
 

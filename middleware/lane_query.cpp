@@ -1,0 +1,236 @@
+#include "middleware/lane_query.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include "lss/assert.h"
+#include "middleware/scene_internal.h"
+#include "middleware/surface_internal.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Shares of the tolerance. The floor is the scalar code's. Below three quarters the scalar code is
+/// asked: what lanes prove is a little less than the truth, so it will mostly find contact. And
+/// what lanes call certain must be so for the scalar code too, whose rounding is far below the
+/// rest.
+constexpr double kHandOverShare = 0.75;
+constexpr double kCertainShare = 1.0 - 0x1p-10;
+/// No pair is certainly in contact.
+constexpr float kNeverCertain = -1.0F;
+/// Polynomials that are off by less than this share of the tolerance decide as well as exact ones.
+constexpr double kInterpolationShare = 1.0 / 64.0;
+/// Steps that clusters are given before their triangles are asked: where they are through after
+/// these, up to eight triangles need not be.
+constexpr int kClusterRounds = 3;
+constexpr float kBegin = -1.0F, kEnd = 1.0F;  // of u
+
+/// An empty box, which meets nothing.
+void closeBox(SweptBoxes& boxes, std::int32_t lss) {
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes.lower[axis][lss] = std::numeric_limits<float>::infinity();
+    boxes.upper[axis][lss] = -std::numeric_limits<float>::infinity();
+  }
+}
+
+}  // namespace
+
+LaneQuery::LaneQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+                     const QueryOptions& options, const TriangleCuller& culler,
+                     QueryScratch::Impl& scratch)
+    : avatar_(avatar),
+      motion_(motion),
+      scene_(scene),
+      options_(options),
+      scratch_(scratch),
+      culler_(culler),
+      lanes_(scratch.lanes),
+      bvh_(scene.parts().bvh) {
+  tolerances_.floor = floatAbove(kFloorShare * options.tolerance);
+  tolerances_.handOver = floatBelow(kHandOverShare * options.tolerance);
+  tolerances_.contact = floatBelow(kCertainShare * options.tolerance);
+  if (lanes_.avatar != avatar.identity()) {
+    lanes_.table = LssTable(avatar);
+    lanes_.avatar = avatar.identity();
+  }
+  scratch_.evaluator.reset(motion);
+}
+
+void LaneQuery::run(StepContacts& step) {
+  findWhoIsAsked();
+  const int slabs = slabsFor(lanes_.table, motion_, kInterpolationShare * options_.tolerance);
+  for (int slab = 0; slab < slabs; ++slab) {
+    begin_ = static_cast<double>(slab) / slabs;
+    end_ = static_cast<double>(slab + 1) / slabs;
+    if (!collectHits(step.counters)) continue;
+    for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+      const auto first = static_cast<std::size_t>(lanes_.table.first(link));
+      const auto end = static_cast<std::size_t>(lanes_.table.first(link + 1));
+      if (lanes_.first[first] == lanes_.first[end]) continue;
+      LinkContact& contact = step.links[static_cast<std::size_t>(link)];
+      contact = answer(link, step.counters);
+      lanes_.isAsked[static_cast<std::size_t>(link)] = contact.verdict == Verdict::Clear;
+    }
+  }
+}
+
+void LaneQuery::findWhoIsAsked() {
+  lanes_.isAsked.assign(static_cast<std::size_t>(avatar_.numLinks()), 1);
+  for (const IgnoredPair& pair : options_.ignored) {
+    if (pair.object == IgnoredPair::kEveryObject) {
+      lanes_.isAsked[static_cast<std::size_t>(pair.link)] = 0;
+    }
+  }
+}
+
+bool LaneQuery::collectHits(QueryCounters& counters) {
+  const LssTable& table = lanes_.table;
+  lanes_.nodes.evaluate(motion_, begin_, end_, scene_.parts().origin);
+  counters.states +=
+      static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(avatar_.numLinks());
+  sweptBoxes(table, motion_, lanes_.nodes, options_.tolerance, lanes_.boxes);
+  for (std::int32_t lss = 0; lss < table.size(); ++lss) {
+    if (lanes_.isAsked[static_cast<std::size_t>(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
+  }
+  BoxLanes boxes;
+  boxes.count = lanes_.boxes.count;
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes.lower[axis] = lanes_.boxes.lower[axis];
+    boxes.upper[axis] = lanes_.boxes.upper[axis];
+  }
+  lanes_.hits.clear();
+  bvh_.collectLeaves(boxes, lanes_.hits, counters.nodes, counters.leaves);
+  sortHits();
+  return !lanes_.hits.empty();
+}
+
+/// By LSS, otherwise in the order of the walk (counting sort).
+void LaneQuery::sortHits() {
+  const auto count = static_cast<std::size_t>(lanes_.table.size());
+  lanes_.first.assign(count + 2, 0);
+  for (const LeafHit& hit : lanes_.hits) ++lanes_.first[hit.box + 2U];
+  for (std::size_t i = 2; i < count + 2; ++i) lanes_.first[i] += lanes_.first[i - 1];
+  lanes_.sorted.resize(lanes_.hits.size());
+  for (const LeafHit& hit : lanes_.hits) lanes_.sorted[lanes_.first[hit.box + 1U]++] = hit;
+}
+
+LinkContact LaneQuery::answer(LinkId link, QueryCounters& counters) {
+  const LinkSurface* const surface = surfaceOf(options_, link);
+  scratch_.ignored.collect(options_, link);
+  prepareScalar(link);
+  const float certain = surface == nullptr ? tolerances_.contact : kNeverCertain;
+  float best = kEnd;
+  const LinkContact contact = answerWith(link, surface, certain, best, counters);
+  if (best == kEnd) return contact;
+  const bool isConfirmed = contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(best);
+  if (isConfirmed) return contact;
+  // Lanes dropped what is later than a contact that the scalar code then did not find. Both being
+  // proved this does not happen; if it did, nothing may be missed.
+  best = kEnd;
+  return answerWith(link, surface, kNeverCertain, best, counters);
+}
+
+LinkContact LaneQuery::answerWith(LinkId link, const LinkSurface* surface, float certain,
+                                  float& best, QueryCounters& counters) {
+  tolerances_.contact = certain;
+  scratch_.candidates.clear();
+  const std::int32_t firstLss = lanes_.table.first(link);
+  for (std::int32_t lss = firstLss; lss < lanes_.table.first(link + 1); ++lss) {
+    lanes_.handed.count = 0;
+    advanceLss(lss, best, counters);
+    addCandidates(lss - firstLss);
+  }
+  const double latest = timeOf(best);
+  auto& candidates = scratch_.candidates;
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& c) { return c.freeUntil > latest; }),
+                   candidates.end());
+  LinkContact contact;
+  contact.link = link;
+  if (candidates.empty()) return contact;
+  const LinkQuery query{{link, avatar_.lss(link), scratch_.axisBounds, motion_, surface, nullptr},
+                        scene_,
+                        Pieces{},
+                        options_.tolerance,
+                        options_.maxAdvancements,
+                        options_.leafMethod,
+                        scratch_.evaluator};
+  if (surface != nullptr && begin_ == 0.0) {
+    scratch_.atStart.clear();
+    std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(scratch_.atStart),
+                 [](const Candidate& c) { return c.freeUntil == 0.0; });
+    contact = contactAtStart(query, scratch_.atStart, counters);
+    if (contact.verdict != Verdict::Clear) return contact;
+  }
+  return backtrack(query, candidates, counters);
+}
+
+void LaneQuery::prepareScalar(LinkId link) {
+  scratch_.axisBounds.clear();
+  for (const Lss& lss : avatar_.lss(link)) {
+    scratch_.axisBounds.push_back(axisBounds(lss, motion_.bounds(link)));
+  }
+}
+
+/// The LSS's pairs through the slab; what lanes leave is in `handed`.
+void LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
+  const auto begin = lanes_.first[static_cast<std::size_t>(lss)];
+  const auto end = lanes_.first[static_cast<std::size_t>(lss) + 1];
+  if (begin == end) return;
+  const LssTable::Entry& entry = lanes_.table[lss];
+  const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes);
+  const LaneLss lane = laneLss(polynomials, entry.lss.radius);
+  std::array<float, 3> origin;
+  for (std::size_t k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);
+  lanes_.pairs.reserve(end - begin);
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const Cluster& cluster = bvh_.cluster(lanes_.sorted[i].leaf);
+    lanes_.pairs.addSphere(lane, cluster.centre, cluster.radius, origin, kBegin,
+                           static_cast<std::int32_t>(i));
+  }
+  lanes_.clusters.count = 0;
+  counters.clusterSteps +=
+      lanes_.pairs.advanceSpheres(lane, tolerances_, kClusterRounds, best, lanes_.clusters);
+  gatherTriangles(lane, origin, counters);
+  counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
+}
+
+/// The triangles of the clusters that were not proven clear, from the time on that is open.
+void LaneQuery::gatherTriangles(const LaneLss& lane, const std::array<float, 3>& origin,
+                                QueryCounters& counters) {
+  lanes_.pairs.reserve(lanes_.clusters.count * kBvhWidth);
+  for (std::size_t i = 0; i < lanes_.clusters.count; ++i) {
+    const LeafHit& hit = lanes_.sorted[static_cast<std::size_t>(lanes_.clusters.key[i])];
+    const BvhLeaf& leaf = bvh_.leaf(hit.leaf);
+    for (std::size_t slot = 0; slot < kBvhWidth; ++slot) {
+      if ((hit.triangles >> slot & 1U) == 0) continue;
+      const TriangleId id = leaf.id[slot];
+      if (scratch_.ignored.has(scene_.object(id))) continue;
+      lanes_.pairs.addTriangle(lane, &leaf.vertex[0][0][slot], kBvhWidth, origin,
+                               bvh_.vertexRounding(), lanes_.clusters.time[i], id);
+    }
+  }
+  counters.candidates += lanes_.pairs.count();
+}
+
+void LaneQuery::addCandidates(std::int32_t lssOfLink) {
+  const HandedOver& handed = lanes_.handed;
+  for (std::size_t i = 0; i < handed.count; ++i) {
+    Candidate candidate;
+    candidate.triangle = handed.key[i];
+    candidate.lss = lssOfLink;
+    candidate.pieces = 1;
+    candidate.nearest = handed.gap[i];
+    candidate.freeUntil = timeOf(handed.time[i]);
+    candidate.end = end_;
+    scratch_.candidates.push_back(candidate);
+  }
+}
+
+/// Exact: a slab's bounds are multiples of a power of two, and u is a float.
+double LaneQuery::timeOf(float u) const {
+  return begin_ + 0.5 * (static_cast<double>(u) + 1.0) * (end_ - begin_);
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,51 @@
+// middleware/lane_query.h: a query the fast way. All links' frames at a few instants, boxes of all
+// LSS, one walk of the scene's tree for all of them; then, for the LSS that are near anything,
+// certified polynomials, advancement of clusters and of triangles in lanes; and the scalar code, in
+// doubles, for the pairs that lanes could not decide. Not installed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "middleware/flat_bvh.h"
+#include "middleware/query_internal.h"
+
+namespace foretouch::internal {
+
+/// One query over all links of one step, at link or exact fidelity.
+class LaneQuery {
+ public:
+  LaneQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+            const QueryOptions& options, const TriangleCuller& culler, QueryScratch::Impl& scratch);
+
+  /// Fills `step`, whose links are all Clear.
+  void run(StepContacts& step);
+
+ private:
+  void findWhoIsAsked();
+  /// Of all LSS in the slab at hand; false if there are none.
+  [[nodiscard]] bool collectHits(QueryCounters& counters);
+  void sortHits();
+  [[nodiscard]] LinkContact answer(LinkId link, QueryCounters& counters);
+  [[nodiscard]] LinkContact answerWith(LinkId link, const LinkSurface* surface, float certain,
+                                       float& best, QueryCounters& counters);
+  void prepareScalar(LinkId link);
+  void advanceLss(std::int32_t lss, float& best, QueryCounters& counters);
+  void gatherTriangles(const LaneLss& lane, const std::array<float, 3>& origin,
+                       QueryCounters& counters);
+  void addCandidates(std::int32_t lssOfLink);
+  [[nodiscard]] double timeOf(float u) const;
+
+  const Avatar& avatar_;
+  const ChainMotion& motion_;
+  const Scene& scene_;
+  const QueryOptions& options_;
+  QueryScratch::Impl& scratch_;
+  const TriangleCuller& culler_;
+  LaneScratch& lanes_;
+  const FlatBvh& bvh_;
+  LaneTolerances tolerances_;
+  double begin_ = 0.0, end_ = 1.0;  // of the slab at hand
+};
+
+}  // namespace foretouch::internal

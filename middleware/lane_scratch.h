@@ -1,0 +1,27 @@
+// middleware/lane_scratch.h: what a lane query (lane_query.h) keeps between queries. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "articulated/chain_nodes.h"
+#include "middleware/flat_bvh.h"
+#include "middleware/lanes/lss_pairs.h"
+#include "tessellation/lss_polynomials.h"
+
+namespace foretouch::internal {
+
+struct LaneScratch {
+  std::uint64_t avatar = 0;  // whose table this is
+  LssTable table;
+  ChainNodes nodes;
+  SweptBoxes boxes;
+  std::vector<LeafHit> hits;         // of all LSS, in the order of the walk
+  std::vector<LeafHit> sorted;       // by LSS
+  std::vector<std::uint32_t> first;  // per LSS: where its hits begin in `sorted`
+  PairLanes pairs;
+  HandedOver clusters, handed;        // of the LSS at hand
+  std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
+};
+
+}  // namespace foretouch::internal

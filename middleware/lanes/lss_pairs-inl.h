@@ -1,0 +1,369 @@
+// middleware/lanes/lss_pairs-inl.h: the kernels of lss_pairs.cpp, compiled once for every width of
+// vectors. Nothing in here may be shared with other sources (no Eigen, no standard templates): a
+// function compiled for wide vectors must not be linked into code for all processors.
+#if defined(FORETOUCH_LANES_LSS_PAIRS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef FORETOUCH_LANES_LSS_PAIRS_INL_H
+#undef FORETOUCH_LANES_LSS_PAIRS_INL_H
+#else
+#define FORETOUCH_LANES_LSS_PAIRS_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "middleware/lanes/lss_pairs.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace foretouch::internal::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr float kUnitRoundoffOfFloat = 0x1p-24f;
+/// Shrinks a computed unit vector, whose norm errs by at most 5 u, to a true norm of at most 1.
+constexpr float kUnitShrinkOfFloat = 1.0f - 8.0f * kUnitRoundoffOfFloat;
+/// Past the rounding of a step's formula: at most ten roundings of terms of one sign.
+constexpr float kStepShrinkOfFloat = 1.0f - 16.0f * kUnitRoundoffOfFloat;
+/// Past the rounding of time + step, both at most 2: half a unit in the last place of 2, doubled.
+constexpr float kTimeRounding = 0x1p-22f;
+/// Keeps divisors away from zero where a feature has no extent; they only propose.
+constexpr float kTiny = 1e-30f;
+/// A distance of closest points below this share of the squared extent (a length; extents are of
+/// the order of metres) has so noisy a direction that the features' own normal is tried as well.
+constexpr float kNoisyDistance = 0.1f;
+
+template <class V>
+struct Point {
+  V x, y, z;
+};
+template <class V>
+HWY_INLINE Point<V> sub(const Point<V>& p, const Point<V>& q) {
+  return {hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
+}
+template <class V>
+HWY_INLINE V dot(const Point<V>& p, const Point<V>& q) {
+  return hn::MulAdd(p.z, q.z, hn::MulAdd(p.y, q.y, hn::Mul(p.x, q.x)));
+}
+template <class V>
+HWY_INLINE Point<V> cross(const Point<V>& p, const Point<V>& q) {
+  return {hn::NegMulAdd(p.z, q.y, hn::Mul(p.y, q.z)), hn::NegMulAdd(p.x, q.z, hn::Mul(p.z, q.x)),
+          hn::NegMulAdd(p.y, q.x, hn::Mul(p.x, q.y))};
+}
+/// p + s q
+template <class V>
+HWY_INLINE Point<V> along(const Point<V>& p, V s, const Point<V>& q) {
+  return {hn::MulAdd(s, q.x, p.x), hn::MulAdd(s, q.y, p.y), hn::MulAdd(s, q.z, p.z)};
+}
+template <class V>
+HWY_INLINE Point<V> scaled(V s, const Point<V>& p) {
+  return {hn::Mul(s, p.x), hn::Mul(s, p.y), hn::Mul(s, p.z)};
+}
+template <class M, class V>
+HWY_INLINE Point<V> select(M mask, const Point<V>& yes, const Point<V>& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
+}
+/// An approximate 1/x, x > 0: for proposals only.
+template <class V>
+HWY_INLINE V roughInverse(V x) {
+  const V y = hn::ApproximateReciprocal(x);
+  const hn::DFromV<V> d;
+  return hn::Mul(y, hn::NegMulAdd(x, y, hn::Set(d, 2.0f)));
+}
+template <class V>
+HWY_INLINE V clamp01(V x) {
+  const hn::DFromV<V> d;
+  return hn::Min(hn::Max(x, hn::Zero(d)), hn::Set(d, 1.0f));
+}
+
+/// Point and derivative of one axis end at the lanes' times.
+template <class V>
+struct Moving {
+  Point<V> position, velocity;
+};
+template <class V>
+HWY_INLINE void evaluate(const float (&c)[8], V u, V& position, V& velocity) {
+  const hn::DFromV<V> d;
+  V p = hn::Set(d, c[7]), v = hn::Set(d, c[7]);
+  p = hn::MulAdd(p, u, hn::Set(d, c[6]));
+  for (int k = 5; k >= 0; --k) {
+    v = hn::MulAdd(v, u, p);
+    p = hn::MulAdd(p, u, hn::Set(d, c[k]));
+  }
+  position = p;
+  velocity = v;
+}
+template <class V>
+HWY_INLINE Moving<V> endAt(const float (&c)[3][8], V u) {
+  Moving<V> end;
+  evaluate(c[0], u, end.position.x, end.velocity.x);
+  evaluate(c[1], u, end.position.y, end.velocity.y);
+  evaluate(c[2], u, end.position.z, end.velocity.z);
+  return end;
+}
+
+/// What one evaluation tells of a lane.
+template <class D>
+struct Advance {
+  hn::Vec<D> gap;   // proven lower bound of the separation now
+  hn::Vec<D> next;  // proven apart by the floor until then
+  hn::Mask<D> handOver, inContact;
+};
+
+/// A plane: clearances of both ends above all the other side's points, and the ends' speeds away
+/// from it.
+template <class V>
+struct Plane {
+  V gapA, gapB, speedA, speedB;
+};
+
+/// Ends, bounds and tolerances, as both kernels use them.
+struct EndSteps {
+  const LaneLss& lss;
+  const LaneTolerances& tolerances;
+
+  /// Largest s with clearance + s*speed - acceleration*s^2/2 >= 0 throughout, rounded down.
+  template <class V>
+  static HWY_INLINE V safeStep(V clearance, V speed, float acceleration) {
+    const hn::DFromV<V> d;
+    const V bend = hn::Set(d, acceleration + kTiny);
+    const V root =
+        hn::Sqrt(hn::MulAdd(speed, speed, hn::Mul(hn::Mul(hn::Set(d, 2.0f), bend), clearance)));
+    // Two forms of the positive root, each a sum of terms of one sign.
+    const auto closing = hn::Le(speed, hn::Zero(d));
+    const V numerator =
+        hn::IfThenElse(closing, hn::Add(clearance, clearance), hn::Add(speed, root));
+    const V denominator = hn::IfThenElse(closing, hn::Sub(root, speed), bend);
+    return hn::Mul(hn::Set(d, kStepShrinkOfFloat), hn::Div(numerator, denominator));
+  }
+
+  template <class V>
+  HWY_INLINE Advance<hn::DFromV<V>> from(const Plane<V>& plane, V time) const {
+    const hn::DFromV<V> d;
+    Advance<hn::DFromV<V>> result;
+    result.gap = hn::Min(plane.gapA, plane.gapB);
+    const V floor = hn::Set(d, tolerances.floor);
+    const V slack = hn::Set(d, lss.speedSlack);
+    const V step = hn::Min(
+        safeStep(hn::Sub(plane.gapA, floor), hn::Sub(plane.speedA, slack), lss.accelerationA),
+        safeStep(hn::Sub(plane.gapB, floor), hn::Sub(plane.speedB, slack), lss.accelerationB));
+    const V next = hn::Sub(hn::Add(time, step), hn::Set(d, kTimeRounding));
+    // Written so that a lane that is not a number is handed over.
+    const auto goesOn =
+        hn::And(hn::Gt(result.gap, hn::Set(d, tolerances.handOver)), hn::Gt(next, time));
+    result.handOver = hn::Not(goesOn);
+    result.next = hn::IfThenElse(goesOn, next, time);
+    return result;
+  }
+};
+
+/// The unit direction of w, never longer than 1.
+template <class V>
+HWY_INLINE Point<V> direction(const Point<V>& w) {
+  const hn::DFromV<V> d;
+  const V norm = hn::Sqrt(hn::Max(dot(w, w), hn::Set(d, kTiny)));
+  return scaled(hn::Div(hn::Set(d, kUnitShrinkOfFloat), norm), w);
+}
+
+struct TriangleKernel {
+  const LaneLss& lss;
+  const LaneTolerances& tolerances;
+  static constexpr bool kFindsContact = true;
+
+  /// The closest points found so far: the difference from triangle to axis, and a direction that
+  /// the features themselves define.
+  template <class V>
+  struct Closest {
+    V squared;
+    Point<V> w, normal;
+    HWY_INLINE void offer(V candidate, const Point<V>& difference, const Point<V>& featureNormal) {
+      const auto nearer = hn::Lt(candidate, squared);
+      squared = hn::Min(candidate, squared);
+      w = select(nearer, difference, w);
+      normal = select(nearer, featureNormal, normal);
+    }
+  };
+
+  /// Closest points of the axis (from p, along d; p relative to the edge's origin) and an edge.
+  template <class V>
+  HWY_INLINE void offerEdge(const Point<V>& p, const Point<V>& axis, V squaredAxis,
+                            const Point<V>& edge, Closest<V>& best) const {
+    const hn::DFromV<V> d;
+    const V tiny = hn::Set(d, kTiny);
+    const V inverseAxis = hn::Set(d, lss.inverseSquaredLength);
+    const V squaredEdge = dot(edge, edge), mixed = dot(axis, edge);
+    const V onAxis = dot(axis, p), onEdge = dot(edge, p);
+    const V determinant = hn::NegMulAdd(mixed, mixed, hn::Mul(squaredAxis, squaredEdge));
+    V s = clamp01(hn::Mul(hn::NegMulAdd(onAxis, squaredEdge, hn::Mul(mixed, onEdge)),
+                          roughInverse(hn::Max(determinant, tiny))));
+    const V t =
+        clamp01(hn::Mul(hn::MulAdd(mixed, s, onEdge), roughInverse(hn::Max(squaredEdge, tiny))));
+    s = clamp01(hn::Mul(hn::MulSub(mixed, t, onAxis), inverseAxis));
+    const Point<V> w = along(along(p, s, axis), hn::Neg(t), edge);
+    best.offer(dot(w, w), w, cross(axis, edge));
+  }
+
+  /// The end p (relative to the face's origin) above the face's interior.
+  template <class V>
+  HWY_INLINE void offerFace(const Point<V>& p, const Point<V>& e1, const Point<V>& e2, V d00, V d01,
+                            V d11, V inverse, const Point<V>& normal, Closest<V>& best) const {
+    const hn::DFromV<V> d;
+    const V d20 = dot(p, e1), d21 = dot(p, e2);
+    const V beta = hn::Mul(hn::NegMulAdd(d01, d21, hn::Mul(d11, d20)), inverse);
+    const V gamma = hn::Mul(hn::NegMulAdd(d01, d20, hn::Mul(d00, d21)), inverse);
+    const V zero = hn::Zero(d);
+    const auto inside = hn::And(hn::And(hn::Ge(beta, zero), hn::Ge(gamma, zero)),
+                                hn::Le(hn::Add(beta, gamma), hn::Set(d, 1.0f)));
+    const Point<V> w = along(along(p, hn::Neg(beta), e1), hn::Neg(gamma), e2);
+    best.offer(hn::IfThenElse(inside, dot(w, w), hn::Set(d, 1e30f)), w, normal);
+  }
+
+  /// The plane with direction n just above the triangle: what it proves of both ends.
+  template <class V>
+  HWY_INLINE Plane<V> planeAlong(const Point<V>& n, const Moving<V>& a, const Moving<V>& b,
+                                 const Point<V> (&v)[3], V reach) const {
+    const V top = hn::Max(dot(n, v[0]), hn::Max(dot(n, v[1]), dot(n, v[2])));
+    return {hn::Sub(hn::Sub(dot(n, a.position), top), reach),
+            hn::Sub(hn::Sub(dot(n, b.position), top), reach), dot(n, a.velocity),
+            dot(n, b.velocity)};
+  }
+
+  template <class D>
+  HWY_INLINE Advance<D> operator()(D d, const LaneRows& rows, std::size_t i,
+                                   hn::Vec<D> time) const {
+    using V = hn::Vec<D>;
+    const Moving<V> a = endAt(lss.a, time), b = endAt(lss.b, time);
+    Point<V> v[3];
+    for (int corner = 0; corner < 3; ++corner) {
+      v[corner] = {hn::Load(d, rows.coordinates[3 * corner] + i),
+                   hn::Load(d, rows.coordinates[3 * corner + 1] + i),
+                   hn::Load(d, rows.coordinates[3 * corner + 2] + i)};
+    }
+    const V reach = hn::Load(d, rows.reach + i);
+    const Point<V> axis = sub(b.position, a.position);
+    const Point<V> e1 = sub(v[1], v[0]), e2 = sub(v[2], v[0]), e3 = sub(v[2], v[1]);
+    const Point<V> p = sub(a.position, v[0]), p3 = sub(a.position, v[1]);
+    const V squaredAxis = dot(axis, axis);
+    const Point<V> normal = cross(e1, e2);
+    const V d00 = dot(e1, e1), d01 = dot(e1, e2), d11 = dot(e2, e2);
+    const V inverse =
+        roughInverse(hn::Max(hn::NegMulAdd(d01, d01, hn::Mul(d00, d11)), hn::Set(d, kTiny)));
+
+    Closest<V> best{hn::Set(d, 1e30f), p, normal};
+    offerEdge(p, axis, squaredAxis, e1, best);
+    offerEdge(p, axis, squaredAxis, e2, best);
+    offerEdge(p3, axis, squaredAxis, e3, best);
+    offerFace(p, e1, e2, d00, d01, d11, inverse, normal, best);
+    offerFace(sub(b.position, v[0]), e1, e2, d00, d01, d11, inverse, normal, best);
+
+    Plane<V> plane = planeAlong(direction(best.w), a, b, v, reach);
+    // Of long features that are near, the difference of the closest points is a noisy direction.
+    const V extent = hn::Max(hn::Max(d00, d11), squaredAxis);
+    const V noise = hn::Mul(hn::Set(d, kNoisyDistance), extent);
+    if (!hn::AllTrue(d, hn::Gt(best.squared, hn::Mul(noise, noise)))) {
+      const auto away = hn::Ge(dot(best.normal, best.w), hn::Zero(d));
+      const Point<V> negative = scaled(hn::Set(d, -1.0f), best.normal);
+      const Plane<V> other =
+          planeAlong(direction(select(away, best.normal, negative)), a, b, v, reach);
+      const auto better = hn::Gt(hn::Min(other.gapA, other.gapB), hn::Min(plane.gapA, plane.gapB));
+      plane = {hn::IfThenElse(better, other.gapA, plane.gapA),
+               hn::IfThenElse(better, other.gapB, plane.gapB),
+               hn::IfThenElse(better, other.speedA, plane.speedA),
+               hn::IfThenElse(better, other.speedB, plane.speedB)};
+    }
+    Advance<D> result = EndSteps{lss, tolerances}.from(plane, time);
+    // Both points belong to their sets, so their distance bounds the separation from above.
+    const V spread = hn::MulAdd(hn::Set(d, 3.0f), reach, hn::Sqrt(best.squared));
+    const V upper = hn::MulSub(hn::Set(d, 1.0f + 0x1p-20f), spread, hn::Set(d, lss.contactShift));
+    result.inContact = hn::And(result.handOver, hn::Le(upper, hn::Set(d, tolerances.contact)));
+    return result;
+  }
+
+  template <class D, class M>
+  HWY_INLINE void keep(D d, const LaneRows& rows, std::size_t from, std::size_t to, M mask) const {
+    for (int k = 0; k < 9; ++k) {
+      hn::CompressStore(hn::Load(d, rows.coordinates[k] + from), mask, d, rows.coordinates[k] + to);
+    }
+    hn::CompressStore(hn::Load(d, rows.reach + from), mask, d, rows.reach + to);
+  }
+};
+
+/// The axis against the sphere around a cluster: coordinates 0 to 2 are its centre, and its radius
+/// is part of the reach.
+struct SphereKernel {
+  const LaneLss& lss;
+  const LaneTolerances& tolerances;
+  static constexpr bool kFindsContact = false;
+
+  template <class D>
+  HWY_INLINE Advance<D> operator()(D d, const LaneRows& rows, std::size_t i,
+                                   hn::Vec<D> time) const {
+    using V = hn::Vec<D>;
+    const Moving<V> a = endAt(lss.a, time), b = endAt(lss.b, time);
+    const Point<V> centre{hn::Load(d, rows.coordinates[0] + i),
+                          hn::Load(d, rows.coordinates[1] + i),
+                          hn::Load(d, rows.coordinates[2] + i)};
+    const V reach = hn::Load(d, rows.reach + i);
+    const Point<V> axis = sub(b.position, a.position), p = sub(a.position, centre);
+    const V s = clamp01(hn::Neg(hn::Mul(dot(axis, p), hn::Set(d, lss.inverseSquaredLength))));
+    const Point<V> n = direction(along(p, s, axis));
+    const V top = dot(n, centre);
+    const Plane<V> plane{hn::Sub(hn::Sub(dot(n, a.position), top), reach),
+                         hn::Sub(hn::Sub(dot(n, b.position), top), reach), dot(n, a.velocity),
+                         dot(n, b.velocity)};
+    Advance<D> result = EndSteps{lss, tolerances}.from(plane, time);
+    result.inContact = hn::FirstN(d, 0);
+    return result;
+  }
+
+  template <class D, class M>
+  HWY_INLINE void keep(D d, const LaneRows& rows, std::size_t from, std::size_t to, M mask) const {
+    for (int k = 0; k < 3; ++k) {
+      hn::CompressStore(hn::Load(d, rows.coordinates[k] + from), mask, d, rows.coordinates[k] + to);
+    }
+    hn::CompressStore(hn::Load(d, rows.reach + from), mask, d, rows.reach + to);
+  }
+};
+
+/// Reads the pairs, steps each, and keeps in place those that go on. A round is one evaluation of
+/// every pair that is left.
+template <class D, class Kernel>
+std::uint64_t advanceAll(D d, const Kernel& kernel, int maxRounds, const LaneRows& rows,
+                         std::size_t count, float& best, const HandedRows& handed,
+                         std::size_t& handedCount) {
+  const hn::RebindToSigned<D> di;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto end = hn::Set(d, 1.0f);
+  std::uint64_t evaluations = 0;
+  for (int round = 1; count > 0; ++round) {
+    std::size_t kept = 0;
+    evaluations += count;
+    for (std::size_t i = 0; i < count; i += lanes) {
+      const auto valid = hn::FirstN(d, count - i);
+      const auto time = hn::Load(d, rows.time + i);
+      const auto key = hn::Load(di, rows.key + i);
+      const Advance<D> step = kernel(d, rows, i, time);
+      const auto sure = hn::And(valid, step.inContact);
+      if (!hn::AllFalse(d, sure)) {
+        const auto times = hn::MinOfLanes(d, hn::IfThenElse(sure, time, end));
+        const float earliest = hn::GetLane(times);
+        if (earliest < best) best = earliest;
+      }
+      // Through, or later than the first contact: nothing left to tell. Equal times stay.
+      const auto over = hn::Or(hn::Gt(step.next, hn::Set(d, best)), hn::Ge(step.next, end));
+      const auto left = hn::AndNot(over, valid);
+      const auto hand = round == maxRounds ? left : hn::And(left, step.handOver);
+      const auto goesOn = hn::AndNot(hand, left);
+      hn::CompressStore(step.next, hand, d, handed.time + handedCount);
+      hn::CompressStore(hn::IfThenElse(step.handOver, step.gap, hn::Zero(d)), hand, d,
+                        handed.gap + handedCount);
+      handedCount += hn::CompressStore(key, hn::RebindMask(di, hand), di, handed.key + handedCount);
+      kernel.keep(d, rows, i, kept, goesOn);
+      hn::CompressStore(step.next, goesOn, d, rows.time + kept);
+      kept += hn::CompressStore(key, hn::RebindMask(di, goesOn), di, rows.key + kept);
+    }
+    count = kept;
+  }
+  return evaluations;
+}
+
+}  // namespace foretouch::internal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,205 @@
+#include "middleware/lanes/lss_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "middleware/culler.h"
+
+#ifndef FORETOUCH_LANES_LSS_PAIRS_ROWS
+#define FORETOUCH_LANES_LSS_PAIRS_ROWS
+namespace foretouch::internal {
+/// Where the rows of PairLanes begin.
+struct LaneRows {
+  float* coordinates[9];
+  float* reach;
+  float* time;
+  std::int32_t* key;
+};
+/// Where what is handed over is appended.
+struct HandedRows {
+  std::int32_t* key;
+  float* time;
+  float* gap;
+};
+}  // namespace foretouch::internal
+#endif
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "middleware/lanes/lss_pairs.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "middleware/lanes/lss_pairs-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace foretouch::internal::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What is left after so many rounds goes to the scalar code, which is always right; ordinary pairs
+/// need fewer than ten.
+constexpr int kMaxRounds = 48;
+
+std::uint64_t triangleRounds(const LaneLss& lss, const LaneTolerances& tolerances,
+                             const LaneRows& rows, std::size_t count, float& best,
+                             const HandedRows& handed, std::size_t& handedCount) {
+  const hn::CappedTag<float, kMaxLanes> d;
+  return advanceAll(d, TriangleKernel{lss, tolerances}, kMaxRounds, rows, count, best, handed,
+                    handedCount);
+}
+
+std::uint64_t sphereRounds(const LaneLss& lss, const LaneTolerances& tolerances, int maxRounds,
+                           const LaneRows& rows, std::size_t count, float best,
+                           const HandedRows& handed, std::size_t& handedCount) {
+  const hn::CappedTag<float, kMaxLanes> d;
+  return advanceAll(d, SphereKernel{lss, tolerances}, maxRounds, rows, count, best, handed,
+                    handedCount);
+}
+
+}  // namespace foretouch::internal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace foretouch::internal {
+namespace {
+
+HWY_EXPORT(triangleRounds);
+HWY_EXPORT(sphereRounds);
+
+constexpr double kU = 0x1p-24;
+/// Roundings of a plane's arithmetic per metre of extent, and of the vertices' own subtraction
+/// (lss_pairs.md 2).
+constexpr double kPlaneRounding = 12.0 * kU;
+
+std::size_t roundedUp(std::size_t count) {
+  return (count + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
+}
+
+/// Bound on the norm of the end over u in [-1,1]: the sum of the coefficients' norms.
+double extentOf(const float (&c)[3][8]) {
+  double squared = 0.0;
+  for (const auto& row : c) {
+    double sum = 0.0;
+    for (const float x : row) sum += std::abs(static_cast<double>(x));
+    squared += sum * sum;
+  }
+  return std::sqrt(squared);
+}
+
+/// Bound on what the Horner scheme loses of the derivative: every coefficient takes part in at most
+/// 16 roundings (lss_pairs.md 3).
+double derivativeRounding(const float (&c)[3][8]) {
+  double squared = 0.0;
+  for (const auto& row : c) {
+    double sum = 0.0;
+    for (int k = 1; k < 8; ++k) sum += k * std::abs(static_cast<double>(row[k]));
+    squared += sum * sum;
+  }
+  return 20.0 * kU * std::sqrt(squared);
+}
+
+}  // namespace
+
+LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius) {
+  LaneLss lane{};
+  std::copy_n(&polynomials.a[0][0], 24, &lane.a[0][0]);
+  std::copy_n(&polynomials.b[0][0], 24, &lane.b[0][0]);
+  lane.radius = polynomials.radius;
+  lane.accelerationA = polynomials.accelerationA;
+  lane.accelerationB = polynomials.accelerationB;
+  const double speed = std::max<double>(polynomials.speedA, polynomials.speedB);
+  lane.speedSlack = floatAbove(4.0 * kU * speed +
+                               std::max(derivativeRounding(lane.a), derivativeRounding(lane.b)));
+  lane.extent = floatAbove(std::max(extentOf(lane.a), extentOf(lane.b)));
+  lane.contactShift = floatBelow(2.0 * (static_cast<double>(lane.radius) + lssRadius));
+  double squaredLength = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double along = static_cast<double>(lane.b[axis][0]) - lane.a[axis][0];
+    squaredLength += along * along;
+  }
+  lane.inverseSquaredLength = static_cast<float>(1.0 / std::max(squaredLength, 1e-30));
+  return lane;
+}
+
+void PairLanes::reserve(std::size_t extra) {
+  const std::size_t wanted = roundedUp(count_ + extra) + kMaxLanes;
+  if (wanted <= capacity_) return;
+  const std::size_t grown = std::max(wanted, roundedUp(2 * capacity_));
+  std::vector<float> rows(kRows * grown);
+  for (std::size_t k = 0; k < kRows; ++k) {
+    std::copy_n(data_.data() + k * capacity_, count_, rows.data() + k * grown);
+  }
+  data_.swap(rows);
+  keys_.resize(grown);
+  capacity_ = grown;
+}
+
+void PairLanes::add(float reach, float start, std::int32_t key) {
+  data_[9 * capacity_ + count_] = reach;
+  data_[10 * capacity_ + count_] = start;
+  keys_[count_] = key;
+  ++count_;
+}
+
+void PairLanes::addTriangle(const LaneLss& lss, const float* vertices, std::size_t stride,
+                            const std::array<float, 3>& origin, double vertexRounding, float start,
+                            std::int32_t key) {
+  float largest = 0.0F;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const float x = vertices[k * stride] - origin[k % 3];
+    data_[k * capacity_ + count_] = x;
+    largest = std::max(largest, std::abs(x));
+  }
+  const double extent = lss.extent + std::sqrt(3.0) * largest;
+  add(floatAbove(lss.radius + vertexRounding + kPlaneRounding * (extent + lss.radius)), start, key);
+}
+
+void PairLanes::addSphere(const LaneLss& lss, const float* centre, float radius,
+                          const std::array<float, 3>& origin, float start, std::int32_t key) {
+  float largest = 0.0F;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float x = centre[k] - origin[k];
+    data_[k * capacity_ + count_] = x;
+    largest = std::max(largest, std::abs(x));
+  }
+  const double extent = lss.extent + std::sqrt(3.0) * largest, reach = double{lss.radius} + radius;
+  add(floatAbove(reach + kPlaneRounding * (extent + reach)), start, key);
+}
+
+HandedRows PairLanes::room(HandedOver& handed) const {
+  const std::size_t needed = handed.count + count_ + kMaxLanes;
+  if (handed.key.size() < needed) {
+    handed.key.resize(2 * needed);
+    handed.time.resize(2 * needed);
+    handed.gap.resize(2 * needed);
+  }
+  return {handed.key.data(), handed.time.data(), handed.gap.data()};
+}
+
+LaneRows PairLanes::rows() {
+  LaneRows rows{};
+  for (std::size_t k = 0; k < 9; ++k) rows.coordinates[k] = data_.data() + k * capacity_;
+  rows.reach = data_.data() + 9 * capacity_;
+  rows.time = data_.data() + 10 * capacity_;
+  rows.key = keys_.data();
+  return rows;
+}
+
+std::uint64_t PairLanes::advanceTriangles(const LaneLss& lss, const LaneTolerances& tolerances,
+                                          float& best, HandedOver& handed) {
+  const HandedRows room = this->room(handed);
+  const std::size_t count = std::exchange(count_, 0);
+  return HWY_DYNAMIC_DISPATCH(triangleRounds)(lss, tolerances, rows(), count, best, room,
+                                              handed.count);
+}
+
+std::uint64_t PairLanes::advanceSpheres(const LaneLss& lss, const LaneTolerances& tolerances,
+                                        int rounds, float best, HandedOver& handed) {
+  const HandedRows room = this->room(handed);
+  const std::size_t count = std::exchange(count_, 0);
+  return HWY_DYNAMIC_DISPATCH(sphereRounds)(lss, tolerances, rounds, rows(), count, best, room,
+                                            handed.count);
+}
+
+}  // namespace foretouch::internal
+#endif

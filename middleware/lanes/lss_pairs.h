@@ -1,0 +1,89 @@
+// middleware/lanes/lss_pairs.h: conservative advancement of one moving LSS against many triangles,
+// or against spheres around clusters of triangles, each pair in a float lane at its own time. What
+// lanes prove they prove with rounding included (lss_pairs.md); what they cannot decide is handed
+// over to the scalar code in doubles. Lengths in metres, times as the polynomials' u in [-1,1],
+// derivatives per unit of u. Not installed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tessellation/lss_polynomials.h"
+
+namespace foretouch::internal {
+
+/// Floats in the widest vector used.
+inline constexpr std::size_t kMaxLanes = 16;
+
+/// One moving LSS as the kernels take it, relative to its polynomials' origin.
+struct LaneLss {
+  float a[3][8], b[3][8];  ///< Coefficients of 1, u, .. u^7 of the axis ends.
+  float radius;            ///< The LSS's with all that is uncertain about the ends, rounded up.
+  float contactShift;      ///< Twice the sum of both radii, with it and without, rounded down.
+  float accelerationA, accelerationB;
+  float speedSlack;            ///< What rounding may do to a speed along a unit direction.
+  float extent;                ///< |a(u)| and |b(u)| are at most this.
+  float inverseSquaredLength;  ///< Of the axis, as computed: only proposes.
+};
+/// `lssRadius`: of the LSS itself.
+[[nodiscard]] LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius);
+
+/// The separations (m) at which lanes change their mind; floor < handOver.
+struct LaneTolerances {
+  float floor;     ///< No step goes below this.
+  float handOver;  ///< Where no more than this is proven, the scalar code takes over.
+  float contact;   ///< Where no more than this is left for certain, the scalar code finds contact.
+};
+
+/// What the lanes leave, in no order: pairs proven apart (by the floor, after the first instant)
+/// before `time`, where the scalar code has to look. Rows are longer than `count`.
+struct HandedOver {
+  std::vector<std::int32_t> key;
+  std::vector<float> time;
+  std::vector<float> gap;  ///< A lower bound of the separation at `time`, or 0 where none is known.
+  std::size_t count = 0;
+};
+
+struct LaneRows;
+struct HandedRows;
+
+/// Pairs of one LSS as structure of arrays; memory is kept.
+class PairLanes {
+ public:
+  [[nodiscard]] std::size_t count() const { return count_; }
+  /// Room for `extra` more pairs; to be called before they are added.
+  void reserve(std::size_t extra);
+
+  /// A triangle: coordinate k = 3*corner + axis at vertices[k*stride], in the frame in which
+  /// `origin` is the polynomials' origin; each vertex off by at most `vertexRounding`. The pair is
+  /// known to be apart before `start`.
+  void addTriangle(const LaneLss& lss, const float* vertices, std::size_t stride,
+                   const std::array<float, 3>& origin, double vertexRounding, float start,
+                   std::int32_t key);
+  /// A sphere that contains a cluster's triangles, rounding included.
+  void addSphere(const LaneLss& lss, const float* centre, float radius,
+                 const std::array<float, 3>& origin, float start, std::int32_t key);
+
+  /// Advances every pair until it is through (u = 1), handed over, or past `best`: the least time
+  /// known at which some pair is in contact for certain, lowered as such are found. Leaves no
+  /// pairs. Returns the number of evaluations.
+  std::uint64_t advanceTriangles(const LaneLss& lss, const LaneTolerances& tolerances, float& best,
+                                 HandedOver& handed);
+  /// At most `rounds` steps of every pair; all that are then not through are handed over.
+  std::uint64_t advanceSpheres(const LaneLss& lss, const LaneTolerances& tolerances, int rounds,
+                               float best, HandedOver& handed);
+
+ private:
+  static constexpr std::size_t kRows = 11;
+  void add(float reach, float start, std::int32_t key);
+  [[nodiscard]] HandedRows room(HandedOver& handed) const;
+  [[nodiscard]] LaneRows rows();
+
+  std::vector<float> data_;  // kRows rows of capacity_ floats: coordinates, reach, time
+  std::vector<std::int32_t> keys_;
+  std::size_t capacity_ = 0, count_ = 0;
+};
+
+}  // namespace foretouch::internal
