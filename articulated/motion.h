@@ -89,8 +89,8 @@ struct JointArc {
   double driftLength = 0.0;  ///< Bound on |drift|.
   JointId parent = kNoParent;
 
-  /// Bound on | |q| - 1 | of `from` and `to`: ten unit roundoffs (motion_bounds.md 3).
-  static constexpr double kUnitNormError = 10.0 * 0x1p-53;
+  /// Bound on | |q| - 1 | of `from` and `to`: twelve unit roundoffs (motion_bounds.md 3).
+  static constexpr double kUnitNormError = 12.0 * 0x1p-53;
 };
 
 /// The in-between motion of one skeleton from one validated pose to another. Constant between calls
@@ -124,10 +124,13 @@ class ChainMotion {
   [[nodiscard]] const JointArc& arc(LinkId link) const {
     return arcs_[static_cast<std::size_t>(link)];
   }
+  /// Of all joints' arcs; 0 where there are none.
+  [[nodiscard]] double largestVersine() const { return largestVersine_; }
 
  private:
   std::vector<JointArc> arcs_;
   std::vector<MotionBounds> bounds_;
+  double largestVersine_ = 0.0;
 };
 
 /// States of one motion after another, bit for bit those of ChainMotion, with the trigonometry that
