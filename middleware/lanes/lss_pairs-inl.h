@@ -183,11 +183,10 @@ struct TriangleKernel {
 
   /// Closest points of the axis (from p, along d; p relative to the edge's origin) and an edge.
   template <class V>
-  HWY_INLINE void offerEdge(const Point<V>& p, const Point<V>& axis, V squaredAxis,
+  HWY_INLINE void offerEdge(const Point<V>& p, const Point<V>& axis, V squaredAxis, V inverseAxis,
                             const Point<V>& edge, Closest<V>& best) const {
     const hn::DFromV<V> d;
     const V tiny = hn::Set(d, kTiny);
-    const V inverseAxis = hn::Set(d, lss.inverseSquaredLength);
     const V squaredEdge = dot(edge, edge), mixed = dot(axis, edge);
     const V onAxis = dot(axis, p), onEdge = dot(edge, p);
     const V determinant = hn::NegMulAdd(mixed, mixed, hn::Mul(squaredAxis, squaredEdge));
@@ -241,15 +240,16 @@ struct TriangleKernel {
     const Point<V> e1 = sub(v[1], v[0]), e2 = sub(v[2], v[0]), e3 = sub(v[2], v[1]);
     const Point<V> p = sub(a.position, v[0]), p3 = sub(a.position, v[1]);
     const V squaredAxis = dot(axis, axis);
+    const V inverseAxis = roughInverse(hn::Max(squaredAxis, hn::Set(d, kTiny)));
     const Point<V> normal = cross(e1, e2);
     const V d00 = dot(e1, e1), d01 = dot(e1, e2), d11 = dot(e2, e2);
     const V inverse =
         roughInverse(hn::Max(hn::NegMulAdd(d01, d01, hn::Mul(d00, d11)), hn::Set(d, kTiny)));
 
     Closest<V> best{hn::Set(d, 1e30f), p, normal};
-    offerEdge(p, axis, squaredAxis, e1, best);
-    offerEdge(p, axis, squaredAxis, e2, best);
-    offerEdge(p3, axis, squaredAxis, e3, best);
+    offerEdge(p, axis, squaredAxis, inverseAxis, e1, best);
+    offerEdge(p, axis, squaredAxis, inverseAxis, e2, best);
+    offerEdge(p3, axis, squaredAxis, inverseAxis, e3, best);
     offerFace(p, e1, e2, d00, d01, d11, inverse, normal, best);
     offerFace(sub(b.position, v[0]), e1, e2, d00, d01, d11, inverse, normal, best);
 
@@ -302,7 +302,8 @@ struct SphereKernel {
                           hn::Load(d, rows.coordinates[2] + i)};
     const V reach = hn::Load(d, rows.reach + i);
     const Point<V> axis = sub(b.position, a.position), p = sub(a.position, centre);
-    const V s = clamp01(hn::Neg(hn::Mul(dot(axis, p), hn::Set(d, lss.inverseSquaredLength))));
+    const V s = clamp01(
+        hn::Neg(hn::Mul(dot(axis, p), roughInverse(hn::Max(dot(axis, axis), hn::Set(d, kTiny))))));
     const Point<V> n = direction(along(p, s, axis));
     const V top = dot(n, centre);
     const Plane<V> plane{hn::Sub(hn::Sub(dot(n, a.position), top), reach),

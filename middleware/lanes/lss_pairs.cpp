@@ -112,12 +112,6 @@ LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius) {
                                std::max(derivativeRounding(lane.a), derivativeRounding(lane.b)));
   lane.extent = floatAbove(std::max(extentOf(lane.a), extentOf(lane.b)));
   lane.contactShift = floatBelow(2.0 * (static_cast<double>(lane.radius) + lssRadius));
-  double squaredLength = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double along = static_cast<double>(lane.b[axis][0]) - lane.a[axis][0];
-    squaredLength += along * along;
-  }
-  lane.inverseSquaredLength = static_cast<float>(1.0 / std::max(squaredLength, 1e-30));
   return lane;
 }
 
@@ -125,18 +119,21 @@ void PairLanes::reserve(std::size_t extra) {
   const std::size_t wanted = roundedUp(count_ + extra) + kMaxLanes;
   if (wanted <= capacity_) return;
   const std::size_t grown = std::max(wanted, roundedUp(2 * capacity_));
-  std::vector<float> rows(kRows * grown);
-  for (std::size_t k = 0; k < kRows; ++k) {
-    std::copy_n(data_.data() + k * capacity_, count_, rows.data() + k * grown);
-  }
-  data_.swap(rows);
-  keys_.resize(grown);
+  auto rows = hwy::AllocateAligned<float>(kRows * grown);
+  auto keys = hwy::AllocateAligned<std::int32_t>(grown);
+  // What pads a vector is read, and means nothing.
+  std::fill_n(rows.get(), kRows * grown, 0.0F);
+  std::fill_n(keys.get(), grown, 0);
+  for (std::size_t k = 0; k < kRows; ++k) std::copy_n(row(k), count_, rows.get() + k * grown);
+  std::copy_n(keys_.get(), count_, keys.get());
+  data_ = std::move(rows);
+  keys_ = std::move(keys);
   capacity_ = grown;
 }
 
 void PairLanes::add(float reach, float start, std::int32_t key) {
-  data_[9 * capacity_ + count_] = reach;
-  data_[10 * capacity_ + count_] = start;
+  row(9)[count_] = reach;
+  row(10)[count_] = start;
   keys_[count_] = key;
   ++count_;
 }
@@ -147,7 +144,7 @@ void PairLanes::addTriangle(const LaneLss& lss, const float* vertices, std::size
   float largest = 0.0F;
   for (std::size_t k = 0; k < 9; ++k) {
     const float x = vertices[k * stride] - origin[k % 3];
-    data_[k * capacity_ + count_] = x;
+    row(k)[count_] = x;
     largest = std::max(largest, std::abs(x));
   }
   const double extent = lss.extent + std::sqrt(3.0) * largest;
@@ -159,7 +156,7 @@ void PairLanes::addSphere(const LaneLss& lss, const float* centre, float radius,
   float largest = 0.0F;
   for (std::size_t k = 0; k < 3; ++k) {
     const float x = centre[k] - origin[k];
-    data_[k * capacity_ + count_] = x;
+    row(k)[count_] = x;
     largest = std::max(largest, std::abs(x));
   }
   const double extent = lss.extent + std::sqrt(3.0) * largest, reach = double{lss.radius} + radius;
@@ -178,10 +175,10 @@ HandedRows PairLanes::room(HandedOver& handed) const {
 
 LaneRows PairLanes::rows() {
   LaneRows rows{};
-  for (std::size_t k = 0; k < 9; ++k) rows.coordinates[k] = data_.data() + k * capacity_;
-  rows.reach = data_.data() + 9 * capacity_;
-  rows.time = data_.data() + 10 * capacity_;
-  rows.key = keys_.data();
+  for (std::size_t k = 0; k < 9; ++k) rows.coordinates[k] = row(k);
+  rows.reach = row(9);
+  rows.time = row(10);
+  rows.key = keys_.get();
   return rows;
 }
 

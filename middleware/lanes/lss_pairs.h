@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <hwy/aligned_allocator.h>
 #include <vector>
 
 #include "tessellation/lss_polynomials.h"
@@ -23,9 +24,8 @@ struct LaneLss {
   float radius;            ///< The LSS's with all that is uncertain about the ends, rounded up.
   float contactShift;      ///< Twice the sum of both radii, with it and without, rounded down.
   float accelerationA, accelerationB;
-  float speedSlack;            ///< What rounding may do to a speed along a unit direction.
-  float extent;                ///< |a(u)| and |b(u)| are at most this.
-  float inverseSquaredLength;  ///< Of the axis, as computed: only proposes.
+  float speedSlack;  ///< What rounding may do to a speed along a unit direction.
+  float extent;      ///< |a(u)| and |b(u)| are at most this.
 };
 /// `lssRadius`: of the LSS itself.
 [[nodiscard]] LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius);
@@ -81,8 +81,10 @@ class PairLanes {
   [[nodiscard]] HandedRows room(HandedOver& handed) const;
   [[nodiscard]] LaneRows rows();
 
-  std::vector<float> data_;  // kRows rows of capacity_ floats: coordinates, reach, time
-  std::vector<std::int32_t> keys_;
+  [[nodiscard]] float* row(std::size_t k) const { return data_.get() + k * capacity_; }
+
+  hwy::AlignedFreeUniquePtr<float[]> data_;  // kRows rows: coordinates, reach, time
+  hwy::AlignedFreeUniquePtr<std::int32_t[]> keys_;
   std::size_t capacity_ = 0, count_ = 0;
 };
 
