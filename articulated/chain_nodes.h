@@ -4,7 +4,6 @@
 // (tessellation/lss_polynomials.h). Rounding: articulated/chain_nodes.md.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,7 +40,7 @@ class ChainNodes {
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
   /// The instants of the frames, as doubles: within 2^-52 of begin + (end-begin)*time(k); the first
   /// and the last are begin and end.
-  [[nodiscard]] double instant(int k) const { return instants_[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] double instant(int k) const { return instants_[k]; }
   [[nodiscard]] const LinkNodes& link(LinkId link) const {
     return nodes_[static_cast<std::size_t>(link)];
   }
@@ -63,9 +62,13 @@ class ChainNodes {
   [[nodiscard]] static double time(int k);
 
  private:
-  /// Row after row for ascending powers of a joint's versine; a row holds all nodes.
+  /// Coefficients of one power of a joint's versine, for all nodes.
+  struct alignas(64) Row {
+    double at[kNodes];
+  };
+  /// Of slerp's weights of both ends; ascending powers.
   struct Weights {
-    std::vector<std::array<double, kNodes>> from, to;
+    std::vector<Row> from, to;
   };
   struct Rounding {
     double quaternion = 0.0, rotation = 0.0, position = 0.0, reach = 0.0;
@@ -77,7 +80,7 @@ class ChainNodes {
   std::int32_t numLinks_ = 0;
   double begin_ = 0.0, end_ = 0.0;  // an empty span: no instants yet
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  std::array<double, kNodes> instants_{};
+  alignas(64) double instants_[kNodes] = {};
   Weights weights_;
   std::vector<LinkNodes> nodes_;
   std::vector<Rounding> roundings_;
