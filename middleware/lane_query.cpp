@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <tuple>
 
 #include "lss/assert.h"
 #include "middleware/scene_internal.h"
@@ -93,16 +94,59 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
   for (std::int32_t lss = 0; lss < table.size(); ++lss) {
     if (lanes_.isAsked[static_cast<std::size_t>(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
   }
-  BoxLanes boxes;
-  boxes.count = lanes_.boxes.count;
-  for (int axis = 0; axis < 3; ++axis) {
-    boxes.lower[axis] = lanes_.boxes.lower[axis];
-    boxes.upper[axis] = lanes_.boxes.upper[axis];
-  }
   lanes_.hits.clear();
-  bvh_.collectLeaves(boxes, lanes_.hits, counters.nodes, counters.leaves);
+  if (options_.culler == Culler::FlatBvh) {
+    BoxLanes boxes;
+    boxes.count = lanes_.boxes.count;
+    for (int axis = 0; axis < 3; ++axis) {
+      boxes.lower[axis] = lanes_.boxes.lower[axis];
+      boxes.upper[axis] = lanes_.boxes.upper[axis];
+    }
+    bvh_.collectLeaves(boxes, lanes_.hits, counters.nodes, counters.leaves);
+  } else {
+    collectByCuller(counters);
+  }
   sortHits();
   return !lanes_.hits.empty();
+}
+
+/// What the reference culler finds, as hits of the tree's leaves.
+void LaneQuery::collectByCuller(QueryCounters& counters) {
+  const Eigen::Vector3d& origin = scene_.parts().origin;
+  for (std::int32_t lss = 0; lss < lanes_.boxes.count; ++lss) {
+    Aabb box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = origin[axis] + static_cast<double>(lanes_.boxes.lower[axis][lss]);
+      box.max[axis] = origin[axis] + static_cast<double>(lanes_.boxes.upper[axis][lss]);
+    }
+    if (!(box.min.x() <= box.max.x())) continue;
+    box.grow(0.0);
+    scratch_.found.clear();
+    culler_.collect(box, scratch_.found, counters.nodes);
+    for (const TriangleId id : scratch_.found) {
+      const FlatBvh::Slot slot = bvh_.slotOf(id);
+      lanes_.hits.push_back({slot.leaf, static_cast<std::uint16_t>(lss),
+                             static_cast<std::uint8_t>(1U << slot.place)});
+    }
+  }
+  mergeHits();
+}
+
+/// One hit a leaf and LSS.
+void LaneQuery::mergeHits() {
+  auto& hits = lanes_.hits;
+  std::sort(hits.begin(), hits.end(), [](const LeafHit& x, const LeafHit& y) {
+    return std::tie(x.box, x.leaf) < std::tie(y.box, y.leaf);
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (kept > 0 && hits[kept - 1].box == hits[i].box && hits[kept - 1].leaf == hits[i].leaf) {
+      hits[kept - 1].triangles |= hits[i].triangles;
+    } else {
+      hits[kept++] = hits[i];
+    }
+  }
+  hits.resize(kept);
 }
 
 /// By LSS, otherwise in the order of the walk (counting sort).
@@ -180,7 +224,7 @@ void LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counter
   if (begin == end) return;
   const LssTable::Entry& entry = lanes_.table[lss];
   const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes);
-  const LaneLss lane = laneLss(polynomials, entry.lss.radius);
+  const LaneLss lane = laneLss(polynomials, entry.radius);
   std::array<float, 3> origin;
   for (std::size_t k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);
   lanes_.pairs.reserve(end - begin);

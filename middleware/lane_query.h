@@ -25,6 +25,8 @@ class LaneQuery {
   void findWhoIsAsked();
   /// Of all LSS in the slab at hand; false if there are none.
   [[nodiscard]] bool collectHits(QueryCounters& counters);
+  void collectByCuller(QueryCounters& counters);
+  void mergeHits();
   void sortHits();
   [[nodiscard]] LinkContact answer(LinkId link, QueryCounters& counters);
   [[nodiscard]] LinkContact answerWith(LinkId link, const LinkSurface* surface, float certain,

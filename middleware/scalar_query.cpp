@@ -124,11 +124,19 @@ class StepQuery {
         if (scratch_.ignored.has(scene_.object(id))) continue;
         const std::uint32_t meets = piecesMeeting(own, count, boxOf(scene_.triangle(id)));
         if (meets == 0) continue;
-        scratch_.candidates.push_back(
-            {id, 0, meets, 0.0, 0.0, Part::of(HierarchyChild::triangle(i))});
+        addCandidate(id, 0, meets, Part::of(HierarchyChild::triangle(i)));
       }
     }
     counters.candidates += scratch_.candidates.size();
+  }
+
+  void addCandidate(TriangleId triangle, std::int32_t lss, std::uint32_t pieces, Part part) {
+    Candidate candidate;
+    candidate.triangle = triangle;
+    candidate.lss = lss;
+    candidate.pieces = pieces;
+    candidate.part = part;
+    scratch_.candidates.push_back(candidate);
   }
 
   /// Bit k: the k-th of `count` boxes meets `box`.
@@ -178,7 +186,7 @@ class StepQuery {
       for (std::int32_t lss = 0; lss < numLss; ++lss) {
         const std::uint32_t meets = piecesMeeting(boxes.data() + lss * count, count, box);
         if (meets != 0) {
-          scratch_.candidates.push_back({id, lss, meets, 0.0, 0.0, Part::whole()});
+          addCandidate(id, lss, meets, Part::whole());
         }
       }
     }
