@@ -1,62 +1,17 @@
-// tessellation/lss_polynomials.h: what an avatar's LSS cover while they move, as certified boxes
-// and certified polynomials: single precision for the lanes that use them, with every error (of
-// interpolation, of rounding, of evaluation) proved in tessellation/lss_polynomials.md and counted
-// into radii and boxes. Metres. Source: [Kim07] for the tessellated sweep of an LSS.
+// tessellation/lss_polynomials.h: what an LSS and a frame do over a span of a motion, as certified
+// polynomials: single precision for the lanes that use them, with every error (of interpolation, of
+// rounding, of evaluation) proved in tessellation/lss_polynomials.md and counted in. Metres.
+// Source: [Kim07] for the tessellated sweep of an LSS.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "articulated/avatar.h"
 #include "articulated/chain_nodes.h"
 #include "articulated/motion.h"
-#include "lss/lss.h"
+#include "tessellation/lss_table.h"
 
 namespace foretouch {
 
 /// Coefficients of a polynomial through the values at kNodes instants.
 inline constexpr int kCoefficients = kNodes;
-
-/// All LSS of an avatar in link order, with what every step asks of them. Immutable.
-class LssTable {
- public:
-  struct Entry {
-    Lss lss;
-    LinkId link = -1;
-    double rhoA = 0.0, rhoB = 0.0;  ///< |a| and |b|, rounded up.
-  };
-
-  LssTable() = default;
-  explicit LssTable(const Avatar& avatar);
-
-  [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(entries_.size()); }
-  [[nodiscard]] const Entry& operator[](std::int32_t lss) const {
-    return entries_[static_cast<std::size_t>(lss)];
-  }
-  /// The link's LSS are [first(link), first(link + 1)).
-  [[nodiscard]] std::int32_t first(LinkId link) const {
-    return first_[static_cast<std::size_t>(link)];
-  }
-  [[nodiscard]] std::int32_t numLinks() const {
-    return static_cast<std::int32_t>(first_.size()) - 1;
-  }
-  /// Largest rhoA or rhoB of the link's LSS; 0 where it has none.
-  [[nodiscard]] double rho(LinkId link) const { return rho_[static_cast<std::size_t>(link)]; }
-
- private:
-  std::vector<Entry> entries_;
-  std::vector<std::int32_t> first_{0};
-  std::vector<double> rho_;
-};
-
-/// Bound on the distance of a link's point at distance `rho` from the link's origin to the
-/// polynomial of degree 7 through its positions at the nodes of a span of length `span` (of t):
-/// interpolation alone, in exact arithmetic.
-[[nodiscard]] double interpolationError(const MotionBounds& bounds, double rho, double span);
-
-/// The least of 1, 2, 4, 8, 16 equal spans of [0,1] for which interpolationError() of every LSS is
-/// at most `wantedError` (m); 16 where none is. O(links).
-[[nodiscard]] int slabsFor(const LssTable& table, const ChainMotion& motion, double wantedError);
 
 /// One LSS over a span, by polynomials in u = 2(t - begin)/(end - begin) - 1 in [-1,1].
 /// Promise: for every float u in [-1,1], every point of the true LSS at the instant that u stands
@@ -91,37 +46,5 @@ struct alignas(64) FramePolynomials {
 
 [[nodiscard]] FramePolynomials framePolynomialsOf(LinkId link, const ChainMotion& motion,
                                                   const ChainNodes& nodes);
-
-/// Boxes of floats, one lane an LSS in the table's order, as structure of arrays. Lanes from
-/// `count` to `capacity` are empty boxes (lower +inf, upper -inf). Memory is kept.
-struct SweptBoxes {
-  static constexpr std::int32_t kPadding = 16;  ///< Capacity is a multiple of it.
-  std::int32_t count = 0, capacity = 0;
-  float* lower[3] = {nullptr, nullptr, nullptr};  ///< [axis][lss], each aligned to 64 bytes.
-  float* upper[3] = {nullptr, nullptr, nullptr};
-
-  SweptBoxes() = default;
-  SweptBoxes(const SweptBoxes&) = delete;
-  SweptBoxes& operator=(const SweptBoxes&) = delete;
-  void resize(std::int32_t newCount);
-
- private:
-  std::vector<float> storage_;
-};
-
-/// The float box of every LSS over the whole span of `nodes`, grown by `margin` (m), relative to
-/// the origin of the nodes, rounded outward. O(LSS).
-void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
-                double margin, SweptBoxes& boxes);
-
-/// Pieces of a span: between neighbouring nodes.
-inline constexpr int kNodePieces = kNodes - 1;
-/// Boxes of the pieces of one LSS: lower[axis][piece]; the eighth lane is an empty box.
-struct alignas(64) PieceBoxes {
-  float lower[3][kNodes], upper[3][kNodes];
-};
-/// The float boxes of one LSS between neighbouring nodes, as sweptBoxes().
-[[nodiscard]] PieceBoxes pieceBoxes(const LssTable::Entry& entry, const ChainMotion& motion,
-                                    const ChainNodes& nodes, double margin);
 
 }  // namespace foretouch

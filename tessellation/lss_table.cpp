@@ -1,0 +1,68 @@
+#include "tessellation/lss_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "articulated/chain_nodes.h"
+
+namespace foretouch {
+namespace {
+
+/// Covers the rounding of norms and of the bounds' own few operations.
+constexpr double kInflation = 1.0 + 1e-12;
+
+/// On |product of (u - u_k)| / 8! over u in [-1,1], u_k the eight Chebyshev-Lobatto points: the
+/// product is sin(x)*sin(7x)/64 at u = cos(x) (lss_polynomials.md 1).
+constexpr double kNodePolynomial = 1.0 / (64.0 * 40320.0);
+
+LssTable::Entry entryOf(const Lss& lss, LinkId link) {
+  LssTable::Entry entry{};
+  for (int i = 0; i < 3; ++i) {
+    entry.a[i] = lss.a[i];
+    entry.b[i] = lss.b[i];
+  }
+  entry.radius = lss.radius;
+  entry.rhoA = lss.a.norm() * kInflation;
+  entry.rhoB = lss.b.norm() * kInflation;
+  entry.link = link;
+  return entry;
+}
+
+}  // namespace
+
+LssTable::LssTable(const Avatar& avatar) {
+  entries_.reserve(static_cast<std::size_t>(avatar.numLss()));
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    double rho = 0.0;
+    for (const Lss& lss : avatar.lss(link)) {
+      entries_.push_back(entryOf(lss, link));
+      rho = std::max({rho, entries_.back().rhoA, entries_.back().rhoB});
+    }
+    rho_.push_back(rho);
+    first_.push_back(size());
+  }
+}
+
+double interpolationError(const MotionBounds& bounds, double rho, double span) {
+  // d/du is span/2 times d/dt.
+  const double half = 0.5 * span, square = half * half, fourth = square * square;
+  return bounds.eighthDerivativeAt(rho) * kNodePolynomial * fourth * fourth * kInflation;
+}
+
+int slabsFor(const LssTable& table, const ChainMotion& motion, double wantedError) {
+  constexpr int kMostSlabs = 16;
+  constexpr double kHalving = 256.0;  // the eighth power of two
+  double error = 0.0;
+  for (LinkId link = 0; link < table.numLinks(); ++link) {
+    if (table.first(link) == table.first(link + 1)) continue;
+    error = std::max(error, interpolationError(motion.bounds(link), table.rho(link), 1.0));
+  }
+  int slabs = 1;
+  while (slabs < kMostSlabs && error > wantedError) {
+    slabs *= 2;
+    error /= kHalving;
+  }
+  return slabs;
+}
+
+}  // namespace foretouch

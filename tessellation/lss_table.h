@@ -1,0 +1,56 @@
+// tessellation/lss_table.h: an avatar's LSS as one plain array, and into how many spans a motion
+// has to be cut for polynomials to follow them. Metres.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/motion.h"
+
+namespace foretouch {
+
+/// All LSS of an avatar in link order, with what every step asks of them. Immutable.
+class LssTable {
+ public:
+  struct Entry {
+    double a[3], b[3];  ///< Ends of the axis in the link's frame.
+    double radius;
+    double rhoA, rhoB;  ///< |a| and |b|, rounded up.
+    LinkId link;
+  };
+
+  LssTable() = default;
+  explicit LssTable(const Avatar& avatar);
+
+  [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(entries_.size()); }
+  [[nodiscard]] const Entry* data() const { return entries_.data(); }
+  [[nodiscard]] const Entry& operator[](std::int32_t lss) const {
+    return entries_[static_cast<std::size_t>(lss)];
+  }
+  /// The link's LSS are [first(link), first(link + 1)).
+  [[nodiscard]] std::int32_t first(LinkId link) const {
+    return first_[static_cast<std::size_t>(link)];
+  }
+  [[nodiscard]] std::int32_t numLinks() const {
+    return static_cast<std::int32_t>(first_.size()) - 1;
+  }
+  /// Largest rhoA or rhoB of the link's LSS; 0 where it has none.
+  [[nodiscard]] double rho(LinkId link) const { return rho_[static_cast<std::size_t>(link)]; }
+
+ private:
+  std::vector<Entry> entries_;
+  std::vector<std::int32_t> first_{0};
+  std::vector<double> rho_;
+};
+
+/// Bound on the distance of a link's point at distance `rho` from the link's origin to the
+/// polynomial of degree 7 through its positions at the nodes of a span of length `span` (of t):
+/// interpolation alone, in exact arithmetic.
+[[nodiscard]] double interpolationError(const MotionBounds& bounds, double rho, double span);
+
+/// The least of 1, 2, 4, 8, 16 equal spans of [0,1] for which interpolationError() of every LSS is
+/// at most `wantedError` (m); 16 where none is. O(links).
+[[nodiscard]] int slabsFor(const LssTable& table, const ChainMotion& motion, double wantedError);
+
+}  // namespace foretouch

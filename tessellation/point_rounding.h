@@ -1,0 +1,29 @@
+// tessellation/point_rounding.h: how far the computed place of a link's point at the nodes of a
+// span is from its true one. Derived in tessellation/lss_polynomials.md 2.
+#pragma once
+
+#include "articulated/chain_nodes.h"
+
+namespace foretouch::internal {
+
+/// Bound on |computed - true| at each node's instant, of a point at distance `rho` from its link's
+/// origin, taken relative to the origin of the nodes and to a shift no longer than reach + 2*rho.
+[[nodiscard]] inline double pointRounding(const ChainNodes& nodes, LinkId link, double rho) {
+  // In units of the roundoff: a matrix times a vector, and the sums.
+  constexpr double kArm = 16.0 * 0x1p-53, kSum = 32.0 * 0x1p-53;
+  return nodes.positionRounding(link) + (nodes.rotationRounding(link) + kArm) * rho +
+         kSum * (nodes.reach(link) + rho);
+}
+
+/// The nearest float of this is not below `x`, nor that of -outward(-x) above it.
+[[nodiscard]] inline double outward(double x) {
+  constexpr double kFloatSpacing = 0x1p-23;  // twice what rounding to nearest can take off
+  constexpr double kUnderflow = 1e-40;       // floats below 1e-38 are spaced by 1.4e-45
+  return x + (x < 0.0 ? -x : x) * kFloatSpacing + kUnderflow;
+}
+
+[[nodiscard]] inline float floatAbove(double x) {
+  return static_cast<float>(outward(x));
+}
+
+}  // namespace foretouch::internal

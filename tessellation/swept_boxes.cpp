@@ -1,0 +1,178 @@
+#include "tessellation/swept_boxes.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "lss/assert.h"
+#include "tessellation/point_rounding.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tessellation/swept_boxes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "tessellation/point_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace foretouch::HWY_NAMESPACE {
+
+/// `x` moved down so far that its nearest float is not above it (point_rounding.h, outward()).
+HWY_INLINE NodeVector downward(NodeLanes d, NodeVector x) {
+  const NodeVector slack = hn::MulAdd(hn::Abs(x), hn::Set(d, 0x1p-23), hn::Set(d, 1e-40));
+  return hn::Sub(x, slack);
+}
+HWY_INLINE NodeVector upward(NodeLanes d, NodeVector x) {
+  return hn::Neg(downward(d, hn::Neg(x)));
+}
+
+constexpr double kBeyondAll = 1e300;
+
+/// Least and largest coordinates of both ends of one LSS over all nodes.
+HWY_INLINE void extentOf(const LssTable::Entry& entry, const LinkNodes& link, int axis,
+                         double* least, double* largest) {
+  const NodeLanes d;
+  NodeVector low = hn::Set(d, kBeyondAll), high = hn::Set(d, -kBeyondAll);
+  for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
+    const NodeVector a = pointAt(d, link, entry.a, 0.0, axis, lane);
+    const NodeVector b = pointAt(d, link, entry.b, 0.0, axis, lane);
+    low = hn::Min(low, hn::Min(a, b));
+    high = hn::Max(high, hn::Max(a, b));
+  }
+  *least = hn::GetLane(hn::MinOfLanes(d, low));
+  *largest = hn::GetLane(hn::MaxOfLanes(d, high));
+}
+
+/// Boxes of `count` LSS; `growths` are how far each reaches beyond the ends at the nodes.
+/// `lower`, `upper`: three arrays each, with room for a multiple of kNodes.
+void boxesOf(const LssTable::Entry* entries, int count, const LinkNodes* links,
+             const double* growths, float* const* lower, float* const* upper) {
+  const NodeLanes d;
+  const hn::Rebind<float, NodeLanes> floats;
+  for (int first = 0; first < count; first += kNodes) {
+    const int some = count - first < kNodes ? count - first : kNodes;
+    for (int axis = 0; axis < 3; ++axis) {
+      alignas(64) double least[kNodes] = {}, largest[kNodes] = {}, growth[kNodes] = {};
+      for (int i = 0; i < some; ++i) {
+        const LssTable::Entry& entry = entries[first + i];
+        extentOf(entry, links[entry.link], axis, least + i, largest + i);
+        growth[i] = growths[first + i];
+      }
+      for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
+        const NodeVector grown = hn::Load(d, growth + lane);
+        const NodeVector low = hn::Sub(hn::Load(d, least + lane), grown);
+        const NodeVector high = hn::Add(hn::Load(d, largest + lane), grown);
+        hn::Store(hn::DemoteTo(floats, downward(d, low)), floats, lower[axis] + first + lane);
+        hn::Store(hn::DemoteTo(floats, upward(d, high)), floats, upper[axis] + first + lane);
+      }
+    }
+  }
+}
+
+/// Boxes of one LSS between neighbouring nodes; `growths`: kNodes of them, one a piece.
+void piecesOf(const LssTable::Entry& entry, const LinkNodes& link, const double* growths,
+              PieceBoxes& result) {
+  const NodeLanes d;
+  const hn::Rebind<float, NodeLanes> floats;
+  for (int axis = 0; axis < 3; ++axis) {
+    alignas(64) double low[kNodes + 1], high[kNodes + 1];
+    for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
+      const NodeVector a = pointAt(d, link, entry.a, 0.0, axis, lane);
+      const NodeVector b = pointAt(d, link, entry.b, 0.0, axis, lane);
+      hn::Store(hn::Min(a, b), d, low + lane);
+      hn::Store(hn::Max(a, b), d, high + lane);
+    }
+    low[kNodes] = low[kNodes - 1];
+    high[kNodes] = high[kNodes - 1];
+    for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
+      const NodeVector grown = hn::Load(d, growths + lane);
+      const NodeVector least =
+          hn::Sub(hn::Min(hn::Load(d, low + lane), hn::LoadU(d, low + lane + 1)), grown);
+      const NodeVector largest =
+          hn::Add(hn::Max(hn::Load(d, high + lane), hn::LoadU(d, high + lane + 1)), grown);
+      hn::Store(hn::DemoteTo(floats, downward(d, least)), floats, result.lower[axis] + lane);
+      hn::Store(hn::DemoteTo(floats, upward(d, largest)), floats, result.upper[axis] + lane);
+    }
+  }
+}
+
+}  // namespace foretouch::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace foretouch {
+namespace {
+
+HWY_EXPORT(boxesOf);
+HWY_EXPORT(piecesOf);
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+/// Covers the rounding of the growth's own few operations.
+constexpr double kInflation = 1.0 + 1e-12;
+
+/// How far an LSS may reach, beyond its ends at both instants, between two instants `gap` apart.
+double growthOf(const LssTable::Entry& entry, const ChainMotion& motion, const ChainNodes& nodes,
+                double gap, double margin) {
+  const double rho = std::max(entry.rhoA, entry.rhoB);
+  const double sagitta = motion.bounds(entry.link).accelerationAt(rho) * gap * gap / 8.0;
+  const double rounding = internal::pointRounding(nodes, entry.link, rho);
+  return (sagitta + rounding + entry.radius + margin) * kInflation;
+}
+
+double widestGap(const ChainNodes& nodes) {
+  double gap = 0.0;
+  for (int k = 1; k < kNodes; ++k) gap = std::max(gap, nodes.instant(k) - nodes.instant(k - 1));
+  return gap;
+}
+
+}  // namespace
+
+void SweptBoxes::resize(std::int32_t newCount) {
+  count = newCount;
+  capacity = (newCount + kPadding - 1) / kPadding * kPadding;
+  const auto blocks = static_cast<std::size_t>(capacity / kPadding);
+  if (storage_.size() < 6 * blocks) storage_.resize(6 * blocks);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lower[axis] = storage_[axis * blocks].lanes;
+    upper[axis] = storage_[(axis + 3) * blocks].lanes;
+    std::fill(lower[axis], lower[axis] + capacity, kInfinity);
+    std::fill(upper[axis], upper[axis] + capacity, -kInfinity);
+  }
+}
+
+void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
+                double margin, SweptBoxes& boxes) {
+  FORETOUCH_ASSERT(table.numLinks() == nodes.numLinks() && nodes.numLinks() == motion.numLinks());
+  boxes.resize(table.size());
+  if (table.size() == 0) return;
+  const double gap = widestGap(nodes);
+  boxes.growths_.resize(static_cast<std::size_t>(table.size()));
+  for (std::int32_t i = 0; i < table.size(); ++i) {
+    boxes.growths_[static_cast<std::size_t>(i)] = growthOf(table[i], motion, nodes, gap, margin);
+  }
+  HWY_DYNAMIC_DISPATCH(boxesOf)
+  (table.data(), table.size(), &nodes.link(0), boxes.growths_.data(), boxes.lower, boxes.upper);
+  for (std::int32_t i = table.size(); i < boxes.capacity; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      boxes.lower[axis][i] = kInfinity;
+      boxes.upper[axis][i] = -kInfinity;
+    }
+  }
+}
+
+PieceBoxes pieceBoxes(const LssTable::Entry& entry, const ChainMotion& motion,
+                      const ChainNodes& nodes, double margin) {
+  PieceBoxes result;
+  alignas(64) double growths[kNodes] = {};
+  for (int k = 0; k < kNodePieces; ++k) {
+    growths[k] = growthOf(entry, motion, nodes, nodes.instant(k + 1) - nodes.instant(k), margin);
+  }
+  HWY_DYNAMIC_DISPATCH(piecesOf)(entry, nodes.link(entry.link), growths, result);
+  for (int axis = 0; axis < 3; ++axis) {
+    result.lower[axis][kNodePieces] = kInfinity;
+    result.upper[axis][kNodePieces] = -kInfinity;
+  }
+  return result;
+}
+
+}  // namespace foretouch
+#endif

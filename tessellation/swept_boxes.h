@@ -1,0 +1,54 @@
+// tessellation/swept_boxes.h: boxes of floats around everything that LSS cover over a span of a
+// motion or between neighbouring nodes of it. Between two instants a point stays within A*h^2/8 of
+// its chord; proof with rounding: tessellation/lss_polynomials.md 2. Metres.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "articulated/chain_nodes.h"
+#include "articulated/motion.h"
+#include "tessellation/lss_table.h"
+
+namespace foretouch {
+
+/// Boxes of floats, one lane an LSS in the table's order, as structure of arrays. Lanes from
+/// `count` to `capacity` are empty boxes (lower +inf, upper -inf). Memory is kept.
+struct SweptBoxes {
+  static constexpr std::int32_t kPadding = 16;  ///< Capacity is a multiple of it.
+  std::int32_t count = 0, capacity = 0;
+  float* lower[3] = {nullptr, nullptr, nullptr};  ///< [axis][lss], each aligned to 64 bytes.
+  float* upper[3] = {nullptr, nullptr, nullptr};
+
+  SweptBoxes() = default;
+  SweptBoxes(const SweptBoxes&) = delete;
+  SweptBoxes& operator=(const SweptBoxes&) = delete;
+  /// All lanes empty boxes. Allocates only where there are more than ever before.
+  void resize(std::int32_t newCount);
+
+ private:
+  struct alignas(64) Block {
+    float lanes[kPadding];
+  };
+  friend void sweptBoxes(const LssTable&, const ChainMotion&, const ChainNodes&, double,
+                         SweptBoxes&);
+  std::vector<Block> storage_;
+  std::vector<double> growths_;  // one an LSS
+};
+
+/// The float box of every LSS over the whole span of `nodes`, grown by `margin` (m), relative to
+/// the origin of the nodes, rounded outward. O(LSS).
+void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
+                double margin, SweptBoxes& boxes);
+
+/// Pieces of a span: between neighbouring nodes.
+inline constexpr int kNodePieces = kNodes - 1;
+/// Boxes of the pieces of one LSS: lower[axis][piece]; the eighth lane is an empty box.
+struct alignas(64) PieceBoxes {
+  float lower[3][kNodes], upper[3][kNodes];
+};
+/// The float boxes of one LSS between neighbouring nodes, as sweptBoxes().
+[[nodiscard]] PieceBoxes pieceBoxes(const LssTable::Entry& entry, const ChainMotion& motion,
+                                    const ChainNodes& nodes, double margin);
+
+}  // namespace foretouch
