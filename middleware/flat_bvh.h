@@ -41,6 +41,7 @@ class FlatBvh final : public TriangleCuller {
   [[nodiscard]] std::uint32_t numLeaves() const {
     return static_cast<std::uint32_t>(leaves_.size());
   }
+  [[nodiscard]] std::uint32_t numNodes() const { return static_cast<std::uint32_t>(nodes_.size()); }
   [[nodiscard]] const BvhLeaf& leaf(std::uint32_t index) const { return leaves_[index]; }
   [[nodiscard]] const Cluster& cluster(std::uint32_t index) const { return clusters_[index]; }
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }

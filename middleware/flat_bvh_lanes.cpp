@@ -16,7 +16,7 @@ using ChildTag = hn::CappedTag<float, kBvhWidth>;  // children, or triangles of 
 // Where more boxes than this for each vector of boxes are alive, a node is asked child by child
 // with boxes in lanes; else box by box with children in lanes. Both say the same: only speed
 // depends on it.
-constexpr int kAliveForBoxLanes = 3;
+constexpr int kAliveForBoxLanes = HWY_TARGET == HWY_SCALAR ? 0 : 1;
 
 HWY_INLINE int lowestBit(std::uint64_t bits) {
   return static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
@@ -67,9 +67,11 @@ HWY_INLINE std::uint64_t boxesMeeting(const BvhWalk& walk, const BvhNode& node, 
                                       std::uint64_t alive) {
   const BoxTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
+  const std::uint64_t lanesMask = (std::uint64_t{1} << lanes) - 1;
   std::uint64_t meeting = 0;
   for (int v = 0; v < walk.vectorsOfBoxes; ++v) {
     const int first = v * lanes;
+    if (((alive >> first) & lanesMask) == 0) continue;
     meeting |= lanesMeeting<kBoxGroup, kBvhWidth>(d, walk.lower[0] + first, walk.upper[0] + first,
                                                   node.lower[0] + child, node.upper[0] + child)
                << first;
@@ -121,26 +123,17 @@ HWY_INLINE void visitWithChildLanes(BvhWalk& walk, const BvhNode& node, std::uin
   }
 }
 
-/// Visits the nodes that wait, in batches, until the leaves fill their room.
+/// Visits the nodes that wait, depth first, until the leaves fill their room.
 HWY_INLINE void visitNodes(BvhWalk& walk) {
-  while (walk.nodesWaiting > 0 &&
-         walk.leavesWaiting + BvhWalk::kBatch * kBvhWidth <= BvhWalk::kLeafRoom) {
-    BvhWalk::Entry batch[BvhWalk::kBatch];
-    int size = 1;
-    if (walk.nodesWaiting <= BvhWalk::kWaiting) {
-      size = walk.nodesWaiting < BvhWalk::kBatch ? walk.nodesWaiting : BvhWalk::kBatch;
-    }
-    walk.nodesWaiting -= size;
-    for (int i = 0; i < size; ++i) batch[i] = walk.waiting[walk.nodesWaiting + i];
-    walk.nodesVisited += static_cast<std::uint64_t>(size);
-    for (int i = 0; i < size; ++i) {
-      const BvhNode& node = walk.nodes[batch[i].target];
-      const auto alive = static_cast<int>(hwy::PopCount(batch[i].alive));
-      if (alive > kAliveForBoxLanes * walk.vectorsOfBoxes) {
-        visitWithBoxLanes(walk, node, batch[i].alive);
-      } else {
-        visitWithChildLanes(walk, node, batch[i].alive);
-      }
+  while (walk.nodesWaiting > 0 && walk.leavesWaiting + kBvhWidth <= BvhWalk::kLeafRoom) {
+    const BvhWalk::Entry next = walk.waiting[--walk.nodesWaiting];
+    const BvhNode& node = walk.nodes[next.target];
+    ++walk.nodesVisited;
+    const auto alive = static_cast<int>(hwy::PopCount(next.alive));
+    if (alive > kAliveForBoxLanes * walk.vectorsOfBoxes) {
+      visitWithBoxLanes(walk, node, next.alive);
+    } else {
+      visitWithChildLanes(walk, node, next.alive);
     }
   }
 }

@@ -70,15 +70,11 @@ static_assert(sizeof(LeafHit) == 8);
 /// The walk of up to kBoxGroup boxes, interrupted whenever the room for its hits is used up. Lives
 /// on the caller's stack; only what is used of it is ever written.
 struct BvhWalk {
-  /// Nodes of one batch are fetched from memory side by side; more nodes waiting than kWaiting, and
-  /// the walk goes depth first. A batch of n leaves at most 8n more.
-  static constexpr int kBatch = 32;
-  static constexpr int kWaiting = 256;
-  static constexpr int kNodeRoom =
-      kWaiting + kBatch * (kBvhWidth - 1) + kMaxBvhDepth * (kBvhWidth - 1) + kBvhWidth;
-  static constexpr int kLeafRoom = 512;
-  static constexpr int kHitRoom = 1024;
-  static_assert(kLeafRoom >= kBatch * kBvhWidth && kHitRoom >= kBoxGroup);
+  /// Depth first, a node leaves at most seven others waiting on each level.
+  static constexpr int kNodeRoom = (kBvhWidth - 1) * kMaxBvhDepth + kBvhWidth;
+  static constexpr int kLeafRoom = 256;
+  static constexpr int kHitRoom = 512;
+  static_assert(kLeafRoom >= kBvhWidth && kHitRoom >= kBoxGroup);
 
   struct Entry {
     std::uint64_t alive;  ///< Bit b: box b meets the node or leaf.
