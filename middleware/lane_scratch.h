@@ -8,6 +8,7 @@
 #include "middleware/flat_bvh.h"
 #include "middleware/lanes/lss_pairs.h"
 #include "tessellation/lss_polynomials.h"
+#include "tessellation/swept_boxes.h"
 
 namespace foretouch::internal {
 

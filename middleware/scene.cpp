@@ -1,6 +1,8 @@
 #include "middleware/scene.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <string>
 
 #include "articulated/skeleton.h"
@@ -43,6 +45,48 @@ Result<Done> checked(const RawScene& raw) {
   return Done{};
 }
 
+/// A number that says where a triangle lies and nothing else.
+std::uint64_t hashOf(const Triangle& triangle) {
+  std::uint64_t hash = 0;
+  for (const Vector3d& vertex : triangle.vertices) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &vertex[axis], sizeof bits);
+      // The finaliser of splitmix64 [Steele14].
+      hash += bits + 0x9e3779b97f4a7c15u;
+      hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
+      hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
+      hash ^= hash >> 31;
+    }
+  }
+  return hash;
+}
+
+/// The ids in an order that depends on the triangles' vertices alone: the tree, and with it the
+/// steps that queries take, must not depend on the order in which triangles arrive.
+std::vector<TriangleId> inOrderOfGeometry(const std::vector<Triangle>& triangles,
+                                          const std::vector<TriangleId>& ids) {
+  std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
+  keyed.reserve(ids.size());
+  for (const TriangleId id : ids) {
+    keyed.emplace_back(hashOf(triangles[static_cast<std::size_t>(id)]), id);
+  }
+  std::sort(keyed.begin(), keyed.end(), [&](const auto& x, const auto& y) {
+    if (x.first != y.first) return x.first < y.first;
+    const auto &v = triangles[static_cast<std::size_t>(x.second)].vertices,
+               &w = triangles[static_cast<std::size_t>(y.second)].vertices;
+    if (v != w) {
+      return std::lexicographical_compare(v.begin(), v.end(), w.begin(), w.end(),
+                                          lexicographicallyLess);
+    }
+    return x.second < y.second;
+  });
+  std::vector<TriangleId> ordered;
+  ordered.reserve(keyed.size());
+  for (const auto& [hash, id] : keyed) ordered.push_back(id);
+  return ordered;
+}
+
 }  // namespace
 
 Result<Scene> Scene::build(RawScene raw) {
@@ -63,7 +107,8 @@ Result<Scene> Scene::build(RawScene raw) {
     std::sort(triangle.vertices.begin(), triangle.vertices.end(), lexicographicallyLess);
     parts->finiteIds.push_back(static_cast<TriangleId>(i));
   }
-  auto bvh = internal::FlatBvh::build(parts->triangles, parts->finiteIds, parts->origin);
+  auto bvh = internal::FlatBvh::build(
+      parts->triangles, inOrderOfGeometry(parts->triangles, parts->finiteIds), parts->origin);
   if (!bvh.ok()) return bvh.error();
   parts->bvh = std::move(bvh).value();
   return Scene(std::move(parts));

@@ -133,6 +133,7 @@ TEST(ExactFidelity, SpentBudgetIsUndecidedAndNeverLate) {
   for (int seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     Bench bench = makeBench(seed, 0.8);
+    bench.exact.backtracking = Backtracking::Scalar;  // as a limited budget is spent
     const auto motion = bench.body.motion();
     const auto full = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
     for (const std::uint64_t budget : {1u, 10u, 100u}) {
