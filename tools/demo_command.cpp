@@ -1,7 +1,5 @@
 #include "tools/demo_command.h"
 
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -10,30 +8,13 @@
 
 #include "articulated/text_file.h"
 #include "tools/audits.h"
+#include "tools/example_folder.h"
 #include "tools/replay_command.h"
 
 namespace foretouch::tools {
 namespace {
 
 constexpr double kDemoRateHz = 10.0;
-
-/// $FORETOUCH_EXAMPLES, else share/foretouch/examples beside the program's folder: so in the build
-/// tree as after installation.
-Result<std::string> exampleFolder() {
-  namespace fs = std::filesystem;
-  std::error_code failure;
-  fs::path folder;
-  if (const char* const named = std::getenv("FORETOUCH_EXAMPLES"); named != nullptr) {
-    folder = named;
-  } else {
-    const fs::path program = fs::read_symlink("/proc/self/exe", failure);
-    folder = program.parent_path().parent_path() / "share" / "foretouch" / "examples";
-  }
-  if (fs::is_regular_file(folder / "room.obj", failure)) return folder.string();
-  return Error{ErrorCode::FileNotFound, folder.string(), -1, -1,
-               "holds no room.obj; expected the bundled example there, or its folder in the "
-               "environment variable FORETOUCH_EXAMPLES"};
-}
 
 std::string inWords(const ReplaySummary& summary) {
   const ReplayInputs& inputs = summary.inputs();

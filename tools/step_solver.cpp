@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "middleware/ray_yardstick.h"
 #include "tools/console.h"
+#include "tools/ray_set.h"
 
 namespace foretouch::tools {
 namespace {
@@ -16,17 +16,6 @@ using Clock = std::chrono::steady_clock;
 
 double microsecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-}
-
-/// The way of one link's origin each, from pose to pose: what a ray cast between the poses would
-/// look along.
-std::array<RaySegment, kRaysPerSet> raysAlong(const ChainMotion& motion) {
-  std::array<RaySegment, kRaysPerSet> rays;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const auto link = static_cast<LinkId>(i) % motion.numLinks();
-    rays[i] = {motion.stateAt(link, 0.0).p_WL, motion.stateAt(link, 1.0).p_WL};
-  }
-  return rays;
 }
 
 }  // namespace
