@@ -15,6 +15,7 @@
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
+#include "tools/settling.h"
 
 namespace foretouch::tools {
 namespace {
@@ -27,24 +28,6 @@ struct ReplayTexts {
               tolerance = "0.001", culler = "flat", threads = "cores";
   std::vector<std::string> ignore, packages;
   bool compareRigid = false, compareLink = false, rays = false;
-};
-
-/// Takes parsed values apart from errors, keeping the first error.
-class Settling {
- public:
-  template <typename T>
-  void into(T& place, const Result<T>& parsed) {
-    if (parsed.ok()) place = parsed.value();
-    require(parsed);
-  }
-  template <typename T>
-  void require(const Result<T>& parsed) {
-    if (!parsed.ok() && !error_) error_ = parsed.error();
-  }
-  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
-
- private:
-  std::optional<Error> error_;
 };
 
 Result<ReplayJob> settled(const ReplayTexts& texts) {

@@ -1,0 +1,25 @@
+// tools/counter_fields.h: the counters of a query by name, for whoever sums or prints them all.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "middleware/query.h"
+
+namespace foretouch::tools {
+
+/// Add a counter here and every benchmark reports it.
+inline constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 8>
+    kCounterFields{{{"nodes", &QueryCounters::nodes},
+                    {"candidates", &QueryCounters::candidates},
+                    {"advancements", &QueryCounters::advancements},
+                    {"hierarchy_tests", &QueryCounters::hierarchyTests},
+                    {"plane_tests", &QueryCounters::planeTests},
+                    {"cubic_tests", &QueryCounters::cubicTests},
+                    {"leaf_tests", &QueryCounters::leafTests},
+                    {"states", &QueryCounters::states}}};
+static_assert(sizeof(QueryCounters) == kCounterFields.size() * sizeof(std::uint64_t),
+              "name the new counter above");
+
+}  // namespace foretouch::tools
