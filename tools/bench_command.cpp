@@ -10,8 +10,10 @@
 
 #include "articulated/text_file.h"
 #include "middleware/exact/rigid_query.h"
+#include "tools/bench_documents_command.h"
 #include "tools/bench_latency_command.h"
 #include "tools/bench_leaf.h"
+#include "tools/bench_scaling_command.h"
 #include "tools/generated_queries.h"
 
 namespace foretouch::tools {
@@ -111,6 +113,8 @@ void addBenchCommand(CLI::App& program, ExitCode& exit) {
   CLI::App* const bench = program.add_subcommand("bench", "Measure parts on their own");
   bench->require_subcommand(1);
   addBenchLatencyCommand(*bench, exit);
+  addBenchScalingCommand(*bench, exit);
+  addBenchDocumentCommands(*bench, exit);
   const auto texts = std::make_shared<LeafTexts>();
   CLI::App* const leaf = bench->add_subcommand(
       "leaf", "Answer and time exact leaf queries; exit code 1 where an answer is not its label");

@@ -1,4 +1,4 @@
-// tools/bench_command.h: `foretouch bench leaf`.
+// tools/bench_command.h: `foretouch bench`, and its subcommand `leaf`.
 #pragma once
 
 #include "tools/console.h"
