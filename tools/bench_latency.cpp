@@ -34,8 +34,8 @@ double warmOf(const TimedStep& step) {
 BenchTable latencyTable() {
   return {"latency",
           "Latency of a step, microseconds, and in ray-sets",
-          {{"rate_hz", "Hz", 0},
-           {"tolerance_m", "tolerance m", 6},
+          {{"rate_hz", "Hz", -1},
+           {"tolerance_m", "tolerance m", -1},
            {"simd", "vectors", 0},
            {"caches", "caches", 0},
            {"steps", "steps", 0},
@@ -55,7 +55,7 @@ BenchTable countersTable() {
   BenchTable table{
       "counters",
       "Work of a step, mean counts",
-      {{"rate_hz", "Hz", 0}, {"tolerance_m", "tolerance m", 6}, {"simd", "vectors", 0}},
+      {{"rate_hz", "Hz", -1}, {"tolerance_m", "tolerance m", -1}, {"simd", "vectors", 0}},
       {}};
   for (const char* key : {"contacts", "starts", "undecided"}) {
     table.columns.push_back({key, key, 3});

@@ -15,7 +15,8 @@ namespace {
 std::string forPeople(const BenchCell& cell, int decimals) {
   if (const auto* count = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *count);
   if (const auto* number = std::get_if<double>(&cell)) {
-    return std::isfinite(*number) ? fmt::format("{:.{}f}", *number, decimals) : "-";
+    if (!std::isfinite(*number)) return "-";
+    return decimals < 0 ? fmt::format("{:g}", *number) : fmt::format("{:.{}f}", *number, decimals);
   }
   return std::get<std::string>(cell);
 }

@@ -63,7 +63,7 @@ BenchTable tableFrom(const Json& json) {
   table.name = json.at("name").get<std::string>();
   table.title = json.at("title").get<std::string>();
   for (const Json& c : json.at("columns")) {
-    const int decimals = std::clamp(c.at("decimals").get<int>(), 0, kMostDecimals);
+    const int decimals = std::clamp(c.at("decimals").get<int>(), -1, kMostDecimals);
     table.columns.push_back(
         {c.at("key").get<std::string>(), c.at("title").get<std::string>(), decimals});
   }

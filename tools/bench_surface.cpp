@@ -13,7 +13,7 @@ constexpr int kLeastAround = 6, kLeastRings = 2;
 
 /// How an LSS is divided: around its axis, from a pole to the cylinder, along the cylinder.
 struct Division {
-  int around, rings, rows;
+  int around, rings, rows;  ///< No row: a sphere.
   [[nodiscard]] std::size_t triangles() const {
     return static_cast<std::size_t>(2 * around) * static_cast<std::size_t>(rows + 2 * rings - 1);
   }
@@ -25,7 +25,7 @@ Division divisionOf(const Lss& lss, double edge) {
     return std::max(least, static_cast<int>(std::min(kMost, std::ceil(length / edge))));
   };
   return {parts(2.0 * kPi * lss.radius, kLeastAround), parts(0.5 * kPi * lss.radius, kLeastRings),
-          parts((lss.b - lss.a).norm(), 1)};
+          lss.a == lss.b ? 0 : parts((lss.b - lss.a).norm(), 1)};
 }
 
 std::size_t trianglesOf(const Avatar& avatar, double edge) {
@@ -59,7 +59,8 @@ std::vector<std::vector<Eigen::Vector3d>> circlesOf(const Lss& lss, const Divisi
   for (int row = 1; row < division.rows; ++row) {
     addCircle(lss.a + axis * (static_cast<double>(row) / division.rows), radius, 0.0);
   }
-  for (int ring = division.rings; ring >= 0; --ring) {
+  const bool isSphere = division.rows == 0;  // whose two half spheres share their widest circle
+  for (int ring = isSphere ? division.rings - 1 : division.rings; ring >= 0; --ring) {
     const double angle = 0.5 * kPi * ring / division.rings;
     addCircle(lss.b, ring == 0 ? 0.0 : radius * std::sin(angle), radius * std::cos(angle));
   }
