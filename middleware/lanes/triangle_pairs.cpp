@@ -1,0 +1,312 @@
+// The features of two triangles that are nearest only propose directions; a plane across each
+// proves (middleware/lanes/triangle_pairs.md).
+#include "middleware/lanes/triangle_pairs.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "middleware/lanes/triangle_pairs.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace foretouch::internal::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, kTrianglePairLanes>;
+using Lanes = hn::Vec<Floats>;
+using LaneMask = hn::Mask<Floats>;
+
+/// Of the plane's arithmetic, relative to the extents: 6.02 unit roundoffs are proved. Halving it
+/// breaks the proof; doubling it costs 4e-7 of the extents.
+constexpr float kPlaneRounding = 6.5F * 0x1p-24F;
+/// Of n.velocity, relative to the velocity: 4.02 unit roundoffs are proved.
+constexpr float kSpeedRounding = 4.5F * 0x1p-24F;
+/// Shrinks a direction whose normalisation errs by at most 4.51 unit roundoffs.
+constexpr float kUnitShrink = 1.0F - 5.0F * 0x1p-24F;
+/// Shrinks a step whose formula errs by at most 6.01 unit roundoffs.
+constexpr float kStepShrink = 1.0F - 8.0F * 0x1p-24F;
+/// Rounds a pad up past the roundings that it goes through.
+constexpr float kInflation = 1.0F + 4.0F * 0x1p-24F;
+/// What underflow may lose, even where denormals are flushed to zero (m; m per t).
+constexpr float kUnderflow = 0x1p-80F;
+/// A direction is used where the square of its length is between these: no square in it has lost
+/// anything, and none is infinite.
+constexpr float kLeastSquare = 0x1p-90F, kMostSquare = 0x1p100F;
+/// Below these a clearance or an acceleration is not looked at, so that their product stays clear
+/// of underflow (m, m per squared t).
+constexpr float kLeastClearance = 0x1p-60F, kLeastAcceleration = 0x1p-40F;
+/// Beyond this nothing is answered, so that no product is infinite.
+constexpr float kMost = 0x1p50F;
+/// Below this squared sine the lines along two edges have no trusted crossing.
+constexpr float kNearParallelSin2 = 0x1p-21F;
+/// Stands for the square of an edge without length.
+constexpr float kNoLength = 0x1p-120F;
+
+struct Vec3 {
+  Lanes x, y, z;
+};
+
+HWY_INLINE Vec3 minus(const Vec3& a, const Vec3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE Vec3 scaled(Lanes s, const Vec3& a) {
+  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
+}
+/// a + s * b
+HWY_INLINE Vec3 along(const Vec3& a, Lanes s, const Vec3& b) {
+  return {hn::MulAdd(s, b.x, a.x), hn::MulAdd(s, b.y, a.y), hn::MulAdd(s, b.z, a.z)};
+}
+/// a - s * b
+HWY_INLINE Vec3 against(const Vec3& a, Lanes s, const Vec3& b) {
+  return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
+}
+HWY_INLINE Lanes dot(const Vec3& a, const Vec3& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+HWY_INLINE Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
+          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
+}
+HWY_INLINE Lanes square(const Vec3& a) {
+  return dot(a, a);
+}
+HWY_INLINE Lanes largestOf(Lanes a, Lanes b, Lanes c) {
+  return hn::Max(a, hn::Max(b, c));
+}
+HWY_INLINE Lanes sumOf(Lanes a, Lanes b, Lanes c) {
+  return hn::Add(a, hn::Add(b, c));
+}
+HWY_INLINE Vec3 choose(LaneMask mask, const Vec3& yes, const Vec3& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
+}
+HWY_INLINE Lanes clamp01(Floats d, Lanes s) {
+  return hn::Min(hn::Max(s, hn::Zero(d)), hn::Set(d, 1.0F));
+}
+HWY_INLINE LaneMask isInside(Floats d, Lanes s) {
+  return hn::And(hn::Gt(s, hn::Zero(d)), hn::Lt(s, hn::Set(d, 1.0F)));
+}
+
+HWY_INLINE Vec3 load(Floats d, const PairFloats (&axes)[3], std::size_t first) {
+  return {hn::Load(d, axes[0] + first), hn::Load(d, axes[1] + first), hn::Load(d, axes[2] + first)};
+}
+
+/// Relative to the scene's first vertex.
+struct Triangles {
+  Vec3 link[3];
+  Vec3 scene[2];  // the other two vertices
+};
+
+/// An edge from one of the vertices.
+struct Edge {
+  Vec3 along;
+  Lanes square, inverseSquare;
+};
+
+HWY_INLINE Edge edgeAlong(Floats d, const Vec3& along) {
+  const Lanes squared = square(along);
+  return {along, squared, hn::Div(hn::Set(d, 1.0F), hn::Max(squared, hn::Set(d, kNoLength)))};
+}
+
+/// Of the edges looked at so far, the nearest two: the difference of their closest points, and the
+/// directions that stand across what faces each other.
+struct NearestEdges {
+  Lanes squaredDistance;
+  Vec3 difference;  // from the scene towards the link
+  Vec3 across;      // of both edges; where both closest points are inside theirs
+};
+
+/// The edges w + s*one and t*other, s and t in [0,1]: after [Ericson05] 5.1.9.
+HWY_INLINE void offerEdges(Floats d, const Edge& one, const Edge& other, const Vec3& w,
+                           Lanes oneByW, Lanes otherByW, NearestEdges& nearest) {
+  const Lanes mixed = dot(one.along, other.along);
+  const Lanes scale = hn::Mul(one.square, other.square);
+  const Lanes determinant = hn::NegMulAdd(mixed, mixed, scale);
+  const LaneMask crosses = hn::Gt(determinant, hn::Mul(hn::Set(d, kNearParallelSin2), scale));
+  const Lanes numerator = hn::NegMulAdd(other.square, oneByW, hn::Mul(mixed, otherByW));
+  const Lanes crossing = hn::IfThenElseZero(crosses, hn::Div(numerator, determinant));
+  const Lanes t =
+      clamp01(d, hn::Mul(hn::MulAdd(clamp01(d, crossing), mixed, otherByW), other.inverseSquare));
+  const Lanes s = clamp01(d, hn::Mul(hn::MulSub(t, mixed, oneByW), one.inverseSquare));
+
+  const Vec3 difference = against(along(w, s, one.along), t, other.along);
+  const Lanes squaredDistance = square(difference);
+  const LaneMask nearer = hn::Lt(squaredDistance, nearest.squaredDistance);
+  // Where a point is inside its edge, the difference stands across that edge but for rounding,
+  // which would tilt the plane by the length of the edge.
+  const LaneMask insideOne = isInside(d, s), insideOther = isInside(d, t);
+  const Lanes tiltOther =
+      hn::IfThenElseZero(insideOther, hn::Mul(dot(difference, other.along), other.inverseSquare));
+  const Lanes tiltOne =
+      hn::IfThenElseZero(insideOne, hn::Mul(dot(difference, one.along), one.inverseSquare));
+  const Vec3 straight = against(against(difference, tiltOther, other.along), tiltOne, one.along);
+  nearest.squaredDistance = hn::IfThenElse(nearer, squaredDistance, nearest.squaredDistance);
+  nearest.difference = choose(nearer, straight, nearest.difference);
+  nearest.across = choose(nearer, cross(one.along, other.along), nearest.across);
+}
+
+HWY_INLINE NearestEdges nearestEdges(Floats d, const Triangles& pair) {
+  const Edge one[3] = {edgeAlong(d, minus(pair.link[1], pair.link[0])),
+                       edgeAlong(d, minus(pair.link[2], pair.link[0])),
+                       edgeAlong(d, minus(pair.link[2], pair.link[1]))};
+  const Edge other[3] = {edgeAlong(d, pair.scene[0]), edgeAlong(d, pair.scene[1]),
+                         edgeAlong(d, minus(pair.scene[1], pair.scene[0]))};
+  const Vec3 zero{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  NearestEdges nearest{hn::Set(d, kMostSquare), zero, zero};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const Vec3& start = pair.link[i == 2 ? 1 : 0];
+      const Vec3 w = j == 2 ? minus(start, pair.scene[0]) : start;
+      offerEdges(d, one[i], other[j], w, dot(one[i].along, w), dot(other[j].along, w), nearest);
+    }
+  }
+  return nearest;
+}
+
+/// A plane's direction, from the scene towards the link and no longer than 1, and the gap along it.
+struct Plane {
+  Vec3 n;
+  Lanes gap;
+};
+
+/// Takes the plane across `direction`, whichever way round, where its gap is the widest so far.
+HWY_INLINE void tryDirection(Floats d, const Triangles& pair, const Vec3& direction, Plane& best) {
+  const Lanes squared = square(direction);
+  const LaneMask usable =
+      hn::And(hn::Gt(squared, hn::Set(d, kLeastSquare)), hn::Lt(squared, hn::Set(d, kMostSquare)));
+  const Lanes shrink =
+      hn::IfThenElseZero(usable, hn::Div(hn::Set(d, kUnitShrink), hn::Sqrt(squared)));
+  const Vec3 n = scaled(shrink, direction);
+  const Lanes link[3] = {dot(n, pair.link[0]), dot(n, pair.link[1]), dot(n, pair.link[2])};
+  const Lanes scene[2] = {dot(n, pair.scene[0]), dot(n, pair.scene[1])};
+  const Lanes zero = hn::Zero(d);
+  const Lanes above = hn::Sub(hn::Min(link[0], hn::Min(link[1], link[2])),
+                              hn::Max(zero, hn::Max(scene[0], scene[1])));
+  const Lanes below = hn::Sub(hn::Min(zero, hn::Min(scene[0], scene[1])),
+                              hn::Max(link[0], hn::Max(link[1], link[2])));
+  const Lanes gap = hn::Max(above, below);
+  const LaneMask wider = hn::Gt(gap, best.gap);
+  const Vec3 turned{hn::Neg(n.x), hn::Neg(n.y), hn::Neg(n.z)};
+  best.n = choose(wider, choose(hn::Gt(below, above), turned, n), best.n);
+  best.gap = hn::IfThenElse(wider, gap, best.gap);
+}
+
+HWY_INLINE Plane widestPlane(Floats d, const Triangles& pair) {
+  const NearestEdges nearest = nearestEdges(d, pair);
+  const Vec3 zero{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  Plane best{zero, hn::Zero(d)};
+  tryDirection(d, pair, nearest.difference, best);
+  tryDirection(d, pair, nearest.across, best);
+  tryDirection(d, pair, cross(pair.scene[0], pair.scene[1]), best);
+  tryDirection(d, pair, cross(minus(pair.link[1], pair.link[0]), minus(pair.link[2], pair.link[0])),
+               best);
+  return best;
+}
+
+/// As safeStep() of middleware/link_pair.h. Precondition: clearance >= kLeastClearance,
+/// acceleration >= kLeastAcceleration.
+HWY_INLINE Lanes rootOf(Floats d, Lanes clearance, Lanes speed, Lanes acceleration) {
+  const Lanes twice = hn::Add(clearance, clearance);
+  const Lanes root = hn::Sqrt(hn::MulAdd(speed, speed, hn::Mul(twice, acceleration)));
+  // Two forms of the positive root, each a sum of terms of one sign.
+  const LaneMask opens = hn::Gt(speed, hn::Zero(d));
+  const Lanes sum = hn::Add(root, hn::Abs(speed));
+  const Lanes step =
+      hn::Div(hn::IfThenElse(opens, sum, twice), hn::IfThenElse(opens, acceleration, sum));
+  return hn::Mul(hn::Set(d, kStepShrink), step);
+}
+
+/// What is proven of how a block's vectors are off, and whether all in it is finite and in range.
+struct Slack {
+  Lanes position, velocity;
+  LaneMask inRange;
+};
+
+HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t first,
+                         const Triangles& pair, const Vec3 (&velocity)[3]) {
+  const Lanes link[3] = {square(pair.link[0]), square(pair.link[1]), square(pair.link[2])};
+  const Lanes scene[2] = {square(pair.scene[0]), square(pair.scene[1])};
+  const Lanes speed[3] = {square(velocity[0]), square(velocity[1]), square(velocity[2])};
+  const Lanes inflation = hn::Set(d, kInflation), underflow = hn::Set(d, kUnderflow);
+  const Lanes positionPad = hn::Load(d, block.positionPad + first);
+  const Lanes velocityPad = hn::Load(d, block.velocityPad + first);
+  const Lanes extent = hn::Add(hn::Sqrt(largestOf(link[0], link[1], link[2])),
+                               hn::Sqrt(hn::Max(scene[0], scene[1])));
+  const Lanes fastest = hn::Sqrt(largestOf(speed[0], speed[1], speed[2]));
+  // Sums, as the largest might hide what is not a number.
+  const Lanes squares =
+      hn::Add(hn::Add(sumOf(link[0], link[1], link[2]), hn::Add(scene[0], scene[1])),
+              sumOf(speed[0], speed[1], speed[2]));
+  const Lanes pads = hn::Add(hn::Abs(positionPad), hn::Abs(velocityPad));
+  Slack slack;
+  slack.position =
+      hn::MulAdd(hn::Set(d, kPlaneRounding), extent, hn::MulAdd(positionPad, inflation, underflow));
+  slack.velocity = hn::MulAdd(hn::Set(d, kSpeedRounding), fastest,
+                              hn::MulAdd(velocityPad, inflation, underflow));
+  slack.inRange =
+      hn::And(hn::Le(squares, hn::Set(d, kMost * kMost)), hn::Le(pads, hn::Set(d, kMost)));
+  return slack;
+}
+
+/// What the plane proves: the gap of each of the link's vertices, how fast it grows, and so for how
+/// long all stay above `floor`.
+HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t first,
+                       TrianglePairSteps& steps) {
+  const Vec3 origin = load(d, block.scene[0], first);
+  Triangles pair;
+  Vec3 velocity[3];
+  for (int i = 0; i < 3; ++i) {
+    pair.link[i] = minus(load(d, block.link[i], first), origin);
+    velocity[i] = load(d, block.velocity[i], first);
+  }
+  for (int i = 0; i < 2; ++i) pair.scene[i] = minus(load(d, block.scene[i + 1], first), origin);
+  const Slack slack = slackOf(d, block, first, pair, velocity);
+  const Plane plane = widestPlane(d, pair);
+
+  const Lanes top =
+      largestOf(hn::Zero(d), dot(plane.n, pair.scene[0]), dot(plane.n, pair.scene[1]));
+  const Lanes floor = hn::Load(d, block.floor + first);
+  const Lanes most = hn::Set(d, kMost);
+  LaneMask clears = hn::And(slack.inRange, hn::Ge(floor, hn::Zero(d)));
+  Lanes lower = most, step = most;
+  for (int i = 0; i < 3; ++i) {
+    const Lanes given = hn::Load(d, block.acceleration[i] + first);
+    const Lanes gap = hn::Sub(hn::Sub(dot(plane.n, pair.link[i]), top), slack.position);
+    const Lanes clearance = hn::Sub(gap, floor);
+    const Lanes speed = hn::Sub(dot(plane.n, velocity[i]), slack.velocity);
+    lower = hn::Min(lower, gap);
+    step =
+        hn::Min(step, rootOf(d, clearance, speed, hn::Max(given, hn::Set(d, kLeastAcceleration))));
+    clears = hn::And(clears,
+                     hn::And(hn::Le(given, most), hn::Ge(clearance, hn::Set(d, kLeastClearance))));
+  }
+  lower = hn::Max(lower, hn::Zero(d));
+  hn::Store(hn::IfThenElseZero(slack.inRange, lower), d, steps.lower + first);
+  hn::Store(hn::IfThenElseZero(clears, step), d, steps.step + first);
+}
+
+void proveLanes(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t first = 0; first < count; first += lanes) answer(d, block, first, steps);
+}
+
+}  // namespace
+}  // namespace foretouch::internal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace foretouch::internal {
+namespace {
+
+HWY_EXPORT(proveLanes);
+
+}  // namespace
+
+void proveSteps(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps) {
+  HWY_DYNAMIC_DISPATCH(proveLanes)(block, count, steps);
+}
+
+}  // namespace foretouch::internal
+#endif
