@@ -238,14 +238,15 @@ HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t f
   const Lanes squares =
       hn::Add(hn::Add(sumOf(link[0], link[1], link[2]), hn::Add(scene[0], scene[1])),
               sumOf(speed[0], speed[1], speed[2]));
-  const Lanes pads = hn::Add(hn::Abs(positionPad), hn::Abs(velocityPad));
+  const Lanes pads = hn::Add(positionPad, velocityPad);
+  const LaneMask padsInRange = hn::And(hn::Ge(hn::Min(positionPad, velocityPad), hn::Zero(d)),
+                                       hn::Le(pads, hn::Set(d, kMost)));
   Slack slack;
   slack.position =
       hn::MulAdd(hn::Set(d, kPlaneRounding), extent, hn::MulAdd(positionPad, inflation, underflow));
   slack.velocity = hn::MulAdd(hn::Set(d, kSpeedRounding), fastest,
                               hn::MulAdd(velocityPad, inflation, underflow));
-  slack.inRange =
-      hn::And(hn::Le(squares, hn::Set(d, kMost * kMost)), hn::Le(pads, hn::Set(d, kMost)));
+  slack.inRange = hn::And(padsInRange, hn::Le(squares, hn::Set(d, kMost * kMost)));
   return slack;
 }
 
@@ -278,8 +279,8 @@ HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t fir
     lower = hn::Min(lower, gap);
     step =
         hn::Min(step, rootOf(d, clearance, speed, hn::Max(given, hn::Set(d, kLeastAcceleration))));
-    clears = hn::And(clears,
-                     hn::And(hn::Le(given, most), hn::Ge(clearance, hn::Set(d, kLeastClearance))));
+    const LaneMask bounded = hn::And(hn::Ge(given, hn::Zero(d)), hn::Le(given, most));
+    clears = hn::And(clears, hn::And(bounded, hn::Ge(clearance, hn::Set(d, kLeastClearance))));
   }
   lower = hn::Max(lower, hn::Zero(d));
   hn::Store(hn::IfThenElseZero(slack.inRange, lower), d, steps.lower + first);

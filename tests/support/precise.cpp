@@ -1,5 +1,7 @@
 #include "tests/support/precise.h"
 
+#include <algorithm>
+
 namespace foretouch::test {
 
 Precise3 operator+(const Precise3& a, const Precise3& b) {
@@ -142,6 +144,16 @@ Real preciseDistance(const Precise3& a, const Precise3& b, const std::array<Prec
     }
   }
   return sqrt(best);
+}
+
+Real preciseDistance(const std::array<Precise3, 3>& one, const std::array<Precise3, 3>& other) {
+  // Two triangles are nearest (or meet) on an edge of one of them.
+  Real best = preciseDistance(one[0], one[1], other);
+  for (std::size_t i = 0; i < 3; ++i) {
+    best = std::min(best, preciseDistance(one[i], one[(i + 1) % 3], other));
+    best = std::min(best, preciseDistance(other[i], other[(i + 1) % 3], one));
+  }
+  return best;
 }
 
 }  // namespace foretouch::test

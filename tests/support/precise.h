@@ -59,5 +59,7 @@ std::vector<PreciseFrame> preciseFrames(const std::vector<PreciseJoint>& joints,
 
 /// Distance of segment ab and triangle v, correct for every degenerate input.
 Real preciseDistance(const Precise3& a, const Precise3& b, const std::array<Precise3, 3>& v);
+/// Distance of two triangles, likewise.
+Real preciseDistance(const std::array<Precise3, 3>& one, const std::array<Precise3, 3>& other);
 
 }  // namespace foretouch::test
