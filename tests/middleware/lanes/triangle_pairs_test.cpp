@@ -172,6 +172,51 @@ TEST(TrianglePairLanes, NeverClaimMoreThanTheTrueDistance) {
   EXPECT_GT(close, apart * 95 / 100) << "a bound that is not tight proves nothing";
 }
 
+/// Two edges about 1 m long that cross at an angle, the second `height` above the first, each the
+/// edge of a triangle that leads away from the other.
+LanePair crossingEdges(Random& random, double angle, double height) {
+  const Eigen::Matrix3d turn = random.rotation().toRotationMatrix();
+  const Vector3d one(1, 0, 0), other(std::cos(angle), std::sin(angle), 0), up(0, 0, 1);
+  const double x = random.uniform(0.2, 0.8), y = random.uniform(0.2, 0.8);
+  LanePair pair;
+  pair.scene = {-x * one, (1.0 - x) * one, random.inBox(0.3) - 0.5 * up};
+  pair.link = {height * up - y * other, height * up + (1.0 - y) * other,
+               random.inBox(0.3) + 0.5 * up};
+  for (std::size_t i = 0; i < 3; ++i) {
+    pair.scene[i] = nearestFloat(Vector3d(turn * pair.scene[i]));
+    pair.link[i] = nearestFloat(Vector3d(turn * pair.link[i]));
+  }
+  return pair;
+}
+
+/// The same with a corner above an edge.
+LanePair cornerAboveEdge(Random& random, double height) {
+  LanePair pair = crossingEdges(random, 1.0, height);
+  const Vector3d foot = pair.scene[0] + 0.4 * (pair.scene[1] - pair.scene[0]);
+  const Vector3d away = foot - pair.scene[2];
+  pair.link[0] = nearestFloat(Vector3d(foot + height * away.normalized()));
+  for (std::size_t i = 1; i < 3; ++i) {
+    pair.link[i] = nearestFloat(Vector3d(pair.link[0] + away + random.inBox(0.2)));
+  }
+  return pair;
+}
+
+TEST(TrianglePairLanes, StayTightWhereEdgesAreTenMicrometresApart) {
+  std::vector<LanePair> pairs;
+  for (int i = 0; i < 1000; ++i) {
+    Random random(static_cast<std::uint64_t>(i));
+    const double height = random.magnitude(1e-5, 1e-2);
+    pairs.push_back(crossingEdges(random, random.magnitude(0.03, 1.5), height));
+    pairs.push_back(cornerAboveEdge(random, height));
+  }
+  for (const std::vector<LaneAnswer>& answers : answersOfEveryWidth(pairs)) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const double above = triangleSeparation({pairs[i].link}, {pairs[i].scene}).upper;
+      EXPECT_GE(answers[i].lower, above - 4.0 * provedSlack(pairs[i])) << i;
+    }
+  }
+}
+
 /// A pair in motion, as it truly is: within the pads of what the lanes are told.
 struct TrueMotion {
   std::array<Precise3, 3> link, velocity, acceleration, scene;
