@@ -123,10 +123,11 @@ class Backtracker {
     if (query_.leafMethod == LeafMethod::Cubics && query_.isExact() &&
         candidate.part.isTriangle()) {
       ++counters_.cubicTests;
-      const double reached = freeUntilByCubics(
-          query_.parts.motion, query_.parts.link, t, 1.0,
-          query_.parts.surface->triangle(candidate.part.index()),
-          query_.scene.triangle(candidate.triangle), floor, kFloorShare * query_.tolerance);
+      const double reached =
+          freeUntilByCubics(query_.parts.motion, query_.parts.link, t, 1.0,
+                            query_.parts.surface->triangle(candidate.part.index()),
+                            query_.scene.triangle(candidate.triangle), floor,
+                            kFloorShare * query_.tolerance, pair.nhat);
       if (reached > t) return reached;
     }
     return after(t, stepFrom(pair, floor));

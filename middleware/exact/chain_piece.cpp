@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "middleware/exact/rigid_plane.h"
+
 namespace foretouch::internal {
 namespace {
 
@@ -54,8 +56,8 @@ ChainPiece chainPiece(const LinkState& begin, const LinkState& end, double span,
 }
 
 double freeUntilByCubics(const ChainMotion& motion, LinkId link, double t, double horizon,
-                         const Triangle& part_L, const Triangle& fixed_W, double floor,
-                         double band) {
+                         const Triangle& part_L, const Triangle& fixed_W, double floor, double band,
+                         const Eigen::Vector3d& nhat_W) {
   const double rho = farthestCorner(part_L);
   const MotionBounds& bounds = motion.bounds(link);
   const double turn = bounds.angularSpeed * bounds.angularSpeed * rho;
@@ -67,7 +69,7 @@ double freeUntilByCubics(const ChainMotion& motion, LinkId link, double t, doubl
     const ChainPiece piece = chainPiece(begin, motion.stateAt(link, end), end - t, bounds, rho);
     if (piece.deviation > band || piece.motion.q0.dot(piece.motion.q1) < 0.8) continue;
     const RigidAnswer answer =
-        rigidTrianglePair(piece.motion, part_L, fixed_W, floor + piece.deviation);
+        rigidTrianglePairFromPlane(piece.motion, part_L, fixed_W, floor + piece.deviation, nhat_W);
     if (!answer.leaf.hits) return end;
     const double until = t + (end - t) * answer.leaf.toiLow * (1.0 - 1e-12);
     return std::max(t, std::nextafter(until, 0.0));

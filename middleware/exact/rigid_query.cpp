@@ -13,6 +13,7 @@
 #include "lss/assert.h"
 #include "lss/segment_triangle.h"
 #include "middleware/exact/rigid_curves.h"
+#include "middleware/exact/rigid_plane.h"
 
 namespace foretouch {
 namespace {
@@ -139,9 +140,10 @@ class Advancement {
     planeScale_ = curves_.scale() + curves_.largestWeight() * (extent + band);
   }
 
-  RigidAnswer answer() {
+  /// Precondition: the triangles are proved apart on [0, free).
+  RigidAnswer answerFrom(double free) const {
     RigidAnswer answer;
-    double free = 0.0;
+    if (free >= 1.0) return answer;
     for (int planes = 0; planes < kMaxPlanes; ++planes) {
       const Triangle moving = curves_.at(free);
       const Closest closest = closestOf(moving, fixed_);
@@ -154,6 +156,19 @@ class Advancement {
     }
     const Triangle moving = curves_.at(free);
     return hit(free, moving, closestOf(moving, fixed_), contactError(free));
+  }
+
+  /// Up to which instant the plane across n (|n| <= 1), standing still, keeps the triangles more
+  /// than the band apart from `free` on.
+  double untilStill(double free, const Vector3d& n) const {
+    const double top = topAlong(n) + band_;
+    double until = 1.0;
+    for (int i = 0; i < 3 && until > free; ++i) {
+      Cubic gap = curves_.along(n, i);
+      for (int j = 0; j < 4; ++j) gap[j] -= top * curves_.weight()[j];
+      until = provedPositiveUntil(gap, free, until, planeBound());
+    }
+    return until;
   }
 
  private:
@@ -232,17 +247,6 @@ class Advancement {
     return std::max(turning, untilAlongEdges(free, moving, closest, turning - free));
   }
 
-  double untilStill(double free, const Vector3d& n) const {
-    const double top = topAlong(n) + band_;
-    double until = 1.0;
-    for (int i = 0; i < 3 && until > free; ++i) {
-      Cubic gap = curves_.along(n, i);
-      for (int j = 0; j < 4; ++j) gap[j] -= top * curves_.weight()[j];
-      until = provedPositiveUntil(gap, free, until, planeBound());
-    }
-    return until;
-  }
-
   /// The plane has the normal R(t) R(free)^T n: the moving triangle's heights above it are
   /// constant.
   double untilTurning(double free, const Vector3d& n) const {
@@ -315,18 +319,27 @@ class Advancement {
   double band_, planeScale_;
 };
 
-bool admitted(const Quaternion& q) {
-  const double norm = q.norm();
-  return norm >= 0.5 && norm <= 2.0;
+void requireAdmitted(const NlerpMotion& motion, double band) {
+  for (const Quaternion* q : {&motion.q0, &motion.q1}) {
+    FORETOUCH_ASSERT(q->norm() >= 0.5 && q->norm() <= 2.0);
+  }
+  FORETOUCH_ASSERT(motion.q0.coeffs().dot(motion.q1.coeffs()) >= 0.0 && band >= 0.0);
 }
 
 }  // namespace
 
 RigidAnswer rigidTrianglePair(const NlerpMotion& motion, const Triangle& moving_L,
                               const Triangle& fixed_W, double band) {
-  FORETOUCH_ASSERT(admitted(motion.q0) && admitted(motion.q1));
-  FORETOUCH_ASSERT(motion.q0.coeffs().dot(motion.q1.coeffs()) >= 0.0 && band >= 0.0);
-  return Advancement(motion, moving_L, fixed_W, band).answer();
+  requireAdmitted(motion, band);
+  return Advancement(motion, moving_L, fixed_W, band).answerFrom(0.0);
+}
+
+RigidAnswer internal::rigidTrianglePairFromPlane(const NlerpMotion& motion,
+                                                 const Triangle& moving_L, const Triangle& fixed_W,
+                                                 double band, const Vector3d& nhat_W) {
+  requireAdmitted(motion, band);
+  const Advancement advancement(motion, moving_L, fixed_W, band);
+  return advancement.answerFrom(advancement.untilStill(0.0, nhat_W));
 }
 
 double rigidBand(double extent) {

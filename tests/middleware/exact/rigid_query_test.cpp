@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/exact/rigid_plane.h"
 #include "tests/support/precise.h"
 #include "tests/support/random_geometry.h"
 
@@ -136,7 +137,9 @@ RigidCase draw(Random& random) {
   return c;
 }
 
-TEST(RigidTrianglePair, IsSoundAndTightAgainstFiftyDigits) {
+/// Holds the answers of `query`, given a case and its random numbers, to separationAt().
+template <class Query>
+void expectSoundAndTight(const Query& query) {
   constexpr int kCases = 600;
   int hits = 0, clear = 0, starts = 0;
   double worst = 0.0;
@@ -144,7 +147,7 @@ TEST(RigidTrianglePair, IsSoundAndTightAgainstFiftyDigits) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const RigidCase c = draw(random);
-    const auto answer = rigidTrianglePair(c.motion, c.moving, c.fixed, c.band);
+    const RigidAnswer answer = query(c, random);
     const double end = answer.leaf.hits ? answer.leaf.toiLow : 1.0;
     for (int k = 0; k < 24; ++k) {
       const double t = end * (k + random.uniform(0.0, 1.0)) / 24;
@@ -166,6 +169,48 @@ TEST(RigidTrianglePair, IsSoundAndTightAgainstFiftyDigits) {
               worst);
   EXPECT_GT(hits - starts, kCases / 20);
   EXPECT_GT(clear, kCases / 4);
+}
+
+TEST(RigidTrianglePair, IsSoundAndTightAgainstFiftyDigits) {
+  expectSoundAndTight([](const RigidCase& c, Random&) {
+    return rigidTrianglePair(c.motion, c.moving, c.fixed, c.band);
+  });
+}
+
+/// Whether the plane across n separates the triangles at the start.
+bool separates(const RigidCase& c, const Vector3d& n) {
+  const auto &m = c.moving.vertices, &f = c.fixed.vertices;
+  const Eigen::Quaterniond turn(Eigen::Vector4d(c.motion.q0.coeffs().normalized()));
+  double bottom = n.dot(turn * m[0]), top = n.dot(f[0]);
+  for (int i = 1; i < 3; ++i) {
+    bottom = std::min(bottom, n.dot(turn * m[i]));
+    top = std::max(top, n.dot(f[i]));
+  }
+  return n.dot(c.motion.x0) + bottom - top > c.band;
+}
+
+TEST(RigidTrianglePairFromPlane, IsSoundAndTightWhateverThePlane) {
+  int separating = 0, useless = 0;
+  expectSoundAndTight([&](const RigidCase& c, Random& random) {
+    Vector3d n = (1.0 - 1e-15) * random.direction();
+    if (random.chance(0.8) && n.dot(c.motion.x0) < 0.0) n = -n;
+    if (random.chance(0.1)) n.setZero();
+    ++(separates(c, n) ? separating : useless);
+    return internal::rigidTrianglePairFromPlane(c.motion, c.moving, c.fixed, c.band, n);
+  });
+  EXPECT_GT(separating, 100);
+  EXPECT_GT(useless, 100);
+}
+
+TEST(RigidTrianglePairFromPlane, APlaneThatHoldsToTheEndIsTheAnswer) {
+  const Triangle tip{{Vector3d(0, 0, 0), Vector3d(1, 0, 2), Vector3d(0, 1, 2)}};
+  const NlerpMotion motion = sliding({0, 0, 1}, {0, 0, 0.5});
+  const Vector3d up(0, 0, 1);
+  EXPECT_FALSE(internal::rigidTrianglePairFromPlane(motion, tip, kFloor, 0.25, up).leaf.hits);
+  const auto hit = internal::rigidTrianglePairFromPlane(motion, tip, kFloor, 0.75, up);
+  ASSERT_TRUE(hit.leaf.hits);
+  EXPECT_LE(hit.leaf.toiLow, 0.5);
+  EXPECT_NEAR(hit.leaf.toiLow, 0.5, 1e-10);
 }
 
 TEST(RigidTrianglePair, DoesNotDependOnTheOrderOfVertices) {
