@@ -10,9 +10,12 @@
 namespace foretouch::tools {
 
 /// Add a counter here and every benchmark reports it.
-inline constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 8>
+inline constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 11>
     kCounterFields{{{"nodes", &QueryCounters::nodes},
+                    {"leaves", &QueryCounters::leaves},
                     {"candidates", &QueryCounters::candidates},
+                    {"cluster_steps", &QueryCounters::clusterSteps},
+                    {"lane_steps", &QueryCounters::laneSteps},
                     {"advancements", &QueryCounters::advancements},
                     {"hierarchy_tests", &QueryCounters::hierarchyTests},
                     {"plane_tests", &QueryCounters::planeTests},
