@@ -15,9 +15,11 @@ namespace foretouch::internal {
 
 /// Boxes and vertices in float, relative to an origin that is subtracted in double. Subtraction and
 /// rounding are monotone, so boxes that overlap in the world overlap here: no slack is needed.
-/// About 110 bytes a triangle. The same tree for any number of threads.
+/// About 65 bytes a triangle. The same tree for any number of threads.
 class FlatBvh final : public TriangleCuller {
  public:
+  using Leaf = BvhLeaf;
+
   FlatBvh();
   FlatBvh(FlatBvh&&) noexcept;
   FlatBvh& operator=(FlatBvh&&) noexcept;

@@ -88,6 +88,38 @@ std::vector<RTCBuildPrimitive> primitivesOf(const std::vector<Triangle>& triangl
   return primitives;
 }
 
+RTCBuildArguments argumentsOf(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitives) {
+  RTCBuildArguments arguments = rtcDefaultBuildArguments();
+  arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
+  arguments.maxBranchingFactor = kBvhWidth;
+  arguments.maxDepth = kMaxBvhDepth;
+  arguments.sahBlockSize = kSahBlockSize;
+  arguments.minLeafSize = kMinLeafSize;
+  arguments.maxLeafSize = kBvhWidth;
+  arguments.bvh = tree;
+  arguments.primitives = primitives.data();
+  arguments.primitiveCount = primitives.size();
+  arguments.primitiveArrayCapacity = primitives.size();
+  arguments.createNode = createNode;
+  arguments.setNodeChildren = setChildren;
+  arguments.setNodeBounds = setBounds;
+  arguments.createLeaf = createLeaf;
+  return arguments;
+}
+
+/// A root that is a leaf has no bounds of its own: those of all triangles.
+RTCBounds boundsOf(const std::vector<RTCBuildPrimitive>& primitives) {
+  RTCBounds all{kFloatInfinity,  kFloatInfinity,  kFloatInfinity,  0,
+                -kFloatInfinity, -kFloatInfinity, -kFloatInfinity, 0};
+  for (const RTCBuildPrimitive& p : primitives) {
+    all = {std::min(all.lower_x, p.lower_x), std::min(all.lower_y, p.lower_y),
+           std::min(all.lower_z, p.lower_z), 0,
+           std::max(all.upper_x, p.upper_x), std::max(all.upper_y, p.upper_y),
+           std::max(all.upper_z, p.upper_z), 0};
+  }
+  return all;
+}
+
 /// flat_bvh.md, "Vertices". `scene` is the box of all vertices.
 double vertexRoundingOf(const Aabb& scene, const Vector3d& origin) {
   constexpr double kRelative = 0x1.00001p-24;  // 2^-24 and 2^-53, and this sum's own roundings
@@ -243,39 +275,17 @@ Result<FlatBvh> FlatBvh::build(const std::vector<Triangle>& triangles,
   const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> tree(
       rtcNewBVH(device.value().get()));
   std::vector<RTCBuildPrimitive> primitives = primitivesOf(triangles, ids, origin);
-  RTCBuildArguments arguments = rtcDefaultBuildArguments();
-  arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
-  arguments.maxBranchingFactor = kBvhWidth;
-  arguments.maxDepth = kMaxBvhDepth;
-  arguments.sahBlockSize = kSahBlockSize;
-  arguments.minLeafSize = kMinLeafSize;
-  arguments.maxLeafSize = kBvhWidth;
-  arguments.bvh = tree.get();
-  arguments.primitives = primitives.data();
-  arguments.primitiveCount = primitives.size();
-  arguments.primitiveArrayCapacity = primitives.size();
-  arguments.createNode = createNode;
-  arguments.setNodeChildren = setChildren;
-  arguments.setNodeBounds = setBounds;
-  arguments.createLeaf = createLeaf;
+  const RTCBuildArguments arguments = argumentsOf(tree.get(), primitives);
   const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
   const auto status = embreeStatus(device.value().get(), "building the scene's tree");
   if (!status.ok()) return status.error();
   if (root == nullptr) return Error{ErrorCode::DeviceFailed, "", -1, -1, "Embree built no tree"};
-  // A root that is a leaf has no bounds of its own: those of its triangles, which then are few.
-  RTCBounds all{kFloatInfinity,  kFloatInfinity,  kFloatInfinity,  0,
-                -kFloatInfinity, -kFloatInfinity, -kFloatInfinity, 0};
-  for (const RTCBuildPrimitive& p : primitives) {
-    all = {std::min(all.lower_x, p.lower_x), std::min(all.lower_y, p.lower_y),
-           std::min(all.lower_z, p.lower_z), 0,
-           std::max(all.upper_x, p.upper_x), std::max(all.upper_y, p.upper_y),
-           std::max(all.upper_z, p.upper_z), 0};
-  }
-  primitives = {};
+  const RTCBounds rootBounds = boundsOf(primitives);
+  primitives = {};  // the flat arrays take its room
   FlatBvh bvh;
   FlatBvhBuilder builder(bvh, triangles, ids);
   builder.setOrigin(origin);
-  const auto flattened = builder.flatten(*root, all);
+  const auto flattened = builder.flatten(*root, rootBounds);
   if (!flattened.ok()) return flattened.error();
   return Result<FlatBvh>(std::move(bvh));
 }
