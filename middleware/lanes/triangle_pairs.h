@@ -16,8 +16,9 @@ using PairFloats = float[kTrianglePairLanes];
 
 /// Pairs of a moving triangle of a link and a triangle of the scene. Metres, relative to an origin
 /// of the caller's choice, one a pair: floats resolve 6e-8 of what is between it and the triangles.
-/// Velocities and accelerations are derivatives in t. Triangles without area are legal. A pair that
-/// has anything beyond 2^50, infinite or not a number is answered with 0.
+/// Velocities and accelerations are derivatives in t. Triangles without area are legal. Of a
+/// pair in which anything (coordinates: from the scene's first vertex) is beyond 2^50, infinite or
+/// not a number, nothing is proven; nor where a pad, a bound or the floor is negative.
 struct TrianglePairBlock {
   alignas(64) PairFloats link[3][3];       ///< [vertex][axis]
   alignas(64) PairFloats velocity[3][3];   ///< [vertex][axis] of the link's triangle.
@@ -33,7 +34,9 @@ struct TrianglePairBlock {
 /// What is proven of each pair. Both are 0 where nothing is.
 struct TrianglePairSteps {
   alignas(64) PairFloats lower;  ///< The true triangles are at least this far apart now.
-  alignas(64) PairFloats step;   ///< And at least `floor` apart for this long from now.
+  /// And at least `floor` apart for this long from now, rounded down. 0 does not mean contact: that
+  /// is for doubles to say.
+  alignas(64) PairFloats step;
 };
 
 /// Answers the first `count` pairs, at most kTrianglePairLanes; the other slots are read and
