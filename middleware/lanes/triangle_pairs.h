@@ -16,9 +16,9 @@ using PairFloats = float[kTrianglePairLanes];
 
 /// Pairs of a moving triangle of a link and a triangle of the scene. Metres, relative to an origin
 /// of the caller's choice, one a pair: floats resolve 6e-8 of what is between it and the triangles.
-/// Velocities and accelerations are derivatives in t. Triangles without area are legal. Of a
-/// pair in which anything (coordinates: from the scene's first vertex) is beyond 2^50, infinite or
-/// not a number, nothing is proven; nor where a pad, a bound or the floor is negative.
+/// Velocities and accelerations are derivatives in t. Triangles without area are legal. A pair
+/// in which anything (coordinates: from the scene's first vertex) is beyond 2^50, infinite or not a
+/// number gets no step, nor does one with a negative pad, bound or floor.
 struct TrianglePairBlock {
   alignas(64) PairFloats link[3][3];       ///< [vertex][axis]
   alignas(64) PairFloats velocity[3][3];   ///< [vertex][axis] of the link's triangle.
