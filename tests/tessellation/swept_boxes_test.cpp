@@ -1,0 +1,128 @@
+// Holds the boxes of floats against the true motion in fifty digits, at every vector width that the
+// processor has.
+#include "tessellation/swept_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "lss/simd.h"
+#include "tests/tessellation/random_lss.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using test::Precise3;
+using test::PreciseFrame;
+using test::Random;
+using test::Real;
+
+class SweptBoxesTest : public ::testing::Test {
+ protected:
+  void TearDown() override { useSimd(std::nullopt); }
+};
+
+/// The extreme points of the true LSS, grown by the margin, are between `lower` and `upper`.
+bool contains(const float* lower, const float* upper, const LssTable::Entry& entry,
+              const PreciseFrame& frame, const Vector3d& origin, double margin) {
+  const Precise3 a = frame.at(Vector3d(entry.a)) - Precise3(origin);
+  const Precise3 b = frame.at(Vector3d(entry.b)) - Precise3(origin);
+  const Real reach = Real(entry.radius) + Real(margin);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::min(a.c[axis], b.c[axis]) - reach < Real(lower[axis])) return false;
+    if (std::max(a.c[axis], b.c[axis]) + reach > Real(upper[axis])) return false;
+  }
+  return true;
+}
+
+TEST_F(SweptBoxesTest, ContainTheTrueLssAtEveryWidth) {
+  ChainNodes nodes;
+  SweptBoxes boxes;
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const test::MovingBody body(random, 1 + random.below(12));
+    const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.to);
+    const LssTable table(body.avatar);
+    const double span = random.magnitude(1e-3, 1.0), begin = random.uniform(0.0, 1.0 - span);
+    const double margin = random.chance(0.5) ? 0.0 : 1e-3;
+    const Vector3d origin =
+        random.chance(0.5) ? body.motion.from.translations[0] : random.inBox(1.0);
+    const int piece = random.below(kNodePieces);
+    for (const Simd simd : supportedSimd()) {
+      SCOPED_TRACE(toString(simd));
+      ASSERT_TRUE(useSimd(simd));
+      nodes.evaluate(motion, begin, begin + span, origin);
+      sweptBoxes(table, motion, nodes, margin, boxes);
+      ASSERT_EQ(boxes.count, table.size());
+      const double first = nodes.instant(piece), last = nodes.instant(piece + 1);
+      const double share = random.chance(0.3) ? random.below(2) : random.uniform(0.0, 1.0);
+      const Real t = Real(first) + Real(share) * (Real(last) - Real(first));
+      const auto frames = test::preciseFrames(body.motion.precise, t);
+      for (std::int32_t k = 0; k < table.size(); ++k) {
+        SCOPED_TRACE(k);
+        const PreciseFrame& frame = frames[static_cast<std::size_t>(table[k].link)];
+        const float lower[3] = {boxes.lower[0][k], boxes.lower[1][k], boxes.lower[2][k]};
+        const float upper[3] = {boxes.upper[0][k], boxes.upper[1][k], boxes.upper[2][k]};
+        ASSERT_TRUE(contains(lower, upper, table[k], frame, origin, margin));
+        const PieceBoxes own = pieceBoxes(table[k], motion, nodes, margin);
+        const float low[3] = {own.lower[0][piece], own.lower[1][piece], own.lower[2][piece]};
+        const float high[3] = {own.upper[0][piece], own.upper[1][piece], own.upper[2][piece]};
+        ASSERT_TRUE(contains(low, high, table[k], frame, origin, margin));
+        for (int axis = 0; axis < 3; ++axis) {
+          ASSERT_GE(low[axis], lower[axis]) << "a piece lies in the whole";
+          ASSERT_LE(high[axis], upper[axis]);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(SweptBoxesTest, LanesLeftOverAreEmpty) {
+  SweptBoxes boxes;
+  ChainNodes nodes;
+  for (int i = 0; i < 40; ++i) {
+    Random random(static_cast<std::uint64_t>(i));
+    const test::MovingBody body(random, 1 + random.below(20));
+    const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.to);
+    const LssTable table(body.avatar);
+    nodes.evaluate(motion, 0.0, 1.0, Vector3d::Zero());
+    sweptBoxes(table, motion, nodes, 0.0, boxes);
+    ASSERT_EQ(boxes.capacity % SweptBoxes::kPadding, 0);
+    ASSERT_GE(boxes.capacity, boxes.count);
+    for (std::int32_t k = 0; k < boxes.capacity; ++k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(boxes.lower[axis][k] <= boxes.upper[axis][k], k < boxes.count);
+      }
+    }
+    const PieceBoxes own = pieceBoxes(table[0], motion, nodes, 0.0);
+    EXPECT_GT(own.lower[0][kNodePieces], own.upper[0][kNodePieces]);
+  }
+}
+
+// A body at rest: nothing but float's own rounding is added.
+TEST_F(SweptBoxesTest, AreTightAroundABodyAtRest) {
+  Random random(5);
+  const test::MovingBody body(random, 6);
+  const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.from);
+  const LssTable table(body.avatar);
+  ChainNodes nodes;
+  nodes.evaluate(motion, 0.0, 1.0, body.motion.from.translations[0]);
+  SweptBoxes boxes;
+  sweptBoxes(table, motion, nodes, 0.0, boxes);
+  for (std::int32_t k = 0; k < table.size(); ++k) {
+    const LinkState state = motion.stateAt(table[k].link, 0.0);
+    const Vector3d a = state.pointAt(Vector3d(table[k].a)) - nodes.origin();
+    const Vector3d b = state.pointAt(Vector3d(table[k].b)) - nodes.origin();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = std::min(a[axis], b[axis]) - table[k].radius;
+      EXPECT_NEAR(static_cast<double>(boxes.lower[axis][k]), low, 1e-6 * (1.0 + std::abs(low)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace foretouch
