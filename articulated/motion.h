@@ -142,6 +142,8 @@ class MotionEvaluator {
 
   /// From now on of `motion`, which must outlive the last state asked for and not be assigned to.
   void reset(const ChainMotion& motion);
+  /// Precondition: reset() was called.
+  [[nodiscard]] const ChainMotion& motion() const { return *motion_; }
 
   /// `t` in [0,1]. O(depth of the link).
   [[nodiscard]] LinkState stateAt(LinkId link, double t);

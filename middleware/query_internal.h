@@ -42,6 +42,7 @@ class IgnoredObjects {
 
 /// Memory that one thread's queries reuse.
 struct QueryScratch::Impl {
+  MotionEvaluator states;                     // of the motion at hand
   std::vector<std::vector<LinkState>> nodes;  // per piece boundary, per link
   std::vector<AxisBounds> axisBounds;         // per LSS of the link at hand
   std::vector<Aabb> startBoxes;               // per LSS of the link at hand, at t = 0

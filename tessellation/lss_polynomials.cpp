@@ -217,7 +217,7 @@ FramePolynomials framePolynomialsOf(LinkId link, const ChainMotion& motion,
       evaluationError(R) + kFloatPoint * kFloatU;
   const double originError =
       pointError(p, motion, nodes, link, 0.0) + kFloatSum * kFloatU * p.weighted + kUnderflow;
-  result.rotationError = floatAbove(rotationError * kInflation);
+  result.rotationError = floatAbove(rotationError * kEvaluation);
   result.originError = floatAbove(originError * kInflation);
   result.originSpeed = speedOf(p);
   result.rotationSpeed = speedOf(R);

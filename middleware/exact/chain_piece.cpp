@@ -55,18 +55,18 @@ ChainPiece chainPiece(const LinkState& begin, const LinkState& end, double span,
   return piece;
 }
 
-double freeUntilByCubics(const ChainMotion& motion, LinkId link, double t, double horizon,
+double freeUntilByCubics(MotionEvaluator& states, LinkId link, double t, double horizon,
                          const Triangle& part_L, const Triangle& fixed_W, double floor, double band,
                          const Eigen::Vector3d& nhat_W) {
   const double rho = farthestCorner(part_L);
-  const MotionBounds& bounds = motion.bounds(link);
+  const MotionBounds& bounds = states.motion().bounds(link);
   const double turn = bounds.angularSpeed * bounds.angularSpeed * rho;
   const double wanted = std::sqrt(8.0 * band / (bounds.accelerationAt(rho) + turn + 1e-300));
   double end = std::min(horizon, t + 0.95 * wanted);
-  const LinkState begin = motion.stateAt(link, t);
+  const LinkState begin = states.stateAt(link, t);
   for (int i = 0; i < kMostHalvings && end > t; ++i, end = t + 0.5 * (end - t)) {
     // Turns of more than a right angle are no short pieces, whatever the band.
-    const ChainPiece piece = chainPiece(begin, motion.stateAt(link, end), end - t, bounds, rho);
+    const ChainPiece piece = chainPiece(begin, states.stateAt(link, end), end - t, bounds, rho);
     if (piece.deviation > band || piece.motion.q0.dot(piece.motion.q1) < 0.8) continue;
     const RigidAnswer answer =
         rigidTrianglePairFromPlane(piece.motion, part_L, fixed_W, floor + piece.deviation, nhat_W);

@@ -25,7 +25,7 @@ struct ChainPiece {
 /// the scene, from `t` on and not beyond `horizon`; `t` itself where nothing is proven. One piece,
 /// made so short that its deviation is at most `band`. `nhat_W` as rigidTrianglePairFromPlane() has
 /// it.
-[[nodiscard]] double freeUntilByCubics(const ChainMotion& motion, LinkId link, double t,
+[[nodiscard]] double freeUntilByCubics(MotionEvaluator& states, LinkId link, double t,
                                        double horizon, const Triangle& part_L,
                                        const Triangle& fixed_W, double floor, double band,
                                        const Eigen::Vector3d& nhat_W);
