@@ -15,6 +15,13 @@ constexpr double kInflation = 1.0 + 1e-12;
 /// product is sin(x)*sin(7x)/64 at u = cos(x) (lss_polynomials.md 1).
 constexpr double kNodePolynomial = 1.0 / (64.0 * 40320.0);
 
+/// The interpolation error over a span of t, per unit of the eighth derivative by t.
+double errorPerDerivative(double span) {
+  // d/dx is span/2 times d/dt, x being the parameter in [-1,1].
+  const double half = 0.5 * span, square = half * half, fourth = square * square;
+  return kNodePolynomial * fourth * fourth * kInflation;
+}
+
 LssTable::Entry entryOf(const Lss& lss, LinkId link) {
   LssTable::Entry entry{};
   for (int i = 0; i < 3; ++i) {
@@ -44,19 +51,18 @@ LssTable::LssTable(const Avatar& avatar) {
 }
 
 double interpolationError(const MotionBounds& bounds, double rho, double span) {
-  // d/du is span/2 times d/dt.
-  const double half = 0.5 * span, square = half * half, fourth = square * square;
-  return bounds.eighthDerivativeAt(rho) * kNodePolynomial * fourth * fourth * kInflation;
+  return bounds.eighthDerivativeAt(rho) * errorPerDerivative(span);
 }
 
 int slabsFor(const LssTable& table, const ChainMotion& motion, double wantedError) {
   constexpr int kMostSlabs = 16;
   constexpr double kHalving = 256.0;  // the eighth power of two
-  double error = 0.0;
+  double derivative = 0.0;
   for (LinkId link = 0; link < table.numLinks(); ++link) {
     if (table.first(link) == table.first(link + 1)) continue;
-    error = std::max(error, interpolationError(motion.bounds(link), table.rho(link), 1.0));
+    derivative = std::max(derivative, motion.bounds(link).eighthDerivativeAt(table.rho(link)));
   }
+  double error = derivative * errorPerDerivative(1.0);
   int slabs = 1;
   while (slabs < kMostSlabs && error > wantedError) {
     slabs *= 2;

@@ -25,42 +25,98 @@ HWY_INLINE NodeVector upward(NodeLanes d, NodeVector x) {
   return hn::Neg(downward(d, hn::Neg(x)));
 }
 
-constexpr double kBeyondAll = 1e300;
+/// What is left of one LSS when the lanes of a vector hold other nodes: least coordinates of both
+/// ends, and the negatives of the largest.
+struct Extents {
+  alignas(64) double least[kNodes][kNodes], negated[kNodes][kNodes];
+};
 
-/// Least and largest coordinates of both ends of one LSS over all nodes.
-HWY_INLINE void extentOf(const LssTable::Entry& entry, const LinkNodes& link, int axis,
-                         double* least, double* largest) {
+HWY_INLINE void storeExtents(const LssTable::Entry& entry, const LinkNodes& link, int axis, int row,
+                             Extents& extents) {
   const NodeLanes d;
-  NodeVector low = hn::Set(d, kBeyondAll), high = hn::Set(d, -kBeyondAll);
-  for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
+  NodeVector low = pointAt(d, link, entry.a, 0.0, axis, 0), high = low;
+  const NodeVector otherEnd = pointAt(d, link, entry.b, 0.0, axis, 0);
+  low = hn::Min(low, otherEnd);
+  high = hn::Max(high, otherEnd);
+  for (int lane = static_cast<int>(hn::Lanes(d)); lane < kNodes;
+       lane += static_cast<int>(hn::Lanes(d))) {
     const NodeVector a = pointAt(d, link, entry.a, 0.0, axis, lane);
     const NodeVector b = pointAt(d, link, entry.b, 0.0, axis, lane);
     low = hn::Min(low, hn::Min(a, b));
     high = hn::Max(high, hn::Max(a, b));
   }
-  *least = hn::GetLane(hn::MinOfLanes(d, low));
-  *largest = hn::GetLane(hn::MaxOfLanes(d, high));
+  hn::Store(low, d, extents.least[row]);
+  hn::Store(hn::Neg(high), d, extents.negated[row]);
 }
 
+#if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
+/// leastOf[i] = the least of the lanes of rows[i].
+HWY_INLINE void leastOfRows(const double (*rows)[kNodes], double* leastOf) {
+  const NodeLanes d;
+  for (int i = 0; i < kNodes; ++i) {
+    leastOf[i] = hn::GetLane(hn::MinOfLanes(d, hn::Load(d, rows[i])));
+  }
+}
+#else
+/// Lanes 2i: the least of a's i-th pair of lanes; 2i+1: of b's.
+HWY_INLINE NodeVector leastOfPairs(NodeLanes d, const double* a, const double* b) {
+  const NodeVector first = hn::Load(d, a), second = hn::Load(d, b);
+  return hn::Min(hn::InterleaveLower(d, first, second), hn::InterleaveUpper(d, first, second));
+}
+/// Lower half: the least of both halves of `a`; upper half: of `b`.
+HWY_INLINE NodeVector leastOfHalves(NodeLanes d, NodeVector a, NodeVector b) {
+  return hn::Min(hn::ConcatLowerLower(d, b, a), hn::ConcatUpperUpper(d, b, a));
+}
+
+/// leastOf[i] = the least of the lanes of rows[i], eight rows folded together: a quarter of the
+/// shuffles that one row after another takes.
+HWY_INLINE void leastOfRows(const double (*rows)[kNodes], double* leastOf) {
+  const NodeLanes d;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(NodeLanes()));
+  if constexpr (kLanes == 2) {
+    for (int i = 0; i < kNodes; i += 2) {
+      hn::Store(leastOfPairs(d, rows[i], rows[i + 1]), d, leastOf + i);
+    }
+  } else if constexpr (kLanes == 4) {
+    for (int i = 0; i < kNodes; i += 4) {
+      hn::Store(leastOfHalves(d, leastOfPairs(d, rows[i], rows[i + 1]),
+                              leastOfPairs(d, rows[i + 2], rows[i + 3])),
+                d, leastOf + i);
+    }
+  } else {
+    const NodeVector g =
+        leastOfHalves(d, leastOfPairs(d, rows[0], rows[1]), leastOfPairs(d, rows[4], rows[5]));
+    const NodeVector h =
+        leastOfHalves(d, leastOfPairs(d, rows[2], rows[3]), leastOfPairs(d, rows[6], rows[7]));
+    // Blocks of two lanes: g holds rows 0, 1 in its first two and 4, 5 in its last, h the others.
+    hn::Store(hn::Min(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(h), g),
+                      hn::OddEvenBlocks(h, hn::SwapAdjacentBlocks(g))),
+              d, leastOf);
+  }
+}
+#endif
+
 /// Boxes of `count` LSS; `growths` are how far each reaches beyond the ends at the nodes.
-/// `lower`, `upper`: three arrays each, with room for a multiple of kNodes.
+/// `lower`, `upper`: three arrays each, `growths` one, with room for a multiple of kNodes.
 void boxesOf(const LssTable::Entry* entries, int count, const LinkNodes* links,
              const double* growths, float* const* lower, float* const* upper) {
   const NodeLanes d;
   const hn::Rebind<float, NodeLanes> floats;
+  Extents extents;
+  alignas(64) double least[kNodes], negated[kNodes];
   for (int first = 0; first < count; first += kNodes) {
-    const int some = count - first < kNodes ? count - first : kNodes;
     for (int axis = 0; axis < 3; ++axis) {
-      alignas(64) double least[kNodes] = {}, largest[kNodes] = {}, growth[kNodes] = {};
-      for (int i = 0; i < some; ++i) {
-        const LssTable::Entry& entry = entries[first + i];
-        extentOf(entry, links[entry.link], axis, least + i, largest + i);
-        growth[i] = growths[first + i];
+      for (int i = 0; i < kNodes; ++i) {
+        // Lanes beyond the last LSS repeat it.
+        const LssTable::Entry& entry = entries[first + i < count ? first + i : count - 1];
+        storeExtents(entry, links[entry.link], axis, i, extents);
       }
+      leastOfRows(extents.least, least);
+      leastOfRows(extents.negated, negated);
       for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
-        const NodeVector grown = hn::Load(d, growth + lane);
+        const NodeVector grown = hn::LoadU(d, growths + first + lane);
         const NodeVector low = hn::Sub(hn::Load(d, least + lane), grown);
-        const NodeVector high = hn::Add(hn::Load(d, largest + lane), grown);
+        const NodeVector high = hn::Sub(grown, hn::Load(d, negated + lane));
         hn::Store(hn::DemoteTo(floats, downward(d, low)), floats, lower[axis] + first + lane);
         hn::Store(hn::DemoteTo(floats, upward(d, high)), floats, upper[axis] + first + lane);
       }
@@ -145,7 +201,7 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
   boxes.resize(table.size());
   if (table.size() == 0) return;
   const double gap = widestGap(nodes);
-  boxes.growths_.resize(static_cast<std::size_t>(table.size()));
+  boxes.growths_.resize(static_cast<std::size_t>(boxes.capacity));
   for (std::int32_t i = 0; i < table.size(); ++i) {
     boxes.growths_[static_cast<std::size_t>(i)] = growthOf(table[i], motion, nodes, gap, margin);
   }

@@ -10,6 +10,7 @@
 
 #include "lss/simd.h"
 #include "tests/support/random_motion.h"
+#include "tests/support/widest_afterwards.h"
 
 namespace foretouch {
 namespace {
@@ -23,12 +24,6 @@ using test::Real;
 double asDouble(const Real& x) {
   return static_cast<double>(x);
 }
-
-/// Leaves the widest width in use, whatever the test did.
-class ChainNodesTest : public ::testing::Test {
- protected:
-  void TearDown() override { useSimd(std::nullopt); }
-};
 
 /// Worst share of each bound that was used.
 struct Shares {
@@ -71,7 +66,8 @@ void compare(const RandomMotion& m, const ChainNodes& nodes, int k, Random& rand
 
 // Owns kQuaternion, kMatrix, kArm and kSum of chain_nodes.cpp and the length of the weights'
 // series.
-TEST_F(ChainNodesTest, AreTheTrueFramesWithinTheirBoundsAtEveryWidth) {
+TEST(ChainNodes, AreTheTrueFramesWithinTheirBoundsAtEveryWidth) {
+  const test::WidestAfterwards guard;
   Shares shares;
   ChainNodes nodes;
   for (int i = 0; i < 240; ++i) {
@@ -102,7 +98,7 @@ TEST_F(ChainNodesTest, AreTheTrueFramesWithinTheirBoundsAtEveryWidth) {
 }
 
 // One joint, turns of every size up to a half: the series has to be long enough for each.
-TEST_F(ChainNodesTest, TurnsOfEverySizeAreReached) {
+TEST(ChainNodes, TurnsOfEverySizeAreReached) {
   ChainNodes nodes;
   Shares shares;
   for (int i = 0; i < 2000; ++i) {
@@ -121,7 +117,7 @@ TEST_F(ChainNodesTest, TurnsOfEverySizeAreReached) {
   EXPECT_GT(shares.rotation, 1e-3);
 }
 
-TEST_F(ChainNodesTest, TimesAreTheChebyshevLobattoPoints) {
+TEST(ChainNodes, TimesAreTheChebyshevLobattoPoints) {
   const Real pi = boost::math::constants::pi<Real>();
   for (int k = 0; k < kNodes; ++k) {
     const Real exact = (1 - cos(Real(k) * pi / 7)) / 2;
@@ -129,7 +125,7 @@ TEST_F(ChainNodesTest, TimesAreTheChebyshevLobattoPoints) {
   }
 }
 
-TEST_F(ChainNodesTest, InstantsStayCloseToTheirFormula) {
+TEST(ChainNodes, InstantsStayCloseToTheirFormula) {
   ChainNodes nodes;
   Random random(1);
   const RandomMotion m = test::randomMotion(random, 1);
@@ -147,7 +143,7 @@ TEST_F(ChainNodesTest, InstantsStayCloseToTheirFormula) {
 }
 
 // Reuse must not leave anything of an earlier, larger or faster motion behind.
-TEST_F(ChainNodesTest, DependOnTheLastCallAlone) {
+TEST(ChainNodes, DependOnTheLastCallAlone) {
   ChainNodes reused;
   ChainMotion motion;
   for (int i = 0; i < 60; ++i) {

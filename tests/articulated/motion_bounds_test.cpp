@@ -143,6 +143,22 @@ TEST(MotionBounds, SpeedAndAccelerationBoundTheTrueMotion) {
   EXPECT_GT(tightestSpeed, 0.9);
 }
 
+// The angle is bounded by the chord: for turns of every size, and never by much more than the turn.
+TEST(MotionBounds, TurnsOfEverySizeAreBoundedAndNearlyMet) {
+  constexpr double kPi = 3.14159265358979323846;
+  for (int i = 0; i < 2000; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const double angle = i % 10 == 0 ? kPi : random.magnitude(1e-12, kPi);
+    RandomMotion m = test::randomMotion(random, 1);
+    m.to.rotations[0] = m.from.rotations[0] * random.turn(angle);
+    const ChainMotion motion(m.skeleton, m.from, m.to);
+    // The turn as built is off by a few roundings from the angle asked for.
+    EXPECT_GE(motion.bounds(0).angularSpeed, angle - 1e-15);
+    EXPECT_LE(motion.bounds(0).angularSpeed, angle * 1.009 + 1e-13);
+  }
+}
+
 TEST(MotionBounds, AngularBoundsHold) {
   for (int i = 0; i < 500; ++i) {
     SCOPED_TRACE(i);

@@ -10,6 +10,7 @@
 
 #include "lss/simd.h"
 #include "tests/support/random_motion.h"
+#include "tests/support/widest_afterwards.h"
 #include "tests/tessellation/random_lss.h"
 
 namespace foretouch {
@@ -24,11 +25,6 @@ using test::Real;
 double asDouble(const Real& x) {
   return static_cast<double>(x);
 }
-
-class LssPolynomialsTest : public ::testing::Test {
- protected:
-  void TearDown() override { useSimd(std::nullopt); }
-};
 
 float horner(const float* c, float u, bool fused) {
   float sum = c[kCoefficients - 1];
@@ -133,7 +129,8 @@ void checkFrame(const FramePolynomials& got, const ChainNodes& nodes, const Prec
 
 // Owns every constant of lss_polynomials.cpp. Large steps over wide spans try the interpolation,
 // small ones the rounding.
-TEST_F(LssPolynomialsTest, ContainTheTrueLssAndPointsAtEveryWidth) {
+TEST(LssPolynomials, ContainTheTrueLssAndPointsAtEveryWidth) {
+  const test::WidestAfterwards guard;
   Shares shares;
   ChainNodes nodes;
   for (int i = 0; i < 400; ++i) {
@@ -170,7 +167,7 @@ TEST_F(LssPolynomialsTest, ContainTheTrueLssAndPointsAtEveryWidth) {
 
 // The eighth derivative's bound, where nothing else is of any size: one joint turning a point at
 // arm's length comes close to it, and a chain stays below.
-TEST_F(LssPolynomialsTest, InterpolationErrorIsABoundAndNotFarFromTheWorst) {
+TEST(LssPolynomials, InterpolationErrorIsABoundAndNotFarFromTheWorst) {
   ChainNodes nodes;
   double closest = 0.0;
   for (int i = 0; i < 400; ++i) {
@@ -204,7 +201,7 @@ TEST_F(LssPolynomialsTest, InterpolationErrorIsABoundAndNotFarFromTheWorst) {
 
 // An ordinary step of a tracked person: 5 Hz, joints turning up to 15 degrees, within a metre of
 // the origin.
-TEST_F(LssPolynomialsTest, CostLessThanAMicrometreForOrdinarySteps) {
+TEST(LssPolynomials, CostLessThanAMicrometreForOrdinarySteps) {
   double worst = 0.0;
   for (int i = 0; i < 200; ++i) {
     Random random(static_cast<std::uint64_t>(i));

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "lss/simd.h"
+#include "tests/support/widest_afterwards.h"
 #include "tests/tessellation/random_lss.h"
 
 namespace foretouch {
@@ -19,11 +20,6 @@ using test::Precise3;
 using test::PreciseFrame;
 using test::Random;
 using test::Real;
-
-class SweptBoxesTest : public ::testing::Test {
- protected:
-  void TearDown() override { useSimd(std::nullopt); }
-};
 
 /// The extreme points of the true LSS, grown by the margin, are between `lower` and `upper`.
 bool contains(const float* lower, const float* upper, const LssTable::Entry& entry,
@@ -38,7 +34,8 @@ bool contains(const float* lower, const float* upper, const LssTable::Entry& ent
   return true;
 }
 
-TEST_F(SweptBoxesTest, ContainTheTrueLssAtEveryWidth) {
+TEST(SweptBoxes, ContainTheTrueLssAtEveryWidth) {
+  const test::WidestAfterwards guard;
   ChainNodes nodes;
   SweptBoxes boxes;
   for (int i = 0; i < 300; ++i) {
@@ -81,7 +78,7 @@ TEST_F(SweptBoxesTest, ContainTheTrueLssAtEveryWidth) {
   }
 }
 
-TEST_F(SweptBoxesTest, LanesLeftOverAreEmpty) {
+TEST(SweptBoxes, LanesLeftOverAreEmpty) {
   SweptBoxes boxes;
   ChainNodes nodes;
   for (int i = 0; i < 40; ++i) {
@@ -104,7 +101,7 @@ TEST_F(SweptBoxesTest, LanesLeftOverAreEmpty) {
 }
 
 // A body at rest: nothing but float's own rounding is added.
-TEST_F(SweptBoxesTest, AreTightAroundABodyAtRest) {
+TEST(SweptBoxes, AreTightAroundABodyAtRest) {
   Random random(5);
   const test::MovingBody body(random, 6);
   const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.from);
