@@ -167,10 +167,15 @@ std::size_t termsFor(double versine) {
   return terms;
 }
 
-/// Factor from one coefficient of sin(s*phi)/sin(phi) in powers of 1 - cos(phi) to the next.
-double nextCoefficient(double s, std::size_t power) {
+/// The coefficients of sin(s*phi)/sin(phi) for the power of 1 - cos(phi) after `power`, one for
+/// each s (chain_nodes.md 1).
+void nextCoefficients(const double* s, const double* coefficients, std::size_t power,
+                      double* next) {
   const auto j = static_cast<double>(power);
-  return ((j + 1.0) - s) * ((j + 1.0) + s) / ((2.0 * j + 3.0) * (j + 1.0));
+  const double inverse = 1.0 / ((2.0 * j + 3.0) * (j + 1.0));
+  for (int k = 0; k < kNodes; ++k) {
+    next[k] = coefficients[k] * (((j + 1.0) - s[k]) * ((j + 1.0) + s[k]) * inverse);
+  }
 }
 
 }  // namespace
@@ -213,12 +218,8 @@ void ChainNodes::extendWeights(std::size_t terms) {
   for (std::size_t j = weights_.to.size(); j < terms; ++j) {
     weights_.from.emplace_back();
     weights_.to.emplace_back();
-    for (std::size_t k = 0; k < kNodes; ++k) {
-      weights_.from[j].at[k] =
-          weights_.from[j - 1].at[k] * nextCoefficient(weights_.from[0].at[k], j - 1);
-      weights_.to[j].at[k] =
-          weights_.to[j - 1].at[k] * nextCoefficient(weights_.to[0].at[k], j - 1);
-    }
+    nextCoefficients(weights_.from[0].at, weights_.from[j - 1].at, j - 1, weights_.from[j].at);
+    nextCoefficients(weights_.to[0].at, weights_.to[j - 1].at, j - 1, weights_.to[j].at);
   }
 }
 
