@@ -124,7 +124,7 @@ class Backtracker {
         candidate.part.isTriangle()) {
       ++counters_.cubicTests;
       const double reached =
-          freeUntilByCubics(query_.parts.motion, query_.parts.link, t, 1.0,
+          freeUntilByCubics(query_.evaluator, query_.parts.link, t, 1.0,
                             query_.parts.surface->triangle(candidate.part.index()),
                             query_.scene.triangle(candidate.triangle), floor,
                             kFloorShare * query_.tolerance, pair.nhat);

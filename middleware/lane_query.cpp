@@ -20,8 +20,10 @@ constexpr double kHandOverShare = 0.75;
 constexpr double kCertainShare = 1.0 - 0x1p-10;
 /// No pair is certainly in contact.
 constexpr float kNeverCertain = -1.0F;
-/// Polynomials that are off by less than this share of the tolerance decide as well as exact ones.
+/// Polynomials that are off by less than this share of the tolerance, or by this (m), decide almost
+/// as well as exact ones: it is in their radius, and more slabs cost more.
 constexpr double kInterpolationShare = 1.0 / 64.0;
+constexpr double kLeastInterpolationError = 4e-6;
 /// Steps that clusters are given before their triangles are asked: where they are through after
 /// these, up to eight triangles need not be.
 constexpr int kClusterRounds = 3;
@@ -60,7 +62,9 @@ LaneQuery::LaneQuery(const Avatar& avatar, const ChainMotion& motion, const Scen
 
 void LaneQuery::run(StepContacts& step) {
   findWhoIsAsked();
-  const int slabs = slabsFor(lanes_.table, motion_, kInterpolationShare * options_.tolerance);
+  const int slabs =
+      slabsFor(lanes_.table, motion_,
+               std::max(kInterpolationShare * options_.tolerance, kLeastInterpolationError));
   for (int slab = 0; slab < slabs; ++slab) {
     begin_ = static_cast<double>(slab) / slabs;
     end_ = static_cast<double>(slab + 1) / slabs;
@@ -225,37 +229,41 @@ void LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counter
   const LssTable::Entry& entry = lanes_.table[lss];
   const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes);
   const LaneLss lane = laneLss(polynomials, entry.radius);
-  std::array<float, 3> origin;
-  for (std::size_t k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);
-  lanes_.pairs.reserve(end - begin);
+  float origin[3];
+  for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);
   for (std::uint32_t i = begin; i < end; ++i) {
-    const Cluster& cluster = bvh_.cluster(lanes_.sorted[i].leaf);
-    lanes_.pairs.addSphere(lane, cluster.centre, cluster.radius, origin, kBegin,
+    lanes_.pairs.addSphere(lane, bvh_.cluster(lanes_.sorted[i].leaf), origin, kBegin,
                            static_cast<std::int32_t>(i));
   }
   lanes_.clusters.count = 0;
   counters.clusterSteps +=
       lanes_.pairs.advanceSpheres(lane, tolerances_, kClusterRounds, best, lanes_.clusters);
-  gatherTriangles(lane, origin, counters);
+  collectParts();
+  lanes_.pairs.addTriangles(lane, lanes_.parts.data(), lanes_.parts.size(), origin,
+                            bvh_.vertexRounding());
+  counters.candidates += lanes_.pairs.count();
   counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
 }
 
 /// The triangles of the clusters that were not proven clear, from the time on that is open.
-void LaneQuery::gatherTriangles(const LaneLss& lane, const std::array<float, 3>& origin,
-                                QueryCounters& counters) {
-  lanes_.pairs.reserve(lanes_.clusters.count * kBvhWidth);
+void LaneQuery::collectParts() {
+  lanes_.parts.clear();
   for (std::size_t i = 0; i < lanes_.clusters.count; ++i) {
     const LeafHit& hit = lanes_.sorted[static_cast<std::size_t>(lanes_.clusters.key[i])];
     const BvhLeaf& leaf = bvh_.leaf(hit.leaf);
-    for (std::size_t slot = 0; slot < kBvhWidth; ++slot) {
-      if ((hit.triangles >> slot & 1U) == 0) continue;
-      const TriangleId id = leaf.id[slot];
-      if (scratch_.ignored.has(scene_.object(id))) continue;
-      lanes_.pairs.addTriangle(lane, &leaf.vertex[0][0][slot], kBvhWidth, origin,
-                               bvh_.vertexRounding(), lanes_.clusters.time[i], id);
+    const std::uint8_t asked = scratch_.ignored.empty() ? hit.triangles : withoutIgnored(hit, leaf);
+    if (asked != 0) lanes_.parts.push_back({&leaf, asked, lanes_.clusters.time[i]});
+  }
+}
+
+std::uint8_t LaneQuery::withoutIgnored(const LeafHit& hit, const BvhLeaf& leaf) const {
+  unsigned asked = hit.triangles;
+  for (unsigned slot = 0; slot < kBvhWidth; ++slot) {
+    if ((asked >> slot & 1U) != 0 && scratch_.ignored.has(scene_.object(leaf.id[slot]))) {
+      asked &= ~(1U << slot);
     }
   }
-  counters.candidates += lanes_.pairs.count();
+  return static_cast<std::uint8_t>(asked);
 }
 
 void LaneQuery::addCandidates(std::int32_t lssOfLink) {

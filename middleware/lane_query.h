@@ -4,7 +4,6 @@
 // doubles, for the pairs that lanes could not decide. Not installed.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "middleware/flat_bvh.h"
@@ -33,8 +32,8 @@ class LaneQuery {
                                        float& best, QueryCounters& counters);
   void prepareScalar(LinkId link);
   void advanceLss(std::int32_t lss, float& best, QueryCounters& counters);
-  void gatherTriangles(const LaneLss& lane, const std::array<float, 3>& origin,
-                       QueryCounters& counters);
+  void collectParts();
+  [[nodiscard]] std::uint8_t withoutIgnored(const LeafHit& hit, const BvhLeaf& leaf) const;
   void addCandidates(std::int32_t lssOfLink);
   [[nodiscard]] double timeOf(float u) const;
 

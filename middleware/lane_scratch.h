@@ -21,6 +21,7 @@ struct LaneScratch {
   std::vector<LeafHit> sorted;       // by LSS
   std::vector<std::uint32_t> first;  // per LSS: where its hits begin in `sorted`
   PairLanes pairs;
+  std::vector<LeafPart> parts;        // of the LSS at hand
   HandedOver clusters, handed;        // of the LSS at hand
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
 };

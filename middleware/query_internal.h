@@ -25,6 +25,7 @@ class IgnoredObjects {
     std::sort(objects_.begin(), objects_.end());
     return false;
   }
+  [[nodiscard]] bool empty() const { return objects_.empty(); }
   [[nodiscard]] bool has(ObjectId object) const {
     return std::binary_search(objects_.begin(), objects_.end(), object);
   }

@@ -22,6 +22,15 @@ struct HandedRows {
   float* time;
   float* gap;
 };
+/// Roundings of a plane's arithmetic per metre of extent, and of the vertices' own subtraction
+/// (lss_pairs.md 2).
+inline constexpr double kPlaneRounding = 12.0 * 0x1p-24;
+/// The same per metre of the largest coordinate: a point's norm is at most the root of 3 of it.
+inline constexpr float kRoundingOfCoordinate = static_cast<float>(1.7321 * kPlaneRounding);
+/// A sphere's radius has a part in the rounding of the last subtraction.
+inline constexpr float kSphereInflation = 1.0F + 0x1p-20F;
+/// Past the rounding of a sum of three such terms.
+inline constexpr float kSumInflation = 1.0F + 0x1p-21F;
 }  // namespace foretouch::internal
 #endif
 
@@ -39,6 +48,35 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// What is left after so many rounds goes to the scalar code, which is always right; ordinary pairs
 /// need fewer than ten.
 constexpr int kMaxRounds = 48;
+
+/// Appends the chosen triangles of every leaf, relative to the origin, to the rows.
+std::size_t gatherTriangles(const LeafPart* parts, std::size_t numParts, const float* origin,
+                            float reach, const LaneRows& rows, std::size_t count) {
+  const hn::CappedTag<float, kBvhWidth> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t part = 0; part < numParts; ++part) {
+    const BvhLeaf& leaf = *parts[part].leaf;
+    const float* const vertices = &leaf.vertex[0][0][0];
+    for (std::size_t i = 0; i < kBvhWidth; i += lanes) {
+      const std::uint8_t bits[8] = {static_cast<std::uint8_t>(parts[part].triangles >> i)};
+      const auto chosen = hn::And(hn::LoadMaskBits(d, bits), hn::FirstN(d, lanes));
+      auto largest = hn::Zero(d);
+      for (std::size_t k = 0; k < 9; ++k) {
+        const auto x =
+            hn::Sub(hn::Load(d, vertices + k * kBvhWidth + i), hn::Set(d, origin[k % 3]));
+        largest = hn::Max(largest, hn::Abs(x));
+        hn::CompressStore(x, chosen, d, rows.coordinates[k] + count);
+      }
+      const auto grown = hn::MulAdd(largest, hn::Set(d, kRoundingOfCoordinate), hn::Set(d, reach));
+      hn::CompressStore(hn::Mul(grown, hn::Set(d, kSumInflation)), chosen, d, rows.reach + count);
+      hn::CompressStore(hn::Set(d, parts[part].start), chosen, d, rows.time + count);
+      count += hn::CompressStore(hn::Load(di, leaf.id + i), hn::RebindMask(di, chosen), di,
+                                 rows.key + count);
+    }
+  }
+  return count;
+}
 
 std::uint64_t triangleRounds(const LaneLss& lss, const LaneTolerances& tolerances,
                              const LaneRows& rows, std::size_t count, float& best,
@@ -63,13 +101,11 @@ HWY_AFTER_NAMESPACE();
 namespace foretouch::internal {
 namespace {
 
+HWY_EXPORT(gatherTriangles);
 HWY_EXPORT(triangleRounds);
 HWY_EXPORT(sphereRounds);
 
 constexpr double kU = 0x1p-24;
-/// Roundings of a plane's arithmetic per metre of extent, and of the vertices' own subtraction
-/// (lss_pairs.md 2).
-constexpr double kPlaneRounding = 12.0 * kU;
 
 std::size_t roundedUp(std::size_t count) {
   return (count + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
@@ -111,6 +147,7 @@ LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius) {
   lane.speedSlack = floatAbove(4.0 * kU * speed +
                                std::max(derivativeRounding(lane.a), derivativeRounding(lane.b)));
   lane.extent = floatAbove(std::max(extentOf(lane.a), extentOf(lane.b)));
+  lane.reach = floatAbove(lane.radius + kPlaneRounding * (double{lane.extent} + lane.radius));
   lane.contactShift = floatBelow(2.0 * (static_cast<double>(lane.radius) + lssRadius));
   return lane;
 }
@@ -131,36 +168,27 @@ void PairLanes::reserve(std::size_t extra) {
   capacity_ = grown;
 }
 
-void PairLanes::add(float reach, float start, std::int32_t key) {
-  row(9)[count_] = reach;
+void PairLanes::addTriangles(const LaneLss& lss, const LeafPart* parts, std::size_t numParts,
+                             const float* origin, double vertexRounding) {
+  reserve(numParts * kBvhWidth);
+  const float reach = floatAbove(double{lss.reach} + vertexRounding);
+  count_ = HWY_DYNAMIC_DISPATCH(gatherTriangles)(parts, numParts, origin, reach, rows(), count_);
+}
+
+void PairLanes::addSphere(const LaneLss& lss, const Cluster& sphere, const float* origin,
+                          float start, std::int32_t key) {
+  if (count_ + kMaxLanes >= capacity_) reserve(1);
+  float largest = 0.0F;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float x = sphere.centre[k] - origin[k];
+    row(k)[count_] = x;
+    largest = std::max(largest, std::abs(x));
+  }
+  row(9)[count_] = kSumInflation *
+                   (lss.reach + sphere.radius * kSphereInflation + kRoundingOfCoordinate * largest);
   row(10)[count_] = start;
   keys_[count_] = key;
   ++count_;
-}
-
-void PairLanes::addTriangle(const LaneLss& lss, const float* vertices, std::size_t stride,
-                            const std::array<float, 3>& origin, double vertexRounding, float start,
-                            std::int32_t key) {
-  float largest = 0.0F;
-  for (std::size_t k = 0; k < 9; ++k) {
-    const float x = vertices[k * stride] - origin[k % 3];
-    row(k)[count_] = x;
-    largest = std::max(largest, std::abs(x));
-  }
-  const double extent = lss.extent + std::sqrt(3.0) * largest;
-  add(floatAbove(lss.radius + vertexRounding + kPlaneRounding * (extent + lss.radius)), start, key);
-}
-
-void PairLanes::addSphere(const LaneLss& lss, const float* centre, float radius,
-                          const std::array<float, 3>& origin, float start, std::int32_t key) {
-  float largest = 0.0F;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float x = centre[k] - origin[k];
-    row(k)[count_] = x;
-    largest = std::max(largest, std::abs(x));
-  }
-  const double extent = lss.extent + std::sqrt(3.0) * largest, reach = double{lss.radius} + radius;
-  add(floatAbove(reach + kPlaneRounding * (extent + reach)), start, key);
 }
 
 HandedRows PairLanes::room(HandedOver& handed) const {

@@ -11,6 +11,7 @@
 #include <hwy/aligned_allocator.h>
 #include <vector>
 
+#include "middleware/flat_bvh_lanes.h"
 #include "tessellation/lss_polynomials.h"
 
 namespace foretouch::internal {
@@ -26,6 +27,7 @@ struct LaneLss {
   float accelerationA, accelerationB;
   float speedSlack;  ///< What rounding may do to a speed along a unit direction.
   float extent;      ///< |a(u)| and |b(u)| are at most this.
+  float reach;       ///< The radius, and the rounding of planes as far as the LSS has a part in it.
 };
 /// `lssRadius`: of the LSS itself.
 [[nodiscard]] LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius);
@@ -46,6 +48,13 @@ struct HandedOver {
   std::size_t count = 0;
 };
 
+/// Some triangles of a leaf: bit i of `triangles` is the i-th. Known to be apart before `start`.
+struct LeafPart {
+  const BvhLeaf* leaf;
+  std::uint8_t triangles;
+  float start;
+};
+
 struct LaneRows;
 struct HandedRows;
 
@@ -53,18 +62,14 @@ struct HandedRows;
 class PairLanes {
  public:
   [[nodiscard]] std::size_t count() const { return count_; }
-  /// Room for `extra` more pairs; to be called before they are added.
-  void reserve(std::size_t extra);
 
-  /// A triangle: coordinate k = 3*corner + axis at vertices[k*stride], in the frame in which
-  /// `origin` is the polynomials' origin; each vertex off by at most `vertexRounding`. The pair is
-  /// known to be apart before `start`.
-  void addTriangle(const LaneLss& lss, const float* vertices, std::size_t stride,
-                   const std::array<float, 3>& origin, double vertexRounding, float start,
-                   std::int32_t key);
+  /// Triangles of the tree's leaves, each vertex off by at most `vertexRounding`; `origin` is the
+  /// polynomials' origin in the tree's frame. Keys are the triangles' ids.
+  void addTriangles(const LaneLss& lss, const LeafPart* parts, std::size_t numParts,
+                    const float* origin, double vertexRounding);
   /// A sphere that contains a cluster's triangles, rounding included.
-  void addSphere(const LaneLss& lss, const float* centre, float radius,
-                 const std::array<float, 3>& origin, float start, std::int32_t key);
+  void addSphere(const LaneLss& lss, const Cluster& sphere, const float* origin, float start,
+                 std::int32_t key);
 
   /// Advances every pair until it is through (u = 1), handed over, or past `best`: the least time
   /// known at which some pair is in contact for certain, lowered as such are found. Leaves no
@@ -77,7 +82,8 @@ class PairLanes {
 
  private:
   static constexpr std::size_t kRows = 11;
-  void add(float reach, float start, std::int32_t key);
+  /// Room for `extra` more pairs.
+  void reserve(std::size_t extra);
   [[nodiscard]] HandedRows room(HandedOver& handed) const;
   [[nodiscard]] LaneRows rows();
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <vector>
-#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -110,6 +109,20 @@ double separationAt(const LssPolynomials& p, double radius, const Vertices& v, d
   return oracle::closestPoints(endAt(p.a, u), endAt(p.b, u), triangle).distance - radius;
 }
 
+/// Ids are the triangles' places.
+std::vector<BvhLeaf> leavesOf(const std::vector<Vertices>& triangles) {
+  std::vector<BvhLeaf> leaves((triangles.size() + kBvhWidth - 1) / kBvhWidth);
+  for (std::size_t i = 0; i < leaves.size() * kBvhWidth; ++i) {
+    BvhLeaf& leaf = leaves[i / kBvhWidth];
+    const std::size_t from = std::min(i, triangles.size() - 1);
+    for (std::size_t k = 0; k < 9; ++k) {
+      leaf.vertex[k / 3][k % 3][i % kBvhWidth] = triangles[from][k];
+    }
+    leaf.id[i % kBvhWidth] = from == i ? static_cast<TriangleId>(i) : -1;
+  }
+  return leaves;
+}
+
 struct Outcome {
   HandedOver handed;
   float best = 1.0F;
@@ -120,11 +133,13 @@ Outcome advance(const LssPolynomials& motion, double radius, const std::vector<V
                 const LaneTolerances& tolerances) {
   const LaneLss lane = laneLss(motion, radius);
   PairLanes pairs;
-  pairs.reserve(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    pairs.addTriangle(lane, triangles[i].data(), 1, {0.0F, 0.0F, 0.0F}, 0.0, -1.0F,
-                      static_cast<std::int32_t>(i));
+  const std::vector<BvhLeaf> leaves = leavesOf(triangles);
+  std::vector<LeafPart> parts;
+  for (const BvhLeaf& leaf : leaves) {
+    parts.push_back({&leaf, static_cast<std::uint8_t>((1U << leaf.count()) - 1U), -1.0F});
   }
+  const float origin[3] = {0.0F, 0.0F, 0.0F};
+  pairs.addTriangles(lane, parts.data(), parts.size(), origin, 0.0);
   Outcome outcome;
   outcome.evaluations = pairs.advanceTriangles(lane, tolerances, outcome.best, outcome.handed);
   EXPECT_EQ(pairs.count(), 0U);
@@ -151,7 +166,6 @@ TEST_P(LanePairs, NeverPassAContactAndHandOverOnlyWhatIsNear) {
       const double there = separationAt(motion, radius, triangles[key], until[key]);
       ASSERT_GE(there, static_cast<double>(outcome.handed.gap[i])) << draw << ' ' << key;
       // A thin lever of extent 4 m and a radius of nothing are the worst of these draws.
-      if (there > 1e-3) std::cerr << draw << " key " << key << " sep " << there << " gap " << outcome.handed.gap[i] << " u " << until[key] << " r " << radius << " axis " << (motion.a[0][0]-motion.b[0][0]) << " t " << testing::PrintToString(triangles[key]) << "\n";
       worstLeft = std::max(worstLeft, there);
       ++handedOver;
     }
@@ -202,15 +216,14 @@ TEST_P(LanePairs, SpheresBoundWhatIsInThem) {
     const LaneLss lane = laneLss(motion, radius);
     PairLanes pairs;
     const auto count = static_cast<std::size_t>(1 + random.below(40));
-    std::vector<std::array<float, 4>> spheres(count);
-    pairs.reserve(count);
+    std::vector<Cluster> spheres(count);
+    const float origin[3] = {0.0F, 0.0F, 0.0F};
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d centre = random.inBox(1.0);
-      spheres[i] = {static_cast<float>(centre.x()), static_cast<float>(centre.y()),
-                    static_cast<float>(centre.z()),
+      spheres[i] = {{static_cast<float>(centre.x()), static_cast<float>(centre.y()),
+                     static_cast<float>(centre.z())},
                     static_cast<float>(random.magnitude(0.002, 0.3))};
-      pairs.addSphere(lane, spheres[i].data(), spheres[i][3], {0.0F, 0.0F, 0.0F}, -1.0F,
-                      static_cast<std::int32_t>(i));
+      pairs.addSphere(lane, spheres[i], origin, -1.0F, static_cast<std::int32_t>(i));
     }
     HandedOver handed;
     pairs.advanceSpheres(lane, kTolerances, 3, 1.0F, handed);
@@ -219,13 +232,14 @@ TEST_P(LanePairs, SpheresBoundWhatIsInThem) {
       until[static_cast<std::size_t>(handed.key[i])] = static_cast<double>(handed.time[i]);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const oracle::Vec3<double> centre{spheres[i][0], spheres[i][1], spheres[i][2]};
+      const oracle::Vec3<double> centre{spheres[i].centre[0], spheres[i].centre[1],
+                                        spheres[i].centre[2]};
       for (int sample = 0; sample < kSamples; ++sample) {
         const double u = -1.0 + (until[i] + 1.0) * sample / kSamples;
         if (u >= until[i]) break;
         const auto closest =
             oracle::closestPoints(endAt(motion.a, u), endAt(motion.b, u), {centre, centre, centre});
-        ASSERT_GE(closest.distance - radius - static_cast<double>(spheres[i][3]), 0.0)
+        ASSERT_GE(closest.distance - radius - static_cast<double>(spheres[i].radius), 0.0)
             << draw << ' ' << i << " at " << u;
       }
     }
