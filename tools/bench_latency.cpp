@@ -238,6 +238,7 @@ Result<MeasuredBench> measureLatency(const LatencyRequest& request) {
     addRawRows(at, bench.raw);
     overheadUs = timing.value().overheadUs;
   }
+  if (report.tables[1].rows.empty()) report.tables.erase(report.tables.begin() + 1);
   report.notes = notesOn(request.options.timing, overheadUs);
   return bench;
 }

@@ -21,7 +21,8 @@ struct MeasuredBench {
   BenchTable raw;  ///< A line a step.
 };
 
-/// Tables: "latency" (percentiles), "ratios" (between rows of it), "counters" (means a step).
+/// Tables: "latency" (percentiles), "ratios" (between rows of it, where there are several),
+/// "counters" (means a step).
 [[nodiscard]] Result<MeasuredBench> measureLatency(const LatencyRequest& request);
 
 }  // namespace foretouch::tools

@@ -17,7 +17,6 @@ namespace {
 
 std::string processorName() {
   std::ifstream file("/proc/cpuinfo");
-  std::string model, family;
   for (std::string line; std::getline(file, line);) {
     const std::size_t colon = line.find(": ");
     if (colon == std::string::npos) continue;
@@ -73,7 +72,9 @@ std::string dateNow() {
 
 std::string commandLine(const std::vector<std::string>& arguments) {
   std::string line = "foretouch";
-  for (const std::string& word : arguments) {
+  for (const std::string& argument : arguments) {
+    const std::size_t slash = argument.find_last_of('/');
+    const std::string word = slash == std::string::npos ? argument : argument.substr(slash + 1);
     line += ' ';
     if (isPlain(word)) {
       line += word;

@@ -14,7 +14,8 @@ namespace foretouch::tools {
 /// Now, UTC, "2026-01-31 12:00".
 [[nodiscard]] std::string dateNow();
 
-/// The words of a command line, quoted as a shell would need them, the program as "foretouch".
+/// The words of a command line, quoted as a shell would need them, the program as "foretouch" and
+/// files by their names: where they lie is no reader's business.
 [[nodiscard]] std::string commandLine(const std::vector<std::string>& arguments);
 
 /// This process' own command line.

@@ -54,7 +54,9 @@ TEST_F(BenchProgram, LatencyReportsEveryRateToleranceAndCache) {
   EXPECT_NE(ended.out.find("Latency of a step"), std::string::npos);
   const Json report = json("a.json");
   EXPECT_EQ(report["format"], "foretouch-bench");
-  EXPECT_EQ(report["command"].get<std::string>().rfind("foretouch bench latency --scene ", 0), 0u);
+  EXPECT_EQ(
+      report["command"].get<std::string>().rfind("foretouch bench latency --scene wall.obj ", 0),
+      0u);
   EXPECT_FALSE(report["machine"]["processor"].get<std::string>().empty());
   const Json rows = table(report, "latency");
   EXPECT_EQ(rows.size(), 2u * (4u + 3u));  // cold only at the first tolerance

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tools/bench_machine.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -47,6 +49,16 @@ TEST(BenchReport, RefusesOtherJson) {
 
 TEST(TableCsv, QuotesWordsAndLeavesGaps) {
   EXPECT_EQ(tableCsv(sample().tables[0]), "name,count,p50_us\n\"a,\"\"b\"\"\",3,1.25\nc,4,\n");
+}
+
+TEST(CommandLine, QuotesWordsAndNamesFilesWithoutTheirFolders) {
+  EXPECT_EQ(commandLine({"bench", "--scene", "/some/where/a room.obj", "--place", "0,0,0", "it's"}),
+            "foretouch bench --scene 'a room.obj' --place 0,0,0 'it'\\''s'");
+}
+
+TEST(TableText, ShortensNumbersWithoutFixedDecimals) {
+  const BenchTable table{"t", "T", {{"x", "x", -1}}, {{1e-5}, {300000.0}}};
+  EXPECT_EQ(tableText(table), "T\n       x\n   1e-05\n  300000\n");
 }
 
 TEST(TableText, AlignsColumns) {
