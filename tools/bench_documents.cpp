@@ -118,7 +118,8 @@ Result<BenchReport> instructionReport(const BenchReport& latency, std::int64_t i
   report.tables = {std::move(table)};
   report.notes = {
       "Counted by valgrind's callgrind in a run without timing, from the two poses to "
-      "the contacts. They depend on the compiler and the vector width alone."};
+      "the contacts. They depend on the compiler and the vector width, and by some hundredths of a "
+      "percent on where memory happens to lie."};
   return report;
 }
 

@@ -1,6 +1,7 @@
 #include "tools/bench_latency.h"
 
-#include <array>
+#include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -92,25 +93,44 @@ void addLatencyRows(const RateTimes& at, BenchTable& table) {
                             p.mean / rays, p.p50 / rays, p.p99 / rays});
     };
     add("warm", column(times, warmOf));
+    if (c > 0) continue;
     add("first of all", column(times, [](const TimedStep& s) { return s.firstUs; }));
     add("every repeat", times.everyUs);
     if (way.cold) add("cold", column(times, [](const TimedStep& s) { return s.coldUs; }));
   }
 }
 
+/// The mean counts of a step, in the order of the table's columns from "contacts" on.
+std::vector<BenchCell> meanCounts(const CaseTimes& times) {
+  const auto mean = [&](auto field) { return percentilesOf(column(times, field)).mean; };
+  std::vector<BenchCell> counts = {mean([](const TimedStep& s) { return s.contacts; }),
+                                   mean([](const TimedStep& s) { return s.starts; }),
+                                   mean([](const TimedStep& s) { return s.undecided; })};
+  for (const auto& [name, field] : kCounterFields) {
+    counts.emplace_back(mean([field = field](const TimedStep& s) { return s.counters.*field; }));
+  }
+  return counts;
+}
+
+/// Widths that count alike at one tolerance share a row.
 void addCounterRows(const RateTimes& at, BenchTable& table) {
+  constexpr std::size_t kSimd = 2, kCounts = 3;  // columns
+  const auto first = static_cast<std::ptrdiff_t>(table.rows.size());
   for (std::size_t c = 0; c < at.cases.size(); ++c) {
-    const CaseTimes& times = at.timing.cases[c];
-    const auto mean = [&](auto field) { return percentilesOf(column(times, field)).mean; };
-    std::vector<BenchCell> row = {at.rateHz,
-                                  at.cases[c].query.tolerance,
-                                  std::string(toString(at.cases[c].simd)),
-                                  mean([](const TimedStep& s) { return s.contacts; }),
-                                  mean([](const TimedStep& s) { return s.starts; }),
-                                  mean([](const TimedStep& s) { return s.undecided; })};
-    for (const auto& [name, field] : kCounterFields) {
-      row.emplace_back(mean([field = field](const TimedStep& s) { return s.counters.*field; }));
+    const std::vector<BenchCell> counts = meanCounts(at.timing.cases[c]);
+    const BenchCell tolerance = at.cases[c].query.tolerance;
+    const std::string simd = toString(at.cases[c].simd);
+    const auto same = std::find_if(
+        table.rows.begin() + first, table.rows.end(), [&](const std::vector<BenchCell>& row) {
+          return row[1] == tolerance &&
+                 std::equal(counts.begin(), counts.end(), row.begin() + kCounts);
+        });
+    if (same != table.rows.end()) {
+      std::get<std::string>((*same)[kSimd]) += ", " + simd;
+      continue;
     }
+    std::vector<BenchCell> row = {at.rateHz, tolerance, simd};
+    row.insert(row.end(), counts.begin(), counts.end());
     table.rows.push_back(std::move(row));
   }
 }
@@ -210,7 +230,11 @@ Result<MeasuredBench> measureLatency(const LatencyRequest& request) {
   MeasuredBench bench;
   BenchReport& report = bench.report;
   report.kind = "latency";
-  report.title = "Latency of a step";
+  report.title =
+      fmt::format("Latency of a step: {} in {} triangles, {} links, {} fidelity",
+                  std::filesystem::path(inputs.value().files.scenePath).filename().string(),
+                  scene.value().numTriangles(), body.value().avatar.numLinks(),
+                  toString(query.value().fidelity));
   report.command = request.options.command;
   report.date = dateNow();
   report.machine = machineFacts();
@@ -223,7 +247,7 @@ Result<MeasuredBench> measureLatency(const LatencyRequest& request) {
   for (const double rateHz : request.ratesHz) {
     WorkloadRequest wanted = request.options.workload;
     wanted.rateHz = rateHz;
-    const auto workload = chooseSteps(inputs.value(), wanted);
+    const auto workload = chooseSteps(inputs.value(), body.value(), wanted);
     if (!workload.ok()) return workload.error();
     const auto steps = posesOf(inputs.value(), body.value(), workload.value());
     if (!steps.ok()) return steps.error();

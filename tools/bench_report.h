@@ -20,7 +20,7 @@ struct BenchColumn {
   std::string key;    ///< Of the JSON and the CSV: lower_case, with its unit ("p50_us").
   std::string title;  ///< Of tables for people.
   int decimals = 2;   ///< Of measured numbers in tables for people; -1: six digits in all. Files
-                     ///< keep all digits.
+                      ///< keep all digits.
 };
 
 struct BenchTable {

@@ -133,7 +133,9 @@ Result<Done> ScalingBench::prepare(const Point& point) {
   if (newSteps) {
     WorkloadRequest wanted = request_.options.workload;
     wanted.rateHz = point.rateHz;
-    auto workload = chooseSteps(inputs_, wanted);
+    const auto base = bodyOf(inputs_, request_.links);  // the same steps for every body
+    if (!base.ok()) return base.error();
+    auto workload = chooseSteps(inputs_, base.value(), wanted);
     if (!workload.ok()) return workload.error();
     workload_ = std::move(workload).value();
   }

@@ -42,14 +42,20 @@ Avatar grownBy(const Avatar& avatar, double margin) {
 /// Tells what kind of step a step is.
 class Classifier {
  public:
-  explicit Classifier(const BenchInputs& inputs)
-      : inputs_(inputs), grown_(grownBy(inputs.avatar, kNearM)) {
+  Classifier(const BenchInputs& inputs, const BenchBody& body)
+      : inputs_(inputs), body_(body), grown_(grownBy(body.avatar, kNearM)) {
     options_.tolerance = kWorkloadTolerance;
   }
 
+  [[nodiscard]] Result<Pose> poseAt(const Placement& placement, std::int64_t frame) const {
+    const double timeS = static_cast<double>(frame) * inputs_.clip.frameTimeS;
+    return validatedPose(body_.avatar.skeleton(),
+                         poseOfBody(body_, placedPose(inputs_, placement, frame), timeS));
+  }
+
   Result<StepClass> classOf(const Pose& from, const Pose& to) {
-    const ChainMotion motion(inputs_.avatar.skeleton(), from, to);
-    const auto contacts = firstContacts(inputs_.avatar, motion, inputs_.scene, options_, scratch_);
+    const ChainMotion motion(body_.avatar.skeleton(), from, to);
+    const auto contacts = firstContacts(body_.avatar, motion, inputs_.scene, options_, scratch_);
     if (!contacts.ok()) return contacts.error();
     StepClass kind = StepClass::Far;
     for (const LinkContact& contact : contacts.value().links) {
@@ -71,19 +77,20 @@ class Classifier {
   }
 
   const BenchInputs& inputs_;
+  const BenchBody& body_;
   Avatar grown_;
   QueryOptions options_;
   QueryScratch scratch_;
 };
 
-/// Lowest point of any LSS over the frames in use, and the middle of the first link's way: where a
-/// placement holds the clip.
-Eigen::Vector3d holdOf(const BenchInputs& inputs, std::int64_t stride, std::int64_t steps) {
+/// Lowest point of any LSS of the whole avatar over all frames, and the middle of the first link's
+/// way: where a placement holds the clip.
+Eigen::Vector3d holdOf(const BenchInputs& inputs) {
   double lowest = std::numeric_limits<double>::infinity();
   Eigen::Vector3d low = Eigen::Vector3d::Constant(lowest), high = -low;
   std::vector<LinkState> states;
-  for (std::int64_t step = 0; step <= steps; ++step) {
-    const Pose pose = placedPose(inputs, Placement{}, step * stride);
+  for (std::size_t frame = 0; frame < inputs.clip.frames.size(); ++frame) {
+    const Pose pose = placedPose(inputs, Placement{}, static_cast<std::int64_t>(frame));
     ChainMotion(inputs.avatar.skeleton(), pose, pose).statesAt(0.0, states);
     low = low.cwiseMin(states[0].p_WL);
     high = high.cwiseMax(states[0].p_WL);
@@ -164,28 +171,27 @@ void takeMix(Workload& workload, std::vector<FoundStep> found) {
   for (const FoundStep& step : taken) workload.picks.push_back(step.pick);
 }
 
-/// Every step at one placement. False where a pose lies farther out than coordinates may.
-Result<bool> addSteps(const BenchInputs& inputs, const Placement& placement, std::int64_t steps,
+/// So many steps at one placement, spread over all that the clip has. False where a pose lies
+/// farther out than coordinates may.
+Result<bool> addSteps(const Placement& placement, std::int64_t ofAll, std::int64_t steps,
                       Classifier& classifier, Workload& workload, std::vector<StepPick>& found) {
-  const Skeleton& skeleton = inputs.avatar.skeleton();
-  auto from = validatedPose(skeleton, placedPose(inputs, placement, 0));
-  for (std::int64_t step = 0; step < steps; ++step) {
-    auto to = validatedPose(skeleton, placedPose(inputs, placement, (step + 1) * workload.stride));
+  for (std::int64_t i = 0; i < steps; ++i) {
+    const std::int64_t frame = i * ofAll / steps * workload.stride;
+    const auto from = classifier.poseAt(placement, frame);
+    const auto to = classifier.poseAt(placement, frame + workload.stride);
     if (!from.ok() || !to.ok()) return false;
     const auto kind = classifier.classOf(from.value(), to.value());
     if (!kind.ok()) return kind.error();
     ++workload.found[static_cast<std::size_t>(kind.value())];
-    found.push_back({placement, step * workload.stride, kind.value()});
-    from = std::move(to);
+    found.push_back({placement, frame, kind.value()});
   }
   return true;
 }
 
-Result<Done> takeAll(const BenchInputs& inputs, std::int64_t steps, Workload& workload) {
-  Classifier classifier(inputs);
-  const auto wanted = static_cast<std::int64_t>(workload.request.steps);
-  const auto added = addSteps(inputs, *workload.request.place, std::min(steps, wanted), classifier,
-                              workload, workload.picks);
+Result<Done> takeAll(std::int64_t steps, Classifier& classifier, Workload& workload) {
+  const std::int64_t taken = std::min(steps, static_cast<std::int64_t>(workload.request.steps));
+  const auto added =
+      addSteps(*workload.request.place, taken, taken, classifier, workload, workload.picks);
   if (!added.ok()) return added.error();
   if (!added.value()) {
     return Error{ErrorCode::OutOfRange, "--place", -1, -1, "expected poses within 1e7 m"};
@@ -195,19 +201,21 @@ Result<Done> takeAll(const BenchInputs& inputs, std::int64_t steps, Workload& wo
   return Done{};
 }
 
-Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Workload& workload) {
+Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Classifier& classifier,
+                    Workload& workload) {
   const WorkloadRequest& request = workload.request;
-  Classifier classifier(inputs);
-  Random random(request.seed);
-  const Eigen::Vector3d hold = holdOf(inputs, workload.stride, steps);
+  Random places(request.seed), lots(request.seed);
+  const Eigen::Vector3d hold = holdOf(inputs);
   std::vector<FoundStep> found;
   ProgressBar progress("places", request.mostPlacements);
-  while (workload.placements < request.mostPlacements && !isComplete(workload)) {
-    const Placement placement = drawnPlace(inputs, request, hold, random);
+  while (workload.placements < request.mostPlacements &&
+         (workload.placements < kLeastPlaces || !isComplete(workload))) {
+    const Placement placement = drawnPlace(inputs, request, hold, places);
     std::vector<StepPick> here;
-    const auto added = addSteps(inputs, placement, steps, classifier, workload, here);
+    const auto added =
+        addSteps(placement, steps, std::min(steps, kMostStepsAPlace), classifier, workload, here);
     if (!added.ok()) return added.error();
-    for (const StepPick& pick : here) found.push_back({pick, random.next(), found.size()});
+    for (const StepPick& pick : here) found.push_back({pick, lots.next(), found.size()});
     progress.advanceTo(++workload.placements);
   }
   takeMix(workload, std::move(found));
@@ -220,7 +228,8 @@ Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Workload& wor
 
 }  // namespace
 
-Result<Workload> chooseSteps(const BenchInputs& inputs, const WorkloadRequest& request) {
+Result<Workload> chooseSteps(const BenchInputs& inputs, const BenchBody& body,
+                             const WorkloadRequest& request) {
   const auto selection =
       selectSteps(inputs.clip.frames.size(), inputs.clip.frameTimeS, request.rateHz);
   if (!selection.ok()) return inFile(selection.error(), inputs.files.motionPath);
@@ -228,8 +237,9 @@ Result<Workload> chooseSteps(const BenchInputs& inputs, const WorkloadRequest& r
   workload.request = request;
   workload.stride = selection.value().stride;
   const std::int64_t steps = selection.value().count;
-  const auto done =
-      request.place ? takeAll(inputs, steps, workload) : search(inputs, steps, workload);
+  Classifier classifier(inputs, body);
+  const auto done = request.place ? takeAll(steps, classifier, workload)
+                                  : search(inputs, steps, classifier, workload);
   if (!done.ok()) return done.error();
   return workload;
 }

@@ -31,6 +31,10 @@ inline constexpr double kBusyContact = 0.20, kBusyNear = 0.65;
 /// instants. A fixed rule, so that it is the same step whatever the query's bounds are.
 inline constexpr double kNearM = 0.03;
 inline constexpr int kNearInstants = 5;
+/// Of a long clip only so many steps a place, spread over it: or one place would make up the mix.
+inline constexpr std::int64_t kMostStepsAPlace = 40;
+/// Places tried even where the mix is complete with fewer.
+inline constexpr int kLeastPlaces = 20;
 /// Contacts are those at this tolerance (m).
 inline constexpr double kWorkloadTolerance = 1e-3;
 
@@ -52,9 +56,9 @@ struct Workload {
   std::int64_t chosen[kStepClasses] = {};  ///< Steps of the workload, by class.
 };
 
-/// Deterministic: the same request gives the same steps. Errors: a rate that the clip does not
-/// have.
-[[nodiscard]] Result<Workload> chooseSteps(const BenchInputs& inputs,
+/// Steps of `body`, which is made of the inputs' avatar. Deterministic: the same request gives the
+/// same steps, and the same places whatever the rate. Errors: a rate that the clip does not have.
+[[nodiscard]] Result<Workload> chooseSteps(const BenchInputs& inputs, const BenchBody& body,
                                            const WorkloadRequest& request);
 
 /// "500 steps: 20 % with a contact, ...": for the report.

@@ -21,8 +21,13 @@ WorkloadRequest everyStep() {
   return request;
 }
 
+Result<Workload> chosen(const WorkloadRequest& request) {
+  const BenchInputs inputs = test::benchInputs(kWay);
+  return chooseSteps(inputs, bodyWithLinks(inputs.avatar, 2).value(), request);
+}
+
 TEST(ChooseSteps, TakesEveryStepOfAPlaceAndTellsTheirKind) {
-  const auto workload = chooseSteps(test::benchInputs(kWay), everyStep());
+  const auto workload = chosen(everyStep());
   ASSERT_TRUE(workload.ok()) << describe(workload.error());
   std::vector<StepClass> kinds;
   for (const StepPick& pick : workload.value().picks) kinds.push_back(pick.kind);
@@ -31,19 +36,18 @@ TEST(ChooseSteps, TakesEveryStepOfAPlaceAndTellsTheirKind) {
 }
 
 TEST(ChooseSteps, MixesAsAskedAndAlikeOnEveryRun) {
-  const BenchInputs inputs = test::benchInputs(kWay);
   WorkloadRequest request;
   request.rateHz = 10.0;
   request.steps = 40;
   request.floorY = -2.0;
   request.liftM = 0.5;
-  const auto workload = chooseSteps(inputs, request), again = chooseSteps(inputs, request);
+  const auto workload = chosen(request), again = chosen(request);
   ASSERT_TRUE(workload.ok()) << describe(workload.error());
-  const auto& chosen = workload.value().chosen;
+  const auto& shares = workload.value().chosen;
   const auto& picks = workload.value().picks;
   ASSERT_FALSE(picks.empty());
-  EXPECT_EQ(chosen[static_cast<std::size_t>(StepClass::Start)], 0);
-  EXPECT_NEAR(static_cast<double>(chosen[static_cast<std::size_t>(StepClass::Contact)]),
+  EXPECT_EQ(shares[static_cast<std::size_t>(StepClass::Start)], 0);
+  EXPECT_NEAR(static_cast<double>(shares[static_cast<std::size_t>(StepClass::Contact)]),
               kBusyContact * static_cast<double>(picks.size()), 1.0);
   std::int64_t counted[kStepClasses] = {};
   ASSERT_EQ(picks.size(), again.value().picks.size());
@@ -54,9 +58,9 @@ TEST(ChooseSteps, MixesAsAskedAndAlikeOnEveryRun) {
     // The lowest point of the man, the sphere at the hips, is where floor and lift put it.
     EXPECT_NEAR(picks[i].placement.origin.y(), -2.0 + 0.5 + 0.1, 1e-9);
   }
-  EXPECT_TRUE(std::equal(std::begin(counted), std::end(counted), std::begin(chosen)));
+  EXPECT_TRUE(std::equal(std::begin(counted), std::end(counted), std::begin(shares)));
   request.seed = 2;
-  const auto other = chooseSteps(inputs, request);
+  const auto other = chosen(request);
   ASSERT_TRUE(other.ok());
   EXPECT_NE(other.value().picks[0].placement.origin, picks[0].placement.origin);
 }
@@ -64,7 +68,7 @@ TEST(ChooseSteps, MixesAsAskedAndAlikeOnEveryRun) {
 TEST(ChooseSteps, RefusesARateThatTheClipDoesNotHave) {
   WorkloadRequest request = everyStep();
   request.rateHz = 1000.0;
-  EXPECT_FALSE(chooseSteps(test::benchInputs(kWay), request).ok());
+  EXPECT_FALSE(chosen(request).ok());
 }
 
 TEST(PercentilesOf, TakesRanks) {
@@ -84,8 +88,7 @@ class TimedSteps : public testing::Test {
  protected:
   BenchInputs inputs = test::benchInputs(kWay);
   BenchBody body = bodyWithLinks(inputs.avatar, 2).value();
-  std::vector<StepPoses> steps =
-      posesOf(inputs, body, chooseSteps(inputs, everyStep()).value()).value();
+  std::vector<StepPoses> steps = posesOf(inputs, body, chosen(everyStep()).value()).value();
 
   [[nodiscard]] std::vector<BenchCase> cases() const {
     std::vector<BenchCase> ways;
