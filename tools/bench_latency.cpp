@@ -215,6 +215,21 @@ std::vector<std::string> notesOn(const TimingOptions& timing, double overheadUs)
       "same steps, taken in turns with them."};
 }
 
+BenchReport startedReport(const LatencyRequest& request, const BenchInputs& inputs,
+                          const Scene& scene, const Avatar& avatar, const QueryOptions& query) {
+  BenchReport report;
+  report.kind = "latency";
+  report.title = fmt::format("Latency of a step: {} in {} triangles, {} links, {} fidelity",
+                             std::filesystem::path(inputs.files.scenePath).filename().string(),
+                             scene.numTriangles(), avatar.numLinks(), toString(query.fidelity));
+  report.command = request.options.command;
+  report.date = dateNow();
+  report.machine = machineFacts();
+  report.workload = workloadFacts(inputs, scene, avatar, query);
+  report.tables = {latencyTable(), ratiosTable(), countersTable()};
+  return report;
+}
+
 }  // namespace
 
 Result<MeasuredBench> measureLatency(const LatencyRequest& request) {
@@ -227,21 +242,10 @@ Result<MeasuredBench> measureLatency(const LatencyRequest& request) {
   const auto query = queryFor(inputs.value(), body.value(), request.options);
   if (!query.ok()) return query.error();
 
-  MeasuredBench bench;
+  MeasuredBench bench{
+      startedReport(request, inputs.value(), scene.value(), body.value().avatar, query.value()),
+      rawTable()};
   BenchReport& report = bench.report;
-  report.kind = "latency";
-  report.title =
-      fmt::format("Latency of a step: {} in {} triangles, {} links, {} fidelity",
-                  std::filesystem::path(inputs.value().files.scenePath).filename().string(),
-                  scene.value().numTriangles(), body.value().avatar.numLinks(),
-                  toString(query.value().fidelity));
-  report.command = request.options.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
-  report.workload =
-      workloadFacts(inputs.value(), scene.value(), body.value().avatar, query.value());
-  report.tables = {latencyTable(), ratiosTable(), countersTable()};
-  bench.raw = rawTable();
   const std::vector<BenchCase> cases = casesOf(request, query.value());
   double overheadUs = 0.0;
   for (const double rateHz : request.ratesHz) {

@@ -18,7 +18,7 @@ struct WorkloadRequest {
   double rateHz = 5.0;
   std::size_t steps = 500;  ///< Wanted; there may be fewer.
   std::uint64_t seed = 1;
-  int mostPlacements = 200;
+  int mostPlacements = 1000;
   double floorY = 0.0;             ///< Height (m) of the scene's floor.
   double liftM = 0.05;             ///< How far the clip's lowest point stays above it.
   std::optional<Placement> place;  ///< Given: every step of the clip at this one place, no mix.
