@@ -13,6 +13,7 @@
 #include "tools/bench_documents_command.h"
 #include "tools/bench_latency_command.h"
 #include "tools/bench_leaf.h"
+#include "tools/bench_peers_command.h"
 #include "tools/bench_scaling_command.h"
 #include "tools/generated_queries.h"
 
@@ -135,6 +136,7 @@ void addBenchCommand(CLI::App& program, ExitCode& exit) {
   leaf->footer(
       "Example:\n  foretouch bench leaf --queries sample-queries --repeat 10 --json leaf.json");
   leaf->callback([texts, &exit] { exit = run(*texts); });
+  addBenchPeersCommand(*bench, exit);
 }
 
 }  // namespace foretouch::tools

@@ -1,29 +1,13 @@
 #include "tools/generated_queries.h"
 
 #include <cmath>
-#include <random>
+
+#include "tools/portable_random.h"
 
 namespace foretouch::tools {
 namespace {
 
 using Eigen::Vector3d;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-
-  /// In [low, high); the standard's distributions differ between libraries.
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  Vector3d inBox(double half) {
-    const double x = uniform(-half, half), y = uniform(-half, half), z = uniform(-half, half);
-    return {x, y, z};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 Vector3d at(const LinearPoint& p, double t) {
   return p.from + t * (p.to - p.from);
@@ -38,7 +22,7 @@ void shift(std::array<LinearPoint, 4>& points, std::size_t count, const Vector3d
   }
 }
 
-void makeMeet(QueryKind kind, std::array<LinearPoint, 4>& p, Random& random) {
+void makeMeet(QueryKind kind, std::array<LinearPoint, 4>& p, PortableRandom& random) {
   const double t = random.uniform(0, 1), u = random.uniform(0, 1), v = random.uniform(0, 1);
   if (kind == QueryKind::VertexFace) {
     const double first = u + v > 1 ? 1 - u : u, second = u + v > 1 ? 1 - v : v;
@@ -52,7 +36,7 @@ void makeMeet(QueryKind kind, std::array<LinearPoint, 4>& p, Random& random) {
   }
 }
 
-Triangle randomTriangle(Random& random, double half, const Vector3d& center) {
+Triangle randomTriangle(PortableRandom& random, double half, const Vector3d& center) {
   Triangle t;
   for (Vector3d& v : t.vertices) v = center + random.inBox(half);
   return t;
@@ -61,7 +45,7 @@ Triangle randomTriangle(Random& random, double half, const Vector3d& center) {
 }  // namespace
 
 std::vector<LabelledQuery> generatedQueries(QueryKind kind, std::size_t count, std::uint64_t seed) {
-  Random random(seed);
+  PortableRandom random(seed);
   std::vector<LabelledQuery> queries(count);
   for (LabelledQuery& query : queries) {
     for (LinearPoint& p : query.points) {
@@ -74,7 +58,7 @@ std::vector<LabelledQuery> generatedQueries(QueryKind kind, std::size_t count, s
 }
 
 std::vector<RigidPair> generatedRigidPairs(std::size_t count, std::uint64_t seed) {
-  Random random(seed);
+  PortableRandom random(seed);
   std::vector<RigidPair> pairs(count);
   for (RigidPair& pair : pairs) {
     pair.moving_L = randomTriangle(random, 0.1, random.inBox(0.2));

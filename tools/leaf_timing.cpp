@@ -16,23 +16,6 @@ double usBetween(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::micro>(to - from).count();
 }
 
-TimeFigures figuresOf(std::vector<double> us) {
-  TimeFigures figures;
-  if (us.empty()) return figures;
-  std::sort(us.begin(), us.end());
-  double sum = 0.0;
-  for (const double value : us) sum += value;
-  const auto rank = [&](double share) {
-    const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(us.size())));
-    return us[std::max<std::size_t>(place, 1) - 1];
-  };
-  figures.meanUs = sum / static_cast<double>(us.size());
-  figures.medianUs = rank(0.5);
-  figures.p99Us = rank(0.99);
-  figures.maxUs = us.back();
-  return figures;
-}
-
 LeafGroup groupOf(const TimedSet& set, bool positive) {
   LeafGroup group;
   group.name = set.name;
@@ -58,6 +41,23 @@ LeafGroup groupOf(const TimedSet& set, bool positive) {
 }
 
 }  // namespace
+
+TimeFigures figuresOf(std::vector<double> us) {
+  TimeFigures figures;
+  if (us.empty()) return figures;
+  std::sort(us.begin(), us.end());
+  double sum = 0.0;
+  for (const double value : us) sum += value;
+  const auto rank = [&](double share) {
+    const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(us.size())));
+    return us[std::max<std::size_t>(place, 1) - 1];
+  };
+  figures.meanUs = sum / static_cast<double>(us.size());
+  figures.medianUs = rank(0.5);
+  figures.p99Us = rank(0.99);
+  figures.maxUs = us.back();
+  return figures;
+}
 
 double clockOverheadUs() {
   constexpr int kReadings = 10'000;

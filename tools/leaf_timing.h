@@ -40,6 +40,7 @@ struct TimedSet {
 struct TimeFigures {
   double meanUs = 0.0, medianUs = 0.0, p99Us = 0.0, maxUs = 0.0;
 };
+[[nodiscard]] TimeFigures figuresOf(std::vector<double> us);
 
 /// Queries of one set whose right answer (or, unlabelled, whose answer) is the same.
 struct LeafGroup {
