@@ -35,6 +35,11 @@ const std::map<std::string, std::set<std::string>> kLibraries = {
     {"tinyxml.h", {"middleware"}},
     {"console_bridge", {"middleware"}},
     {"CLI", {"tools"}},
+    {"fcl", {"tools"}},
+    {"ccd", {"tools"}},
+    {"BulletCollision", {"tools"}},
+    {"LinearMath", {"tools"}},
+    {"btBulletCollisionCommon.h", {"tools"}},
 };
 
 struct Include {
@@ -109,6 +114,22 @@ TEST(IncludeArrows, LibrariesStayInTheirRooms) {
           << include.file << " includes " << include.target;
     }
   }
+}
+
+// Inside tools/, the peers of `bench peers` are known to their own sources alone.
+TEST(IncludeArrows, PeersStayBehindTheirDoor) {
+  const std::map<std::string, std::string> rooms = {
+      {"fcl", "fcl_solvers.cpp"},
+      {"BulletCollision", "bullet_solvers.cpp"},
+      {"btBulletCollisionCommon.h", "bullet_solvers.cpp"}};
+  std::set<std::string> seen;
+  for (const Include& include : includesOf(fs::path(FORETOUCH_SOURCE_DIR) / "tools")) {
+    const auto room = rooms.find(firstWord(include.target));
+    if (include.quoted || room == rooms.end()) continue;
+    EXPECT_EQ(include.file.filename().string(), room->second) << include.target;
+    seen.insert(room->first);
+  }
+  EXPECT_EQ(seen.size(), rooms.size());
 }
 
 std::string contentOf(const fs::path& path) {
