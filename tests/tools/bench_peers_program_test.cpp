@@ -12,10 +12,10 @@ TEST(BenchPeers, ComparesInTheBundledRoom) {
   if (!tools::hasPeers()) GTEST_SKIP() << "built without FCL and Bullet";
   const TempFolder folder;
   const Ended ended =
-      runForetouch({"bench", "peers", "--motions", "4", "--triangles", "20000", "--rounds", "1",
+      runForetouch({"bench", "peers", "--motions", "4", "--triangles", "1", "--rounds", "1",
                     "--json", folder / "peers.json", "--csv", folder / "peers.csv"});
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
-  for (const char* const word : {"S1: ", "S2: ", "S5: ", "FCL", "Bullet", "missed", "20000"}) {
+  for (const char* const word : {"S1: ", "S2: ", "S5: ", "FCL", "Bullet", "missed", "room.obj"}) {
     EXPECT_NE(ended.out.find(word), std::string::npos) << word << '\n' << ended.out;
   }
   const auto json = nlohmann::json::parse(contentOf(folder / "peers.json"));

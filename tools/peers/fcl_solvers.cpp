@@ -28,6 +28,9 @@ namespace {
 /// Evaluations of the distance; reached by nothing that stays in metres.
 constexpr int kMostAdvancements = 100'000;
 
+/// Metres by which FCL's distances may be off: its solvers stop at 1e-6.
+constexpr double kDistanceSlack = 1e-5;
+
 /// FCL's capsule lies along z around its frame's origin: that frame C in the link's frame L.
 struct FclCapsule {
   explicit FclCapsule(const Lss& lss_L)
@@ -64,32 +67,50 @@ class FclSolver : public SweepSolver {
   FclCapsule capsule_;
 };
 
+/// A way to ask for distances.
+struct FclDistance {
+  const char* name;
+  fcl::GJKSolverType solver;
+  /// What was nearest before bounds the search: it cannot be farther now than it was, plus the
+  /// motion since. The same answers, sooner.
+  bool isBounded;
+};
+constexpr FclDistance kPlainDistance = {"libccd", fcl::GST_LIBCCD, false};
+constexpr FclDistance kBoundedDistance = {"libccd, bounded", fcl::GST_LIBCCD, true};
+constexpr FclDistance kOwnBoundedDistance = {"own GJK, bounded", fcl::GST_INDEP, true};
+
 /// Conservative advancement around fcl::distance(), as a user would write it. The speed bound is
 /// the tightest of one number a motion: that of the axis, not of the surface.
 class FclAdvancement : public FclSolver {
  public:
-  FclAdvancement(std::shared_ptr<const FclScene::Impl> scene, const Lss& lss_L, double tolerance)
-      : FclSolver(fmt::format("FCL distance, advanced by hand, {:g} m", tolerance),
+  FclAdvancement(std::shared_ptr<const FclScene::Impl> scene, const Lss& lss_L,
+                 const FclDistance& how, double tolerance)
+      : FclSolver(fmt::format("FCL distance ({}), advanced by hand, {:g} m", how.name, tolerance),
                   std::move(scene), lss_L),
-        tolerance_(tolerance) {}
+        isBounded_(how.isBounded),
+        tolerance_(tolerance) {
+    request_.gjk_solver_type = how.solver;
+  }
 
   SweepAnswer solve(const RigidSweep& sweep) override {
     const fcl::Transform3d rest = fcl::Transform3d::Identity();
-    const fcl::DistanceRequestd request;
     const double speed = fastestAxisPoint(sweep);
-    double t = 0.0;
+    double t = 0.0, bound = std::numeric_limits<double>::max();
     for (int step = 0; step < kMostAdvancements; ++step) {
-      fcl::DistanceResultd result;
+      fcl::DistanceResultd result(bound);
       const double distance = fcl::distance<double>(
-          &mesh(), rest, &capsule().shape, capsule().poseOf(poseAt(sweep, t)), request, result);
+          &mesh(), rest, &capsule().shape, capsule().poseOf(poseAt(sweep, t)), request_, result);
       if (distance <= tolerance_) return {true, t};
       if (distance >= speed * (1.0 - t)) return {false, 1.0};
       t += distance / speed;
+      if (isBounded_) bound = 2.0 * distance + kDistanceSlack;
     }
     return {true, t};
   }
 
  private:
+  fcl::DistanceRequestd request_;
+  bool isBounded_;
   double tolerance_;
 };
 
@@ -170,8 +191,10 @@ FclScene::~FclScene() = default;
 
 SweepSolvers FclScene::solvers(const Lss& lss_L) const {
   SweepSolvers solvers;
-  for (const double tolerance : {1e-3, 1e-4}) {
-    solvers.push_back(std::make_unique<FclAdvancement>(impl_, lss_L, tolerance));
+  for (const FclDistance& how : {kPlainDistance, kBoundedDistance, kOwnBoundedDistance}) {
+    for (const double tolerance : {1e-3, 1e-4}) {
+      solvers.push_back(std::make_unique<FclAdvancement>(impl_, lss_L, how, tolerance));
+    }
   }
   for (const int samples : {10, 100}) {
     solvers.push_back(std::make_unique<FclContinuous>(impl_, lss_L, samples));

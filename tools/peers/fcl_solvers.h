@@ -20,7 +20,7 @@ class FclScene {
   explicit FclScene(const std::vector<Triangle>& triangles);
   ~FclScene();
 
-  /// Distance and advancement by hand (1e-3 m and 1e-4 m), continuousCollide() and
+  /// Distance and advancement by hand (three ways, at 1e-3 m and 1e-4 m), continuousCollide() and
   /// sub-step-and-test (10 and 100 samples).
   [[nodiscard]] SweepSolvers solvers(const Lss& lss_L) const;
 
