@@ -131,14 +131,14 @@ BenchReport reportOf(const PeersRequest& request, const Scene& scene,
 }
 
 ExitCode run(const PeersTexts& texts) {
-  const auto request = parse(texts);
-  if (!request.ok()) return failed(request.error());
   if (!hasPeers()) {
     printError(
         "bench peers: this program was built without FCL and Bullet; install libfcl-dev and "
         "libbullet-dev and build again with -DFORETOUCH_PEERS=ON");
     return ExitCode::BadInput;
   }
+  const auto request = parse(texts);
+  if (!request.ok()) return failed(request.error());
   const auto scene = loadScene(request.value());
   if (!scene.ok()) return failed(scene.error());
   std::unique_ptr<ProgressBar> bar;
