@@ -1,5 +1,6 @@
 #include "tools/bench_peers_command.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -118,13 +119,15 @@ BenchReport reportOf(const PeersRequest& request, const Scene& scene,
   report.command = ownCommandLine();
   report.date = dateNow();
   report.machine = machineFacts();
-  report.workload = {{"scene", request.scenePath},
-                     {"triangles", fmt::format("{}", scene.numTriangles())},
-                     {"motions a set", fmt::format("{}", request.plan.motions)},
-                     {"seed", fmt::format("{}", request.plan.seed)},
-                     {"rounds of Foretouch", fmt::format("{}", request.plan.rounds.own)},
-                     {"rounds of peers", fmt::format("{}", request.plan.rounds.peers)},
-                     {"peers", builtInPeers()}};
+  report.workload = {
+      {"scene",
+       fmt::format("{}, {} triangles", std::filesystem::path(request.scenePath).filename().string(),
+                   scene.numTriangles())},
+      {"motions a set", fmt::format("{}", request.plan.motions)},
+      {"seed", fmt::format("{}", request.plan.seed)},
+      {"rounds of Foretouch", fmt::format("{}", request.plan.rounds.own)},
+      {"rounds of peers", fmt::format("{}", request.plan.rounds.peers)},
+      {"peers", builtInPeers()}};
   report.tables = peerTables(sets);
   report.notes = peerNotes(sets);
   return report;
