@@ -12,6 +12,7 @@
 #include "tools/demo_command.h"
 #include "tools/replay_command.h"
 #include "tools/scene_command.h"
+#include "tools/sweep_command.h"
 
 namespace foretouch::tools {
 namespace {
@@ -44,6 +45,7 @@ ExitCode run(int argc, const char* const* argv) {
   addReplayCommand(program, exit);
   addAvatarCommand(program, exit);
   addSceneCommand(program, exit);
+  addSweepCommand(program, exit);
   addBenchCommand(program, exit);
   try {
     program.parse(argc, argv);
