@@ -18,9 +18,10 @@ namespace {
 using Eigen::Vector3d;
 
 // What the error is spent on. The chord's share counts twice: once for what the pieces are grown
-// by, once for how far their hulls may be from the path. Pieces times facets is least where the
-// facets' share is twice the chord's; what is left over is for rounding.
-constexpr double kChordShare = 0.2, kFacetShare = 0.4, kSheetShare = 0.14;
+// by, once for how far their hulls may be from the path. The number of pieces goes with the inverse
+// of the sheet's share (both ends seldom move in one direction), that of a piece's facets with the
+// inverse root of theirs: their product is least at 2 : 1. What is left over is for rounding.
+constexpr double kChordShare = 0.1, kFacetShare = 0.27, kSheetShare = 0.46;
 constexpr double kPositionShare = 0.005;  // of the computed axis ends; counts twice
 constexpr double kSpacingsPerError = 128.0;
 /// Half the diagonal of a lattice cell, in spacings: how far rounding moves an end of the axis.
@@ -67,6 +68,21 @@ Result<BallPolytope> polytopeFor(const Lss& lss, const SweptSurfaceOptions& opti
 /// Thinner LSS have no inner surface: too little is left of the ball for a polytope in it.
 bool vanishes(const Lss& lss, const SweptSurfaceOptions& options) {
   return options.side == SurfaceSide::Inner && lss.radius < 1.2 * options.error;
+}
+
+/// Cuts the span from `begin` to the last of `ends` into as many parts as make its sheet `excess`
+/// times flatter, were that linear; false where doubles hold none between.
+bool cutSpan(double begin, double excess, std::vector<double>& ends) {
+  constexpr double kMostParts = 64.0;
+  const double parts = std::ceil(std::clamp(1.02 * excess, 2.0, kMostParts));
+  const double end = ends.back(), middle = begin + 0.5 * (end - begin);
+  if (!(begin < middle && middle < end)) return false;
+  for (double part = parts - 1.0; part >= 1.0; part -= 1.0) {
+    const double t = begin + (part / parts) * (end - begin);
+    if (begin < t && t < ends.back()) ends.push_back(t);
+  }
+  if (ends.back() == end) ends.push_back(middle);
+  return true;
 }
 
 /// The certificate of swept_surface.md 5, rounded up.
@@ -174,11 +190,7 @@ Result<Done> SweptSurfaceBuilder::Parts::addUntil(const ChainMotion& motion, Lin
                                     (end.b - end.a).norm(), (end.b - last_.ends.a).norm(),
                                     (end.a - last_.ends.b).norm()});
     const double sheet = hullLeavesSheetBy(last_.ends, end);
-    const double middle = last_.t + 0.5 * (ends.back() - last_.t);
-    if (!(sheet <= sheetSpacings) && middle > last_.t && middle < ends.back()) {
-      ends.push_back(middle);
-      continue;
-    }
+    if (!(sheet <= sheetSpacings) && cutSpan(last_.t, sheet / sheetSpacings, ends)) continue;
     if (!(sheet <= sheetSpacings) || !(extent < static_cast<double>(kMaxLatticeDifference))) {
       return tooFarOut();
     }

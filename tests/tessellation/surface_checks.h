@@ -85,7 +85,15 @@ class Winding {
     rows_ = static_cast<std::size_t>((high_.y() - low_.y()) / cell_) + 1;
     for (const auto& t : surface.triangles) {
       Triangle triangle;
-      for (std::size_t i = 0; i < 3; ++i) triangle.v[i] = surface.vertices[t[i]];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Eigen::Vector3d& v = surface.vertices[t[i]];
+        triangle.x[i] = std::llround(v.x() / unit_);
+        triangle.y[i] = std::llround(v.y() / unit_);
+        triangle.z[i] = v.z();
+      }
+      const auto [x0, x1] = std::minmax({triangle.x[0], triangle.x[1], triangle.x[2]});
+      const auto [y0, y1] = std::minmax({triangle.y[0], triangle.y[1], triangle.y[2]});
+      triangle.box = {x0, x1, y0, y1};
       triangles_.push_back(triangle);
     }
     bucket();
@@ -111,7 +119,9 @@ class Winding {
   static constexpr double kFiner = 1 << 14;
   __extension__ typedef __int128 Whole;
   struct Triangle {
-    std::array<Eigen::Vector3d, 3> v;
+    std::array<std::int64_t, 3> x{}, y{};  // in units, exact
+    std::array<double, 3> z{};
+    std::array<std::int64_t, 4> box{};
   };
 
   [[nodiscard]] std::size_t column(double x) const {
@@ -124,10 +134,10 @@ class Winding {
   void binsOf(const Triangle& t, const Visit& visit) const {
     // A margin for the shift of x and y.
     const double margin = 100.0 * unit_;
-    const double x0 = std::min({t.v[0].x(), t.v[1].x(), t.v[2].x()}) - margin;
-    const double x1 = std::max({t.v[0].x(), t.v[1].x(), t.v[2].x()}) + margin;
-    const double y0 = std::min({t.v[0].y(), t.v[1].y(), t.v[2].y()}) - margin;
-    const double y1 = std::max({t.v[0].y(), t.v[1].y(), t.v[2].y()}) + margin;
+    const double x0 = static_cast<double>(t.box[0]) * unit_ - margin;
+    const double x1 = static_cast<double>(t.box[1]) * unit_ + margin;
+    const double y0 = static_cast<double>(t.box[2]) * unit_ - margin;
+    const double y1 = static_cast<double>(t.box[3]) * unit_ + margin;
     for (std::size_t r = row(y0); r <= row(y1); ++r) {
       for (std::size_t c = column(x0); c <= column(x1); ++c) visit(c + columns_ * r);
     }
@@ -144,10 +154,11 @@ class Winding {
   /// +1 where the ray leaves through the triangle, -1 where it enters.
   [[nodiscard]] int crossing(const Triangle& t, std::int64_t x, std::int64_t y, double z,
                              bool& isOverEdge) const {
+    if (x < t.box[0] || x > t.box[1] || y < t.box[2] || y > t.box[3]) return 0;
     std::array<std::int64_t, 3> dx{}, dy{};
     for (std::size_t i = 0; i < 3; ++i) {
-      dx[i] = std::llround(t.v[i].x() / unit_) - x;
-      dy[i] = std::llround(t.v[i].y() / unit_) - y;
+      dx[i] = t.x[i] - x;
+      dy[i] = t.y[i] - y;
     }
     std::array<Whole, 3> area{};
     int positive = 0, negative = 0;
@@ -158,20 +169,14 @@ class Winding {
       negative += area[i] < 0;
     }
     if (positive > 0 && negative > 0) return 0;
-    if (positive == 0 && negative == 0) {  // edge-on: over it, or past it
-      const auto [minX, maxX] = std::minmax({dx[0], dx[1], dx[2]});
-      const auto [minY, maxY] = std::minmax({dy[0], dy[1], dy[2]});
-      isOverEdge = minX <= 0 && maxX >= 0 && minY <= 0 && maxY >= 0;
-      return 0;
-    }
-    if (positive + negative < 3) {
+    if (positive + negative < 3) {  // or edge-on
       isOverEdge = true;
       return 0;
     }
     long double height = 0.0L, total = 0.0L;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto weight = static_cast<long double>(area[i]);
-      height += weight * static_cast<long double>(t.v[(i + 2) % 3].z());
+      height += weight * static_cast<long double>(t.z[(i + 2) % 3]);
       total += weight;
     }
     if (height / total <= static_cast<long double>(z)) return 0;
