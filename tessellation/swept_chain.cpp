@@ -68,7 +68,7 @@ void SweptChain::emitOthers(const std::vector<std::uint32_t>& corners, std::int8
     }
     emitted_.push_back({of, static_cast<std::uint32_t>(side.corner), Kind::Side, turned});
   }
-  triangles_ += 2 * faces_.bands.size() + faces_.sides.size();
+  triangles_ += sign * static_cast<std::int64_t>(2 * faces_.bands.size() + faces_.sides.size());
 }
 
 void SweptChain::add(const LatticeEnds& ends, double timeS) {

@@ -3,6 +3,7 @@
 // Proof that this encloses the union: tessellation/swept_surface.md 2.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +31,10 @@ class SweptChain {
   /// Adds what is left at the last instant. Once.
   void close();
 
-  [[nodiscard]] std::size_t triangles() const { return triangles_; }
+  /// Faces less those that will cancel, about: what mesh() will hold, so far.
+  [[nodiscard]] std::size_t triangles() const {
+    return static_cast<std::size_t>(std::max<std::int64_t>(0, triangles_));
+  }
 
   /// After close(): the closed surface. Keys: see place() and timeS().
   [[nodiscard]] ClosedMesh mesh();
@@ -69,7 +73,7 @@ class SweptChain {
   std::vector<std::uint32_t> lastCorner_;
   std::vector<bool> isOpen_;
   std::vector<Face> emitted_;
-  std::size_t triangles_ = 0;
+  std::int64_t triangles_ = 0;
 };
 
 }  // namespace foretouch

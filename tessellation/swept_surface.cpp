@@ -137,6 +137,10 @@ class SweptSurfaceBuilder::Parts {
     return isSingle ? (std::int64_t{1} << 23) : kMaxLatticeCoordinate;
   }
   [[nodiscard]] Error tooFarOut() const;
+  [[nodiscard]] Error tooMany() const {
+    return problem(ErrorCode::LimitExceeded,
+                   fmt::format("more than {} triangles", options_.maxTriangles));
+  }
 
   Lss lss_;
   SweptSurfaceOptions options_;
@@ -200,8 +204,7 @@ Result<Done> SweptSurfaceBuilder::Parts::addUntil(const ChainMotion& motion, Lin
     chain_->add(last_.lattice, span.beginS + share * (span.endS - span.beginS));
     ++pieces_;
     if (chain_->triangles() > options_.maxTriangles) {
-      return problem(ErrorCode::LimitExceeded,
-                     fmt::format("more than {} triangles", options_.maxTriangles));
+      return tooMany();
     }
     ends.pop_back();
   }
@@ -254,14 +257,11 @@ Result<SweptSurface> SweptSurfaceBuilder::Parts::finish() {
   if (vanishes_) return surface;
   FORETOUCH_ASSERT(chain_ != nullptr);
   chain_->close();
-  if (chain_->triangles() > options_.maxTriangles) {
-    return problem(ErrorCode::LimitExceeded,
-                   fmt::format("more than {} triangles", options_.maxTriangles));
-  }
   surface.certifiedError =
       certified(lss_, options_, budget_, polytope_, worstSheet_ * budget_.spacing);
   ClosedMesh mesh = chain_->mesh();
   surface.triangles = std::move(mesh.triangles);
+  if (surface.triangles.size() > options_.maxTriangles) return tooMany();
   for (const ClosedMesh::Vertex& vertex : mesh.vertices) {
     const LatticePoint twice = chain_->place(vertex.a) + chain_->place(vertex.b);
     surface.vertices.push_back(0.5 * budget_.spacing *
