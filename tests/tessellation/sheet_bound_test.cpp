@@ -1,5 +1,6 @@
 #include "tessellation/sheet_bound.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "tests/support/random_geometry.h"

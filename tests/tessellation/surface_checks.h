@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "lss/lss.h"
 #include "tessellation/swept_surface.h"
 #include "tests/support/oracle_motion.h"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -151,7 +152,7 @@ TEST(SweepProgram, IsTheSameTwice) {
 TEST(SweepProgram, RefusesBadUse) {
   const SweepWorld world;
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"--links", "Amr"}, "did you mean 'Arm'"},
+      {{"--links", "Arms"}, "did you mean 'Arm'"},
       {{"--links", ","}, "--links"},
       {{"--from", "2"}, "--from, --to"},
       {{"--from", "0.2", "--to", "0.1"}, "--from, --to"},
