@@ -83,8 +83,6 @@ class Winding {
     }
     const double area = (high_.x() - low_.x()) * (high_.y() - low_.y());
     cell_ = std::max(std::sqrt(area / (4.0 * static_cast<double>(surface.triangles.size()))), 1e-9);
-    columns_ = static_cast<std::size_t>((high_.x() - low_.x()) / cell_) + 1;
-    rows_ = static_cast<std::size_t>((high_.y() - low_.y()) / cell_) + 1;
     for (const auto& t : surface.triangles) {
       Triangle triangle;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -98,7 +96,8 @@ class Winding {
       triangle.box = {x0, x1, y0, y1};
       triangles_.push_back(triangle);
     }
-    bucket();
+    // Long triangles lie over many cells: coarser ones, until there are not too many places.
+    while (!bucket()) cell_ *= 2.0;
   }
 
   /// At `p`, whose coordinates are at least a spacing from where it matters.
@@ -144,14 +143,25 @@ class Winding {
       for (std::size_t c = column(x0); c <= column(x1); ++c) visit(c + columns_ * r);
     }
   }
-  void bucket() {
+  bool bucket() {
+    columns_ = static_cast<std::size_t>((high_.x() - low_.x()) / cell_) + 1;
+    rows_ = static_cast<std::size_t>((high_.y() - low_.y()) / cell_) + 1;
     starts_.assign(columns_ * rows_ + 2, 0);
-    for (const Triangle& t : triangles_) binsOf(t, [&](std::size_t bin) { ++starts_[bin + 2]; });
+    const std::size_t most = 64 * triangles_.size() + 1000;
+    std::size_t places = 0;
+    for (const Triangle& t : triangles_) {
+      binsOf(t, [&](std::size_t bin) {
+        ++starts_[bin + 2];
+        ++places;
+      });
+      if (places > most) return false;
+    }
     for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
     members_.resize(starts_.back());
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       binsOf(triangles_[t], [&](std::size_t bin) { members_[starts_[bin + 1]++] = t; });
     }
+    return true;
   }
   /// +1 where the ray leaves through the triangle, -1 where it enters.
   [[nodiscard]] int crossing(const Triangle& t, std::int64_t x, std::int64_t y, double z,

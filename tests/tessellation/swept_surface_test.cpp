@@ -26,7 +26,7 @@ struct SweepCase {
 Pose movedPose(Random& random, const Pose& pose) {
   Pose moved = pose;
   for (std::size_t j = 0; j < moved.rotations.size(); ++j) {
-    const double angle = random.chance(0.2) ? 0.0 : random.magnitude(1e-3, 0.5);
+    const double angle = random.chance(0.2) ? 0.0 : random.magnitude(1e-3, 1.0);
     moved.rotations[j] = moved.rotations[j] * random.turn(angle);
     if (j == 0 && random.chance(0.7)) moved.translations[j] += random.inBox(0.2);
   }
@@ -80,7 +80,7 @@ Result<SweptSurface> surfaceOf(const SweepCase& c, const SweptSurfaceOptions& op
 }
 
 double errorFor(std::uint64_t seed) {
-  return Random(seed + 77).magnitude(2e-3, 3e-2);
+  return Random(seed + 77).magnitude(5e-4, 2e-2);
 }
 
 std::uint64_t countFromEnvironment(const char* name, std::uint64_t otherwise) {
