@@ -46,6 +46,8 @@ class FlatBvh final : public TriangleCuller {
   [[nodiscard]] std::uint32_t numNodes() const { return static_cast<std::uint32_t>(nodes_.size()); }
   [[nodiscard]] const BvhLeaf& leaf(std::uint32_t index) const { return leaves_[index]; }
   [[nodiscard]] const Cluster& cluster(std::uint32_t index) const { return clusters_[index]; }
+  /// All of them, a leaf each.
+  [[nodiscard]] const Cluster* clusters() const { return clusters_.data(); }
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
   /// Bound (m) on the distance of a leaf's vertex, taken back to the world without rounding, from
   /// the triangle's. Depends on the box of the whole scene only.

@@ -1,6 +1,7 @@
 #include "middleware/lane_query.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <tuple>
@@ -26,7 +27,12 @@ constexpr double kInterpolationShare = 1.0 / 64.0;
 constexpr double kLeastInterpolationError = 4e-6;
 /// Steps that clusters are given before their triangles are asked: where they are through after
 /// these, up to eight triangles need not be.
-constexpr int kClusterRounds = 3;
+constexpr int kClusterRounds = 6;
+/// Leaves whose triangles are advanced together. The first that touch spare the others most of
+/// their steps.
+constexpr std::size_t kPartsAtOnce = 4;
+/// Equal parts of a slab by which clusters are brought in order of time.
+constexpr std::size_t kTimeBins = 32;
 constexpr float kBegin = -1.0F, kEnd = 1.0F;  // of u
 
 /// An empty box, which meets nothing.
@@ -159,14 +165,18 @@ void LaneQuery::sortHits() {
   lanes_.first.assign(count + 2, 0);
   for (const LeafHit& hit : lanes_.hits) ++lanes_.first[hit.box + 2U];
   for (std::size_t i = 2; i < count + 2; ++i) lanes_.first[i] += lanes_.first[i - 1];
-  lanes_.sorted.resize(lanes_.hits.size());
-  for (const LeafHit& hit : lanes_.hits) lanes_.sorted[lanes_.first[hit.box + 1U]++] = hit;
+  lanes_.leaf.resize(lanes_.hits.size() + kMaxLanes);
+  lanes_.triangles.resize(lanes_.hits.size());
+  for (const LeafHit& hit : lanes_.hits) {
+    const std::uint32_t place = lanes_.first[hit.box + 1U]++;
+    lanes_.leaf[place] = static_cast<std::int32_t>(hit.leaf);
+    lanes_.triangles[place] = hit.triangles;
+  }
 }
 
 LinkContact LaneQuery::answer(LinkId link, QueryCounters& counters) {
   const LinkSurface* const surface = surfaceOf(options_, link);
   scratch_.ignored.collect(options_, link);
-  prepareScalar(link);
   const float certain = surface == nullptr ? tolerances_.contact : kNeverCertain;
   float best = kEnd;
   const LinkContact contact = answerWith(link, surface, certain, best, counters);
@@ -197,6 +207,7 @@ LinkContact LaneQuery::answerWith(LinkId link, const LinkSurface* surface, float
   LinkContact contact;
   contact.link = link;
   if (candidates.empty()) return contact;
+  prepareScalar(link);
   const LinkQuery query{{link, avatar_.lss(link), scratch_.axisBounds, motion_, surface, nullptr},
                         scene_,
                         Pieces{},
@@ -231,33 +242,57 @@ void LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counter
   const LaneLss lane = laneLss(polynomials, entry.radius);
   float origin[3];
   for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);
-  for (std::uint32_t i = begin; i < end; ++i) {
-    lanes_.pairs.addSphere(lane, bvh_.cluster(lanes_.sorted[i].leaf), origin, kBegin,
-                           static_cast<std::int32_t>(i));
-  }
+  lanes_.pairs.setSpheres(lane, bvh_.clusters(), lanes_.leaf.data() + begin, end - begin, origin,
+                          kBegin);
   lanes_.clusters.count = 0;
   counters.clusterSteps +=
       lanes_.pairs.advanceSpheres(lane, tolerances_, kClusterRounds, best, lanes_.clusters);
-  collectParts();
-  lanes_.pairs.addTriangles(lane, lanes_.parts.data(), lanes_.parts.size(), origin,
-                            bvh_.vertexRounding());
-  counters.candidates += lanes_.pairs.count();
-  counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
-}
-
-/// The triangles of the clusters that were not proven clear, from the time on that is open.
-void LaneQuery::collectParts() {
-  lanes_.parts.clear();
-  for (std::size_t i = 0; i < lanes_.clusters.count; ++i) {
-    const LeafHit& hit = lanes_.sorted[static_cast<std::size_t>(lanes_.clusters.key[i])];
-    const BvhLeaf& leaf = bvh_.leaf(hit.leaf);
-    const std::uint8_t asked = scratch_.ignored.empty() ? hit.triangles : withoutIgnored(hit, leaf);
-    if (asked != 0) lanes_.parts.push_back({&leaf, asked, lanes_.clusters.time[i]});
+  sortClusters();
+  std::size_t done = 0;
+  while (done < lanes_.clusters.count) {
+    done = collectParts(begin, done, best);
+    lanes_.pairs.addTriangles(lane, lanes_.parts.data(), lanes_.parts.size(), origin,
+                              bvh_.vertexRounding());
+    counters.candidates += lanes_.pairs.count();
+    counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
   }
 }
 
-std::uint8_t LaneQuery::withoutIgnored(const LeafHit& hit, const BvhLeaf& leaf) const {
-  unsigned asked = hit.triangles;
+/// Brings those that are open from early on to the front: what is found there ends the others.
+void LaneQuery::sortClusters() {
+  HandedOver& clusters = lanes_.clusters;
+  const std::size_t count = clusters.count;
+  lanes_.order.resize(count);
+  std::array<std::uint32_t, kTimeBins + 1> first{};
+  const auto binOf = [&](std::size_t i) {
+    const float share = 0.5F * (clusters.time[i] + 1.0F);
+    return std::min(static_cast<std::size_t>(share * kTimeBins), kTimeBins - 1);
+  };
+  for (std::size_t i = 0; i < count; ++i) ++first[binOf(i) + 1];
+  for (std::size_t bin = 0; bin < kTimeBins; ++bin) first[bin + 1] += first[bin];
+  for (std::size_t i = 0; i < count; ++i)
+    lanes_.order[first[binOf(i)]++] = static_cast<std::uint32_t>(i);
+}
+
+/// The triangles of the next clusters that were not proven clear, from the time on that is open.
+/// Returns where to go on.
+std::size_t LaneQuery::collectParts(std::size_t begin, std::size_t done, float best) {
+  lanes_.parts.clear();
+  for (; done < lanes_.clusters.count && lanes_.parts.size() < kPartsAtOnce; ++done) {
+    const std::uint32_t i = lanes_.order[done];
+    if (lanes_.clusters.time[i] > best) continue;
+    const std::size_t hit = begin + static_cast<std::size_t>(lanes_.clusters.key[i]);
+    const BvhLeaf& leaf = bvh_.leaf(static_cast<std::uint32_t>(lanes_.leaf[hit]));
+    const std::uint8_t asked = scratch_.ignored.empty()
+                                   ? lanes_.triangles[hit]
+                                   : withoutIgnored(lanes_.triangles[hit], leaf);
+    if (asked != 0) lanes_.parts.push_back({&leaf, asked, lanes_.clusters.time[i]});
+  }
+  return done;
+}
+
+std::uint8_t LaneQuery::withoutIgnored(std::uint8_t triangles, const BvhLeaf& leaf) const {
+  unsigned asked = triangles;
   for (unsigned slot = 0; slot < kBvhWidth; ++slot) {
     if ((asked >> slot & 1U) != 0 && scratch_.ignored.has(scene_.object(leaf.id[slot]))) {
       asked &= ~(1U << slot);

@@ -32,8 +32,9 @@ class LaneQuery {
                                        float& best, QueryCounters& counters);
   void prepareScalar(LinkId link);
   void advanceLss(std::int32_t lss, float& best, QueryCounters& counters);
-  void collectParts();
-  [[nodiscard]] std::uint8_t withoutIgnored(const LeafHit& hit, const BvhLeaf& leaf) const;
+  void sortClusters();
+  [[nodiscard]] std::size_t collectParts(std::size_t begin, std::size_t done, float best);
+  [[nodiscard]] std::uint8_t withoutIgnored(std::uint8_t triangles, const BvhLeaf& leaf) const;
   void addCandidates(std::int32_t lssOfLink);
   [[nodiscard]] double timeOf(float u) const;
 

@@ -17,11 +17,14 @@ struct LaneScratch {
   LssTable table;
   ChainNodes nodes;
   SweptBoxes boxes;
-  std::vector<LeafHit> hits;         // of all LSS, in the order of the walk
-  std::vector<LeafHit> sorted;       // by LSS
-  std::vector<std::uint32_t> first;  // per LSS: where its hits begin in `sorted`
+  std::vector<LeafHit> hits;  // of all LSS, in the order of the walk
+  // The hits by LSS, `first` where those of an LSS begin.
+  std::vector<std::uint32_t> first;
+  std::vector<std::int32_t> leaf;  // padded by kMaxLanes
+  std::vector<std::uint8_t> triangles;
   PairLanes pairs;
   std::vector<LeafPart> parts;        // of the LSS at hand
+  std::vector<std::uint32_t> order;   // of the clusters, by time
   HandedOver clusters, handed;        // of the LSS at hand
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
 };

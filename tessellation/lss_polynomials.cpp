@@ -197,6 +197,8 @@ LssPolynomials polynomialsOf(const LssTable::Entry& entry, const ChainMotion& mo
   result.speedB = speedOf(b);
   result.accelerationA = accelerationOf(a);
   result.accelerationB = accelerationOf(b);
+  // Twice a float's rounding covers the coefficients', and that of the sum.
+  result.weighted = floatAbove(std::max(a.weighted, b.weighted) * (1.0 + 2.0 * kFloatU));
   return result;
 }
 

@@ -23,6 +23,7 @@ struct alignas(64) LssPolynomials {
   float radius;          ///< The LSS's, and all that is uncertain; rounded up.
   float speedA, speedB;  ///< On |d/du| of the polynomials a, b on [-1,1]; rounded up.
   float accelerationA, accelerationB;  ///< On |d^2/du^2| of the polynomials; rounded up.
+  float weighted;  ///< The larger sum over j of (2j+2) |j-th coefficient|; rounded up.
 };
 
 /// `nodes` were evaluated of `motion`. O(1).

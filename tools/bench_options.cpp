@@ -69,6 +69,12 @@ void settleWorkload(const BenchTexts& texts, Settling& settle, WorkloadRequest& 
   int steps = 0, seed = 1;
   settle.into(steps, parseCount("--steps", texts.steps, kMaxBenchSteps));
   settle.into(seed, parseCount("--seed", texts.seed, kMaxSeed));
+  if (texts.choice == "mix") {
+    workload.choice = StepChoice::Mix;
+  } else if (texts.choice != "busy") {
+    settle.require(Result<Done>(Error{ErrorCode::OutOfRange, "--choice", -1, -1,
+                                      "expected busy or mix, found " + inQuotes(texts.choice)}));
+  }
   settle.into(workload.mostPlacements, parseCount("--places", texts.places, kMaxBenchSteps));
   settle.into(workload.floorY, parseNumber("--floor", texts.floor));
   settle.into(workload.liftM, parseNumber("--lift", texts.lift));
@@ -130,12 +136,14 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts) {
   option("--scene-scale", texts.sceneScale, "S", "Metres per unit of the scene");
   option("--up", texts.up, "y|z", "Which axis of the scene points up");
   option("--place", texts.place, "X,Y,Z[,YAW]",
-         "Every step at this one place, as replay has it, instead of the mix");
-  option("--places", texts.places, "N", "Places tried at most for the mix");
+         "Every step at this one place, as replay has it, instead of a choice");
+  option("--choice", texts.choice, "busy|mix",
+         "All steps at busy places, or a mix of which hardly a step is easy");
+  option("--places", texts.places, "N", "Places tried at most");
   option("--floor", texts.floor, "Y", "Height (m) of the scene's floor");
   option("--lift", texts.lift, "M", "The clip's lowest point stays so far (m) above the floor");
   option("--steps", texts.steps, "N", "Steps, if so many are found");
-  option("--seed", texts.seed, "N", "Of the places and of the choice among their steps");
+  option("--seed", texts.seed, "N", "Of the places, and of the choice among their steps");
   option("--repeat", texts.repeat, "N", "Times that each step is asked");
   option("--processor", texts.processor, "N", "Keep to this processor");
   option("--fidelity", texts.fidelity, "link|exact", "What touches");

@@ -22,7 +22,8 @@ namespace foretouch::tools {
 struct BenchTexts {
   std::string scene, motion, avatar, map, place, json, csv;
   std::string sceneScale = "1", scale = "1", up = "y", motionUp = "y", floor = "0", lift = "0.05";
-  std::string steps = "500", seed = "1", places = "1000", repeat = "9", processor = "any";
+  std::string steps = "500", seed = "1", places = "1000", repeat = "9", processor = "any",
+              choice = "busy";
   std::string fidelity = "link", surfaceTriangles = "20000";
 };
 

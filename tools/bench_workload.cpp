@@ -201,6 +201,31 @@ Result<Done> takeAll(std::int64_t steps, Classifier& classifier, Workload& workl
   return Done{};
 }
 
+/// Takes the steps at a place, if it is busy.
+void takeIfBusy(const std::vector<StepPick>& here, Workload& workload) {
+  const auto count = [&](StepClass kind) {
+    return static_cast<double>(
+        std::count_if(here.begin(), here.end(), [&](const StepPick& p) { return p.kind == kind; }));
+  };
+  const double starts = count(StepClass::Start), all = static_cast<double>(here.size());
+  const double contacts = count(StepClass::Contact), asked = all - starts;
+  if (starts > kMostStarts * all || contacts < kLeastBusy * asked || contacts > kMostBusy * asked) {
+    return;
+  }
+  ++workload.taken;
+  for (const StepPick& pick : here) {
+    if (pick.kind == StepClass::Start || workload.picks.size() >= workload.request.steps) continue;
+    ++workload.chosen[static_cast<std::size_t>(pick.kind)];
+    workload.picks.push_back(pick);
+  }
+}
+
+bool hasEnough(const Workload& workload) {
+  return workload.request.choice == StepChoice::BusyPlaces
+             ? workload.picks.size() >= workload.request.steps
+             : workload.placements >= kLeastPlaces && isComplete(workload);
+}
+
 Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Classifier& classifier,
                     Workload& workload) {
   const WorkloadRequest& request = workload.request;
@@ -208,17 +233,20 @@ Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Classifier& c
   const Eigen::Vector3d hold = holdOf(inputs);
   std::vector<FoundStep> found;
   ProgressBar progress("places", request.mostPlacements);
-  while (workload.placements < request.mostPlacements &&
-         (workload.placements < kLeastPlaces || !isComplete(workload))) {
+  while (workload.placements < request.mostPlacements && !hasEnough(workload)) {
     const Placement placement = drawnPlace(inputs, request, hold, places);
     std::vector<StepPick> here;
     const auto added =
         addSteps(placement, steps, std::min(steps, kMostStepsAPlace), classifier, workload, here);
     if (!added.ok()) return added.error();
-    for (const StepPick& pick : here) found.push_back({pick, lots.next(), found.size()});
+    if (request.choice == StepChoice::BusyPlaces) {
+      takeIfBusy(here, workload);
+    } else {
+      for (const StepPick& pick : here) found.push_back({pick, lots.next(), found.size()});
+    }
     progress.advanceTo(++workload.placements);
   }
-  takeMix(workload, std::move(found));
+  if (request.choice == StepChoice::Mix) takeMix(workload, std::move(found));
   if (!workload.picks.empty()) return Done{};
   return Error{ErrorCode::Empty, inputs.files.scenePath, -1, -1,
                fmt::format("no steps with and without a contact were found at {} places; are "
@@ -227,6 +255,10 @@ Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Classifier& c
 }
 
 }  // namespace
+
+const char* toString(StepChoice choice) {
+  return choice == StepChoice::BusyPlaces ? "busy" : "mix";
+}
 
 Result<Workload> chooseSteps(const BenchInputs& inputs, const BenchBody& body,
                              const WorkloadRequest& request) {
@@ -263,11 +295,18 @@ std::string describe(const Workload& workload) {
                       "{:g},{:g},{:g},{:g}",
                       share(StepClass::Start), p.x(), p.y(), p.z(), request.place->yawDeg);
   }
-  return text + fmt::format(
-                    "; drawn (seed {}) from {} steps at {} places with the clip's lowest "
-                    "point {:g} mm above the floor, less {:.1f} % that start in contact",
-                    request.seed, all, workload.placements, 1e3 * request.liftM,
-                    100.0 * static_cast<double>(workload.found[0]) / static_cast<double>(all));
+  const std::string from = fmt::format(
+      " (seed {}) with the clip's lowest point {:g} mm above the floor, less those that start in "
+      "contact ({:.1f} % of all that were looked at)",
+      request.seed, 1e3 * request.liftM,
+      100.0 * static_cast<double>(workload.found[0]) / static_cast<double>(all));
+  if (request.choice == StepChoice::BusyPlaces) {
+    return text +
+           fmt::format("; all steps, up to {} a place, of the {} busy ones of {} places",
+                       kMostStepsAPlace, workload.taken, workload.placements) +
+           from;
+  }
+  return text + fmt::format("; a mix of {} steps at {} places", all, workload.placements) + from;
 }
 
 Result<std::vector<StepPoses>> posesOf(const BenchInputs& inputs, const BenchBody& body,

@@ -1,6 +1,6 @@
 // tools/bench_workload.h: which steps a benchmark asks for: a clip at many places of a scene, and
-// of the steps there a fixed mix of those with a contact, those near to things and those far from
-// all.
+// there either all steps of the places that are busy, or of all places a fixed mix of steps with a
+// contact, steps near to things and steps far from all.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,29 @@
 
 namespace foretouch::tools {
 
+enum class StepChoice : std::uint8_t {
+  BusyPlaces,  ///< As they come, where about one step in five has a contact.
+  Mix,         ///< Drawn, so that hardly a step is easy.
+};
+/// "busy", "mix".
+[[nodiscard]] const char* toString(StepChoice choice);
+
 struct WorkloadRequest {
+  StepChoice choice = StepChoice::BusyPlaces;
   double rateHz = 5.0;
   std::size_t steps = 500;  ///< Wanted; there may be fewer.
   std::uint64_t seed = 1;
   int mostPlacements = 1000;
   double floorY = 0.0;             ///< Height (m) of the scene's floor.
   double liftM = 0.05;             ///< How far the clip's lowest point stays above it.
-  std::optional<Placement> place;  ///< Given: every step of the clip at this one place, no mix.
+  std::optional<Placement> place;  ///< Given: every step of the clip at this one place, no choice.
 };
 
-/// Shares of the busy mix: what is asked of a step is either easy (far), or nearly a contact, or
+/// A place is busy where of the steps that do not start in contact so many have one, and where not
+/// more than kMostStarts of all start in contact (a body that stands in furniture).
+inline constexpr double kLeastBusy = 0.12, kMostBusy = 0.28, kMostStarts = 0.2;
+
+/// Shares of the mix: what is asked of a step is either easy (far), or nearly a contact, or
 /// one. Steps that start in contact are left out of it.
 inline constexpr double kBusyContact = 0.20, kBusyNear = 0.65;
 /// A step is near if a link with its radii grown by this (m) touches at one of kNearInstants
@@ -52,6 +64,7 @@ struct Workload {
   std::int64_t stride = 1;
   std::vector<StepPick> picks;
   int placements = 0;                      ///< Tried.
+  int taken = 0;                           ///< Busy ones that were taken.
   std::int64_t found[kStepClasses] = {};   ///< Steps at those places, by class.
   std::int64_t chosen[kStepClasses] = {};  ///< Steps of the workload, by class.
 };

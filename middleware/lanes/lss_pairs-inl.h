@@ -99,6 +99,49 @@ HWY_INLINE Moving<V> endAt(const float (&c)[3][8], V u) {
   return end;
 }
 
+/// Brings the chosen lanes side by side, the first of them first. What hn::Compress does, with the
+/// way of the lanes found once for all rows, and without its tables, which GCC 12 copies to the
+/// stack for every call.
+template <class D>
+class Chosen {
+ public:
+  using Mask = hn::Mask<D>;
+  using Signed = hn::RebindToSigned<D>;
+  static constexpr std::size_t kLanes = hn::MaxLanes(D());
+  static constexpr bool kByTable = kLanes == 4 || kLanes == 8;
+
+  HWY_INLINE Chosen(D d, Mask mask) : mask_(mask) {
+    if constexpr (kByTable) {
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(d, mask, bits);
+      const hn::Rebind<std::uint8_t, D> bytes;
+      const auto from = hn::PromoteTo(Signed(), hn::LoadU(bytes, kLanesOfBits[bits[0]]));
+      hn::StoreU(from, Signed(), from_);
+      count_ = hn::CountTrue(d, mask);
+    } else {
+      count_ = hn::CountTrue(d, mask);
+    }
+  }
+  [[nodiscard]] HWY_INLINE std::size_t count() const { return count_; }
+
+  /// A whole vector is written.
+  template <class V, class T>
+  HWY_INLINE void store(V lanes, T* to) const {
+    const hn::DFromV<V> d;
+    if constexpr (kByTable) {
+      const auto from = hn::SetTableIndices(d, from_);
+      hn::StoreU(hn::TableLookupLanes(lanes, from), d, to);
+    } else {
+      hn::StoreU(hn::Compress(lanes, hn::RebindMask(d, mask_)), d, to);
+    }
+  }
+
+ private:
+  Mask mask_;
+  std::size_t count_;
+  std::int32_t from_[kLanes];
+};
+
 /// What one evaluation tells of a lane.
 template <class D>
 struct Advance {
@@ -276,12 +319,13 @@ struct TriangleKernel {
     return result;
   }
 
-  template <class D, class M>
-  HWY_INLINE void keep(D d, const LaneRows& rows, std::size_t from, std::size_t to, M mask) const {
+  template <class D>
+  HWY_INLINE void keep(D d, const LaneRows& rows, std::size_t from, std::size_t to,
+                       const Chosen<D>& staying) const {
     for (int k = 0; k < 9; ++k) {
-      hn::CompressStore(hn::Load(d, rows.coordinates[k] + from), mask, d, rows.coordinates[k] + to);
+      staying.store(hn::Load(d, rows.coordinates[k] + from), rows.coordinates[k] + to);
     }
-    hn::CompressStore(hn::Load(d, rows.reach + from), mask, d, rows.reach + to);
+    staying.store(hn::Load(d, rows.reach + from), rows.reach + to);
   }
 };
 
@@ -314,12 +358,13 @@ struct SphereKernel {
     return result;
   }
 
-  template <class D, class M>
-  HWY_INLINE void keep(D d, const LaneRows& rows, std::size_t from, std::size_t to, M mask) const {
+  template <class D>
+  HWY_INLINE void keep(D d, const LaneRows& rows, std::size_t from, std::size_t to,
+                       const Chosen<D>& staying) const {
     for (int k = 0; k < 3; ++k) {
-      hn::CompressStore(hn::Load(d, rows.coordinates[k] + from), mask, d, rows.coordinates[k] + to);
+      staying.store(hn::Load(d, rows.coordinates[k] + from), rows.coordinates[k] + to);
     }
-    hn::CompressStore(hn::Load(d, rows.reach + from), mask, d, rows.reach + to);
+    staying.store(hn::Load(d, rows.reach + from), rows.reach + to);
   }
 };
 
@@ -352,13 +397,24 @@ std::uint64_t advanceAll(D d, const Kernel& kernel, int maxRounds, const LaneRow
       const auto left = hn::AndNot(over, valid);
       const auto hand = round == maxRounds ? left : hn::And(left, step.handOver);
       const auto goesOn = hn::AndNot(hand, left);
-      hn::CompressStore(step.next, hand, d, handed.time + handedCount);
-      hn::CompressStore(hn::IfThenElse(step.handOver, step.gap, hn::Zero(d)), hand, d,
-                        handed.gap + handedCount);
-      handedCount += hn::CompressStore(key, hn::RebindMask(di, hand), di, handed.key + handedCount);
-      kernel.keep(d, rows, i, kept, goesOn);
-      hn::CompressStore(step.next, goesOn, d, rows.time + kept);
-      kept += hn::CompressStore(key, hn::RebindMask(di, goesOn), di, rows.key + kept);
+      if (!hn::AllFalse(d, hand)) {
+        const auto gap = hn::IfThenElse(step.handOver, step.gap, hn::Zero(d));
+        const Chosen<D> leaving(d, hand);
+        leaving.store(step.next, handed.time + handedCount);
+        leaving.store(gap, handed.gap + handedCount);
+        leaving.store(key, handed.key + handedCount);
+        handedCount += leaving.count();
+      }
+      const std::size_t going = hn::CountTrue(d, goesOn);
+      if (going == lanes && kept == i) {
+        hn::Store(step.next, d, rows.time + i);
+      } else if (going != 0) {
+        const Chosen<D> staying(d, goesOn);
+        kernel.keep(d, rows, i, kept, staying);
+        staying.store(step.next, rows.time + kept);
+        staying.store(key, rows.key + kept);
+      }
+      kept += going;
     }
     count = kept;
   }

@@ -22,6 +22,23 @@ struct HandedRows {
   float* time;
   float* gap;
 };
+/// Row m: the places of the bits that are set in m, ascending, then zeros.
+struct LanesOfBits {
+  std::uint8_t rows[256][8];
+};
+constexpr LanesOfBits lanesOfBits() {
+  LanesOfBits table{};
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    unsigned count = 0;
+    for (unsigned lane = 0; lane < 8; ++lane) {
+      if ((bits >> lane & 1U) != 0) table.rows[bits][count++] = static_cast<std::uint8_t>(lane);
+    }
+  }
+  return table;
+}
+inline constexpr LanesOfBits kLanesOfBitsTable = lanesOfBits();
+inline constexpr auto& kLanesOfBits = kLanesOfBitsTable.rows;
+
 /// Roundings of a plane's arithmetic per metre of extent, and of the vertices' own subtraction
 /// (lss_pairs.md 2).
 inline constexpr double kPlaneRounding = 12.0 * 0x1p-24;
@@ -59,23 +76,51 @@ std::size_t gatherTriangles(const LeafPart* parts, std::size_t numParts, const f
     const BvhLeaf& leaf = *parts[part].leaf;
     const float* const vertices = &leaf.vertex[0][0][0];
     for (std::size_t i = 0; i < kBvhWidth; i += lanes) {
-      const std::uint8_t bits[8] = {static_cast<std::uint8_t>(parts[part].triangles >> i)};
-      const auto chosen = hn::And(hn::LoadMaskBits(d, bits), hn::FirstN(d, lanes));
+      const unsigned mine = (1U << lanes) - 1U;
+      const std::uint8_t bits[8] = {static_cast<std::uint8_t>(parts[part].triangles >> i & mine)};
+      if (bits[0] == 0) continue;
+      const Chosen<decltype(d)> chosen(d, hn::LoadMaskBits(d, bits));
       auto largest = hn::Zero(d);
       for (std::size_t k = 0; k < 9; ++k) {
         const auto x =
             hn::Sub(hn::Load(d, vertices + k * kBvhWidth + i), hn::Set(d, origin[k % 3]));
         largest = hn::Max(largest, hn::Abs(x));
-        hn::CompressStore(x, chosen, d, rows.coordinates[k] + count);
+        chosen.store(x, rows.coordinates[k] + count);
       }
       const auto grown = hn::MulAdd(largest, hn::Set(d, kRoundingOfCoordinate), hn::Set(d, reach));
-      hn::CompressStore(hn::Mul(grown, hn::Set(d, kSumInflation)), chosen, d, rows.reach + count);
-      hn::CompressStore(hn::Set(d, parts[part].start), chosen, d, rows.time + count);
-      count += hn::CompressStore(hn::Load(di, leaf.id + i), hn::RebindMask(di, chosen), di,
-                                 rows.key + count);
+      chosen.store(hn::Mul(grown, hn::Set(d, kSumInflation)), rows.reach + count);
+      hn::StoreU(hn::Set(d, parts[part].start), d, rows.time + count);
+      chosen.store(hn::Load(di, leaf.id + i), rows.key + count);
+      count += chosen.count();
     }
   }
   return count;
+}
+
+/// Appends the spheres of clusters, relative to the origin. Keys count from 0.
+void gatherSpheres(const Cluster* clusters, const std::int32_t* which, std::size_t count,
+                   const float* origin, float reach, float start, const LaneRows& rows) {
+  const hn::CappedTag<float, kMaxLanes> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  const float* const base = clusters->centre;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    // What lies beyond the count reads the first cluster, and is ignored.
+    const auto valid = hn::FirstN(di, count - i);
+    const auto index = hn::ShiftLeft<2>(hn::IfThenElseZero(valid, hn::LoadU(di, which + i)));
+    auto largest = hn::Zero(d);
+    for (int k = 0; k < 3; ++k) {
+      const auto x = hn::Sub(hn::GatherIndex(d, base + k, index), hn::Set(d, origin[k]));
+      largest = hn::Max(largest, hn::Abs(x));
+      hn::Store(x, d, rows.coordinates[k] + i);
+    }
+    const auto radius = hn::GatherIndex(d, base + 3, index);
+    const auto grown =
+        hn::MulAdd(radius, hn::Set(d, kSphereInflation),
+                   hn::MulAdd(largest, hn::Set(d, kRoundingOfCoordinate), hn::Set(d, reach)));
+    hn::Store(hn::Mul(grown, hn::Set(d, kSumInflation)), d, rows.reach + i);
+    hn::Store(hn::Set(d, start), d, rows.time + i);
+    hn::Store(hn::Iota(di, static_cast<std::int32_t>(i)), di, rows.key + i);
+  }
 }
 
 std::uint64_t triangleRounds(const LaneLss& lss, const LaneTolerances& tolerances,
@@ -101,6 +146,7 @@ HWY_AFTER_NAMESPACE();
 namespace foretouch::internal {
 namespace {
 
+HWY_EXPORT(gatherSpheres);
 HWY_EXPORT(gatherTriangles);
 HWY_EXPORT(triangleRounds);
 HWY_EXPORT(sphereRounds);
@@ -111,28 +157,17 @@ std::size_t roundedUp(std::size_t count) {
   return (count + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
 }
 
-/// Bound on the norm of the end over u in [-1,1]: the sum of the coefficients' norms.
-double extentOf(const float (&c)[3][8]) {
+/// |p(u)| <= |p(0)| + speed for u in [-1,1].
+double extentOf(const float (&c)[3][8], float speed) {
   double squared = 0.0;
-  for (const auto& row : c) {
-    double sum = 0.0;
-    for (const float x : row) sum += std::abs(static_cast<double>(x));
-    squared += sum * sum;
-  }
-  return std::sqrt(squared);
+  for (const auto& row : c) squared += double{row[0]} * row[0];
+  return std::sqrt(squared) + speed;
 }
 
-/// Bound on what the Horner scheme loses of the derivative: every coefficient takes part in at most
-/// 16 roundings (lss_pairs.md 3).
-double derivativeRounding(const float (&c)[3][8]) {
-  double squared = 0.0;
-  for (const auto& row : c) {
-    double sum = 0.0;
-    for (int k = 1; k < 8; ++k) sum += k * std::abs(static_cast<double>(row[k]));
-    squared += sum * sum;
-  }
-  return 20.0 * kU * std::sqrt(squared);
-}
+/// What the Horner scheme loses of the derivative, times u: a coefficient j c_j takes part in at
+/// most 16 roundings, and the sum of (2j+2)|c_j| is more than twice that of j |c_j| (lss_pairs.md
+/// 3).
+constexpr double kDerivativeRounding = 20.0 / 2.0;
 
 }  // namespace
 
@@ -144,9 +179,10 @@ LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius) {
   lane.accelerationA = polynomials.accelerationA;
   lane.accelerationB = polynomials.accelerationB;
   const double speed = std::max<double>(polynomials.speedA, polynomials.speedB);
-  lane.speedSlack = floatAbove(4.0 * kU * speed +
-                               std::max(derivativeRounding(lane.a), derivativeRounding(lane.b)));
-  lane.extent = floatAbove(std::max(extentOf(lane.a), extentOf(lane.b)));
+  lane.speedSlack =
+      floatAbove(kU * (4.0 * speed + kDerivativeRounding * double{polynomials.weighted}));
+  lane.extent = floatAbove(
+      std::max(extentOf(lane.a, polynomials.speedA), extentOf(lane.b, polynomials.speedB)));
   lane.reach = floatAbove(lane.radius + kPlaneRounding * (double{lane.extent} + lane.radius));
   lane.contactShift = floatBelow(2.0 * (static_cast<double>(lane.radius) + lssRadius));
   return lane;
@@ -175,20 +211,14 @@ void PairLanes::addTriangles(const LaneLss& lss, const LeafPart* parts, std::siz
   count_ = HWY_DYNAMIC_DISPATCH(gatherTriangles)(parts, numParts, origin, reach, rows(), count_);
 }
 
-void PairLanes::addSphere(const LaneLss& lss, const Cluster& sphere, const float* origin,
-                          float start, std::int32_t key) {
-  if (count_ + kMaxLanes >= capacity_) reserve(1);
-  float largest = 0.0F;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float x = sphere.centre[k] - origin[k];
-    row(k)[count_] = x;
-    largest = std::max(largest, std::abs(x));
-  }
-  row(9)[count_] = kSumInflation *
-                   (lss.reach + sphere.radius * kSphereInflation + kRoundingOfCoordinate * largest);
-  row(10)[count_] = start;
-  keys_[count_] = key;
-  ++count_;
+void PairLanes::setSpheres(const LaneLss& lss, const Cluster* clusters, const std::int32_t* which,
+                           std::size_t count, const float* origin, float start) {
+  count_ = 0;
+  if (count == 0) return;
+  reserve(count);
+  HWY_DYNAMIC_DISPATCH(gatherSpheres)
+  (clusters, which, count, origin, lss.reach, start, rows());
+  count_ = count;
 }
 
 HandedRows PairLanes::room(HandedOver& handed) const {

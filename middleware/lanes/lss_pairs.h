@@ -67,9 +67,10 @@ class PairLanes {
   /// polynomials' origin in the tree's frame. Keys are the triangles' ids.
   void addTriangles(const LaneLss& lss, const LeafPart* parts, std::size_t numParts,
                     const float* origin, double vertexRounding);
-  /// A sphere that contains a cluster's triangles, rounding included.
-  void addSphere(const LaneLss& lss, const Cluster& sphere, const float* origin, float start,
-                 std::int32_t key);
+  /// Replaces the pairs by spheres that contain clusters' triangles, rounding included: those of
+  /// clusters[which[i]], with key i. `which` can be read kMaxLanes beyond `count`.
+  void setSpheres(const LaneLss& lss, const Cluster* clusters, const std::int32_t* which,
+                  std::size_t count, const float* origin, float start);
 
   /// Advances every pair until it is through (u = 1), handed over, or past `best`: the least time
   /// known at which some pair is in contact for certain, lowered as such are found. Leaves no

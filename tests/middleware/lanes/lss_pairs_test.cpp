@@ -65,6 +65,14 @@ double derivativeBound(const float (&c)[3][kCoefficients]) {
   return std::sqrt(squared);
 }
 
+double weightedSum(const float (&c)[3][kCoefficients]) {
+  double sum = 0.0;
+  for (int j = 0; j < kCoefficients; ++j) {
+    sum += (2 * j + 2) * std::hypot(double{c[0][j]}, double{c[1][j]}, double{c[2][j]});
+  }
+  return sum;
+}
+
 /// An LSS whose ends follow random polynomials. The pad covers Horner's rule in float for sums of
 /// coefficients up to about 4 m.
 constexpr double kPad = 8e-6;
@@ -85,6 +93,7 @@ LssPolynomials randomMotion(Random& random, double radius) {
   p.accelerationB = floatAbove(secondDerivativeBound(p.b));
   p.speedA = floatAbove(derivativeBound(p.a));
   p.speedB = floatAbove(derivativeBound(p.b));
+  p.weighted = floatAbove(std::max(weightedSum(p.a), weightedSum(p.b)));
   return p;
 }
 
@@ -218,13 +227,16 @@ TEST_P(LanePairs, SpheresBoundWhatIsInThem) {
     const auto count = static_cast<std::size_t>(1 + random.below(40));
     std::vector<Cluster> spheres(count);
     const float origin[3] = {0.0F, 0.0F, 0.0F};
+    std::vector<std::int32_t> which(count + kMaxLanes);
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d centre = random.inBox(1.0);
+      which[i] = static_cast<std::int32_t>(count - 1 - i);
       spheres[i] = {{static_cast<float>(centre.x()), static_cast<float>(centre.y()),
                      static_cast<float>(centre.z())},
                     static_cast<float>(random.magnitude(0.002, 0.3))};
-      pairs.addSphere(lane, spheres[i], origin, -1.0F, static_cast<std::int32_t>(i));
     }
+    pairs.setSpheres(lane, spheres.data(), which.data(), count, origin, -1.0F);
+    std::reverse(spheres.begin(), spheres.end());  // in the order of the keys
     HandedOver handed;
     pairs.advanceSpheres(lane, kTolerances, 3, 1.0F, handed);
     std::vector<double> until(count, 1.0);
