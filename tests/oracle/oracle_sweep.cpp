@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "lss/simd.h"
 #include "tests/oracle/sweep.h"
 #include "tests/oracle/sweep_placement.h"
 #include "tests/support/shared_data.h"
@@ -23,10 +24,16 @@ struct Arguments {
   std::vector<double> rates{5, 10, 30};
   std::vector<double> tolerances{1e-3, 1e-5};
   int maxSteps = 200, threads = 2, placements = 2;
-  std::string data, culler = "flat", leaves = "advancement";
+  std::string data, culler = "flat", leaves = "advancement", backtracking = "lanes", simd;
   double budgetS = 0.0;
   bool everyClip = false;
 };
+
+std::vector<std::string> simdNames() {
+  std::vector<std::string> names;
+  for (const foretouch::Simd simd : foretouch::supportedSimd()) names.emplace_back(toString(simd));
+  return names;
+}
 
 std::optional<Arguments> parse(int argc, char** argv, int& code) {
   Arguments a;
@@ -51,6 +58,10 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
   app.add_option("--culler", a.culler, "flat or point")->check(CLI::IsMember({"flat", "point"}));
   app.add_option("--leaves", a.leaves, "advancement or cubics, of models")
       ->check(CLI::IsMember({"advancement", "cubics"}));
+  app.add_option("--backtracking", a.backtracking, "lanes or scalar")
+      ->check(CLI::IsMember({"lanes", "scalar"}));
+  app.add_option("--simd", a.simd, "Vector instructions of the lanes; the widest if not given")
+      ->check(CLI::IsMember(simdNames()));
   app.add_option("--data", a.data, "Folder with mocap/ and scenes/");
   app.add_option("--budget-s", a.budgetS, "Stop after so many seconds; 0: never");
   try {
@@ -122,6 +133,8 @@ class Run {
         arguments_.culler == "point" ? foretouch::Culler::PointQuery : foretouch::Culler::FlatBvh;
     options.leafMethod = arguments_.leaves == "cubics" ? foretouch::LeafMethod::Cubics
                                                        : foretouch::LeafMethod::Advancement;
+    options.backtracking = arguments_.backtracking == "scalar" ? foretouch::Backtracking::Scalar
+                                                               : foretouch::Backtracking::Lanes;
     options.deadline = deadline_;
     const SweepTally tally = sweep(clip, scene, placement, options);
     std::cout << clip.name << " x " << scene.name << ", " << rate << " Hz, eps " << tolerance
@@ -141,6 +154,7 @@ int main(int argc, char** argv) {
   int code = 0;
   const auto arguments = parse(argc, argv, code);
   if (!arguments) return code;
+  foretouch::useSimd(foretouch::simdFromName(arguments->simd));
   const auto clips = loadClips(*arguments);
   if (!clips) return 2;
   Run run(*arguments);

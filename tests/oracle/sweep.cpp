@@ -25,6 +25,7 @@ class Sweeper {
     query_.tolerance = options.tolerance;
     query_.culler = options.culler;
     query_.leafMethod = options.leafMethod;
+    query_.backtracking = options.backtracking;
     query_.surface = clip.surface;
     if (clip.surface) query_.fidelity = Fidelity::Exact;
     stride_ = std::min(strideFor(clip.clip, options.rateHz),

@@ -21,6 +21,7 @@ struct SweepOptions {
   int threads = 1;
   Culler culler = Culler::FlatBvh;
   LeafMethod leafMethod = LeafMethod::Advancement;
+  Backtracking backtracking = Backtracking::Lanes;
   std::optional<std::chrono::steady_clock::time_point> deadline;
   /// Applied to every answer before it is judged: for controls that plant lies.
   std::function<void(LinkContact&)> tamper;

@@ -1,0 +1,161 @@
+// Counts every call of malloc and its kin in this program: once the memory of a thread has grown,
+// queries make none.
+#include <atomic>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "lss/simd.h"
+#include "middleware/query.h"
+#include "middleware/query_pool.h"
+#include "tests/middleware/mesh_body.h"
+#include "tests/middleware/random_scene.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#define FORETOUCH_COUNTS_ALLOCATIONS 0
+#else
+#define FORETOUCH_COUNTS_ALLOCATIONS 1
+#endif
+
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+}
+
+#if FORETOUCH_COUNTS_ALLOCATIONS
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* old, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(old, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** place, std::size_t alignment, std::size_t size) {
+  ++allocations;
+  *place = __libc_memalign(alignment, size);
+  return *place == nullptr ? 12 : 0;
+}
+}
+#endif
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using test::Random;
+
+class Allocations : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (FORETOUCH_COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "this build has an allocator of its own";
+  }
+};
+
+constexpr int kBodies = 30;
+
+TEST_F(Allocations, AreCounted) {
+  const std::uint64_t before = allocations;
+  std::vector<int> some(100);
+  EXPECT_GT(allocations, before);
+  EXPECT_EQ(some.size(), 100U);
+}
+
+/// All bodies again and again; what the last round allocates.
+std::uint64_t inSteadyState(const std::vector<test::RandomBody>& bodies, const Scene& scene,
+                            const std::vector<QueryOptions>& options) {
+  QueryScratch scratch;
+  ChainMotion motion;
+  StepContacts step;
+  std::uint64_t before = 0, contacts = 0;
+  for (int round = 0; round < 3; ++round) {
+    before = allocations;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const test::RandomBody& body = bodies[i];
+      motion.assign(body.avatar.skeleton(), body.from, body.to);
+      EXPECT_TRUE(
+          firstContacts(body.avatar, motion, scene, options[i % options.size()], scratch, step)
+              .ok());
+      for (const LinkContact& contact : step.links) contacts += contact.verdict != Verdict::Clear;
+    }
+  }
+  EXPECT_GT(contacts, bodies.size());
+  return allocations - before;
+}
+
+TEST_F(Allocations, OfQueriesAtLinkFidelityAreNone) {
+  Random random(3);
+  const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();
+  // One avatar, many steps: as a stream of its poses is answered.
+  std::vector<test::RandomBody> bodies(kBodies, test::bodyInClutter(random, 9, Vector3d::Zero()));
+  for (test::RandomBody& body : bodies) {
+    for (auto& rotation : body.to.rotations) rotation = random.turn(0.5);
+  }
+  QueryOptions options;
+  options.ignored = {{2, 1}};
+  for (const Simd simd : supportedSimd()) {
+    ASSERT_TRUE(useSimd(simd));
+    EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U) << toString(simd);
+  }
+  useSimd(std::nullopt);
+  options.backtracking = Backtracking::Scalar;
+  EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
+}
+
+TEST_F(Allocations, OfQueriesAtExactFidelityAreNone) {
+  Random random(4);
+  const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();
+  std::vector<test::RandomBody> bodies(kBodies, test::bodyInClutter(random, 9, Vector3d::Zero()));
+  for (test::RandomBody& body : bodies) {
+    for (auto& rotation : body.to.rotations) rotation = random.turn(0.5);
+  }
+  QueryOptions options;
+  options.fidelity = Fidelity::Exact;
+  options.surface =
+      AvatarSurface::build(bodies[0].avatar, test::meshWithin(bodies[0].avatar, random, 12, 0.9))
+          .value();
+  EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
+}
+
+TEST_F(Allocations, OfAPoolAreNone) {
+  Random random(5);
+  const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();
+  // Avatars that differ make a thread's tables anew; copies of one share theirs.
+  const std::vector<test::RandomBody> bodies(kBodies,
+                                             test::bodyInClutter(random, 9, Vector3d::Zero()));
+  const QueryOptions options;
+  std::vector<StepTask> tasks;
+  for (const test::RandomBody& body : bodies) {
+    tasks.push_back({&body.avatar, &body.from, &body.to, &options});
+  }
+  QueryPool pool = QueryPool::start(2).value();
+  std::vector<StepContacts> answers;
+  // Which thread takes which task is chance: all of them have to have grown.
+  std::uint64_t last = 1;
+  for (int round = 0; round < 50 && last != 0; ++round) {
+    const std::uint64_t before = allocations;
+    ASSERT_TRUE(pool.answer(scene, tasks, answers).ok());
+    last = allocations - before;
+  }
+  EXPECT_EQ(last, 0U);
+}
+
+}  // namespace
+}  // namespace foretouch
