@@ -1,6 +1,7 @@
 #include "middleware/query_pool.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -15,9 +16,12 @@ namespace foretouch {
 namespace {
 
 /// What one thread keeps between queries.
-struct Worker {
+struct alignas(128) Worker {
   QueryScratch scratch;
   ChainMotion motion;
+  // Written throughout a query, and then exchanged for the task's: answers side by side share cache
+  // lines.
+  StepContacts answer;
   std::size_t failed = 0;  // the first task of this thread that had an error
   std::optional<Error> error;
 };
@@ -37,7 +41,8 @@ struct Work {
       const StepTask& task = (*tasks)[i];
       worker.motion.assign(task.avatar->skeleton(), *task.from, *task.to);
       const auto done = firstContacts(*task.avatar, worker.motion, *scene, *task.options,
-                                      worker.scratch, (*answers)[i]);
+                                      worker.scratch, worker.answer);
+      std::swap(worker.answer, (*answers)[i]);
       // A thread takes tasks in ascending order.
       if (!done.ok() && !worker.error) {
         worker.failed = i;
@@ -49,6 +54,15 @@ struct Work {
 
 }  // namespace
 
+/// A list may follow the last one within microseconds, and waking a sleeping thread takes longer
+/// than many lists.
+template <typename Condition>
+void waitBriefly(const Condition& isMet) {
+  constexpr std::chrono::microseconds kBriefly{50};
+  const auto end = std::chrono::steady_clock::now() + kBriefly;
+  while (!isMet() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+}
+
 /// The lock is taken to begin and to end a list, never for a task.
 struct QueryPool::Impl {
   std::vector<Worker> workers;  // the calling thread's first
@@ -56,8 +70,8 @@ struct QueryPool::Impl {
   Work work;
   std::mutex mutex;
   std::condition_variable begins, ends;
-  std::uint64_t list = 0;   // how many lists have begun
-  std::size_t working = 0;  // threads that are not done with the list at hand
+  std::atomic<std::uint64_t> list{0};   // how many lists have begun
+  std::atomic<std::size_t> working{0};  // threads that are not done with the list at hand
   bool isStopping = false;
 
   ~Impl() {
@@ -71,8 +85,9 @@ struct QueryPool::Impl {
 
   void run(std::size_t index) {
     std::uint64_t seen = 0;
-    std::unique_lock<std::mutex> lock(mutex);
     for (;;) {
+      waitBriefly([&] { return list.load(std::memory_order_acquire) != seen; });
+      std::unique_lock<std::mutex> lock(mutex);
       begins.wait(lock, [&] { return isStopping || list != seen; });
       if (isStopping) return;
       seen = list;
@@ -91,6 +106,7 @@ struct QueryPool::Impl {
     }
     begins.notify_all();
     work.takePart(workers.front());
+    waitBriefly([&] { return working.load(std::memory_order_acquire) == 0; });
     std::unique_lock<std::mutex> lock(mutex);
     ends.wait(lock, [&] { return working == 0; });
   }

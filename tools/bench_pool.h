@@ -14,11 +14,11 @@ struct CrowdTimes {
   double wallS = 0.0;
   std::int64_t steps = 0;
   std::int64_t contacts = 0;  ///< Links; does not depend on the threads.
-  std::vector<double> stepUs;
+  std::vector<double> instantUs;  ///< Of all avatars' steps together, an instant each.
 };
 
-/// Instant by instant, every avatar takes one step: avatar a starts `steps.size() * a / avatars`
-/// steps into the list. Threads share the (instant, avatar) items, each with a scratch of its own.
+/// Instant by instant, every avatar takes one step, and a QueryPool answers them all: avatar a
+/// starts `steps.size() * a / avatars` steps into the list.
 [[nodiscard]] Result<CrowdTimes> timeCrowd(const Avatar& avatar,
                                            const std::vector<StepPoses>& steps, const Scene& scene,
                                            const QueryOptions& query, int avatars, int instants,

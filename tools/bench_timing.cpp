@@ -59,10 +59,10 @@ class StepClock {
   Result<double> ask(const StepPoses& poses, const BenchCase& way, StepContacts& answer) {
     simd_.take(way.simd);
     const Clock::time_point start = Clock::now();
-    auto contacts = answerStep(avatar_, poses, scene_, way.query, scratch_);
+    const auto done = answerStep(avatar_, poses, scene_, way.query, memory_);
     const double us = since(start);
-    if (!contacts.ok()) return contacts.error();
-    answer = std::move(contacts).value();
+    if (!done.ok()) return done.error();
+    answer = memory_.contacts;
     return us;
   }
 
@@ -85,7 +85,7 @@ class StepClock {
   const Avatar& avatar_;
   const Scene& scene_;
   double overheadUs_;
-  QueryScratch scratch_;
+  StepMemory memory_;
   SimdChoice simd_;
 };
 
@@ -158,11 +158,11 @@ Percentiles percentilesOf(std::vector<double> values) {
   return {sum / count, rank(0.5), rank(0.9), rank(0.99), values.back()};
 }
 
-[[gnu::noinline]] Result<StepContacts> answerStep(const Avatar& avatar, const StepPoses& poses,
-                                                  const Scene& scene, const QueryOptions& query,
-                                                  QueryScratch& scratch) {
-  const ChainMotion motion(avatar.skeleton(), poses.from, poses.to);
-  return firstContacts(avatar, motion, scene, query, scratch);
+[[gnu::noinline]] Result<Done> answerStep(const Avatar& avatar, const StepPoses& poses,
+                                          const Scene& scene, const QueryOptions& query,
+                                          StepMemory& memory) {
+  memory.motion.assign(avatar.skeleton(), poses.from, poses.to);
+  return firstContacts(avatar, memory.motion, scene, query, memory.scratch, memory.contacts);
 }
 
 Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& steps,

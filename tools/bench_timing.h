@@ -54,10 +54,17 @@ struct Timing {
   double overheadUs = 0.0;       ///< Of the clock; taken off every time.
 };
 
+/// What one thread keeps from step to step.
+struct StepMemory {
+  ChainMotion motion;
+  QueryScratch scratch;
+  StepContacts contacts;  ///< Of the last step.
+};
+
 /// Answers one step. Its own function, so that a profiler can count what it alone costs.
-[[nodiscard]] Result<StepContacts> answerStep(const Avatar& avatar, const StepPoses& poses,
-                                              const Scene& scene, const QueryOptions& query,
-                                              QueryScratch& scratch);
+[[nodiscard]] Result<Done> answerStep(const Avatar& avatar, const StepPoses& poses,
+                                      const Scene& scene, const QueryOptions& query,
+                                      StepMemory& memory);
 
 /// Every case and the ray-set take their turns at each step, so that drift of the machine hits all
 /// alike. One thread.

@@ -21,10 +21,11 @@ class ForetouchSolver : public SweepSolver {
   SweepAnswer solve(const RigidSweep& sweep) override {
     setPose(from_, poseAt(sweep, 0.0));
     setPose(to_, poseAt(sweep, 1.0));
-    const ChainMotion motion(avatar_.skeleton(), from_, to_);
-    const auto contacts = firstContacts(avatar_, motion, scene_, options_, scratch_);
-    FORETOUCH_ASSERT(contacts.ok());
-    const LinkContact& contact = contacts.value().links.front();
+    motion_.assign(avatar_.skeleton(), from_, to_);
+    const auto done = firstContacts(avatar_, motion_, scene_, options_, scratch_, contacts_);
+    FORETOUCH_ASSERT(done.ok());
+    static_cast<void>(done);
+    const LinkContact& contact = contacts_.links.front();
     return {contact.verdict != Verdict::Clear, contact.freeUntil};
   }
 
@@ -39,6 +40,8 @@ class ForetouchSolver : public SweepSolver {
   Pose from_, to_;
   QueryOptions options_;
   QueryScratch scratch_;
+  ChainMotion motion_;
+  StepContacts contacts_;
 };
 
 Result<Avatar> avatarOf(const Lss& lss_L) {
