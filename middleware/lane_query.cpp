@@ -58,7 +58,6 @@ LaneQuery::LaneQuery(const Avatar& avatar, const ChainMotion& motion, const Scen
       bvh_(scene.parts().bvh) {
   tolerances_.floor = floatAbove(kFloorShare * options.tolerance);
   tolerances_.handOver = floatBelow(kHandOverShare * options.tolerance);
-  tolerances_.contact = floatBelow(kCertainShare * options.tolerance);
   if (lanes_.avatar != avatar.identity()) {
     lanes_.table = LssTable(avatar);
     lanes_.avatar = avatar.identity();
@@ -75,15 +74,28 @@ void LaneQuery::run(StepContacts& step) {
     begin_ = static_cast<double>(slab) / slabs;
     end_ = static_cast<double>(slab + 1) / slabs;
     if (!collectHits(step.counters)) continue;
-    for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
-      const auto first = static_cast<std::size_t>(lanes_.table.first(link));
-      const auto end = static_cast<std::size_t>(lanes_.table.first(link + 1));
-      if (lanes_.first[first] == lanes_.first[end]) continue;
-      LinkContact& contact = step.links[static_cast<std::size_t>(link)];
-      contact = answer(link, step.counters);
-      lanes_.isAsked[static_cast<std::size_t>(link)] = contact.verdict == Verdict::Clear;
+    if (answerSlab(step) && options_.scope == Scope::FirstOfAvatar) return;
+  }
+}
+
+/// All links in the slab at hand; true if one of them is not clear.
+bool LaneQuery::answerSlab(StepContacts& step) {
+  bool isTouched = false;
+  float limit = kEnd;  // nothing later than this is asked for
+  for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+    const auto first = static_cast<std::size_t>(lanes_.table.first(link));
+    const auto end = static_cast<std::size_t>(lanes_.table.first(link + 1));
+    if (lanes_.first[first] == lanes_.first[end]) continue;
+    LinkContact& contact = step.links[static_cast<std::size_t>(link)];
+    contact = answer(link, limit, step.counters);
+    if (contact.verdict == Verdict::Clear) continue;
+    isTouched = true;
+    lanes_.isAsked[static_cast<std::size_t>(link)] = 0;
+    if (options_.scope == Scope::FirstOfAvatar) {
+      limit = std::min(limit, lanesTimeOf(contact.freeUntil));
     }
   }
+  return isTouched;
 }
 
 void LaneQuery::findWhoIsAsked() {
@@ -174,24 +186,28 @@ void LaneQuery::sortHits() {
   }
 }
 
-LinkContact LaneQuery::answer(LinkId link, QueryCounters& counters) {
+LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters) {
   const LinkSurface* const surface = surfaceOf(options_, link);
   scratch_.ignored.collect(options_, link);
-  const float certain = surface == nullptr ? tolerances_.contact : kNeverCertain;
-  float best = kEnd;
-  const LinkContact contact = answerWith(link, surface, certain, best, counters);
-  if (best == kEnd) return contact;
-  const bool isConfirmed = contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(best);
-  if (isConfirmed) return contact;
+  // What touches an LSS may yet miss the triangles in it.
+  tolerances_.contact =
+      surface == nullptr ? floatBelow(kCertainShare * options_.tolerance) : kNeverCertain;
+  float best = limit;
+  const LinkContact contact = answerBefore(link, surface, best, counters);
+  const bool isBelieved = best == limit;
+  if (isBelieved || (contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(best))) {
+    return contact;
+  }
   // Lanes dropped what is later than a contact that the scalar code then did not find. Both being
   // proved this does not happen; if it did, nothing may be missed.
-  best = kEnd;
-  return answerWith(link, surface, kNeverCertain, best, counters);
+  tolerances_.contact = kNeverCertain;
+  best = limit;
+  return answerBefore(link, surface, best, counters);
 }
 
-LinkContact LaneQuery::answerWith(LinkId link, const LinkSurface* surface, float certain,
-                                  float& best, QueryCounters& counters) {
-  tolerances_.contact = certain;
+/// Asks for nothing later than `best`, which is lowered by contacts that are certain.
+LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, float& best,
+                                    QueryCounters& counters) {
   scratch_.candidates.clear();
   const std::int32_t firstLss = lanes_.table.first(link);
   for (std::int32_t lss = firstLss; lss < lanes_.table.first(link + 1); ++lss) {
@@ -313,6 +329,11 @@ void LaneQuery::addCandidates(std::int32_t lssOfLink) {
     candidate.end = end_;
     scratch_.candidates.push_back(candidate);
   }
+}
+
+/// Rounded up.
+float LaneQuery::lanesTimeOf(double t) const {
+  return std::min(kEnd, floatAbove(2.0 * (t - begin_) / (end_ - begin_) - 1.0));
 }
 
 /// Exact: a slab's bounds are multiples of a power of two, and u is a float.

@@ -27,9 +27,10 @@ class LaneQuery {
   void collectByCuller(QueryCounters& counters);
   void mergeHits();
   void sortHits();
-  [[nodiscard]] LinkContact answer(LinkId link, QueryCounters& counters);
-  [[nodiscard]] LinkContact answerWith(LinkId link, const LinkSurface* surface, float certain,
-                                       float& best, QueryCounters& counters);
+  [[nodiscard]] bool answerSlab(StepContacts& step);
+  [[nodiscard]] LinkContact answer(LinkId link, float limit, QueryCounters& counters);
+  [[nodiscard]] LinkContact answerBefore(LinkId link, const LinkSurface* surface, float& best,
+                                         QueryCounters& counters);
   void prepareScalar(LinkId link);
   void advanceLss(std::int32_t lss, float& best, QueryCounters& counters);
   void sortClusters();
@@ -37,6 +38,7 @@ class LaneQuery {
   [[nodiscard]] std::uint8_t withoutIgnored(std::uint8_t triangles, const BvhLeaf& leaf) const;
   void addCandidates(std::int32_t lssOfLink);
   [[nodiscard]] double timeOf(float u) const;
+  [[nodiscard]] float lanesTimeOf(double t) const;
 
   const Avatar& avatar_;
   const ChainMotion& motion_;

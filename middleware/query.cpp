@@ -1,5 +1,6 @@
 #include "middleware/query.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "middleware/lane_query.h"
@@ -29,6 +30,7 @@ const char* toString(UndecidedReason reason) {
     case UndecidedReason::None: return "none";
     case UndecidedReason::WorkBudget: return "work-budget";
     case UndecidedReason::Resolution: return "resolution";
+    case UndecidedReason::AfterFirst: return "after-first";
   }
   return "none";
 }
@@ -47,6 +49,14 @@ const char* toString(Backtracking backtracking) {
     case Backtracking::Scalar: return "scalar";
   }
   return "lanes";
+}
+
+const char* toString(Scope scope) {
+  switch (scope) {
+    case Scope::EveryLink: return "links";
+    case Scope::FirstOfAvatar: return "avatar";
+  }
+  return "links";
 }
 
 const char* toString(Fidelity fidelity) {
@@ -106,6 +116,27 @@ bool inLanes(const QueryOptions& options) {
          options.maxAdvancements == std::numeric_limits<std::uint64_t>::max();
 }
 
+/// Of links that touch nothing before the first contact of all nothing more is said.
+void keepFirst(StepContacts& step) {
+  double first = 1.0;
+  bool isTouched = false;
+  for (const LinkContact& contact : step.links) {
+    if (contact.verdict == Verdict::Clear) continue;
+    isTouched = true;
+    first = std::min(first, contact.freeUntil);
+  }
+  if (!isTouched) return;
+  for (LinkContact& contact : step.links) {
+    if (contact.verdict != Verdict::Clear && contact.freeUntil <= first) continue;
+    const LinkId link = contact.link;
+    contact = LinkContact{};
+    contact.link = link;
+    contact.verdict = Verdict::Undecided;
+    contact.reason = UndecidedReason::AfterFirst;
+    contact.toi = contact.freeUntil = first;
+  }
+}
+
 }  // namespace
 
 Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
@@ -124,6 +155,7 @@ Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion, cons
   } else {
     internal::scalarQuery(avatar, motion, scene, options, *culler.value(), scratch.impl(), step);
   }
+  if (options.scope == Scope::FirstOfAvatar) keepFirst(step);
   return Done{};
 }
 

@@ -35,6 +35,7 @@ enum class UndecidedReason : std::uint8_t {
   None,
   WorkBudget,  ///< QueryOptions::maxAdvancements was spent.
   Resolution,  ///< Doubles cannot resolve the tolerance at these coordinates.
+  AfterFirst,  ///< Scope::FirstOfAvatar: another link's contact is earlier.
 };
 
 [[nodiscard]] const char* toString(UndecidedReason reason);
@@ -97,6 +98,17 @@ enum class Backtracking : std::uint8_t {
 /// "lanes", "scalar".
 [[nodiscard]] const char* toString(Backtracking backtracking);
 
+/// How much is asked of a step.
+enum class Scope : std::uint8_t {
+  EveryLink,      ///< Every link's own first contact.
+  FirstOfAvatar,  ///< The links that touch first of all. Once something touches, nothing is said of
+                  ///< the others but that they are free until then: they are Undecided, AfterFirst,
+                  ///< those that touch nothing in the whole step among them.
+};
+
+/// "links", "avatar".
+[[nodiscard]] const char* toString(Scope scope);
+
 /// A link, or a link and one object, whose contacts are not asked for.
 struct IgnoredPair {
   LinkId link = 0;
@@ -122,6 +134,7 @@ struct QueryOptions {
   std::optional<SkinnedSurface> skin;    ///< Of the same avatar; needed for Fidelity::Skinned.
   LeafMethod leafMethod = LeafMethod::Advancement;
   Backtracking backtracking = Backtracking::Lanes;
+  Scope scope = Scope::EveryLink;
   std::vector<IgnoredPair> ignored;
   /// Distance evaluations a link may cost before its verdict becomes Undecided.
   std::uint64_t maxAdvancements = std::numeric_limits<std::uint64_t>::max();

@@ -94,6 +94,12 @@ Result<LeafMethod> parseLeafMethod(const std::string& option, const std::string&
   return refusal(option, "advancement or cubics", text);
 }
 
+Result<Scope> parseScope(const std::string& option, const std::string& text) {
+  if (text == "links") return Scope::EveryLink;
+  if (text == "avatar") return Scope::FirstOfAvatar;
+  return refusal(option, "links or avatar", text);
+}
+
 Result<Fidelity> parseFidelity(const std::string& option, const std::string& text) {
   if (text == "link") return Fidelity::Link;
   if (text == "exact") return Fidelity::Exact;

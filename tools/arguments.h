@@ -34,6 +34,7 @@ inline constexpr int kMaxThreads = 256;
 /// Only "link" is available; the other rungs are refused by name.
 [[nodiscard]] Result<LeafMethod> parseLeafMethod(const std::string& option,
                                                  const std::string& text);
+[[nodiscard]] Result<Scope> parseScope(const std::string& option, const std::string& text);
 [[nodiscard]] Result<Fidelity> parseFidelity(const std::string& option, const std::string& text);
 
 /// Refuses an output file that is one of the inputs. Empty paths are passed over.

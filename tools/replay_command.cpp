@@ -24,8 +24,8 @@ namespace {
 struct ReplayTexts {
   std::string scene, avatar, motion, animation, robot, map, output, rate = "all";
   std::string scale = "1", sceneScale = "1", motionUp = "y", up = "y", place = "0,0,0,0";
-  std::string fidelity = "link", leaves = "advancement", skin, skinScale = "1", skinUp = "y",
-              tolerance = "0.001", culler = "flat", threads = "cores";
+  std::string fidelity = "link", leaves = "advancement", scope = "links", skin, skinScale = "1",
+              skinUp = "y", tolerance = "0.001", culler = "flat", threads = "cores";
   std::vector<std::string> ignore, packages;
   bool compareRigid = false, compareLink = false, rays = false;
 };
@@ -48,6 +48,7 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
 
   Settling settle;
   settle.into(request.fidelity, parseFidelity("--fidelity", texts.fidelity));
+  settle.into(request.scope, parseScope("--scope", texts.scope));
   settle.into(request.leafMethod, parseLeafMethod("--leaves", texts.leaves));
   request.skinPath = texts.skin;
   settle.into(request.skinScale, parsePositive("--skin-scale", texts.skinScale));
@@ -191,6 +192,8 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   option("--skin-up", texts->skinUp, "y|z", "Which axis of that model points up");
   option("--leaves", texts->leaves, "advancement|cubics",
          "Exact fidelity's way with pairs of triangles; both keep the promise");
+  option("--scope", texts->scope, "links|avatar",
+         "Every link's first contact, or only the first of all");
   option("--tolerance", texts->tolerance, "M", "Largest separation (m) of a reported contact");
   option("--threads", texts->threads, "N", "Threads");
   option("--map", texts->map, "FILE", R"(Joint names that differ: {"avatar joint": "clip joint"})");

@@ -44,6 +44,7 @@ Result<Motion> loadMotion(const ReplayRequest& request) {
 Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, QueryOptions& query) {
   query.fidelity = request.fidelity;
   query.leafMethod = request.leafMethod;
+  query.scope = request.scope;
   if (request.fidelity == Fidelity::Link) return Done{};
   if (request.fidelity == Fidelity::Skinned) {
     auto skin = loadSkin(request.skinPath, request.skinScale, request.skinUp, avatar);

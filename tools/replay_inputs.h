@@ -33,6 +33,7 @@ struct ReplayRequest {
   Culler culler = Culler::FlatBvh;
   Fidelity fidelity = Fidelity::Link;
   LeafMethod leafMethod = LeafMethod::Advancement;
+  Scope scope = Scope::EveryLink;
   std::string skinPath;    ///< The model whose skin is the surface at skinned fidelity.
   double skinScale = 1.0;  ///< Metres per unit of that model.
   UpAxis skinUp = UpAxis::Y;

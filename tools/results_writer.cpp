@@ -105,6 +105,9 @@ std::string headerLine(const ReplayInputs& inputs) {
                       number(request.placement.yawDeg));
   text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", number(request.sceneScale),
                       request.sceneUp == UpAxis::Z ? "z" : "y", list(request.ignore));
+  if (request.scope != Scope::EveryLink) {
+    text += fmt::format(R"(,"scope":"{}")", toString(request.scope));
+  }
   text += surfaceFields(request) + motionFields(request);
   text += fmt::format(R"(,"links":{},"unmatched_joints":{})", list(links),
                       list(inputs.match.unmatchedAvatar));

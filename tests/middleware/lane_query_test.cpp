@@ -1,5 +1,6 @@
 // Lanes of every width against the scalar reference: verdicts that the promise leaves no choice in
 // are the same, and what lanes report of a contact is true in the reference's own arithmetic.
+#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
@@ -134,6 +135,43 @@ TEST_P(LaneQueries, TakeIgnoredPairsAndManySlabs) {
     }
   }
   EXPECT_GT(contacts, 100);
+}
+
+TEST_P(LaneQueries, OfTheAvatarsFirstContactAreItsLinksEarliest) {
+  int touched = 0, free = 0;
+  for (int i = 0; i < 150; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(1500 + i));
+    const Scene scene = Scene::build(test::clutter(random, 60, 3, Vector3d::Zero())).value();
+    const test::RandomBody body = test::bodyInClutter(random, 6, Vector3d::Zero());
+    QueryOptions options;
+    options.backtracking = i % 3 == 0 ? Backtracking::Scalar : Backtracking::Lanes;
+    const auto every = firstContacts(body.avatar, body.motion(), scene, options).value();
+    options.scope = Scope::FirstOfAvatar;
+    const auto first = firstContacts(body.avatar, body.motion(), scene, options).value();
+    double earliest = 2.0;
+    for (const LinkContact& contact : every.links) {
+      if (contact.verdict != Verdict::Clear) earliest = std::min(earliest, contact.toi);
+    }
+    for (std::size_t link = 0; link < every.links.size(); ++link) {
+      const LinkContact &f = first.links[link], &e = every.links[link];
+      if (e.verdict != Verdict::Clear && e.toi == earliest) {
+        EXPECT_EQ(f.verdict, e.verdict);
+        EXPECT_EQ(f.toi, e.toi);
+        EXPECT_EQ(f.triangle, e.triangle);
+        EXPECT_EQ(f.p_WLink, e.p_WLink);
+      } else if (earliest <= 1.0) {
+        EXPECT_EQ(f.verdict, Verdict::Undecided);
+        EXPECT_EQ(f.reason, UndecidedReason::AfterFirst);
+        EXPECT_EQ(f.freeUntil, earliest);
+      } else {
+        EXPECT_EQ(f.verdict, Verdict::Clear);
+      }
+    }
+    (earliest <= 1.0 ? touched : free) += 1;
+  }
+  EXPECT_GT(touched, 20);
+  EXPECT_GT(free, 10);
 }
 
 TEST_P(LaneQueries, ReportTheSameForBothCullersAtExactFidelity) {
