@@ -57,7 +57,28 @@ Result<std::vector<std::vector<std::int32_t>>> assigned(const Avatar& avatar, Li
   return idsOfLss;
 }
 
+template <std::size_t... kIndices>
+std::array<HierarchyChild, sizeof...(kIndices)> filledWith(HierarchyChild part,
+                                                           std::index_sequence<kIndices...>) {
+  return {((void)kIndices, part)...};
+}
+
 }  // namespace
+
+internal::PartsBelow::PartsBelow(const LssHierarchy& hierarchy, HierarchyChild node)
+    : parts_(filledWith(node, std::make_index_sequence<std::size_t{1} << kPartLevels>())) {
+  add(hierarchy, node, kPartLevels);
+}
+
+void internal::PartsBelow::add(const LssHierarchy& hierarchy, HierarchyChild part, int levels) {
+  if (levels == 0 || part.isTriangle()) {
+    parts_[count_++] = part;
+    return;
+  }
+  for (const HierarchyChild child : hierarchy.node(part.index()).children) {
+    add(hierarchy, child, levels - 1);
+  }
+}
 
 void LinkSurface::prepare() const {
   std::call_once(built_, [this] {
@@ -65,7 +86,24 @@ void LinkSurface::prepare() const {
     for (std::size_t i = 0; i < idsOfLss_.size(); ++i) {
       if (!idsOfLss_[i].empty()) hierarchies_[i].emplace(triangles_, idsOfLss_[i]);
     }
+    prepareLanes();
   });
+}
+
+void LinkSurface::prepareLanes() const {
+  laneTriangles_.reserve(triangles_.size());
+  for (const Triangle& triangle : triangles_)
+    laneTriangles_.push_back(internal::lanePart(triangle));
+  laneNodes_.resize(hierarchies_.size());
+  for (std::size_t i = 0; i < hierarchies_.size(); ++i) {
+    if (!hierarchies_[i]) continue;
+    const auto numNodes = static_cast<std::int32_t>(hierarchies_[i]->numNodes());
+    laneNodes_[i].reserve(static_cast<std::size_t>(numNodes));
+    for (std::int32_t k = 0; k < numNodes; ++k) {
+      laneNodes_[i].push_back({internal::lanePart(hierarchies_[i]->node(k).lss),
+                               internal::PartsBelow(*hierarchies_[i], HierarchyChild::node(k))});
+    }
+  }
 }
 
 const LssHierarchy& LinkSurface::hierarchy(std::int32_t lss) const {

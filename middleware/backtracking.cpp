@@ -42,6 +42,13 @@ struct Farther {
   }
 };
 
+/// t + step, rounded down, and at most 1: the sum may have been moved up by half a unit in the last
+/// place.
+double after(double t, double step) {
+  const double next = t + step;
+  return next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
+}
+
 class Backtracker {
  public:
   Backtracker(const LinkQuery& query, std::vector<Candidate>& heap, QueryCounters& counters)
@@ -101,7 +108,7 @@ class Backtracker {
       heap_.pop_back();
       return;
     }
-    const double reached = provenFrom(candidate, pair, t);
+    const double reached = provenFrom(query_, candidate, pair, t, counters_);
     if (!(reached > t)) {
       if (!isSurface) return descendFrom(pair, t);
       giveUp(t, UndecidedReason::Resolution);
@@ -115,29 +122,6 @@ class Backtracker {
     } else {
       heap_.pop_back();
     }
-  }
-
-  /// Up to which t the pair is proven apart, from `t` on.
-  [[nodiscard]] double provenFrom(const Candidate& candidate, const PairState& pair, double t) {
-    const double floor = kFloorShare * query_.tolerance;
-    if (query_.leafMethod == LeafMethod::Cubics && query_.isExact() &&
-        candidate.part.isTriangle()) {
-      ++counters_.cubicTests;
-      const double reached =
-          freeUntilByCubics(query_.evaluator, query_.parts.link, t, 1.0,
-                            query_.parts.surface->triangle(candidate.part.index()),
-                            query_.scene.triangle(candidate.triangle), floor,
-                            kFloorShare * query_.tolerance, pair.nhat);
-      if (reached > t) return reached;
-    }
-    return after(t, stepFrom(pair, floor));
-  }
-
-  /// t + step, rounded down, and at most 1: the sum may have been moved up by half a unit in the
-  /// last place.
-  [[nodiscard]] static double after(double t, double step) {
-    const double next = t + step;
-    return next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
   }
 
   /// From an instant on, the two parts below take the place of the heap's last candidate; the plane
@@ -284,6 +268,20 @@ PairState pairOf(const LinkQuery& query, const Candidate& candidate, const Posed
                           query.scene.triangle(candidate.triangle));
 }
 
+double provenFrom(const LinkQuery& query, const Candidate& candidate, const PairState& pair,
+                  double t, QueryCounters& counters) {
+  const double floor = kFloorShare * query.tolerance;
+  if (query.leafMethod == LeafMethod::Cubics && query.isExact() && candidate.part.isTriangle()) {
+    ++counters.cubicTests;
+    const double reached = freeUntilByCubics(query.evaluator, query.parts.link, t, 1.0,
+                                             query.parts.surface->triangle(candidate.part.index()),
+                                             query.scene.triangle(candidate.triangle), floor,
+                                             kFloorShare * query.tolerance, pair.nhat);
+    if (reached > t) return reached;
+  }
+  return after(t, stepFrom(pair, floor));
+}
+
 LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const PairState& pair,
                       double t) {
   LinkContact contact;
@@ -328,7 +326,7 @@ bool comesFirst(const LinkContact& x, const LinkContact& y) {
 
 LinkContact contactAtStart(const LinkQuery& query, std::vector<Candidate>& candidates,
                            QueryCounters& counters) {
-  if (query.isExact()) return meshContactAtStart(query, candidates, counters);
+  if (query.isExact()) return meshContactAtStart(query, candidates, nullptr, counters);
   return Backtracker(query, candidates, counters).runAtStart();
 }
 

@@ -44,6 +44,7 @@ struct Candidate {
   double freeUntil = 0.0;  // proven: separation > 0 on [0, freeUntil), >= floor there unless 0
   double end = 1.0;        // not asked for from then on
   Part part = Part::whole();
+  std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, where there are any
 };
 
 /// What backtrack() needs to know of one link; all references outlive the call.
@@ -101,6 +102,11 @@ class StateCache {
 /// The candidate's pair at one instant, counted.
 [[nodiscard]] PairState pairOf(const LinkQuery& query, const Candidate& candidate,
                                const PosedLink& posed, QueryCounters& counters);
+
+/// Up to which t the candidate's pair is proven apart, from `t` on, as `pair` tells of it there; at
+/// most 1, and `t` itself where nothing is proven.
+[[nodiscard]] double provenFrom(const LinkQuery& query, const Candidate& candidate,
+                                const PairState& pair, double t, QueryCounters& counters);
 
 /// What is reported of a pair that is in contact at `t`.
 [[nodiscard]] LinkContact contactOf(const LinkQuery& query, const Candidate& candidate,

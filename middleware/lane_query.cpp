@@ -7,6 +7,9 @@
 #include <tuple>
 
 #include "lss/assert.h"
+#include "lss/simd.h"
+#include "middleware/exact/start.h"
+#include "middleware/lane_backtracking.h"
 #include "middleware/scene_internal.h"
 #include "middleware/surface_internal.h"
 
@@ -193,6 +196,14 @@ LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters)
   tolerances_.contact =
       surface == nullptr ? floatBelow(kCertainShare * options_.tolerance) : kNeverCertain;
   float best = limit;
+  if (surface != nullptr && begin_ == 0.0) {
+    // A link inside furniture is answered by what it touches at once, whatever it sweeps
+    // afterwards.
+    best = kBegin;
+    const LinkContact atStart = answerBefore(link, surface, best, counters);
+    if (atStart.verdict != Verdict::Clear) return atStart;
+    best = limit;
+  }
   const LinkContact contact = answerBefore(link, surface, best, counters);
   const bool isBelieved = best == limit;
   if (isBelieved || (contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(best))) {
@@ -205,7 +216,9 @@ LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters)
   return answerBefore(link, surface, best, counters);
 }
 
-/// Asks for nothing later than `best`, which is lowered by contacts that are certain.
+/// Asks for nothing later than `best`, which is lowered by contacts that are certain. At exact
+/// fidelity: where `best` is the beginning, whether there is contact at t = 0, else what comes
+/// after it.
 LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, float& best,
                                     QueryCounters& counters) {
   scratch_.candidates.clear();
@@ -231,14 +244,31 @@ LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, flo
                         options_.maxAdvancements,
                         options_.leafMethod,
                         scratch_.evaluator};
-  if (surface != nullptr && begin_ == 0.0) {
-    scratch_.atStart.clear();
-    std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(scratch_.atStart),
-                 [](const Candidate& c) { return c.freeUntil == 0.0; });
-    contact = contactAtStart(query, scratch_.atStart, counters);
-    if (contact.verdict != Verdict::Clear) return contact;
+  if (surface == nullptr) return backtrack(query, candidates, counters);
+  return surfaceContact(query, best == kBegin, counters);
+}
+
+/// At exact fidelity: of the link's triangles, by the LSS candidates' times.
+LinkContact LaneQuery::surfaceContact(const LinkQuery& query, bool atStart,
+                                      QueryCounters& counters) {
+  PartScratch& parts = lanes_.parts;
+  // A single lane is slower than doubles, which need fewer evaluations.
+  const bool inLanes = activeSimd() != Simd::Scalar;
+  if (inLanes) {
+    const FramePolynomials polynomials =
+        framePolynomialsOf(query.parts.link, motion_, lanes_.nodes);
+    parts.lanes.reset(polynomials, scene_.parts().origin, begin_, end_);
   }
-  return backtrack(query, candidates, counters);
+  if (atStart) {
+    if (inLanes) {
+      for (Candidate& candidate : scratch_.candidates) {
+        candidate.laneTriangle = parts.lanes.add(scene_.triangle(candidate.triangle));
+      }
+    }
+    return meshContactAtStart(query, scratch_.candidates, inLanes ? &parts : nullptr, counters);
+  }
+  return inLanes ? backtrackInLanes(query, scratch_.candidates, parts, counters)
+                 : backtrack(query, scratch_.candidates, counters);
 }
 
 void LaneQuery::prepareScalar(LinkId link) {
@@ -267,7 +297,7 @@ void LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counter
   std::size_t done = 0;
   while (done < lanes_.clusters.count) {
     done = collectParts(begin, done, best);
-    lanes_.pairs.addTriangles(lane, lanes_.parts.data(), lanes_.parts.size(), origin,
+    lanes_.pairs.addTriangles(lane, lanes_.leafParts.data(), lanes_.leafParts.size(), origin,
                               bvh_.vertexRounding());
     counters.candidates += lanes_.pairs.count();
     counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
@@ -293,8 +323,8 @@ void LaneQuery::sortClusters() {
 /// The triangles of the next clusters that were not proven clear, from the time on that is open.
 /// Returns where to go on.
 std::size_t LaneQuery::collectParts(std::size_t begin, std::size_t done, float best) {
-  lanes_.parts.clear();
-  for (; done < lanes_.clusters.count && lanes_.parts.size() < kPartsAtOnce; ++done) {
+  lanes_.leafParts.clear();
+  for (; done < lanes_.clusters.count && lanes_.leafParts.size() < kPartsAtOnce; ++done) {
     const std::uint32_t i = lanes_.order[done];
     if (lanes_.clusters.time[i] > best) continue;
     const std::size_t hit = begin + static_cast<std::size_t>(lanes_.clusters.key[i]);
@@ -302,7 +332,7 @@ std::size_t LaneQuery::collectParts(std::size_t begin, std::size_t done, float b
     const std::uint8_t asked = scratch_.ignored.empty()
                                    ? lanes_.triangles[hit]
                                    : withoutIgnored(lanes_.triangles[hit], leaf);
-    if (asked != 0) lanes_.parts.push_back({&leaf, asked, lanes_.clusters.time[i]});
+    if (asked != 0) lanes_.leafParts.push_back({&leaf, asked, lanes_.clusters.time[i]});
   }
   return done;
 }
@@ -336,7 +366,8 @@ float LaneQuery::lanesTimeOf(double t) const {
   return std::min(kEnd, floatAbove(2.0 * (t - begin_) / (end_ - begin_) - 1.0));
 }
 
-/// Exact: a slab's bounds are multiples of a power of two, and u is a float.
+/// A slab's bounds are multiples of a power of two and u is a float, so nothing rounds but u + 1
+/// for the least u, which kTimeRounding of the lanes leaves room for.
 double LaneQuery::timeOf(float u) const {
   return begin_ + 0.5 * (static_cast<double>(u) + 1.0) * (end_ - begin_);
 }

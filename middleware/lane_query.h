@@ -31,6 +31,8 @@ class LaneQuery {
   [[nodiscard]] LinkContact answer(LinkId link, float limit, QueryCounters& counters);
   [[nodiscard]] LinkContact answerBefore(LinkId link, const LinkSurface* surface, float& best,
                                          QueryCounters& counters);
+  [[nodiscard]] LinkContact surfaceContact(const LinkQuery& query, bool atStart,
+                                           QueryCounters& counters);
   void prepareScalar(LinkId link);
   void advanceLss(std::int32_t lss, float& best, QueryCounters& counters);
   void sortClusters();

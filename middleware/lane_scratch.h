@@ -6,6 +6,7 @@
 
 #include "articulated/chain_nodes.h"
 #include "middleware/flat_bvh.h"
+#include "middleware/lane_backtracking.h"
 #include "middleware/lanes/lss_pairs.h"
 #include "tessellation/lss_polynomials.h"
 #include "tessellation/swept_boxes.h"
@@ -23,9 +24,10 @@ struct LaneScratch {
   std::vector<std::int32_t> leaf;  // padded by kMaxLanes
   std::vector<std::uint8_t> triangles;
   PairLanes pairs;
-  std::vector<LeafPart> parts;        // of the LSS at hand
+  std::vector<LeafPart> leafParts;    // of the LSS at hand
   std::vector<std::uint32_t> order;   // of the clusters, by time
   HandedOver clusters, handed;        // of the LSS at hand
+  PartScratch parts;                  // of the link at hand, at exact fidelity
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
 };
 

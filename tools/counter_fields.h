@@ -10,12 +10,13 @@
 namespace foretouch::tools {
 
 /// Add a counter here and every benchmark reports it.
-inline constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 11>
+inline constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 12>
     kCounterFields{{{"nodes", &QueryCounters::nodes},
                     {"leaves", &QueryCounters::leaves},
                     {"candidates", &QueryCounters::candidates},
                     {"cluster_steps", &QueryCounters::clusterSteps},
                     {"lane_steps", &QueryCounters::laneSteps},
+                    {"part_steps", &QueryCounters::partSteps},
                     {"advancements", &QueryCounters::advancements},
                     {"hierarchy_tests", &QueryCounters::hierarchyTests},
                     {"plane_tests", &QueryCounters::planeTests},

@@ -74,6 +74,7 @@ void ReplaySummary::add(const ReplayedStep& step) {
   work_.advancements += answer.counters.advancements;
   work_.hierarchyTests += answer.counters.hierarchyTests;
   work_.planeTests += answer.counters.planeTests;
+  work_.partSteps += answer.counters.partSteps;
   work_.leafTests += answer.counters.leafTests;
   latenciesUs_.push_back(static_cast<float>(answer.latencyUs));
 }
@@ -187,8 +188,9 @@ std::string ReplaySummary::cost() const {
   if (inputs_.request.fidelity == Fidelity::Exact) {
     text += fmt::format(
         "of these advancements    LSS hierarchy {:.1f}   triangle pairs {:.1f}   (and by planes "
-        "{:.1f})\n",
-        aStep(work_.hierarchyTests), aStep(work_.leafTests), aStep(work_.planeTests));
+        "{:.1f}, in lanes {:.1f})\n",
+        aStep(work_.hierarchyTests), aStep(work_.leafTests), aStep(work_.planeTests),
+        aStep(work_.partSteps));
   }
   return text;
 }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
+
+#include "middleware/culler.h"
 
 namespace foretouch::internal {
 namespace {
@@ -30,17 +33,21 @@ class Farther {
 
 class StartSearch {
  public:
-  StartSearch(const LinkQuery& query, std::vector<Candidate>& heap, QueryCounters& counters)
-      : query_(query), heap_(heap), counters_(counters), states_(query, counters) {}
+  StartSearch(const LinkQuery& query, std::vector<Candidate>& heap, PartScratch* lanes,
+              QueryCounters& counters)
+      : query_(query),
+        heap_(heap),
+        scratch_(lanes),
+        counters_(counters),
+        states_(query, counters),
+        isFar_(floatAbove(query.tolerance)) {}
 
   LinkContact run() {
     best_.link = query_.parts.link;
     const Farther farther(query_.scene);
-    // pieces == 0 marks a candidate whose `nearest` is no longer a box's bound but the LSS's own
+    // pieces == 0 marks a candidate whose `nearest` is no longer a bound but the LSS's own
     // separation: popped a second time, nothing that is left is deeper.
-    for (Candidate& candidate : heap_) {
-      candidate.nearest = leastGap(query_, candidate, states_.at(0.0));
-    }
+    boundAll();
     std::make_heap(heap_.begin(), heap_.end(), farther);
     while (!heap_.empty() && heap_.front().nearest <= query_.tolerance) {
       // Backtracking then says so, at t = 0. Once there is a contact the budget has no say.
@@ -69,9 +76,56 @@ class StartSearch {
     return pairOf(query_, candidate, states_.at(0.0), counters_);
   }
 
+  void boundAll() {
+    if (scratch_ == nullptr) {
+      for (Candidate& candidate : heap_) {
+        candidate.nearest = leastGap(query_, candidate, states_.at(0.0));
+      }
+      return;
+    }
+    std::int32_t lss = -1;
+    LanePart part{};
+    for (std::size_t first = 0; first < heap_.size(); first += kTrianglePairLanes) {
+      const std::size_t count = std::min(kTrianglePairLanes, heap_.size() - first);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        const Candidate& candidate = heap_[first + lane];
+        if (candidate.lss != lss) {  // they come LSS by LSS
+          lss = candidate.lss;
+          part = lanePart(query_.parts.lssOf(lss, Part::whole()));
+        }
+        put(lane, candidate, part);
+      }
+      counters_.partSteps += count;
+      scratch_->lanes.proveLss(count);
+      for (std::size_t lane = 0; lane < count; ++lane) bound(heap_[first + lane], lane);
+    }
+  }
+
+  /// A lower bound on the separation that doubles will find: theirs is farther from the truth by
+  /// rounding, but never deeper than the radius.
+  void bound(Candidate& candidate, std::size_t lane) const {
+    const double radius = query_.parts.lssOf(candidate.lss, Part::whole()).radius;
+    const double lower = scratch_->lanes.lower(lane);
+    candidate.nearest = std::max(-radius, lower - kDepthRounding * (1.0 + std::abs(lower)));
+  }
+
+  void put(std::size_t lane, const Candidate& candidate, const LanePart& part) {
+    scratch_->lanes.put(lane, candidate.laneTriangle, part, scratch_->lanes.laneTime(0.0), 0.0F);
+  }
   /// The link's triangles under one LSS against one triangle of the scene.
   void searchBelow(const Candidate& whole) {
     std::optional<LinkContact> touching;
+    if (scratch_ == nullptr) {
+      searchInDoubles(whole, touching);
+    } else if (query_.parts.surface->hasTriangles(whole.lss)) {
+      searchInLanes(whole, touching);
+    } else {
+      take(contactOf(query_, whole, look(whole), 0.0), touching);
+    }
+    if (touching) best_ = *touching;
+  }
+
+  void searchInDoubles(const Candidate& whole, std::optional<LinkContact>& touching) {
     stack_.assign(1, whole.part);
     while (!stack_.empty()) {
       Candidate candidate = whole;
@@ -89,7 +143,84 @@ class StartSearch {
       stack_.push_back(parts[0]);
       if (!(parts[1] == parts[0])) stack_.push_back(parts[1]);
     }
-    if (touching) best_ = *touching;
+  }
+
+  /// Doubles look at what lanes leave, in ascending order: the first that touches is the lowest.
+  void searchInLanes(const Candidate& whole, std::optional<LinkContact>& touching) {
+    refuteInLanes(whole);
+    std::vector<std::int32_t>& left = scratch_->linkTriangles;
+    std::sort(left.begin(), left.end());
+    for (const std::int32_t triangle : left) {
+      Candidate candidate = whole;
+      candidate.part = Part::of(HierarchyChild::triangle(triangle));
+      const PairState pair = look(candidate);
+      if (pair.gapUpper > query_.tolerance) continue;
+      take(contactOf(query_, candidate, pair, 0.0), touching);
+      if (touching) return;
+    }
+  }
+
+  /// Leaves in `linkTriangles` those below the LSS that lanes cannot prove farther than the
+  /// tolerance.
+  void refuteInLanes(const Candidate& whole) {
+    scratch_->linkTriangles.clear();
+    scratch_->parts.clear();
+    const HierarchyChild root = query_.parts.surface->root(whole.lss);
+    if (root.isTriangle()) {
+      scratch_->linkTriangles.push_back(root.index());
+    } else {
+      expand(whole.lss, root);
+    }
+    while (!scratch_->parts.empty()) {
+      const std::size_t count = takeNodes();
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        put(lane, whole, query_.parts.surface->lanePart(whole.lss, batch_[lane]));
+      }
+      counters_.partSteps += count;
+      scratch_->lanes.proveLss(count);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        if (!(scratch_->lanes.lower(lane) > isFar_)) expand(whole.lss, batch_[lane]);
+      }
+    }
+    refuteTriangles(whole);
+  }
+
+  /// The stack's last nodes, as many as there are lanes, become the batch.
+  std::size_t takeNodes() {
+    std::vector<HierarchyChild>& stack = scratch_->parts;
+    const std::size_t count = std::min(kTrianglePairLanes, stack.size());
+    const auto first = stack.end() - static_cast<std::ptrdiff_t>(count);
+    std::copy(first, stack.end(), batch_.begin());
+    stack.erase(first, stack.end());
+    return count;
+  }
+
+  void expand(std::int32_t lss, HierarchyChild node) {
+    for (const HierarchyChild part : query_.parts.surface->below(lss, node)) {
+      if (part.isTriangle()) {
+        scratch_->linkTriangles.push_back(part.index());
+      } else {
+        scratch_->parts.push_back(part);
+      }
+    }
+  }
+
+  void refuteTriangles(const Candidate& whole) {
+    std::vector<std::int32_t>& triangles = scratch_->linkTriangles;
+    std::size_t kept = 0;
+    for (std::size_t first = 0; first < triangles.size(); first += kTrianglePairLanes) {
+      const std::size_t count = std::min(kTrianglePairLanes, triangles.size() - first);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        const auto part = HierarchyChild::triangle(triangles[first + lane]);
+        put(lane, whole, query_.parts.surface->lanePart(whole.lss, part));
+      }
+      counters_.partSteps += count;
+      scratch_->lanes.proveTriangles(count);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        if (!(scratch_->lanes.lower(lane) > isFar_)) triangles[kept++] = triangles[first + lane];
+      }
+    }
+    triangles.resize(kept);
   }
 
   void take(const LinkContact& contact, std::optional<LinkContact>& touching) {
@@ -100,20 +231,33 @@ class StartSearch {
     }
   }
 
+  /// Thousands of roundings of what doubles compute.
+  static constexpr double kDepthRounding = 1e-12;
+
   const LinkQuery& query_;
   std::vector<Candidate>& heap_;
+  PartScratch* const scratch_;  // null: doubles only
   QueryCounters& counters_;
   StateCache states_;
+  double isFar_;
   std::vector<Part> stack_;
+  std::array<HierarchyChild, kTrianglePairLanes> batch_ = nobody();
   LinkContact best_;
   std::uint64_t spent_ = 0;
+
+  static std::array<HierarchyChild, kTrianglePairLanes> nobody() {
+    const HierarchyChild none = HierarchyChild::node(0);
+    return {none, none, none, none, none, none, none, none,
+            none, none, none, none, none, none, none, none};
+  }
 };
 
 }  // namespace
 
 LinkContact meshContactAtStart(const LinkQuery& query, std::vector<Candidate>& candidates,
-                               QueryCounters& counters) {
-  return StartSearch(query, candidates, counters).run();
+                               PartScratch* lanes, QueryCounters& counters) {
+  if (lanes != nullptr) query.parts.surface->prepare();
+  return StartSearch(query, candidates, lanes, counters).run();
 }
 
 }  // namespace foretouch::internal

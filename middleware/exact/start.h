@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "middleware/backtracking.h"
+#include "middleware/lane_backtracking.h"
 
 namespace foretouch::internal {
 
@@ -12,8 +13,10 @@ namespace foretouch::internal {
 /// triangles are asked in the order of how deep they are in the link's LSS, and the first one that
 /// the mesh touches is reported, with the lowest of the link's triangles that touch it. Where none
 /// is touched, the contacts within the tolerance are compared as usual. Consumes `candidates`.
+/// With `lanes`, which know the candidates' triangles and whose span begins at 0, these refute what
+/// they can first: the same answer, sooner.
 [[nodiscard]] LinkContact meshContactAtStart(const LinkQuery& query,
-                                             std::vector<Candidate>& candidates,
+                                             std::vector<Candidate>& candidates, PartScratch* lanes,
                                              QueryCounters& counters);
 
 }  // namespace foretouch::internal

@@ -92,9 +92,11 @@ HWY_INLINE Vec3 load(Floats d, const PairFloats (&axes)[3], std::size_t first) {
   return {hn::Load(d, axes[0] + first), hn::Load(d, axes[1] + first), hn::Load(d, axes[2] + first)};
 }
 
-/// Relative to the scene's first vertex.
+/// Relative to the scene's first vertex. The link's side has kPoints points: a triangle or a
+/// segment.
+template <int kPoints>
 struct Triangles {
-  Vec3 link[3];
+  Vec3 link[kPoints];
   Vec3 scene[2];  // the other two vertices
 };
 
@@ -146,20 +148,29 @@ HWY_INLINE void offerEdges(Floats d, const Edge& one, const Edge& other, const V
   nearest.across = choose(nearer, cross(one.along, other.along), nearest.across);
 }
 
-HWY_INLINE NearestEdges nearestEdges(Floats d, const Triangles& pair) {
-  const Edge one[3] = {edgeAlong(d, minus(pair.link[1], pair.link[0])),
-                       edgeAlong(d, minus(pair.link[2], pair.link[0])),
-                       edgeAlong(d, minus(pair.link[2], pair.link[1]))};
+/// The nearest of the link's edges from `start` and the scene's three.
+HWY_INLINE void offerEdge(Floats d, const Edge& one, const Vec3& start, const Vec3& second,
+                          const Edge (&other)[3], NearestEdges& nearest) {
+  const Vec3 fromSecond = minus(start, second);
+  for (int j = 0; j < 3; ++j) {
+    const Vec3& w = j == 2 ? fromSecond : start;
+    offerEdges(d, one, other[j], w, dot(one.along, w), dot(other[j].along, w), nearest);
+  }
+}
+
+template <int kPoints>
+HWY_INLINE NearestEdges nearestEdges(Floats d, const Triangles<kPoints>& pair) {
   const Edge other[3] = {edgeAlong(d, pair.scene[0]), edgeAlong(d, pair.scene[1]),
                          edgeAlong(d, minus(pair.scene[1], pair.scene[0]))};
   const Vec3 zero{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   NearestEdges nearest{hn::Set(d, kMostSquare), zero, zero};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const Vec3& start = pair.link[i == 2 ? 1 : 0];
-      const Vec3 w = j == 2 ? minus(start, pair.scene[0]) : start;
-      offerEdges(d, one[i], other[j], w, dot(one[i].along, w), dot(other[j].along, w), nearest);
-    }
+  for (int i = 0; i + 1 < kPoints; ++i) {
+    const Vec3 along = minus(pair.link[i + 1], pair.link[0]);
+    offerEdge(d, edgeAlong(d, along), pair.link[0], pair.scene[0], other, nearest);
+  }
+  if (kPoints == 3) {
+    const Vec3 along = minus(pair.link[kPoints - 1], pair.link[1]);
+    offerEdge(d, edgeAlong(d, along), pair.link[1], pair.scene[0], other, nearest);
   }
   return nearest;
 }
@@ -171,20 +182,25 @@ struct Plane {
 };
 
 /// Takes the plane across `direction`, whichever way round, where its gap is the widest so far.
-HWY_INLINE void tryDirection(Floats d, const Triangles& pair, const Vec3& direction, Plane& best) {
+template <int kPoints>
+HWY_INLINE void tryDirection(Floats d, const Triangles<kPoints>& pair, const Vec3& direction,
+                             Plane& best) {
   const Lanes squared = square(direction);
   const LaneMask usable =
       hn::And(hn::Gt(squared, hn::Set(d, kLeastSquare)), hn::Lt(squared, hn::Set(d, kMostSquare)));
   const Lanes shrink =
       hn::IfThenElseZero(usable, hn::Div(hn::Set(d, kUnitShrink), hn::Sqrt(squared)));
   const Vec3 n = scaled(shrink, direction);
-  const Lanes link[3] = {dot(n, pair.link[0]), dot(n, pair.link[1]), dot(n, pair.link[2])};
+  Lanes lowest = dot(n, pair.link[0]), highest = lowest;
+  for (int i = 1; i < kPoints; ++i) {
+    const Lanes height = dot(n, pair.link[i]);
+    lowest = hn::Min(lowest, height);
+    highest = hn::Max(highest, height);
+  }
   const Lanes scene[2] = {dot(n, pair.scene[0]), dot(n, pair.scene[1])};
   const Lanes zero = hn::Zero(d);
-  const Lanes above = hn::Sub(hn::Min(link[0], hn::Min(link[1], link[2])),
-                              hn::Max(zero, hn::Max(scene[0], scene[1])));
-  const Lanes below = hn::Sub(hn::Min(zero, hn::Min(scene[0], scene[1])),
-                              hn::Max(link[0], hn::Max(link[1], link[2])));
+  const Lanes above = hn::Sub(lowest, hn::Max(zero, hn::Max(scene[0], scene[1])));
+  const Lanes below = hn::Sub(hn::Min(zero, hn::Min(scene[0], scene[1])), highest);
   const Lanes gap = hn::Max(above, below);
   const LaneMask wider = hn::Gt(gap, best.gap);
   const Vec3 turned{hn::Neg(n.x), hn::Neg(n.y), hn::Neg(n.z)};
@@ -192,15 +208,18 @@ HWY_INLINE void tryDirection(Floats d, const Triangles& pair, const Vec3& direct
   best.gap = hn::IfThenElse(wider, gap, best.gap);
 }
 
-HWY_INLINE Plane widestPlane(Floats d, const Triangles& pair) {
+template <int kPoints>
+HWY_INLINE Plane widestPlane(Floats d, const Triangles<kPoints>& pair) {
   const NearestEdges nearest = nearestEdges(d, pair);
   const Vec3 zero{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   Plane best{zero, hn::Zero(d)};
   tryDirection(d, pair, nearest.difference, best);
   tryDirection(d, pair, nearest.across, best);
   tryDirection(d, pair, cross(pair.scene[0], pair.scene[1]), best);
-  tryDirection(d, pair, cross(minus(pair.link[1], pair.link[0]), minus(pair.link[2], pair.link[0])),
-               best);
+  if (kPoints == 3) {
+    const Vec3 e1 = minus(pair.link[1], pair.link[0]);
+    tryDirection(d, pair, cross(e1, minus(pair.link[kPoints - 1], pair.link[0])), best);
+  }
   return best;
 }
 
@@ -223,21 +242,24 @@ struct Slack {
   LaneMask inRange;
 };
 
+template <int kPoints>
 HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t first,
-                         const Triangles& pair, const Vec3 (&velocity)[3]) {
-  const Lanes link[3] = {square(pair.link[0]), square(pair.link[1]), square(pair.link[2])};
+                         const Triangles<kPoints>& pair, const Vec3 (&velocity)[kPoints]) {
   const Lanes scene[2] = {square(pair.scene[0]), square(pair.scene[1])};
-  const Lanes speed[3] = {square(velocity[0]), square(velocity[1]), square(velocity[2])};
+  // Sums, as the largest might hide what is not a number.
+  Lanes squares = hn::Add(scene[0], scene[1]);
+  Lanes farthest = hn::Zero(d), fastestSquare = farthest;
+  for (int i = 0; i < kPoints; ++i) {
+    const Lanes place = square(pair.link[i]), speed = square(velocity[i]);
+    squares = sumOf(place, speed, squares);
+    farthest = hn::Max(farthest, place);
+    fastestSquare = hn::Max(fastestSquare, speed);
+  }
   const Lanes inflation = hn::Set(d, kInflation), underflow = hn::Set(d, kUnderflow);
   const Lanes positionPad = hn::Load(d, block.positionPad + first);
   const Lanes velocityPad = hn::Load(d, block.velocityPad + first);
-  const Lanes extent = hn::Add(hn::Sqrt(largestOf(link[0], link[1], link[2])),
-                               hn::Sqrt(hn::Max(scene[0], scene[1])));
-  const Lanes fastest = hn::Sqrt(largestOf(speed[0], speed[1], speed[2]));
-  // Sums, as the largest might hide what is not a number.
-  const Lanes squares =
-      hn::Add(hn::Add(sumOf(link[0], link[1], link[2]), hn::Add(scene[0], scene[1])),
-              sumOf(speed[0], speed[1], speed[2]));
+  const Lanes extent = hn::Add(hn::Sqrt(farthest), hn::Sqrt(hn::Max(scene[0], scene[1])));
+  const Lanes fastest = hn::Sqrt(fastestSquare);
   const Lanes pads = hn::Add(positionPad, velocityPad);
   const LaneMask padsInRange = hn::And(hn::Ge(hn::Min(positionPad, velocityPad), hn::Zero(d)),
                                        hn::Le(pads, hn::Set(d, kMost)));
@@ -252,12 +274,13 @@ HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t f
 
 /// What the plane proves: the gap of each of the link's vertices, how fast it grows, and so for how
 /// long all stay above `floor`.
+template <int kPoints>
 HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t first,
                        TrianglePairSteps& steps) {
   const Vec3 origin = load(d, block.scene[0], first);
-  Triangles pair;
-  Vec3 velocity[3];
-  for (int i = 0; i < 3; ++i) {
+  Triangles<kPoints> pair;
+  Vec3 velocity[kPoints];
+  for (int i = 0; i < kPoints; ++i) {
     pair.link[i] = minus(load(d, block.link[i], first), origin);
     velocity[i] = load(d, block.velocity[i], first);
   }
@@ -271,7 +294,7 @@ HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t fir
   const Lanes most = hn::Set(d, kMost);
   LaneMask clears = hn::And(slack.inRange, hn::Ge(floor, hn::Zero(d)));
   Lanes lower = most, step = most;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < kPoints; ++i) {
     const Lanes given = hn::Load(d, block.acceleration[i] + first);
     const Lanes gap = hn::Sub(hn::Sub(dot(plane.n, pair.link[i]), top), slack.position);
     const Lanes clearance = hn::Sub(gap, floor);
@@ -290,7 +313,14 @@ HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t fir
 void proveLanes(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
-  for (std::size_t first = 0; first < count; first += lanes) answer(d, block, first, steps);
+  for (std::size_t first = 0; first < count; first += lanes) answer<3>(d, block, first, steps);
+}
+
+void proveSegmentLanes(const TrianglePairBlock& block, std::size_t count,
+                       TrianglePairSteps& steps) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t first = 0; first < count; first += lanes) answer<2>(d, block, first, steps);
 }
 
 }  // namespace
@@ -302,11 +332,17 @@ namespace foretouch::internal {
 namespace {
 
 HWY_EXPORT(proveLanes);
+HWY_EXPORT(proveSegmentLanes);
 
 }  // namespace
 
 void proveSteps(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps) {
   HWY_DYNAMIC_DISPATCH(proveLanes)(block, count, steps);
+}
+
+void proveSegmentSteps(const TrianglePairBlock& block, std::size_t count,
+                       TrianglePairSteps& steps) {
+  HWY_DYNAMIC_DISPATCH(proveSegmentLanes)(block, count, steps);
 }
 
 }  // namespace foretouch::internal

@@ -43,4 +43,8 @@ struct TrianglePairSteps {
 /// written too, as far as whole vectors need it, and mean nothing.
 void proveSteps(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps);
 
+/// The same of pairs whose link triangle is a segment, from link[0] to link[1]; nothing is read of
+/// the third vertex. Looks at three pairs of edges, not nine.
+void proveSegmentSteps(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps);
+
 }  // namespace foretouch::internal

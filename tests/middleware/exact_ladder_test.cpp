@@ -2,10 +2,13 @@
 // culler and of the scene's order; the surface's own refusals.
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "lss/simd.h"
 #include "middleware/query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
@@ -95,6 +98,87 @@ TEST(ExactFidelity, NoSampledTouchIsMissedOrEarlierThanReported) {
   EXPECT_GT(seen, 50);
 }
 
+/// Every width of the processor, one after the other.
+class ExactInLanes : public testing::TestWithParam<Simd> {
+ protected:
+  void SetUp() override { ASSERT_TRUE(useSimd(GetParam())); }
+  void TearDown() override { useSimd(std::nullopt); }
+};
+
+/// Both keep the promise, and it leaves little room: where one finds contact and the other none,
+/// the separation is above 0 and within the tolerance.
+void expectWithinThePromise(const LinkContact& lanes, const LinkContact& doubles, double tolerance,
+                            int& differ) {
+  ASSERT_NE(lanes.verdict, Verdict::Undecided);
+  if (lanes.verdict != doubles.verdict) {
+    ++differ;
+    const LinkContact& found = touches(lanes) ? lanes : doubles;
+    ASSERT_EQ(found.verdict, Verdict::Contact) << "only contact from outside leaves a choice";
+    ASSERT_GT(found.separation, 0.2 * tolerance);
+  }
+  if (touches(lanes)) {
+    ASSERT_LE(lanes.separation, tolerance);
+  }
+  if (lanes.verdict != Verdict::StartsInContact || doubles.verdict != lanes.verdict) return;
+  EXPECT_EQ(lanes.triangle, doubles.triangle);
+  EXPECT_EQ(lanes.linkTriangle, doubles.linkTriangle);
+  EXPECT_EQ(lanes.p_WLink, doubles.p_WLink);
+  EXPECT_EQ(lanes.p_WScene, doubles.p_WScene);
+}
+
+TEST_P(ExactInLanes, AgreeWithDoublesWithinThePromise) {
+  int starts = 0, contacts = 0, clear = 0, differ = 0;
+  for (int seed = 0; seed < 400; ++seed) {
+    SCOPED_TRACE(seed);
+    Bench bench = makeBench(2000 + seed, 0.95);
+    const auto motion = bench.body.motion();
+    const auto lanes = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
+    bench.exact.backtracking = Backtracking::Scalar;
+    const auto doubles = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
+    ASSERT_GT(lanes.counters.candidates, 0U);
+    for (std::size_t i = 0; i < lanes.links.size(); ++i) {
+      expectWithinThePromise(lanes.links[i], doubles.links[i], bench.exact.tolerance, differ);
+      starts += lanes.links[i].verdict == Verdict::StartsInContact ? 1 : 0;
+      contacts += lanes.links[i].verdict == Verdict::Contact ? 1 : 0;
+      clear += lanes.links[i].verdict == Verdict::Clear ? 1 : 0;
+    }
+  }
+  EXPECT_GT(starts, 40);
+  EXPECT_GT(contacts, 100);
+  EXPECT_GT(clear, 100);
+  RecordProperty("verdictsThatDiffer", differ);
+  EXPECT_LE(differ, 3);
+}
+
+TEST_P(ExactInLanes, MissNoSampledTouchAndAreNotLate) {
+  int seen = 0;
+  for (int seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE(seed);
+    const Bench bench = makeBench(3000 + seed, 0.95);
+    const auto motion = bench.body.motion();
+    const auto exact = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
+    QueryScratch scratch;
+    for (LinkId link = 0; link < bench.body.avatar.numLinks(); ++link) {
+      const LinkContact& got = exact.links[static_cast<std::size_t>(link)];
+      for (int k = 0; k <= 60; ++k) {
+        const double t = k / 60.0;
+        if (!touchesAt(bench.body.avatar, motion, link, t, bench.scene, bench.exact, scratch)) {
+          continue;
+        }
+        ++seen;
+        ASSERT_TRUE(touches(got)) << "missed at " << t;
+        ASSERT_LE(got.toi, t) << "late";
+      }
+    }
+  }
+  EXPECT_GT(seen, 30);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryWidth, ExactInLanes, testing::ValuesIn(supportedSimd()),
+                         [](const testing::TestParamInfo<Simd>& simd) {
+                           return std::string(toString(simd.param));
+                         });
+
 TEST(ExactFidelity, AnswersAlikeWithEitherCullerAndAnyOrderOfTheScene) {
   for (int seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
@@ -148,10 +232,23 @@ TEST(ExactFidelity, SpentBudgetIsUndecidedAndNeverLate) {
   EXPECT_GT(undecided, 50);
 }
 
-TEST(ExactFidelity, CountsWhatItDescended) {
+TEST(ExactFidelity, CountsWhatItDescendedInLanes) {
+  if (activeSimd() == Simd::Scalar) GTEST_SKIP() << "a single lane: doubles descend";
   const Bench bench = makeBench(3, 0.8);
   const auto exact =
       firstContacts(bench.body.avatar, bench.body.motion(), bench.scene, bench.exact).value();
+  EXPECT_GT(exact.counters.partSteps, 0u);
+  EXPECT_GT(exact.counters.leafTests, 0u) << "contact is for doubles to say";
+  EXPECT_GT(exact.counters.partSteps, 10 * exact.counters.advancements);
+  EXPECT_EQ(exact.counters.advancements, exact.counters.hierarchyTests + exact.counters.leafTests);
+}
+
+TEST(ExactFidelity, CountsWhatItDescendedInDoubles) {
+  Bench bench = makeBench(3, 0.8);
+  bench.exact.backtracking = Backtracking::Scalar;
+  const auto exact =
+      firstContacts(bench.body.avatar, bench.body.motion(), bench.scene, bench.exact).value();
+  EXPECT_EQ(exact.counters.partSteps, 0u);
   EXPECT_GT(exact.counters.hierarchyTests, 0u);
   EXPECT_GT(exact.counters.planeTests, 0u);
   EXPECT_GT(exact.counters.leafTests, 0u);
