@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "articulated/joint_arcs.h"
 #include "lss/assert.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -22,19 +23,18 @@ struct Quaternions {
   Vector w, x, y, z;
 };
 
-/// The polynomial in `versine` whose coefficients for these lanes are in `rows`, one row of all
-/// nodes a power.
-HWY_INLINE Vector weights(Lanes d, const double* rows, int terms, Vector versine) {
-  Vector sum = hn::Load(d, rows + (terms - 1) * kNodes);
-  for (int j = terms - 2; j >= 0; --j) {
-    sum = hn::MulAdd(sum, versine, hn::Load(d, rows + j * kNodes));
-  }
-  return sum;
+/// Number `column` of joint `joint`, in all lanes.
+HWY_INLINE Vector arcAt(Lanes d, internal::JointColumns arcs, int joint, int column) {
+  return hn::Set(d, arcs.numbers[column * arcs.stride + joint]);
 }
 
-HWY_INLINE Quaternions turned(Lanes d, const JointArc& arc, Vector from, Vector to) {
+/// The joint's rotation in its parent's frame, slerp's weights of both ends being given.
+HWY_INLINE Quaternions turned(Lanes d, internal::JointColumns arcs, int joint, Vector from,
+                              Vector to) {
+  using internal::JointColumns;
   const auto at = [&](int i) HWY_ATTR {
-    return hn::MulAdd(to, hn::Set(d, arc.to[i]), hn::Mul(from, hn::Set(d, arc.from[i])));
+    return hn::MulAdd(to, arcAt(d, arcs, joint, JointColumns::kTo + i),
+                      hn::Mul(from, arcAt(d, arcs, joint, JointColumns::kFrom + i)));
   };
   return {at(0), at(1), at(2), at(3)};
 }
@@ -51,70 +51,131 @@ HWY_INLINE Quaternions product(const Quaternions& a, const Quaternions& b) {
   };
 }
 
-HWY_INLINE void storeRotation(Lanes d, const Quaternions& q, int lane, LinkNodes& link) {
+HWY_INLINE void storeQuaternions(Lanes d, const Quaternions& q, int lane, LinkNodes& link) {
   hn::Store(q.w, d, link.q[0] + lane);
   hn::Store(q.x, d, link.q[1] + lane);
   hn::Store(q.y, d, link.q[2] + lane);
   hn::Store(q.z, d, link.q[3] + lane);
+}
+HWY_INLINE Quaternions loadQuaternions(Lanes d, const LinkNodes& link, int lane) {
+  return {hn::Load(d, link.q[0] + lane), hn::Load(d, link.q[1] + lane),
+          hn::Load(d, link.q[2] + lane), hn::Load(d, link.q[3] + lane)};
+}
+
+HWY_INLINE void storeMatrices(Lanes d, const Quaternions& q, int lane, LinkNodes& link) {
+  using hn::MulAdd;
+  using hn::NegMulAdd;
   const Vector one = hn::Set(d, 1.0);
   const Vector x2 = hn::Add(q.x, q.x), y2 = hn::Add(q.y, q.y), z2 = hn::Add(q.z, q.z);
   const Vector xy = hn::Mul(q.x, y2), xz = hn::Mul(q.x, z2), yz = hn::Mul(q.y, z2);
-  const Vector xx = hn::Mul(q.x, x2), yy = hn::Mul(q.y, y2);
-  hn::Store(hn::Sub(one, hn::MulAdd(q.z, z2, yy)), d, link.R[0] + lane);
-  hn::Store(hn::NegMulAdd(q.w, z2, xy), d, link.R[1] + lane);
-  hn::Store(hn::MulAdd(q.w, y2, xz), d, link.R[2] + lane);
-  hn::Store(hn::MulAdd(q.w, z2, xy), d, link.R[3] + lane);
-  hn::Store(hn::Sub(one, hn::MulAdd(q.z, z2, xx)), d, link.R[4] + lane);
-  hn::Store(hn::NegMulAdd(q.w, x2, yz), d, link.R[5] + lane);
-  hn::Store(hn::NegMulAdd(q.w, y2, xz), d, link.R[6] + lane);
-  hn::Store(hn::MulAdd(q.w, x2, yz), d, link.R[7] + lane);
-  hn::Store(hn::Sub(one, hn::Add(xx, yy)), d, link.R[8] + lane);
+  const Vector withoutX = NegMulAdd(q.x, x2, one), withoutY = NegMulAdd(q.y, y2, one);
+  hn::Store(NegMulAdd(q.z, z2, withoutY), d, link.R[0] + lane);
+  hn::Store(NegMulAdd(q.w, z2, xy), d, link.R[1] + lane);
+  hn::Store(MulAdd(q.w, y2, xz), d, link.R[2] + lane);
+  hn::Store(MulAdd(q.w, z2, xy), d, link.R[3] + lane);
+  hn::Store(NegMulAdd(q.z, z2, withoutX), d, link.R[4] + lane);
+  hn::Store(NegMulAdd(q.w, x2, yz), d, link.R[5] + lane);
+  hn::Store(NegMulAdd(q.w, y2, xz), d, link.R[6] + lane);
+  hn::Store(MulAdd(q.w, x2, yz), d, link.R[7] + lane);
+  hn::Store(NegMulAdd(q.x, x2, withoutY), d, link.R[8] + lane);
 }
 
 /// Of a root: in W, relative to `origin`.
-HWY_INLINE void storeRootPosition(Lanes d, const JointArc& arc, Vector t, const double* origin,
-                                  int lane, LinkNodes& link) {
+HWY_INLINE void storeRootPosition(Lanes d, internal::JointColumns arcs, int joint, Vector t,
+                                  const double* origin, int lane, LinkNodes& link) {
+  using internal::JointColumns;
   for (int i = 0; i < 3; ++i) {
-    const Vector start = hn::Set(d, arc.translation[i] - origin[i]);
-    hn::Store(hn::MulAdd(t, hn::Set(d, arc.drift[i]), start), d, link.p[i] + lane);
+    const Vector start =
+        hn::Sub(arcAt(d, arcs, joint, JointColumns::kTranslation + i), hn::Set(d, origin[i]));
+    hn::Store(hn::MulAdd(t, arcAt(d, arcs, joint, JointColumns::kDrift + i), start), d,
+              link.p[i] + lane);
   }
 }
 
-HWY_INLINE void storePosition(Lanes d, const JointArc& arc, Vector t, const LinkNodes& parent,
-                              int lane, LinkNodes& link) {
-  const auto arm = [&](int i) HWY_ATTR {
-    return hn::MulAdd(t, hn::Set(d, arc.drift[i]), hn::Set(d, arc.translation[i]));
-  };
-  const Vector x = arm(0), y = arm(1), z = arm(2);
+HWY_INLINE void storePosition(Lanes d, internal::JointColumns arcs, int joint, Vector t,
+                              const LinkNodes& parent, int lane, LinkNodes& link) {
+  using internal::JointColumns;
+  Vector arm[3];
+  for (int i = 0; i < 3; ++i) arm[i] = arcAt(d, arcs, joint, JointColumns::kTranslation + i);
+  const double* const driftLength = arcs.numbers + JointColumns::kDriftLength * arcs.stride + joint;
+  if (*driftLength != 0.0) {
+    for (int i = 0; i < 3; ++i) {
+      arm[i] = hn::MulAdd(t, arcAt(d, arcs, joint, JointColumns::kDrift + i), arm[i]);
+    }
+  }
   for (int i = 0; i < 3; ++i) {
     Vector sum = hn::Load(d, parent.p[i] + lane);
-    sum = hn::MulAdd(hn::Load(d, parent.R[3 * i] + lane), x, sum);
-    sum = hn::MulAdd(hn::Load(d, parent.R[3 * i + 1] + lane), y, sum);
-    sum = hn::MulAdd(hn::Load(d, parent.R[3 * i + 2] + lane), z, sum);
+    for (int k = 0; k < 3; ++k) {
+      sum = hn::MulAdd(hn::Load(d, parent.R[3 * i + k] + lane), arm[k], sum);
+    }
     hn::Store(sum, d, link.p[i] + lane);
   }
 }
 
-void evaluateLinks(const JointArc* arcs, int count, const double* fromRows, const double* toRows,
-                   int terms, const double* instants, const double* origin, LinkNodes* links) {
+/// Joints whose series are summed side by side: one alone would wait for its own sums.
+constexpr int kJointsAbreast = 4;
+
+/// The polynomials in `versines` whose coefficients for these lanes are in `rows`, one row of all
+/// nodes a power.
+HWY_INLINE void weights(Lanes d, const double* rows, int terms, const Vector* versines,
+                        Vector* sums) {
+  const Vector last = hn::Load(d, rows + (terms - 1) * kNodes);
+  for (int i = 0; i < kJointsAbreast; ++i) sums[i] = last;
+  for (int k = terms - 2; k >= 0; --k) {
+    const Vector row = hn::Load(d, rows + k * kNodes);
+    for (int i = 0; i < kJointsAbreast; ++i) sums[i] = hn::MulAdd(sums[i], versines[i], row);
+  }
+}
+
+/// Leaves slerp's weights of `from` and `to` in q[0] and q[1] of all links. The series of `from` is
+/// that of `to` backwards where the instants are those of [0,1]: `fromRows` is null.
+void weighJoints(internal::JointColumns arcs, const double* fromRows, const double* toRows,
+                 int terms, LinkNodes* links) {
   const Lanes d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  for (int first = 0; first < arcs.stride; first += kJointsAbreast) {
+    Vector versines[kJointsAbreast], sums[kJointsAbreast];
+    LinkNodes* abreast[kJointsAbreast];
+    for (int i = 0; i < kJointsAbreast; ++i) {
+      // Places beyond the last joint repeat it.
+      const int joint = first + i < arcs.stride ? first + i : arcs.stride - 1;
+      abreast[i] = links + joint;
+      versines[i] = arcAt(d, arcs, joint, internal::JointColumns::kVersine);
+    }
+    for (int lane = 0; lane < kNodes; lane += lanes) {
+      weights(d, toRows + lane, terms, versines, sums);
+      for (int i = 0; i < kJointsAbreast; ++i) {
+        hn::Store(sums[i], d, abreast[i]->q[1] + lane);
+        if (fromRows != nullptr) continue;
+        hn::Store(hn::Reverse(d, sums[i]), d, abreast[i]->q[0] + (kNodes - lanes - lane));
+      }
+      if (fromRows == nullptr) continue;
+      weights(d, fromRows + lane, terms, versines, sums);
+      for (int i = 0; i < kJointsAbreast; ++i) hn::Store(sums[i], d, abreast[i]->q[0] + lane);
+    }
+  }
+}
+
+void evaluateLinks(internal::JointColumns arcs, const JointId* parents, const double* fromRows,
+                   const double* toRows, int terms, const double* instants, const double* origin,
+                   LinkNodes* links) {
+  const Lanes d;
+  weighJoints(arcs, fromRows, toRows, terms, links);
   for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
     const Vector t = hn::Load(d, instants + lane);
-    for (int j = 0; j < count; ++j) {
-      const JointArc& arc = arcs[j];
-      const Vector versine = hn::Set(d, arc.versine);
-      const Quaternions local = turned(d, arc, weights(d, fromRows + lane, terms, versine),
-                                       weights(d, toRows + lane, terms, versine));
-      if (arc.parent == kNoParent) {
-        storeRootPosition(d, arc, t, origin, lane, links[j]);
-        storeRotation(d, local, lane, links[j]);
-        continue;
+    for (int j = 0; j < arcs.stride; ++j) {
+      LinkNodes& link = links[j];
+      Quaternions q =
+          turned(d, arcs, j, hn::Load(d, link.q[0] + lane), hn::Load(d, link.q[1] + lane));
+      if (parents[j] == kNoParent) {
+        storeRootPosition(d, arcs, j, t, origin, lane, link);
+      } else {
+        const LinkNodes& parent = links[parents[j]];
+        storePosition(d, arcs, j, t, parent, lane, link);
+        q = product(loadQuaternions(d, parent, lane), q);
       }
-      const LinkNodes& parent = links[arc.parent];
-      storePosition(d, arc, t, parent, lane, links[j]);
-      const Quaternions turn = {hn::Load(d, parent.q[0] + lane), hn::Load(d, parent.q[1] + lane),
-                                hn::Load(d, parent.q[2] + lane), hn::Load(d, parent.q[3] + lane)};
-      storeRotation(d, product(turn, local), lane, links[j]);
+      storeQuaternions(d, q, lane, link);
+      storeMatrices(d, q, lane, link);
     }
   }
 }
@@ -130,30 +191,32 @@ HWY_EXPORT(evaluateLinks);
 
 /// Unit roundoff of double.
 constexpr double kU = 0x1p-53;
+/// What the weights' series may leave out: far below what floats lose, and each bit takes time.
+constexpr double kLeftOut = 0x1p-44;
 
-// Derived in articulated/chain_nodes.md; tests/articulated/chain_nodes_test.cpp holds them. In
-// units of kU.
-constexpr double kQuaternion = 96.0;  ///< One joint's quaternion and its product with the parent's.
-constexpr double kMatrix = 16.0;      ///< The matrix of a quaternion. Spectral norm.
-constexpr double kArm = 16.0;         ///< A translation at t, and a matrix times it.
-constexpr double kSum = 10.0;         ///< Adding it to the parent's position.
+// Derived in articulated/chain_nodes.md; tests/articulated/chain_nodes_test.cpp holds them.
+constexpr double kQuaternion =
+    96.0 * kU + 2.0 * kLeftOut;  ///< One joint's quaternion and its product with the parent's.
+constexpr double kMatrix = 16.0 * kU;  ///< The matrix of a quaternion. Spectral norm.
+constexpr double kArm = 16.0 * kU;     ///< A translation at t, and a matrix times it.
+constexpr double kSum = 10.0 * kU;     ///< Adding it to the parent's position.
 /// Covers the rounding of the bounds' own arithmetic and products of two errors.
 constexpr double kInflation = 1.0 + 1e-9;
 
 /// The longest series: enough for a half turn (versine 1).
-constexpr std::size_t kMaxTerms = 56;
+constexpr std::size_t kMaxTerms = 46;
 
-/// largestVersine[n]: n terms of the weights' series leave out at most 2^-54 up to here
+/// largestVersine[n]: n terms of the weights' series leave out at most kLeftOut up to here
 /// (chain_nodes.md 1).
 std::array<double, kMaxTerms + 1> versinesByTerms() {
-  constexpr double kLeftOut = 0x1p-55;     // the tail is at most twice its first term
   constexpr double kFirst = 0.1283000599;  // largest t(1-t^2)/3, rounded up
   constexpr double kRoundedDown = 1.0 - 1e-9;
   std::array<double, kMaxTerms + 1> versines{};
   double coefficient = kFirst;
+  // What follows the first term left out is at most as much again.
   for (std::size_t n = 1; n <= kMaxTerms; ++n) {
     const auto power = static_cast<double>(n);
-    versines[n] = kRoundedDown * std::pow(kLeftOut / coefficient, 1.0 / power);
+    versines[n] = kRoundedDown * std::pow(0.5 * kLeftOut / coefficient, 1.0 / power);
     coefficient *= (power + 1.0) / (2.0 * power + 3.0);
   }
   return versines;
@@ -223,31 +286,34 @@ void ChainNodes::extendWeights(std::size_t terms) {
   }
 }
 
-// The recurrences of articulated/chain_nodes.md section 3.
-void ChainNodes::boundRoundings(const ChainMotion& motion) {
-  for (LinkId link = 0; link < numLinks_; ++link) {
-    const JointArc& arc = motion.arc(link);
-    Rounding& bound = roundings_[static_cast<std::size_t>(link)];
-    if (arc.parent == kNoParent) {
-      double startSquare = 0.0, endSquare = 0.0;
-      for (int i = 0; i < 3; ++i) {
-        const double start = arc.translation[i] - origin_[i], end = start + arc.drift[i];
-        startSquare += start * start;
-        endSquare += end * end;
-      }
-      bound.reach = std::sqrt(std::max(startSquare, endSquare)) * kInflation;
-      bound.quaternion = kQuaternion * kU;
-      bound.position = kSum * kU * bound.reach * kInflation;
-    } else {
-      const Rounding& parent = roundings_[static_cast<std::size_t>(arc.parent)];
-      bound.reach = (parent.reach + arc.length) * kInflation;
-      bound.quaternion = parent.quaternion + kQuaternion * kU;
-      bound.position =
-          (parent.position + (parent.rotation + kArm * kU) * arc.length + kSum * kU * bound.reach) *
-          kInflation;
+/// Bound on the distance of the roots from `origin` at any t.
+double ChainNodes::rootReach(const ChainMotion& motion) const {
+  const auto stride = static_cast<std::size_t>(numLinks_);
+  double square = 0.0;
+  for (std::size_t j = 0; j < stride; ++j) {
+    if (motion.parents_[j] != kNoParent) continue;
+    double startSquare = 0.0, endSquare = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double translation =
+          motion.arcs_[(internal::JointColumns::kTranslation + i) * stride + j];
+      const double drift = motion.arcs_[(internal::JointColumns::kDrift + i) * stride + j];
+      const double start = translation - origin_[static_cast<int>(i)], end = start + drift;
+      startSquare += start * start;
+      endSquare += end * end;
     }
-    bound.rotation = (4.0 * bound.quaternion + kMatrix * kU) * kInflation;
+    square = std::max({square, startSquare, endSquare});
   }
+  return std::sqrt(square);
+}
+
+// articulated/chain_nodes.md 3.
+void ChainNodes::boundRoundings(const ChainMotion& motion) {
+  const ChainSums& largest = motion.largestSums();
+  const double depth = largest.depth, arm = largest.armReach;
+  const double rotation = 4.0 * depth * kQuaternion + kMatrix;
+  bounds_.reach = (rootReach(motion) + arm) * kInflation;
+  bounds_.rotationRounding = rotation * kInflation;
+  bounds_.positionRounding = ((rotation + kArm) * arm + depth * kSum * bounds_.reach) * kInflation;
 }
 
 void ChainNodes::evaluate(const ChainMotion& motion, double begin, double end,
@@ -256,17 +322,17 @@ void ChainNodes::evaluate(const ChainMotion& motion, double begin, double end,
   numLinks_ = motion.numLinks();
   origin_ = origin;
   const auto n = static_cast<std::size_t>(numLinks_);
-  if (nodes_.size() < n) {
-    nodes_.resize(n);
-    roundings_.resize(n);
-  }
+  if (nodes_.size() < n) nodes_.resize(n);
   if (n == 0) return;
   setInstants(begin, end);
   const std::size_t terms = termsFor(motion.largestVersine());
   extendWeights(terms);
+  const bool isWhole = begin == 0.0 && end == 1.0;
+  // Only read.
+  const internal::JointColumns arcs = {const_cast<double*>(motion.arcs_.data()), numLinks_};
   HWY_DYNAMIC_DISPATCH(evaluateLinks)
-  (&motion.arc(0), numLinks_, weights_.from[0].at, weights_.to[0].at, static_cast<int>(terms),
-   instants_, origin_.data(), nodes_.data());
+  (arcs, motion.parents_.data(), isWhole ? nullptr : weights_.from[0].at, weights_.to[0].at,
+   static_cast<int>(terms), instants_, origin_.data(), nodes_.data());
   boundRoundings(motion);
 }
 

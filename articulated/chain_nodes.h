@@ -26,6 +26,13 @@ struct alignas(64) LinkNodes {
   double p[3][kNodes];
 };
 
+/// What holds of frames at the instants: bounds on |computed - true| of `p` (m) and of `R`
+/// (spectral norm), and on |p| (m). "True" is the motion as motion.h defines it for the poses as
+/// given.
+struct NodeBounds {
+  double positionRounding = 0.0, rotationRounding = 0.0, reach = 0.0;
+};
+
 /// Frames of every link of a motion at the nodes of a span. Memory is kept between calls; for one
 /// thread.
 class ChainNodes {
@@ -45,18 +52,13 @@ class ChainNodes {
     return nodes_[static_cast<std::size_t>(link)];
   }
 
-  /// Bounds on |computed - true| at the instants: of `p` (m) and of `R` (spectral norm). "True" is
-  /// the motion as motion.h defines it for the poses as given.
-  [[nodiscard]] double positionRounding(LinkId link) const {
-    return roundings_[static_cast<std::size_t>(link)].position;
-  }
-  [[nodiscard]] double rotationRounding(LinkId link) const {
-    return roundings_[static_cast<std::size_t>(link)].rotation;
-  }
-  /// Bound on |p| of the link at the instants (m).
-  [[nodiscard]] double reach(LinkId link) const {
-    return roundings_[static_cast<std::size_t>(link)].reach;
-  }
+  /// Of every link.
+  [[nodiscard]] const NodeBounds& bounds() const { return bounds_; }
+  /// Of one link: at present the same, as closer ones would take longer to compute than anyone
+  /// gains by them.
+  [[nodiscard]] double positionRounding(LinkId) const { return bounds_.positionRounding; }
+  [[nodiscard]] double rotationRounding(LinkId) const { return bounds_.rotationRounding; }
+  [[nodiscard]] double reach(LinkId) const { return bounds_.reach; }
 
   /// (1 - cos(k pi/7))/2, the k-th Chebyshev-Lobatto point of [0,1], rounded.
   [[nodiscard]] static double time(int k);
@@ -70,11 +72,9 @@ class ChainNodes {
   struct Weights {
     std::vector<Row> from, to;
   };
-  struct Rounding {
-    double quaternion = 0.0, rotation = 0.0, position = 0.0, reach = 0.0;
-  };
   void setInstants(double begin, double end);
   void extendWeights(std::size_t terms);
+  [[nodiscard]] double rootReach(const ChainMotion& motion) const;
   void boundRoundings(const ChainMotion& motion);
 
   std::int32_t numLinks_ = 0;
@@ -83,7 +83,7 @@ class ChainNodes {
   alignas(64) double instants_[kNodes] = {};
   Weights weights_;
   std::vector<LinkNodes> nodes_;
-  std::vector<Rounding> roundings_;
+  NodeBounds bounds_;
 };
 
 }  // namespace foretouch

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "articulated/joint_arcs.h"
 #include "lss/assert.h"
 
 namespace foretouch {
@@ -10,39 +11,12 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-/// Unit roundoff of double.
-constexpr double kU = 0x1p-53;
-
-// Rounding of one joint's own evaluation, derived in articulated/motion_bounds.md section 3; the
-// worst seen there is below a fifth of each (tests/articulated/motion_bounds_test.cpp). In units of
-// kU.
-constexpr double kJointRotation =
-    128.0;  ///< R(t): R0, axis, angle, sine and cosine, sum. Spectral norm.
-constexpr double kJointRate = 64.0;   ///< The rotation rate's absolute error (rad).
-constexpr double kChordRate = 128.0;  ///< The angle from the chord, and kJointRate (rad).
-constexpr double kProduct = 16.0;     ///< One 3x3 product, or matrix times vector, of unit factors.
-
-/// asin(c/2)*2 <= c*(1 + kArcExcess*c^2) for 0 <= c <= sqrt(2) and a little beyond
-/// (motion_bounds.md 2).
-constexpr double kArcExcess = 0.0556;
-
-/// Covers the rounding of the bounds' own arithmetic (a few dozen operations, all of positive
-/// terms).
-constexpr double kInflation = 1.0 + 1e-12;
+using internal::JointColumns;
 
 Matrix3d crossMatrix(const Vector3d& v) {
   Matrix3d m;
   m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
   return m;
-}
-
-/// +1 or -1: whether the shorter arc from `from` leads to `to` or to -`to`, for the quaternions as
-/// given. Rounding of a normalisation must not have a say: near a half turn it would choose the
-/// arc.
-double arcSign(const Quaternion& from, const Quaternion& to) {
-  const double dot = from.w() * to.w() + from.x() * to.x() + from.y() * to.y() + from.z() * to.z();
-  return dot < 0.0 ? -1.0 : 1.0;
 }
 
 /// Rotation vector (axis times angle, in the child's frame) from `from` to `to`, both unit.
@@ -57,81 +31,45 @@ Vector3d rotationVector(const Quaternion& from, const Quaternion& to) {
   return (angle / sine) * v;
 }
 
-/// A validated pose's quaternion is unit within kUnitNormError and stays as given.
-void storeUnit(const Quaternion& q, double sign, double* stored) {
-  constexpr double kNormSquareError = 16.0 * kU;
-  double scale = sign;
-  const double normSquare = q.squaredNorm();
-  if (!(std::abs(normSquare - 1.0) <= kNormSquareError)) scale = sign / std::sqrt(normSquare);
-  stored[0] = scale * q.w();
-  stored[1] = scale * q.x();
-  stored[2] = scale * q.y();
-  stored[3] = scale * q.z();
+/// The recurrences of articulated/motion_bounds.md 2 for joint `j`, whose parent's sums are given.
+ChainSums sumsOf(const ChainSums& parent, const JointColumns& arcs, std::size_t j) {
+  const auto at = [&](JointColumns::Column column) {
+    return arcs.numbers[static_cast<std::size_t>(column * arcs.stride) + j];
+  };
+  const double turn = at(JointColumns::kTurn), length = at(JointColumns::kLength);
+  const double drift = at(JointColumns::kDriftLength);
+  const double square = parent.angularSpeed * parent.angularSpeed;
+  const double swing = parent.angularSpeed * length;
+  ChainSums sums;
+  sums.angularSpeed = parent.angularSpeed + turn;
+  sums.angularAcceleration = parent.angularAcceleration + parent.angularSpeed * turn;
+  sums.speed = parent.speed + (swing + drift);
+  sums.acceleration = parent.acceleration + ((parent.angularAcceleration + square) * length +
+                                             2.0 * (parent.angularSpeed * drift));
+  sums.eighthDerivative = parent.eighthDerivative + (square * square) *
+                                                        (square * parent.angularSpeed) *
+                                                        (swing + 8.0 * drift);
+  sums.armReach = parent.armReach + length;
+  sums.rootReach = parent.rootReach;
+  sums.depth = parent.depth + 1.0;
+  return sums;
 }
 
-double squareOf(const double* v) {
-  return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+/// A root's arm is the world's to it.
+ChainSums rootSums(const JointColumns& arcs, std::size_t j) {
+  ChainSums sums = sumsOf(ChainSums(), arcs, j);
+  std::swap(sums.armReach, sums.rootReach);
+  return sums;
 }
 
-JointArc arcOf(const Quaternion& from, const Quaternion& to, const Vector3d& start,
-               const Vector3d& end) {
-  JointArc arc;
-  storeUnit(from, 1.0, arc.from);
-  storeUnit(to, arcSign(from, to), arc.to);
-  double chordSquare = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const double difference = arc.to[i] - arc.from[i];
-    chordSquare += difference * difference;
-  }
-  arc.versine = 0.5 * chordSquare;
-  double last[3];
-  for (int i = 0; i < 3; ++i) {
-    arc.translation[i] = start[i];
-    arc.drift[i] = end[i] - start[i];
-    last[i] = start[i] + arc.drift[i];
-  }
-  // A norm is convex along a line: its largest value is at an end.
-  arc.length = std::sqrt(std::max(squareOf(arc.translation), squareOf(last))) * kInflation;
-  arc.driftLength = std::sqrt(squareOf(arc.drift)) * kInflation;
-  return arc;
-}
-
-/// Bound on the joint's turn over t in [0,1], from its chord (motion_bounds.md 2).
-double angleBound(const JointArc& arc) {
-  const double chordSquare = 2.0 * arc.versine;
-  return 2.0 * std::sqrt(chordSquare) * (1.0 + kArcExcess * chordSquare) + kChordRate * kU;
-}
-
-// The recurrences of articulated/motion_bounds.md sections 2 (motion) and 3 (rounding).
-MotionBounds boundsOf(const MotionBounds& parent, const JointArc& joint) {
-  const double rate = angleBound(joint), length = joint.length, drift = joint.driftLength;
-  const double squareSpeed = parent.angularSpeed * parent.angularSpeed;
-  const double parentTurn = parent.angularAcceleration + squareSpeed;
-  const double seventhPower = squareSpeed * squareSpeed * squareSpeed * parent.angularSpeed;
-
-  MotionBounds b;
-  b.angularSpeed = parent.angularSpeed + rate;
-  b.angularAcceleration = parent.angularAcceleration + parent.angularSpeed * rate;
-  b.speed = parent.speed + parent.angularSpeed * length + drift;
-  b.acceleration = parent.acceleration + parentTurn * length + 2.0 * parent.angularSpeed * drift;
-  b.reach = parent.reach + length;
-  b.eighthDerivative =
-      parent.eighthDerivative + seventhPower * (parent.angularSpeed * length + 8.0 * drift);
-
-  const double frame = parent.rotationRounding + kProduct * kU;  // of R_WP, and applying it
-  b.rotationRounding = parent.rotationRounding + (kJointRotation + kProduct) * kU;
-  b.originRounding = parent.originRounding + frame * length + 2.0 * kU * b.reach;
-  b.spinRounding = parent.spinRounding + frame * rate + kJointRate * kU * (1.0 + rate) +
-                   2.0 * kU * b.angularSpeed;
-  b.velocityRounding = parent.velocityRounding +
-                       (parent.spinRounding + 2.0 * parent.angularSpeed * frame) * length +
-                       frame * drift + 4.0 * kU * b.speed;
-  for (double* bound : {&b.angularSpeed, &b.angularAcceleration, &b.speed, &b.acceleration,
-                        &b.reach, &b.eighthDerivative, &b.rotationRounding, &b.originRounding,
-                        &b.spinRounding, &b.velocityRounding}) {
-    *bound *= kInflation;
-  }
-  return b;
+/// What ChainMotion::largestSums() holds.
+ChainSums larger(const ChainSums& a, const ChainSums& b) {
+  ChainSums sums;
+  sums.angularSpeed = std::max(a.angularSpeed, b.angularSpeed);
+  sums.eighthDerivative = std::max(a.eighthDerivative, b.eighthDerivative);
+  sums.armReach = std::max(a.armReach, b.armReach);
+  sums.depth = std::max(a.depth, b.depth);
+  return sums;
 }
 
 using JointMotion = MotionEvaluator::JointMotion;
@@ -171,7 +109,7 @@ template <typename JointOf>
 LinkState chainState(const ChainMotion& motion, LinkId link, double t, const JointOf& jointOf) {
   JointId chain[kMaxChainDepth];
   int depth = 0;
-  for (JointId j = link; j != kNoParent; j = motion.arc(j).parent) {
+  for (JointId j = link; j != kNoParent; j = motion.parent(j)) {
     FORETOUCH_ASSERT(depth < kMaxChainDepth);
     chain[depth++] = j;
   }
@@ -186,7 +124,7 @@ void chainStates(const ChainMotion& motion, double t, std::vector<LinkState>& st
   states.resize(static_cast<std::size_t>(motion.numLinks()));
   const LinkState world;
   for (LinkId j = 0; j < motion.numLinks(); ++j) {
-    const JointId parent = motion.arc(j).parent;
+    const JointId parent = motion.parent(j);
     states[static_cast<std::size_t>(j)] = composed(
         parent == kNoParent ? world : states[static_cast<std::size_t>(parent)], jointOf(j), t);
   }
@@ -202,18 +140,47 @@ void ChainMotion::assign(const Skeleton& skeleton, const Pose& from, const Pose&
   const auto n = static_cast<std::size_t>(skeleton.numJoints());
   FORETOUCH_ASSERT(from.rotations.size() == n && from.translations.size() == n &&
                    to.rotations.size() == n && to.translations.size() == n);
-  arcs_.resize(n);
-  bounds_.resize(n);
+  parents_ = skeleton.parents();
+  arcs_.resize(n * JointColumns::kCount);
+  sums_.resize(n);
+  largest_ = ChainSums();
   largestVersine_ = 0.0;
-  const MotionBounds world;
+  if (n == 0) return;
+  const JointColumns arcs = {arcs_.data(), static_cast<int>(n)};
+  computeArcs({{from.rotations[0].coeffs().data(), to.rotations[0].coeffs().data()},
+               {from.translations[0].data(), to.translations[0].data()}},
+              arcs.stride, arcs);
+  // Local: members would be written and read again for every joint.
+  const JointId* const parents = parents_.data();
+  ChainSums* const sums = sums_.data();
+  const double* const versines = arcs_.data() + n * JointColumns::kVersine;
+  ChainSums largest;
+  double largestVersine = 0.0;
   for (std::size_t j = 0; j < n; ++j) {
-    JointArc& arc = arcs_[j];
-    arc = arcOf(from.rotations[j], to.rotations[j], from.translations[j], to.translations[j]);
-    arc.parent = skeleton.parent(static_cast<JointId>(j));
-    largestVersine_ = std::max(largestVersine_, arc.versine);
-    bounds_[j] = boundsOf(
-        arc.parent == kNoParent ? world : bounds_[static_cast<std::size_t>(arc.parent)], arc);
+    sums[j] = parents[j] == kNoParent ? rootSums(arcs, j)
+                                      : sumsOf(sums[static_cast<std::size_t>(parents[j])], arcs, j);
+    largest = larger(largest, sums[j]);
+    largestVersine = std::max(largestVersine, versines[j]);
   }
+  largest_ = largest;
+  largestVersine_ = largestVersine;
+}
+
+JointArc ChainMotion::arc(LinkId link) const {
+  const auto j = static_cast<std::size_t>(link), stride = sums_.size();
+  const auto copy = [&](std::size_t column, std::size_t count, double* to) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = arcs_[(column + i) * stride + j];
+  };
+  JointArc arc;
+  copy(JointColumns::kFrom, 4, arc.from);
+  copy(JointColumns::kTo, 4, arc.to);
+  copy(JointColumns::kTranslation, 3, arc.translation);
+  copy(JointColumns::kDrift, 3, arc.drift);
+  copy(JointColumns::kVersine, 1, &arc.versine);
+  copy(JointColumns::kLength, 1, &arc.length);
+  copy(JointColumns::kDriftLength, 1, &arc.driftLength);
+  arc.parent = parents_[j];
+  return arc;
 }
 
 LinkState ChainMotion::stateAt(LinkId link, double t) const {

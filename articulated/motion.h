@@ -77,6 +77,27 @@ struct MotionBounds {
   static constexpr double kPointRounding = 16.0 * 0x1p-53;
 };
 
+/// What the bounds of a link are made of: sums along its chain, as they are computed, without what
+/// rounding may take off them (motion_bounds.md 2). One cache line.
+struct ChainSums {
+  double angularSpeed = 0.0, angularAcceleration = 0.0, speed = 0.0, acceleration = 0.0;
+  double eighthDerivative = 0.0;
+  double armReach = 0.0;   ///< Of the link's origin from its root's (m).
+  double rootReach = 0.0;  ///< Of the root's origin from the world's (m).
+  double depth = 0.0;      ///< Joints of the chain, the root and the link's own included.
+
+  /// Rounded up, with the bounds on rounding that follow (motion_bounds.md 3). O(1).
+  [[nodiscard]] MotionBounds bounds() const;
+  /// As bounds().angularSpeed and so on, for those who need no more.
+  [[nodiscard]] double accelerationAt(double rho) const {
+    return kInflation * (acceleration + (angularAcceleration + angularSpeed * angularSpeed) * rho);
+  }
+
+  /// Covers what rounding may have taken off sums along kMaxChainDepth joints, and off what is made
+  /// of them.
+  static constexpr double kInflation = 1.0 + 2e-12;
+};
+
 /// What one joint does in its parent's frame (roots: in W), as the poses say it: slerp on the arc
 /// from `from` to `to`, whose dot product is not negative as given, and from `translation` by
 /// `drift` within the unit of t. Quaternions w, x, y, z, unit within kUnitNormError.
@@ -109,7 +130,7 @@ class ChainMotion {
   /// (asserted).
   void assign(const Skeleton& skeleton, const Pose& from, const Pose& to);
 
-  [[nodiscard]] std::int32_t numLinks() const { return static_cast<std::int32_t>(arcs_.size()); }
+  [[nodiscard]] std::int32_t numLinks() const { return static_cast<std::int32_t>(sums_.size()); }
 
   /// `t` in [0,1].
   [[nodiscard]] LinkState stateAt(LinkId link, double t) const;
@@ -117,19 +138,29 @@ class ChainMotion {
   /// All links at once, in order; `states` is resized. O(joints).
   void statesAt(double t, std::vector<LinkState>& states) const;
 
-  [[nodiscard]] const MotionBounds& bounds(LinkId link) const {
-    return bounds_[static_cast<std::size_t>(link)];
+  [[nodiscard]] MotionBounds bounds(LinkId link) const { return sums(link).bounds(); }
+  /// What bounds() is made of.
+  [[nodiscard]] const ChainSums& sums(LinkId link) const {
+    return sums_[static_cast<std::size_t>(link)];
   }
+  /// The largest angularSpeed, eighthDerivative, armReach and depth of all links' sums, each by
+  /// itself; nothing else.
+  [[nodiscard]] const ChainSums& largestSums() const { return largest_; }
   /// Of the joint that the link moves with.
-  [[nodiscard]] const JointArc& arc(LinkId link) const {
-    return arcs_[static_cast<std::size_t>(link)];
+  [[nodiscard]] JointArc arc(LinkId link) const;
+  [[nodiscard]] JointId parent(LinkId link) const {
+    return parents_[static_cast<std::size_t>(link)];
   }
   /// Of all joints' arcs; 0 where there are none.
   [[nodiscard]] double largestVersine() const { return largestVersine_; }
 
  private:
-  std::vector<JointArc> arcs_;
-  std::vector<MotionBounds> bounds_;
+  friend class ChainNodes;
+
+  std::vector<double> arcs_;  // internal::JointColumns, joint after joint
+  std::vector<JointId> parents_;
+  std::vector<ChainSums> sums_;
+  ChainSums largest_;
   double largestVersine_ = 0.0;
 };
 
@@ -166,5 +197,31 @@ class MotionEvaluator {
   std::vector<JointMotion> joints_;
   std::vector<std::uint8_t> isKnown_;
 };
+
+inline MotionBounds ChainSums::bounds() const {
+  // Of one joint's rotation, its rate, and one product, in units of the roundoff (motion_bounds.md
+  // 3).
+  constexpr double kUnit = 0x1p-53;
+  constexpr double kJointRotation = 128.0 * kUnit, kJointRate = 64.0 * kUnit,
+                   kProduct = 16.0 * kUnit, kSum = 2.0 * kUnit, kVelocitySum = 4.0 * kUnit;
+  const double frame = (depth - 1.0) * (kJointRotation + kProduct) + kProduct;
+  const double reach = rootReach + armReach;
+  const double spinRounding =
+      (frame + kJointRate + kSum * depth) * angularSpeed + kJointRate * depth;
+  MotionBounds b;
+  b.angularSpeed = angularSpeed * kInflation;
+  b.angularAcceleration = angularAcceleration * kInflation;
+  b.speed = speed * kInflation;
+  b.acceleration = acceleration * kInflation;
+  b.reach = reach * kInflation;
+  b.eighthDerivative = eighthDerivative * kInflation;
+  b.originRounding = (kProduct * rootReach + frame * armReach + kSum * depth * reach) * kInflation;
+  b.rotationRounding = depth * (kJointRotation + kProduct) * kInflation;
+  b.velocityRounding = ((spinRounding + 2.0 * frame * angularSpeed) * armReach +
+                        (frame + kVelocitySum * depth) * speed) *
+                       kInflation;
+  b.spinRounding = spinRounding * kInflation;
+  return b;
+}
 
 }  // namespace foretouch

@@ -128,6 +128,8 @@ Result<Skeleton> Skeleton::build(const RawSkeleton& raw) {
   }
   Skeleton skeleton;
   skeleton.joints_ = std::move(fixed.joints);
+  skeleton.parents_.reserve(skeleton.joints_.size());
+  for (const RawJoint& joint : skeleton.joints_) skeleton.parents_.push_back(joint.parent);
   return skeleton;
 }
 

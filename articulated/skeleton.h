@@ -69,6 +69,8 @@ class Skeleton {
   [[nodiscard]] std::int32_t numJoints() const { return static_cast<std::int32_t>(joints_.size()); }
   [[nodiscard]] const std::string& name(JointId joint) const { return at(joint).name; }
   [[nodiscard]] JointId parent(JointId joint) const { return at(joint).parent; }
+  /// Of all joints, in order: what every step reads lies side by side.
+  [[nodiscard]] const std::vector<JointId>& parents() const { return parents_; }
   [[nodiscard]] const Eigen::Vector3d& restOffset(JointId joint) const { return at(joint).offset; }
   [[nodiscard]] const Quaternion& restRotation(JointId joint) const { return at(joint).rotation; }
   /// Linear in the number of joints; meant for set-up.
@@ -80,6 +82,7 @@ class Skeleton {
     return joints_[static_cast<std::size_t>(joint)];
   }
   std::vector<RawJoint> joints_;
+  std::vector<JointId> parents_;
 };
 
 }  // namespace foretouch

@@ -186,37 +186,51 @@ void continueWalkInLanes(BvhWalk& walk) {
   askLeaves(walk);
 }
 
-/// Loads `lanes` bounds, `missing` where there are fewer than that left, or where one is NaN.
+/// Bounds of as many boxes as there are lanes, `missing` where there are fewer than that left.
 template <class D>
-HWY_INLINE hn::VFromD<D> loadBounds(D d, const float* bounds, int left, float missing,
-                                    float endless) {
+HWY_INLINE hn::VFromD<D> loadBounds(D d, const float* bounds, int left, float missing) {
   const int lanes = static_cast<int>(hn::Lanes(d));
-  hn::VFromD<D> loaded;
-  if (left >= lanes) {
-    loaded = hn::LoadU(d, bounds);
-  } else {
-    alignas(64) float padded[16];
-    for (int i = 0; i < lanes; ++i) padded[i] = i < left ? bounds[i] : missing;
-    loaded = hn::Load(d, padded);
+  if (left >= lanes) return hn::LoadU(d, bounds);
+  if constexpr (!HWY_MEM_OPS_MIGHT_FAULT) {
+    const auto isThere = hn::FirstN(d, static_cast<std::size_t>(left));
+    return hn::IfThenElse(isThere, hn::MaskedLoad(isThere, d, bounds), hn::Set(d, missing));
   }
-  return hn::IfThenElse(hn::IsNaN(loaded), hn::Set(d, endless), loaded);
+  alignas(64) float padded[16];
+  for (int i = 0; i < lanes; ++i) padded[i] = i < left ? bounds[i] : missing;
+  return hn::Load(d, padded);
+}
+
+/// A bound that is NaN bounds nothing.
+template <class D>
+HWY_INLINE hn::VFromD<D> endlessIfNaN(D d, hn::VFromD<D> bounds, float endless) {
+  return hn::IfThenElse(hn::IsNaN(bounds), hn::Set(d, endless), bounds);
 }
 
 /// Copies the boxes of an axis, gathers their union, and returns those that are not empty on it.
 HWY_INLINE std::uint64_t copyAxis(BvhWalk& walk, const BoxLanes& boxes, int axis, int count) {
   const BoxTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
+  // Where loads must not reach beyond the boxes, the last vector begins early and takes boxes again
+  // that the one before it had.
+  const bool overlaps = HWY_MEM_OPS_MIGHT_FAULT && count >= lanes;
+  if (overlaps) {
+    const int last = (walk.vectorsOfBoxes - 1) * lanes;
+    hn::Store(hn::Set(d, kFloatInfinity), d, walk.lower[axis] + last);
+    hn::Store(hn::Set(d, -kFloatInfinity), d, walk.upper[axis] + last);
+  }
   auto least = hn::Set(d, kFloatInfinity);
   auto most = hn::Set(d, -kFloatInfinity);
   std::uint64_t filled = 0;
-  for (int first = 0; first < count; first += lanes) {
+  for (int vector = 0; vector < walk.vectorsOfBoxes; ++vector) {
+    int first = vector * lanes;
+    if (overlaps && first + lanes > count) first = count - lanes;
     const int at = walk.firstBox + first;
-    const auto lower =
-        loadBounds(d, boxes.lower[axis] + at, count - first, kFloatInfinity, -kFloatInfinity);
-    const auto upper =
-        loadBounds(d, boxes.upper[axis] + at, count - first, -kFloatInfinity, kFloatInfinity);
-    hn::Store(lower, d, walk.lower[axis] + first);
-    hn::Store(upper, d, walk.upper[axis] + first);
+    const auto lower = endlessIfNaN(
+        d, loadBounds(d, boxes.lower[axis] + at, count - first, kFloatInfinity), -kFloatInfinity);
+    const auto upper = endlessIfNaN(
+        d, loadBounds(d, boxes.upper[axis] + at, count - first, -kFloatInfinity), kFloatInfinity);
+    hn::StoreU(lower, d, walk.lower[axis] + first);
+    hn::StoreU(upper, d, walk.upper[axis] + first);
     filled |= bitsOf(d, hn::Le(lower, upper)) << first;
     least = hn::Min(least, lower);
     most = hn::Max(most, upper);

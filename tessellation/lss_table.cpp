@@ -46,6 +46,7 @@ LssTable::LssTable(const Avatar& avatar) {
       rho = std::max({rho, entries_.back().rhoA, entries_.back().rhoB});
     }
     rho_.push_back(rho);
+    largestRho_ = std::max(largestRho_, rho);
     first_.push_back(size());
   }
 }
@@ -57,10 +58,14 @@ double interpolationError(const MotionBounds& bounds, double rho, double span) {
 int slabsFor(const LssTable& table, const ChainMotion& motion, double wantedError) {
   constexpr int kMostSlabs = 16;
   constexpr double kHalving = 256.0;  // the eighth power of two
-  double derivative = 0.0;
-  for (LinkId link = 0; link < table.numLinks(); ++link) {
-    if (table.first(link) == table.first(link + 1)) continue;
-    derivative = std::max(derivative, motion.bounds(link).eighthDerivativeAt(table.rho(link)));
+  // Most steps are slow enough for a bound on all links at once.
+  double derivative = motion.largestSums().bounds().eighthDerivativeAt(table.largestRho());
+  if (derivative * errorPerDerivative(1.0) > wantedError) {
+    derivative = 0.0;
+    for (LinkId link = 0; link < table.numLinks(); ++link) {
+      if (table.first(link) == table.first(link + 1)) continue;
+      derivative = std::max(derivative, motion.bounds(link).eighthDerivativeAt(table.rho(link)));
+    }
   }
   double error = derivative * errorPerDerivative(1.0);
   int slabs = 1;

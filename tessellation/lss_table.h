@@ -37,11 +37,14 @@ class LssTable {
   }
   /// Largest rhoA or rhoB of the link's LSS; 0 where it has none.
   [[nodiscard]] double rho(LinkId link) const { return rho_[static_cast<std::size_t>(link)]; }
+  /// Of all links.
+  [[nodiscard]] double largestRho() const { return largestRho_; }
 
  private:
   std::vector<Entry> entries_;
   std::vector<std::int32_t> first_{0};
   std::vector<double> rho_;
+  double largestRho_ = 0.0;
 };
 
 /// Bound on the distance of a link's point at distance `rho` from the link's origin to the

@@ -6,13 +6,22 @@
 
 namespace foretouch::internal {
 
-/// Bound on |computed - true| at each node's instant, of a point at distance `rho` from its link's
-/// origin, taken relative to the origin of the nodes and to a shift no longer than reach + 2*rho.
-[[nodiscard]] inline double pointRounding(const ChainNodes& nodes, LinkId link, double rho) {
+/// Bound on |computed - true| at each node's instant, of a point taken relative to the origin of
+/// the nodes and to a shift no longer than reach + 2*rho: linear in its distance rho from its
+/// link's origin.
+struct PointRoundings {
+  double atOrigin, perLength;
+};
+[[nodiscard]] inline PointRoundings pointRoundings(const NodeBounds& bounds) {
   // In units of the roundoff: a matrix times a vector, and the sums.
   constexpr double kArm = 16.0 * 0x1p-53, kSum = 32.0 * 0x1p-53;
-  return nodes.positionRounding(link) + (nodes.rotationRounding(link) + kArm) * rho +
-         kSum * (nodes.reach(link) + rho);
+  return {bounds.positionRounding + kSum * bounds.reach, bounds.rotationRounding + kArm + kSum};
+}
+
+/// The same for one point.
+[[nodiscard]] inline double pointRounding(const ChainNodes& nodes, LinkId, double rho) {
+  const PointRoundings roundings = pointRoundings(nodes.bounds());
+  return roundings.atOrigin + roundings.perLength * rho;
 }
 
 /// The nearest float of this is not below `x`, nor that of -outward(-x) above it.

@@ -31,19 +31,29 @@ struct Extents {
   alignas(64) double least[kNodes][kNodes], negated[kNodes][kNodes];
 };
 
+/// Coordinates of both ends of an LSS at the nodes from `lane` on.
+struct Ends {
+  NodeVector a, b;
+};
+
+HWY_INLINE Ends endsAt(NodeLanes d, const LssTable::Entry& entry, const LinkNodes& link, int axis,
+                       int lane) {
+  const NodeVector b = pointAt(d, link, entry.b, 0.0, axis, lane);
+  // Many LSS begin at their link's origin.
+  if (entry.rhoA == 0.0) return {hn::Load(d, link.p[axis] + lane), b};
+  return {pointAt(d, link, entry.a, 0.0, axis, lane), b};
+}
+
 HWY_INLINE void storeExtents(const LssTable::Entry& entry, const LinkNodes& link, int axis, int row,
                              Extents& extents) {
   const NodeLanes d;
-  NodeVector low = pointAt(d, link, entry.a, 0.0, axis, 0), high = low;
-  const NodeVector otherEnd = pointAt(d, link, entry.b, 0.0, axis, 0);
-  low = hn::Min(low, otherEnd);
-  high = hn::Max(high, otherEnd);
+  Ends ends = endsAt(d, entry, link, axis, 0);
+  NodeVector low = hn::Min(ends.a, ends.b), high = hn::Max(ends.a, ends.b);
   for (int lane = static_cast<int>(hn::Lanes(d)); lane < kNodes;
        lane += static_cast<int>(hn::Lanes(d))) {
-    const NodeVector a = pointAt(d, link, entry.a, 0.0, axis, lane);
-    const NodeVector b = pointAt(d, link, entry.b, 0.0, axis, lane);
-    low = hn::Min(low, hn::Min(a, b));
-    high = hn::Max(high, hn::Max(a, b));
+    ends = endsAt(d, entry, link, axis, lane);
+    low = hn::Min(low, hn::Min(ends.a, ends.b));
+    high = hn::Max(high, hn::Max(ends.a, ends.b));
   }
   hn::Store(low, d, extents.least[row]);
   hn::Store(hn::Neg(high), d, extents.negated[row]);
@@ -102,17 +112,18 @@ void boxesOf(const LssTable::Entry* entries, int count, const LinkNodes* links,
              const double* growths, float* const* lower, float* const* upper) {
   const NodeLanes d;
   const hn::Rebind<float, NodeLanes> floats;
-  Extents extents;
+  Extents extents[3];
   alignas(64) double least[kNodes], negated[kNodes];
   for (int first = 0; first < count; first += kNodes) {
+    for (int i = 0; i < kNodes; ++i) {
+      // Lanes beyond the last LSS repeat it.
+      const LssTable::Entry& entry = entries[first + i < count ? first + i : count - 1];
+      const LinkNodes& link = links[entry.link];
+      for (int axis = 0; axis < 3; ++axis) storeExtents(entry, link, axis, i, extents[axis]);
+    }
     for (int axis = 0; axis < 3; ++axis) {
-      for (int i = 0; i < kNodes; ++i) {
-        // Lanes beyond the last LSS repeat it.
-        const LssTable::Entry& entry = entries[first + i < count ? first + i : count - 1];
-        storeExtents(entry, links[entry.link], axis, i, extents);
-      }
-      leastOfRows(extents.least, least);
-      leastOfRows(extents.negated, negated);
+      leastOfRows(extents[axis].least, least);
+      leastOfRows(extents[axis].negated, negated);
       for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
         const NodeVector grown = hn::LoadU(d, growths + first + lane);
         const NodeVector low = hn::Sub(hn::Load(d, least + lane), grown);
@@ -165,14 +176,28 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Covers the rounding of the growth's own few operations.
 constexpr double kInflation = 1.0 + 1e-12;
 
-/// How far an LSS may reach, beyond its ends at both instants, between two instants `gap` apart.
-double growthOf(const LssTable::Entry& entry, const ChainMotion& motion, const ChainNodes& nodes,
-                double gap, double margin) {
-  const double rho = std::max(entry.rhoA, entry.rhoB);
-  const double sagitta = motion.bounds(entry.link).accelerationAt(rho) * gap * gap / 8.0;
-  const double rounding = internal::pointRounding(nodes, entry.link, rho);
-  return (sagitta + rounding + entry.radius + margin) * kInflation;
-}
+/// How far LSS may reach, beyond their ends at both instants, between two instants `gap` apart.
+class Growth {
+ public:
+  Growth(const ChainMotion& motion, const ChainNodes& nodes, double gap, double margin)
+      : sums_(&motion.sums(0)),
+        sagittas_(gap * gap / 8.0 * kInflation),
+        rounding_(internal::pointRoundings(nodes.bounds())),
+        margin_(margin + rounding_.atOrigin) {}
+
+  [[nodiscard]] double of(const LssTable::Entry& entry) const {
+    const double rho = std::max(entry.rhoA, entry.rhoB);
+    return (sums_[entry.link].accelerationAt(rho) * sagittas_ +
+            (rounding_.perLength * rho + (entry.radius + margin_))) *
+           kInflation;
+  }
+
+ private:
+  const ChainSums* sums_;  // per link
+  double sagittas_;        // per acceleration
+  internal::PointRoundings rounding_;
+  double margin_;  // rounding of the origin included
+};
 
 double widestGap(const ChainNodes& nodes) {
   double gap = 0.0;
@@ -183,36 +208,42 @@ double widestGap(const ChainNodes& nodes) {
 }  // namespace
 
 void SweptBoxes::resize(std::int32_t newCount) {
+  makeRoom(newCount);
+  emptyFrom(0);
+}
+
+void SweptBoxes::makeRoom(std::int32_t newCount) {
   count = newCount;
   capacity = (newCount + kPadding - 1) / kPadding * kPadding;
   const auto blocks = static_cast<std::size_t>(capacity / kPadding);
   if (storage_.size() < 6 * blocks) storage_.resize(6 * blocks);
+  if (growths_.size() < blocks * kPadding) growths_.resize(blocks * kPadding);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     lower[axis] = storage_[axis * blocks].lanes;
     upper[axis] = storage_[(axis + 3) * blocks].lanes;
-    std::fill(lower[axis], lower[axis] + capacity, kInfinity);
-    std::fill(upper[axis], upper[axis] + capacity, -kInfinity);
+  }
+}
+
+void SweptBoxes::emptyFrom(std::int32_t first) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::int32_t i = first; i < capacity; ++i) {
+      lower[axis][i] = kInfinity;
+      upper[axis][i] = -kInfinity;
+    }
   }
 }
 
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
                 double margin, SweptBoxes& boxes) {
   FORETOUCH_ASSERT(table.numLinks() == nodes.numLinks() && nodes.numLinks() == motion.numLinks());
-  boxes.resize(table.size());
+  boxes.makeRoom(table.size());
   if (table.size() == 0) return;
-  const double gap = widestGap(nodes);
-  boxes.growths_.resize(static_cast<std::size_t>(boxes.capacity));
-  for (std::int32_t i = 0; i < table.size(); ++i) {
-    boxes.growths_[static_cast<std::size_t>(i)] = growthOf(table[i], motion, nodes, gap, margin);
-  }
+  const Growth growth(motion, nodes, widestGap(nodes), margin);
+  double* const growths = boxes.growths_.data();
+  for (std::int32_t i = 0; i < table.size(); ++i) growths[i] = growth.of(table[i]);
   HWY_DYNAMIC_DISPATCH(boxesOf)
-  (table.data(), table.size(), &nodes.link(0), boxes.growths_.data(), boxes.lower, boxes.upper);
-  for (std::int32_t i = table.size(); i < boxes.capacity; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      boxes.lower[axis][i] = kInfinity;
-      boxes.upper[axis][i] = -kInfinity;
-    }
-  }
+  (table.data(), table.size(), &nodes.link(0), growths, boxes.lower, boxes.upper);
+  boxes.emptyFrom(table.size());
 }
 
 PieceBoxes pieceBoxes(const LssTable::Entry& entry, const ChainMotion& motion,
@@ -220,7 +251,8 @@ PieceBoxes pieceBoxes(const LssTable::Entry& entry, const ChainMotion& motion,
   PieceBoxes result;
   alignas(64) double growths[kNodes] = {};
   for (int k = 0; k < kNodePieces; ++k) {
-    growths[k] = growthOf(entry, motion, nodes, nodes.instant(k + 1) - nodes.instant(k), margin);
+    const double gap = nodes.instant(k + 1) - nodes.instant(k);
+    growths[k] = Growth(motion, nodes, gap, margin).of(entry);
   }
   HWY_DYNAMIC_DISPATCH(piecesOf)(entry, nodes.link(entry.link), growths, result);
   for (int axis = 0; axis < 3; ++axis) {

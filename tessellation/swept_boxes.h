@@ -32,6 +32,11 @@ struct SweptBoxes {
   };
   friend void sweptBoxes(const LssTable&, const ChainMotion&, const ChainNodes&, double,
                          SweptBoxes&);
+  /// As resize(), lanes left as they are.
+  void makeRoom(std::int32_t newCount);
+  /// Lanes from `first` on.
+  void emptyFrom(std::int32_t first);
+
   std::vector<Block> storage_;
   std::vector<double> growths_;  // one an LSS
 };

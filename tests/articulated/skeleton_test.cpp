@@ -35,6 +35,10 @@ TEST(SkeletonBuild, KeepsWhatItWasGiven) {
   EXPECT_EQ(skeleton.value().numJoints(), 3);
   EXPECT_EQ(skeleton.value().name(2), "c");
   EXPECT_EQ(skeleton.value().parent(2), 1);
+  for (JointId j = 0; j < skeleton.value().numJoints(); ++j) {
+    EXPECT_EQ(skeleton.value().parents().at(static_cast<std::size_t>(j)),
+              skeleton.value().parent(j));
+  }
   EXPECT_EQ(skeleton.value().restOffset(1), Eigen::Vector3d(0, 1, 0));
   EXPECT_EQ(skeleton.value().find("b"), JointId{1});
   EXPECT_EQ(skeleton.value().find("d"), std::nullopt);

@@ -184,6 +184,26 @@ TEST(CollectLeaves, FindsWhatOneBoxAtATimeFinds) {
   }
 }
 
+// Vectors that the last boxes fill, share with boxes before them, or do not fill.
+TEST(CollectLeaves, TakesAnyNumberOfBoxes) {
+  Random random(1);
+  const Vector3d center = Vector3d::Zero();
+  const Scene scene = Scene::build(test::clutter(random, 200, 1, center)).value();
+  const FlatBvh& bvh = scene.parts().bvh;
+  for (int count = 1; count <= 66; ++count) {
+    SCOPED_TRACE(count);
+    const Boxes boxes = randomBoxes(random, scene, center, count);
+    std::set<std::pair<int, TriangleId>> oneByOne;
+    for (std::size_t box = 0; box < boxes.world.size(); ++box) {
+      std::vector<TriangleId> ids;
+      std::uint64_t visited = 0;
+      bvh.collect(boxes.world[box], ids, visited);
+      for (const TriangleId id : ids) oneByOne.insert({static_cast<int>(box), id});
+    }
+    EXPECT_EQ(pairsOf(bvh, walkOnEveryWidth(bvh, boxes)), oneByOne);
+  }
+}
+
 TEST(CollectLeaves, AppendsAndCounts) {
   Random random(1);
   const Scene scene = Scene::build(test::clutter(random, 500, 1, Vector3d::Zero())).value();
