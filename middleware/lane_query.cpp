@@ -131,8 +131,9 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
   } else {
     collectByCuller(counters);
   }
+  if (lanes_.hits.empty()) return false;
   sortHits();
-  return !lanes_.hits.empty();
+  return true;
 }
 
 /// What the reference culler finds, as hits of the tree's leaves.

@@ -22,6 +22,8 @@ bool readAll(const std::string& text, Number& number) {
   return error == std::errc() && rest == end && std::isfinite(static_cast<double>(number));
 }
 
+}  // namespace
+
 std::vector<std::string> splitAtCommas(const std::string& text) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
@@ -33,8 +35,6 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
   }
   return parts;
 }
-
-}  // namespace
 
 Result<double> parseNumber(const std::string& option, const std::string& text) {
   double number = 0.0;

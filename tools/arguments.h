@@ -15,6 +15,9 @@ namespace foretouch::tools {
 /// More threads than this are refused: a slip of the finger, not a machine.
 inline constexpr int kMaxThreads = 256;
 
+/// "a,,b" has three parts, the second of them empty.
+[[nodiscard]] std::vector<std::string> splitAtCommas(const std::string& text);
+
 /// A finite decimal number and nothing else: no "nan", "inf", hexadecimal, unit or space.
 [[nodiscard]] Result<double> parseNumber(const std::string& option, const std::string& text);
 /// The same, greater than zero.

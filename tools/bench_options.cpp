@@ -19,18 +19,6 @@
 namespace foretouch::tools {
 namespace {
 
-std::vector<std::string> splitAtCommas(const std::string& text) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == ',') {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
 template <typename Value, typename Parse>
 Result<std::vector<Value>> parseEach(const std::string& text, const Parse& parse) {
   std::vector<Value> values;

@@ -8,6 +8,7 @@
 #include "articulated/avatar_file.h"
 #include "articulated/text_file.h"
 #include "middleware/link_mesh.h"
+#include "tools/clip_pose.h"
 #include "tools/console.h"
 #include "tools/ignored_pairs.h"
 #include "tools/joint_map.h"
@@ -140,17 +141,9 @@ std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
 }
 
 Result<Pose> poseAtFrame(const ReplayInputs& inputs, std::int64_t frame) {
-  const Skeleton& skeleton = inputs.avatar.skeleton();
-  Placement placement = inputs.request.placement;
-  placement.motionUpZ = placement.motionUpZ && !inputs.isUpright;
-  auto pose = validatedPose(skeleton, placed(skeleton,
-                                             poseOfAvatar(skeleton, inputs.clip, inputs.match,
-                                                          static_cast<std::size_t>(frame)),
-                                             placement));
-  if (pose.ok()) return pose;
-  Error error = inFile(pose.error(), inputs.request.motionPath);
-  error.message = fmt::format("frame {}: {}", frame, error.message);
-  return error;
+  return poseAtFrame({inputs.avatar, inputs.clip, inputs.match, inputs.request.placement,
+                      inputs.isUpright, inputs.request.motionPath},
+                     frame);
 }
 
 std::string firstOf(const std::vector<std::string>& names) {

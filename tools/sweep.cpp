@@ -10,6 +10,7 @@
 #include "articulated/avatar_file.h"
 #include "articulated/text_file.h"
 #include "tessellation/swept_lss.h"
+#include "tools/clip_pose.h"
 #include "tools/console.h"
 #include "tools/joint_map.h"
 #include "tools/motion_file.h"
@@ -77,18 +78,9 @@ Result<Done> setSpan(SweepInputs& inputs) {
 }
 
 Result<Pose> poseAt(const SweepInputs& inputs, std::int64_t step) {
-  const Skeleton& skeleton = inputs.avatar.skeleton();
-  Placement placement = inputs.request.placement;
-  placement.motionUpZ = placement.motionUpZ && !inputs.isUpright;
-  const std::int64_t frame = step * inputs.steps.stride;
-  auto pose = validatedPose(skeleton, placed(skeleton,
-                                             poseOfAvatar(skeleton, inputs.clip, inputs.match,
-                                                          static_cast<std::size_t>(frame)),
-                                             placement));
-  if (pose.ok()) return pose;
-  Error error = inFile(pose.error(), inputs.request.motionPath);
-  error.message = fmt::format("frame {}: {}", frame, error.message);
-  return error;
+  return poseAtFrame({inputs.avatar, inputs.clip, inputs.match, inputs.request.placement,
+                      inputs.isUpright, inputs.request.motionPath},
+                     step * inputs.steps.stride);
 }
 
 Result<ChainMotion> motionOf(const SweepInputs& inputs, std::int64_t step) {

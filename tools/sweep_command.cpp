@@ -33,17 +33,15 @@ struct SweepTexts {
   bool inner = false;
 };
 
-std::vector<std::string> splitAtCommas(const std::vector<std::string>& texts) {
-  std::vector<std::string> words;
+/// Names, given apart or with commas.
+std::vector<std::string> namesIn(const std::vector<std::string>& texts) {
+  std::vector<std::string> names;
   for (const std::string& text : texts) {
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-      const std::size_t end = std::min(text.find(',', begin), text.size());
-      if (end > begin) words.push_back(text.substr(begin, end - begin));
-      begin = end + 1;
+    for (std::string& name : splitAtCommas(text)) {
+      if (!name.empty()) names.push_back(std::move(name));
     }
   }
-  return words;
+  return names;
 }
 
 struct SweepJob {
@@ -60,7 +58,7 @@ Result<SweepJob> settled(const SweepTexts& texts) {
   request.robotPath = texts.robot;
   request.packagePaths = texts.packages;
   request.mapPath = texts.map;
-  request.links = splitAtCommas(texts.links);
+  request.links = namesIn(texts.links);
   if (texts.links.empty()) request.links = {"all"};
   request.surface.side = texts.inner ? SurfaceSide::Inner : SurfaceSide::Outer;
 
