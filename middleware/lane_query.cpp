@@ -218,7 +218,7 @@ LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters)
 }
 
 /// Asks for nothing later than `best`, which is lowered by contacts that are certain. At exact
-/// fidelity: where `best` is the beginning, whether there is contact at t = 0, else what comes
+/// fidelity: where `best` is the step's beginning, whether there is contact then, else what comes
 /// after it.
 LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, float& best,
                                     QueryCounters& counters) {
@@ -246,7 +246,7 @@ LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, flo
                         options_.leafMethod,
                         scratch_.evaluator};
   if (surface == nullptr) return backtrack(query, candidates, counters);
-  return surfaceContact(query, best == kBegin, counters);
+  return surfaceContact(query, best == kBegin && begin_ == 0.0, counters);
 }
 
 /// At exact fidelity: of the link's triangles, by the LSS candidates' times.

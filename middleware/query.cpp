@@ -110,9 +110,10 @@ Result<const internal::TriangleCuller*> cullerOf(const Scene& scene, Culler whic
   return static_cast<const internal::TriangleCuller*>(built.value());
 }
 
-/// Skins change shape, and a budget is counted in scalar evaluations.
-bool inLanes(const QueryOptions& options) {
-  return options.backtracking == Backtracking::Lanes && options.fidelity != Fidelity::Skinned &&
+/// Skins change shape, a budget is counted in scalar evaluations, and the walk numbers its boxes.
+bool inLanes(const Avatar& avatar, const QueryOptions& options) {
+  return avatar.numLss() <= internal::BoxLanes::kMaxBoxes &&
+         options.backtracking == Backtracking::Lanes && options.fidelity != Fidelity::Skinned &&
          options.maxAdvancements == std::numeric_limits<std::uint64_t>::max();
 }
 
@@ -150,7 +151,7 @@ Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion, cons
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     step.links[static_cast<std::size_t>(link)].link = link;
   }
-  if (inLanes(options)) {
+  if (inLanes(avatar, options)) {
     internal::LaneQuery(avatar, motion, scene, options, *culler.value(), scratch.impl()).run(step);
   } else {
     internal::scalarQuery(avatar, motion, scene, options, *culler.value(), scratch.impl(), step);

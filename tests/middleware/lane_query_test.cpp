@@ -174,6 +174,32 @@ TEST_P(LaneQueries, OfTheAvatarsFirstContactAreItsLinksEarliest) {
   EXPECT_GT(free, 10);
 }
 
+TEST_P(LaneQueries, TakeAvatarsOfAnyNumberOfLss) {
+  constexpr int kLinks = 17;  // more LSS than a walk has numbers for
+  RawSkeleton raw;
+  std::vector<std::vector<Lss>> lss(kLinks);
+  for (int link = 0; link < kLinks; ++link) {
+    raw.joints.push_back({"j" + std::to_string(link), link - 1, Vector3d(0.0, 0.01, 0.0)});
+    for (std::size_t i = 0; i < kMaxLssPerLink; ++i) {
+      const double x = 1e-3 * static_cast<double>(i);
+      lss[static_cast<std::size_t>(link)].push_back({{x, 0.0, 0.0}, {x, 0.0, 0.1}, 1e-3});
+    }
+  }
+  const Avatar avatar = Avatar::build(Skeleton::build(raw).value(), std::move(lss)).value();
+  const Scene scene =
+      Scene::build({{{{{{4.0, 0.5, 0.0}, {4.1, 0.5, 0.0}, {4.0, 0.5, 0.2}}}}}, {0}, {"plate"}})
+          .value();
+  const Pose from = restPose(avatar.skeleton());
+  Pose to = from;
+  to.translations[0].y() += 1.0;
+  const ChainMotion motion(avatar.skeleton(), from, to);
+  const auto step = firstContacts(avatar, motion, scene).value();
+  for (const LinkContact& contact : step.links) {
+    EXPECT_EQ(contact.verdict, Verdict::Contact);
+    EXPECT_NEAR(contact.toi, 0.5 - 1e-3 - 0.01 * (contact.link + 1), 2e-3);
+  }
+}
+
 TEST_P(LaneQueries, ReportTheSameForBothCullersAtExactFidelity) {
   for (int i = 0; i < 20; ++i) {
     SCOPED_TRACE(i);
