@@ -77,7 +77,6 @@ HWY_INLINE FittedCurve fitted(const PolynomialMatrices& matrices, const CurveRow
     for (int row = 0; row < rows.count; ++row) {
       const NodeVector c = combined(d, rows.samples[row], matrices.coefficients, 0, lane);
       const auto single = hn::DemoteTo(floats, c);
-      // GCC 12 does not align what it returns as strictly as the type asks.
       hn::StoreU(single, floats, rows.coefficients[row] + lane);
       hn::Store(hn::PromoteTo(d, single), d, rounded[row] + lane);
       square = hn::MulAdd(c, c, square);

@@ -17,7 +17,9 @@ inline constexpr int kCoefficients = kNodes;
 /// Promise: for every float u in [-1,1], every point of the true LSS at the instant that u stands
 /// for is within `radius` of the segment from a(u) to b(u), these as evaluated in float by Horner's
 /// rule (fused or not), plus `origin` in exact arithmetic, plus the origin of the nodes.
-struct alignas(64) LssPolynomials {
+/// No stricter alignment than its members': GCC 12 gives the temporary of `x = f()` the stack's own
+/// 16 bytes whatever the type asks.
+struct LssPolynomials {
   float a[3][kCoefficients], b[3][kCoefficients];  ///< Ascending powers of u; relative to `origin`.
   double origin[3];      ///< Relative to the origin of the nodes; every coordinate is a float.
   float radius;          ///< The LSS's, and all that is uncertain; rounded up.
@@ -35,7 +37,7 @@ struct alignas(64) LssPolynomials {
 /// originError + rotationError*|p_L|, where `evaluated` is p(u) + R(u)*p_L in float: Horner's rule,
 /// p_L rounded to float, products and sums in any order, fused or not; plus `origin` in exact
 /// arithmetic.
-struct alignas(64) FramePolynomials {
+struct FramePolynomials {
   float R[9][kCoefficients];  ///< Row after row.
   float p[3][kCoefficients];  ///< Relative to `origin`.
   double origin[3];           ///< Relative to the origin of the nodes; every coordinate is a float.

@@ -156,8 +156,8 @@ void piecesOf(const LssTable::Entry& entry, const LinkNodes& link, const double*
           hn::Sub(hn::Min(hn::Load(d, low + lane), hn::LoadU(d, low + lane + 1)), grown);
       const NodeVector largest =
           hn::Add(hn::Max(hn::Load(d, high + lane), hn::LoadU(d, high + lane + 1)), grown);
-      hn::Store(hn::DemoteTo(floats, downward(d, least)), floats, result.lower[axis] + lane);
-      hn::Store(hn::DemoteTo(floats, upward(d, largest)), floats, result.upper[axis] + lane);
+      hn::StoreU(hn::DemoteTo(floats, downward(d, least)), floats, result.lower[axis] + lane);
+      hn::StoreU(hn::DemoteTo(floats, upward(d, largest)), floats, result.upper[axis] + lane);
     }
   }
 }

@@ -49,7 +49,8 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
 /// Pieces of a span: between neighbouring nodes.
 inline constexpr int kNodePieces = kNodes - 1;
 /// Boxes of the pieces of one LSS: lower[axis][piece]; the eighth lane is an empty box.
-struct alignas(64) PieceBoxes {
+/// No stricter alignment than its members': see LssPolynomials.
+struct PieceBoxes {
   float lower[3][kNodes], upper[3][kNodes];
 };
 /// The float boxes of one LSS between neighbouring nodes, as sweptBoxes().

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -97,6 +98,34 @@ TEST(SweptBoxes, LanesLeftOverAreEmpty) {
     }
     const PieceBoxes own = pieceBoxes(table[0], motion, nodes, 0.0);
     EXPECT_GT(own.lower[0][kNodePieces], own.upper[0][kNodePieces]);
+  }
+}
+
+// Nor need the caller's memory be aligned to a vector: what a function returns need not be.
+TEST(SweptBoxes, PiecesAreWrittenWhereverTheyGoAtEveryWidth) {
+  struct Shifted {
+    float before;
+    PieceBoxes boxes;
+  };
+  const test::WidestAfterwards guard;
+  Random random(7);
+  const test::MovingBody body(random, 6);
+  const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.to);
+  const LssTable table(body.avatar);
+  ChainNodes nodes;
+  for (const Simd simd : supportedSimd()) {
+    SCOPED_TRACE(toString(simd));
+    ASSERT_TRUE(useSimd(simd));
+    nodes.evaluate(motion, 0.0, 1.0, body.motion.from.translations[0]);
+    const std::unique_ptr<Shifted> shifted(
+        new Shifted{0.0F, pieceBoxes(table[0], motion, nodes, 0.0)});
+    const PieceBoxes own = pieceBoxes(table[0], motion, nodes, 0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int piece = 0; piece < kNodes; ++piece) {
+        EXPECT_EQ(shifted->boxes.lower[axis][piece], own.lower[axis][piece]);
+        EXPECT_EQ(shifted->boxes.upper[axis][piece], own.upper[axis][piece]);
+      }
+    }
   }
 }
 
