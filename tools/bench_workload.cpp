@@ -201,22 +201,46 @@ Result<Done> takeAll(std::int64_t steps, Classifier& classifier, Workload& workl
   return Done{};
 }
 
-/// Takes the steps at a place, if it is busy.
-void takeIfBusy(const std::vector<StepPick>& here, Workload& workload) {
-  const auto count = [&](StepClass kind) {
-    return static_cast<double>(
-        std::count_if(here.begin(), here.end(), [&](const StepPick& p) { return p.kind == kind; }));
-  };
-  const double starts = count(StepClass::Start), all = static_cast<double>(here.size());
-  const double contacts = count(StepClass::Contact), asked = all - starts;
-  if (starts > kMostStarts * all || contacts < kLeastBusy * asked || contacts > kMostBusy * asked) {
-    return;
+struct Place {
+  std::vector<StepPick> steps;
+  double contacts = 0.0;  ///< Share of those that do not start in contact.
+  double starts = 0.0;    ///< Share of all.
+
+  [[nodiscard]] bool isBusy() const {
+    return starts <= kMostStarts && contacts >= kLeastBusy && contacts <= kMostBusy;
   }
+  [[nodiscard]] double offBusy() const { return std::abs(contacts - kBusyContact); }
+};
+
+Place judged(std::vector<StepPick> steps) {
+  const auto count = [&](StepClass kind) {
+    return static_cast<double>(std::count_if(steps.begin(), steps.end(),
+                                             [&](const StepPick& p) { return p.kind == kind; }));
+  };
+  Place place;
+  const double starts = count(StepClass::Start), all = static_cast<double>(steps.size());
+  place.starts = starts / all;
+  place.contacts = all > starts ? count(StepClass::Contact) / (all - starts) : 0.0;
+  place.steps = std::move(steps);
+  return place;
+}
+
+void take(const Place& place, Workload& workload) {
   ++workload.taken;
-  for (const StepPick& pick : here) {
+  for (const StepPick& pick : place.steps) {
     if (pick.kind == StepClass::Start || workload.picks.size() >= workload.request.steps) continue;
     ++workload.chosen[static_cast<std::size_t>(pick.kind)];
     workload.picks.push_back(pick);
+  }
+}
+
+/// Where a scene and a rate have too few busy places: the nearest to busy of the others.
+void takeNearlyBusy(std::vector<Place> others, Workload& workload) {
+  std::sort(others.begin(), others.end(),
+            [](const Place& a, const Place& b) { return a.offBusy() < b.offBusy(); });
+  for (const Place& place : others) {
+    if (workload.picks.size() >= std::min(workload.request.steps, kLeastSteps)) return;
+    take(place, workload);
   }
 }
 
@@ -232,6 +256,7 @@ Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Classifier& c
   Random places(request.seed), lots(request.seed);
   const Eigen::Vector3d hold = holdOf(inputs);
   std::vector<FoundStep> found;
+  std::vector<Place> others;
   ProgressBar progress("places", request.mostPlacements);
   while (workload.placements < request.mostPlacements && !hasEnough(workload)) {
     const Placement placement = drawnPlace(inputs, request, hold, places);
@@ -240,13 +265,22 @@ Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Classifier& c
         addSteps(placement, steps, std::min(steps, kMostStepsAPlace), classifier, workload, here);
     if (!added.ok()) return added.error();
     if (request.choice == StepChoice::BusyPlaces) {
-      takeIfBusy(here, workload);
+      Place place = judged(std::move(here));
+      if (place.isBusy()) {
+        take(place, workload);
+      } else if (place.starts <= kMostStarts && place.contacts > 0.0) {
+        others.push_back(std::move(place));
+      }
     } else {
       for (const StepPick& pick : here) found.push_back({pick, lots.next(), found.size()});
     }
     progress.advanceTo(++workload.placements);
   }
-  if (request.choice == StepChoice::Mix) takeMix(workload, std::move(found));
+  if (request.choice == StepChoice::Mix) {
+    takeMix(workload, std::move(found));
+  } else {
+    takeNearlyBusy(std::move(others), workload);
+  }
   if (!workload.picks.empty()) return Done{};
   return Error{ErrorCode::Empty, inputs.files.scenePath, -1, -1,
                fmt::format("no steps with and without a contact were found at {} places; are "

@@ -35,6 +35,9 @@ struct WorkloadRequest {
 /// A place is busy where of the steps that do not start in contact so many have one, and where not
 /// more than kMostStarts of all start in contact (a body that stands in furniture).
 inline constexpr double kLeastBusy = 0.12, kMostBusy = 0.28, kMostStarts = 0.2;
+/// Where busy places have fewer steps than this, those that come nearest to being busy make them
+/// up.
+inline constexpr std::size_t kLeastSteps = 100;
 
 /// Shares of the mix: what is asked of a step is either easy (far), or nearly a contact, or
 /// one. Steps that start in contact are left out of it.
