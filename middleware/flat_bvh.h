@@ -40,6 +40,12 @@ class FlatBvh final : public TriangleCuller {
   void collectLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits, std::uint64_t& nodesVisited,
                      std::uint64_t& leavesVisited) const;
 
+  /// The same with every (leaf, box) of which the leaf's box, as the node above it has it, meets
+  /// the box: a superset, which reads no leaf: what does not fit the caches is read only where it
+  /// is needed. The hits of a box come in ascending order of leaves, in either form.
+  void collectWholeLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
+                          std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const;
+
   [[nodiscard]] std::uint32_t numLeaves() const {
     return static_cast<std::uint32_t>(leaves_.size());
   }
@@ -63,6 +69,8 @@ class FlatBvh final : public TriangleCuller {
 
  private:
   struct SlotTable;
+  void walk(const BoxLanes& boxes, const Cluster* clusters, std::vector<LeafHit>& hits,
+            std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const;
   friend class FlatBvhBuilder;
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();

@@ -90,7 +90,12 @@ HWY_INLINE void prefetch(const void* object, int bytes) {
 HWY_INLINE void push(BvhWalk& walk, std::uint32_t child, std::uint64_t alive) {
   if ((child & BvhNode::kLeafFlag) != 0) {
     walk.leaf[walk.leavesWaiting++] = {alive, child};
-    prefetch(walk.leaves + (child & BvhNode::kLeafMask), sizeof(BvhLeaf));
+    const std::uint32_t leaf = child & BvhNode::kLeafMask;
+    if (walk.clusters != nullptr) {
+      prefetch(walk.clusters + leaf, sizeof(Cluster));
+    } else {
+      prefetch(walk.leaves + leaf, sizeof(BvhLeaf));
+    }
   } else {
     walk.waiting[walk.nodesWaiting++] = {alive, child};
     prefetch(walk.nodes + child, sizeof(BvhNode));
@@ -165,13 +170,16 @@ HWY_INLINE void askLeaves(BvhWalk& walk) {
     const std::uint32_t index = entry.target & BvhNode::kLeafMask;
     const unsigned last = (entry.target & ~BvhNode::kLeafFlag) >> BvhNode::kCountShift;
     const unsigned used = (2u << last) - 1;
-    TriangleBoxes boxes;
-    boxTriangles(walk.leaves[index], boxes);
     ++walk.leavesVisited;
+    TriangleBoxes boxes;
+    if (walk.clusters == nullptr) boxTriangles(walk.leaves[index], boxes);
     for (std::uint64_t alive = entry.alive; alive != 0; alive &= alive - 1) {
       const int box = lowestBit(alive);
-      const unsigned met = used & eightMeeting<kBoxGroup>(boxes.lower[0], boxes.upper[0],
-                                                          walk.lower[0] + box, walk.upper[0] + box);
+      unsigned met = used;
+      if (walk.clusters == nullptr) {
+        met &= eightMeeting<kBoxGroup>(boxes.lower[0], boxes.upper[0], walk.lower[0] + box,
+                                       walk.upper[0] + box);
+      }
       walk.hit[walk.hitCount] = {index, static_cast<std::uint16_t>(walk.firstBox + box),
                                  static_cast<std::uint8_t>(met)};
       walk.hitCount += met != 0 ? 1 : 0;

@@ -38,6 +38,15 @@ constexpr std::size_t kPartsAtOnce = 4;
 constexpr std::size_t kTimeBins = 32;
 constexpr float kBegin = -1.0F, kEnd = 1.0F;  // of u
 
+FloatBox sweptBox(const SweptBoxes& boxes, std::int32_t lss) {
+  FloatBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = boxes.lower[axis][lss];
+    box.upper[axis] = boxes.upper[axis][lss];
+  }
+  return box;
+}
+
 /// An empty box, which meets nothing.
 void closeBox(SweptBoxes& boxes, std::int32_t lss) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -127,7 +136,7 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
       boxes.lower[axis] = lanes_.boxes.lower[axis];
       boxes.upper[axis] = lanes_.boxes.upper[axis];
     }
-    bvh_.collectLeaves(boxes, lanes_.hits, counters.nodes, counters.leaves);
+    bvh_.collectWholeLeaves(boxes, lanes_.hits, counters.nodes, counters.leaves);
   } else {
     collectByCuller(counters);
   }
@@ -298,8 +307,8 @@ void LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counter
   std::size_t done = 0;
   while (done < lanes_.clusters.count) {
     done = collectParts(begin, done, best);
-    lanes_.pairs.addTriangles(lane, lanes_.leafParts.data(), lanes_.leafParts.size(), origin,
-                              bvh_.vertexRounding());
+    lanes_.pairs.addTriangles(lane, lanes_.leafParts.data(), lanes_.leafParts.size(),
+                              sweptBox(lanes_.boxes, lss), origin, bvh_.vertexRounding());
     counters.candidates += lanes_.pairs.count();
     counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
   }

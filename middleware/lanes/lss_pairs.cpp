@@ -67,8 +67,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr int kMaxRounds = 48;
 
 /// Appends the chosen triangles of every leaf, relative to the origin, to the rows.
-std::size_t gatherTriangles(const LeafPart* parts, std::size_t numParts, const float* origin,
-                            float reach, const LaneRows& rows, std::size_t count) {
+std::size_t gatherTriangles(const LeafPart* parts, std::size_t numParts, const FloatBox& box,
+                            const float* origin, float reach, const LaneRows& rows,
+                            std::size_t count) {
   const hn::CappedTag<float, kBvhWidth> d;
   const hn::RebindToSigned<decltype(d)> di;
   const std::size_t lanes = hn::Lanes(d);
@@ -79,7 +80,17 @@ std::size_t gatherTriangles(const LeafPart* parts, std::size_t numParts, const f
       const unsigned mine = (1U << lanes) - 1U;
       const std::uint8_t bits[8] = {static_cast<std::uint8_t>(parts[part].triangles >> i & mine)};
       if (bits[0] == 0) continue;
-      const Chosen<decltype(d)> chosen(d, hn::LoadMaskBits(d, bits));
+      auto meeting = hn::LoadMaskBits(d, bits);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto a = hn::Load(d, vertices + axis * kBvhWidth + i);
+        const auto b = hn::Load(d, vertices + (axis + 3) * kBvhWidth + i);
+        const auto c = hn::Load(d, vertices + (axis + 6) * kBvhWidth + i);
+        const auto least = hn::Min(hn::Min(a, b), c), most = hn::Max(hn::Max(a, b), c);
+        meeting = hn::And(meeting, hn::And(hn::Le(least, hn::Set(d, box.upper[axis])),
+                                           hn::Ge(most, hn::Set(d, box.lower[axis]))));
+      }
+      if (hn::AllFalse(d, meeting)) continue;
+      const Chosen<decltype(d)> chosen(d, meeting);
       auto largest = hn::Zero(d);
       for (std::size_t k = 0; k < 9; ++k) {
         const auto x =
@@ -205,10 +216,11 @@ void PairLanes::reserve(std::size_t extra) {
 }
 
 void PairLanes::addTriangles(const LaneLss& lss, const LeafPart* parts, std::size_t numParts,
-                             const float* origin, double vertexRounding) {
+                             const FloatBox& box, const float* origin, double vertexRounding) {
   reserve(numParts * kBvhWidth);
   const float reach = floatAbove(double{lss.reach} + vertexRounding);
-  count_ = HWY_DYNAMIC_DISPATCH(gatherTriangles)(parts, numParts, origin, reach, rows(), count_);
+  count_ =
+      HWY_DYNAMIC_DISPATCH(gatherTriangles)(parts, numParts, box, origin, reach, rows(), count_);
 }
 
 void PairLanes::setSpheres(const LaneLss& lss, const Cluster* clusters, const std::int32_t* which,

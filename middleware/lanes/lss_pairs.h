@@ -55,6 +55,10 @@ struct LeafPart {
   float start;
 };
 
+struct FloatBox {
+  float lower[3], upper[3];
+};
+
 struct LaneRows;
 struct HandedRows;
 
@@ -63,10 +67,11 @@ class PairLanes {
  public:
   [[nodiscard]] std::size_t count() const { return count_; }
 
-  /// Triangles of the tree's leaves, each vertex off by at most `vertexRounding`; `origin` is the
-  /// polynomials' origin in the tree's frame. Keys are the triangles' ids.
+  /// Triangles of the tree's leaves whose boxes meet `box`, which is in the tree's frame; each
+  /// vertex is off by at most `vertexRounding`, `origin` is the polynomials' origin in the tree's
+  /// frame. Keys are the triangles' ids.
   void addTriangles(const LaneLss& lss, const LeafPart* parts, std::size_t numParts,
-                    const float* origin, double vertexRounding);
+                    const FloatBox& box, const float* origin, double vertexRounding);
   /// Replaces the pairs by spheres that contain clusters' triangles, rounding included: those of
   /// clusters[which[i]], with key i. `which` can be read kMaxLanes beyond `count`.
   void setSpheres(const LaneLss& lss, const Cluster* clusters, const std::int32_t* which,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
 #include <thread>
@@ -181,6 +182,33 @@ TEST(CollectLeaves, FindsWhatOneBoxAtATimeFinds) {
       for (const TriangleId id : ids) oneByOne.insert({static_cast<int>(box), id});
     }
     EXPECT_EQ(pairsOf(bvh, walk(bvh, boxes)), oneByOne);
+  }
+}
+
+// Every hit of triangles is one of a whole leaf, and a box's hits ascend.
+TEST(CollectLeaves, OfWholeLeavesAreASuperset) {
+  for (int i = 0; i < 10; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(40 + i));
+    const Vector3d center = centerOf(random, i % 3);
+    const Scene scene = Scene::build(test::clutter(random, 3000, 1, center)).value();
+    const FlatBvh& bvh = scene.parts().bvh;
+    const Boxes boxes = randomBoxes(random, scene, center, 80);
+    const std::vector<LeafHit> hits = walk(bvh, boxes).hits;
+    std::vector<LeafHit> whole;
+    std::uint64_t nodes = 0, leaves = 0;
+    bvh.collectWholeLeaves(boxes.lanes(), whole, nodes, leaves);
+    std::set<std::pair<std::uint32_t, int>> leavesOfBoxes;
+    std::map<int, std::uint32_t> last;
+    for (const LeafHit& hit : whole) {
+      EXPECT_EQ(hit.triangles, (1u << bvh.leaf(hit.leaf).count()) - 1u);
+      EXPECT_TRUE(leavesOfBoxes.insert({hit.leaf, hit.box}).second);
+      const auto before = last.find(hit.box);
+      EXPECT_TRUE(before == last.end() || before->second < hit.leaf);
+      last[hit.box] = hit.leaf;
+    }
+    for (const LeafHit& hit : hits) EXPECT_EQ(leavesOfBoxes.count({hit.leaf, hit.box}), 1u);
+    EXPECT_LT(whole.size(), 80u * bvh.numLeaves() / 2);
   }
 }
 

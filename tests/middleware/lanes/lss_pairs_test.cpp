@@ -148,7 +148,8 @@ Outcome advance(const LssPolynomials& motion, double radius, const std::vector<V
     parts.push_back({&leaf, static_cast<std::uint8_t>((1U << leaf.count()) - 1U), -1.0F});
   }
   const float origin[3] = {0.0F, 0.0F, 0.0F};
-  pairs.addTriangles(lane, parts.data(), parts.size(), origin, 0.0);
+  const FloatBox everywhere{{-1e9F, -1e9F, -1e9F}, {1e9F, 1e9F, 1e9F}};
+  pairs.addTriangles(lane, parts.data(), parts.size(), everywhere, origin, 0.0);
   Outcome outcome;
   outcome.evaluations = pairs.advanceTriangles(lane, tolerances, outcome.best, outcome.handed);
   EXPECT_EQ(pairs.count(), 0U);
