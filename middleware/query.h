@@ -119,7 +119,7 @@ struct IgnoredPair {
 /// How a pair of triangles is carried through time. Both keep the promise; they may report contact
 /// at different instants within it.
 enum class LeafMethod : std::uint8_t {
-  Advancement,  ///< Conservative advancement, as of LSS. The faster one (README).
+  Advancement,  ///< Conservative advancement, as of LSS. The faster one.
   Cubics,       ///< Pieces of the motion as nlerp bodies, by their contact functions ([Canny86]).
 };
 
