@@ -24,6 +24,20 @@ struct MotionRequest {
   std::vector<std::string> packagePaths;  ///< Where that URDF's packages are.
 };
 
+/// What the options of a command that plays a clip (ReplayRequest, SweepRequest) ask for.
+template <typename Request>
+[[nodiscard]] MotionRequest motionRequestOf(const Request& request) {
+  MotionRequest motion;
+  motion.path = request.motionPath;
+  motion.scale = request.motionScale;
+  motion.up = request.placement.motionUpZ ? UpAxis::Z : UpAxis::Y;
+  motion.animation = request.animation;
+  motion.robot = request.robotPath;
+  motion.packagePaths = request.packagePaths;
+  motion.rateHz = request.rateHz.value_or(motion.rateHz);
+  return motion;
+}
+
 struct Motion {
   Clip clip;
   /// Z-up has been turned in. Models turn their roots as they are read, so that a joint that the

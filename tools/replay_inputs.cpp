@@ -29,18 +29,6 @@ Result<Scene> loadScene(const ReplayRequest& request) {
   return scene;
 }
 
-Result<Motion> loadMotion(const ReplayRequest& request) {
-  MotionRequest motion;
-  motion.path = request.motionPath;
-  motion.scale = request.motionScale;
-  motion.up = request.placement.motionUpZ ? UpAxis::Z : UpAxis::Y;
-  motion.animation = request.animation;
-  motion.robot = request.robotPath;
-  motion.packagePaths = request.packagePaths;
-  motion.rateHz = request.rateHz.value_or(motion.rateHz);
-  return readMotion(motion);
-}
-
 /// The meshes that the avatar file refers to, where the fidelity asks for them.
 Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, QueryOptions& query) {
   query.fidelity = request.fidelity;
@@ -82,7 +70,7 @@ double sizeOfClipToAvatar(const ReplayInputs& inputs) {
 Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
   auto avatar = readAvatarFile(request.avatarPath);
   if (!avatar.ok()) return inFile(avatar.error(), request.avatarPath);
-  auto motion = loadMotion(request);
+  auto motion = readMotion(motionRequestOf(request));
   if (!motion.ok()) return motion.error();
   Clip& clip = motion.value().clip;
   auto match =

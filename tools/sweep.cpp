@@ -240,15 +240,7 @@ Result<SweepInputs> loadSweepInputs(const SweepRequest& request) {
   if (!avatar.ok()) return inFile(avatar.error(), request.avatarPath);
   auto links = linksOf(request.links, avatar.value());
   if (!links.ok()) return links.error();
-  MotionRequest asked;
-  asked.path = request.motionPath;
-  asked.scale = request.motionScale;
-  asked.up = request.placement.motionUpZ ? UpAxis::Z : UpAxis::Y;
-  asked.animation = request.animation;
-  asked.robot = request.robotPath;
-  asked.packagePaths = request.packagePaths;
-  asked.rateHz = request.rateHz.value_or(asked.rateHz);
-  auto motion = readMotion(asked);
+  auto motion = readMotion(motionRequestOf(request));
   if (!motion.ok()) return motion.error();
   Clip& clip = motion.value().clip;
   auto match =

@@ -110,16 +110,13 @@ class Chosen {
   static constexpr std::size_t kLanes = hn::MaxLanes(D());
   static constexpr bool kByTable = kLanes == 4 || kLanes == 8;
 
-  HWY_INLINE Chosen(D d, Mask mask) : mask_(mask) {
+  HWY_INLINE Chosen(D d, Mask mask) : mask_(mask), count_(hn::CountTrue(d, mask)) {
     if constexpr (kByTable) {
       std::uint8_t bits[8] = {};
       hn::StoreMaskBits(d, mask, bits);
       const hn::Rebind<std::uint8_t, D> bytes;
       const auto from = hn::PromoteTo(Signed(), hn::LoadU(bytes, kLanesOfBits[bits[0]]));
       hn::StoreU(from, Signed(), from_);
-      count_ = hn::CountTrue(d, mask);
-    } else {
-      count_ = hn::CountTrue(d, mask);
     }
   }
   [[nodiscard]] HWY_INLINE std::size_t count() const { return count_; }
