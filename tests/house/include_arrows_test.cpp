@@ -20,7 +20,8 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"articulated", {"lss"}},
     {"tessellation", {"articulated", "lss"}},
     {"middleware", {"tessellation", "articulated", "lss"}},
-    {"tools", {"middleware", "tessellation", "articulated", "lss"}},
+    {"network", {"middleware", "tessellation", "articulated", "lss"}},
+    {"tools", {"network", "middleware", "tessellation", "articulated", "lss"}},
     {"examples", {"articulated", "lss"}},
 };
 
@@ -34,6 +35,11 @@ const std::map<std::string, std::set<std::string>> kLibraries = {
     {"urdf_parser", {"middleware"}},
     {"tinyxml.h", {"middleware"}},
     {"console_bridge", {"middleware"}},
+    {"lcm", {"network"}},
+    {"foretouch", {"network"}},  // generated from network/lcm
+    {"xxhash.h", {"network"}},
+    {"toml++", {"tools"}},
+    {"httplib.h", {"network"}},
     {"CLI", {"tools"}},
     {"fcl", {"tools"}},
     {"ccd", {"tools"}},

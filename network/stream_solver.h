@@ -1,0 +1,47 @@
+// network/stream_solver.h: one avatar's stream answered: each accepted pose becomes one
+// ContactsMessage. Pure apart from the query: what the service, the replay of a log and the
+// simulator all run, so that they answer alike, byte for byte.
+#pragma once
+
+#include <cstdint>
+
+#include "articulated/avatar.h"
+#include "articulated/motion.h"
+#include "articulated/result.h"
+#include "middleware/query.h"
+#include "middleware/scene.h"
+#include "network/avatar_stream.h"
+#include "network/messages.h"
+
+namespace foretouch {
+
+class StreamSolver {
+ public:
+  /// `id` is what messages call the avatar. Errors: options that a query refuses, Scope other than
+  /// EveryLink (a link that cannot be known would hide behind another's contact), a bad policy.
+  static Result<StreamSolver> make(std::int32_t id, const Avatar& avatar, const Scene& scene,
+                                   const QueryOptions& options, const StreamPolicy& policy);
+
+  /// As AvatarStream; a message of another avatar is UnknownAvatar.
+  [[nodiscard]] Reject take(const SkeletonMessage& message);
+  /// None where the pose was accepted and `answer` filled (its stamps of receiving and sending are
+  /// left as they are). A link is
+  ///   Undecided, freeUntil 0, where the step says that it is unknown, whatever the query found;
+  ///   Undecided (Gap), freeUntil 0, where the query found it clear or undecided across a gap;
+  ///   else what the query found. A contact across a gap is one of the motion in between the two
+  ///   poses that arrived: that nothing was touched before it is not claimed.
+  [[nodiscard]] Reject take(const PoseMessage& message, ContactsMessage& answer);
+
+  [[nodiscard]] std::int32_t id() const { return id_; }
+  [[nodiscard]] const StreamCounts& counts() const { return stream_.counts(); }
+  /// Of the last answered pose: the query alone, for measurements.
+  [[nodiscard]] double lastQueryUs() const { return lastQueryUs_; }
+
+ private:
+  // By the author of stream_solver.cpp.
+  std::int32_t id_ = 0;
+  AvatarStream stream_;
+  double lastQueryUs_ = 0.0;
+};
+
+}  // namespace foretouch
