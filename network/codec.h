@@ -42,7 +42,7 @@ void encode(const ContactsMessage& message, Bytes& payload);
 void encode(const StatusMessage& message, Bytes& payload);
 
 /// The part of an encoded contacts_t that poses, scene and options decide: all but the two stamps
-/// of receiving and sending at its end. What a replay repeats, byte for byte.
+/// and the query's time at its end (24 bytes). What a replay repeats, byte for byte.
 [[nodiscard]] ByteView verdictBytes(ByteView contactsPayload);
 
 }  // namespace foretouch

@@ -114,6 +114,7 @@ struct ContactsMessage {
   std::vector<AnsweredContact> contacts;  ///< Links that are not clear, earliest first.
   std::int64_t receiveUtimeUs = 0;
   std::int64_t sendUtimeUs = 0;
+  double queryUs = 0.0;
 };
 
 struct StatusMessage {

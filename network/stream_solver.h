@@ -25,7 +25,7 @@ class StreamSolver {
   /// As AvatarStream; a message of another avatar is UnknownAvatar.
   [[nodiscard]] Reject take(const SkeletonMessage& message);
   /// None where the pose was accepted and `answer` filled (its stamps of receiving and sending are
-  /// left as they are). A link is
+  /// left as they are; queryUs is measured). A link is
   ///   Undecided, freeUntil 0, where the step says that it is unknown, whatever the query found;
   ///   Undecided (Gap), freeUntil 0, where the query found it clear or undecided across a gap;
   ///   else what the query found. A contact across a gap is one of the motion in between the two
