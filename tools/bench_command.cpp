@@ -15,6 +15,7 @@
 #include "tools/bench_leaf.h"
 #include "tools/bench_peers_command.h"
 #include "tools/bench_scaling_command.h"
+#include "tools/bench_stream_command.h"
 #include "tools/generated_queries.h"
 
 namespace foretouch::tools {
@@ -137,6 +138,7 @@ void addBenchCommand(CLI::App& program, ExitCode& exit) {
       "Example:\n  foretouch bench leaf --queries sample-queries --repeat 10 --json leaf.json");
   leaf->callback([texts, &exit] { exit = run(*texts); });
   addBenchPeersCommand(*bench, exit);
+  addBenchStreamCommands(*bench, exit);
 }
 
 }  // namespace foretouch::tools
