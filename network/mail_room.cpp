@@ -1,0 +1,93 @@
+#include "network/mail_room.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace foretouch {
+
+MailRoom::MailRoom(std::size_t avatars, std::size_t poses) : maxPoses_(poses), boxes_(avatars) {
+  for (Box& box : boxes_) box.mail.reserve(poses + kMaxWaitingSkeletons);
+  ready_.reserve(avatars);
+}
+
+/// True where the oldest mail of this kind had to go.
+bool MailRoom::makeRoom(Box& box, MailKind kind) {
+  const bool isPose = kind == MailKind::Pose;
+  std::size_t& waiting = isPose ? box.poses : box.skeletons;
+  if (waiting < (isPose ? maxPoses_ : kMaxWaitingSkeletons)) return false;
+  const auto oldest = std::find_if(box.mail.begin(), box.mail.end(),
+                                   [&](const auto& mail) { return mail->kind == kind; });
+  empty_.push_back(std::move(*oldest));
+  box.mail.erase(oldest);
+  --waiting;
+  return true;
+}
+
+std::unique_ptr<Mail> MailRoom::emptyMail() {
+  if (empty_.empty()) return std::make_unique<Mail>();
+  auto mail = std::move(empty_.back());
+  empty_.pop_back();
+  return mail;
+}
+
+void MailRoom::makeReady(std::size_t avatar) {
+  boxes_[avatar].isReady = true;
+  ready_.push_back(avatar);
+  changed_.notify_one();
+}
+
+MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail) {
+  const std::lock_guard lock(mutex_);
+  if (isClosed_) return Posted::Closed;
+  Box& box = boxes_[avatar];
+  const MailKind kind = mail->kind;
+  const bool dropped = makeRoom(box, kind);
+  ++(kind == MailKind::Pose ? box.poses : box.skeletons);
+  box.mail.push_back(std::exchange(mail, emptyMail()));
+  if (!box.isReady && !box.isHandled) makeReady(avatar);
+  if (!dropped) return Posted::Kept;
+  return kind == MailKind::Pose ? Posted::DroppedPose : Posted::DroppedSkeleton;
+}
+
+MailRoom::Taken MailRoom::take(std::size_t& avatar, std::unique_ptr<Mail>& mail,
+                               std::chrono::milliseconds wait) {
+  std::unique_lock lock(mutex_);
+  // While a thread handles an avatar, more of its mail may become ready.
+  const auto isOver = [&] { return isClosed_ && ready_.empty() && handled_ == 0; };
+  changed_.wait_for(lock, wait, [&] { return !ready_.empty() || isOver(); });
+  if (ready_.empty()) return isOver() ? Taken::Closed : Taken::Nothing;
+  avatar = ready_.front();
+  ready_.erase(ready_.begin());
+  Box& box = boxes_[avatar];
+  box.isReady = false;
+  box.isHandled = true;
+  ++handled_;
+  empty_.push_back(std::exchange(mail, std::move(box.mail.front())));
+  box.mail.erase(box.mail.begin());
+  --(mail->kind == MailKind::Pose ? box.poses : box.skeletons);
+  return Taken::Mail;
+}
+
+void MailRoom::finish(std::size_t avatar) {
+  const std::lock_guard lock(mutex_);
+  Box& box = boxes_[avatar];
+  box.isHandled = false;
+  --handled_;
+  if (!box.mail.empty()) makeReady(avatar);
+  if (isClosed_ && handled_ == 0) changed_.notify_all();
+}
+
+void MailRoom::close() {
+  const std::lock_guard lock(mutex_);
+  isClosed_ = true;
+  changed_.notify_all();
+}
+
+std::size_t MailRoom::waitingPoses() const {
+  const std::lock_guard lock(mutex_);
+  std::size_t waiting = 0;
+  for (const Box& box : boxes_) waiting += box.poses;
+  return waiting;
+}
+
+}  // namespace foretouch

@@ -1,0 +1,81 @@
+// network/mail_room.h: what waits to be answered: a bounded mailbox for each avatar. Any number of
+// threads take mail; an avatar's mail is handled by one thread at a time and in order, so that its
+// answers depend on its own messages alone.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "network/codec.h"
+#include "network/messages.h"
+
+namespace foretouch {
+
+enum class MailKind : std::uint8_t { Skeleton, Pose };
+
+/// A message that was found sound. Its memory is used again and again.
+struct Mail {
+  MailKind kind = MailKind::Pose;
+  SkeletonMessage skeleton;
+  PoseMessage pose;
+  Bytes payload;  ///< As it came.
+  std::int64_t receiveUtimeUs = 0;
+};
+
+/// Skeletons that wait for one avatar. They come about once a second, so that more than a few mean
+/// that somebody floods; the oldest then makes way, as a pose would.
+inline constexpr std::size_t kMaxWaitingSkeletons = 8;
+
+class MailRoom {
+ public:
+  /// At most `poses` (> 0) poses wait for each of `avatars`.
+  MailRoom(std::size_t avatars, std::size_t poses);
+
+  enum class Posted : std::uint8_t {
+    Kept,             ///< And nothing had to make way.
+    DroppedPose,      ///< The oldest waiting pose made way.
+    DroppedSkeleton,  ///< The oldest waiting skeleton made way.
+    Closed,           ///< Nothing is taken any more.
+  };
+  /// Takes the mail's content in exchange for memory to be used for the next. Never waits for a
+  /// worker.
+  Posted post(std::size_t avatar, std::unique_ptr<Mail>& mail);
+
+  enum class Taken : std::uint8_t { Mail, Nothing, Closed };
+  /// The next mail of an avatar that nobody handles, in exchange for `mail`; waits up to `wait` for
+  /// one. The avatar is the caller's until finish(). Closed: there is none left and none to come.
+  Taken take(std::size_t& avatar, std::unique_ptr<Mail>& mail, std::chrono::milliseconds wait);
+  void finish(std::size_t avatar);
+
+  /// Takes no more mail; what waits is still given out.
+  void close();
+  /// Poses that wait, of all avatars.
+  [[nodiscard]] std::size_t waitingPoses() const;
+
+ private:
+  struct Box {
+    std::vector<std::unique_ptr<Mail>> mail;  // oldest first; short, so that erasing is cheap
+    std::size_t poses = 0, skeletons = 0;
+    bool isReady = false;    // in ready_
+    bool isHandled = false;  // by a thread, now
+  };
+  bool makeRoom(Box& box, MailKind kind);
+  std::unique_ptr<Mail> emptyMail();
+  void makeReady(std::size_t avatar);
+
+  const std::size_t maxPoses_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Box> boxes_;
+  std::vector<std::size_t> ready_;  // avatars with mail that nobody handles, the longest first
+  std::vector<std::unique_ptr<Mail>> empty_;
+  std::size_t handled_ = 0;
+  bool isClosed_ = false;
+};
+
+}  // namespace foretouch
