@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "middleware/lane_query.h"
 #include "middleware/query_internal.h"
@@ -173,6 +174,13 @@ Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& moti
                                    const Scene& scene, const QueryOptions& options) {
   QueryScratch scratch;
   return firstContacts(avatar, motion, scene, options, scratch);
+}
+
+bool isReportedBefore(const LinkContact& x, const LinkContact& y) {
+  const auto timeOf = [](const LinkContact& contact) {
+    return contact.verdict == Verdict::Undecided ? contact.freeUntil : contact.toi;
+  };
+  return std::make_pair(timeOf(x), x.link) < std::make_pair(timeOf(y), y.link);
 }
 
 }  // namespace foretouch

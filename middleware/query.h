@@ -193,6 +193,10 @@ class QueryScratch {
                                                  const Scene& scene,
                                                  const QueryOptions& options = {});
 
+/// The order in which links are reported: earliest first, an undecided one at its freeUntil; of
+/// those at the same time the lowest link first.
+[[nodiscard]] bool isReportedBefore(const LinkContact& x, const LinkContact& y);
+
 /// What a discrete check sees: does the link's surface touch a triangle at this one instant?
 /// Ignored pairs are passed over. Decided by the computed distance (no claim within rounding of
 /// zero).

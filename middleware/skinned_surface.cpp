@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -89,6 +90,18 @@ std::int32_t SkinnedSurface::numLinks() const {
 
 std::size_t SkinnedSurface::numTriangles() const {
   return parts_->skin.triangles.size();
+}
+
+std::vector<LinkId> SkinnedSurface::linksMoving(LinkId link) const {
+  std::set<LinkId> links;
+  for (std::int32_t i = 0; i < parts_->numTriangles(link); ++i) {
+    for (const std::int32_t vertex : parts_->triangle(link, i)) {
+      for (const auto& influence : parts_->skin.vertices[static_cast<std::size_t>(vertex)]) {
+        links.insert(influence.link);
+      }
+    }
+  }
+  return {links.begin(), links.end()};
 }
 
 }  // namespace foretouch

@@ -31,6 +31,9 @@ class SkinnedSurface {
 
   [[nodiscard]] std::int32_t numLinks() const;
   [[nodiscard]] std::size_t numTriangles() const;
+  /// The links that move the vertices of the link's triangles, ascending; none where it has no
+  /// triangle. Linear in these; meant for set-up.
+  [[nodiscard]] std::vector<LinkId> linksMoving(LinkId link) const;
 
   /// For the query's own sources.
   [[nodiscard]] const internal::SkinParts& parts() const { return *parts_; }

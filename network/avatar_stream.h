@@ -5,19 +5,22 @@
 // A timeline is a run of accepted poses of one session and one skeleton: sequence and capture time
 // both grow from each to the next. The first pose of a timeline ends no motion: its step is the
 // instant itself (StepKind::First). A sequence that skips is a gap: the step is marked AcrossGap,
-// and nothing is clear in it, since the poses between are not known.
+// and nothing is clear in it, since the poses between are not known. So is the step after a lower
+// sequence with a later capture time was refused: its sender may have been restarted.
 //
 // What does not continue the timeline is refused and counted. A new timeline begins with
 //   - a skeleton of another hash (of a later session, or of the same session and a later
-//     generation; kept for poses that follow),
+//     generation; or one that is not, said StreamPolicy::confirmations times in a row),
 //   - a pose of a later session,
 //   - the last of StreamPolicy::confirmations poses in a row that continue one another but not the
 //     timeline (a clock that was set, a sender without sessions that was restarted): one odd stamp
 //     changes nothing, a stream that really jumped is followed after a few poses.
-// docs/formats.md, "Streams", has the whole table.
+// No pose of the last 256 that were answered is answered again, whatever begins.
+// docs/streaming.md, "What is accepted", has the whole table.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "articulated/avatar.h"
@@ -29,8 +32,10 @@
 namespace foretouch {
 
 struct StreamPolicy {
-  std::int64_t maxStepUs = 10'000'000;  ///< A pose this much after the last one is refused.
-  int confirmations = 3;  ///< Poses in a row that make a timeline that was not expected.
+  /// A pose captured longer than this after the last one is refused. 1 to a day.
+  std::int64_t maxStepUs = 10'000'000;
+  /// Poses (or skeletons) in a row that make a timeline that was not expected. 2 to 1000.
+  int confirmations = 3;
   /// Joints of the avatar that the sender's skeleton does not have keep their rest values and count
   /// as known; otherwise the links below them are undecided.
   bool unmatchedAtRest = false;
@@ -45,7 +50,7 @@ struct StreamStep {
   std::int64_t sequenceFrom = 0, sequenceTo = 0;
   std::int64_t utimeFromUs = 0, utimeToUs = 0;
   std::int64_t skeletonHash = 0;
-  std::int64_t lost = 0;  ///< Poses between the two.
+  std::int64_t lost = 0;  ///< Poses between the two; may be 0 AcrossGap (see above).
   /// Per link: why it cannot be decided whatever a query says; None: the query decides. Gap is not
   /// among them: it applies to all links by `kind`, where the link would be clear.
   const std::vector<AnswerReason>* unknown = nullptr;
@@ -64,16 +69,21 @@ class AvatarStream {
  public:
   /// `avatar` is copied. Errors: a policy out of range (names the field).
   static Result<AvatarStream> make(const Avatar& avatar, const StreamPolicy& policy);
+  AvatarStream(AvatarStream&&) noexcept;
+  AvatarStream& operator=(AvatarStream&&) noexcept;
+  ~AvatarStream();
 
   /// None where the skeleton is in use now (also where it was before).
   [[nodiscard]] Reject take(const SkeletonMessage& message);
-  /// None where the pose is accepted; `step` is then what it ends.
+  /// None where the pose is accepted; `step` is then what it ends. Allocates nothing.
   [[nodiscard]] Reject take(const PoseMessage& message, StreamStep& step);
 
   [[nodiscard]] const StreamCounts& counts() const { return counts_; }
 
  private:
-  // By the author of avatar_stream.cpp.
+  struct Impl;
+  explicit AvatarStream(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
   StreamCounts counts_;
 };
 

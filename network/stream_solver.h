@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
@@ -26,7 +28,8 @@ class StreamSolver {
   [[nodiscard]] Reject take(const SkeletonMessage& message);
   /// None where the pose was accepted and `answer` filled (its stamps of receiving and sending are
   /// left as they are; queryUs is measured). A link is
-  ///   Undecided, freeUntil 0, where the step says that it is unknown, whatever the query found;
+  ///   Undecided, freeUntil 0, where the step says that it is unknown, whatever the query found; at
+  ///   skinned fidelity also where a link that moves its triangles is;
   ///   Undecided (Gap), freeUntil 0, where the query found it clear or undecided across a gap;
   ///   else what the query found. A contact across a gap is one of the motion in between the two
   ///   poses that arrived: that nothing was touched before it is not claimed.
@@ -38,10 +41,28 @@ class StreamSolver {
   [[nodiscard]] double lastQueryUs() const { return lastQueryUs_; }
 
  private:
-  // By the author of stream_solver.cpp.
+  StreamSolver(std::int32_t id, const Avatar& avatar, const Scene& scene,
+               const QueryOptions& options, AvatarStream stream);
+  [[nodiscard]] Result<Done> query(const Pose& from, const Pose& to);
+  void fill(const StreamStep& step, ContactsMessage& answer);
+  [[nodiscard]] LinkContact answered(LinkId link, const StreamStep& step,
+                                     AnswerReason& reason) const;
+  [[nodiscard]] AnswerReason unknownOf(LinkId link, const StreamStep& step) const;
+  void list(const LinkContact& contact, AnswerReason reason, AnsweredContact& listed) const;
+
   std::int32_t id_ = 0;
+  Avatar avatar_;
+  Scene scene_;
+  QueryOptions options_;
   AvatarStream stream_;
+  /// At skinned fidelity, per link: the links that move its triangles.
+  std::vector<std::vector<LinkId>> movedBy_;
   double lastQueryUs_ = 0.0;
+  // Scratch.
+  ChainMotion motion_;
+  QueryScratch scratch_;
+  StepContacts contacts_;
+  std::vector<std::pair<LinkContact, AnswerReason>> notClear_;
 };
 
 }  // namespace foretouch

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,10 +13,6 @@
 
 namespace foretouch::tools {
 namespace {
-
-double timeOf(const LinkContact& contact) {
-  return contact.verdict == Verdict::Undecided ? contact.freeUntil : contact.toi;
-}
 
 /// The shortest text that reads back as the same double.
 std::string number(double value) {
@@ -45,9 +40,7 @@ std::vector<LinkContact> notClear(const std::vector<LinkContact>& links) {
   std::vector<LinkContact> contacts;
   std::copy_if(links.begin(), links.end(), std::back_inserter(contacts),
                [](const LinkContact& c) { return c.verdict != Verdict::Clear; });
-  std::sort(contacts.begin(), contacts.end(), [](const LinkContact& a, const LinkContact& b) {
-    return std::make_pair(timeOf(a), a.link) < std::make_pair(timeOf(b), b.link);
-  });
+  std::sort(contacts.begin(), contacts.end(), isReportedBefore);
   return contacts;
 }
 
