@@ -8,7 +8,7 @@
 
 #include "articulated/motion.h"
 #include "articulated/text_file.h"
-#include "tools/replay_inputs.h"
+#include "tools/played_clip.h"
 
 namespace foretouch::tools {
 namespace {

@@ -15,7 +15,7 @@
 #include "tools/audits.h"
 #include "tools/joint_map.h"
 #include "tools/motion_file.h"
-#include "tools/replay_inputs.h"
+#include "tools/played_clip.h"
 #include "tools/surface_audit.h"
 
 namespace foretouch::tools {

@@ -66,7 +66,4 @@ struct ReplayInputs {
 /// than coordinates may be. `frame` is within the clip.
 [[nodiscard]] Result<Pose> poseAtFrame(const ReplayInputs& inputs, std::int64_t frame);
 
-/// "'a', 'b' and 7 more": the first of many names.
-[[nodiscard]] std::string firstOf(const std::vector<std::string>& names);
-
 }  // namespace foretouch::tools

@@ -27,9 +27,6 @@ struct StepAnswer {
 /// The links that are not clear, in the order of StepAnswer::contacts.
 [[nodiscard]] std::vector<LinkContact> notClear(const std::vector<LinkContact>& links);
 
-/// `text` as a JSON string with its quotes; what is not UTF-8 becomes U+FFFD.
-[[nodiscard]] std::string jsonString(const std::string& text);
-
 /// The first line. Names neither threads nor culler: they do not change what follows.
 [[nodiscard]] std::string headerLine(const ReplayInputs& inputs);
 

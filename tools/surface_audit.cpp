@@ -4,7 +4,7 @@
 
 #include "articulated/text_file.h"
 #include "lss/lss_cover.h"
-#include "tools/replay_inputs.h"
+#include "tools/played_clip.h"
 
 namespace foretouch::tools {
 namespace {

@@ -7,14 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "articulated/avatar_file.h"
 #include "articulated/text_file.h"
 #include "tessellation/swept_lss.h"
 #include "tools/clip_pose.h"
 #include "tools/console.h"
-#include "tools/joint_map.h"
-#include "tools/motion_file.h"
 #include "tools/near_names.h"
+#include "tools/played_clip.h"
 
 namespace foretouch::tools {
 namespace {
@@ -236,21 +234,13 @@ Result<Done> finishOne(const SweepInputs& inputs, Work& work, Sweep& sweep) {
 }  // namespace
 
 Result<SweepInputs> loadSweepInputs(const SweepRequest& request) {
-  auto avatar = readAvatarFile(request.avatarPath);
-  if (!avatar.ok()) return inFile(avatar.error(), request.avatarPath);
-  auto links = linksOf(request.links, avatar.value());
+  auto played = loadPlayedClip(request);
+  if (!played.ok()) return played.error();
+  auto& [avatar, clip, match, steps, isUpright] = played.value();
+  auto links = linksOf(request.links, avatar);
   if (!links.ok()) return links.error();
-  auto motion = readMotion(motionRequestOf(request));
-  if (!motion.ok()) return motion.error();
-  Clip& clip = motion.value().clip;
-  auto match =
-      matchWithMap(avatar.value().skeleton(), clip.skeleton, request.mapPath, request.motionPath);
-  if (!match.ok()) return match.error();
-  const auto steps = selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz);
-  if (!steps.ok()) return inFile(steps.error(), request.motionPath);
-  SweepInputs inputs{
-      request,       std::move(avatar).value(), std::move(clip),         std::move(match).value(),
-      steps.value(), motion.value().isUpright,  std::move(links).value()};
+  SweepInputs inputs{request, std::move(avatar), std::move(clip),         std::move(match),
+                     steps,   isUpright,         std::move(links).value()};
   const auto spanned = setSpan(inputs);
   if (!spanned.ok()) return spanned.error();
   return inputs;

@@ -14,7 +14,7 @@
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
-#include "tools/replay_inputs.h"
+#include "tools/played_clip.h"
 #include "tools/settling.h"
 #include "tools/surface_writer.h"
 #include "tools/sweep.h"
