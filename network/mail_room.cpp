@@ -17,7 +17,7 @@ bool MailRoom::makeRoom(Box& box, MailKind kind) {
   if (waiting < (isPose ? maxPoses_ : kMaxWaitingSkeletons)) return false;
   const auto oldest = std::find_if(box.mail.begin(), box.mail.end(),
                                    [&](const auto& mail) { return mail->kind == kind; });
-  empty_.push_back(std::move(*oldest));
+  keep(std::move(*oldest));
   box.mail.erase(oldest);
   --waiting;
   return true;
@@ -28,6 +28,14 @@ std::unique_ptr<Mail> MailRoom::emptyMail() {
   auto mail = std::move(empty_.back());
   empty_.pop_back();
   return mail;
+}
+
+/// For use again. Skeletons are rare and may be large: their memory is given back.
+void MailRoom::keep(std::unique_ptr<Mail> mail) {
+  constexpr std::size_t kKeptBytes = 256u << 10;  // a pose of all joints there may be
+  if (mail->kind == MailKind::Skeleton) mail->skeleton = SkeletonMessage();
+  if (mail->payload.capacity() > kKeptBytes) Bytes().swap(mail->payload);
+  empty_.push_back(std::move(mail));
 }
 
 void MailRoom::makeReady(std::size_t avatar) {
@@ -62,7 +70,7 @@ MailRoom::Taken MailRoom::take(std::size_t& avatar, std::unique_ptr<Mail>& mail,
   box.isReady = false;
   box.isHandled = true;
   ++handled_;
-  empty_.push_back(std::exchange(mail, std::move(box.mail.front())));
+  keep(std::exchange(mail, std::move(box.mail.front())));
   box.mail.erase(box.mail.begin());
   --(mail->kind == MailKind::Pose ? box.poses : box.skeletons);
   return Taken::Mail;

@@ -66,6 +66,7 @@ class MailRoom {
   };
   bool makeRoom(Box& box, MailKind kind);
   std::unique_ptr<Mail> emptyMail();
+  void keep(std::unique_ptr<Mail> mail);
   void makeReady(std::size_t avatar);
 
   const std::size_t maxPoses_;
