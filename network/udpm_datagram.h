@@ -14,9 +14,13 @@
 
 namespace foretouch {
 
-/// Largest datagram that is sent: short ones above it are cut into fragments (liblcm's limit).
+/// Channel, NUL and payload of the largest short datagram, and of a fragment: where liblcm cuts.
+/// What is received may have been cut smaller (1423 bytes on macOS).
 inline constexpr std::size_t kMaxShortBytes = 65499;
-inline constexpr std::size_t kMaxFragmentPayload = 65487;
+inline constexpr std::size_t kMaxFragmentBytes = 65487;
+/// Fragments of one message: more than kMaxMessageBytes makes in the smallest cuts that are used.
+inline constexpr std::size_t kMaxFragments = 4096;
+inline constexpr std::size_t kMaxDatagramBytes = 65507;  ///< Of UDP over IPv4.
 
 /// Why a datagram is none of ours. Counted, never fatal.
 enum class DatagramFault : std::uint8_t {
@@ -43,6 +47,9 @@ struct UdpmDatagram {
   std::uint32_t messageBytes = 0, offset = 0;  ///< Of fragments.
   std::uint16_t fragment = 0, fragments = 0;
 };
+
+/// 1 to kMaxChannelBytes bytes of printable ASCII.
+[[nodiscard]] bool isLegalChannel(std::string_view channel);
 
 /// Reads any bytes. Pure and bounded; allocates nothing.
 [[nodiscard]] DatagramFault parseDatagram(ByteView bytes, UdpmDatagram& datagram);

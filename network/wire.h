@@ -51,8 +51,13 @@ class Receiver {
   [[nodiscard]] virtual WireCounts counts() const = 0;
 };
 
+/// Unfinished messages that are kept, and the bytes they may hold together, bookkeeping included.
+inline constexpr std::size_t kMaxPartialMessages = 16;
+inline constexpr std::size_t kMaxPartialBytes = 16u << 20;
+
 /// Messages on exactly these channels, by our own reader. Memory is bounded whatever arrives: one
-/// receive buffer, at most kMaxPartialMessages unfinished messages of kMaxMessageBytes.
+/// receive buffer, at most kMaxPartialMessages unfinished messages in kMaxPartialBytes.
+/// Errors: a channel that is not legal, no socket, no multicast route.
 [[nodiscard]] Result<std::unique_ptr<Receiver>> openUdpmReceiver(
     const UdpmUrl& url, const std::vector<std::string>& channels);
 /// The same by liblcm, whose receiving thread two crafted datagrams can crash: for networks that
