@@ -29,9 +29,8 @@ class LatencyHistogram {
 
   /// Upper bounds (us) that record() counts exactly against, for those who add up histograms of
   /// several services.
-  static constexpr std::array<double, 17> kBoundsUs{5.0,  10.0, 20.0, 50.0, 100.0, 200.0,
-                                                    500.0, 1e3,  2e3,  5e3,  1e4,   2e4,
-                                                    5e4,   1e5,  2e5,  5e5,  1e6};
+  static constexpr std::array<double, 17> kBoundsUs{
+      5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6};
   /// How many values were at most kBoundsUs[i].
   [[nodiscard]] std::uint64_t countAtMost(std::size_t i) const;
 

@@ -10,7 +10,7 @@ constexpr double kSecondsPerUs = 1e-6;
 
 std::string number(double value) {
   char text[32];
-  const int length = std::snprintf(text, sizeof text, "%.9g", value);
+  const int length = std::snprintf(text, sizeof text, "%.12g", value);
   return {text, static_cast<std::size_t>(length)};
 }
 

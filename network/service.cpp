@@ -52,14 +52,13 @@ std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
   };
   if (avatars.empty()) return refused(ErrorCode::Empty, "expected at least one avatar");
   if (options.workers < 1 || options.workers > kMaxServiceWorkers) {
-    return refused(ErrorCode::OutOfRange,
-                   "expected 1 to " + std::to_string(kMaxServiceWorkers) + " workers, found " +
-                       std::to_string(options.workers));
+    return refused(ErrorCode::OutOfRange, "expected 1 to " + std::to_string(kMaxServiceWorkers) +
+                                              " workers, found " + std::to_string(options.workers));
   }
   if (options.queue < 1 || options.queue > kMaxServiceQueue) {
-    return refused(ErrorCode::OutOfRange,
-                   "expected a queue of 1 to " + std::to_string(kMaxServiceQueue) +
-                       " poses, found " + std::to_string(options.queue));
+    return refused(ErrorCode::OutOfRange, "expected a queue of 1 to " +
+                                              std::to_string(kMaxServiceQueue) + " poses, found " +
+                                              std::to_string(options.queue));
   }
   if (options.statusEvery < milliseconds(1)) {
     return refused(ErrorCode::OutOfRange, "expected a status at most every millisecond");
@@ -68,8 +67,8 @@ std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
   if (Channels(options.suffix).skeleton.size() > kMaxChannelBytes) {
     return refused(ErrorCode::LimitExceeded, "expected a suffix that leaves channel names within " +
                                                  std::to_string(kMaxChannelBytes) +
-                                                 " bytes, found " + std::to_string(options.suffix.size()) +
-                                                 " bytes");
+                                                 " bytes, found " +
+                                                 std::to_string(options.suffix.size()) + " bytes");
   }
   return std::nullopt;
 }
@@ -362,11 +361,11 @@ struct Service::Impl {
     if (journal) check("the log", journal->idleMs());
     if (health.isWell) health.text = "ok\n";
     const std::int64_t last = counter.counts().lastPoseUtimeUs;
-    health.text +=
-        last == 0 ? "no pose yet\n"
-                  : "last pose " +
-                        seconds(static_cast<double>(parts.clock->utimeUs() - last) * 1e-6) +
-                        " ago\n";
+    health.text += last == 0
+                       ? "no pose yet\n"
+                       : "last pose " +
+                             seconds(static_cast<double>(parts.clock->utimeUs() - last) * 1e-6) +
+                             " ago\n";
     return health;
   }
 

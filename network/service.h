@@ -32,18 +32,18 @@ inline constexpr int kMaxServiceWorkers = 256;
 inline constexpr std::size_t kMaxServiceQueue = 65536;
 
 struct ServiceOptions {
-  int workers = 1;         ///< 1 to kMaxServiceWorkers.
-  std::size_t queue = 64;  ///< Poses that an avatar may have waiting; 1 to kMaxServiceQueue.
-  std::string suffix;      ///< Of all four channels.
-  std::string build, scene;                     ///< For the status.
-  std::chrono::milliseconds statusEvery{1000};  ///< At least 1.
+  int workers = 1;           ///< 1 to kMaxServiceWorkers.
+  std::size_t queue = 64;    ///< Poses that an avatar may have waiting; 1 to kMaxServiceQueue.
+  std::string suffix;        ///< Of all four channels.
+  std::string build, scene;  ///< For the status.
+  std::chrono::milliseconds statusEvery{1000};   ///< At least 1.
   std::chrono::milliseconds stuckAfter{10'000};  ///< A thread that has not got on for this long.
   JournalOptions journal;
 };
 
 /// What surrounds a service.
 struct ServiceParts {
-  std::unique_ptr<Receiver> receiver;    ///< Of the channels of receivedChannels().
+  std::unique_ptr<Receiver> receiver;  ///< Of the channels of receivedChannels().
   std::unique_ptr<Publisher> publisher;
   std::unique_ptr<JournalSink> journal;  ///< None: nothing is recorded.
   const Clock* clock = &systemClock();   ///< Outlives the service.

@@ -1,5 +1,5 @@
-// network/work_budget.h: a wish for time as an amount of work. The wall clock decides no verdict, so
-// that a replay repeats it; what a query may spend is counted in distance evaluations.
+// network/work_budget.h: a wish for time as an amount of work. The wall clock decides no verdict,
+// so that a replay repeats it; what a query may spend is counted in distance evaluations.
 #pragma once
 
 #include <cstdint>
