@@ -1,3 +1,4 @@
+#include <bitset>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -41,9 +42,10 @@ Reject readHead(const contacts_t& wire, ContactsMessage& message) {
       wire.sequence_from > wire.sequence_to || wire.utime_from > wire.utime_to) {
     return Reject::OutOfRange;
   }
-  if (!allFinite({wire.tolerance})) return Reject::NonFinite;
+  if (!allFinite({wire.tolerance, wire.query_us})) return Reject::NonFinite;
   const auto fidelity = fidelityOf(wire.fidelity);
-  if (wire.kind < 0 || wire.kind > kLastKind || wire.tolerance < 0.0 || !fidelity) {
+  if (wire.kind < 0 || wire.kind > kLastKind || wire.tolerance < 0.0 || wire.query_us < 0.0 ||
+      !fidelity) {
     return Reject::OutOfRange;
   }
   message.avatar = wire.avatar;
@@ -60,6 +62,7 @@ Reject readHead(const contacts_t& wire, ContactsMessage& message) {
   message.workBudget = wire.work_budget;
   message.receiveUtimeUs = wire.receive_utime;
   message.sendUtimeUs = wire.send_utime;
+  message.queryUs = wire.query_us;
   return Reject::None;
 }
 
@@ -152,14 +155,14 @@ Reject readContacts(contacts_t& wire, ContactsMessage& message) {
   Reject reject = readVerdicts(wire, message.verdicts, notClear);
   if (reject != Reject::None) return reject;
   const auto numContacts = static_cast<std::size_t>(wire.num_contacts);
-  std::vector<bool> listed(message.verdicts.size());
+  std::bitset<static_cast<std::size_t>(kMaxListed)> listed;
   message.contacts.resize(numContacts);
   for (std::size_t i = 0; i < numContacts; ++i) {
     const std::int32_t link = wire.links[i];
     if (link < 0 || link >= wire.num_links) return Reject::BadIndex;
     const auto place = static_cast<std::size_t>(link);
     if (listed[place] || message.verdicts[place] == Verdict::Clear) return Reject::BadIndex;
-    listed[place] = true;
+    listed.set(place);
     reject = readContact(wire, i, message.verdicts[place], message.contacts[i]);
     if (reject != Reject::None) return reject;
   }
@@ -182,6 +185,7 @@ void writeHead(const ContactsMessage& message, contacts_t& wire) {
   wire.work_budget = message.workBudget;
   wire.receive_utime = message.receiveUtimeUs;
   wire.send_utime = message.sendUtimeUs;
+  wire.query_us = message.queryUs;
 }
 
 void resizeContacts(std::size_t n, contacts_t& wire) {
@@ -235,7 +239,8 @@ contacts_t& scratch() {
   return wire;
 }
 
-constexpr std::size_t kStampBytes = 2 * sizeof(std::int64_t);
+/// Of receive_utime, send_utime and query_us.
+constexpr std::size_t kStampBytes = 2 * sizeof(std::int64_t) + sizeof(double);
 
 }  // namespace
 

@@ -94,13 +94,13 @@ constexpr Field kContactsFields[] = {
     count(),
     list(kByte),  // verdicts
     count(),
-    list(kInt32),                // links
-    texts(kMaxNameBytes),        // link_names
-    list(kByte + 3 * kDouble),   // reasons, free_until, separation, penetration
-    list(9 * kDouble + kInt32),  // witness points, normals, triangles
-    texts(kMaxTextBytes),        // objects
-    list(kInt32 + 2 * kByte),    // link_triangles, link_features, scene_features
-    fixed(2 * kInt64)};          // receive_utime, send_utime
+    list(kInt32),                  // links
+    texts(kMaxNameBytes),          // link_names
+    list(kByte + 3 * kDouble),     // reasons, free_until, separation, penetration
+    list(9 * kDouble + kInt32),    // witness points, normals, triangles
+    texts(kMaxTextBytes),          // objects
+    list(kInt32 + 2 * kByte),      // link_triangles, link_features, scene_features
+    fixed(2 * kInt64 + kDouble)};  // receive_utime, send_utime, query_us
 
 constexpr Field kStatusFields[] = {
     fixed(2 * kInt64),  // utime, start_utime
