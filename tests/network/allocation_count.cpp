@@ -1,0 +1,47 @@
+#include "tests/network/allocation_count.h"
+
+#include <atomic>
+#include <cstddef>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#define FORETOUCH_COUNTS_ALLOCATIONS 0
+#else
+#define FORETOUCH_COUNTS_ALLOCATIONS 1
+#endif
+
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+}
+
+#if FORETOUCH_COUNTS_ALLOCATIONS
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* old, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(old, size);
+}
+}
+#endif
+
+namespace foretouch::test {
+
+bool countsAllocations() {
+  return FORETOUCH_COUNTS_ALLOCATIONS != 0;
+}
+
+std::uint64_t numAllocations() {
+  return allocations;
+}
+
+}  // namespace foretouch::test

@@ -1,0 +1,209 @@
+#include "tests/network/random_messages.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace foretouch::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::int64_t kLargest = (std::int64_t{1} << 62) - 1;
+
+/// From 0 to the largest that is legal, ends included.
+std::int64_t integer(Random& random) {
+  switch (random.below(4)) {
+    case 0: return 0;
+    case 1: return kLargest;
+    case 2: return 1'700'000'000'000'000 + random.below(1'000'000);
+    default: return static_cast<std::int64_t>(random.uniform(0.0, 1.0) * 4e18);
+  }
+}
+
+std::int64_t anyHash(Random& random) {
+  return static_cast<std::int64_t>(random.uniform(-9e18, 9e18));
+}
+
+double coordinate(Random& random) {
+  switch (random.below(6)) {
+    case 0: return -0.0;
+    case 1: return random.chance(0.5) ? kMaxCoordinate : -kMaxCoordinate;
+    case 2: return std::numeric_limits<double>::denorm_min();
+    case 3: return random.uniform(-1e7, 1e7);
+    default: return random.uniform(-2.0, 2.0);
+  }
+}
+
+Vector3d place(Random& random) {
+  return {coordinate(random), coordinate(random), coordinate(random)};
+}
+
+/// Unit up to rounding, or off by nearly as much as is allowed.
+Quaternion rotation(Random& random) {
+  Quaternion q = random.rotation();
+  if (random.chance(0.3)) q.coeffs() *= 1.0 + random.uniform(-9.9e-4, 9.9e-4);
+  if (random.chance(0.1)) q = Quaternion(1.0, -0.0, 0.0, -0.0);
+  return q;
+}
+
+std::string text(Random& random, int longest) {
+  static const char* const parts[] = {
+      "a", "Left", ":", " ", "\xc3\xa9", "\xe6\x89\x8b", "\xf0\x9f\x96\x90", "_", "7"};
+  std::string result;
+  const int n = random.below(longest);
+  for (int i = 0; i < n; ++i) result += parts[random.below(9)];
+  return result;
+}
+
+std::string name(Random& random, int index) {
+  return text(random, random.chance(0.05) ? 200 : 8) + "." + std::to_string(index);
+}
+
+Verdict verdict(Random& random) {
+  return random.chance(0.5) ? Verdict::Clear : static_cast<Verdict>(random.below(4));
+}
+
+FeatureKind feature(Random& random) {
+  return static_cast<FeatureKind>(random.below(3));
+}
+
+AnsweredContact contact(Random& random, LinkId link, Verdict verdict) {
+  AnsweredContact answered;
+  answered.linkName = name(random, link);
+  LinkContact& contact = answered.contact;
+  contact.link = link;
+  contact.verdict = verdict;
+  contact.freeUntil = random.chance(0.2) ? 1.0 : random.uniform(0.0, 1.0);
+  if (verdict == Verdict::Undecided) {
+    answered.reason = static_cast<AnswerReason>(1 + random.below(kNumAnswerReasons - 1));
+    if (answered.reason <= AnswerReason::AfterFirst) {
+      contact.reason = static_cast<UndecidedReason>(answered.reason);
+    }
+    return answered;
+  }
+  contact.toi = contact.freeUntil;
+  contact.separation = random.magnitude(1e-12, 1e-3);
+  contact.penetration = random.chance(0.5) ? 0.0 : random.uniform(0.0, 0.1);
+  contact.triangle = random.chance(0.1) ? std::numeric_limits<TriangleId>::max() : random.below(99);
+  contact.p_WScene = place(random);
+  contact.p_WLink = place(random);
+  contact.nhat_SL_W = random.direction();
+  contact.linkTriangle = random.below(9) - 1;
+  contact.linkFeature = feature(random);
+  contact.sceneFeature = feature(random);
+  answered.objectName = text(random, 30);
+  return answered;
+}
+
+template <typename T>
+void shuffle(Random& random, std::vector<T>& list) {
+  for (std::size_t i = list.size(); i > 1; --i) {
+    std::swap(list[i - 1], list[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  }
+}
+
+}  // namespace
+
+SkeletonMessage randomSkeletonMessage(Random& random, int numJoints) {
+  SkeletonMessage message;
+  message.avatar = random.below(1'000'000) - 500'000;
+  message.session = integer(random);
+  message.sendUtimeUs = integer(random);
+  message.generation = random.below(1000);
+  message.source = text(random, 40);
+  message.rateHz = random.chance(0.2) ? 0.0 : random.uniform(1.0, 240.0);
+  for (int i = 0; i < numJoints; ++i) {
+    RawJoint joint;
+    joint.name = name(random, i);
+    // Never deeper than a few dozen.
+    joint.parent = i == 0 || random.chance(0.1) ? kNoParent : random.below(i);
+    joint.offset = place(random);
+    joint.rotation = rotation(random);
+    message.skeleton.joints.push_back(std::move(joint));
+  }
+  message.hash = skeletonHash(message.skeleton);
+  return message;
+}
+
+PoseMessage randomPoseMessage(Random& random, int numJoints) {
+  PoseMessage message;
+  message.avatar = random.below(1'000'000) - 500'000;
+  message.session = integer(random);
+  message.sequence = integer(random);
+  message.utimeUs = integer(random);
+  message.sendUtimeUs = integer(random);
+  message.skeletonHash = anyHash(random);
+  std::vector<std::int32_t> order(static_cast<std::size_t>(numJoints));
+  std::iota(order.begin(), order.end(), 0);
+  shuffle(random, order);
+  for (const std::int32_t index : order) {
+    if (random.chance(0.1)) continue;
+    PoseJoint joint;
+    joint.joint = index;
+    joint.flags = static_cast<std::uint8_t>(random.below(8));
+    const bool valid = (joint.flags & kJointValid) != 0;
+    if (valid) joint.rotation = rotation(random);
+    message.joints.push_back(joint);
+    if (!random.chance(0.3)) continue;
+    message.translations.push_back({index, valid ? place(random) : Vector3d::Zero()});
+  }
+  shuffle(random, message.translations);
+  return message;
+}
+
+ContactsMessage randomContactsMessage(Random& random, int numLinks) {
+  ContactsMessage message;
+  message.avatar = random.below(1'000'000) - 500'000;
+  message.session = integer(random);
+  std::tie(message.sequenceFrom, message.sequenceTo) =
+      std::minmax({integer(random), integer(random)});
+  std::tie(message.utimeFromUs, message.utimeToUs) =
+      std::minmax({integer(random), integer(random)});
+  message.skeletonHash = anyHash(random);
+  message.kind = static_cast<StepKind>(random.below(3));
+  message.lost = integer(random);
+  message.tolerance = random.magnitude(1e-9, 1.0);
+  message.fidelity = static_cast<Fidelity>(random.below(3));
+  message.workBudget = integer(random);
+  for (LinkId link = 0; link < numLinks; ++link) {
+    message.verdicts.push_back(verdict(random));
+    if (message.verdicts.back() == Verdict::Clear) continue;
+    message.contacts.push_back(contact(random, link, message.verdicts.back()));
+  }
+  shuffle(random, message.contacts);
+  message.receiveUtimeUs = integer(random);
+  message.sendUtimeUs = integer(random);
+  message.queryUs = random.magnitude(1e-3, 1e9);
+  return message;
+}
+
+StatusMessage randomStatusMessage(Random& random, int numReasons) {
+  StatusMessage message;
+  for (std::int64_t* const count :
+       {&message.utimeUs, &message.startUtimeUs, &message.received, &message.answered,
+        &message.rejected, &message.lost, &message.gaps, &message.waiting, &message.publishFailures,
+        &message.journalFailures, &message.kernelDrops}) {
+    *count = integer(random);
+  }
+  message.build = text(random, 30);
+  message.scene = text(random, 300);
+  message.numAvatars = random.below(100);
+  message.numWorkers = random.below(100);
+  for (int i = 0; i < numReasons; ++i) {
+    message.counts.push_back({text(random, 20), integer(random)});
+  }
+  for (double* const duration :
+       {&message.latencyP50Us, &message.latencyP99Us, &message.latencyMaxUs, &message.queryP50Us,
+        &message.queryP99Us, &message.queryMaxUs}) {
+    *duration = random.chance(0.2) ? 0.0 : random.magnitude(1e-3, 1e7);
+  }
+  return message;
+}
+
+}  // namespace foretouch::test

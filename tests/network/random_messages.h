@@ -1,0 +1,17 @@
+// tests/network/random_messages.h: random messages that every decoder must accept, with a fair
+// share of awkward ones: empty lists, the largest numbers, denormals, -0.0, names of any UTF-8.
+#pragma once
+
+#include "network/messages.h"
+#include "tests/support/random_geometry.h"
+
+namespace foretouch::test {
+
+[[nodiscard]] SkeletonMessage randomSkeletonMessage(Random& random, int numJoints);
+/// Joints below `numJoints` in a random order, some left out. Values of joints that are not valid
+/// are what they are read as: the identity, zero.
+[[nodiscard]] PoseMessage randomPoseMessage(Random& random, int numJoints);
+[[nodiscard]] ContactsMessage randomContactsMessage(Random& random, int numLinks);
+[[nodiscard]] StatusMessage randomStatusMessage(Random& random, int numReasons);
+
+}  // namespace foretouch::test
