@@ -76,7 +76,10 @@ Reject StreamSolver::take(const PoseMessage& message, ContactsMessage& answer) {
   lastQueryUs_ = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
   FORETOUCH_ASSERT(done.ok());  // make() has tried these options
   if (!done.ok()) {
-    for (LinkContact& contact : contacts_.links) contact = nothingOf(contact.link);
+    for (LinkContact& contact : contacts_.links) {
+      contact = nothingOf(contact.link);
+      contact.reason = UndecidedReason::Resolution;
+    }
   }
   fill(step, answer);
   return Reject::None;

@@ -1,0 +1,648 @@
+// The rules of docs/streaming.md, "What is accepted", row by row.
+#include "network/avatar_stream.h"
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "articulated/clip.h"
+#include "articulated/joint_match.h"
+#include "tests/network/small_stream.h"
+#include "tests/support/random_geometry.h"
+
+namespace foretouch {
+namespace {
+
+using test::kStepUs;
+using test::nthPose;
+using test::poseMessage;
+using test::Random;
+using test::skeletonMessage;
+using test::smallAvatar;
+using test::smallSkeleton;
+
+constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Stream : public testing::Test {
+ protected:
+  explicit Stream(const StreamPolicy& policy = {})
+      : stream_(AvatarStream::make(smallAvatar(), policy).value()) {}
+
+  [[nodiscard]] Reject say(const RawSkeleton& skeleton, std::int64_t session = 1,
+                           std::int32_t generation = 0) {
+    return stream_.take(skeletonMessage(skeleton, session, generation));
+  }
+  [[nodiscard]] Reject take(const PoseMessage& message) { return stream_.take(message, step_); }
+  [[nodiscard]] Reject take(std::int64_t sequence, std::int64_t utimeUs, std::int64_t session = 1) {
+    return take(poseMessage(skeleton_, sequence, utimeUs, session));
+  }
+  [[nodiscard]] std::uint64_t counted(Reject reject) const {
+    return stream_.counts().rejects[static_cast<std::size_t>(reject)];
+  }
+  [[nodiscard]] AnswerReason unknown(JointId link) const {
+    return (*step_.unknown)[static_cast<std::size_t>(link)];
+  }
+  /// The skeleton, and poses up to `n`, each accepted.
+  void follow(std::int64_t n) {
+    ASSERT_EQ(say(skeleton_), Reject::None);
+    for (std::int64_t i = 0; i <= n; ++i) ASSERT_EQ(take(nthPose(i)), Reject::None);
+  }
+
+  RawSkeleton skeleton_ = smallSkeleton();
+  AvatarStream stream_;
+  StreamStep step_;
+};
+
+// A row each: what may be asked of a stream.
+
+TEST(StreamPolicy, OutOfRangeIsAnErrorThatNamesTheField) {
+  const auto fieldOf = [](std::int64_t maxStepUs, int confirmations) {
+    StreamPolicy policy;
+    policy.maxStepUs = maxStepUs;
+    policy.confirmations = confirmations;
+    const auto made = AvatarStream::make(smallAvatar(), policy);
+    return made.ok() ? std::string() : made.error().file;
+  };
+  EXPECT_EQ(fieldOf(1, 2), "");
+  EXPECT_EQ(fieldOf(86'400'000'000, 1000), "");
+  EXPECT_EQ(fieldOf(0, 3), "maxStepUs");
+  EXPECT_EQ(fieldOf(-5, 3), "maxStepUs");
+  EXPECT_EQ(fieldOf(86'400'000'001, 3), "maxStepUs");
+  EXPECT_EQ(fieldOf(1, 1), "confirmations");
+  EXPECT_EQ(fieldOf(1, 1001), "confirmations");
+}
+
+// Skeletons.
+
+TEST_F(Stream, RefusesASkeletonThatIsNone) {
+  const auto refusal = [&](auto change) {
+    RawSkeleton changed = smallSkeleton();
+    change(changed);
+    return say(changed);
+  };
+  EXPECT_EQ(refusal([](RawSkeleton& s) { s.joints.clear(); }), Reject::Limit);
+  EXPECT_EQ(refusal([](RawSkeleton& s) { s.joints[1].name = "Hips"; }), Reject::BadName);
+  EXPECT_EQ(refusal([](RawSkeleton& s) { s.joints[1].name.clear(); }), Reject::BadName);
+  EXPECT_EQ(refusal([](RawSkeleton& s) { s.joints[1].name = "\x1b[2J"; }), Reject::BadName);
+  EXPECT_EQ(refusal([](RawSkeleton& s) { s.joints[1].parent = 2; }), Reject::BadHierarchy);
+  EXPECT_EQ(refusal([](RawSkeleton& s) { s.joints[1].parent = -7; }), Reject::BadHierarchy);
+  EXPECT_EQ(refusal([](RawSkeleton& s) { s.joints[2].offset.x() = kNaN; }), Reject::NonFinite);
+  EXPECT_EQ(refusal([](RawSkeleton& s) { s.joints[2].offset.x() = 2e7; }), Reject::OutOfRange);
+  EXPECT_EQ(refusal([](RawSkeleton& s) { s.joints[2].rotation.w() = 2.0; }), Reject::NonUnit);
+  EXPECT_EQ(refusal([](RawSkeleton& s) {
+              for (RawJoint& joint : s.joints) joint.name += " of another";
+            }),
+            Reject::NoMatch);
+  EXPECT_EQ(take(0, 0), Reject::UnknownSkeleton);  // none of them is in use
+}
+
+TEST_F(Stream, RefusesASkeletonWhoseHashIsNotItsOwn) {
+  SkeletonMessage message = skeletonMessage(skeleton_);
+  ++message.hash;
+  EXPECT_EQ(stream_.take(message), Reject::BadHash);
+  EXPECT_EQ(counted(Reject::BadHash), 1U);
+}
+
+TEST_F(Stream, RefusesPosesBeforeTheirSkeleton) {
+  EXPECT_EQ(take(0, 0), Reject::UnknownSkeleton);
+  ASSERT_EQ(say(skeleton_), Reject::None);
+  EXPECT_EQ(take(0, 0), Reject::None);
+  PoseMessage other = nthPose(1);
+  ++other.skeletonHash;
+  EXPECT_EQ(take(other), Reject::SkeletonMismatch);
+}
+
+TEST_F(Stream, GoesOnWhereTheSkeletonIsSaidAgain) {
+  follow(0);
+  ASSERT_EQ(say(skeleton_), Reject::None);
+  ASSERT_EQ(say(skeleton_, 1, 4), Reject::None);  // counted up though nothing changed
+  ASSERT_EQ(say(skeleton_, 0, 0), Reject::None);  // of old, but the same
+  ASSERT_EQ(take(nthPose(1)), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::Consecutive);
+  EXPECT_EQ(stream_.counts().timelines, 1U);
+}
+
+TEST_F(Stream, BeginsATimelineWithAnotherSkeleton) {
+  follow(0);
+  RawSkeleton grown = skeleton_;
+  grown.joints[2].offset.y() = 0.5;
+  ASSERT_EQ(say(grown, 1, 1), Reject::None);
+  EXPECT_EQ(take(nthPose(1)), Reject::SkeletonMismatch);
+  skeleton_ = grown;
+  ASSERT_EQ(take(2, 2 * kStepUs), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::First);
+  EXPECT_EQ(step_.from, step_.to);
+  EXPECT_EQ(step_.sequenceFrom, 2);
+  EXPECT_EQ(step_.utimeFromUs, 2 * kStepUs);
+  EXPECT_EQ(step_.lost, 0);
+}
+
+TEST_F(Stream, RefusesOldSkeletons) {
+  ASSERT_EQ(say(skeleton_, 5, 5), Reject::None);
+  RawSkeleton other = skeleton_;
+  other.joints[2].offset.y() = 0.5;
+  EXPECT_EQ(say(other, 4, 9), Reject::OldSession);
+  EXPECT_EQ(say(other, 5, 4), Reject::OldGeneration);
+  EXPECT_EQ(say(other, 5, 5), Reject::OldGeneration);  // two of one generation: the first stays
+  // The same content in a later generation: what is older than that is older than what is in use.
+  ASSERT_EQ(say(skeleton_, 5, 8), Reject::None);
+  EXPECT_EQ(say(other, 5, 7), Reject::OldGeneration);
+  EXPECT_EQ(say(other, 6, 0), Reject::None);
+}
+
+TEST_F(Stream, FollowsAnOldSkeletonThatIsSaidAgainAndAgain) {
+  ASSERT_EQ(say(skeleton_, 0, 3), Reject::None);
+  RawSkeleton other = skeleton_;
+  other.joints[2].offset.y() = 0.5;
+  SkeletonMessage message = skeletonMessage(other, 0, 0);
+  for (int copy = 0; copy < 10; ++copy) {
+    EXPECT_EQ(stream_.take(message), Reject::OldGeneration);  // copies count once
+  }
+  message.sendUtimeUs += 1'000'000;
+  EXPECT_EQ(stream_.take(message), Reject::OldGeneration);
+  message.sendUtimeUs += 1'000'000;
+  EXPECT_EQ(stream_.take(message), Reject::None);
+  skeleton_ = other;
+  EXPECT_EQ(take(0, 0, 0), Reject::None);
+}
+
+TEST_F(Stream, StaysWithASkeletonWhosePosesStillCome) {
+  ASSERT_EQ(say(skeleton_, 0, 3), Reject::None);
+  RawSkeleton other = skeleton_;
+  other.joints[2].offset.y() = 0.5;
+  SkeletonMessage message = skeletonMessage(other, 0, 0);
+  for (std::int64_t n = 0; n < 10; ++n) {
+    message.sendUtimeUs = n;
+    EXPECT_EQ(stream_.take(message), Reject::OldGeneration);
+    ASSERT_EQ(take(n, n * kStepUs, 0), Reject::None);
+  }
+}
+
+// What a pose holds.
+
+TEST_F(Stream, RefusesAPoseOfJointsThatAreNotThere) {
+  follow(0);
+  const auto refusal = [&](auto change) {
+    PoseMessage message = nthPose(1);
+    change(message);
+    return take(message);
+  };
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.joints[2].joint = 4; }), Reject::BadIndex);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.joints[2].joint = -1; }), Reject::BadIndex);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.joints[2].joint = 1; }), Reject::BadIndex);  // twice
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.translations[0].joint = 4; }), Reject::BadIndex);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.translations[0].joint = -1; }), Reject::BadIndex);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.translations.push_back(m.translations[0]); }),
+            Reject::BadIndex);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.joints.erase(m.joints.begin()); }), Reject::BadIndex);
+  ASSERT_EQ(take(nthPose(1)), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::Consecutive);  // what was refused left no trace
+}
+
+TEST_F(Stream, RefusesNumbersThatAreNone) {
+  follow(0);
+  const auto refusal = [&](auto change) {
+    PoseMessage message = nthPose(1);
+    change(message);
+    return take(message);
+  };
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.joints[2].rotation.y() = kNaN; }), Reject::NonFinite);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.joints[2].rotation.y() = 1e200; }), Reject::NonUnit);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.joints[2].rotation.w() = 1.01; }), Reject::NonUnit);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.joints[2].rotation.coeffs().setZero(); }),
+            Reject::NonUnit);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.joints[2].flags |= 8; }), Reject::OutOfRange);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.translations[0].translation.z() = kInfinity; }),
+            Reject::NonFinite);
+  EXPECT_EQ(refusal([](PoseMessage& m) { m.translations[0].translation.z() = -1.1e7; }),
+            Reject::OutOfRange);
+  // Of a joint that is not valid nothing is read.
+  EXPECT_EQ(refusal([](PoseMessage& m) {
+              m.joints[0].flags = kJointTracked;
+              m.joints[0].rotation.coeffs().setConstant(kNaN);
+              m.translations[0].translation.setConstant(kNaN);
+            }),
+            Reject::None);
+}
+
+// Where a pose stands.
+
+TEST_F(Stream, AnswersPosesThatFollowOneAnother) {
+  follow(0);
+  EXPECT_EQ(step_.kind, StepKind::First);
+  ASSERT_EQ(take(1, kStepUs), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::Consecutive);
+  EXPECT_EQ(std::tie(step_.sequenceFrom, step_.sequenceTo), std::make_tuple(0, 1));
+  EXPECT_EQ(std::tie(step_.utimeFromUs, step_.utimeToUs), std::make_tuple(0, kStepUs));
+  EXPECT_NE(step_.from, step_.to);
+  ASSERT_EQ(take(4, 4 * kStepUs), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::AcrossGap);
+  EXPECT_EQ(step_.lost, 2);
+  EXPECT_EQ(stream_.counts().gaps, 1U);
+  EXPECT_EQ(stream_.counts().lost, 2U);
+  EXPECT_EQ(stream_.counts().accepted, 3U);
+}
+
+TEST_F(Stream, RefusesWhatHasBeenAnswered) {
+  follow(300);
+  EXPECT_EQ(take(nthPose(300)), Reject::Duplicate);
+  EXPECT_EQ(take(nthPose(300 - 255)), Reject::Duplicate);
+  EXPECT_EQ(take(nthPose(300 - 256)), Reject::OutOfOrder);
+  for (std::int64_t n = 200; n < 250; ++n) {
+    EXPECT_EQ(take(nthPose(n)), Reject::Duplicate);  // in a row: they prove nothing
+  }
+}
+
+TEST_F(Stream, RefusesWhatIsOlder) {
+  follow(0);
+  ASSERT_EQ(take(5, 5 * kStepUs), Reject::None);
+  EXPECT_EQ(take(3, 3 * kStepUs), Reject::OutOfOrder);
+  ASSERT_EQ(take(6, 6 * kStepUs), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::Consecutive);
+}
+
+TEST_F(Stream, ClaimsNothingAfterALowerSequenceWithALaterStamp) {
+  follow(5);
+  EXPECT_EQ(take(1, 7 * kStepUs), Reject::OutOfOrder);  // the number was answered, this pose not
+  ASSERT_EQ(take(6, 8 * kStepUs), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::AcrossGap);
+  EXPECT_EQ(step_.lost, 0);
+  ASSERT_EQ(take(7, 9 * kStepUs), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::Consecutive);
+}
+
+TEST_F(Stream, RefusesOddStamps) {
+  follow(5);
+  EXPECT_EQ(take(6, 5 * kStepUs), Reject::StaleStamp);
+  EXPECT_EQ(take(6, 4 * kStepUs), Reject::StaleStamp);
+  EXPECT_EQ(take(6, 5 * kStepUs + 10'000'001), Reject::FutureStamp);
+  ASSERT_EQ(take(6, 5 * kStepUs + 10'000'000), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::Consecutive);
+}
+
+TEST_F(Stream, BeginsATimelineWithALaterSessionAtOnce) {
+  follow(5);
+  EXPECT_EQ(take(6, 6 * kStepUs, 0), Reject::OldSession);
+  ASSERT_EQ(take(2, 3 * kStepUs, 2), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::First);
+  EXPECT_EQ(step_.session, 2);
+  EXPECT_EQ(stream_.counts().timelines, 2U);
+  EXPECT_EQ(take(6, 6 * kStepUs, 1), Reject::OldSession);
+}
+
+TEST_F(Stream, FollowsAClockThatWasSet) {
+  for (const std::int64_t jump : {-3'600'000'000, 3'600'000'000}) {
+    AvatarStream fresh = AvatarStream::make(smallAvatar(), {}).value();
+    stream_ = std::move(fresh);
+    follow(5);
+    const Reject expected = jump < 0 ? Reject::StaleStamp : Reject::FutureStamp;
+    EXPECT_EQ(take(6, jump + 6 * kStepUs), expected);
+    EXPECT_EQ(take(7, jump + 7 * kStepUs), expected);
+    ASSERT_EQ(take(8, jump + 8 * kStepUs), Reject::None);
+    EXPECT_EQ(step_.kind, StepKind::First);
+    ASSERT_EQ(take(9, jump + 9 * kStepUs), Reject::None);
+    EXPECT_EQ(step_.kind, StepKind::Consecutive);
+    EXPECT_EQ(step_.sequenceFrom, 8);
+  }
+}
+
+TEST_F(Stream, FollowsASenderThatWasRestartedWithoutSessions) {
+  follow(40);
+  const std::int64_t later = 1'000'000;
+  EXPECT_EQ(take(0, later), Reject::OutOfOrder);
+  EXPECT_EQ(take(1, later + kStepUs), Reject::OutOfOrder);
+  ASSERT_EQ(take(2, later + 2 * kStepUs), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::First);
+}
+
+TEST_F(Stream, FollowsASessionThatIsOlderButGoesOn) {
+  follow(5);
+  EXPECT_EQ(take(100, 100, 0), Reject::OldSession);
+  EXPECT_EQ(take(102, 200, 0), Reject::OldSession);  // one was lost: it still goes on
+  ASSERT_EQ(take(103, 300, 0), Reject::None);
+  EXPECT_EQ(step_.session, 0);
+}
+
+TEST_F(Stream, IsNotLedAstrayByOddPosesThatDoNotContinueOneAnother) {
+  const std::vector<std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t>>> odd{
+      {{6, -100, 1}, {7, -200, 1}, {8, -300, 1}},             // stamps fall
+      {{3, -100, 1}, {3, -90, 1}, {3, -80, 1}},               // one number
+      {{6, -100, 1}, {7, -90, 0}, {8, -80, 1}, {9, -70, 0}},  // two sessions in turn
+      {{6, -20'000'000, 1},
+       {7, -19'999'990, 1},
+       {8, -9'999'989, 1}},                                    // the third is too late for the run
+      {{6, -100, 1}, {7, -90, 1}, {7, -90, 1}, {7, -90, 1}}};  // copies
+  for (const auto& poses : odd) {
+    stream_ = AvatarStream::make(smallAvatar(), {}).value();
+    follow(5);
+    for (const auto& [sequence, utimeUs, session] : poses) {
+      EXPECT_NE(take(sequence, utimeUs, session), Reject::None);
+    }
+  }
+}
+
+TEST_F(Stream, ForgetsOddPosesOnceTheTimelineGoesOn) {
+  follow(5);
+  EXPECT_EQ(take(6, -100), Reject::StaleStamp);
+  EXPECT_EQ(take(7, -90), Reject::StaleStamp);
+  ASSERT_EQ(take(8, 8 * kStepUs), Reject::None);
+  EXPECT_EQ(take(9, -80), Reject::StaleStamp);
+  EXPECT_EQ(take(10, -70), Reject::StaleStamp);
+}
+
+TEST_F(Stream, AnswersNoPoseTwiceWhateverBegins) {
+  follow(5);
+  ASSERT_EQ(take(0, 0, 2), Reject::None);
+  for (std::int64_t n = 0; n <= 5; ++n) EXPECT_EQ(take(nthPose(n)), Reject::Duplicate);
+  RawSkeleton other = skeleton_;
+  other.joints[2].offset.y() = 0.5;
+  ASSERT_EQ(say(other, 3), Reject::None);
+  ASSERT_EQ(say(skeleton_, 4), Reject::None);
+  for (std::int64_t n = 0; n <= 5; ++n) EXPECT_EQ(take(nthPose(n)), Reject::Duplicate);
+  EXPECT_EQ(take(0, 0, 2), Reject::Duplicate);
+}
+
+TEST_F(Stream, SurvivesTheEndsOfTheIntegers) {
+  ASSERT_EQ(say(skeleton_, kLeast, std::numeric_limits<std::int32_t>::min()), Reject::None);
+  ASSERT_EQ(take(kLeast, kLeast, kLeast), Reject::None);
+  EXPECT_EQ(take(kMost, kMost, kLeast), Reject::FutureStamp);
+  ASSERT_EQ(take(kMost, kLeast + 1, kLeast), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::AcrossGap);
+  EXPECT_EQ(step_.lost, kMost);  // there are more
+  EXPECT_EQ(take(kMost, kLeast + 2, kLeast), Reject::OutOfOrder);
+  ASSERT_EQ(take(kLeast, kMost, kMost), Reject::None);
+  EXPECT_EQ(take(kMost, kLeast, kMost), Reject::StaleStamp);
+  EXPECT_EQ(take(kLeast, kLeast, kLeast + 1), Reject::OldSession);
+}
+
+// What is known of joints.
+
+TEST_F(Stream, KnowsALinkWhoseJointsAreAllKnownInBothPoses) {
+  follow(1);
+  EXPECT_EQ(*step_.unknown, std::vector<AnswerReason>(4, AnswerReason::None));
+  PoseMessage inferred = nthPose(2);
+  for (PoseJoint& joint : inferred.joints) joint.flags = kJointValid | kJointInferred;
+  ASSERT_EQ(take(inferred), Reject::None);
+  EXPECT_EQ(*step_.unknown, std::vector<AnswerReason>(4, AnswerReason::None));
+}
+
+TEST_F(Stream, KnowsNothingBelowAJointThatIsNot) {
+  struct Case {
+    std::uint8_t flags;
+    AnswerReason reason;
+  };
+  std::int64_t n = 1;
+  follow(0);
+  for (const Case& c :
+       {Case{0, AnswerReason::InvalidJoint}, Case{kJointTracked, AnswerReason::InvalidJoint},
+        Case{kJointValid, AnswerReason::StaleJoint}}) {
+    PoseMessage message = nthPose(n++);
+    message.joints[test::kArm].flags = c.flags;
+    ASSERT_EQ(take(message), Reject::None);
+    for (int pose = 0; pose < 2; ++pose) {  // it is the later pose's, then the earlier one's
+      EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
+      EXPECT_EQ(unknown(test::kArm), c.reason);
+      EXPECT_EQ(unknown(test::kHand), c.reason);
+      EXPECT_EQ(unknown(test::kLeg), AnswerReason::None);
+      ASSERT_EQ(take(nthPose(n++)), Reject::None);
+    }
+    EXPECT_EQ(unknown(test::kHand), AnswerReason::None);
+  }
+}
+
+TEST_F(Stream, NamesTheReasonNearestToTheLink) {
+  follow(0);
+  PoseMessage message = nthPose(1);
+  message.joints[test::kHips].flags = 0;
+  message.joints[test::kArm].flags = kJointValid;
+  message.joints.erase(message.joints.begin() + test::kHand);
+  ASSERT_EQ(take(message), Reject::None);
+  EXPECT_EQ(unknown(test::kHips), AnswerReason::InvalidJoint);
+  EXPECT_EQ(unknown(test::kArm), AnswerReason::StaleJoint);
+  EXPECT_EQ(unknown(test::kHand), AnswerReason::MissingJoint);
+  EXPECT_EQ(unknown(test::kLeg), AnswerReason::InvalidJoint);
+}
+
+TEST_F(Stream, HoldsWhatIsUnknownAtItsLastKnownValue) {
+  ASSERT_EQ(say(skeleton_), Reject::None);
+  PoseMessage message = nthPose(0);
+  message.joints[test::kHand].flags = 0;
+  message.joints[test::kHand].rotation = Quaternion(0.0, 1.0, 0.0, 0.0);
+  ASSERT_EQ(take(message), Reject::None);
+  const auto hand = [&] { return step_.to->rotations[test::kHand].coeffs(); };
+  EXPECT_EQ(hand(), skeleton_.joints[test::kHand].rotation.coeffs());  // never known
+  message = nthPose(1);
+  message.joints[test::kHand].rotation = Quaternion(0.0, 0.0, 1.0, 0.0);
+  ASSERT_EQ(take(message), Reject::None);
+  for (std::int64_t n = 2; n < 5; ++n) {
+    message = nthPose(n);
+    message.joints.pop_back();
+    message.joints.erase(message.joints.begin() + test::kHand);
+    ASSERT_EQ(take(message), Reject::None);
+    EXPECT_EQ(hand(), Quaternion(0.0, 0.0, 1.0, 0.0).coeffs());
+  }
+}
+
+TEST_F(Stream, DoesNotKnowAJointThatTheSenderLacks) {
+  RawSkeleton three = skeleton_;
+  three.joints.erase(three.joints.begin() + test::kArm);  // Hips, Hand, Leg
+  three.joints[1].parent = 0;
+  three.joints[2].parent = 0;
+  const auto firstOf = [&](bool unmatchedAtRest) {
+    StreamPolicy policy;
+    policy.unmatchedAtRest = unmatchedAtRest;
+    stream_ = AvatarStream::make(smallAvatar(), policy).value();
+    EXPECT_EQ(say(three), Reject::None);
+    EXPECT_EQ(take(poseMessage(three, 0, 0)), Reject::None);
+    return *step_.unknown;
+  };
+  using R = AnswerReason;
+  EXPECT_EQ(firstOf(false),
+            (std::vector<R>{R::None, R::UnmatchedJoint, R::UnmatchedJoint, R::None}));
+  EXPECT_EQ(firstOf(true), std::vector<R>(4, R::None));
+  EXPECT_EQ(step_.to->translations[test::kArm], skeleton_.joints[test::kArm].offset);
+}
+
+TEST_F(Stream, DoesNotTakeTheRestOffsetForATranslationThatWasNotSent) {
+  follow(1);
+  PoseMessage without = nthPose(2);
+  without.translations.clear();
+  ASSERT_EQ(take(without), Reject::None);
+  EXPECT_EQ(unknown(test::kHips), AnswerReason::MissingJoint);
+  EXPECT_EQ(step_.to->translations[0], nthPose(1).translations[0].translation);
+  ASSERT_EQ(take(nthPose(3)), Reject::None);
+  EXPECT_EQ(unknown(test::kHips), AnswerReason::MissingJoint);  // of the earlier pose
+  ASSERT_EQ(take(nthPose(4)), Reject::None);
+  EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
+  // Another session owes nothing to this one.
+  without = nthPose(0, 2);
+  without.translations.clear();
+  ASSERT_EQ(take(without), Reject::None);
+  EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
+  EXPECT_EQ(step_.to->translations[0], skeleton_.joints[0].offset);
+  // What came before the first translation was not the rest offset for sure.
+  ASSERT_EQ(take(nthPose(1, 2)), Reject::None);
+  EXPECT_EQ(unknown(test::kHips), AnswerReason::MissingJoint);
+  ASSERT_EQ(take(nthPose(2, 2)), Reject::None);
+  EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
+}
+
+// The same poses as a replay of a clip makes of them, bit for bit.
+
+Clip randomClip(Random& random, int frames) {
+  RawSkeleton raw = smallSkeleton();
+  std::swap(raw.joints[1], raw.joints[3]);  // another order than the avatar's
+  raw.joints[2].parent = 3;
+  std::swap(raw.joints[2], raw.joints[3]);
+  raw.joints[3].parent = 2;
+  raw.joints.push_back({"Tail", 0, {0.0, 0.0, -0.2}, random.rotation()});
+  Clip clip{Skeleton::build(raw).value(), 0.01, {}, {}, {}, {}, {}};
+  clip.hasRotation.assign(raw.joints.size(), true);
+  for (std::size_t j = 0; j < raw.joints.size(); ++j) {
+    clip.hasTranslation.push_back(j == 0 || random.chance(0.5));
+  }
+  for (int f = 0; f < frames; ++f) {
+    Pose pose;
+    for (std::size_t j = 0; j < raw.joints.size(); ++j) {
+      Quaternion q = random.rotation();
+      q.coeffs() *= 1.0 + random.uniform(-9e-4, 9e-4);
+      pose.rotations.push_back(q);
+      pose.translations.push_back(raw.joints[j].offset + random.inBox(0.3));
+    }
+    clip.frames.push_back(pose);
+  }
+  return clip;
+}
+
+bool areSameBits(const Pose& x, const Pose& y) {
+  const auto same = [](const auto& a, const auto& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+  };
+  return same(x.rotations, y.rotations) && same(x.translations, y.translations);
+}
+
+TEST_F(Stream, MakesOfAClipsFramesWhatAReplayMakesOfThem) {
+  Random random(7);
+  const Clip clip = randomClip(random, 40);
+  const Skeleton avatar = smallAvatar().skeleton();
+  const JointMatch match = matchJoints(avatar, clip.skeleton).value();
+  RawSkeleton said;
+  for (JointId j = 0; j < clip.skeleton.numJoints(); ++j) {
+    said.joints.push_back({clip.skeleton.name(j), clip.skeleton.parent(j),
+                           clip.skeleton.restOffset(j), clip.skeleton.restRotation(j)});
+  }
+  ASSERT_EQ(say(said), Reject::None);
+  Pose before;
+  for (std::size_t f = 0; f < clip.frames.size(); ++f) {
+    PoseMessage message =
+        poseMessage(said, static_cast<std::int64_t>(f), static_cast<std::int64_t>(f) * kStepUs);
+    message.translations.clear();
+    for (std::size_t j = 0; j < said.joints.size(); ++j) {
+      const auto joint = static_cast<std::int32_t>(j);
+      message.joints[j].rotation = clip.frames[f].rotations[j];
+      if (clip.hasTranslation[j]) {
+        message.translations.push_back({joint, clip.frames[f].translations[j]});
+      }
+    }
+    std::reverse(message.joints.begin(), message.joints.end());
+    ASSERT_EQ(take(message), Reject::None);
+    const Pose expected = validatedPose(avatar, poseOfAvatar(avatar, clip, match, f)).value();
+    EXPECT_TRUE(areSameBits(*step_.to, expected)) << "frame " << f;
+    EXPECT_TRUE(areSameBits(*step_.from, f > 0 ? before : expected)) << "frame " << f;
+    EXPECT_EQ(*step_.unknown, std::vector<AnswerReason>(4, AnswerReason::None));
+    before = expected;
+  }
+}
+
+// Whatever comes, in whatever order.
+
+PoseMessage randomPose(Random& random, const RawSkeleton& skeleton, std::int64_t clock) {
+  const auto near = [&](std::int64_t middle, int spread) {
+    return middle + random.below(2 * spread + 1) - spread;
+  };
+  const auto extreme = [&] { return random.chance(0.5) ? kLeast : kMost; };
+  PoseMessage message = poseMessage(skeleton, near(clock, 3), near(clock, 2) * kStepUs,
+                                    random.chance(0.95) ? clock / 50 : near(clock / 50, 1));
+  if (random.chance(0.02)) message.sequence = extreme();
+  if (random.chance(0.02)) message.utimeUs = extreme();
+  if (random.chance(0.005)) message.session = extreme();
+  if (random.chance(0.05)) message.skeletonHash ^= 1;
+  if (random.chance(0.05)) message.joints[0].joint = random.below(8) - 2;
+  if (random.chance(0.05)) message.joints[1].rotation.w() = random.uniform(-3.0, 3.0);
+  if (random.chance(0.2)) message.joints.pop_back();
+  return message;
+}
+
+TEST(StreamProperty, EveryPoseIsAnsweredOnceInOrderOrRefusedForAReason) {
+  std::uint64_t accepted = 0, taken = 0;
+  RejectCounts seen{};
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    AvatarStream stream = AvatarStream::make(smallAvatar(), {}).value();
+    const RawSkeleton skeletons[] = {smallSkeleton(), [] {
+                                       RawSkeleton longer = smallSkeleton();
+                                       longer.joints[1].offset.y() *= 2.0;
+                                       return longer;
+                                     }()};
+    std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> answered;
+    std::uint64_t refusedSkeletons = 0;
+    StreamStep step, last;
+    for (std::int64_t clock = 0; clock < 200; ++clock) {
+      if (random.chance(0.1)) {
+        const Reject reject =
+            stream.take(skeletonMessage(skeletons[random.below(2)], clock / 50, random.below(4)));
+        if (reject != Reject::None) ++refusedSkeletons;
+      }
+      const PoseMessage message = randomPose(random, skeletons[random.below(2)], clock);
+      const Reject reject = stream.take(message, step);
+      if (reject != Reject::None) continue;
+      EXPECT_TRUE(answered.emplace(message.session, message.sequence, message.utimeUs).second);
+      EXPECT_EQ(step.sequenceTo, message.sequence);
+      if (step.kind == StepKind::First) {
+        EXPECT_EQ(step.from, step.to);
+      } else {
+        EXPECT_EQ(step.session, last.session);
+        EXPECT_EQ(step.skeletonHash, last.skeletonHash);
+        EXPECT_EQ(step.sequenceFrom, last.sequenceTo);
+        EXPECT_EQ(step.utimeFromUs, last.utimeToUs);
+        EXPECT_GT(step.sequenceTo, step.sequenceFrom);
+        EXPECT_GT(step.utimeToUs, step.utimeFromUs);
+        if (step.kind == StepKind::Consecutive) {
+          EXPECT_EQ(step.sequenceTo - 1, step.sequenceFrom);
+        }
+      }
+      last = step;
+    }
+    const StreamCounts& counts = stream.counts();
+    std::uint64_t rejects = 0;
+    for (const std::uint64_t count : counts.rejects) rejects += count;
+    EXPECT_EQ(counts.poses, 200U);
+    EXPECT_EQ(counts.poses, counts.accepted + rejects - refusedSkeletons);
+    EXPECT_EQ(counts.accepted, answered.size());
+    accepted += counts.accepted;
+    taken += counts.poses;
+    for (std::size_t i = 0; i < kNumRejects; ++i) seen[i] += counts.rejects[i];
+  }
+  EXPECT_GT(accepted, taken / 20);
+  EXPECT_LT(accepted, taken / 2);
+  for (const Reject reject :
+       {Reject::BadIndex, Reject::NonUnit, Reject::OldGeneration, Reject::UnknownSkeleton,
+        Reject::SkeletonMismatch, Reject::Duplicate, Reject::OutOfOrder, Reject::StaleStamp,
+        Reject::FutureStamp, Reject::OldSession}) {
+    EXPECT_GT(seen[static_cast<std::size_t>(reject)], 0U) << toString(reject);
+  }
+}
+
+}  // namespace
+}  // namespace foretouch
