@@ -9,7 +9,9 @@
 // end backwards.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +22,13 @@
 namespace foretouch {
 
 inline constexpr char kLogBlockChannel[] = "FORETOUCH_LOG_BLOCK";
+
+/// Longest channel in a log, in bytes: liblcm's own reader takes no longer ones.
+inline constexpr std::size_t kMaxLogChannelBytes = 999;
+/// Largest payload in a log, in bytes; foreign logs may have larger ones than the wire carries.
+inline constexpr std::size_t kMaxLogPayloadBytes = 16u << 20;
+/// Largest LogWriteOptions::blockBytes.
+inline constexpr std::size_t kMaxLogBlockBytes = 1u << 20;
 
 struct LogEvent {
   std::int64_t number = 0;
@@ -32,24 +41,48 @@ struct LogCounts {
   std::uint64_t events = 0;     ///< Given out.
   std::uint64_t blocks = 0;     ///< Whose check sum was right.
   std::uint64_t badBlocks = 0;  ///< Whose check sum was wrong: none of their events is given out.
+  std::uint64_t missingBlocks = 0;    ///< By the numbers of those around: their check sum is gone.
   std::uint64_t uncheckedEvents = 0;  ///< Given out of a log without check sums.
   std::uint64_t tailEvents = 0;       ///< After the last check sum of a log that has them.
   std::uint64_t skippedBytes = 0;     ///< Between events: damage that was passed over.
   std::uint64_t badEvents = 0;        ///< Headers with impossible lengths.
   bool isTruncated = false;           ///< Ends within an event.
+  bool hasCheckSums = false;          ///< Events are given out from whole blocks only.
+  bool isClosed = false;  ///< The last block whose check sum was right says that it is the last.
+};
+
+enum class LogDamage : std::uint8_t {
+  Skipped,        ///< Bytes that belong to no block, or to no event, that can be trusted.
+  BadBlock,       ///< Its check sum is wrong.
+  MissingBlocks,  ///< `count` of them, by the numbers of the blocks around.
+  RepeatedBlock,  ///< A block that was there before, or out of order.
+  UncheckedTail,  ///< `count` events after the last check sum.
+  Truncated,      ///< The end of the file within an event.
+  OtherLog,       ///< Another log begins behind a tail or damage: it is not read.
+};
+/// "skipped bytes", "bad block", ...
+[[nodiscard]] const char* toString(LogDamage damage);
+
+struct LogFinding {
+  LogDamage damage = LogDamage::Skipped;
+  std::uint64_t offset = 0, bytes = 0;  ///< In the file.
+  std::uint64_t count = 0;              ///< Where the kind says so.
 };
 
 struct LogReadOptions {
   /// Also give out what follows the last check sum: events whose writer was killed before the block
   /// was closed, whole by their lengths alone.
   bool keepTail = false;
+  /// Called for every damage when it is passed over.
+  std::function<void(const LogFinding&)> onFinding;
 };
 
-/// Reads any file in order, in bounded memory: bad bytes are passed over up to the next event,
-/// counted, never fatal. Events on kLogBlockChannel are not given out.
+/// Reads any file in order, in bounded memory (some 40 MiB at worst, 1 MiB for what our writer
+/// writes): bad bytes are passed over up to the next event, counted, never fatal. Events on
+/// kLogBlockChannel are not given out.
 class EventLogReader {
  public:
-  /// Errors: not found, unreadable, not a single event in it.
+  /// Errors: not found, unreadable, no regular file, not a single event in it.
   static Result<EventLogReader> open(const std::string& path, const LogReadOptions& options = {});
   EventLogReader(EventLogReader&&) noexcept;
   EventLogReader& operator=(EventLogReader&&) noexcept;
@@ -62,17 +95,18 @@ class EventLogReader {
   [[nodiscard]] std::uint64_t position() const;
   [[nodiscard]] std::uint64_t size() const;
   /// The next event is the first one at or after `utimeUs` in a log whose stamps grow; by the index
-  /// where there are check sums, else from the start.
+  /// where there are check sums, else from the start. Counts start anew.
   [[nodiscard]] Result<Done> seek(std::int64_t utimeUs);
 
  private:
+  friend struct EventLogReaderAccess;  // network/event_log_reader_access.h
   struct Impl;
   explicit EventLogReader(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 
 struct LogWriteOptions {
-  std::size_t blockBytes = 64u << 10;  ///< A block is closed at this size ...
+  std::size_t blockBytes = 64u << 10;  ///< A block is closed at this size, 1 to kMaxLogBlockBytes,
   std::int64_t blockUs = 100'000;      ///< ... or this long after its first event's stamp ...
   bool syncBlocks = false;             ///< fdatasync after each.
 };
@@ -88,11 +122,14 @@ class EventLogWriter {
   ~EventLogWriter();  ///< As close(), with errors lost.
 
   /// Numbers the event itself. An error (a full disk) loses this event, and says so; the log stays
-  /// readable and later events are tried again, on a boundary.
+  /// readable, events that were taken before are kept for the next try, on a boundary. Refuses a
+  /// channel that is kLogBlockChannel, empty, too long or with control characters, and a payload
+  /// beyond kMaxLogPayloadBytes.
   [[nodiscard]] Result<Done> write(std::int64_t utimeUs, const std::string& channel,
                                    ByteView payload);
   /// Closes the block at hand, so that what has been written can be read by others, checked.
   [[nodiscard]] Result<Done> flush();
+  /// Marks the log as closed. After an error it can be tried again.
   [[nodiscard]] Result<Done> close();
 
  private:
