@@ -12,6 +12,7 @@
 #include "tools/demo_command.h"
 #include "tools/replay_command.h"
 #include "tools/scene_command.h"
+#include "tools/serve_command.h"
 #include "tools/sweep_command.h"
 
 namespace foretouch::tools {
@@ -43,6 +44,7 @@ ExitCode run(int argc, const char* const* argv) {
   ExitCode exit = ExitCode::Done;
   addDemoCommand(program, exit);
   addReplayCommand(program, exit);
+  addServeCommand(program, exit);
   addAvatarCommand(program, exit);
   addSceneCommand(program, exit);
   addSweepCommand(program, exit);
