@@ -15,8 +15,7 @@ void appendAnswered(const AnsweredContact& answered, const ContactsMessage& mess
                     std::string& text) {
   const std::string link = jsonString(answered.linkName);
   const std::string object = jsonString(answered.objectName);
-  const std::string instant =
-      fmt::format(R"("utime":{})", utimeOf(message, answered.contact.toi));
+  const std::string instant = fmt::format(R"("utime":{})", utimeOf(message, answered.contact.toi));
   appendContact(answered.contact, {link, object, toString(answered.reason), instant}, text);
 }
 
@@ -65,8 +64,8 @@ std::string contactsLine(const ContactsMessage& message, Stamps stamps) {
   }
   text += ']';
   if (stamps == Stamps::With) {
-    text += fmt::format(R"(,"receive_utime":{},"send_utime":{})", message.receiveUtimeUs,
-                        message.sendUtimeUs);
+    text += fmt::format(R"(,"receive_utime":{},"send_utime":{},"query_us":{})",
+                        message.receiveUtimeUs, message.sendUtimeUs, numberText(message.queryUs));
   }
   return text + "}\n";
 }
@@ -104,9 +103,9 @@ std::string statusLine(const StatusMessage& message) {
   text += fmt::format(R"(,"latency_us":{{"p50":{},"p99":{},"max":{}}})",
                       numberText(message.latencyP50Us), numberText(message.latencyP99Us),
                       numberText(message.latencyMaxUs));
-  text += fmt::format(R"(,"query_us":{{"p50":{},"p99":{},"max":{}}})",
-                      numberText(message.queryP50Us), numberText(message.queryP99Us),
-                      numberText(message.queryMaxUs));
+  text +=
+      fmt::format(R"(,"query_us":{{"p50":{},"p99":{},"max":{}}})", numberText(message.queryP50Us),
+                  numberText(message.queryP99Us), numberText(message.queryMaxUs));
   return text + "}}\n";
 }
 

@@ -9,7 +9,8 @@
 
 namespace foretouch::tools {
 
-/// Whether a line says when a pose came and its answer went, which no two runs agree on.
+/// Whether a line says when a pose came, how long its query took and when its answer went, which no
+/// two runs agree on.
 enum class Stamps { With, Without };
 
 /// One object and a line break. The objects of its `contacts` are those of a results file, with

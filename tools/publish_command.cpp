@@ -13,9 +13,9 @@
 #include "network/wire.h"
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
-#include "tools/numbered_avatars.h"
 #include "tools/played_clip.h"
 #include "tools/settling.h"
+#include "tools/stream_arguments.h"
 
 namespace foretouch::tools {
 namespace {
@@ -102,7 +102,7 @@ Result<PublishJob> settled(const PublishTexts& texts) {
 }
 
 PlacedClip placedIn(const PlayedClip& played, const PublishRequest& request) {
-  return {played.avatar,       played.clip,      played.match,
+  return {played.avatar,     played.clip,      played.match,
           request.placement, played.isUpright, request.motionPath};
 }
 

@@ -1,11 +1,10 @@
 #include "tools/replay_command.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <array>
+#include <cmath>
 #include <memory>
-#include <sys/stat.h>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -15,18 +14,23 @@
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
+#include "tools/replay_log_command.h"
+#include "tools/results_output.h"
 #include "tools/settling.h"
+#include "tools/stream_arguments.h"
 
 namespace foretouch::tools {
 namespace {
 
 /// Values as typed in.
 struct ReplayTexts {
-  std::string scene, avatar, motion, animation, robot, map, output, rate = "all";
+  std::string scene, motion, animation, robot, map, output, rate = "all";
   std::string scale = "1", sceneScale = "1", motionUp = "y", up = "y", place = "0,0,0,0";
   std::string fidelity = "link", leaves = "advancement", scope = "links", skin, skinScale = "1",
               skinUp = "y", tolerance = "0.001", culler = "flat", threads = "cores";
-  std::vector<std::string> ignore, packages;
+  std::string suffix, maxStep = "10", confirmations = "3", unmatched = "undecided",
+                      workBudget = "none";
+  std::vector<std::string> avatars, ignore, packages;
   bool compareRigid = false, compareLink = false, rays = false;
 };
 
@@ -34,7 +38,7 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   ReplayJob job;
   ReplayRequest& request = job.request;
   request.scenePath = texts.scene;
-  request.avatarPath = texts.avatar;
+  if (texts.avatars.size() == 1) request.avatarPath = texts.avatars.front();
   request.motionPath = texts.motion;
   request.animation = texts.animation;
   request.robotPath = texts.robot;
@@ -76,32 +80,34 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   return job;
 }
 
-/// Refuses an output that is one of the inputs, and one that cannot be written, before any work.
-Result<Done> checkOutput(const ReplayJob& job) {
-  const ReplayRequest& request = job.request;
-  const auto separate =
-      checkIsNoInput(job.outputPath, {request.scenePath, request.avatarPath, request.motionPath,
-                                      request.robotPath, request.mapPath});
-  if (!separate.ok()) return separate.error();
-  // Opening a pipe and closing it again would tell its reader that there is nothing more to come.
-  std::error_code absent;
-  const std::filesystem::file_status status = std::filesystem::status(job.outputPath, absent);
-  if (std::filesystem::is_other(status)) return Done{};
-  const InterruptGuard guard;  // the trial file must not stay behind
-  const auto trial = PendingFile::create(job.outputPath);
-  if (!trial.ok()) return trial.error();
+/// Of the options that make no sense with this kind of motion, one that was given all the same.
+Result<Done> checkOptions(const CLI::App& command, const ReplayTexts& texts, bool isLog) {
+  constexpr std::array kOfClips = {"--rate",    "--place",     "--scale",         "--motion-up",
+                                   "--map",     "--animation", "--robot",         "--package",
+                                   "--threads", "--scope",     "--compare-rigid", "--compare-link",
+                                   "--rays"};
+  constexpr std::array kOfLogs = {"--suffix", "--max-step", "--confirmations", "--unmatched",
+                                  "--work-budget"};
+  const auto firstGiven = [&command](const auto& options) {
+    const auto given = std::find_if(options.begin(), options.end(),
+                                    [&](const char* option) { return command.count(option) > 0; });
+    return given == options.end() ? "" : *given;
+  };
+  const std::string misplaced = isLog ? firstGiven(kOfClips) : firstGiven(kOfLogs);
+  if (!misplaced.empty()) {
+    return Error{ErrorCode::Mismatch, misplaced, -1, -1,
+                 std::string("makes no sense with ") + (isLog ? "an event log" : "a clip") +
+                     " as --motion; expected none, found one with " + inQuotes(texts.motion)};
+  }
+  if (!isLog && texts.avatars.size() > 1) {
+    return Error{ErrorCode::Mismatch, "--avatar", -1, -1,
+                 "expected one avatar for a clip, found " + std::to_string(texts.avatars.size()) +
+                     "; an event log may have several"};
+  }
   return Done{};
 }
 
-/// Results that go to standard output leave it to them: the summary then goes to stderr.
-bool isStandardOutput(const std::string& path) {
-  struct stat file {
-  }, out{};
-  return ::stat(path.c_str(), &file) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 &&
-         file.st_dev == out.st_dev && file.st_ino == out.st_ino;
-}
-
-ExitCode runTexts(const ReplayTexts& texts) {
+ExitCode runClip(const ReplayTexts& texts) {
   const auto job = settled(texts);
   if (!job.ok()) return failed(job.error());
   const bool outIsTaken = isStandardOutput(job.value().outputPath);
@@ -112,6 +118,54 @@ ExitCode runTexts(const ReplayTexts& texts) {
   return done.ok() ? ExitCode::Done : failed(done.error());
 }
 
+Result<LogReplayJob> settledLog(const ReplayTexts& texts) {
+  constexpr int kMaxConfirmations = 1000;
+  constexpr double kMaxStepS = 86'400.0, kUsPerS = 1e6;
+  auto clip = settled(texts);
+  if (!clip.ok()) return clip.error();
+  LogReplayJob job;
+  job.outputPath = clip.value().outputPath;
+  LogReplayRequest& request = job.request;
+  request.query = std::move(clip.value().request);
+  request.suffix = texts.suffix;
+  Settling settle;
+  settle.into(request.avatars, parseNumberedAvatars("--avatar", texts.avatars));
+  double maxStepS = 0.0;
+  settle.into(maxStepS, parsePositive("--max-step", texts.maxStep));
+  if (!settle.error() && maxStepS > kMaxStepS) {
+    return Error{ErrorCode::OutOfRange, "--max-step", -1, -1,
+                 "expected at most a day, 86400 seconds, found " + inQuotes(texts.maxStep)};
+  }
+  request.policy.maxStepUs = std::max<std::int64_t>(1, std::llround(maxStepS * kUsPerS));
+  settle.into(request.policy.confirmations,
+              parseCount("--confirmations", texts.confirmations, kMaxConfirmations));
+  settle.into(request.policy.unmatchedAtRest, parseUnmatched("--unmatched", texts.unmatched));
+  if (texts.workBudget != "none") {
+    settle.into(request.workBudget, parseWorkBudget("--work-budget", texts.workBudget));
+  }
+  if (settle.error()) return *settle.error();
+  return job;
+}
+
+ExitCode runLog(const ReplayTexts& texts) {
+  const auto job = settledLog(texts);
+  if (!job.ok()) return failed(job.error());
+  const std::string& output = job.value().outputPath;
+  const bool outIsTaken = isStandardOutput(output);
+  const auto replayed = runLogReplay(job.value(), [&](const std::string& text) {
+    outIsTaken ? printAside(text) : printOut(text + "\nresults: " + output + "\n");
+  });
+  if (!replayed.ok()) return failed(replayed.error());
+  return replayed.value().agrees() ? ExitCode::Done : ExitCode::CheckSaysNo;
+}
+
+ExitCode runTexts(const CLI::App& command, const ReplayTexts& texts) {
+  const bool isLog = isEventLog(texts.motion);
+  const auto checked = checkOptions(command, texts, isLog);
+  if (!checked.ok()) return failed(checked.error());
+  return isLog ? runLog(texts) : runClip(texts);
+}
+
 constexpr char kExamples[] = R"(Examples:
   foretouch replay --scene room.obj --avatar dancer.avatar.json --motion dancer.bvh \
       --rate 10 --output contacts.jsonl
@@ -119,19 +173,25 @@ constexpr char kExamples[] = R"(Examples:
       --scale 0.01 --place 1.5,0,-2,90 --ignore '*:floor,LeftFoot' --output contacts.jsonl
   foretouch replay --scene room.obj --avatar man.json --motion man.glb --animation Walk \
       --output contacts.jsonl
+  foretouch replay --scene room.obj --avatar 1=anna.json --avatar 2=ben.json \
+      --motion journal.lcmlog --output contacts.jsonl
   foretouch replay --scene cell.dae --avatar arm.json --motion log.csv --robot arm.urdf \
       --output contacts.jsonl
 
 --ignore takes pairs `link` or `link:object`, separated by commas; a trailing * stands for any
-ending. The results file is described in docs/formats.md.)";
+ending. The results file is described in docs/formats.md. Of an event log that holds a service's
+verdicts as well, exit code 1 says that those found now are others.)";
 
 }  // namespace
 
 Result<Done> runReplay(const ReplayJob& job,
                        const std::function<void(const ReplaySummary&)>& report) {
-  const auto checked = checkOutput(job);
+  const ReplayRequest& request = job.request;
+  const auto checked =
+      checkOutput(job.outputPath, {request.scenePath, request.avatarPath, request.motionPath,
+                                   request.robotPath, request.mapPath});
   if (!checked.ok()) return checked.error();
-  const auto inputs = loadReplayInputs(job.request);
+  const auto inputs = loadReplayInputs(request);
   if (!inputs.ok()) return inputs.error();
   for (const std::string& remark : remarksOn(inputs.value())) printNote(remark);
 
@@ -166,9 +226,16 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
     return command->add_option(name, text, help)->type_name(type)->capture_default_str();
   };
   option("--scene", texts->scene, "FILE", "Scene: any mesh format that assimp reads")->required();
-  option("--avatar", texts->avatar, "FILE", "Avatar file (see foretouch avatar)")->required();
-  option("--motion", texts->motion, "CLIP",
-         "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)")
+  command
+      ->add_option(
+          "--avatar", texts->avatars,
+          "Avatar file (see foretouch avatar); of a log, its number before it, and repeated")
+      ->type_name("[ID=]FILE")
+      ->allow_extra_args(false)
+      ->required();
+  option("--motion", texts->motion, "CLIP|LOG",
+         "BVH clip, animated model (glb, gltf, fbx, dae, x), joint positions (csv), or event log "
+         "(lcmlog)")
       ->required();
   option("--animation", texts->animation, "NAME",
          "Which animation of a model: its name, or its number from 0; the first if not given");
@@ -201,13 +268,21 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   command->add_option("--ignore", texts->ignore, "Contacts not asked for; may be repeated")
       ->type_name("PAIRS")
       ->allow_extra_args(false);
+  option("--suffix", texts->suffix, "TEXT", "Of a log: ending of the channels' names");
+  option("--max-step", texts->maxStep, "S", "Of a log: a pose this much after the last is refused");
+  option("--confirmations", texts->confirmations, "N",
+         "Of a log: poses in a row that make a timeline that was not expected");
+  option("--unmatched", texts->unmatched, "undecided|rest",
+         "Of a log: joints that the sender does not have");
+  option("--work-budget", texts->workBudget, "N",
+         "Of a log: distance evaluations a link, or none for no limit");
   command->add_flag("--compare-rigid", texts->compareRigid,
                     "Also count what a model that knows only each link's own two poses misses");
   command->add_flag("--compare-link", texts->compareLink,
                     "With --fidelity exact: also count the LSS contacts that the meshes refute");
   command->add_flag("--rays", texts->rays, "Also time 16 occlusion rays a step, as a yardstick");
   command->footer(kExamples);
-  command->callback([texts, &exit] { exit = runTexts(*texts); });
+  command->callback([texts, command, &exit] { exit = runTexts(*command, *texts); });
 }
 
 }  // namespace foretouch::tools

@@ -14,17 +14,6 @@
 namespace foretouch::tools {
 namespace {
 
-Result<Scene> loadScene(const ReplayRequest& request) {
-  SceneImportOptions options;
-  options.scale = request.sceneScale;
-  options.up = request.sceneUp;
-  auto imported = importScene(request.scenePath, options);
-  if (!imported.ok()) return inFile(imported.error(), request.scenePath);
-  auto scene = Scene::build(std::move(imported.value().scene));
-  if (!scene.ok()) return inFile(scene.error(), request.scenePath);
-  return scene;
-}
-
 /// The meshes that the avatar file refers to, where the fidelity asks for them.
 Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, QueryOptions& query) {
   query.fidelity = request.fidelity;
@@ -48,25 +37,41 @@ Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, Que
 
 }  // namespace
 
+Result<Scene> loadScene(const ReplayRequest& request) {
+  SceneImportOptions options;
+  options.scale = request.sceneScale;
+  options.up = request.sceneUp;
+  auto imported = importScene(request.scenePath, options);
+  if (!imported.ok()) return inFile(imported.error(), request.scenePath);
+  auto scene = Scene::build(std::move(imported.value().scene));
+  if (!scene.ok()) return inFile(scene.error(), request.scenePath);
+  return scene;
+}
+
+Result<QueryOptions> queryOptionsFor(const ReplayRequest& request, const Avatar& avatar,
+                                     const Scene& scene) {
+  QueryOptions query;
+  query.tolerance = request.tolerance;
+  query.culler = request.culler;
+  const auto surface = loadSurface(request, avatar, query);
+  if (!surface.ok()) return surface.error();
+  auto ignored = parseIgnoredPairs(request.ignore, avatar.skeleton(), scene.objectNames());
+  if (!ignored.ok()) return ignored.error();
+  query.ignored = std::move(ignored).value();
+  return query;
+}
+
 Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
   auto played = loadPlayedClip(request);
   if (!played.ok()) return played.error();
   auto& [avatar, clip, match, steps, isUpright] = played.value();
   auto scene = loadScene(request);
   if (!scene.ok()) return scene.error();
-
-  QueryOptions query;
-  query.tolerance = request.tolerance;
-  query.culler = request.culler;
-  const auto surface = loadSurface(request, avatar, query);
-  if (!surface.ok()) return surface.error();
-  auto ignored =
-      parseIgnoredPairs(request.ignore, avatar.skeleton(), scene.value().objectNames());
-  if (!ignored.ok()) return ignored.error();
-  query.ignored = std::move(ignored).value();
-  return ReplayInputs{request,         std::move(scene).value(), std::move(avatar),
-                      std::move(clip), std::move(match),         steps,
-                      std::move(query), isUpright};
+  auto query = queryOptionsFor(request, avatar, scene.value());
+  if (!query.ok()) return query.error();
+  return ReplayInputs{
+      request, std::move(scene).value(), std::move(avatar), std::move(clip), std::move(match),
+      steps,   std::move(query).value(), isUpright};
 }
 
 std::vector<std::string> remarksOn(const ReplayInputs& inputs) {

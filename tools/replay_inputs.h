@@ -58,6 +58,13 @@ struct ReplayInputs {
 /// Reads, checks and fits the inputs to one another. Errors name the file or option.
 [[nodiscard]] Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request);
 
+/// The scene that the request names, and nothing else of it.
+[[nodiscard]] Result<Scene> loadScene(const ReplayRequest& request);
+
+/// The options of its queries, with the surface or skin that its fidelity asks for.
+[[nodiscard]] Result<QueryOptions> queryOptionsFor(const ReplayRequest& request,
+                                                   const Avatar& avatar, const Scene& scene);
+
 /// What the reader tolerated, what did not match and what looks like a wrong unit: one sentence
 /// each, bounded in number.
 [[nodiscard]] std::vector<std::string> remarksOn(const ReplayInputs& inputs);

@@ -27,18 +27,6 @@ std::vector<LinkContact> notClear(const std::vector<LinkContact>& links) {
 
 namespace {
 
-/// What only exact and skinned fidelity depend on.
-std::string surfaceFields(const ReplayRequest& request) {
-  if (request.fidelity == Fidelity::Exact) {
-    return fmt::format(R"(,"leaves":"{}")", toString(request.leafMethod));
-  }
-  if (request.fidelity == Fidelity::Skinned) {
-    return fmt::format(R"(,"skin":{},"skin_scale":{},"skin_up":"{}")", jsonFileName(request.skinPath),
-                       numberText(request.skinScale), request.skinUp == UpAxis::Z ? "z" : "y");
-  }
-  return "";
-}
-
 /// What only motions that are no BVH clips depend on.
 std::string motionFields(const ReplayRequest& request) {
   std::string text;
@@ -52,6 +40,18 @@ std::string motionFields(const ReplayRequest& request) {
 }
 
 }  // namespace
+
+std::string surfaceFields(const ReplayRequest& request) {
+  if (request.fidelity == Fidelity::Exact) {
+    return fmt::format(R"(,"leaves":"{}")", toString(request.leafMethod));
+  }
+  if (request.fidelity == Fidelity::Skinned) {
+    return fmt::format(R"(,"skin":{},"skin_scale":{},"skin_up":"{}")",
+                       jsonFileName(request.skinPath), numberText(request.skinScale),
+                       request.skinUp == UpAxis::Z ? "z" : "y");
+  }
+  return "";
+}
 
 std::string headerLine(const ReplayInputs& inputs) {
   const ReplayRequest& request = inputs.request;

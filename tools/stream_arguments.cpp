@@ -1,4 +1,4 @@
-#include "tools/numbered_avatars.h"
+#include "tools/stream_arguments.h"
 
 #include <charconv>
 #include <limits>
@@ -9,15 +9,19 @@
 namespace foretouch::tools {
 namespace {
 
+/// Whole numbers up to here are doubles, too.
+constexpr std::int64_t kMostExact = std::int64_t{1} << 53;
+
 template <typename Whole>
-Result<Whole> parseWhole(const std::string& option, const std::string& text, Whole most) {
+Result<Whole> parseWhole(const std::string& option, const std::string& text, Whole most,
+                         Whole least = 0) {
   Whole number = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, problem] = std::from_chars(text.data(), end, number);
-  if (problem == std::errc() && rest == end && number >= 0 && number <= most) return number;
+  if (problem == std::errc() && rest == end && number >= least && number <= most) return number;
   return Error{ErrorCode::OutOfRange, option, -1, -1,
-               "expected a whole number from 0 to " + std::to_string(most) + ", found " +
-                   inQuotes(text)};
+               "expected a whole number from " + std::to_string(least) + " to " +
+                   std::to_string(most) + ", found " + inQuotes(text)};
 }
 
 }  // namespace
@@ -27,7 +31,18 @@ Result<std::int32_t> parseAvatarId(const std::string& option, const std::string&
 }
 
 Result<std::int64_t> parseUtime(const std::string& option, const std::string& text) {
-  return parseWhole(option, text, std::int64_t{1} << 53);
+  return parseWhole(option, text, kMostExact);
+}
+
+Result<bool> parseUnmatched(const std::string& option, const std::string& text) {
+  if (text == "undecided") return false;
+  if (text == "rest") return true;
+  return Error{ErrorCode::OutOfRange, option, -1, -1,
+               "expected undecided or rest, found " + inQuotes(text)};
+}
+
+Result<std::int64_t> parseWorkBudget(const std::string& option, const std::string& text) {
+  return parseWhole(option, text, kMostExact, std::int64_t{1});
 }
 
 Result<std::vector<NumberedAvatar>> parseNumberedAvatars(const std::string& option,
@@ -45,8 +60,9 @@ Result<std::vector<NumberedAvatar>> parseNumberedAvatars(const std::string& opti
     }
     if (!ids.insert(avatar.id).second) {
       return Error{ErrorCode::DuplicateName, option, -1, -1,
-                   "avatar " + std::to_string(avatar.id) + " is given twice (one without a number "
-                   "is 1); expected ID=FILE with a number of its own each"};
+                   "avatar " + std::to_string(avatar.id) +
+                       " is given twice (one without a number "
+                       "is 1); expected ID=FILE with a number of its own each"};
     }
     avatars.push_back(std::move(avatar));
   }

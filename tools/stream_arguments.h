@@ -1,4 +1,5 @@
-// tools/numbered_avatars.h: avatars by the numbers that messages call them, as typed in.
+// tools/stream_arguments.h: option values that only streams have, as typed in: avatars by the
+// numbers that messages call them, times, policies.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,13 @@ struct NumberedAvatar {
 
 /// A whole number of microseconds since the Unix epoch, from 0 to 2^53.
 [[nodiscard]] Result<std::int64_t> parseUtime(const std::string& option, const std::string& text);
+
+/// "undecided" or "rest": StreamPolicy::unmatchedAtRest.
+[[nodiscard]] Result<bool> parseUnmatched(const std::string& option, const std::string& text);
+
+/// Distance evaluations: a whole number from 1 to 2^53.
+[[nodiscard]] Result<std::int64_t> parseWorkBudget(const std::string& option,
+                                                   const std::string& text);
 
 /// "FILE" or "ID=FILE", of several each with an ID of its own; one without is 1. A file whose name
 /// begins with a number and an equals sign is written ./5=file.
