@@ -6,6 +6,7 @@
 #include <lcm/lcm.h>
 #include <memory>
 #include <string>
+#include <sys/select.h>
 #include <utility>
 
 #include "network/messages.h"
@@ -17,6 +18,8 @@ namespace {
 
 constexpr int kQueueCapacity = 10000;
 constexpr int kBatch = 64;
+// liblcm's thread and its self-test select() on some ten descriptors that they open.
+constexpr int kMaxDescriptor = FD_SETSIZE - 32;
 
 /// A regular expression for this text alone.
 std::string escaped(const std::string& channel) {
@@ -92,6 +95,11 @@ Result<std::unique_ptr<Receiver>> openLcmReceiver(const std::string& url,
   if (udpm.ok()) {
     const auto listener = openListeningSocket(udpm.value());
     if (!listener.ok()) return listener.error();
+    if (listener.value().get() > kMaxDescriptor) {
+      return Error{ErrorCode::LimitExceeded, url, -1, -1,
+                   "liblcm works below descriptor 1024 only, and so many files are open; expected "
+                   "fewer, or our own reader"};
+    }
   }
   lcm_t* lcm = lcm_create(url.c_str());
   if (lcm == nullptr) {

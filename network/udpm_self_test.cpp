@@ -15,6 +15,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPatience{1000};
 
+/// The error under the URL that was asked about, not under our own port.
+Error of(const UdpmUrl& url, Error error) {
+  error.file = toString(url);
+  return error;
+}
+
 /// Something that no other datagram on this port says.
 std::array<char, 16> token(const sockaddr_in& address) {
   std::array<char, 16> bytes{};
@@ -46,9 +52,9 @@ Result<Done> testMulticast(const UdpmUrl& url) {
   UdpmUrl own = url;
   own.port = 0;
   const auto listener = openListeningSocket(own);
-  if (!listener.ok()) return listener.error();
+  if (!listener.ok()) return of(url, listener.error());
   const auto speaker = openSendingSocket(own);
-  if (!speaker.ok()) return speaker.error();
+  if (!speaker.ok()) return of(url, speaker.error());
 
   sockaddr_in address{};
   socklen_t size = sizeof address;
