@@ -1,0 +1,58 @@
+#include "tests/fuzz/config_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+#include <string_view>
+
+#include "tools/serve_config.h"
+
+namespace foretouch::fuzz {
+namespace {
+
+/// Not FORETOUCH_ASSERT: this must hold in every build type.
+void require(bool condition, const char* promise) {
+  if (condition) return;
+  std::fprintf(stderr, "broken promise: %s\n", promise);
+  std::abort();
+}
+
+void checkError(const Error& error, std::string_view text) {
+  require(!error.message.empty(), "an error says what is wrong");
+  require(error.file == "input", "an error names its file");
+  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+  require(error.line == -1 || (error.line >= 1 && error.line <= lines), "an error's line exists");
+  for (const char c : describe(error)) {
+    require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f, "errors can be shown");
+  }
+}
+
+}  // namespace
+
+bool feedConfig(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const auto parsed = tools::parseServeConfig(text, "input");
+  if (!parsed.ok()) {
+    checkError(parsed.error(), text);
+    return false;
+  }
+  const tools::ServeConfig& config = parsed.value();
+  require(!config.url.empty() && !config.scene.empty(), "what a service needs is there");
+  require(config.workers >= 1 && config.workers <= tools::kMaxServeWorkers, "workers are bounded");
+  require(config.queue >= 1 && config.queue <= tools::kMaxServeQueue, "queues are bounded");
+  require(config.budgetUs >= 0 && config.budgetUs <= tools::kMaxServeBudgetUs, "budgets are");
+  require(std::isfinite(config.sceneScale) && config.sceneScale > 0.0, "the scale is positive");
+  require(std::isfinite(config.tolerance) && config.tolerance >= kMinTolerance, "so is tolerance");
+  require(config.stream.maxStepUs >= 1 && config.stream.confirmations >= 1, "so is the policy");
+  std::set<std::int32_t> ids;
+  for (const tools::ServedAvatar& avatar : config.avatars) {
+    require(ids.insert(avatar.id).second && avatar.id >= 0, "ids differ");
+    require(!avatar.file.empty(), "an avatar has a file");
+  }
+  require(!ids.empty(), "there is an avatar");
+  return true;
+}
+
+}  // namespace foretouch::fuzz

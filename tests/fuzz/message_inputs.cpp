@@ -1,0 +1,134 @@
+#include "tests/fuzz/message_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+#include <string>
+
+#include "foretouch/skeleton_t.hpp"
+#include "network/codec.h"
+#include "network/payload_check.h"
+
+namespace foretouch::fuzz {
+namespace {
+
+/// Not FORETOUCH_ASSERT: this must hold in every build type.
+void require(bool condition, const char* promise) {
+  if (condition) return;
+  std::fprintf(stderr, "broken promise: %s\n", promise);
+  std::abort();
+}
+
+bool sameBytes(ByteView a, const Bytes& b) {
+  return a.size == b.size() && std::equal(b.begin(), b.end(), a.data);
+}
+
+void checkContent(const SkeletonMessage& message) {
+  require(Skeleton::build(message.skeleton).ok(), "an accepted skeleton can be built");
+  require(std::isfinite(message.rateHz), "the rate is finite");
+}
+
+void checkContent(const PoseMessage& message) {
+  std::set<std::int32_t> joints, translated;
+  for (const PoseJoint& joint : message.joints) {
+    require(joint.joint >= 0 && joint.joint < kMaxJoints, "a skeleton may have the joint");
+    require(joints.insert(joint.joint).second, "a joint is there once");
+    require(unitQuaternion(joint.rotation).has_value(), "rotations are unit");
+  }
+  for (const PoseTranslation& joint : message.translations) {
+    require(joints.count(joint.joint) == 1, "translated joints are listed");
+    require(translated.insert(joint.joint).second, "a joint is translated once");
+    require(joint.translation.cwiseAbs().maxCoeff() <= kMaxCoordinate, "translations are bounded");
+  }
+}
+
+void checkContent(const ContactsMessage& message) {
+  std::set<LinkId> listed;
+  for (const AnsweredContact& answered : message.contacts) {
+    const LinkContact& contact = answered.contact;
+    require(contact.link >= 0 && static_cast<std::size_t>(contact.link) < message.verdicts.size(),
+            "a contact's link exists");
+    require(listed.insert(contact.link).second, "a link is there once");
+    require(contact.verdict == message.verdicts[static_cast<std::size_t>(contact.link)] &&
+                contact.verdict != Verdict::Clear,
+            "contacts have the verdicts");
+    require((answered.reason != AnswerReason::None) == (contact.verdict == Verdict::Undecided),
+            "what is undecided has a reason");
+    require(contact.freeUntil >= 0.0 && contact.freeUntil <= 1.0, "times are normalised");
+  }
+  const auto clear = std::count(message.verdicts.begin(), message.verdicts.end(), Verdict::Clear);
+  require(message.verdicts.size() - static_cast<std::size_t>(clear) == listed.size(),
+          "every link that is not clear is listed");
+}
+
+void checkContent(const StatusMessage& message) {
+  require(std::isfinite(message.latencyMaxUs), "latencies are finite");
+}
+
+/// `exactly`: as the same bytes.
+template <typename Message>
+bool feed(ByteView input, Message& message, bool (*exactly)(const Message&)) {
+  if (decode(input, message) != Reject::None) return false;
+  checkContent(message);
+  Bytes written, again;
+  encode(message, written);
+  require(!exactly(message) || sameBytes(input, written), "a message is written as it was read");
+  require(decode(written, message) == Reject::None, "a written message is read");
+  encode(message, again);
+  require(again == written, "a written message is read as it was");
+  return true;
+}
+
+template <typename Message>
+bool feedExact(const std::uint8_t* data, std::size_t size) {
+  static Message message;  // reused, as a receiver does
+  return feed<Message>({data, size}, message, [](const Message&) { return true; });
+}
+
+/// With the hash of what it says: a fuzzer cannot find it.
+Bytes withHash(ByteView input) {
+  Bytes bytes(input.data, input.data + input.size);
+  if (checkPayload(PayloadType::Skeleton, bytes) != Reject::None) return bytes;
+  skeleton_t wire;
+  wire.decode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  RawSkeleton skeleton;
+  for (std::size_t i = 0; i < wire.names.size(); ++i) {
+    skeleton.joints.push_back(
+        {wire.names[i],
+         wire.parents[i],
+         {wire.offset_x[i], wire.offset_y[i], wire.offset_z[i]},
+         {wire.rotation_w[i], wire.rotation_x[i], wire.rotation_y[i], wire.rotation_z[i]}});
+  }
+  wire.hash = skeletonHash(skeleton);
+  wire.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+}  // namespace
+
+bool feedSkeletonMessage(const std::uint8_t* data, std::size_t size) {
+  const bool accepted = feedExact<SkeletonMessage>(data, size);
+  if (accepted) return true;
+  const Bytes hashed = withHash({data, size});
+  return feedExact<SkeletonMessage>(hashed.data(), hashed.size());
+}
+
+bool feedPoseMessage(const std::uint8_t* data, std::size_t size) {
+  static PoseMessage message;
+  return feed<PoseMessage>({data, size}, message, [](const PoseMessage& pose) {
+    return std::all_of(pose.joints.begin(), pose.joints.end(),
+                       [](const PoseJoint& joint) { return (joint.flags & kJointValid) != 0; });
+  });
+}
+
+bool feedContactsMessage(const std::uint8_t* data, std::size_t size) {
+  return feedExact<ContactsMessage>(data, size);
+}
+
+bool feedStatusMessage(const std::uint8_t* data, std::size_t size) {
+  return feedExact<StatusMessage>(data, size);
+}
+
+}  // namespace foretouch::fuzz
