@@ -15,11 +15,11 @@ enum class Reject : std::uint8_t {
   Fingerprint,   ///< Of another type, or of another version of it.
   Version,       ///< The `version` field is not kMessageVersion.
   Limit,         ///< A count beyond its limit.
-  NonFinite,     ///< NaN or infinity in a joint that is marked valid, or in a skeleton.
+  NonFinite,     ///< NaN or infinity in a joint that is marked valid, or in another message.
   NonUnit,       ///< A quaternion whose norm is off by more than kMaxQuaternionNormError.
   OutOfRange,    ///< A finite number outside its range: a coordinate, a time, a flag.
-  BadName,       ///< Not a legal joint name, or one that is there twice.
-  BadIndex,      ///< A joint that the skeleton does not have, or one that is listed twice.
+  BadName,       ///< Not a legal joint name, or one that a skeleton has twice.
+  BadIndex,      ///< A joint or link that cannot exist, or one that is listed twice.
   BadHierarchy,  ///< A parent after its child.
   BadHash,       ///< A skeleton whose hash is not that of its content.
   // What it is about.
