@@ -146,7 +146,7 @@ void CheckedBlocks::advanceTo(std::uint64_t offset) {
 /// from a log inside a payload.
 void CheckedBlocks::findTail() {
   isTail_ = true;
-  std::uint64_t first = next_, offset = next_, events = 0;
+  std::uint64_t first = next_, offset = next_, last = next_, events = 0;
   Frame frame;
   FrameState state;
   BlockEvent other;
@@ -160,13 +160,16 @@ void CheckedBlocks::findTail() {
     } else {
       ++events;
     }
+    last = offset;
     offset = frame.end();
   }
   counts_.tailEvents += events;
   if (events > 0) report(LogDamage::UncheckedTail, first, offset, events);
   counts_.isTruncated = state == FrameState::Torn;
   passOver(counts_.isTruncated ? LogDamage::Truncated : LogDamage::Skipped, offset, window_.size());
-  for (std::uint64_t at = window_.findMagic(offset, window_.size()); at < window_.size();
+  // From the last event's start on: its length may be what is damaged.
+  for (std::uint64_t at = window_.findMagic(last, window_.size());
+       offset < window_.size() && at < window_.size();
        at = window_.findMagic(at + 1, window_.size())) {
     if (window_.blockEventAt(at, other) == BlockEventState::Intact && isOpening(other)) {
       report(LogDamage::OtherLog, at, window_.size());

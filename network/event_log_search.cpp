@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "network/event_log_blocks.h"
 
@@ -9,10 +10,11 @@ namespace {
 constexpr std::uint64_t kMaxLeadBytes = 64u << 20;
 
 /// Whether an event begins at `offset`, or the log ends there.
-bool endsWell(LogWindow& window, std::uint64_t offset, std::uint64_t keepFrom) {
-  if (offset == window.size()) return true;
-  const std::uint8_t* const bytes = window.view(offset, sizeof kEventMagic, keepFrom);
-  return bytes != nullptr && std::equal(std::begin(kEventMagic), std::end(kEventMagic), bytes);
+bool endsWell(LogWindow& window, std::uint64_t offset) {
+  std::array<std::uint8_t, sizeof kEventMagic> bytes{};
+  return offset == window.size() ||
+         (window.peek(offset, bytes.data(), bytes.size()) &&
+          std::equal(bytes.begin(), bytes.end(), std::begin(kEventMagic)));
 }
 
 /// The first event inside another's payload that ends well.
@@ -20,8 +22,7 @@ bool findInside(LogWindow& window, const Frame& outer, Frame& inner) {
   const std::uint64_t end = outer.end();
   std::uint64_t offset = window.findMagic(outer.offset + 1, end);
   for (; offset < end; offset = window.findMagic(offset + 1, end)) {
-    if (window.frameAt(offset, inner) == FrameState::Whole &&
-        endsWell(window, inner.end(), offset)) {
+    if (window.frameAt(offset, inner) == FrameState::Whole && endsWell(window, inner.end())) {
       return true;
     }
   }
@@ -38,7 +39,7 @@ FoundFrame findFrame(LogWindow& window, std::uint64_t offset, std::uint64_t limi
       Frame inner;
       found.isFound = true;
       found.isTorn = false;
-      if (!endsWell(window, found.frame.end(), offset) && findInside(window, found.frame, inner)) {
+      if (!endsWell(window, found.frame.end()) && findInside(window, found.frame, inner)) {
         ++found.impossible;
         found.frame = inner;
       }
@@ -80,6 +81,12 @@ LogKind findKind(LogWindow& window) {
 
 namespace {
 
+bool peekBlockEvent(LogWindow& window, std::uint64_t offset, BlockEvent& event) {
+  std::array<std::uint8_t, kBlockEventBytes> bytes{};
+  return window.peek(offset, bytes.data(), bytes.size()) &&
+         parseBlockEvent(bytes.data(), event) == BlockEventState::Intact;
+}
+
 /// The last block event of the log that stands where it says.
 bool findLastBlockEvent(LogWindow& window, std::uint64_t logId, BlockEvent& last) {
   const std::uint64_t size = window.size();
@@ -113,9 +120,8 @@ std::optional<BlockPlace> findBlockOf(LogWindow& window, std::uint64_t logId,
     }
     const BlockEvent later = event;
     if (later.previous >= later.offset || later.blockBytes > later.offset ||
-        window.peekBlockEvent(later.previous, event) != BlockEventState::Intact ||
-        event.logId != logId || event.number + 1 != later.number ||
-        event.offset != later.previous ||
+        !peekBlockEvent(window, later.previous, event) || event.logId != logId ||
+        event.number + 1 != later.number || event.offset != later.previous ||
         event.offset + kBlockEventBytes + later.blockBytes != later.offset) {
       return std::nullopt;
     }

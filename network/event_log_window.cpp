@@ -1,7 +1,6 @@
 #include "network/event_log_window.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -181,15 +180,15 @@ BlockEventState LogWindow::blockEventAt(std::uint64_t offset, BlockEvent& event,
   return bytes == nullptr ? BlockEventState::None : parseBlockEvent(bytes, event);
 }
 
-BlockEventState LogWindow::peekBlockEvent(std::uint64_t offset, BlockEvent& event) {
-  if (failure_ || offset > size_ || kBlockEventBytes > size_ - offset) return BlockEventState::None;
-  std::array<std::uint8_t, kBlockEventBytes> bytes{};
-  const auto read = bytes_->read(offset, bytes.data(), bytes.size());
-  if (!read.ok()) {
-    failure_ = read.error();
-    return BlockEventState::None;
+bool LogWindow::peek(std::uint64_t offset, std::uint8_t* bytes, std::size_t count) {
+  if (failure_ || offset > size_ || count > size_ - offset) return false;
+  if (offset >= bufferStart_ && offset + count <= bufferStart_ + buffered_) {
+    std::memcpy(bytes, buffer_.data() + (offset - bufferStart_), count);
+    return true;
   }
-  return parseBlockEvent(bytes.data(), event);
+  const auto read = bytes_->read(offset, bytes, count);
+  if (!read.ok()) failure_ = read.error();
+  return read.ok();
 }
 
 bool LogWindow::isOnBlockChannel(const Frame& frame, std::uint64_t keepFrom) {

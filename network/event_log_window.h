@@ -64,8 +64,8 @@ class LogWindow {
   BlockEventState blockEventAt(std::uint64_t offset, BlockEvent& event) {
     return blockEventAt(offset, event, offset);
   }
-  /// The same past the window, which stays as it is: for hops through a log.
-  BlockEventState peekBlockEvent(std::uint64_t offset, BlockEvent& event);
+  /// Copies bytes from anywhere past the window, which stays as it is: for hops through a log.
+  bool peek(std::uint64_t offset, std::uint8_t* bytes, std::size_t count);
   /// Whether the frame is on kLogBlockChannel.
   bool isOnBlockChannel(const Frame& frame, std::uint64_t keepFrom);
   /// The frame's event; false where reading failed.
