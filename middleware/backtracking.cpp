@@ -58,7 +58,7 @@ class Backtracker {
     best_.link = query_.parts.link;
     startCandidates();
     while (!heap_.empty() && !hasContact() && heap_.front().freeUntil <= horizon_) {
-      if (spent_ >= query_.maxAdvancements) {
+      if (query_.meter.isPartSpent(counters_)) {
         giveUp(heap_.front().freeUntil, UndecidedReason::WorkBudget);
         break;
       }
@@ -155,7 +155,6 @@ class Backtracker {
   }
 
   [[nodiscard]] PairState pairAt(const Candidate& candidate, double t) {
-    ++spent_;
     return pairOf(query_, candidate, states_.at(t), counters_);
   }
 
@@ -175,16 +174,15 @@ class Backtracker {
 
   /// Finds the contact at `t` that is reported, if there is one. A limb deep in furniture touches
   /// thousands of triangles at once and the smallest separation wins, so the nearest boxes are
-  /// looked at first, until the boxes alone tell that no better one is left. Once there is a
-  /// contact the budget has no say: the verdict stands, and which contact is reported must not
-  /// depend on it.
+  /// looked at first, until the boxes alone tell that no better one is left. A spent budget ends
+  /// it: the verdict stands, and of its contacts the best one that was seen.
   void lookNearestFirst(double t) {
     for (Candidate& candidate : heap_) {
       candidate.nearest = std::max(candidate.nearest, leastGap(query_, candidate, states_.at(t)));
     }
     std::make_heap(heap_.begin(), heap_.end(), Farther{});
     while (!heap_.empty() && heap_.front().nearest <= reach()) {
-      if (!hasContact() && spent_ >= query_.maxAdvancements) return;
+      if (query_.meter.isPartSpent(counters_)) return settleUnseen(t);
       std::pop_heap(heap_.begin(), heap_.end(), Farther{});
       const PairState pair = pairAt(heap_.back(), t);
       if (pair.gapUpper <= query_.tolerance &&
@@ -202,6 +200,13 @@ class Backtracker {
     }
   }
 
+  /// At t = 0 what was not looked at may go deeper than the contact that was found: whether the
+  /// link starts in contact is then open. Later, being free before it, nothing can.
+  void settleUnseen(double t) {
+    if (t > 0.0 || best_.verdict != Verdict::Contact) return;
+    best_ = undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget);
+  }
+
   /// What is farther than this is no contact, or none that could be reported.
   [[nodiscard]] double reach() const {
     return hasContact() ? best_.separation - best_.penetration : query_.tolerance;
@@ -209,9 +214,8 @@ class Backtracker {
 
   void giveUp(double t, UndecidedReason reason) {
     if (best_.verdict != Verdict::Clear) return;  // a contact at this very instant stands
-    best_.verdict = Verdict::Undecided;
-    best_.reason = reason;
-    best_.freeUntil = best_.toi = horizon_ = t;
+    best_ = undecidedContact(query_.parts.link, t, reason);
+    horizon_ = t;
   }
 
   const LinkQuery& query_;
@@ -219,7 +223,6 @@ class Backtracker {
   QueryCounters& counters_;
   LinkContact best_;
   double horizon_ = kInfinity;  // nothing later than this can change the answer
-  std::uint64_t spent_ = 0;
   StateCache states_;
 };
 
@@ -233,6 +236,15 @@ Vector3d contactNormal(const PairState& pair) {
 }
 
 }  // namespace
+
+LinkContact undecidedContact(LinkId link, double freeUntil, UndecidedReason reason) {
+  LinkContact contact;
+  contact.link = link;
+  contact.verdict = Verdict::Undecided;
+  contact.reason = reason;
+  contact.freeUntil = contact.toi = freeUntil;
+  return contact;
+}
 
 int Pieces::at(double t) const {
   int k = std::min(count - 1, static_cast<int>(t * count));

@@ -17,6 +17,7 @@
 #include "middleware/link_pair.h"
 #include "middleware/query.h"
 #include "middleware/scene.h"
+#include "middleware/work_meter.h"
 
 namespace foretouch::internal {
 
@@ -47,13 +48,16 @@ struct Candidate {
   std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, where there are any
 };
 
+/// Free before `freeUntil`, and nothing claimed after it.
+[[nodiscard]] LinkContact undecidedContact(LinkId link, double freeUntil, UndecidedReason reason);
+
 /// What backtrack() needs to know of one link; all references outlive the call.
 struct LinkQuery {
   LinkParts parts;
   const Scene& scene;
   Pieces pieces;
   double tolerance;
-  std::uint64_t maxAdvancements;
+  const WorkMeter& meter;
   LeafMethod leafMethod;
   MotionEvaluator& evaluator;  // of parts.motion
 

@@ -32,6 +32,7 @@ class LaneBacktracker {
     surface_.prepare();
     start();
     while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
+      if (query_.meter.isPartSpent(counters_)) return leftUndone();
       // Triangles first: a contact spares all that is later.
       const bool areTriangles =
           !scratch_.triangles.isEmpty() && !scratch_.lss.isBefore(scratch_.triangles);
@@ -59,6 +60,17 @@ class LaneBacktracker {
       pair.isWhole = true;
       push(pair);
     }
+  }
+
+  /// The pairs that are left say how far the link is free; a contact that none of them can come
+  /// before stands.
+  [[nodiscard]] LinkContact leftUndone() {
+    double freeUntil = horizon_;
+    for (TimeBuckets* buckets : {&scratch_.lss, &scratch_.triangles}) {
+      while (!buckets->isEmpty()) freeUntil = std::min(freeUntil, buckets->pop().freeUntil);
+    }
+    if (freeUntil == horizon_ && best_.verdict != Verdict::Clear) return best_;
+    return undecidedContact(query_.parts.link, freeUntil, UndecidedReason::WorkBudget);
   }
 
   void push(const PartPair& pair) {
@@ -156,11 +168,8 @@ class LaneBacktracker {
   /// The numbers cannot resolve the pair; a contact at this very instant stands.
   void giveUp(double t) {
     if (t == horizon_) return;
-    best_ = {};
-    best_.link = query_.parts.link;
-    best_.verdict = Verdict::Undecided;
-    best_.reason = UndecidedReason::Resolution;
-    best_.freeUntil = best_.toi = horizon_ = t;
+    best_ = undecidedContact(query_.parts.link, t, UndecidedReason::Resolution);
+    horizon_ = t;
   }
 
   const LinkQuery& query_;

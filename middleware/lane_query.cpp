@@ -36,6 +36,10 @@ constexpr int kClusterRounds = 6;
 constexpr std::size_t kPartsAtOnce = 4;
 /// Equal parts of a slab by which clusters are brought in order of time.
 constexpr std::size_t kTimeBins = 32;
+/// Where work is limited: what a slab may cost before it is taken in halves, so that some of the
+/// motion is proven where the whole is too much; and how often it is halved.
+constexpr std::uint64_t kSlabWork = 2048;
+constexpr int kMostHalvings = 6;
 constexpr float kBegin = -1.0F, kEnd = 1.0F;  // of u
 
 FloatBox sweptBox(const SweptBoxes& boxes, std::int32_t lss) {
@@ -55,6 +59,11 @@ void closeBox(SweptBoxes& boxes, std::int32_t lss) {
   }
 }
 
+bool isAnyTouched(const StepContacts& step) {
+  return std::any_of(step.links.begin(), step.links.end(),
+                     [](const LinkContact& c) { return c.verdict != Verdict::Clear; });
+}
+
 }  // namespace
 
 LaneQuery::LaneQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
@@ -67,7 +76,8 @@ LaneQuery::LaneQuery(const Avatar& avatar, const ChainMotion& motion, const Scen
       scratch_(scratch),
       culler_(culler),
       lanes_(scratch.lanes),
-      bvh_(scene.parts().bvh) {
+      bvh_(scene.parts().bvh),
+      meter_(options) {
   tolerances_.floor = floatAbove(kFloorShare * options.tolerance);
   tolerances_.handOver = floatBelow(kHandOverShare * options.tolerance);
   if (lanes_.avatar != avatar.identity()) {
@@ -82,6 +92,7 @@ void LaneQuery::run(StepContacts& step) {
   const int slabs =
       slabsFor(lanes_.table, motion_,
                std::max(kInterpolationShare * options_.tolerance, kLeastInterpolationError));
+  if (meter_.isLimited()) return runWithin(step, slabs);
   for (int slab = 0; slab < slabs; ++slab) {
     begin_ = static_cast<double>(slab) / slabs;
     end_ = static_cast<double>(slab + 1) / slabs;
@@ -108,6 +119,77 @@ bool LaneQuery::answerSlab(StepContacts& step) {
     }
   }
   return isTouched;
+}
+
+/// As run(), until the work is spent. Slabs that cost much are begun again as two halves: the order
+/// of the work does not depend on the budget, which only cuts it off, so more of it never proves
+/// less.
+void LaneQuery::runWithin(StepContacts& step, int slabs) {
+  const int finest = slabs << kMostHalvings;
+  lanes_.freeUntil.assign(static_cast<std::size_t>(avatar_.numLinks()), 0.0);
+  int slab = 0, count = slabs;
+  while (slab < count) {
+    begin_ = static_cast<double>(slab) / count;
+    end_ = static_cast<double>(slab + 1) / count;
+    meter_.beginPart(step.counters, count < finest ? kSlabWork : WorkMeter::kUnlimited);
+    if (answerSlabWithin(step)) {
+      if (options_.scope == Scope::FirstOfAvatar && isAnyTouched(step)) return;
+      ++slab;
+      while (count > slabs && slab % 2 == 0) {
+        slab /= 2;
+        count /= 2;
+      }
+    } else if (meter_.isSpent(step.counters)) {
+      return leaveUndone(step);
+    } else {
+      slab *= 2;
+      count *= 2;
+    }
+  }
+}
+
+/// The links that are asked in the slab at hand, each as far as it is not proven free; false where
+/// the work of the slab was spent before the last one was answered.
+bool LaneQuery::answerSlabWithin(StepContacts& step) {
+  const bool isNear = collectHits(step.counters);
+  const auto isOpen = [&](LinkId link) {
+    const auto i = static_cast<std::size_t>(link);
+    return lanes_.isAsked[i] != 0 && lanes_.freeUntil[i] < end_;
+  };
+  const auto isLinkNear = [&](LinkId link) {
+    return isNear && lanes_.first[static_cast<std::size_t>(lanes_.table.first(link))] !=
+                         lanes_.first[static_cast<std::size_t>(lanes_.table.first(link + 1))];
+  };
+  for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+    if (isOpen(link) && !isLinkNear(link)) lanes_.freeUntil[static_cast<std::size_t>(link)] = end_;
+  }
+  for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+    if (!isOpen(link)) continue;
+    const auto i = static_cast<std::size_t>(link);
+    const LinkContact contact = answer(link, kEnd, step.counters);
+    if (contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::WorkBudget) {
+      lanes_.freeUntil[i] = std::max(lanes_.freeUntil[i], contact.freeUntil);
+      return false;
+    }
+    lanes_.freeUntil[i] = end_;
+    if (contact.verdict == Verdict::Clear) continue;
+    step.links[i] = contact;
+    lanes_.isAsked[i] = 0;
+  }
+  return true;
+}
+
+/// What is not answered is free as far as it is proven.
+void LaneQuery::leaveUndone(StepContacts& step) const {
+  for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+    const auto i = static_cast<std::size_t>(link);
+    if (lanes_.isAsked[i] == 0 || lanes_.freeUntil[i] >= 1.0) continue;
+    step.links[i] = undecidedContact(link, lanes_.freeUntil[i], UndecidedReason::WorkBudget);
+  }
+}
+
+LinkContact LaneQuery::undone(LinkId link) const {
+  return undecidedContact(link, begin_, UndecidedReason::WorkBudget);
 }
 
 void LaneQuery::findWhoIsAsked() {
@@ -235,7 +317,7 @@ LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, flo
   const std::int32_t firstLss = lanes_.table.first(link);
   for (std::int32_t lss = firstLss; lss < lanes_.table.first(link + 1); ++lss) {
     lanes_.handed.count = 0;
-    advanceLss(lss, best, counters);
+    if (!advanceLss(lss, best, counters)) return undone(link);
     addCandidates(lss - firstLss);
   }
   const double latest = timeOf(best);
@@ -251,7 +333,7 @@ LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, flo
                         scene_,
                         Pieces{},
                         options_.tolerance,
-                        options_.maxAdvancements,
+                        meter_,
                         options_.leafMethod,
                         scratch_.evaluator};
   if (surface == nullptr) return backtrack(query, candidates, counters);
@@ -288,11 +370,13 @@ void LaneQuery::prepareScalar(LinkId link) {
   }
 }
 
-/// The LSS's pairs through the slab; what lanes leave is in `handed`.
-void LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
+/// The LSS's pairs through the slab; what lanes leave is in `handed`. False where the work was
+/// spent before all were through.
+bool LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
   const auto begin = lanes_.first[static_cast<std::size_t>(lss)];
   const auto end = lanes_.first[static_cast<std::size_t>(lss) + 1];
-  if (begin == end) return;
+  if (begin == end) return true;
+  if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
   const LssTable::Entry& entry = lanes_.table[lss];
   const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes);
   const LaneLss lane = laneLss(polynomials, entry.radius);
@@ -306,12 +390,14 @@ void LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counter
   sortClusters();
   std::size_t done = 0;
   while (done < lanes_.clusters.count) {
+    if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
     done = collectParts(begin, done, best);
     lanes_.pairs.addTriangles(lane, lanes_.leafParts.data(), lanes_.leafParts.size(),
                               sweptBox(lanes_.boxes, lss), origin, bvh_.vertexRounding());
     counters.candidates += lanes_.pairs.count();
     counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
   }
+  return true;
 }
 
 /// Brings those that are open from early on to the front: what is found there ends the others.

@@ -8,6 +8,7 @@
 
 #include "middleware/flat_bvh.h"
 #include "middleware/query_internal.h"
+#include "middleware/work_meter.h"
 
 namespace foretouch::internal {
 
@@ -28,13 +29,17 @@ class LaneQuery {
   void mergeHits();
   void sortHits();
   [[nodiscard]] bool answerSlab(StepContacts& step);
+  void runWithin(StepContacts& step, int slabs);
+  [[nodiscard]] bool answerSlabWithin(StepContacts& step);
+  void leaveUndone(StepContacts& step) const;
   [[nodiscard]] LinkContact answer(LinkId link, float limit, QueryCounters& counters);
   [[nodiscard]] LinkContact answerBefore(LinkId link, const LinkSurface* surface, float& best,
                                          QueryCounters& counters);
+  [[nodiscard]] LinkContact undone(LinkId link) const;
   [[nodiscard]] LinkContact surfaceContact(const LinkQuery& query, bool atStart,
                                            QueryCounters& counters);
   void prepareScalar(LinkId link);
-  void advanceLss(std::int32_t lss, float& best, QueryCounters& counters);
+  [[nodiscard]] bool advanceLss(std::int32_t lss, float& best, QueryCounters& counters);
   void sortClusters();
   [[nodiscard]] std::size_t collectParts(std::size_t begin, std::size_t done, float best);
   [[nodiscard]] std::uint8_t withoutIgnored(std::uint8_t triangles, const BvhLeaf& leaf) const;
@@ -51,6 +56,7 @@ class LaneQuery {
   LaneScratch& lanes_;
   const FlatBvh& bvh_;
   LaneTolerances tolerances_;
+  WorkMeter meter_;
   double begin_ = 0.0, end_ = 1.0;  // of the slab at hand
 };
 

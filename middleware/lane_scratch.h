@@ -29,6 +29,7 @@ struct LaneScratch {
   HandedOver clusters, handed;        // of the LSS at hand
   PartScratch parts;                  // of the link at hand, at exact fidelity
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
+  std::vector<double> freeUntil;      // per link, where work is limited: how far it is proven free
 };
 
 }  // namespace foretouch::internal

@@ -77,6 +77,9 @@ Result<Done> checked(const Avatar& avatar, const ChainMotion& motion, const Scen
     return Error{ErrorCode::OutOfRange, "tolerance", -1, -1,
                  "expected a finite number of metres, at least 1e-9"};
   }
+  if (!(options.deadlineUs >= 0.0)) {
+    return Error{ErrorCode::OutOfRange, "deadline", -1, -1, "expected microseconds, at least 0"};
+  }
   if (motion.numLinks() != avatar.numLinks()) {
     return Error{ErrorCode::Mismatch, "motion", -1, -1,
                  "expected a motion of this avatar's skeleton, found another number of joints"};
@@ -111,11 +114,10 @@ Result<const internal::TriangleCuller*> cullerOf(const Scene& scene, Culler whic
   return static_cast<const internal::TriangleCuller*>(built.value());
 }
 
-/// Skins change shape, a budget is counted in scalar evaluations, and the walk numbers its boxes.
+/// Skins change shape, and the walk numbers its boxes.
 bool inLanes(const Avatar& avatar, const QueryOptions& options) {
   return avatar.numLss() <= internal::BoxLanes::kMaxBoxes &&
-         options.backtracking == Backtracking::Lanes && options.fidelity != Fidelity::Skinned &&
-         options.maxAdvancements == std::numeric_limits<std::uint64_t>::max();
+         options.backtracking == Backtracking::Lanes && options.fidelity != Fidelity::Skinned;
 }
 
 /// Of links that touch nothing before the first contact of all nothing more is said.

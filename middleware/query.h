@@ -33,7 +33,7 @@ enum class Verdict : std::uint8_t {
 
 enum class UndecidedReason : std::uint8_t {
   None,
-  WorkBudget,  ///< QueryOptions::maxAdvancements was spent.
+  WorkBudget,  ///< QueryOptions::workBudget or deadlineUs was spent.
   Resolution,  ///< Doubles cannot resolve the tolerance at these coordinates.
   AfterFirst,  ///< Scope::FirstOfAvatar: another link's contact is earlier.
 };
@@ -91,7 +91,7 @@ enum class Culler : std::uint8_t {
 /// instants within it.
 enum class Backtracking : std::uint8_t {
   Lanes,   ///< Many pairs at once in the processor's vectors (lss/simd.h), in doubles where these
-           ///< cannot decide. Skins and limited budgets take the scalar way all the same.
+           ///< cannot decide. Skins take the scalar way all the same.
   Scalar,  ///< Pair by pair in doubles: the slower reference.
 };
 
@@ -136,8 +136,14 @@ struct QueryOptions {
   Backtracking backtracking = Backtracking::Lanes;
   Scope scope = Scope::EveryLink;
   std::vector<IgnoredPair> ignored;
-  /// Distance evaluations a link may cost before its verdict becomes Undecided.
-  std::uint64_t maxAdvancements = std::numeric_limits<std::uint64_t>::max();
+  /// Work that the step may cost, all links together, in evaluations of a pair in lanes (about 10
+  /// ns; other work is counted in their stead, middleware/work_meter.h). What is not answered by
+  /// then is Undecided, free as far as is proven; more work never proves less. Counted, not timed:
+  /// the same query gives the same answer.
+  std::uint64_t workBudget = std::numeric_limits<std::uint64_t>::max();
+  /// The same by the clock, from the query's beginning (us): looked at between pieces of work of a
+  /// few microseconds. Which links are answered in time depends on the machine and its load.
+  double deadlineUs = std::numeric_limits<double>::infinity();
 };
 
 /// Below this (m) a tolerance is refused outright; above it, coordinates decide (UndecidedReason).

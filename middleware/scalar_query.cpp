@@ -29,15 +29,19 @@ class StepQuery {
         scene_(scene),
         options_(options),
         culler_(culler),
-        scratch_(scratch) {}
+        scratch_(scratch),
+        meter_(options) {}
 
   void run(StepContacts& step) {
     scratch_.evaluator.reset(motion_);
     cutIntoPieces();
+    step.counters.states += static_cast<std::uint64_t>(avatar_.numLinks() * (pieces_.count + 1));
     for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+      // Equal shares, so that the last links have theirs; what one leaves is the others'.
+      const auto others = static_cast<std::uint64_t>(avatar_.numLinks() - link);
+      meter_.beginPart(step.counters, meter_.left(step.counters) / others);
       step.links[static_cast<std::size_t>(link)] = firstContactOf(link, step.counters);
     }
-    step.counters.states += static_cast<std::uint64_t>(avatar_.numLinks() * (pieces_.count + 1));
   }
 
  private:
@@ -81,7 +85,7 @@ class StepQuery {
             scene_,
             pieces_,
             options_.tolerance,
-            options_.maxAdvancements,
+            meter_,
             options_.leafMethod,
             scratch_.evaluator};
   }
@@ -198,6 +202,7 @@ class StepQuery {
   const QueryOptions& options_;
   const TriangleCuller& culler_;
   QueryScratch::Impl& scratch_;
+  WorkMeter meter_;
   // Of the link at hand; null at other fidelities.
   const LinkSurface* surface_ = nullptr;
   const SkinParts* skin_ = nullptr;

@@ -109,7 +109,7 @@ struct ContactsMessage {
   std::int64_t lost = 0;
   double tolerance = 0.0;
   Fidelity fidelity = Fidelity::Link;
-  std::int64_t workBudget = 0;            ///< QueryOptions::maxAdvancements; 0: none.
+  std::int64_t workBudget = 0;            ///< QueryOptions::workBudget; 0: none.
   std::vector<Verdict> verdicts;          ///< Of every link of the avatar, in order.
   std::vector<AnsweredContact> contacts;  ///< Links that are not clear, earliest first.
   std::int64_t receiveUtimeUs = 0;

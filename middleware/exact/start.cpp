@@ -50,8 +50,9 @@ class StartSearch {
     boundAll();
     std::make_heap(heap_.begin(), heap_.end(), farther);
     while (!heap_.empty() && heap_.front().nearest <= query_.tolerance) {
-      // Backtracking then says so, at t = 0. Once there is a contact the budget has no say.
-      if (best_.verdict == Verdict::Clear && spent_ >= query_.maxAdvancements) break;
+      if (query_.meter.isPartSpent(counters_)) {
+        return undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget);
+      }
       std::pop_heap(heap_.begin(), heap_.end(), farther);
       Candidate candidate = heap_.back();
       heap_.pop_back();
@@ -72,7 +73,6 @@ class StartSearch {
 
  private:
   PairState look(const Candidate& candidate) {
-    ++spent_;
     return pairOf(query_, candidate, states_.at(0.0), counters_);
   }
 
@@ -243,7 +243,6 @@ class StartSearch {
   std::vector<Part> stack_;
   std::array<HierarchyChild, kTrianglePairLanes> batch_ = nobody();
   LinkContact best_;
-  std::uint64_t spent_ = 0;
 
   static std::array<HierarchyChild, kTrianglePairLanes> nobody() {
     const HierarchyChild none = HierarchyChild::node(0);

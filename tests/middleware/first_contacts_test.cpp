@@ -170,36 +170,77 @@ TEST(FirstContactsOptions, IgnoredPairsAreNotReported) {
   EXPECT_EQ(result.value().links[AnalyticCase::kLink].verdict, Verdict::Contact);
 }
 
-// A spent budget is never a miss: whatever it is, the motion is free up to what is claimed.
-TEST(FirstContactsBudget, EveryBudgetIsSound) {
-  int undecided = 0, decided = 0;
-  for (int i = 0; i < 500; ++i) {
+struct BudgetCounts {
+  int undecided = 0, decided = 0, partly = 0;
+};
+
+/// A spent budget is never a miss: whatever it is, the motion is free up to what is claimed.
+BudgetCounts judgeBudgets(Backtracking backtracking) {
+  constexpr std::uint64_t kBudgetStep = 40, kBudgets = 30;
+  BudgetCounts counts;
+  for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));
     AnalyticCase c = test::rodToEdge(random);
     c.place(random);
     double before = 0.0;
-    for (std::uint64_t budget = 0; budget < 12; ++budget) {
+    for (std::uint64_t budget = 0; budget < kBudgets; ++budget) {
       QueryOptions options;
+      options.backtracking = backtracking;
       options.tolerance = 1e-5;
-      options.maxAdvancements = budget;
-      const auto result = firstContacts(c.avatar(), c.motion(), c.scene(), options);
-      ASSERT_TRUE(result.ok());
-      const LinkContact& got = result.value().links[AnalyticCase::kLink];
+      options.workBudget = budget * kBudgetStep;
+      const StepContacts step = firstContacts(c.avatar(), c.motion(), c.scene(), options).value();
+      const LinkContact& got = step.links[AnalyticCase::kLink];
       if (got.verdict != Verdict::Undecided) {
         judge(c, got, options.tolerance);
-        ++decided;
+        ++counts.decided;
         continue;
       }
-      ++undecided;
+      ++counts.undecided;
+      counts.partly += got.freeUntil > 0.0 ? 1 : 0;
       EXPECT_EQ(got.reason, UndecidedReason::WorkBudget);
       EXPECT_LE(got.freeUntil, c.impact.value_or(1.0));
       EXPECT_GE(got.freeUntil, before) << "more work must not claim less";
       before = got.freeUntil;
     }
   }
-  EXPECT_GT(undecided, 500);
-  EXPECT_GT(decided, 500);
+  return counts;
+}
+
+TEST(FirstContactsBudget, EveryBudgetIsSoundInDoubles) {
+  const BudgetCounts counts = judgeBudgets(Backtracking::Scalar);
+  EXPECT_GT(counts.undecided, 1000);
+  EXPECT_GT(counts.partly, 300);
+  EXPECT_GT(counts.decided, 1000);
+}
+
+TEST(FirstContactsBudget, EveryBudgetIsSoundInLanes) {
+  const BudgetCounts counts = judgeBudgets(Backtracking::Lanes);
+  EXPECT_GT(counts.undecided, 500);
+  EXPECT_GT(counts.partly, 100);
+  EXPECT_GT(counts.decided, 1000);
+}
+
+TEST(FirstContactsBudget, APassedDeadlineLeavesEverythingUndecided) {
+  const AnalyticCase c = certainHit();
+  QueryOptions options;
+  options.deadlineUs = 0.0;
+  for (const Backtracking backtracking : {Backtracking::Scalar, Backtracking::Lanes}) {
+    options.backtracking = backtracking;
+    const StepContacts step = firstContacts(c.avatar(), c.motion(), c.scene(), options).value();
+    const LinkContact& got = step.links[AnalyticCase::kLink];
+    EXPECT_EQ(got.verdict, Verdict::Undecided);
+    EXPECT_EQ(got.reason, UndecidedReason::WorkBudget);
+    EXPECT_LE(got.freeUntil, *c.impact);
+  }
+  options.deadlineUs = 1e9;
+  EXPECT_EQ(firstContacts(c.avatar(), c.motion(), c.scene(), options)
+                .value()
+                .links[AnalyticCase::kLink]
+                .verdict,
+            Verdict::Contact);
+  options.deadlineUs = -1.0;
+  EXPECT_FALSE(firstContacts(c.avatar(), c.motion(), c.scene(), options).ok());
 }
 
 // Where doubles cannot resolve the tolerance, the answer says so instead of guessing.

@@ -25,7 +25,8 @@ struct Arguments {
   std::vector<double> tolerances{1e-3, 1e-5};
   int maxSteps = 200, threads = 2, placements = 2;
   std::string data, culler = "flat", leaves = "advancement", backtracking = "lanes", simd;
-  double budgetS = 0.0;
+  double budgetS = 0.0, deadlineUs = 0.0;
+  std::uint64_t workBudget = 0;
   bool everyClip = false;
 };
 
@@ -63,6 +64,9 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
   app.add_option("--simd", a.simd, "Vector instructions of the lanes; the widest if not given")
       ->check(CLI::IsMember(simdNames()));
   app.add_option("--data", a.data, "Folder with mocap/ and scenes/");
+  app.add_option("--work-budget", a.workBudget, "Of each query, in evaluations in lanes; 0: none");
+  app.add_option("--deadline-us", a.deadlineUs, "Of each query, by the clock; 0: none")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--budget-s", a.budgetS, "Stop after so many seconds; 0: never");
   try {
     app.parse(argc, argv);
@@ -135,6 +139,8 @@ class Run {
                                                        : foretouch::LeafMethod::Advancement;
     options.backtracking = arguments_.backtracking == "scalar" ? foretouch::Backtracking::Scalar
                                                                : foretouch::Backtracking::Lanes;
+    if (arguments_.workBudget > 0) options.workBudget = arguments_.workBudget;
+    if (arguments_.deadlineUs > 0.0) options.deadlineUs = arguments_.deadlineUs;
     options.deadline = deadline_;
     const SweepTally tally = sweep(clip, scene, placement, options);
     std::cout << clip.name << " x " << scene.name << ", " << rate << " Hz, eps " << tolerance

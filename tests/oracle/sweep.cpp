@@ -26,6 +26,8 @@ class Sweeper {
     query_.culler = options.culler;
     query_.leafMethod = options.leafMethod;
     query_.backtracking = options.backtracking;
+    query_.workBudget = options.workBudget;
+    query_.deadlineUs = options.deadlineUs;
     query_.surface = clip.surface;
     if (clip.surface) query_.fidelity = Fidelity::Exact;
     stride_ = std::min(strideFor(clip.clip, options.rateHz),

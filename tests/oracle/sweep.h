@@ -22,6 +22,8 @@ struct SweepOptions {
   Culler culler = Culler::FlatBvh;
   LeafMethod leafMethod = LeafMethod::Advancement;
   Backtracking backtracking = Backtracking::Lanes;
+  std::uint64_t workBudget = QueryOptions{}.workBudget;
+  double deadlineUs = QueryOptions{}.deadlineUs;
   std::optional<std::chrono::steady_clock::time_point> deadline;
   /// Applied to every answer before it is judged: for controls that plant lies.
   std::function<void(LinkContact&)> tamper;

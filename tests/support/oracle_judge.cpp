@@ -147,7 +147,10 @@ Judgement Judge::judge(const Answer& answer, double tolerance) {
     case Verdict::Clear: main = judgeFree(1, Finding::Missed); break;
     case Verdict::Contact: main = judgeContact(answer, tolerance); break;
     case Verdict::StartsInContact: main = judgeStart(answer); break;
-    case Verdict::Undecided: main = judgeFree(answer.freeUntil, Finding::Late); break;
+    case Verdict::Undecided:
+      // Free on [0, 0) is no claim.
+      if (answer.freeUntil > 0) main = judgeFree(answer.freeUntil, Finding::Late);
+      break;
   }
   main.what = judgement.what;
   if (main.finding == Finding::Ok && !main.what.empty()) main.finding = Finding::Inconsistent;
