@@ -15,7 +15,7 @@
 #include "tools/interrupt.h"
 #include "tools/played_clip.h"
 #include "tools/settling.h"
-#include "tools/stream_arguments.h"
+#include "tools/numbered_avatars.h"
 
 namespace foretouch::tools {
 namespace {

@@ -16,7 +16,9 @@
 #include "tools/progress.h"
 #include "tools/replay_log_command.h"
 #include "tools/results_output.h"
+#include "tools/serve_config.h"
 #include "tools/settling.h"
+#include "tools/stream_arguments.h"
 #include "tools/stream_arguments.h"
 
 namespace foretouch::tools {
@@ -28,10 +30,9 @@ struct ReplayTexts {
   std::string scale = "1", sceneScale = "1", motionUp = "y", up = "y", place = "0,0,0,0";
   std::string fidelity = "link", leaves = "advancement", scope = "links", skin, skinScale = "1",
               skinUp = "y", tolerance = "0.001", culler = "flat", threads = "cores";
-  std::string suffix, maxStep = "10", confirmations = "3", unmatched = "undecided",
-                      workBudget = "none";
+  std::string suffix, maxStep = "10", confirmations = "3", budgetUs;
   std::vector<std::string> avatars, ignore, packages;
-  bool compareRigid = false, compareLink = false, rays = false;
+  bool compareRigid = false, compareLink = false, rays = false, unmatchedAtRest = false;
 };
 
 Result<ReplayJob> settled(const ReplayTexts& texts) {
@@ -86,8 +87,8 @@ Result<Done> checkOptions(const CLI::App& command, const ReplayTexts& texts, boo
                                    "--map",     "--animation", "--robot",         "--package",
                                    "--threads", "--scope",     "--compare-rigid", "--compare-link",
                                    "--rays"};
-  constexpr std::array kOfLogs = {"--suffix", "--max-step", "--confirmations", "--unmatched",
-                                  "--work-budget"};
+  constexpr std::array kOfLogs = {"--suffix", "--max-step", "--confirmations", "--unmatched-at-rest",
+                                  "--budget-us"};
   const auto firstGiven = [&command](const auto& options) {
     const auto given = std::find_if(options.begin(), options.end(),
                                     [&](const char* option) { return command.count(option) > 0; });
@@ -119,8 +120,6 @@ ExitCode runClip(const ReplayTexts& texts) {
 }
 
 Result<LogReplayJob> settledLog(const ReplayTexts& texts) {
-  constexpr int kMaxConfirmations = 1000;
-  constexpr double kMaxStepS = 86'400.0, kUsPerS = 1e6;
   auto clip = settled(texts);
   if (!clip.ok()) return clip.error();
   LogReplayJob job;
@@ -130,18 +129,12 @@ Result<LogReplayJob> settledLog(const ReplayTexts& texts) {
   request.suffix = texts.suffix;
   Settling settle;
   settle.into(request.avatars, parseNumberedAvatars("--avatar", texts.avatars));
-  double maxStepS = 0.0;
-  settle.into(maxStepS, parsePositive("--max-step", texts.maxStep));
-  if (!settle.error() && maxStepS > kMaxStepS) {
-    return Error{ErrorCode::OutOfRange, "--max-step", -1, -1,
-                 "expected at most a day, 86400 seconds, found " + inQuotes(texts.maxStep)};
-  }
-  request.policy.maxStepUs = std::max<std::int64_t>(1, std::llround(maxStepS * kUsPerS));
+  settle.into(request.policy.maxStepUs, parseMaxStepUs("--max-step", texts.maxStep));
   settle.into(request.policy.confirmations,
-              parseCount("--confirmations", texts.confirmations, kMaxConfirmations));
-  settle.into(request.policy.unmatchedAtRest, parseUnmatched("--unmatched", texts.unmatched));
-  if (texts.workBudget != "none") {
-    settle.into(request.workBudget, parseWorkBudget("--work-budget", texts.workBudget));
+              parseCount("--confirmations", texts.confirmations, kMaxServeConfirmations));
+  request.policy.unmatchedAtRest = texts.unmatchedAtRest;
+  if (!texts.budgetUs.empty()) {
+    settle.into(request.budgetUs, parseBudgetUs("--budget-us", texts.budgetUs));
   }
   if (settle.error()) return *settle.error();
   return job;
@@ -272,10 +265,10 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   option("--max-step", texts->maxStep, "S", "Of a log: a pose this much after the last is refused");
   option("--confirmations", texts->confirmations, "N",
          "Of a log: poses in a row that make a timeline that was not expected");
-  option("--unmatched", texts->unmatched, "undecided|rest",
-         "Of a log: joints that the sender does not have");
-  option("--work-budget", texts->workBudget, "N",
-         "Of a log: distance evaluations a link, or none for no limit");
+  option("--budget-us", texts->budgetUs, "US",
+         "Of a log: what a pose may cost, as an amount of work; links beyond it are undecided");
+  command->add_flag("--unmatched-at-rest", texts->unmatchedAtRest,
+                    "Of a log: joints that the sender does not have keep their rest values");
   command->add_flag("--compare-rigid", texts->compareRigid,
                     "Also count what a model that knows only each link's own two poses misses");
   command->add_flag("--compare-link", texts->compareLink,

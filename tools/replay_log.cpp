@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "articulated/avatar_file.h"
+#include "network/work_budget.h"
 #include "tools/console.h"
 #include "tools/json_text.h"
 #include "tools/results_writer.h"
@@ -30,8 +31,9 @@ Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
     request.avatarPath = inputs.request.avatars[i].path;
     auto options = queryOptionsFor(request, inputs.avatars[i], inputs.scene);
     if (!options.ok()) return options.error();
-    if (inputs.request.workBudget > 0) {
-      options.value().maxAdvancements = static_cast<std::uint64_t>(inputs.request.workBudget);
+    if (inputs.request.budgetUs > 0) {
+      options.value().maxAdvancements = workBudget(static_cast<double>(inputs.request.budgetUs),
+                                                   inputs.avatars[i].numLinks());
     }
     auto solver = StreamSolver::make(inputs.request.avatars[i].id, inputs.avatars[i], inputs.scene,
                                      options.value(), inputs.request.policy);
@@ -212,9 +214,9 @@ std::string logHeaderLine(const LogReplayInputs& inputs) {
   text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", numberText(query.sceneScale),
                       query.sceneUp == UpAxis::Z ? "z" : "y", jsonList(query.ignore));
   text += fmt::format(
-      R"(,"work_budget":{},"max_step":{},"confirmations":{},"unmatched":"{}")", request.workBudget,
+      R"(,"budget_us":{},"max_step":{},"confirmations":{},"unmatched_at_rest":{})", request.budgetUs,
       numberText(static_cast<double>(request.policy.maxStepUs) / kUsPerS),
-      request.policy.confirmations, request.policy.unmatchedAtRest ? "rest" : "undecided");
+      request.policy.confirmations, request.policy.unmatchedAtRest);
   text += R"(,"avatars":[)";
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {
     std::vector<std::string> links;

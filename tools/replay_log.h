@@ -19,7 +19,7 @@
 #include "tools/channel_names.h"
 #include "tools/journal_check.h"
 #include "tools/replay_inputs.h"
-#include "tools/stream_arguments.h"
+#include "tools/numbered_avatars.h"
 
 namespace foretouch::tools {
 
@@ -32,7 +32,7 @@ struct LogReplayRequest {
   std::vector<NumberedAvatar> avatars;
   StreamPolicy policy;
   std::string suffix;
-  std::int64_t workBudget = 0;  ///< Distance evaluations a link; 0: no limit.
+  std::int64_t budgetUs = 0;  ///< What a pose may cost, as workBudget() makes work of it; 0: no limit.
 };
 
 struct LogReplayInputs {

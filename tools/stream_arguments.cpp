@@ -1,72 +1,28 @@
 #include "tools/stream_arguments.h"
 
-#include <charconv>
-#include <limits>
-#include <set>
+#include <cmath>
 
 #include "articulated/text_file.h"
+#include "tools/arguments.h"
+#include "tools/serve_config.h"
 
 namespace foretouch::tools {
-namespace {
 
-/// Whole numbers up to here are doubles, too.
-constexpr std::int64_t kMostExact = std::int64_t{1} << 53;
-
-template <typename Whole>
-Result<Whole> parseWhole(const std::string& option, const std::string& text, Whole most,
-                         Whole least = 0) {
-  Whole number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, problem] = std::from_chars(text.data(), end, number);
-  if (problem == std::errc() && rest == end && number >= least && number <= most) return number;
-  return Error{ErrorCode::OutOfRange, option, -1, -1,
-               "expected a whole number from " + std::to_string(least) + " to " +
-                   std::to_string(most) + ", found " + inQuotes(text)};
-}
-
-}  // namespace
-
-Result<std::int32_t> parseAvatarId(const std::string& option, const std::string& text) {
-  return parseWhole(option, text, std::numeric_limits<std::int32_t>::max());
-}
-
-Result<std::int64_t> parseUtime(const std::string& option, const std::string& text) {
-  return parseWhole(option, text, kMostExact);
-}
-
-Result<bool> parseUnmatched(const std::string& option, const std::string& text) {
-  if (text == "undecided") return false;
-  if (text == "rest") return true;
-  return Error{ErrorCode::OutOfRange, option, -1, -1,
-               "expected undecided or rest, found " + inQuotes(text)};
-}
-
-Result<std::int64_t> parseWorkBudget(const std::string& option, const std::string& text) {
-  return parseWhole(option, text, kMostExact, std::int64_t{1});
-}
-
-Result<std::vector<NumberedAvatar>> parseNumberedAvatars(const std::string& option,
-                                                         const std::vector<std::string>& texts) {
-  std::vector<NumberedAvatar> avatars;
-  std::set<std::int32_t> ids;
-  for (const std::string& text : texts) {
-    const std::size_t digits = text.find_first_not_of("0123456789");
-    const bool isNumbered = digits != 0 && digits != std::string::npos && text[digits] == '=';
-    NumberedAvatar avatar{1, isNumbered ? text.substr(digits + 1) : text};
-    if (isNumbered) {
-      const auto id = parseAvatarId(option, text.substr(0, digits));
-      if (!id.ok()) return id.error();
-      avatar.id = id.value();
-    }
-    if (!ids.insert(avatar.id).second) {
-      return Error{ErrorCode::DuplicateName, option, -1, -1,
-                   "avatar " + std::to_string(avatar.id) +
-                       " is given twice (one without a number "
-                       "is 1); expected ID=FILE with a number of its own each"};
-    }
-    avatars.push_back(std::move(avatar));
+Result<std::int64_t> parseMaxStepUs(const std::string& option, const std::string& text) {
+  constexpr double kUsPerS = 1e6;
+  const auto seconds = parsePositive(option, text);
+  if (!seconds.ok()) return seconds.error();
+  if (seconds.value() <= kMaxServeStepS && seconds.value() * kUsPerS >= 1.0) {
+    return static_cast<std::int64_t>(std::llround(seconds.value() * kUsPerS));
   }
-  return avatars;
+  return Error{ErrorCode::OutOfRange, option, -1, -1,
+               "expected seconds from 0.000001 to 86400, found " + inQuotes(text)};
+}
+
+Result<std::int64_t> parseBudgetUs(const std::string& option, const std::string& text) {
+  const auto count = parseCount(option, text, static_cast<int>(kMaxServeBudgetUs));
+  if (!count.ok()) return count.error();
+  return std::int64_t{count.value()};
 }
 
 }  // namespace foretouch::tools

@@ -1,37 +1,20 @@
-// tools/stream_arguments.h: option values that only streams have, as typed in: avatars by the
-// numbers that messages call them, times, policies.
+// tools/stream_arguments.h: option values of streams, as typed in, checked. Errors name the option,
+// what was expected and what was found.
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "articulated/result.h"
 
 namespace foretouch::tools {
 
-struct NumberedAvatar {
-  std::int32_t id = 1;
-  std::string path;
-};
+/// StreamPolicy::maxStepUs from seconds: a microsecond to a day.
+[[nodiscard]] Result<std::int64_t> parseMaxStepUs(const std::string& option,
+                                                  const std::string& text);
 
-/// A whole number from 0 to 2^31 - 1.
-[[nodiscard]] Result<std::int32_t> parseAvatarId(const std::string& option,
+/// ServeConfig::budgetUs.
+[[nodiscard]] Result<std::int64_t> parseBudgetUs(const std::string& option,
                                                  const std::string& text);
-
-/// A whole number of microseconds since the Unix epoch, from 0 to 2^53.
-[[nodiscard]] Result<std::int64_t> parseUtime(const std::string& option, const std::string& text);
-
-/// "undecided" or "rest": StreamPolicy::unmatchedAtRest.
-[[nodiscard]] Result<bool> parseUnmatched(const std::string& option, const std::string& text);
-
-/// Distance evaluations: a whole number from 1 to 2^53.
-[[nodiscard]] Result<std::int64_t> parseWorkBudget(const std::string& option,
-                                                   const std::string& text);
-
-/// "FILE" or "ID=FILE", of several each with an ID of its own; one without is 1. A file whose name
-/// begins with a number and an equals sign is written ./5=file.
-[[nodiscard]] Result<std::vector<NumberedAvatar>> parseNumberedAvatars(
-    const std::string& option, const std::vector<std::string>& texts);
 
 }  // namespace foretouch::tools
