@@ -1,0 +1,59 @@
+// tests/network/answer_judge.h: holds the answers to one avatar's stream against what truly
+// happened. Shares no rule with the stream: it knows which true pose each message was made of.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "network/messages.h"
+#include "tests/network/simulated_sender.h"
+#include "tests/network/simulated_world.h"
+#include "tests/network/stream_simulation.h"
+#include "tests/support/oracle_judge.h"
+
+namespace foretouch::test {
+
+/// An accepted pose: as it was handed to the solver, and what it was made of.
+struct HandedPose {
+  PoseId id;
+  bool isAltered = false;
+  std::int64_t sequence = 0, utimeUs = 0;
+};
+
+/// What it is given outlives it.
+class AnswerJudge {
+ public:
+  AnswerJudge(const SimulatedBody& body, const SimulatedScene& scene,
+              const std::vector<SimulatedSender>& senders, SimulationRun& run)
+      : body_(body), scene_(scene), senders_(senders), run_(run) {}
+
+  /// Called for each accepted pose, in order.
+  void judge(const HandedPose& pose, const ContactsMessage& answer);
+
+ private:
+  void checkForm(const HandedPose& pose, const ContactsMessage& answer);
+  void checkPlace(const HandedPose& pose, const ContactsMessage& answer);
+  [[nodiscard]] bool canJudge(const HandedPose& pose, const ContactsMessage& answer);
+  void judgeLinks(const HandedPose& pose, const ContactsMessage& answer);
+  void judgeLink(const LinkContact& contact, const ContactsMessage& answer,
+                 const oracle::Motion& motion);
+  void judgeClear(LinkId link, const ContactsMessage& answer,
+                  const std::vector<oracle::Motion>& truth);
+  [[nodiscard]] oracle::Judgement judgement(const LinkContact& contact, double tolerance,
+                                            const oracle::Motion& motion) const;
+  void record(const oracle::Judgement& judgement, LinkId link, const ContactsMessage& answer);
+  void violation(const ContactsMessage& answer, const std::string& what);
+  [[nodiscard]] const Pose& truth(const PoseId& id) const;
+
+  const SimulatedBody& body_;
+  const SimulatedScene& scene_;
+  const std::vector<SimulatedSender>& senders_;
+  SimulationRun& run_;
+  std::set<PoseId> answered_;
+  bool hasLast_ = false;
+  HandedPose last_;
+};
+
+}  // namespace foretouch::test

@@ -1,0 +1,62 @@
+// tests/network/simulated_world.h: small random bodies and scenes, for the product and for the
+// oracle alike.
+#pragma once
+
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/pose.h"
+#include "middleware/scene.h"
+#include "tests/support/oracle_motion.h"
+#include "tests/support/oracle_prover.h"
+#include "tests/support/oracle_scene.h"
+#include "tests/support/random_geometry.h"
+
+namespace foretouch::test {
+
+struct SimulatedBody {
+  Avatar avatar;
+  std::vector<std::vector<oracle::Capsule>> capsules;  ///< Per link.
+};
+
+/// A chain or a tree of two to six joints; some links have two LSS, some none.
+[[nodiscard]] SimulatedBody randomBody(Random& random);
+
+struct SimulatedScene {
+  Scene scene;
+  oracle::Scene oracle;
+};
+
+/// Two to eight triangles around the world's origin.
+[[nodiscard]] SimulatedScene randomScene(Random& random);
+
+/// How a body's joints truly move from pose to pose: smoothly, or by leaps.
+class TrueMotion {
+ public:
+  /// `moves`: per joint, whether it turns at all; `drifts`: whether its translation changes.
+  TrueMotion(Random& random, const Skeleton& skeleton, std::vector<bool> moves,
+             std::vector<bool> drifts);
+  /// The next pose, validated.
+  [[nodiscard]] Pose next(double seconds);
+
+ private:
+  void leap(std::size_t joint);
+
+  Random& random_;
+  const Skeleton& skeleton_;
+  std::vector<bool> moves_, drifts_;
+  double leapChance_;
+  Pose pose_;
+  struct Joint {
+    Eigen::Vector3d axis, velocity;
+    double turnRate;
+  };
+  std::vector<Joint> joints_;
+};
+
+/// What the oracle says of the motion between two poses of a body.
+[[nodiscard]] oracle::Motion oracleMotion(const Skeleton& skeleton, const Pose& from,
+                                          const Pose& to);
+[[nodiscard]] oracle::Vec3d own(const Eigen::Vector3d& v);
+
+}  // namespace foretouch::test
