@@ -10,8 +10,7 @@
 #include "tools/bench_command.h"
 #include "tools/console.h"
 #include "tools/demo_command.h"
-#include "tools/listen_command.h"
-#include "tools/publish_command.h"
+#include "tools/log_command.h"
 #include "tools/replay_command.h"
 #include "tools/scene_command.h"
 #include "tools/serve_command.h"
@@ -51,6 +50,7 @@ ExitCode run(int argc, const char* const* argv) {
   addAvatarCommand(program, exit);
   addSceneCommand(program, exit);
   addSweepCommand(program, exit);
+  addLogCommand(program, exit);
   addBenchCommand(program, exit);
   try {
     program.parse(argc, argv);
