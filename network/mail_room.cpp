@@ -10,6 +10,18 @@ MailRoom::MailRoom(std::size_t avatars, std::size_t poses) : maxPoses_(poses), b
   ready_.reserve(avatars);
 }
 
+/// Senders repeat their skeleton every second. One that says what the last waiting one says changes
+/// nothing once that has been taken.
+bool MailRoom::isRepeated(const Box& box, const Mail& mail) {
+  if (mail.kind != MailKind::Skeleton) return false;
+  const auto last = std::find_if(box.mail.rbegin(), box.mail.rend(), [](const auto& waiting) {
+    return waiting->kind == MailKind::Skeleton;
+  });
+  return last != box.mail.rend() && (*last)->skeleton.hash == mail.skeleton.hash &&
+         (*last)->skeleton.session == mail.skeleton.session &&
+         (*last)->skeleton.generation == mail.skeleton.generation;
+}
+
 /// True where the oldest mail of this kind had to go.
 bool MailRoom::makeRoom(Box& box, MailKind kind) {
   const bool isPose = kind == MailKind::Pose;
@@ -48,6 +60,7 @@ MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail)
   const std::lock_guard lock(mutex_);
   if (isClosed_) return Posted::Closed;
   Box& box = boxes_[avatar];
+  if (isRepeated(box, *mail)) return Posted::Kept;
   const MailKind kind = mail->kind;
   const bool dropped = makeRoom(box, kind);
   ++(kind == MailKind::Pose ? box.poses : box.skeletons);

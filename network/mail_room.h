@@ -27,8 +27,8 @@ struct Mail {
   std::int64_t receiveUtimeUs = 0;
 };
 
-/// Skeletons that wait for one avatar. They come about once a second, so that more than a few mean
-/// that somebody floods; the oldest then makes way, as a pose would.
+/// Different skeletons that wait for one avatar: more than a few mean that somebody floods. The
+/// oldest then makes way, as a pose would.
 inline constexpr std::size_t kMaxWaitingSkeletons = 8;
 
 class MailRoom {
@@ -37,7 +37,7 @@ class MailRoom {
   MailRoom(std::size_t avatars, std::size_t poses);
 
   enum class Posted : std::uint8_t {
-    Kept,             ///< And nothing had to make way.
+    Kept,             ///< And nothing had to make way; also a skeleton that repeats one waiting.
     DroppedPose,      ///< The oldest waiting pose made way.
     DroppedSkeleton,  ///< The oldest waiting skeleton made way.
     Closed,           ///< Nothing is taken any more.
@@ -64,6 +64,7 @@ class MailRoom {
     bool isReady = false;    // in ready_
     bool isHandled = false;  // by a thread, now
   };
+  static bool isRepeated(const Box& box, const Mail& mail);
   bool makeRoom(Box& box, MailKind kind);
   std::unique_ptr<Mail> emptyMail();
   void keep(std::unique_ptr<Mail> mail);

@@ -20,6 +20,7 @@ Posted post(MailRoom& room, std::size_t avatar, MailKind kind, std::int64_t stam
   auto mail = std::make_unique<Mail>();
   mail->kind = kind;
   mail->receiveUtimeUs = stamp;
+  mail->skeleton.hash = stamp;
   return room.post(avatar, mail);
 }
 
@@ -56,6 +57,16 @@ TEST(MailRoom, BoundsSkeletonsToo) {
   EXPECT_EQ(stamps.size(), kMaxWaitingSkeletons);
   EXPECT_EQ(stamps.front(), 1);
   EXPECT_EQ(stamps.back(), 100);
+}
+
+TEST(MailRoom, TakesASkeletonThatRepeatsTheLastWaitingOneOnce) {
+  MailRoom room(1, 3);
+  EXPECT_EQ(post(room, 0, MailKind::Skeleton, 1), Posted::Kept);
+  EXPECT_EQ(post(room, 0, MailKind::Pose, 2), Posted::Kept);
+  EXPECT_EQ(post(room, 0, MailKind::Skeleton, 1), Posted::Kept);
+  EXPECT_EQ(post(room, 0, MailKind::Skeleton, 3), Posted::Kept);
+  EXPECT_EQ(post(room, 0, MailKind::Skeleton, 1), Posted::Kept);  // says something again
+  EXPECT_EQ(drain(room), (std::vector<std::int64_t>{1, 2, 3, 1}));
 }
 
 TEST(MailRoom, GivesAnAvatarToOneThreadAtATime) {
