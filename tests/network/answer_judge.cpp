@@ -120,7 +120,7 @@ bool AnswerJudge::canJudge(const HandedPose& pose, const ContactsMessage& answer
   }
   const SimulatedSender& sender = senders_[static_cast<std::size_t>(pose.id.sender)];
   if (last_.id.sender == pose.id.sender && !sender.hasSessions) {
-    ++run_.tally.unknowable;
+    if (answer.kind == StepKind::Consecutive) ++run_.tally.unknowable;
     return false;
   }
   violation(answer, "is a step from one sender to another");

@@ -13,6 +13,7 @@
 
 #include "articulated/clip.h"
 #include "articulated/joint_match.h"
+#include "tests/network/allocation_count.h"
 #include "tests/network/small_stream.h"
 #include "tests/support/random_geometry.h"
 
@@ -562,6 +563,24 @@ TEST_F(Stream, MakesOfAClipsFramesWhatAReplayMakesOfThem) {
     EXPECT_EQ(*step_.unknown, std::vector<AnswerReason>(4, AnswerReason::None));
     before = expected;
   }
+}
+
+TEST_F(Stream, AllocatesNothingAPose) {
+  if (!test::countsAllocations()) GTEST_SKIP() << "this build has an allocator of its own";
+  std::vector<PoseMessage> poses;
+  for (std::int64_t n = 0; n < 500; ++n) {
+    poses.push_back(nthPose(n % 50 == 49 ? n - 20 : n));  // some are refused
+    if (n % 7 == 0) poses.back().joints.pop_back();
+  }
+  ASSERT_EQ(say(skeleton_), Reject::None);
+  ASSERT_EQ(take(poses[0]), Reject::None);
+  const std::uint64_t before = test::numAllocations();
+  std::uint64_t accepted = 0;
+  for (const PoseMessage& pose : poses) {
+    if (take(pose) == Reject::None) ++accepted;
+  }
+  EXPECT_EQ(test::numAllocations(), before);
+  EXPECT_GT(accepted, 400U);
 }
 
 // Whatever comes, in whatever order.

@@ -48,7 +48,7 @@ void BrokenRule::changePlace(const PoseId& id, PoseMessage& message) {
     message.utimeUs = std::max(message.utimeUs, last_.utimeUs + 1);
     message.utimeUs = std::min(message.utimeUs, last_.utimeUs + 100'000);
   };
-  if (mutation_ == Mutation::GapsAreSteps) {
+  if (mutation_ == Mutation::GapsAreSteps && message.session == saidSession_) {
     const std::int64_t shift = last_.sequence - saidSequence_;
     message.sequence = isNext ? last_.sequence + 1 : message.sequence + shift;
   }

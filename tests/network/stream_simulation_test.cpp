@@ -29,6 +29,7 @@ TEST(StreamSimulation, KeepsEveryPromise) {
   EXPECT_GT(verdicts(Verdict::StartsInContact), linkSteps / 100);
   EXPECT_GT(verdicts(Verdict::Undecided), linkSteps / 10);
   EXPECT_EQ(all.unproved, 0U);
+  EXPECT_GT(all.answered, all.posesSent / 2);
   for (const AnswerReason reason :
        {AnswerReason::WorkBudget, AnswerReason::Gap, AnswerReason::MissingJoint,
         AnswerReason::InvalidJoint, AnswerReason::StaleJoint, AnswerReason::UnmatchedJoint}) {
@@ -60,24 +61,37 @@ TEST(StreamSimulation, IsDecidedByItsSeed) {
   }
 }
 
+/// How a broken rule shows: mostly by what the oracle says of the motion that nobody saw.
+std::string traceOf(Mutation mutation) {
+  switch (mutation) {
+    case Mutation::RestartsAreSteps: return "is a step from one sender to another";
+    case Mutation::CopiesAreNew: return "has been answered before";
+    case Mutation::ContactsAreLate: return "contact -> late";
+    default: return "clear -> missed";
+  }
+}
+
 class BrokenRules : public testing::TestWithParam<Mutation> {};
 
 TEST_P(BrokenRules, AreFound) {
   SimulationOptions options;
   options.mutation = GetParam();
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-    if (!simulate(seed, options).violations.empty()) return;
+    for (const std::string& violation : simulate(seed, options).violations) {
+      if (violation.find(traceOf(GetParam())) != std::string::npos) return;
+    }
   }
   FAIL() << "no seed below " << kSeeds << " found it";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BrokenRules, testing::ValuesIn(kMutations), [](const auto& info) {
-  std::string name = toString(info.param);
-  for (char& c : name) {
-    if (c == '-') c = '_';
-  }
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, BrokenRules, testing::ValuesIn(kMutations),
+                         [](const auto& parameter) {
+                           std::string name = toString(parameter.param);
+                           for (char& c : name) {
+                             if (c == '-') c = '_';
+                           }
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace foretouch::test

@@ -8,6 +8,7 @@
 
 #include "middleware/query.h"
 #include "network/codec.h"
+#include "tests/network/allocation_count.h"
 #include "tests/network/small_stream.h"
 #include "tests/support/random_geometry.h"
 
@@ -167,6 +168,21 @@ TEST_F(Solver, ClaimsNothingBelowAnUnknownJoint) {
   EXPECT_EQ(contactOf(test::kHand).reason, AnswerReason::StaleJoint);
   EXPECT_EQ(contactOf(test::kHand).contact.freeUntil, 0.0);
   EXPECT_EQ(contactOf(test::kHand).contact.triangle, -1);
+}
+
+TEST_F(Solver, AllocatesNothingAnAnswerOnceItHasGrown) {
+  if (!test::countsAllocations()) GTEST_SKIP() << "this build has an allocator of its own";
+  std::vector<PoseMessage> poses;
+  for (std::int64_t n = 0; n < 100; ++n) {  // to and fro through the wall: four contacts each
+    poses.push_back(poseAt(n % 2 == 0 ? 0.0 : 2.0, n, n * kStepUs));
+  }
+  std::uint64_t before = 0;
+  for (const PoseMessage& pose : poses) {
+    if (pose.sequence == 3) before = test::numAllocations();
+    ASSERT_EQ(solver_.take(pose, answer_), Reject::None);
+  }
+  EXPECT_EQ(test::numAllocations(), before);
+  EXPECT_EQ(answer_.contacts.size(), 4U);
 }
 
 TEST(StreamSolverBudget, IsSaidAndItsReasonPassedOn) {
