@@ -13,9 +13,9 @@
 #include "network/wire.h"
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
+#include "tools/numbered_avatars.h"
 #include "tools/played_clip.h"
 #include "tools/settling.h"
-#include "tools/numbered_avatars.h"
 
 namespace foretouch::tools {
 namespace {
@@ -33,12 +33,6 @@ struct PublishJob {
   PublishOptions options;
   std::string url, outputPath;
 };
-
-std::int64_t utimeNow() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 /// 0 is a speed of its own: without waiting.
 Result<double> parseSpeed(const std::string& text) {
@@ -168,6 +162,12 @@ constexpr char kExamples[] = R"(Examples:
 A service (foretouch serve) that knows the avatar answers as foretouch replay does.)";
 
 }  // namespace
+
+std::int64_t utimeNow() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
 
 Result<PublishReport> publishToLog(const PublishRequest& request, const PublishOptions& options,
                                    const std::string& logPath) {

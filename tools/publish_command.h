@@ -29,6 +29,9 @@ struct PublishRequest {
   Placement placement;
 };
 
+/// Microseconds since the Unix epoch, now.
+[[nodiscard]] std::int64_t utimeNow();
+
 /// Writes what publishing the clip sends, stamped as if every message had arrived the instant it
 /// was due, into a new event log.
 [[nodiscard]] Result<PublishReport> publishToLog(const PublishRequest& request,
