@@ -29,6 +29,8 @@ void growFor(std::vector<T>& values, std::size_t needed, std::size_t most) {
 
 }  // namespace
 
+UdpmReassembler::Partial::Partial() = default;
+
 std::size_t UdpmReassembler::Partial::bytesHeld() const {
   return sizeof(Partial) + channel.capacity() + bytes.capacity() +
          pieces.capacity() * sizeof(Piece);
@@ -70,10 +72,11 @@ void UdpmReassembler::take(const UdpmSender& sender, ByteView bytes, std::int64_
     ++counts_.otherChannels;
     return;
   }
-  ++counts_.messages;
   const std::uint8_t* payload = datagram.payload.data;
-  messages.push_back({std::string(datagram.channel),
-                      Bytes(payload, payload + datagram.payload.size), receiveUtimeUs});
+  deliver(sender,
+          {std::string(datagram.channel), Bytes(payload, payload + datagram.payload.size),
+           receiveUtimeUs},
+          messages);
 }
 
 void UdpmReassembler::takeFragment(const Key& key, const UdpmDatagram& datagram,
@@ -107,8 +110,7 @@ void UdpmReassembler::takeFragment(const Key& key, const UdpmDatagram& datagram,
   addPiece(partial, datagram);
   if (partial.pieces.size() < partial.fragments) return;
   if (auto payload = assembled(partial)) {
-    ++counts_.messages;
-    messages.push_back({std::move(partial.channel), std::move(*payload), utimeUs});
+    deliver(key.sender, {std::move(partial.channel), std::move(*payload), utimeUs}, messages);
     finish(*slot, DatagramFault::Repeated, utimeUs);
   } else {
     count(DatagramFault::Conflict);
@@ -132,7 +134,7 @@ UdpmReassembler::Slot* UdpmReassembler::findPartial(const Key& key) {
 }
 
 UdpmReassembler::Slot& UdpmReassembler::startPartial(const Key& key, const UdpmDatagram& datagram) {
-  if (numPartials() == slots_.size()) makeWay(Load::Messages, key.sender, nullptr);
+  if (numPartials() == slots_.size()) makeWay(key.sender, nullptr);
   Slot& slot = *std::find_if(slots_.begin(), slots_.end(),
                              [](const Slot& candidate) { return !candidate.has_value(); });
   slot.emplace();
@@ -169,7 +171,7 @@ void UdpmReassembler::addPiece(Partial& partial, const UdpmDatagram& datagram) {
   partial.isThere.set(datagram.fragment);
   if (datagram.fragment == 0) partial.channel = datagram.channel;
   // One message at its largest fits several times, so this ends with `partial` still there.
-  while (bytesHeld() > kMaxPartialBytes) makeWay(Load::Memory, partial.key.sender, &partial);
+  while (bytesHeld() > kMaxPartialBytes) makeWay(partial.key.sender, &partial);
 }
 
 std::optional<Bytes> UdpmReassembler::assembled(Partial& partial) {
@@ -205,25 +207,45 @@ void UdpmReassembler::remember(const Key& key, DatagramFault fault, std::int64_t
   numFinished_ = std::min(numFinished_ + 1, finished_.size());
 }
 
-void UdpmReassembler::makeWay(Load load, const UdpmSender& newcomer, const Partial* kept) {
-  const auto weightOf = [&](const Partial& partial) {
-    return load == Load::Messages ? std::size_t{1} : partial.bytesHeld();
-  };
+void UdpmReassembler::deliver(const UdpmSender& sender, WireMessage message,
+                              std::vector<WireMessage>& messages) {
+  ++counts_.messages;
+  messages.push_back(std::move(message));
+  if (known_[lastKnown_].lastTake == 0 || !isSameSender(known_[lastKnown_].sender, sender)) {
+    auto entry = std::find_if(known_.begin(), known_.end(), [&](const KnownSender& known) {
+      return known.lastTake != 0 && isSameSender(known.sender, sender);
+    });
+    if (entry == known_.end()) {
+      entry = std::min_element(
+          known_.begin(), known_.end(),
+          [](const KnownSender& a, const KnownSender& b) { return a.lastTake < b.lastTake; });
+    }
+    lastKnown_ = static_cast<std::size_t>(entry - known_.begin());
+  }
+  known_[lastKnown_] = {sender, takes_};
+}
+
+bool UdpmReassembler::isKnown(const UdpmSender& sender) const {
+  return std::any_of(known_.begin(), known_.end(), [&](const KnownSender& known) {
+    return known.lastTake != 0 && isSameSender(known.sender, sender);
+  });
+}
+
+void UdpmReassembler::makeWay(const UdpmSender& newcomer, const Partial* kept) {
   Slot* victim = nullptr;
-  std::tuple<std::size_t, std::size_t, std::uint64_t> worst;
+  std::tuple<int, bool, int, std::uint64_t> worst;
   for (Slot& slot : slots_) {
     if (!slot || &*slot == kept) continue;
     const UdpmSender& sender = slot->key.sender;
-    // A message that is about to be added counts for its sender.
-    const bool isAdding = load == Load::Messages;
-    std::size_t ofAddress = isAdding && sender.address == newcomer.address ? 1 : 0;
-    std::size_t ofSender = isAdding && isSameSender(sender, newcomer) ? 1 : 0;
+    // The newcomer's message counts as well.
+    int ofSender = isSameSender(sender, newcomer) ? 1 : 0;
+    int ofAddress = sender.address == newcomer.address ? 1 : 0;
     for (const Slot& other : slots_) {
       if (!other) continue;
-      if (other->key.sender.address == sender.address) ofAddress += weightOf(*other);
-      if (isSameSender(other->key.sender, sender)) ofSender += weightOf(*other);
+      ofSender += isSameSender(other->key.sender, sender) ? 1 : 0;
+      ofAddress += other->key.sender.address == sender.address ? 1 : 0;
     }
-    const std::tuple rank{ofAddress, ofSender, takes_ - slot->lastTake};
+    const std::tuple rank{ofSender, !isKnown(sender), ofAddress, takes_ - slot->lastTake};
     if (victim == nullptr || rank > worst) {
       victim = &slot;
       worst = rank;

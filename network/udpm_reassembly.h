@@ -9,11 +9,15 @@
 //     nobody asked for), so that their late and repeated fragments are not taken for new messages.
 //   - Names of channels are never kept, only compared.
 //
-// Who makes way when there is no room: an unfinished message of the address that has most of them
-// (bytes, where bytes ran out), within it of the sender (address and port) that has most, within it
-// the one that has waited longest for a fragment. So one flooding sender only ever pushes out its
-// own; to push out another's, it takes kMaxPartialMessages senders at one address, each of which
-// starts a message between two consecutive fragments of the victim. Short messages need no room.
+//   - The last kMaxKnownSenders senders of which a message was delivered.
+//
+// Who makes way when there is no room: an unfinished message of the sender (address and port) that
+// has most of them; among equals one of a sender that is not known, then of the address that has
+// most, then the one that has waited longest for a fragment. So a flooding sender only ever pushes
+// out its own, and any number of senders who never complete a message do not push out those of one
+// who did. A sender's very first message, if it is a fragmented one, can be pushed out by others at
+// its address alone, if kMaxPartialMessages of them start a message between two consecutive
+// fragments of it; the next one will do. Short messages need no room.
 #pragma once
 
 #include <array>
@@ -36,6 +40,7 @@ namespace foretouch {
 /// restarted).
 inline constexpr std::int64_t kMaxFragmentPauseUs = 1'000'000;
 inline constexpr std::size_t kMaxFinished = 64;
+inline constexpr std::size_t kMaxKnownSenders = 64;
 
 struct UdpmSender {
   std::uint32_t address = 0;
@@ -79,12 +84,17 @@ class UdpmReassembler {
     std::int64_t lastUtimeUs = 0;
     std::uint64_t lastTake = 0;
 
+    Partial();
     [[nodiscard]] std::size_t bytesHeld() const;
   };
   struct Finished {
     Key key;
     std::int64_t utimeUs = 0;
     DatagramFault fault = DatagramFault::None;  ///< What its further fragments are.
+  };
+  struct KnownSender {
+    UdpmSender sender;
+    std::uint64_t lastTake = 0;  ///< 0: none.
   };
   using Slot = std::optional<Partial>;
 
@@ -101,13 +111,17 @@ class UdpmReassembler {
   [[nodiscard]] static std::optional<Bytes> assembled(Partial& partial);
   void finish(Slot& slot, DatagramFault fault, std::int64_t utimeUs);
   void remember(const Key& key, DatagramFault fault, std::int64_t utimeUs);
-  enum class Load : std::uint8_t { Messages, Memory };
-  void makeWay(Load load, const UdpmSender& newcomer, const Partial* kept);
+  void deliver(const UdpmSender& sender, WireMessage message, std::vector<WireMessage>& messages);
+  [[nodiscard]] bool isKnown(const UdpmSender& sender) const;
+  /// Drops one message, not `kept`, for the sake of one of the newcomer's.
+  void makeWay(const UdpmSender& newcomer, const Partial* kept);
 
   std::set<std::string, std::less<>> channels_;
   std::array<Slot, kMaxPartialMessages> slots_;
   std::array<Finished, kMaxFinished> finished_;
   std::size_t numFinished_ = 0, nextFinished_ = 0;
+  std::array<KnownSender, kMaxKnownSenders> known_;
+  std::size_t lastKnown_ = 0;  ///< Of the last message delivered.
   std::uint64_t takes_ = 0;
   WireCounts counts_;
 };

@@ -221,6 +221,66 @@ TEST_F(Reassembly, AFloodOfOneSenderPushesOutOnlyItsOwn) {
   EXPECT_EQ(messages_[2].payload, payload);
 }
 
+TEST_F(Reassembly, AFloodOfManySendersDoesNotPushOutAKnownOne) {
+  const RawBytes payload = numbered(300);
+  std::uint16_t port = 5000;
+  const auto startFrom = [&](std::size_t senders) {
+    for (std::size_t i = 0; i < senders; ++i) {
+      take(fragmentOf({1, 1000, 0, 0, 2}, withNul("POSE") + "x"), {kAlice.address, ++port});
+    }
+  };
+  take(shortOf(0, withNul("POSE"), "known from now on"));
+  for (const RawBytes& bytes : cut("POSE", payload, 1, {100, 100})) {
+    startFrom(1000);
+    take(bytes);
+  }
+  startFrom(1000);
+  ASSERT_EQ(messages_.size(), 2u);
+  EXPECT_EQ(messages_[1].payload, payload);
+}
+
+TEST_F(Reassembly, AKnownSenderThatFloodsPushesOutOnlyItsOwn) {
+  const RawBytes payload = numbered(300);
+  take(shortOf(0, withNul("POSE"), "known from now on"), kMallory);
+  std::uint32_t flood = 0;
+  for (const RawBytes& bytes : cut("POSE", payload, 1, {100, 100})) {
+    take(bytes);
+    for (int i = 0; i < 100; ++i) {
+      take(fragmentOf({++flood, 1000, 0, 0, 2}, withNul("POSE") + "x"), kMallory);
+    }
+  }
+  ASSERT_EQ(messages_.size(), 2u);
+  EXPECT_EQ(messages_[1].payload, payload);
+}
+
+TEST_F(Reassembly, SendersAreKnownInBoundedNumber) {
+  const auto known = [](std::size_t i) {
+    return UdpmSender{kAlice.address, static_cast<std::uint16_t>(10'000 + i)};
+  };
+  take(shortOf(0, withNul("POSE"), "first"));
+  for (std::size_t i = 0; i + 1 < kMaxKnownSenders; ++i) {
+    take(shortOf(0, withNul("POSE"), "others"), known(i));
+  }
+  const RawBytes payload = numbered(300);
+  std::uint16_t port = 20'000;
+  const auto survives = [&](std::uint32_t sequence) {
+    messages_.clear();
+    for (const RawBytes& bytes : cut("POSE", payload, sequence, {100, 100})) {
+      take(bytes);
+      for (int i = 0; i < 100; ++i) {
+        take(fragmentOf({1, 1000, 0, 0, 2}, withNul("POSE") + "x"), {kAlice.address, ++port});
+      }
+    }
+    return messages_.size() == 1;
+  };
+  EXPECT_TRUE(survives(1));
+  // The one that was heard of longest ago is forgotten.
+  for (std::size_t i = 0; i < kMaxKnownSenders; ++i) {
+    take(shortOf(0, withNul("POSE"), "others"), known(1000 + i));
+  }
+  EXPECT_FALSE(survives(2));
+}
+
 TEST_F(Reassembly, AFloodOfManySendersMustOvertakeAWholeRound) {
   const RawBytes payload = numbered(300);
   std::uint16_t port = 5000;
