@@ -25,7 +25,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr std::size_t kThreads = 2;
+constexpr std::size_t kThreads = 4;
 /// Accepted connections that wait for a thread.
 constexpr std::size_t kMaxWaiting = 16;
 /// A server that stops is noticed after this long.

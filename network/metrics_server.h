@@ -16,7 +16,7 @@ namespace foretouch {
 /// Of a request, its headers and all: no scraper needs more.
 inline constexpr std::size_t kMaxRequestBytes = 4096;
 /// From the first byte to the last one of the response.
-inline constexpr int kRequestMs = 2000;
+inline constexpr int kRequestMs = 1000;
 
 /// "localhost" and numeric addresses of this machine alone.
 [[nodiscard]] bool isLoopback(const std::string& host);

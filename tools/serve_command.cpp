@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <ctime>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -40,6 +45,22 @@ Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   parts.receiver = std::move(receiver).value();
   parts.publisher = std::move(publisher).value();
   return Done{};
+}
+
+/// A folder gets a file of its own for every run: a service that is started anew finds its last log
+/// in place, and overwrites nothing.
+std::string logPathIn(const std::string& given) {
+  std::error_code none;
+  if (!std::filesystem::is_directory(given, none)) return given;
+  const std::int64_t utimeUs = systemClock().utimeUs();
+  constexpr std::int64_t kUsPerS = 1'000'000, kUsPerMs = 1000;
+  const std::time_t seconds = utimeUs / kUsPerS;
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  char stamp[32];
+  std::strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%S", &utc);
+  const std::string name = fmt::format("{}.{:03}Z.lcmlog", stamp, utimeUs % kUsPerS / kUsPerMs);
+  return (std::filesystem::path(given) / name).string();
 }
 
 Result<Done> openLog(const ServeConfig& config, ServiceParts& parts) {
@@ -107,7 +128,7 @@ void waitForEnd(const Service& service, const ServiceManager& manager, StopSigna
 
 std::string summaryOf(const ServiceCounts& counts) {
   return fmt::format(
-      "{} poses: {} answered, {} refused, {} lost on the way; {} answers not sent, "
+      "{} poses: {} answered, {} refused, {} lost on the way; {} messages not sent, "
       "{} events not recorded\n",
       counts.received, counts.answered, counts.rejected(), counts.lost, counts.publishFailures,
       counts.journalFailures);
@@ -131,7 +152,9 @@ answered first. docs/streaming.md has the whole story.)";
 
 }  // namespace
 
-Result<Done> serve(const ServeConfig& config) {
+Result<Done> serve(const ServeConfig& given) {
+  ServeConfig config = given;
+  config.log = logPathIn(given.log);
   auto world = loadServedWorld(config);
   if (!world.ok()) return world.error();
   for (const std::string& remark : world.value().remarks) printNote(remark);

@@ -138,7 +138,8 @@ void addServeOptions(CLI::App& command, const std::shared_ptr<ServeTexts>& texts
          "Poses that an avatar may have waiting; the oldest then makes way [64]");
   option("--budget-us", texts->budgetUs, "US",
          "What a pose may cost, as an amount of work; links beyond it are undecided");
-  option("--log", texts->log, "FILE", "Record what is taken and answered, as a new event log");
+  option("--log", texts->log, "FILE|DIR",
+         "Record what is taken and answered: a new event log, or a folder for one a run");
   option("--http", texts->http, "ADDRESS:PORT", "Serve /metrics and /healthz there");
   option("--tolerance", texts->tolerance, "M",
          "Largest separation (m) of a reported contact [0.001]");
