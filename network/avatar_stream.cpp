@@ -13,7 +13,7 @@ namespace foretouch {
 namespace {
 
 constexpr std::int64_t kLongestStepUs = 86'400'000'000;  // a day
-constexpr int kFewestConfirmations = 2, kMostConfirmations = 1000;
+constexpr int kFewestConfirmations = 1, kMostConfirmations = 1000;
 
 Result<Done> checked(const StreamPolicy& policy) {
   if (policy.maxStepUs < 1 || policy.maxStepUs > kLongestStepUs) {

@@ -74,12 +74,12 @@ TEST(StreamPolicy, OutOfRangeIsAnErrorThatNamesTheField) {
     const auto made = AvatarStream::make(smallAvatar(), policy);
     return made.ok() ? std::string() : made.error().file;
   };
-  EXPECT_EQ(fieldOf(1, 2), "");
+  EXPECT_EQ(fieldOf(1, 1), "");
   EXPECT_EQ(fieldOf(86'400'000'000, 1000), "");
   EXPECT_EQ(fieldOf(0, 3), "maxStepUs");
   EXPECT_EQ(fieldOf(-5, 3), "maxStepUs");
   EXPECT_EQ(fieldOf(86'400'000'001, 3), "maxStepUs");
-  EXPECT_EQ(fieldOf(1, 1), "confirmations");
+  EXPECT_EQ(fieldOf(1, 0), "confirmations");
   EXPECT_EQ(fieldOf(1, 1001), "confirmations");
 }
 

@@ -52,7 +52,7 @@ Faults randomFaults(Random& random) {
 StreamPolicy randomPolicy(Random& random) {
   StreamPolicy policy;
   policy.maxStepUs = random.chance(0.5) ? 10'000'000 : 1'000'000;
-  policy.confirmations = 2 + random.below(4);
+  policy.confirmations = 1 + random.below(5);
   policy.unmatchedAtRest = random.chance(0.3);
   return policy;
 }
