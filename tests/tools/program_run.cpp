@@ -19,9 +19,11 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
 }  // namespace
 
 ProgramRun::ProgramRun(const std::vector<std::string>& arguments,
-                       const std::vector<std::string>& environment, const std::string& out)
+                       const std::vector<std::string>& environment, const std::string& out,
+                       const std::string& program)
     : out_(out.empty() ? folder_ / "out" : out) {
-  std::vector<std::string> words{FORETOUCH_PROGRAM};
+  const std::string started = program.empty() ? FORETOUCH_PROGRAM : program;
+  std::vector<std::string> words{started};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> settings = environment;
   for (char** entry = environ; *entry != nullptr; ++entry) settings.emplace_back(*entry);
@@ -31,10 +33,10 @@ ProgramRun::ProgramRun(const std::vector<std::string>& arguments,
   posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&files, 1, out_.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&files, 2, (folder_ / "err").c_str(), O_WRONLY | O_CREAT, 0600);
-  const int failure = posix_spawn(&child_, FORETOUCH_PROGRAM, &files, nullptr,
-                                  pointersTo(words).data(), pointersTo(settings).data());
+  const int failure = posix_spawnp(&child_, started.c_str(), &files, nullptr,
+                                   pointersTo(words).data(), pointersTo(settings).data());
   posix_spawn_file_actions_destroy(&files);
-  if (failure != 0) ADD_FAILURE() << FORETOUCH_PROGRAM << " cannot be run: " << failure;
+  if (failure != 0) ADD_FAILURE() << started << " cannot be run: " << failure;
 }
 
 ProgramRun::~ProgramRun() {

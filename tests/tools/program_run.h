@@ -19,15 +19,19 @@ struct Ended {
 class ProgramRun {
  public:
   /// `environment` entries ("NAME=value") are added to what the test has. `out` is where stdout
-  /// goes; empty: it is caught.
+  /// goes; empty: it is caught. `program`: another one than ours, looked for as a shell does.
   explicit ProgramRun(const std::vector<std::string>& arguments,
-                      const std::vector<std::string>& environment = {},
-                      const std::string& out = "");
+                      const std::vector<std::string>& environment = {}, const std::string& out = "",
+                      const std::string& program = "");
   ProgramRun(const ProgramRun&) = delete;
   ProgramRun& operator=(const ProgramRun&) = delete;
   ~ProgramRun();
 
   void send(int signal) const;
+  /// What it has written to stdout so far.
+  [[nodiscard]] std::string outSoFar() const { return contentOf(out_); }
+  /// What it has written to stderr so far.
+  [[nodiscard]] std::string errSoFar() const { return contentOf(folder_ / "err"); }
   Ended ended();
 
  private:
