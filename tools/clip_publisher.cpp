@@ -24,7 +24,9 @@ std::int64_t monotonicNs() {
 class Run {
  public:
   Run(const PublishOptions& options, Pace& pace, const MessageSink& sink)
-      : options_(options), pace_(pace), sink_(sink) {}
+      : options_(options), pace_(pace), sink_(sink) {
+    report_.session = options.sender.startUtimeUs;
+  }
 
   /// False where it was told to stop.
   Result<bool> send(const ClipSender& sender) {

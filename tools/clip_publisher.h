@@ -57,6 +57,7 @@ struct PublishOptions {
 };
 
 struct PublishReport {
+  std::int64_t session = 0;     ///< The first one.
   std::int64_t poses = 0;       ///< Sent, or at least tried.
   std::int64_t skeletons = 0;   ///< The same.
   std::int64_t failures = 0;    ///< Messages that the sink did not take.

@@ -1,6 +1,5 @@
 #include "tools/event_line.h"
 
-#include <cmath>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -12,18 +11,13 @@
 namespace foretouch::tools {
 namespace {
 
-/// What a joint that is not valid holds may be anything.
-std::string anyNumber(double value) {
-  return std::isfinite(value) ? numberText(value) : "null";
-}
-
 std::string numbers(const Eigen::Vector3d& v) {
-  return fmt::format("[{},{},{}]", anyNumber(v.x()), anyNumber(v.y()), anyNumber(v.z()));
+  return fmt::format("[{},{},{}]", numberText(v.x()), numberText(v.y()), numberText(v.z()));
 }
 
 std::string numbers(const Quaternion& q) {
-  return fmt::format("[{},{},{},{}]", anyNumber(q.w()), anyNumber(q.x()), anyNumber(q.y()),
-                     anyNumber(q.z()));
+  return fmt::format("[{},{},{},{}]", numberText(q.w()), numberText(q.x()), numberText(q.y()),
+                     numberText(q.z()));
 }
 
 /// Beyond what a JSON number holds everywhere.
@@ -35,7 +29,7 @@ std::string fieldOf(const SkeletonMessage& message) {
   std::string text = fmt::format(
       R"("skeleton":{{"avatar":{},"session":{},"send_utime":{},"generation":{},"hash":{},"source":{},"rate":{},"joints":[)",
       message.avatar, message.session, message.sendUtimeUs, message.generation,
-      hashText(message.hash), jsonString(message.source), anyNumber(message.rateHz));
+      hashText(message.hash), jsonString(message.source), numberText(message.rateHz));
   const char* separator = "";
   for (const RawJoint& joint : message.skeleton.joints) {
     text += fmt::format(R"({}{{"name":{},"parent":{},"offset":{},"rotation":{}}})", separator,

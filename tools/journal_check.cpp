@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -61,6 +62,7 @@ void JournalCheck::addRecorded(const ContactsMessage& message, ByteView payload)
   ++recorded_;
   const Key key{message.avatar, message.session, message.sequenceTo};
   const auto replayed = pair(key, payload, recordedOnly_, replayedOnly_);
+  lastRecorded_[message.avatar] = order_;
   if (replayed) compare(message, payload, *replayed);
 }
 
@@ -68,6 +70,18 @@ void JournalCheck::addReplayed(const ContactsMessage& message, ByteView payload)
   const Key key{message.avatar, message.session, message.sequenceTo};
   const auto recorded = pair(key, payload, replayedOnly_, recordedOnly_);
   if (recorded) compare(message, *recorded, payload);
+}
+
+void JournalCheck::endIsOpen() {
+  for (auto queue = replayedOnly_.begin(); queue != replayedOnly_.end();) {
+    const std::int64_t last = lastRecorded_[std::get<0>(queue->first)];
+    std::deque<Waiting>& waiting = queue->second;
+    while (!waiting.empty() && waiting.back().order > last) {
+      waiting.pop_back();
+      ++beyondEnd_;
+    }
+    queue = waiting.empty() ? replayedOnly_.erase(queue) : std::next(queue);
+  }
 }
 
 std::optional<Bytes> JournalCheck::pair(const Key& key, ByteView payload, Queues& own,

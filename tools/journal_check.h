@@ -22,10 +22,16 @@ class JournalCheck {
   /// An answer that the replay gives.
   void addReplayed(const ContactsMessage& message, ByteView payload);
 
+  /// The log was cut off: of each avatar, answers of the replay after the last recorded one are not
+  /// missing there, but beyond its end. To be called once all have been added.
+  void endIsOpen();
+
   /// False while the log has given no answer: there is nothing to compare with.
   [[nodiscard]] bool hasRecord() const { return recorded_ > 0; }
   [[nodiscard]] std::int64_t recorded() const { return recorded_; }
   [[nodiscard]] std::int64_t equal() const { return equal_; }
+  /// Answers of the replay beyond the log's end.
+  [[nodiscard]] std::int64_t beyondEnd() const { return beyondEnd_; }
   /// All recorded answers are replayed and equal, and all replayed ones are recorded.
   [[nodiscard]] bool isEqual() const {
     return !first_ && recordedOnly_.empty() && replayedOnly_.empty();
@@ -52,7 +58,8 @@ class JournalCheck {
 
   Queues recordedOnly_, replayedOnly_;
   std::optional<Difference> first_;
-  std::int64_t recorded_ = 0, equal_ = 0, order_ = 0;
+  std::map<std::int32_t, std::int64_t> lastRecorded_;  // by avatar: the order
+  std::int64_t recorded_ = 0, equal_ = 0, beyondEnd_ = 0, order_ = 0;
 };
 
 }  // namespace foretouch::tools

@@ -19,8 +19,8 @@
 #include "tools/arguments.h"
 #include "tools/channel_names.h"
 #include "tools/contacts_line.h"
-#include "tools/interrupt.h"
 #include "tools/settling.h"
+#include "tools/stop_signal.h"
 
 namespace foretouch::tools {
 namespace {
@@ -37,7 +37,7 @@ struct ListenJob {
   std::string url;
   ChannelNames channels;
   bool json = false, status = false;
-  std::optional<int> count;         ///< Of verdicts; then it ends.
+  std::optional<int> count;        ///< Of verdicts; then it ends.
   std::optional<double> timeoutS;  ///< Of silence; then it ends.
 };
 
@@ -85,9 +85,10 @@ class Listener {
     const Reject reject =
         isStatus ? decode(message.payload, status_) : decode(message.payload, contacts_);
     if (reject != Reject::None) {
-      ++rejected_;
-      printNote(fmt::format("{}: a message that cannot be read ({})", message.channel,
-                            toString(reject)));
+      if (rejected_++ == 0) {
+        printNote(fmt::format("{}: a message that cannot be read ({})", message.channel,
+                              toString(reject)));
+      }
       return;
     }
     heardAt_ = Clock::now();
@@ -102,6 +103,7 @@ class Listener {
   /// Somebody reads what is printed.
   [[nodiscard]] bool isHeard() const { return isHeard_; }
   [[nodiscard]] std::int64_t verdicts() const { return verdicts_; }
+  [[nodiscard]] std::int64_t rejected() const { return rejected_; }
 
  private:
   void printContacts() {
@@ -125,20 +127,25 @@ class Listener {
 
 Result<ExitCode> listen(const ListenJob& job) {
   constexpr int kWaitMs = 50;  // how late a signal or the end of silence is noticed at most
-  const InterruptGuard guard;
+  StopSignal stop;
+  bool isStopped = false;
   const auto receiver = receiverFor(job);
   if (!receiver.ok()) return receiver.error();
   Listener listener(job);
   std::vector<WireMessage> messages;
-  while (!listener.isDone() && !listener.isSilent() && listener.isHeard() && !guard.requested()) {
+  while (!listener.isDone() && !listener.isSilent() && listener.isHeard() && !isStopped) {
     messages.clear();
     const auto received = receiver.value()->receive(messages, kWaitMs);
     if (!received.ok()) return inFile(received.error(), "--url");
     for (const WireMessage& message : messages) listener.take(message);
+    isStopped = stop.wait(std::chrono::milliseconds(0));
   }
   const std::uint64_t drops = receiver.value()->counts().kernelDrops;
+  if (listener.rejected() > 1) {
+    printNote(fmt::format("{} messages could not be read", listener.rejected()));
+  }
   if (drops > 0) printNote(fmt::format("the system dropped {} datagrams unread", drops));
-  if (!job.count || listener.isDone() || guard.requested()) return ExitCode::Done;
+  if (!job.count || listener.isDone() || isStopped) return ExitCode::Done;
   printError(fmt::format("{} of {} verdicts arrived before {:g} s of silence", listener.verdicts(),
                          *job.count, job.timeoutS.value_or(0.0)));
   return ExitCode::CheckSaysNo;

@@ -12,10 +12,10 @@
 #include "network/event_log.h"
 #include "network/wire.h"
 #include "tools/arguments.h"
-#include "tools/interrupt.h"
 #include "tools/numbered_avatars.h"
 #include "tools/played_clip.h"
 #include "tools/settling.h"
+#include "tools/stop_signal.h"
 
 namespace foretouch::tools {
 namespace {
@@ -120,8 +120,8 @@ Result<PublishReport> publishLive(const PublishJob& job) {
   if (!route.ok()) return inFile(route.error(), "--url");
   const auto publisher = openUdpmPublisher(url.value());
   if (!publisher.ok()) return inFile(publisher.error(), "--url");
-  const InterruptGuard guard;
-  LivePace pace([&guard] { return guard.requested(); });
+  StopSignal stop;
+  LivePace pace([&stop] { return stop.wait(std::chrono::milliseconds(0)); });
   PublishOptions options = job.options;
   options.sender.startUtimeUs = pace.utimeUs();
   auto sent = publishClip(placedIn(played.value(), job.request), played.value().steps, options,
@@ -150,7 +150,7 @@ ExitCode runTexts(const PublishTexts& texts) {
   printOut(fmt::format("{}: {} poses and {} skeletons of avatar {}, session {}\n",
                        isLog ? job.value().outputPath : job.value().url, report.value().poses,
                        report.value().skeletons, job.value().options.sender.avatar,
-                       job.value().options.sender.startUtimeUs));
+                       report.value().session));
   return ExitCode::Done;
 }
 

@@ -75,6 +75,7 @@ class LogReplay {
 
   LogReplayReport finish(const LogCounts& log) {
     report_.log = log;
+    if (log.isTruncated || log.tailEvents > 0) report_.journal.endIsOpen();
     for (const StreamSolver& solver : solvers_) {
       const StreamCounts& counts = solver.counts();
       report_.lost += static_cast<std::int64_t>(counts.lost);

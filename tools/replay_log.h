@@ -59,8 +59,7 @@ struct LogReplayReport {
 
   /// Nothing that the log says is contradicted.
   [[nodiscard]] bool agrees() const {
-    return !journal.hasRecord() ? unreadableAnswers == 0
-                                : unreadableAnswers == 0 && journal.isEqual();
+    return unreadableAnswers == 0 && (!journal.hasRecord() || journal.isEqual());
   }
 };
 

@@ -145,7 +145,7 @@ TEST(ReplayOfALog, ComparesWithTheJournal) {
       << equal.out;
 
   const std::string other = world.journal("other.lcmlog", [](ContactsMessage& answer) {
-    if (answer.sequenceTo == 17) answer.verdicts[0] = Verdict::Undecided;
+    if (answer.sequenceTo == 17) answer.lost = 1;
     return true;
   });
   const Ended differs = world.replayLog(other);
