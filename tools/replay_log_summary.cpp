@@ -63,13 +63,18 @@ std::string LogReplaySummary::comparison(const LogReplayReport& report) {
   if (report.unreadableAnswers > 0) {
     text += fmt::format("{} of the log's verdicts cannot be read\n", report.unreadableAnswers);
   }
-  if (report.journal.hasRecord()) {
-    text +=
-        fmt::format("{} of {} verdicts equal the journal's, byte for byte\n",
-                    report.journal.equal(), std::max(report.answers, report.journal.recorded()));
+  const JournalCheck& journal = report.journal;
+  if (journal.hasRecord()) {
+    const std::int64_t compared = report.answers - journal.beyondEnd();
+    text += fmt::format("{} of {} verdicts equal the journal's, byte for byte\n", journal.equal(),
+                        std::max(compared, journal.recorded()));
+  }
+  if (journal.hasRecord() && journal.beyondEnd() > 0) {
+    text += fmt::format("{} more are beyond the end of the log, which was cut off\n",
+                        journal.beyondEnd());
   }
   const auto difference =
-      report.journal.hasRecord() ? report.journal.firstDifference() : std::optional<std::string>();
+      journal.hasRecord() ? journal.firstDifference() : std::optional<std::string>();
   return text.empty() ? "" : "\n" + text + (difference ? "first: " + *difference + "\n" : "");
 }
 

@@ -94,6 +94,25 @@ TEST(JournalCheck, NamesWhatOneSideLacks) {
   EXPECT_EQ(extra.first(), "avatar 1, session 9, pose 5 is answered in the log, and not here");
 }
 
+TEST(JournalCheck, ForgivesALogThatWasCutOffWhatIsBeyondItsEnd) {
+  Check c;
+  for (std::int64_t i = 1; i < 8; ++i) {
+    c.replayed(answer(i));
+    if (i < 6) c.recorded(answer(i));
+  }
+  EXPECT_FALSE(c.check.isEqual());
+  c.check.endIsOpen();
+  EXPECT_TRUE(c.check.isEqual());
+  EXPECT_EQ(c.check.equal(), 5);
+  EXPECT_EQ(c.check.beyondEnd(), 2);
+  Check inside;
+  inside.replayed(answer(1));
+  inside.replayed(answer(2));
+  inside.recorded(answer(2));
+  inside.check.endIsOpen();
+  EXPECT_FALSE(inside.check.isEqual());  // the first is missing before the end
+}
+
 TEST(JournalCheck, PairsRepeatedSequencesInTheirOrder) {
   Check c;
   ContactsMessage second = answer(1);
