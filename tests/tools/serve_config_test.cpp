@@ -230,6 +230,10 @@ TEST(ServeConfig, BrokenTomlIsRefusedWithItsLine) {
   EXPECT_TRUE(has(errorOf("[scene]\n[scene]\n"), "etc/serve.toml:2: broken TOML: "));
   EXPECT_TRUE(has(errorOf("[scene]\nup = \"y\"\nup = \"z\"\n"), "etc/serve.toml:3: broken TOML: "));
   EXPECT_TRUE(has(errorOf("[scene]\nfile = \"\xff\"\n"), "etc/serve.toml:2: broken TOML: "));
+  for (const char* const bad :
+       {"[!\n", "[[!", "[[\n", "[", "[[", "[[a", "[[a]", "a.!", "a = {!", "a = ["}) {
+    EXPECT_TRUE(has(errorOf(bad), "broken TOML: ")) << bad;
+  }
 }
 
 TEST(ServeConfig, SizeAndNestingAreBounded) {
