@@ -1,5 +1,6 @@
 #include "tools/contacts_line.h"
 
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -176,7 +176,7 @@ TEST_F(StreamPrograms, AnswerARecordedClipInARealKitchenAsItsReplayDoes) {
   FORETOUCH_REQUIRE_SHARED(scene, "scenes/kitchen_fatihrmutfak.ply");
   stage_ = {*clip,
             folder_ / "kick.avatar.json",
-            {"--scale", "0.01", "--place", "KITCHEN_PLACE"},
+            {"--scale", "0.01", "--place", "1,0.02,-1"},
             {"--scene", *scene, "--up", "z"}};
   const Ended made = runForetouch({"avatar", "bvh", *clip, "--scale", "0.01", "-o", stage_.avatar});
   ASSERT_EQ(made.exitCode, 0) << made.err;
