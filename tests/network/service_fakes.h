@@ -24,11 +24,11 @@
 namespace foretouch::test {
 
 /// Long enough for any machine; only a test that fails waits for so long.
-inline constexpr std::chrono::seconds kPatience{60};
+inline constexpr std::chrono::seconds kServicePatience{60};
 
 template <typename Condition>
 bool eventually(const Condition& isMet) {
-  const auto until = std::chrono::steady_clock::now() + kPatience;
+  const auto until = std::chrono::steady_clock::now() + kServicePatience;
   while (!isMet()) {
     if (std::chrono::steady_clock::now() > until) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
