@@ -2,67 +2,33 @@
 #include "network/avatar_stream.h"
 
 #include <cstdint>
-#include <cstring>
 #include <limits>
-#include <map>
-#include <set>
+#include <string>
 #include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "articulated/clip.h"
-#include "articulated/joint_match.h"
 #include "tests/network/allocation_count.h"
 #include "tests/network/small_stream.h"
-#include "tests/support/random_geometry.h"
+#include "tests/network/stream_fixture.h"
 
 namespace foretouch {
 namespace {
 
+using test::kLeast;
+using test::kMost;
 using test::kStepUs;
 using test::nthPose;
 using test::poseMessage;
-using test::Random;
 using test::skeletonMessage;
 using test::smallAvatar;
 using test::smallSkeleton;
 
-constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-class Stream : public testing::Test {
- protected:
-  explicit Stream(const StreamPolicy& policy = {})
-      : stream_(AvatarStream::make(smallAvatar(), policy).value()) {}
-
-  [[nodiscard]] Reject say(const RawSkeleton& skeleton, std::int64_t session = 1,
-                           std::int32_t generation = 0) {
-    return stream_.take(skeletonMessage(skeleton, session, generation));
-  }
-  [[nodiscard]] Reject take(const PoseMessage& message) { return stream_.take(message, step_); }
-  [[nodiscard]] Reject take(std::int64_t sequence, std::int64_t utimeUs, std::int64_t session = 1) {
-    return take(poseMessage(skeleton_, sequence, utimeUs, session));
-  }
-  [[nodiscard]] std::uint64_t counted(Reject reject) const {
-    return stream_.counts().rejects[static_cast<std::size_t>(reject)];
-  }
-  [[nodiscard]] AnswerReason unknown(JointId link) const {
-    return (*step_.unknown)[static_cast<std::size_t>(link)];
-  }
-  /// The skeleton, and poses up to `n`, each accepted.
-  void follow(std::int64_t n) {
-    ASSERT_EQ(say(skeleton_), Reject::None);
-    for (std::int64_t i = 0; i <= n; ++i) ASSERT_EQ(take(nthPose(i)), Reject::None);
-  }
-
-  RawSkeleton skeleton_ = smallSkeleton();
-  AvatarStream stream_;
-  StreamStep step_;
-};
+class Stream : public test::StreamFixture {};
 
 // A row each: what may be asked of a stream.
 
@@ -386,185 +352,6 @@ TEST_F(Stream, SurvivesTheEndsOfTheIntegers) {
   EXPECT_EQ(take(kLeast, kLeast, kLeast + 1), Reject::OldSession);
 }
 
-// What is known of joints.
-
-TEST_F(Stream, KnowsALinkWhoseJointsAreAllKnownInBothPoses) {
-  follow(1);
-  EXPECT_EQ(*step_.unknown, std::vector<AnswerReason>(4, AnswerReason::None));
-  PoseMessage inferred = nthPose(2);
-  for (PoseJoint& joint : inferred.joints) joint.flags = kJointValid | kJointInferred;
-  ASSERT_EQ(take(inferred), Reject::None);
-  EXPECT_EQ(*step_.unknown, std::vector<AnswerReason>(4, AnswerReason::None));
-}
-
-TEST_F(Stream, KnowsNothingBelowAJointThatIsNot) {
-  struct Case {
-    std::uint8_t flags;
-    AnswerReason reason;
-  };
-  std::int64_t n = 1;
-  follow(0);
-  for (const Case& c :
-       {Case{0, AnswerReason::InvalidJoint}, Case{kJointTracked, AnswerReason::InvalidJoint},
-        Case{kJointValid, AnswerReason::StaleJoint}}) {
-    PoseMessage message = nthPose(n++);
-    message.joints[test::kArm].flags = c.flags;
-    ASSERT_EQ(take(message), Reject::None);
-    for (int pose = 0; pose < 2; ++pose) {  // it is the later pose's, then the earlier one's
-      EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
-      EXPECT_EQ(unknown(test::kArm), c.reason);
-      EXPECT_EQ(unknown(test::kHand), c.reason);
-      EXPECT_EQ(unknown(test::kLeg), AnswerReason::None);
-      ASSERT_EQ(take(nthPose(n++)), Reject::None);
-    }
-    EXPECT_EQ(unknown(test::kHand), AnswerReason::None);
-  }
-}
-
-TEST_F(Stream, NamesTheReasonNearestToTheLink) {
-  follow(0);
-  PoseMessage message = nthPose(1);
-  message.joints[test::kHips].flags = 0;
-  message.joints[test::kArm].flags = kJointValid;
-  message.joints.erase(message.joints.begin() + test::kHand);
-  ASSERT_EQ(take(message), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::InvalidJoint);
-  EXPECT_EQ(unknown(test::kArm), AnswerReason::StaleJoint);
-  EXPECT_EQ(unknown(test::kHand), AnswerReason::MissingJoint);
-  EXPECT_EQ(unknown(test::kLeg), AnswerReason::InvalidJoint);
-}
-
-TEST_F(Stream, HoldsWhatIsUnknownAtItsLastKnownValue) {
-  ASSERT_EQ(say(skeleton_), Reject::None);
-  PoseMessage message = nthPose(0);
-  message.joints[test::kHand].flags = 0;
-  message.joints[test::kHand].rotation = Quaternion(0.0, 1.0, 0.0, 0.0);
-  ASSERT_EQ(take(message), Reject::None);
-  const auto hand = [&] { return step_.to->rotations[test::kHand].coeffs(); };
-  EXPECT_EQ(hand(), skeleton_.joints[test::kHand].rotation.coeffs());  // never known
-  message = nthPose(1);
-  message.joints[test::kHand].rotation = Quaternion(0.0, 0.0, 1.0, 0.0);
-  ASSERT_EQ(take(message), Reject::None);
-  for (std::int64_t n = 2; n < 5; ++n) {
-    message = nthPose(n);
-    message.joints.pop_back();
-    message.joints.erase(message.joints.begin() + test::kHand);
-    ASSERT_EQ(take(message), Reject::None);
-    EXPECT_EQ(hand(), Quaternion(0.0, 0.0, 1.0, 0.0).coeffs());
-  }
-}
-
-TEST_F(Stream, DoesNotKnowAJointThatTheSenderLacks) {
-  RawSkeleton three = skeleton_;
-  three.joints.erase(three.joints.begin() + test::kArm);  // Hips, Hand, Leg
-  three.joints[1].parent = 0;
-  three.joints[2].parent = 0;
-  const auto firstOf = [&](bool unmatchedAtRest) {
-    StreamPolicy policy;
-    policy.unmatchedAtRest = unmatchedAtRest;
-    stream_ = AvatarStream::make(smallAvatar(), policy).value();
-    EXPECT_EQ(say(three), Reject::None);
-    EXPECT_EQ(take(poseMessage(three, 0, 0)), Reject::None);
-    return *step_.unknown;
-  };
-  using R = AnswerReason;
-  EXPECT_EQ(firstOf(false),
-            (std::vector<R>{R::None, R::UnmatchedJoint, R::UnmatchedJoint, R::None}));
-  EXPECT_EQ(firstOf(true), std::vector<R>(4, R::None));
-  EXPECT_EQ(step_.to->translations[test::kArm], skeleton_.joints[test::kArm].offset);
-}
-
-TEST_F(Stream, DoesNotTakeTheRestOffsetForATranslationThatWasNotSent) {
-  follow(1);
-  PoseMessage without = nthPose(2);
-  without.translations.clear();
-  ASSERT_EQ(take(without), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::MissingJoint);
-  EXPECT_EQ(step_.to->translations[0], nthPose(1).translations[0].translation);
-  ASSERT_EQ(take(nthPose(3)), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::MissingJoint);  // of the earlier pose
-  ASSERT_EQ(take(nthPose(4)), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
-  // Another session owes nothing to this one.
-  without = nthPose(0, 2);
-  without.translations.clear();
-  ASSERT_EQ(take(without), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
-  EXPECT_EQ(step_.to->translations[0], skeleton_.joints[0].offset);
-  // What came before the first translation was not the rest offset for sure.
-  ASSERT_EQ(take(nthPose(1, 2)), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::MissingJoint);
-  ASSERT_EQ(take(nthPose(2, 2)), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
-}
-
-// The same poses as a replay of a clip makes of them, bit for bit.
-
-Clip randomClip(Random& random, int frames) {
-  RawSkeleton raw = smallSkeleton();
-  std::swap(raw.joints[1], raw.joints[3]);  // another order than the avatar's
-  raw.joints[2].parent = 3;
-  std::swap(raw.joints[2], raw.joints[3]);
-  raw.joints[3].parent = 2;
-  raw.joints.push_back({"Tail", 0, {0.0, 0.0, -0.2}, random.rotation()});
-  Clip clip{Skeleton::build(raw).value(), 0.01, {}, {}, {}, {}, {}};
-  clip.hasRotation.assign(raw.joints.size(), true);
-  for (std::size_t j = 0; j < raw.joints.size(); ++j) {
-    clip.hasTranslation.push_back(j == 0 || random.chance(0.5));
-  }
-  for (int f = 0; f < frames; ++f) {
-    Pose pose;
-    for (std::size_t j = 0; j < raw.joints.size(); ++j) {
-      Quaternion q = random.rotation();
-      q.coeffs() *= 1.0 + random.uniform(-9e-4, 9e-4);
-      pose.rotations.push_back(q);
-      pose.translations.push_back(raw.joints[j].offset + random.inBox(0.3));
-    }
-    clip.frames.push_back(pose);
-  }
-  return clip;
-}
-
-bool areSameBits(const Pose& x, const Pose& y) {
-  const auto same = [](const auto& a, const auto& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
-  };
-  return same(x.rotations, y.rotations) && same(x.translations, y.translations);
-}
-
-TEST_F(Stream, MakesOfAClipsFramesWhatAReplayMakesOfThem) {
-  Random random(7);
-  const Clip clip = randomClip(random, 40);
-  const Skeleton avatar = smallAvatar().skeleton();
-  const JointMatch match = matchJoints(avatar, clip.skeleton).value();
-  RawSkeleton said;
-  for (JointId j = 0; j < clip.skeleton.numJoints(); ++j) {
-    said.joints.push_back({clip.skeleton.name(j), clip.skeleton.parent(j),
-                           clip.skeleton.restOffset(j), clip.skeleton.restRotation(j)});
-  }
-  ASSERT_EQ(say(said), Reject::None);
-  Pose before;
-  for (std::size_t f = 0; f < clip.frames.size(); ++f) {
-    PoseMessage message =
-        poseMessage(said, static_cast<std::int64_t>(f), static_cast<std::int64_t>(f) * kStepUs);
-    message.translations.clear();
-    for (std::size_t j = 0; j < said.joints.size(); ++j) {
-      const auto joint = static_cast<std::int32_t>(j);
-      message.joints[j].rotation = clip.frames[f].rotations[j];
-      if (clip.hasTranslation[j]) {
-        message.translations.push_back({joint, clip.frames[f].translations[j]});
-      }
-    }
-    std::reverse(message.joints.begin(), message.joints.end());
-    ASSERT_EQ(take(message), Reject::None);
-    const Pose expected = validatedPose(avatar, poseOfAvatar(avatar, clip, match, f)).value();
-    EXPECT_TRUE(areSameBits(*step_.to, expected)) << "frame " << f;
-    EXPECT_TRUE(areSameBits(*step_.from, f > 0 ? before : expected)) << "frame " << f;
-    EXPECT_EQ(*step_.unknown, std::vector<AnswerReason>(4, AnswerReason::None));
-    before = expected;
-  }
-}
-
 TEST_F(Stream, AllocatesNothingAPose) {
   if (!test::countsAllocations()) GTEST_SKIP() << "this build has an allocator of its own";
   std::vector<PoseMessage> poses;
@@ -581,86 +368,6 @@ TEST_F(Stream, AllocatesNothingAPose) {
   }
   EXPECT_EQ(test::numAllocations(), before);
   EXPECT_GT(accepted, 400U);
-}
-
-// Whatever comes, in whatever order.
-
-PoseMessage randomPose(Random& random, const RawSkeleton& skeleton, std::int64_t clock) {
-  const auto near = [&](std::int64_t middle, int spread) {
-    return middle + random.below(2 * spread + 1) - spread;
-  };
-  const auto extreme = [&] { return random.chance(0.5) ? kLeast : kMost; };
-  PoseMessage message = poseMessage(skeleton, near(clock, 3), near(clock, 2) * kStepUs,
-                                    random.chance(0.95) ? clock / 50 : near(clock / 50, 1));
-  if (random.chance(0.02)) message.sequence = extreme();
-  if (random.chance(0.02)) message.utimeUs = extreme();
-  if (random.chance(0.005)) message.session = extreme();
-  if (random.chance(0.05)) message.skeletonHash ^= 1;
-  if (random.chance(0.05)) message.joints[0].joint = random.below(8) - 2;
-  if (random.chance(0.05)) message.joints[1].rotation.w() = random.uniform(-3.0, 3.0);
-  if (random.chance(0.2)) message.joints.pop_back();
-  return message;
-}
-
-TEST(StreamProperty, EveryPoseIsAnsweredOnceInOrderOrRefusedForAReason) {
-  std::uint64_t accepted = 0, taken = 0;
-  RejectCounts seen{};
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Random random(seed);
-    AvatarStream stream = AvatarStream::make(smallAvatar(), {}).value();
-    const RawSkeleton skeletons[] = {smallSkeleton(), [] {
-                                       RawSkeleton longer = smallSkeleton();
-                                       longer.joints[1].offset.y() *= 2.0;
-                                       return longer;
-                                     }()};
-    std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> answered;
-    std::uint64_t refusedSkeletons = 0;
-    StreamStep step, last;
-    for (std::int64_t clock = 0; clock < 200; ++clock) {
-      if (random.chance(0.1)) {
-        const Reject reject =
-            stream.take(skeletonMessage(skeletons[random.below(2)], clock / 50, random.below(4)));
-        if (reject != Reject::None) ++refusedSkeletons;
-      }
-      const PoseMessage message = randomPose(random, skeletons[random.below(2)], clock);
-      const Reject reject = stream.take(message, step);
-      if (reject != Reject::None) continue;
-      EXPECT_TRUE(answered.emplace(message.session, message.sequence, message.utimeUs).second);
-      EXPECT_EQ(step.sequenceTo, message.sequence);
-      if (step.kind == StepKind::First) {
-        EXPECT_EQ(step.from, step.to);
-      } else {
-        EXPECT_EQ(step.session, last.session);
-        EXPECT_EQ(step.skeletonHash, last.skeletonHash);
-        EXPECT_EQ(step.sequenceFrom, last.sequenceTo);
-        EXPECT_EQ(step.utimeFromUs, last.utimeToUs);
-        EXPECT_GT(step.sequenceTo, step.sequenceFrom);
-        EXPECT_GT(step.utimeToUs, step.utimeFromUs);
-        if (step.kind == StepKind::Consecutive) {
-          EXPECT_EQ(step.sequenceTo - 1, step.sequenceFrom);
-        }
-      }
-      last = step;
-    }
-    const StreamCounts& counts = stream.counts();
-    std::uint64_t rejects = 0;
-    for (const std::uint64_t count : counts.rejects) rejects += count;
-    EXPECT_EQ(counts.poses, 200U);
-    EXPECT_EQ(counts.poses, counts.accepted + rejects - refusedSkeletons);
-    EXPECT_EQ(counts.accepted, answered.size());
-    accepted += counts.accepted;
-    taken += counts.poses;
-    for (std::size_t i = 0; i < kNumRejects; ++i) seen[i] += counts.rejects[i];
-  }
-  EXPECT_GT(accepted, taken / 20);
-  EXPECT_LT(accepted, taken / 2);
-  for (const Reject reject :
-       {Reject::BadIndex, Reject::NonUnit, Reject::OldGeneration, Reject::UnknownSkeleton,
-        Reject::SkeletonMismatch, Reject::Duplicate, Reject::OutOfOrder, Reject::StaleStamp,
-        Reject::FutureStamp, Reject::OldSession}) {
-    EXPECT_GT(seen[static_cast<std::size_t>(reject)], 0U) << toString(reject);
-  }
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <chrono>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -75,64 +77,85 @@ void printCounts(const SimulationTally& all) {
       static_cast<unsigned long long>(all.unproved));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+struct Arguments {
   std::uint64_t seeds = 1000, first = 0;
-  double loss = -1.0;
+  SimulationOptions options;
+};
+
+std::optional<Mutation> mutationOf(const std::string& name) {
+  for (const Mutation mutation : foretouch::test::kMutations) {
+    if (name == toString(mutation)) return mutation;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> mutationNames() {
+  std::vector<std::string> names;
+  for (const Mutation mutation : foretouch::test::kMutations)
+    names.emplace_back(toString(mutation));
+  return names;
+}
+
+std::optional<Arguments> parse(int argc, char** argv, int& code) {
+  Arguments a;
+  double loss = 0.0;
   std::string mutation;
   CLI::App app{"Streams over a faulty network, each answer judged by an independent oracle"};
-  app.add_option("--seeds", seeds, "How many runs")->check(CLI::PositiveNumber);
-  app.add_option("--first", first, "The first seed");
-  app.add_option("--loss", loss, "Share of messages lost; drawn by the seed if not given")
-      ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--break", mutation,
-                 "Break this rule: what is then found is the simulation's own test");
+  app.add_option("--seeds", a.seeds, "How many runs")->check(CLI::PositiveNumber);
+  app.add_option("--first", a.first, "The first seed");
+  const auto* const lossOption =
+      app.add_option("--loss", loss, "Share of messages lost; drawn by the seed if not given")
+          ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--break", mutation, "Break this rule on purpose, which must be found")
+      ->check(CLI::IsMember(mutationNames()));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    code = app.exit(error) == 0 ? 0 : 2;
+    return std::nullopt;
   }
-  SimulationOptions options;
-  if (loss >= 0.0) options.loss = loss;
-  for (const Mutation candidate : foretouch::test::kMutations) {
-    if (mutation == toString(candidate)) options.mutation = candidate;
-  }
-  if (!mutation.empty() && options.mutation == Mutation::None) {
-    std::fprintf(stderr, "--break: no rule is called '%s'; expected one of:", mutation.c_str());
-    for (const Mutation candidate : foretouch::test::kMutations) {
-      std::fprintf(stderr, " %s", toString(candidate));
-    }
-    std::fprintf(stderr, "\n");
-    return 2;
-  }
+  if (lossOption->count() > 0) a.options.loss = loss;
+  a.options.mutation = mutationOf(mutation).value_or(Mutation::None);
+  return a;
+}
 
+void printViolations(std::uint64_t seed, const SimulationRun& run,
+                     const SimulationOptions& options) {
+  for (const std::string& violation : run.violations) {
+    std::printf("seed %llu: %s\n", static_cast<unsigned long long>(seed), violation.c_str());
+  }
+  std::printf("  again: ./run simulate --first %llu --seeds 1",
+              static_cast<unsigned long long>(seed));
+  if (options.loss) std::printf(" --loss %.17g", *options.loss);
+  if (options.mutation != Mutation::None) std::printf(" --break %s", toString(options.mutation));
+  std::printf("\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int code = 0;
+  const auto arguments = parse(argc, argv, code);
+  if (!arguments) return code;
+  constexpr std::uint64_t kMostShown = 10;
   const auto start = std::chrono::steady_clock::now();
   Rows rows;
   SimulationTally all;
   std::uint64_t failed = 0;
-  for (std::uint64_t seed = first; seed - first < seeds; ++seed) {
-    const SimulationRun run = simulate(seed, options);
+  for (std::uint64_t i = 0; i < arguments->seeds; ++i) {
+    const std::uint64_t seed = arguments->first + i;
+    const SimulationRun run = simulate(seed, arguments->options);
     rows[{!run.isLossAlone, run.loss}].add(run.tally);
     all.add(run.tally);
     if (run.violations.empty()) continue;
-    if (++failed <= 10) {
-      for (const std::string& violation : run.violations) {
-        std::printf("seed %llu: %s\n", static_cast<unsigned long long>(seed), violation.c_str());
-      }
-      std::printf("  again: ./run simulate --first %llu --seeds 1",
-                  static_cast<unsigned long long>(seed));
-      if (options.loss) std::printf(" --loss %g", *options.loss);
-      if (!mutation.empty()) std::printf(" --break %s", mutation.c_str());
-      std::printf("\n");
-    }
+    if (++failed <= kMostShown) printViolations(seed, run, arguments->options);
   }
   printTable(rows);
   printCounts(all);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf("%llu seeds in %.1f s: %llu with a broken promise\n",
-              static_cast<unsigned long long>(seeds), seconds,
+              static_cast<unsigned long long>(arguments->seeds), seconds,
               static_cast<unsigned long long>(failed));
   return failed == 0 ? 0 : 1;
 }
