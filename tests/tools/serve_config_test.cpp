@@ -230,8 +230,8 @@ TEST(ServeConfig, BrokenTomlIsRefusedWithItsLine) {
   EXPECT_TRUE(has(errorOf("[scene]\n[scene]\n"), "etc/serve.toml:2: broken TOML: "));
   EXPECT_TRUE(has(errorOf("[scene]\nup = \"y\"\nup = \"z\"\n"), "etc/serve.toml:3: broken TOML: "));
   EXPECT_TRUE(has(errorOf("[scene]\nfile = \"\xff\"\n"), "etc/serve.toml:2: broken TOML: "));
-  for (const char* const bad :
-       {"[!\n", "[[!", "[[\n", "[", "[[", "[[a", "[[a]", "a.!", "a = {!", "a = ["}) {
+  for (const char* const bad : {"[!\n", "[[!", "[[\n", "[", "[[", "[[a", "[[a]", "a.!", "a = {!",
+                                "a = [", "a = \u00c8", "\u049e = 1", "a \u00e9"}) {
     EXPECT_TRUE(has(errorOf(bad), "broken TOML: ")) << bad;
   }
 }
