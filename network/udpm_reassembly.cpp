@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "lss/assert.h"
+
 namespace foretouch {
 namespace {
 
@@ -185,7 +187,7 @@ std::optional<Bytes> UdpmReassembler::assembled(Partial& partial) {
     arrivedInOrder = arrivedInOrder && piece->at == end;
     end += piece->size;
   }
-  if (end != partial.messageBytes) return std::nullopt;
+  FORETOUCH_ASSERT(end == partial.messageBytes);  // the last one ends there: parseDatagram()
   if (arrivedInOrder) return std::move(partial.bytes);
   Bytes payload;
   payload.reserve(end);

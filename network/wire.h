@@ -42,6 +42,7 @@ struct WireCounts {
   std::array<std::uint64_t, kNumDatagramFaults> faults{};
 };
 
+/// One thread at a time.
 class Receiver {
  public:
   virtual ~Receiver() = default;
@@ -75,8 +76,8 @@ class Publisher {
 
 [[nodiscard]] Result<std::unique_ptr<Publisher>> openUdpmPublisher(const UdpmUrl& url);
 
-/// Sends one datagram to the group on a port of its own choice and waits for it. An error says what
-/// is missing (a multicast route, usually) and what to type.
+/// Sends one datagram to the group on a port of its own choice and waits for it, a second at most.
+/// An error says what is missing (a multicast route, usually) and what to type.
 [[nodiscard]] Result<Done> testMulticast(const UdpmUrl& url);
 
 }  // namespace foretouch

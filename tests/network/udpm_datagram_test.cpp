@@ -114,6 +114,7 @@ TEST(ParseDatagram, RefusesFragmentsThatCannotBePart) {
   EXPECT_EQ(faultOf({7, 3, 0, 1, 2}, "x"), DatagramFault::Fragment);
   EXPECT_EQ(faultOf({7, 3, 1, 1, 2}, "x"), DatagramFault::Fragment);
   EXPECT_EQ(faultOf({7, 3, 2, 1, 3}, "x"), DatagramFault::Fragment);
+  EXPECT_EQ(faultOf({7, 10, 1, 2, 4}, "x"), DatagramFault::Fragment);
   EXPECT_EQ(faultOf({7, 3, 0, 0, 2}, name), DatagramFault::Fragment);
   EXPECT_EQ(faultOf({7, 0, 0, 0, 1}, name), DatagramFault::Fragment);
 }

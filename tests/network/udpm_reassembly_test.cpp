@@ -139,6 +139,10 @@ TEST_F(Reassembly, DropsMessagesWhoseFragmentsDisagree) {
   refuses(5, {with(5, {40, 30})[0], with(5, {41, 29})[1], with(5, {40, 30})[2]});
   refuses(6, {with(6, {40, 30})[0], with(6, {39, 31})[1], with(6, {40, 30})[2]});
   refuses(7, {with(7, {40, 30})[0], with(7, {40, 29})[1], with(7, {40, 30})[2]});
+  // As many bytes as the message has, but one of them twice and one not at all.
+  RawBytes shifted = with(9, {40, 30})[1];
+  ++shifted[15];  // its offset
+  refuses(9, {with(9, {40, 30})[0], shifted, with(9, {40, 30})[2]});
   // More bytes than the message has.
   refuses(8, {with(8, {90, 1})[0], with(8, {10, 89})[1]});
 }
@@ -219,6 +223,29 @@ TEST_F(Reassembly, AFloodOfOneSenderPushesOutOnlyItsOwn) {
   }
   ASSERT_EQ(messages_.size(), 4u);
   EXPECT_EQ(messages_[2].payload, payload);
+}
+
+TEST_F(Reassembly, SendersAndAddressesWithManyMakeWayForNewOnes) {
+  const RawBytes payload = numbered(300);
+  const auto fragments = cut("POSE", payload, 1, {100, 100});
+  const auto start = [&](std::uint32_t sequence, const UdpmSender& sender) {
+    take(fragmentOf({sequence, 1000, 0, 0, 2}, withNul("POSE") + "x"), sender);
+  };
+  // Of the sender that has most, though Alice's has waited longest.
+  take(fragments[0]);
+  for (std::uint32_t i = 1; i < kMaxPartialMessages; ++i) start(i, kMallory);
+  start(1, {kAlice.address, 3000});
+  takeAll({fragments[1], fragments[2]});
+  ASSERT_EQ(messages_.size(), 1u);
+  // Of the address that has most.
+  const UdpmSender bob{0x0200000a, 77};
+  const std::uint32_t address = 0x0300000a;
+  reassembler_ = UdpmReassembler({"POSE"});
+  take(fragments[0], bob);
+  for (std::uint16_t port = 1; port < kMaxPartialMessages; ++port) start(1, {address, port});
+  start(1, {0x0400000a, 1});
+  for (const RawBytes& bytes : {fragments[1], fragments[2]}) take(bytes, bob);
+  ASSERT_EQ(messages_.size(), 2u);
 }
 
 TEST_F(Reassembly, AFloodOfManySendersDoesNotPushOutAKnownOne) {
