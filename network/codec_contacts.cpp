@@ -1,9 +1,9 @@
 #include <bitset>
 #include <cstddef>
+#include <foretouch/contacts_t.hpp>
 #include <optional>
 #include <utility>
 
-#include "foretouch/contacts_t.hpp"
 #include "network/codec.h"
 #include "network/codec_lcm.h"
 

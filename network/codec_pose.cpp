@@ -1,7 +1,7 @@
 #include <bitset>
 #include <cstddef>
+#include <foretouch/pose_t.hpp>
 
-#include "foretouch/pose_t.hpp"
 #include "network/codec.h"
 #include "network/codec_lcm.h"
 

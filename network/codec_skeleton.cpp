@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstddef>
+#include <foretouch/skeleton_t.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "foretouch/skeleton_t.hpp"
 #include "network/codec.h"
 #include "network/codec_lcm.h"
 

@@ -1,7 +1,7 @@
 #include <cstddef>
+#include <foretouch/status_t.hpp>
 #include <utility>
 
-#include "foretouch/status_t.hpp"
 #include "network/codec.h"
 #include "network/codec_lcm.h"
 

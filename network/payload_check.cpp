@@ -1,11 +1,10 @@
 #include "network/payload_check.h"
 
 #include <cstring>
-
-#include "foretouch/contacts_t.hpp"
-#include "foretouch/pose_t.hpp"
-#include "foretouch/skeleton_t.hpp"
-#include "foretouch/status_t.hpp"
+#include <foretouch/contacts_t.hpp>
+#include <foretouch/pose_t.hpp>
+#include <foretouch/skeleton_t.hpp>
+#include <foretouch/status_t.hpp>
 
 namespace foretouch {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <foretouch/skeleton_t.hpp>
 #include <set>
 #include <string>
 
-#include "foretouch/skeleton_t.hpp"
 #include "network/codec.h"
 #include "network/payload_check.h"
 

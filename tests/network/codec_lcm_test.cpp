@@ -1,13 +1,13 @@
 // The codec against lcm-gen's own: what either writes, the other reads, field by field.
 #include <cstring>
+#include <foretouch/contacts_t.hpp>
+#include <foretouch/pose_t.hpp>
+#include <foretouch/skeleton_t.hpp>
+#include <foretouch/status_t.hpp>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "foretouch/contacts_t.hpp"
-#include "foretouch/pose_t.hpp"
-#include "foretouch/skeleton_t.hpp"
-#include "foretouch/status_t.hpp"
 #include "network/codec.h"
 #include "network/payload_check.h"
 #include "tests/network/random_messages.h"
