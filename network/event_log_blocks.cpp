@@ -44,7 +44,7 @@ bool CheckedBlocks::findBlock() {
     BlockEvent event;
     std::uint64_t at = 0;
     const bool isFramed = walk(event, at);
-    if (isFramed && at == next_ && isOpening(event)) {  // this log's first event, or another log's
+    if (isFramed && event.logId != *logId_) {  // another log begins right behind this one
       logId_ = event.logId;
       expected_ = 0;
     }
