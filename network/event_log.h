@@ -77,7 +77,7 @@ struct LogReadOptions {
   std::function<void(const LogFinding&)> onFinding;
 };
 
-/// Reads any file in order, in bounded memory (some 40 MiB at worst, 1 MiB for what our writer
+/// Reads any file in order, in bounded memory (below 64 MiB at worst, 1 MiB for what our writer
 /// writes): bad bytes are passed over up to the next event, counted, never fatal. Events on
 /// kLogBlockChannel are not given out.
 class EventLogReader {
