@@ -228,9 +228,11 @@ void UdpmReassembler::deliver(const UdpmSender& sender, WireMessage message,
 }
 
 bool UdpmReassembler::isKnown(const UdpmSender& sender) const {
-  return std::any_of(known_.begin(), known_.end(), [&](const KnownSender& known) {
-    return known.lastTake != 0 && isSameSender(known.sender, sender);
-  });
+  for (const KnownSender& known : known_) {
+    if (known.lastTake == 0) return false;  // filled from the front
+    if (isSameSender(known.sender, sender)) return true;
+  }
+  return false;
 }
 
 void UdpmReassembler::makeWay(const UdpmSender& newcomer, const Partial* kept) {
