@@ -38,7 +38,7 @@ struct ListenJob {
   ChannelNames channels;
   bool json = false, status = false;
   std::optional<int> count;        ///< Of verdicts; then it ends.
-  std::optional<double> timeoutS;  ///< Of silence; then it ends.
+  std::optional<double> timeoutS;  ///< Without a verdict; then it ends.
 };
 
 Result<ListenJob> settled(const ListenTexts& texts) {
@@ -91,7 +91,6 @@ class Listener {
       }
       return;
     }
-    heardAt_ = Clock::now();
     isStatus ? print(job_.json ? statusLine(status_) : statusText(status_)) : printContacts();
   }
 
@@ -109,6 +108,7 @@ class Listener {
   void printContacts() {
     if (const auto missing = tracker_.take(contacts_)) printNote(*missing);
     ++verdicts_;
+    heardAt_ = Clock::now();
     print(job_.json ? contactsLine(contacts_, Stamps::With) : contactsText(contacts_));
   }
   void print(const std::string& line) {
@@ -180,7 +180,7 @@ void addListenCommand(CLI::App& program, ExitCode& exit) {
   command->add_flag("--json", texts->json, "Lines of JSON instead of text");
   command->add_flag("--status", texts->status, "The service's heartbeats as well");
   option("--count", texts->count, "N", "End after so many verdicts");
-  option("--timeout", texts->timeout, "S", "End after so many seconds without a message");
+  option("--timeout", texts->timeout, "S", "End after so many seconds without a verdict");
   command->footer(kExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });
 }
