@@ -1,5 +1,5 @@
 // tests/tools/serve_program_test.cpp: `foretouch serve`, in networks of its own.
-#include <cerrno>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -69,16 +69,18 @@ bool inNetwork(Network network, const std::function<void()>& trial) {
   return isGiven;
 }
 
-#define FORETOUCH_IN_NETWORK(network, ...)                                                       \
-  if (!inNetwork(network, __VA_ARGS__)) GTEST_SKIP() << "the system gives no network namespace " \
-                                                        "here"
+#define FORETOUCH_IN_NETWORK(network, ...)                 \
+  if (!inNetwork(network, __VA_ARGS__))                    \
+  GTEST_SKIP() << "the system gives no network namespace " \
+                  "here"
 
 /// A service that runs.
 class Serving {
  public:
   explicit Serving(const SmallWorld& world, const std::vector<std::string>& more = {},
                    const std::vector<std::string>& environment = {})
-      : out_(world.folder / "serve.out"), run_(served(world, more), environment, out_) {
+      : out_(world.folder / ("out of run " + std::to_string(nextRun()))),
+        run_(served(world, more), environment, out_) {
     EXPECT_TRUE(eventually([&] { return holds(out(), "\nready\n"); })) << out();
   }
   [[nodiscard]] std::string out() const { return contentOf(out_); }
@@ -86,6 +88,10 @@ class Serving {
   Ended ended() { return run_.ended(); }
 
  private:
+  static int nextRun() {
+    static std::atomic<int> runs{0};
+    return ++runs;
+  }
   std::string out_;
   ProgramRun run_;
 };
