@@ -85,8 +85,12 @@ void checkStandsInLog(const Bytes& log, const std::vector<LogEvent>& events) {
   }
 }
 
-void checkSeek(const Bytes& log, const std::vector<LogEvent>& events) {
+/// The index is a log's own: where blocks are missing or out of order, it leads into the order in
+/// which they were written, and reading from the start may have met a later one first.
+void checkSeek(const Bytes& log, const Read& all) {
+  const std::vector<LogEvent>& events = all.events;
   const bool isGrowing =
+      all.counts.badBlocks + all.counts.missingBlocks == 0 &&
       std::is_sorted(events.begin(), events.end(),
                      [](const LogEvent& a, const LogEvent& b) { return a.utimeUs < b.utimeUs; });
   auto reader = EventLogReaderAccess::open(logInMemory(log), "input");
@@ -95,6 +99,7 @@ void checkSeek(const Bytes& log, const std::vector<LogEvent>& events) {
     require(reader.value().seek(utimeUs).ok(), "memory can be read");
     const std::vector<LogEvent> found = rest(reader.value());
     require(found.empty() || found.front().utimeUs >= utimeUs, "seek finds no earlier event");
+    checkStandsInLog(log, found);
     if (!isGrowing) continue;
     const auto first = std::find_if(events.begin(), events.end(), [&](const LogEvent& event) {
       return event.utimeUs >= utimeUs;
@@ -185,7 +190,7 @@ bool feedLog(const std::uint8_t* data, std::size_t size) {
   require(kept.events.size() >= checked.events.size() &&
               kept.events.size() <= checked.events.size() + checked.counts.tailEvents,
           "a tail adds its events");
-  if (!checked.events.empty()) checkSeek(log, checked.events);
+  if (!checked.events.empty()) checkSeek(log, checked);
   return !checked.events.empty();
 }
 
