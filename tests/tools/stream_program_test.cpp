@@ -269,7 +269,7 @@ TEST_F(StreamPrograms, EndWhenToldTo) {
 TEST_F(StreamPrograms, NameAUrlThatIsNone) {
   const Ended listening = runForetouch({"listen", "--url", "tcpq://localhost:7700"});
   EXPECT_EQ(listening.exitCode, 2);
-  EXPECT_TRUE(holds(listening.err, "--url")) << listening.err;
+  EXPECT_TRUE(holds(listening.err, "tcpq://localhost:7700: expected udpm://")) << listening.err;
   EXPECT_EQ(runForetouch(publishWords({"--url", "udpm://10.0.0.1:7667"})).exitCode, 2);
   // The environment's URL is what every LCM program takes.
   const Ended named = runForetouch({"listen", "--timeout", "0.1"}, {"LCM_DEFAULT_URL=tcpq://here"});
