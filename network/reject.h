@@ -29,7 +29,7 @@ enum class Reject : std::uint8_t {
   UnknownSkeleton,   ///< A pose before any skeleton.
   SkeletonMismatch,  ///< A pose of another skeleton than the one in use.
   // Where it stands in its stream.
-  Duplicate,    ///< The same session and sequence again.
+  Duplicate,    ///< The same session, sequence and capture time again.
   OutOfOrder,   ///< Older than a pose that has been answered.
   StaleStamp,   ///< A later sequence with a capture time that is not later.
   FutureStamp,  ///< Captured longer than StreamPolicy::maxStepUs after the last pose.
