@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "network/mail_room.h"
+#include "network/service_status.h"
 #include "network/thread_beat.h"
 
 namespace foretouch {
@@ -292,50 +293,8 @@ struct Service::Impl {
 
   [[nodiscard]] StatusMessage status() const {
     const ServiceCounts counts = counter.counts();
-    StatusMessage message;
-    message.utimeUs = parts.clock->utimeUs();
-    message.startUtimeUs = facts.startUtimeUs;
-    message.build = facts.build;
-    message.scene = facts.scene;
-    message.numAvatars = static_cast<std::int32_t>(facts.numAvatars);
-    message.numWorkers = facts.numWorkers;
-    const auto whole = [](std::uint64_t count) { return static_cast<std::int64_t>(count); };
-    message.received = whole(counts.received);
-    message.answered = whole(counts.answered);
-    message.rejected = whole(counts.rejected());
-    message.lost = whole(counts.lost);
-    message.gaps = whole(counts.gaps);
-    message.waiting = whole(counts.waiting);
-    message.publishFailures = whole(counts.publishFailures);
-    message.journalFailures = whole(counts.journalFailures);
-    message.kernelDrops = whole(counts.wire.kernelDrops);
-    addReasons(counts, message.counts);
-    addTimes(message);
-    return message;
-  }
-
-  static void addReasons(const ServiceCounts& counts, std::vector<StatusMessage::Count>& reasons) {
-    const auto add = [&](const std::string& reason, std::uint64_t count) {
-      if (count > 0) reasons.push_back({reason, static_cast<std::int64_t>(count)});
-    };
-    for (std::size_t i = 0; i < kNumRejects; ++i) {
-      add(toString(static_cast<Reject>(i)), counts.rejects[i] + counts.skeletonRejects[i]);
-    }
-    for (std::size_t i = 0; i < kNumDatagramFaults; ++i) {
-      add(std::string("datagram-") + toString(static_cast<DatagramFault>(i)),
-          i == 0 ? 0 : counts.wire.faults[i]);
-    }
-  }
-
-  void addTimes(StatusMessage& message) const {
-    constexpr double kMedian = 0.5, kTail = 0.99;
     const std::lock_guard lock(mutex);
-    message.latencyP50Us = lastSecond.latency.quantileUs(kMedian);
-    message.latencyP99Us = lastSecond.latency.quantileUs(kTail);
-    message.latencyMaxUs = lastSecond.latency.maxUs();
-    message.queryP50Us = lastSecond.query.quantileUs(kMedian);
-    message.queryP99Us = lastSecond.query.quantileUs(kTail);
-    message.queryMaxUs = lastSecond.query.maxUs();
+    return statusOf(facts, counts, lastSecond, parts.clock->utimeUs());
   }
 
   [[nodiscard]] ServiceHealth health() const {

@@ -7,8 +7,8 @@
 namespace foretouch {
 
 /// What a query's whole work comes to for each of its scalar distance evaluations, microseconds of
-/// processor time: 0.39 to 0.43 in clutter of 20,000 triangles, on a server core with AVX-512. Elsewhere
-/// a budget takes more or less time, but the same work.
+/// processor time: 0.39 to 0.43 in clutter of 20,000 triangles, on a server core with AVX-512.
+/// Elsewhere a budget takes more or less time, but the same work.
 inline constexpr double kEvaluationUs = 0.4;
 
 /// Distance evaluations that each of `numLinks` links may cost (QueryOptions::maxAdvancements) so
