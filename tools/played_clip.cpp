@@ -56,13 +56,12 @@ std::vector<std::string> remarksOnClip(const Avatar& avatar, const Clip& clip,
     remarks.push_back(
         fmt::format("{}: {} of {} joints have no counterpart in the clip and keep "
                     "their rest values: {}",
-                    avatarPath, match.unmatchedAvatar.size(),
-                    avatar.numLinks(), firstOf(match.unmatchedAvatar)));
+                    avatarPath, match.unmatchedAvatar.size(), avatar.numLinks(),
+                    firstOf(match.unmatchedAvatar)));
   }
   if (!match.unmatchedClip.empty()) {
     remarks.push_back(fmt::format("{}: {} joints drive nothing: {}", motionPath,
-                                  match.unmatchedClip.size(),
-                                  firstOf(match.unmatchedClip)));
+                                  match.unmatchedClip.size(), firstOf(match.unmatchedClip)));
   }
   constexpr double kSuspiciousRatio = 2.0;  // people differ by less, centimetres and inches by more
   const double ratio = sizeOfClipToAvatar(avatar.skeleton(), clip, match);

@@ -13,8 +13,8 @@
 
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
-#include "tools/progress.h"
 #include "tools/played_clip.h"
+#include "tools/progress.h"
 #include "tools/settling.h"
 #include "tools/surface_writer.h"
 #include "tools/sweep.h"

@@ -86,7 +86,8 @@ TEST(BvhText, RefusesWhatBvhCannotHold) {
   const Skeleton skeleton = Skeleton::build(raw).value();
   const auto text = bvhText(skeleton, {false}, {restPose(skeleton)}, 0.1);
   ASSERT_FALSE(text.ok());
-  EXPECT_NE(text.error().message.find("blank at its end "), std::string::npos) << describe(text.error());
+  EXPECT_NE(text.error().message.find("blank at its end "), std::string::npos)
+      << describe(text.error());
   RawSkeleton shifted;
   shifted.joints.push_back({"a", kNoParent, {0, 0, 0}, Quaternion::Identity()});
   shifted.joints.push_back({"b", 0, {0, 1, 0}, Quaternion::Identity()});
