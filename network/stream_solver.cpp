@@ -33,7 +33,7 @@ LinkContact nothingOf(LinkId link) {
 /// As contacts_t says it: 0 where there is none.
 std::int64_t budgetOf(const QueryOptions& options) {
   constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  return options.maxAdvancements > kMost ? 0 : static_cast<std::int64_t>(options.maxAdvancements);
+  return options.workBudget > kMost ? 0 : static_cast<std::int64_t>(options.workBudget);
 }
 
 }  // namespace

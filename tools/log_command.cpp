@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/log_convert_command.h"
 #include "tools/log_inspect_command.h"
 #include "tools/log_recover_command.h"
 
@@ -13,6 +14,7 @@ void addLogCommand(CLI::App& program, ExitCode& exit) {
   addLogInfoCommand(*log, exit);
   addLogCheckCommand(*log, exit);
   addLogRecoverCommand(*log, exit);
+  addLogConvertCommand(*log, exit);
 }
 
 }  // namespace foretouch::tools

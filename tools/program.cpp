@@ -10,6 +10,8 @@
 #include "tools/bench_command.h"
 #include "tools/console.h"
 #include "tools/demo_command.h"
+#include "tools/listen_command.h"
+#include "tools/publish_command.h"
 #include "tools/log_command.h"
 #include "tools/replay_command.h"
 #include "tools/scene_command.h"
@@ -45,6 +47,7 @@ ExitCode run(int argc, const char* const* argv) {
   ExitCode exit = ExitCode::Done;
   addDemoCommand(program, exit);
   addReplayCommand(program, exit);
+  addServeCommand(program, exit);
   addPublishCommand(program, exit);
   addListenCommand(program, exit);
   addAvatarCommand(program, exit);

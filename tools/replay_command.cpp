@@ -19,7 +19,6 @@
 #include "tools/serve_config.h"
 #include "tools/settling.h"
 #include "tools/stream_arguments.h"
-#include "tools/stream_arguments.h"
 
 namespace foretouch::tools {
 namespace {
@@ -87,8 +86,8 @@ Result<Done> checkOptions(const CLI::App& command, const ReplayTexts& texts, boo
                                    "--map",     "--animation", "--robot",         "--package",
                                    "--threads", "--scope",     "--compare-rigid", "--compare-link",
                                    "--rays"};
-  constexpr std::array kOfLogs = {"--suffix", "--max-step", "--confirmations", "--unmatched-at-rest",
-                                  "--budget-us"};
+  constexpr std::array kOfLogs = {"--suffix", "--max-step", "--confirmations",
+                                  "--unmatched-at-rest", "--budget-us"};
   const auto firstGiven = [&command](const auto& options) {
     const auto given = std::find_if(options.begin(), options.end(),
                                     [&](const char* option) { return command.count(option) > 0; });

@@ -32,8 +32,7 @@ Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
     auto options = queryOptionsFor(request, inputs.avatars[i], inputs.scene);
     if (!options.ok()) return options.error();
     if (inputs.request.budgetUs > 0) {
-      options.value().maxAdvancements = workBudget(static_cast<double>(inputs.request.budgetUs),
-                                                   inputs.avatars[i].numLinks());
+      options.value().workBudget = workBudget(static_cast<double>(inputs.request.budgetUs));
     }
     auto solver = StreamSolver::make(inputs.request.avatars[i].id, inputs.avatars[i], inputs.scene,
                                      options.value(), inputs.request.policy);
@@ -214,10 +213,10 @@ std::string logHeaderLine(const LogReplayInputs& inputs) {
   text += surfaceFields(query);
   text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", numberText(query.sceneScale),
                       query.sceneUp == UpAxis::Z ? "z" : "y", jsonList(query.ignore));
-  text += fmt::format(
-      R"(,"budget_us":{},"max_step":{},"confirmations":{},"unmatched_at_rest":{})", request.budgetUs,
-      numberText(static_cast<double>(request.policy.maxStepUs) / kUsPerS),
-      request.policy.confirmations, request.policy.unmatchedAtRest);
+  text += fmt::format(R"(,"budget_us":{},"max_step":{},"confirmations":{},"unmatched_at_rest":{})",
+                      request.budgetUs,
+                      numberText(static_cast<double>(request.policy.maxStepUs) / kUsPerS),
+                      request.policy.confirmations, request.policy.unmatchedAtRest);
   text += R"(,"avatars":[)";
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {
     std::vector<std::string> links;

@@ -18,8 +18,8 @@
 #include "network/stream_solver.h"
 #include "tools/channel_names.h"
 #include "tools/journal_check.h"
-#include "tools/replay_inputs.h"
 #include "tools/numbered_avatars.h"
+#include "tools/replay_inputs.h"
 
 namespace foretouch::tools {
 
@@ -32,7 +32,8 @@ struct LogReplayRequest {
   std::vector<NumberedAvatar> avatars;
   StreamPolicy policy;
   std::string suffix;
-  std::int64_t budgetUs = 0;  ///< What a pose may cost, as workBudget() makes work of it; 0: no limit.
+  std::int64_t budgetUs =
+      0;  ///< What a pose may cost, as workBudget() makes work of it; 0: no limit.
 };
 
 struct LogReplayInputs {

@@ -9,14 +9,6 @@
 #include "tools/json_text.h"
 
 namespace foretouch::tools {
-namespace {
-
-double timeOf(const LinkContact& contact) {
-  return contact.verdict == Verdict::Undecided ? contact.freeUntil : contact.toi;
-}
-
-}  // namespace
-
 std::vector<LinkContact> notClear(const std::vector<LinkContact>& links) {
   std::vector<LinkContact> contacts;
   std::copy_if(links.begin(), links.end(), std::back_inserter(contacts),

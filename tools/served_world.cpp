@@ -30,8 +30,7 @@ Result<QueryOptions> queryOf(const ServeConfig& config, const Avatar& avatar,
   query.tolerance = config.tolerance;
   query.fidelity = config.fidelity;
   if (config.budgetUs > 0) {
-    query.maxAdvancements = workBudget(static_cast<double>(config.budgetUs),
-                                       static_cast<std::int32_t>(avatar.numLinks()));
+    query.workBudget = workBudget(static_cast<double>(config.budgetUs));
   }
   auto ignored = parseIgnoredPairs(config.ignore, avatar.skeleton(), scene.objectNames());
   if (!ignored.ok()) return ignored.error();

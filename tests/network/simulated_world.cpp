@@ -7,7 +7,7 @@
 namespace foretouch::test {
 namespace {
 
-constexpr double kRoom = 1.2;  // half its edge, m
+constexpr double kRoom = 0.7;  // half its edge, m
 
 std::array<double, 4> own(const Quaternion& q) {
   return {q.w(), q.x(), q.y(), q.z()};
@@ -59,7 +59,7 @@ SimulatedScene randomScene(Random& random) {
   RawScene raw;
   raw.objectNames = {"thing"};
   std::vector<oracle::Triangle> triangles;
-  const int count = 2 + random.below(7);
+  const int count = 3 + random.below(10);
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d center = random.inBox(kRoom);
     const double size = random.magnitude(0.05, 1.0);

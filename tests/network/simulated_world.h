@@ -27,7 +27,7 @@ struct SimulatedScene {
   oracle::Scene oracle;
 };
 
-/// Two to eight triangles around the world's origin.
+/// Three to twelve triangles around the world's origin.
 [[nodiscard]] SimulatedScene randomScene(Random& random);
 
 /// How a body's joints truly move from pose to pose: smoothly, or by leaps.

@@ -61,8 +61,8 @@ QueryOptions randomOptions(Random& random) {
   QueryOptions options;
   options.tolerance = random.magnitude(1e-5, 1e-2);
   const bool isLimited = random.chance(0.15);
-  const int most = 1 + random.below(30);
-  if (isLimited) options.maxAdvancements = static_cast<std::uint64_t>(most);
+  const int most = 1 + random.below(1500);
+  if (isLimited) options.workBudget = static_cast<std::uint64_t>(most);
   return options;
 }
 

@@ -187,7 +187,7 @@ TEST_F(Solver, AllocatesNothingAnAnswerOnceItHasGrown) {
 
 TEST(StreamSolverBudget, IsSaidAndItsReasonPassedOn) {
   QueryOptions options;
-  options.maxAdvancements = 1;
+  options.workBudget = 1;
   StreamSolver solver = StreamSolver::make(0, smallAvatar(), wall(), options, {}).value();
   ASSERT_EQ(solver.take(skeletonMessage(smallSkeleton())), Reject::None);
   ContactsMessage answer;
