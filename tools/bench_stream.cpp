@@ -10,9 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "articulated/pose.h"
 #include "tools/bench_machine.h"
-#include "tools/bench_timing.h"
+#include "tools/clip_sender.h"
 #include "tools/service_process.h"
 
 namespace foretouch::tools {
@@ -147,27 +146,18 @@ class Watch {
 }  // namespace
 
 Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place) {
-  const Skeleton& skeleton = inputs.avatar.skeleton();
+  const StepSelection everyFrame{1, static_cast<std::int64_t>(inputs.clip.frames.size()) - 1};
+  SenderOptions options;
+  options.source = "foretouch bench";
+  const ClipSender sender(
+      {inputs.avatar, inputs.clip, inputs.match, place, inputs.isUpright, inputs.files.motionPath},
+      everyFrame, options);
   LoadTrack track;
-  track.skeleton.source = "foretouch bench";
-  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-    track.skeleton.skeleton.joints.push_back(
-        {skeleton.name(j), skeleton.parent(j), skeleton.restOffset(j), skeleton.restRotation(j)});
-  }
-  track.skeleton.hash = skeletonHash(track.skeleton.skeleton);
-  for (std::size_t f = 0; f < inputs.clip.frames.size(); ++f) {
-    const auto pose =
-        validatedPose(skeleton, placedPose(inputs, place, static_cast<std::int64_t>(f)));
-    if (!pose.ok()) return pose.error();
-    PoseMessage message;
-    for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-      const auto at = static_cast<std::size_t>(j);
-      message.joints.push_back({j, kJointValid | kJointTracked, pose.value().rotations[at]});
-      if (skeleton.parent(j) == kNoParent) {
-        message.translations.push_back({j, pose.value().translations[at]});
-      }
-    }
-    track.poses.push_back(std::move(message));
+  track.skeleton = sender.skeleton(0);
+  track.poses.resize(static_cast<std::size_t>(sender.numPoses()));
+  for (std::int64_t pose = 0; pose < sender.numPoses(); ++pose) {
+    const auto filled = sender.fill(pose, 0, track.poses[static_cast<std::size_t>(pose)]);
+    if (!filled.ok()) return filled.error();
   }
   return track;
 }

@@ -28,7 +28,7 @@ struct StreamRequest {
   std::string command;  ///< As typed in.
 };
 
-/// What the bundled dancer's senders send in the scene.
+/// The clip as its senders send it, a pose a frame.
 [[nodiscard]] Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place);
 
 struct StreamBench {

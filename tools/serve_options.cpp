@@ -12,6 +12,7 @@
 #include "tools/console.h"
 #include "tools/numbered_avatars.h"
 #include "tools/settling.h"
+#include "tools/stream_arguments.h"
 
 namespace foretouch::tools {
 namespace {
@@ -33,22 +34,6 @@ Result<Fidelity> parseServedFidelity(const std::string& text) {
     return refusal("--fidelity", "link or exact", text);
   }
   return fidelity;
-}
-
-Result<std::int64_t> parseBudgetUs(const std::string& text) {
-  const auto count = parseCount("--budget-us", text, static_cast<int>(kMaxServeBudgetUs));
-  if (!count.ok()) return count.error();
-  return std::int64_t{count.value()};
-}
-
-Result<std::int64_t> parseMaxStepUs(const std::string& text) {
-  constexpr double kUsPerS = 1e6;
-  const auto seconds = parsePositive("--max-step", text);
-  if (!seconds.ok()) return seconds.error();
-  if (seconds.value() > kMaxServeStepS || seconds.value() * kUsPerS < 1.0) {
-    return refusal("--max-step", "seconds from 0.000001 to 86400", text);
-  }
-  return static_cast<std::int64_t>(std::llround(seconds.value() * kUsPerS));
 }
 
 Result<std::string> parseSuffix(const std::string& text) {
@@ -85,7 +70,8 @@ void settleService(const ServeTexts& texts, ServeConfig& config, Settling& settl
         [](const std::string& text) { return parseCount("--workers", text, kMaxServeWorkers); });
   given(config.queue, texts.queue,
         [](const std::string& text) { return parseCount("--queue", text, kMaxServeQueue); });
-  given(config.budgetUs, texts.budgetUs, parseBudgetUs);
+  given(config.budgetUs, texts.budgetUs,
+        [](const std::string& text) { return parseBudgetUs("--budget-us", text); });
   given(config.http, texts.http, parseHttp);
   if (!texts.log.empty()) config.log = texts.log;
 }
@@ -102,7 +88,8 @@ void settleQuery(const ServeTexts& texts, ServeConfig& config, Settling& settle)
   given(config.tolerance, texts.tolerance,
         [](const std::string& text) { return parseTolerance("--tolerance", text); });
   given(config.fidelity, texts.fidelity, parseServedFidelity);
-  given(config.stream.maxStepUs, texts.maxStep, parseMaxStepUs);
+  given(config.stream.maxStepUs, texts.maxStep,
+        [](const std::string& text) { return parseMaxStepUs("--max-step", text); });
   given(config.stream.confirmations, texts.confirmations, [](const std::string& text) {
     return parseCount("--confirmations", text, kMaxServeConfirmations);
   });

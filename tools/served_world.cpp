@@ -3,54 +3,35 @@
 #include <utility>
 
 #include "articulated/avatar_file.h"
-#include "middleware/link_mesh.h"
-#include "middleware/scene_import.h"
 #include "network/work_budget.h"
 #include "tools/console.h"
-#include "tools/ignored_pairs.h"
+#include "tools/replay_inputs.h"
 
 namespace foretouch::tools {
 namespace {
 
-Result<Scene> loadScene(const ServeConfig& config) {
-  SceneImportOptions options;
-  options.scale = config.sceneScale;
-  options.up = config.sceneUp;
-  auto imported = importScene(config.scene, options);
-  if (!imported.ok()) return inFile(imported.error(), config.scene);
-  auto scene = Scene::build(std::move(imported.value().scene));
-  if (!scene.ok()) return inFile(scene.error(), config.scene);
-  return scene;
-}
-
-/// What the avatar's queries are asked with.
-Result<QueryOptions> queryOf(const ServeConfig& config, const Avatar& avatar,
-                             const std::string& path, const Scene& scene) {
-  QueryOptions query;
-  query.tolerance = config.tolerance;
-  query.fidelity = config.fidelity;
-  if (config.budgetUs > 0) {
-    query.workBudget = workBudget(static_cast<double>(config.budgetUs));
-  }
-  auto ignored = parseIgnoredPairs(config.ignore, avatar.skeleton(), scene.objectNames());
-  if (!ignored.ok()) return ignored.error();
-  query.ignored = std::move(ignored).value();
-  if (config.fidelity != Fidelity::Exact) return query;
-  auto meshes = loadLinkMeshes(avatar, path);
-  if (!meshes.ok()) return inFile(meshes.error(), path);
-  auto surface = AvatarSurface::build(avatar, std::move(meshes).value());
-  if (!surface.ok()) return inFile(surface.error(), path);
-  surface.value().prepare();  // the first pose is not to wait for it
-  query.surface = std::move(surface).value();
-  return query;
+/// What a replay of the same stream would be asked with.
+ReplayRequest asReplay(const ServeConfig& config, const std::string& avatarPath) {
+  ReplayRequest request;
+  request.scenePath = config.scene;
+  request.sceneScale = config.sceneScale;
+  request.sceneUp = config.sceneUp;
+  request.avatarPath = avatarPath;
+  request.tolerance = config.tolerance;
+  request.fidelity = config.fidelity;
+  request.ignore = config.ignore;
+  return request;
 }
 
 Result<StreamSolver> loadAvatar(const ServeConfig& config, const ServedAvatar& served,
                                 const Scene& scene) {
   const auto avatar = readAvatarFile(served.file);
   if (!avatar.ok()) return inFile(avatar.error(), served.file);
-  const auto query = queryOf(config, avatar.value(), served.file, scene);
+  auto query = queryOptionsFor(asReplay(config, served.file), avatar.value(), scene);
   if (!query.ok()) return query.error();
+  if (config.budgetUs > 0) {
+    query.value().workBudget = workBudget(static_cast<double>(config.budgetUs));
+  }
   auto solver = StreamSolver::make(served.id, avatar.value(), scene, query.value(), config.stream);
   if (!solver.ok()) return inFile(solver.error(), served.file);
   return solver;
@@ -59,7 +40,7 @@ Result<StreamSolver> loadAvatar(const ServeConfig& config, const ServedAvatar& s
 }  // namespace
 
 Result<ServedWorld> loadServedWorld(const ServeConfig& config) {
-  const auto scene = loadScene(config);
+  const auto scene = loadScene(asReplay(config, std::string()));
   if (!scene.ok()) return scene.error();
   ServedWorld world;
   world.numTriangles = scene.value().numTriangles();
