@@ -11,6 +11,7 @@
 #include "articulated/text_file.h"
 #include "middleware/exact/rigid_query.h"
 #include "tools/bench_documents_command.h"
+#include "tools/bench_extremes_command.h"
 #include "tools/bench_latency_command.h"
 #include "tools/bench_leaf.h"
 #include "tools/bench_peers_command.h"
@@ -138,6 +139,7 @@ void addBenchCommand(CLI::App& program, ExitCode& exit) {
       "Example:\n  foretouch bench leaf --queries sample-queries --repeat 10 --json leaf.json");
   leaf->callback([texts, &exit] { exit = run(*texts); });
   addBenchPeersCommand(*bench, exit);
+  addBenchExtremesCommand(*bench, exit);
   addBenchStreamCommands(*bench, exit);
 }
 
