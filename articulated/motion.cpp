@@ -191,6 +191,12 @@ void ChainMotion::statesAt(double t, std::vector<LinkState>& states) const {
   chainStates(*this, t, states, [this](JointId j) { return jointMotion(arc(j)); });
 }
 
+ChainMotion::JointBounds ChainMotion::jointBounds(LinkId link) const {
+  const auto j = static_cast<std::size_t>(link), stride = sums_.size();
+  return {arcs_[JointColumns::kTurn * stride + j], arcs_[JointColumns::kLength * stride + j],
+          arcs_[JointColumns::kDriftLength * stride + j]};
+}
+
 void MotionEvaluator::reset(const ChainMotion& motion) {
   motion_ = &motion;
   const auto n = static_cast<std::size_t>(motion.numLinks());

@@ -151,6 +151,12 @@ class ChainMotion {
   [[nodiscard]] JointId parent(LinkId link) const {
     return parents_[static_cast<std::size_t>(link)];
   }
+  /// Bounds on what the joint that the link moves with does in its parent's frame over t in [0,1]:
+  /// its turn (rad), the length of its arm and of its drift (m). What the sums are made of.
+  struct JointBounds {
+    double turn, length, driftLength;
+  };
+  [[nodiscard]] JointBounds jointBounds(LinkId link) const;
   /// Of all joints' arcs; 0 where there are none.
   [[nodiscard]] double largestVersine() const { return largestVersine_; }
 

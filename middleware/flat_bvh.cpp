@@ -98,6 +98,26 @@ void FlatBvh::collect(const Aabb& box, std::vector<TriangleId>& ids, std::uint64
   }
 }
 
+bool FlatBvh::meetsLeaf(const Aabb& box, std::uint64_t& visited) const {
+  const FloatBox local = localBox(box, origin_);
+  std::uint32_t stack[kStackSize];
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const BvhNode& node = nodes_[stack[--size]];
+    ++visited;
+    const Eight eight = eightOverlapping(node.lower, node.upper, local);
+    for (int i = 0; i < kBvhWidth; ++i) {
+      if (eight.overlaps[i] == 0) continue;
+      const std::uint32_t child = node.child[i];
+      if ((child & BvhNode::kLeafFlag) != 0) return true;
+      FORETOUCH_ASSERT(size < kStackSize);
+      stack[size++] = child;
+    }
+  }
+  return false;
+}
+
 void FlatBvh::collectLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
                             std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const {
   walk(boxes, nullptr, hits, nodesVisited, leavesVisited);

@@ -32,6 +32,9 @@ class FlatBvh final : public TriangleCuller {
   void collect(const Aabb& box, std::vector<TriangleId>& ids,
                std::uint64_t& visited) const override;
 
+  /// Does any leaf's box, as the node above it has it, meet `box`? No: nor does any triangle's.
+  [[nodiscard]] bool meetsLeaf(const Aabb& box, std::uint64_t& visited) const;
+
   /// Appends every (leaf, box) of which a triangle's box meets the box: all triangles whose true
   /// boxes meet the box that was rounded outward, each once a box. A leaf's triangles are boxed by
   /// their rounded vertices, so that nothing is superfluous but by the rounding of either box. The

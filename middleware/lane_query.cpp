@@ -66,10 +66,19 @@ bool isAnyTouched(const StepContacts& step) {
 
 }  // namespace
 
-LaneQuery::LaneQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
-                     const QueryOptions& options, const TriangleCuller& culler,
+const LssTable& tableOf(const Avatar& avatar, LaneScratch& lanes) {
+  if (lanes.avatar != avatar.identity()) {
+    lanes.table = LssTable(avatar);
+    lanes.avatar = avatar.identity();
+  }
+  return lanes.table;
+}
+
+LaneQuery::LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion,
+                     const Scene& scene, const QueryOptions& options, const TriangleCuller& culler,
                      QueryScratch::Impl& scratch)
-    : avatar_(avatar),
+    : body_(body),
+      table_(table),
       motion_(motion),
       scene_(scene),
       options_(options),
@@ -80,17 +89,13 @@ LaneQuery::LaneQuery(const Avatar& avatar, const ChainMotion& motion, const Scen
       meter_(options) {
   tolerances_.floor = floatAbove(kFloorShare * options.tolerance);
   tolerances_.handOver = floatBelow(kHandOverShare * options.tolerance);
-  if (lanes_.avatar != avatar.identity()) {
-    lanes_.table = LssTable(avatar);
-    lanes_.avatar = avatar.identity();
-  }
   scratch_.evaluator.reset(motion);
 }
 
 void LaneQuery::run(StepContacts& step) {
   findWhoIsAsked();
   const int slabs =
-      slabsFor(lanes_.table, motion_,
+      slabsFor(table_, motion_,
                std::max(kInterpolationShare * options_.tolerance, kLeastInterpolationError));
   if (meter_.isLimited()) return runWithin(step, slabs);
   for (int slab = 0; slab < slabs; ++slab) {
@@ -105,9 +110,9 @@ void LaneQuery::run(StepContacts& step) {
 bool LaneQuery::answerSlab(StepContacts& step) {
   bool isTouched = false;
   float limit = kEnd;  // nothing later than this is asked for
-  for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
-    const auto first = static_cast<std::size_t>(lanes_.table.first(link));
-    const auto end = static_cast<std::size_t>(lanes_.table.first(link + 1));
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
+    const auto first = static_cast<std::size_t>(table_.first(link));
+    const auto end = static_cast<std::size_t>(table_.first(link + 1));
     if (lanes_.first[first] == lanes_.first[end]) continue;
     LinkContact& contact = step.links[static_cast<std::size_t>(link)];
     contact = answer(link, limit, step.counters);
@@ -193,8 +198,8 @@ LinkContact LaneQuery::undone(LinkId link) const {
 }
 
 void LaneQuery::findWhoIsAsked() {
-  lanes_.isAsked.assign(static_cast<std::size_t>(avatar_.numLinks()), 1);
-  for (const IgnoredPair& pair : options_.ignored) {
+  lanes_.isAsked.assign(static_cast<std::size_t>(body_.numLinks()), 1);
+  for (const IgnoredPair& pair : body_.ignored()) {
     if (pair.object == IgnoredPair::kEveryObject) {
       lanes_.isAsked[static_cast<std::size_t>(pair.link)] = 0;
     }
@@ -202,10 +207,12 @@ void LaneQuery::findWhoIsAsked() {
 }
 
 bool LaneQuery::collectHits(QueryCounters& counters) {
-  const LssTable& table = lanes_.table;
-  lanes_.nodes.evaluate(motion_, begin_, end_, scene_.parts().origin);
-  counters.states +=
-      static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(avatar_.numLinks());
+  const LssTable& table = table_;
+  if (!hasNodes_ || begin_ != 0.0 || end_ != 1.0) {
+    lanes_.nodes.evaluate(motion_, begin_, end_, scene_.parts().origin);
+    counters.states +=
+        static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(body_.numLinks());
+  }
   sweptBoxes(table, motion_, lanes_.nodes, options_.tolerance, lanes_.boxes);
   for (std::int32_t lss = 0; lss < table.size(); ++lss) {
     if (lanes_.isAsked[static_cast<std::size_t>(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
@@ -268,7 +275,7 @@ void LaneQuery::mergeHits() {
 
 /// By LSS, otherwise in the order of the walk (counting sort).
 void LaneQuery::sortHits() {
-  const auto count = static_cast<std::size_t>(lanes_.table.size());
+  const auto count = static_cast<std::size_t>(table_.size());
   lanes_.first.assign(count + 2, 0);
   for (const LeafHit& hit : lanes_.hits) ++lanes_.first[hit.box + 2U];
   for (std::size_t i = 2; i < count + 2; ++i) lanes_.first[i] += lanes_.first[i - 1];
@@ -283,7 +290,7 @@ void LaneQuery::sortHits() {
 
 LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters) {
   const LinkSurface* const surface = surfaceOf(options_, link);
-  scratch_.ignored.collect(options_, link);
+  scratch_.ignored.collect(body_.ignored(), link);
   // What touches an LSS may yet miss the triangles in it.
   tolerances_.contact =
       surface == nullptr ? floatBelow(kCertainShare * options_.tolerance) : kNeverCertain;
@@ -314,8 +321,8 @@ LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters)
 LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, float& best,
                                     QueryCounters& counters) {
   scratch_.candidates.clear();
-  const std::int32_t firstLss = lanes_.table.first(link);
-  for (std::int32_t lss = firstLss; lss < lanes_.table.first(link + 1); ++lss) {
+  const std::int32_t firstLss = table_.first(link);
+  for (std::int32_t lss = firstLss; lss < table_.first(link + 1); ++lss) {
     lanes_.handed.count = 0;
     if (!advanceLss(lss, best, counters)) return undone(link);
     addCandidates(lss - firstLss);
@@ -329,7 +336,7 @@ LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, flo
   contact.link = link;
   if (candidates.empty()) return contact;
   prepareScalar(link);
-  const LinkQuery query{{link, avatar_.lss(link), scratch_.axisBounds, motion_, surface, nullptr},
+  const LinkQuery query{{link, body_.lss(link), scratch_.axisBounds, motion_, surface, nullptr},
                         scene_,
                         Pieces{},
                         options_.tolerance,
@@ -365,7 +372,7 @@ LinkContact LaneQuery::surfaceContact(const LinkQuery& query, bool atStart,
 
 void LaneQuery::prepareScalar(LinkId link) {
   scratch_.axisBounds.clear();
-  for (const Lss& lss : avatar_.lss(link)) {
+  for (const Lss& lss : body_.lss(link)) {
     scratch_.axisBounds.push_back(axisBounds(lss, motion_.bounds(link)));
   }
 }
@@ -375,9 +382,8 @@ void LaneQuery::prepareScalar(LinkId link) {
 bool LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
   const auto begin = lanes_.first[static_cast<std::size_t>(lss)];
   const auto end = lanes_.first[static_cast<std::size_t>(lss) + 1];
-  if (begin == end) return true;
-  if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
-  const LssTable::Entry& entry = lanes_.table[lss];
+  if (begin == end) return;
+  const LssTable::Entry& entry = table_[lss];
   const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes);
   const LaneLss lane = laneLss(polynomials, entry.radius);
   float origin[3];

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "middleware/body.h"
 #include "middleware/flat_bvh.h"
 #include "middleware/query_internal.h"
 #include "middleware/work_meter.h"
@@ -15,8 +16,12 @@ namespace foretouch::internal {
 /// One query over all links of one step, at link or exact fidelity.
 class LaneQuery {
  public:
-  LaneQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+  /// `table` is of the body's LSS.
+  LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion, const Scene& scene,
             const QueryOptions& options, const TriangleCuller& culler, QueryScratch::Impl& scratch);
+
+  /// The scratch's nodes are those of this motion over [0,1], with the scene's origin.
+  void keepNodes() { hasNodes_ = true; }
 
   /// Fills `step`, whose links are all Clear.
   void run(StepContacts& step);
@@ -47,7 +52,8 @@ class LaneQuery {
   [[nodiscard]] double timeOf(float u) const;
   [[nodiscard]] float lanesTimeOf(double t) const;
 
-  const Avatar& avatar_;
+  const Body& body_;
+  const LssTable& table_;
   const ChainMotion& motion_;
   const Scene& scene_;
   const QueryOptions& options_;
@@ -58,6 +64,10 @@ class LaneQuery {
   LaneTolerances tolerances_;
   WorkMeter meter_;
   double begin_ = 0.0, end_ = 1.0;  // of the slab at hand
+  bool hasNodes_ = false;
 };
+
+/// The avatar's table, kept in the scratch while queries ask for the same avatar.
+[[nodiscard]] const LssTable& tableOf(const Avatar& avatar, LaneScratch& lanes);
 
 }  // namespace foretouch::internal

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "middleware/body.h"
+#include "middleware/ladder/reach.h"
+#include "middleware/ladder/rung_query.h"
 #include "middleware/lane_query.h"
 #include "middleware/query_internal.h"
 #include "middleware/scalar_query.h"
@@ -60,11 +63,22 @@ const char* toString(Scope scope) {
   return "links";
 }
 
+const char* toString(Descent descent) {
+  switch (descent) {
+    case Descent::Straight: return "straight";
+    case Descent::ByNeed: return "by-need";
+  }
+  return "straight";
+}
+
 const char* toString(Fidelity fidelity) {
   switch (fidelity) {
     case Fidelity::Link: return "link";
     case Fidelity::Exact: return "exact";
     case Fidelity::Skinned: return "skinned";
+    case Fidelity::Limb: return "limb";
+    case Fidelity::Avatar: return "avatar";
+    case Fidelity::Ellipsoid: return "ellipsoid";
   }
   return "link";
 }
@@ -120,6 +134,25 @@ bool inLanes(const Avatar& avatar, const QueryOptions& options) {
          options.backtracking == Backtracking::Lanes && options.fidelity != Fidelity::Skinned;
 }
 
+/// At link or exact fidelity, by whichever way the options ask for.
+void linkQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+               const QueryOptions& options, const internal::TriangleCuller& culler,
+               QueryScratch::Impl& scratch, StepContacts& step) {
+  const internal::Body body(avatar, options.ignored);
+  if (options.descent == Descent::ByNeed && options.fidelity != Fidelity::Skinned &&
+      internal::nothingInReach(internal::tableOf(avatar, scratch.lanes), motion, scene,
+                               options.tolerance, step.counters)) {
+    return;
+  }
+  if (!inLanes(avatar, options)) {
+    internal::scalarQuery(body, motion, scene, options, culler, scratch, step);
+    return;
+  }
+  internal::LaneQuery(body, internal::tableOf(avatar, scratch.lanes), motion, scene, options,
+                      culler, scratch)
+      .run(step);
+}
+
 /// Of links that touch nothing before the first contact of all nothing more is said.
 void keepFirst(StepContacts& step) {
   double first = 1.0;
@@ -154,11 +187,8 @@ Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion, cons
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     step.links[static_cast<std::size_t>(link)].link = link;
   }
-  if (inLanes(avatar, options)) {
-    internal::LaneQuery(avatar, motion, scene, options, *culler.value(), scratch.impl()).run(step);
-  } else {
-    internal::scalarQuery(avatar, motion, scene, options, *culler.value(), scratch.impl(), step);
-  }
+  const auto ask = internal::isRung(options.fidelity) ? internal::rungQuery : linkQuery;
+  ask(avatar, motion, scene, options, *culler.value(), scratch.impl(), step);
   if (options.scope == Scope::FirstOfAvatar) keepFirst(step);
   return Done{};
 }

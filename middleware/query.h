@@ -59,7 +59,7 @@ struct LinkContact {
   double penetration =
       0.0;  ///< How deep the axis's distance is inside the radius; 0 unless StartsInContact.
   TriangleId triangle = -1;
-  std::int32_t lss = -1;                                ///< Which of the link's LSS.
+  std::int32_t lss = -1;  ///< Which of the link's LSS; 0 above link fidelity.
   Eigen::Vector3d p_WScene = Eigen::Vector3d::Zero();   ///< Witness point on the triangle.
   Eigen::Vector3d p_WLink = Eigen::Vector3d::Zero();    ///< Witness point on the LSS's surface.
   Eigen::Vector3d nhat_SL_W = Eigen::Vector3d::Zero();  ///< Unit normal from the scene to the link.
@@ -69,16 +69,23 @@ struct LinkContact {
   FeatureKind linkFeature = FeatureKind::Face, sceneFeature = FeatureKind::Face;
 };
 
-/// What a link's surface is.
+/// What a link's surface is: the rungs of the ladder, coarsest first Ellipsoid, Avatar, Limb, Link,
+/// Exact; Skinned is none of them. Above Link one volume stands for several links, which all get its
+/// verdict (middleware/rungs.h): each contains what stands for them one rung below, at every t, so
+/// what is clear at a rung is free of contact at those below, where nothing is touched before the
+/// time that a higher one reports. A link without LSS has no surface there.
 enum class Fidelity : std::uint8_t {
   Link,   ///< Its LSS.
   Exact,  ///< The triangles of its mesh, and LSS that bound none. A subset of Link's contacts, and
           ///< never earlier.
   Skinned,  ///< The triangles of a skin, whose vertices follow the blend of several links; of a
             ///< link without any, its LSS.
+  Limb,     ///< One LSS for all links of a chain between branchings (a finger, an arm to the hand).
+  Avatar,   ///< One LSS for all links; one for those below each root where there are several.
+  Ellipsoid,  ///< An ellipsoid of revolution around that LSS, which moves on a straight line.
 };
 
-/// "link", "exact", "skinned".
+/// "link", "exact", "skinned", "limb", "avatar", "ellipsoid".
 [[nodiscard]] const char* toString(Fidelity fidelity);
 
 /// Both answer alike, byte for byte; the point-query one is the slower reference.
@@ -110,6 +117,9 @@ enum class Scope : std::uint8_t {
 [[nodiscard]] const char* toString(Scope scope);
 
 /// A link, or a link and one object, whose contacts are not asked for.
+/// Above link fidelity an object is passed over only where all links that a volume stands for ignore
+/// it (those that are ignored altogether not counted); a link that alone does gets the volume's
+/// verdict.
 struct IgnoredPair {
   LinkId link = 0;
   ObjectId object = kEveryObject;
@@ -126,6 +136,16 @@ enum class LeafMethod : std::uint8_t {
 /// "advancement", "cubics".
 [[nodiscard]] const char* toString(LeafMethod method);
 
+/// Whether a query at link or exact fidelity asks first whether anything is within reach of the
+/// avatar as a whole, however it moves, and ends where nothing is. The same answers.
+enum class Descent : std::uint8_t {
+  Straight,
+  ByNeed,
+};
+
+/// "straight", "by-need".
+[[nodiscard]] const char* toString(Descent descent);
+
 struct QueryOptions {
   double tolerance = 1e-3;  ///< eps in metres; finite, >= kMinTolerance.
   Culler culler = Culler::FlatBvh;
@@ -135,6 +155,7 @@ struct QueryOptions {
   LeafMethod leafMethod = LeafMethod::Advancement;
   Backtracking backtracking = Backtracking::Lanes;
   Scope scope = Scope::EveryLink;
+  Descent descent = Descent::Straight;
   std::vector<IgnoredPair> ignored;
   /// Work that the step may cost, all links together, in evaluations of a pair in lanes (about 10
   /// ns; other work is counted in their stead, middleware/work_meter.h). What is not answered by
@@ -163,6 +184,8 @@ struct QueryCounters {
   std::uint64_t cubicTests = 0;      ///< At exact fidelity by LeafMethod::Cubics: pieces of pairs.
   std::uint64_t leafTests = 0;       ///< At exact fidelity: of two triangles.
   std::uint64_t states = 0;          ///< Link states evaluated (forward kinematics).
+  std::uint64_t rungTests = 0;       ///< Volumes asked that stand for several links.
+  std::uint64_t settledAbove = 0;    ///< Links that such a volume settled, by Descent::ByNeed.
 };
 
 struct StepContacts {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "middleware/backtracking.h"
+#include "middleware/ladder/rung_volumes.h"
 #include "middleware/lane_scratch.h"
 #include "middleware/query.h"
 
@@ -15,9 +16,9 @@ namespace internal {
 class IgnoredObjects {
  public:
   /// True if the link is ignored altogether.
-  bool collect(const QueryOptions& options, LinkId link) {
+  bool collect(const std::vector<IgnoredPair>& ignored, LinkId link) {
     objects_.clear();
-    for (const IgnoredPair& pair : options.ignored) {
+    for (const IgnoredPair& pair : ignored) {
       if (pair.link != link) continue;
       if (pair.object == IgnoredPair::kEveryObject) return true;
       objects_.push_back(pair.object);
@@ -33,6 +34,22 @@ class IgnoredObjects {
  private:
   std::vector<ObjectId> objects_;  // ascending
 };
+
+/// What queries above link fidelity keep.
+struct RungScratch {
+  RungVolumes volumes;
+  std::vector<std::vector<Lss>> perLink;  // the volumes by their carriers
+  LssTable table;
+  std::vector<IgnoredPair> ignored;  // of the volumes, by their carriers
+  std::vector<std::uint8_t> isAsked;  // per link: not ignored altogether
+  std::vector<LinkContact> answers;   // of the volumes
+};
+
+/// Above link fidelity.
+[[nodiscard]] inline bool isRung(Fidelity fidelity) {
+  return fidelity == Fidelity::Limb || fidelity == Fidelity::Avatar ||
+         fidelity == Fidelity::Ellipsoid;
+}
 
 /// The surface that the link has at exact fidelity; null at others.
 [[nodiscard]] const LinkSurface* surfaceOf(const QueryOptions& options, LinkId link);
@@ -54,6 +71,7 @@ struct QueryScratch::Impl {
   MotionEvaluator evaluator;
   internal::LaneScratch lanes;
   internal::IgnoredObjects ignored;  // of the link at hand
+  internal::RungScratch rungs;
 };
 
 }  // namespace foretouch

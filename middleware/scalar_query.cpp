@@ -22,9 +22,9 @@ static_assert(kMaxPiecesUsed <= kMaxPieces);
 /// One query over all links of one step.
 class StepQuery {
  public:
-  StepQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+  StepQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
             const QueryOptions& options, const TriangleCuller& culler, QueryScratch::Impl& scratch)
-      : avatar_(avatar),
+      : body_(body),
         motion_(motion),
         scene_(scene),
         options_(options),
@@ -35,20 +35,17 @@ class StepQuery {
   void run(StepContacts& step) {
     scratch_.evaluator.reset(motion_);
     cutIntoPieces();
-    step.counters.states += static_cast<std::uint64_t>(avatar_.numLinks() * (pieces_.count + 1));
-    for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
-      // Equal shares, so that the last links have theirs; what one leaves is the others'.
-      const auto others = static_cast<std::uint64_t>(avatar_.numLinks() - link);
-      meter_.beginPart(step.counters, meter_.left(step.counters) / others);
+    for (LinkId link = 0; link < body_.numLinks(); ++link) {
       step.links[static_cast<std::size_t>(link)] = firstContactOf(link, step.counters);
     }
+    step.counters.states += static_cast<std::uint64_t>(body_.numLinks() * (pieces_.count + 1));
   }
 
  private:
   void cutIntoPieces() {
     double travel = 0.0;
-    for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
-      for (const Lss& lss : avatar_.lss(link)) {
+    for (LinkId link = 0; link < body_.numLinks(); ++link) {
+      for (const Lss& lss : body_.lss(link)) {
         travel = std::max(travel, axisBounds(lss, motion_.bounds(link)).speed);
       }
     }
@@ -66,7 +63,7 @@ class StepQuery {
     LinkContact contact;
     contact.link = link;
     surface_ = surfaceOf(options_, link);
-    if (scratch_.ignored.collect(options_, link) || avatar_.lss(link).empty()) return contact;
+    if (scratch_.ignored.collect(body_.ignored(), link) || body_.lss(link).empty()) return contact;
     const Aabb swept = sweep(link);
     scratch_.found.clear();
     culler_.collect(swept, scratch_.found, counters.nodes);
@@ -81,7 +78,7 @@ class StepQuery {
   }
 
   [[nodiscard]] LinkQuery queryOf(LinkId link) const {
-    return {{link, avatar_.lss(link), scratch_.axisBounds, motion_, surface_, skin_},
+    return {{link, body_.lss(link), scratch_.axisBounds, motion_, surface_, skin_},
             scene_,
             pieces_,
             options_.tolerance,
@@ -95,7 +92,7 @@ class StepQuery {
     contact.link = link;
     const LinkQuery query = queryOf(link);
     const std::int32_t numTriangles = query.parts.skin->numTriangles(link);
-    if (scratch_.ignored.collect(options_, link)) return contact;
+    if (scratch_.ignored.collect(body_.ignored(), link)) return contact;
     sweepSkin(query.parts, scratch_.nodes, pieces_, options_.tolerance, scratch_.startBoxes,
               scratch_.boxes);
     if (!isNearAnything(scratch_.boxes, counters)) return contact;
@@ -159,7 +156,7 @@ class StepQuery {
     scratch_.axisBounds.clear();
     scratch_.startBoxes.clear();
     scratch_.boxes.clear();
-    for (const Lss& lss : avatar_.lss(link)) {
+    for (const Lss& lss : body_.lss(link)) {
       const AxisBounds bounds = axisBounds(lss, motion_.bounds(link));
       scratch_.axisBounds.push_back(bounds);
       AxisEnds begin = axisEnds(lss, nodeState(0, link));
@@ -196,7 +193,7 @@ class StepQuery {
     }
   }
 
-  const Avatar& avatar_;
+  const Body& body_;
   const ChainMotion& motion_;
   const Scene& scene_;
   const QueryOptions& options_;
@@ -211,10 +208,10 @@ class StepQuery {
 
 }  // namespace
 
-void scalarQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+void scalarQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
                  const QueryOptions& options, const TriangleCuller& culler,
                  QueryScratch::Impl& scratch, StepContacts& step) {
-  StepQuery(avatar, motion, scene, options, culler, scratch).run(step);
+  StepQuery(body, motion, scene, options, culler, scratch).run(step);
 }
 
 }  // namespace foretouch::internal

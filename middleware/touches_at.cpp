@@ -4,6 +4,7 @@
 #include "lss/assert.h"
 #include "lss/segment_triangle.h"
 #include "middleware/exact/linear_query.h"
+#include "middleware/ladder/rung_query.h"
 #include "middleware/query_internal.h"
 #include "middleware/scene_internal.h"
 #include "middleware/surface_internal.h"
@@ -76,10 +77,13 @@ bool skinTouches(const internal::LinkParts& parts, double t, const Scene& scene,
 bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
                const Scene& scene, const QueryOptions& options, QueryScratch& scratch) {
   FORETOUCH_ASSERT(link >= 0 && link < avatar.numLinks());
+  if (internal::isRung(options.fidelity)) {
+    return internal::rungTouchesAt(avatar, motion, link, t, scene, options, scratch.impl());
+  }
   const internal::LinkSurface* const surface = internal::surfaceOf(options, link);
   std::vector<TriangleId>& found = scratch.impl().found;
   IgnoredObjects& ignored = scratch.impl().ignored;
-  if (ignored.collect(options, link)) return false;
+  if (ignored.collect(options.ignored, link)) return false;
   if (const internal::SkinParts* const skin = internal::skinOf(options, link)) {
     const std::vector<AxisBounds> none;
     const internal::LinkParts parts{link, avatar.lss(link), none, motion, nullptr, skin};

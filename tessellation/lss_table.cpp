@@ -39,16 +39,29 @@ LssTable::Entry entryOf(const Lss& lss, LinkId link) {
 
 LssTable::LssTable(const Avatar& avatar) {
   entries_.reserve(static_cast<std::size_t>(avatar.numLss()));
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    double rho = 0.0;
-    for (const Lss& lss : avatar.lss(link)) {
-      entries_.push_back(entryOf(lss, link));
-      rho = std::max({rho, entries_.back().rhoA, entries_.back().rhoB});
-    }
-    rho_.push_back(rho);
-    largestRho_ = std::max(largestRho_, rho);
-    first_.push_back(size());
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) add(avatar.lss(link));
+}
+
+void LssTable::assign(const std::vector<std::vector<Lss>>& lssPerLink) {
+  entries_.clear();
+  first_.assign(1, 0);
+  rho_.clear();
+  largestRho_ = largestRadius_ = 0.0;
+  for (const std::vector<Lss>& lss : lssPerLink) add(lss);
+}
+
+/// Of the next link.
+void LssTable::add(const std::vector<Lss>& lssOfLink) {
+  const LinkId link = numLinks();
+  double rho = 0.0;
+  for (const Lss& lss : lssOfLink) {
+    entries_.push_back(entryOf(lss, link));
+    rho = std::max({rho, entries_.back().rhoA, entries_.back().rhoB});
+    largestRadius_ = std::max(largestRadius_, lss.radius);
   }
+  rho_.push_back(rho);
+  largestRho_ = std::max(largestRho_, rho);
+  first_.push_back(size());
 }
 
 double interpolationError(const MotionBounds& bounds, double rho, double span) {

@@ -22,6 +22,8 @@ class LssTable {
 
   LssTable() = default;
   explicit LssTable(const Avatar& avatar);
+  /// Becomes the table of other LSS, one list a link. Memory is kept.
+  void assign(const std::vector<std::vector<Lss>>& lssPerLink);
 
   [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(entries_.size()); }
   [[nodiscard]] const Entry* data() const { return entries_.data(); }
@@ -39,12 +41,15 @@ class LssTable {
   [[nodiscard]] double rho(LinkId link) const { return rho_[static_cast<std::size_t>(link)]; }
   /// Of all links.
   [[nodiscard]] double largestRho() const { return largestRho_; }
+  [[nodiscard]] double largestRadius() const { return largestRadius_; }
 
  private:
+  void add(const std::vector<Lss>& lssOfLink);
+
   std::vector<Entry> entries_;
   std::vector<std::int32_t> first_{0};
   std::vector<double> rho_;
-  double largestRho_ = 0.0;
+  double largestRho_ = 0.0, largestRadius_ = 0.0;
 };
 
 /// Bound on the distance of a link's point at distance `rho` from the link's origin to the

@@ -10,7 +10,7 @@
 namespace foretouch::tools {
 
 /// Add a counter here and every benchmark reports it.
-inline constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 12>
+inline constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 14>
     kCounterFields{{{"nodes", &QueryCounters::nodes},
                     {"leaves", &QueryCounters::leaves},
                     {"candidates", &QueryCounters::candidates},
@@ -22,7 +22,9 @@ inline constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::
                     {"plane_tests", &QueryCounters::planeTests},
                     {"cubic_tests", &QueryCounters::cubicTests},
                     {"leaf_tests", &QueryCounters::leafTests},
-                    {"states", &QueryCounters::states}}};
+                    {"states", &QueryCounters::states},
+                    {"rung_tests", &QueryCounters::rungTests},
+                    {"settled_above", &QueryCounters::settledAbove}}};
 static_assert(sizeof(QueryCounters) == kCounterFields.size() * sizeof(std::uint64_t),
               "name the new counter above");
 

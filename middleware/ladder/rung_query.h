@@ -1,0 +1,21 @@
+// middleware/ladder/rung_query.h: a query above link fidelity: the step's volumes, their first
+// contacts, and those given to the links that they stand for. Not installed.
+#pragma once
+
+#include "middleware/culler.h"
+#include "middleware/query.h"
+#include "middleware/query_internal.h"
+
+namespace foretouch::internal {
+
+/// Fills `step`, whose links are all Clear. The options have been checked; isRung(options.fidelity).
+void rungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+               const QueryOptions& options, const TriangleCuller& culler,
+               QueryScratch::Impl& scratch, StepContacts& step);
+
+/// Does the volume that stands for the link touch a triangle at `t`?
+[[nodiscard]] bool rungTouchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link,
+                                 double t, const Scene& scene, const QueryOptions& options,
+                                 QueryScratch::Impl& scratch);
+
+}  // namespace foretouch::internal

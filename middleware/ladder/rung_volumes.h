@@ -1,0 +1,70 @@
+// middleware/ladder/rung_volumes.h: one step's volumes at the rungs above the links: an LSS a limb,
+// in the frame of the limb's first link, and an LSS a tree, in the root's frame, each around what
+// the rung below has, at every t in [0,1]. Proof: middleware/ladder/rungs.md. Metres. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/avatar.h"
+#include "articulated/chain_nodes.h"
+#include "articulated/motion.h"
+#include "lss/lss.h"
+#include "middleware/ladder/limbs.h"
+#include "middleware/ladder/relative_points.h"
+
+namespace foretouch::internal {
+
+/// A ball fixed in a link, on its way through a carrier's frame.
+struct CarriedBall {
+  RelativePoint path;  ///< Its centre at the nodes.
+  double radius;
+  /// How far the centre can be from the chords of its path, rounding included, but for `perLength`
+  /// of its distance from the carrier's origin.
+  double stray, perLength;
+};
+
+/// Volumes of one step after another; memory is kept. For one thread.
+class RungVolumes {
+ public:
+  /// Of the limbs, and of the trees where asked for. `nodes` are of `motion` over [0,1]. O(LSS).
+  void evaluate(const Avatar& avatar, const ChainMotion& motion, const ChainNodes& nodes,
+                bool withTrees);
+
+  [[nodiscard]] const Limbs& limbs() const { return limbs_; }
+  /// By the limb's number; of a limb without links, nothing.
+  [[nodiscard]] const Lss& limb(std::size_t limb) const { return limbVolumes_[limb]; }
+  [[nodiscard]] const Lss& tree(std::size_t tree) const { return treeVolumes_[tree]; }
+
+ private:
+  /// Bounds on a link's motion in its carrier's frame, as ChainSums has them for the world's.
+  struct RelativeSums {
+    double angularSpeed = 0.0, angularAcceleration = 0.0, acceleration = 0.0;
+    [[nodiscard]] RelativeSums with(const ChainMotion::JointBounds& joint) const;
+    [[nodiscard]] double accelerationAt(double rho) const {
+      return ChainSums::kInflation *
+             (acceleration + (angularAcceleration + angularSpeed * angularSpeed) * rho);
+    }
+  };
+
+  void boundRelativeMotion(const ChainMotion& motion, bool withTrees);
+  void addBall(const ChainNodes& nodes, LinkId carrier, const AxisPoint& point,
+               const RelativeSums& sums);
+  [[nodiscard]] Lss volumeOf(const Avatar& avatar, const ChainNodes& nodes, const Limb& limb);
+  [[nodiscard]] Lss volumeOf(const ChainNodes& nodes, const LimbTree& tree);
+
+  std::uint64_t avatar_ = 0;  // whose limbs these are
+  Limbs limbs_;
+  std::vector<RelativeSums> toLimb_, toRoot_;  // per link
+  double chord_ = 0.0;                         // an eighth of the widest gap between nodes, squared
+  std::vector<CarriedBall> balls_;             // of the volume at hand
+  std::vector<Lss> limbVolumes_, treeVolumes_;
+};
+
+/// The segment of an LSS around the balls where they are at `node`, not shorter than needed and not
+/// much longer; a proposal, without a radius.
+[[nodiscard]] Lss axisAround(const std::vector<CarriedBall>& balls, int node);
+
+}  // namespace foretouch::internal

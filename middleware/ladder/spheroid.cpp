@@ -1,0 +1,157 @@
+#include "middleware/ladder/spheroid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lss/assert.h"
+#include "lss/separation.h"
+#include "middleware/link_pair.h"
+
+namespace foretouch::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kU = 0x1p-53;
+/// Covers the rounding of the bounds' own few operations.
+constexpr double kInflation = 1.0 + 1e-12;
+/// Of a point of the root's frame at a node, per length; and of sums of places in W.
+constexpr double kPointRounding = 32.0 * kU, kSumRounding = 8.0 * kU;
+/// Of toUnit() and of the ball's place, relative to the lengths over the shortest semi-axis.
+constexpr double kTransformRounding = 32.0 * kU;
+/// An axis is at least this share of the other, and this long (m): what has no volume gets some.
+constexpr double kLeastShare = 0x1p-10, kLeastAxis = 1e-6;
+constexpr int kMiddle = kNodes / 2;
+
+/// The ends of the volume's axis in W at all nodes, relative to the root's origin.
+using Places = std::array<Vector3d, std::size_t{2} * kNodes>;
+
+Places placesOf(const Lss& volume, const LinkNodes& root) {
+  Places places;
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    Eigen::Matrix3d R;
+    for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = root.R[i][k];
+    places[2 * k] = R * volume.a;
+    places[2 * k + 1] = R * volume.b;
+  }
+  return places;
+}
+
+/// Semi-axes of an ellipsoid around the places, taken from its centre: nearly the least of its
+/// proportions.
+struct SemiAxes {
+  double along = 0.0, across = 0.0;
+};
+SemiAxes coreAround(const Places& places, const Vector3d& center, const Vector3d& axis) {
+  double along = 0.0, across = 0.0;
+  const auto split = [&](const Vector3d& place) {
+    const Vector3d w = place - center;
+    const double u = axis.dot(w);
+    return SemiAxes{std::abs(u), (w - u * axis).norm()};
+  };
+  for (const Vector3d& place : places) {
+    along = std::max(along, split(place).along);
+    across = std::max(across, split(place).across);
+  }
+  // Of the ellipses through the corner (along, across) the one with least sum of squares; then
+  // shrunk until it touches a place.
+  SemiAxes core{std::sqrt(along * (along + across)), std::sqrt(across * (along + across))};
+  double largest = 0.0;
+  for (const Vector3d& place : places) {
+    const SemiAxes at = split(place);
+    const double x = core.along > 0.0 ? at.along / core.along : 0.0;
+    const double y = core.across > 0.0 ? at.across / core.across : 0.0;
+    largest = std::max(largest, x * x + y * y);
+  }
+  const double scale = std::sqrt(largest);
+  return {core.along * scale * kInflation, core.across * scale * kInflation};
+}
+
+/// Semi-axes around the core grown by a ball: for any share in (0,1)
+/// ball^2/share + core^2/(1-share) is enough (rungs.md 5). The least volume of a few shares.
+SemiAxes grown(const SemiAxes& core, double ball) {
+  if (!(core.along > 0.0)) return {ball, ball};
+  SemiAxes best;
+  double bestVolume = HUGE_VAL;
+  for (const double share : {ball / (ball + core.along), 0.2, 0.35, 0.5, 0.6, 0.7, 0.8}) {
+    const double base = ball * ball / share;
+    const SemiAxes axes{std::sqrt(base + core.along * core.along / (1.0 - share)),
+                        std::sqrt(base + core.across * core.across / (1.0 - share))};
+    const double volume = axes.along * axes.across * axes.across;
+    if (volume < bestVolume) {
+      bestVolume = volume;
+      best = axes;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Spheroid spheroidAround(const Lss& volume, LinkId root, const ChainMotion& motion,
+                        const ChainNodes& nodes) {
+  FORETOUCH_ASSERT(motion.parent(root) == kNoParent && nodes.begin() == 0.0 && nodes.end() == 1.0);
+  const Places places = placesOf(volume, nodes.link(root));
+  const Vector3d& a = places[2 * kMiddle];
+  const Vector3d& b = places[2 * kMiddle + 1];
+  const Vector3d offset = 0.5 * (a + b);
+  const JointArc arc = motion.arc(root);
+  Spheroid spheroid;
+  const double length = (b - a).norm();
+  if (length > 0.0) spheroid.axis = (b - a) / length;
+  spheroid.start = Vector3d(arc.translation) + offset;
+  spheroid.drift = Vector3d(arc.drift);
+  const SemiAxes core = coreAround(places, offset, spheroid.axis);
+
+  // What the ends do besides being at the nodes' places (rungs.md 5).
+  double widest = 0.0;
+  for (int k = 0; k + 1 < kNodes; ++k) {
+    widest = std::max(widest, nodes.instant(k + 1) - nodes.instant(k));
+  }
+  const double rho = std::max(volume.a.norm(), volume.b.norm()) * kInflation;
+  const double turn = motion.jointBounds(root).turn;
+  const double rounding =
+      (nodes.bounds().rotationRounding + kPointRounding) * rho +
+      kSumRounding * (spheroid.start.lpNorm<1>() + offset.lpNorm<1>() +
+                      Vector3d(arc.translation).lpNorm<1>() + spheroid.drift.lpNorm<1>());
+  const double ball = std::max({(volume.radius + 0.125 * widest * widest * turn * turn * rho +
+                                 rounding) *
+                                    kInflation,
+                                kLeastShare * core.along, kLeastAxis});
+  const SemiAxes axes = grown(core, ball);
+  spheroid.along = axes.along * kInflation;
+  spheroid.across = axes.across * kInflation;
+  return spheroid;
+}
+
+SpheroidPair::SpheroidPair(const Spheroid& spheroid, const Triangle& triangle)
+    : velocity_(spheroid.toUnit(spheroid.drift)) {
+  double extent = spheroid.drift.lpNorm<1>();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3d w = triangle.vertices[i] - spheroid.start;
+    unit_.vertices[i] = spheroid.toUnit(w);
+    extent = std::max(extent, w.lpNorm<1>());
+  }
+  slack_ = 2.0 * kTransformRounding * (extent / spheroid.shortest() + 1.0);
+}
+
+SpheroidPair::Look SpheroidPair::at(double t) const {
+  const Vector3d center = t * velocity_;
+  const Separation s = separation(center, center, unit_);
+  Look look;
+  look.nhat = s.nhat;
+  look.lower = s.clearanceA - 1.0 - slack_;
+  look.upper = s.upper - 1.0 + slack_;
+  look.onTriangle = s.closest.onTriangle;
+  return look;
+}
+
+double SpheroidPair::provenFrom(double t, const Look& look, double floor) const {
+  if (!(look.lower > floor)) return t;
+  const double speed = look.nhat.dot(velocity_) - slack_;
+  const double next = t + safeStep(look.lower - floor, speed, 0.0);
+  return next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,29 @@
+// middleware/ladder/spheroid_query.h: the first contact of a moving spheroid with the scene. Not
+// installed.
+#pragma once
+
+#include <vector>
+
+#include "middleware/culler.h"
+#include "middleware/ladder/spheroid.h"
+#include "middleware/query.h"
+#include "middleware/query_internal.h"
+#include "middleware/scene.h"
+
+namespace foretouch::internal {
+
+struct SpheroidQuery {
+  const Spheroid& spheroid;
+  const Scene& scene;
+  const TriangleCuller& culler;
+  double tolerance;
+  std::uint64_t maxAdvancements;
+  const IgnoredObjects& ignored;
+};
+
+/// Every triangle's instants depend on that triangle and the spheroid alone, so the answer does not
+/// depend on the order in which `found` brings them. `found` is scratch.
+[[nodiscard]] LinkContact firstContactOf(const SpheroidQuery& query, std::vector<TriangleId>& found,
+                                         QueryCounters& counters);
+
+}  // namespace foretouch::internal
