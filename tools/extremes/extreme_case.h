@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <boost/multiprecision/cpp_int.hpp>
 
 #include "articulated/pose.h"
 #include "articulated/skeleton.h"
@@ -20,8 +19,11 @@
 
 namespace foretouch::tools::extremes {
 
-/// An instant that is known as a ratio of whole numbers.
-using Rational = boost::multiprecision::cpp_rational;
+/// A straight fall to the plane y = 0: the instant of touching is the ratio of two differences of
+/// doubles, (high - radius) / (high - low).
+struct Fall {
+  double high = 0.0, low = 0.0, radius = 0.0;
+};
 
 struct ExtremeCase {
   std::string family, member;
@@ -33,8 +35,7 @@ struct ExtremeCase {
   double tolerance = 1e-3;
   std::vector<std::vector<Triangle>> surface;  ///< Per link; empty: link fidelity alone.
   bool isLegal = true;                         ///< Else it must be refused.
-  std::optional<Rational>
-      impact;  ///< First touch of the last link, where it is known in closed form.
+  std::optional<Fall> fall;  ///< Of the last link, where it is that and ends at the plane or below.
 
   /// Into the scene, as object 0.
   void add(const Triangle& triangle);

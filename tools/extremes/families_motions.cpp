@@ -206,10 +206,7 @@ ExtremeCase falling(Draw& draw, double radius, double high, double low) {
   ExtremeCase extreme = sliding({Vector3d::Zero(), b, radius}, Vector3d(0, high, 0),
                                 Vector3d(draw.pick({0.0, 0.5}), low, draw.pick({0.0, -0.25})));
   extreme.add(floorAt(0.0));
-  if (low <= radius) {
-    const Rational fall = Rational(high) - Rational(low);
-    extreme.impact = fall == 0 ? Rational(0) : (Rational(high) - Rational(radius)) / fall;
-  }
+  if (low <= radius) extreme.fall = Fall{high, low, radius};
   extreme.tolerance = draw.magnitude(1e-9, 1e-3);
   return extreme;
 }
@@ -244,7 +241,7 @@ Family touching() {
          extreme.lss[0] = {{Vector3d::Zero(), Vector3d(0.5, 0, 0), 0.5}};
          extreme.surface = {{{{Vector3d::Zero(), Vector3d(0.5, 0, 0), Vector3d(0.25, 0, 0.25)}},
                              {{Vector3d::Zero(), Vector3d(0.5, 0, 0), Vector3d(0.25, 0.25, 0)}}}};
-         extreme.impact.reset();  // of the triangles, not of the LSS
+         extreme.fall.reset();  // of the triangles, not of the LSS
          return extreme;
        }}};
   return family;

@@ -141,9 +141,10 @@ class Judge {
       tally_.lateness.offer(-proof.least / extreme_.tolerance, extreme_.seed);
     }
     const bool isLast = contact.link + 1 == static_cast<LinkId>(answer.step.links.size());
-    if (extreme_.impact && isLast && answer.fidelity == Fidelity::Link) {
-      const Rational freeUntil(contact.freeUntil);
-      if (contact.verdict == Verdict::Clear || freeUntil > *extreme_.impact) {
+    if (extreme_.fall && isLast && answer.fidelity == Fidelity::Link) {
+      const Fall& fall = *extreme_.fall;
+      if (contact.verdict == Verdict::Clear ||
+          isAfterFall(contact.freeUntil, fall.high, fall.low, fall.radius)) {
         report(Fault::Late, name(answer, contact) + ", later than its closed form");
       }
     }

@@ -87,6 +87,14 @@ double largest(const std::array<double, 3>& p) {
 
 }  // namespace
 
+bool isAfterFall(double t, double high, double low, double radius) {
+  // Doubles are multiples of 2^-1074 below 2^1024; products of two fit into twice that.
+  using Exact = boost::multiprecision::number<
+      boost::multiprecision::cpp_bin_float<4300, boost::multiprecision::digit_base_2>,
+      boost::multiprecision::et_off>;
+  return Exact(t) * (Exact(high) - Exact(low)) > Exact(high) - Exact(radius);
+}
+
 Oracle::Oracle(OracleWorld world) : world_(std::move(world)) {
   if (!world_.triangles.empty()) origin_ = world_.triangles.front()[0];
   quick_ = PreciseMotion<Quick>(world_.joints, origin_);

@@ -46,6 +46,10 @@ struct FreedomProof {
   double least = 0.0;
 };
 
+/// Whether `t` lies after the instant at which what falls from `high` to `low` (not above radius)
+/// comes down to `radius`: t (high - low) > high - radius, with no rounding at all.
+[[nodiscard]] bool isAfterFall(double t, double high, double low, double radius);
+
 class Oracle {
  public:
   explicit Oracle(OracleWorld world);
