@@ -87,9 +87,8 @@ namespace {
 
 Result<Done> checked(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                      const QueryOptions& options) {
-  if (!(options.tolerance >= kMinTolerance) || !std::isfinite(options.tolerance)) {
-    return Error{ErrorCode::OutOfRange, "tolerance", -1, -1,
-                 "expected a finite number of metres, at least 1e-9"};
+  if (!(options.tolerance >= kMinTolerance) || !(options.tolerance <= kMaxTolerance)) {
+    return Error{ErrorCode::OutOfRange, "tolerance", -1, -1, "expected 1e-9 to 1e7 metres"};
   }
   if (!(options.deadlineUs >= 0.0)) {
     return Error{ErrorCode::OutOfRange, "deadline", -1, -1, "expected microseconds, at least 0"};

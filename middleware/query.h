@@ -147,7 +147,7 @@ enum class Descent : std::uint8_t {
 [[nodiscard]] const char* toString(Descent descent);
 
 struct QueryOptions {
-  double tolerance = 1e-3;  ///< eps in metres; finite, >= kMinTolerance.
+  double tolerance = 1e-3;  ///< eps in metres; kMinTolerance to kMaxTolerance.
   Culler culler = Culler::FlatBvh;
   Fidelity fidelity = Fidelity::Link;
   std::optional<AvatarSurface> surface;  ///< Of the same avatar; needed for Fidelity::Exact.
@@ -169,6 +169,8 @@ struct QueryOptions {
 
 /// Below this (m) a tolerance is refused outright; above it, coordinates decide (UndecidedReason).
 inline constexpr double kMinTolerance = 1e-9;
+/// Above it (m) one is refused as well: boxes grown by more need not fit into floats.
+inline constexpr double kMaxTolerance = kMaxCoordinate;
 
 /// Work done, for measurements that no machine load changes.
 struct QueryCounters {

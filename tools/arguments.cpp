@@ -50,8 +50,8 @@ Result<double> parsePositive(const std::string& option, const std::string& text)
 
 Result<double> parseTolerance(const std::string& option, const std::string& text) {
   double number = 0.0;
-  if (readAll(text, number) && number >= kMinTolerance) return number;
-  return refusal(option, "a finite number of metres, at least 1e-9", text);
+  if (readAll(text, number) && number >= kMinTolerance && number <= kMaxTolerance) return number;
+  return refusal(option, "1e-9 to 1e7 metres", text);
 }
 
 Result<int> parseCount(const std::string& option, const std::string& text, int most) {

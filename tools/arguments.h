@@ -22,7 +22,7 @@ inline constexpr int kMaxThreads = 256;
 [[nodiscard]] Result<double> parseNumber(const std::string& option, const std::string& text);
 /// The same, greater than zero.
 [[nodiscard]] Result<double> parsePositive(const std::string& option, const std::string& text);
-/// Metres, at least kMinTolerance.
+/// Metres, kMinTolerance to kMaxTolerance.
 [[nodiscard]] Result<double> parseTolerance(const std::string& option, const std::string& text);
 /// A whole number from 1 to `most`.
 [[nodiscard]] Result<int> parseCount(const std::string& option, const std::string& text, int most);

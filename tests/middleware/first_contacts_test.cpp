@@ -127,12 +127,30 @@ AnalyticCase certainHit() {
 
 TEST(FirstContactsOptions, RefusesTolerancesThatMeanNothing) {
   const AnalyticCase c = certainHit();
-  for (const double tolerance : {0.0, -1.0, 1e-10, std::nan(""), HUGE_VAL}) {
+  for (const double tolerance : {0.0, -1.0, 1e-10, std::nan(""), HUGE_VAL, 1.1e7, 1e39, 1e300}) {
     QueryOptions options;
     options.tolerance = tolerance;
     const auto result = firstContacts(c.avatar(), c.motion(), c.scene(), options);
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().code, ErrorCode::OutOfRange);
+  }
+}
+
+// With boxes of floats that have no end, the empty children of a node would be met.
+TEST(FirstContactsOptions, TakesTheLargestTolerance) {
+  const AnalyticCase c = certainHit();
+  for (const Backtracking backtracking : {Backtracking::Lanes, Backtracking::Scalar}) {
+    for (const Culler culler : {Culler::FlatBvh, Culler::PointQuery}) {
+      QueryOptions options;
+      options.tolerance = kMaxTolerance;
+      options.backtracking = backtracking;
+      options.culler = culler;
+      const auto result = firstContacts(c.avatar(), c.motion(), c.scene(), options);
+      ASSERT_TRUE(result.ok());
+      const LinkContact& contact = result.value().links[AnalyticCase::kLink];
+      EXPECT_EQ(contact.freeUntil, 0.0);
+      EXPECT_NE(contact.verdict, Verdict::Clear);
+    }
   }
 }
 

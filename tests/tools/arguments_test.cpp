@@ -33,9 +33,10 @@ TEST(ParsePositive, RefusesZeroAndLess) {
   }
 }
 
-TEST(ParseTolerance, StartsAtTheLeastToleranceOfTheQuery) {
+TEST(ParseTolerance, GoesFromTheLeastToTheLargestToleranceOfTheQuery) {
+  EXPECT_EQ(parseTolerance("--tolerance", "1e7").value(), kMaxTolerance);
   EXPECT_EQ(parseTolerance("--tolerance", "1e-9").value(), kMinTolerance);
-  for (const char* text : {"0", "-0.001", "nan", "inf", "9.9e-10", "thin"}) {
+  for (const char* text : {"0", "-0.001", "nan", "inf", "9.9e-10", "1.1e7", "1e300", "thin"}) {
     EXPECT_FALSE(parseTolerance("--tolerance", text).ok()) << text;
   }
 }

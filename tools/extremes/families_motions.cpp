@@ -342,6 +342,19 @@ Family chains() {
        [](Draw& draw, const Sizes& sizes) {
          return stretched(draw, sizes.chain, draw.uniform(0.02, 0.2), Vector3d::Zero());
        }},
+      {"limbs of 10,000 km",
+       [](Draw& draw, const Sizes& sizes) {
+         ExtremeCase extreme =
+             stretched(draw, sizes.chain, draw.pick({0.0, 0.1, kPi}), Vector3d::Zero());
+         for (std::size_t j = 0; j < extreme.lss.size(); ++j) {
+           extreme.lss[j][0] = {Vector3d::Zero(), Vector3d(kMaxCoordinate, 0, 0), 1e5};
+           for (Pose* pose : {&extreme.from, &extreme.to}) {
+             pose->translations[j] = Vector3d(kMaxCoordinate, 0, draw.sign() * kMaxCoordinate);
+           }
+         }
+         extreme.tolerance = draw.magnitude(1e-3, 1e5);
+         return extreme;
+       }},
       {"whipping far away", [](Draw& draw, const Sizes& sizes) {
          return stretched(draw, sizes.chain, draw.uniform(0.01, 0.1),
                           draw.magnitude(1e3, 1e6) * draw.direction());

@@ -110,7 +110,7 @@ Family scale() {
 }
 
 Family tolerance() {
-  Family family{"tolerance", "tolerances from the least to the largest double", {}};
+  Family family{"tolerance", "tolerances from the least to the largest, and beyond", {}};
   const auto with = [](Draw& draw, double tolerance) {
     ExtremeCase extreme = at(draw, Vector3d::Zero(), 1e-3);
     if (draw.chance(0.5)) cover(draw, extreme, false);
@@ -124,11 +124,15 @@ Family tolerance() {
       {"a room's",
        [with](Draw& draw, const Sizes&) { return with(draw, draw.magnitude(0.1, 1e3)); }},
       {"a planet's",
-       [with](Draw& draw, const Sizes&) { return with(draw, draw.magnitude(1e4, 1e12)); }},
-      {"beyond floats",
-       [with](Draw& draw, const Sizes&) { return with(draw, draw.magnitude(1e30, 1e300)); }},
-      {"the largest", [with](Draw& draw, const Sizes&) {
-         return with(draw, draw.chance(0.5) ? std::numeric_limits<double>::max() : 1.7e308);
+       [with](Draw& draw, const Sizes&) {
+         return with(draw, draw.chance(0.5) ? kMaxTolerance : draw.magnitude(1e4, 9e6));
+       }},
+      {"beyond the limit", [with](Draw& draw, const Sizes&) {
+         ExtremeCase extreme =
+             with(draw, draw.pick({std::nextafter(kMaxTolerance, 1e8), draw.magnitude(2e7, 1e300),
+                                   std::numeric_limits<double>::max()}));
+         extreme.isLegal = false;
+         return extreme;
        }}};
   return family;
 }

@@ -13,7 +13,7 @@ constexpr long double kGuard = 256.0L;
 constexpr int kPatience = 20;
 /// Spans are not halved more often than this.
 constexpr int kMostHalvings = 220;
-constexpr std::int64_t kMostQuick = 20'000'000, kMostPrecise = 60'000;
+constexpr std::int64_t kMostQuick = 4'000'000, kMostPrecise = 60'000;
 /// Fifty digits of the extents, less what the formulas lose.
 const Precise kTouching("1e-40");
 constexpr double kNoHull = 1e300;
@@ -99,7 +99,7 @@ Oracle::Oracle(OracleWorld world) : world_(std::move(world)) {
   if (!world_.triangles.empty()) origin_ = world_.triangles.front()[0];
   quick_ = PreciseMotion<Quick>(world_.joints, origin_);
   precise_ = PreciseMotion<Precise>(world_.joints, origin_);
-  double scene = 0.0;
+  double scene = kLeastExtent;
   long double sceneFromOrigin = 0.0L;
   for (const OracleTriangle& triangle : world_.triangles) {
     Corners<Quick> quick;

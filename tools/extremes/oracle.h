@@ -27,6 +27,9 @@ struct OracleHull {
 };
 using OracleTriangle = std::array<std::array<double, 3>, 3>;
 
+/// Lengths are bounded by roots in float, which keep at least 1.1e-19 m a joint.
+inline constexpr double kLeastExtent = 1e-16;
+
 struct OracleWorld {
   std::vector<OracleJoint> joints;
   std::vector<OracleHull> hulls;
@@ -61,8 +64,9 @@ class Oracle {
   /// One a link: is it free on [0, until[link]]? 0: nothing is asked.
   [[nodiscard]] std::vector<FreedomProof> proveFree(const std::vector<double>& until) const;
 
-  /// Largest magnitude (m) of what the link's separations are made of: the scene's coordinates, and
-  /// how far the link reaches from the world's origin and moves in the step, radius included.
+  /// Largest magnitude (m), at least kLeastExtent, of what the link's separations are made of: the
+  /// scene's coordinates, and how far the link reaches from the world's origin and moves in the
+  /// step, radius included.
   [[nodiscard]] double extent(int link) const { return extents_[static_cast<std::size_t>(link)]; }
   [[nodiscard]] int depth(int link) const {
     return static_cast<int>(quick_.bounds(static_cast<std::size_t>(link)).depth);
