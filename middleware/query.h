@@ -70,10 +70,10 @@ struct LinkContact {
 };
 
 /// What a link's surface is: the rungs of the ladder, coarsest first Ellipsoid, Avatar, Limb, Link,
-/// Exact; Skinned is none of them. Above Link one volume stands for several links, which all get its
-/// verdict (middleware/rungs.h): each contains what stands for them one rung below, at every t, so
-/// what is clear at a rung is free of contact at those below, where nothing is touched before the
-/// time that a higher one reports. A link without LSS has no surface there.
+/// Exact; Skinned is none of them. Above Link one volume stands for several links, which all get
+/// its verdict (middleware/rungs.h): each contains what stands for them one rung below, at every t,
+/// so what is clear at a rung is free of contact at those below, where nothing is touched before
+/// the time that a higher one reports. A link without LSS has no surface there.
 enum class Fidelity : std::uint8_t {
   Link,   ///< Its LSS.
   Exact,  ///< The triangles of its mesh, and LSS that bound none. A subset of Link's contacts, and
@@ -117,9 +117,9 @@ enum class Scope : std::uint8_t {
 [[nodiscard]] const char* toString(Scope scope);
 
 /// A link, or a link and one object, whose contacts are not asked for.
-/// Above link fidelity an object is passed over only where all links that a volume stands for ignore
-/// it (those that are ignored altogether not counted); a link that alone does gets the volume's
-/// verdict.
+/// Above link fidelity an object is passed over only where all links that a volume stands for
+/// ignore it (those that are ignored altogether not counted); a link that alone does gets the
+/// volume's verdict.
 struct IgnoredPair {
   LinkId link = 0;
   ObjectId object = kEveryObject;

@@ -40,7 +40,7 @@ struct RungScratch {
   RungVolumes volumes;
   std::vector<std::vector<Lss>> perLink;  // the volumes by their carriers
   LssTable table;
-  std::vector<IgnoredPair> ignored;  // of the volumes, by their carriers
+  std::vector<IgnoredPair> ignored;   // of the volumes, by their carriers
   std::vector<std::uint8_t> isAsked;  // per link: not ignored altogether
   std::vector<LinkContact> answers;   // of the volumes
 };

@@ -100,16 +100,18 @@ Result<Scope> parseScope(const std::string& option, const std::string& text) {
   return refusal(option, "links or avatar", text);
 }
 
+Result<Descent> parseDescent(const std::string& option, const std::string& text) {
+  if (text == "straight") return Descent::Straight;
+  if (text == "by-need") return Descent::ByNeed;
+  return refusal(option, "straight or by-need", text);
+}
+
 Result<Fidelity> parseFidelity(const std::string& option, const std::string& text) {
-  if (text == "link") return Fidelity::Link;
-  if (text == "exact") return Fidelity::Exact;
-  if (text == "skinned") return Fidelity::Skinned;
-  if (text == "avatar" || text == "ellipsoid") {
-    return Error{
-        ErrorCode::OutOfRange, option, -1, -1,
-        "'" + text + "' is not available in this version; available: link, exact, skinned"};
+  for (const Fidelity fidelity : {Fidelity::Ellipsoid, Fidelity::Avatar, Fidelity::Limb,
+                                  Fidelity::Link, Fidelity::Exact, Fidelity::Skinned}) {
+    if (text == toString(fidelity)) return fidelity;
   }
-  return refusal(option, "link, exact or skinned", text);
+  return refusal(option, "ellipsoid, avatar, limb, link, exact or skinned", text);
 }
 
 Result<Done> checkIsNoInput(const std::string& output, const std::vector<std::string>& inputs) {

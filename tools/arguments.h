@@ -34,10 +34,10 @@ inline constexpr int kMaxThreads = 256;
 [[nodiscard]] Result<UpAxis> parseUpAxis(const std::string& option, const std::string& text);
 /// "flat" or "point-query".
 [[nodiscard]] Result<Culler> parseCuller(const std::string& option, const std::string& text);
-/// Only "link" is available; the other rungs are refused by name.
 [[nodiscard]] Result<LeafMethod> parseLeafMethod(const std::string& option,
                                                  const std::string& text);
 [[nodiscard]] Result<Scope> parseScope(const std::string& option, const std::string& text);
+[[nodiscard]] Result<Descent> parseDescent(const std::string& option, const std::string& text);
 [[nodiscard]] Result<Fidelity> parseFidelity(const std::string& option, const std::string& text);
 
 /// Refuses an output file that is one of the inputs. Empty paths are passed over.

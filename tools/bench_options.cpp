@@ -134,7 +134,10 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts) {
   option("--seed", texts.seed, "N", "Of the places, and of the choice among their steps");
   option("--repeat", texts.repeat, "N", "Times that each step is asked");
   option("--processor", texts.processor, "N", "Keep to this processor");
-  option("--fidelity", texts.fidelity, "link|exact", "What touches");
+  option("--fidelity", texts.fidelity, "RUNG",
+         "What touches: ellipsoid, avatar, limb, link or exact");
+  option("--descent", texts.descent, "straight|by-need",
+         "Whether a query first asks if anything is within the avatar's reach");
   option("--surface-triangles", texts.surfaceTriangles, "N",
          "Of an avatar without meshes, at exact fidelity: the skins of its LSS");
   option("--json", texts.json, "FILE", "Also write the figures to a file");
@@ -148,6 +151,7 @@ Result<BenchOptions> settled(const BenchTexts& texts) {
   settleWorkload(texts, settle, options.workload);
   settle.into(options.timing.repeats, parseCount("--repeat", texts.repeat, kMaxBenchRepeats));
   settle.into(options.fidelity, parseFidelity("--fidelity", texts.fidelity));
+  settle.into(options.descent, parseDescent("--descent", texts.descent));
   int surfaceTriangles = 0;
   settle.into(surfaceTriangles,
               parseCount("--surface-triangles", texts.surfaceTriangles, kMaxBenchTriangles));
@@ -163,7 +167,8 @@ Result<BenchOptions> settled(const BenchTexts& texts) {
   options.command = ownCommandLine();
   if (settle.error()) return *settle.error();
   if (options.fidelity == Fidelity::Skinned) {
-    return Error{ErrorCode::OutOfRange, "--fidelity", -1, -1, "expected link or exact"};
+    return Error{ErrorCode::OutOfRange, "--fidelity", -1, -1,
+                 "expected ellipsoid, avatar, limb, link or exact"};
   }
   if (options.processor && !pinToProcessor(*options.processor)) {
     return Error{
@@ -177,7 +182,8 @@ Result<QueryOptions> queryFor(const BenchInputs& inputs, const BenchBody& body,
                               const BenchOptions& options) {
   QueryOptions query;
   query.fidelity = options.fidelity;
-  if (query.fidelity == Fidelity::Link) return query;
+  query.descent = options.descent;
+  if (query.fidelity != Fidelity::Exact) return query;
   std::vector<std::vector<Triangle>> triangles;
   if (body.avatar.numLinks() == inputs.avatar.numLinks() && hasMeshes(inputs.avatar)) {
     auto meshes = loadLinkMeshes(inputs.avatar, inputs.files.avatarPath);
@@ -218,6 +224,7 @@ std::vector<BenchFact> workloadFacts(const BenchInputs& inputs, const Scene& sce
       {"clip", fmt::format("{}, {} frames at {:.4g} Hz", nameOf(inputs.files.motionPath),
                            inputs.clip.frames.size(), 1.0 / inputs.clip.frameTimeS)},
       {"fidelity", toString(query.fidelity)}};
+  if (query.descent == Descent::ByNeed) facts.back().second += ", descent by need";
   if (query.surface) {
     facts.back().second +=
         fmt::format(", {} triangles on the links", query.surface->numTriangles());

@@ -24,7 +24,7 @@ struct BenchTexts {
   std::string sceneScale = "1", scale = "1", up = "y", motionUp = "y", floor = "0", lift = "0.05";
   std::string steps = "500", seed = "1", places = "1000", repeat = "9", processor = "any",
               choice = "busy";
-  std::string fidelity = "link", surfaceTriangles = "20000";
+  std::string fidelity = "link", descent = "straight", surfaceTriangles = "20000";
 };
 
 /// The same, checked.
@@ -33,6 +33,7 @@ struct BenchOptions {
   WorkloadRequest workload;
   TimingOptions timing;
   Fidelity fidelity = Fidelity::Link;
+  Descent descent = Descent::Straight;
   std::size_t surfaceTriangles = 20'000;
   std::optional<int> processor;
   std::string jsonPath, csvPath;

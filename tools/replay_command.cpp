@@ -245,7 +245,8 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   option("--place", texts->place, "X,Y,Z[,YAW]",
          "Where the clip's origin stands in the scene: metres, and degrees about +Y");
   option("--fidelity", texts->fidelity, "RUNG",
-         "What touches: the links' LSS (link), their meshes (exact), or a skin (skinned)");
+         "What touches: one ellipsoid, one LSS (avatar), one a limb, the links' LSS (link), "
+         "their meshes (exact), or a skin (skinned)");
   option("--skin", texts->skin, "BODY", "Skinned fidelity: the model that the avatar was made of");
   option("--skin-scale", texts->skinScale, "S", "Metres per unit of that model");
   option("--skin-up", texts->skinUp, "y|z", "Which axis of that model points up");

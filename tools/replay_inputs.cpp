@@ -19,7 +19,9 @@ Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, Que
   query.fidelity = request.fidelity;
   query.leafMethod = request.leafMethod;
   query.scope = request.scope;
-  if (request.fidelity == Fidelity::Link) return Done{};
+  const bool isOfMeshes =
+      request.fidelity == Fidelity::Exact || request.fidelity == Fidelity::Skinned;
+  if (!isOfMeshes) return Done{};
   if (request.fidelity == Fidelity::Skinned) {
     auto skin = loadSkin(request.skinPath, request.skinScale, request.skinUp, avatar);
     if (!skin.ok()) return skin.error();

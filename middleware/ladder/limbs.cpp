@@ -32,8 +32,7 @@ std::vector<int> childrenThatCount(const Avatar& avatar, const std::vector<std::
 void addPoints(const Avatar& avatar, LinkId link, std::vector<AxisPoint>& points) {
   for (const Lss& lss : avatar.lss(link)) {
     for (const Eigen::Vector3d& end : {lss.a, lss.b}) {
-      points.push_back(
-          {link, {end.x(), end.y(), end.z()}, end.norm() * kInflation, lss.radius});
+      points.push_back({link, {end.x(), end.y(), end.z()}, end.norm() * kInflation, lss.radius});
     }
   }
 }
@@ -72,8 +71,7 @@ Limbs::Limbs(const Avatar& avatar) {
   }
   for (std::size_t i = 0; i < limbs_.size(); ++i) {
     if (limbs_[i].links.empty()) continue;  // bare links between two branchings
-    trees_[static_cast<std::size_t>(limbs_[i].tree)].limbs.push_back(
-        static_cast<std::int32_t>(i));
+    trees_[static_cast<std::size_t>(limbs_[i].tree)].limbs.push_back(static_cast<std::int32_t>(i));
   }
 }
 

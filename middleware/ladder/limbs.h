@@ -1,5 +1,5 @@
-// middleware/ladder/limbs.h: how an avatar's links are grouped for the rungs above its links. A limb
-// is a maximal chain of links between branchings; a tree is all that hangs on one root. Not
+// middleware/ladder/limbs.h: how an avatar's links are grouped for the rungs above its links. A
+// limb is a maximal chain of links between branchings; a tree is all that hangs on one root. Not
 // installed.
 #pragma once
 

@@ -20,8 +20,7 @@ void relativePointInLanes(const LinkNodes& carrier, const LinkNodes& link, const
     for (int axis = 0; axis < 3; ++axis) {
       w[axis] = hn::Sub(hn::Load(d, link.p[axis] + lane), hn::Load(d, carrier.p[axis] + lane));
       for (int i = 0; i < 3; ++i) {
-        w[axis] =
-            hn::MulAdd(hn::Load(d, link.R[3 * axis + i] + lane), hn::Set(d, p_L[i]), w[axis]);
+        w[axis] = hn::MulAdd(hn::Load(d, link.R[3 * axis + i] + lane), hn::Set(d, p_L[i]), w[axis]);
       }
     }
     for (int axis = 0; axis < 3; ++axis) {

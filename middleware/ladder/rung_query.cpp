@@ -1,12 +1,14 @@
 #include "middleware/ladder/rung_query.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "lss/assert.h"
 #include "lss/segment_triangle.h"
 #include "middleware/body.h"
 #include "middleware/ladder/spheroid_query.h"
 #include "middleware/lane_query.h"
+#include "middleware/rungs.h"
 #include "middleware/scalar_query.h"
 #include "middleware/scene_internal.h"
 
@@ -53,7 +55,8 @@ class RungQuery {
     for (std::size_t group = 0; group < numGroups(); ++group) {
       const std::vector<LinkId>& links = linksOf(group);
       if (std::find(links.begin(), links.end(), link) == links.end()) continue;
-      if (!isAsked(link) || scratch_.ignored.collect(rungs_.ignored, carrierOf(group))) return false;
+      if (!isAsked(link) || scratch_.ignored.collect(rungs_.ignored, carrierOf(group)))
+        return false;
       return options_.fidelity == Fidelity::Ellipsoid ? spheroidTouchesAt(group, t)
                                                       : lssTouchesAt(group, t);
     }
@@ -94,8 +97,8 @@ class RungQuery {
     }
     for (std::size_t group = 0; group < numGroups(); ++group) {
       const std::vector<LinkId>& links = linksOf(group);
-      const auto first = std::find_if(links.begin(), links.end(),
-                                      [this](LinkId link) { return isAsked(link); });
+      const auto first =
+          std::find_if(links.begin(), links.end(), [this](LinkId link) { return isAsked(link); });
       if (first == links.end()) {
         rungs_.ignored.push_back({carrierOf(group), IgnoredPair::kEveryObject});
         continue;
@@ -154,8 +157,8 @@ class RungQuery {
       rungs_.answers.emplace_back();
       if (scratch_.ignored.collect(rungs_.ignored, carrierOf(group))) continue;
       const Spheroid spheroid = spheroidOf(group);
-      const SpheroidQuery query{spheroid,           scene_, culler, options_.tolerance,
-                                options_.maxAdvancements, scratch_.ignored};
+      const SpheroidQuery query{
+          spheroid, scene_, culler, options_.tolerance, options_.maxAdvancements, scratch_.ignored};
       rungs_.answers.back() = firstContactOf(query, scratch_.found, step.counters);
     }
   }
@@ -226,3 +229,26 @@ bool rungTouchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link,
 }
 
 }  // namespace foretouch::internal
+
+namespace foretouch {
+
+std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& motion,
+                                    const Scene& scene, Fidelity rung) {
+  FORETOUCH_ASSERT(internal::isRung(rung) && motion.numLinks() == avatar.numLinks());
+  QueryScratch scratch;
+  QueryOptions options;
+  options.fidelity = rung;
+  internal::RungQuery query(avatar, motion, scene, options, scratch.impl());
+  QueryCounters counters;
+  query.evaluate(counters);
+  std::vector<RungVolume> volumes;
+  for (std::size_t group = 0; group < query.numGroups(); ++group) {
+    if (query.linksOf(group).empty()) continue;
+    RungVolume volume{query.carrierOf(group), query.linksOf(group), query.volumeOf(group), {}};
+    if (rung == Fidelity::Ellipsoid) volume.spheroid = query.spheroidOf(group);
+    volumes.push_back(std::move(volume));
+  }
+  return volumes;
+}
+
+}  // namespace foretouch

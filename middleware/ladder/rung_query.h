@@ -8,7 +8,8 @@
 
 namespace foretouch::internal {
 
-/// Fills `step`, whose links are all Clear. The options have been checked; isRung(options.fidelity).
+/// Fills `step`, whose links are all Clear. The options have been checked;
+/// isRung(options.fidelity).
 void rungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                const QueryOptions& options, const TriangleCuller& culler,
                QueryScratch::Impl& scratch, StepContacts& step);

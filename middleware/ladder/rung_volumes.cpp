@@ -85,8 +85,7 @@ Lss axisAround(const std::vector<CarriedBall>& balls, int node) {
     const Vector3d w = placeOf(ball, node) - cylinder.center;
     const double t = direction.dot(w), room = cylinder.radius - ball.radius;
     // As far as the ball is inside the cap around an end.
-    const double cap =
-        std::sqrt(std::max(0.0, room * room - (w - t * direction).squaredNorm()));
+    const double cap = std::sqrt(std::max(0.0, room * room - (w - t * direction).squaredNorm()));
     begin = std::min(begin, t + cap);
     end = std::max(end, t - cap);
   }
@@ -141,9 +140,8 @@ RungVolumes::RelativeSums RungVolumes::RelativeSums::with(
   sums.angularSpeed = angularSpeed + joint.turn;
   sums.angularAcceleration = angularAcceleration + angularSpeed * joint.turn;
   sums.acceleration =
-      acceleration +
-      ((angularAcceleration + angularSpeed * angularSpeed) * joint.length +
-       2.0 * (angularSpeed * joint.driftLength));
+      acceleration + ((angularAcceleration + angularSpeed * angularSpeed) * joint.length +
+                      2.0 * (angularSpeed * joint.driftLength));
   return sums;
 }
 

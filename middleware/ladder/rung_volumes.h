@@ -1,6 +1,7 @@
 // middleware/ladder/rung_volumes.h: one step's volumes at the rungs above the links: an LSS a limb,
 // in the frame of the limb's first link, and an LSS a tree, in the root's frame, each around what
-// the rung below has, at every t in [0,1]. Proof: middleware/ladder/rungs.md. Metres. Not installed.
+// the rung below has, at every t in [0,1]. Proof: middleware/ladder/rungs.md. Metres. Not
+// installed.
 #pragma once
 
 #include <cstdint>

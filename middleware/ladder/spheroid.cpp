@@ -115,10 +115,9 @@ Spheroid spheroidAround(const Lss& volume, LinkId root, const ChainMotion& motio
       (nodes.bounds().rotationRounding + kPointRounding) * rho +
       kSumRounding * (spheroid.start.lpNorm<1>() + offset.lpNorm<1>() +
                       Vector3d(arc.translation).lpNorm<1>() + spheroid.drift.lpNorm<1>());
-  const double ball = std::max({(volume.radius + 0.125 * widest * widest * turn * turn * rho +
-                                 rounding) *
-                                    kInflation,
-                                kLeastShare * core.along, kLeastAxis});
+  const double ball = std::max(
+      {(volume.radius + 0.125 * widest * widest * turn * turn * rho + rounding) * kInflation,
+       kLeastShare * core.along, kLeastAxis});
   const SemiAxes axes = grown(core, ball);
   spheroid.along = axes.along * kInflation;
   spheroid.across = axes.across * kInflation;

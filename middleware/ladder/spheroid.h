@@ -10,29 +10,9 @@
 #include "articulated/motion.h"
 #include "lss/lss.h"
 #include "lss/triangle.h"
-#include "middleware/query.h"
+#include "middleware/rungs.h"
 
 namespace foretouch::internal {
-
-/// The points x with |S(x - start - t*drift)| <= 1, S = 1/across + (1/along - 1/across) axis axis'.
-struct Spheroid {
-  Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< Its centre at t = 0, in W.
-  Eigen::Vector3d drift = Eigen::Vector3d::Zero();  ///< Of the centre, per unit of t.
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();  ///< Of revolution; unit.
-  double along = 0.0, across = 0.0;                 ///< Semi-axes, > 0.
-
-  /// S x: into the space where it is the unit ball.
-  [[nodiscard]] Eigen::Vector3d toUnit(const Eigen::Vector3d& x) const {
-    return x / across + ((1.0 / along - 1.0 / across) * axis.dot(x)) * axis;
-  }
-  /// The inverse of S, to rounding.
-  [[nodiscard]] Eigen::Vector3d fromUnit(const Eigen::Vector3d& x) const {
-    return across * x + ((along - across) * axis.dot(x)) * axis;
-  }
-  [[nodiscard]] double longest() const { return along > across ? along : across; }
-  [[nodiscard]] double shortest() const { return along < across ? along : across; }
-  [[nodiscard]] Eigen::Vector3d centerAt(double t) const { return start + t * drift; }
-};
 
 /// Around `volume`, which is fixed in the frame of `root`, a link without a parent. `nodes` are of
 /// `motion` over [0,1].
@@ -47,8 +27,8 @@ class SpheroidPair {
 
   struct Look {
     Eigen::Vector3d nhat = Eigen::Vector3d::Zero();  ///< From the triangle; |nhat| <= 1.
-    double lower = 0.0;  ///< Proven: the plane's clearance of the ball.
-    double upper = 0.0;  ///< Proven: of their distance.
+    double lower = 0.0;                              ///< Proven: the plane's clearance of the ball.
+    double upper = 0.0;                              ///< Proven: of their distance.
     Eigen::Vector3d onTriangle = Eigen::Vector3d::Zero();
   };
   [[nodiscard]] Look at(double t) const;

@@ -47,10 +47,9 @@ class Sweep {
   void collect(const Aabb& box) {
     found_.clear();
     query_.culler.collect(box, found_, counters_.nodes);
-    found_.erase(std::remove_if(found_.begin(), found_.end(),
-                                [this](TriangleId id) {
-                                  return query_.ignored.has(query_.scene.object(id));
-                                }),
+    found_.erase(std::remove_if(
+                     found_.begin(), found_.end(),
+                     [this](TriangleId id) { return query_.ignored.has(query_.scene.object(id)); }),
                  found_.end());
     counters_.candidates += found_.size();
   }

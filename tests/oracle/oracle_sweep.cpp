@@ -24,9 +24,9 @@ struct Arguments {
   std::vector<double> rates{5, 10, 30};
   std::vector<double> tolerances{1e-3, 1e-5};
   int maxSteps = 200, threads = 2, placements = 2;
-  std::string data, culler = "flat", leaves = "advancement", backtracking = "lanes", simd;
-  double budgetS = 0.0, deadlineUs = 0.0;
-  std::uint64_t workBudget = 0;
+  std::string data, culler = "flat", leaves = "advancement", backtracking = "lanes", simd,
+                    fidelity = "link";
+  double budgetS = 0.0;
   bool everyClip = false;
 };
 
@@ -61,6 +61,8 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
       ->check(CLI::IsMember({"advancement", "cubics"}));
   app.add_option("--backtracking", a.backtracking, "lanes or scalar")
       ->check(CLI::IsMember({"lanes", "scalar"}));
+  app.add_option("--fidelity", a.fidelity, "limb, avatar or link; models: always exact")
+      ->check(CLI::IsMember({"limb", "avatar", "link"}));
   app.add_option("--simd", a.simd, "Vector instructions of the lanes; the widest if not given")
       ->check(CLI::IsMember(simdNames()));
   app.add_option("--data", a.data, "Folder with mocap/ and scenes/");
@@ -139,8 +141,8 @@ class Run {
                                                        : foretouch::LeafMethod::Advancement;
     options.backtracking = arguments_.backtracking == "scalar" ? foretouch::Backtracking::Scalar
                                                                : foretouch::Backtracking::Lanes;
-    if (arguments_.workBudget > 0) options.workBudget = arguments_.workBudget;
-    if (arguments_.deadlineUs > 0.0) options.deadlineUs = arguments_.deadlineUs;
+    if (arguments_.fidelity == "limb") options.fidelity = foretouch::Fidelity::Limb;
+    if (arguments_.fidelity == "avatar") options.fidelity = foretouch::Fidelity::Avatar;
     options.deadline = deadline_;
     const SweepTally tally = sweep(clip, scene, placement, options);
     std::cout << clip.name << " x " << scene.name << ", " << rate << " Hz, eps " << tolerance

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <thread>
 
+#include "middleware/rungs.h"
+
 namespace foretouch::test {
 namespace {
 
@@ -29,7 +31,7 @@ class Sweeper {
     query_.workBudget = options.workBudget;
     query_.deadlineUs = options.deadlineUs;
     query_.surface = clip.surface;
-    if (clip.surface) query_.fidelity = Fidelity::Exact;
+    query_.fidelity = clip.surface ? Fidelity::Exact : options.fidelity;
     stride_ = std::min(strideFor(clip.clip, options.rateHz),
                        static_cast<int>(clip.clip.frames.size()) - 1);
     steps_ = clip.numSteps(stride_);
@@ -81,15 +83,37 @@ class Sweeper {
       return;
     }
     const oracle::Motion truth(oracleJoints(skeleton, from, to));
+    if (query_.fidelity == Fidelity::Limb || query_.fidelity == Fidelity::Avatar) {
+      judgeVolumes(n, motion, answer.value(), truth, tally);
+      return;
+    }
     for (LinkContact contact : answer.value().links) {
       if (options_.tamper) options_.tamper(contact);
       judge(n, contact, truth, tally);
     }
   }
 
+  /// Each volume once, by what its first link was told.
+  void judgeVolumes(int n, const ChainMotion& motion, const StepContacts& step,
+                    const oracle::Motion& truth, SweepTally& tally) const {
+    const auto plain = [](const Eigen::Vector3d& v) { return oracle::Vec3d{v.x(), v.y(), v.z()}; };
+    for (const RungVolume& volume :
+         rungVolumes(clip_.avatar, motion, scene_.scene, query_.fidelity)) {
+      LinkContact contact = step.links[static_cast<std::size_t>(volume.links.front())];
+      contact.link = volume.carrier;
+      if (options_.tamper) options_.tamper(contact);
+      judge(n, contact, truth, {{{plain(volume.lss.a), plain(volume.lss.b)}, volume.lss.radius}},
+            tally);
+    }
+  }
+
   void judge(int n, const LinkContact& contact, const oracle::Motion& truth,
              SweepTally& tally) const {
-    const auto& capsules = clip_.capsules[static_cast<std::size_t>(contact.link)];
+    judge(n, contact, truth, clip_.capsules[static_cast<std::size_t>(contact.link)], tally);
+  }
+
+  void judge(int n, const LinkContact& contact, const oracle::Motion& truth,
+             const std::vector<oracle::Capsule>& capsules, SweepTally& tally) const {
     if (capsules.empty() && contact.verdict == Verdict::Clear) return;
     const bool isExact = !clip_.meshes.empty();
     if (isExact && clip_.meshes[static_cast<std::size_t>(contact.link)].empty()) {

@@ -84,18 +84,23 @@ TEST(ParseLeafMethod, KnowsItsTwoWays) {
   EXPECT_FALSE(parseLeafMethod("--leaves", "roots").ok());
 }
 
-TEST(ParseFidelity, NamesWhatIsAvailableForRungsThatAreNot) {
+TEST(ParseFidelity, TakesEveryRungByName) {
+  EXPECT_EQ(parseFidelity("--fidelity", "ellipsoid").value(), Fidelity::Ellipsoid);
+  EXPECT_EQ(parseFidelity("--fidelity", "avatar").value(), Fidelity::Avatar);
+  EXPECT_EQ(parseFidelity("--fidelity", "limb").value(), Fidelity::Limb);
   EXPECT_EQ(parseFidelity("--fidelity", "link").value(), Fidelity::Link);
   EXPECT_EQ(parseFidelity("--fidelity", "exact").value(), Fidelity::Exact);
   EXPECT_EQ(parseFidelity("--fidelity", "skinned").value(), Fidelity::Skinned);
-  for (const char* rung : {"avatar", "ellipsoid"}) {
-    const auto parsed = parseFidelity("--fidelity", rung);
-    ASSERT_FALSE(parsed.ok());
-    EXPECT_NE(parsed.error().message.find(
-                  "not available in this version; available: link, exact, skinned"),
-              std::string::npos);
-  }
-  EXPECT_FALSE(parseFidelity("--fidelity", "best").ok());
+  const auto unknown = parseFidelity("--fidelity", "best");
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_NE(unknown.error().message.find("ellipsoid, avatar, limb, link, exact or skinned"),
+            std::string::npos);
+}
+
+TEST(ParseDescent, TakesBothAndNothingElse) {
+  EXPECT_EQ(parseDescent("--descent", "straight").value(), Descent::Straight);
+  EXPECT_EQ(parseDescent("--descent", "by-need").value(), Descent::ByNeed);
+  EXPECT_FALSE(parseDescent("--descent", "").ok());
 }
 
 TEST(CheckIsNoInput, SeesTheSameFileUnderAnotherName) {

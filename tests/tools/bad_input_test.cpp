@@ -154,7 +154,6 @@ std::vector<BadInput> badOptions() {
       badOption("UpUnknown", {"--up", "x"}, "--up: "),
       badOption("MotionUpUnknown", {"--motion-up", "w"}, "--motion-up: "),
       badOption("CullerUnknown", {"--culler", "none"}, "--culler: "),
-      badOption("FidelityNotThere", {"--fidelity", "avatar"}, "'avatar' is not available"),
       badOption("FidelityUnknown", {"--fidelity", "best"}, "--fidelity: "),
       badOption("MapMissing", {"--map", "/absent/map.json"}, "/absent/map.json: "),
       badOption("OptionUnknown", {"--sceen", "x"}, "see foretouch replay --help"),
