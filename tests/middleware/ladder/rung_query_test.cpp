@@ -101,9 +101,9 @@ class RungQueries : public testing::TestWithParam<Simd> {
 
 TEST_P(RungQueries, AreSoundAndTightByTheOracle) {
   std::array<int, 4> verdicts{};
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 500; ++i) {
     SCOPED_TRACE(i);
-    const Case c = someCase(i, 6);
+    const Case c = someCase(i, 16);
     const oracle::Scene scene = oracleScene(c.raw);
     const oracle::Motion truth = truthOf(c.step);
     for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar}) {

@@ -69,6 +69,17 @@ class Truth {
   const Spheroid& spheroid_;
 };
 
+Spheroid randomSpheroid(Random& random, const Vector3d& center) {
+  Spheroid spheroid;
+  spheroid.start = center + random.inBox(1.5);
+  spheroid.drift = random.chance(0.1) ? Vector3d(Vector3d::Zero())
+                                      : Vector3d(random.magnitude(1e-3, 2.0) * random.direction());
+  spheroid.axis = random.direction();
+  spheroid.along = random.magnitude(0.02, 1.0);
+  spheroid.across = random.magnitude(0.02, 1.0);
+  return spheroid;
+}
+
 /// Triangles about the spheroid's way.
 Scene sceneAround(Random& random, const Spheroid& spheroid, int count) {
   RawScene raw;
