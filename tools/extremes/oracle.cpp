@@ -49,6 +49,7 @@ Placed<Real> placed(const OracleHull& hull, const typename PreciseMotion<Real>::
 template <typename Real>
 struct SpanTest {
   Real separation;  // at the middle
+  Real gap;         // of the plane there: the same, but for rounding
   Real least;       // over the span; not below it but for rounding
 };
 
@@ -63,7 +64,7 @@ SpanTest<Real> testSpan(const OracleHull& hull, const Placed<Real>& now,
   using std::sqrt;
   const Nearest<Real> nearest = nearestPoints(now.at, hull.count, triangle);
   const Real distance = sqrt(nearest.square), radius = Real(hull.radius);
-  SpanTest<Real> test{distance - radius, Real(-1)};
+  SpanTest<Real> test{distance - radius, Real(-1), Real(-1)};
   if (!(distance > 0)) return test;
   const Vector<Real> n = Real(1 / distance) * (nearest.onOne - nearest.onOther);
   const Real top =
@@ -76,6 +77,7 @@ SpanTest<Real> testSpan(const OracleHull& hull, const Placed<Real>& now,
     const Real least = gap - half * abs(dot(n, now.velocity[i])) -
                        half * half / 2 * bounds.accelerationAt(rho(p_L[i]));
     test.least = isFirst ? least : min(test.least, least);
+    test.gap = isFirst ? gap : min(test.gap, gap);
     isFirst = false;
   }
   return test;
@@ -234,7 +236,9 @@ class Prover {
       const bool isInside = middle < static_cast<Quick>(until_[link]);
       if (isInside) note(link, static_cast<double>(test.separation));
       if (test.least > guard) continue;
-      const bool isHard = test.separation <= 4.0L * guard || halvings >= kPatience;
+      // Next to triangles much larger than the gap the direction is lost in long double.
+      const bool isNoisy = test.gap < 0.5L * test.separation;
+      const bool isHard = isNoisy || test.separation <= 4.0L * guard || halvings >= kPatience;
       if (isHard && precisely_ < kMostPrecise) {
         if (!hasPreciseFrames) oracle_.precise_.framesAt(Precise(middle), preciseFrames_);
         hasPreciseFrames = true;
