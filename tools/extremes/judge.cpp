@@ -12,6 +12,8 @@ namespace foretouch::tools::extremes {
 namespace {
 
 constexpr double kUlp = 0x1p-52;
+/// Of the extent: what fifty digits tell from touching.
+constexpr double kTouching = 1e-40;
 /// A contact's normal is a unit vector to so much.
 constexpr double kUnitSlack = 1e-9;
 constexpr std::size_t kMostFindings = 12;
@@ -174,7 +176,7 @@ class Judge {
     }
     tally_.tightness.offer(separation / extreme_.tolerance, extreme_.seed);
     tally_.excess.offer((separation - extreme_.tolerance) / ulp, extreme_.seed);
-    if (separation < 0.0) {
+    if (separation < -kTouching * oracle.extent(contact.link)) {
       report(Fault::Late,
              fmt::format("{}, penetrates by {:g} m", name(answer, contact), -separation));
     }
