@@ -77,6 +77,14 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
     settle.into(job.options.threads, parseThreads("--threads", texts.threads));
   }
   if (settle.error()) return *settle.error();
+  const bool isAboveLinks = request.fidelity == Fidelity::Limb ||
+                            request.fidelity == Fidelity::Avatar ||
+                            request.fidelity == Fidelity::Ellipsoid;
+  if (isAboveLinks && (texts.compareRigid || texts.compareLink)) {
+    return Error{ErrorCode::OutOfRange, "--fidelity", -1, -1,
+                 "expected link, exact or skinned with --compare-rigid or --compare-link: above "
+                 "them links have no surface of their own to compare"};
+  }
   return job;
 }
 

@@ -154,6 +154,8 @@ std::vector<BadInput> badOptions() {
       badOption("UpUnknown", {"--up", "x"}, "--up: "),
       badOption("MotionUpUnknown", {"--motion-up", "w"}, "--motion-up: "),
       badOption("CullerUnknown", {"--culler", "none"}, "--culler: "),
+      badOption("FidelityNotComparable", {"--fidelity", "avatar", "--compare-rigid"},
+                "--fidelity: "),
       badOption("FidelityUnknown", {"--fidelity", "best"}, "--fidelity: "),
       badOption("MapMissing", {"--map", "/absent/map.json"}, "/absent/map.json: "),
       badOption("OptionUnknown", {"--sceen", "x"}, "see foretouch replay --help"),
