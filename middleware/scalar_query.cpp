@@ -51,7 +51,9 @@ class StepQuery {
     }
     const double wanted = std::ceil(travel / kPieceTravel);
     pieces_.count = static_cast<int>(std::min<double>(kMaxPiecesUsed, std::max(1.0, wanted)));
-    scratch_.nodes.resize(static_cast<std::size_t>(pieces_.count) + 1);
+    // Never fewer, which would give their memory back.
+    scratch_.nodes.resize(
+        std::max(scratch_.nodes.size(), static_cast<std::size_t>(pieces_.count) + 1));
     for (int k = 0; k <= pieces_.count; ++k) {
       scratch_.evaluator.statesAt(pieces_.timeOf(k), scratch_.nodes[static_cast<std::size_t>(k)]);
     }

@@ -101,7 +101,7 @@ class RungQueries : public testing::TestWithParam<Simd> {
 
 TEST_P(RungQueries, AreSoundAndTightByTheOracle) {
   std::array<int, 4> verdicts{};
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 1500; ++i) {
     SCOPED_TRACE(i);
     const Case c = someCase(i, 16);
     const oracle::Scene scene = oracleScene(c.raw);
