@@ -17,7 +17,7 @@ constexpr double kInflation = 1.0 + 1e-12;
 /// Of a relative point, per length of its arms, and of its distance from the axis (rungs.md 3).
 constexpr double kPointRounding = 32.0 * kU, kDistanceRounding = 32.0 * kU;
 /// Steps of the enclosing-circle iteration ([BadoiuClarkson03], as in lss/fit.cpp).
-constexpr int kCircleSteps = 6;
+constexpr int kCircleSteps = 3;
 /// The node whose places the axis is fitted to: next to the middle of the step.
 constexpr int kMiddle = kNodes / 2;
 
@@ -25,12 +25,12 @@ Vector3d placeOf(const CarriedBall& ball, int node) {
   return {ball.path.y[0][node], ball.path.y[1][node], ball.path.y[2][node]};
 }
 
-/// The ball that reaches farthest from `from`.
+/// The ball whose centre is farthest from `from`.
 std::size_t farthestFrom(const std::vector<CarriedBall>& balls, int node, const Vector3d& from) {
   std::size_t farthest = 0;
   double reach = -1.0;
   for (std::size_t i = 0; i < balls.size(); ++i) {
-    const double here = (placeOf(balls[i], node) - from).norm() + balls[i].radius;
+    const double here = (placeOf(balls[i], node) - from).squaredNorm();
     if (here > reach) {
       reach = here;
       farthest = i;

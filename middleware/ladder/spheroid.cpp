@@ -133,6 +133,25 @@ SpheroidPair::SpheroidPair(const Spheroid& spheroid, const Triangle& triangle)
     extent = std::max(extent, w.lpNorm<1>());
   }
   slack_ = 2.0 * kTransformRounding * (extent / spheroid.shortest() + 1.0);
+  const Vector3d& corner = unit_.vertices[0];
+  longestEdge_ = std::sqrt(std::max((unit_.vertices[1] - corner).squaredNorm(),
+                                    (unit_.vertices[2] - corner).squaredNorm()));
+}
+
+double SpheroidPair::leastAtStart() const {
+  return (unit_.vertices[0].norm() - longestEdge_) - 2.0 * slack_;
+}
+
+double SpheroidPair::leastOfAll() const {
+  const Vector3d& corner = unit_.vertices[0];
+  const double square = velocity_.squaredNorm();
+  // Of any instant the centre's place is on its way, whatever the quotient rounds to; the nearest
+  // one is off by a few roundings of the lengths.
+  const double s =
+      square > 0.0 ? std::min(1.0, std::max(0.0, corner.dot(velocity_) / square)) : 0.0;
+  constexpr double kShrink = 1.0 - 1e-12;
+  const double fromWay = (corner - s * velocity_).norm() * kShrink;
+  return (fromWay - longestEdge_) - 2.0 * slack_;
 }
 
 SpheroidPair::Look SpheroidPair::at(double t) const {

@@ -25,6 +25,11 @@ class SpheroidPair {
  public:
   SpheroidPair(const Spheroid& spheroid, const Triangle& triangle);
 
+  /// Lower bounds on the distance of the ball's centre from the triangle, at t = 0 and over all t;
+  /// by the triangle's first corner and its longest edge there.
+  [[nodiscard]] double leastAtStart() const;
+  [[nodiscard]] double leastOfAll() const;
+
   struct Look {
     Eigen::Vector3d nhat = Eigen::Vector3d::Zero();  ///< From the triangle; |nhat| <= 1.
     double lower = 0.0;                              ///< Proven: the plane's clearance of the ball.
@@ -38,7 +43,7 @@ class SpheroidPair {
  private:
   Triangle unit_;
   Eigen::Vector3d velocity_;
-  double slack_;
+  double slack_, longestEdge_;
 };
 
 }  // namespace foretouch::internal

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr double kBoxInflation = 1.0 + 1e-9;
 /// At t = 0 ever larger spheroids are searched, each this much of the whole: what is nearest to the
 /// centre decides, and a body in the middle of a room touches thousands.
-constexpr double kStartShares[] = {0.0625, 0.125, 0.25, 0.5};
+constexpr double kStartShares[] = {0.125, 0.25, 0.5, 1.0};
 
 class Sweep {
  public:
@@ -29,8 +29,8 @@ class Sweep {
   LinkContact run() {
     for (const double share : kStartShares) {
       collect(boxAt(share, 0.0));
-      double nearest = HUGE_VAL;
-      for (const TriangleId id : found_) nearest = std::min(nearest, lookAtStart(id));
+      double nearest = unitTolerance_;
+      for (const TriangleId id : found_) lookAtStart(id, nearest);
       // All that is nearer than `share` was in the box.
       if (best_.verdict == Verdict::StartsInContact && nearest <= share - 1.0) return best_;
     }
@@ -72,17 +72,20 @@ class Sweep {
     return box;
   }
 
-  /// The proven upper bound of its distance at t = 0; a touching triangle is kept.
-  double lookAtStart(TriangleId id) {
-    ++counters_.advancements;
+  /// Lowers `nearest` to the proven upper bound of the triangle's distance at t = 0; one that
+  /// touches and is not farther away is kept.
+  void lookAtStart(TriangleId id, double& nearest) {
     const SpheroidPair pair(query_.spheroid, query_.scene.triangle(id));
+    if (pair.leastAtStart() - 1.0 > nearest) return;
+    ++counters_.advancements;
     const SpheroidPair::Look look = pair.at(0.0);
     if (look.lower <= 0.0 && look.upper <= unitTolerance_) keep(contactOf(id, look, 0.0));
-    return look.upper;
+    nearest = std::min(nearest, look.upper);
   }
 
   void advance(TriangleId id) {
     const SpheroidPair pair(query_.spheroid, query_.scene.triangle(id));
+    if (pair.leastOfAll() - 1.0 > unitTolerance_) return;
     const double floor = kFloorShare * unitTolerance_;
     double t = 0.0;
     while (t < 1.0 && t <= horizon_) {
