@@ -68,7 +68,8 @@ Real sticksOut(const Spheroid& spheroid, const Precise3& p, double radius, doubl
   Real worst = -1;
   // The farthest point of the ball in the unit ball's space, by stepping along the gradient.
   Precise3 direction(random.direction());
-  for (int i = 0; i < 40; ++i) {
+  const int tries = radius > 0.0 ? 40 : 1;
+  for (int i = 0; i < tries; ++i) {
     const Precise3 out = inUnit(w + Real(radius) * direction);
     worst = std::max(worst, Real(norm(out) - 1));
     const Precise3 gradient = inUnit(out);
@@ -138,6 +139,30 @@ TEST_P(RungVolumesOf, RandomStepsContainWhatIsBelowThem) {
 
 INSTANTIATE_TEST_SUITE_P(EveryWidth, RungVolumesOf, testing::ValuesIn(supportedSimd()),
                          [](const auto& tested) { return std::string(toString(tested.param)); });
+
+/// Without a radius there is nothing in an ellipsoid but what the turn asks for.
+TEST(RungVolumes, OfAThinTurningLinkContainIt) {
+  const Scene scene = someScene(Vector3d::Zero());
+  for (int i = 0; i < 150; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    RawSkeleton raw;
+    raw.joints.push_back({"alone", kNoParent, random.inBox(1.0), Quaternion::Identity()});
+    const Vector3d end = random.inBox(0.5);
+    const Lss lss{end, random.chance(0.5) ? Vector3d(-end) : random.inBox(0.5), 0.0};
+    RandomStep step{Avatar::build(Skeleton::build(raw).value(), {{lss}}).value(), {}, {}};
+    step.from = step.to = restPose(step.avatar.skeleton());
+    step.to.rotations[0] = random.turn(random.uniform(0.5, 3.1));
+    const auto volume = rungVolumes(step.avatar, step.motion(), scene, Fidelity::Ellipsoid).front();
+    for (const double t : test::instants(random, 30)) {
+      const auto frame = test::preciseFrames(step.precise(), Real(t)).front();
+      for (const Vector3d& point : {lss.a, lss.b}) {
+        EXPECT_LE(sticksOut(volume.spheroid, frame.at(point), 0.0, t, random), kDigits);
+      }
+    }
+    if (HasFailure()) return;
+  }
+}
 
 TEST(RungVolumes, OfALinkWithOneLssAreThatLss) {
   RawSkeleton raw;
