@@ -131,7 +131,7 @@ bool LaneQuery::answerSlab(StepContacts& step) {
 /// less.
 void LaneQuery::runWithin(StepContacts& step, int slabs) {
   const int finest = slabs << kMostHalvings;
-  lanes_.freeUntil.assign(static_cast<std::size_t>(avatar_.numLinks()), 0.0);
+  lanes_.freeUntil.assign(static_cast<std::size_t>(body_.numLinks()), 0.0);
   int slab = 0, count = slabs;
   while (slab < count) {
     begin_ = static_cast<double>(slab) / count;
@@ -162,13 +162,13 @@ bool LaneQuery::answerSlabWithin(StepContacts& step) {
     return lanes_.isAsked[i] != 0 && lanes_.freeUntil[i] < end_;
   };
   const auto isLinkNear = [&](LinkId link) {
-    return isNear && lanes_.first[static_cast<std::size_t>(lanes_.table.first(link))] !=
-                         lanes_.first[static_cast<std::size_t>(lanes_.table.first(link + 1))];
+    return isNear && lanes_.first[static_cast<std::size_t>(table_.first(link))] !=
+                         lanes_.first[static_cast<std::size_t>(table_.first(link + 1))];
   };
-  for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
     if (isOpen(link) && !isLinkNear(link)) lanes_.freeUntil[static_cast<std::size_t>(link)] = end_;
   }
-  for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
     if (!isOpen(link)) continue;
     const auto i = static_cast<std::size_t>(link);
     const LinkContact contact = answer(link, kEnd, step.counters);
@@ -186,7 +186,7 @@ bool LaneQuery::answerSlabWithin(StepContacts& step) {
 
 /// What is not answered is free as far as it is proven.
 void LaneQuery::leaveUndone(StepContacts& step) const {
-  for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = static_cast<std::size_t>(link);
     if (lanes_.isAsked[i] == 0 || lanes_.freeUntil[i] >= 1.0) continue;
     step.links[i] = undecidedContact(link, lanes_.freeUntil[i], UndecidedReason::WorkBudget);
@@ -382,7 +382,8 @@ void LaneQuery::prepareScalar(LinkId link) {
 bool LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
   const auto begin = lanes_.first[static_cast<std::size_t>(lss)];
   const auto end = lanes_.first[static_cast<std::size_t>(lss) + 1];
-  if (begin == end) return;
+  if (begin == end) return true;
+  if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
   const LssTable::Entry& entry = table_[lss];
   const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes);
   const LaneLss lane = laneLss(polynomials, entry.radius);

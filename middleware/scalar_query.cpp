@@ -35,10 +35,13 @@ class StepQuery {
   void run(StepContacts& step) {
     scratch_.evaluator.reset(motion_);
     cutIntoPieces();
+    step.counters.states += static_cast<std::uint64_t>(body_.numLinks() * (pieces_.count + 1));
     for (LinkId link = 0; link < body_.numLinks(); ++link) {
+      // Equal shares, so that the last links have theirs; what one leaves is the others'.
+      const auto others = static_cast<std::uint64_t>(body_.numLinks() - link);
+      meter_.beginPart(step.counters, meter_.left(step.counters) / others);
       step.links[static_cast<std::size_t>(link)] = firstContactOf(link, step.counters);
     }
-    step.counters.states += static_cast<std::uint64_t>(body_.numLinks() * (pieces_.count + 1));
   }
 
  private:

@@ -53,6 +53,16 @@ Result<StreamSolver> StreamSolver::make(std::int32_t id, const Avatar& avatar, c
     return Error{ErrorCode::OutOfRange, "scope", -1, -1,
                  "expected the scope 'links': of a stream every link is answered"};
   }
+  if (options.fidelity != Fidelity::Link && options.fidelity != Fidelity::Exact &&
+      options.fidelity != Fidelity::Skinned) {
+    return Error{ErrorCode::OutOfRange, "fidelity", -1, -1,
+                 "expected link, exact or skinned: one joint that is not known would be in the "
+                 "volume of many links"};
+  }
+  if (options.deadlineUs < std::numeric_limits<double>::infinity()) {
+    return Error{ErrorCode::OutOfRange, "deadline", -1, -1,
+                 "expected a work budget instead: no clock decides what a stream is answered"};
+  }
   auto stream = AvatarStream::make(avatar, policy);
   if (!stream.ok()) return stream.error();
   StreamSolver solver(id, avatar, scene, options, std::move(stream).value());

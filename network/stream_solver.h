@@ -20,7 +20,8 @@ namespace foretouch {
 class StreamSolver {
  public:
   /// `id` is what messages call the avatar. Errors: options that a query refuses, Scope other than
-  /// EveryLink (a link that cannot be known would hide behind another's contact), a bad policy.
+  /// EveryLink (a link that cannot be known would hide behind another's contact), a rung above the
+  /// links (likewise), a deadline (no clock decides), a bad policy.
   static Result<StreamSolver> make(std::int32_t id, const Avatar& avatar, const Scene& scene,
                                    const QueryOptions& options, const StreamPolicy& policy);
 

@@ -30,7 +30,7 @@ Result<ReceiverKind> parseReceiver(const std::string& text) {
 
 Result<Fidelity> parseServedFidelity(const std::string& text) {
   auto fidelity = parseFidelity("--fidelity", text);
-  if (fidelity.ok() && fidelity.value() == Fidelity::Skinned) {
+  if (fidelity.ok() && fidelity.value() != Fidelity::Link && fidelity.value() != Fidelity::Exact) {
     return refusal("--fidelity", "link or exact", text);
   }
   return fidelity;

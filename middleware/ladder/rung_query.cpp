@@ -25,6 +25,7 @@ class RungQuery {
         scene_(scene),
         options_(options),
         scratch_(scratch),
+        meter_(options),
         rungs_(scratch.rungs) {}
 
   void evaluate(QueryCounters& counters) {
@@ -129,7 +130,7 @@ class RungQuery {
       rungs_.perLink[static_cast<std::size_t>(carrierOf(group))].push_back(volumeOf(group));
     }
     const Body body(rungs_.perLink, rungs_.ignored);
-    if (options_.backtracking == Backtracking::Lanes && !hasBudget()) {
+    if (options_.backtracking == Backtracking::Lanes) {
       rungs_.table.assign(rungs_.perLink);
       LaneQuery query(body, rungs_.table, motion_, scene_, options_, culler, scratch_);
       query.keepNodes();
@@ -147,18 +148,14 @@ class RungQuery {
     }
   }
 
-  [[nodiscard]] bool hasBudget() const {
-    return options_.maxAdvancements != std::numeric_limits<std::uint64_t>::max();
-  }
-
   void askSpheroids(const TriangleCuller& culler, StepContacts& step) {
     rungs_.answers.clear();
     for (std::size_t group = 0; group < numGroups(); ++group) {
       rungs_.answers.emplace_back();
       if (scratch_.ignored.collect(rungs_.ignored, carrierOf(group))) continue;
       const Spheroid spheroid = spheroidOf(group);
-      const SpheroidQuery query{
-          spheroid, scene_, culler, options_.tolerance, options_.maxAdvancements, scratch_.ignored};
+      const SpheroidQuery query{spheroid,           scene_, culler,
+                                options_.tolerance, meter_, scratch_.ignored};
       rungs_.answers.back() = firstContactOf(query, scratch_.found, step.counters);
     }
   }
@@ -212,6 +209,7 @@ class RungQuery {
   const Scene& scene_;
   const QueryOptions& options_;
   QueryScratch::Impl& scratch_;
+  WorkMeter meter_;
   RungScratch& rungs_;
 };
 

@@ -89,7 +89,7 @@ class Sweep {
     const double floor = kFloorShare * unitTolerance_;
     double t = 0.0;
     while (t < 1.0 && t <= horizon_) {
-      if (spent_++ >= query_.maxAdvancements) return giveUp(0.0, UndecidedReason::WorkBudget);
+      if (query_.meter.isSpent(counters_)) return giveUp(0.0, UndecidedReason::WorkBudget);
       ++counters_.advancements;
       const SpheroidPair::Look look = pair.at(t);
       if (look.upper <= unitTolerance_) return keep(contactOf(id, look, t));
@@ -147,7 +147,6 @@ class Sweep {
   double unitTolerance_;
   LinkContact best_;
   double horizon_ = HUGE_VAL;  // nothing later than this can change the answer
-  std::uint64_t spent_ = 0;
 };
 
 }  // namespace

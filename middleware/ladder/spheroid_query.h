@@ -9,6 +9,7 @@
 #include "middleware/query.h"
 #include "middleware/query_internal.h"
 #include "middleware/scene.h"
+#include "middleware/work_meter.h"
 
 namespace foretouch::internal {
 
@@ -17,7 +18,7 @@ struct SpheroidQuery {
   const Scene& scene;
   const TriangleCuller& culler;
   double tolerance;
-  std::uint64_t maxAdvancements;
+  const WorkMeter& meter;
   const IgnoredObjects& ignored;
 };
 

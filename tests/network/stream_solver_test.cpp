@@ -185,6 +185,19 @@ TEST_F(Solver, AllocatesNothingAnAnswerOnceItHasGrown) {
   EXPECT_EQ(answer_.contacts.size(), 4U);
 }
 
+TEST(StreamSolverOptions, RefuseWhatAStreamCannotBeAnsweredWith) {
+  const auto refusal = [](auto change) {
+    QueryOptions options;
+    change(options);
+    const auto solver = StreamSolver::make(0, smallAvatar(), wall(), options, {});
+    return solver.ok() ? std::string() : solver.error().file;
+  };
+  EXPECT_EQ(refusal([](QueryOptions&) {}), "");
+  EXPECT_EQ(refusal([](QueryOptions& o) { o.scope = Scope::FirstOfAvatar; }), "scope");
+  EXPECT_EQ(refusal([](QueryOptions& o) { o.fidelity = Fidelity::Avatar; }), "fidelity");
+  EXPECT_EQ(refusal([](QueryOptions& o) { o.deadlineUs = 100.0; }), "deadline");
+}
+
 TEST(StreamSolverBudget, IsSaidAndItsReasonPassedOn) {
   QueryOptions options;
   options.workBudget = 1;

@@ -26,7 +26,8 @@ struct Arguments {
   int maxSteps = 200, threads = 2, placements = 2;
   std::string data, culler = "flat", leaves = "advancement", backtracking = "lanes", simd,
                     fidelity = "link";
-  double budgetS = 0.0;
+  double budgetS = 0.0, deadlineUs = 0.0;
+  std::uint64_t workBudget = 0;
   bool everyClip = false;
 };
 
@@ -141,6 +142,8 @@ class Run {
                                                        : foretouch::LeafMethod::Advancement;
     options.backtracking = arguments_.backtracking == "scalar" ? foretouch::Backtracking::Scalar
                                                                : foretouch::Backtracking::Lanes;
+    if (arguments_.workBudget > 0) options.workBudget = arguments_.workBudget;
+    if (arguments_.deadlineUs > 0.0) options.deadlineUs = arguments_.deadlineUs;
     if (arguments_.fidelity == "limb") options.fidelity = foretouch::Fidelity::Limb;
     if (arguments_.fidelity == "avatar") options.fidelity = foretouch::Fidelity::Avatar;
     options.deadline = deadline_;

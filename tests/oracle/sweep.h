@@ -22,6 +22,8 @@ struct SweepOptions {
   Culler culler = Culler::FlatBvh;
   LeafMethod leafMethod = LeafMethod::Advancement;
   Backtracking backtracking = Backtracking::Lanes;
+  std::uint64_t workBudget = QueryOptions{}.workBudget;
+  double deadlineUs = QueryOptions{}.deadlineUs;
   /// Of clips without a surface: a rung above the links, whose volumes are judged instead.
   Fidelity fidelity = Fidelity::Link;
   std::optional<std::chrono::steady_clock::time_point> deadline;

@@ -284,12 +284,13 @@ TEST(RungBudgets, AreSound) {
     const Case c = someCase(3000 + i, 12);
     for (const Fidelity rung : kRungs) {
       const StepContacts all = answer(c, at(rung, 1e-7));
-      for (const std::uint64_t budget : {0, 1, 3, 10}) {
+      for (const std::uint64_t budget : {0, 100, 400, 1000}) {
         QueryOptions options = at(rung, 1e-4);
-        options.maxAdvancements = budget;
+        options.workBudget = budget;
         const StepContacts got = answer(c, options);
         for (std::size_t link = 0; link < got.links.size(); ++link) {
-          EXPECT_LE(got.links[link].freeUntil, all.links[link].freeUntil);
+          // Free up to the touch itself, which is hardly later than what the least tolerance finds.
+          EXPECT_LE(got.links[link].freeUntil, all.links[link].freeUntil + 1e-6);
           if (got.links[link].verdict == Verdict::Clear) {
             EXPECT_EQ(all.links[link].verdict, Verdict::Clear);
           }
