@@ -143,9 +143,8 @@ LinkContact answer(const Spheroid& spheroid, const Scene& scene, double toleranc
   std::vector<TriangleId> found;
   QueryCounters counters;
   const internal::IgnoredObjects none;
-  const SpheroidQuery query{
-      spheroid, scene, scene.parts().bvh, tolerance, std::numeric_limits<std::uint64_t>::max(),
-      none};
+  const internal::WorkMeter unlimited{QueryOptions{}};
+  const SpheroidQuery query{spheroid, scene, scene.parts().bvh, tolerance, unlimited, none};
   return internal::firstContactOf(query, found, counters);
 }
 
