@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
@@ -134,7 +135,15 @@ std::string summaryOf(const ServiceCounts& counts) {
       counts.journalFailures);
 }
 
+/// A log at its size limit and a reader of our output that went away are errors of a write, not the
+/// end of the service.
+void surviveFailedWrites() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
 ExitCode runTexts(const ServeTexts& texts) {
+  surviveFailedWrites();
   const auto config = settledServeConfig(texts);
   if (!config.ok()) return failed(config.error());
   const auto served = serve(config.value());

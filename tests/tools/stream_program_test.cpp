@@ -250,6 +250,43 @@ TEST_F(StreamPrograms, AreReadByAPlainSubscriberOfLcm) {
   expectEndsInOrder(*serving);
 }
 
+TEST_F(StreamPrograms, AreNotHeldUpByAListenerThatStalls) {
+  const std::vector<std::string> replayed = replayedClip();
+  const auto serving = service();
+  const auto stalled = listener(replayed.size());
+  const auto listening = listener(replayed.size());
+  stalled->send(SIGSTOP);
+  ASSERT_EQ(runForetouch(publishWords({"--url", kUrl, "--speed", "8"})).exitCode, 0);
+  const Ended heard = listening->ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  expectReplayed(answersIn(heard.out), replayed);
+  // What the system kept for the one that slept, it still hears.
+  stalled->send(SIGCONT);
+  EXPECT_EQ(stalled->ended().exitCode, 0);
+  expectEndsInOrder(*serving);
+}
+
+// As a full disk: from some byte on every write fails. Answers go on, and the status says what was
+// not recorded; what was, is whole.
+TEST_F(StreamPrograms, GoOnWhereTheLogCannotGrow) {
+  const std::vector<std::string> replayed = replayedClip();
+  const std::string journal = folder_ / "small.lcmlog";
+  Words words = {"-c", "ulimit -f 200; exec \"$0\" \"$@\"", FORETOUCH_PROGRAM};
+  ProgramRun serving(joined(words, serveWords({"--log", journal})), {}, "", "sh");
+  ASSERT_TRUE(waitFor([&] { return holds(serving.outSoFar(), "ready\n"); })) << serving.errSoFar();
+  const auto listening = listener(replayed.size());
+  ASSERT_EQ(runForetouch(publishWords({"--url", kUrl, "--speed", "8"})).exitCode, 0);
+  const Ended heard = listening->ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  expectReplayed(answersIn(heard.out), replayed);
+  serving.send(SIGTERM);
+  const Ended ended = serving.ended();
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_TRUE(holds(ended.err, journal)) << ended.err;
+  EXPECT_FALSE(holds(ended.out + ended.err, " 0 events not recorded")) << ended.out;
+  EXPECT_EQ(runForetouch({"log", "check", journal}).exitCode, 0);
+}
+
 TEST_F(StreamPrograms, EndWhenToldTo) {
   // Nobody answers: silence ends a listener, and with a number of answers wanted that is a no.
   EXPECT_EQ(runForetouch({"listen", "--url", kUrl, "--timeout", "0.2"}).exitCode, 0);
