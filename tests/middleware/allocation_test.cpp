@@ -1,8 +1,5 @@
 // Counts every call of malloc and its kin in this program: once the memory of a thread has grown,
 // queries make none.
-#include <atomic>
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
 #include "lss/simd.h"
@@ -10,51 +7,7 @@
 #include "middleware/query_pool.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
-#define FORETOUCH_COUNTS_ALLOCATIONS 0
-#else
-#define FORETOUCH_COUNTS_ALLOCATIONS 1
-#endif
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}
-
-#if FORETOUCH_COUNTS_ALLOCATIONS
-extern "C" {
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-void* __libc_memalign(std::size_t, std::size_t);
-
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  ++allocations;
-  return __libc_calloc(count, size);
-}
-void* realloc(void* old, std::size_t size) {
-  ++allocations;
-  return __libc_realloc(old, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  ++allocations;
-  return __libc_memalign(alignment, size);
-}
-void* memalign(std::size_t alignment, std::size_t size) {
-  ++allocations;
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** place, std::size_t alignment, std::size_t size) {
-  ++allocations;
-  *place = __libc_memalign(alignment, size);
-  return *place == nullptr ? 12 : 0;
-}
-}
-#endif
+#include "tests/support/allocation_count.h"
 
 namespace foretouch {
 namespace {
@@ -65,16 +18,16 @@ using test::Random;
 class Allocations : public testing::Test {
  protected:
   void SetUp() override {
-    if (FORETOUCH_COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "this build has an allocator of its own";
+    if (!test::countsAllocations()) GTEST_SKIP() << "this build has an allocator of its own";
   }
 };
 
 constexpr int kBodies = 30;
 
 TEST_F(Allocations, AreCounted) {
-  const std::uint64_t before = allocations;
+  const std::uint64_t before = test::numAllocations();
   std::vector<int> some(100);
-  EXPECT_GT(allocations, before);
+  EXPECT_GT(test::numAllocations(), before);
   EXPECT_EQ(some.size(), 100U);
 }
 
@@ -86,7 +39,7 @@ std::uint64_t inSteadyState(const std::vector<test::RandomBody>& bodies, const S
   StepContacts step;
   std::uint64_t before = 0, contacts = 0;
   for (int round = 0; round < 3; ++round) {
-    before = allocations;
+    before = test::numAllocations();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const test::RandomBody& body = bodies[i];
       motion.assign(body.avatar.skeleton(), body.from, body.to);
@@ -97,7 +50,7 @@ std::uint64_t inSteadyState(const std::vector<test::RandomBody>& bodies, const S
     }
   }
   EXPECT_GT(contacts, bodies.size());
-  return allocations - before;
+  return test::numAllocations() - before;
 }
 
 TEST_F(Allocations, OfQueriesAtLinkFidelityAreNone) {
@@ -167,9 +120,9 @@ TEST_F(Allocations, OfAPoolAreNone) {
   // Which thread takes which task is chance: all of them have to have grown.
   std::uint64_t last = 1;
   for (int round = 0; round < 50 && last != 0; ++round) {
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = test::numAllocations();
     ASSERT_TRUE(pool.answer(scene, tasks, answers).ok());
-    last = allocations - before;
+    last = test::numAllocations() - before;
   }
   EXPECT_EQ(last, 0U);
 }

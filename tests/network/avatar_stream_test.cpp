@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/network/allocation_count.h"
 #include "tests/network/small_stream.h"
 #include "tests/network/stream_fixture.h"
+#include "tests/support/allocation_count.h"
 
 namespace foretouch {
 namespace {

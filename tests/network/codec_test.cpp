@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "network/reject.h"
-#include "tests/network/allocation_count.h"
 #include "tests/network/random_messages.h"
+#include "tests/support/allocation_count.h"
 
 namespace foretouch {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "middleware/query.h"
 #include "network/codec.h"
-#include "tests/network/allocation_count.h"
 #include "tests/network/small_stream.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {

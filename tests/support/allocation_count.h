@@ -1,4 +1,5 @@
-// tests/network/allocation_count.h: how often this program has called malloc or its kin.
+// tests/support/allocation_count.h: how often this program has called malloc or its kin. Its source
+// is compiled into each program that asks, whose allocator it then is.
 #pragma once
 
 #include <cstdint>
