@@ -10,6 +10,7 @@
 
 #include "articulated/text_file.h"
 #include "middleware/exact/rigid_query.h"
+#include "tools/bench_deadline_command.h"
 #include "tools/bench_documents_command.h"
 #include "tools/bench_extremes_command.h"
 #include "tools/bench_latency_command.h"
@@ -141,6 +142,7 @@ void addBenchCommand(CLI::App& program, ExitCode& exit) {
   addBenchPeersCommand(*bench, exit);
   addBenchExtremesCommand(*bench, exit);
   addBenchStreamCommands(*bench, exit);
+  addBenchDeadlineCommand(*bench, exit);
 }
 
 }  // namespace foretouch::tools
