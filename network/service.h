@@ -33,7 +33,7 @@ inline constexpr std::size_t kMaxServiceQueue = 65536;
 
 struct ServiceOptions {
   int workers = 1;           ///< 1 to kMaxServiceWorkers.
-  std::size_t queue = 64;    ///< Poses that an avatar may have waiting; 1 to kMaxServiceQueue.
+  std::size_t queue = 256;   ///< Poses that an avatar may have waiting; 1 to kMaxServiceQueue.
   std::string suffix;        ///< Of all four channels.
   std::string build, scene;  ///< For the status.
   std::chrono::milliseconds statusEvery{1000};   ///< At least 1.

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "network/reject.h"
 #include "tools/bench_machine.h"
 #include "tools/clip_sender.h"
 #include "tools/service_process.h"
@@ -263,6 +264,14 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   row("answered twice", static_cast<double>(outcome.repeated));
   row("gaps", static_cast<double>(outcome.gaps));
   row("send failures", static_cast<double>(outcome.sendFailures));
+  row("answers dropped here before they were read", static_cast<double>(outcome.ownDrops));
+  row("service: poses dropped by the system", static_cast<double>(outcome.status.kernelDrops));
+  row("service: answers not sent", static_cast<double>(outcome.status.publishFailures));
+  row("service: refused, garbage among them", static_cast<double>(outcome.status.rejected));
+  for (const StatusMessage::Count& count : outcome.status.counts) {
+    if (count.reason != toString(Reject::Overrun)) continue;
+    row("service: overrun", static_cast<double>(count.count));
+  }
   row("resident memory, first MB", megabytes.empty() ? 0.0 : megabytes.front());
   row("resident memory, last MB", megabytes.empty() ? 0.0 : megabytes.back());
   row("slope after warm-up, MB/h", soak.slopeMbPerHour);

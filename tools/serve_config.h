@@ -43,7 +43,7 @@ struct ServeConfig {
   std::string suffix;             ///< Of all four channels; printable ASCII.
   ReceiverKind receiver = ReceiverKind::Own;
   int workers = 1;            ///< 1 to kMaxServeWorkers.
-  int queue = 64;             ///< Poses that an avatar may have waiting; 1 to kMaxServeQueue.
+  int queue = 256;            ///< Poses that an avatar may have waiting; 1 to kMaxServeQueue.
   std::int64_t budgetUs = 0;  ///< What a step's query may take, made a work budget; 0: no limit.
   std::string log;            ///< Where events are recorded.
   std::string http;           ///< "127.0.0.1:9464": where metrics are served.

@@ -23,6 +23,7 @@ namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 constexpr int kReceiveTimeoutMs = 100;
+constexpr std::chrono::milliseconds kStatusPeriod{1100};
 constexpr std::int64_t kPatienceNs = kNsPerS;  // for the last answers
 
 std::int64_t steadyNs() {
@@ -256,9 +257,14 @@ class Answers {
   std::int64_t session = 0;  // set before the first pose is sent
   std::vector<LoadAnswer> answers;
   std::int64_t repeated = 0, gaps = 0;
+  StatusMessage status;
 
  private:
   void take(const WireMessage& message, std::int64_t now) {
+    if (message.channel == kStatusChannel) {
+      if (decode(message.payload, heard_) == Reject::None) status = heard_;
+      return;
+    }
     if (decode(message.payload, contacts_) != Reject::None || contacts_.session != session) return;
     const auto found = senderOf_.find(contacts_.avatar);
     if (found == senderOf_.end()) return;
@@ -283,6 +289,7 @@ class Answers {
   SendTimes& times_;
   std::unordered_map<std::int32_t, std::size_t> senderOf_;
   ContactsMessage contacts_;
+  StatusMessage heard_;
   std::atomic<bool> stop_{false};
   std::atomic<std::int64_t> answered_{0};
 };
@@ -298,7 +305,7 @@ void waitForTheLast(const Answers& answers, std::int64_t sent) {
 
 Result<LoadOutcome> runLoad(const LoadTrack& track, const LoadRequest& request,
                             const std::function<void()>& everySecond) {
-  auto receiver = openUdpmReceiver(request.url, {kContactsChannel});
+  auto receiver = openUdpmReceiver(request.url, {kContactsChannel, kStatusChannel});
   if (!receiver.ok()) return receiver.error();
   auto publisher = openUdpmPublisher(request.url);
   if (!publisher.ok()) return publisher.error();
@@ -311,11 +318,13 @@ Result<LoadOutcome> runLoad(const LoadTrack& track, const LoadRequest& request,
   senders.sendSkeletons();
   senders.run(everySecond);
   waitForTheLast(answers, outcome.sent);
+  std::this_thread::sleep_for(kStatusPeriod);  // for the status that tells of all of it
   answers.stop();
   listening.join();
   outcome.answers = std::move(answers.answers);
   outcome.repeated = answers.repeated;
   outcome.gaps = answers.gaps;
+  outcome.status = std::move(answers.status);
   outcome.unanswered = outcome.sent - static_cast<std::int64_t>(outcome.answers.size());
   outcome.ownDrops = static_cast<std::int64_t>(receiver.value()->counts().kernelDrops);
   return outcome;

@@ -48,6 +48,7 @@ struct LoadOutcome {
   std::int64_t repeated = 0;      ///< Answers to what had been answered.
   std::int64_t gaps = 0;          ///< Answers marked AcrossGap.
   std::int64_t ownDrops = 0;      ///< Datagrams that the system dropped before this side read them.
+  StatusMessage status;           ///< The service's last one.
   std::vector<LoadAnswer> answers;
 };
 
