@@ -5,7 +5,8 @@
 
 namespace foretouch {
 
-MailRoom::MailRoom(std::size_t avatars, std::size_t poses) : maxPoses_(poses), boxes_(avatars) {
+MailRoom::MailRoom(std::size_t avatars, std::size_t poses, std::size_t handlers)
+    : maxPoses_(poses), maxHandled_(handlers), boxes_(avatars) {
   for (Box& box : boxes_) box.mail.reserve(poses + kMaxWaitingSkeletons);
   ready_.reserve(avatars);
 }
@@ -53,7 +54,8 @@ void MailRoom::keep(std::unique_ptr<Mail> mail) {
 void MailRoom::makeReady(std::size_t avatar) {
   boxes_[avatar].isReady = true;
   ready_.push_back(avatar);
-  changed_.notify_one();
+  // A leader takes what it posted itself.
+  if (!isLed_) changed_.notify_one();
 }
 
 MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail) {
@@ -73,10 +75,21 @@ MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail)
 MailRoom::Taken MailRoom::take(std::size_t& avatar, std::unique_ptr<Mail>& mail,
                                std::chrono::milliseconds wait) {
   std::unique_lock lock(mutex_);
-  // While a thread handles an avatar, more of its mail may become ready.
-  const auto isOver = [&] { return isClosed_ && ready_.empty() && handled_ == 0; };
-  changed_.wait_for(lock, wait, [&] { return !ready_.empty() || isOver(); });
-  if (ready_.empty()) return isOver() ? Taken::Closed : Taken::Nothing;
+  changed_.wait_for(lock, wait, [&] { return mayTake() || isOver(); });
+  return takeNow(avatar, mail);
+}
+
+MailRoom::Taken MailRoom::takeOrLead(std::size_t& avatar, std::unique_ptr<Mail>& mail,
+                                     std::chrono::milliseconds wait) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, wait, [&] { return mayTake() || mayLead() || isOver(); });
+  if (mayTake() || !mayLead()) return takeNow(avatar, mail);
+  isLed_ = true;
+  return Taken::Lead;
+}
+
+MailRoom::Taken MailRoom::takeNow(std::size_t& avatar, std::unique_ptr<Mail>& mail) {
+  if (!mayTake()) return isOver() ? Taken::Closed : Taken::Nothing;
   avatar = ready_.front();
   ready_.erase(ready_.begin());
   Box& box = boxes_[avatar];
@@ -87,6 +100,23 @@ MailRoom::Taken MailRoom::take(std::size_t& avatar, std::unique_ptr<Mail>& mail,
   box.mail.erase(box.mail.begin());
   --(mail->kind == MailKind::Pose ? box.poses : box.skeletons);
   return Taken::Mail;
+}
+
+void MailRoom::endLead(bool isForGood) {
+  const std::lock_guard lock(mutex_);
+  isLed_ = false;
+  isLeadOver_ = isLeadOver_ || isForGood;
+  // One to lead; the others where there is more than the caller takes itself.
+  if (isForGood || ready_.size() > 1) {
+    changed_.notify_all();
+  } else {
+    changed_.notify_one();
+  }
+}
+
+void MailRoom::waitForLastLead() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return isLeadOver_; });
 }
 
 void MailRoom::finish(std::size_t avatar) {

@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 
 /// A stop is noticed after this long.
 constexpr int kReceiveWaitMs = 100;
-/// Idle workers and the status thread show that they live this often.
+/// Idle threads and the status show that they live this often.
 constexpr milliseconds kBeatEvery{500};
 
 struct ServedStream {
@@ -31,7 +31,7 @@ struct ServedStream {
   bool isBroken = false;             // an exception left its state unknown: it answers no more
 };
 
-/// What a worker uses again and again.
+/// What a thread uses again and again.
 struct Desk {
   ContactsMessage answer;
   Bytes payload;
@@ -96,8 +96,8 @@ struct Service::Impl {
       : options(chosen),
         parts(std::move(surroundings)),
         channels(chosen.suffix),
-        room(solvers.size(), chosen.queue),
-        workerBeats(static_cast<std::size_t>(chosen.workers)) {
+        room(solvers.size(), chosen.queue, static_cast<std::size_t>(chosen.workers)),
+        threadBeats(static_cast<std::size_t>(chosen.workers) + 1) {
     facts = {shortened(chosen.build), shortened(chosen.scene), solvers.size(), chosen.workers,
              parts.clock->utimeUs()};
     for (StreamSolver& solver : solvers) {
@@ -123,10 +123,11 @@ struct Service::Impl {
   AnswerTimes lastSecond;
 
   std::atomic<bool> isStopping{false};
-  ThreadBeat receiverBeat, statusBeat;
-  std::vector<ThreadBeat> workerBeats;
-  std::thread receiverThread, statusThread;
-  std::vector<std::thread> workers;
+  ThreadBeat receiverBeat, statusBeat;  // of whoever receives; of the status
+  std::vector<ThreadBeat> threadBeats;
+  std::thread statusThread;
+  std::vector<std::thread> threads;  // that receive and answer, in turns
+  std::vector<WireMessage> arrived;  // of whoever receives
 
   void fail(Error error) {
     const std::lock_guard lock(mutex);
@@ -145,23 +146,45 @@ struct Service::Impl {
     return false;
   }
 
-  // Receiving.
+  // Receiving and answering, in turns.
 
-  void receive() {
+  void serve(ThreadBeat& beat) {
+    Desk desk;
     auto mail = std::make_unique<Mail>();
-    std::vector<WireMessage> messages;
-    bool isLast = false;
-    while (!isLast) {
-      isLast = isStopping.load();  // what the system holds already is still taken
-      messages.clear();
-      const auto received = parts.receiver->receive(messages, isLast ? 0 : kReceiveWaitMs);
-      counter.wire(parts.receiver->counts());
-      for (WireMessage& message : messages) sort(message, mail);
-      receiverBeat.beat();
-      if (received.ok()) continue;
-      fail(received.error());
-      return;
+    std::size_t index = 0;
+    for (;;) {
+      const MailRoom::Taken taken = room.takeOrLead(index, mail, kBeatEvery);
+      beat.beat();
+      if (taken == MailRoom::Taken::Closed) return;
+      if (taken == MailRoom::Taken::Lead) lead(mail, beat);
+      if (taken != MailRoom::Taken::Mail) continue;
+      handle(streams[index], *mail, desk);
+      room.finish(index);
     }
+  }
+
+  /// Receives until something has come, or nothing more will.
+  void lead(std::unique_ptr<Mail>& mail, ThreadBeat& beat) {
+    bool isOver = false;
+    const bool done = guarded("receiving", [&] {
+      do {
+        isOver = receive(mail);
+        receiverBeat.beat();
+        beat.beat();
+      } while (!isOver && arrived.empty());
+    });
+    room.endLead(isOver || !done);
+  }
+
+  /// True where nothing more is to be received.
+  bool receive(std::unique_ptr<Mail>& mail) {
+    const bool isLast = isStopping.load();  // what the system holds already is still taken
+    arrived.clear();
+    const auto received = parts.receiver->receive(arrived, isLast ? 0 : kReceiveWaitMs);
+    counter.wire(parts.receiver->counts());
+    for (WireMessage& message : arrived) sort(message, mail);
+    if (!received.ok()) fail(received.error());
+    return isLast || !received.ok();
   }
 
   void sort(WireMessage& message, std::unique_ptr<Mail>& mail) {
@@ -194,20 +217,6 @@ struct Service::Impl {
   }
 
   // Answering.
-
-  void work(ThreadBeat& beat) {
-    Desk desk;
-    auto mail = std::make_unique<Mail>();
-    std::size_t index = 0;
-    for (;;) {
-      const MailRoom::Taken taken = room.take(index, mail, kBeatEvery);
-      beat.beat();
-      if (taken == MailRoom::Taken::Closed) return;
-      if (taken == MailRoom::Taken::Nothing) continue;
-      handle(streams[index], *mail, desk);
-      room.finish(index);
-    }
-  }
 
   void handle(ServedStream& stream, const Mail& mail, Desk& desk) {
     if (stream.isBroken) return reject(mail.kind, Reject::Overrun);
@@ -314,8 +323,8 @@ struct Service::Impl {
     };
     check("receiving", receiverBeat.idleMs());
     check("the status", statusBeat.idleMs());
-    for (std::size_t i = 0; i < workerBeats.size(); ++i) {
-      check("worker " + std::to_string(i), workerBeats[i].idleMs());
+    for (std::size_t i = 0; i < threadBeats.size(); ++i) {
+      check("thread " + std::to_string(i), threadBeats[i].idleMs());
     }
     if (journal) check("the log", journal->idleMs());
     if (health.isWell) health.text = "ok\n";
@@ -339,10 +348,13 @@ struct Service::Impl {
     }
     try {
       statusThread = std::thread([this] { guarded("the status", [this] { tell(); }); });
-      for (ThreadBeat& beat : workerBeats) {
-        workers.emplace_back([this, &beat] { guarded("a worker", [&] { work(beat); }); });
+      // One more than there are to be workers: somebody always receives.
+      for (ThreadBeat& beat : threadBeats) {
+        threads.emplace_back([this, &beat] {
+          // Without one of the threads there might be nobody to lead: the service ends.
+          if (!guarded("a thread", [&] { serve(beat); })) room.endLead(true);
+        });
       }
-      receiverThread = std::thread([this] { guarded("receiving", [this] { receive(); }); });
     } catch (const std::system_error& e) {
       return Error{ErrorCode::LimitExceeded, "", -1, -1,
                    std::string("expected more threads than the system gives: ") + e.what()};
@@ -352,10 +364,10 @@ struct Service::Impl {
 
   void stop() {
     isStopping = true;
-    if (receiverThread.joinable()) receiverThread.join();
+    if (!threads.empty()) room.waitForLastLead();
     room.close();
-    for (std::thread& worker : workers) {
-      if (worker.joinable()) worker.join();
+    for (std::thread& thread : threads) {
+      if (thread.joinable()) thread.join();
     }
     {
       const std::lock_guard lock(mutex);

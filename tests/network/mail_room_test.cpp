@@ -138,5 +138,86 @@ TEST(MailRoom, KeepsEachAvatarsOrderWithManyThreads) {
   EXPECT_EQ(handled, kEach * static_cast<std::int64_t>(kAvatars));
 }
 
+// A leader and followers.
+
+TEST(MailRoomLead, IsOneThreadsAtATimeAndComesAfterMail) {
+  MailRoom room(2, 4, 1);
+  std::size_t avatar = 9;
+  auto mail = std::make_unique<Mail>();
+  ASSERT_EQ(room.takeOrLead(avatar, mail, milliseconds(0)), Taken::Lead);
+  EXPECT_EQ(room.takeOrLead(avatar, mail, milliseconds(0)), Taken::Nothing);
+  post(room, 0, MailKind::Pose, 1);
+  post(room, 1, MailKind::Pose, 2);
+  room.endLead(false);
+  ASSERT_EQ(room.takeOrLead(avatar, mail, milliseconds(0)), Taken::Mail);
+  EXPECT_EQ(mail->receiveUtimeUs, 1);
+  // One handler is busy, and there may be no second one: who comes leads.
+  ASSERT_EQ(room.takeOrLead(avatar, mail, milliseconds(0)), Taken::Lead);
+  EXPECT_EQ(room.take(avatar, mail, milliseconds(0)), Taken::Nothing);
+  room.finish(0);
+  ASSERT_EQ(room.take(avatar, mail, milliseconds(0)), Taken::Mail);
+  EXPECT_EQ(mail->receiveUtimeUs, 2);
+}
+
+TEST(MailRoomLead, EndsForGood) {
+  MailRoom room(1, 4, 1);
+  std::size_t avatar = 9;
+  auto mail = std::make_unique<Mail>();
+  ASSERT_EQ(room.takeOrLead(avatar, mail, milliseconds(0)), Taken::Lead);
+  post(room, 0, MailKind::Pose, 7);
+  room.endLead(true);
+  room.waitForLastLead();  // at once
+  ASSERT_EQ(room.takeOrLead(avatar, mail, milliseconds(0)), Taken::Mail);
+  EXPECT_EQ(room.takeOrLead(avatar, mail, milliseconds(0)), Taken::Nothing);
+  room.close();
+  EXPECT_EQ(room.takeOrLead(avatar, mail, milliseconds(0)), Taken::Nothing);  // one is handled
+  room.finish(0);
+  EXPECT_EQ(room.takeOrLead(avatar, mail, milliseconds(0)), Taken::Closed);
+}
+
+// Three threads take turns; each avatar's mail comes out once and in order, and never is more
+// handled at a time than was said.
+TEST(MailRoomLead, LosesNothingAmongThreads) {
+  constexpr std::size_t kAvatars = 3;
+  constexpr std::int64_t kMessages = 3000;
+  MailRoom room(kAvatars, kMessages, 2);
+  std::vector<std::vector<std::int64_t>> handled(kAvatars);
+  std::atomic<std::int64_t> posted{0};
+  std::atomic<int> busy{0}, most{0};
+  const auto work = [&] {
+    std::size_t avatar = 0;
+    auto mail = std::make_unique<Mail>();
+    for (;;) {
+      const Taken taken = room.takeOrLead(avatar, mail, milliseconds(50));
+      if (taken == Taken::Closed) return;
+      if (taken == Taken::Lead) {
+        const std::int64_t next = posted++;
+        if (next < kMessages) {
+          post(room, static_cast<std::size_t>(next) % kAvatars, MailKind::Pose, next);
+        }
+        room.endLead(next >= kMessages);
+      }
+      if (taken != Taken::Mail) continue;
+      const int now = ++busy;
+      if (now > most) most = now;
+      handled[avatar].push_back(mail->receiveUtimeUs);
+      --busy;
+      room.finish(avatar);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 3; ++i) threads.emplace_back(work);
+  room.waitForLastLead();
+  room.close();
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t avatar = 0; avatar < kAvatars; ++avatar) {
+    ASSERT_EQ(handled[avatar].size(), static_cast<std::size_t>(kMessages) / kAvatars);
+    for (std::size_t i = 0; i < handled[avatar].size(); ++i) {
+      ASSERT_EQ(handled[avatar][i], static_cast<std::int64_t>(avatar + i * kAvatars));
+    }
+  }
+  EXPECT_LE(most, 2);
+}
+
 }  // namespace
 }  // namespace foretouch

@@ -525,7 +525,7 @@ TEST(Service, NamesAThreadThatDoesNotGetOn) {
   EXPECT_NE(stage.service().health().text.find("no pose yet"), std::string::npos);
   stage.inbox->send(kPoses, poseOf(0, 1));
   ASSERT_TRUE(eventually([&] { return !stage.service().health().isWell; }));
-  EXPECT_EQ(stage.service().health().text.rfind("stuck: worker ", 0), 0u)
+  EXPECT_EQ(stage.service().health().text.rfind("stuck: thread ", 0), 0u)
       << stage.service().health().text;
   stage.outbox->gate.set(true);
   EXPECT_TRUE(eventually([&] { return stage.service().health().isWell; }));
