@@ -86,17 +86,25 @@ LaneQuery::LaneQuery(const Body& body, const LssTable& table, const ChainMotion&
       culler_(culler),
       lanes_(scratch.lanes),
       bvh_(scene.parts().bvh),
+      range_(tolerancesOf(options)),
       meter_(options) {
-  tolerances_.floor = floatAbove(kFloorShare * options.tolerance);
-  tolerances_.handOver = floatBelow(kHandOverShare * options.tolerance);
+  useTolerance(range_.least);
   scratch_.evaluator.reset(motion);
+  lanes_.margins.clear();
+  if (range_.least == range_.largest) return;
+  for (const LinkPolicy& policy : options.linkPolicies) lanes_.margins.push_back(policy.tolerance);
+}
+
+void LaneQuery::useTolerance(double tolerance) {
+  tolerance_ = tolerance;
+  tolerances_.floor = floatAbove(kFloorShare * tolerance);
+  tolerances_.handOver = floatBelow(kHandOverShare * tolerance);
 }
 
 void LaneQuery::run(StepContacts& step) {
   findWhoIsAsked();
-  const int slabs =
-      slabsFor(table_, motion_,
-               std::max(kInterpolationShare * options_.tolerance, kLeastInterpolationError));
+  const int slabs = slabsFor(
+      table_, motion_, std::max(kInterpolationShare * range_.least, kLeastInterpolationError));
   if (meter_.isLimited()) return runWithin(step, slabs);
   for (int slab = 0; slab < slabs; ++slab) {
     begin_ = static_cast<double>(slab) / slabs;
@@ -213,7 +221,11 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
     counters.states +=
         static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(body_.numLinks());
   }
-  sweptBoxes(table, motion_, lanes_.nodes, options_.tolerance, lanes_.boxes);
+  if (lanes_.margins.empty()) {
+    sweptBoxes(table, motion_, lanes_.nodes, range_.least, lanes_.boxes);
+  } else {
+    sweptBoxes(table, motion_, lanes_.nodes, lanes_.margins, lanes_.boxes);
+  }
   for (std::int32_t lss = 0; lss < table.size(); ++lss) {
     if (lanes_.isAsked[static_cast<std::size_t>(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
   }
@@ -291,9 +303,9 @@ void LaneQuery::sortHits() {
 LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters) {
   const LinkSurface* const surface = surfaceOf(options_, link);
   scratch_.ignored.collect(body_.ignored(), link);
+  if (!lanes_.margins.empty()) useTolerance(toleranceOf(options_, link));
   // What touches an LSS may yet miss the triangles in it.
-  tolerances_.contact =
-      surface == nullptr ? floatBelow(kCertainShare * options_.tolerance) : kNeverCertain;
+  tolerances_.contact = surface == nullptr ? floatBelow(kCertainShare * tolerance_) : kNeverCertain;
   float best = limit;
   if (surface != nullptr && begin_ == 0.0) {
     // A link inside furniture is answered by what it touches at once, whatever it sweeps
@@ -339,7 +351,7 @@ LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, flo
   const LinkQuery query{{link, body_.lss(link), scratch_.axisBounds, motion_, surface, nullptr},
                         scene_,
                         Pieces{},
-                        options_.tolerance,
+                        tolerance_,
                         meter_,
                         options_.leafMethod,
                         scratch_.evaluator};

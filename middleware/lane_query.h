@@ -27,6 +27,7 @@ class LaneQuery {
   void run(StepContacts& step);
 
  private:
+  void useTolerance(double tolerance);
   void findWhoIsAsked();
   /// Of all LSS in the slab at hand; false if there are none.
   [[nodiscard]] bool collectHits(QueryCounters& counters);
@@ -61,6 +62,8 @@ class LaneQuery {
   const TriangleCuller& culler_;
   LaneScratch& lanes_;
   const FlatBvh& bvh_;
+  ToleranceRange range_;  // of all links
+  double tolerance_;      // of the link at hand
   LaneTolerances tolerances_;
   WorkMeter meter_;
   double begin_ = 0.0, end_ = 1.0;  // of the slab at hand

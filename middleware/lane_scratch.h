@@ -30,6 +30,7 @@ struct LaneScratch {
   PartScratch parts;                  // of the link at hand, at exact fidelity
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
   std::vector<double> freeUntil;      // per link, where work is limited: how far it is proven free
+  std::vector<double> margins;        // per link, where tolerances differ
 };
 
 }  // namespace foretouch::internal

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "middleware/body.h"
@@ -85,11 +86,52 @@ const char* toString(Fidelity fidelity) {
 
 namespace {
 
+Result<Done> checkedTolerance(double tolerance, LinkId link) {
+  if (tolerance >= kMinTolerance && tolerance <= kMaxTolerance) return Done{};
+  return Error{ErrorCode::OutOfRange, "tolerance", -1, link, "expected 1e-9 to 1e7 metres"};
+}
+
+/// One policy a link, each of a fidelity at which links are answered one by one.
+Result<Done> checkedPolicies(const Avatar& avatar, const QueryOptions& options) {
+  if (options.linkPolicies.empty()) return Done{};
+  const auto isOfLinks = [](Fidelity fidelity) {
+    return fidelity == Fidelity::Link || fidelity == Fidelity::Exact;
+  };
+  if (!isOfLinks(options.fidelity)) {
+    return Error{ErrorCode::Mismatch, "linkPolicies", -1, -1,
+                 std::string("expected none at fidelity ") + toString(options.fidelity) +
+                     ": only at link and exact fidelity has each link a surface of its own"};
+  }
+  if (options.linkPolicies.size() != static_cast<std::size_t>(avatar.numLinks())) {
+    return Error{ErrorCode::Mismatch, "linkPolicies", -1, -1,
+                 "expected none or one a link of the avatar"};
+  }
+  LinkId link = 0;
+  for (const LinkPolicy& policy : options.linkPolicies) {
+    auto tolerance = checkedTolerance(policy.tolerance, link);
+    if (!tolerance.ok()) return tolerance;
+    if (!isOfLinks(policy.fidelity)) {
+      return Error{ErrorCode::OutOfRange, "linkPolicies", -1, link,
+                   "expected link or exact fidelity"};
+    }
+    ++link;
+  }
+  return Done{};
+}
+
+bool isAnyExact(const QueryOptions& options) {
+  const auto& policies = options.linkPolicies;
+  if (policies.empty()) return options.fidelity == Fidelity::Exact;
+  return std::any_of(policies.begin(), policies.end(),
+                     [](const LinkPolicy& policy) { return policy.fidelity == Fidelity::Exact; });
+}
+
 Result<Done> checked(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                      const QueryOptions& options) {
-  if (!(options.tolerance >= kMinTolerance) || !(options.tolerance <= kMaxTolerance)) {
-    return Error{ErrorCode::OutOfRange, "tolerance", -1, -1, "expected 1e-9 to 1e7 metres"};
-  }
+  auto tolerance = checkedTolerance(options.tolerance, -1);
+  if (!tolerance.ok()) return tolerance;
+  auto policies = checkedPolicies(avatar, options);
+  if (!policies.ok()) return policies;
   if (!(options.deadlineUs >= 0.0)) {
     return Error{ErrorCode::OutOfRange, "deadline", -1, -1, "expected microseconds, at least 0"};
   }
@@ -97,7 +139,7 @@ Result<Done> checked(const Avatar& avatar, const ChainMotion& motion, const Scen
     return Error{ErrorCode::Mismatch, "motion", -1, -1,
                  "expected a motion of this avatar's skeleton, found another number of joints"};
   }
-  if (options.fidelity == Fidelity::Exact &&
+  if (isAnyExact(options) &&
       (!options.surface || options.surface->numLinks() != avatar.numLinks())) {
     return Error{ErrorCode::Mismatch, "fidelity", -1, -1,
                  "expected the surface of this avatar, which exact fidelity needs"};
@@ -140,7 +182,7 @@ void linkQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& sce
   const internal::Body body(avatar, options.ignored);
   if (options.descent == Descent::ByNeed && options.fidelity != Fidelity::Skinned &&
       internal::nothingInReach(internal::tableOf(avatar, scratch.lanes), motion, scene,
-                               options.tolerance, step.counters)) {
+                               internal::tolerancesOf(options).largest, step.counters)) {
     return;
   }
   if (!inLanes(avatar, options)) {

@@ -146,17 +146,29 @@ enum class Descent : std::uint8_t {
 /// "straight", "by-need".
 [[nodiscard]] const char* toString(Descent descent);
 
+/// What one link is asked with, where links differ. Its verdict keeps the promise for this
+/// tolerance and the surface of this fidelity, whatever the others' are.
+struct LinkPolicy {
+  double tolerance = 1e-3;             ///< Metres; kMinTolerance to kMaxTolerance.
+  Fidelity fidelity = Fidelity::Link;  ///< Link or Exact.
+};
+
 struct QueryOptions {
   double tolerance = 1e-3;  ///< eps in metres; kMinTolerance to kMaxTolerance.
   Culler culler = Culler::FlatBvh;
   Fidelity fidelity = Fidelity::Link;
-  std::optional<AvatarSurface> surface;  ///< Of the same avatar; needed for Fidelity::Exact.
-  std::optional<SkinnedSurface> skin;    ///< Of the same avatar; needed for Fidelity::Skinned.
+  /// Of the same avatar; needed for Fidelity::Exact, of all links or of one.
+  std::optional<AvatarSurface> surface;
+  std::optional<SkinnedSurface> skin;  ///< Of the same avatar; needed for Fidelity::Skinned.
   LeafMethod leafMethod = LeafMethod::Advancement;
   Backtracking backtracking = Backtracking::Lanes;
   Scope scope = Scope::EveryLink;
   Descent descent = Descent::Straight;
   std::vector<IgnoredPair> ignored;
+  /// One a link, in order: in place of `tolerance` and `fidelity`, which must be Link or Exact
+  /// beside them and decide nothing then. Empty: all links alike. Links that are all alike are
+  /// answered as without policies, bit for bit.
+  std::vector<LinkPolicy> linkPolicies;
   /// Work that the step may cost, all links together, in evaluations of a pair in lanes (about 10
   /// ns; other work is counted in their stead, middleware/work_meter.h). What is not answered by
   /// then is Undecided, free as far as is proven; more work never proves less. Counted, not timed:
@@ -210,10 +222,9 @@ class QueryScratch {
 };
 
 /// The first contact of every link of `avatar` while it moves as `motion` says.
-/// Errors are bad options (tolerance, an ignored pair out of range) or a motion of another avatar.
-/// Geometry never produces one: see Verdict.
-/// The first form fills `step` and, once scratch and step have grown to what the scene asks for,
-/// allocates nothing.
+/// Errors are bad options (tolerance, a policy or an ignored pair out of range) or a motion of
+/// another avatar. Geometry never produces one: see Verdict. The first form fills `step` and, once
+/// scratch and step have grown to what the scene asks for, allocates nothing.
 [[nodiscard]] Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion,
                                          const Scene& scene, const QueryOptions& options,
                                          QueryScratch& scratch, StepContacts& step);

@@ -64,6 +64,7 @@ class StepQuery {
 
   LinkContact firstContactOf(LinkId link, QueryCounters& counters) {
     skin_ = skinOf(options_, link);
+    tolerance_ = toleranceOf(options_, link);
     if (skin_ != nullptr) return firstSkinContactOf(link, counters);
     LinkContact contact;
     contact.link = link;
@@ -86,7 +87,7 @@ class StepQuery {
     return {{link, body_.lss(link), scratch_.axisBounds, motion_, surface_, skin_},
             scene_,
             pieces_,
-            options_.tolerance,
+            tolerance_,
             meter_,
             options_.leafMethod,
             scratch_.evaluator};
@@ -98,7 +99,7 @@ class StepQuery {
     const LinkQuery query = queryOf(link);
     const std::int32_t numTriangles = query.parts.skin->numTriangles(link);
     if (scratch_.ignored.collect(body_.ignored(), link)) return contact;
-    sweepSkin(query.parts, scratch_.nodes, pieces_, options_.tolerance, scratch_.startBoxes,
+    sweepSkin(query.parts, scratch_.nodes, pieces_, tolerance_, scratch_.startBoxes,
               scratch_.boxes);
     if (!isNearAnything(scratch_.boxes, counters)) return contact;
     gatherSkin(scratch_.startBoxes, 1, numTriangles, counters);
@@ -165,11 +166,11 @@ class StepQuery {
       const AxisBounds bounds = axisBounds(lss, motion_.bounds(link));
       scratch_.axisBounds.push_back(bounds);
       AxisEnds begin = axisEnds(lss, nodeState(0, link));
-      scratch_.startBoxes.push_back(sweptBox(lss, bounds, begin, begin, 0.0, options_.tolerance));
+      scratch_.startBoxes.push_back(sweptBox(lss, bounds, begin, begin, 0.0, tolerance_));
       for (int k = 0; k < pieces_.count; ++k) {
         const AxisEnds end = axisEnds(lss, nodeState(k + 1, link));
         const double span = pieces_.timeOf(k + 1) - pieces_.timeOf(k);
-        scratch_.boxes.push_back(sweptBox(lss, bounds, begin, end, span, options_.tolerance));
+        scratch_.boxes.push_back(sweptBox(lss, bounds, begin, end, span, tolerance_));
         all.add(scratch_.boxes.back());
         begin = end;
       }
@@ -205,6 +206,7 @@ class StepQuery {
   const TriangleCuller& culler_;
   QueryScratch::Impl& scratch_;
   WorkMeter meter_;
+  double tolerance_ = 0.0;  // of the link at hand
   // Of the link at hand; null at other fidelities.
   const LinkSurface* surface_ = nullptr;
   const SkinParts* skin_ = nullptr;

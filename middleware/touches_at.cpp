@@ -13,7 +13,7 @@ namespace foretouch {
 namespace internal {
 
 const LinkSurface* surfaceOf(const QueryOptions& options, LinkId link) {
-  if (options.fidelity != Fidelity::Exact) return nullptr;
+  if (fidelityOf(options, link) != Fidelity::Exact) return nullptr;
   return options.surface->parts().links[static_cast<std::size_t>(link)].get();
 }
 

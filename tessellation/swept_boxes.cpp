@@ -179,16 +179,18 @@ constexpr double kInflation = 1.0 + 1e-12;
 /// How far LSS may reach, beyond their ends at both instants, between two instants `gap` apart.
 class Growth {
  public:
-  Growth(const ChainMotion& motion, const ChainNodes& nodes, double gap, double margin)
+  Growth(const ChainMotion& motion, const ChainNodes& nodes, double gap)
       : sums_(&motion.sums(0)),
         sagittas_(gap * gap / 8.0 * kInflation),
-        rounding_(internal::pointRoundings(nodes.bounds())),
-        margin_(margin + rounding_.atOrigin) {}
+        rounding_(internal::pointRoundings(nodes.bounds())) {}
 
-  [[nodiscard]] double of(const LssTable::Entry& entry) const {
+  /// With the rounding of the origin.
+  [[nodiscard]] double wholeMargin(double margin) const { return margin + rounding_.atOrigin; }
+
+  [[nodiscard]] double of(const LssTable::Entry& entry, double wholeMargin) const {
     const double rho = std::max(entry.rhoA, entry.rhoB);
     return (sums_[entry.link].accelerationAt(rho) * sagittas_ +
-            (rounding_.perLength * rho + (entry.radius + margin_))) *
+            (rounding_.perLength * rho + (entry.radius + wholeMargin))) *
            kInflation;
   }
 
@@ -196,7 +198,6 @@ class Growth {
   const ChainSums* sums_;  // per link
   double sagittas_;        // per acceleration
   internal::PointRoundings rounding_;
-  double margin_;  // rounding of the origin included
 };
 
 double widestGap(const ChainNodes& nodes) {
@@ -238,9 +239,27 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
   FORETOUCH_ASSERT(table.numLinks() == nodes.numLinks() && nodes.numLinks() == motion.numLinks());
   boxes.makeRoom(table.size());
   if (table.size() == 0) return;
-  const Growth growth(motion, nodes, widestGap(nodes), margin);
+  const Growth growth(motion, nodes, widestGap(nodes));
+  const double whole = growth.wholeMargin(margin);
   double* const growths = boxes.growths_.data();
-  for (std::int32_t i = 0; i < table.size(); ++i) growths[i] = growth.of(table[i]);
+  for (std::int32_t i = 0; i < table.size(); ++i) growths[i] = growth.of(table[i], whole);
+  HWY_DYNAMIC_DISPATCH(boxesOf)
+  (table.data(), table.size(), &nodes.link(0), growths, boxes.lower, boxes.upper);
+  boxes.emptyFrom(table.size());
+}
+
+void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
+                const std::vector<double>& margins, SweptBoxes& boxes) {
+  FORETOUCH_ASSERT(table.numLinks() == nodes.numLinks() && nodes.numLinks() == motion.numLinks());
+  FORETOUCH_ASSERT(margins.size() == static_cast<std::size_t>(table.numLinks()));
+  boxes.makeRoom(table.size());
+  if (table.size() == 0) return;
+  const Growth growth(motion, nodes, widestGap(nodes));
+  double* const growths = boxes.growths_.data();
+  for (std::int32_t i = 0; i < table.size(); ++i) {
+    const double margin = margins[static_cast<std::size_t>(table[i].link)];
+    growths[i] = growth.of(table[i], growth.wholeMargin(margin));
+  }
   HWY_DYNAMIC_DISPATCH(boxesOf)
   (table.data(), table.size(), &nodes.link(0), growths, boxes.lower, boxes.upper);
   boxes.emptyFrom(table.size());
@@ -252,7 +271,8 @@ PieceBoxes pieceBoxes(const LssTable::Entry& entry, const ChainMotion& motion,
   alignas(64) double growths[kNodes] = {};
   for (int k = 0; k < kNodePieces; ++k) {
     const double gap = nodes.instant(k + 1) - nodes.instant(k);
-    growths[k] = Growth(motion, nodes, gap, margin).of(entry);
+    const Growth growth(motion, nodes, gap);
+    growths[k] = growth.of(entry, growth.wholeMargin(margin));
   }
   HWY_DYNAMIC_DISPATCH(piecesOf)(entry, nodes.link(entry.link), growths, result);
   for (int axis = 0; axis < 3; ++axis) {

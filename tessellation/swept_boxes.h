@@ -32,6 +32,8 @@ struct SweptBoxes {
   };
   friend void sweptBoxes(const LssTable&, const ChainMotion&, const ChainNodes&, double,
                          SweptBoxes&);
+  friend void sweptBoxes(const LssTable&, const ChainMotion&, const ChainNodes&,
+                         const std::vector<double>&, SweptBoxes&);
   /// As resize(), lanes left as they are.
   void makeRoom(std::int32_t newCount);
   /// Lanes from `first` on.
@@ -45,6 +47,9 @@ struct SweptBoxes {
 /// the origin of the nodes, rounded outward. O(LSS).
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
                 double margin, SweptBoxes& boxes);
+/// The same where links' margins differ: `margins[link]` (m). As many as links (asserted).
+void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
+                const std::vector<double>& margins, SweptBoxes& boxes);
 
 /// Pieces of a span: between neighbouring nodes.
 inline constexpr int kNodePieces = kNodes - 1;
