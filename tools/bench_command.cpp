@@ -18,6 +18,7 @@
 #include "tools/bench_peers_command.h"
 #include "tools/bench_scaling_command.h"
 #include "tools/bench_stream_command.h"
+#include "tools/bench_trade_command.h"
 #include "tools/generated_queries.h"
 
 namespace foretouch::tools {
@@ -142,7 +143,7 @@ void addBenchCommand(CLI::App& program, ExitCode& exit) {
   addBenchPeersCommand(*bench, exit);
   addBenchExtremesCommand(*bench, exit);
   addBenchStreamCommands(*bench, exit);
-  addBenchDeadlineCommand(*bench, exit);
+  addBenchTradeCommand(*bench, exit);
 }
 
 }  // namespace foretouch::tools

@@ -1,0 +1,126 @@
+#include "tools/trade/nearest_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "articulated/skeleton.h"
+#include "lss/assert.h"
+#include "lss/segment_triangle.h"
+
+namespace foretouch::tools {
+namespace {
+
+constexpr std::size_t kLeaf = 4;
+/// Halving 50 million triangles takes 24 levels; one pending sibling a level.
+constexpr std::size_t kMostPending = 64;
+
+/// Squared distance of two boxes.
+double squaredGap(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                  const Eigen::Vector3d& otherLow, const Eigen::Vector3d& otherHigh) {
+  return (otherLow - high).cwiseMax(low - otherHigh).cwiseMax(0.0).squaredNorm();
+}
+
+Eigen::Vector3d middleOf(const Triangle& t) {
+  return t.vertices[0] / 3.0 + t.vertices[1] / 3.0 + t.vertices[2] / 3.0;
+}
+
+}  // namespace
+
+NearestTree::NearestTree(const Scene& scene) : scene_(scene) {
+  for (std::size_t i = 0; i < scene.numTriangles(); ++i) {
+    const auto id = static_cast<TriangleId>(i);
+    if (isFinite(scene.triangle(id))) order_.push_back(id);
+  }
+  nodes_.reserve(order_.size());
+  nodes_.emplace_back();
+  split(0, 0, order_.size());
+}
+
+NearestTree::Box NearestTree::boxOf(std::size_t begin, std::size_t end) const {
+  Box box{Eigen::Vector3d::Constant(kMaxCoordinate), Eigen::Vector3d::Constant(-kMaxCoordinate)};
+  for (std::size_t i = begin; i < end; ++i) {
+    for (const Eigen::Vector3d& v : scene_.triangle(order_[i]).vertices) {
+      box.low = box.low.cwiseMin(v);
+      box.high = box.high.cwiseMax(v);
+    }
+  }
+  return box;
+}
+
+void NearestTree::split(std::size_t node, std::size_t begin, std::size_t end) {
+  nodes_[node].box = boxOf(begin, end);
+  if (end - begin <= kLeaf) {
+    nodes_[node].first = static_cast<std::int32_t>(begin);
+    nodes_[node].count = static_cast<std::int32_t>(end - begin);
+    return;
+  }
+  Eigen::Index axis = 0;
+  (nodes_[node].box.high - nodes_[node].box.low).maxCoeff(&axis);
+  const std::size_t middle = begin + (end - begin) / 2;
+  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(begin), at(middle), at(end), [&](TriangleId x, TriangleId y) {
+    return middleOf(scene_.triangle(x))[axis] < middleOf(scene_.triangle(y))[axis];
+  });
+  const std::size_t child = nodes_.size();
+  nodes_[node].first = static_cast<std::int32_t>(child);
+  nodes_.emplace_back();
+  nodes_.emplace_back();
+  split(child, begin, middle);
+  split(child + 1, middle, end);
+}
+
+double NearestTree::distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double cap,
+                             double enough, TradeWork& work) const {
+  const Eigen::Vector3d low = a.cwiseMin(b), high = a.cwiseMax(b);
+  const auto gapOf = [&](std::int32_t node) {
+    const Box& box = nodes_[static_cast<std::size_t>(node)].box;
+    return squaredGap(low, high, box.low, box.high);
+  };
+  std::array<std::pair<double, std::int32_t>, kMostPending> pending;
+  std::size_t size = 0;
+  pending[size++] = {gapOf(0), 0};
+  double best = cap;
+  while (size > 0) {
+    const auto [gap, index] = pending[--size];
+    if (gap >= best * best) continue;
+    ++work.nodes;
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    if (node.count > 0) {
+      for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+        ++work.pairs;
+        const Triangle& triangle = scene_.triangle(order_[static_cast<std::size_t>(i)]);
+        best = std::min(best, closestPoints(a, b, triangle).distance);
+      }
+      if (best <= enough) return best;
+      continue;
+    }
+    const std::pair<double, std::int32_t> one{gapOf(node.first), node.first};
+    const std::pair<double, std::int32_t> other{gapOf(node.first + 1), node.first + 1};
+    FORETOUCH_ASSERT(size + 2 <= kMostPending);
+    pending[size++] = std::max(one, other);  // the nearer one is looked at first
+    pending[size++] = std::min(one, other);
+  }
+  return best;
+}
+
+void NearestTree::collect(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                          std::vector<TriangleId>& found) const {
+  found.clear();
+  std::vector<std::int32_t> pending{0};
+  while (!pending.empty()) {
+    const Node& node = nodes_[static_cast<std::size_t>(pending.back())];
+    pending.pop_back();
+    if (squaredGap(low, high, node.box.low, node.box.high) > 0.0) continue;
+    if (node.count == 0) {
+      pending.push_back(node.first);
+      pending.push_back(node.first + 1);
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      found.push_back(order_[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+}  // namespace foretouch::tools
