@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -151,10 +152,10 @@ Result<Done> loadFile(const Avatar& avatar, const std::string& path,
 }
 
 Result<Surfaces> loadChecked(const Avatar& avatar, const std::string& avatarPath,
-                             const ModelImportOptions& options) {
+                             const std::vector<LinkId>& wanted, const ModelImportOptions& options) {
   const std::filesystem::path folder = std::filesystem::path(avatarPath).parent_path();
   std::map<std::string, std::vector<LinkId>> linksOfFile;
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+  for (const LinkId link : wanted) {
     const std::string& file = avatar.mesh(link).file;
     if (!file.empty()) linksOfFile[(folder / file).string()].push_back(link);
   }
@@ -170,8 +171,16 @@ Result<Surfaces> loadChecked(const Avatar& avatar, const std::string& avatarPath
 
 Result<Surfaces> loadLinkMeshes(const Avatar& avatar, const std::string& avatarPath,
                                 const ModelImportOptions& options) {
+  std::vector<LinkId> all(static_cast<std::size_t>(avatar.numLinks()));
+  std::iota(all.begin(), all.end(), 0);
+  return loadLinkMeshes(avatar, avatarPath, all, options);
+}
+
+Result<Surfaces> loadLinkMeshes(const Avatar& avatar, const std::string& avatarPath,
+                                const std::vector<LinkId>& links,
+                                const ModelImportOptions& options) {
   try {
-    return loadChecked(avatar, avatarPath, options);
+    return loadChecked(avatar, avatarPath, links, options);
   } catch (const std::bad_alloc&) {
     return meshError(ErrorCode::LimitExceeded, avatarPath, -1,
                      "not enough memory for the links' triangles");

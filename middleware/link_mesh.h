@@ -22,6 +22,12 @@ namespace foretouch {
 [[nodiscard]] Result<std::vector<std::vector<Triangle>>> loadLinkMeshes(
     const Avatar& avatar, const std::string& avatarPath, const ModelImportOptions& options = {});
 
+/// The same of these links alone: the others get none, and files that only they refer to are not
+/// read.
+[[nodiscard]] Result<std::vector<std::vector<Triangle>>> loadLinkMeshes(
+    const Avatar& avatar, const std::string& avatarPath, const std::vector<LinkId>& links,
+    const ModelImportOptions& options = {});
+
 /// Writes per-link triangles as a GLB that loadLinkMeshes() reads back bit for bit: a node a link,
 /// placed by the skeleton's rest pose so that a viewer shows the body, its mesh in the link's
 /// frame. Precondition: coordinates are floats (avatarFromModel() rounds), as glTF holds no

@@ -25,6 +25,7 @@ Result<FidelityCounts> compareWithLink(const Avatar& avatar, const ChainMotion& 
                                        const QueryOptions& options, QueryScratch& scratch) {
   QueryOptions coarser = options;
   coarser.fidelity = Fidelity::Link;
+  for (LinkPolicy& policy : coarser.linkPolicies) policy.fidelity = Fidelity::Link;
   const auto start = std::chrono::steady_clock::now();
   const auto link = firstContacts(avatar, motion, scene, coarser, scratch);
   const std::chrono::duration<double, std::micro> elapsed =

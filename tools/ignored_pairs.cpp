@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "articulated/text_file.h"
+#include "tools/name_pattern.h"
 #include "tools/near_names.h"
 
 namespace foretouch::tools {
@@ -12,21 +13,6 @@ namespace {
 
 Error refusal(ErrorCode code, std::string message) {
   return {code, "--ignore", -1, -1, std::move(message)};
-}
-
-bool matches(std::string_view pattern, std::string_view name) {
-  if (pattern.empty() || pattern.back() != '*') return pattern == name;
-  pattern.remove_suffix(1);
-  return name.substr(0, pattern.size()) == pattern;
-}
-
-std::vector<std::int32_t> matching(std::string_view pattern,
-                                   const std::vector<std::string>& names) {
-  std::vector<std::int32_t> found;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (matches(pattern, names[i])) found.push_back(static_cast<std::int32_t>(i));
-  }
-  return found;
 }
 
 /// One way to understand a text: which links, and which objects of theirs.

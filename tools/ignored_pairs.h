@@ -13,8 +13,8 @@ namespace foretouch::tools {
 /// All texts together may stand for at most this many pairs: a query looks through them all.
 inline constexpr std::size_t kMaxIgnoredPairs = 100'000;
 
-/// Each text is a list of `link` or `link:object`, separated by commas. Names are exact; a trailing
-/// `*` stands for any ending, `*` alone for every name. Where names contain colons, the reading is
+/// Each text is a list of `link` or `link:object`, separated by commas. Names are exact
+/// or patterns (tools/name_pattern.h). Where names contain colons, the reading is
 /// taken that matches; two readings that match are refused, as are names that match nothing (with
 /// the nearest ones that exist). Sorted and without repetitions.
 [[nodiscard]] Result<std::vector<IgnoredPair>> parseIgnoredPairs(

@@ -30,6 +30,7 @@ struct ReplayTexts {
   std::string fidelity = "link", leaves = "advancement", scope = "links", skin, skinScale = "1",
               skinUp = "y", tolerance = "0.001", culler = "flat", threads = "cores";
   std::string suffix, maxStep = "10", confirmations = "3", budgetUs;
+  std::string policy;
   std::vector<std::string> avatars, ignore, packages;
   bool compareRigid = false, compareLink = false, rays = false, unmatchedAtRest = false;
 };
@@ -45,6 +46,7 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   request.packagePaths = texts.packages;
   request.mapPath = texts.map;
   request.ignore = texts.ignore;
+  request.policyPath = texts.policy;
   job.outputPath = texts.output;
   job.options.compareRigid = texts.compareRigid;
   job.options.compareLink = texts.compareLink;
@@ -66,6 +68,7 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   settle.into(request.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
   settle.into(request.tolerance, parseTolerance("--tolerance", texts.tolerance));
   settle.into(request.culler, parseCuller("--culler", texts.culler));
+  if (!texts.policy.empty()) settle.into(request.policies, readPolicyFile(texts.policy));
   if (texts.rate != "all") {
     double rateHz = 0.0;
     settle.into(rateHz, parsePositive("--rate", texts.rate));
@@ -189,7 +192,7 @@ Result<Done> runReplay(const ReplayJob& job,
   const ReplayRequest& request = job.request;
   const auto checked =
       checkOutput(job.outputPath, {request.scenePath, request.avatarPath, request.motionPath,
-                                   request.robotPath, request.mapPath});
+                                   request.robotPath, request.mapPath, request.policyPath});
   if (!checked.ok()) return checked.error();
   const auto inputs = loadReplayInputs(request);
   if (!inputs.ok()) return inputs.error();
@@ -269,6 +272,9 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   command->add_option("--ignore", texts->ignore, "Contacts not asked for; may be repeated")
       ->type_name("PAIRS")
       ->allow_extra_args(false);
+  option(
+      "--policy", texts->policy, "FILE",
+      "Tolerance, fidelity and what to ignore, link by link: [[policy]] tables (docs/formats.md)");
   option("--suffix", texts->suffix, "TEXT", "Of a log: ending of the channels' names");
   option("--max-step", texts->maxStep, "S", "Of a log: a pose this much after the last is refused");
   option("--confirmations", texts->confirmations, "N",

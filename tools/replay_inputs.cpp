@@ -16,23 +16,26 @@ namespace {
 
 /// The meshes that the avatar file refers to, where the fidelity asks for them.
 Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, QueryOptions& query) {
-  query.fidelity = request.fidelity;
-  query.leafMethod = request.leafMethod;
-  query.scope = request.scope;
-  const bool isOfMeshes =
-      request.fidelity == Fidelity::Exact || request.fidelity == Fidelity::Skinned;
-  if (!isOfMeshes) return Done{};
-  if (request.fidelity == Fidelity::Skinned) {
+  if (query.fidelity == Fidelity::Skinned) {
     auto skin = loadSkin(request.skinPath, request.skinScale, request.skinUp, avatar);
     if (!skin.ok()) return skin.error();
     query.skin = std::move(skin).value();
     return Done{};
   }
-  auto meshes = loadLinkMeshes(avatar, request.avatarPath);
+  if (query.fidelity != Fidelity::Exact) return Done{};
+  std::vector<LinkId> exact;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    if (query.linkPolicies.empty() ||
+        query.linkPolicies[static_cast<std::size_t>(link)].fidelity == Fidelity::Exact) {
+      exact.push_back(link);
+    }
+  }
+  auto meshes = loadLinkMeshes(avatar, request.avatarPath, exact);
   if (!meshes.ok()) return inFile(meshes.error(), request.avatarPath);
   auto surface = AvatarSurface::build(avatar, std::move(meshes).value());
   if (!surface.ok()) return inFile(surface.error(), request.avatarPath);
-  surface.value().prepare();  // the first steps' latencies are the query's
+  // The first steps' latencies are the query's, unless policies ask for little to be there.
+  if (query.linkPolicies.empty()) surface.value().prepare();
   query.surface = std::move(surface).value();
   return Done{};
 }
@@ -55,11 +58,17 @@ Result<QueryOptions> queryOptionsFor(const ReplayRequest& request, const Avatar&
   QueryOptions query;
   query.tolerance = request.tolerance;
   query.culler = request.culler;
-  const auto surface = loadSurface(request, avatar, query);
-  if (!surface.ok()) return surface.error();
+  query.fidelity = request.fidelity;
+  query.leafMethod = request.leafMethod;
+  query.scope = request.scope;
   auto ignored = parseIgnoredPairs(request.ignore, avatar.skeleton(), scene.objectNames());
   if (!ignored.ok()) return ignored.error();
   query.ignored = std::move(ignored).value();
+  const auto applied =
+      applyPolicies(request.policies, avatar.skeleton(), scene.objectNames(), query);
+  if (!applied.ok()) return applied.error();
+  const auto surface = loadSurface(request, avatar, query);
+  if (!surface.ok()) return surface.error();
   return query;
 }
 

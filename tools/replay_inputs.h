@@ -13,6 +13,7 @@
 #include "middleware/query.h"
 #include "middleware/scene.h"
 #include "middleware/scene_import.h"
+#include "tools/policy_rules.h"
 #include "tools/step_selection.h"
 
 namespace foretouch::tools {
@@ -38,6 +39,8 @@ struct ReplayRequest {
   double skinScale = 1.0;  ///< Metres per unit of that model.
   UpAxis skinUp = UpAxis::Y;
   std::vector<std::string> ignore;
+  std::string policyPath;
+  std::vector<PolicyRule> policies;  ///< Of that file, or of a service's; later ones win.
 };
 
 struct ReplayInputs {
@@ -61,7 +64,9 @@ struct ReplayInputs {
 /// The scene that the request names, and nothing else of it.
 [[nodiscard]] Result<Scene> loadScene(const ReplayRequest& request);
 
-/// The options of its queries, with the surface or skin that its fidelity asks for.
+/// The options of its queries, with the surface or skin that its fidelity asks for. Where policies
+/// ask for exact links, only these links' meshes are read, and what queries need of each is built
+/// when the first of them comes near anything.
 [[nodiscard]] Result<QueryOptions> queryOptionsFor(const ReplayRequest& request,
                                                    const Avatar& avatar, const Scene& scene);
 

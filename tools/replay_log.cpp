@@ -210,7 +210,7 @@ std::string logHeaderLine(const LogReplayInputs& inputs) {
                       jsonString(request.suffix));
   text += fmt::format(R"(,"tolerance":{},"fidelity":"{}")", numberText(query.tolerance),
                       toString(query.fidelity));
-  text += surfaceFields(query);
+  text += policyField(query) + surfaceFields(query);
   text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", numberText(query.sceneScale),
                       query.sceneUp == UpAxis::Z ? "z" : "y", jsonList(query.ignore));
   text += fmt::format(R"(,"budget_us":{},"max_step":{},"confirmations":{},"unmatched_at_rest":{})",

@@ -15,6 +15,7 @@ namespace foretouch::tools {
 Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
                                      const std::function<void(const std::string&)>& report) {
   std::vector<std::string> inputPaths{job.request.query.scenePath, job.request.query.motionPath};
+  inputPaths.push_back(job.request.query.policyPath);
   for (const NumberedAvatar& avatar : job.request.avatars) inputPaths.push_back(avatar.path);
   const auto checked = checkOutput(job.outputPath, inputPaths);
   if (!checked.ok()) return checked.error();

@@ -19,6 +19,22 @@ std::vector<LinkContact> notClear(const std::vector<LinkContact>& links) {
 
 namespace {
 
+/// Each rule as it was given.
+std::string policiesJson(const std::vector<PolicyRule>& rules) {
+  std::string text = "[";
+  for (const PolicyRule& rule : rules) {
+    std::string fields;
+    if (!rule.links.empty()) fields += ",\"links\":" + jsonList(rule.links);
+    if (!rule.objects.empty()) fields += ",\"objects\":" + jsonList(rule.objects);
+    if (rule.tolerance) fields += ",\"tolerance\":" + numberText(*rule.tolerance);
+    if (rule.fidelity) fields += std::string(",\"fidelity\":\"") + toString(*rule.fidelity) + '"';
+    if (rule.ignore) fields += *rule.ignore ? ",\"ignore\":true" : ",\"ignore\":false";
+    if (text.size() > 1) text += ',';
+    text += '{' + fields.substr(1) + '}';
+  }
+  return text + ']';
+}
+
 /// What only motions that are no BVH clips depend on.
 std::string motionFields(const ReplayRequest& request) {
   std::string text;
@@ -33,8 +49,16 @@ std::string motionFields(const ReplayRequest& request) {
 
 }  // namespace
 
+std::string policyField(const ReplayRequest& request) {
+  return request.policies.empty() ? "" : ",\"policy\":" + policiesJson(request.policies);
+}
+
 std::string surfaceFields(const ReplayRequest& request) {
-  if (request.fidelity == Fidelity::Exact) {
+  const bool isExact =
+      request.fidelity == Fidelity::Exact ||
+      std::any_of(request.policies.begin(), request.policies.end(),
+                  [](const PolicyRule& r) { return r.fidelity == Fidelity::Exact; });
+  if (isExact) {
     return fmt::format(R"(,"leaves":"{}")", toString(request.leafMethod));
   }
   if (request.fidelity == Fidelity::Skinned) {
@@ -70,7 +94,7 @@ std::string headerLine(const ReplayInputs& inputs) {
   if (request.scope != Scope::EveryLink) {
     text += fmt::format(R"(,"scope":"{}")", toString(request.scope));
   }
-  text += surfaceFields(request) + motionFields(request);
+  text += policyField(request) + surfaceFields(request) + motionFields(request);
   text += fmt::format(R"(,"links":{},"unmatched_joints":{})", jsonList(links),
                       jsonList(inputs.match.unmatchedAvatar));
   return text + "}\n";

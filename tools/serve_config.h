@@ -13,6 +13,7 @@
 #include "middleware/scene_import.h"
 #include "network/avatar_stream.h"
 #include "network/wire.h"
+#include "tools/policy_rules.h"
 
 namespace foretouch::tools {
 
@@ -55,6 +56,8 @@ struct ServeConfig {
   double tolerance = 1e-3;
   Fidelity fidelity = Fidelity::Link;  ///< Link or Exact.
   std::vector<std::string> ignore;     ///< Texts for parseIgnoredPairs() (tools/ignored_pairs.h).
+  // [[policy]]
+  std::vector<PolicyRule> policies;  ///< Later ones win.
   // [stream]
   StreamPolicy stream;
   // [[avatar]]

@@ -20,6 +20,7 @@ ReplayRequest asReplay(const ServeConfig& config, const std::string& avatarPath)
   request.tolerance = config.tolerance;
   request.fidelity = config.fidelity;
   request.ignore = config.ignore;
+  request.policies = config.policies;
   return request;
 }
 

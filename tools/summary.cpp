@@ -96,10 +96,12 @@ std::string ReplaySummary::head(int threads) const {
   const auto stride = static_cast<double>(inputs_.steps.stride);
   return fmt::format(
       "{} in {}: {} triangles, {} links\n{:.5g} of {:.5g} poses a second, tolerance {:.3g} m, "
-      "{} fidelity, {} {}\n\n",
+      "{} fidelity{}, {} {}\n\n",
       inputs_.request.motionPath, inputs_.request.scenePath, inputs_.scene.audit().triangles,
       inputs_.avatar.numLinks(), clipHz / stride, clipHz, inputs_.request.tolerance,
-      toString(inputs_.request.fidelity), threads, threads == 1 ? "thread" : "threads");
+      toString(inputs_.request.fidelity),
+      inputs_.request.policies.empty() ? "" : ", other links' by policy", threads,
+      threads == 1 ? "thread" : "threads");
 }
 
 std::string ReplaySummary::verdicts() const {
@@ -185,7 +187,7 @@ std::string ReplaySummary::cost() const {
   text += fmt::format(
       "work of a step, mean     nodes {:.1f}   candidates {:.1f}   advancements {:.1f}\n",
       aStep(work_.nodes), aStep(work_.candidates), aStep(work_.advancements));
-  if (inputs_.request.fidelity == Fidelity::Exact) {
+  if (inputs_.query.surface) {
     text += fmt::format(
         "of these advancements    LSS hierarchy {:.1f}   triangle pairs {:.1f}   (and by planes "
         "{:.1f}, in lanes {:.1f})\n",

@@ -29,6 +29,41 @@ void checkError(const Error& error, std::string_view text) {
   }
 }
 
+/// Policies, and what an avatar and a scene make of them.
+void checkPolicies(const std::vector<tools::PolicyRule>& rules) {
+  require(rules.size() <= tools::kMaxPolicyRules, "policies are bounded");
+  for (const tools::PolicyRule& rule : rules) {
+    require(rule.tolerance || rule.fidelity || rule.ignore, "a policy says something");
+    require(
+        !rule.tolerance || (*rule.tolerance >= kMinTolerance && *rule.tolerance <= kMaxTolerance),
+        "a policy's tolerance is legal");
+    require(!rule.fidelity || rule.objects.empty(), "a link has one surface");
+  }
+  RawSkeleton raw;
+  for (const char* const name : {"Hips", "LeftHand", "LeftFoot"}) {
+    RawJoint joint;
+    joint.name = name;
+    raw.joints.push_back(joint);
+  }
+  const Skeleton skeleton = Skeleton::build(raw).value();
+  const std::vector<std::string> objects{"floor", "table", "table"};
+  QueryOptions options;
+  const auto applied = tools::applyPolicies(rules, skeleton, objects, options);
+  if (!applied.ok()) {
+    require(applied.error().file == "input" && applied.error().line >= 1, "a rule has a place");
+    return;
+  }
+  require(options.linkPolicies.empty() || options.linkPolicies.size() == 3, "all links or none");
+  for (const LinkPolicy& policy : options.linkPolicies) {
+    require(policy.tolerance >= kMinTolerance && policy.tolerance <= options.tolerance,
+            "no link is coarser than what is said of all");
+  }
+  for (const IgnoredPair& pair : options.ignored) {
+    require(pair.link >= 0 && pair.link < 3 && pair.object >= -1 && pair.object < 3,
+            "ignored pairs exist");
+  }
+}
+
 }  // namespace
 
 bool feedConfig(const std::uint8_t* data, std::size_t size) {
@@ -46,6 +81,7 @@ bool feedConfig(const std::uint8_t* data, std::size_t size) {
   require(std::isfinite(config.sceneScale) && config.sceneScale > 0.0, "the scale is positive");
   require(std::isfinite(config.tolerance) && config.tolerance >= kMinTolerance, "so is tolerance");
   require(config.stream.maxStepUs >= 1 && config.stream.confirmations >= 1, "so is the policy");
+  checkPolicies(config.policies);
   std::set<std::int32_t> ids;
   for (const tools::ServedAvatar& avatar : config.avatars) {
     require(ids.insert(avatar.id).second && avatar.id >= 0, "ids differ");

@@ -104,6 +104,29 @@ TEST_F(Allocations, OfQueriesAtExactFidelityAreNone) {
   EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
 }
 
+TEST_F(Allocations, OfQueriesWhoseLinksDifferAreNone) {
+  Random random(4);
+  const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();
+  std::vector<test::RandomBody> bodies(kBodies, test::bodyInClutter(random, 9, Vector3d::Zero()));
+  for (test::RandomBody& body : bodies) {
+    for (auto& rotation : body.to.rotations) rotation = random.turn(0.5);
+  }
+  QueryOptions options;
+  options.surface =
+      AvatarSurface::build(bodies[0].avatar, test::meshWithin(bodies[0].avatar, random, 12, 0.9))
+          .value();
+  for (int link = 0; link < 9; ++link) {
+    options.linkPolicies.push_back(
+        {link % 2 == 0 ? 1e-4 : 5e-3, link % 3 == 0 ? Fidelity::Exact : Fidelity::Link});
+  }
+  QueryOptions alike;
+  EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
+  EXPECT_EQ(inSteadyState(bodies, scene, {options, alike}), 0U);
+  options.backtracking = Backtracking::Scalar;
+  for (LinkPolicy& policy : options.linkPolicies) policy.fidelity = Fidelity::Link;
+  EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
+}
+
 TEST_F(Allocations, OfAPoolAreNone) {
   Random random(5);
   const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();

@@ -79,6 +79,31 @@ TEST(SweptBoxes, ContainTheTrueLssAtEveryWidth) {
   }
 }
 
+TEST(SweptBoxes, GrowByTheMarginOfTheirLink) {
+  SweptBoxes boxes, alike;
+  ChainNodes nodes;
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const test::MovingBody body(random, 1 + random.below(12));
+    const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.to);
+    const LssTable table(body.avatar);
+    std::vector<double> margins;
+    for (LinkId link = 0; link < table.numLinks(); ++link) {
+      margins.push_back(random.magnitude(1e-6, 1.0));
+    }
+    nodes.evaluate(motion, 0.0, 1.0, Vector3d::Zero());
+    sweptBoxes(table, motion, nodes, margins, boxes);
+    for (std::int32_t k = 0; k < table.size(); ++k) {
+      sweptBoxes(table, motion, nodes, margins[static_cast<std::size_t>(table[k].link)], alike);
+      for (int axis = 0; axis < 3; ++axis) {
+        ASSERT_EQ(boxes.lower[axis][k], alike.lower[axis][k]);
+        ASSERT_EQ(boxes.upper[axis][k], alike.upper[axis][k]);
+      }
+    }
+  }
+}
+
 TEST(SweptBoxes, LanesLeftOverAreEmpty) {
   SweptBoxes boxes;
   ChainNodes nodes;

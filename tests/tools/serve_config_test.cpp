@@ -51,6 +51,7 @@ TEST(ServeConfig, SmallestFileHasTheDefaults) {
   EXPECT_EQ(c.tolerance, 1e-3);
   EXPECT_EQ(c.fidelity, Fidelity::Link);
   EXPECT_TRUE(c.ignore.empty());
+  EXPECT_TRUE(c.policies.empty());
   EXPECT_EQ(c.stream.maxStepUs, 10'000'000);
   EXPECT_EQ(c.stream.confirmations, 3);
   EXPECT_FALSE(c.stream.unmatchedAtRest);
@@ -78,6 +79,14 @@ up = "z"
 tolerance = 0.002
 fidelity = "exact"
 ignore = ["Hand:table", "Foot*"]
+[[policy]]
+links = ["*Hand*"]
+tolerance = 0.0001
+fidelity = "exact"
+[[policy]]
+links = ["Foot*"]
+objects = ["floor", "rug"]
+ignore = true
 [stream]
 max_step_s = 0.25
 confirmations = 5
@@ -105,6 +114,15 @@ file = "/srv/zero.avatar.json"
   EXPECT_EQ(c.tolerance, 0.002);
   EXPECT_EQ(c.fidelity, Fidelity::Exact);
   EXPECT_EQ(c.ignore, (std::vector<std::string>{"Hand:table", "Foot*"}));
+  ASSERT_EQ(c.policies.size(), 2u);
+  EXPECT_EQ(c.policies[0].links, std::vector<std::string>{"*Hand*"});
+  EXPECT_TRUE(c.policies[0].objects.empty());
+  EXPECT_EQ(c.policies[0].tolerance, 1e-4);
+  EXPECT_EQ(c.policies[0].fidelity, Fidelity::Exact);
+  EXPECT_EQ(c.policies[0].ignore, std::nullopt);
+  EXPECT_EQ(c.policies[1].objects, (std::vector<std::string>{"floor", "rug"}));
+  EXPECT_EQ(c.policies[1].tolerance, std::nullopt);
+  EXPECT_EQ(c.policies[1].ignore, true);
   EXPECT_EQ(c.stream.maxStepUs, 250'000);
   EXPECT_EQ(c.stream.confirmations, 5);
   EXPECT_TRUE(c.stream.unmatchedAtRest);
@@ -121,6 +139,8 @@ TEST(ServeConfig, UnknownKeysAreRefusedWithTheirLineAndTheNearestOne) {
                   "etc/serve.toml:1: unknown key 'scnee' in the file; did you mean 'scene'?"));
   EXPECT_TRUE(has(errorOf("\n" + kSmallest + "Id = 2\n"),
                   "etc/serve.toml:6: unknown key 'Id' in [[avatar]]; did you mean 'id'?"));
+  EXPECT_TRUE(has(errorOf("\n[[policy]]\nlink = [\"a\"]\n" + kSmallest),
+                  "etc/serve.toml:3: unknown key 'link' in [[policy]]; did you mean 'links'?"));
   EXPECT_TRUE(has(errorOf("stream", "zzzz = 1\naaaa = 1"), ":2: unknown key 'zzzz' in [stream]"));
   EXPECT_TRUE(has(errorOf("query", "\"a\\u001b[2Jb\" = 1"), "unknown key 'a\\x1b[2Jb'"));
 }
