@@ -15,6 +15,7 @@
 #include "tools/bench_extremes_command.h"
 #include "tools/bench_latency_command.h"
 #include "tools/bench_leaf.h"
+#include "tools/bench_memory_command.h"
 #include "tools/bench_peers_command.h"
 #include "tools/bench_scaling_command.h"
 #include "tools/bench_stream_command.h"
@@ -120,6 +121,7 @@ void addBenchCommand(CLI::App& program, ExitCode& exit) {
   addBenchLatencyCommand(*bench, exit);
   addBenchScalingCommand(*bench, exit);
   addBenchDocumentCommands(*bench, exit);
+  addBenchMemoryCommand(*bench, exit);
   const auto texts = std::make_shared<LeafTexts>();
   CLI::App* const leaf = bench->add_subcommand(
       "leaf", "Answer and time exact leaf queries; exit code 1 where an answer is not its label");

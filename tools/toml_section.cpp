@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "network/messages.h"
 #include "tools/near_names.h"
 
 namespace foretouch::tools {

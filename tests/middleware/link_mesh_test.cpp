@@ -116,6 +116,31 @@ TEST_F(LinkMeshes, ComeBackBitForBit) {
   EXPECT_GT(empty, 2U);
 }
 
+TEST_F(LinkMeshes, OfSomeLinksAreTheirsAlone) {
+  int wanted = 0, others = 0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const Body body = randomBody(seed);
+    const Skeleton skeleton = Skeleton::build(body.raw).value();
+    ASSERT_TRUE(writeLinkMeshes(skeleton, body.surfaces, folder_ / "body.glb").ok());
+    const Avatar avatar = avatarOf(skeleton, body.surfaces, "body.glb");
+    const std::string path = folder_ / "a.avatar.json";
+    const auto all = loadLinkMeshes(avatar, path, withModelImporter());
+    std::vector<LinkId> even;
+    for (LinkId link = 0; link < avatar.numLinks(); link += 2) even.push_back(link);
+    const auto some = loadLinkMeshes(avatar, path, even, withModelImporter());
+    ASSERT_TRUE(all.ok() && some.ok());
+    ASSERT_EQ(some.value().size(), all.value().size());
+    for (std::size_t i = 0; i < all.value().size(); ++i) {
+      EXPECT_EQ(some.value()[i].size(), i % 2 == 0 ? all.value()[i].size() : 0u);
+      (i % 2 == 0 ? wanted : others) += !all.value()[i].empty();
+    }
+    // Of no link, no file is read.
+    EXPECT_TRUE(loadLinkMeshes(avatar, folder_ / "nowhere/a.json", std::vector<LinkId>{}).ok());
+  }
+  EXPECT_GT(wanted, 5);
+  EXPECT_GT(others, 5);
+}
+
 TEST_F(LinkMeshes, ShowTheBodyInItsRestPose) {
   RawSkeleton raw;
   const Quaternion quarter(std::sqrt(0.5), 0, 0, std::sqrt(0.5));

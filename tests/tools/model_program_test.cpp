@@ -212,6 +212,44 @@ TEST(ReplayFidelity, TellsTheBoxFromTheLssAroundIt) {
   }
 }
 
+/// The same slide, with the box that moves asked for by a policy: box0 by its mesh, box1 not at
+/// all.
+TEST(ReplayPolicy, AsksOneLinkByItsMeshAndReadsNoOther) {
+  const SmallWorld world;
+  const std::string boxes = world.folder.write("boxes.obj", twoBoxes());
+  ASSERT_EQ(runForetouch({"avatar", "mesh", boxes, "-o", world.folder / "boxes.json"}).exitCode, 0);
+  std::string clip = clipAlongX({-0.75, -0.25});
+  for (std::size_t at = clip.find("Hips"); at != std::string::npos; at = clip.find("Hips")) {
+    clip.replace(at, 4, "box0");
+  }
+  world.folder.write("slide.bvh", clip);
+  const auto run = [&](const std::string& policy) {
+    const std::vector<std::string> options = {"--output", world.folder / "out.jsonl", "--policy",
+                                              world.folder.write("policy.toml", policy)};
+    return runForetouch(world.replay(options, "wall.obj", "boxes.json", "slide.bvh"));
+  };
+  const std::string exact =
+      "[[policy]]\nlinks = [\"box0\"]\nfidelity = \"exact\"\ntolerance = 1e-4\n"
+      "[[policy]]\nlinks = [\"box1\"]\nobjects = [\"wall\"]\nignore = true\n";
+  const Ended replayed = run(exact);
+  ASSERT_EQ(replayed.exitCode, 0) << replayed.err;
+  const std::string results = contentOf(world.folder / "out.jsonl");
+  EXPECT_TRUE(holds(results, R"("tolerance":0.001,"fidelity":"link")")) << results;
+  EXPECT_TRUE(holds(results,
+                    R"("policy":[{"links":["box0"],"tolerance":0.0001,"fidelity":"exact"},)"
+                    R"({"links":["box1"],"objects":["wall"],"ignore":true}])"))
+      << results;
+  EXPECT_TRUE(holds(results, "\"link\":\"box0\",\"verdict\":\"contact\",\"toi\":0.49")) << results;
+  EXPECT_FALSE(holds(results, "\"link\":\"box1\",")) << results;
+
+  EXPECT_TRUE(holds(run("[[policy]]\nlinks = [\"bxo0\"]\nignore = true\n").err,
+                    "policy.toml:1: [[policy]] links: 'bxo0' is no link of the avatar; did you"));
+  // Who asks for no link's mesh does not miss the file.
+  std::filesystem::remove(world.folder / "boxes.mesh.glb");
+  EXPECT_EQ(run("[[policy]]\nlinks = [\"box0\"]\ntolerance = 1e-4\n").exitCode, 0);
+  EXPECT_EQ(run(exact).exitCode, 2);
+}
+
 TEST(ReplayFidelity, RefusesWhatItHasNoSurfaceFor) {
   const SmallWorld world;
   const auto error = [&](const std::vector<std::string>& more) {
