@@ -17,6 +17,7 @@
 #include "tools/scene_command.h"
 #include "tools/serve_command.h"
 #include "tools/sweep_command.h"
+#include "tools/tune_command.h"
 
 namespace foretouch::tools {
 namespace {
@@ -54,6 +55,7 @@ ExitCode run(int argc, const char* const* argv) {
   addSceneCommand(program, exit);
   addSweepCommand(program, exit);
   addLogCommand(program, exit);
+  addTuneCommand(program, exit);
   addBenchCommand(program, exit);
   try {
     program.parse(argc, argv);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWidth = 1000.0, kHeight = 560.0;
 constexpr double kLeft = 92.0, kRight = 210.0, kTop = 16.0, kBottom = 64.0;
-constexpr double kLetter = 7.1, kLine = 16.0;  // of a label
+constexpr double kLetter = 8.2, kLine = 16.0;  // of a label
 
 /// One axis' values in pixels.
 class Scale {

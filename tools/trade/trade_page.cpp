@@ -120,7 +120,6 @@ Plot latencyPlot(const Rows& all, const MeasuredTrade& bench) {
                                       : row.score.distanceErrorMean);
   });
   PlotLine frontier;
-  frontier.name = "the frontier";
   frontier.color = "#2e9e4f";
   frontier.isThick = true;
   Rows best = only(rows, [](const TradeRow& row) { return row.onFrontier; });
@@ -237,8 +236,8 @@ h2 { font-size: 1.25rem; margin: 0 0 0.2rem; }
 figure { margin: 2rem 0; }
 figure p { margin: 0 0 0.6rem; color: #4a5565; }
 svg { width: 100%; height: auto; font: 13px system-ui, sans-serif; }
-svg text { fill: #1c2430; }
-svg .name { font-weight: 600; fill: currentColor; }
+svg { color: #1c2430; }
+svg .name { font-weight: 600; }
 svg .axis { font-size: 14px; }
 .grid { stroke: #e3e7ec; }
 .frame { fill: none; stroke: #8a94a3; }

@@ -96,7 +96,8 @@ Result<StepContacts> TruthTeller::ask(const Avatar& avatar, const StepPoses& ste
 Result<std::vector<LinkTruth>> TruthTeller::truthOf(const StepPoses& step) {
   const auto own = ask(world_.avatar, step);
   if (!own.ok()) return own.error();
-  // A surface cannot be thinned: there, what is within the finest tolerance counts as touching.
+  // A surface cannot be thinned: there, what is within the finest tolerance counts as touching, and
+  // nothing is called late.
   const auto sure = options_.surface ? own : ask(thinner_, step);
   if (!sure.ok()) return sure.error();
   std::vector<LinkTruth> truths;
@@ -107,7 +108,9 @@ Result<std::vector<LinkTruth>> TruthTeller::truthOf(const StepPoses& step) {
     truth.starts = first.verdict == Verdict::StartsInContact;
     truth.touches = touchesAtAll(last) || truth.starts;
     truth.freeUntil = first.freeUntil;
-    truth.touchesBy = truth.starts ? 0.0 : std::max(last.freeUntil, first.freeUntil);
+    truth.touchesBy = truth.starts       ? 0.0
+                      : options_.surface ? 1.0
+                                         : std::max(last.freeUntil, first.freeUntil);
     truths.push_back(truth);
   }
   return truths;
