@@ -35,15 +35,16 @@ struct TunedSetting {
   std::int64_t posesMissed = 0;  ///< By looking at the poses alone, at the same rate.
 };
 
-/// A setting within the budget, or the quickest where none is.
+/// A setting within the budget, or one that is as quick as any where none is.
 struct Recommendation {
   std::size_t setting = 0;  ///< Of those that were tried.
   bool isWithinBudget = false;
 };
 
 /// Of settings of one rate. Those that missed something or were late are never recommended; of the
-/// others those within the budget at the 99th percentile: with the fewest false contacts, then the
-/// finest fidelity, then the finest tolerance. None: nothing was tried, or all missed something.
+/// others those within the budget at the 99th percentile (where none is: within a quarter of the
+/// quickest): with the fewest false contacts, then the finest fidelity, then the finest tolerance.
+/// None: nothing was tried, or all missed something.
 [[nodiscard]] std::optional<Recommendation> recommended(const std::vector<TunedSetting>& settings,
                                                         double budgetUs);
 

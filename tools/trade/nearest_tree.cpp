@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "articulated/skeleton.h"
@@ -12,7 +13,7 @@ namespace foretouch::tools {
 namespace {
 
 constexpr std::size_t kLeaf = 4;
-/// Halving 50 million triangles takes 24 levels; one pending sibling a level.
+/// One pending sibling a level: kDeepest, and the 24 halvings that 50 million triangles take.
 constexpr std::size_t kMostPending = 64;
 
 /// Squared distance of two boxes.
@@ -25,16 +26,68 @@ Eigen::Vector3d middleOf(const Triangle& t) {
   return t.vertices[0] / 3.0 + t.vertices[1] / 3.0 + t.vertices[2] / 3.0;
 }
 
+constexpr std::size_t kBins = 16;
+/// From this depth on halves are of equal size, so that kMostPending is never reached.
+constexpr int kDeepest = 32;
+
+/// Triangles whose middles lie in one slice.
+struct Bin {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(kMaxCoordinate);
+  Eigen::Vector3d high = Eigen::Vector3d::Constant(-kMaxCoordinate);
+  double count = 0.0;
+
+  void add(const Triangle& triangle) {
+    for (const Eigen::Vector3d& v : triangle.vertices) {
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+    count += 1.0;
+  }
+  void add(const Bin& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+    count += other.count;
+  }
+  /// What a visit is expected to cost: surface times triangles.
+  [[nodiscard]] double cost() const {
+    if (count == 0.0) return 0.0;
+    const Eigen::Vector3d size = high - low;
+    return count * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+  }
+};
+
+/// The first bin of the second half, where both halves together cost the least.
+std::size_t cheapestCut(const std::array<Bin, kBins>& bins) {
+  std::array<double, kBins> above{};
+  Bin sum;
+  for (std::size_t i = kBins - 1; i > 0; --i) {
+    sum.add(bins[i]);
+    above[i] = sum.cost();
+  }
+  sum = Bin();
+  std::size_t best = 1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t cut = 1; cut < kBins; ++cut) {
+    sum.add(bins[cut - 1]);
+    if (sum.cost() + above[cut] >= least) continue;
+    least = sum.cost() + above[cut];
+    best = cut;
+  }
+  return best;
+}
+
 }  // namespace
 
 NearestTree::NearestTree(const Scene& scene) : scene_(scene) {
   for (std::size_t i = 0; i < scene.numTriangles(); ++i) {
     const auto id = static_cast<TriangleId>(i);
+    middles_.push_back(middleOf(scene.triangle(id)));
     if (isFinite(scene.triangle(id))) order_.push_back(id);
   }
   nodes_.reserve(order_.size());
   nodes_.emplace_back();
-  split(0, 0, order_.size());
+  split(0, 0, order_.size(), 0);
+  middles_ = {};
 }
 
 NearestTree::Box NearestTree::boxOf(std::size_t begin, std::size_t end) const {
@@ -48,26 +101,51 @@ NearestTree::Box NearestTree::boxOf(std::size_t begin, std::size_t end) const {
   return box;
 }
 
-void NearestTree::split(std::size_t node, std::size_t begin, std::size_t end) {
+void NearestTree::split(std::size_t node, std::size_t begin, std::size_t end, int depth) {
   nodes_[node].box = boxOf(begin, end);
   if (end - begin <= kLeaf) {
     nodes_[node].first = static_cast<std::int32_t>(begin);
     nodes_[node].count = static_cast<std::int32_t>(end - begin);
     return;
   }
-  Eigen::Index axis = 0;
-  (nodes_[node].box.high - nodes_[node].box.low).maxCoeff(&axis);
-  const std::size_t middle = begin + (end - begin) / 2;
-  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end), [&](TriangleId x, TriangleId y) {
-    return middleOf(scene_.triangle(x))[axis] < middleOf(scene_.triangle(y))[axis];
-  });
+  const std::size_t middle = partition(begin, end, depth);
   const std::size_t child = nodes_.size();
   nodes_[node].first = static_cast<std::int32_t>(child);
   nodes_.emplace_back();
   nodes_.emplace_back();
-  split(child, begin, middle);
-  split(child + 1, middle, end);
+  split(child, begin, middle, depth + 1);
+  split(child + 1, middle, end, depth + 1);
+}
+
+std::size_t NearestTree::partition(std::size_t begin, std::size_t end, int depth) {
+  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+  Eigen::Vector3d low = middles_[static_cast<std::size_t>(order_[begin])], high = low;
+  for (std::size_t i = begin; i < end; ++i) {
+    low = low.cwiseMin(middles_[static_cast<std::size_t>(order_[i])]);
+    high = high.cwiseMax(middles_[static_cast<std::size_t>(order_[i])]);
+  }
+  Eigen::Index axis = 0;
+  const double width = (high - low).maxCoeff(&axis);
+  const auto placeOf = [&](TriangleId id) { return middles_[static_cast<std::size_t>(id)][axis]; };
+  const auto binOf = [&](TriangleId id) {
+    const double bin = static_cast<double>(kBins) * (placeOf(id) - low[axis]) / width;
+    return std::min(kBins - 1, static_cast<std::size_t>(std::max(0.0, bin)));
+  };
+  if (width > 0.0 && depth < kDeepest) {
+    std::array<Bin, kBins> bins;
+    for (std::size_t i = begin; i < end; ++i) {
+      bins[binOf(order_[i])].add(scene_.triangle(order_[i]));
+    }
+    const std::size_t cut = cheapestCut(bins);
+    const auto middle =
+        std::partition(at(begin), at(end), [&](TriangleId id) { return binOf(id) < cut; });
+    const auto found = static_cast<std::size_t>(middle - order_.begin());
+    if (found > begin && found < end) return found;
+  }
+  const std::size_t middle = begin + (end - begin) / 2;
+  std::nth_element(at(begin), at(middle), at(end),
+                   [&](TriangleId x, TriangleId y) { return placeOf(x) < placeOf(y); });
+  return middle;
 }
 
 double NearestTree::distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double cap,
