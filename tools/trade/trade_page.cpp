@@ -26,6 +26,7 @@ constexpr double kLeastError = 1e-9;
 using Rows = std::vector<const TradeRow*>;
 
 std::string lengthText(double m) {
+  if (!std::isfinite(m)) return "unknown";
   if (m < 1e-3) return fmt::format("{:.3g} um", 1e6 * m);
   return m < 1.0 ? fmt::format("{:.3g} mm", 1e3 * m) : fmt::format("{:.3g} m", m);
 }
