@@ -115,7 +115,7 @@ TEST(Plots, EmptyAndSingleValuesAreDrawn) {
   plot.title = "nothing";
   expectWellFormed(plotFigure(plot));
   plot.lines.push_back(
-      {"one", "#000", false, false, {{5.0, 0.0, false, ""}, {3.0, 3.0, true, ""}}});
+      {"one", "#000", false, false, {{5.0, 0.0, false, ""}, {3.0, 3.0, true, ""}}, false});
   expectWellFormed(plotFigure(plot));
   plot.y.isLog = false;
   const std::string figure = plotFigure(plot);

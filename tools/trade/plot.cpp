@@ -174,24 +174,27 @@ class Drawing {
     }
   }
 
-  /// Beside one of its points where there is room, the last first; else right of the plot.
+  /// Beside one of its points where there is room, the last first (or the first, as the line says),
+  /// on the right rather than on the left; else right of the plot.
   void name(const PlotLine& line) {
-    const std::vector<PlotPoint> points = shown(line);
+    std::vector<PlotPoint> points = shown(line);
     if (line.name.empty() || points.empty()) return;
+    if (!line.isNamedAtStart) std::reverse(points.begin(), points.end());
     const double width = kLetter * static_cast<double>(line.name.size());
-    for (auto point = points.rbegin(); point != points.rend(); ++point) {
-      const double x = x_.at(point->x), y = y_.at(point->y);
-      for (const double shift : {0.0, -kLine, kLine, -2.0 * kLine, 2.0 * kLine}) {
-        for (const double left : {x + 10.0, x - 10.0 - width}) {
-          const Rectangle box{left, y + shift - 0.5 * kLine, left + width, y + shift + 0.5 * kLine};
+    for (const PlotPoint& point : points) {
+      const double x = x_.at(point.x), y = y_.at(point.y);
+      for (const double left : {x + 10.0, x - 10.0 - width}) {
+        for (const double lines : {0.0, -1.0, 1.0, -2.0, 2.0}) {
+          const double middle = y + lines * kLine;
+          const Rectangle box{left, middle - 0.5 * kLine, left + width, middle + 0.5 * kLine};
           if (tryName(line, box, x, y)) return;
         }
       }
     }
-    for (double y = y_.at(points.back().y); y > kTop; y -= kLine) {
+    for (double y = y_.at(points.front().y); y > kTop; y -= kLine) {
       const double left = kWidth - kRight + 24.0;
       const Rectangle box{left, y - 0.5 * kLine, left + width, y + 0.5 * kLine};
-      if (tryName(line, box, x_.at(points.back().x), y_.at(points.back().y))) return;
+      if (tryName(line, box, x_.at(points.front().x), y_.at(points.front().y))) return;
     }
   }
 

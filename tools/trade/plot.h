@@ -18,6 +18,7 @@ struct PlotLine {
   std::string color;  ///< Of CSS.
   bool isThick = false, isDashed = false;
   std::vector<PlotPoint> points;
+  bool isNamedAtStart = false;  ///< Named beside its first point, not its last.
 };
 
 struct PlotAxis {

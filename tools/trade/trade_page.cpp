@@ -178,6 +178,7 @@ Plot missesPlot(const Rows& all, const MeasuredTrade& bench) {
     line.points.push_back({row->rateHz, 0.0, broken > 0, "none missed"});
   }
   plot.lines.push_back(std::move(line));
+  for (PlotLine& each : plot.lines) each.isNamedAtStart = true;  // few poses: where they differ
   const Rows base = only(rows, [&](const TradeRow& row) { return row.rateHz == bench.baseRateHz; });
   const TradeRow* const poses = find(base, kPosesOnly, bench.baseTolerance);
   const std::string promise = broken == 0 ? "what promises to miss none misses none"
@@ -238,7 +239,7 @@ figure { margin: 2rem 0; }
 figure p { margin: 0 0 0.6rem; color: #4a5565; }
 svg { width: 100%; height: auto; font: 13px system-ui, sans-serif; }
 svg { color: #1c2430; }
-svg .name { font-weight: 600; }
+svg .name { font-weight: 600; paint-order: stroke; stroke: #fff; stroke-width: 3px; }
 svg .axis { font-size: 14px; }
 .grid { stroke: #e3e7ec; }
 .frame { fill: none; stroke: #8a94a3; }
