@@ -6,6 +6,10 @@
 #include <optional>
 #include <utility>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <fmt/format.h>
 
 #include "articulated/avatar_file.h"
@@ -25,6 +29,16 @@ std::optional<double> statusMiB(const std::string& key) {
   return std::nullopt;
 }
 
+double heapMiB() {
+#if defined(__GLIBC__)
+  constexpr double kBytesAMiB = 1024.0 * 1024.0;
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd) / kBytesAMiB;
+#else
+  return 0.0;
+#endif
+}
+
 class Stages {
  public:
   explicit Stages(MemoryBench& bench) : bench_(bench) {}
@@ -37,7 +51,7 @@ class Stages {
                    "expected lines VmHWM and VmRSS"};
     }
     const std::chrono::duration<double, std::milli> elapsed = now - begin_;
-    bench_.stages.push_back({name, elapsed.count(), *peak, *resident});
+    bench_.stages.push_back({name, elapsed.count(), *peak, *resident, heapMiB()});
     begin_ = Clock::now();
     return Done{};
   }
@@ -91,12 +105,12 @@ Result<MemoryBench> measureMemory(const ReplayRequest& request) {
 std::string memoryTable(const MemoryBench& bench) {
   std::string text = fmt::format(
       "{} triangles in the scene; {} links, {} of them with {} triangles of their own\n"
-      "{:<14}{:>10}{:>12}{:>12}\n",
+      "{:<14}{:>10}{:>12}{:>12}{:>12}\n",
       bench.sceneTriangles, bench.links, bench.exactLinks, bench.surfaceTriangles, "stage", "ms",
-      "peak MiB", "now MiB");
+      "peak MiB", "now MiB", "heap MiB");
   for (const MemoryStage& stage : bench.stages) {
-    text += fmt::format("{:<14}{:>10.2f}{:>12.1f}{:>12.1f}\n", stage.name, stage.ms, stage.peakMiB,
-                        stage.residentMiB);
+    text += fmt::format("{:<14}{:>10.2f}{:>12.1f}{:>12.1f}{:>12.1f}\n", stage.name, stage.ms,
+                        stage.peakMiB, stage.residentMiB, stage.heapMiB);
   }
   return text;
 }

@@ -17,7 +17,8 @@ struct MemoryStage {
   std::string name;
   double ms = 0.0;
   double peakMiB = 0.0;      ///< VmHWM: since the process began.
-  double residentMiB = 0.0;  ///< VmRSS.
+  double residentMiB = 0.0;  ///< VmRSS: with what is free again but kept for later.
+  double heapMiB = 0.0;      ///< Of it, asked for and not given back (glibc's count; else 0).
 };
 
 struct MemoryBench {
