@@ -74,7 +74,7 @@ TEST_F(TradeProgram, RecommendsWhatHoldsWhenMeasuredAgain) {
     // Again, by another command: the recommended setting finds what was counted.
     const Ended again = runForetouch({"replay", "--scene", at("wall.obj"), "--motion", at(clip),
                                       "--avatar", at("man.json"), "--fidelity", "link",
-                                      "--tolerance", "1e-06", "--out", at("again.jsonl")});
+                                      "--tolerance", "1e-06", "--output", at("again.jsonl")});
     ASSERT_EQ(again.exitCode, 0) << again.err;
     const std::string lines = contentOf(at("again.jsonl"));
     std::size_t contacts = 0;
@@ -106,7 +106,7 @@ TEST_F(TradeProgram, RefusesNonsense) {
   }
   for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
            {"--tolerance", "1e-8"},
-           {"--tolerance", ""},
+           {"--tolerance", "0"},
            {"--scales", "1,2,3"},
            {"--clips", at("there.bvh") + ","},
            {"--rate", "x"},
