@@ -95,7 +95,7 @@ std::string describe(const ServeConfig& config, const ServedWorld& world) {
                   world.avatars.size(), world.avatars.size() == 1 ? "" : "s");
   text += fmt::format(" at {} fidelity, {} m, {} worker{}, on {}", toString(config.fidelity),
                       config.tolerance, config.workers, config.workers == 1 ? "" : "s", config.url);
-  if (!config.policies.empty()) text += ", other links' by policy";
+  if (!config.policies.empty()) text += ", some links by policy";
   if (!config.suffix.empty()) text += ", suffix " + config.suffix;
   if (!config.log.empty()) text += ", log " + config.log;
   if (!config.http.empty()) text += ", metrics on " + config.http;

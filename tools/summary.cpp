@@ -100,7 +100,7 @@ std::string ReplaySummary::head(int threads) const {
       inputs_.request.motionPath, inputs_.request.scenePath, inputs_.scene.audit().triangles,
       inputs_.avatar.numLinks(), clipHz / stride, clipHz, inputs_.request.tolerance,
       toString(inputs_.request.fidelity),
-      inputs_.request.policies.empty() ? "" : ", other links' by policy", threads,
+      inputs_.request.policies.empty() ? "" : ", some links by policy", threads,
       threads == 1 ? "thread" : "threads");
 }
 
