@@ -13,7 +13,8 @@ class TradeProgram : public ::testing::Test {
  protected:
   TradeProgram() {
     world_.folder.write("there.bvh", clipAlongX({-0.75, -0.25, 0.25, 0.75, 0.3, -0.4, -0.8, 0.1}));
-    world_.folder.write("slow.bvh", clipAlongX({-0.5, -0.45, -0.3, -0.2, -0.15, -0.12, -0.11, 0.0}));
+    world_.folder.write("slow.bvh",
+                        clipAlongX({-0.5, -0.45, -0.3, -0.2, -0.15, -0.12, -0.11, 0.0}));
   }
   [[nodiscard]] std::string at(const char* name) const { return world_.folder / name; }
   [[nodiscard]] Ended tune(const std::vector<std::string>& more, const char* clip = "there.bvh") {
