@@ -145,6 +145,7 @@ void addBenchCommand(CLI::App& program, ExitCode& exit) {
   addBenchPeersCommand(*bench, exit);
   addBenchExtremesCommand(*bench, exit);
   addBenchStreamCommands(*bench, exit);
+  addBenchDeadlineCommand(*bench, exit);
   addBenchTradeCommand(*bench, exit);
 }
 
