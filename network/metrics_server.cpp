@@ -230,13 +230,15 @@ Result<MetricsServer> MetricsServer::start(const std::string& host, std::uint16_
   if (!isNumeric(host) && host != "localhost") {
     return cannotListen(host, port, "expected a numeric address or localhost");
   }
+  // By itself: a machine without /etc/hosts does not know the name.
+  const std::string address = host == "localhost" ? "127.0.0.1" : host;
   auto impl = std::make_unique<Impl>();
   addPages(impl->server, std::move(pages));
   errno = 0;
   if (port == 0) {
-    impl->port = impl->server.bind_to_any_port(host);
+    impl->port = impl->server.bind_to_any_port(address);
   } else {
-    impl->port = impl->server.bind_to_port(host, port) ? port : -1;
+    impl->port = impl->server.bind_to_port(address, port) ? port : -1;
   }
   if (impl->port <= 0) {
     return cannotListen(host, port,

@@ -249,6 +249,7 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
     megabytes.push_back(static_cast<double>(sample.residentBytes) / kBytesPerMb);
   }
   soak.slopeMbPerHour = slopeOf(hours, megabytes);
+  if (!megabytes.empty()) soak.grownMb = megabytes.back() - megabytes.front();
   soak.exitCode = service.value().stop();
 
   const auto trips = sorted(outcome.answers, [](const LoadAnswer& a) { return a.roundTripUs; });

@@ -55,6 +55,7 @@ struct SoakOutcome {
   BenchReport report;
   std::int64_t lost = 0;
   double slopeMbPerHour = 0.0;  ///< Of resident memory after warm-up, by least squares.
+  double grownMb = 0.0;         ///< From the first to the last sample after warm-up.
   bool filesConstant = false;
   int exitCode = -1;  ///< Of the service.
 };

@@ -92,7 +92,7 @@ TEST(LogProgram, CheckSaysWhatIsDamagedAndWhere) {
   EXPECT_EQ(json["findings"][0]["damage"], "bad block");
   const auto offset = json["findings"][0]["offset"].get<std::size_t>();
   const auto bytes = json["findings"][0]["bytes"].get<std::size_t>();
-  const std::size_t changed = contentOf(damaged).find('x', 200);
+  const std::size_t changed = contentOf(damaged).find(std::string(50, '\x0A') + 'x') + 50;
   EXPECT_LE(offset, changed);
   EXPECT_GT(offset + bytes, changed);
   EXPECT_EQ(json["counts"]["bad_blocks"], 1);

@@ -41,7 +41,7 @@ TEST(ServeConfig, SmallestFileHasTheDefaults) {
   EXPECT_EQ(c.suffix, "");
   EXPECT_EQ(c.receiver, ReceiverKind::Own);
   EXPECT_EQ(c.workers, 1);
-  EXPECT_EQ(c.queue, 64);
+  EXPECT_EQ(c.queue, 256);
   EXPECT_EQ(c.budgetUs, 0);
   EXPECT_EQ(c.log, "");
   EXPECT_EQ(c.http, "");
