@@ -74,11 +74,6 @@ void count(const StepContacts& answer, const StepContacts& touch, Limit& limit) 
   limit.unsound += unsoundLinks(answer, touch);
 }
 
-double atRank(const std::vector<double>& ascending, double share) {
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(ascending.size()));
-  return ascending[std::min(rank, ascending.size() - 1)];
-}
-
 BenchTable deadlineTable() {
   return {"deadlines",
           "What is answered in time, and by how much it is overrun",
@@ -114,9 +109,9 @@ std::vector<BenchCell> rowOf(Limit& limit) {
                        ? std::numeric_limits<double>::quiet_NaN()
                        : limit.freeOfUndecided / static_cast<double>(limit.undecided));
   row.emplace_back(limit.unsound);
-  for (const double share : {0.5, 0.99, 0.999}) row.emplace_back(atRank(limit.timesUs, share));
+  for (const double share : {0.5, 0.99, 0.999}) row.emplace_back(valueAtRank(limit.timesUs, share));
   for (const double share : {0.5, 0.99, 0.999}) {
-    row.emplace_back(overrun(atRank(limit.timesUs, share)));
+    row.emplace_back(overrun(valueAtRank(limit.timesUs, share)));
   }
   row.emplace_back(overrun(limit.timesUs.back()));
   return row;

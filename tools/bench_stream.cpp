@@ -12,6 +12,7 @@
 
 #include "network/reject.h"
 #include "tools/bench_machine.h"
+#include "tools/bench_timing.h"
 #include "tools/clip_sender.h"
 #include "tools/service_process.h"
 
@@ -42,13 +43,6 @@ std::vector<std::string> serviceArguments(const BenchFiles& files, std::size_t a
   return arguments;
 }
 
-/// Value at the rank, as percentilesOf(), of more ranks than it has.
-double atRank(const std::vector<double>& ascending, double share) {
-  if (ascending.empty()) return 0.0;
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(ascending.size()));
-  return ascending[std::min(rank, ascending.size() - 1)];
-}
-
 template <typename Of>
 std::vector<double> sorted(const std::vector<LoadAnswer>& answers, Of of) {
   std::vector<double> values;
@@ -59,7 +53,7 @@ std::vector<double> sorted(const std::vector<LoadAnswer>& answers, Of of) {
 }
 
 void appendRanks(std::vector<BenchCell>& row, const std::vector<double>& ascending) {
-  for (const double share : {0.5, 0.99, 0.999}) row.emplace_back(atRank(ascending, share));
+  for (const double share : {0.5, 0.99, 0.999}) row.emplace_back(valueAtRank(ascending, share));
   row.emplace_back(ascending.empty() ? 0.0 : ascending.back());
 }
 
@@ -99,8 +93,8 @@ std::vector<BenchCell> streamRow(const StreamCrowd& crowd, const LoadOutcome& ou
   }
   const auto queries = sorted(outcome.answers, [](const LoadAnswer& a) { return a.queryUs; });
   appendRanks(row, sorted(outcome.answers, [](const LoadAnswer& a) { return a.roundTripUs; }));
-  row.emplace_back(atRank(queries, 0.5));
-  row.emplace_back(atRank(queries, 0.99));
+  row.emplace_back(valueAtRank(queries, 0.5));
+  row.emplace_back(valueAtRank(queries, 0.99));
   appendRanks(row, sorted(outcome.answers, [](const LoadAnswer& a) {
                 return std::max(0.0F, a.serviceUs - a.queryUs);
               }));
@@ -278,8 +272,8 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   row("slope after warm-up, MB/h", soak.slopeMbPerHour);
   row("open files", static_cast<double>(files));
   row("open files changed", soak.filesConstant ? 0.0 : 1.0);
-  row("round trip p50 us", atRank(trips, 0.5));
-  row("round trip p99.9 us", atRank(trips, 0.999));
+  row("round trip p50 us", valueAtRank(trips, 0.5));
+  row("round trip p99.9 us", valueAtRank(trips, 0.999));
   row("round trip max us", trips.empty() ? 0.0 : trips.back());
   row("service's exit code", soak.exitCode);
   soak.report.kind = "soak";

@@ -145,14 +145,19 @@ Result<Done> timeCold(StepClock& clock, const std::vector<StepPoses>& steps, con
 
 }  // namespace
 
+double valueAtRank(const std::vector<double>& ascending, double share) {
+  if (ascending.empty()) return 0.0;
+  const auto count = static_cast<double>(ascending.size());
+  const auto rank = static_cast<std::size_t>(std::ceil(share * count));
+  return ascending[std::max<std::size_t>(rank, 1) - 1];
+}
+
 Percentiles percentilesOf(std::vector<double> values) {
   Percentiles figures;
   if (values.empty()) return figures;
   std::sort(values.begin(), values.end());
   const auto count = static_cast<double>(values.size());
-  const auto rank = [&](double share) {
-    return values[std::max<std::size_t>(static_cast<std::size_t>(std::ceil(share * count)), 1) - 1];
-  };
+  const auto rank = [&](double share) { return valueAtRank(values, share); };
   double sum = 0.0;
   for (const double value : values) sum += value;
   return {sum / count, rank(0.5), rank(0.9), rank(0.99), values.back()};

@@ -20,6 +20,8 @@ struct Percentiles {
   double mean = 0.0, p50 = 0.0, p90 = 0.0, p99 = 0.0, max = 0.0;
 };
 [[nodiscard]] Percentiles percentilesOf(std::vector<double> values);
+/// The value that this share of them does not exceed; 0 where there are none.
+[[nodiscard]] double valueAtRank(const std::vector<double>& ascending, double share);
 
 /// One way to ask.
 struct BenchCase {

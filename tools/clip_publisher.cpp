@@ -7,6 +7,8 @@
 #include <ctime>
 #include <utility>
 
+#include "network/clock.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -110,9 +112,7 @@ std::optional<std::int64_t> LivePace::waitUntil(std::int64_t elapsedUs) {
 }
 
 std::int64_t LivePace::utimeUs() const {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
+  return systemClock().utimeUs();
 }
 
 std::optional<std::int64_t> RecordedPace::waitUntil(std::int64_t elapsedUs) {

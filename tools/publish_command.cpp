@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "articulated/text_file.h"
+#include "network/clock.h"
 #include "network/event_log.h"
 #include "network/wire.h"
 #include "tools/arguments.h"
@@ -164,9 +165,7 @@ A service (foretouch serve) that knows the avatar answers as foretouch replay do
 }  // namespace
 
 std::int64_t utimeNow() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
+  return systemClock().utimeUs();
 }
 
 Result<PublishReport> publishToLog(const PublishRequest& request, const PublishOptions& options,

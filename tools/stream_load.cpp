@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "network/clock.h"
 #include "network/codec.h"
 #include "network/udpm_datagram.h"
 #include "tools/portable_random.h"
@@ -31,9 +32,7 @@ std::int64_t steadyNs() {
 }
 
 std::int64_t utimeUs() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
+  return systemClock().utimeUs();
 }
 
 void sleepUntil(std::int64_t ns) {

@@ -2,22 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <set>
 #include <string_view>
 
+#include "tests/fuzz/promise.h"
 #include "tools/serve_config.h"
 
 namespace foretouch::fuzz {
 namespace {
-
-/// Not FORETOUCH_ASSERT: this must hold in every build type.
-void require(bool condition, const char* promise) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", promise);
-  std::abort();
-}
 
 void checkError(const Error& error, std::string_view text) {
   require(!error.message.empty(), "an error says what is wrong");

@@ -1,23 +1,15 @@
 #include "tests/fuzz/datagram_inputs.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "network/messages.h"
 #include "network/udpm_reassembly.h"
+#include "tests/fuzz/promise.h"
 
 namespace foretouch::fuzz {
 namespace {
-
-/// Not FORETOUCH_ASSERT: this must hold in every build type.
-void require(bool condition, const char* promise) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", promise);
-  std::abort();
-}
 
 struct Sent {
   std::uint16_t port = 0;

@@ -1,24 +1,16 @@
 #include "tests/fuzz/fuzz_inputs.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "articulated/avatar_file.h"
 #include "articulated/bvh_avatar.h"
 #include "articulated/bvh_reader.h"
+#include "tests/fuzz/promise.h"
 
 namespace foretouch::fuzz {
 namespace {
-
-/// Not FORETOUCH_ASSERT: this must hold in every build type.
-void require(bool condition, const char* promise) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", promise);
-  std::abort();
-}
 
 std::string_view textOf(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};

@@ -1,8 +1,6 @@
 #include "tests/fuzz/log_inputs.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <random>
 #include <string>
@@ -10,16 +8,10 @@
 
 #include "network/event_log_format.h"
 #include "network/event_log_reader_access.h"
+#include "tests/fuzz/promise.h"
 
 namespace foretouch::fuzz {
 namespace {
-
-/// Not FORETOUCH_ASSERT: this must hold in every build type.
-void require(bool condition, const char* promise) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", promise);
-  std::abort();
-}
 
 bool isSame(const LogEvent& a, const LogEvent& b) {
   return a.number == b.number && a.utimeUs == b.utimeUs && a.channel == b.channel &&

@@ -2,24 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <foretouch/skeleton_t.hpp>
 #include <set>
 #include <string>
 
 #include "network/codec.h"
 #include "network/payload_check.h"
+#include "tests/fuzz/promise.h"
 
 namespace foretouch::fuzz {
 namespace {
-
-/// Not FORETOUCH_ASSERT: this must hold in every build type.
-void require(bool condition, const char* promise) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", promise);
-  std::abort();
-}
 
 bool sameBytes(ByteView a, const Bytes& b) {
   return a.size == b.size() && std::equal(b.begin(), b.end(), a.data);
