@@ -21,7 +21,7 @@ namespace foretouch::tools {
 namespace {
 
 struct TradeTexts {
-  std::string scenes, clips, sceneScales = "1", scales = "1";
+  std::string scenes, clips, sceneScales = "1", scales = "1", sceneUps = "y", clipUps = "y";
   std::string tolerances, rates, seconds, places, passes, judged = "40";
   std::string floor = "0", lift = "0.05", seed = "1", processor = "any";
   std::string surfaceTriangles = "20000";
@@ -41,30 +41,41 @@ void fillIn(TradeTexts& texts) {
   usual(texts.passes, "3", "2");
 }
 
-/// The files between commas, with their scales: one for all, or one each. Nothing given: the
-/// bundled one.
-Result<std::vector<std::pair<std::string, double>>> parseFiles(const std::string& option,
-                                                               const std::string& names,
-                                                               const std::string& scaleOption,
-                                                               const std::string& scales) {
-  const auto parsed = parsePositives(scaleOption, scales);
-  if (!parsed.ok()) return parsed.error();
-  const std::vector<std::string> files =
+/// The files between commas; nothing given: the bundled one.
+Result<std::vector<std::string>> parseFiles(const std::string& option, const std::string& names) {
+  std::vector<std::string> files =
       names.empty() ? std::vector<std::string>{""} : splitAtCommas(names);
-  if (parsed.value().size() != 1 && parsed.value().size() != files.size()) {
-    return Error{ErrorCode::Mismatch, scaleOption, -1, -1,
-                 fmt::format("expected one value, or one for each of {} files, found {}",
-                             files.size(), parsed.value().size())};
+  if (names.empty() || std::find(files.begin(), files.end(), "") == files.end()) return files;
+  return Error{ErrorCode::Empty, option, -1, -1, "expected a file between every two commas"};
+}
+
+/// One value for all of `count` files, or one each.
+template <typename T>
+Result<std::vector<T>> oneEach(const std::string& option, std::vector<T> values,
+                               std::size_t count) {
+  if (values.size() == 1) values.resize(count, values.front());
+  if (values.size() == count) return values;
+  return Error{ErrorCode::Mismatch, option, -1, -1,
+               fmt::format("expected one value, or one for each of {} files, found {}", count,
+                           values.size())};
+}
+
+Result<std::vector<double>> parseScales(const std::string& option, const std::string& text,
+                                        std::size_t count) {
+  auto scales = parsePositives(option, text);
+  if (!scales.ok()) return scales.error();
+  return oneEach(option, std::move(scales).value(), count);
+}
+
+Result<std::vector<UpAxis>> parseUpAxes(const std::string& option, const std::string& text,
+                                        std::size_t count) {
+  std::vector<UpAxis> axes;
+  for (const std::string& word : splitAtCommas(text)) {
+    const auto axis = parseUpAxis(option, word);
+    if (!axis.ok()) return axis.error();
+    axes.push_back(axis.value());
   }
-  std::vector<std::pair<std::string, double>> result;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    if (files[i].empty() && !names.empty()) {
-      return Error{ErrorCode::Empty, option, -1, -1, "expected a file between every two commas"};
-    }
-    result.emplace_back(files[i],
-                        parsed.value().size() == 1 ? parsed.value()[0] : parsed.value()[i]);
-  }
-  return result;
+  return oneEach(option, std::move(axes), count);
 }
 
 /// That of `values` which is nearest to `wanted` by ratio.
@@ -75,16 +86,25 @@ double nearestOf(const std::vector<double>& values, double wanted) {
 }
 
 void settleWorlds(const TradeTexts& texts, Settling& settle, TradeRequest& request) {
-  std::vector<std::pair<std::string, double>> scenes, clips;
-  settle.into(scenes, parseFiles("--scenes", texts.scenes, "--scene-scales", texts.sceneScales));
-  settle.into(clips, parseFiles("--clips", texts.clips, "--scales", texts.scales));
-  for (const auto& [scene, sceneScale] : scenes) {
-    for (const auto& [clip, scale] : clips) {
+  std::vector<std::string> scenes, clips;
+  std::vector<double> sceneScales, clipScales;
+  std::vector<UpAxis> sceneUps, clipUps;
+  settle.into(scenes, parseFiles("--scenes", texts.scenes));
+  settle.into(clips, parseFiles("--clips", texts.clips));
+  settle.into(sceneScales, parseScales("--scene-scales", texts.sceneScales, scenes.size()));
+  settle.into(sceneUps, parseUpAxes("--scene-ups", texts.sceneUps, scenes.size()));
+  settle.into(clipScales, parseScales("--scales", texts.scales, clips.size()));
+  settle.into(clipUps, parseUpAxes("--ups", texts.clipUps, clips.size()));
+  if (settle.error()) return;
+  for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+    for (std::size_t clip = 0; clip < clips.size(); ++clip) {
       BenchFiles files;
-      files.scenePath = scene;
-      files.sceneScale = sceneScale;
-      files.motionPath = clip;
-      files.motionScale = scale;
+      files.scenePath = scenes[scene];
+      files.sceneScale = sceneScales[scene];
+      files.sceneUp = sceneUps[scene];
+      files.motionPath = clips[clip];
+      files.motionScale = clipScales[clip];
+      files.motionUp = clipUps[clip];
       request.worlds.push_back(std::move(files));
     }
   }
@@ -193,7 +213,7 @@ constexpr char kFooter[] =
     R"(Every clip in every scene, at every rate that it has, at every tolerance, by every strategy.
 Examples:
   foretouch bench trade --quick --html trade.html
-  foretouch bench trade --clips walk.bvh,kick.bvh --scales 0.01 --scenes room.obj,kitchen.ply \
+  foretouch bench trade --clips walk.bvh,kick.bvh --scales 0.01 --scenes room.obj,kitchen.ply --scene-ups y,z \
       --json trade.json --csv trade.csv --html trade.html --markdown trade.md)";
 
 }  // namespace
@@ -209,6 +229,8 @@ void addBenchTradeCommand(CLI::App& bench, ExitCode& exit) {
   option("--clips", texts->clips, "FILE,...", "Clips; the bundled one if not given");
   option("--scene-scales", texts->sceneScales, "S,...", "Metres per unit, one for all or one each");
   option("--scales", texts->scales, "S,...", "Of the clips, one for all or one each");
+  option("--scene-ups", texts->sceneUps, "y|z,...", "Up axes of scenes, one for all or one each");
+  option("--ups", texts->clipUps, "y|z,...", "Up axes of clips, one for all or one each");
   option("--tolerance", texts->tolerances, "M,...", "Tolerances (m)");
   option("--rate", texts->rates, "HZ,...", "Poses a second");
   option("--seconds", texts->seconds, "S", "Of the clip at each place");
