@@ -6,18 +6,18 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/avatar_command.h"
-#include "tools/bench_command.h"
+#include "tools/audit/avatar_command.h"
+#include "tools/audit/scene_command.h"
+#include "tools/bench/command.h"
+#include "tools/bench/tune_command.h"
 #include "tools/console.h"
-#include "tools/demo_command.h"
-#include "tools/listen_command.h"
-#include "tools/publish_command.h"
-#include "tools/log_command.h"
-#include "tools/replay_command.h"
-#include "tools/scene_command.h"
-#include "tools/serve_command.h"
-#include "tools/sweep_command.h"
-#include "tools/tune_command.h"
+#include "tools/log/log_command.h"
+#include "tools/replay/demo_command.h"
+#include "tools/replay/replay_command.h"
+#include "tools/stream/listen_command.h"
+#include "tools/stream/publish_command.h"
+#include "tools/stream/serve_command.h"
+#include "tools/sweep/sweep_command.h"
 
 namespace foretouch::tools {
 namespace {

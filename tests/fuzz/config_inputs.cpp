@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "tests/fuzz/promise.h"
-#include "tools/serve_config.h"
+#include "tools/stream/serve_config.h"
 
 namespace foretouch::fuzz {
 namespace {

@@ -168,13 +168,13 @@ TEST(IncludeArrows, OracleSharesNoCodeWithTheProduct) {
 // Nor may that of `bench extremes`.
 TEST(IncludeArrows, OracleOfTheExtremesSharesNoCodeWithTheProduct) {
   int files = 0;
-  const fs::path folder = fs::path(FORETOUCH_SOURCE_DIR) / "tools" / "extremes";
+  const fs::path folder = fs::path(FORETOUCH_SOURCE_DIR) / "tools" / "bench" / "extremes";
   for (const Include& include : includesOf(folder)) {
     const std::string name = include.file.filename().string();
     if (name.rfind("oracle", 0) != 0 && name.rfind("precise", 0) != 0) continue;
     ++files;
-    const bool isOwn = include.target.rfind("tools/extremes/oracle", 0) == 0 ||
-                       include.target.rfind("tools/extremes/precise", 0) == 0;
+    const bool isOwn = include.target.rfind("tools/bench/extremes/oracle", 0) == 0 ||
+                       include.target.rfind("tools/bench/extremes/precise", 0) == 0;
     EXPECT_TRUE(!include.quoted || isOwn) << include.file << " includes " << include.target;
   }
   EXPECT_GT(files, 5);

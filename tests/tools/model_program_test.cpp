@@ -14,7 +14,7 @@
 #include "tests/support/shared_data.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
-#include "tools/audits.h"
+#include "tools/audit/audits.h"
 
 namespace foretouch::test {
 namespace {

@@ -1,0 +1,47 @@
+// tests/tools/stream/stream_lines.h: lines of results and of streams, taken apart as texts.
+#pragma once
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace foretouch::test {
+
+inline std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The text of the list that is the field "contacts", without what each contact says of its time:
+/// "time" in results, "utime" in streams.
+inline std::string contactsIn(const std::string& line) {
+  const std::string name = "\"contacts\":";
+  const std::size_t begin = line.find(name);
+  if (begin == std::string::npos) {
+    ADD_FAILURE() << "no contacts in " << line;
+    return "";
+  }
+  int depth = 0;
+  std::string list;
+  bool isInText = false;
+  for (std::size_t i = begin + name.size(); i < line.size(); ++i) {
+    const char c = line[i];
+    list += c;
+    if (c == '"' && line[i - 1] != '\\') isInText = !isInText;
+    if (isInText) continue;
+    if (c == '[') ++depth;
+    if (c == ']' && --depth == 0) break;
+  }
+  for (const char* const field : {"\"time\":", "\"utime\":"}) {
+    for (std::size_t at = list.find(field); at != std::string::npos; at = list.find(field)) {
+      list.erase(at, list.find(',', at) + 1 - at);
+    }
+  }
+  return list;
+}
+
+}  // namespace foretouch::test

@@ -1,0 +1,317 @@
+// tests/tools/stream/stream_program_test.cpp: sender, service and listener as programs of their
+// own, over real UDP multicast in a network namespace (tests/network/in_namespace.sh), and LCM's
+// own tools beside them: the stream answers what a replay of the clip answers, byte for byte.
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+#include "tests/tools/program_run.h"
+#include "tests/tools/stream/stream_lines.h"
+
+namespace foretouch::test {
+namespace {
+
+using nlohmann::json;
+using Words = std::vector<std::string>;
+
+constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// How long what must come is waited for; only failures take so long.
+bool waitFor(const std::function<bool()>& isThere) {
+  for (int i = 0; i < 6000; ++i) {
+    if (isThere()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+/// A clip, whom it moves, and where: in options of the program.
+struct Stage {
+  std::string clip, avatar;
+  Words ofClip;   ///< Scale, place and rate.
+  Words ofScene;  ///< The scene, and what is ignored.
+};
+
+/// Skips outside a namespace; owns the files of a case.
+class StreamPrograms : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::getenv("FORETOUCH_PRIVATE_NETWORK") == nullptr) {
+      GTEST_SKIP() << "sends multicast: run it by tests/network/in_namespace.sh";
+    }
+    stage_ = roomStage();
+  }
+
+  /// The bundled room and dancer.
+  static Stage roomStage() {
+    const std::string folder = FORETOUCH_EXAMPLE_FOLDER;
+    return {folder + "/dancer.bvh",
+            folder + "/dancer.avatar.json",
+            {"--rate", "10"},
+            {"--scene", folder + "/room.obj"}};
+  }
+
+  static Words joined(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  [[nodiscard]] Words serveWords(const Words& more = {}) const {
+    return joined(joined({"serve", "--avatar", stage_.avatar, "--url", kUrl}, stage_.ofScene),
+                  more);
+  }
+  [[nodiscard]] Words publishWords(const Words& more = {}) const {
+    return joined(joined({"publish", stage_.clip, "--avatar", stage_.avatar}, stage_.ofClip), more);
+  }
+
+  /// A service that says that it is ready.
+  [[nodiscard]] std::unique_ptr<ProgramRun> service(const Words& more = {}) const {
+    auto run = std::make_unique<ProgramRun>(serveWords(more));
+    EXPECT_TRUE(waitFor([&] { return holds(run->outSoFar(), "ready\n"); })) << run->errSoFar();
+    return run;
+  }
+
+  /// A listener that has heard the service's heartbeat: from now on it hears its answers.
+  [[nodiscard]] std::unique_ptr<ProgramRun> listener(std::size_t answers) const {
+    auto run =
+        std::make_unique<ProgramRun>(Words{"listen", "--json", "--status", "--url", kUrl, "--count",
+                                           std::to_string(answers), "--timeout", "30"});
+    EXPECT_TRUE(waitFor([&] { return holds(run->outSoFar(), "\"status\""); })) << run->errSoFar();
+    return run;
+  }
+
+  /// Lines of results of `--motion CLIP`, the header first.
+  [[nodiscard]] std::vector<std::string> replayedClip() const {
+    const std::string out = folder_ / "clip.jsonl";
+    const Ended ended = runForetouch(joined(
+        joined({"replay", "--avatar", stage_.avatar, "--motion", stage_.clip, "--output", out},
+               stage_.ofClip),
+        stage_.ofScene));
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    return linesOf(contentOf(out));
+  }
+
+  [[nodiscard]] Ended replayedLog(const std::string& log) const {
+    return runForetouch(joined(
+        {"replay", "--avatar", stage_.avatar, "--motion", log, "--output", folder_ / "log.jsonl"},
+        stage_.ofScene));
+  }
+
+  /// Only the answers among a listener's lines.
+  static std::vector<std::string> answersIn(const std::string& out) {
+    std::vector<std::string> answers;
+    for (const std::string& line : linesOf(out)) {
+      if (line.rfind("{\"avatar\"", 0) == 0) answers.push_back(line);
+    }
+    return answers;
+  }
+
+  /// One answer a pose: the first pose's is an instant, then one a step of the replay, alike.
+  static void expectReplayed(const std::vector<std::string>& answers,
+                             const std::vector<std::string>& replayed) {
+    ASSERT_EQ(answers.size(), replayed.size());  // a header there, the first pose here
+    EXPECT_EQ(json::parse(answers[0])["kind"], "first");
+    int touching = 0;
+    for (std::size_t i = 1; i < answers.size(); ++i) {
+      const json answer = json::parse(answers[i]);
+      ASSERT_EQ(answer["kind"], "consecutive") << answers[i];
+      ASSERT_EQ(answer["sequence"], json({i - 1, i}));
+      const std::string contacts = contactsIn(replayed[i]);
+      ASSERT_EQ(contactsIn(answers[i]), contacts) << "step " << i - 1;
+      touching += contacts == "[]" ? 0 : 1;
+    }
+    EXPECT_GT(touching, 5);
+  }
+
+  static void expectEndsInOrder(ProgramRun& service) {
+    service.send(SIGTERM);
+    const Ended ended = service.ended();
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  }
+
+  /// Sender, service and listener once through; the journal is checked by a replay.
+  void runOnce(const Words& howToSend) {
+    const std::vector<std::string> replayed = replayedClip();
+    const std::string journal = folder_ / "journal.lcmlog";
+    const auto serving = service({"--log", journal});
+    const auto listening = listener(replayed.size());
+    const Ended sent = runForetouch(publishWords(joined({"--url", kUrl}, howToSend)));
+    ASSERT_EQ(sent.exitCode, 0) << sent.err;
+    const Ended heard = listening->ended();
+    EXPECT_EQ(heard.exitCode, 0) << heard.err;
+    EXPECT_EQ(heard.err, "");
+    expectReplayed(answersIn(heard.out), replayed);
+    expectEndsInOrder(*serving);
+    const Ended again = replayedLog(journal);
+    EXPECT_EQ(again.exitCode, 0) << again.out << again.err;
+    const std::string all = std::to_string(replayed.size());
+    EXPECT_TRUE(holds(again.out, all + " of " + all + " verdicts equal the journal's"))
+        << again.out;
+  }
+
+  TempFolder folder_;
+  Stage stage_;
+};
+
+TEST_F(StreamPrograms, AnswerTheBundledClipAsItsReplayDoes) {
+  runOnce({"--speed", "8"});
+}
+
+TEST_F(StreamPrograms, AnswerARecordedClipInARealKitchenAsItsReplayDoes) {
+  FORETOUCH_REQUIRE_SHARED(clip, "mocap/bandai1_kick_normal_001.bvh");
+  FORETOUCH_REQUIRE_SHARED(scene, "scenes/kitchen_fatihrmutfak.ply");
+  stage_ = {*clip,
+            folder_ / "kick.avatar.json",
+            {"--scale", "0.01", "--place", "1,0.02,-1"},
+            {"--scene", *scene, "--up", "z"}};
+  const Ended made = runForetouch({"avatar", "bvh", *clip, "--scale", "0.01", "-o", stage_.avatar});
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  runOnce({"--speed", "4"});
+}
+
+TEST_F(StreamPrograms, AreRecordedByLcmLogger) {
+  const std::string log = folder_ / "recorded.lcmlog";
+  const std::vector<std::string> replayed = replayedClip();
+  const auto serving = service();
+  ProgramRun logger({std::string("--lcm-url=") + kUrl, "-q", log}, {}, "", "lcm-logger");
+  ASSERT_TRUE(waitFor([&] { return holds(contentOf(log), "FORETOUCH_STATUS"); }))
+      << logger.errSoFar();
+  const auto listening = listener(replayed.size());
+  ASSERT_EQ(runForetouch(publishWords({"--url", kUrl, "--speed", "8"})).exitCode, 0);
+  EXPECT_EQ(listening->ended().exitCode, 0);
+  expectEndsInOrder(*serving);  // its last heartbeat comes after all answers
+  const std::string last = "\"answered\":" + std::to_string(replayed.size());
+  const std::string lines = folder_ / "recorded.jsonl";
+  EXPECT_TRUE(waitFor([&] {
+    const Ended converted = runForetouch({"log", "convert", log, "-o", lines});
+    return converted.exitCode == 0 && holds(contentOf(lines), last);
+  }));
+  logger.send(SIGINT);
+  logger.ended();
+  const Ended again = replayedLog(log);
+  EXPECT_EQ(again.exitCode, 0) << again.out << again.err;
+  const std::string all = std::to_string(replayed.size());
+  EXPECT_TRUE(holds(again.out, all + " of " + all + " verdicts equal the journal's")) << again.out;
+  std::vector<std::string> answers = linesOf(contentOf(folder_ / "log.jsonl"));
+  answers.erase(answers.begin());  // the header
+  expectReplayed(answers, replayed);
+}
+
+TEST_F(StreamPrograms, AreFedByLcmLogplayer) {
+  const std::string log = folder_ / "sent.lcmlog";
+  const std::vector<std::string> replayed = replayedClip();
+  ASSERT_EQ(runForetouch(publishWords({"--output", log})).exitCode, 0);
+  const auto serving = service();
+  const auto listening = listener(replayed.size());
+  ProgramRun player({std::string("--lcm-url=") + kUrl, "-s", "8", log}, {}, "", "lcm-logplayer");
+  EXPECT_EQ(player.ended().exitCode, 0);
+  const Ended heard = listening->ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  expectReplayed(answersIn(heard.out), replayed);
+  expectEndsInOrder(*serving);
+}
+
+TEST_F(StreamPrograms, AreReadByAPlainSubscriberOfLcm) {
+  const std::vector<std::string> replayed = replayedClip();
+  const auto serving = service();
+  ProgramRun subscriber({kUrl, std::to_string(replayed.size())}, {}, "",
+                        FORETOUCH_PLAIN_SUBSCRIBER);
+  ASSERT_TRUE(waitFor([&] { return holds(subscriber.outSoFar(), "status"); }))
+      << subscriber.errSoFar();
+  ASSERT_EQ(runForetouch(publishWords({"--url", kUrl, "--speed", "8"})).exitCode, 0);
+  const Ended heard = subscriber.ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  std::vector<std::string> lines;
+  for (const std::string& line : linesOf(heard.out)) {
+    if (line.rfind("contacts ", 0) == 0) lines.push_back(line);
+  }
+  ASSERT_EQ(lines.size(), replayed.size());
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::string expected = "contacts " + std::to_string(i);
+    const json contacts = json::parse(replayed[i])["contacts"];
+    expected += " " + std::to_string(contacts.size());
+    for (const json& contact : contacts) expected += " " + contact["link"].get<std::string>();
+    EXPECT_EQ(lines[i], expected);
+  }
+  expectEndsInOrder(*serving);
+}
+
+TEST_F(StreamPrograms, AreNotHeldUpByAListenerThatStalls) {
+  const std::vector<std::string> replayed = replayedClip();
+  const auto serving = service();
+  const auto stalled = listener(replayed.size());
+  const auto listening = listener(replayed.size());
+  stalled->send(SIGSTOP);
+  ASSERT_EQ(runForetouch(publishWords({"--url", kUrl, "--speed", "8"})).exitCode, 0);
+  const Ended heard = listening->ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  expectReplayed(answersIn(heard.out), replayed);
+  // What the system kept for the one that slept, it still hears.
+  stalled->send(SIGCONT);
+  EXPECT_EQ(stalled->ended().exitCode, 0);
+  expectEndsInOrder(*serving);
+}
+
+// As a full disk: from some byte on every write fails. Answers go on, and the status says what was
+// not recorded; what was, is whole.
+TEST_F(StreamPrograms, GoOnWhereTheLogCannotGrow) {
+  const std::vector<std::string> replayed = replayedClip();
+  const std::string journal = folder_ / "small.lcmlog";
+  Words words = {"-c", "ulimit -f 200; exec \"$0\" \"$@\"", FORETOUCH_PROGRAM};
+  ProgramRun serving(joined(words, serveWords({"--log", journal})), {}, "", "sh");
+  ASSERT_TRUE(waitFor([&] { return holds(serving.outSoFar(), "ready\n"); })) << serving.errSoFar();
+  const auto listening = listener(replayed.size());
+  ASSERT_EQ(runForetouch(publishWords({"--url", kUrl, "--speed", "8"})).exitCode, 0);
+  const Ended heard = listening->ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  expectReplayed(answersIn(heard.out), replayed);
+  serving.send(SIGTERM);
+  const Ended ended = serving.ended();
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_TRUE(holds(ended.err, journal)) << ended.err;
+  EXPECT_FALSE(holds(ended.out + ended.err, " 0 events not recorded")) << ended.out;
+  EXPECT_EQ(runForetouch({"log", "check", journal}).exitCode, 0);
+}
+
+TEST_F(StreamPrograms, EndWhenToldTo) {
+  // Nobody answers: silence ends a listener, and with a number of answers wanted that is a no.
+  EXPECT_EQ(runForetouch({"listen", "--url", kUrl, "--timeout", "0.2"}).exitCode, 0);
+  const Ended waited = runForetouch({"listen", "--url", kUrl, "--timeout", "0.2", "--count", "3"});
+  EXPECT_EQ(waited.exitCode, 1);
+  EXPECT_TRUE(holds(waited.err, "0 of 3 verdicts")) << waited.err;
+  for (const Words& words :
+       {Words{"listen", "--url", kUrl}, publishWords({"--url", kUrl, "--loop"})}) {
+    ProgramRun run(words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    run.send(SIGINT);
+    const Ended ended = run.ended();
+    EXPECT_EQ(ended.exitCode, 0) << words[0] << ended.err;
+  }
+}
+
+TEST_F(StreamPrograms, NameAUrlThatIsNone) {
+  const Ended listening = runForetouch({"listen", "--url", "tcpq://localhost:7700"});
+  EXPECT_EQ(listening.exitCode, 2);
+  EXPECT_TRUE(holds(listening.err, "tcpq://localhost:7700: expected udpm://")) << listening.err;
+  EXPECT_EQ(runForetouch(publishWords({"--url", "udpm://10.0.0.1:7667"})).exitCode, 2);
+  // The environment's URL is what every LCM program takes.
+  const Ended named = runForetouch({"listen", "--timeout", "0.1"}, {"LCM_DEFAULT_URL=tcpq://here"});
+  EXPECT_EQ(named.exitCode, 2);
+}
+
+}  // namespace
+}  // namespace foretouch::test

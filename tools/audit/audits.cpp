@@ -1,0 +1,118 @@
+#include "tools/audit/audits.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "articulated/motion.h"
+#include "articulated/text_file.h"
+#include "tools/inputs/played_clip.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Eigen::Vector3d;
+
+std::string row(const char* what, const std::string& value) {
+  return fmt::format("  {:<25}{}\n", what, value);
+}
+
+std::string sides(const Vector3d& extent) {
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} m (x, y, z)", extent.x(), extent.y(), extent.z());
+}
+
+std::vector<std::string> sizeDoubt(double largestSide, double least, double most,
+                                   const char* option) {
+  if (largestSide >= least && largestSide <= most) return {};
+  return {fmt::format("measures {:.4g} m; expected {:g} to {:g} m: is the unit ({}) right?",
+                      largestSide, least, most, option)};
+}
+
+}  // namespace
+
+AvatarAudit auditAvatar(const Avatar& avatar, const Pose& pose) {
+  AvatarAudit audit;
+  audit.links = avatar.numLinks();
+  audit.lss = avatar.numLss();
+  audit.smallestRadius = std::numeric_limits<double>::max();
+  std::vector<LinkState> states;
+  ChainMotion(avatar.skeleton(), pose, pose).statesAt(0.0, states);
+  Vector3d lower = Vector3d::Constant(std::numeric_limits<double>::max());
+  Vector3d upper = -lower;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    if (avatar.lss(link).empty()) audit.linksWithoutLss.push_back(avatar.skeleton().name(link));
+    for (const Lss& lss : avatar.lss(link)) {
+      for (const Vector3d& end : {lss.a, lss.b}) {
+        const Vector3d p_W = states[static_cast<std::size_t>(link)].pointAt(end);
+        lower = lower.cwiseMin((p_W.array() - lss.radius).matrix());
+        upper = upper.cwiseMax((p_W.array() + lss.radius).matrix());
+      }
+      audit.smallestRadius = std::min(audit.smallestRadius, lss.radius);
+      audit.largestRadius = std::max(audit.largestRadius, lss.radius);
+      audit.volume += volume(lss);
+    }
+  }
+  audit.extent = upper - lower;
+  return audit;
+}
+
+std::string describe(const AvatarAudit& audit, const std::string& poseName) {
+  std::string bare = std::to_string(audit.linksWithoutLss.size());
+  if (!audit.linksWithoutLss.empty()) bare += ": " + firstOf(audit.linksWithoutLss);
+  return row("links", std::to_string(audit.links)) + row("LSS", std::to_string(audit.lss)) +
+         row("links without an LSS", bare) +
+         row(("size in the " + poseName).c_str(), sides(audit.extent)) +
+         row("radii",
+             fmt::format("{:.4g} to {:.4g} m", audit.smallestRadius, audit.largestRadius)) +
+         row("volume of all LSS", fmt::format("{:.4g} m^3", audit.volume));
+}
+
+std::string describe(const SceneAudit& audit) {
+  return row("triangles", std::to_string(audit.triangles)) +
+         row("not finite, left out", std::to_string(audit.droppedNonFinite)) +
+         row("without area, kept", std::to_string(audit.zeroArea)) +
+         row("duplicates, kept", std::to_string(audit.duplicates)) +
+         row("size", sides(audit.boxMax - audit.boxMin)) +
+         row("from", fmt::format("{:.4g}, {:.4g}, {:.4g}", audit.boxMin.x(), audit.boxMin.y(),
+                                 audit.boxMin.z())) +
+         row("to", fmt::format("{:.4g}, {:.4g}, {:.4g}", audit.boxMax.x(), audit.boxMax.y(),
+                               audit.boxMax.z())) +
+         row("edges", fmt::format("{:.4g} to {:.4g} m", audit.shortestEdge, audit.longestEdge));
+}
+
+std::vector<std::string> doubtsAbout(const AvatarAudit& audit) {
+  return sizeDoubt(audit.extent.maxCoeff(), kSmallestAvatar, kLargestAvatar, "--scale");
+}
+
+std::vector<std::string> doubtsAbout(const SceneAudit& audit) {
+  auto doubts = sizeDoubt((audit.boxMax - audit.boxMin).maxCoeff(), kSmallestScene, kLargestScene,
+                          "--scene-scale");
+  if (audit.droppedNonFinite > 0) {
+    doubts.push_back(
+        fmt::format("{} triangles have a vertex that is not finite", audit.droppedNonFinite));
+  }
+  return doubts;
+}
+
+std::string largestObjects(const Scene& scene) {
+  constexpr std::size_t kShown = 10;
+  const std::size_t n = scene.objectNames().size();
+  std::vector<std::size_t> triangles(n, 0);
+  for (std::size_t id = 0; id < scene.numTriangles(); ++id) {
+    ++triangles[static_cast<std::size_t>(scene.object(static_cast<TriangleId>(id)))];
+  }
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return triangles[a] > triangles[b]; });
+  std::string text = fmt::format("{:>12}  object ({} in all)\n", "triangles", n);
+  for (std::size_t i = 0; i < std::min(n, kShown); ++i) {
+    text +=
+        fmt::format("{:>12}  {}\n", triangles[order[i]], inQuotes(scene.objectNames()[order[i]]));
+  }
+  return text;
+}
+
+}  // namespace foretouch::tools

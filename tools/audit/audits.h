@@ -1,0 +1,48 @@
+// tools/audit/audits.h: what avatars and scenes hold, put into words, and what looks wrong about
+// it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/avatar.h"
+#include "articulated/pose.h"
+#include "middleware/scene.h"
+
+namespace foretouch::tools {
+
+/// A person with arms spread or raised measures something in between; what does not was most likely
+/// read in another unit.
+inline constexpr double kSmallestAvatar = 0.5;
+inline constexpr double kLargestAvatar = 3.0;
+/// The same for the largest side of a scene's box: a table top, a city.
+inline constexpr double kSmallestScene = 0.5;
+inline constexpr double kLargestScene = 5e3;
+
+/// Metres and cubic metres.
+struct AvatarAudit {
+  std::int32_t links = 0, lss = 0;
+  std::vector<std::string> linksWithoutLss;
+  Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< Sides of the box around all LSS.
+  double smallestRadius = 0.0, largestRadius = 0.0;
+  double volume = 0.0;  ///< Of all LSS, overlaps counted as often as they occur.
+};
+
+/// Measured in `pose`, a validated pose of the avatar's skeleton.
+[[nodiscard]] AvatarAudit auditAvatar(const Avatar& avatar, const Pose& pose);
+
+/// Aligned lines. `poseName` says where the extent was measured: "rest pose".
+[[nodiscard]] std::string describe(const AvatarAudit& audit, const std::string& poseName);
+[[nodiscard]] std::string describe(const SceneAudit& audit);
+
+/// What a check says no to, one sentence each; empty where nothing looks wrong.
+[[nodiscard]] std::vector<std::string> doubtsAbout(const AvatarAudit& audit);
+[[nodiscard]] std::vector<std::string> doubtsAbout(const SceneAudit& audit);
+
+/// The ten objects with the most triangles, aligned, the largest first.
+[[nodiscard]] std::string largestObjects(const Scene& scene);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,15 @@
+// tools/audit/scene_command.h: `foretouch scene check`.
+#pragma once
+
+#include "tools/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace foretouch::tools {
+
+/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
+void addSceneCommand(CLI::App& program, ExitCode& exit);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,24 @@
+#include "tools/inputs/clip_pose.h"
+
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tools/console.h"
+
+namespace foretouch::tools {
+
+Result<Pose> poseAtFrame(const PlacedClip& placed, std::int64_t frame) {
+  const Skeleton& skeleton = placed.avatar.skeleton();
+  Placement placement = placed.placement;
+  placement.motionUpZ = placement.motionUpZ && !placed.isUpright;
+  Pose pose = poseOfAvatar(skeleton, placed.clip, placed.match, static_cast<std::size_t>(frame));
+  auto valid = validatedPose(skeleton, foretouch::placed(skeleton, std::move(pose), placement));
+  if (valid.ok()) return valid;
+  Error error = inFile(valid.error(), placed.path);
+  error.message = fmt::format("frame {}: {}", frame, error.message);
+  return error;
+}
+
+}  // namespace foretouch::tools

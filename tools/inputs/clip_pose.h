@@ -1,0 +1,28 @@
+// tools/inputs/clip_pose.h: a frame of a clip as an avatar's pose in a scene.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "articulated/avatar.h"
+#include "articulated/clip.h"
+#include "articulated/joint_match.h"
+#include "articulated/result.h"
+
+namespace foretouch::tools {
+
+/// A clip, whom it moves, and where. What it refers to must outlive it.
+struct PlacedClip {
+  const Avatar& avatar;
+  const Clip& clip;
+  const JointMatch& match;
+  Placement placement;
+  bool isUpright = false;   ///< As Motion::isUpright: the placement does not turn it again.
+  const std::string& path;  ///< For errors.
+};
+
+/// The avatar in the pose of a frame, where the placement puts it. Error where that is farther out
+/// than coordinates may be. `frame` is within the clip.
+[[nodiscard]] Result<Pose> poseAtFrame(const PlacedClip& placed, std::int64_t frame);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,24 @@
+// tools/inputs/ignored_pairs.h: the texts of --ignore as pairs of links and objects.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "articulated/skeleton.h"
+#include "middleware/query.h"
+
+namespace foretouch::tools {
+
+/// All texts together may stand for at most this many pairs: a query looks through them all.
+inline constexpr std::size_t kMaxIgnoredPairs = 100'000;
+
+/// Each text is a list of `link` or `link:object`, separated by commas. Names are exact
+/// or patterns (tools/inputs/name_pattern.h). Where names contain colons, the reading is
+/// taken that matches; two readings that match are refused, as are names that match nothing (with
+/// the nearest ones that exist). Sorted and without repetitions.
+[[nodiscard]] Result<std::vector<IgnoredPair>> parseIgnoredPairs(
+    const std::vector<std::string>& texts, const Skeleton& skeleton,
+    const std::vector<std::string>& objectNames);
+
+}  // namespace foretouch::tools

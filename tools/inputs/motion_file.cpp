@@ -1,0 +1,87 @@
+#include "tools/inputs/motion_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "articulated/bvh_reader.h"
+#include "articulated/model_clip.h"
+#include "articulated/text_file.h"
+#include "middleware/model_import.h"
+#include "tools/console.h"
+
+namespace foretouch::tools {
+namespace {
+
+enum class Kind { Bvh, Model, Table };
+
+/// What is neither a table nor a model that may be animated counts as BVH, whose reader says best
+/// what else it is.
+Kind kindOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array kModels = {".glb", ".gltf", ".fbx", ".dae", ".x"};
+  if (std::find(kModels.begin(), kModels.end(), extension) != kModels.end()) return Kind::Model;
+  return extension == ".csv" ? Kind::Table : Kind::Bvh;
+}
+
+Result<Done> checkOptions(const MotionRequest& request, Kind kind) {
+  if (kind != Kind::Model && !request.animation.empty()) {
+    return Error{ErrorCode::Mismatch, "--animation", -1, -1,
+                 "expected a model (.glb, .gltf, .fbx, .dae, .x) as --motion, found " +
+                     inQuotes(request.path)};
+  }
+  if (kind != Kind::Table && !request.robot.empty()) {
+    return Error{
+        ErrorCode::Mismatch, "--robot", -1, -1,
+        "expected a table of joint positions (.csv) as --motion, found " + inQuotes(request.path)};
+  }
+  if (kind == Kind::Table && request.robot.empty()) {
+    return Error{ErrorCode::Mismatch, request.path, -1, -1,
+                 "joint positions are about a robot: expected its URDF (--robot FILE)"};
+  }
+  return Done{};
+}
+
+Result<Motion> readModel(const MotionRequest& request) {
+  ModelImportOptions options;
+  options.import.scale = request.scale;
+  options.import.up = request.up;
+  const auto model = importModel(request.path, options);
+  if (!model.ok()) return inFile(model.error(), request.path);
+  auto clip = clipFromModel(model.value(), {request.animation, request.rateHz});
+  if (!clip.ok()) return inFile(clip.error(), request.path);
+  return Motion{std::move(clip).value(), true};
+}
+
+Result<Motion> readTable(const MotionRequest& request) {
+  const auto text = readWholeFile(request.path, kMaxJointTableBytes);
+  if (!text.ok()) return inFile(text.error(), request.path);
+  ModelImportOptions options;
+  options.import.scale = request.scale;
+  options.import.up = UpAxis::Z;  // as `avatar urdf` reads it
+  options.packagePaths = request.packagePaths;
+  const auto robot = importModel(request.robot, options);
+  if (!robot.ok()) return inFile(robot.error(), request.robot);
+  auto clip = clipFromJointPositions(robot.value(), text.value(), request.path);
+  if (!clip.ok()) return inFile(clip.error(), request.path);
+  return Motion{std::move(clip).value(), true};
+}
+
+}  // namespace
+
+Result<Motion> readMotion(const MotionRequest& request) {
+  const Kind kind = kindOf(request.path);
+  const auto checked = checkOptions(request, kind);
+  if (!checked.ok()) return checked.error();
+  if (kind == Kind::Model) return readModel(request);
+  if (kind == Kind::Table) return readTable(request);
+  auto clip = readBvhFile(request.path, BvhOptions{request.scale});
+  if (!clip.ok()) return inFile(clip.error(), request.path);
+  return Motion{std::move(clip).value(), false};
+}
+
+}  // namespace foretouch::tools

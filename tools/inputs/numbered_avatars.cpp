@@ -1,0 +1,57 @@
+#include "tools/inputs/numbered_avatars.h"
+
+#include <charconv>
+#include <limits>
+#include <set>
+
+#include "articulated/text_file.h"
+
+namespace foretouch::tools {
+namespace {
+
+template <typename Whole>
+Result<Whole> parseWhole(const std::string& option, const std::string& text, Whole most) {
+  Whole number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, problem] = std::from_chars(text.data(), end, number);
+  if (problem == std::errc() && rest == end && number >= 0 && number <= most) return number;
+  return Error{
+      ErrorCode::OutOfRange, option, -1, -1,
+      "expected a whole number from 0 to " + std::to_string(most) + ", found " + inQuotes(text)};
+}
+
+}  // namespace
+
+Result<std::int32_t> parseAvatarId(const std::string& option, const std::string& text) {
+  return parseWhole(option, text, std::numeric_limits<std::int32_t>::max());
+}
+
+Result<std::int64_t> parseUtime(const std::string& option, const std::string& text) {
+  return parseWhole(option, text, std::int64_t{1} << 53);
+}
+
+Result<std::vector<NumberedAvatar>> parseNumberedAvatars(const std::string& option,
+                                                         const std::vector<std::string>& texts) {
+  std::vector<NumberedAvatar> avatars;
+  std::set<std::int32_t> ids;
+  for (const std::string& text : texts) {
+    const std::size_t digits = text.find_first_not_of("0123456789");
+    const bool isNumbered = digits != 0 && digits != std::string::npos && text[digits] == '=';
+    NumberedAvatar avatar{1, isNumbered ? text.substr(digits + 1) : text};
+    if (isNumbered) {
+      const auto id = parseAvatarId(option, text.substr(0, digits));
+      if (!id.ok()) return id.error();
+      avatar.id = id.value();
+    }
+    if (!ids.insert(avatar.id).second) {
+      return Error{ErrorCode::DuplicateName, option, -1, -1,
+                   "avatar " + std::to_string(avatar.id) +
+                       " is given twice (one without a number "
+                       "is 1); expected ID=FILE with a number of its own each"};
+    }
+    avatars.push_back(std::move(avatar));
+  }
+  return avatars;
+}
+
+}  // namespace foretouch::tools

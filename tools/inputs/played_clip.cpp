@@ -1,0 +1,87 @@
+#include "tools/inputs/played_clip.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "articulated/avatar_file.h"
+#include "articulated/text_file.h"
+#include "tools/console.h"
+#include "tools/inputs/joint_map.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// Total length of the matched joints' offsets to matched parents, in the avatar and in the clip:
+/// the two differ by a wrong unit if by anything large.
+double sizeOfClipToAvatar(const Skeleton& avatar, const Clip& clip, const JointMatch& match) {
+  double ofAvatar = 0.0;
+  double ofClip = 0.0;
+  for (JointId joint = 0; joint < avatar.numJoints(); ++joint) {
+    const JointId source = match.clipJointOf[static_cast<std::size_t>(joint)];
+    if (source == kNoParent || avatar.parent(joint) == kNoParent) continue;
+    ofAvatar += avatar.restOffset(joint).norm();
+    ofClip += clip.skeleton.restOffset(source).norm();
+  }
+  return ofAvatar > 0.0 && ofClip > 0.0 ? ofClip / ofAvatar : 1.0;
+}
+
+}  // namespace
+
+Result<PlayedClip> loadPlayedClip(const std::string& avatarPath, const MotionRequest& motion,
+                                  const std::string& mapPath, std::optional<double> rateHz) {
+  auto avatar = readAvatarFile(avatarPath);
+  if (!avatar.ok()) return inFile(avatar.error(), avatarPath);
+  auto read = readMotion(motion);
+  if (!read.ok()) return read.error();
+  Clip& clip = read.value().clip;
+  auto match = matchWithMap(avatar.value().skeleton(), clip.skeleton, mapPath, motion.path);
+  if (!match.ok()) return match.error();
+  const auto steps = selectSteps(clip.frames.size(), clip.frameTimeS, rateHz);
+  if (!steps.ok()) return inFile(steps.error(), motion.path);
+  return PlayedClip{std::move(avatar).value(), std::move(clip), std::move(match).value(),
+                    steps.value(), read.value().isUpright};
+}
+
+std::vector<std::string> remarksOnClip(const Avatar& avatar, const Clip& clip,
+                                       const JointMatch& match, const std::string& avatarPath,
+                                       const std::string& motionPath) {
+  std::vector<std::string> remarks;
+  for (const std::string& note : clip.notes) {
+    remarks.push_back(motionPath + ": " + note);
+  }
+  if (!match.unmatchedAvatar.empty()) {
+    remarks.push_back(
+        fmt::format("{}: {} of {} joints have no counterpart in the clip and keep "
+                    "their rest values: {}",
+                    avatarPath, match.unmatchedAvatar.size(), avatar.numLinks(),
+                    firstOf(match.unmatchedAvatar)));
+  }
+  if (!match.unmatchedClip.empty()) {
+    remarks.push_back(fmt::format("{}: {} joints drive nothing: {}", motionPath,
+                                  match.unmatchedClip.size(), firstOf(match.unmatchedClip)));
+  }
+  constexpr double kSuspiciousRatio = 2.0;  // people differ by less, centimetres and inches by more
+  const double ratio = sizeOfClipToAvatar(avatar.skeleton(), clip, match);
+  if (ratio > kSuspiciousRatio || ratio < 1.0 / kSuspiciousRatio) {
+    remarks.push_back(
+        fmt::format("{}: its bones are {:.4g} times as long as the avatar's; is "
+                    "--scale right?",
+                    motionPath, ratio));
+  }
+  return remarks;
+}
+
+std::string firstOf(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 10;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) {
+    text += (i == 0 ? "" : ", ") + inQuotes(names[i]);
+  }
+  if (names.size() > kShown) text += fmt::format(" and {} more", names.size() - kShown);
+  return text;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,50 @@
+// tools/inputs/policy_rules.h: [[policy]] tables: what links are asked with where they differ, and
+// which objects are passed over. docs/formats.md, "Policies", has the keys.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "articulated/result.h"
+#include "articulated/skeleton.h"
+#include "middleware/query.h"
+
+namespace foretouch::tools {
+
+inline constexpr std::size_t kMaxPolicyRules = 256;
+
+/// One table. What it leaves out stays as it was.
+struct PolicyRule {
+  std::string file;                  ///< Where it stands, for errors.
+  std::int64_t line = -1;            ///< 1-based.
+  std::vector<std::string> links;    ///< Patterns (tools/inputs/name_pattern.h); none: every link.
+  std::vector<std::string> objects;  ///< The same of the scene's objects; none: every object.
+  std::optional<double> tolerance;   ///< Metres, kMinTolerance to kMaxTolerance.
+  std::optional<Fidelity> fidelity;  ///< Link or Exact; only where no objects are named.
+  std::optional<bool> ignore;        ///< False: asked for again.
+};
+
+/// A file of nothing but [[policy]] tables, at least one and at most kMaxPolicyRules. `file` is the
+/// path that `text` came from. Errors name the line. Never throws.
+[[nodiscard]] Result<std::vector<PolicyRule>> parsePolicyFile(std::string_view text,
+                                                              const std::string& file);
+[[nodiscard]] Result<std::vector<PolicyRule>> readPolicyFile(const std::string& path);
+
+/// Resolves the rules for one avatar and scene, in order, so that later ones win: fills the
+/// options' ignored pairs and, where rules speak of tolerance or fidelity, their link policies. A
+/// link's tolerance is the least of those with the objects that it does not ignore: contact with
+/// any of them is then within that object's. Links that turn out alike get no policies; otherwise
+/// the options' own tolerance becomes the largest of them, and their fidelity exact if any link's
+/// is: what holds of all links. Errors name the rule's file and line: names that match nothing
+/// (with the nearest), tolerances or fidelities beside a fidelity that is not the links', too many
+/// pairs.
+[[nodiscard]] Result<Done> applyPolicies(const std::vector<PolicyRule>& rules,
+                                         const Skeleton& skeleton,
+                                         const std::vector<std::string>& objectNames,
+                                         QueryOptions& options);
+
+}  // namespace foretouch::tools

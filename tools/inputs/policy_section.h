@@ -1,0 +1,14 @@
+// tools/inputs/policy_section.h: the [[policy]] tables of a file that holds other things, too.
+#pragma once
+
+#include <vector>
+
+#include "tools/inputs/policy_rules.h"
+#include "tools/inputs/toml_section.h"
+
+namespace foretouch::tools {
+
+/// None where there are none; errors go to `reading`.
+void readPolicies(const TomlSection& root, TomlReading& reading, std::vector<PolicyRule>& rules);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,20 @@
+// tools/inputs/skin_file.h: the skin of a rigged model as the surface of the avatar that was made
+// of it.
+#pragma once
+
+#include <string>
+
+#include "articulated/avatar.h"
+#include "articulated/result.h"
+#include "middleware/scene_import.h"
+#include "middleware/skinned_surface.h"
+
+namespace foretouch::tools {
+
+/// `scale`: metres per unit of the model. The model's own avatar must have the links of `avatar`:
+/// the same names and parents in the same order, rest offsets within a millimetre and rest
+/// rotations within a thousandth. Errors name the file, the link and what differs.
+[[nodiscard]] Result<SkinnedSurface> loadSkin(const std::string& path, double scale, UpAxis up,
+                                              const Avatar& avatar);
+
+}  // namespace foretouch::tools

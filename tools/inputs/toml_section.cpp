@@ -1,0 +1,169 @@
+#include "tools/inputs/toml_section.h"
+
+#include <charconv>
+
+#include "network/messages.h"
+#include "tools/inputs/near_names.h"
+
+namespace foretouch::tools {
+namespace {
+
+// toml++ sets no limit to a.b.c.d..., each of which is a table inside the last, and takes tables
+// apart by recursion: kMaxDotsALine x TOML_MAX_NESTED_VALUES of them fit on any stack.
+constexpr std::size_t kMaxDotsALine = 256;
+
+/// No control characters, in the widest sense: the text goes to terminals and the system.
+bool isPlain(std::string_view text) {
+  const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  return isUtf8(text) && std::none_of(text.begin(), text.end(), isControl);
+}
+
+/// What toml++ says, without what a terminal could take for an instruction.
+std::string plain(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c >= 0x20 && c < 0x7f ? c : '?';
+  return result;
+}
+
+const char* nameOf(toml::node_type type) {
+  switch (type) {
+    case toml::node_type::table: return "a table";
+    case toml::node_type::array: return "an array";
+    case toml::node_type::string: return "a text";
+    case toml::node_type::integer: return "a whole number";
+    case toml::node_type::floating_point: return "a number";
+    case toml::node_type::boolean: return "true or false";
+    default: return "a date or time";
+  }
+}
+
+/// The bound that toml++ does not keep: see kMaxDotsALine.
+std::optional<Error> dotsError(std::string_view text, const std::string& file) {
+  std::int64_t line = 1;
+  std::size_t dots = 0;
+  for (const char c : text) {
+    if (c == '.' && ++dots > kMaxDotsALine) {
+      return Error{ErrorCode::LimitExceeded, file, line, -1,
+                   "expected at most " + std::to_string(kMaxDotsALine) + " dots in a line"};
+    }
+    if (c != '\n') continue;
+    ++line;
+    dots = 0;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<toml::table> parseToml(std::string_view text, const std::string& file) {
+  if (text.size() > kMaxTomlBytes) {
+    return Error{ErrorCode::LimitExceeded, file, -1, -1, "is larger than 1 MiB"};
+  }
+  if (const auto error = dotsError(text, file)) return *error;
+  toml::parse_result parsed = toml::parse(text);
+  if (!parsed) {
+    return Error{ErrorCode::Syntax, file,
+                 static_cast<std::int64_t>(parsed.error().source().begin.line), -1,
+                 "broken TOML: " + plain(parsed.error().description())};
+  }
+  return std::move(parsed).table();
+}
+
+std::int64_t lineOf(const toml::node& node) {
+  return static_cast<std::int64_t>(node.source().begin.line);
+}
+
+std::string shownNumber(double number) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, number).ptr;
+  return {text, end};
+}
+
+std::string orList(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    text += '"' + words[i] + '"';
+  }
+  return text;
+}
+
+void TomlSection::allowOnly(const std::vector<std::string>& keys) {
+  const toml::key* first = nullptr;
+  for (const auto& [key, node] : table_) {
+    if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
+    if (first == nullptr || key.source().begin < first->source().begin) first = &key;
+  }
+  if (first == nullptr) return;
+  reading_.fail(
+      ErrorCode::UnknownName, static_cast<std::int64_t>(first->source().begin.line),
+      "unknown key " + inQuotes(first->str()) + " in " + title_ + didYouMean(first->str(), keys));
+}
+
+TomlSection TomlSection::table(const char* key) {
+  static const toml::table nothing;
+  const toml::node* const node = find(key);
+  const std::string title = std::string("[") + key + "]";
+  if (node == nullptr) return {reading_, nothing, title};
+  if (node->is_table()) return {reading_, *node->as_table(), title};
+  wrongType(key, "a table", *node);
+  return {reading_, nothing, title};
+}
+
+void TomlSection::text(const char* key, std::string& value, bool mayBeEmpty) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return;
+  if (const auto found = textOf(key, *node, mayBeEmpty)) value = *found;
+}
+
+void TomlSection::texts(const char* key, std::vector<std::string>& values) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return;
+  if (!node->is_array()) return wrongType(key, "an array of texts", *node);
+  for (const toml::node& element : *node->as_array()) {
+    const auto found = textOf(key, element, false);
+    if (!found) return;
+    values.push_back(*found);
+  }
+}
+
+void TomlSection::outOfRange(const char* key, const std::string& expected, const std::string& found,
+                             const toml::node& node) {
+  reading_.fail(ErrorCode::OutOfRange, lineOf(node),
+                spelt(key) + ": expected " + expected + ", found " + found);
+}
+
+std::string TomlSection::spelt(const char* key) const {
+  return title_.front() == '[' ? title_ + " " + key : key;
+}
+
+void TomlSection::wrongType(const char* key, const std::string& expected, const toml::node& node) {
+  reading_.fail(ErrorCode::Syntax, lineOf(node),
+                spelt(key) + ": expected " + expected + ", found " + nameOf(node.type()));
+}
+
+std::optional<std::string> TomlSection::textOf(const char* key, const toml::node& node,
+                                               bool mayBeEmpty) {
+  const std::string expected = std::string(mayBeEmpty ? "a text" : "a text that is not empty") +
+                               " of at most " + std::to_string(kMaxTextBytes) +
+                               " bytes without control characters";
+  if (!node.is_string()) {
+    wrongType(key, expected, node);
+    return std::nullopt;
+  }
+  const std::string& found = node.as_string()->get();
+  if (found.size() <= kMaxTextBytes && isPlain(found) && (mayBeEmpty || !found.empty())) {
+    return found;
+  }
+  outOfRange(key, expected, inQuotes(found), node);
+  return std::nullopt;
+}
+
+void TomlSection::truth(const char* key, std::optional<bool>& value) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return;
+  if (!node->is_boolean()) return wrongType(key, "true or false", *node);
+  value = node->as_boolean()->get();
+}
+
+}  // namespace foretouch::tools

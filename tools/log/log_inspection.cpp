@@ -1,0 +1,190 @@
+#include "tools/log/log_inspection.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tools/progress.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kUsPerS = 1e6;
+
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json toJson(const ChannelFacts& facts) {
+  return {{"events", facts.events},
+          {"payload_bytes", facts.payloadBytes},
+          {"earliest_us", facts.earliestUs},
+          {"latest_us", facts.latestUs},
+          {"rate_hz", facts.rateHz()}};
+}
+
+Json toJson(const LogFinding& finding) {
+  Json json = {
+      {"damage", toString(finding.damage)}, {"offset", finding.offset}, {"bytes", finding.bytes}};
+  if (finding.count > 0) json["count"] = finding.count;
+  return json;
+}
+
+Json toJson(const LogCounts& counts) {
+  return {{"events", counts.events},          {"unchecked_events", counts.uncheckedEvents},
+          {"tail_events", counts.tailEvents}, {"blocks", counts.blocks},
+          {"bad_blocks", counts.badBlocks},   {"missing_blocks", counts.missingBlocks},
+          {"bad_events", counts.badEvents},   {"skipped_bytes", counts.skippedBytes},
+          {"truncated", counts.isTruncated},  {"check_sums", counts.hasCheckSums},
+          {"closed", counts.isClosed}};
+}
+
+std::string line(const char* name, const std::string& value) {
+  return fmt::format("  {:<25}{}\n", name, value);
+}
+
+std::string channelLine(std::string name, const ChannelFacts& facts) {
+  // A channel may hold any bytes but control characters; a long one would break the table.
+  constexpr std::size_t kLongest = 63;
+  if (name.size() > kLongest) name = name.substr(0, kLongest) + "...";
+  return fmt::format("  {:<25}{:>10} events {:>12.2f} Hz {:>14} bytes\n", name, facts.events,
+                     facts.rateHz(), facts.payloadBytes);
+}
+
+std::string checkSumsOf(const LogCounts& counts) {
+  if (!counts.hasCheckSums) return "none";
+  std::string text = fmt::format("{} blocks are right", counts.blocks);
+  if (counts.badBlocks > 0) text += fmt::format(", {} are wrong", counts.badBlocks);
+  if (counts.missingBlocks > 0) text += fmt::format(", {} are missing", counts.missingBlocks);
+  return text;
+}
+
+}  // namespace
+
+void ChannelFacts::add(std::int64_t utimeUs, std::size_t bytes) {
+  earliestUs = events == 0 ? utimeUs : std::min(earliestUs, utimeUs);
+  latestUs = events == 0 ? utimeUs : std::max(latestUs, utimeUs);
+  ++events;
+  payloadBytes += bytes;
+}
+
+double ChannelFacts::durationS() const {
+  // As doubles: stamps may be as far apart as they like.
+  return (static_cast<double>(latestUs) - static_cast<double>(earliestUs)) / kUsPerS;
+}
+
+double ChannelFacts::rateHz() const {
+  return latestUs > earliestUs ? static_cast<double>(events - 1) / durationS() : 0.0;
+}
+
+bool LogInspection::isSound() const {
+  return findings.empty() && counts.badEvents == 0;
+}
+
+Result<LogInspection> inspectLog(const std::string& path) {
+  LogInspection inspection;
+  inspection.path = path;
+  LogReadOptions options;
+  options.onFinding = [&inspection](const LogFinding& finding) {
+    if (inspection.findings.size() < kMaxListedFindings) {
+      inspection.findings.push_back(finding);
+    } else {
+      ++inspection.unlistedFindings;
+    }
+  };
+  auto opened = EventLogReader::open(path, options);
+  if (!opened.ok()) return opened.error();
+  EventLogReader reader = std::move(opened).value();
+  inspection.bytes = reader.size();
+  ProgressBar bar("log", static_cast<std::int64_t>(reader.size()));
+  std::int64_t lastUs = 0;
+  for (LogEvent event;;) {
+    const auto more = reader.next(event);
+    if (!more.ok()) return more.error();
+    if (!more.value()) break;
+    bar.advanceTo(static_cast<std::int64_t>(reader.position()));
+    const auto known = inspection.channels.find(event.channel);
+    const bool isListed =
+        known != inspection.channels.end() || inspection.channels.size() < kMaxListedChannels;
+    ChannelFacts& facts = isListed ? inspection.channels[event.channel] : inspection.otherChannels;
+    facts.add(event.utimeUs, event.payload.size());
+    if (inspection.all.events > 0 && event.utimeUs < lastUs) ++inspection.stampsBackwards;
+    lastUs = event.utimeUs;
+    inspection.all.add(event.utimeUs, event.payload.size());
+  }
+  inspection.counts = reader.counts();
+  return inspection;
+}
+
+std::string formatOf(const LogCounts& counts) {
+  if (!counts.hasCheckSums) return "LCM event log without check sums";
+  return counts.isClosed ? "LCM event log with check sums"
+                         : "LCM event log with check sums, not closed: its writer was stopped, or "
+                           "is writing still, or its end is missing";
+}
+
+std::string describe(const LogFinding& finding) {
+  std::string text = fmt::format("bytes {} to {}: {}", finding.offset,
+                                 finding.offset + finding.bytes, toString(finding.damage));
+  switch (finding.damage) {
+    case LogDamage::MissingBlocks: return text + fmt::format(": {}", finding.count);
+    case LogDamage::UncheckedTail:
+      return text + fmt::format(" of {} events: log recover --keep-tail takes them", finding.count);
+    case LogDamage::OtherLog:
+      return text + fmt::format(" begins there and is not read: tail -c +{} cuts it out",
+                                finding.offset + 1);
+    default: return text;
+  }
+}
+
+std::string describe(const LogInspection& inspection) {
+  const LogCounts& counts = inspection.counts;
+  const ChannelFacts& all = inspection.all;
+  std::string text = inspection.path + "\n" + line("format", formatOf(counts)) +
+                     line("size", fmt::format("{} bytes", inspection.bytes)) +
+                     line("events", std::to_string(counts.events)) +
+                     line("check sums", checkSumsOf(counts)) +
+                     line("index", counts.hasCheckSums ? "by check sums" : "none");
+  if (all.events > 0) {
+    text += line("stamps", fmt::format("{} to {} us, {:.3f} s", all.earliestUs, all.latestUs,
+                                       all.durationS()));
+  }
+  if (inspection.stampsBackwards > 0) {
+    text += line("stamps that go back", std::to_string(inspection.stampsBackwards));
+  }
+  if (counts.tailEvents > 0) text += line("unchecked tail", std::to_string(counts.tailEvents));
+  if (counts.skippedBytes > 0)
+    text += line("bytes passed over", std::to_string(counts.skippedBytes));
+  for (const auto& [name, facts] : inspection.channels) text += channelLine(name, facts);
+  if (inspection.otherChannels.events > 0) {
+    text += channelLine("(further channels)", inspection.otherChannels);
+  }
+  return text;
+}
+
+std::string jsonLine(const LogInspection& inspection) {
+  Json json = {
+      {"file", inspection.path},       {"state", inspection.isSound() ? "sound" : "damaged"},
+      {"bytes", inspection.bytes},     {"counts", toJson(inspection.counts)},
+      {"all", toJson(inspection.all)}, {"stamps_backwards", inspection.stampsBackwards}};
+  json["channels"] = Json::array();
+  for (const auto& [name, facts] : inspection.channels) {
+    Json channel = {{"channel", name}};
+    channel.update(toJson(facts));
+    json["channels"].push_back(std::move(channel));
+  }
+  json["other_channels"] = toJson(inspection.otherChannels);
+  json["findings"] = Json::array();
+  for (const LogFinding& finding : inspection.findings) json["findings"].push_back(toJson(finding));
+  json["unlisted_findings"] = inspection.unlistedFindings;
+  return dump(json);
+}
+
+std::string jsonLine(const std::string& path, const Error& error) {
+  return dump({{"file", path}, {"state", "unreadable"}, {"error", foretouch::describe(error)}});
+}
+
+}  // namespace foretouch::tools

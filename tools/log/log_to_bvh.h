@@ -1,0 +1,30 @@
+// tools/log/log_to_bvh.h: one avatar's poses of an event log as a BVH file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+
+namespace foretouch::tools {
+
+struct LogToBvhRequest {
+  std::string logPath;
+  std::string suffix;       ///< Of the channels.
+  std::int32_t avatar = 1;  ///< Whose poses.
+};
+
+struct BvhOfLog {
+  std::string text;
+  std::int64_t frames = 0;
+  /// What the file does not say, one sentence each: poses that were lost, times that are not
+  /// equally spaced, poses that came late or twice.
+  std::vector<std::string> notes;
+};
+
+/// Errors name the log: no pose or no skeleton of the avatar, more than one session or skeleton, a
+/// pose that does not say where a joint is. Memory: the log's poses.
+[[nodiscard]] Result<BvhOfLog> logToBvh(const LogToBvhRequest& request);
+
+}  // namespace foretouch::tools

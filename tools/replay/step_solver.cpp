@@ -1,0 +1,107 @@
+#include "tools/replay/step_solver.h"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "tools/bench/ray_set.h"
+#include "tools/console.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double microsecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+Result<ReplayedStep> StepSolver::solve(std::int64_t step) {
+  const auto from = poseAt(step * inputs_.steps.stride);
+  if (!from.ok()) return from.error();
+  const auto to = poseAt((step + 1) * inputs_.steps.stride);
+  if (!to.ok()) return to.error();
+
+  const Clock::time_point start = Clock::now();
+  const ChainMotion motion(inputs_.avatar.skeleton(), from.value(), to.value());
+  const auto contacts =
+      firstContacts(inputs_.avatar, motion, inputs_.scene, inputs_.query, scratch_);
+  const double latencyUs = microsecondsSince(start);
+  if (!contacts.ok()) return contacts.error();
+
+  ReplayedStep replayed;
+  replayed.answer = recorded(step, contacts.value(), latencyUs);
+  replayed.answer.missedByPoses = missedByPoses(motion, replayed.answer.contacts);
+  const auto added = addExtras(motion, contacts.value(), replayed);
+  if (!added.ok()) return inFile(added.error(), inputs_.request.motionPath);
+  replayed.line = format_.line(replayed.answer);
+  return replayed;
+}
+
+/// The later pose of one step is the earlier one of the next: it is kept.
+Result<Pose> StepSolver::poseAt(std::int64_t frame) {
+  if (frame != frame_) {
+    auto pose = poseAtFrame(inputs_, frame);
+    if (!pose.ok()) return pose.error();
+    pose_ = std::move(pose).value();
+    frame_ = frame;
+  }
+  return pose_;
+}
+
+StepAnswer StepSolver::recorded(std::int64_t step, const StepContacts& contacts,
+                                double latencyUs) const {
+  StepAnswer answer;
+  answer.step = step;
+  answer.t0S = inputs_.timeOfStep(step);
+  answer.t1S = inputs_.timeOfStep(step + 1);
+  answer.contacts = notClear(contacts.links);
+  answer.counters = contacts.counters;
+  answer.latencyUs = std::round(10.0 * latencyUs) / 10.0;
+  return answer;
+}
+
+std::vector<LinkId> StepSolver::missedByPoses(const ChainMotion& motion,
+                                              const std::vector<LinkContact>& contacts) {
+  const auto touches = [&](LinkId link, double t) {
+    return touchesAt(inputs_.avatar, motion, link, t, inputs_.scene, inputs_.query, scratch_);
+  };
+  std::vector<LinkId> missed;
+  for (const LinkContact& contact : contacts) {
+    if (contact.verdict == Verdict::Contact && !touches(contact.link, 0.0) &&
+        !touches(contact.link, 1.0)) {
+      missed.push_back(contact.link);
+    }
+  }
+  return missed;
+}
+
+Result<Done> StepSolver::addExtras(const ChainMotion& motion, const StepContacts& contacts,
+                                   ReplayedStep& replayed) {
+  if (extras_.rigid != nullptr) {
+    const auto counts =
+        extras_.rigid->compare(motion, contacts, inputs_.scene, inputs_.query, scratch_);
+    if (!counts.ok()) return counts.error();
+    replayed.rigid = counts.value();
+  }
+  if (extras_.link) {
+    const auto counts =
+        compareWithLink(inputs_.avatar, motion, contacts, inputs_.scene, inputs_.query, scratch_);
+    if (!counts.ok()) return counts.error();
+    replayed.link = counts.value();
+  }
+  if (extras_.rays) {
+    const std::array<RaySegment, kRaysPerSet> rays = raysAlong(motion);
+    const Clock::time_point start = Clock::now();
+    const auto hits = castRaySet(inputs_.scene, rays);
+    if (!hits.ok()) return hits.error();
+    replayed.raySetUs = microsecondsSince(start);
+  }
+  return Done{};
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,59 @@
+// tools/replay/step_solver.h: one step of a replay, from two frames of the clip to a line of
+// results.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "articulated/motion.h"
+#include "articulated/result.h"
+#include "middleware/query.h"
+#include "tools/replay/fidelity_comparison.h"
+#include "tools/replay/replay_inputs.h"
+#include "tools/replay/results_writer.h"
+#include "tools/replay/rigid_comparison.h"
+
+namespace foretouch::tools {
+
+struct ReplayedStep {
+  StepAnswer answer;
+  std::string line;  ///< Of the results file.
+  std::optional<RigidCounts> rigid;
+  std::optional<FidelityCounts> link;
+  std::optional<double> raySetUs;
+};
+
+/// What is done beside the query, for comparison.
+struct StepExtras {
+  const RigidComparison* rigid = nullptr;  ///< Null: no comparison.
+  bool link = false;                       ///< Also answer at link fidelity.
+  bool rays = false;  ///< Also time a set of rays (middleware/ray_yardstick.h).
+};
+
+/// Answers single steps, in any order; one a thread. What it is given must outlive it.
+class StepSolver {
+ public:
+  StepSolver(const ReplayInputs& inputs, const StepFormat& format, const StepExtras& extras)
+      : inputs_(inputs), format_(format), extras_(extras) {}
+
+  [[nodiscard]] Result<ReplayedStep> solve(std::int64_t step);
+
+ private:
+  [[nodiscard]] Result<Pose> poseAt(std::int64_t frame);
+  [[nodiscard]] StepAnswer recorded(std::int64_t step, const StepContacts& contacts,
+                                    double latencyUs) const;
+  [[nodiscard]] std::vector<LinkId> missedByPoses(const ChainMotion& motion,
+                                                  const std::vector<LinkContact>& contacts);
+  [[nodiscard]] Result<Done> addExtras(const ChainMotion& motion, const StepContacts& contacts,
+                                       ReplayedStep& replayed);
+
+  const ReplayInputs& inputs_;
+  const StepFormat& format_;
+  StepExtras extras_;
+  QueryScratch scratch_;
+  std::int64_t frame_ = -1;  // whose pose pose_ is
+  Pose pose_;
+};
+
+}  // namespace foretouch::tools

@@ -1,0 +1,200 @@
+#include "tools/replay/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "middleware/ray_yardstick.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// "34.5 %" of a whole that may be empty.
+std::string shareOf(std::int64_t part, std::int64_t whole) {
+  if (whole == 0) return "0 %";
+  return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::string row(const char* what, std::int64_t number, const std::string& remark = "") {
+  return fmt::format("{:<22}{:>10}{}{}\n", what, number, remark.empty() ? "" : "   ", remark);
+}
+
+double mean(const std::vector<float>& values) {
+  double sum = 0.0;
+  for (const float value : values) sum += static_cast<double>(value);
+  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+double percentile(std::vector<float>& values, double share) {
+  if (values.empty()) return 0.0;
+  const double rank = std::ceil(share * static_cast<double>(values.size())) - 1.0;
+  const auto at =
+      static_cast<std::ptrdiff_t>(std::clamp(rank, 0.0, static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return static_cast<double>(values[static_cast<std::size_t>(at)]);
+}
+
+ReplaySummary::ReplaySummary(const ReplayInputs& inputs)
+    : inputs_(inputs), ofLink_(static_cast<std::size_t>(inputs.avatar.numLinks())) {}
+
+void ReplaySummary::add(const ReplayedStep& step) {
+  const StepAnswer& answer = step.answer;
+  ++steps_;
+  bool touches = false;
+  for (const LinkContact& contact : answer.contacts) {
+    count(contact);
+    touches = touches || contact.verdict != Verdict::Undecided;
+    const bool missed =
+        std::count(answer.missedByPoses.begin(), answer.missedByPoses.end(), contact.link) > 0;
+    if (!missed) continue;
+    ++total_.missedByPoses;
+    ++ofLink_[static_cast<std::size_t>(contact.link)].missedByPoses;
+    const bool isFirstOfStep = contact.link == answer.missedByPoses.front();
+    if (isFirstOfStep && firstMissed_.size() < kKeptMissed) {
+      const double timeS = answer.t0S + contact.toi * (answer.t1S - answer.t0S);
+      firstMissed_.push_back({answer.step, contact, timeS});
+    }
+  }
+  stepsWithContact_ += touches ? 1 : 0;
+  if (step.rigid) {
+    if (!rigid_) rigid_.emplace();
+    rigid_->add(*step.rigid);
+  }
+  if (step.link) {
+    if (!link_) link_.emplace();
+    link_->add(*step.link);
+  }
+  if (step.raySetUs) raySetsUs_.push_back(static_cast<float>(*step.raySetUs));
+  work_.nodes += answer.counters.nodes;
+  work_.candidates += answer.counters.candidates;
+  work_.advancements += answer.counters.advancements;
+  work_.hierarchyTests += answer.counters.hierarchyTests;
+  work_.planeTests += answer.counters.planeTests;
+  work_.partSteps += answer.counters.partSteps;
+  work_.leafTests += answer.counters.leafTests;
+  latenciesUs_.push_back(static_cast<float>(answer.latencyUs));
+}
+
+void ReplaySummary::count(const LinkContact& contact) {
+  for (Counts* counts : {&total_, &ofLink_[static_cast<std::size_t>(contact.link)]}) {
+    counts->contacts += contact.verdict == Verdict::Contact ? 1 : 0;
+    counts->startsInContact += contact.verdict == Verdict::StartsInContact ? 1 : 0;
+    counts->undecided += contact.verdict == Verdict::Undecided ? 1 : 0;
+  }
+}
+
+std::string ReplaySummary::text(int threads) const {
+  return head(threads) + verdicts() + byLink() + rigid() + link() + cost();
+}
+
+std::string ReplaySummary::head(int threads) const {
+  const double clipHz = 1.0 / inputs_.clip.frameTimeS;
+  const auto stride = static_cast<double>(inputs_.steps.stride);
+  return fmt::format(
+      "{} in {}: {} triangles, {} links\n{:.5g} of {:.5g} poses a second, tolerance {:.3g} m, "
+      "{} fidelity{}, {} {}\n\n",
+      inputs_.request.motionPath, inputs_.request.scenePath, inputs_.scene.audit().triangles,
+      inputs_.avatar.numLinks(), clipHz / stride, clipHz, inputs_.request.tolerance,
+      toString(inputs_.request.fidelity),
+      inputs_.request.policies.empty() ? "" : ", some links by policy", threads,
+      threads == 1 ? "thread" : "threads");
+}
+
+std::string ReplaySummary::verdicts() const {
+  std::int64_t links = 0;
+  for (LinkId link = 0; link < inputs_.avatar.numLinks(); ++link) {
+    links += inputs_.avatar.lss(link).empty() ? 0 : 1;
+  }
+  std::string text = row("steps", steps_);
+  text += row("link-steps", steps_ * links, fmt::format("{} links with an LSS", links));
+  text += row("steps with contact", stepsWithContact_, shareOf(stepsWithContact_, steps_));
+  text += row("contacts", total_.contacts);
+  text += row("starts in contact", total_.startsInContact);
+  text += row("undecided", total_.undecided);
+  text += fmt::format(
+      "\nof {} contacts, {} ({}) touch nothing at either pose: a discrete check misses them\n",
+      total_.contacts, total_.missedByPoses, shareOf(total_.missedByPoses, total_.contacts));
+  return text;
+}
+
+std::string ReplaySummary::byLink() const {
+  constexpr std::size_t kMaxRows = 40;
+  std::vector<LinkId> order;
+  for (LinkId link = 0; link < inputs_.avatar.numLinks(); ++link) {
+    const Counts& c = ofLink_[static_cast<std::size_t>(link)];
+    if (c.contacts + c.startsInContact + c.undecided > 0) order.push_back(link);
+  }
+  if (order.empty()) return "";
+  std::stable_sort(order.begin(), order.end(), [&](LinkId a, LinkId b) {
+    return ofLink_[static_cast<std::size_t>(a)].contacts >
+           ofLink_[static_cast<std::size_t>(b)].contacts;
+  });
+  std::string text = fmt::format("\n{:<32}{:>10}{:>18}{:>19}{:>11}\n", "link", "contacts",
+                                 "missed by poses", "starts in contact", "undecided");
+  for (std::size_t i = 0; i < std::min(order.size(), kMaxRows); ++i) {
+    const Counts& c = ofLink_[static_cast<std::size_t>(order[i])];
+    text +=
+        fmt::format("{:<32}{:>10}{:>18}{:>19}{:>11}\n", inputs_.avatar.skeleton().name(order[i]),
+                    c.contacts, c.missedByPoses, c.startsInContact, c.undecided);
+  }
+  if (order.size() > kMaxRows) text += fmt::format("and {} more\n", order.size() - kMaxRows);
+  return text;
+}
+
+std::string ReplaySummary::rigid() const {
+  if (!rigid_) return "";
+  return fmt::format(
+      "\nrigid model (each link told only its own two poses): of {} contacts it misses {} ({}),\n"
+      "reports {} late and {} early by more than 1 mm of motion; false contacts: {}; not compared: "
+      "{}\n",
+      rigid_->contacts, rigid_->missed, shareOf(rigid_->missed, rigid_->contacts), rigid_->late,
+      rigid_->early, rigid_->falseContacts, rigid_->undecided);
+}
+
+std::string ReplaySummary::link() const {
+  if (!link_) return "";
+  return fmt::format(
+      "\nlink fidelity finds {} contacts; the meshes refute {} ({}) and delay {} ({});\n"
+      "earlier than the LSS, or where they are clear: {}; not compared: {}; its mean latency: "
+      "{:.1f} us\n",
+      link_->lssContacts, link_->refuted, shareOf(link_->refuted, link_->lssContacts), link_->later,
+      shareOf(link_->later, link_->lssContacts), link_->broken, link_->undecided,
+      link_->lssUs / static_cast<double>(std::max<std::int64_t>(1, steps_)));
+}
+
+std::string ReplaySummary::cost() const {
+  std::vector<float> latencies = latenciesUs_;
+  const double median = percentile(latencies, 0.5);
+  std::string text = fmt::format(
+      "\nlatency of a step, us    mean {:.1f}   p50 {:.1f}   p90 {:.1f}   p99 {:.1f}   max "
+      "{:.1f}\n",
+      mean(latenciesUs_), median, percentile(latencies, 0.9), percentile(latencies, 0.99),
+      percentile(latencies, 1.0));
+  if (!raySetsUs_.empty()) {
+    std::vector<float> raySets = raySetsUs_;
+    const double raySet = percentile(raySets, 0.5);
+    text += fmt::format(
+        "{} occlusion rays, us    p50 {:.2f}   (a median step costs {:.1f} times this)\n",
+        kRaysPerSet, raySet, median / raySet);
+  }
+  const auto aStep = [&](std::uint64_t work) {
+    return static_cast<double>(work) / static_cast<double>(std::max<std::int64_t>(1, steps_));
+  };
+  text += fmt::format(
+      "work of a step, mean     nodes {:.1f}   candidates {:.1f}   advancements {:.1f}\n",
+      aStep(work_.nodes), aStep(work_.candidates), aStep(work_.advancements));
+  if (inputs_.query.surface) {
+    text += fmt::format(
+        "of these advancements    LSS hierarchy {:.1f}   triangle pairs {:.1f}   (and by planes "
+        "{:.1f}, in lanes {:.1f})\n",
+        aStep(work_.hierarchyTests), aStep(work_.leafTests), aStep(work_.planeTests),
+        aStep(work_.partSteps));
+  }
+  return text;
+}
+
+}  // namespace foretouch::tools

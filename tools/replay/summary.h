@@ -1,0 +1,70 @@
+// tools/replay/summary.h: what a person reads at the end of a replay.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "middleware/query.h"
+#include "tools/replay/replay_inputs.h"
+#include "tools/replay/rigid_comparison.h"
+#include "tools/replay/step_solver.h"
+
+namespace foretouch::tools {
+
+/// A contact that neither of its step's two poses shows.
+struct MissedContact {
+  std::int64_t step = 0;
+  LinkContact contact;
+  double timeS = 0.0;
+};
+
+/// The value below or at which `share` (in [0,1]) of the values lie, by nearest rank; 0 where there
+/// are none. Reorders `values`.
+[[nodiscard]] double percentile(std::vector<float>& values, double share);
+
+/// Collects steps and puts them into words. Keeps a float a step and a few numbers a link.
+class ReplaySummary {
+ public:
+  /// `inputs` must outlive it.
+  explicit ReplaySummary(const ReplayInputs& inputs);
+
+  void add(const ReplayedStep& step);
+
+  /// `threads` shared the machine while latencies were taken.
+  [[nodiscard]] std::string text(int threads) const;
+
+  /// Contacts that a check of the poses misses: the earliest of a step, of the first kKeptMissed
+  /// steps that have one.
+  [[nodiscard]] const std::vector<MissedContact>& firstMissed() const { return firstMissed_; }
+  static constexpr std::size_t kKeptMissed = 5;
+
+  [[nodiscard]] const ReplayInputs& inputs() const { return inputs_; }
+  [[nodiscard]] std::int64_t contacts() const { return total_.contacts; }
+  [[nodiscard]] std::int64_t missedByPoses() const { return total_.missedByPoses; }
+
+ private:
+  struct Counts {
+    std::int64_t contacts = 0, missedByPoses = 0, startsInContact = 0, undecided = 0;
+  };
+  void count(const LinkContact& contact);
+  [[nodiscard]] std::string head(int threads) const;
+  [[nodiscard]] std::string verdicts() const;
+  [[nodiscard]] std::string byLink() const;
+  [[nodiscard]] std::string rigid() const;
+  [[nodiscard]] std::string link() const;
+  [[nodiscard]] std::string cost() const;
+
+  const ReplayInputs& inputs_;
+  std::int64_t steps_ = 0, stepsWithContact_ = 0;
+  Counts total_;
+  std::vector<Counts> ofLink_;
+  std::vector<MissedContact> firstMissed_;
+  std::optional<RigidCounts> rigid_;
+  std::optional<FidelityCounts> link_;
+  QueryCounters work_;
+  std::vector<float> latenciesUs_, raySetsUs_;
+};
+
+}  // namespace foretouch::tools

@@ -1,0 +1,22 @@
+// tools/stream/channel_names.h: the channels of one service and its senders.
+#pragma once
+
+#include <string>
+
+#include "articulated/result.h"
+
+namespace foretouch::tools {
+
+/// The four channels of network/messages.h, each with the suffix.
+struct ChannelNames {
+  std::string skeleton, pose, contacts, status;
+};
+
+/// Errors name --suffix: a name beyond kMaxChannelBytes, bytes that are not printable ASCII.
+[[nodiscard]] Result<ChannelNames> channelNames(const std::string& suffix);
+
+/// What was given; else what the environment variable LCM_DEFAULT_URL says, as with every LCM
+/// program; else kDefaultUrl.
+[[nodiscard]] std::string urlOrDefault(const std::string& given);
+
+}  // namespace foretouch::tools

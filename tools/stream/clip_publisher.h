@@ -1,0 +1,79 @@
+// tools/stream/clip_publisher.h: a clip sent as a live sender sends: on time, with its skeleton
+// every second.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "articulated/result.h"
+#include "network/codec.h"
+#include "tools/stream/channel_names.h"
+#include "tools/stream/clip_sender.h"
+
+namespace foretouch::tools {
+
+/// How time passes for a sender.
+class Pace {
+ public:
+  virtual ~Pace() = default;
+  /// Waits until this long after the start. By how much it was missed (us, >= 0), or nothing where
+  /// the sender is told to stop.
+  virtual std::optional<std::int64_t> waitUntil(std::int64_t elapsedUs) = 0;
+  /// Since the Unix epoch, now.
+  [[nodiscard]] virtual std::int64_t utimeUs() const = 0;
+};
+
+/// The machine's time, by absolute deadlines of its monotonic clock, so that waits do not add up.
+class LivePace : public Pace {
+ public:
+  /// `isStopped` is asked at least after every wait, also one that a signal cut short.
+  explicit LivePace(std::function<bool()> isStopped);
+  std::optional<std::int64_t> waitUntil(std::int64_t elapsedUs) override;
+  [[nodiscard]] std::int64_t utimeUs() const override;
+
+ private:
+  std::function<bool()> isStopped_;
+  std::int64_t startNs_;
+};
+
+/// Time that passes by being waited for: nothing is ever late.
+class RecordedPace : public Pace {
+ public:
+  explicit RecordedPace(std::int64_t startUtimeUs) : startUs_(startUtimeUs) {}
+  std::optional<std::int64_t> waitUntil(std::int64_t elapsedUs) override;
+  [[nodiscard]] std::int64_t utimeUs() const override { return startUs_ + elapsedUs_; }
+
+ private:
+  std::int64_t startUs_, elapsedUs_ = 0;
+};
+
+struct PublishOptions {
+  double speed = 1.0;  ///< Of the clip's time to the pace's; 0: without waiting.
+  bool loop = false;   ///< From the start again, as a new session, until told to stop.
+  ChannelNames channels;
+  SenderOptions sender;
+};
+
+struct PublishReport {
+  std::int64_t session = 0;     ///< The first one.
+  std::int64_t poses = 0;       ///< Sent, or at least tried.
+  std::int64_t skeletons = 0;   ///< The same.
+  std::int64_t failures = 0;    ///< Messages that the sink did not take.
+  std::int64_t late = 0;        ///< Poses sent more than kLateUs after their time.
+  std::int64_t mostLateUs = 0;  ///< Of all poses.
+  static constexpr std::int64_t kLateUs = 1000;
+};
+
+/// Takes a message at a time of the pace; false where it was lost. An error ends the sending.
+using MessageSink =
+    std::function<Result<bool>(const std::string& channel, ByteView payload, std::int64_t utimeUs)>;
+
+/// Sends the clip once, or over and over. `placed` as for ClipSender.
+[[nodiscard]] Result<PublishReport> publishClip(const PlacedClip& placed,
+                                                const StepSelection& steps,
+                                                const PublishOptions& options, Pace& pace,
+                                                const MessageSink& sink);
+
+}  // namespace foretouch::tools

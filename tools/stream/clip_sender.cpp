@@ -1,0 +1,80 @@
+#include "tools/stream/clip_sender.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace foretouch::tools {
+namespace {
+
+RawSkeleton rawOf(const Skeleton& skeleton) {
+  RawSkeleton raw;
+  raw.joints.reserve(static_cast<std::size_t>(skeleton.numJoints()));
+  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+    raw.joints.push_back({skeleton.name(joint), skeleton.parent(joint), skeleton.restOffset(joint),
+                          skeleton.restRotation(joint)});
+  }
+  return raw;
+}
+
+double stepLengthS(const PlacedClip& placed, const StepSelection& steps) {
+  return static_cast<double>(steps.stride) * placed.clip.frameTimeS;
+}
+
+}  // namespace
+
+ClipSender::ClipSender(const PlacedClip& placed, const StepSelection& steps,
+                       const SenderOptions& options)
+    : placed_(placed), steps_(steps), options_(options) {
+  skeleton_.avatar = options.avatar;
+  skeleton_.session = options.startUtimeUs;
+  skeleton_.source = options.source;
+  skeleton_.rateHz = 1.0 / stepLengthS(placed, steps);
+  skeleton_.skeleton = rawOf(placed.avatar.skeleton());
+  skeleton_.hash = skeletonHash(skeleton_.skeleton);
+}
+
+std::int64_t ClipSender::utimeOf(std::int64_t pose) const {
+  constexpr double kUsPerS = 1e6;
+  // Frames are at least a microsecond apart. The whole microsecond is taken out before rounding,
+  // which then cannot make two stamps equal: what is left to round does not decrease.
+  const double beyondOneUs = std::max(0.0, stepLengthS(placed_, steps_) * kUsPerS - 1.0);
+  return options_.startUtimeUs + pose + std::llround(static_cast<double>(pose) * beyondOneUs);
+}
+
+SkeletonMessage ClipSender::skeleton(std::int64_t sendUtimeUs) const {
+  SkeletonMessage message = skeleton_;
+  message.sendUtimeUs = sendUtimeUs;
+  return message;
+}
+
+Result<Done> ClipSender::fill(std::int64_t pose, std::int64_t sendUtimeUs,
+                              PoseMessage& message) const {
+  const auto valid = poseAtFrame(placed_, pose * steps_.stride);
+  if (!valid.ok()) return valid.error();
+  message.avatar = options_.avatar;
+  message.session = options_.startUtimeUs;
+  message.sequence = pose;
+  message.utimeUs = utimeOf(pose);
+  message.sendUtimeUs = sendUtimeUs;
+  message.skeletonHash = skeleton_.hash;
+  message.joints.clear();
+  message.translations.clear();
+  const Skeleton& skeleton = placed_.avatar.skeleton();
+  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+    const auto j = static_cast<std::size_t>(joint);
+    const JointId source = placed_.match.clipJointOf[j];
+    const auto s = static_cast<std::size_t>(source);
+    const bool isTurned = source != kNoParent && placed_.clip.hasRotation[s];
+    const bool isMoved = source != kNoParent && placed_.clip.hasTranslation[s];
+    const int how = isTurned || isMoved ? kJointTracked : kJointInferred;
+    message.joints.push_back(
+        {joint, static_cast<std::uint8_t>(kJointValid | how), valid.value().rotations[j]});
+    if (isMoved || skeleton.parent(joint) == kNoParent) {
+      message.translations.push_back({joint, valid.value().translations[j]});
+    }
+  }
+  return Done{};
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,33 @@
+// tools/stream/contacts_line.h: the answers and heartbeats of a stream as lines: of JSON
+// (docs/formats.md, "Streams as lines of JSON"), or for people. Pure: the same message gives the
+// same text.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "network/messages.h"
+
+namespace foretouch::tools {
+
+/// Whether a line says when a pose came, how long its query took and when its answer went, which no
+/// two runs agree on.
+enum class Stamps { With, Without };
+
+/// One object and a line break. The objects of its `contacts` are those of a results file, with
+/// "utime" in the place of "time".
+[[nodiscard]] std::string contactsLine(const ContactsMessage& message, Stamps stamps);
+
+/// The same for people: "avatar 1, pose 42: LeftHand touches 'table' at 41 % of 33.3 ms".
+[[nodiscard]] std::string contactsText(const ContactsMessage& message);
+
+/// One object and a line break.
+[[nodiscard]] std::string statusLine(const StatusMessage& message);
+/// For people.
+[[nodiscard]] std::string statusText(const StatusMessage& message);
+
+/// Microseconds since the epoch of the instant `toi` within the step, rounded down: never later
+/// than the contact.
+[[nodiscard]] std::int64_t utimeOf(const ContactsMessage& message, double toi);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,16 @@
+// tools/stream/event_line.h: the events of a log as lines of JSON (docs/formats.md, "Streams as
+// lines of JSON"). Pure.
+#pragma once
+
+#include <string>
+
+#include "network/event_log.h"
+#include "tools/stream/channel_names.h"
+
+namespace foretouch::tools {
+
+/// One object and a line break: number, time and channel, and the message where it is one of ours;
+/// else how many bytes it has, and why it was refused if the channel is ours.
+[[nodiscard]] std::string eventLine(const LogEvent& event, const ChannelNames& channels);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,188 @@
+#include "tools/stream/listen_command.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "network/codec.h"
+#include "network/wire.h"
+#include "tools/arguments.h"
+#include "tools/settling.h"
+#include "tools/stream/answer_tracker.h"
+#include "tools/stream/channel_names.h"
+#include "tools/stream/contacts_line.h"
+#include "tools/stream/stop_signal.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Values as typed in.
+struct ListenTexts {
+  std::string url, suffix, count, timeout;
+  bool json = false, status = false;
+};
+
+struct ListenJob {
+  std::string url;
+  ChannelNames channels;
+  bool json = false, status = false;
+  std::optional<int> count;        ///< Of verdicts; then it ends.
+  std::optional<double> timeoutS;  ///< Without a verdict; then it ends.
+};
+
+Result<ListenJob> settled(const ListenTexts& texts) {
+  ListenJob job;
+  job.url = urlOrDefault(texts.url);
+  job.json = texts.json;
+  job.status = texts.status;
+  Settling settle;
+  settle.into(job.channels, channelNames(texts.suffix));
+  if (!texts.count.empty()) {
+    int count = 0;
+    settle.into(count, parseCount("--count", texts.count, std::numeric_limits<int>::max()));
+    job.count = count;
+  }
+  if (!texts.timeout.empty()) {
+    double timeoutS = 0.0;
+    settle.into(timeoutS, parsePositive("--timeout", texts.timeout));
+    job.timeoutS = timeoutS;
+  }
+  if (settle.error()) return *settle.error();
+  return job;
+}
+
+Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
+  const auto url = parseUdpmUrl(job.url);
+  if (!url.ok()) return inFile(url.error(), "--url");
+  const auto route = testMulticast(url.value());
+  if (!route.ok()) return inFile(route.error(), "--url");
+  std::vector<std::string> channels{job.channels.contacts};
+  if (job.status) channels.push_back(job.channels.status);
+  auto receiver = openUdpmReceiver(url.value(), channels);
+  if (!receiver.ok()) return inFile(receiver.error(), "--url");
+  return receiver;
+}
+
+/// Prints what arrives, a line at a time.
+class Listener {
+ public:
+  explicit Listener(const ListenJob& job) : job_(job) {}
+
+  void take(const WireMessage& message) {
+    if (isDone()) return;
+    const bool isStatus = message.channel == job_.channels.status;
+    const Reject reject =
+        isStatus ? decode(message.payload, status_) : decode(message.payload, contacts_);
+    if (reject != Reject::None) {
+      if (rejected_++ == 0) {
+        printNote(fmt::format("{}: a message that cannot be read ({})", message.channel,
+                              toString(reject)));
+      }
+      return;
+    }
+    isStatus ? print(job_.json ? statusLine(status_) : statusText(status_)) : printContacts();
+  }
+
+  [[nodiscard]] bool isDone() const { return job_.count && verdicts_ >= *job_.count; }
+  [[nodiscard]] bool isSilent() const {
+    const std::chrono::duration<double> silence = Clock::now() - heardAt_;
+    return job_.timeoutS && silence.count() >= *job_.timeoutS;
+  }
+  /// Somebody reads what is printed.
+  [[nodiscard]] bool isHeard() const { return isHeard_; }
+  [[nodiscard]] std::int64_t verdicts() const { return verdicts_; }
+  [[nodiscard]] std::int64_t rejected() const { return rejected_; }
+
+ private:
+  void printContacts() {
+    if (const auto missing = tracker_.take(contacts_)) printNote(*missing);
+    ++verdicts_;
+    heardAt_ = Clock::now();
+    print(job_.json ? contactsLine(contacts_, Stamps::With) : contactsText(contacts_));
+  }
+  void print(const std::string& line) {
+    printOut(line);
+    isHeard_ = isHeard_ && outputArrived();
+  }
+
+  const ListenJob& job_;
+  AnswerTracker tracker_;
+  ContactsMessage contacts_;
+  StatusMessage status_;
+  Clock::time_point heardAt_ = Clock::now();
+  std::int64_t verdicts_ = 0, rejected_ = 0;
+  bool isHeard_ = true;
+};
+
+Result<ExitCode> listen(const ListenJob& job) {
+  constexpr int kWaitMs = 50;  // how late a signal or the end of silence is noticed at most
+  StopSignal stop;
+  bool isStopped = false;
+  const auto receiver = receiverFor(job);
+  if (!receiver.ok()) return receiver.error();
+  Listener listener(job);
+  std::vector<WireMessage> messages;
+  while (!listener.isDone() && !listener.isSilent() && listener.isHeard() && !isStopped) {
+    messages.clear();
+    const auto received = receiver.value()->receive(messages, kWaitMs);
+    if (!received.ok()) return inFile(received.error(), "--url");
+    for (const WireMessage& message : messages) listener.take(message);
+    isStopped = stop.wait(std::chrono::milliseconds(0));
+  }
+  const std::uint64_t drops = receiver.value()->counts().kernelDrops;
+  if (listener.rejected() > 1) {
+    printNote(fmt::format("{} messages could not be read", listener.rejected()));
+  }
+  if (drops > 0) printNote(fmt::format("the system dropped {} datagrams unread", drops));
+  if (!job.count || listener.isDone() || isStopped) return ExitCode::Done;
+  printError(fmt::format("{} of {} verdicts arrived before {:g} s of silence", listener.verdicts(),
+                         *job.count, job.timeoutS.value_or(0.0)));
+  return ExitCode::CheckSaysNo;
+}
+
+ExitCode runTexts(const ListenTexts& texts) {
+  const auto job = settled(texts);
+  if (!job.ok()) return failed(job.error());
+  const auto ended = listen(job.value());
+  return ended.ok() ? ended.value() : failed(ended.error());
+}
+
+constexpr char kExamples[] = R"(Examples:
+  foretouch listen
+  foretouch listen --json --status > verdicts.jsonl
+  foretouch listen --count 100 --timeout 5
+
+The lines of --json are described in docs/formats.md. With --count, exit code 1 says that so many
+verdicts did not come.)";
+
+}  // namespace
+
+void addListenCommand(CLI::App& program, ExitCode& exit) {
+  const auto texts = std::make_shared<ListenTexts>();
+  CLI::App* const command =
+      program.add_subcommand("listen", "Print the verdicts that a service sends, as they come");
+  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
+    command->add_option(name, text, help)->type_name(type);
+  };
+  option("--url", texts->url, "URL", "Where from; LCM_DEFAULT_URL, else this machine");
+  option("--suffix", texts->suffix, "TEXT", "Ending of the channels' names");
+  command->add_flag("--json", texts->json, "Lines of JSON instead of text");
+  command->add_flag("--status", texts->status, "The service's heartbeats as well");
+  option("--count", texts->count, "N", "End after so many verdicts");
+  option("--timeout", texts->timeout, "S", "End after so many seconds without a verdict");
+  command->footer(kExamples);
+  command->callback([texts, &exit] { exit = runTexts(*texts); });
+}
+
+}  // namespace foretouch::tools

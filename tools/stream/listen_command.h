@@ -1,0 +1,15 @@
+// tools/stream/listen_command.h: `foretouch listen`.
+#pragma once
+
+#include "tools/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace foretouch::tools {
+
+/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
+void addListenCommand(CLI::App& program, ExitCode& exit);
+
+}  // namespace foretouch::tools

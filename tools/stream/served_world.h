@@ -1,0 +1,24 @@
+// tools/stream/served_world.h: what a service answers about, loaded: the scene, and a solver an
+// avatar.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "network/stream_solver.h"
+#include "tools/stream/serve_config.h"
+
+namespace foretouch::tools {
+
+struct ServedWorld {
+  std::vector<StreamSolver> avatars;
+  std::size_t numTriangles = 0;
+  std::vector<std::string> remarks;  ///< What was tolerated: one sentence each.
+};
+
+/// Reads and checks all that the configuration names. Errors name the file or option.
+[[nodiscard]] Result<ServedWorld> loadServedWorld(const ServeConfig& config);
+
+}  // namespace foretouch::tools

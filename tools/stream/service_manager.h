@@ -1,0 +1,28 @@
+// tools/stream/service_manager.h: what systemd asks of a service that says how it is (sd_notify(3),
+// Type=notify, WatchdogSec=), without its library: a datagram to the socket in $NOTIFY_SOCKET.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace foretouch::tools {
+
+class ServiceManager {
+ public:
+  /// Reads the environment. Where nobody asks, nothing is sent.
+  ServiceManager();
+
+  void ready(const std::string& status) const { tell("READY=1\nSTATUS=" + status); }
+  void alive() const { tell("WATCHDOG=1"); }
+  void stopping() const { tell("STOPPING=1"); }
+  /// How often alive() is expected at least: half of what was set. Empty: not at all.
+  [[nodiscard]] std::optional<std::chrono::milliseconds> aliveEvery() const { return aliveEvery_; }
+
+ private:
+  void tell(const std::string& text) const;
+  std::string socket_;
+  std::optional<std::chrono::milliseconds> aliveEvery_;
+};
+
+}  // namespace foretouch::tools

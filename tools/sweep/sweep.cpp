@@ -1,0 +1,279 @@
+#include "tools/sweep/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "articulated/text_file.h"
+#include "tessellation/swept_lss.h"
+#include "tools/console.h"
+#include "tools/inputs/clip_pose.h"
+#include "tools/inputs/near_names.h"
+#include "tools/inputs/played_clip.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Eigen::Vector3d;
+
+Error optionError(const char* option, ErrorCode code, std::string message) {
+  return Error{code, option, -1, -1, std::move(message)};
+}
+
+Result<std::vector<LinkId>> linksOf(const std::vector<std::string>& names, const Avatar& avatar) {
+  const Skeleton& skeleton = avatar.skeleton();
+  std::vector<bool> isChosen(static_cast<std::size_t>(avatar.numLinks()), false);
+  for (const std::string& name : names) {
+    if (name == "all") {
+      for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+        isChosen[static_cast<std::size_t>(link)] = !avatar.lss(link).empty();
+      }
+      continue;
+    }
+    const auto link = skeleton.find(name);
+    if (!link) {
+      std::vector<std::string> known;
+      for (LinkId l = 0; l < avatar.numLinks(); ++l) known.push_back(skeleton.name(l));
+      return optionError("--links", ErrorCode::UnknownName,
+                         "no link is called " + inQuotes(name) + didYouMean(name, known));
+    }
+    if (avatar.lss(*link).empty()) {
+      return optionError("--links", ErrorCode::Empty,
+                         "the link " + inQuotes(name) + " has no LSS, and so sweeps nothing");
+    }
+    isChosen[static_cast<std::size_t>(*link)] = true;
+  }
+  std::vector<LinkId> links;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    if (isChosen[static_cast<std::size_t>(link)]) links.push_back(link);
+  }
+  if (links.empty()) return optionError("--links", ErrorCode::Empty, "expected the name of a link");
+  return links;
+}
+
+double stepLengthS(const SweepInputs& inputs) {
+  return static_cast<double>(inputs.steps.stride) * inputs.clip.frameTimeS;
+}
+
+/// Puts [from, to] into the steps' times.
+Result<Done> setSpan(SweepInputs& inputs) {
+  const double lastS = static_cast<double>(inputs.steps.count) * stepLengthS(inputs);
+  inputs.fromS = inputs.request.fromS.value_or(0.0);
+  inputs.toS = inputs.request.toS.value_or(lastS);
+  // A frame time that is printed with few digits makes the end of a clip a matter of rounding.
+  constexpr double kSlack = 1e-9;
+  if (inputs.toS > lastS && inputs.toS <= lastS * (1.0 + kSlack)) inputs.toS = lastS;
+  if (!(inputs.fromS >= 0.0 && inputs.fromS < inputs.toS && inputs.toS <= lastS)) {
+    return optionError("--from, --to", ErrorCode::OutOfRange,
+                       fmt::format("expected 0 <= from < to <= {:.6g} s, where the last step ends, "
+                                   "found {:.6g} and {:.6g}",
+                                   lastS, inputs.fromS, inputs.toS));
+  }
+  return Done{};
+}
+
+Result<Pose> poseAt(const SweepInputs& inputs, std::int64_t step) {
+  return poseAtFrame({inputs.avatar, inputs.clip, inputs.match, inputs.request.placement,
+                      inputs.isUpright, inputs.request.motionPath},
+                     step * inputs.steps.stride);
+}
+
+Result<ChainMotion> motionOf(const SweepInputs& inputs, std::int64_t step) {
+  const auto from = poseAt(inputs, step);
+  if (!from.ok()) return from.error();
+  const auto to = poseAt(inputs, step + 1);
+  if (!to.ok()) return to.error();
+  return ChainMotion(inputs.avatar.skeleton(), from.value(), to.value());
+}
+
+/// One LSS's surface in the making.
+struct Work {
+  LinkId link = 0;
+  const Lss* lss = nullptr;
+  SweptSurfaceBuilder builder;
+};
+
+Result<std::vector<Work>> workFor(const SweepInputs& inputs) {
+  std::vector<Work> works;
+  for (const LinkId link : inputs.links) {
+    for (const Lss& lss : inputs.avatar.lss(link)) {
+      auto builder = SweptSurfaceBuilder::create(lss, inputs.request.surface);
+      if (!builder.ok()) return inFile(builder.error(), "--error");
+      works.push_back({link, &lss, std::move(builder).value()});
+    }
+  }
+  return works;
+}
+
+Error tooMany(std::size_t most) {
+  return optionError("--max-triangles", ErrorCode::LimitExceeded,
+                     fmt::format("more than {} triangles; allow more, allow a larger --error, or "
+                                 "sweep fewer links or a shorter time",
+                                 most));
+}
+
+/// The part of the step that is swept.
+SweptSpan spanOf(const SweepInputs& inputs, std::int64_t step) {
+  const double length = stepLengthS(inputs);
+  const double beginS = static_cast<double>(step) * length;
+  SweptSpan span;
+  span.beginT = std::clamp((inputs.fromS - beginS) / length, 0.0, 1.0);
+  span.endT = std::clamp((inputs.toS - beginS) / length, 0.0, 1.0);
+  span.beginS = beginS + span.beginT * length;
+  span.endS = beginS + span.endT * length;
+  return span;
+}
+
+Result<Done> addStep(const SweepInputs& inputs, std::int64_t step, std::vector<Work>& works) {
+  const SweptSpan span = spanOf(inputs, step);
+  if (!(span.beginT < span.endT)) return Done{};
+  const auto motion = motionOf(inputs, step);
+  if (!motion.ok()) return motion.error();
+  std::size_t triangles = 0;
+  for (Work& work : works) {
+    const auto added = work.builder.add(motion.value(), work.link, span);
+    if (!added.ok()) {
+      if (added.error().code == ErrorCode::LimitExceeded &&
+          work.builder.triangles() > inputs.request.surface.maxTriangles) {
+        return tooMany(inputs.request.surface.maxTriangles);
+      }
+      return inFile(added.error(), "--error");
+    }
+    triangles += work.builder.triangles();
+    if (triangles > inputs.request.surface.maxTriangles) {
+      return tooMany(inputs.request.surface.maxTriangles);
+    }
+  }
+  return Done{};
+}
+
+/// At least the distance of a point from the LSS while the motion is in [beginT, endT].
+double distanceFrom(const ChainMotion& motion, LinkId link, const Lss& lss, double beginT,
+                    double endT, const Vector3d& point) {
+  constexpr int kTimes = 17;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kTimes; ++i) {
+    const double t = beginT + (endT - beginT) * i / (kTimes - 1);
+    const AxisEnds ends = axisEnds(lss, motion.stateAt(link, t));
+    const Vector3d axis = ends.b - ends.a;
+    const double square = axis.squaredNorm();
+    const double along =
+        square > 0.0 ? std::clamp((point - ends.a).dot(axis) / square, 0.0, 1.0) : 0.0;
+    least = std::min(least, (ends.a + along * axis - point).norm());
+  }
+  return std::max(0.0, least - lss.radius);
+}
+
+/// A vertex and the middle of some triangles, spread evenly over the surface, in order of time.
+void sampleSurface(const SweepInputs& inputs, const Work& work, const SweptSurface& surface,
+                   Sweep& sweep) {
+  constexpr std::size_t kSamples = 500;
+  const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / kSamples);
+  const double length = stepLengthS(inputs);
+  std::int64_t madeFor = -1;
+  std::optional<ChainMotion> motion;
+  for (std::size_t i = 0; i < surface.triangles.size(); i += stride) {
+    const auto& corners = surface.triangles[i];
+    double beginS = surface.timesS[corners[0]], endS = beginS;
+    Vector3d middle = Vector3d::Zero();
+    for (const std::uint32_t corner : corners) {
+      beginS = std::min(beginS, surface.timesS[corner]);
+      endS = std::max(endS, surface.timesS[corner]);
+      middle += surface.vertices[corner] / 3.0;
+    }
+    const auto step = std::clamp<std::int64_t>(
+        static_cast<std::int64_t>(std::floor(0.5 * (beginS + endS) / length)), 0,
+        inputs.steps.count - 1);
+    if (step != madeFor) {
+      auto made = motionOf(inputs, step);
+      if (!made.ok()) return;  // its poses were good while it was swept
+      motion.emplace(std::move(made).value());
+      madeFor = step;
+    }
+    const SweptSpan span = spanOf(inputs, step);
+    const auto inSpan = [&](double timeS) {
+      return std::clamp(timeS / length - static_cast<double>(step), span.beginT, span.endT);
+    };
+    for (const Vector3d& point : {middle, surface.vertices[corners[0]]}) {
+      sweep.sampledError = std::max(
+          sweep.sampledError,
+          distanceFrom(*motion, work.link, *work.lss, inSpan(beginS), inSpan(endS), point));
+      ++sweep.samples;
+    }
+  }
+}
+
+Result<Done> finishOne(const SweepInputs& inputs, Work& work, Sweep& sweep) {
+  auto finished = work.builder.finish();
+  if (!finished.ok()) return tooMany(inputs.request.surface.maxTriangles);
+  SweptSurface surface = std::move(finished).value();
+  if (surface.vanishes) {
+    ++sweep.vanished;
+    return Done{};
+  }
+  if (inputs.request.surface.side == SurfaceSide::Outer) {
+    sampleSurface(inputs, work, surface, sweep);
+  }
+  sweep.certifiedError = std::max(sweep.certifiedError, surface.certifiedError);
+  sweep.pieces += surface.pieces;
+  sweep.vertices += surface.vertices.size();
+  sweep.triangles += surface.triangles.size();
+  if (sweep.links.empty() || sweep.links.back().link != work.link) {
+    sweep.links.push_back({work.link, inputs.avatar.skeleton().name(work.link), {}});
+  }
+  sweep.links.back().parts.push_back(std::move(surface));
+  if (sweep.triangles > inputs.request.surface.maxTriangles) {
+    return tooMany(inputs.request.surface.maxTriangles);
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<SweepInputs> loadSweepInputs(const SweepRequest& request) {
+  auto played = loadPlayedClip(request);
+  if (!played.ok()) return played.error();
+  auto& [avatar, clip, match, steps, isUpright] = played.value();
+  auto links = linksOf(request.links, avatar);
+  if (!links.ok()) return links.error();
+  SweepInputs inputs{request, std::move(avatar), std::move(clip),         std::move(match),
+                     steps,   isUpright,         std::move(links).value()};
+  const auto spanned = setSpan(inputs);
+  if (!spanned.ok()) return spanned.error();
+  return inputs;
+}
+
+Result<Sweep> sweepOf(const SweepInputs& inputs,
+                      const std::function<bool(std::int64_t, std::int64_t)>& progress) {
+  auto works = workFor(inputs);
+  if (!works.ok()) return works.error();
+  const double length = stepLengthS(inputs);
+  const auto first = static_cast<std::int64_t>(std::floor(inputs.fromS / length));
+  const std::int64_t end =
+      std::min(inputs.steps.count, static_cast<std::int64_t>(std::ceil(inputs.toS / length)));
+  const std::int64_t total =
+      std::max<std::int64_t>(0, end - first) + static_cast<std::int64_t>(works.value().size());
+  Sweep sweep;
+  std::int64_t done = 0;
+  for (std::int64_t step = std::min(first, end - 1); step < end; ++step) {
+    const auto added = addStep(inputs, step, works.value());
+    if (!added.ok()) return added.error();
+    if (!progress(++done, total)) return sweep;
+  }
+  for (Work& work : works.value()) {
+    const auto finished = finishOne(inputs, work, sweep);
+    if (!finished.ok()) return finished.error();
+    if (!progress(++done, total)) return sweep;
+  }
+  if (sweep.links.empty()) {
+    return optionError("--error", ErrorCode::Empty,
+                       "every LSS is too thin for an inner surface with this error; an LSS needs a "
+                       "radius of 1.2 times the error");
+  }
+  return sweep;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,68 @@
+// tools/sweep/sweep.h: the swept volume of an avatar's links over part of a clip, as surfaces.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/clip.h"
+#include "articulated/joint_match.h"
+#include "articulated/result.h"
+#include "middleware/scene_import.h"
+#include "tessellation/swept_surface.h"
+#include "tools/replay/step_selection.h"
+
+namespace foretouch::tools {
+
+/// The options of a sweep, each legal by itself.
+struct SweepRequest {
+  std::string avatarPath, motionPath, mapPath, animation, robotPath;
+  std::vector<std::string> packagePaths;
+  std::vector<std::string> links;    ///< Names, or "all".
+  std::optional<double> fromS, toS;  ///< Seconds in the clip; empty: its begin and end.
+  std::optional<double> rateHz;      ///< Empty: every frame.
+  double motionScale = 1.0;          ///< Metres per unit of the clip.
+  Placement placement;
+  SweptSurfaceOptions surface;  ///< maxTriangles: of all links together.
+};
+
+struct SweepInputs {
+  SweepRequest request;
+  Avatar avatar;
+  Clip clip;
+  JointMatch match;
+  StepSelection steps;
+  bool isUpright = false;
+  std::vector<LinkId> links;  ///< In the avatar's order; each has an LSS.
+  double fromS = 0.0, toS = 0.0;
+};
+
+/// Reads, checks and fits the inputs to one another. Errors name the file or option.
+[[nodiscard]] Result<SweepInputs> loadSweepInputs(const SweepRequest& request);
+
+struct LinkSurface {
+  LinkId link = 0;
+  std::string name;
+  std::vector<SweptSurface> parts;  ///< One an LSS; those that vanish are left out.
+};
+
+struct Sweep {
+  std::vector<LinkSurface> links;
+  double certifiedError = 0.0;
+  /// Outer side: the largest distance from the true sweep of vertices and of points on triangles,
+  /// spread over the surface. No bound, but what the bound is to be compared with.
+  double sampledError = 0.0;
+  std::size_t samples = 0;
+  std::size_t pieces = 0, vertices = 0, triangles = 0;
+  std::size_t vanished = 0;  ///< LSS that are too thin for an inner surface.
+};
+
+/// Calls `progress(done, total)` after each step; it answers false to stop, and the sweep is then
+/// of no use. Time: O(pieces); one thread.
+[[nodiscard]] Result<Sweep> sweepOf(
+    const SweepInputs& inputs, const std::function<bool(std::int64_t, std::int64_t)>& progress);
+
+}  // namespace foretouch::tools
