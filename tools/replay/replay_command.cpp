@@ -35,6 +35,30 @@ struct ReplayTexts {
   bool compareRigid = false, compareLink = false, rays = false, unmatchedAtRest = false;
 };
 
+/// Options that are legal by themselves, but not together.
+Result<Done> checkTogether(const ReplayTexts& texts, const ReplayRequest& request) {
+  const bool isAboveLinks = request.fidelity == Fidelity::Limb ||
+                            request.fidelity == Fidelity::Avatar ||
+                            request.fidelity == Fidelity::Ellipsoid;
+  if (isAboveLinks && (texts.compareRigid || texts.compareLink)) {
+    return Error{ErrorCode::OutOfRange, "--fidelity", -1, -1,
+                 "expected link, exact or skinned with --compare-rigid or --compare-link: above "
+                 "them links have no surface of their own to compare"};
+  }
+  if (request.budgetUs == 0) return Done{};
+  if (texts.compareRigid || texts.compareLink) {
+    return Error{ErrorCode::Mismatch, "--budget-us", -1, -1,
+                 "expected none with --compare-rigid or --compare-link: what is undecided has "
+                 "nothing to compare"};
+  }
+  if (request.culler != Culler::FlatBvh) {
+    return Error{ErrorCode::Mismatch, "--budget-us", -1, -1,
+                 "expected none with --culler point-query: cullers do different work, and would "
+                 "leave different links undecided"};
+  }
+  return Done{};
+}
+
 Result<ReplayJob> settled(const ReplayTexts& texts) {
   ReplayJob job;
   ReplayRequest& request = job.request;
@@ -68,6 +92,9 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   settle.into(request.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
   settle.into(request.tolerance, parseTolerance("--tolerance", texts.tolerance));
   settle.into(request.culler, parseCuller("--culler", texts.culler));
+  if (!texts.budgetUs.empty()) {
+    settle.into(request.budgetUs, parseBudgetUs("--budget-us", texts.budgetUs));
+  }
   if (!texts.policy.empty()) settle.into(request.policies, readPolicyFile(texts.policy));
   if (texts.rate != "all") {
     double rateHz = 0.0;
@@ -80,14 +107,8 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
     settle.into(job.options.threads, parseThreads("--threads", texts.threads));
   }
   if (settle.error()) return *settle.error();
-  const bool isAboveLinks = request.fidelity == Fidelity::Limb ||
-                            request.fidelity == Fidelity::Avatar ||
-                            request.fidelity == Fidelity::Ellipsoid;
-  if (isAboveLinks && (texts.compareRigid || texts.compareLink)) {
-    return Error{ErrorCode::OutOfRange, "--fidelity", -1, -1,
-                 "expected link, exact or skinned with --compare-rigid or --compare-link: above "
-                 "them links have no surface of their own to compare"};
-  }
+  const auto checked = checkTogether(texts, request);
+  if (!checked.ok()) return checked.error();
   return job;
 }
 
@@ -98,7 +119,7 @@ Result<Done> checkOptions(const CLI::App& command, const ReplayTexts& texts, boo
                                    "--threads", "--scope",     "--compare-rigid", "--compare-link",
                                    "--rays"};
   constexpr std::array kOfLogs = {"--suffix", "--max-step", "--confirmations",
-                                  "--unmatched-at-rest", "--budget-us"};
+                                  "--unmatched-at-rest"};
   const auto firstGiven = [&command](const auto& options) {
     const auto given = std::find_if(options.begin(), options.end(),
                                     [&](const char* option) { return command.count(option) > 0; });
@@ -143,9 +164,6 @@ Result<LogReplayJob> settledLog(const ReplayTexts& texts) {
   settle.into(request.policy.confirmations,
               parseCount("--confirmations", texts.confirmations, kMaxServeConfirmations));
   request.policy.unmatchedAtRest = texts.unmatchedAtRest;
-  if (!texts.budgetUs.empty()) {
-    settle.into(request.budgetUs, parseBudgetUs("--budget-us", texts.budgetUs));
-  }
   if (settle.error()) return *settle.error();
   return job;
 }
@@ -280,7 +298,7 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   option("--confirmations", texts->confirmations, "N",
          "Of a log: poses in a row that make a timeline that was not expected");
   option("--budget-us", texts->budgetUs, "US",
-         "Of a log: what a pose may cost, as an amount of work; links beyond it are undecided");
+         "What a step may cost, as an amount of work; links beyond it are undecided");
   command->add_flag("--unmatched-at-rest", texts->unmatchedAtRest,
                     "Of a log: joints that the sender does not have keep their rest values");
   command->add_flag("--compare-rigid", texts->compareRigid,

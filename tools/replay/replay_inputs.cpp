@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "middleware/link_mesh.h"
+#include "network/work_budget.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/ignored_pairs.h"
@@ -74,6 +75,7 @@ Result<QueryOptions> queryOptionsFor(const ReplayRequest& request, const Avatar&
   query.fidelity = request.fidelity;
   query.leafMethod = request.leafMethod;
   query.scope = request.scope;
+  if (request.budgetUs > 0) query.workBudget = workBudget(static_cast<double>(request.budgetUs));
   auto ignored = parseIgnoredPairs(request.ignore, avatar.skeleton(), scene.objectNames());
   if (!ignored.ok()) return ignored.error();
   query.ignored = std::move(ignored).value();

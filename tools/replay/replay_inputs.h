@@ -42,6 +42,8 @@ struct ReplayRequest {
   std::vector<std::string> ignore;
   std::string policyPath;
   std::vector<PolicyRule> policies;  ///< Of that file, or of a service's; later ones win.
+  /// What a step's query may cost, as workBudget() makes work of it; 0: no limit.
+  std::int64_t budgetUs = 0;
 };
 
 struct ReplayInputs {

@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include "articulated/avatar_file.h"
-#include "network/work_budget.h"
 #include "tools/console.h"
 #include "tools/json_text.h"
 #include "tools/replay/results_writer.h"
@@ -31,9 +30,6 @@ Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
     request.avatarPath = inputs.request.avatars[i].path;
     auto options = queryOptionsFor(request, inputs.avatars[i], inputs.scene);
     if (!options.ok()) return options.error();
-    if (inputs.request.budgetUs > 0) {
-      options.value().workBudget = workBudget(static_cast<double>(inputs.request.budgetUs));
-    }
     auto solver = StreamSolver::make(inputs.request.avatars[i].id, inputs.avatars[i], inputs.scene,
                                      options.value(), inputs.request.policy);
     if (!solver.ok()) return inFile(solver.error(), request.avatarPath);
@@ -214,7 +210,7 @@ std::string logHeaderLine(const LogReplayInputs& inputs) {
   text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", numberText(query.sceneScale),
                       query.sceneUp == UpAxis::Z ? "z" : "y", jsonList(query.ignore));
   text += fmt::format(R"(,"budget_us":{},"max_step":{},"confirmations":{},"unmatched_at_rest":{})",
-                      request.budgetUs,
+                      query.budgetUs,
                       numberText(static_cast<double>(request.policy.maxStepUs) / kUsPerS),
                       request.policy.confirmations, request.policy.unmatchedAtRest);
   text += R"(,"avatars":[)";

@@ -32,8 +32,6 @@ struct LogReplayRequest {
   std::vector<NumberedAvatar> avatars;
   StreamPolicy policy;
   std::string suffix;
-  std::int64_t budgetUs =
-      0;  ///< What a pose may cost, as workBudget() makes work of it; 0: no limit.
 };
 
 struct LogReplayInputs {

@@ -94,6 +94,7 @@ std::string headerLine(const ReplayInputs& inputs) {
   if (request.scope != Scope::EveryLink) {
     text += fmt::format(R"(,"scope":"{}")", toString(request.scope));
   }
+  if (request.budgetUs > 0) text += fmt::format(R"(,"budget_us":{})", request.budgetUs);
   text += policyField(request) + surfaceFields(request) + motionFields(request);
   text += fmt::format(R"(,"links":{},"unmatched_joints":{})", jsonList(links),
                       jsonList(inputs.match.unmatchedAvatar));

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "articulated/avatar_file.h"
-#include "network/work_budget.h"
 #include "tools/console.h"
 #include "tools/replay/replay_inputs.h"
 
@@ -21,6 +20,7 @@ ReplayRequest asReplay(const ServeConfig& config, const std::string& avatarPath)
   request.fidelity = config.fidelity;
   request.ignore = config.ignore;
   request.policies = config.policies;
+  request.budgetUs = config.budgetUs;
   return request;
 }
 
@@ -30,9 +30,6 @@ Result<StreamSolver> loadAvatar(const ServeConfig& config, const ServedAvatar& s
   if (!avatar.ok()) return inFile(avatar.error(), served.file);
   auto query = queryOptionsFor(asReplay(config, served.file), avatar.value(), scene);
   if (!query.ok()) return query.error();
-  if (config.budgetUs > 0) {
-    query.value().workBudget = workBudget(static_cast<double>(config.budgetUs));
-  }
   auto solver = StreamSolver::make(served.id, avatar.value(), scene, query.value(), config.stream);
   if (!solver.ok()) return inFile(solver.error(), served.file);
   return solver;

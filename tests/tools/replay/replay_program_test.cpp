@@ -1,6 +1,7 @@
 // tests/tools/replay/replay_program_test.cpp: `foretouch replay` from files to files.
 #include <chrono>
 #include <csignal>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_inputs.h"
 #include "tests/tools/small_world.h"
+#include "tools/replay/example_folder.h"
 
 namespace foretouch::test {
 namespace {
@@ -112,6 +114,88 @@ TEST(ReplayProgram, WritesTheSameBytesForAnyThreadsAndEitherCuller) {
   EXPECT_EQ(linesOf(first).size(), 600u);
   EXPECT_NE(first.find("\"contact\""), std::string::npos);
   EXPECT_EQ(first.find("latency"), std::string::npos);
+}
+
+/// What a step's line says of a link: how long it is free of contact, and whether that is all.
+struct Said {
+  double free = 1.0;
+  bool isUndecided = false;
+};
+
+std::vector<std::map<std::string, Said>> saidIn(const std::string& path) {
+  std::vector<std::map<std::string, Said>> steps;
+  const std::vector<std::string> lines = linesOf(contentOf(path));
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::map<std::string, Said> step;
+    for (const json& contact : json::parse(lines[i])["contacts"]) {
+      const bool isUndecided = contact["verdict"] == "undecided";
+      if (isUndecided) {
+        EXPECT_EQ(contact["reason"], "work-budget");
+      }
+      step[contact["link"]] = {contact[isUndecided ? "free_until" : "toi"], isUndecided};
+    }
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+TEST(ReplayProgram, ProvesMoreWithALargerBudgetAndTheSameOnAnyThread) {
+  const std::string folder = tools::exampleFolder().value();
+  const TempFolder out;
+  const auto replayed = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"replay",
+                                       "--scene",
+                                       folder + "/room.obj",
+                                       "--avatar",
+                                       folder + "/dancer.avatar.json",
+                                       "--motion",
+                                       folder + "/dancer.bvh",
+                                       "--rate",
+                                       "10",
+                                       "--output",
+                                       out / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = runForetouch(arguments);
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    return saidIn(out / name);
+  };
+  auto before = replayed("1", {"--budget-us", "1", "--threads", "1"});
+  replayed("2", {"--budget-us", "1", "--threads", "2"});
+  EXPECT_EQ(resultsWithoutLatency(out / "1"), resultsWithoutLatency(out / "2"));
+  EXPECT_EQ(json::parse(linesOf(contentOf(out / "1"))[0])["budget_us"], 1);
+  std::size_t undecidedBefore = before.size() * 1000;
+  for (const std::string budget : {"5", "20", "60000000", ""}) {
+    const auto now =
+        budget.empty() ? replayed("all", {}) : replayed("more", {"--budget-us", budget});
+    ASSERT_EQ(now.size(), before.size());
+    std::size_t undecided = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      for (const auto& [link, said] : now[i]) {
+        undecided += said.isUndecided ? 1 : 0;
+        const auto earlier = before[i].find(link);
+        const double free = earlier == before[i].end() ? 1.0 : earlier->second.free;
+        EXPECT_LE(free, said.free) << link << " of step " << i;
+      }
+    }
+    EXPECT_LE(undecided, undecidedBefore);
+    undecidedBefore = undecided;
+    before = now;
+  }
+  EXPECT_EQ(undecidedBefore, 0u);
+}
+
+TEST(ReplayProgram, RefusesABudgetBesideWhatCannotKeepIt) {
+  const SmallWorld world;
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--compare-rigid"},
+                                                  {"--compare-link", "--fidelity", "exact"},
+                                                  {"--culler", "point-query"}}) {
+    std::vector<std::string> arguments = options;
+    arguments.insert(arguments.end(), {"--budget-us", "5", "--output", world.folder / "x.jsonl"});
+    const Ended ended = runForetouch(world.replay(arguments));
+    EXPECT_EQ(ended.exitCode, 2);
+    EXPECT_EQ(ended.err.find("foretouch: --budget-us: expected none with "), 0u) << ended.err;
+    EXPECT_NE(ended.err.find(options[0]), std::string::npos) << ended.err;
+  }
 }
 
 TEST(ReplayProgram, ObeysRateScalePlaceIgnoreAndUp) {

@@ -195,11 +195,8 @@ TEST(ReplayOfALog, RefusesByNameWhatMakesNoSense) {
     EXPECT_TRUE(holds(ended.err, "foretouch: " + options[0] + ": makes no sense with an event log"))
         << ended.err;
   }
-  const std::vector<std::vector<std::string>> ofLogs = {{"--suffix", "X"},
-                                                        {"--max-step", "1"},
-                                                        {"--confirmations", "3"},
-                                                        {"--unmatched-at-rest"},
-                                                        {"--budget-us", "5"}};
+  const std::vector<std::vector<std::string>> ofLogs = {
+      {"--suffix", "X"}, {"--max-step", "1"}, {"--confirmations", "3"}, {"--unmatched-at-rest"}};
   for (std::vector<std::string> options : ofLogs) {
     const std::string name = options[0];
     options.insert(options.end(), {"--output", world.folder / "x.jsonl"});
