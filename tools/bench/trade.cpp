@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -11,7 +10,9 @@
 
 #include "tools/bench/machine.h"
 #include "tools/bench/options.h"
+#include "tools/bench/trade/dominance.h"
 #include "tools/bench/trade/runner.h"
+#include "tools/bench/trade/trade_tables.h"
 #include "tools/console.h"
 #include "tools/replay/step_selection.h"
 
@@ -20,6 +21,11 @@ namespace {
 
 std::string nameOf(const std::string& path) {
   return std::filesystem::path(path).filename().string();
+}
+
+void noteOnce(std::string note, BenchReport& report) {
+  auto& notes = report.notes;
+  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
 }
 
 /// Where a clip stands, and around which frame it is looked at.
@@ -78,8 +84,9 @@ class WorldBench {
       auto run = runAt(rateHz, places.value());
       if (!run.ok()) return run.error();
       if (run.value().windows.empty()) {
-        bench.report.notes.push_back(
-            fmt::format("{} holds no steps at {:g} Hz.", nameOf(inputs_.files.motionPath), rateHz));
+        noteOnce(
+            fmt::format("{} holds no steps at {:g} Hz.", nameOf(inputs_.files.motionPath), rateHz),
+            bench.report);
         continue;
       }
       if (!isJudged) run.value().judged = request_.judged;
@@ -186,45 +193,9 @@ Result<Done> measureWorld(const TradeRequest& request, const BenchFiles& files,
   return world.run(bench, judged);
 }
 
-const char* wordFor(TradePromise promise) {
-  switch (promise) {
-    case TradePromise::Sound: return "never misses";
-    case TradePromise::Accurate: return "never misses, within eps";
-    default: return "may miss";
-  }
-}
-
-template <typename IsWanted>
-std::vector<TradeRow> chosenRows(const std::vector<TradeRow>& rows, const IsWanted& isWanted) {
-  std::vector<TradeRow> chosen;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(chosen), isWanted);
-  return chosen;
-}
-
-void addTables(MeasuredTrade& bench) {
-  const double tolerance = bench.baseTolerance, rateHz = bench.baseRateHz;
-  const auto isBase = [=](const TradeRow& row) {
-    return row.tolerance == tolerance && row.rateHz == rateHz;
-  };
-  const auto isUnbeaten = [=](const TradeRow& row) {
-    return row.onFrontier && row.rateHz == rateHz;
-  };
-  const auto hasMissed = [=](const TradeRow& row) {
-    return row.tolerance == tolerance && row.score.missed > 0;
-  };
-  bench.report.tables = {
-      tradeTable(chosenRows(bench.rows, isBase), "strategies",
-                 fmt::format("Every strategy at {:g} m and {:g} Hz", tolerance, rateHz)),
-      tradeTable(chosenRows(bench.rows, isUnbeaten), "frontier",
-                 fmt::format("What nothing beats in both speed and distance from touching, at "
-                             "{:g} Hz, with nothing missed or late",
-                             rateHz)),
-      tradeTable(
-          chosenRows(bench.rows, hasMissed), "misses",
-          fmt::format("What is missed, at {:g} m; whoever is not here missed nothing", tolerance))};
-}
-
-void addNotes(const TradeRequest& request, const JudgedTruth& judged, BenchReport& report) {
+void addNotes(const TradeRequest& request, const JudgedTruth& judged,
+              const std::vector<TradeRow>& rows, BenchReport& report) {
+  report.notes.push_back(dominanceText(dominanceOf(rows)));
   report.notes.push_back(fmt::format(
       "Windows of {:g} s of the clip at up to {} places a scene, every step of them; one thread. A "
       "strategy goes through a window as a stream would bring it, strategies take turns window by "
@@ -251,68 +222,6 @@ void addNotes(const TradeRequest& request, const JudgedTruth& judged, BenchRepor
 
 }  // namespace
 
-BenchTable tradeTable(const std::vector<TradeRow>& rows, const std::string& name,
-                      const std::string& title) {
-  BenchTable table{name,
-                   title,
-                   {{"scene", "scene", 0},
-                    {"clip", "clip", 0},
-                    {"strategy", "strategy", 0},
-                    {"promise", "promise", 0},
-                    {"tolerance_m", "eps m", -1},
-                    {"rate_hz", "Hz", -1},
-                    {"steps", "steps", 0},
-                    {"contacts", "contacts", 0},
-                    {"starts", "starts", 0},
-                    {"missed", "missed", 0},
-                    {"false", "false", 0},
-                    {"late", "late", 0},
-                    {"late_max_ms", "late max ms", 2},
-                    {"toi_error_mean_ms", "toi err ms", 4},
-                    {"toi_error_max_ms", "max", 3},
-                    {"distance_error_mean_m", "dist err m", -1},
-                    {"distance_error_max_m", "max m", -1},
-                    {"mean_us", "mean us", 2},
-                    {"p50_us", "p50", 2},
-                    {"p90_us", "p90", 2},
-                    {"p99_us", "p99", 2},
-                    {"nodes", "nodes/step", 1},
-                    {"pairs", "pairs/step", 1},
-                    {"states", "states/step", 1},
-                    {"frontier", "frontier", 0}},
-                   {}};
-  for (const TradeRow& row : rows) {
-    const auto steps = static_cast<double>(row.score.steps);
-    const TradeScore& s = row.score;
-    table.rows.push_back({row.scene,
-                          row.clip,
-                          row.strategy,
-                          std::string(wordFor(row.promise)),
-                          row.tolerance,
-                          row.rateHz,
-                          s.steps,
-                          s.contacts,
-                          s.starts,
-                          s.missed,
-                          s.falseOnes,
-                          s.late,
-                          s.lateMaxMs,
-                          s.toiErrorMeanMs,
-                          s.toiErrorMaxMs,
-                          s.distanceErrorMean,
-                          s.distanceErrorMax,
-                          row.us.mean,
-                          row.us.p50,
-                          row.us.p90,
-                          row.us.p99,
-                          static_cast<double>(row.work.nodes) / steps,
-                          static_cast<double>(row.work.pairs) / steps,
-                          static_cast<double>(row.work.states) / steps,
-                          std::string(row.onFrontier ? "yes" : "")});
-  }
-  return table;
-}
-
 Result<MeasuredTrade> measureTrade(const TradeRequest& request) {
   MeasuredTrade bench;
   bench.baseTolerance = request.baseTolerance;
@@ -332,8 +241,8 @@ Result<MeasuredTrade> measureTrade(const TradeRequest& request) {
     return Error{ErrorCode::Empty, "--rate", -1, -1, "expected a rate that a clip has"};
   }
   markFrontier(bench.rows);
-  addTables(bench);
-  addNotes(request, judged, report);
+  report.tables = tablesForPeople(bench.rows, bench.baseTolerance, bench.baseRateHz);
+  addNotes(request, judged, bench.rows, report);
   return bench;
 }
 

@@ -37,8 +37,4 @@ struct MeasuredTrade {
 /// Errors name the file or option.
 [[nodiscard]] Result<MeasuredTrade> measureTrade(const TradeRequest& request);
 
-/// The rows as a table, `name` its name.
-[[nodiscard]] BenchTable tradeTable(const std::vector<TradeRow>& rows, const std::string& name,
-                                    const std::string& title);
-
 }  // namespace foretouch::tools

@@ -15,6 +15,7 @@
 #include "tools/bench/options.h"
 #include "tools/bench/trade.h"
 #include "tools/bench/trade/trade_page.h"
+#include "tools/bench/trade/trade_tables.h"
 #include "tools/settling.h"
 
 namespace foretouch::tools {

@@ -9,8 +9,10 @@
 
 #include "tests/tools/small_inputs.h"
 #include "tools/bench/trade.h"
+#include "tools/bench/trade/dominance.h"
 #include "tools/bench/trade/plot.h"
 #include "tools/bench/trade/trade_page.h"
+#include "tools/bench/trade/trade_tables.h"
 #include "tools/bench/tune.h"
 
 namespace foretouch::tools {
@@ -52,6 +54,44 @@ TEST(TradeFrontier, LeavesOutMissesAndWhatIsNotKnown) {
   EXPECT_TRUE(rows[1].onFrontier);
   EXPECT_FALSE(rows[2].onFrontier);
   EXPECT_TRUE(rows[3].onFrontier);
+}
+
+TEST(TradeDominance, CountsWhatIsBeatenAndWhatIsNot) {
+  std::vector<TradeRow> rows = {
+      row("Foretouch", 2.0, 5e-4, 0),
+      row("plain advancement", 50.0, 9e-4, 0),
+      row("voxel sweep", 30.0, 4e-4, 0),  // slower, but closer: not beaten
+      row("carried certificates", 60.0, 9e-4, 0),
+      row("poses only", 1.0, 1e-2, 2),
+      row("Foretouch, avatar", 90.0, 1.0, 0)};
+  rows[2].promise = TradePromise::Sound;
+  rows.push_back(row("plain advancement", 10.0, 9e-4, 0));
+  rows.back().rateHz = 30.0;  // nothing of ours there
+  const TradeDominance dominance = dominanceOf(rows);
+  EXPECT_EQ(dominance.rivals, 4);
+  EXPECT_EQ(dominance.beaten, 2);
+  EXPECT_EQ(dominance.factors, (std::vector<double>{25.0, 30.0}));
+  EXPECT_NE(dominanceText(dominance).find("4 settings; 2 of these are beaten"), std::string::npos);
+  rows[0].score.late = 1;  // what is late beats nobody
+  EXPECT_EQ(dominanceOf(rows).beaten, 0);
+}
+
+TEST(TradeTables, TellTheLeadAndAddUp) {
+  std::vector<TradeRow> rows = {row("Foretouch", 2.0, 5e-4, 0),
+                                row("plain advancement", 50.0, 9e-4, 0),
+                                row("poses only", 1.0, 1e-2, 2)};
+  rows.push_back(rows[2]);
+  rows.back().clip = "other.bvh";
+  const auto tables = tablesForPeople(rows, 1e-3, 5.0);
+  ASSERT_EQ(tables.size(), 4u);
+  ASSERT_EQ(tables[0].rows.size(), 1u);
+  EXPECT_EQ(std::get<std::string>(tables[0].rows[0][4]), "plain advancement");
+  EXPECT_EQ(std::get<double>(tables[0].rows[0][6]), 25.0);
+  EXPECT_EQ(std::get<std::int64_t>(tables[0].rows[0][7]), 2);
+  ASSERT_EQ(tables[1].rows.size(), 3u);
+  EXPECT_EQ(std::get<std::int64_t>(tables[1].rows[2][4]), 4);  // missed, both clips
+  ASSERT_EQ(tables[2].rows.size(), 1u);
+  EXPECT_EQ(std::get<std::string>(tables[2].rows[0][1]), "4 of 8");
 }
 
 /// Every tag is closed, in order; what closes itself or needs no end is passed over.

@@ -90,6 +90,10 @@ struct Rectangle {
   }
 };
 
+std::string tickText(const PlotAxis& axis, double tick) {
+  return axis.tickText != nullptr ? inHtml(axis.tickText(tick)) : fmt::format("{:g}", tick);
+}
+
 /// Draws one plot.
 class Drawing {
  public:
@@ -130,15 +134,15 @@ class Drawing {
       const double x = x_.at(tick);
       svg_ += fmt::format(
           "<line class=\"grid\" x1=\"{0:.1f}\" y1=\"{1}\" x2=\"{0:.1f}\" y2=\"{2}\"/>"
-          "<text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4:g}</text>\n",
-          x, top, bottom, bottom + 20.0, tick);
+          "<text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4}</text>\n",
+          x, top, bottom, bottom + 20.0, tickText(plot_.x, tick));
     }
     for (const double tick : y_.ticks()) {
       const double y = y_.at(tick);
       svg_ += fmt::format(
           "<line class=\"grid\" x1=\"{1}\" y1=\"{0:.1f}\" x2=\"{2}\" y2=\"{0:.1f}\"/>"
-          "<text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5:g}</text>\n",
-          y, left, right, left - 8.0, y + 5.0, tick);
+          "<text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
+          y, left, right, left - 8.0, y + 5.0, tickText(plot_.y, tick));
     }
     svg_ += fmt::format("<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n",
                         left, top, right - left, bottom - top);

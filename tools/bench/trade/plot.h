@@ -25,6 +25,7 @@ struct PlotAxis {
   std::string label;  ///< With its unit.
   bool isLog = true;
   bool isReversed = false;
+  std::string (*tickText)(double) = nullptr;  ///< None: the number.
 };
 
 struct Plot {

@@ -10,12 +10,13 @@
 
 #include <fmt/format.h>
 
+#include "tools/bench/trade/dominance.h"
 #include "tools/bench/trade/plot.h"
 
 namespace foretouch::tools {
 namespace {
 
-constexpr char kOurs[] = "Foretouch";
+constexpr const char* kOurs = kForetouchStrategy;
 constexpr char kPlain[] = "plain advancement";
 constexpr char kPosesOnly[] = "poses only";
 
@@ -27,13 +28,13 @@ using Rows = std::vector<const TradeRow*>;
 
 std::string lengthText(double m) {
   if (!std::isfinite(m)) return "unknown";
-  if (m < 1e-3) return fmt::format("{:.3g} um", 1e6 * m);
+  if (m < 1e-3) return fmt::format("{:.3g} µm", 1e6 * m);
   return m < 1.0 ? fmt::format("{:.3g} mm", 1e3 * m) : fmt::format("{:.3g} m", m);
 }
 
 std::string colorOf(const TradeRow& row) {
   if (row.strategy == kOurs) return "#0b57a4";
-  if (row.strategy.rfind(kOurs, 0) == 0) return "#5b8fc7";
+  if (isForetouch(row)) return "#5b8fc7";
   return row.promise == TradePromise::Nothing ? "#c0392b" : "#9a6a00";
 }
 
@@ -44,10 +45,6 @@ std::string noteOf(const TradeRow& row) {
       row.strategy, lengthText(row.tolerance), row.rateHz, row.us.mean, row.us.p99,
       row.score.missed, row.score.contacts, row.score.late, row.score.falseOnes,
       lengthText(row.score.distanceErrorMean));
-}
-
-bool isSafe(const TradeRow& row) {
-  return row.score.missed == 0 && row.score.late == 0;
 }
 
 std::vector<std::string> strategiesOf(const Rows& rows) {
@@ -110,11 +107,20 @@ const TradeRow* quickest(const Rows& rows, double error) {
   return best;
 }
 
+/// What the best of other strategies takes instead; empty where there is none.
+std::string leadText(const Rows& rows, const TradeRow& winner, double error) {
+  const TradeRow* const rival =
+      quickest(only(rows, [](const TradeRow& row) { return !isForetouch(row); }), error);
+  if (rival == nullptr || !isForetouch(winner)) return "";
+  return fmt::format("; {} takes {:.0f} times that", rival->strategy,
+                     rival->us.mean / winner.us.mean);
+}
+
 Plot latencyPlot(const Rows& all, const MeasuredTrade& bench) {
   const Rows rows = only(all, [&](const TradeRow& row) { return row.rateHz == bench.baseRateHz; });
   Plot plot;
   plot.x = {"mean time of a step, microseconds (logarithmic)", true, false};
-  plot.y = {"mean distance from touching when reported, metres (logarithmic)", true, false};
+  plot.y = {"mean distance from touching when reported (logarithmic)", true, false, lengthText};
   plot.lines = linesOf(rows, [](const TradeRow& row) {
     return std::pair(row.us.mean, std::isfinite(row.score.distanceErrorMean)
                                       ? std::max(kLeastError, row.score.distanceErrorMean)
@@ -137,8 +143,9 @@ Plot latencyPlot(const Rows& all, const MeasuredTrade& bench) {
                                  lengthText(bench.baseTolerance))
                    : fmt::format(
                          "Within {} and with no contact missed, {} is the quickest: {:.1f} "
-                         "microseconds a step",
-                         lengthText(bench.baseTolerance), winner->strategy, winner->us.mean);
+                         "microseconds a step{}",
+                         lengthText(bench.baseTolerance), winner->strategy, winner->us.mean,
+                         leadText(rows, *winner, bench.baseTolerance));
   plot.subtitle = fmt::format(
       "{}, {:g} Hz. Left is quicker, down is more accurate. A dot is a tolerance from {} to {}; a "
       "ring missed contacts or found them late. Nothing that misses nothing beats the green band.",
@@ -199,7 +206,7 @@ Plot missesPlot(const Rows& all, const MeasuredTrade& bench) {
 Plot costPlot(const Rows& all, const MeasuredTrade& bench) {
   const Rows rows = only(all, [&](const TradeRow& row) { return row.rateHz == bench.baseRateHz; });
   Plot plot;
-  plot.x = {"tolerance, metres (logarithmic; finer to the right)", true, true};
+  plot.x = {"tolerance (logarithmic; finer to the right)", true, true, lengthText};
   plot.y = {"mean time of a step, microseconds (logarithmic)", true, false};
   plot.lines =
       linesOf(rows, [](const TradeRow& row) { return std::pair(row.tolerance, row.us.mean); });
@@ -243,9 +250,11 @@ svg .name { font-weight: 600; paint-order: stroke; stroke: #fff; stroke-width: 3
 svg .axis { font-size: 14px; }
 .grid { stroke: #e3e7ec; }
 .frame { fill: none; stroke: #8a94a3; }
+.lead { font-size: 1.15rem; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 13px; white-space: nowrap; }
 caption { text-align: left; font-weight: 600; padding: 0.4rem 0; }
+th { vertical-align: bottom; white-space: normal; }
 th, td { border-bottom: 1px solid #e3e7ec; padding: 0.2rem 0.5rem; text-align: right; }
 td.words, th.words { text-align: left; }
 ul { color: #4a5565; }
@@ -265,7 +274,12 @@ std::string cellText(const BenchCell& cell, int decimals) {
 std::string tableHtml(const BenchTable& table) {
   std::string text =
       "<div class=\"scroll\"><table>\n<caption>" + inHtml(table.title) + "</caption>\n<tr>";
-  for (const BenchColumn& column : table.columns) text += "<th>" + inHtml(column.title) + "</th>";
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const bool isWords =
+        !table.rows.empty() && std::holds_alternative<std::string>(table.rows.front()[c]);
+    text += std::string(isWords ? "<th class=\"words\">" : "<th>") +
+            inHtml(table.columns[c].title) + "</th>";
+  }
   text += "</tr>\n";
   for (const auto& row : table.rows) {
     text += "<tr>";
@@ -309,7 +323,9 @@ std::string tradePage(const MeasuredTrade& bench) {
       "<h1>Speed for accuracy</h1>\n<p>What a moving body touches between two poses, by every "
       "strategy measured: how long a step takes, what it misses, and how far off it is. "
       "Measured " +
-      inHtml(bench.report.date) + " UTC.</p>\n";
+      inHtml(bench.report.date) + " UTC.</p>\n<p class=\"lead\">" +
+      inHtml(dominanceText(dominanceOf(bench.rows))) + "</p>\n";
+  if (!bench.report.tables.empty()) page += tableHtml(bench.report.tables.front());
   std::vector<std::pair<std::string, Rows>> worlds;
   for (const TradeRow& row : bench.rows) {
     const std::string where = whereText(row);
