@@ -324,6 +324,31 @@ TEST_P(LinkPolicies, AreAllInReachByNeed) {
   for (std::size_t link = 0; link < 2; ++link) expectSame(straight.links[link], step.links[link]);
 }
 
+// The volume around the whole body is asked first; whatever it says, the answers stay.
+TEST_P(LinkPolicies, AreAnsweredByNeedAsStraightAtAnyFidelity) {
+  int touched = 0, settled = 0;
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(2100 + i));
+    World world = someWorld(2100 + i, i % 3 == 0 ? 1 : 1500, 5);
+    QueryOptions mixed = options();
+    mixed.surface = world.surface;
+    mixed.fidelity = Fidelity::Exact;
+    if (i % 2 == 0) mixed.linkPolicies = randomPolicies(random, 5, {1e-2, 1e-4});
+    const StepContacts straight = answer(world, mixed);
+    mixed.descent = Descent::ByNeed;
+    const StepContacts byNeed = answer(world, mixed);
+    for (std::size_t link = 0; link < straight.links.size(); ++link) {
+      expectSame(straight.links[link], byNeed.links[link]);
+      touched += straight.links[link].verdict != Verdict::Clear;
+    }
+    EXPECT_EQ(byNeed.counters.rungTests, 1u);
+    settled += byNeed.counters.settledAbove > 0;
+  }
+  EXPECT_GT(touched, 30);
+  EXPECT_GT(settled, 3);
+}
+
 std::string nameOf(const testing::TestParamInfo<Way>& tested) {
   return tested.param.simd ? toString(*tested.param.simd) : "doubles";
 }
