@@ -35,7 +35,10 @@ function(foretouch_library folder)
   foreach(header ${ARG_HEADERS})
     set_property(GLOBAL APPEND PROPERTY FORETOUCH_HEADERS ${folder}/${header})
     get_filename_component(subfolder ${header} DIRECTORY)
-    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/foretouch/${folder}/${subfolder})
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/foretouch/${folder}/${subfolder}
+            COMPONENT dev)
   endforeach()
-  install(TARGETS ${target} EXPORT foretouchTargets)
+  install(TARGETS ${target} EXPORT foretouchTargets
+          ARCHIVE COMPONENT dev
+          LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev)
 endfunction()

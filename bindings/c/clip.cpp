@@ -1,0 +1,113 @@
+// bindings/c/clip.cpp: ft_clip.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "articulated/bvh_reader.h"
+#include "bindings/c/handles.h"
+#include "bindings/c/import_options.h"
+#include "bindings/c/sized_struct.h"
+
+namespace foretouch::c {
+namespace {
+
+ft_clip_options defaultClipOptions() {
+  ft_clip_options options{};
+  options.size = sizeof options;
+  options.scale = 1.0;
+  return options;
+}
+
+/// How a clip is read and where it stands.
+struct ClipReading {
+  BvhOptions bvh;
+  Placement placement;
+};
+
+ft_status readClipOptions(const ft_clip_options* given, ClipReading& reading) {
+  ft_clip_options known = defaultClipOptions();
+  if (given != nullptr) {
+    if (const auto s = readStruct(given, "ft_clip_options", known); s != FT_OK) return s;
+  }
+  UpAxis up = UpAxis::Y;
+  if (const auto s = readUpAxis(known.up, up); s != FT_OK) return s;
+  reading.bvh.scale = known.scale;
+  reading.placement.motionUpZ = up == UpAxis::Z;
+  reading.placement.yawDeg = known.yaw_deg;
+  reading.placement.origin = Eigen::Map<const Eigen::Vector3d>(known.origin);
+  if (!(std::abs(known.yaw_deg) <= kMaxBvhAngleDeg)) {
+    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "yaw_deg: expected at most 1e6, found %g",
+                   known.yaw_deg);
+  }
+  if (!(reading.placement.origin.cwiseAbs().array() <= kMaxCoordinate).all()) {
+    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "origin: expected coordinates within 1e7 m");
+  }
+  return FT_OK;
+}
+
+}  // namespace
+}  // namespace foretouch::c
+
+using namespace foretouch;
+using namespace foretouch::c;
+
+ft_status ft_clip_options_init(ft_clip_options* options, size_t size) {
+  return initStruct(__func__, options, size, "ft_clip_options", defaultClipOptions());
+}
+
+ft_status ft_clip_create_from_file(const char* path, const ft_avatar* avatar,
+                                   const ft_clip_options* options, ft_clip** clip) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = cleared(clip); s != FT_OK) return s;
+    if (const auto s = needed(path, "path"); s != FT_OK) return s;
+    if (const auto s = checked(avatar); s != FT_OK) return s;
+    ClipReading reading;
+    if (const auto s = readClipOptions(options, reading); s != FT_OK) return s;
+    auto read = readBvhFile(path, reading.bvh);
+    if (!read.ok()) return failure(read.error());
+    auto match = matchJoints(avatar->parts->avatar.skeleton(), read.value().skeleton);
+    if (!match.ok()) {
+      Error error = match.error();
+      error.file = path;
+      return failure(error);
+    }
+    *clip = new ft_clip{ft_clip::kMark, avatar->parts, std::move(read).value(),
+                        std::move(match).value(), reading.placement};
+    return FT_OK;
+  });
+}
+
+ft_status ft_clip_get_info(const ft_clip* clip, ft_clip_info* info) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(clip); s != FT_OK) return s;
+    const auto& driver = clip->match.clipJointOf;
+    ft_clip_info known{};
+    known.matched_joints = static_cast<std::int32_t>(
+        std::count_if(driver.begin(), driver.end(), [](JointId j) { return j != kNoParent; }));
+    known.frame_count = clip->clip.frames.size();
+    known.frame_time_s = clip->clip.frameTimeS;
+    return writeStruct(info, "ft_clip_info", known);
+  });
+}
+
+ft_status ft_clip_pose(const ft_clip* clip, size_t frame, double* rotations, double* translations,
+                       size_t capacity, size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(clip); s != FT_OK) return s;
+    const std::size_t frames = clip->clip.frames.size();
+    if (frame >= frames) {
+      return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "frame: expected 0 to %zu, found %zu",
+                     frames - 1, frame);
+    }
+    const Skeleton& skeleton = clip->avatar->avatar.skeleton();
+    auto pose = validatedPose(
+        skeleton,
+        placed(skeleton, poseOfAvatar(skeleton, clip->clip, clip->match, frame), clip->placement));
+    if (!pose.ok()) return failure(pose.error());
+    return writePose(pose.value(), rotations, translations, capacity, required);
+  });
+}
+
+void ft_clip_destroy(ft_clip* clip) {
+  destroy(__func__, clip);
+}

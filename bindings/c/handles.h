@@ -1,0 +1,122 @@
+// bindings/c/handles.h: what stands behind the opaque handles. Each begins with the mark of its
+// kind, so that one handed over in the place of another is refused and not believed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/clip.h"
+#include "articulated/joint_match.h"
+#include "articulated/motion.h"
+#include "articulated/pose.h"
+#include "bindings/c/status.h"
+#include "middleware/avatar_surface.h"
+#include "middleware/query.h"
+#include "middleware/scene.h"
+
+namespace foretouch::c {
+
+/// Shared by the handle of the avatar and those of its queries and clips.
+struct AvatarParts {
+  Avatar avatar;
+  std::optional<AvatarSurface> surface;
+};
+
+/// Eight bytes that no other kind begins with, nor memory by chance.
+enum class Mark : std::uint64_t {
+  Gone = 0,
+  Scene = 0x656e656353746600u,
+  Avatar = 0x6174617641746600u,
+  Clip = 0x0070696c43746600u,
+  Query = 0x0079726575746600u,
+};
+
+}  // namespace foretouch::c
+
+struct ft_scene {
+  static constexpr auto kMark = foretouch::c::Mark::Scene;
+  static constexpr const char* kName = "scene";
+  foretouch::c::Mark mark = kMark;
+  foretouch::Scene scene;
+};
+
+struct ft_avatar {
+  static constexpr auto kMark = foretouch::c::Mark::Avatar;
+  static constexpr const char* kName = "avatar";
+  foretouch::c::Mark mark = kMark;
+  std::shared_ptr<const foretouch::c::AvatarParts> parts;
+};
+
+struct ft_clip {
+  static constexpr auto kMark = foretouch::c::Mark::Clip;
+  static constexpr const char* kName = "clip";
+  foretouch::c::Mark mark = kMark;
+  std::shared_ptr<const foretouch::c::AvatarParts> avatar;
+  foretouch::Clip clip;
+  foretouch::JointMatch match;
+  foretouch::Placement placement;
+};
+
+/// One thread's. A step is worked out beside the last one and takes its place once it is done.
+struct ft_query {
+  static constexpr auto kMark = foretouch::c::Mark::Query;
+  static constexpr const char* kName = "query";
+  ft_query(foretouch::Scene inScene, std::shared_ptr<const foretouch::c::AvatarParts> ofAvatar)
+      : scene(std::move(inScene)), avatar(std::move(ofAvatar)) {}
+
+  struct Step {
+    foretouch::ChainMotion motion;
+    foretouch::StepContacts answer;
+    std::vector<foretouch::LinkId> reported;  // those not clear, the earliest first
+  };
+
+  foretouch::c::Mark mark = kMark;
+  foretouch::Scene scene;
+  std::shared_ptr<const foretouch::c::AvatarParts> avatar;
+  foretouch::QueryOptions options;
+  foretouch::QueryScratch scratch;
+  bool isScratchSuspect = false;  // an exception left it half written
+  foretouch::Pose from, to;       // of the step that is being asked
+  foretouch::Pose last;           // where the last step ended
+  bool hasLast = false;
+  Step step, next;
+  bool hasStep = false;
+  std::vector<foretouch::LinkState> states;
+};
+
+namespace foretouch::c {
+
+/// Refuses NULL and handles of another kind.
+template <typename Handle>
+[[nodiscard]] ft_status checked(const Handle* handle) {
+  if (const ft_status status = needed(handle, Handle::kName); status != FT_OK) return status;
+  if (handle->mark == Handle::kMark) return FT_OK;
+  return failure(FT_ERROR_WRONG_HANDLE, kNoIndex,
+                 "expected a handle of a %s, found that of something else, or of one destroyed",
+                 Handle::kName);
+}
+
+/// Where a new handle is to be written.
+template <typename Handle>
+[[nodiscard]] ft_status cleared(Handle** handle) {
+  if (const ft_status status = needed(handle, Handle::kName); status != FT_OK) return status;
+  *handle = nullptr;
+  return FT_OK;
+}
+
+template <typename Handle>
+void destroy(const char* function, Handle* handle) noexcept {
+  enter(function);
+  if (handle == nullptr || checked(handle) != FT_OK) return;
+  handle->mark = Mark::Gone;
+  delete handle;
+}
+
+/// Writes a validated pose to arrays of C; either may be NULL.
+[[nodiscard]] ft_status writePose(const Pose& pose, double* rotations, double* translations,
+                                  std::size_t capacity, std::size_t* required);
+
+}  // namespace foretouch::c

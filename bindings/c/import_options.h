@@ -1,0 +1,18 @@
+// bindings/c/import_options.h: options of the child process that reads models, and where it is.
+#pragma once
+
+#include "bindings/c/sized_struct.h"
+#include "middleware/scene_import.h"
+
+namespace foretouch::c {
+
+[[nodiscard]] ft_import_options defaultImportOptions();
+
+/// NULL stands for the defaults.
+[[nodiscard]] ft_status readImportOptions(const ft_import_options* given,
+                                          SceneImportOptions& options);
+
+/// FT_UP_Y or FT_UP_Z.
+[[nodiscard]] ft_status readUpAxis(std::int32_t given, UpAxis& up);
+
+}  // namespace foretouch::c

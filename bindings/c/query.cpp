@@ -1,0 +1,140 @@
+// bindings/c/query.cpp: ft_query, from its making to the step.
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "bindings/c/handles.h"
+#include "bindings/c/query_options.h"
+#include "bindings/c/sized_struct.h"
+
+namespace foretouch::c {
+namespace {
+
+/// Reads and checks a pose. `pose` is reused: nothing is allocated once it has grown.
+ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skeleton, Pose& pose) {
+  ft_pose known{};
+  if (const auto s = readStruct(given, name, known); s != FT_OK) return s;
+  const auto joints = static_cast<std::size_t>(skeleton.numJoints());
+  if (known.joint_count != joints) {
+    return failure(FT_ERROR_MISMATCH, kNoIndex,
+                   "%s: expected the %zu joints of the avatar, found %u", name, joints,
+                   known.joint_count);
+  }
+  if (const auto s = needed(known.rotations, "rotations"); s != FT_OK) return s;
+  pose.rotations.resize(joints);
+  pose.translations.resize(joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    const double* const q = known.rotations + 4 * j;
+    pose.rotations[j] = Quaternion(q[0], q[1], q[2], q[3]);
+    if (known.translations == nullptr) {
+      pose.translations[j] = skeleton.restOffset(static_cast<JointId>(j));
+    } else {
+      pose.translations[j] = Eigen::Map<const Eigen::Vector3d>(known.translations + 3 * j);
+    }
+  }
+  auto valid = validatedPose(skeleton, std::move(pose));
+  if (!valid.ok()) {
+    Error error = valid.error();
+    error.file = name;
+    return failure(error);
+  }
+  pose = std::move(valid).value();
+  return FT_OK;
+}
+
+void listReported(ft_query::Step& step) {
+  step.reported.clear();
+  for (const LinkContact& contact : step.answer.links) {
+    if (contact.verdict != Verdict::Clear) step.reported.push_back(contact.link);
+  }
+  const auto& links = step.answer.links;
+  std::sort(step.reported.begin(), step.reported.end(), [&](LinkId x, LinkId y) {
+    return isReportedBefore(links[static_cast<std::size_t>(x)], links[static_cast<std::size_t>(y)]);
+  });
+}
+
+/// Answers query.from to query.to into query.next.
+ft_status answerNext(ft_query& query, const QueryOptions& options) {
+  if (query.isScratchSuspect) query.scratch = QueryScratch();
+  query.isScratchSuspect = true;
+  const Avatar& avatar = query.avatar->avatar;
+  query.next.motion.assign(avatar.skeleton(), query.from, query.to);
+  const auto done = firstContacts(avatar, query.next.motion, query.scene, options, query.scratch,
+                                  query.next.answer);
+  query.isScratchSuspect = false;
+  if (!done.ok()) return failure(done.error());
+  listReported(query.next);
+  return FT_OK;
+}
+
+/// Bad options are refused now and not at the first step: the rest pose is asked with them, without
+/// any work allowed.
+ft_status takeOptions(const ft_query_options* given, ft_query& query) {
+  QueryOptions options;
+  if (const auto s = readQueryOptions(given, *query.avatar, options); s != FT_OK) return s;
+  QueryOptions idle = options;
+  idle.workBudget = 0;
+  query.from = query.to = restPose(query.avatar->avatar.skeleton());
+  if (!(options.deadlineUs >= 0.0)) {
+    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex,
+                   "deadline_us: expected microseconds, at least 0, found %g", options.deadlineUs);
+  }
+  if (const auto s = answerNext(query, idle); s != FT_OK) return s;
+  query.options = std::move(options);
+  query.hasStep = false;
+  return FT_OK;
+}
+
+}  // namespace
+}  // namespace foretouch::c
+
+using namespace foretouch;
+using namespace foretouch::c;
+
+ft_status ft_query_create(const ft_scene* scene, const ft_avatar* avatar,
+                          const ft_query_options* options, ft_query** query) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = cleared(query); s != FT_OK) return s;
+    if (const auto s = checked(scene); s != FT_OK) return s;
+    if (const auto s = checked(avatar); s != FT_OK) return s;
+    auto made = std::make_unique<ft_query>(scene->scene, avatar->parts);
+    const auto links = static_cast<std::size_t>(avatar->parts->avatar.numLinks());
+    made->step.reported.reserve(links);
+    made->next.reported.reserve(links);
+    if (const auto s = takeOptions(options, *made); s != FT_OK) return s;
+    *query = made.release();
+    return FT_OK;
+  });
+}
+
+ft_status ft_query_set_options(ft_query* query, const ft_query_options* options) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(query); s != FT_OK) return s;
+    return takeOptions(options, *query);
+  });
+}
+
+ft_status ft_query_step(ft_query* query, const ft_pose* from, const ft_pose* to) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(query); s != FT_OK) return s;
+    const Skeleton& skeleton = query->avatar->avatar.skeleton();
+    if (from != nullptr) {
+      if (const auto s = readPose(from, "from", skeleton, query->from); s != FT_OK) return s;
+    } else if (query->hasLast) {
+      query->from = query->last;
+    } else {
+      return failure(FT_ERROR_NO_STEP, kNoIndex,
+                     "from: expected a pose, as no step has ended where this one begins");
+    }
+    if (const auto s = readPose(to, "to", skeleton, query->to); s != FT_OK) return s;
+    if (const auto s = answerNext(*query, query->options); s != FT_OK) return s;
+    std::swap(query->step, query->next);
+    std::swap(query->last, query->to);
+    query->hasLast = query->hasStep = true;
+    return FT_OK;
+  });
+}
+
+void ft_query_destroy(ft_query* query) {
+  destroy(__func__, query);
+}

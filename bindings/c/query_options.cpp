@@ -1,0 +1,108 @@
+#include "bindings/c/query_options.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace foretouch::c {
+namespace {
+
+/// Of a body of a hundred links and a scene of a thousand objects, more than all pairs there are.
+constexpr std::size_t kMaxIgnoredPairs = std::size_t{1} << 20;
+
+ft_status readFidelity(std::int32_t given, std::int64_t link, Fidelity& fidelity) {
+  switch (given) {
+    case FT_FIDELITY_LINK: fidelity = Fidelity::Link; return FT_OK;
+    case FT_FIDELITY_LIMB: fidelity = Fidelity::Limb; return FT_OK;
+    case FT_FIDELITY_AVATAR: fidelity = Fidelity::Avatar; return FT_OK;
+    case FT_FIDELITY_ELLIPSOID: fidelity = Fidelity::Ellipsoid; return FT_OK;
+    case FT_FIDELITY_EXACT: fidelity = Fidelity::Exact; return FT_OK;
+    default: break;
+  }
+  return failure(FT_ERROR_OUT_OF_RANGE, link, "fidelity: expected one of FT_FIDELITY_*, found %d",
+                 given);
+}
+
+ft_status readIgnored(const ft_query_options& given, QueryOptions& options) {
+  const auto s = neededArray(given.ignored, given.ignored_count, kMaxIgnoredPairs, "ignored");
+  if (s != FT_OK) return s;
+  options.ignored.reserve(given.ignored_count);
+  for (std::size_t i = 0; i < given.ignored_count; ++i) {
+    options.ignored.push_back({given.ignored[i].link, given.ignored[i].object});
+  }
+  return FT_OK;
+}
+
+ft_status readPolicies(const ft_query_options& given, QueryOptions& options) {
+  constexpr auto kMost = static_cast<std::size_t>(kMaxJoints);
+  const auto s = neededArray(given.policies, given.policy_count, kMost, "policies");
+  if (s != FT_OK) return s;
+  options.linkPolicies.resize(given.policy_count);
+  for (std::size_t i = 0; i < given.policy_count; ++i) {
+    const ft_link_policy& policy = given.policies[i];
+    const auto link = static_cast<std::int64_t>(i);
+    if (policy.reserved != 0) {
+      return failure(FT_ERROR_STRUCT_SIZE, link, "policies: expected `reserved` 0, found %d",
+                     policy.reserved);
+    }
+    const auto status = readFidelity(policy.fidelity, link, options.linkPolicies[i].fidelity);
+    if (status != FT_OK) return status;
+    options.linkPolicies[i].tolerance = policy.tolerance;
+  }
+  return FT_OK;
+}
+
+ft_status checkedSurface(const AvatarParts& avatar, const QueryOptions& options) {
+  const auto isExact = [](const LinkPolicy& policy) { return policy.fidelity == Fidelity::Exact; };
+  const bool needsSurface =
+      options.fidelity == Fidelity::Exact ||
+      std::any_of(options.linkPolicies.begin(), options.linkPolicies.end(), isExact);
+  if (!needsSurface || avatar.surface) return FT_OK;
+  return failure(FT_ERROR_MISMATCH, kNoIndex,
+                 "fidelity: FT_FIDELITY_EXACT expects an avatar with triangles, given in "
+                 "ft_avatar_arrays or read with its file");
+}
+
+}  // namespace
+
+ft_query_options defaultQueryOptions() {
+  const QueryOptions defaults;
+  ft_query_options options{};
+  options.size = sizeof options;
+  options.fidelity = FT_FIDELITY_LINK;
+  options.tolerance = defaults.tolerance;
+  options.work_budget = defaults.workBudget;
+  options.deadline_us = defaults.deadlineUs;
+  options.scope = FT_SCOPE_EVERY_LINK;
+  return options;
+}
+
+ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& avatar,
+                           QueryOptions& options) {
+  ft_query_options known = defaultQueryOptions();
+  if (given != nullptr) {
+    if (const auto s = readStruct(given, "ft_query_options", known); s != FT_OK) return s;
+  }
+  if (known.scope != FT_SCOPE_EVERY_LINK && known.scope != FT_SCOPE_FIRST_OF_AVATAR) {
+    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "scope: expected one of FT_SCOPE_*, found %d",
+                   known.scope);
+  }
+  if (const auto s = zero(static_cast<std::uint32_t>(known.reserved), "reserved"); s != FT_OK) {
+    return s;
+  }
+  if (const auto s = readFidelity(known.fidelity, kNoIndex, options.fidelity); s != FT_OK) return s;
+  if (const auto s = readIgnored(known, options); s != FT_OK) return s;
+  if (const auto s = readPolicies(known, options); s != FT_OK) return s;
+  options.tolerance = known.tolerance;
+  options.workBudget = known.work_budget;
+  options.deadlineUs = known.deadline_us;
+  options.scope = known.scope == FT_SCOPE_FIRST_OF_AVATAR ? Scope::FirstOfAvatar : Scope::EveryLink;
+  options.surface = avatar.surface;
+  return checkedSurface(avatar, options);
+}
+
+}  // namespace foretouch::c
+
+ft_status ft_query_options_init(ft_query_options* options, size_t size) {
+  return foretouch::c::initStruct(__func__, options, size, "ft_query_options",
+                                  foretouch::c::defaultQueryOptions());
+}

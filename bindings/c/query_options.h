@@ -1,0 +1,15 @@
+// bindings/c/query_options.h: a query's options, from C.
+#pragma once
+
+#include "bindings/c/handles.h"
+#include "bindings/c/sized_struct.h"
+
+namespace foretouch::c {
+
+[[nodiscard]] ft_query_options defaultQueryOptions();
+
+/// Checks what can be told without a query; NULL stands for the defaults.
+[[nodiscard]] ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& avatar,
+                                         QueryOptions& options);
+
+}  // namespace foretouch::c

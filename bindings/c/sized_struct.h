@@ -1,0 +1,51 @@
+// bindings/c/sized_struct.h: structs that begin with their size, across versions: what an older
+// program leaves out has its default, what a newer one adds must be zero.
+#pragma once
+
+#include <cstddef>
+
+#include "bindings/c/status.h"
+
+namespace foretouch::c {
+
+static_assert(sizeof(void*) == 8, "a size in words of eight bytes never cuts a field in two");
+
+/// No struct will ever be larger; a size that is was never set.
+inline constexpr std::size_t kMaxStructSize = 4096;
+
+namespace internal {
+
+[[nodiscard]] ft_status read(const void* given, const char* name, void* known,
+                             std::size_t knownSize);
+[[nodiscard]] ft_status write(void* given, const char* name, const void* known,
+                              std::size_t knownSize);
+[[nodiscard]] ft_status init(void* given, std::size_t size, const char* name, const void* defaults,
+                             std::size_t knownSize);
+
+}  // namespace internal
+
+/// The size that the struct `given` says it has.
+[[nodiscard]] ft_status readSize(const void* given, const char* name, std::size_t& size);
+
+/// Overwrites of `known`, which has the defaults, what `given` holds.
+template <typename Struct>
+[[nodiscard]] ft_status readStruct(const Struct* given, const char* name, Struct& known) {
+  return internal::read(given, name, &known, sizeof(Struct));
+}
+
+/// Fills what `given` has room for, its own size left alone; zeroes what is unknown here.
+template <typename Struct>
+[[nodiscard]] ft_status writeStruct(Struct* given, const char* name, const Struct& known) {
+  return internal::write(given, name, &known, sizeof(Struct));
+}
+
+/// What a struct's ft_*_init() does.
+template <typename Struct>
+ft_status initStruct(const char* function, Struct* given, std::size_t size, const char* name,
+                     const Struct& defaults) noexcept {
+  return guarded(function, [&]() -> ft_status {
+    return internal::init(given, size, name, &defaults, sizeof(Struct));
+  });
+}
+
+}  // namespace foretouch::c
