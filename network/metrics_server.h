@@ -9,6 +9,7 @@
 #include <string>
 
 #include "articulated/result.h"
+#include "network/loopback.h"
 #include "network/service.h"
 
 namespace foretouch {
@@ -17,9 +18,6 @@ namespace foretouch {
 inline constexpr std::size_t kMaxRequestBytes = 4096;
 /// From the first byte to the last one of the response.
 inline constexpr int kRequestMs = 1000;
-
-/// "localhost" and numeric addresses of this machine alone.
-[[nodiscard]] bool isLoopback(const std::string& host);
 
 class MetricsServer {
  public:

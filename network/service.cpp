@@ -27,6 +27,7 @@ constexpr milliseconds kBeatEvery{500};
 
 struct ServedStream {
   StreamSolver solver;
+  std::size_t index = 0;
   std::uint64_t lost = 0, gaps = 0;  // of the solver's counts, those that have been added up
   bool isBroken = false;             // an exception left its state unknown: it answers no more
 };
@@ -102,7 +103,7 @@ struct Service::Impl {
              parts.clock->utimeUs()};
     for (StreamSolver& solver : solvers) {
       indexOf.emplace(solver.id(), streams.size());
-      streams.push_back({std::move(solver)});
+      streams.push_back({std::move(solver), streams.size()});
     }
   }
 
@@ -249,6 +250,10 @@ struct Service::Impl {
     isCounted = true;
     counter.answeredPose(static_cast<double>(sentUtimeUs - mail.receiveUtimeUs),
                          desk.answer.queryUs);
+    StepObserver* const observer = parts.observer;
+    if (observer != nullptr && observer->wants(stream.index)) {
+      observer->observe(stream.index, stream.solver.lastStep(), desk.answer);
+    }
   }
 
   void addUp(ServedStream& stream) {

@@ -5,7 +5,8 @@
 // too many makes the oldest one go. Workers take the mail, each avatar's in order, answer it and
 // publish. Another thread publishes the status. A journal, where there is one, is written by a
 // thread of its own. Nothing waits for a disk or for the network: an answer that the system does
-// not take is counted, not sent again.
+// not take is counted, not sent again. An observer, where there is one, is shown each step after its
+// answer went out, in the thread that answered it.
 //
 // Whenever they are taken, counts satisfy: received = answered + rejected + waiting.
 #pragma once
@@ -23,6 +24,7 @@
 #include "network/journal.h"
 #include "network/messages.h"
 #include "network/service_counts.h"
+#include "network/step_observer.h"
 #include "network/stream_solver.h"
 #include "network/wire.h"
 
@@ -47,6 +49,7 @@ struct ServiceParts {
   std::unique_ptr<Publisher> publisher;
   std::unique_ptr<JournalSink> journal;  ///< None: nothing is recorded.
   const Clock* clock = &systemClock();   ///< Outlives the service.
+  StepObserver* observer = nullptr;      ///< Outlives the service; none: nobody looks.
 };
 
 /// The channels that a service reads.

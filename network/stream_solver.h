@@ -37,7 +37,10 @@ class StreamSolver {
   [[nodiscard]] Reject take(const PoseMessage& message, ContactsMessage& answer);
 
   [[nodiscard]] std::int32_t id() const { return id_; }
+  [[nodiscard]] const Avatar& avatar() const { return avatar_; }
   [[nodiscard]] const StreamCounts& counts() const { return stream_.counts(); }
+  /// Of the last answered pose; valid until the next message is taken.
+  [[nodiscard]] const StreamStep& lastStep() const { return step_; }
   /// Of the last answered pose: the query alone, for measurements.
   [[nodiscard]] double lastQueryUs() const { return lastQueryUs_; }
 
@@ -56,6 +59,7 @@ class StreamSolver {
   Scene scene_;
   QueryOptions options_;
   AvatarStream stream_;
+  StreamStep step_;
   /// At skinned fidelity, per link: the links that move its triangles.
   std::vector<std::vector<LinkId>> movedBy_;
   double lastQueryUs_ = 0.0;

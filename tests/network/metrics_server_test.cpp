@@ -1,86 +1,27 @@
 #include "network/metrics_server.h"
 
-#include <arpa/inet.h>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <netinet/in.h>
-#include <poll.h>
 #include <random>
 #include <string>
-#include <sys/socket.h>
-#include <sys/time.h>
 #include <thread>
-#include <unistd.h>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/network/http_client.h"
+
 namespace foretouch {
 namespace {
 
+using test::asked;
+using test::Connection;
+using test::get;
+using test::statusOf;
+
 using SteadyClock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-
-/// One TCP connection to this machine.
-class Connection {
- public:
-  explicit Connection(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const timeval patience{30, 0};  // only a test that fails waits for so long
-    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-    isOpen_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-  }
-  Connection(Connection&& other) noexcept
-      : socket_(std::exchange(other.socket_, -1)), isOpen_(other.isOpen_) {}
-  ~Connection() {
-    if (socket_ >= 0) ::close(socket_);
-  }
-  [[nodiscard]] bool isOpen() const { return isOpen_; }
-  bool send(const std::string& text) {
-    std::size_t sent = 0;
-    while (sent < text.size()) {
-      const ssize_t some = ::send(socket_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
-      if (some <= 0) return false;
-      sent += static_cast<std::size_t>(some);
-    }
-    return true;
-  }
-  void sendNoMore() { ::shutdown(socket_, SHUT_WR); }
-  /// To the end of the connection.
-  std::string received() {
-    std::string text;
-    char buffer[4096];
-    for (ssize_t got = 0; (got = ::recv(socket_, buffer, sizeof buffer, 0)) > 0;) {
-      text.append(buffer, static_cast<std::size_t>(got));
-    }
-    return text;
-  }
-
- private:
-  int socket_ = -1;
-  bool isOpen_ = false;
-};
-
-std::string asked(std::uint16_t port, const std::string& request) {
-  Connection connection(port);
-  EXPECT_TRUE(connection.isOpen());
-  connection.send(request);
-  return connection.received();
-}
-
-std::string get(std::uint16_t port, const std::string& path) {
-  return asked(port, "GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
-}
-
-int statusOf(const std::string& response) {
-  return response.rfind("HTTP/1.1 ", 0) == 0 ? std::stoi(response.substr(9, 3)) : 0;
-}
 
 class Metrics : public testing::Test {
  protected:

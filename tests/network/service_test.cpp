@@ -96,12 +96,14 @@ std::uint64_t rejectsFor(const ServiceCounts& counts, Reject reason) {
 /// A service with all that surrounds it.
 class Stage {
  public:
-  explicit Stage(std::int32_t avatars = 1, ServiceOptions options = {}, bool isRecorded = false) {
+  explicit Stage(std::int32_t avatars = 1, ServiceOptions options = {}, bool isRecorded = false,
+                 StepObserver* observer = nullptr) {
     ServiceParts parts;
     parts.receiver = std::make_unique<test::FakeReceiver>(inbox);
     parts.publisher = std::make_unique<test::FakePublisher>(outbox);
     if (isRecorded) parts.journal = std::make_unique<test::FakeSink>(book);
     parts.clock = &clock;
+    parts.observer = observer;
     service_.emplace(Service::start(solversOf(avatars), std::move(parts), options).value());
   }
   Service& service() { return *service_; }
@@ -238,6 +240,56 @@ TEST(Service, AnswersEveryAcceptedPoseOnceAndInOrderOnAnyNumberOfWorkers) {
     EXPECT_EQ(rejectsFor(counts, Reject::Overrun), 0u);
     EXPECT_GT(counts.rejected(), rejectsFor(counts, Reject::UnknownAvatar));
   }
+}
+
+/// Keeps what it is shown of the avatars that it wants.
+class Onlooker final : public StepObserver {
+ public:
+  struct Shown {
+    std::int64_t sequence = 0;
+    std::size_t contacts = 0;
+    double fromX = 0.0, toX = 0.0;
+  };
+  explicit Onlooker(std::size_t avatars) : shown(avatars) {}
+  [[nodiscard]] bool wants(std::size_t avatar) const noexcept override {
+    return avatar != kUnwanted;
+  }
+  void observe(std::size_t avatar, const StreamStep& step,
+               const ContactsMessage& answer) noexcept override {
+    EXPECT_EQ(answer.avatar, static_cast<std::int32_t>(avatar));
+    shown[avatar].push_back({answer.sequenceTo, answer.contacts.size(),
+                             step.from->translations[0].x(), step.to->translations[0].x()});
+  }
+  static constexpr std::size_t kUnwanted = 1;
+  std::vector<std::vector<Shown>> shown;  // an avatar has one thread at a time
+};
+
+TEST(Service, ShowsWhoeverLooksEachStepThatIsAnswered) {
+  constexpr std::int32_t kAvatars = 3;
+  constexpr std::int64_t kPosesEach = 200;
+  Onlooker onlooker(kAvatars);
+  Stage stage(kAvatars, withWorkers(2), false, &onlooker);
+  stage.sendSkeletons(kAvatars);
+  for (std::int64_t n = 1; n <= kPosesEach; ++n) {
+    for (std::int32_t id = 0; id < kAvatars; ++id) stage.inbox->send(kPoses, poseOf(id, n));
+  }
+  ASSERT_TRUE(stage.settles(kPosesEach * kAvatars));
+  stage.service().stop();
+  EXPECT_TRUE(onlooker.shown[Onlooker::kUnwanted].empty());
+  std::map<std::int32_t, std::size_t> next;
+  for (const Bytes& payload : stage.outbox->on(kContacts)) {
+    const ContactsMessage answer = answerIn(payload);
+    if (answer.avatar == static_cast<std::int32_t>(Onlooker::kUnwanted)) continue;
+    const auto& shown = onlooker.shown[static_cast<std::size_t>(answer.avatar)];
+    const std::size_t n = next[answer.avatar]++;
+    ASSERT_LT(n, shown.size());
+    EXPECT_EQ(shown[n].sequence, answer.sequenceTo);
+    EXPECT_EQ(shown[n].contacts, answer.contacts.size());
+    EXPECT_EQ(shown[n].toX, 0.4 * static_cast<double>(answer.sequenceTo % 4 + answer.avatar));
+    if (n > 0) EXPECT_EQ(shown[n].fromX, shown[n - 1].toX);
+  }
+  EXPECT_EQ(next[0], static_cast<std::size_t>(kPosesEach));
+  EXPECT_EQ(next[2], static_cast<std::size_t>(kPosesEach));
 }
 
 TEST(Service, LetsTheOldestPosesGoWhenAMailboxIsFull) {

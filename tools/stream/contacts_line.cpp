@@ -45,12 +45,16 @@ std::string contactText(const AnsweredContact& answered, const ContactsMessage& 
 }  // namespace
 
 std::int64_t utimeOf(const ContactsMessage& message, double toi) {
-  const auto span = static_cast<double>(message.utimeToUs - message.utimeFromUs);
+  return utimeOf(message.utimeFromUs, message.utimeToUs, toi);
+}
+
+std::int64_t utimeOf(std::int64_t fromUs, std::int64_t toUs, double toi) {
+  const auto span = static_cast<double>(toUs - fromUs);
   const double product = toi * span;
   // The product may have been rounded up to a whole number; what it lacks is known exactly.
   const double whole = std::floor(product);
   const bool isRoundedUp = whole == product && std::fma(toi, span, -product) < 0.0;
-  return message.utimeFromUs + static_cast<std::int64_t>(whole) - (isRoundedUp ? 1 : 0);
+  return fromUs + static_cast<std::int64_t>(whole) - (isRoundedUp ? 1 : 0);
 }
 
 std::string contactsLine(const ContactsMessage& message, Stamps stamps) {

@@ -26,8 +26,9 @@ enum class Stamps { With, Without };
 /// For people.
 [[nodiscard]] std::string statusText(const StatusMessage& message);
 
-/// Microseconds since the epoch of the instant `toi` within the step, rounded down: never later
-/// than the contact.
+/// Microseconds since the epoch of the instant `toi` within the step from `fromUs` to `toUs`, rounded
+/// down: never later than the contact.
+[[nodiscard]] std::int64_t utimeOf(std::int64_t fromUs, std::int64_t toUs, double toi);
 [[nodiscard]] std::int64_t utimeOf(const ContactsMessage& message, double toi);
 
 }  // namespace foretouch::tools

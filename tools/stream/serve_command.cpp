@@ -22,6 +22,7 @@
 #include "tools/stream/served_world.h"
 #include "tools/stream/service_manager.h"
 #include "tools/stream/stop_signal.h"
+#include "tools/view/serve_view.h"
 
 namespace foretouch::tools {
 namespace {
@@ -99,6 +100,7 @@ std::string describe(const ServeConfig& config, const ServedWorld& world) {
   if (!config.suffix.empty()) text += ", suffix " + config.suffix;
   if (!config.log.empty()) text += ", log " + config.log;
   if (!config.http.empty()) text += ", metrics on " + config.http;
+  if (!config.view.empty()) text += ", to be watched at http://" + config.view + "/";
   return text;
 }
 
@@ -155,6 +157,7 @@ constexpr char kExamples[] = R"(Examples:
   foretouch serve --scene room.obj --avatar dancer.avatar.json
   foretouch serve --scene kitchen.ply --up z --avatar 1=anna.json --avatar 2=ben.json \
       --workers 2 --log today.lcmlog --http 127.0.0.1:9464
+  foretouch serve --scene room.obj --avatar dancer.avatar.json --view
   foretouch serve --config service.toml --workers 4
 
 Prints "ready" once it takes poses. SIGINT, SIGTERM and SIGHUP end it in order: what waits is
@@ -174,6 +177,11 @@ Result<Done> serve(const ServeConfig& given) {
   const auto log = openLog(config, parts);
   if (!log.ok()) return log.error();
 
+  auto view = prepareView(config, world.value());
+  if (!view.ok()) return view.error();
+  ViewFeed feed(world.value().avatars.size());
+  if (view.value()) parts.observer = &feed;
+
   ServiceOptions options;
   options.workers = config.workers;
   options.queue = static_cast<std::size_t>(config.queue);
@@ -186,6 +194,8 @@ Result<Done> serve(const ServeConfig& given) {
   if (!service.ok()) return service.error();
   auto http = openHttp(config, service.value());
   if (!http.ok()) return http.error();
+  auto watched = openView(config, std::move(view).value(), service.value(), feed);
+  if (!watched.ok()) return watched.error();
 
   printOut(line + "\nready\n");
   if (!outputArrived()) {
@@ -198,6 +208,7 @@ Result<Done> serve(const ServeConfig& given) {
   manager.stopping();
   service.value().stop();
   http.value().reset();
+  watched.value().reset();
   journal.look(service.value());
   printOut(summaryOf(service.value().counts()));
   if (const auto failure = service.value().failure()) return inFile(*failure, config.url);

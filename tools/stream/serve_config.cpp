@@ -40,8 +40,20 @@ void readSuffix(TomlSection& section, std::string& suffix) {
                      inQuotes(suffix), *section.find("suffix"));
 }
 
+/// Empty, or a host and a port.
+void readAddress(TomlSection& section, const std::string& key, TomlReading& reading,
+                 std::string& address) {
+  section.text(key.c_str(), address);
+  if (address.empty()) return;
+  const auto parsed = parseHttpAddress("[service] " + key, address);
+  if (parsed.ok()) return;
+  reading.fail(parsed.error().code, lineOf(*section.find(key.c_str())),
+               parsed.error().file + ": " + parsed.error().message);
+}
+
 void readService(TomlSection section, TomlReading& reading, ServeConfig& config) {
-  section.allowOnly({"url", "suffix", "receiver", "workers", "queue", "budget_us", "log", "http"});
+  section.allowOnly(
+      {"url", "suffix", "receiver", "workers", "queue", "budget_us", "log", "http", "view"});
   section.text("url", config.url, false);
   readSuffix(section, config.suffix);
   section.word<ReceiverKind>("receiver", {"own", "liblcm"},
@@ -51,12 +63,8 @@ void readService(TomlSection section, TomlReading& reading, ServeConfig& config)
   section.integer("budget_us", 0, kMaxServeBudgetUs, config.budgetUs);
   section.text("log", config.log);
   config.log = resolved(config.log, reading.file);
-  section.text("http", config.http);
-  if (config.http.empty()) return;
-  const auto address = parseHttpAddress("[service] http", config.http);
-  if (address.ok()) return;
-  reading.fail(address.error().code, lineOf(*section.find("http")),
-               address.error().file + ": " + address.error().message);
+  readAddress(section, "http", reading, config.http);
+  readAddress(section, "view", reading, config.view);
 }
 
 void readScene(TomlSection section, TomlReading& reading, ServeConfig& config) {

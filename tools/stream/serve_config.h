@@ -27,6 +27,9 @@ inline constexpr double kMaxServeStepS = 86'400.0;
 inline constexpr int kMaxServeConfirmations = 1000;
 inline constexpr std::size_t kMaxServeAvatars = 4096;
 
+/// Where `--view` without a value serves.
+inline constexpr char kDefaultView[] = "127.0.0.1:9465";
+
 enum class ReceiverKind : std::uint8_t {
   Own,     ///< Our bounded reader: for any network.
   Liblcm,  ///< For networks that are trusted.
@@ -48,6 +51,7 @@ struct ServeConfig {
   std::int64_t budgetUs = 0;  ///< What a step's query may take, made a work budget; 0: no limit.
   std::string log;            ///< Where events are recorded.
   std::string http;           ///< "127.0.0.1:9464": where metrics are served.
+  std::string view;           ///< kDefaultView: where the stream can be watched.
   // [scene]
   std::string scene;  ///< Not empty.
   double sceneScale = 1.0;

@@ -54,8 +54,9 @@ Result<std::vector<ServedAvatar>> parseAvatars(const std::vector<std::string>& t
   return avatars;
 }
 
-Result<std::string> parseHttp(const std::string& text) {
-  const auto address = parseHttpAddress("--http", text);
+/// Not split yet: it is shown as it was given.
+Result<std::string> parseAddress(const std::string& option, const std::string& text) {
+  const auto address = parseHttpAddress(option, text);
   if (!address.ok()) return address.error();
   return text;
 }
@@ -72,7 +73,10 @@ void settleService(const ServeTexts& texts, ServeConfig& config, Settling& settl
         [](const std::string& text) { return parseCount("--queue", text, kMaxServeQueue); });
   given(config.budgetUs, texts.budgetUs,
         [](const std::string& text) { return parseBudgetUs("--budget-us", text); });
-  given(config.http, texts.http, parseHttp);
+  given(config.http, texts.http,
+        [](const std::string& text) { return parseAddress("--http", text); });
+  given(config.view, texts.view,
+        [](const std::string& text) { return parseAddress("--view", text); });
   if (!texts.log.empty()) config.log = texts.log;
 }
 
@@ -128,6 +132,13 @@ void addServeOptions(CLI::App& command, const std::shared_ptr<ServeTexts>& texts
   option("--log", texts->log, "FILE|DIR",
          "Record what is taken and answered: a new event log, or a folder for one a run");
   option("--http", texts->http, "ADDRESS:PORT", "Serve /metrics and /healthz there");
+  command
+      .add_option("--view", texts->view,
+                  std::string("Let a browser on this machine watch the stream there [") +
+                      kDefaultView + "]")
+      ->type_name("[ADDRESS:PORT]")
+      ->expected(0, 1)
+      ->default_str(kDefaultView);
   option("--tolerance", texts->tolerance, "M",
          "Largest separation (m) of a reported contact [0.001]");
   option("--fidelity", texts->fidelity, "link|exact",

@@ -18,7 +18,7 @@ namespace foretouch::tools {
 /// Values as typed in; empty: not given.
 struct ServeTexts {
   std::string config, scene, up, sceneScale, url, suffix, receiver, workers, queue, budgetUs, log,
-      http, tolerance, fidelity, maxStep, confirmations;
+      http, view, tolerance, fidelity, maxStep, confirmations;
   std::vector<std::string> avatars, ignore;
   bool unmatchedAtRest = false;
 };

@@ -40,7 +40,7 @@ Result<StreamSolver> loadAvatar(const ServeConfig& config, const ServedAvatar& s
 Result<ServedWorld> loadServedWorld(const ServeConfig& config) {
   const auto scene = loadScene(asReplay(config, std::string()));
   if (!scene.ok()) return scene.error();
-  ServedWorld world;
+  ServedWorld world{scene.value(), {}, 0, {}};
   world.numTriangles = scene.value().numTriangles();
   if (const std::size_t dropped = scene.value().audit().droppedNonFinite; dropped > 0) {
     world.remarks.push_back(config.scene + ": " + std::to_string(dropped) +

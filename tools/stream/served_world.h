@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "articulated/result.h"
+#include "middleware/scene.h"
 #include "network/stream_solver.h"
 #include "tools/stream/serve_config.h"
 
 namespace foretouch::tools {
 
 struct ServedWorld {
+  Scene scene;
   std::vector<StreamSolver> avatars;
   std::size_t numTriangles = 0;
   std::vector<std::string> remarks;  ///< What was tolerated: one sentence each.

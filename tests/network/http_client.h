@@ -1,0 +1,96 @@
+// tests/network/http_client.h: HTTP as bytes: what a browser says, and what no browser would.
+#pragma once
+
+#include <cstdint>
+#include <netinet/in.h>
+#include <string>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace foretouch::test {
+
+/// One TCP connection to this machine.
+class Connection {
+ public:
+  /// `receiveBytes`: what the system keeps of what is not read yet; 0: its own choice.
+  explicit Connection(std::uint16_t port, int receiveBytes = 0)
+      : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const timeval patience{30, 0};  // only a test that fails waits for so long
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    if (receiveBytes > 0) {
+      ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receiveBytes, sizeof receiveBytes);
+    }
+    isOpen_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  }
+  Connection(Connection&& other) noexcept
+      : socket_(std::exchange(other.socket_, -1)), isOpen_(other.isOpen_) {}
+  ~Connection() {
+    if (socket_ >= 0) ::close(socket_);
+  }
+  [[nodiscard]] bool isOpen() const { return isOpen_; }
+  bool send(const std::string& text) {
+    std::size_t sent = 0;
+    while (sent < text.size()) {
+      const ssize_t some = ::send(socket_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
+      if (some <= 0) return false;
+      sent += static_cast<std::size_t>(some);
+    }
+    return true;
+  }
+  void sendNoMore() { ::shutdown(socket_, SHUT_WR); }
+  /// What comes next; empty where the connection has ended.
+  std::string receivedNext() {
+    char buffer[4096];
+    const ssize_t got = ::recv(socket_, buffer, sizeof buffer, 0);
+    return got > 0 ? std::string(buffer, static_cast<std::size_t>(got)) : std::string();
+  }
+  /// Up to and with `text`, or to the end of the connection.
+  std::string receivedUpTo(const std::string& text) {
+    std::string received;
+    while (received.find(text) == std::string::npos) {
+      const std::string next = receivedNext();
+      if (next.empty()) break;
+      received += next;
+    }
+    return received;
+  }
+  /// To the end of the connection.
+  std::string received() {
+    std::string text;
+    char buffer[4096];
+    for (ssize_t got = 0; (got = ::recv(socket_, buffer, sizeof buffer, 0)) > 0;) {
+      text.append(buffer, static_cast<std::size_t>(got));
+    }
+    return text;
+  }
+
+ private:
+  int socket_ = -1;
+  bool isOpen_ = false;
+};
+
+inline std::string asked(std::uint16_t port, const std::string& request) {
+  Connection connection(port);
+  EXPECT_TRUE(connection.isOpen());
+  connection.send(request);
+  return connection.received();
+}
+
+inline std::string get(std::uint16_t port, const std::string& path) {
+  return asked(port, "GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+}
+
+inline int statusOf(const std::string& response) {
+  return response.rfind("HTTP/1.1 ", 0) == 0 ? std::stoi(response.substr(9, 3)) : 0;
+}
+
+}  // namespace foretouch::test

@@ -1,0 +1,50 @@
+// tools/view/live_events.h: what a service answers, as the events that a page shows
+// (docs/formats.md, "Live events"): steps from the feed, and how the service does once a second.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "middleware/scene.h"
+#include "network/messages.h"
+#include "network/view_event.h"
+#include "network/view_feed.h"
+
+namespace foretouch::tools {
+
+/// What events say of the world, which does not change.
+struct LiveWorld {
+  std::vector<std::int32_t> avatarIds;   ///< In the feed's order.
+  std::vector<std::string> objectNames;  ///< Of the scene.
+  std::function<std::size_t(TriangleId)> objectOf;
+  std::int64_t startUtimeUs = 0;  ///< Times (s) count from here.
+};
+
+class LiveEvents final : public EventSource {
+ public:
+  /// `feed` outlives this; `status` is asked in the thread that collects.
+  LiveEvents(ViewFeed& feed, LiveWorld world, std::function<StatusMessage()> status);
+
+  void setViewers(std::size_t count) override;
+  void collect(Time now, std::vector<ViewEvent>& events) override;
+  void rest() override { feed_.sample(); }
+
+ private:
+  [[nodiscard]] ViewEvent statusEvent() const;
+  [[nodiscard]] ViewEvent stepEvent(std::size_t avatar) const;
+  [[nodiscard]] std::string contactText(const WatchedContact& watched) const;
+  [[nodiscard]] double secondsOf(std::int64_t utimeUs) const;
+
+  ViewFeed& feed_;
+  LiveWorld world_;
+  std::function<StatusMessage()> status_;
+  StepBatch batch_;
+  std::size_t numViewers_ = 0;
+  Time nextStatus_;
+};
+
+}  // namespace foretouch::tools

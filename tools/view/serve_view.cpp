@@ -1,0 +1,41 @@
+#include "tools/view/serve_view.h"
+
+#include <memory>
+#include <utility>
+
+#include "tools/view/live_document.h"
+
+namespace foretouch::tools {
+
+Result<std::optional<ServeView>> prepareView(const ServeConfig& config, const ServedWorld& world) {
+  if (config.view.empty()) return std::optional<ServeView>();
+  auto document = liveDocument(config, world);
+  if (!document.ok()) return document.error();
+  ServeView view;
+  view.page = livePage();
+  view.document = std::move(document).value();
+  for (const StreamSolver& avatar : world.avatars) view.world.avatarIds.push_back(avatar.id());
+  view.world.objectNames = world.scene.objectNames();
+  view.world.objectOf = [scene = world.scene](TriangleId triangle) {
+    return static_cast<std::size_t>(scene.object(triangle));
+  };
+  return std::optional<ServeView>(std::move(view));
+}
+
+Result<std::optional<ViewServer>> openView(const ServeConfig& config, std::optional<ServeView> view,
+                                           const Service& service, ViewFeed& feed) {
+  if (!view) return std::optional<ViewServer>();
+  const auto address = parseHttpAddress("--view", config.view);
+  if (!address.ok()) return address.error();
+  view->world.startUtimeUs = service.facts().startUtimeUs;
+  ViewServer::Pages pages;
+  pages.page = std::move(view->page);
+  pages.document = std::move(view->document);
+  pages.events = std::make_unique<LiveEvents>(feed, std::move(view->world),
+                                              [&service] { return service.status(); });
+  auto server = ViewServer::start(address.value().host, address.value().port, std::move(pages));
+  if (!server.ok()) return inFile(server.error(), "--view");
+  return std::optional<ViewServer>(std::move(server).value());
+}
+
+}  // namespace foretouch::tools
