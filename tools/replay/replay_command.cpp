@@ -30,7 +30,7 @@ struct ReplayTexts {
   std::string fidelity = "link", leaves = "advancement", scope = "links", skin, skinScale = "1",
               skinUp = "y", tolerance = "0.001", culler = "flat", threads = "cores";
   std::string suffix, maxStep = "10", confirmations = "3", budgetUs;
-  std::string policy;
+  std::string policy, glb, glbTriangles = "1000000";
   std::vector<std::string> avatars, ignore, packages;
   bool compareRigid = false, compareLink = false, rays = false, unmatchedAtRest = false;
 };
@@ -72,6 +72,7 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   request.ignore = texts.ignore;
   request.policyPath = texts.policy;
   job.outputPath = texts.output;
+  job.glb.path = texts.glb;
   job.options.compareRigid = texts.compareRigid;
   job.options.compareLink = texts.compareLink;
   job.options.rays = texts.rays;
@@ -92,9 +93,10 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   settle.into(request.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
   settle.into(request.tolerance, parseTolerance("--tolerance", texts.tolerance));
   settle.into(request.culler, parseCuller("--culler", texts.culler));
-  if (!texts.budgetUs.empty()) {
-    settle.into(request.budgetUs, parseBudgetUs("--budget-us", texts.budgetUs));
-  }
+  int glbTriangles = 0;
+  settle.into(glbTriangles,
+              parseCount("--glb-triangles", texts.glbTriangles, static_cast<int>(kMaxTriangles)));
+  job.glb.mostTriangles = static_cast<std::size_t>(glbTriangles);
   if (!texts.policy.empty()) settle.into(request.policies, readPolicyFile(texts.policy));
   if (texts.rate != "all") {
     double rateHz = 0.0;
@@ -117,7 +119,7 @@ Result<Done> checkOptions(const CLI::App& command, const ReplayTexts& texts, boo
   constexpr std::array kOfClips = {"--rate",    "--place",     "--scale",         "--motion-up",
                                    "--map",     "--animation", "--robot",         "--package",
                                    "--threads", "--scope",     "--compare-rigid", "--compare-link",
-                                   "--rays"};
+                                   "--rays",    "--glb",       "--glb-triangles"};
   constexpr std::array kOfLogs = {"--suffix", "--max-step", "--confirmations",
                                   "--unmatched-at-rest"};
   const auto firstGiven = [&command](const auto& options) {
@@ -203,20 +205,37 @@ constexpr char kExamples[] = R"(Examples:
 ending. The results file is described in docs/formats.md. Of an event log that holds a service's
 verdicts as well, exit code 1 says that those found now are others.)";
 
+/// Nothing where none is asked for.
+Result<Done> writeGlb(const ReplayGlb& glb, const std::string& path) {
+  if (path.empty()) return Done{};
+  const auto notes = glb.write();
+  if (!notes.ok()) return notes.error();
+  for (const std::string& note : notes.value()) printNote(path + ": " + note);
+  return Done{};
+}
+
 }  // namespace
 
 Result<Done> runReplay(const ReplayJob& job,
                        const std::function<void(const ReplaySummary&)>& report) {
   const ReplayRequest& request = job.request;
-  const auto checked =
-      checkOutput(job.outputPath, {request.scenePath, request.avatarPath, request.motionPath,
-                                   request.robotPath, request.mapPath, request.policyPath});
-  if (!checked.ok()) return checked.error();
+  for (const std::string& output : {job.outputPath, job.glb.path}) {
+    if (output.empty()) continue;
+    const auto checked =
+        checkOutput(output, {request.scenePath, request.avatarPath, request.motionPath,
+                             request.robotPath, request.mapPath, request.policyPath});
+    if (!checked.ok()) return checked.error();
+  }
+  if (job.glb.path == job.outputPath) {
+    return Error{ErrorCode::FileUnwritable, "--glb", -1, -1,
+                 "expected another file than --output, found the same"};
+  }
   const auto inputs = loadReplayInputs(request);
   if (!inputs.ok()) return inputs.error();
   for (const std::string& remark : remarksOn(inputs.value())) printNote(remark);
 
   ReplaySummary summary(inputs.value());
+  ReplayGlb glb(inputs.value(), job.glb);
   {
     const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
     auto file = PendingFile::create(job.outputPath);
@@ -226,6 +245,7 @@ Result<Done> runReplay(const ReplayJob& job,
     const auto done = replay(inputs.value(), job.options, [&](const ReplayedStep& step) {
       file.value().write(step.line);
       summary.add(step);
+      glb.add(step.answer);
       progress.advanceTo(step.answer.step + 1);
       return !guard.requested();
     });
@@ -233,6 +253,8 @@ Result<Done> runReplay(const ReplayJob& job,
     if (!guard.requested()) {
       const auto written = file.value().commit();
       if (!written.ok()) return written.error();
+      const auto shown = writeGlb(glb, job.glb.path);
+      if (!shown.ok()) return shown.error();
     }
   }
   report(summary);
@@ -266,6 +288,9 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
       ->type_name("DIR")
       ->allow_extra_args(false);
   option("--output", texts->output, "FILE", "Results, as lines of JSON")->required();
+  option("--glb", texts->glb, "FILE",
+         "Also the replay as an animated GLB, for any viewer of glTF (docs/formats.md)");
+  option("--glb-triangles", texts->glbTriangles, "N", "Triangles of that file at most");
   option("--rate", texts->rate, "HZ", "Poses a second to use of the clip; animations: 30 if all");
   option("--scale", texts->scale, "S", "Metres per unit of the clip: 0.01 for centimetres");
   option("--motion-up", texts->motionUp, "y|z", "Which axis of the clip points up");

@@ -6,6 +6,7 @@
 
 #include "articulated/result.h"
 #include "tools/console.h"
+#include "tools/glb/replay_glb.h"
 #include "tools/replay/replay.h"
 #include "tools/replay/summary.h"
 
@@ -23,6 +24,7 @@ struct ReplayJob {
   ReplayRequest request;
   ReplayOptions options;
   std::string outputPath;
+  GlbRequest glb;
 };
 
 /// Runs a job: remarks on stderr, results to the output file, and the summary to `report`. The

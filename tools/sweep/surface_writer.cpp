@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tools/glb/gltf_document.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -109,12 +111,8 @@ Result<Done> writePly(const Sweep& sweep, SurfaceSide side, Output& out) {
   return Done{};
 }
 
-// glTF 2.0, "GLB File Format Specification", "Accessors" and "Meshes". Attributes of one's own
-// begin with an underscore and may not be unsigned int.
-constexpr std::uint32_t kGlbMagic = 0x46546C67, kGlbVersion = 2;
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-constexpr int kFloat = 5126, kUnsignedInt = 5125, kTriangleList = 4;
-constexpr int kArrayBuffer = 34962, kElementBuffer = 34963;
+// Attributes of one's own begin with an underscore and may not be unsigned int (glTF 2.0,
+// "Meshes").
 constexpr std::size_t kVertexBytes = 5 * sizeof(float), kTriangleBytes = 3 * sizeof(std::uint32_t);
 
 struct Counts {
@@ -130,9 +128,9 @@ Counts countsOf(const LinkSurface& link) {
   return counts;
 }
 
-/// One link's node, mesh, views and accessors; its bytes start at `offset`: vertices, one after the
-/// other as position, time and link, then triangles.
-void addLink(json& root, const LinkSurface& link, std::size_t offset) {
+/// One link's node, mesh, views and accessors: of vertices, one after the other as position, time
+/// and link, and of triangles.
+void addLink(GltfDocument& document, const LinkSurface& link) {
   const Counts counts = countsOf(link);
   Vector3d low = link.parts[0].vertices[0], high = low;
   for (const SweptSurface& part : link.parts) {
@@ -141,43 +139,26 @@ void addLink(json& root, const LinkSurface& link, std::size_t offset) {
       high = high.cwiseMax(v);
     }
   }
-  const std::size_t view = root["bufferViews"].size(), accessor = root["accessors"].size();
-  const std::size_t vertexBytes = counts.vertices * kVertexBytes;
-  root["bufferViews"].push_back({{"buffer", 0},
-                                 {"byteOffset", offset},
-                                 {"byteLength", vertexBytes},
-                                 {"byteStride", kVertexBytes},
-                                 {"target", kArrayBuffer}});
-  root["bufferViews"].push_back({{"buffer", 0},
-                                 {"byteOffset", offset + vertexBytes},
-                                 {"byteLength", counts.triangles * kTriangleBytes},
-                                 {"target", kElementBuffer}});
-  root["accessors"].push_back({{"bufferView", view},
-                               {"componentType", kFloat},
-                               {"count", counts.vertices},
-                               {"type", "VEC3"},
-                               {"min", json::array({low.x(), low.y(), low.z()})},
-                               {"max", json::array({high.x(), high.y(), high.z()})}});
-  for (const std::size_t byteOffset : {3 * sizeof(float), 4 * sizeof(float)}) {
-    root["accessors"].push_back({{"bufferView", view},
-                                 {"byteOffset", byteOffset},
-                                 {"componentType", kFloat},
-                                 {"count", counts.vertices},
-                                 {"type", "SCALAR"}});
-  }
-  root["accessors"].push_back({{"bufferView", view + 1},
-                               {"componentType", kUnsignedInt},
-                               {"count", 3 * counts.triangles},
-                               {"type", "SCALAR"}});
-  root["meshes"].push_back(
-      {{"name", link.name},
-       {"primitives",
-        json::array({{{"attributes",
-                       {{"POSITION", accessor}, {"_TIME", accessor + 1}, {"_LINK", accessor + 2}}},
-                      {"indices", accessor + 3},
-                      {"mode", kTriangleList}}})}});
-  root["scenes"][0]["nodes"].push_back(root["nodes"].size());
-  root["nodes"].push_back({{"name", link.name}, {"mesh", root["meshes"].size() - 1}});
+  Accessor column;
+  column.view =
+      document.addView(counts.vertices * kVertexBytes, ViewTarget::Vertices, kVertexBytes);
+  column.count = counts.vertices;
+  Accessor positions = column, corners;
+  positions.type = "VEC3";
+  positions.low = gltfVector(low);
+  positions.high = gltfVector(high);
+  json attributes = {{"POSITION", document.addAccessor(positions)}};
+  column.byteOffset = 3 * sizeof(float);
+  attributes["_TIME"] = document.addAccessor(column);
+  column.byteOffset += sizeof(float);
+  attributes["_LINK"] = document.addAccessor(column);
+  corners.view = document.addView(counts.triangles * kTriangleBytes, ViewTarget::Indices);
+  corners.count = 3 * counts.triangles;
+  corners.componentType = ComponentType::UnsignedInt;
+  const json primitive = {{"attributes", attributes}, {"indices", document.addAccessor(corners)}};
+  const std::size_t mesh =
+      document.add("meshes", {{"name", link.name}, {"primitives", json::array({primitive})}});
+  document.show(document.add("nodes", {{"name", link.name}, {"mesh", mesh}}));
 }
 
 void writeBinary(const LinkSurface& link, Output& out) {
@@ -203,39 +184,11 @@ void writeBinary(const LinkSurface& link, Output& out) {
 }
 
 Result<Done> writeGlb(const Sweep& sweep, SurfaceSide side, Output& out) {
-  const std::size_t binaryBytes = sweep.vertices * kVertexBytes + sweep.triangles * kTriangleBytes;
-  constexpr std::size_t kMostBytes = std::size_t{15} << 28;  // sizes are 32 bits; room for the JSON
-  if (binaryBytes > kMostBytes) return tooLarge("GLB");
-  json root = {{"asset", {{"version", "2.0"}, {"generator", titleOf(sweep, side)}}},
-               {"scene", 0},
-               {"scenes", json::array({{{"nodes", json::array()}}})},
-               {"nodes", json::array()},
-               {"meshes", json::array()},
-               {"accessors", json::array()},
-               {"bufferViews", json::array()},
-               {"buffers", json::array({{{"byteLength", binaryBytes}}})}};
-  std::size_t offset = 0;
-  for (const LinkSurface& link : sweep.links) {
-    addLink(root, link, offset);
-    const Counts counts = countsOf(link);
-    offset += counts.vertices * kVertexBytes + counts.triangles * kTriangleBytes;
-  }
-  std::string text = root.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  constexpr std::uint32_t kHeadBytes = 12, kChunkHeadBytes = 8;
-  std::string head;
-  const auto textBytes = static_cast<std::uint32_t>(text.size());
-  const auto dataBytes = static_cast<std::uint32_t>(binaryBytes);
-  for (const std::uint32_t word :
-       {kGlbMagic, kGlbVersion, kHeadBytes + 2 * kChunkHeadBytes + textBytes + dataBytes, textBytes,
-        kJsonChunk}) {
-    append(head, word);
-  }
-  out.write(head + text);
-  head.clear();
-  append(head, dataBytes);
-  append(head, kBinaryChunk);
-  out.write(head);
+  GltfDocument document(titleOf(sweep, side));
+  for (const LinkSurface& link : sweep.links) addLink(document, link);
+  const auto head = document.glbHead();
+  if (!head.ok()) return tooLarge("GLB");
+  out.write(head.value());
   for (const LinkSurface& link : sweep.links) writeBinary(link, out);
   return Done{};
 }

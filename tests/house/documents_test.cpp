@@ -1,0 +1,134 @@
+// What the documents say of files: every relative link leads to a file, and to a heading of it.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Markdown at the root and in docs/, and the examples' page.
+std::vector<fs::path> documents() {
+  const fs::path root(FORETOUCH_SOURCE_DIR);
+  std::vector<fs::path> found{root / "examples" / "README.md"};
+  for (const fs::path& folder : {root, root / "docs"}) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() == ".md") found.push_back(entry.path());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// The text without code blocks and code spans: what looks like a link there is none.
+std::string withoutCode(const std::string& text) {
+  std::istringstream lines(text);
+  std::string kept, line;
+  bool isCode = false;
+  while (std::getline(lines, line)) {
+    const bool isFence = line.rfind("```", 0) == 0;
+    if (isFence) isCode = !isCode;
+    if (!isCode && !isFence) kept += line + "\n";
+  }
+  return std::regex_replace(kept, std::regex("`[^`\n]*`"), "code");
+}
+
+/// As the well-known hosts make anchors of headings: small letters, digits, - and _ stay, blanks
+/// become -, all else goes.
+std::string anchorOf(const std::string& heading) {
+  std::string anchor;
+  for (const unsigned char c : heading) {
+    if (std::isalnum(c) != 0 || c == '-' || c == '_' || c >= 0x80) {
+      anchor += static_cast<char>(std::tolower(c));
+    } else if (c == ' ') {
+      anchor += '-';
+    }
+  }
+  return anchor;
+}
+
+std::set<std::string> anchorsIn(const fs::path& path) {
+  std::set<std::string> anchors;
+  std::map<std::string, int> seen;
+  std::istringstream lines(contentOf(path));
+  std::string line;
+  bool isCode = false;
+  while (std::getline(lines, line)) {
+    if (line.rfind("```", 0) == 0) isCode = !isCode;
+    const std::size_t text = line.find_first_not_of('#');
+    if (isCode || text == 0 || text == std::string::npos || line[text] != ' ') continue;
+    const std::string anchor = anchorOf(line.substr(text + 1));
+    const int before = seen[anchor]++;
+    anchors.insert(before == 0 ? anchor : anchor + "-" + std::to_string(before));
+  }
+  return anchors;
+}
+
+std::vector<std::string> targetsIn(const std::string& text) {
+  static const std::regex kLink(R"re(\]\(([^()\s]+)\)|(?:src|href|srcset)="([^"]+)")re");
+  std::vector<std::string> targets;
+  for (auto at = std::sregex_iterator(text.begin(), text.end(), kLink);
+       at != std::sregex_iterator(); ++at) {
+    targets.push_back((*at)[1].matched ? (*at)[1].str() : (*at)[2].str());
+  }
+  return targets;
+}
+
+bool isElsewhere(const std::string& target) {
+  return target.find("://") != std::string::npos || target.rfind("mailto:", 0) == 0;
+}
+
+TEST(Documents, EveryRelativeLinkLeadsSomewhere) {
+  int links = 0, anchors = 0;
+  for (const fs::path& document : documents()) {
+    for (const std::string& target : targetsIn(withoutCode(contentOf(document)))) {
+      if (isElsewhere(target)) continue;
+      ++links;
+      const std::size_t hash = target.find('#');
+      const std::string path = target.substr(0, hash);
+      const fs::path file = path.empty() ? document : document.parent_path() / path;
+      EXPECT_TRUE(fs::exists(file)) << document << " links to " << target;
+      if (hash == std::string::npos) continue;
+      ++anchors;
+      EXPECT_EQ(anchorsIn(file).count(target.substr(hash + 1)), 1u)
+          << document << " links to " << target << ", and no heading is called so";
+    }
+  }
+  EXPECT_GT(links, 20);
+  EXPECT_GT(anchors, 5);
+}
+
+TEST(Documents, TheIndexLinksEveryOneOfThem) {
+  const fs::path folder = fs::path(FORETOUCH_SOURCE_DIR) / "docs";
+  const std::vector<std::string> linked = targetsIn(contentOf(folder / "README.md"));
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".md" || name == "README.md") continue;
+    EXPECT_NE(std::find(linked.begin(), linked.end(), name), linked.end())
+        << name << " is not in docs/README.md";
+  }
+}
+
+TEST(Documents, AnchorsAreMadeAsHostsMakeThem) {
+  EXPECT_EQ(anchorOf("Pairs to ignore"), "pairs-to-ignore");
+  EXPECT_EQ(anchorOf("Joint positions (CSV)"), "joint-positions-csv");
+  EXPECT_EQ(anchorOf("`foretouch log --json`"), "foretouch-log---json");
+  EXPECT_EQ(anchorOf("8. Exact fidelity"), "8-exact-fidelity");
+}
+
+}  // namespace

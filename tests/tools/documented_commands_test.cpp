@@ -1,0 +1,178 @@
+// tests/tools/documented_commands_test.cpp: what the documents tell people to type exists: every
+// subcommand and option of `foretouch`, every task of `./run`.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/tools/program_run.h"
+
+namespace foretouch::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// What a --help lists.
+struct Help {
+  std::set<std::string> options, subcommands;
+};
+
+bool isBlank(const std::string& line) {
+  return line.find_first_not_of(' ') == std::string::npos;
+}
+
+Help helpFrom(const std::string& text) {
+  Help help;
+  std::istringstream lines(text);
+  std::string line;
+  bool listsSubcommands = false;
+  while (std::getline(lines, line)) {
+    if (line.rfind("Subcommands:", 0) == 0) {
+      listsSubcommands = true;
+    } else if (isBlank(line) || line.front() != ' ') {
+      listsSubcommands = false;
+    } else if (line.rfind("  ", 0) == 0 && line.size() > 2 && line[2] != ' ') {
+      std::istringstream words(line);
+      std::string word;
+      words >> word;
+      if (word.front() != '-') {
+        if (listsSubcommands) help.subcommands.insert(word);
+        continue;
+      }
+      std::istringstream names(word);
+      for (std::string name; std::getline(names, name, ',');) help.options.insert(name);
+    }
+  }
+  return help;
+}
+
+/// The help of a subcommand, asked for once.
+const Help& helpOf(const Words& path) {
+  static std::map<Words, Help> known;
+  const auto found = known.find(path);
+  if (found != known.end()) return found->second;
+  Words arguments = path;
+  arguments.emplace_back("--help");
+  const Ended ended = runForetouch(arguments);
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  return known[path] = helpFrom(ended.out);
+}
+
+/// Lines of code blocks, continued ones joined, and code spans.
+std::vector<std::string> codeIn(const std::string& text) {
+  std::istringstream lines(text);
+  std::vector<std::string> code;
+  std::string line, begun;
+  bool isBlock = false;
+  while (std::getline(lines, line)) {
+    if (line.rfind("```", 0) == 0) {
+      isBlock = !isBlock;
+    } else if (isBlock || line.rfind("    ", 0) == 0) {
+      begun += line;
+      if (!begun.empty() && begun.back() == '\\') {
+        begun.back() = ' ';
+        continue;
+      }
+      code.push_back(std::exchange(begun, ""));
+    } else {
+      for (std::size_t from = line.find('`'); from != std::string::npos;) {
+        const std::size_t to = line.find('`', from + 1);
+        if (to == std::string::npos) break;
+        code.push_back(line.substr(from + 1, to - from - 1));
+        from = line.find('`', to + 1);
+      }
+    }
+  }
+  return code;
+}
+
+/// The words of a command, up to a comment, a pipe or a redirection.
+Words wordsOf(const std::string& line) {
+  std::istringstream stream(line);
+  Words words;
+  for (std::string word; stream >> word;) {
+    if (word == "#" || word == "|" || word == ">" || word == "&&" || word == ";") break;
+    words.push_back(word);
+  }
+  if (!words.empty() && words.front() == "$") words.erase(words.begin());
+  return words;
+}
+
+bool isWord(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '-';
+  });
+}
+
+/// Words after `foretouch`. "..." and words in capitals stand for something.
+void expectCommand(const Words& words, const std::string& where) {
+  Words path;
+  std::size_t at = 0;
+  while (at < words.size() && isWord(words[at]) && words[at].front() != '-') {
+    const Help& help = helpOf(path);
+    if (help.subcommands.count(words[at]) == 0) {
+      EXPECT_TRUE(help.subcommands.empty()) << where << ": no subcommand " << words[at];
+      break;
+    }
+    path.push_back(words[at++]);
+  }
+  if (path.empty()) return;
+  for (; at < words.size(); ++at) {
+    const std::string option = words[at].substr(0, words[at].find_first_of("=,.;:)]"));
+    if (option.rfind("--", 0) != 0 && !(option.size() == 2 && option.front() == '-' &&
+                                        std::isalpha(static_cast<unsigned char>(option[1])) != 0)) {
+      continue;
+    }
+    EXPECT_EQ(helpOf(path).options.count(option), 1u) << where << ": no option " << option;
+  }
+}
+
+std::vector<fs::path> documents() {
+  const fs::path root(FORETOUCH_SOURCE_DIR);
+  std::vector<fs::path> found{root / "examples" / "README.md", root / "README.md"};
+  for (const auto& entry : fs::directory_iterator(root / "docs")) {
+    if (entry.path().extension() == ".md") found.push_back(entry.path());
+  }
+  return found;
+}
+
+TEST(Documents, TellOnlyOfCommandsAndOptionsThatExist) {
+  const std::string tasks = contentOf(std::string(FORETOUCH_SOURCE_DIR) + "/run");
+  int commands = 0, runs = 0;
+  for (const fs::path& document : documents()) {
+    for (const std::string& line : codeIn(contentOf(document.string()))) {
+      Words words = wordsOf(line);
+      const std::string where = document.filename().string() + ": " + line;
+      if (words.size() > 1 && words.front() == "./run" && isWord(words[1])) {
+        ++runs;
+        EXPECT_NE(tasks.find("\n  " + words[1] + ")"), std::string::npos) << where;
+        words.erase(words.begin());
+      }
+      if (words.empty() || words.front() != "foretouch") continue;
+      ++commands;
+      expectCommand({words.begin() + 1, words.end()}, where);
+    }
+  }
+  EXPECT_GT(commands, 50);
+  EXPECT_GT(runs, 10);
+}
+
+TEST(Documents, OptionsAreReadFromHelpTexts) {
+  const Help replay = helpOf({"replay"});
+  EXPECT_EQ(replay.options.count("--scene"), 1u);
+  EXPECT_EQ(replay.options.count("--compare-rigid"), 1u);
+  EXPECT_EQ(replay.options.count("--sceen"), 0u);
+  const Help avatar = helpOf({"avatar"});
+  EXPECT_EQ(avatar.subcommands.count("check"), 1u);
+}
+
+}  // namespace
+}  // namespace foretouch::test

@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <optional>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "tessellation/swept_surface.h"
+#include "tools/glb/contact_extras.h"
+#include "tools/glb/replay_scene.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Eigen::Vector3d;
+using nlohmann::json;
+
+/// For how long (s) a first contact stays to be seen. One from the start is there during its step,
+/// as the next one has its own.
+constexpr double kHoldS = 1.0;
+
+double endOf(const ShownContact& shown) {
+  if (shown.contact.verdict == Verdict::StartsInContact) return shown.t1S;
+  return std::max(shown.t1S, shown.timeS + kHoldS);
+}
+
+json markerNode(const ShownContact& shown, const Stage& stage, std::size_t mesh) {
+  const LinkContact& contact = shown.contact;
+  const Skeleton& skeleton = stage.inputs.avatar.skeleton();
+  const Scene& scene = stage.inputs.scene;
+  const auto turn = Quaternion::FromTwoVectors(Vector3d::UnitY(), contact.nhat_SL_W).normalized();
+  return {{"name", contactTitle(contact, shown.timeS, skeleton, scene)},
+          {"mesh", mesh},
+          {"translation", gltfVector(contact.p_WScene - stage.origin)},
+          {"rotation", json::array({turn.x(), turn.y(), turn.z(), turn.w()})},
+          {"extras", contactExtras(contact, shown.step, shown.timeS, shown.isMissedByPoses,
+                                   skeleton, scene)}};
+}
+
+/// What the link covers during the step; nothing where that takes more triangles than `most`, or
+/// an error larger than asked for.
+struct SweptLink {
+  std::vector<Triangle> triangles;
+  double certifiedError = 0.0;
+};
+std::optional<SweptLink> sweptBy(const Stage& stage, const ShownContact& shown, double error,
+                                 std::size_t most) {
+  const auto step = static_cast<std::size_t>(shown.step);
+  const Avatar& avatar = stage.inputs.avatar;
+  const ChainMotion motion(avatar.skeleton(), stage.poses[step], stage.poses[step + 1]);
+  SweptSurfaceOptions options;
+  options.error = error;
+  SweptLink swept;
+  for (const Lss& lss : avatar.lss(shown.contact.link)) {
+    options.maxTriangles = most - swept.triangles.size();
+    auto builder = SweptSurfaceBuilder::create(lss, options);
+    if (!builder.ok() || !builder.value().add(motion, shown.contact.link, {}).ok()) return {};
+    const auto surface = builder.value().finish();
+    if (!surface.ok()) return {};
+    swept.certifiedError = std::max(swept.certifiedError, surface.value().certifiedError);
+    for (const auto& corners : surface.value().triangles) {
+      const auto& vertices = surface.value().vertices;
+      swept.triangles.push_back(
+          {{vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]}});
+    }
+    if (swept.triangles.size() > most) return {};
+  }
+  return swept;
+}
+
+json sweepNode(const ShownContact& shown, const Stage& stage, const SweptLink& swept,
+               std::size_t mesh) {
+  const std::string& link = stage.inputs.avatar.skeleton().name(shown.contact.link);
+  return {{"name", fmt::format("sweep of {}, {:.3f} to {:.3f} s", link, shown.t0S, shown.t1S)},
+          {"mesh", mesh},
+          {"extras",
+           {{"link", link},
+            {"step", shown.step},
+            {"t0", shown.t0S},
+            {"t1", shown.t1S},
+            {"certified_error", swept.certifiedError}}}};
+}
+
+}  // namespace
+
+std::vector<Appearance> addMarkers(const Stage& stage, const std::vector<ShownContact>& contacts,
+                                   std::size_t parent, GlbContent& content) {
+  std::vector<Appearance> appearances;
+  if (contacts.empty()) return appearances;
+  constexpr double kArrow = 0.1;  // of the avatar's extent
+  const GlbMesh marker = markerMesh(kArrow * stage.extent);
+  const std::size_t red = content.addMaterial({"contact", {0.80, 0.05, 0.03, 1.0}});
+  const std::size_t amber = content.addMaterial({"starts in contact", {0.90, 0.50, 0.02, 1.0}});
+  const std::size_t first = content.addMesh("contact", {{marker, red}});
+  const std::size_t standing = content.addMesh("starts in contact", {{marker, amber}});
+  GltfDocument& document = content.document();
+  for (const ShownContact& shown : contacts) {
+    const bool isFirst = shown.contact.verdict == Verdict::Contact;
+    const std::size_t node =
+        document.add("nodes", markerNode(shown, stage, isFirst ? first : standing));
+    document.at("nodes", parent)["children"].push_back(node);
+    appearances.push_back({node, shown.timeS, endOf(shown)});
+  }
+  return appearances;
+}
+
+std::vector<Appearance> addSweeps(const Stage& stage, const std::vector<ShownContact>& contacts,
+                                  std::size_t parent, GlbContent& content, TriangleBudget& budget,
+                                  std::vector<std::string>& notes) {
+  constexpr double kError = 0.01;    // of the avatar's extent
+  constexpr std::size_t kShare = 2;  // of the budget: the rest is the scene's
+  TriangleBudget own(budget.left() / kShare);
+  GltfDocument& document = content.document();
+  std::optional<std::size_t> material;
+  std::vector<Appearance> appearances;
+  std::size_t leftOut = 0;
+  for (const ShownContact& shown : contacts) {
+    if (shown.contact.verdict != Verdict::Contact) continue;
+    const auto swept = sweptBy(stage, shown, kError * stage.extent, own.left());
+    if (!swept || swept->triangles.empty() || !own.take(swept->triangles.size())) {
+      ++leftOut;
+      continue;
+    }
+    budget.take(swept->triangles.size());
+    if (!material) material = content.addMaterial({"swept volume", {0.95, 0.45, 0.10, 0.30}});
+    const std::string& link = stage.inputs.avatar.skeleton().name(shown.contact.link);
+    const std::size_t mesh =
+        content.addMesh("sweep of " + link, {{meshOf(swept->triangles, stage.origin), *material}});
+    const std::size_t node = document.add("nodes", sweepNode(shown, stage, *swept, mesh));
+    document.at("nodes", parent)["children"].push_back(node);
+    appearances.push_back({node, shown.t0S, endOf(shown)});
+  }
+  if (leftOut > 0) {
+    notes.push_back(fmt::format("the swept volumes of {} contacts are left out", leftOut));
+  }
+  return appearances;
+}
+
+}  // namespace foretouch::tools

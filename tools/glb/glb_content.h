@@ -1,0 +1,53 @@
+// tools/glb/glb_content.h: a GLB in the making: its document and the bytes that go with it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "articulated/text_file.h"
+#include "tools/glb/glb_mesh.h"
+#include "tools/glb/gltf_document.h"
+
+namespace foretouch::tools {
+
+struct GlbMaterial {
+  const char* name = "";
+  std::array<double, 4> color{1.0, 1.0, 1.0, 1.0};  ///< Linear red, green, blue, and opacity.
+};
+
+/// Triangles and what they look like.
+struct MeshPart {
+  GlbMesh mesh;
+  std::size_t material = 0;
+};
+
+class GlbContent {
+ public:
+  explicit GlbContent(const std::string& generator) : document_(generator) {}
+
+  [[nodiscard]] GltfDocument& document() { return document_; }
+
+  /// Both sides of its faces show, as triangles here have no sides.
+  std::size_t addMaterial(const GlbMaterial& material);
+  /// Precondition: at least one part, each with a triangle.
+  std::size_t addMesh(const std::string& name, const std::vector<MeshPart>& parts);
+  /// Rows of 1, 3 or 4 floats for an animation; returns the accessor. Precondition: not empty.
+  std::size_t addRows(const std::vector<float>& values, int width);
+  /// Several such lists of single numbers, in one view; returns the first one's accessor.
+  std::size_t addLists(const std::vector<std::vector<float>>& lists);
+
+  void write(PendingFile& file, const std::string& head) const;
+  [[nodiscard]] Result<std::string> head() const { return document_.glbHead(); }
+
+ private:
+  nlohmann::json addPart(const MeshPart& part);
+  std::size_t addVertices(const std::vector<Eigen::Vector3f>& vertices, bool areBounded);
+
+  GltfDocument document_;
+  std::string bytes_;
+};
+
+}  // namespace foretouch::tools

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "middleware/link_mesh.h"
+#include "tools/glb/replay_scene.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// The triangles of links that have a mesh; without a surface in the inputs, from its file.
+std::vector<std::vector<Triangle>> trianglesOfLinks(const ReplayInputs& inputs,
+                                                    std::vector<std::string>& notes) {
+  const Avatar& avatar = inputs.avatar;
+  if (inputs.query.surface) {
+    std::vector<std::vector<Triangle>> triangles;
+    for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+      triangles.push_back(inputs.query.surface->triangles(link));
+    }
+    return triangles;
+  }
+  auto loaded = loadLinkMeshes(avatar, inputs.request.avatarPath);
+  if (loaded.ok()) return std::move(loaded).value();
+  notes.push_back("the meshes of links are left out: " + describe(loaded.error()));
+  return std::vector<std::vector<Triangle>>(static_cast<std::size_t>(avatar.numLinks()));
+}
+
+}  // namespace
+
+std::vector<std::size_t> addLinkMeshes(const Stage& stage, GlbContent& content,
+                                       TriangleBudget& budget, std::vector<std::string>& notes) {
+  const Avatar& avatar = stage.inputs.avatar;
+  const std::size_t solid = content.addMaterial({"LSS", {0.16, 0.36, 0.70, 1.0}});
+  const std::size_t veil = content.addMaterial({"LSS around a mesh", {0.16, 0.36, 0.70, 0.25}});
+  const std::size_t skin = content.addMaterial({"mesh of a link", {0.55, 0.58, 0.62, 1.0}});
+  const auto triangles = trianglesOfLinks(stage.inputs, notes);
+  std::size_t lssLeftOut = 0, meshesLeftOut = 0;
+  std::vector<std::size_t> meshes;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    std::vector<MeshPart> parts;
+    const auto& surface = triangles[static_cast<std::size_t>(link)];
+    const bool hasMesh = !surface.empty() && budget.take(surface.size());
+    meshesLeftOut += !surface.empty() && !hasMesh ? 1 : 0;
+    if (hasMesh) parts.push_back({meshOf(surface), skin});
+    GlbMesh volume;
+    for (const Lss& lss : avatar.lss(link)) {
+      const bool fits = budget.take(trianglesOfLss());
+      if (fits) appendLss(lss, volume);
+      lssLeftOut += fits ? 0 : 1;
+    }
+    if (volume.triangles() > 0) parts.push_back({std::move(volume), hasMesh ? veil : solid});
+    meshes.push_back(parts.empty() ? kNoMesh
+                                   : content.addMesh(avatar.skeleton().name(link), parts));
+  }
+  if (lssLeftOut + meshesLeftOut > 0) {
+    notes.push_back(
+        fmt::format("{} LSS and the meshes of {} links are left out", lssLeftOut, meshesLeftOut));
+  }
+  if (stage.inputs.query.fidelity == Fidelity::Skinned) {
+    notes.emplace_back("the skin is not shown, but the LSS and meshes of links");
+  }
+  return meshes;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,52 @@
+// tools/glb/replay_glb.h: a replay as one animated GLB, for any viewer of glTF: the scene, the
+// avatar in its in-between motion, what it touches and when, and what touching links sweep
+// (docs/formats.md, "A replay as GLB").
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "middleware/query.h"
+#include "tools/replay/replay_inputs.h"
+#include "tools/replay/results_writer.h"
+
+namespace foretouch::tools {
+
+struct GlbRequest {
+  std::string path;                       ///< Empty: none is asked for.
+  std::size_t mostTriangles = 1'000'000;  ///< Of scene, avatar and swept surfaces together.
+};
+
+/// A contact that is to be shown.
+struct ShownContact {
+  LinkContact contact;
+  std::int64_t step = 0;
+  double t0S = 0.0, t1S = 0.0, timeS = 0.0;
+  bool isMissedByPoses = false;
+};
+
+/// Collects the answers of a replay, in bounded memory.
+class ReplayGlb {
+ public:
+  /// `inputs` must outlive it.
+  ReplayGlb(const ReplayInputs& inputs, GlbRequest request)
+      : inputs_(inputs), request_(std::move(request)) {}
+
+  /// Steps in order.
+  void add(const StepAnswer& answer);
+
+  /// Writes the file; returns what it leaves out, a sentence each. Errors: a file that cannot be
+  /// written, times that floats do not tell apart, more than a GLB can hold.
+  [[nodiscard]] Result<std::vector<std::string>> write() const;
+
+ private:
+  const ReplayInputs& inputs_;
+  GlbRequest request_;
+  std::vector<ShownContact> contacts_, startsInContact_;
+  std::int64_t undecided_ = 0, notShown_ = 0;
+};
+
+}  // namespace foretouch::tools

@@ -1,0 +1,69 @@
+// tools/glb/replay_scene.h: the parts that a GLB of a replay is put together from.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/motion.h"
+#include "tools/glb/appearances.h"
+#include "tools/glb/glb_content.h"
+#include "tools/glb/replay_glb.h"
+
+namespace foretouch::tools {
+
+/// What all parts need to know.
+struct Stage {
+  const ReplayInputs& inputs;
+  std::vector<Pose> poses;
+  std::vector<double> timesS;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Of the world's node.
+  double extent = 1.0;  ///< Of the avatar in the first pose: the diagonal of its box (m).
+};
+
+/// Computes every pose; error where one is out of range or floats do not tell its time.
+[[nodiscard]] Result<Stage> stageOf(const ReplayInputs& inputs);
+
+/// Triangles that may still be added.
+class TriangleBudget {
+ public:
+  explicit TriangleBudget(std::size_t most) : left_(most) {}
+  [[nodiscard]] std::size_t left() const { return left_; }
+  /// False where there are not so many: nothing is taken then.
+  bool take(std::size_t triangles) {
+    if (triangles > left_) return false;
+    left_ -= triangles;
+    return true;
+  }
+
+ private:
+  std::size_t left_;
+};
+
+/// The mesh of every link (kNoMesh: it has none): its LSS, seen through where the link has a mesh
+/// as well. `notes` gets what is left out.
+[[nodiscard]] std::vector<std::size_t> addLinkMeshes(const Stage& stage, GlbContent& content,
+                                                     TriangleBudget& budget,
+                                                     std::vector<std::string>& notes);
+
+/// A node below `parent` for every object of the scene, in triangles nearest to the avatar's way
+/// first; those of `contacts` are among them.
+void addScene(const Stage& stage, const std::vector<ShownContact>& contacts, std::size_t parent,
+              GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes);
+
+/// A marker below `parent` for every contact: a ball at the point, an arrow along the normal.
+[[nodiscard]] std::vector<Appearance> addMarkers(const Stage& stage,
+                                                 const std::vector<ShownContact>& contacts,
+                                                 std::size_t parent, GlbContent& content);
+
+/// What each contact's link covers during its step, below `parent`.
+[[nodiscard]] std::vector<Appearance> addSweeps(const Stage& stage,
+                                                const std::vector<ShownContact>& contacts,
+                                                std::size_t parent, GlbContent& content,
+                                                TriangleBudget& budget,
+                                                std::vector<std::string>& notes);
+
+}  // namespace foretouch::tools

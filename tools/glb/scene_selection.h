@@ -1,0 +1,21 @@
+// tools/glb/scene_selection.h: which triangles of a scene are shown where not all of them can be.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "middleware/scene.h"
+
+namespace foretouch::tools {
+
+/// At most `most` triangles, in ascending order: those whose box is nearest to one of `places`, of
+/// equally near ones the first. `always` are among them, as far as they fit. Triangles that were
+/// not finite in the file are passed over. Precondition: there is a place. O(triangles * places).
+[[nodiscard]] std::vector<TriangleId> nearestTriangles(const Scene& scene,
+                                                       const std::vector<Eigen::Vector3d>& places,
+                                                       std::vector<TriangleId> always,
+                                                       std::size_t most);
+
+}  // namespace foretouch::tools

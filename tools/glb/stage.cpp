@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tessellation/swept_lss.h"
+#include "tools/glb/replay_scene.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Floats resolve 4 micrometres up to here; beyond, positions are told from an origin near by.
+constexpr double kNear = 64.0;
+
+Vector3d originFor(const Stage& stage) {
+  const Skeleton& skeleton = stage.inputs.avatar.skeleton();
+  Vector3d low = stage.poses.front().translations[0], high = low;
+  for (const Pose& pose : stage.poses) {
+    for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+      if (skeleton.parent(joint) != kNoParent) continue;
+      low = low.cwiseMin(pose.translations[static_cast<std::size_t>(joint)]);
+      high = high.cwiseMax(pose.translations[static_cast<std::size_t>(joint)]);
+    }
+  }
+  if (low.cwiseAbs().maxCoeff() <= kNear && high.cwiseAbs().maxCoeff() <= kNear) {
+    return Vector3d::Zero();
+  }
+  // Whole metres: floats hold them exactly up to 16,777 km.
+  return (0.5 * (low + high)).array().round();
+}
+
+double extentOf(const Stage& stage) {
+  const Avatar& avatar = stage.inputs.avatar;
+  const ChainMotion motion(avatar.skeleton(), stage.poses[0], stage.poses[1]);
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    for (const Lss& lss : avatar.lss(link)) {
+      const AxisEnds ends = axisEnds(lss, motion.stateAt(link, 0.0));
+      low = low.cwiseMin((ends.a.cwiseMin(ends.b).array() - lss.radius).matrix());
+      high = high.cwiseMax((ends.a.cwiseMax(ends.b).array() + lss.radius).matrix());
+    }
+  }
+  constexpr double kLeast = 1e-3;  // markers of an avatar that is a point
+  return std::max(kLeast, (high - low).norm());
+}
+
+}  // namespace
+
+Result<Stage> stageOf(const ReplayInputs& inputs) {
+  Stage stage{inputs, {}, {}};
+  for (std::int64_t step = 0; step <= inputs.steps.count; ++step) {
+    auto pose = poseAtFrame(inputs, step * inputs.steps.stride);
+    if (!pose.ok()) return pose.error();
+    stage.poses.push_back(std::move(pose).value());
+    stage.timesS.push_back(inputs.timeOfStep(step));
+  }
+  const auto checked = checkTimes(stage.timesS);
+  if (!checked.ok()) return checked.error();
+  stage.origin = originFor(stage);
+  stage.extent = extentOf(stage);
+  return stage;
+}
+
+}  // namespace foretouch::tools
