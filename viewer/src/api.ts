@@ -1,0 +1,102 @@
+// window.foretouch: the page's small interface, for tests and for those who embed the page.
+
+import type { Vector } from "./data/document.js";
+import type { Clip } from "./motion/clip.js";
+import { Posture } from "./motion/clip.js";
+import type { Model } from "./model.js";
+import { choose } from "./panels/choosing.js";
+import type { View3D } from "./scene3d/view.js";
+import type { Store } from "./state.js";
+
+export interface Foretouch {
+  /** Resolves once the document is shown, or with it refused: see state().error. */
+  readonly ready: Promise<void>;
+  /** Of a link in the world at a time of the clip: rotation row by row, then origin. Metres. */
+  transformAt(avatarIndex: number, linkIndex: number, timeSeconds: number): number[];
+  /** Shows the time, and pauses. */
+  seek(seconds: number): void;
+  /** Of all avatars' contacts in order of time (equal times in the document's order). */
+  selectContact(index: number): void;
+  /** Index of the selected contact; -1 where none is. */
+  selected(): number;
+  state(): PageState;
+  /** Pixels from the canvas' upper left corner; null behind the camera or without WebGL. */
+  screenOf(point: Vector): [number, number] | null;
+}
+
+export interface PageState {
+  readonly time: number;
+  readonly start: number;
+  readonly end: number;
+  readonly contacts: number;
+  readonly isPlaying: boolean;
+  readonly showsDiscrete: boolean;
+  readonly showsGhosts: boolean;
+  readonly showsSwept: boolean;
+  readonly theme: string;
+  readonly has3D: boolean;
+  /** Frames of the 3D view drawn so far: none are drawn where nothing changes. */
+  readonly frames: number;
+  /** The sentence shown instead of the document; null where all is well. */
+  readonly error: string | null;
+}
+
+export interface Page {
+  readonly model: Model;
+  readonly store: Store;
+  readonly view: View3D | null;
+}
+
+declare global {
+  interface Window {
+    foretouch?: Foretouch;
+  }
+}
+
+export function publish(ready: Promise<void>, page: () => Page | null, error: () => string | null): void {
+  const open = (): Page => page() ?? fail("no document is shown");
+  window.foretouch = {
+    ready,
+    transformAt: (avatar, link, time) => transformAt(open().model.clips[avatar], link, time),
+    seek: (time) => open().store.set({ time, isPlaying: false, follows: false }),
+    selectContact: (index) => {
+      const { model, store } = open();
+      choose(store, model.contacts[index] ?? fail(`there is no contact ${index}`));
+    },
+    selected: () => {
+      const { model, store } = open();
+      return store.state.contact === null ? -1 : model.contacts.indexOf(store.state.contact);
+    },
+    state: () => stateOf(page(), error()),
+    screenOf: (point) => page()?.view?.screenOf(point) ?? null,
+  };
+}
+
+function transformAt(clip: Clip | undefined, link: number, time: number): number[] {
+  if (clip === undefined || !(link >= 0 && link < clip.parents.length)) fail("there is no such link");
+  const posture = new Posture(clip as Clip);
+  posture.moveTo(time);
+  return posture.transform(link);
+}
+
+function stateOf(page: Page | null, error: string | null): PageState {
+  const state = page?.store.state;
+  return {
+    time: state?.time ?? 0,
+    start: page?.model.start ?? 0,
+    end: page?.model.end ?? 0,
+    contacts: page?.model.contacts.length ?? 0,
+    isPlaying: state?.isPlaying ?? false,
+    showsDiscrete: state?.showsDiscrete ?? false,
+    showsGhosts: state?.showsGhosts ?? false,
+    showsSwept: state?.showsSwept ?? false,
+    theme: state?.theme ?? "light",
+    has3D: page?.view !== null && page?.view !== undefined,
+    frames: page?.view?.frames ?? 0,
+    error,
+  };
+}
+
+function fail(message: string): never {
+  throw new Error(message);
+}

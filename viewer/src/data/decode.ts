@@ -1,0 +1,68 @@
+// From the text of a view document to a checked ViewDocument, or one sentence on what is wrong.
+
+import type { Kind, SummaryLine, ViewDocument } from "./document.js";
+import { Malformed, Reader } from "./reader.js";
+import { decodeAvatar } from "./decode_avatar.js";
+import { decodeScene, emptyScene } from "./decode_scene.js";
+
+export const formatName = "foretouch-view";
+export const formatVersion = 1;
+const kinds: readonly Kind[] = ["replay", "log", "inspection", "live"];
+
+/** Throws Malformed. */
+export function decodeDocument(text: string): ViewDocument {
+  return decodeValue(parsed(text));
+}
+
+function parsed(text: string): unknown {
+  try {
+    return JSON.parse(text) as unknown;
+  } catch {
+    throw new Malformed("", "is not JSON; perhaps the file was cut short");
+  }
+}
+
+function decodeValue(value: unknown): ViewDocument {
+  const root = new Reader(value, "");
+  requireFormat(root);
+  const kind = root.field("kind").oneOf(kinds);
+  const scene = root.optional("scene");
+  return {
+    kind,
+    title: root.field("title").text(),
+    tool: root.optional("tool")?.text() ?? "",
+    settings: (root.optional("settings")?.items() ?? []).map((item) => ({
+      name: item.field("name").text(),
+      value: item.field("value").text(),
+    })),
+    summary: (root.optional("summary")?.items() ?? []).map(decodeSummaryLine),
+    notes: (root.optional("notes")?.items() ?? []).map((note) => note.text()),
+    scene: scene === null ? emptyScene : decodeScene(scene),
+    avatars: (root.optional("avatars")?.items() ?? []).map(decodeAvatar),
+    events: kind === "live" ? eventsAddress(root) : null,
+  };
+}
+
+function requireFormat(root: Reader): void {
+  if (root.optional("format")?.value !== formatName) root.fail(`is no ${formatName} document`);
+  const version = root.field("version").count();
+  if (version !== formatVersion) {
+    root.fail(`is of version ${version}, but this page reads version ${formatVersion}`);
+  }
+}
+
+function decodeSummaryLine(item: Reader): SummaryLine {
+  return {
+    name: item.field("name").text(),
+    value: item.field("value").text(),
+    note: item.optional("note")?.text() ?? "",
+  };
+}
+
+/** Only an address on the page's own server: a document must not send the page elsewhere. */
+function eventsAddress(root: Reader): string {
+  const events = root.field("live").field("events");
+  const address = events.text();
+  if (!/^\/(?!\/)[\w./-]*$/.test(address)) events.fail("is no path on this server");
+  return address;
+}

@@ -1,0 +1,144 @@
+// The view document, decoded: format "foretouch-view" version 1. Metres, seconds, right-handed
+// world with +Y up, quaternions w, x, y, z. Everything here has been checked by decode.ts, so that
+// nothing behind it has to: indices are in range, numbers finite, quaternions unit.
+
+export type Vector = readonly [number, number, number];
+export type Kind = "replay" | "log" | "inspection" | "live";
+export type Verdict = "contact" | "starts_in_contact" | "undecided";
+
+export interface ViewDocument {
+  readonly kind: Kind;
+  readonly title: string;
+  readonly tool: string;
+  readonly settings: readonly Setting[];
+  readonly summary: readonly SummaryLine[];
+  readonly notes: readonly string[];
+  readonly scene: Scene;
+  readonly avatars: readonly Avatar[];
+  /** Where live events come from; null where the document is no live one. */
+  readonly events: string | null;
+}
+
+export interface Setting {
+  readonly name: string;
+  readonly value: string;
+}
+
+export interface SummaryLine extends Setting {
+  readonly note: string;
+}
+
+export interface Bounds {
+  readonly min: Vector;
+  readonly max: Vector;
+}
+
+/** A triangle mesh whose vertices are `origin` + `positions` in the world. */
+export interface PlacedMesh {
+  readonly origin: Vector;
+  readonly positions: Float32Array;
+  readonly indices: Uint32Array;
+}
+
+export interface Scene extends PlacedMesh {
+  readonly name: string;
+  /** By shown triangle; null where simplification made new ones. */
+  readonly triangleIds: Uint32Array | null;
+  readonly objects: readonly SceneObject[];
+  readonly trianglesInFile: number;
+  readonly reduction: "none" | "clipped" | "simplified";
+  /** Of the whole file, in the world; null for an empty scene. */
+  readonly bounds: Bounds | null;
+}
+
+/** Triangles `first` to `first + count - 1` of the scene. */
+export interface SceneObject {
+  readonly name: string;
+  readonly first: number;
+  readonly count: number;
+}
+
+export interface Avatar {
+  readonly id: number;
+  readonly name: string;
+  readonly links: readonly Link[];
+  readonly lss: readonly Lss[];
+  readonly meshes: readonly LinkMesh[];
+  readonly track: Track | null;
+  readonly contacts: readonly RecordedContact[];
+  readonly swept: readonly SweptSurface[];
+}
+
+/** Parents come before their children; -1 is the world. */
+export interface Link {
+  readonly name: string;
+  readonly parent: number;
+}
+
+/** A line swept sphere (a capsule) in its link's frame. */
+export interface Lss {
+  readonly link: number;
+  readonly a: Vector;
+  readonly b: Vector;
+  readonly radius: number;
+}
+
+export interface LinkMesh {
+  readonly link: number;
+  readonly positions: Float32Array;
+  readonly indices: Uint32Array;
+}
+
+/** What was asked: poses, and the steps from one to another. */
+export interface Track {
+  readonly poseTimes: Float64Array;
+  /** Parent-relative, poses × links × 4, unit. */
+  readonly rotations: Float64Array;
+  /** Parent-relative offsets, links × 3; of links in `moving` not used. */
+  readonly offsets: Float64Array;
+  readonly moving: readonly number[];
+  /** Poses × moving × 3. */
+  readonly movingValues: Float64Array;
+  /** Pose indices of the steps' two ends. */
+  readonly from: Uint32Array;
+  readonly to: Uint32Array;
+  /** By step; null where nothing was measured. */
+  readonly latencyUs: Float64Array | null;
+  /** What a check at the poses alone sees; null where nobody looked. */
+  readonly touching: TouchingAtPoses | null;
+}
+
+/** At pose i: links[first[i]] to links[first[i + 1] - 1]. */
+export interface TouchingAtPoses {
+  readonly first: Uint32Array;
+  readonly links: Uint16Array;
+}
+
+/** A contact as the results have it; null for fields its verdict does not have. */
+export interface ContactFields {
+  readonly link: number;
+  readonly verdict: Verdict;
+  readonly reason: string | null;
+  readonly toi: number | null;
+  readonly time: number | null;
+  readonly freeUntil: number | null;
+  readonly separation: number | null;
+  readonly penetration: number | null;
+  readonly point: Vector | null;
+  readonly onLink: Vector | null;
+  readonly normal: Vector | null;
+  readonly triangle: number | null;
+  readonly object: string | null;
+  readonly missedByPoses: boolean | null;
+}
+
+export interface RecordedContact extends ContactFields {
+  readonly step: number;
+}
+
+/** Contains every point that the link's LSS reach during the step, at most `error` metres off. */
+export interface SweptSurface extends PlacedMesh {
+  readonly step: number;
+  readonly link: number;
+  readonly error: number;
+}

@@ -1,0 +1,98 @@
+// Live events, decoded: as little trusted as the document.
+
+import type { Avatar, ContactFields } from "./document.js";
+import type { LocalPose } from "../motion/chain.js";
+import { emptyPose } from "../motion/chain.js";
+import { normalise } from "../motion/quaternion.js";
+import { decodeContact } from "./decode_contact.js";
+import { Malformed, Reader } from "./reader.js";
+
+export type StepKind = "consecutive" | "first" | "across-gap";
+
+export interface StepEvent {
+  /** Index into the document's avatars. */
+  readonly avatar: number;
+  readonly sequence: number;
+  readonly t0: number;
+  readonly t1: number;
+  readonly kind: StepKind;
+  readonly lost: number;
+  readonly from: LocalPose;
+  readonly to: LocalPose;
+  readonly contacts: readonly ContactFields[];
+  readonly queryUs: number;
+  readonly addedUs: number;
+  /** Steps not sent to this page since the last one. */
+  readonly skipped: number;
+}
+
+export const statusNames = [
+  "answered", "rejected", "lost", "gaps", "waiting", "query_p50_us", "query_p99_us",
+  "answer_p50_us", "answer_p99_us", "viewers",
+] as const;
+export type StatusName = (typeof statusNames)[number];
+export type StatusEvent = Partial<Record<StatusName, number>>;
+
+const kinds: readonly StepKind[] = ["consecutive", "first", "across-gap"];
+/** Rotation w, x, y, z and translation of one link. */
+const numbersPerLink = 7;
+
+function reader(text: string, name: string): Reader {
+  try {
+    return new Reader(JSON.parse(text) as unknown, name);
+  } catch {
+    throw new Malformed(`event "${name}"`, "is not JSON");
+  }
+}
+
+/** Throws Malformed. */
+export function decodeStep(text: string, avatars: readonly Avatar[]): StepEvent {
+  const event = reader(text, "step");
+  const id = event.field("avatar").count();
+  const avatar = avatars.findIndex((one) => one.id === id);
+  if (avatar < 0) event.field("avatar").fail(`is ${id}, whom the document does not know`);
+  const links = avatars[avatar].links.length;
+  const t0 = event.field("t0").number();
+  return {
+    avatar,
+    sequence: event.optional("sequence")?.number() ?? 0,
+    t0,
+    t1: event.field("t1").number(t0),
+    kind: event.optional("kind")?.oneOf(kinds) ?? "consecutive",
+    lost: event.optional("lost")?.number(0) ?? 0,
+    from: decodePose(event.field("from"), links),
+    to: decodePose(event.field("to"), links),
+    contacts: (event.optional("contacts")?.items() ?? []).map((item) => decodeContact(item, links)),
+    queryUs: event.optional("query_us")?.number() ?? 0,
+    addedUs: event.optional("added_us")?.number() ?? 0,
+    skipped: event.optional("skipped")?.number(0) ?? 0,
+  };
+}
+
+/** Throws Malformed. */
+export function decodeStatus(text: string): StatusEvent {
+  const event = reader(text, "status");
+  const status: StatusEvent = {};
+  for (const name of statusNames) {
+    const field = event.optional(name);
+    if (field !== null && field.value !== null) status[name] = field.number();
+  }
+  return status;
+}
+
+function decodePose(place: Reader, links: number): LocalPose {
+  const numbers = place.items();
+  if (numbers.length !== links * numbersPerLink) {
+    place.fail(`has ${numbers.length} numbers, but ${links * numbersPerLink} are needed`);
+  }
+  const pose = emptyPose(links);
+  for (let link = 0; link < links; ++link) {
+    for (let i = 0; i < numbersPerLink; ++i) {
+      const value = numbers[numbersPerLink * link + i].number();
+      if (i < 4) pose.rotations[4 * link + i] = value;
+      else pose.translations[3 * link + i - 4] = value;
+    }
+    if (!(normalise(pose.rotations, 4 * link) > 0)) place.fail(`has no rotation for link ${link}`);
+  }
+  return pose;
+}

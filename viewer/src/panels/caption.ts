@@ -1,0 +1,50 @@
+// What the 3D view shows right now, in words above it: the story of the contact, who is who, and
+// how much a discrete check sees.
+
+import { discreteCount } from "../contacts/discrete.js";
+import type { Model } from "../model.js";
+import type { Store } from "../state.js";
+import { element } from "./dom.js";
+import { story } from "./words.js";
+
+export class Caption {
+  readonly node = element("div", { class: "caption" });
+  readonly legend = element("ul", { class: "legend", label: "Colours in the view" });
+  private readonly text = element("p", { class: "story" });
+  private readonly banner = element("p", { class: "banner" });
+
+  constructor(
+    private readonly model: Model,
+    private readonly store: Store,
+  ) {
+    this.banner.setAttribute("role", "status");
+    this.node.append(this.banner, this.text);
+    this.update();
+  }
+
+  update(): void {
+    const { contact, showsDiscrete } = this.store.state;
+    this.text.hidden = contact === null;
+    this.text.textContent = contact === null ? "" : story(contact, this.model.timeZero);
+    const discrete = discreteCount(this.model.contacts);
+    this.banner.hidden = !showsDiscrete || discrete === null;
+    if (discrete !== null) {
+      this.banner.textContent = `A check at the poses alone sees ${discrete.seen} of ${discrete.all} contacts`;
+    }
+    this.legend.replaceChildren(...this.entries().map(([kind, text]) =>
+      element("li", {}, element("span", { class: `key ${kind}` }), element("span", { text })),
+    ));
+  }
+
+  private entries(): [string, string][] {
+    const { state } = this.store;
+    const hasGhosts = state.showsGhosts && !state.isPlaying && !state.follows;
+    const entries: [string, string][] = [];
+    if (this.model.avatars.length > 0) entries.push(["avatar", state.contact !== null && !state.showsDiscrete ? "avatar at the contact" : "avatar"]);
+    if (this.model.contacts.length > 0 || this.model.isLive) entries.push(["touching", "link in contact"]);
+    if (state.contact !== null && hasGhosts) entries.push(["before", "pose before"], ["asked", "pose asked for"]);
+    const sweeps = this.model.avatars.some((avatar) => avatar.swept.length > 0);
+    if (state.showsSwept && sweeps) entries.push(["swept", "swept volume, certified"]);
+    return entries;
+  }
+}

@@ -1,0 +1,54 @@
+// Numbers as people read them.
+
+import type { Contact } from "../contacts/contact.js";
+import type { Vector } from "../data/document.js";
+
+export function seconds(value: number): string {
+  return `${value.toFixed(3)} s`;
+}
+
+/** Metres, or the unit that leaves few zeros. */
+export function length(metres: number): string {
+  const size = Math.abs(metres);
+  if (size === 0) return "0";
+  if (size < 1e-6) return `${metres.toExponential(1)} m`;
+  if (size < 1e-3) return `${(metres * 1e6).toPrecision(3)} µm`;
+  if (size < 0.1) return `${(metres * 1e3).toPrecision(3)} mm`;
+  return `${metres.toPrecision(4)} m`;
+}
+
+export function microseconds(value: number): string {
+  if (value >= 1e6) return `${(value / 1e6).toPrecision(3)} s`;
+  if (value >= 1e3) return `${(value / 1e3).toPrecision(3)} ms`;
+  return `${value.toPrecision(3)} µs`;
+}
+
+export function vector(v: Vector, digits = 4): string {
+  return v.map((value) => value.toFixed(digits).replace("-", "−")).join(", ");
+}
+
+export function count(value: number): string {
+  return value.toLocaleString("en-GB");
+}
+
+export function plural(value: number, one: string, many = `${one}s`): string {
+  return `${count(value)} ${value === 1 ? one : many}`;
+}
+
+/** One sentence or two that say what happened. */
+export function story(contact: Contact, timeZero: number): string {
+  const object = contact.object ?? "the scene";
+  const at = seconds(contact.at - timeZero);
+  const from = seconds(contact.span.t0 - timeZero), to = seconds(contact.span.t1 - timeZero);
+  if (contact.verdict === "undecided") {
+    return `${contact.linkName} is proven free until ${at}; what follows up to ${to} was not decided.`;
+  }
+  if (contact.verdict === "starts_in_contact") {
+    return `${contact.linkName} is in contact with ${object} when the step begins, at ${from}.`;
+  }
+  const touch = `${contact.linkName} meets ${object} at ${at}.`;
+  if (contact.missedByPoses === true) {
+    return `${touch} At both poses, ${from} and ${to}, it touches nothing: a check at the poses sees no contact.`;
+  }
+  return `${touch} The step goes from ${from} to ${to}.`;
+}

@@ -1,0 +1,157 @@
+// Contacts in the scene: a point each, of constant size on the screen and never hidden, its colour
+// and its shape saying the verdict; arrows along the normal for those that hold now.
+
+import * as THREE from "three";
+import type { Contact } from "../contacts/contact.js";
+import type { Vector, Verdict } from "../data/document.js";
+import type { Palette } from "./palette.js";
+
+/** What a marker looks like, in the order that the shader knows. */
+export enum MarkerState {
+  Hidden = 0,
+  Dim = 1,
+  Lit = 2,
+  Chosen = 3,
+}
+
+const shapes: Record<Verdict, number> = { contact: 0, starts_in_contact: 1, undecided: 2 };
+const maxArrows = 512;
+/** Of the arrow's length. */
+const shaftRadius = 0.035, headRadius = 0.11, headLength = 0.36;
+
+export class Markers {
+  readonly group = new THREE.Group();
+  private readonly material: THREE.ShaderMaterial;
+  private readonly points: THREE.Points;
+  private readonly shafts: THREE.InstancedMesh;
+  private readonly heads: THREE.InstancedMesh;
+  private readonly arrowMaterial = new THREE.MeshBasicMaterial();
+  private contacts: readonly Contact[] = [];
+  private palette: Palette | null = null;
+
+  constructor() {
+    this.material = pointMaterial();
+    this.points = new THREE.Points(new THREE.BufferGeometry(), this.material);
+    this.points.frustumCulled = false;
+    this.points.renderOrder = 10;
+    const shaft = new THREE.CylinderGeometry(shaftRadius, shaftRadius, 1 - headLength, 12);
+    shaft.translate(0, (1 - headLength) / 2, 0);
+    const head = new THREE.ConeGeometry(headRadius, headLength, 20);
+    head.translate(0, 1 - headLength / 2, 0);
+    this.shafts = new THREE.InstancedMesh(shaft, this.arrowMaterial, maxArrows);
+    this.heads = new THREE.InstancedMesh(head, this.arrowMaterial, maxArrows);
+    for (const arrows of [this.shafts, this.heads]) {
+      arrows.count = 0;
+      arrows.frustumCulled = false;
+      arrows.renderOrder = 4;
+    }
+    this.group.add(this.points, this.shafts, this.heads);
+  }
+
+  /** `origin` is the world's point that the view has at zero. */
+  setContacts(contacts: readonly Contact[], origin: Vector): void {
+    this.contacts = contacts;
+    const positions = new Float32Array(3 * contacts.length);
+    const shape = new Float32Array(contacts.length);
+    contacts.forEach((contact, i) => {
+      for (let axis = 0; axis < 3; ++axis) {
+        positions[3 * i + axis] = (contact.point ?? origin)[axis] - origin[axis];
+      }
+      shape[i] = shapes[contact.verdict];
+    });
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+    geometry.setAttribute("shape", new THREE.BufferAttribute(shape, 1));
+    geometry.setAttribute("state", new THREE.BufferAttribute(new Float32Array(contacts.length), 1));
+    this.points.geometry.dispose();
+    this.points.geometry = geometry;
+  }
+
+  setStates(stateOf: (contact: Contact) => MarkerState): void {
+    const states = this.points.geometry.getAttribute("state") as THREE.BufferAttribute | undefined;
+    if (states === undefined) return;
+    this.contacts.forEach((contact, i) => {
+      states.setX(i, contact.point === null ? MarkerState.Hidden : stateOf(contact));
+    });
+    states.needsUpdate = true;
+  }
+
+  /** Arrows of `length` metres from scene towards link. */
+  setArrows(contacts: readonly Contact[], origin: Vector, length: number): void {
+    const shown = contacts.filter((c) => c.point !== null && c.normal !== null).slice(0, maxArrows);
+    const matrix = new THREE.Matrix4(), turn = new THREE.Quaternion(), up = new THREE.Vector3(0, 1, 0);
+    const colour = new THREE.Color();
+    shown.forEach((contact, i) => {
+      const [x, y, z] = contact.point ?? origin;
+      turn.setFromUnitVectors(up, new THREE.Vector3(...(contact.normal ?? [0, 1, 0])).normalize());
+      const at = new THREE.Vector3(x - origin[0], y - origin[1], z - origin[2]);
+      matrix.compose(at, turn, new THREE.Vector3(length, length, length));
+      if (this.palette !== null) colour.set(this.palette.ink);
+      for (const arrows of [this.shafts, this.heads]) {
+        arrows.setMatrixAt(i, matrix);
+        arrows.setColorAt(i, colour);
+      }
+    });
+    for (const arrows of [this.shafts, this.heads]) {
+      arrows.count = shown.length;
+      arrows.instanceMatrix.needsUpdate = true;
+      if (arrows.instanceColor !== null) arrows.instanceColor.needsUpdate = true;
+    }
+  }
+
+  paint(palette: Palette): void {
+    this.palette = palette;
+    const colours = [palette.verdicts.contact, palette.verdicts.starts_in_contact, palette.verdicts.undecided];
+    this.material.uniforms["colours"].value = colours.map((colour) => new THREE.Color(colour));
+    this.material.uniforms["halo"].value = new THREE.Color(palette.halo);
+    this.material.uniforms["pixelRatio"].value = Math.min(2, window.devicePixelRatio);
+  }
+}
+
+function pointMaterial(): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    transparent: true,
+    depthTest: false,
+    depthWrite: false,
+    uniforms: {
+      colours: { value: [new THREE.Color(), new THREE.Color(), new THREE.Color()] },
+      halo: { value: new THREE.Color() },
+      pixelRatio: { value: 1 },
+    },
+    vertexShader: `
+attribute float shape;
+attribute float state;
+varying float vShape;
+varying float vState;
+uniform float pixelRatio;
+void main() {
+  vShape = shape;
+  vState = state;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  float size = state > 2.5 ? 22.0 : state > 1.5 ? 15.0 : 6.0;
+  gl_PointSize = size * pixelRatio;
+  if (state < 0.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+}`,
+    // Distance from the edge of a disc, a square and a triangle that fill the point.
+    fragmentShader: `
+varying float vShape;
+varying float vState;
+uniform vec3 colours[3];
+uniform vec3 halo;
+float inside(vec2 p) {
+  if (vShape < 0.5) return 1.0 - length(p);
+  if (vShape < 1.5) return 0.84 - max(abs(p.x), abs(p.y));
+  return min(0.75 - p.y, 0.5 * (p.y + 0.9) - abs(p.x) * 0.9);
+}
+void main() {
+  float depth = inside(vec2(2.0 * gl_PointCoord - 1.0));
+  if (depth < 0.0) discard;
+  int verdict = int(vShape + 0.5);
+  vec3 colour = verdict == 0 ? colours[0] : verdict == 1 ? colours[1] : colours[2];
+  float rim = vState > 2.5 ? 0.3 : 0.22;
+  bool isHalo = vState > 1.5 && depth < rim;
+  gl_FragColor = vec4(isHalo ? halo : colour, vState > 1.5 ? 1.0 : 0.55);
+  #include <colorspace_fragment>
+}`,
+  });
+}

@@ -1,0 +1,69 @@
+// Colours of the 3D view and of everything drawn beside it. The accents are Okabe and Ito's, which
+// people with any common colour blindness tell apart; verdicts differ in shape and pattern too.
+
+import type { Verdict } from "../data/document.js";
+import type { Theme } from "../state.js";
+
+export interface Palette {
+  readonly background: string;
+  readonly scene: string;
+  readonly sceneEdge: string;
+  readonly grid: string;
+  readonly avatar: string;
+  readonly avatarHeld: string;
+  readonly chosenLink: string;
+  readonly touching: string;
+  readonly before: string;
+  readonly asked: string;
+  readonly atContact: string;
+  readonly swept: string;
+  readonly halo: string;
+  readonly ink: string;
+  readonly faint: string;
+  readonly verdicts: Record<Verdict, string>;
+}
+
+const verdicts: Record<Verdict, string> = {
+  contact: "#d55e00",
+  starts_in_contact: "#cc79a7",
+  undecided: "#e69f00",
+};
+
+export const palettes: Record<Theme, Palette> = {
+  light: {
+    background: "#f3f4f6",
+    scene: "#d9dce1",
+    sceneEdge: "#a9afb9",
+    grid: "#b4bac4",
+    avatar: "#3f86c6",
+    avatarHeld: "#9fb6cb",
+    chosenLink: "#0072b2",
+    touching: "#d55e00",
+    before: "#8a93a1",
+    asked: "#009e73",
+    atContact: "#d55e00",
+    swept: "#e69f00",
+    halo: "#ffffff",
+    ink: "#1d2530",
+    faint: "#6b7584",
+    verdicts,
+  },
+  dark: {
+    background: "#14181e",
+    scene: "#4a525e",
+    sceneEdge: "#6d7785",
+    grid: "#3a424d",
+    avatar: "#56b4e9",
+    avatarHeld: "#4d6577",
+    chosenLink: "#a8dcff",
+    touching: "#f0772b",
+    before: "#98a2b0",
+    asked: "#1fc297",
+    atContact: "#f0772b",
+    swept: "#f0b93a",
+    halo: "#14181e",
+    ink: "#e7ebf0",
+    faint: "#98a2b0",
+    verdicts: { contact: "#f0772b", starts_in_contact: "#dd94bd", undecided: "#f0b93a" },
+  },
+};

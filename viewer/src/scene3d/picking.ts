@@ -1,0 +1,55 @@
+// Which link or contact is under the pointer.
+
+import * as THREE from "three";
+import type { Avatar, Vector } from "../data/document.js";
+import { pointAt, transformSize } from "../motion/chain.js";
+
+export interface Hit {
+  readonly link: number;
+  readonly distance: number;
+}
+
+/** The nearest link that a ray of the world meets; null where it meets none. */
+export function pickLink(
+  avatar: Avatar,
+  world: Float64Array,
+  origin: Vector,
+  direction: Vector,
+): Hit | null {
+  let best: Hit | null = null;
+  const consider = (link: number, distance: number | null): void => {
+    if (distance !== null && (best === null || distance < best.distance)) best = { link, distance };
+  };
+  for (const lss of avatar.lss) {
+    const at = transformSize * lss.link;
+    const distance = rayToSegment(origin, direction, pointAt(world, at, lss.a), pointAt(world, at, lss.b), lss.radius);
+    consider(lss.link, distance);
+  }
+  for (const mesh of avatar.meshes) {
+    const corner = (i: number): Vector =>
+      pointAt(world, transformSize * mesh.link, [
+        mesh.positions[3 * i], mesh.positions[3 * i + 1], mesh.positions[3 * i + 2],
+      ]);
+    for (let t = 0; t < mesh.indices.length; t += 3) {
+      const [a, b, c] = [mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]];
+      consider(mesh.link, rayToTriangle(origin, direction, corner(a), corner(b), corner(c)));
+    }
+  }
+  return best;
+}
+
+/** Along the ray, to where it is nearest to the segment, if that is within the radius. */
+function rayToSegment(origin: Vector, direction: Vector, a: Vector, b: Vector, radius: number): number | null {
+  const ray = new THREE.Ray(new THREE.Vector3(...origin), new THREE.Vector3(...direction));
+  const onRay = new THREE.Vector3();
+  const square = ray.distanceSqToSegment(new THREE.Vector3(...a), new THREE.Vector3(...b), onRay);
+  return square <= radius * radius ? onRay.distanceTo(ray.origin) - radius : null;
+}
+
+function rayToTriangle(origin: Vector, direction: Vector, a: Vector, b: Vector, c: Vector): number | null {
+  const ray = new THREE.Ray(new THREE.Vector3(...origin), new THREE.Vector3(...direction));
+  const hit = ray.intersectTriangle(
+    new THREE.Vector3(...a), new THREE.Vector3(...b), new THREE.Vector3(...c), false, new THREE.Vector3(),
+  );
+  return hit === null ? null : hit.distanceTo(ray.origin);
+}

@@ -1,0 +1,324 @@
+// The 3D view: puts what the state says on the stage.
+
+import * as THREE from "three";
+import type { Contact } from "../contacts/contact.js";
+import { contactsAt } from "../contacts/contact.js";
+import { isSeenAtPose, touchingLinks } from "../contacts/discrete.js";
+import type { Bounds, Vector } from "../data/document.js";
+import type { Model } from "../model.js";
+import { seconds } from "../panels/words.js";
+import type { Change, Store } from "../state.js";
+import { ball, emptyBounds, union } from "./bounds.js";
+import { Cutaway } from "./cutaway.js";
+import { Flight } from "./flight.js";
+import type { Subject } from "./framing.js";
+import { sightOf } from "./framing.js";
+import type { Label } from "./labels.js";
+import { Labels } from "./labels.js";
+import { Markers, MarkerState } from "./markers.js";
+import { Measures } from "./measures.js";
+import { palettes } from "./palette.js";
+import { Performer } from "./performer.js";
+import { pickLink } from "./picking.js";
+import { Scenery } from "./scenery.js";
+import { Stage } from "./stage.js";
+import { SweptView } from "./swept_view.js";
+
+/** How long a contact stays lit while time runs, seconds: shorter than this nobody sees it. */
+const afterglow = 0.3;
+/** Touch and mouse alike, CSS pixels. */
+const markerReach = 14;
+/** Of an avatar's size. */
+const arrowLength = 0.14;
+
+export class View3D {
+  private readonly stage: Stage;
+  private readonly flight: Flight;
+  private readonly labels: Labels;
+  private readonly cutaway = new Cutaway();
+  private readonly scenery: Scenery;
+  private readonly markers = new Markers();
+  private readonly swept: SweptView;
+  private readonly performers: Performer[];
+  private readonly measures: Measures | null;
+  private readonly origin: Vector;
+
+  /** Throws where there is no WebGL. */
+  constructor(
+    host: HTMLElement,
+    private readonly model: Model,
+    private readonly store: Store,
+  ) {
+    this.stage = new Stage(host);
+    this.flight = new Flight(this.stage);
+    this.labels = new Labels(this.stage, host);
+    this.origin = model.document.scene.origin;
+    this.scenery = new Scenery(model.document.scene, this.cutaway);
+    this.swept = new SweptView(model.avatars);
+    this.performers = model.avatars.map(
+      (avatar, i) => new Performer(avatar, model.clips[i], store.state.shape, this.origin),
+    );
+    this.stage.scene.add(this.scenery.group, this.markers.group, this.swept.group);
+    for (const performer of this.performers) this.stage.scene.add(performer.group);
+    this.measures = model.document.kind === "inspection" ? this.makeMeasures() : null;
+    this.markers.setContacts(model.contacts, this.origin);
+    this.stage.onFrame(() => this.beforeFrame());
+    this.listenForClicks();
+    this.paint();
+    this.update(new Set(["time"]));
+  }
+
+  get frames(): number {
+    return this.stage.frames;
+  }
+
+  /** Pixels from the canvas' upper left corner; null behind the camera. */
+  screenOf(point: Vector): [number, number] | null {
+    return this.stage.screenOf(this.local(point));
+  }
+
+  update(changes: ReadonlySet<Change>): void {
+    const { state } = this.store;
+    if (changes.has("theme")) this.paint();
+    if (changes.has("shape")) for (const one of this.performers) one.setShape(state.shape);
+    if (changes.has("contacts")) this.markers.setContacts(this.model.contacts, this.origin);
+    const isShapeFresh = changes.has("shape") || changes.has("theme");
+    const matters: Change[] = [
+      "time", "contact", "link", "showsDiscrete", "showsGhosts", "showsSwept", "contacts", "isPlaying",
+    ];
+    if (isShapeFresh || matters.some((change) => changes.has(change))) this.pose();
+    if (changes.has("contact")) this.labels.set(this.currentLabels());
+    this.stage.draw();
+  }
+
+  /** Looks at the chosen contact, or at everything where none is chosen. */
+  frame(isInstant: boolean): void {
+    const contact = this.store.state.contact;
+    const subject = contact === null || contact.point === null ? this.wholeSubject() : this.subjectOf(contact);
+    this.flight.to(sightOf(subject, this.stage.camera, this.model.document.scene), isInstant);
+    this.pose();
+  }
+
+  /** Frames the chosen contact if it is not seen well already. */
+  keepInSight(): void {
+    const point = this.store.state.contact?.point;
+    if (point === undefined || point === null) return;
+    const at = this.screenOf(point);
+    const { clientWidth, clientHeight } = this.stage.canvas;
+    const isCentral = at !== null && Math.abs(at[0] / clientWidth - 0.5) < 0.3 && Math.abs(at[1] / clientHeight - 0.5) < 0.3;
+    const distance = this.stage.camera.position.distanceTo(this.local(point));
+    if (!isCentral || distance > 5 * this.avatarRadius(this.store.state.contact?.avatar ?? 0)) this.frame(false);
+  }
+
+  private pose(): void {
+    const { state } = this.store;
+    const lit = new Set(this.litContacts());
+    this.performers.forEach((performer, index) => {
+      const shown = state.showsDiscrete ? performer.clip.poseTimeAt(state.time) : state.time;
+      performer.moveTo(shown);
+      const chosen = state.link?.avatar === index ? state.link.link : null;
+      performer.paint(palettes[state.theme], this.touchingOf(index, lit), chosen);
+      this.poseGhosts(performer, index);
+    });
+    this.markers.setStates((contact) => {
+      if (contact === state.contact) return MarkerState.Chosen;
+      return lit.has(contact) ? MarkerState.Lit : MarkerState.Dim;
+    });
+    const arrows = state.contact === null ? [...lit] : [...new Set([state.contact, ...lit])];
+    this.markers.setArrows(arrows, this.origin, arrowLength * 2 * this.avatarRadius(0));
+    const sweeping = state.contact === null ? [...lit] : [state.contact];
+    this.swept.show(state.showsSwept ? sweeping : [], this.origin);
+  }
+
+  private touchingOf(avatar: number, lit: ReadonlySet<Contact>): ReadonlySet<number> {
+    const { state } = this.store;
+    if (state.showsDiscrete) return touchingLinks(this.model.avatars[avatar].track, state.time);
+    const touching = [...lit].filter((c) => c.avatar === avatar && c.verdict !== "undecided");
+    return new Set(touching.map((contact) => contact.link));
+  }
+
+  private litContacts(): Contact[] {
+    const { state } = this.store;
+    const { contacts, avatars, longestStep } = this.model;
+    if (state.showsDiscrete) {
+      return contacts.filter((contact) => isSeenAtPose(contact, avatars[contact.avatar].track, state.time));
+    }
+    const glow = state.isPlaying || state.follows ? afterglow : 0;
+    if (glow === 0) return contactsAt(contacts, state.time, longestStep);
+    return contactsAt(contacts, state.time, longestStep + glow).concat(
+      contactsAt(contacts, state.time - glow, longestStep + glow),
+    );
+  }
+
+  private poseGhosts(performer: Performer, index: number): void {
+    const { state } = this.store;
+    const chosen = state.contact !== null && state.contact.avatar === index ? state.contact : null;
+    const step = chosen?.step ?? performer.instant.step;
+    const isShown = state.showsGhosts && !state.isPlaying && !state.follows && step >= 0;
+    performer.showGhost("before", step, isShown ? 0 : null);
+    performer.showGhost("asked", step, isShown ? 1 : null);
+    const toi = chosen?.toi ?? null;
+    const isElsewhere = chosen !== null && (state.showsDiscrete || Math.abs(state.time - chosen.at) > 1e-6);
+    performer.showGhost("atContact", step, isShown && isElsewhere ? toi : null);
+  }
+
+  private paint(): void {
+    const palette = palettes[this.store.state.theme];
+    this.stage.paint(palette);
+    this.scenery.paint(palette);
+    this.markers.paint(palette);
+    this.swept.paint(palette);
+    this.measures?.paint(palette);
+    for (const performer of this.performers) performer.paintGhosts(palette);
+  }
+
+  private beforeFrame(): void {
+    const { state } = this.store;
+    const index = state.contact?.avatar ?? 0;
+    const performer = this.performers[index];
+    this.stage.camera.updateMatrixWorld();
+    if (state.cutsAway && performer !== undefined && performer.clip.hasPose) {
+      const { centre, radius } = ball(performer.bounds());
+      this.cutaway.aim(this.stage.camera, this.local(centre), radius);
+    } else {
+      this.cutaway.aim(this.stage.camera, new THREE.Vector3(0, 0, -1), 0);
+    }
+    this.labels.place();
+  }
+
+  private subjectOf(contact: Contact): Subject {
+    const { posture } = this.performers[contact.avatar];
+    const before = this.linkOrigin(contact, 0), after = this.linkOrigin(contact, 1);
+    posture.moveTo(contact.at);
+    const { centre, radius } = ball(this.performers[contact.avatar].bounds());
+    const point = this.local(contact.point ?? centre);
+    // The avatar matters, the contact matters more.
+    const middle = this.local(centre).lerp(point, 0.55);
+    return {
+      centre: middle,
+      radius: Math.max(0.82 * radius, middle.distanceTo(point) + 0.2 * radius),
+      point,
+      normal: contact.normal === null ? null : new THREE.Vector3(...contact.normal),
+      motion: after.sub(before),
+    };
+  }
+
+  private linkOrigin(contact: Contact, u: number): THREE.Vector3 {
+    const { posture } = this.performers[contact.avatar];
+    posture.moveWithin(contact.step, u);
+    const transform = posture.transform(contact.link);
+    return this.local([transform[9], transform[10], transform[11]]);
+  }
+
+  private wholeSubject(): Subject {
+    const bounds = this.performers.filter((one) => one.clip.hasPose).map((one) => one.bounds());
+    const isScenePart = this.model.document.kind === "inspection" || bounds.length === 0;
+    if (isScenePart && this.model.document.scene.bounds !== null) bounds.push(this.model.document.scene.bounds);
+    const { centre, radius } = ball(bounds.reduce(union, emptyBounds));
+    return { centre: this.local(centre), radius: 1.1 * radius, point: null, normal: null, motion: null };
+  }
+
+  private avatarRadius(index: number): number {
+    const performer = this.performers[index];
+    return performer?.clip.hasPose === true ? ball(performer.bounds()).radius : 1;
+  }
+
+  private currentLabels(): Label[] {
+    const contact = this.store.state.contact;
+    const labels = this.measures === null ? [] : this.dimensionLabels();
+    if (contact === null || contact.point === null) return labels;
+    const object = contact.object === null ? "" : ` × ${contact.object}`;
+    const text = `${contact.linkName}${object} · ${seconds(contact.at - this.model.timeZero)}`;
+    return [...labels, { kind: "callout", text, at: this.local(contact.point) }];
+  }
+
+  private makeMeasures(): Measures {
+    const boxes = this.measuredBoxes();
+    const measures = new Measures(this.origin, boxes.reduce(union, emptyBounds));
+    for (const box of boxes) measures.addBox(box);
+    this.stage.scene.add(measures.group);
+    return measures;
+  }
+
+  private measuredBoxes(): Bounds[] {
+    for (const performer of this.performers) performer.moveTo(this.store.state.time);
+    const { bounds } = this.model.document.scene;
+    const boxes = this.performers.filter((one) => one.clip.hasPose).map((one) => one.bounds());
+    return bounds === null ? boxes : [bounds, ...boxes];
+  }
+
+  private dimensionLabels(): Label[] {
+    const axes: Label[] = (["x", "y", "z"] as const).map((name, axis) => {
+      const end: [number, number, number] = [0, 0, 0];
+      end[axis] = 1.08;
+      return { kind: "axis", text: name, at: this.local(end) };
+    });
+    return axes.concat(this.measuredBoxes().flatMap(({ min, max }) => {
+      const middle = (axis: number): number => (min[axis] + max[axis]) / 2;
+      const size = (axis: number): string => `${(max[axis] - min[axis]).toFixed(2)} m`;
+      return [
+        { kind: "dimension" as const, text: size(0), at: this.local([middle(0), min[1], max[2]]) },
+        { kind: "dimension" as const, text: size(1), at: this.local([max[0], middle(1), max[2]]) },
+        { kind: "dimension" as const, text: size(2), at: this.local([max[0], min[1], middle(2)]) },
+      ];
+    }));
+  }
+
+  showLabels(): void {
+    this.labels.set(this.currentLabels());
+  }
+
+  private listenForClicks(): void {
+    const { canvas } = this.stage;
+    let down: [number, number] | null = null;
+    canvas.addEventListener("pointerdown", (event) => (down = [event.offsetX, event.offsetY]));
+    canvas.addEventListener("pointerup", (event) => {
+      if (down === null) return;
+      const hasMoved = Math.hypot(event.offsetX - down[0], event.offsetY - down[1]) > 5;
+      if (!hasMoved) this.click(event.offsetX, event.offsetY);
+      down = null;
+    });
+  }
+
+  private click(x: number, y: number): void {
+    const contact = this.contactNear(x, y);
+    if (contact !== null) {
+      this.store.set({ contact, time: contact.at, isPlaying: false, link: { avatar: contact.avatar, link: contact.link } });
+      return;
+    }
+    const ray = this.stage.rayThrough(x, y);
+    const from = this.worldOf(ray.origin), direction: Vector = [ray.direction.x, ray.direction.y, ray.direction.z];
+    let best = Infinity;
+    let link = null;
+    this.performers.forEach((performer, avatar) => {
+      const hit = performer.clip.hasPose ? pickLink(performer.avatar, performer.posture.world, from, direction) : null;
+      if (hit === null || hit.distance >= best) return;
+      best = hit.distance;
+      link = { avatar, link: hit.link };
+    });
+    this.store.set({ link, contact: null });
+  }
+
+  private contactNear(x: number, y: number): Contact | null {
+    let best: Contact | null = null, bestDistance = markerReach;
+    const { state } = this.store;
+    const lit = new Set(this.litContacts());
+    for (const contact of this.model.contacts) {
+      const at = contact.point === null ? null : this.screenOf(contact.point);
+      if (at === null) continue;
+      // What is lit wins over the many that are not.
+      const handicap = lit.has(contact) || contact === state.contact ? 0 : 6;
+      const distance = Math.hypot(at[0] - x, at[1] - y) + handicap;
+      if (distance < bestDistance) [best, bestDistance] = [contact, distance];
+    }
+    return best;
+  }
+
+  private local(point: Vector): THREE.Vector3 {
+    return new THREE.Vector3(point[0] - this.origin[0], point[1] - this.origin[1], point[2] - this.origin[2]);
+  }
+
+  private worldOf(point: THREE.Vector3): Vector {
+    return [point.x + this.origin[0], point.y + this.origin[1], point.z + this.origin[2]];
+  }
+}

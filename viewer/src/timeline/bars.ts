@@ -1,0 +1,77 @@
+// How bars look: colour and pattern by verdict, so that neither is needed alone.
+
+import type { Contact } from "../contacts/contact.js";
+import type { Verdict } from "../data/document.js";
+import type { Palette } from "../scene3d/palette.js";
+
+const minBarWidth = 3;
+
+export class BarPainter {
+  private readonly hatches = new Map<string, CanvasPattern>();
+
+  constructor(
+    private readonly context: CanvasRenderingContext2D,
+    private readonly palette: Palette,
+  ) {}
+
+  /** `isHollow`: a discrete check does not see it. */
+  bar(contact: Contact, x0: number, x1: number, y: number, height: number, isHollow: boolean): void {
+    const { context } = this;
+    const width = Math.max(minBarWidth, x1 - x0);
+    const colour = this.palette.verdicts[contact.verdict];
+    context.strokeStyle = colour;
+    context.lineWidth = 1;
+    if (isHollow) {
+      context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
+      return;
+    }
+    context.fillStyle = this.fill(contact.verdict, colour);
+    context.fillRect(x0, y, width, height);
+    if (contact.verdict !== "contact") context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
+    if (contact.verdict === "contact" && width > 8) {
+      context.fillStyle = this.palette.ink;
+      context.fillRect(x0, y - 2, 2, height + 4);
+    }
+  }
+
+  private fill(verdict: Verdict, colour: string): string | CanvasPattern {
+    if (verdict === "contact") return colour;
+    const known = this.hatches.get(verdict);
+    if (known !== undefined) return known;
+    const pattern = this.context.createPattern(verdict === "undecided" ? dots(colour) : stripes(colour), "repeat");
+    if (pattern === null) return colour;
+    this.hatches.set(verdict, pattern);
+    return pattern;
+  }
+}
+
+const tile = 6;
+
+function tileContext(): CanvasRenderingContext2D | null {
+  const canvas = document.createElement("canvas");
+  canvas.width = tile;
+  canvas.height = tile;
+  return canvas.getContext("2d");
+}
+
+function stripes(colour: string): HTMLCanvasElement {
+  const context = tileContext();
+  if (context === null) return document.createElement("canvas");
+  context.strokeStyle = colour;
+  context.lineWidth = 2;
+  for (const shift of [-tile, 0, tile]) {
+    context.moveTo(shift, tile);
+    context.lineTo(shift + tile, 0);
+  }
+  context.stroke();
+  return context.canvas;
+}
+
+function dots(colour: string): HTMLCanvasElement {
+  const context = tileContext();
+  if (context === null) return document.createElement("canvas");
+  context.fillStyle = colour;
+  context.fillRect(1, 1, 2, 2);
+  context.fillRect(4, 4, 2, 2);
+  return context.canvas;
+}
