@@ -22,6 +22,7 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"middleware", {"tessellation", "articulated", "lss"}},
     {"network", {"middleware", "tessellation", "articulated", "lss"}},
     {"tools", {"network", "middleware", "tessellation", "articulated", "lss"}},
+    {"bindings", {"middleware", "tessellation", "articulated", "lss"}},
     {"examples", {"articulated", "lss"}},
 };
 
@@ -41,6 +42,7 @@ const std::map<std::string, std::set<std::string>> kLibraries = {
     {"toml++", {"tools"}},
     {"httplib.h", {"network"}},
     {"CLI", {"tools"}},
+    {"pybind11", {"bindings"}},
     {"fcl", {"tools"}},
     {"ccd", {"tools"}},
     {"BulletCollision", {"tools"}},

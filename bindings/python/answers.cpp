@@ -1,0 +1,376 @@
+// bindings/python/answers.cpp: foretouch.Step, Steps, Contact and Verdict.
+#include "bindings/python/answers.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "bindings/python/arguments.h"
+#include "bindings/python/bindings.h"
+#include "middleware/exact/feature.h"
+
+namespace foretouch::python {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr auto kContactBytes = static_cast<py::ssize_t>(sizeof(LinkContact));
+
+constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 14> kCounters{
+    {{"nodes", &QueryCounters::nodes},
+     {"leaves", &QueryCounters::leaves},
+     {"candidates", &QueryCounters::candidates},
+     {"cluster_steps", &QueryCounters::clusterSteps},
+     {"lane_steps", &QueryCounters::laneSteps},
+     {"part_steps", &QueryCounters::partSteps},
+     {"advancements", &QueryCounters::advancements},
+     {"hierarchy_tests", &QueryCounters::hierarchyTests},
+     {"plane_tests", &QueryCounters::planeTests},
+     {"cubic_tests", &QueryCounters::cubicTests},
+     {"leaf_tests", &QueryCounters::leafTests},
+     {"states", &QueryCounters::states},
+     {"rung_tests", &QueryCounters::rungTests},
+     {"settled_above", &QueryCounters::settledAbove}}};
+static_assert(sizeof(QueryCounters) == kCounters.size() * sizeof(std::uint64_t),
+              "name the new counter above");
+
+PyObject* verdictType = nullptr;  // borrowed from the module
+
+/// "contact" as a member of an enumeration is CONTACT.
+std::string upperCase(std::string word) {
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return word;
+}
+
+py::object verdictOf(const LinkContact& contact) {
+  return py::reinterpret_borrow<py::object>(verdictType)(static_cast<int>(contact.verdict));
+}
+
+const LinkContact& contactOf(const Contact& contact) {
+  return contact.answers->contacts[contact.place];
+}
+
+bool isTouching(const LinkContact& contact) {
+  return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
+}
+
+// ---- Contact ----
+
+/// A property that only a contact has; None for what is clear or undecided.
+template <typename Read>
+auto ofTouch(const Read& read) {
+  return [read](const Contact& contact) -> py::object {
+    const LinkContact& c = contactOf(contact);
+    if (!isTouching(c)) return py::none();
+    return py::cast(read(contact, c));
+  };
+}
+
+auto pointOf(Vector3d LinkContact::*field) {
+  return ofTouch(
+      [field](const Contact&, const LinkContact& c) { return Numbers(3, (c.*field).data()); });
+}
+
+py::object featureOf(const Contact& contact, FeatureKind LinkContact::*field) {
+  const LinkContact& c = contactOf(contact);
+  if (c.linkTriangle < 0) return py::none();
+  return py::str(toString(c.*field));
+}
+
+const std::string& objectNameOf(const Contact& contact, const LinkContact& c) {
+  const Scene& scene = *contact.answers->scene;
+  return scene.objectNames()[std::size_t(scene.object(c.triangle))];
+}
+
+py::str linkNameOf(const Contact& contact) {
+  return nameOf(*contact.answers->avatar, contactOf(contact).link);
+}
+
+std::string representation(const Contact& contact) {
+  const LinkContact& c = contactOf(contact);
+  const std::string& link = contact.answers->avatar->skeleton().name(c.link);
+  std::array<char, 96> numbers{};
+  if (isTouching(c)) {
+    const bool begins = c.verdict == Verdict::StartsInContact;
+    std::snprintf(numbers.data(), numbers.size(), " at t=%.6g, %.3g mm %s, triangle %d>", c.toi,
+                  1e3 * (begins ? c.penetration : c.separation), begins ? "deep" : "apart",
+                  c.triangle);
+    return "<foretouch.Contact: " + link + (begins ? " starts in contact with " : " meets ") +
+           objectNameOf(contact, c) + numbers.data();
+  }
+  if (c.verdict == Verdict::Clear) return "<foretouch.Contact: " + link + " is clear>";
+  std::snprintf(numbers.data(), numbers.size(), ", free until t=%.6g>", c.freeUntil);
+  return "<foretouch.Contact: " + link + " is undecided (" + toString(c.reason) + ")" +
+         numbers.data();
+}
+
+void bindContact(py::module_& module) {
+  const auto field = [](auto member) {
+    return [member](const Contact& contact) { return contactOf(contact).*member; };
+  };
+  py::class_<Contact>(module, "Contact",
+                      "What one link meets first in one step. What only a contact has is None\n"
+                      "where the link is clear or undecided. Metres, world frame.")
+      .def_property_readonly("link", &linkNameOf, "The link's name.")
+      .def_property_readonly("link_id", field(&LinkContact::link))
+      .def_property_readonly("verdict", [](const Contact& c) { return verdictOf(contactOf(c)); })
+      .def_property_readonly(
+          "reason",
+          [](const Contact& contact) -> py::object {
+            const LinkContact& c = contactOf(contact);
+            if (c.reason == UndecidedReason::None) return py::none();
+            return py::str(toString(c.reason));
+          },
+          "Why it is undecided: 'work-budget', 'resolution' or 'after-first'.")
+      .def_property_readonly("toi",
+                             ofTouch([](const Contact&, const LinkContact& c) { return c.toi; }),
+                             "Time of impact in [0, 1], never late.")
+      .def_property_readonly("free_until", field(&LinkContact::freeUntil),
+                             "Nothing is touched before; 1 where the link is clear.")
+      .def_property_readonly(
+          "separation", ofTouch([](const Contact&, const LinkContact& c) { return c.separation; }),
+          "At toi, at most the tolerance.")
+      .def_property_readonly("penetration", ofTouch([](const Contact&, const LinkContact& c) {
+                               return c.penetration;
+                             }))
+      .def_property_readonly("point", pointOf(&LinkContact::p_WScene), "(3,), on the scene.")
+      .def_property_readonly("on_link", pointOf(&LinkContact::p_WLink), "(3,), on the link.")
+      .def_property_readonly("normal", pointOf(&LinkContact::nhat_SL_W),
+                             "(3,), unit, from the scene to the link.")
+      .def_property_readonly(
+          "triangle", ofTouch([](const Contact&, const LinkContact& c) { return c.triangle; }))
+      .def_property_readonly("object", ofTouch([](const Contact& contact, const LinkContact& c) {
+                               return readable(objectNameOf(contact, c));
+                             }),
+                             "The name of the triangle's object.")
+      .def_property_readonly("object_id", ofTouch([](const Contact& contact, const LinkContact& c) {
+                               return contact.answers->scene->object(c.triangle);
+                             }))
+      .def_property_readonly("lss",
+                             ofTouch([](const Contact&, const LinkContact& c) { return c.lss; }),
+                             "Which of the link's LSS.")
+      .def_property_readonly(
+          "link_triangle",
+          [](const Contact& contact) -> py::object {
+            const LinkContact& c = contactOf(contact);
+            if (c.linkTriangle < 0) return py::none();
+            return py::int_(c.linkTriangle);
+          },
+          "At exact fidelity: which of the link's triangles.")
+      .def_property_readonly(
+          "link_feature",
+          [](const Contact& contact) { return featureOf(contact, &LinkContact::linkFeature); },
+          "At exact fidelity: 'vertex', 'edge' or 'face'.")
+      .def_property_readonly(
+          "scene_feature",
+          [](const Contact& contact) { return featureOf(contact, &LinkContact::sceneFeature); },
+          "The same of the scene's triangle.")
+      .def("__repr__", &representation);
+}
+
+// ---- arrays over links, and over steps and links ----
+
+const LinkContact* firstOf(const Step& step) {
+  return step.answers->contacts.data() + step.step * step.answers->links();
+}
+const LinkContact* firstOf(const Steps& steps) {
+  return steps.answers->contacts.data();
+}
+
+/// Extents and strides in front of a contact's own.
+struct Frame {
+  Shape extents, strides;
+};
+
+Frame frameOf(const Step& step) {
+  return {{static_cast<py::ssize_t>(step.answers->links())}, {kContactBytes}};
+}
+Frame frameOf(const Steps& steps) {
+  const auto links = static_cast<py::ssize_t>(steps.answers->links());
+  return {{static_cast<py::ssize_t>(steps.answers->counters.size()), links},
+          {links * kContactBytes, kContactBytes}};
+}
+
+/// A view that cannot be written to; `owner` lives as long as it does.
+template <typename Element>
+py::array view(const Element* first, Frame frame, py::handle owner) {
+  py::array array(py::dtype::of<Element>(), frame.extents, frame.strides, first, owner);
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+template <typename Holder, typename Element>
+auto column(Element LinkContact::*field) {
+  return [field](const py::object& self) {
+    const auto& holder = self.cast<const Holder&>();
+    return view(&(firstOf(holder)->*field), frameOf(holder), self);
+  };
+}
+
+template <typename Holder>
+auto points(Vector3d LinkContact::*field) {
+  return [field](const py::object& self) {
+    const auto& holder = self.cast<const Holder&>();
+    Frame frame = frameOf(holder);
+    frame.extents.push_back(3);
+    frame.strides.push_back(sizeof(double));
+    return view((firstOf(holder)->*field).data(), frame, self);
+  };
+}
+
+template <typename Holder>
+void defineArrays(py::class_<Holder>& type) {
+  type.def_property_readonly(
+          "verdicts",
+          [](const py::object& self) {
+            const auto& holder = self.cast<const Holder&>();
+            const auto* const first =
+                reinterpret_cast<const std::uint8_t*>(&firstOf(holder)->verdict);
+            return view(first, frameOf(holder), self);
+          },
+          "uint8, to be compared with Verdict.")
+      .def_property_readonly("toi", column<Holder>(&LinkContact::toi),
+                             "Of contacts; 1 where there is none.")
+      .def_property_readonly("free_until", column<Holder>(&LinkContact::freeUntil))
+      .def_property_readonly("separation", column<Holder>(&LinkContact::separation))
+      .def_property_readonly("penetration", column<Holder>(&LinkContact::penetration))
+      .def_property_readonly("triangles", column<Holder>(&LinkContact::triangle),
+                             "-1 where there is no contact.")
+      .def_property_readonly("points", points<Holder>(&LinkContact::p_WScene), "On the scene.")
+      .def_property_readonly("points_on_link", points<Holder>(&LinkContact::p_WLink))
+      .def_property_readonly("normals", points<Holder>(&LinkContact::nhat_SL_W),
+                             "Unit, from the scene to the link; zero where there is no contact.")
+      .def_property_readonly(
+          "link_names",
+          [](const Holder& holder) {
+            const Avatar& avatar = *holder.answers->avatar;
+            py::list names;
+            for (LinkId link = 0; link < avatar.numLinks(); ++link)
+              names.append(nameOf(avatar, link));
+            return names;
+          },
+          "Of the last axis of the arrays (of the one before for points).");
+}
+
+// ---- Step and Steps ----
+
+std::vector<std::size_t> reported(const Step& step) {
+  const LinkContact* const first = firstOf(step);
+  std::vector<std::size_t> links;
+  for (std::size_t i = 0; i < step.answers->links(); ++i) {
+    if (first[i].verdict != Verdict::Clear) links.push_back(i);
+  }
+  std::sort(links.begin(), links.end(),
+            [first](std::size_t x, std::size_t y) { return isReportedBefore(first[x], first[y]); });
+  return links;
+}
+
+std::vector<Contact> contacts(const Step& step) {
+  std::vector<Contact> found;
+  for (const std::size_t link : reported(step)) {
+    found.push_back({step.answers, step.step * step.answers->links() + link});
+  }
+  return found;
+}
+
+py::list contactList(const Step& step) {
+  py::list list;
+  for (Contact& contact : contacts(step)) list.append(py::cast(std::move(contact)));
+  return list;
+}
+
+double freePrefix(const Step& step) {
+  const LinkContact* const first = firstOf(step);
+  double least = 1.0;
+  for (std::size_t i = 0; i < step.answers->links(); ++i) {
+    least = std::min(least, first[i].freeUntil);
+  }
+  return least;
+}
+
+py::dict counterDict(const Step& step) {
+  py::dict counters;
+  for (const auto& [name, field] : kCounters) {
+    counters[name] = step.answers->counters[step.step].*field;
+  }
+  return counters;
+}
+
+std::string stepText(const Step& step) {
+  std::string text = "<foretouch.Step: ";
+  const auto found = contacts(step);
+  if (found.empty()) return text + "all " + std::to_string(step.answers->links()) + " links clear>";
+  return text + std::to_string(found.size()) + " links not clear, first " +
+         representation(found.front()) + ">";
+}
+
+void bindStep(py::module_& module) {
+  py::class_<Step> type(module, "Step",
+                        "What every link meets first in one motion. The arrays have one element a\n"
+                        "link, in the avatar's order; they are views and cannot be written to.");
+  defineArrays(type);
+  type.def_property_readonly("contacts", &contactList,
+                             "Of the links that are not clear, earliest first.")
+      .def_property_readonly(
+          "is_clear", [](const Step& step) { return reported(step).empty(); },
+          "Whether every link is proven free on the whole motion.")
+      .def_property_readonly("free_prefix", &freePrefix,
+                             "No link touches anything before this t: the least free_until.")
+      .def_property_readonly("counters", &counterDict, "Work done, by kind.")
+      .def(
+          "__getitem__",
+          [](const Step& step, const py::object& link) {
+            const auto id = linkOf(*step.answers->avatar, link, "link");
+            return Contact{step.answers, step.step * step.answers->links() + std::size_t(id)};
+          },
+          py::arg("link"), "The Contact of a link, by name or index, clear ones included.")
+      .def("__len__", [](const Step& step) { return step.answers->links(); })
+      .def("__repr__", &stepText);
+}
+
+void bindSteps(py::module_& module) {
+  py::class_<Steps> type(
+      module, "Steps",
+      "What every link meets first in each of many motions. The arrays have the\n"
+      "steps in front: (steps, links, ...); they are views and cannot be\n"
+      "written to.");
+  defineArrays(type);
+  type.def(
+          "__getitem__",
+          [](const Steps& steps, py::ssize_t index) {
+            const auto count = static_cast<py::ssize_t>(steps.answers->counters.size());
+            if (index < -count || index >= count) throw py::index_error("no such step");
+            return Step{steps.answers, std::size_t(index < 0 ? index + count : index)};
+          },
+          py::arg("index"))
+      .def("__len__", [](const Steps& steps) { return steps.answers->counters.size(); })
+      .def("__repr__", [](const Steps& steps) {
+        return "<foretouch.Steps: " + std::to_string(steps.answers->counters.size()) +
+               " steps of " + std::to_string(steps.answers->links()) + " links>";
+      });
+}
+
+void bindVerdict(py::module_& module) {
+  py::dict members;
+  for (const Verdict verdict :
+       {Verdict::Clear, Verdict::Contact, Verdict::StartsInContact, Verdict::Undecided}) {
+    members[py::str(upperCase(toString(verdict)))] = static_cast<int>(verdict);
+  }
+  const py::object type = py::module_::import("enum").attr("IntEnum")(
+      "Verdict", members, py::arg("module") = "foretouch._foretouch");
+  module.attr("Verdict") = type;
+  verdictType = type.ptr();
+}
+
+}  // namespace
+
+void bindAnswers(py::module_& module) {
+  bindVerdict(module);
+  bindContact(module);
+  bindStep(module);
+  bindSteps(module);
+}
+
+}  // namespace foretouch::python

@@ -1,0 +1,43 @@
+// bindings/python/answers.h: what queries answered, as Python sees it. Arrays are views of the
+// library's own contacts: they keep them alive, and nothing is copied.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "middleware/query.h"
+#include "middleware/scene.h"
+
+namespace foretouch::python {
+
+/// The contacts of one step or of many, never changed once they are here.
+struct Answers {
+  std::shared_ptr<const Avatar> avatar;  ///< For names.
+  std::shared_ptr<const Scene> scene;
+  std::vector<LinkContact> contacts;    ///< Step after step, every link of it in order.
+  std::vector<QueryCounters> counters;  ///< One a step.
+
+  [[nodiscard]] std::size_t links() const { return static_cast<std::size_t>(avatar->numLinks()); }
+};
+using SharedAnswers = std::shared_ptr<const Answers>;
+
+/// One step's part of them.
+struct Step {
+  SharedAnswers answers;
+  std::size_t step = 0;
+};
+
+/// All of them.
+struct Steps {
+  SharedAnswers answers;
+};
+
+/// One link's part of a step.
+struct Contact {
+  SharedAnswers answers;
+  std::size_t place = 0;  ///< In Answers::contacts.
+};
+
+}  // namespace foretouch::python

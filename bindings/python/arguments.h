@@ -1,0 +1,70 @@
+// bindings/python/arguments.h: Python's arguments as C++ values, checked. Everything here needs the
+// GIL and throws a Failure that names the argument.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/avatar.h"
+#include "bindings/python/errors.h"
+
+namespace foretouch::python {
+
+/// Any extent, in a shape that is asked for.
+inline constexpr py::ssize_t kAny = -1;
+using Shape = std::vector<py::ssize_t>;
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+/// Whatever numpy makes an array of: real numbers (no booleans, no objects), all finite, of this
+/// shape. An array that is C-contiguous and of doubles is not copied.
+[[nodiscard]] Numbers numbers(py::handle given, const std::string& what, const Shape& shape);
+/// The same of integers; floats are refused even where they are whole.
+[[nodiscard]] Integers integers(py::handle given, const std::string& what, const Shape& shape);
+
+[[nodiscard]] Eigen::Vector3d point(py::handle given, const std::string& what);
+/// One number, finite or not: the library judges it.
+[[nodiscard]] double number(py::handle given, const std::string& what);
+/// An integer in [least, most]; no booleans.
+[[nodiscard]] std::int64_t integer(py::handle given, const std::string& what, std::int64_t least,
+                                   std::int64_t most);
+
+/// str, bytes or os.PathLike, as the system names files; no NUL in it.
+[[nodiscard]] std::string path(py::handle given, const std::string& what);
+[[nodiscard]] std::string text(py::handle given, const std::string& what);
+/// A list or tuple (of texts); a text alone is refused, as it would be read letter by letter.
+[[nodiscard]] std::vector<py::object> items(py::handle given, const std::string& what);
+[[nodiscard]] std::vector<std::string> texts(py::handle given, const std::string& what);
+
+/// A dict, or another mapping as one.
+[[nodiscard]] py::dict mapping(py::handle given, const std::string& what);
+
+/// A link's name or its index.
+[[nodiscard]] LinkId linkOf(const Avatar& avatar, py::handle given, const std::string& what);
+[[nodiscard]] py::str nameOf(const Avatar& avatar, LinkId link);
+/// "no link is called 'LeftHnad'; did you mean 'LeftHand'?"
+[[noreturn]] void refuseName(const std::string& what, const char* kind, const std::string& name,
+                             const std::vector<std::string>& known);
+
+/// The value that one of the words stands for.
+template <typename Value, std::size_t kCount>
+Value oneOf(py::handle given, const std::string& what,
+            const std::array<std::pair<const char*, Value>, kCount>& words) {
+  const std::string word = text(given, what);
+  std::string expected;
+  for (const auto& [name, value] : words) {
+    if (word == name) return value;
+    expected += (expected.empty() ? "'" : ", '") + std::string(name) + "'";
+  }
+  refuse(ErrorCode::UnknownName, what, "expected one of " + expected + ", found '" + word + "'");
+}
+
+}  // namespace foretouch::python

@@ -1,0 +1,18 @@
+// bindings/python/bindings.h: the parts of the module, each bound by its own source, in this order.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace foretouch::python {
+
+void bindErrors(pybind11::module_& module);
+void bindScene(pybind11::module_& module);
+void bindAvatar(pybind11::module_& module);
+void bindSurface(pybind11::module_& module);
+void bindClip(pybind11::module_& module);
+void bindMotion(pybind11::module_& module);
+void bindAnswers(pybind11::module_& module);
+void bindQuery(pybind11::module_& module);
+void bindSweep(pybind11::module_& module);
+
+}  // namespace foretouch::python

@@ -1,0 +1,51 @@
+// bindings/python/errors.h: how bad input reaches Python: foretouch.Error, with the library's text
+// (file, place, expectation) and its parts as attributes.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <pybind11/pybind11.h>
+#include <string>
+#include <utility>
+
+#include "articulated/result.h"
+
+namespace foretouch::python {
+
+namespace py = pybind11;
+
+/// An Error on its way to Python. Thrown with or without the GIL held.
+class Failure : public std::exception {
+ public:
+  explicit Failure(Error error) : error_(std::move(error)) {}
+  [[nodiscard]] const Error& error() const { return error_; }
+  [[nodiscard]] const char* what() const noexcept override { return error_.message.c_str(); }
+
+ private:
+  Error error_;
+};
+
+/// `what` is the argument that is refused; `message` says what was expected and found.
+[[noreturn]] void refuse(ErrorCode code, const std::string& what, std::string message,
+                         std::int64_t index = -1);
+
+/// The value, or a Failure.
+template <typename T>
+T valueOf(Result<T> result) {
+  if (!result.ok()) throw Failure(result.error());
+  return std::move(result).value();
+}
+
+/// The same; an error that names no file is said to be of `what`.
+template <typename T>
+T valueOf(Result<T> result, const std::string& what) {
+  if (result.ok()) return std::move(result).value();
+  Error error = result.error();
+  if (error.file.empty()) error.file = what;
+  throw Failure(std::move(error));
+}
+
+/// Untrusted bytes as a Python text: what is not UTF-8 as \xNN.
+[[nodiscard]] py::str readable(const std::string& bytes);
+
+}  // namespace foretouch::python

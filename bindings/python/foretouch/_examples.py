@@ -1,0 +1,23 @@
+"""Where the bundled example lies."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from foretouch._foretouch import ResourceError
+
+
+def example_folder() -> Path:
+    """The folder of room.obj, dancer.bvh and dancer.avatar.json: $FORETOUCH_EXAMPLES, or where the
+    installation (or build tree) that this package belongs to has it."""
+    named = os.environ.get("FORETOUCH_EXAMPLES")
+    # PREFIX/lib/python3/dist-packages/foretouch/_examples.py
+    prefix = Path(__file__).resolve().parents[4]
+    folder = Path(named) if named else prefix / "share" / "foretouch" / "examples"
+    if (folder / "room.obj").is_file():
+        return folder
+    raise ResourceError(
+        f"{folder}: holds no room.obj; expected the bundled example there, or its folder in the "
+        "environment variable FORETOUCH_EXAMPLES"
+    )

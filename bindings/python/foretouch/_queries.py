@@ -1,0 +1,92 @@
+"""Queries for those who ask once: each of these makes a Query and asks it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from foretouch._foretouch import Avatar, Motion, Query, Scene, Step, Steps, Surface
+from foretouch._types import IgnoredLike, LinkLike, Policy, PosesLike
+
+
+def first_contacts(
+    avatar: Avatar,
+    motion: Motion,
+    scene: Scene,
+    tolerance: float = 1e-3,
+    fidelity: str = "link",
+    *,
+    policies: Optional[Mapping[LinkLike, Policy]] = None,
+    ignore: Iterable[IgnoredLike] = (),
+    work_budget: Optional[int] = None,
+    deadline_us: Optional[float] = None,
+    scope: str = "links",
+    surface: Optional[Surface] = None,
+) -> Step:
+    """What every link meets first in one motion. The options are Query's, which is faster where
+    more than one motion is asked about."""
+    query = Query(
+        avatar,
+        scene,
+        tolerance=tolerance,
+        fidelity=fidelity,
+        policies=policies,
+        ignore=ignore,
+        work_budget=work_budget,
+        deadline_us=deadline_us,
+        scope=scope,
+        surface=surface,
+    )
+    return query.first_contacts(motion)
+
+
+def first_contacts_many(
+    avatar: Avatar,
+    poses: PosesLike,
+    scene: Scene,
+    tolerance: float = 1e-3,
+    fidelity: str = "link",
+    *,
+    ends: Optional[PosesLike] = None,
+    threads: Optional[int] = None,
+    policies: Optional[Mapping[LinkLike, Policy]] = None,
+    ignore: Iterable[IgnoredLike] = (),
+    work_budget: Optional[int] = None,
+    deadline_us: Optional[float] = None,
+    scope: str = "links",
+    surface: Optional[Surface] = None,
+) -> Steps:
+    """What every link meets first on the way from each pose to the next (or to the one at the same
+    place in `ends`), by several threads."""
+    query = Query(
+        avatar,
+        scene,
+        tolerance=tolerance,
+        fidelity=fidelity,
+        policies=policies,
+        ignore=ignore,
+        work_budget=work_budget,
+        deadline_us=deadline_us,
+        scope=scope,
+        surface=surface,
+    )
+    return query.first_contacts_many(poses, ends=ends, threads=threads)
+
+
+def touches_at(
+    avatar: Avatar,
+    motion: Motion,
+    scene: Scene,
+    t: npt.ArrayLike,
+    fidelity: str = "link",
+    *,
+    ignore: Iterable[IgnoredLike] = (),
+    surface: Optional[Surface] = None,
+) -> npt.NDArray[np.bool_]:
+    """What a discrete check sees at single instants, without any promise: (n,) for a number t,
+    (k, n) for k of them."""
+    query = Query(avatar, scene, fidelity=fidelity, ignore=ignore, surface=surface)
+    return query.touches_at(motion, t)

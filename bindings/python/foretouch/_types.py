@@ -1,0 +1,128 @@
+"""Plain data that goes into queries and comes out of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple, TypedDict, Union, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from foretouch._foretouch import InputError
+
+Doubles = npt.NDArray[np.float64]
+
+
+class Pose(NamedTuple):
+    """Where every joint is, relative to its parent (roots: in the world)."""
+
+    rotations: Doubles
+    """(n, 4), unit quaternions in the order w, x, y, z."""
+    translations: Doubles
+    """(n, 3), metres."""
+
+
+class Poses(Sequence[Pose]):
+    """Many poses of one avatar, as two arrays. A slice of it is one again, without a copy."""
+
+    def __init__(self, rotations: npt.ArrayLike, translations: npt.ArrayLike) -> None:
+        self.rotations: Doubles = np.asarray(rotations, dtype=np.float64)
+        """(k, n, 4)"""
+        self.translations: Doubles = np.asarray(translations, dtype=np.float64)
+        """(k, n, 3)"""
+        turns, places = self.rotations.shape, self.translations.shape
+        if len(turns) != 3 or turns[2] != 4 or places != (*turns[:2], 3):
+            raise InputError(
+                f"Poses: expected the shapes (k, n, 4) and (k, n, 3), found {turns} and {places}"
+            )
+
+    @classmethod
+    def stack(cls, poses: Sequence[Pose]) -> Poses:
+        """Poses one after the other."""
+        if not poses:
+            raise InputError("Poses.stack: expected at least one pose")
+        return cls(np.stack([p.rotations for p in poses]), np.stack([p.translations for p in poses]))
+
+    def __len__(self) -> int:
+        return int(self.rotations.shape[0])
+
+    @overload
+    def __getitem__(self, index: int) -> Pose: ...
+    @overload
+    def __getitem__(self, index: slice) -> Poses: ...
+    def __getitem__(self, index: Union[int, slice]) -> Union[Pose, Poses]:
+        if isinstance(index, slice):
+            return Poses(self.rotations[index], self.translations[index])
+        return Pose(self.rotations[index], self.translations[index])
+
+    def __iter__(self) -> Iterator[Pose]:
+        return map(Pose, self.rotations, self.translations)
+
+    def __repr__(self) -> str:
+        return f"<foretouch.Poses: {len(self)} poses of {self.rotations.shape[1]} joints>"
+
+
+class Lss(NamedTuple):
+    """A line-swept sphere: all points within `radius` of the segment from `a` to `b`. Metres."""
+
+    a: Doubles
+    b: Doubles
+    radius: float
+
+
+class JointMatch(NamedTuple):
+    """Which joint of a clip drives which joint of an avatar."""
+
+    clip_joint_of: list[int]
+    """A joint of the avatar each; -1 where the clip has none."""
+    unmatched_avatar: list[str]
+    """They keep their rest values."""
+    unmatched_clip: list[str]
+    """They drive nothing."""
+
+
+class SceneAudit(NamedTuple):
+    """What a scene holds that its user may want to know of. Metres."""
+
+    triangles: int
+    dropped_non_finite: int
+    zero_area: int
+    duplicates: int
+    box_min: Doubles
+    box_max: Doubles
+    shortest_edge: float
+    longest_edge: float
+
+
+class SweptSurface(NamedTuple):
+    """A closed surface around (or within) what a link sweeps. Metres, world frame.
+
+    It may pass through itself: what it encloses are the points that it winds around at least once.
+    An inner surface of LSS that are too thin for its error is empty."""
+
+    vertices: Doubles
+    """(v, 3)"""
+    triangles: npt.NDArray[np.uint32]
+    """(m, 3), counter-clockwise seen from outside."""
+    certified_error: float
+    """No point enclosed is further from the swept volume (inner: the other way round)."""
+    times: Doubles
+    """(v,): when the link is there, the number of the motion plus t."""
+    pieces: int
+
+
+class Policy(TypedDict, total=False):
+    """What one link is asked with. What it leaves out is as for all links."""
+
+    tolerance: float
+    fidelity: str
+
+
+LinkLike = Union[str, int]
+"""A link's name or index."""
+IgnoredLike = Union[LinkLike, tuple[LinkLike, Union[str, int]]]
+"""A link, or a link and an object (its name or index), whose contacts are not asked for."""
+PoseLike = Union[Pose, tuple[npt.ArrayLike, npt.ArrayLike]]
+"""Rotations (n, 4) and translations (n, 3)."""
+PosesLike = Union[Poses, tuple[npt.ArrayLike, npt.ArrayLike]]
+"""Rotations (k, n, 4) and translations (k, n, 3)."""

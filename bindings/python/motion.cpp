@@ -1,0 +1,67 @@
+// bindings/python/motion.cpp: foretouch.Motion.
+#include "bindings/python/motion.h"
+
+#include "bindings/python/arguments.h"
+#include "bindings/python/bindings.h"
+#include "bindings/python/instants.h"
+#include "bindings/python/poses.h"
+
+namespace foretouch::python {
+namespace {
+
+std::unique_ptr<Motion> create(std::shared_ptr<Avatar> avatar, const py::object& start,
+                               const py::object& end) {
+  const Skeleton& skeleton = avatar->skeleton();
+  Pose from = poseFrom(skeleton, start, "start"), to = poseFrom(skeleton, end, "end");
+  ChainMotion chain(skeleton, from, to);
+  return std::make_unique<Motion>(
+      Motion{std::move(avatar), std::move(from), std::move(to), std::move(chain)});
+}
+
+/// The homogeneous matrix that takes points of L to W, row by row.
+void writeTransform(const LinkState& state, double* value) {
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) *value++ = state.R_WL(row, column);
+    *value++ = state.p_WL[row];
+  }
+  for (const double last : {0.0, 0.0, 0.0, 1.0}) *value++ = last;
+}
+
+Numbers transforms(const Motion& motion, const py::object& t) {
+  const Instants instants(t);
+  const auto links = static_cast<py::ssize_t>(motion.chain.numLinks());
+  Numbers array(instants.shapeWith({links, 4, 4}));
+  double* const values = array.mutable_data();
+  const py::gil_scoped_release free;
+  std::vector<LinkState> states;
+  double* value = values;
+  for (const double instant : instants.values()) {
+    motion.chain.statesAt(instant, states);
+    for (const LinkState& state : states) {
+      writeTransform(state, value);
+      value += 16;
+    }
+  }
+  return array;
+}
+
+}  // namespace
+
+void bindMotion(py::module_& module) {
+  py::class_<Motion>(
+      module, "Motion",
+      "The in-between motion of an avatar: every joint turns at constant rate on the shorter arc\n"
+      "(slerp) and moves on a straight line in its parent's frame, t from 0 to 1. Immutable.")
+      .def(py::init(&create), py::arg("avatar").none(false), py::arg("start"), py::arg("end"))
+      .def("transforms", &transforms, py::arg("t"),
+           "Where every link is: (n, 4, 4) homogeneous matrices from the link's frame to the\n"
+           "world for a number t, (k, n, 4, 4) for k of them.")
+      .def_property_readonly("avatar", [](const Motion& motion) { return motion.avatar; })
+      .def_property_readonly("start", [](const Motion& motion) { return toPython(motion.start); })
+      .def_property_readonly("end", [](const Motion& motion) { return toPython(motion.end); })
+      .def("__repr__", [](const Motion& motion) {
+        return "<foretouch.Motion of " + std::to_string(motion.avatar->numLinks()) + " links>";
+      });
+}
+
+}  // namespace foretouch::python

@@ -1,0 +1,29 @@
+// bindings/python/poses.h: poses between numpy and the library. Rotations are (n, 4) in the order
+// w, x, y, z, translations (n, 3) in metres, both relative to the parent; stacks of poses have one
+// extent more in front.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/pose.h"
+#include "bindings/python/arguments.h"
+
+namespace foretouch::python {
+
+/// A foretouch.Pose, or any pair (rotations, translations). Checked against the skeleton; unit
+/// rotations come through bit for bit.
+[[nodiscard]] Pose poseFrom(const Skeleton& skeleton, py::handle given, const std::string& what);
+/// A foretouch.Poses, or any pair of stacks.
+[[nodiscard]] std::vector<Pose> posesFrom(const Skeleton& skeleton, py::handle given,
+                                          const std::string& what);
+
+/// A foretouch.Pose with arrays of its own.
+[[nodiscard]] py::object toPython(const Pose& pose);
+/// A foretouch.Poses; every pose has the same number of joints.
+[[nodiscard]] py::object toPython(const std::vector<Pose>& poses, std::size_t numJoints);
+
+/// A class of foretouch/_types.py.
+[[nodiscard]] py::object pythonType(const char* name);
+
+}  // namespace foretouch::python

@@ -1,0 +1,198 @@
+// bindings/python/query.cpp: foretouch.Query.
+#include "bindings/python/query.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "bindings/python/bindings.h"
+#include "bindings/python/poses.h"
+#include "bindings/python/query_options.h"
+#include "middleware/query_pool.h"
+
+namespace foretouch::python {
+namespace {
+
+/// Steps between two looks at whether the user pressed Ctrl-C.
+constexpr std::size_t kStepsAtOnce = 1024;
+
+/// A scratch that goes back to its shelf.
+class BorrowedScratch {
+ public:
+  explicit BorrowedScratch(ScratchShelf& shelf) : shelf_(shelf), scratch_(shelf.take()) {}
+  BorrowedScratch(const BorrowedScratch&) = delete;
+  BorrowedScratch& operator=(const BorrowedScratch&) = delete;
+  ~BorrowedScratch() { shelf_.putBack(std::move(scratch_)); }
+  QueryScratch& operator*() { return *scratch_; }
+
+ private:
+  ScratchShelf& shelf_;
+  std::unique_ptr<QueryScratch> scratch_;
+};
+
+void throwIfInterrupted() {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+}  // namespace
+
+std::unique_ptr<QueryScratch> ScratchShelf::take() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (free_.empty()) return std::make_unique<QueryScratch>();
+  auto scratch = std::move(free_.back());
+  free_.pop_back();
+  return scratch;
+}
+
+void ScratchShelf::putBack(std::unique_ptr<QueryScratch> scratch) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  free_.push_back(std::move(scratch));
+}
+
+Query::Query(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene, QueryOptions options)
+    : avatar_(std::move(avatar)), scene_(std::move(scene)), options_(std::move(options)) {
+  // Asked once with no work to spend, so that bad options are refused here and not at first use:
+  // touchesAt() and the pool take them as good.
+  QueryOptions idle = options_;
+  idle.workBudget = 0;
+  const Pose rest = restPose(avatar_->skeleton());
+  const ChainMotion still(avatar_->skeleton(), rest, rest);
+  static_cast<void>(valueOf(foretouch::firstContacts(*avatar_, still, *scene_, idle)));
+}
+
+/// The library can tell a motion of another avatar by the number of its joints alone.
+void Query::checkMotion(const Motion& motion) const {
+  if (motion.avatar->identity() == avatar_->identity()) return;
+  refuse(ErrorCode::Mismatch, "motion", "expected a motion of this avatar");
+}
+
+Step Query::firstContacts(const Motion& motion) {
+  checkMotion(motion);
+  const py::gil_scoped_release free;
+  BorrowedScratch scratch(shelf_);
+  StepContacts step;
+  valueOf(foretouch::firstContacts(*avatar_, motion.chain, *scene_, options_, *scratch, step));
+  return {std::make_shared<const Answers>(
+              Answers{avatar_, scene_, std::move(step.links), {step.counters}}),
+          0};
+}
+
+Steps Query::firstContactsMany(const Pose* starts, const Pose* ends, std::size_t steps,
+                               int threads) {
+  auto pool = valueOf(QueryPool::start(threads));
+  const auto answers = std::make_shared<Answers>(Answers{avatar_, scene_, {}, {}});
+  answers->contacts.reserve(steps * answers->links());
+  answers->counters.reserve(steps);
+  std::vector<StepTask> tasks;
+  std::vector<StepContacts> found;
+  for (std::size_t done = 0; done < steps; done += tasks.size()) {
+    throwIfInterrupted();
+    const py::gil_scoped_release free;
+    tasks.clear();
+    for (std::size_t i = done; i < std::min(steps, done + kStepsAtOnce); ++i) {
+      tasks.push_back({avatar_.get(), starts + i, ends + i, &options_});
+    }
+    valueOf(pool.answer(*scene_, tasks, found));
+    for (const StepContacts& step : found) {
+      answers->contacts.insert(answers->contacts.end(), step.links.begin(), step.links.end());
+      answers->counters.push_back(step.counters);
+    }
+  }
+  return {answers};
+}
+
+py::array_t<bool> Query::touchesAt(const Motion& motion, const Instants& instants) {
+  checkMotion(motion);
+  py::array_t<bool> touched(instants.shapeWith({avatar_->numLinks()}));
+  bool* answer = touched.mutable_data();
+  const py::gil_scoped_release free;
+  BorrowedScratch scratch(shelf_);
+  for (const double t : instants.values()) {
+    for (LinkId link = 0; link < avatar_->numLinks(); ++link) {
+      *answer++ =
+          foretouch::touchesAt(*avatar_, motion.chain, link, t, *scene_, options_, *scratch);
+    }
+  }
+  return touched;
+}
+
+namespace {
+
+std::unique_ptr<Query> create(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene,
+                              py::object tolerance, py::object fidelity, py::object policies,
+                              py::object ignore, py::object workBudget, py::object deadlineUs,
+                              py::object scope, py::object surface) {
+  auto options =
+      optionsFrom({tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface},
+                  *avatar, *scene);
+  return std::make_unique<Query>(std::move(avatar), std::move(scene), std::move(options));
+}
+
+int threadsFrom(const py::object& given) {
+  if (!given.is_none()) return static_cast<int>(integer(given, "threads", 1, kMaxPoolThreads));
+  return static_cast<int>(
+      std::clamp(std::thread::hardware_concurrency(), 1u, unsigned{kMaxPoolThreads}));
+}
+
+/// From each pose to the next, or from each of `poses` to the one at the same place in `ends`.
+Steps many(Query& query, const py::object& poses, const py::object& ends,
+           const py::object& threads) {
+  const Skeleton& skeleton = query.avatar()->skeleton();
+  const int count = threadsFrom(threads);
+  const std::vector<Pose> from = posesFrom(skeleton, poses, "poses");
+  if (ends.is_none()) {
+    if (from.size() < 2) {
+      refuse(ErrorCode::Empty, "poses",
+             "expected at least two poses, found " + std::to_string(from.size()));
+    }
+    return query.firstContactsMany(from.data(), from.data() + 1, from.size() - 1, count);
+  }
+  const std::vector<Pose> to = posesFrom(skeleton, ends, "ends");
+  if (to.size() != from.size() || from.empty()) {
+    refuse(ErrorCode::Mismatch, "ends",
+           "expected one a pose, and at least one; found " + std::to_string(to.size()) + " for " +
+               std::to_string(from.size()) + " poses");
+  }
+  return query.firstContactsMany(from.data(), to.data(), from.size(), count);
+}
+
+}  // namespace
+
+void bindQuery(py::module_& module) {
+  const QueryOptions usual;
+  py::class_<Query>(module, "Query",
+                    "A question that is asked again and again: avatar, scene and options, checked\n"
+                    "once, and memory that is kept. Any number of threads may ask one at once.")
+      .def(py::init(&create), py::arg("avatar").none(false), py::arg("scene").none(false),
+           py::kw_only(), py::arg("tolerance") = usual.tolerance, py::arg("fidelity") = "link",
+           py::arg("policies") = py::none(), py::arg("ignore") = py::tuple(),
+           py::arg("work_budget") = py::none(), py::arg("deadline_us") = py::none(),
+           py::arg("scope") = "links", py::arg("surface") = py::none(),
+           "tolerance: metres, at most what separates a contact at its toi. fidelity: 'link' "
+           "(LSS),\n"
+           "'exact' (triangles; needs surface), or coarser: 'limb', 'avatar', 'ellipsoid'.\n"
+           "policies: {link: {'tolerance': ..., 'fidelity': ...}} where links differ.\n"
+           "ignore: a list of links and of pairs (link, object), by name or index.\n"
+           "work_budget: evaluations (about 10 ns each) that a step may cost; deadline_us: the "
+           "same\n"
+           "by the clock. What is not answered by then is undecided.\n"
+           "scope: 'links', every link's own contact; 'avatar', only the earliest of all.")
+      .def("first_contacts", &Query::firstContacts, py::arg("motion"),
+           "What every link meets first: a Step.")
+      .def("first_contacts_many", &many, py::arg("poses"), py::kw_only(),
+           py::arg("ends") = py::none(), py::arg("threads") = py::none(),
+           "From each pose to the next (or to the one at the same place in ends): Steps. threads:\n"
+           "None for as many as the processor has. The answers are the same for any number.")
+      .def(
+          "touches_at",
+          [](Query& query, const Motion& motion, const py::object& t) {
+            return query.touchesAt(motion, Instants(t));
+          },
+          py::arg("motion"), py::arg("t"),
+          "What a discrete check sees, without any promise: booleans (n,) for a number t, (k, n)\n"
+          "for k of them.")
+      .def_property_readonly("avatar", &Query::avatar)
+      .def_property_readonly("scene", &Query::scene);
+}
+
+}  // namespace foretouch::python

@@ -1,0 +1,57 @@
+// bindings/python/query.h: a question that is asked again and again: avatar, scene and options,
+// looked up and checked once, and the memory that queries keep.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/pose.h"
+#include "bindings/python/answers.h"
+#include "bindings/python/instants.h"
+#include "bindings/python/motion.h"
+#include "middleware/query.h"
+#include "middleware/scene.h"
+
+namespace foretouch::python {
+
+/// Scratch memory for as many threads as ask at once.
+class ScratchShelf {
+ public:
+  [[nodiscard]] std::unique_ptr<QueryScratch> take();
+  void putBack(std::unique_ptr<QueryScratch> scratch);
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<QueryScratch>> free_;
+};
+
+/// Any number of threads may ask one Query at once: each call takes a scratch of its own. The
+/// methods want the GIL and release it while they work.
+class Query {
+ public:
+  /// Throws where the library refuses the options.
+  Query(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene, QueryOptions options);
+
+  [[nodiscard]] const std::shared_ptr<Avatar>& avatar() const { return avatar_; }
+  [[nodiscard]] const std::shared_ptr<Scene>& scene() const { return scene_; }
+
+  [[nodiscard]] Step firstContacts(const Motion& motion);
+
+  /// One step from each of `starts` to its neighbour in `ends`, by `threads` threads.
+  [[nodiscard]] Steps firstContactsMany(const Pose* starts, const Pose* ends, std::size_t steps,
+                                        int threads);
+
+  /// (links) of booleans at one instant, (instants, links) at many.
+  [[nodiscard]] py::array_t<bool> touchesAt(const Motion& motion, const Instants& instants);
+
+ private:
+  void checkMotion(const Motion& motion) const;
+  std::shared_ptr<Avatar> avatar_;
+  std::shared_ptr<Scene> scene_;
+  QueryOptions options_;
+  ScratchShelf shelf_;
+};
+
+}  // namespace foretouch::python

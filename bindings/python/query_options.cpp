@@ -1,0 +1,127 @@
+#include "bindings/python/query_options.h"
+
+#include <limits>
+
+#include "bindings/python/surface.h"
+
+namespace foretouch::python {
+namespace {
+
+constexpr std::array<std::pair<const char*, Fidelity>, 5> kFidelities{
+    {{"link", Fidelity::Link},
+     {"exact", Fidelity::Exact},
+     {"limb", Fidelity::Limb},
+     {"avatar", Fidelity::Avatar},
+     {"ellipsoid", Fidelity::Ellipsoid}}};
+constexpr std::array<std::pair<const char*, Scope>, 2> kScopes{
+    {{"links", Scope::EveryLink}, {"avatar", Scope::FirstOfAvatar}}};
+
+// ---- ignore ----
+
+/// All objects of this name, or the one of this index.
+std::vector<ObjectId> objectsOf(const Scene& scene, py::handle given, const std::string& what) {
+  const std::vector<std::string>& names = scene.objectNames();
+  if (!PyUnicode_Check(given.ptr())) {
+    const auto most = static_cast<std::int64_t>(names.size()) - 1;
+    return {static_cast<ObjectId>(integer(given, what, 0, most))};
+  }
+  const std::string name = text(given, what);
+  std::vector<ObjectId> found;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) found.push_back(static_cast<ObjectId>(i));
+  }
+  if (found.empty()) refuseName(what, "object of the scene", name, names);
+  return found;
+}
+
+/// A link, or a pair of a link and an object.
+void addIgnored(const py::object& given, const std::string& what, const Avatar& avatar,
+                const Scene& scene, std::vector<IgnoredPair>& ignored) {
+  if (!py::isinstance<py::tuple>(given) && !py::isinstance<py::list>(given)) {
+    ignored.push_back({linkOf(avatar, given, what)});
+    return;
+  }
+  const std::vector<py::object> pair = items(given, what);
+  if (pair.size() != 2) {
+    refuse(ErrorCode::Mismatch, what, "expected a link, or a pair of a link and an object");
+  }
+  const LinkId link = linkOf(avatar, pair[0], what + "[0]");
+  for (const ObjectId object : objectsOf(scene, pair[1], what + "[1]")) {
+    ignored.push_back({link, object});
+  }
+}
+
+std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,
+                                     const Scene& scene) {
+  std::vector<IgnoredPair> ignored;
+  std::size_t place = 0;
+  for (const py::object& one : items(given, "ignore")) {
+    addIgnored(one, "ignore[" + std::to_string(place++) + "]", avatar, scene, ignored);
+  }
+  return ignored;
+}
+
+// ---- policies ----
+
+void applyPolicy(py::handle given, const std::string& what, LinkPolicy& policy) {
+  for (const auto& [key, value] : mapping(given, what)) {
+    const std::string name = text(key, what);
+    const std::string place = what + "['" + name + "']";
+    if (name == "tolerance") {
+      policy.tolerance = number(value, place);
+      if (policy.tolerance >= kMinTolerance && policy.tolerance <= kMaxTolerance) continue;
+      refuse(ErrorCode::OutOfRange, place, "expected 1e-9 to 1e7 metres");
+    } else if (name == "fidelity") {
+      policy.fidelity = oneOf(value, place, kFidelities);
+    } else {
+      refuse(ErrorCode::UnknownName, place, "expected 'tolerance' or 'fidelity'");
+    }
+  }
+}
+
+/// {link: {"tolerance": ..., "fidelity": ...}}; what a link leaves out is as for all links.
+std::vector<LinkPolicy> policiesFrom(const py::object& given, const Avatar& avatar,
+                                     const QueryOptions& options) {
+  if (given.is_none()) return {};
+  std::vector<LinkPolicy> policies(static_cast<std::size_t>(avatar.numLinks()),
+                                   {options.tolerance, options.fidelity});
+  for (const auto& [link, policy] : mapping(given, "policies")) {
+    const LinkId id = linkOf(avatar, link, "policies");
+    applyPolicy(policy, "policies['" + avatar.skeleton().name(id) + "']",
+                policies[static_cast<std::size_t>(id)]);
+  }
+  return policies;
+}
+
+/// What was made for another avatar would be read out of bounds.
+std::optional<AvatarSurface> surfaceFrom(const py::object& given, const Avatar& avatar) {
+  if (given.is_none()) return std::nullopt;
+  if (!py::isinstance<Surface>(given)) {
+    refuse(ErrorCode::Mismatch, "surface", "expected a foretouch.Surface");
+  }
+  const auto& surface = given.cast<const Surface&>();
+  if (surface.avatar->identity() != avatar.identity()) {
+    refuse(ErrorCode::Mismatch, "surface", "expected the surface of this avatar");
+  }
+  return surface.triangles;
+}
+
+}  // namespace
+
+QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar, const Scene& scene) {
+  QueryOptions options;
+  options.tolerance = number(given.tolerance, "tolerance");
+  options.fidelity = oneOf(given.fidelity, "fidelity", kFidelities);
+  options.linkPolicies = policiesFrom(given.policies, avatar, options);
+  options.ignored = ignoredFrom(given.ignore, avatar, scene);
+  options.scope = oneOf(given.scope, "scope", kScopes);
+  options.surface = surfaceFrom(given.surface, avatar);
+  if (!given.workBudget.is_none()) {
+    options.workBudget = static_cast<std::uint64_t>(
+        integer(given.workBudget, "work_budget", 0, std::numeric_limits<std::int64_t>::max()));
+  }
+  if (!given.deadlineUs.is_none()) options.deadlineUs = number(given.deadlineUs, "deadline_us");
+  return options;
+}
+
+}  // namespace foretouch::python

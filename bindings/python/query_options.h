@@ -1,0 +1,18 @@
+// bindings/python/query_options.h: the keywords of a query as the library's options.
+#pragma once
+
+#include "bindings/python/arguments.h"
+#include "middleware/query.h"
+
+namespace foretouch::python {
+
+/// As they were given, unchecked.
+struct GivenOptions {
+  py::object tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface;
+};
+
+/// With names of links and objects looked up. What the library itself checks is left to it.
+[[nodiscard]] QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar,
+                                       const Scene& scene);
+
+}  // namespace foretouch::python

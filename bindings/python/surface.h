@@ -1,0 +1,16 @@
+// bindings/python/surface.h: an avatar's own triangles, and the avatar that they were made for.
+#pragma once
+
+#include <memory>
+
+#include "articulated/avatar.h"
+#include "middleware/avatar_surface.h"
+
+namespace foretouch::python {
+
+struct Surface {
+  std::shared_ptr<Avatar> avatar;
+  AvatarSurface triangles;
+};
+
+}  // namespace foretouch::python
