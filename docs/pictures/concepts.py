@@ -85,8 +85,8 @@ def nearest_on_segment(p, a, b):
 class Arm:
     """Upper arm and forearm in the plane; both joints turn at constant rate over t in [0,1]. Pixels, y down."""
 
-    shoulder, upper, fore = (120.0, 300.0), 130.0, 150.0
-    radius_upper, radius_fore = 20.0, 15.0
+    shoulder, upper, fore = (120.0, 240.0), 110.0, 125.0
+    radius_upper, radius_fore = 18.0, 13.0
     first, last = (-80.0, 35.0), (8.0, 62.0)  # degrees: shoulder from the horizontal, elbow from the upper arm
 
     def joints(self, t):
@@ -112,7 +112,7 @@ class Arm:
         picture.capsule(e, h, self.radius_fore, color, opacity)
 
 
-BAR = ((318.0, 198.0), 9.0)
+BAR = ((318.0, 246.0), 8.0)
 
 
 def draw_lss():
@@ -136,9 +136,9 @@ def draw_lss():
     p.dot(on_scene, 4, RED)
     p.text(0.5 * (on_link[0] + on_scene[0]), on_scene[1] - 18, "separation", RED, "middle")
     p.arrow((on_scene[0], on_scene[1] + 28), (on_scene[0] + 62 * n[0], on_scene[1] + 28 + 62 * n[1]), ORANGE)
-    p.text(on_scene[0] - 2, on_scene[1] + 50, "normal: from the scene to the link", ORANGE)
+    p.text(on_scene[0] - 60, on_scene[1] + 108, "normal: from the scene to the link", ORANGE)
     p.text(110, 240, "LSS: all points within r of the axis a b", BLUE)
-    p.text(522, 136, "triangle", WOOD, weight="bold")
+    p.text(512, 136, "triangle", WOOD, weight="bold")
     p.write("lss.svg")
 
 
@@ -158,13 +158,13 @@ def draw_sweep():
     s, e, h = arm.joints(touching)
     p.capsule(e, h, arm.radius_fore, RED, 0.10)
     p.text(60, 60, "earlier pose", BLUE)
-    p.text(330, 398, "later pose", BLUE)
-    p.text(BAR[0][0] + 18, BAR[0][1] - 12, f"a bar: touched first at t = {touching:.2f},", RED)
-    p.text(BAR[0][0] + 18, BAR[0][1] + 6, "free at both poses", RED)
-    p.text(470, 300, "the hand's true way: each joint", ORANGE)
-    p.text(470, 318, "turns at constant rate", ORANGE)
-    p.text(470, 350, "what a straight line between", FAINT)
-    p.text(470, 368, "the poses would say", FAINT)
+    p.text(196, 398, "later pose", BLUE, "end")
+    p.text(BAR[0][0] + 36, BAR[0][1] - 12, f"a bar: touched first at t = {touching:.2f},", RED)
+    p.text(BAR[0][0] + 36, BAR[0][1] + 6, "free at both poses", RED)
+    p.text(390, 100, "the hand's true way: each joint", ORANGE)
+    p.text(390, 118, "turns at constant rate", ORANGE)
+    p.text(390, 340, "dashed: where a straight line between", FAINT)
+    p.text(390, 358, "the poses would take the hand", FAINT)
     p.write("sweep.svg")
 
 
@@ -176,7 +176,7 @@ def first_contact(arm):
 
 
 def draw_culling():
-    p = Picture(720, 380, "Culling: certified boxes of what moves, against a tree of boxes over the scene")
+    p = Picture(720, 450, "Culling: certified boxes of what moves, against a tree of boxes over the scene")
     arm = Arm()
     pieces = 4
     for k in range(pieces):
@@ -190,8 +190,8 @@ def draw_culling():
         for i in range(11):
             _, e, h = arm.joints((k + i / 10) / pieces)
             p.capsule(e, h, arm.radius_fore, ORANGE, 0.04, False)
-    groups = [((300, 180, 60, 40), True), ((430, 60, 110, 90), False), ((590, 90, 90, 130), False),
-              ((560, 260, 120, 80), False)]
+    groups = [((296, 228, 60, 36), True), ((430, 60, 110, 90), False), ((590, 90, 90, 130), False),
+              ((560, 266, 120, 74), False)]
     p.box(290, 48, 402, 304, WOOD, "none", 1, 1.3, 3, "6 4")
     p.text(684, 40, "the tree's root", WOOD, "end")
     for (x, y, w, h), is_near in groups:
@@ -201,9 +201,9 @@ def draw_culling():
             s = 0.13 * min(w, h) + 4
             p.path([(cx, cy - s), (cx + s, cy + s), (cx - s, cy + 0.7 * s)], RED if is_near else WOOD, 1.2,
                    RED if is_near else WOOD, 0.35, True)
-    p.text(366, 206, "meets a box: a candidate", RED)
-    p.text(560, 250, "met by no box: never looked at", WOOD, "middle", 13)
-    p.text(30, 366, "Boxes certified to hold a link over a piece of the step (blue) go down the tree in one walk.", INK, size=13)
+    p.text(370, 230, "meets a box: a candidate", RED)
+    p.text(560, 256, "met by no box: never looked at", WOOD, "middle", 13)
+    p.text(30, 436, "Boxes certified to hold a link over a piece of the step (blue) go down the tree in one walk.", INK, size=13)
     p.write("culling.svg")
 
 
@@ -221,7 +221,7 @@ def advancement(arm, tolerance):
 def draw_backtracking():
     p = Picture(720, 380, "Backtracking: from one proven-free instant to the next")
     arm, tolerance = Arm(), 3.0
-    left, right, base, top, most, until = 70.0, 690.0, 320.0, 40.0, 130.0, 0.72
+    left, right, base, top, most, until = 70.0, 690.0, 300.0, 40.0, 200.0, 0.92
 
     def at(t, g):
         return (left + (right - left) * t / until, base - (base - top) * g / most)
@@ -233,7 +233,7 @@ def draw_backtracking():
     p.text(left - 10, top - 12, "separation of this pair", INK)
     p.line(at(0, tolerance), at(until, tolerance), GREEN, 1.5, "5 4")
     p.text(right, at(0, tolerance)[1] - 6, "tolerance", GREEN, "end")
-    p.path([at(t, max(g, -8.0)) for t, g in curve], ORANGE, 2.4)
+    p.path([at(t, g) for t, g in curve if g >= 0.0 and t < 0.9 * first_contact(arm) + 0.1], ORANGE, 2.4)
     steps = advancement(arm, tolerance)
     for (t, g), (t1, _) in zip(steps, steps[1:]):
         p.line(at(t, g), at(t1, 0), BLUE, 1.3, None, 0.8)
@@ -246,11 +246,10 @@ def draw_backtracking():
     hit = first_contact(arm)
     p.line(at(hit, 0), (at(hit, 0)[0], base + 8), ORANGE, 2)
     p.text(at(hit, 0)[0] + 8, base + 24, "true contact: never before toi", ORANGE)
-    p.text(at(0.13, 0)[0], at(0, 113)[1], "blue: no point of the link is faster than this slope allows,", BLUE)
-    p.text(at(0.13, 0)[0], at(0, 105)[1], "so until there the pair is free, whatever the true curve does", BLUE)
-    p.text(at(0.33, 0)[0], at(0, 78)[1], "the true separation", ORANGE)
-    p.text(left, 368, f"{len(steps)} evaluations. The link's speed is bounded along the whole chain; bounds on its "
-           "acceleration make the steps longer still.", INK, size=13)
+    p.text(at(0.2, 0)[0], at(0, 185)[1], "blue: no point of the link is faster than this slope allows,", BLUE)
+    p.text(at(0.2, 0)[0], at(0, 171)[1], "so until there the pair is free, whatever the true curve does", BLUE)
+    p.text(at(0.42, 0)[0], at(0, 112)[1], "the true separation", ORANGE)
+    p.text(left, 364, f"{len(steps)} evaluations. The slope is a bound on speed along the whole chain of joints.", INK, size=13)
     p.write("backtracking.svg")
 
 

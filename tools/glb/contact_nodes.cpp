@@ -14,6 +14,9 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
+constexpr GlbMaterial kRed{"contact", {0.80, 0.05, 0.03, 1.0}};
+constexpr GlbMaterial kAmber{"starts in contact", {0.90, 0.50, 0.02, 1.0}};
+
 /// For how long (s) a first contact stays to be seen. One from the start is there during its step,
 /// as the next one has its own.
 constexpr double kHoldS = 1.0;
@@ -88,15 +91,20 @@ std::vector<Appearance> addMarkers(const Stage& stage, const std::vector<ShownCo
   if (contacts.empty()) return appearances;
   constexpr double kArrow = 0.1;  // of the avatar's extent
   const GlbMesh marker = markerMesh(kArrow * stage.extent);
-  const std::size_t red = content.addMaterial({"contact", {0.80, 0.05, 0.03, 1.0}});
-  const std::size_t amber = content.addMaterial({"starts in contact", {0.90, 0.50, 0.02, 1.0}});
-  const std::size_t first = content.addMesh("contact", {{marker, red}});
-  const std::size_t standing = content.addMesh("starts in contact", {{marker, amber}});
+  std::optional<std::size_t> first, fromStart;
+  const auto meshFor = [&](Verdict verdict) {
+    const bool isFirst = verdict == Verdict::Contact;
+    std::optional<std::size_t>& mesh = isFirst ? first : fromStart;
+    if (!mesh) {
+      const GlbMaterial& material = isFirst ? kRed : kAmber;
+      mesh = content.addMesh(material.name, {{marker, content.addMaterial(material)}});
+    }
+    return *mesh;
+  };
   GltfDocument& document = content.document();
   for (const ShownContact& shown : contacts) {
-    const bool isFirst = shown.contact.verdict == Verdict::Contact;
     const std::size_t node =
-        document.add("nodes", markerNode(shown, stage, isFirst ? first : standing));
+        document.add("nodes", markerNode(shown, stage, meshFor(shown.contact.verdict)));
     document.at("nodes", parent)["children"].push_back(node);
     appearances.push_back({node, shown.timeS, endOf(shown)});
   }

@@ -1,3 +1,5 @@
+#include <map>
+
 #include <fmt/format.h>
 
 #include "middleware/link_mesh.h"
@@ -5,6 +7,25 @@
 
 namespace foretouch::tools {
 namespace {
+
+constexpr GlbMaterial kSolid{"LSS", {0.16, 0.36, 0.70, 1.0}};
+constexpr GlbMaterial kVeil{"LSS around a mesh", {0.16, 0.36, 0.70, 0.25}};
+constexpr GlbMaterial kMesh{"mesh of a link", {0.55, 0.58, 0.62, 1.0}};
+
+/// The materials of the document, each added when it is first asked for.
+class Materials {
+ public:
+  explicit Materials(GlbContent& content) : content_(content) {}
+  std::size_t operator[](const GlbMaterial& material) {
+    const auto found = known_.find(material.name);
+    if (found != known_.end()) return found->second;
+    return known_[material.name] = content_.addMaterial(material);
+  }
+
+ private:
+  GlbContent& content_;
+  std::map<std::string, std::size_t> known_;
+};
 
 /// The triangles of links that have a mesh; without a surface in the inputs, from its file.
 std::vector<std::vector<Triangle>> trianglesOfLinks(const ReplayInputs& inputs,
@@ -28,10 +49,8 @@ std::vector<std::vector<Triangle>> trianglesOfLinks(const ReplayInputs& inputs,
 std::vector<std::size_t> addLinkMeshes(const Stage& stage, GlbContent& content,
                                        TriangleBudget& budget, std::vector<std::string>& notes) {
   const Avatar& avatar = stage.inputs.avatar;
-  const std::size_t solid = content.addMaterial({"LSS", {0.16, 0.36, 0.70, 1.0}});
-  const std::size_t veil = content.addMaterial({"LSS around a mesh", {0.16, 0.36, 0.70, 0.25}});
-  const std::size_t skin = content.addMaterial({"mesh of a link", {0.55, 0.58, 0.62, 1.0}});
   const auto triangles = trianglesOfLinks(stage.inputs, notes);
+  Materials materials(content);
   std::size_t lssLeftOut = 0, meshesLeftOut = 0;
   std::vector<std::size_t> meshes;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
@@ -39,14 +58,15 @@ std::vector<std::size_t> addLinkMeshes(const Stage& stage, GlbContent& content,
     const auto& surface = triangles[static_cast<std::size_t>(link)];
     const bool hasMesh = !surface.empty() && budget.take(surface.size());
     meshesLeftOut += !surface.empty() && !hasMesh ? 1 : 0;
-    if (hasMesh) parts.push_back({meshOf(surface), skin});
+    if (hasMesh) parts.push_back({meshOf(surface), materials[kMesh]});
     GlbMesh volume;
     for (const Lss& lss : avatar.lss(link)) {
       const bool fits = budget.take(trianglesOfLss());
       if (fits) appendLss(lss, volume);
       lssLeftOut += fits ? 0 : 1;
     }
-    if (volume.triangles() > 0) parts.push_back({std::move(volume), hasMesh ? veil : solid});
+    if (volume.triangles() > 0)
+      parts.push_back({std::move(volume), materials[hasMesh ? kVeil : kSolid]});
     meshes.push_back(parts.empty() ? kNoMesh
                                    : content.addMesh(avatar.skeleton().name(link), parts));
   }
