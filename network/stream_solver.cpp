@@ -80,6 +80,7 @@ Reject StreamSolver::take(const PoseMessage& message, ContactsMessage& answer) {
   if (message.avatar != id_) return Reject::UnknownAvatar;
   const Reject reject = stream_.take(message, step_);
   if (reject != Reject::None) return reject;
+  lastStep_ = step;
   const Clock::time_point start = Clock::now();
   const auto done = query(*step_.from, *step_.to);
   lastQueryUs_ = std::chrono::duration<double, std::micro>(Clock::now() - start).count();

@@ -39,8 +39,9 @@ class StreamSolver {
   [[nodiscard]] std::int32_t id() const { return id_; }
   [[nodiscard]] const Avatar& avatar() const { return avatar_; }
   [[nodiscard]] const StreamCounts& counts() const { return stream_.counts(); }
-  /// Of the last answered pose; valid until the next message is taken.
-  [[nodiscard]] const StreamStep& lastStep() const { return step_; }
+  [[nodiscard]] const QueryOptions& options() const { return options_; }
+  /// That the last answered pose ended; valid until the next message is taken.
+  [[nodiscard]] const StreamStep& lastStep() const { return lastStep_; }
   /// Of the last answered pose: the query alone, for measurements.
   [[nodiscard]] double lastQueryUs() const { return lastQueryUs_; }
 
@@ -62,6 +63,7 @@ class StreamSolver {
   StreamStep step_;
   /// At skinned fidelity, per link: the links that move its triangles.
   std::vector<std::vector<LinkId>> movedBy_;
+  StreamStep lastStep_;
   double lastQueryUs_ = 0.0;
   // Scratch.
   ChainMotion motion_;

@@ -64,6 +64,13 @@ Result<int> parseThreads(const std::string& option, const std::string& text) {
   return parseCount(option, text, kMaxThreads);
 }
 
+Result<std::size_t> parseReportTriangles(const std::string& option, const std::string& text) {
+  constexpr int kMost = 10'000'000;
+  const auto count = parseCount(option, text, kMost);
+  if (!count.ok()) return count.error();
+  return static_cast<std::size_t>(count.value());
+}
+
 Result<Placement> parsePlacement(const std::string& option, const std::string& text) {
   const std::vector<std::string> parts = splitAtCommas(text);
   double numbers[4] = {0.0, 0.0, 0.0, 0.0};

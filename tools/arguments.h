@@ -2,6 +2,7 @@
 // and what was found.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ inline constexpr int kMaxThreads = 256;
 [[nodiscard]] Result<int> parseCount(const std::string& option, const std::string& text, int most);
 /// The same, to kMaxThreads.
 [[nodiscard]] Result<int> parseThreads(const std::string& option, const std::string& text);
+/// What a report shows of a scene: a whole number of triangles from 1 to 10,000,000.
+[[nodiscard]] Result<std::size_t> parseReportTriangles(const std::string& option,
+                                                       const std::string& text);
 /// "x,y,z" or "x,y,z,yaw": metres within kMaxCoordinate, and degrees.
 [[nodiscard]] Result<Placement> parsePlacement(const std::string& option, const std::string& text);
 /// "y" or "z".

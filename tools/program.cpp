@@ -14,6 +14,7 @@
 #include "tools/log/log_command.h"
 #include "tools/replay/demo_command.h"
 #include "tools/replay/replay_command.h"
+#include "tools/report/view_command.h"
 #include "tools/stream/listen_command.h"
 #include "tools/stream/publish_command.h"
 #include "tools/stream/serve_command.h"
@@ -48,6 +49,7 @@ ExitCode run(int argc, const char* const* argv) {
   ExitCode exit = ExitCode::Done;
   addDemoCommand(program, exit);
   addReplayCommand(program, exit);
+  addViewCommand(program, exit);
   addServeCommand(program, exit);
   addPublishCommand(program, exit);
   addListenCommand(program, exit);

@@ -1,7 +1,9 @@
 #include "tools/replay/demo_command.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -22,7 +24,7 @@ std::string inWords(const ReplaySummary& summary) {
       "\nIn plain words: the dancer is known only {:g} times a second. Foretouch followed the "
       "motion\n"
       "in between and found {} first contacts; looking at the poses alone would have missed {}.\n",
-      kDemoRateHz, summary.contacts(), summary.missedByPoses());
+      kDemoRateHz, summary.total().contacts, summary.total().missedByPoses);
   for (const MissedContact& missed : summary.firstMissed()) {
     const LinkContact& contact = missed.contact;
     const auto object = static_cast<std::size_t>(inputs.scene.object(contact.triangle));
@@ -36,7 +38,17 @@ std::string inWords(const ReplaySummary& summary) {
   return text;
 }
 
-ExitCode runDemo(const std::string& output) {
+/// Beside the results, where these lie somewhere.
+std::string defaultReport(const std::string& output) {
+  namespace fs = std::filesystem;
+  std::error_code absent;
+  const bool isFile = !fs::is_other(fs::status(output, absent));
+  return (isFile ? fs::path(output) : fs::path("foretouch-demo"))
+      .replace_extension(".html")
+      .string();
+}
+
+ExitCode runDemo(const std::string& output, const std::string& report) {
   const auto folder = exampleFolder();
   if (!folder.ok()) return failed(folder.error());
   ReplayJob job;
@@ -45,6 +57,7 @@ ExitCode runDemo(const std::string& output) {
   job.request.motionPath = folder.value() + "/dancer.bvh";
   job.request.rateHz = kDemoRateHz;
   job.outputPath = output;
+  job.report.path = report.empty() ? defaultReport(output) : report;
   job.options.compareRigid = true;
   job.options.rays = true;
   const auto done = runReplay(job, [&](const ReplaySummary& summary) {
@@ -52,7 +65,8 @@ ExitCode runDemo(const std::string& output) {
     const AvatarAudit avatar = auditAvatar(inputs.avatar, restPose(inputs.avatar.skeleton()));
     printOut(job.request.scenePath + "\n" + describe(inputs.scene.audit()) + "\n" +
              job.request.avatarPath + "\n" + describe(avatar, "rest pose") + "\n" +
-             summary.text(job.options.threads) + inWords(summary) + "\nresults: " + output + "\n");
+             summary.text(job.options.threads) + inWords(summary) + "\nresults: " + output +
+             "\nreport:  " + job.report.path + "\n");
   });
   return done.ok() ? ExitCode::Done : failed(done.error());
 }
@@ -61,13 +75,18 @@ ExitCode runDemo(const std::string& output) {
 
 void addDemoCommand(CLI::App& program, ExitCode& exit) {
   const auto output = std::make_shared<std::string>("foretouch-demo.jsonl");
+  const auto report = std::make_shared<std::string>();
   CLI::App* const command = program.add_subcommand(
       "demo", "Replay the bundled dancer in the bundled room and say what was found");
   command->add_option("--output", *output, "Results, as lines of JSON")
       ->type_name("FILE")
       ->capture_default_str();
+  command
+      ->add_option("--report", *report,
+                   "The report, a page for a browser; beside the results if not given")
+      ->type_name("FILE");
   command->footer("Example:\n  foretouch demo");
-  command->callback([output, &exit] { exit = runDemo(*output); });
+  command->callback([output, report, &exit] { exit = runDemo(*output, *report); });
 }
 
 }  // namespace foretouch::tools

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -16,6 +17,8 @@
 #include "tools/progress.h"
 #include "tools/replay/replay_log_command.h"
 #include "tools/replay/results_output.h"
+#include "tools/report/replay_report.h"
+#include "tools/report/report_file.h"
 #include "tools/settling.h"
 #include "tools/stream/serve_config.h"
 #include "tools/stream/stream_arguments.h"
@@ -30,7 +33,7 @@ struct ReplayTexts {
   std::string fidelity = "link", leaves = "advancement", scope = "links", skin, skinScale = "1",
               skinUp = "y", tolerance = "0.001", culler = "flat", threads = "cores";
   std::string suffix, maxStep = "10", confirmations = "3", budgetUs;
-  std::string policy, glb, glbTriangles = "1000000";
+  std::string policy, report, reportTriangles = std::to_string(kDefaultViewTriangles);
   std::vector<std::string> avatars, ignore, packages;
   bool compareRigid = false, compareLink = false, rays = false, unmatchedAtRest = false;
 };
@@ -72,7 +75,7 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   request.ignore = texts.ignore;
   request.policyPath = texts.policy;
   job.outputPath = texts.output;
-  job.glb.path = texts.glb;
+  job.report.path = texts.report;
   job.options.compareRigid = texts.compareRigid;
   job.options.compareLink = texts.compareLink;
   job.options.rays = texts.rays;
@@ -93,10 +96,8 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   settle.into(request.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
   settle.into(request.tolerance, parseTolerance("--tolerance", texts.tolerance));
   settle.into(request.culler, parseCuller("--culler", texts.culler));
-  int glbTriangles = 0;
-  settle.into(glbTriangles,
-              parseCount("--glb-triangles", texts.glbTriangles, static_cast<int>(kMaxTriangles)));
-  job.glb.mostTriangles = static_cast<std::size_t>(glbTriangles);
+  settle.into(job.report.maxTriangles,
+              parseReportTriangles("--report-triangles", texts.reportTriangles));
   if (!texts.policy.empty()) settle.into(request.policies, readPolicyFile(texts.policy));
   if (texts.rate != "all") {
     double rateHz = 0.0;
@@ -141,13 +142,20 @@ Result<Done> checkOptions(const CLI::App& command, const ReplayTexts& texts, boo
   return Done{};
 }
 
+/// Where a run's files are, for its summary.
+std::string placesOf(const std::string& output, const std::string& report) {
+  return "\nresults: " + output + "\n" + (report.empty() ? "" : "report:  " + report + "\n");
+}
+
 ExitCode runClip(const ReplayTexts& texts) {
   const auto job = settled(texts);
   if (!job.ok()) return failed(job.error());
-  const bool outIsTaken = isStandardOutput(job.value().outputPath);
+  const bool outIsTaken =
+      isStandardOutput(job.value().outputPath) || isStandardOutput(job.value().report.path);
   const auto done = runReplay(job.value(), [&](const ReplaySummary& summary) {
     const std::string text = summary.text(job.value().options.threads);
-    outIsTaken ? printAside(text) : printOut(text + "\nresults: " + job.value().outputPath + "\n");
+    const std::string places = placesOf(job.value().outputPath, job.value().report.path);
+    outIsTaken ? printAside(text) : printOut(text + places);
   });
   return done.ok() ? ExitCode::Done : failed(done.error());
 }
@@ -157,6 +165,7 @@ Result<LogReplayJob> settledLog(const ReplayTexts& texts) {
   if (!clip.ok()) return clip.error();
   LogReplayJob job;
   job.outputPath = clip.value().outputPath;
+  job.report = clip.value().report;
   LogReplayRequest& request = job.request;
   request.query = std::move(clip.value().request);
   request.suffix = texts.suffix;
@@ -174,9 +183,10 @@ ExitCode runLog(const ReplayTexts& texts) {
   const auto job = settledLog(texts);
   if (!job.ok()) return failed(job.error());
   const std::string& output = job.value().outputPath;
-  const bool outIsTaken = isStandardOutput(output);
+  const std::string& page = job.value().report.path;
+  const bool outIsTaken = isStandardOutput(output) || isStandardOutput(page);
   const auto replayed = runLogReplay(job.value(), [&](const std::string& text) {
-    outIsTaken ? printAside(text) : printOut(text + "\nresults: " + output + "\n");
+    outIsTaken ? printAside(text) : printOut(text + placesOf(output, page));
   });
   if (!replayed.ok()) return failed(replayed.error());
   return replayed.value().agrees() ? ExitCode::Done : ExitCode::CheckSaysNo;
@@ -217,25 +227,20 @@ Result<Done> writeGlb(const ReplayGlb& glb, const std::string& path) {
 }  // namespace
 
 Result<Done> runReplay(const ReplayJob& job,
-                       const std::function<void(const ReplaySummary&)>& report) {
+                       const std::function<void(const ReplaySummary&)>& tell) {
   const ReplayRequest& request = job.request;
-  for (const std::string& output : {job.outputPath, job.glb.path}) {
-    if (output.empty()) continue;
-    const auto checked =
-        checkOutput(output, {request.scenePath, request.avatarPath, request.motionPath,
-                             request.robotPath, request.mapPath, request.policyPath});
-    if (!checked.ok()) return checked.error();
-  }
-  if (job.glb.path == job.outputPath) {
-    return Error{ErrorCode::FileUnwritable, "--glb", -1, -1,
-                 "expected another file than --output, found the same"};
-  }
+  const auto checked =
+      checkOutputs(job.outputPath, job.report.path,
+                   {request.scenePath, request.avatarPath, request.motionPath, request.robotPath,
+                    request.mapPath, request.policyPath, request.skinPath});
+  if (!checked.ok()) return checked.error();
   const auto inputs = loadReplayInputs(request);
   if (!inputs.ok()) return inputs.error();
   for (const std::string& remark : remarksOn(inputs.value())) printNote(remark);
 
   ReplaySummary summary(inputs.value());
-  ReplayGlb glb(inputs.value(), job.glb);
+  std::optional<ReplayReport> report;
+  if (!job.report.path.empty()) report.emplace(inputs.value(), job.report);
   {
     const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
     auto file = PendingFile::create(job.outputPath);
@@ -245,7 +250,7 @@ Result<Done> runReplay(const ReplayJob& job,
     const auto done = replay(inputs.value(), job.options, [&](const ReplayedStep& step) {
       file.value().write(step.line);
       summary.add(step);
-      glb.add(step.answer);
+      if (report) report->add(step);
       progress.advanceTo(step.answer.step + 1);
       return !guard.requested();
     });
@@ -256,8 +261,14 @@ Result<Done> runReplay(const ReplayJob& job,
       const auto shown = writeGlb(glb, job.glb.path);
       if (!shown.ok()) return shown.error();
     }
+    if (report && !guard.requested()) {
+      const auto reported = writeReport(job.report.path, guard, [&](const ReportProgress& watch) {
+        return report->document(summary, watch);
+      });
+      if (!reported.ok()) return reported.error();
+    }
   }
-  report(summary);
+  tell(summary);
   return Done{};
 }
 
@@ -288,9 +299,9 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
       ->type_name("DIR")
       ->allow_extra_args(false);
   option("--output", texts->output, "FILE", "Results, as lines of JSON")->required();
-  option("--glb", texts->glb, "FILE",
-         "Also the replay as an animated GLB, for any viewer of glTF (docs/formats.md)");
-  option("--glb-triangles", texts->glbTriangles, "N", "Triangles of that file at most");
+  option("--report", texts->report, "FILE", "The report: a page for a browser, all in one file");
+  option("--report-triangles", texts->reportTriangles, "N",
+         "Of a heavier scene the report shows what is near the action, or a simplified form");
   option("--rate", texts->rate, "HZ", "Poses a second to use of the clip; animations: 30 if all");
   option("--scale", texts->scale, "S", "Metres per unit of the clip: 0.01 for centimetres");
   option("--motion-up", texts->motionUp, "y|z", "Which axis of the clip points up");

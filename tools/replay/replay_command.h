@@ -9,6 +9,7 @@
 #include "tools/glb/replay_glb.h"
 #include "tools/replay/replay.h"
 #include "tools/replay/summary.h"
+#include "tools/report/document_parts.h"
 
 namespace CLI {
 class App;
@@ -24,13 +25,13 @@ struct ReplayJob {
   ReplayRequest request;
   ReplayOptions options;
   std::string outputPath;
-  GlbRequest glb;
+  ReportOptions report;
 };
 
-/// Runs a job: remarks on stderr, results to the output file, and the summary to `report`. The
-/// output file appears once it is complete, or not at all: not after an error, and not after a
-/// signal, which ends the program.
+/// Runs a job: remarks on stderr, results to the output file, the report to its own, and the
+/// summary to `tell`. Each file appears once it is complete, or not at all: not after an error, and
+/// not after a signal, which ends the program.
 [[nodiscard]] Result<Done> runReplay(const ReplayJob& job,
-                                     const std::function<void(const ReplaySummary&)>& report);
+                                     const std::function<void(const ReplaySummary&)>& tell);
 
 }  // namespace foretouch::tools

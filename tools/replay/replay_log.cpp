@@ -67,6 +67,7 @@ class LogReplay {
     return std::nullopt;
   }
   [[nodiscard]] const ContactsMessage& answer() const { return answer_; }
+  [[nodiscard]] const StreamSolver& solver(std::size_t avatar) const { return solvers_[avatar]; }
 
   LogReplayReport finish(const LogCounts& log) {
     report_.log = log;
@@ -189,7 +190,10 @@ Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSin
     if (!more.ok()) return inFile(more.error(), path);
     if (!more.value()) break;
     const auto avatar = replay.take(event);
-    if (avatar && !sink(replay.answer(), *avatar, log.value().position(), log.value().size())) {
+    if (!avatar) continue;
+    const StreamSolver& solver = replay.solver(*avatar);
+    if (!sink({replay.answer(), *avatar, solver.lastStep(), solver.options(),
+               log.value().position(), log.value().size()})) {
       break;
     }
   }

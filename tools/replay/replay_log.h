@@ -62,10 +62,17 @@ struct LogReplayReport {
   }
 };
 
-/// Takes the answers in the order of the log, with the index of their avatar in the request; false
-/// ends the replay early. `position` is of LogReplayReport's reader, for progress.
-using AnswerSink = std::function<bool(const ContactsMessage& answer, std::size_t avatar,
-                                      std::uint64_t positionBytes, std::uint64_t logBytes)>;
+/// A pose of the log and its answer, as long as the sink has them.
+struct AnsweredPose {
+  const ContactsMessage& answer;
+  std::size_t avatar;                     ///< Its index in the request.
+  const StreamStep& step;                 ///< That the pose ended.
+  const QueryOptions& query;              ///< That was asked.
+  std::uint64_t positionBytes, logBytes;  ///< How far the log has been read.
+};
+
+/// Takes the answers in the order of the log; false ends the replay early.
+using AnswerSink = std::function<bool(const AnsweredPose& answered)>;
 
 /// Answers every pose that a service with the same options would answer, as fast as possible and in
 /// this thread. The receiving and sending stamps of answers are 0.

@@ -53,6 +53,11 @@ void LogReplaySummary::add(const ContactsMessage& answer, std::size_t avatar) {
   queriesUs_.push_back(static_cast<float>(answer.queryUs));
 }
 
+double LogReplaySummary::queryUs(double share) const {
+  std::vector<float> queries = queriesUs_;
+  return percentile(queries, share);
+}
+
 std::string LogReplaySummary::text(const LogReplayReport& report) const {
   return head() + stream(report) + verdicts() + byLink() + cost() + damage(report.log) +
          comparison(report);

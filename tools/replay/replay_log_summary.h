@@ -27,10 +27,14 @@ class LogReplaySummary {
   /// log holds no verdicts.
   [[nodiscard]] static std::string comparison(const LogReplayReport& report);
 
- private:
   struct Counts {
     std::int64_t contacts = 0, startsInContact = 0, undecided = 0;
   };
+  [[nodiscard]] const Counts& total() const { return total_; }
+  /// The time at or below which this share of the queries was answered.
+  [[nodiscard]] double queryUs(double share) const;
+
+ private:
   [[nodiscard]] std::string head() const;
   [[nodiscard]] std::string stream(const LogReplayReport& report) const;
   [[nodiscard]] std::string verdicts() const;

@@ -24,6 +24,21 @@ Result<Done> checkOutput(const std::string& output, const std::vector<std::strin
   return Done{};
 }
 
+Result<Done> checkOutputs(const std::string& output, const std::string& report,
+                          const std::vector<std::string>& inputs) {
+  const auto checked = checkOutput(output, inputs);
+  if (!checked.ok() || report.empty()) return checked;
+  namespace fs = std::filesystem;
+  std::error_code absent;
+  const bool areOne = fs::equivalent(output, report, absent) ||
+                      fs::weakly_canonical(output, absent) == fs::weakly_canonical(report, absent);
+  if (areOne) {
+    return Error{ErrorCode::FileUnwritable, report, -1, -1,
+                 "is to hold the results as well; expected another file for the report"};
+  }
+  return checkOutput(report, inputs);
+}
+
 bool isStandardOutput(const std::string& path) {
   struct stat file {
   }, out{};

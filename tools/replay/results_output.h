@@ -12,7 +12,11 @@ namespace foretouch::tools {
 [[nodiscard]] Result<Done> checkOutput(const std::string& output,
                                        const std::vector<std::string>& inputs);
 
-/// Results that go to standard output leave it to them: the summary then goes to stderr.
+/// The same of two outputs, which must not be one file. An empty `report` is none.
+[[nodiscard]] Result<Done> checkOutputs(const std::string& output, const std::string& report,
+                                        const std::vector<std::string>& inputs);
+
+/// Files that go to standard output leave it to them: the summary then goes to stderr.
 [[nodiscard]] bool isStandardOutput(const std::string& path);
 
 }  // namespace foretouch::tools

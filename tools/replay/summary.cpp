@@ -87,6 +87,11 @@ void ReplaySummary::count(const LinkContact& contact) {
   }
 }
 
+double ReplaySummary::latencyUs(double share) const {
+  std::vector<float> latencies = latenciesUs_;
+  return percentile(latencies, share);
+}
+
 std::string ReplaySummary::text(int threads) const {
   return head(threads) + verdicts() + byLink() + rigid() + link() + cost();
 }

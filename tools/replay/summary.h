@@ -41,13 +41,18 @@ class ReplaySummary {
   static constexpr std::size_t kKeptMissed = 5;
 
   [[nodiscard]] const ReplayInputs& inputs() const { return inputs_; }
-  [[nodiscard]] std::int64_t contacts() const { return total_.contacts; }
-  [[nodiscard]] std::int64_t missedByPoses() const { return total_.missedByPoses; }
-
- private:
   struct Counts {
     std::int64_t contacts = 0, missedByPoses = 0, startsInContact = 0, undecided = 0;
   };
+  [[nodiscard]] const Counts& total() const { return total_; }
+  [[nodiscard]] std::int64_t steps() const { return steps_; }
+  [[nodiscard]] std::int64_t stepsWithContact() const { return stepsWithContact_; }
+  /// Nothing where replays were not compared with it.
+  [[nodiscard]] const std::optional<RigidCounts>& rigidCounts() const { return rigid_; }
+  /// The latency at or below which this share of the steps was answered.
+  [[nodiscard]] double latencyUs(double share) const;
+
+ private:
   void count(const LinkContact& contact);
   [[nodiscard]] std::string head(int threads) const;
   [[nodiscard]] std::string verdicts() const;

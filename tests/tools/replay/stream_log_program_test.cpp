@@ -86,8 +86,8 @@ class LoggedWorld : public SmallWorld {
     std::vector<ContactsMessage> answers;
     const auto replayed = tools::replayLog(
         inputs.value(),
-        [&](const ContactsMessage& answer, std::size_t, std::uint64_t, std::uint64_t) {
-          answers.push_back(answer);
+        [&](const tools::AnsweredPose& answered) {
+          answers.push_back(answered.answer);
           return true;
         });
     EXPECT_TRUE(replayed.ok());

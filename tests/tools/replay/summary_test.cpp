@@ -60,7 +60,7 @@ TEST(ReplaySummary, KeepsTheFirstMissedContactOfTheFirstSteps) {
   const ReplayInputs inputs = test::smallInputs(places);
   ReplaySummary summary(inputs);
   summaryOf(inputs, summary, {});
-  EXPECT_EQ(summary.missedByPoses(), 38);
+  EXPECT_EQ(summary.total().missedByPoses, 38);
   ASSERT_EQ(summary.firstMissed().size(), ReplaySummary::kKeptMissed);
   EXPECT_EQ(summary.firstMissed().back().step, ReplaySummary::kKeptMissed - 1);
 }

@@ -1,0 +1,115 @@
+// tests/tools/report/view_transforms.cpp: where the library has each link of a played clip at
+// random times, as lines of JSON: what a page that plays the clip is held to.
+//   view_transforms --avatar A --motion M [--rate HZ] [--scale S] [--motion-up y|z] [--place ..]
+//                   [--times N] [--seed S]
+// A line a time: {"time":seconds,"step":n,"u":0.25,"links":[[R row by row: 9, p: 3], ...]}.
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "articulated/motion.h"
+#include "tests/support/random_geometry.h"
+#include "tools/arguments.h"
+#include "tools/inputs/clip_pose.h"
+#include "tools/inputs/played_clip.h"
+#include "tools/json_text.h"
+#include "tools/replay/replay_inputs.h"
+#include "tools/settling.h"
+
+namespace foretouch::tools {
+namespace {
+
+struct Texts {
+  std::string avatar, motion, rate = "all", scale = "1", motionUp = "y", place = "0,0,0,0";
+  int times = 100;
+  std::uint64_t seed = 1;
+};
+
+Result<ReplayRequest> settled(const Texts& texts) {
+  ReplayRequest request;
+  request.avatarPath = texts.avatar;
+  request.motionPath = texts.motion;
+  Settling settle;
+  settle.into(request.placement, parsePlacement("--place", texts.place));
+  UpAxis motionUp = UpAxis::Y;
+  settle.into(motionUp, parseUpAxis("--motion-up", texts.motionUp));
+  request.placement.motionUpZ = motionUp == UpAxis::Z;
+  settle.into(request.motionScale, parsePositive("--scale", texts.scale));
+  if (texts.rate != "all") {
+    double rateHz = 0.0;
+    settle.into(rateHz, parsePositive("--rate", texts.rate));
+    request.rateHz = rateHz;
+  }
+  if (settle.error()) return *settle.error();
+  return request;
+}
+
+std::string stateText(const LinkState& state) {
+  std::string text = "[";
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) text += numberText(state.R_WL(row, column)) + ",";
+  }
+  return text + numberText(state.p_WL.x()) + "," + numberText(state.p_WL.y()) + "," +
+         numberText(state.p_WL.z()) + "]";
+}
+
+Result<Done> write(const ReplayRequest& request, int times, std::uint64_t seed) {
+  const auto loaded = loadPlayedClip(request);
+  if (!loaded.ok()) return loaded.error();
+  const PlayedClip& played = loaded.value();
+  const PlacedClip placed{played.avatar,     played.clip,      played.match,
+                          request.placement, played.isUpright, request.motionPath};
+  test::Random random(seed);
+  for (int i = 0; i < times; ++i) {
+    const auto count = static_cast<double>(played.steps.count);
+    const auto step =
+        std::min(played.steps.count - 1, static_cast<std::int64_t>(random.uniform(0.0, count)));
+    const auto from = poseAtFrame(placed, step * played.steps.stride);
+    const auto to = poseAtFrame(placed, (step + 1) * played.steps.stride);
+    if (!from.ok()) return from.error();
+    if (!to.ok()) return to.error();
+    const double t0S = static_cast<double>(step * played.steps.stride) * played.clip.frameTimeS;
+    const double t1S =
+        static_cast<double>((step + 1) * played.steps.stride) * played.clip.frameTimeS;
+    const double timeS = t0S + random.uniform(0.0, 1.0) * (t1S - t0S);
+    const double u = std::clamp((timeS - t0S) / (t1S - t0S), 0.0, 1.0);
+    const ChainMotion motion(played.avatar.skeleton(), from.value(), to.value());
+    std::string line = fmt::format(R"({{"time":{},"step":{},"u":{},"links":[)", numberText(timeS),
+                                   step, numberText(u));
+    for (LinkId link = 0; link < motion.numLinks(); ++link) {
+      line += (link > 0 ? "," : "") + stateText(motion.stateAt(link, u));
+    }
+    fmt::print("{}]}}\n", line);
+  }
+  return Done{};
+}
+
+int run(int argc, const char* const* argv) {
+  Texts texts;
+  CLI::App app("Where the library has each link of a played clip at random times");
+  app.add_option("--avatar", texts.avatar)->required();
+  app.add_option("--motion", texts.motion)->required();
+  app.add_option("--rate", texts.rate);
+  app.add_option("--scale", texts.scale);
+  app.add_option("--motion-up", texts.motionUp);
+  app.add_option("--place", texts.place);
+  app.add_option("--times", texts.times);
+  app.add_option("--seed", texts.seed);
+  CLI11_PARSE(app, argc, argv);
+  const auto request = settled(texts);
+  const auto done = request.ok() ? write(request.value(), texts.times, texts.seed)
+                                 : Result<Done>(request.error());
+  if (done.ok()) return 0;
+  fmt::print(stderr, "view_transforms: {}\n", describe(done.error()));
+  return 2;
+}
+
+}  // namespace
+}  // namespace foretouch::tools
+
+int main(int argc, char** argv) {
+  return foretouch::tools::run(argc, argv);
+}

@@ -1,0 +1,154 @@
+#include "tools/report/document_parts.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tools/report/indexed_mesh.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// Of all links of an avatar together.
+constexpr std::size_t kMaxLinkTriangles = 100'000;
+
+const char* axisName(bool isZ) {
+  return isZ ? "z" : "y";
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
+
+std::size_t countOf(const std::vector<std::vector<Triangle>>& trianglesOfLinks) {
+  std::size_t count = 0;
+  for (const auto& triangles : trianglesOfLinks) count += triangles.size();
+  return count;
+}
+
+}  // namespace
+
+std::string fileName(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+std::vector<ViewRow> sceneSettings(const ReplayRequest& request) {
+  return {{"scene", fileName(request.scenePath), ""},
+          {"scene's unit", fmt::format("{} m", request.sceneScale), ""},
+          {"scene's up axis", axisName(request.sceneUp == UpAxis::Z), ""}};
+}
+
+std::vector<ViewRow> querySettings(const ReplayRequest& request) {
+  std::vector<ViewRow> rows{{"tolerance", fmt::format("{} m", request.tolerance), ""},
+                            {"fidelity", toString(request.fidelity), ""}};
+  if (request.fidelity == Fidelity::Skinned)
+    rows.push_back({"skin", fileName(request.skinPath), ""});
+  if (request.scope != Scope::EveryLink) rows.push_back({"scope", toString(request.scope), ""});
+  if (!request.policyPath.empty()) rows.push_back({"policy", fileName(request.policyPath), ""});
+  if (!request.ignore.empty()) rows.push_back({"ignored", joined(request.ignore), ""});
+  return rows;
+}
+
+std::vector<ViewRow> clipSettings(const ReplayRequest& request) {
+  const Eigen::Vector3d& origin = request.placement.origin;
+  std::vector<ViewRow> rows{{"motion", fileName(request.motionPath), ""},
+                            {"motion's unit", fmt::format("{} m", request.motionScale), ""},
+                            {"motion's up axis", axisName(request.placement.motionUpZ), ""},
+                            {"placed at",
+                             fmt::format("{}, {}, {} m, turned by {} degrees", origin.x(),
+                                         origin.y(), origin.z(), request.placement.yawDeg),
+                             ""}};
+  if (!request.animation.empty()) rows.push_back({"animation", request.animation, ""});
+  if (!request.robotPath.empty()) rows.push_back({"robot", fileName(request.robotPath), ""});
+  if (!request.mapPath.empty()) rows.push_back({"joint map", fileName(request.mapPath), ""});
+  return rows;
+}
+
+std::vector<std::vector<Triangle>> trianglesOf(const AvatarSurface& surface) {
+  std::vector<std::vector<Triangle>> all;
+  for (LinkId link = 0; link < surface.numLinks(); ++link) all.push_back(surface.triangles(link));
+  return all;
+}
+
+std::vector<ViewLinkMesh> linkMeshes(const std::vector<std::vector<Triangle>>& trianglesOfLinks,
+                                     std::vector<std::string>& notes) {
+  const std::size_t count = countOf(trianglesOfLinks);
+  const double share = static_cast<double>(kMaxLinkTriangles) /
+                       static_cast<double>(std::max(count, kMaxLinkTriangles));
+  std::vector<ViewLinkMesh> meshes;
+  for (std::size_t link = 0; link < trianglesOfLinks.size(); ++link) {
+    const std::vector<Triangle>& triangles = trianglesOfLinks[link];
+    if (triangles.empty()) continue;
+    Corners corners;
+    for (const Triangle& triangle : triangles) {
+      for (const Eigen::Vector3d& vertex : triangle.vertices) {
+        const Eigen::Vector3f position = vertex.cast<float>();
+        corners.insert(corners.end(), position.data(), position.data() + 3);
+      }
+    }
+    if (count > kMaxLinkTriangles) {
+      const auto target = static_cast<std::size_t>(share * static_cast<double>(triangles.size()));
+      corners = simplified(corners, target).corners;
+    }
+    meshes.push_back({static_cast<LinkId>(link), indexed(std::move(corners))});
+  }
+  if (count > kMaxLinkTriangles) {
+    notes.push_back(fmt::format("The avatar's {} triangles are shown simplified to about {}.",
+                                count, kMaxLinkTriangles));
+  }
+  return meshes;
+}
+
+void noteFidelity(const ReplayRequest& request, std::vector<std::string>& notes) {
+  switch (request.fidelity) {
+    case Fidelity::Link:
+    case Fidelity::Exact: return;
+    case Fidelity::Skinned:
+      notes.emplace_back("Contacts are those of the skin; shown are the links' LSS around it.");
+      return;
+    case Fidelity::Limb:
+    case Fidelity::Avatar:
+    case Fidelity::Ellipsoid:
+      notes.push_back(
+          fmt::format("Contacts are those of volumes that stand for several links each (fidelity "
+                      "{}); shown are "
+                      "the links' own LSS.",
+                      toString(request.fidelity)));
+      return;
+  }
+}
+
+void addScene(const Scene& scene, const std::string& path, std::size_t maxTriangles,
+              Eigen::AlignedBox3d action, ViewDocument& document) {
+  SceneRequest request;
+  request.name = fileName(path);
+  request.maxTriangles = maxTriangles;
+  for (const ViewAvatar& avatar : document.avatars) {
+    for (const ViewContact& contact : avatar.contacts) {
+      if (contact.contact.triangle < 0) continue;
+      request.contacted.push_back(contact.contact.triangle);
+      action.extend(contact.contact.p_WScene);
+    }
+  }
+  request.action = action;
+  document.scene = viewOf(scene, request, document.notes);
+}
+
+ViewContact contactView(const LinkContact& contact, const Scene& scene, std::uint32_t step,
+                        double t0S, double t1S, const char* reason) {
+  ViewContact view;
+  view.step = step;
+  view.contact = contact;
+  view.reason = reason;
+  if (contact.verdict != Verdict::Undecided) {
+    view.timeS = t0S + contact.toi * (t1S - t0S);
+    view.object = scene.objectNames()[static_cast<std::size_t>(scene.object(contact.triangle))];
+  }
+  return view;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,54 @@
+// tools/report/document_parts.h: what the documents of clips, of logs and of inspections have in
+// common.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "middleware/avatar_surface.h"
+#include "middleware/scene.h"
+#include "tools/replay/replay_inputs.h"
+#include "tools/report/scene_view.h"
+#include "tools/report/view_document.h"
+
+namespace foretouch::tools {
+
+struct ReportOptions {
+  std::string path;  ///< Empty: no report.
+  std::size_t maxTriangles = kDefaultViewTriangles;
+};
+
+/// More contacts than this are not shown.
+inline constexpr std::size_t kMaxViewContacts = 100'000;
+
+/// The name of a file without its folders.
+[[nodiscard]] std::string fileName(const std::string& path);
+
+/// How the scene was read, and what was asked of it.
+[[nodiscard]] std::vector<ViewRow> sceneSettings(const ReplayRequest& request);
+[[nodiscard]] std::vector<ViewRow> querySettings(const ReplayRequest& request);
+/// How the clip was read, and where it stands.
+[[nodiscard]] std::vector<ViewRow> clipSettings(const ReplayRequest& request);
+
+/// The triangles of links, in their frames, simplified where they are too many: says so in `notes`.
+[[nodiscard]] std::vector<ViewLinkMesh> linkMeshes(
+    const std::vector<std::vector<Triangle>>& trianglesOfLinks, std::vector<std::string>& notes);
+[[nodiscard]] std::vector<std::vector<Triangle>> trianglesOf(const AvatarSurface& surface);
+
+/// What the page cannot show of how links were asked.
+void noteFidelity(const ReplayRequest& request, std::vector<std::string>& notes);
+
+/// Sets the document's scene, all that its contacts touch included. `action`: around all that
+/// moves; may be empty.
+void addScene(const Scene& scene, const std::string& path, std::size_t maxTriangles,
+              Eigen::AlignedBox3d action, ViewDocument& document);
+
+/// A contact as results have it. `contact` is not clear.
+[[nodiscard]] ViewContact contactView(const LinkContact& contact, const Scene& scene,
+                                      std::uint32_t step, double t0S, double t1S,
+                                      const char* reason);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,262 @@
+#include "tools/report/inspection.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "articulated/avatar_file.h"
+#include "articulated/bvh_avatar.h"
+#include "articulated/text_file.h"
+#include "lss/assert.h"
+#include "middleware/link_mesh.h"
+#include "tools/audit/audits.h"
+#include "tools/console.h"
+#include "tools/inputs/clip_pose.h"
+#include "tools/inputs/played_clip.h"
+#include "tools/report/track_builder.h"
+
+namespace foretouch::tools {
+
+struct Inspected {
+  ReplayRequest request;
+  std::optional<Scene> scene;
+  std::optional<Avatar> avatar;
+  std::optional<PlayedClip> played;  ///< Its avatar is the one above, where a file names it.
+  bool isMadeUp = false;             ///< The avatar is made of the clip.
+  std::vector<std::vector<Triangle>> triangles;  ///< Of links, where the avatar names meshes.
+  std::vector<std::string> notes;
+
+  [[nodiscard]] const Avatar* body() const {
+    return played ? &played->avatar : avatar ? &*avatar : nullptr;
+  }
+};
+
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+Result<PlayedClip> loadClipAlone(const ReplayRequest& request) {
+  auto read = readMotion(motionRequestOf(request));
+  if (!read.ok()) return read.error();
+  Clip& clip = read.value().clip;
+  auto avatar = avatarFromClip(clip);
+  if (!avatar.ok()) return inFile(avatar.error(), request.motionPath);
+  auto match = matchJoints(avatar.value().skeleton(), clip.skeleton);
+  if (!match.ok()) return inFile(match.error(), request.motionPath);
+  const auto steps = selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz);
+  if (!steps.ok()) return inFile(steps.error(), request.motionPath);
+  return PlayedClip{std::move(avatar).value(), std::move(clip), std::move(match).value(),
+                    steps.value(), read.value().isUpright};
+}
+
+Result<Done> loadBody(Inspected& inspected) {
+  const ReplayRequest& request = inspected.request;
+  if (!request.motionPath.empty()) {
+    inspected.isMadeUp = request.avatarPath.empty();
+    auto played = inspected.isMadeUp ? loadClipAlone(request) : loadPlayedClip(request);
+    if (!played.ok()) return played.error();
+    inspected.played = std::move(played).value();
+  } else if (!request.avatarPath.empty()) {
+    auto avatar = readAvatarFile(request.avatarPath);
+    if (!avatar.ok()) return inFile(avatar.error(), request.avatarPath);
+    inspected.avatar = std::move(avatar).value();
+  }
+  return Done{};
+}
+
+/// Meshes that cannot be read do not keep the rest from being looked at.
+void loadMeshes(Inspected& inspected) {
+  const Avatar* const body = inspected.body();
+  if (body == nullptr || inspected.request.avatarPath.empty()) return;
+  bool hasMesh = false;
+  for (LinkId link = 0; link < body->numLinks(); ++link) {
+    hasMesh = hasMesh || !body->mesh(link).file.empty();
+  }
+  if (!hasMesh) return;
+  auto meshes = loadLinkMeshes(*body, inspected.request.avatarPath);
+  if (meshes.ok()) {
+    inspected.triangles = std::move(meshes).value();
+  } else {
+    inspected.notes.push_back(describe(inFile(meshes.error(), inspected.request.avatarPath)));
+  }
+}
+
+Result<Pose> poseAt(const Inspected& inspected, std::int64_t index) {
+  const ReplayRequest& request = inspected.request;
+  if (inspected.played) {
+    const PlayedClip& played = *inspected.played;
+    return poseAtFrame({played.avatar, played.clip, played.match, request.placement,
+                        played.isUpright, request.motionPath},
+                       index * played.steps.stride);
+  }
+  const Skeleton& skeleton = inspected.avatar->skeleton();
+  auto pose = validatedPose(skeleton, placed(skeleton, restPose(skeleton), request.placement));
+  if (!pose.ok()) return inFile(pose.error(), "--place");
+  return pose;
+}
+
+Result<Done> addTrack(const Inspected& inspected, TrackBuilder& track,
+                      std::vector<std::string>& notes, const ReportProgress& progress) {
+  const std::int64_t wanted = inspected.played ? inspected.played->steps.count + 1 : 1;
+  const std::int64_t poses =
+      std::min(wanted, static_cast<std::int64_t>(track.capacity(kMaxTrackValues)));
+  for (std::int64_t i = 0; i < poses && progress(i, poses); ++i) {
+    const auto pose = poseAt(inspected, i);
+    if (!pose.ok()) return pose.error();
+    const double timeS = inspected.played
+                             ? static_cast<double>(i * inspected.played->steps.stride) *
+                                   inspected.played->clip.frameTimeS
+                             : 0.0;
+    track.addPose(timeS, pose.value());
+    if (i > 0) track.addStep(static_cast<std::uint32_t>(i - 1), static_cast<std::uint32_t>(i));
+  }
+  if (poses < wanted) {
+    notes.push_back(fmt::format("Shown are the first {} of {} poses.", poses, wanted));
+  }
+  return Done{};
+}
+
+std::string sizeText(const Vector3d& size) {
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} m", size.x(), size.y(), size.z());
+}
+
+void addSceneRows(const Scene& scene, ViewDocument& document) {
+  const SceneAudit& audit = scene.audit();
+  std::vector<ViewRow>& rows = document.summary;
+  rows.push_back({"scene", fmt::format("{} triangles", audit.triangles),
+                  fmt::format("{} objects", scene.objectNames().size())});
+  rows.push_back({"size of the scene", sizeText(audit.boxMax - audit.boxMin), "x, y (up), z"});
+  rows.push_back({"height of the scene",
+                  fmt::format("{:.4g} to {:.4g} m", audit.boxMin.y(), audit.boxMax.y()), ""});
+  for (const std::string& doubt : doubtsAbout(audit)) {
+    document.notes.push_back(document.scene->name + ": " + doubt);
+  }
+  if (audit.droppedNonFinite > 0) {
+    document.notes.push_back(
+        fmt::format("{}: {} triangles with a vertex that is not finite were left out",
+                    document.scene->name, audit.droppedNonFinite));
+  }
+}
+
+void addAvatarRows(const Inspected& inspected, const AlignedBox3d& action, ViewDocument& document) {
+  const Avatar& body = *inspected.body();
+  const AvatarAudit audit = auditAvatar(body, restPose(body.skeleton()));
+  std::vector<ViewRow>& rows = document.summary;
+  rows.push_back({"avatar", fmt::format("{} links, {} LSS", audit.links, audit.lss),
+                  inspected.isMadeUp ? "made of the clip's bones" : ""});
+  rows.push_back({"size of the avatar", sizeText(audit.extent), "in its rest pose"});
+  rows.push_back(
+      {"radii", fmt::format("{:.3g} to {:.3g} m", audit.smallestRadius, audit.largestRadius), ""});
+  if (inspected.played) {
+    const Clip& clip = inspected.played->clip;
+    rows.push_back({"clip",
+                    fmt::format("{} frames, {:.4g} s", clip.frames.size(), clip.durationS()),
+                    fmt::format("{:.5g} a second", 1.0 / clip.frameTimeS)});
+    rows.push_back({"reach of the action", sizeText(action.sizes()), "around all poses"});
+  }
+  rows.push_back({"height of the avatar",
+                  fmt::format("{:.4g} to {:.4g} m", action.min().y(), action.max().y()),
+                  "where it is placed, over all poses"});
+  const std::string name = document.avatars.front().name;
+  for (const std::string& doubt : doubtsAbout(audit)) {
+    document.notes.push_back(name + ": " + doubt);
+  }
+}
+
+/// Where the action is with regard to the scene: what a wrong unit or placement shows in.
+void notePlacement(const SceneAudit& audit, const AlignedBox3d& action,
+                   std::vector<std::string>& notes) {
+  const AlignedBox3d scene(audit.boxMin, audit.boxMax);
+  const double apartM = scene.exteriorDistance(action);
+  if (apartM > 0.0) {
+    notes.push_back(
+        fmt::format("The avatar is never inside the scene's box: {:.3g} m lie between them; are "
+                    "units, axes and --place right?",
+                    apartM));
+  }
+}
+
+std::string titleOf(const ReplayRequest& request) {
+  const std::string& body = request.motionPath.empty() ? request.avatarPath : request.motionPath;
+  if (body.empty()) return fileName(request.scenePath);
+  return fileName(body) + (request.scenePath.empty() ? "" : " in " + fileName(request.scenePath));
+}
+
+std::vector<ViewRow> settingsOf(const Inspected& inspected) {
+  const ReplayRequest& request = inspected.request;
+  std::vector<ViewRow> rows;
+  if (inspected.scene) rows = sceneSettings(request);
+  if (!request.avatarPath.empty()) rows.push_back({"avatar", fileName(request.avatarPath), ""});
+  if (inspected.played) {
+    for (ViewRow& row : clipSettings(request)) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const Inspected>> inspect(const ReplayRequest& request) {
+  FORETOUCH_ASSERT(!request.scenePath.empty() || !request.avatarPath.empty() ||
+                   !request.motionPath.empty());
+  auto inspected = std::make_shared<Inspected>();
+  inspected->request = request;
+  const auto loaded = loadBody(*inspected);
+  if (!loaded.ok()) return loaded.error();
+  if (!request.scenePath.empty()) {
+    auto scene = loadScene(request);
+    if (!scene.ok()) return scene.error();
+    inspected->scene = std::move(scene).value();
+  }
+  loadMeshes(*inspected);
+  return std::shared_ptr<const Inspected>(std::move(inspected));
+}
+
+Result<ViewDocument> documentOf(const Inspected& inspected, const ReportOptions& options,
+                                const ReportProgress& progress) {
+  const ReplayRequest& request = inspected.request;
+  ViewDocument document;
+  document.kind = ViewKind::Inspection;
+  document.title = titleOf(request);
+  document.settings = settingsOf(inspected);
+  document.notes = inspected.notes;
+  AlignedBox3d action;
+  if (const Avatar* const body = inspected.body()) {
+    const QueryOptions query;
+    std::optional<TouchQuestion> question;
+    if (inspected.scene) question.emplace(TouchQuestion{*inspected.scene, query});
+    TrackBuilder track(*body, question ? &*question : nullptr);
+    const auto added = addTrack(inspected, track, document.notes, progress);
+    if (!added.ok()) return added.error();
+    action = track.box();
+    ViewAvatar avatar;
+    avatar.name = fileName(inspected.isMadeUp ? request.motionPath : request.avatarPath);
+    avatar.avatar = body;
+    avatar.meshes = linkMeshes(inspected.triangles, document.notes);
+    avatar.track = track.finish();
+    document.avatars.push_back(std::move(avatar));
+  }
+  if (inspected.scene) {
+    addScene(*inspected.scene, request.scenePath, options.maxTriangles, action, document);
+    addSceneRows(*inspected.scene, document);
+  }
+  if (inspected.body() != nullptr) addAvatarRows(inspected, action, document);
+  if (inspected.played) {
+    const PlayedClip& played = *inspected.played;
+    for (std::string& remark : remarksOnClip(played.avatar, played.clip, played.match,
+                                             request.avatarPath, request.motionPath)) {
+      document.notes.push_back(std::move(remark));
+    }
+  }
+  if (inspected.scene && !action.isEmpty()) {
+    notePlacement(inspected.scene->audit(), action, document.notes);
+  }
+  return document;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,62 @@
+// tools/report/log_report.h: the replay of an event log as a view document.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "tools/replay/replay_log.h"
+#include "tools/replay/replay_log_summary.h"
+#include "tools/report/document_parts.h"
+#include "tools/report/swept_views.h"
+#include "tools/report/track_builder.h"
+#include "tools/report/view_document.h"
+
+namespace foretouch::tools {
+
+/// Collects answered poses in bounded memory. Only motions between poses that follow one another
+/// are steps of the document: what happened across a gap is not known, and not drawn. Time is 0 at
+/// the first pose of all; a timeline that begins before the one before has ended is moved behind
+/// it.
+class LogReport {
+ public:
+  /// `inputs` must outlive it and the document.
+  LogReport(const LogReplayInputs& inputs, const ReportOptions& options);
+
+  /// In the order of the log. Once an avatar has no room, its poses are counted and not kept.
+  void add(const AnsweredPose& answered);
+
+  /// To be called once. `progress` may end it early: the document is then of no use.
+  [[nodiscard]] ViewDocument document(const LogReplayReport& report,
+                                      const LogReplaySummary& summary,
+                                      const ReportProgress& progress);
+
+ private:
+  /// What is known of one avatar so far.
+  struct Player {
+    QueryOptions query;
+    TouchQuestion question;
+    TrackBuilder track;
+    std::vector<ViewContact> contacts;
+    double shiftS = 0.0;  ///< Added to the times of this timeline.
+    std::int64_t moved = 0, leftOut = 0, acrossGaps = 0;
+
+    Player(const Avatar& avatar, const Scene& scene, QueryOptions options);
+  };
+
+  Player& playerOf(const AnsweredPose& answered);
+  [[nodiscard]] bool hasRoom(const Player& player) const;
+  void addStep(const AnsweredPose& answered, Player& player);
+  [[nodiscard]] ViewAvatar avatarOf(std::size_t index, double fromS, ViewDocument& document);
+  void noteWhatIsMissing(std::vector<std::string>& notes) const;
+  [[nodiscard]] std::vector<ViewRow> settings() const;
+
+  const LogReplayInputs& inputs_;
+  ReportOptions options_;
+  std::optional<std::int64_t> beginUs_;
+  std::vector<std::unique_ptr<Player>> players_;  ///< Null: no pose was answered yet.
+};
+
+}  // namespace foretouch::tools

@@ -1,0 +1,113 @@
+#include "tools/report/replay_report.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace foretouch::tools {
+
+ReplayReport::ReplayReport(const ReplayInputs& inputs, const ReportOptions& options)
+    : inputs_(inputs),
+      options_(options),
+      question_{inputs.scene, inputs.query},
+      track_(inputs.avatar, &question_),
+      mostSteps_(static_cast<std::int64_t>(track_.capacity(kMaxTrackValues)) - 1) {}
+
+void ReplayReport::add(const ReplayedStep& step) {
+  const StepAnswer& answer = step.answer;
+  isFull_ = isFull_ || answer.step >= mostSteps_ ||
+            contacts_.size() + answer.contacts.size() > kMaxViewContacts;
+  if (isFull_) return;
+  latenciesUs_.push_back(answer.latencyUs);
+  for (const LinkContact& contact : answer.contacts) {
+    ViewContact view = contactView(contact, inputs_.scene, static_cast<std::uint32_t>(answer.step),
+                                   answer.t0S, answer.t1S, toString(contact.reason));
+    view.missedByPoses =
+        std::count(answer.missedByPoses.begin(), answer.missedByPoses.end(), contact.link) > 0;
+    contacts_.push_back(std::move(view));
+  }
+}
+
+Result<Done> ReplayReport::addTrack(const ReportProgress& progress) {
+  const auto steps = static_cast<std::int64_t>(latenciesUs_.size());
+  for (std::int64_t pose = 0; pose <= steps; ++pose) {
+    if (!progress(pose, steps)) return Done{};
+    const auto read = poseAtFrame(inputs_, pose * inputs_.steps.stride);
+    if (!read.ok()) return read.error();
+    track_.addPose(inputs_.timeOfStep(pose), read.value());
+  }
+  for (std::int64_t step = 0; step < steps; ++step) {
+    const auto from = static_cast<std::uint32_t>(step);
+    track_.addStep(from, from + 1, latenciesUs_[from]);
+  }
+  return Done{};
+}
+
+std::vector<ViewRow> ReplayReport::settings() const {
+  const ReplayRequest& request = inputs_.request;
+  std::vector<ViewRow> rows = sceneSettings(request);
+  rows.push_back({"avatar", fileName(request.avatarPath), ""});
+  for (ViewRow& row : clipSettings(request)) rows.push_back(std::move(row));
+  const double clipHz = 1.0 / inputs_.clip.frameTimeS;
+  const double hz = clipHz / static_cast<double>(inputs_.steps.stride);
+  rows.push_back({"rate", fmt::format("{:.5g} of {:.5g} poses a second", hz, clipHz), ""});
+  for (ViewRow& row : querySettings(request)) rows.push_back(std::move(row));
+  return rows;
+}
+
+std::vector<ViewRow> ReplayReport::rowsOf(const ReplaySummary& summary) {
+  const auto& total = summary.total();
+  const auto text = [](std::int64_t number) { return std::to_string(number); };
+  std::vector<ViewRow> rows{
+      {"steps", text(summary.steps()), ""},
+      {"steps with contact", text(summary.stepsWithContact()), ""},
+      {"contacts", text(total.contacts), ""},
+      {"missed by poses", text(total.missedByPoses),
+       "contacts that touch nothing at either pose: a discrete check misses them"},
+      {"starts in contact", text(total.startsInContact), ""},
+      {"undecided", text(total.undecided), ""},
+      {"latency of a step",
+       fmt::format("p50 {:.1f} us, p99 {:.1f} us", summary.latencyUs(0.5), summary.latencyUs(0.99)),
+       "the query, from two poses to all verdicts"}};
+  if (const auto& rigid = summary.rigidCounts()) {
+    rows.push_back(
+        {"rigid model misses", text(rigid->missed),
+         fmt::format("of {} contacts: told only each link's own two poses", rigid->contacts)});
+  }
+  return rows;
+}
+
+Result<ViewDocument> ReplayReport::document(const ReplaySummary& summary,
+                                            const ReportProgress& progress) {
+  const auto added = addTrack(progress);
+  if (!added.ok()) return added.error();
+  const ReplayRequest& request = inputs_.request;
+  ViewDocument document;
+  document.kind = ViewKind::Replay;
+  document.title = fileName(request.motionPath) + " in " + fileName(request.scenePath);
+  document.settings = settings();
+  document.summary = rowsOf(summary);
+  document.notes = remarksOn(inputs_);
+  noteFidelity(request, document.notes);
+  if (isFull_) {
+    document.notes.push_back(
+        fmt::format("The report shows the first {} of {} steps; the results file has them all.",
+                    latenciesUs_.size(), summary.steps()));
+  }
+  ViewAvatar avatar;
+  avatar.name = fileName(request.avatarPath);
+  avatar.avatar = &inputs_.avatar;
+  if (inputs_.query.surface) {
+    avatar.meshes = linkMeshes(trianglesOf(*inputs_.query.surface), document.notes);
+  }
+  const Eigen::AlignedBox3d action = track_.box();
+  avatar.track = track_.finish();
+  avatar.contacts = std::move(contacts_);
+  document.avatars.push_back(std::move(avatar));
+  addScene(inputs_.scene, request.scenePath, options_.maxTriangles, action, document);
+  addSwept({}, document, progress);
+  return document;
+}
+
+}  // namespace foretouch::tools

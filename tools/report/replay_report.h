@@ -1,0 +1,47 @@
+// tools/report/replay_report.h: the replay of a clip as a view document.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "articulated/result.h"
+#include "tools/replay/replay_inputs.h"
+#include "tools/replay/step_solver.h"
+#include "tools/replay/summary.h"
+#include "tools/report/document_parts.h"
+#include "tools/report/swept_views.h"
+#include "tools/report/track_builder.h"
+#include "tools/report/view_document.h"
+
+namespace foretouch::tools {
+
+/// Collects steps, in bounded memory, and makes the document of them once they are over, so that no
+/// step's latency is the report's.
+class ReplayReport {
+ public:
+  /// `inputs` must outlive it and the document.
+  ReplayReport(const ReplayInputs& inputs, const ReportOptions& options);
+
+  /// In order. Once there is no room, steps are counted and not kept.
+  void add(const ReplayedStep& step);
+
+  /// To be called once. `progress` may end it early: the document is then of no use.
+  [[nodiscard]] Result<ViewDocument> document(const ReplaySummary& summary,
+                                              const ReportProgress& progress);
+
+ private:
+  [[nodiscard]] std::vector<ViewRow> settings() const;
+  [[nodiscard]] static std::vector<ViewRow> rowsOf(const ReplaySummary& summary);
+  [[nodiscard]] Result<Done> addTrack(const ReportProgress& progress);
+
+  const ReplayInputs& inputs_;
+  ReportOptions options_;
+  TouchQuestion question_;
+  TrackBuilder track_;
+  std::int64_t mostSteps_;
+  bool isFull_ = false;
+  std::vector<double> latenciesUs_;  // one a step that is kept
+  std::vector<ViewContact> contacts_;
+};
+
+}  // namespace foretouch::tools

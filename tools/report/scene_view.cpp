@@ -1,0 +1,249 @@
+#include "tools/report/scene_view.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tools/report/indexed_mesh.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+/// How far around the action triangles are within reach (m): the first that leaves few enough.
+constexpr std::array kReachesM = {4.0, 2.0, 1.0};
+
+/// Triangles of one object, some of which must stay as they are.
+struct Part {
+  std::string name;
+  std::vector<TriangleId> ids;    ///< Ascending.
+  std::vector<TriangleId> fixed;  ///< Of these, those that must stay; ascending.
+};
+
+bool isNear(const Triangle& triangle, const AlignedBox3d& box) {
+  AlignedBox3d own;
+  for (const Vector3d& vertex : triangle.vertices) own.extend(vertex);
+  return box.intersects(own);
+}
+
+std::vector<TriangleId> sorted(std::vector<TriangleId> ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+bool contains(const std::vector<TriangleId>& ids, TriangleId id) {
+  return std::binary_search(ids.begin(), ids.end(), id);
+}
+
+/// The finite triangles whose boxes meet `box`, and those of `always`; ascending.
+std::vector<TriangleId> within(const Scene& scene, const AlignedBox3d& box,
+                               const std::vector<TriangleId>& always) {
+  std::vector<TriangleId> ids;
+  const auto count = static_cast<TriangleId>(scene.numTriangles());
+  for (TriangleId id = 0; id < count; ++id) {
+    const Triangle& triangle = scene.triangle(id);
+    if (isFinite(triangle) && (isNear(triangle, box) || contains(always, id))) ids.push_back(id);
+  }
+  return ids;
+}
+
+AlignedBox3d grown(const AlignedBox3d& box, double byM) {
+  return {box.min() - Vector3d::Constant(byM), box.max() + Vector3d::Constant(byM)};
+}
+
+/// What is shown of a scene before any of it is simplified.
+struct Choice {
+  std::vector<TriangleId> ids;
+  double reachM = 0.0;  ///< 0: all of it.
+};
+
+Choice chosen(const Scene& scene, const SceneRequest& request,
+              const std::vector<TriangleId>& contacted) {
+  const SceneAudit& audit = scene.audit();
+  const AlignedBox3d everywhere(audit.boxMin, audit.boxMax);
+  if (audit.triangles > request.maxTriangles && !request.action.isEmpty()) {
+    Choice widest;
+    for (const double reachM : kReachesM) {
+      Choice choice{within(scene, grown(request.action, reachM), contacted), reachM};
+      if (choice.ids.size() > request.maxTriangles) {
+        if (widest.ids.empty()) widest = std::move(choice);
+      } else if (!choice.ids.empty()) {
+        return choice;
+      }
+    }
+    if (!widest.ids.empty()) return widest;
+  }
+  return {within(scene, everywhere, contacted), 0.0};
+}
+
+/// Near the action where there is any, but not farther from the scene than need be.
+Vector3d originOf(const SceneAudit& audit, const AlignedBox3d& action) {
+  const AlignedBox3d box(audit.boxMin, audit.boxMax);
+  if (action.isEmpty()) return box.center();
+  return action.center().cwiseMax(box.min()).cwiseMin(box.max());
+}
+
+std::vector<Part> partsOf(const Scene& scene, const Choice& choice,
+                          const std::vector<TriangleId>& contacted) {
+  std::vector<Part> parts;
+  for (const std::string& name : scene.objectNames()) parts.push_back({name, {}, {}});
+  for (const TriangleId id : choice.ids) {
+    Part& part = parts[static_cast<std::size_t>(scene.object(id))];
+    part.ids.push_back(id);
+    if (contains(contacted, id)) part.fixed.push_back(id);
+  }
+  parts.erase(
+      std::remove_if(parts.begin(), parts.end(), [](const Part& part) { return part.ids.empty(); }),
+      parts.end());
+  return parts;
+}
+
+/// Objects of at most this many triangles lose too much by being simplified.
+constexpr std::size_t kSmallObject = 64;
+
+bool isSmall(const Part& part) {
+  return part.ids.size() <= kSmallObject;
+}
+
+/// Where there are so many small objects that they cannot be spared, they become one.
+void poolCrumbs(std::vector<Part>& parts, std::size_t mostTriangles) {
+  std::size_t triangles = 0, objects = 0;
+  for (const Part& part : parts) {
+    triangles += isSmall(part) ? part.ids.size() : 0;
+    objects += isSmall(part) ? 1 : 0;
+  }
+  if (triangles <= mostTriangles / 2) return;
+  Part pool{fmt::format("{} small objects", objects), {}, {}};
+  for (const Part& part : parts) {
+    if (!isSmall(part)) continue;
+    pool.ids.insert(pool.ids.end(), part.ids.begin(), part.ids.end());
+    pool.fixed.insert(pool.fixed.end(), part.fixed.begin(), part.fixed.end());
+  }
+  pool.ids = sorted(std::move(pool.ids));
+  pool.fixed = sorted(std::move(pool.fixed));
+  parts.erase(std::remove_if(parts.begin(), parts.end(), isSmall), parts.end());
+  parts.push_back(std::move(pool));
+}
+
+/// The share of a large object's triangles that may stay, so that all together are `most`.
+double shareOfLarge(const std::vector<Part>& parts, std::size_t most) {
+  std::size_t spared = 0, large = 0;
+  for (const Part& part : parts) {
+    spared += isSmall(part) ? part.ids.size() : part.fixed.size();
+    large += isSmall(part) ? 0 : part.ids.size() - part.fixed.size();
+  }
+  const std::size_t rest = most > spared ? most - spared : 0;
+  return large > 0 ? std::min(1.0, static_cast<double>(rest) / static_cast<double>(large)) : 1.0;
+}
+
+void append(const Scene& scene, TriangleId id, const Vector3d& origin, Corners& corners) {
+  for (const Vector3d& vertex : scene.triangle(id).vertices) {
+    const Eigen::Vector3f position = (vertex - origin).cast<float>();
+    corners.insert(corners.end(), position.data(), position.data() + 3);
+  }
+}
+
+/// The triangles of what is shown, part by part.
+class Gathering {
+ public:
+  Gathering(const Scene& scene, ViewScene& view) : scene_(scene), view_(view) {}
+
+  void addWhole(const Part& part) {
+    open(part);
+    for (const TriangleId id : part.ids) {
+      append(scene_, id, view_.origin, corners_);
+      view_.triangleIds.push_back(static_cast<std::uint32_t>(id));
+    }
+    close();
+  }
+
+  void addSimplified(const Part& part, double share) {
+    open(part);
+    Corners all;
+    for (const TriangleId id : part.ids) {
+      if (!contains(part.fixed, id)) append(scene_, id, view_.origin, all);
+    }
+    const auto target = static_cast<std::size_t>(share * static_cast<double>(all.size() / 9));
+    const Simplified fewer = simplified(all, target);
+    corners_.insert(corners_.end(), fewer.corners.begin(), fewer.corners.end());
+    for (const TriangleId id : part.fixed) append(scene_, id, view_.origin, corners_);
+    errorM_ = std::max(errorM_, fewer.error);
+    close();
+  }
+
+  /// Of all that was simplified.
+  [[nodiscard]] double errorM() const { return errorM_; }
+
+  void finish() { view_.mesh = indexed(std::move(corners_)); }
+
+ private:
+  [[nodiscard]] std::uint32_t triangles() const {
+    return static_cast<std::uint32_t>(corners_.size() / 9);
+  }
+  void open(const Part& part) { view_.objects.push_back({part.name, triangles(), 0}); }
+  void close() { view_.objects.back().count = triangles() - view_.objects.back().first; }
+
+  const Scene& scene_;
+  ViewScene& view_;
+  Corners corners_;
+  double errorM_ = 0.0;
+};
+
+void noteClipping(const ViewScene& view, const Choice& choice, std::vector<std::string>& notes) {
+  notes.push_back(fmt::format(
+      "{} has {} triangles: only the {} within {:g} m of the action are shown. Contacts "
+      "were looked for in all of them.",
+      view.name, view.trianglesInFile, choice.ids.size(), choice.reachM));
+}
+
+void noteSimplifying(const ViewScene& view, const Choice& choice, double errorM,
+                     std::vector<std::string>& notes) {
+  const std::string part = choice.reachM > 0.0
+                               ? fmt::format(", of which {} are within {:g} m of the action",
+                                             choice.ids.size(), choice.reachM)
+                               : "";
+  notes.push_back(fmt::format(
+      "{} has {} triangles{}: they are shown simplified to {}, which may hide details of {:.2g} m. "
+      "Contacts were looked for in the triangles themselves; those touched are shown as they are.",
+      view.name, view.trianglesInFile, part, view.mesh.triangles(), errorM));
+}
+
+}  // namespace
+
+ViewScene viewOf(const Scene& scene, const SceneRequest& request, std::vector<std::string>& notes) {
+  const std::vector<TriangleId> contacted = sorted(request.contacted);
+  const Choice choice = chosen(scene, request, contacted);
+  ViewScene view;
+  view.name = request.name;
+  view.origin = originOf(scene.audit(), request.action);
+  view.trianglesInFile = scene.audit().triangles;
+  view.boundsMin = scene.audit().boxMin;
+  view.boundsMax = scene.audit().boxMax;
+  std::vector<Part> parts = partsOf(scene, choice, contacted);
+  Gathering gathering(scene, view);
+  if (choice.ids.size() <= request.maxTriangles) {
+    for (const Part& part : parts) gathering.addWhole(part);
+    gathering.finish();
+    const bool isWhole = choice.ids.size() == scene.audit().triangles;
+    view.reduction = isWhole ? SceneReduction::None : SceneReduction::Clipped;
+    if (!isWhole) noteClipping(view, choice, notes);
+    return view;
+  }
+  poolCrumbs(parts, request.maxTriangles);
+  const double share = shareOfLarge(parts, request.maxTriangles);
+  for (const Part& part : parts) {
+    isSmall(part) ? gathering.addWhole(part) : gathering.addSimplified(part, share);
+  }
+  gathering.finish();
+  view.reduction = SceneReduction::Simplified;
+  view.triangleIds.clear();
+  noteSimplifying(view, choice, gathering.errorM(), notes);
+  return view;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,74 @@
+// tools/report/track_builder.h: an avatar's poses, one after another, as the track of a view.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "articulated/avatar.h"
+#include "articulated/motion.h"
+#include "articulated/pose.h"
+#include "middleware/query.h"
+#include "middleware/scene.h"
+#include "tools/report/view_document.h"
+
+namespace foretouch::tools {
+
+/// What a document holds of poses, in doubles of all avatars' rotations together: 64 MiB.
+inline constexpr std::size_t kMaxTrackValues = std::size_t{8} << 20;
+
+/// Where links are touched at poses is asked of `scene` with `query`.
+struct TouchQuestion {
+  const Scene& scene;
+  const QueryOptions& query;
+};
+
+class TrackBuilder {
+ public:
+  /// `avatar`, and what `question` refers to, must outlive it; null: nothing is asked.
+  TrackBuilder(const Avatar& avatar, const TouchQuestion* question);
+
+  /// Poses of this avatar that `values` doubles of rotations hold.
+  [[nodiscard]] std::size_t capacity(std::size_t values) const;
+
+  /// `timeS` is later than that of the pose before. Cost: a query of one instant a link.
+  void addPose(double timeS, const Pose& pose);
+  /// Both indices are of poses that were added. All steps have a latency, or none has.
+  void addStep(std::uint32_t from, std::uint32_t to, std::optional<double> latencyUs = {});
+
+  [[nodiscard]] std::size_t poses() const { return track_.poses(); }
+  [[nodiscard]] double timeS(std::size_t pose) const { return track_.poseTimesS[pose]; }
+  /// Precondition: there is a pose.
+  [[nodiscard]] double lastTimeS() const { return track_.poseTimesS.back(); }
+  [[nodiscard]] std::size_t steps() const { return track_.stepFrom.size(); }
+  /// Does the link touch anything at this pose? False where nothing is asked.
+  [[nodiscard]] bool touches(std::size_t pose, LinkId link) const;
+  /// Around all LSS at all poses.
+  [[nodiscard]] const Eigen::AlignedBox3d& box() const { return box_; }
+
+  /// The builder is then of no further use.
+  [[nodiscard]] ViewTrack finish();
+
+ private:
+  void addTranslations(const Pose& pose);
+  void askWhatTouches(const ChainMotion& motion);
+  void growBox(const ChainMotion& motion);
+
+  const Avatar& avatar_;
+  const TouchQuestion* question_;
+  QueryScratch scratch_;
+  ChainMotion motion_;
+  std::vector<LinkState> states_;
+  Eigen::AlignedBox3d box_;
+  ViewTrack track_;
+  std::map<LinkId, std::vector<double>> moving_;  // x, y, z a pose
+};
+
+/// A pose of the track, bit for bit as it was added.
+[[nodiscard]] Pose poseOf(const ViewTrack& track, std::size_t pose);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,21 @@
+// tools/report/view_writer.h: a view document as JSON text (docs/formats.md, "View documents").
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "tools/report/view_document.h"
+
+namespace foretouch::tools {
+
+/// Takes the text piece by piece.
+using TextSink = std::function<void(const std::string& piece)>;
+
+/// Pure: the same document gives the same bytes. No "<" is in the text, so that nothing in it can
+/// end the element of a page that holds it. Memory: O(1) beside the document.
+void writeView(const ViewDocument& document, const TextSink& sink);
+
+/// `text` as a JSON string without any "<"; what is not UTF-8 becomes U+FFFD.
+[[nodiscard]] std::string viewString(const std::string& text);
+
+}  // namespace foretouch::tools
