@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
+#include <type_traits>
 #include <utility>
 
 #include "bindings/python/arguments.h"
@@ -64,7 +66,12 @@ auto ofTouch(const Read& read) {
   return [read](const Contact& contact) -> py::object {
     const LinkContact& c = contactOf(contact);
     if (!isTouching(c)) return py::none();
-    return py::cast(read(contact, c));
+    auto value = read(contact, c);
+    if constexpr (std::is_base_of_v<py::object, decltype(value)>) {
+      return value;
+    } else {
+      return py::cast(value);
+    }
   };
 }
 
