@@ -91,7 +91,8 @@ function connectView(view: View3D | null, model: Model, store: Store): void {
 
 function addControls(model: Model, store: Store): void {
   const caption = new Caption(model, store);
-  byId("view").append(caption.node, caption.legend);
+  byId("caption").append(caption.node);
+  byId("legend").append(caption.legend);
   const transport = new Transport(model, store);
   const timeline = new Timeline(model, store);
   const hasTime = model.isLive || model.end > model.start;
@@ -99,7 +100,7 @@ function addControls(model: Model, store: Store): void {
   store.subscribe((changes) => {
     transport.update(changes);
     timeline.update(changes);
-    if (changes.size > 1 || !changes.has("time")) caption.update();
+    if (!model.isLive || changes.size > 1 || !changes.has("time")) caption.update();
   });
 }
 

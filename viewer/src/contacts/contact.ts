@@ -57,12 +57,12 @@ export function firstAfter(contacts: readonly Contact[], time: number): number {
   return low;
 }
 
-/** Contacts that hold at `time`: from when they are met to the end of their step. */
+/** Contacts that hold at `time`: from when they are met to before the end of their step. */
 export function contactsAt(contacts: readonly Contact[], time: number, longestStep: number): Contact[] {
   const lit: Contact[] = [];
   for (let i = firstAfter(contacts, time) - 1; i >= 0; --i) {
     if (contacts[i].at < time - longestStep) break;
-    if (contacts[i].span.t1 >= time) lit.push(contacts[i]);
+    if (contacts[i].span.t1 > time || contacts[i].at === time) lit.push(contacts[i]);
   }
   return lit;
 }

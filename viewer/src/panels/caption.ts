@@ -4,7 +4,7 @@
 import { discreteCount } from "../contacts/discrete.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
-import { element } from "./dom.js";
+import { element, setText } from "./dom.js";
 import { story } from "./words.js";
 
 export class Caption {
@@ -12,6 +12,8 @@ export class Caption {
   readonly legend = element("ul", { class: "legend", label: "Colours in the view" });
   private readonly text = element("p", { class: "story" });
   private readonly banner = element("p", { class: "banner" });
+
+  private shownLegend = "";
 
   constructor(
     private readonly model: Model,
@@ -25,13 +27,16 @@ export class Caption {
   update(): void {
     const { contact, showsDiscrete } = this.store.state;
     this.text.hidden = contact === null;
-    this.text.textContent = contact === null ? "" : story(contact, this.model.timeZero);
+    if (contact !== null) setText(this.text, story(contact, this.model.timeZero));
     const discrete = discreteCount(this.model.contacts);
     this.banner.hidden = !showsDiscrete || discrete === null;
     if (discrete !== null) {
-      this.banner.textContent = `A check at the poses alone sees ${discrete.seen} of ${discrete.all} contacts`;
+      setText(this.banner, `A check at the poses alone sees ${discrete.seen} of ${discrete.all} contacts`);
     }
-    this.legend.replaceChildren(...this.entries().map(([kind, text]) =>
+    const entries = this.entries(), key = entries.join();
+    if (key === this.shownLegend) return;
+    this.shownLegend = key;
+    this.legend.replaceChildren(...entries.map(([kind, text]) =>
       element("li", {}, element("span", { class: `key ${kind}` }), element("span", { text })),
     ));
   }
@@ -43,6 +48,8 @@ export class Caption {
     if (this.model.avatars.length > 0) entries.push(["avatar", state.contact !== null && !state.showsDiscrete ? "avatar at the contact" : "avatar"]);
     if (this.model.contacts.length > 0 || this.model.isLive) entries.push(["touching", "link in contact"]);
     if (state.contact !== null && hasGhosts) entries.push(["before", "pose before"], ["asked", "pose asked for"]);
+    const isElsewhere = state.contact !== null && (state.showsDiscrete || state.time !== state.contact.at);
+    if (hasGhosts && isElsewhere) entries.push(["at-contact", "pose at the contact"]);
     const sweeps = this.model.avatars.some((avatar) => avatar.swept.length > 0);
     if (state.showsSwept && sweeps) entries.push(["swept", "swept volume, certified"]);
     return entries;

@@ -6,7 +6,7 @@ import { verdictNames } from "../contacts/contact.js";
 import type { Model } from "../model.js";
 import type { LinkChoice, Store } from "../state.js";
 import { definitionTable, element } from "./dom.js";
-import { length, plural, seconds, story, vector } from "./words.js";
+import { length, plural, seconds, vector } from "./words.js";
 
 type Line = readonly [string, string, string?];
 
@@ -48,7 +48,6 @@ export class Details {
     const badge = element("p", { class: "badge", text: "A discrete check misses it" });
     const parts: Node[] = [heading];
     if (contact.missedByPoses === true) parts.push(badge);
-    parts.push(element("p", { text: story(contact, this.model.timeZero) }));
     parts.push(definitionTable(this.linesOf(contact)));
     return parts;
   }

@@ -51,3 +51,8 @@ export function definitionTable(lines: readonly (readonly [string, string, strin
   }
   return table;
 }
+
+/** Touches the page only where the text is another one. */
+export function setText(node: HTMLElement, text: string): void {
+  if (node.textContent !== text) node.textContent = text;
+}

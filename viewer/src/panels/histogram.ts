@@ -44,7 +44,7 @@ export class Histogram {
       cursor: { show: false },
       scales: { x: { time: false }, y: { range: (_, __, max) => [0, Math.max(1, max) * 1.08] } },
       axes: [
-        { ...axis, splits: decades(this.bins[0]), values: (_, splits) => splits.map((v) => microseconds(10 ** v)), space: 40 },
+        { ...axis, splits: decades(this.bins[0]), values: (_, splits) => splits.map((v) => microseconds(10 ** v)), space: 40, size: 26 },
         { ...axis, size: 44 },
       ],
       series: [{}, {

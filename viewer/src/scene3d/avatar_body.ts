@@ -7,6 +7,9 @@ import { transformSize } from "../motion/chain.js";
 import type { Shape } from "../state.js";
 import { appendCapsule, emptySurface } from "./capsule.js";
 
+/** In the stencil where an avatar itself is seen. */
+export const bodyStencil = 1;
+
 /** Vertices of a whole avatar, each moved by its link alone. */
 export function bodyGeometry(avatar: Avatar, shape: Shape): THREE.BufferGeometry {
   return shape === "mesh" ? meshGeometry(avatar) : capsuleGeometry(avatar);

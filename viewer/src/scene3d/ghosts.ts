@@ -1,18 +1,19 @@
-// Ghosts: the pose before a step, the pose that was asked for, and the pose at the contact, drawn
-// through everything that is not in front of them.
+// Ghosts: the pose before a step, the pose that was asked for, and the pose at the contact. Where the
+// avatar itself is seen they are only hinted at, so that it keeps its colour.
 
 import * as THREE from "three";
-import { AvatarBody } from "./avatar_body.js";
+import { AvatarBody, bodyStencil } from "./avatar_body.js";
 import type { Palette } from "./palette.js";
 
 export type GhostName = "before" | "asked" | "atContact";
-const opacities: Record<GhostName, number> = { before: 0.28, asked: 0.42, atContact: 0.4 };
+const opacities: Record<GhostName, number> = { before: 0.3, asked: 0.5, atContact: 0.5 };
+/** Of a ghost's opacity, in front of the avatar. */
+const hint = 0.22;
 
 /** One translucent avatar. Its depth is drawn first, so that links do not show through each other. */
 export class Ghost {
-  private readonly depth: AvatarBody;
-  private readonly body: AvatarBody;
-  private readonly material: THREE.MeshLambertMaterial;
+  private readonly bodies: readonly AvatarBody[];
+  private readonly colours: readonly THREE.MeshLambertMaterial[];
 
   constructor(
     private readonly name: GhostName,
@@ -20,46 +21,55 @@ export class Ghost {
     links: number,
     parent: THREE.Object3D,
   ) {
-    const hidden = new THREE.MeshBasicMaterial({
-      colorWrite: false,
-      polygonOffset: true,
-      polygonOffsetFactor: 1,
-      polygonOffsetUnits: 2,
+    const beside = ghostMaterial(opacities[name], THREE.NotEqualStencilFunc);
+    const before = ghostMaterial(hint * opacities[name], THREE.EqualStencilFunc);
+    this.colours = [beside, before];
+    this.bodies = [depthMaterial(), beside, before].map((material, i) => {
+      const body = new AvatarBody(geometry, links, material);
+      body.mesh.renderOrder = i === 0 ? 2 : 3;
+      parent.add(body.mesh);
+      return body;
     });
-    this.material = new THREE.MeshLambertMaterial({
-      transparent: true,
-      opacity: opacities[name],
-      depthWrite: false,
-    });
-    this.depth = new AvatarBody(geometry, links, hidden);
-    this.body = new AvatarBody(geometry, links, this.material);
-    this.depth.mesh.renderOrder = 2;
-    this.body.mesh.renderOrder = 3;
-    parent.add(this.depth.mesh, this.body.mesh);
     this.hide();
   }
 
   show(world: Float64Array, origin: readonly number[]): void {
-    this.depth.place(world, origin);
-    this.body.place(world, origin);
-    this.setVisible(true);
+    for (const body of this.bodies) {
+      body.place(world, origin);
+      body.mesh.visible = true;
+    }
   }
 
   hide(): void {
-    this.setVisible(false);
+    for (const body of this.bodies) body.mesh.visible = false;
   }
 
   set geometry(geometry: THREE.BufferGeometry) {
-    this.depth.geometry = geometry;
-    this.body.geometry = geometry;
+    for (const body of this.bodies) body.geometry = geometry;
   }
 
   paint(palette: Palette): void {
-    this.material.color.set(palette[this.name]);
+    for (const material of this.colours) material.color.set(palette[this.name]);
   }
+}
 
-  private setVisible(isVisible: boolean): void {
-    this.depth.mesh.visible = isVisible;
-    this.body.mesh.visible = isVisible;
-  }
+function ghostMaterial(opacity: number, where: THREE.StencilFunc): THREE.MeshLambertMaterial {
+  return new THREE.MeshLambertMaterial({
+    transparent: true,
+    opacity,
+    depthWrite: false,
+    stencilWrite: true,
+    stencilFunc: where,
+    stencilRef: bodyStencil,
+  });
+}
+
+function depthMaterial(): THREE.MeshBasicMaterial {
+  return new THREE.MeshBasicMaterial({
+    transparent: true,
+    colorWrite: false,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 2,
+  });
 }

@@ -4,6 +4,9 @@ import type * as THREE from "three";
 import { element } from "../panels/dom.js";
 import type { Stage } from "./stage.js";
 
+/** Room that a label's own margin needs, CSS pixels. */
+const edge = 18;
+
 export interface Label {
   readonly text: string;
   readonly kind: "callout" | "dimension" | "axis";
@@ -36,7 +39,10 @@ export class Labels {
     for (const { label, node } of this.shown) {
       const at = this.stage.screenOf(label.at);
       node.hidden = at === null;
-      if (at !== null) node.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px)`;
+      if (at === null) continue;
+      // Beside its point, but never beyond the right edge.
+      const x = Math.min(at[0], this.layer.clientWidth - node.offsetWidth - edge);
+      node.style.transform = `translate(${x.toFixed(1)}px, ${at[1].toFixed(1)}px)`;
     }
   }
 }

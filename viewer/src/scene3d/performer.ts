@@ -5,7 +5,7 @@ import type { Avatar, Bounds, Vector } from "../data/document.js";
 import type { Clip, Instant } from "../motion/clip.js";
 import { Posture } from "../motion/clip.js";
 import type { Shape } from "../state.js";
-import { AvatarBody, bodyGeometry } from "./avatar_body.js";
+import { AvatarBody, bodyGeometry, bodyStencil } from "./avatar_body.js";
 import { boundsOfPosture } from "./bounds.js";
 import type { GhostName } from "./ghosts.js";
 import { Ghost } from "./ghosts.js";
@@ -29,7 +29,12 @@ export class Performer {
     this.posture = new Posture(clip);
     this.ghostPosture = new Posture(clip);
     const geometry = this.geometryOf(shape), links = avatar.links.length;
-    const material = new THREE.MeshLambertMaterial({ vertexColors: true });
+    const material = new THREE.MeshLambertMaterial({
+      vertexColors: true,
+      stencilWrite: true,
+      stencilRef: bodyStencil,
+      stencilZPass: THREE.ReplaceStencilOp,
+    });
     this.body = new AvatarBody(geometry, links, material);
     this.group.add(this.body.mesh);
     const ghost = (name: GhostName): Ghost => new Ghost(name, geometry, links, this.group);

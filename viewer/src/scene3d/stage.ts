@@ -21,7 +21,7 @@ export class Stage {
 
   /** Throws where there is no WebGL. */
   constructor(private readonly host: HTMLElement) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, stencil: true, powerPreference: "high-performance" });
     const canvas = this.renderer.domElement;
     canvas.setAttribute("aria-hidden", "true");
     host.prepend(canvas);

@@ -29,7 +29,7 @@ const afterglow = 0.3;
 /** Touch and mouse alike, CSS pixels. */
 const markerReach = 14;
 /** Of an avatar's size. */
-const arrowLength = 0.14;
+const arrowLength = 0.11;
 
 export class View3D {
   private readonly stage: Stage;
@@ -124,8 +124,9 @@ export class View3D {
       if (contact === state.contact) return MarkerState.Chosen;
       return lit.has(contact) ? MarkerState.Lit : MarkerState.Dim;
     });
-    const arrows = state.contact === null ? [...lit] : [...new Set([state.contact, ...lit])];
-    this.markers.setArrows(arrows, this.origin, arrowLength * 2 * this.avatarRadius(0));
+    const hasChosenArrow = state.contact !== null && !state.showsDiscrete;
+    const arrows = hasChosenArrow ? new Set([state.contact as Contact, ...lit]) : lit;
+    this.markers.setArrows([...arrows], this.origin, arrowLength * 2 * this.avatarRadius(0));
     const sweeping = state.contact === null ? [...lit] : [state.contact];
     this.swept.show(state.showsSwept ? sweeping : [], this.origin);
   }
@@ -196,7 +197,7 @@ export class View3D {
     const middle = this.local(centre).lerp(point, 0.55);
     return {
       centre: middle,
-      radius: Math.max(0.82 * radius, middle.distanceTo(point) + 0.2 * radius),
+      radius: Math.max(0.92 * radius, middle.distanceTo(point) + 0.2 * radius),
       point,
       normal: contact.normal === null ? null : new THREE.Vector3(...contact.normal),
       motion: after.sub(before),

@@ -1,0 +1,173 @@
+// Documents and events as they may come, right and wrong.
+
+import assert from "node:assert/strict";
+import test from "node:test";
+import { decodeDocument } from "../build/data/decode.js";
+import { decodeStatus, decodeStep } from "../build/data/events.js";
+import { allContacts, contactsAt, firstAfter, longestStep } from "../build/contacts/contact.js";
+import { discreteCount, isSeenAtPose, touchingLinks } from "../build/contacts/discrete.js";
+import { mostTelling } from "../build/contacts/telling.js";
+import { RecordedClip } from "../build/motion/recorded_clip.js";
+import { rowsOf, ticks, zoomed } from "../build/timeline/rows.js";
+import { f32, f64, inspection, live, pageWith, replay, stepEvent, u16, u32 } from "./fixture.mjs";
+
+const whole = replay({ seconds: 2, rate: 10 });
+const copy = () => structuredClone(whole);
+const decoded = (value) => decodeDocument(JSON.stringify(value));
+
+test("documents of every kind are read", () => {
+  const view = decoded(whole);
+  assert.equal(view.kind, "replay");
+  assert.equal(view.avatars[0].links.length, 16);
+  assert.equal(view.avatars[0].track.poseTimes[20], 2);
+  assert.equal(view.scene.indices.length, 3 * whole.scene.triangles_in_file);
+  assert.equal(decoded(inspection()).avatars[0].contacts.length, 0);
+  assert.equal(decoded(live()).events, "/events");
+});
+
+test("unknown keys are ignored, and what may be absent may be", () => {
+  const value = copy();
+  value.fromTheFuture = { a: 1 };
+  value.avatars[0].contacts[0].fromTheFuture = 3;
+  delete value.settings;
+  delete value.summary;
+  delete value.notes;
+  delete value.avatars[0].swept;
+  delete value.avatars[0].track.latency_us;
+  delete value.avatars[0].track.touching_at_poses;
+  assert.equal(decoded(value).avatars[0].track.touching, null);
+});
+
+/** What is done to a document, and what the sentence must name. */
+const wrong = [
+  ["format", (v) => (v.format = "other"), /is no foretouch-view document/],
+  ["version", (v) => (v.version = 2), /version 2, but this page reads version 1/],
+  ["kind", (v) => (v.kind = "film"), /kind is none of/],
+  ["title", (v) => delete v.title, /no "title"/],
+  ["base64", (v) => (v.scene.positions = { f32: "!!!!" }), /scene\.positions\.f32 is not base64/],
+  ["half a number", (v) => (v.scene.positions = { f32: "AAAAAAA=" }), /ends within a number/],
+  ["half a vertex", (v) => (v.scene.positions = f32([1, 2, 3, 4])), /ends within a vertex/],
+  ["a vertex that is not there", (v) => (v.scene.indices = u32([0, 1, 999999])), /names number 999999/],
+  ["half a triangle", (v) => (v.scene.indices = u32([0, 1])), /ends within a triangle/],
+  ["NaN", (v) => (v.scene.positions = f32([NaN, 0, 0])), /no number at 0/],
+  ["object beyond the end", (v) => (v.scene.objects[0].count = 1e9), /scene\.objects\[0\] ends at/],
+  ["bounds the wrong way", (v) => (v.scene.bounds.min = [9, 9, 9]), /ends before it begins/],
+  ["parent after child", (v) => (v.avatars[0].links[1].parent = 5), /avatars\[0\]\.links\[1\]\.parent/],
+  ["parent of itself", (v) => (v.avatars[0].links[0].parent = 0), /links\[0\]\.parent/],
+  ["no links", (v) => (v.avatars[0].links = []), /is empty/],
+  ["LSS of no link", (v) => (v.avatars[0].lss[0].link = 16), /lss\[0\]\.link/],
+  ["negative radius", (v) => (v.avatars[0].lss[0].radius = -1), /radius is -1/],
+  ["times that stand still", (v) => (v.avatars[0].track.pose_times = f64(Array(21).fill(0))), /does not increase/],
+  ["too few rotations", (v) => (v.avatars[0].track.rotations = f64([1, 0, 0, 0])), /has 4 numbers, but 1344/],
+  ["no rotation", (v) => (v.avatars[0].track.rotations = f64(Array(1344).fill(0))), /is no rotation at 0/],
+  ["no unit rotation", (v) => (v.avatars[0].track.rotations = f64(Array(1344).fill(1))), /is no rotation at 0/],
+  ["step backwards", (v) => (v.avatars[0].track.steps.to = v.avatars[0].track.steps.from), /goes from pose 0 to pose 0/],
+  ["steps over each other", (v) => (v.avatars[0].track.steps = { from: u32([0, 1]), to: u32([3, 4]) }), /before the one before it ends/],
+  ["latencies of other steps", (v) => (v.avatars[0].track.latency_us = f64([1])), /has 1 numbers/],
+  ["touching backwards", (v) => (v.avatars[0].track.touching_at_poses = { first: u32([1, ...Array(21).fill(0)]), links: u16([0]) }), /goes backwards/],
+  ["contact of no step", (v) => (v.avatars[0].contacts[0].step = 99), /contacts\[0\]\.step is 99/],
+  ["toi out of range", (v) => (v.avatars[0].contacts[0].toi = 1.5), /toi is 1.5/],
+  ["verdict", (v) => (v.avatars[0].contacts[0].verdict = "maybe"), /verdict is none of/],
+  ["contact without a point", (v) => delete v.avatars[0].contacts[0].point, /no "point"/],
+  ["short vector", (v) => (v.avatars[0].contacts[0].normal = [1, 2]), /is not three numbers/],
+  ["text for a number", (v) => (v.avatars[0].id = "0"), /avatars\[0\]\.id is not a whole number/],
+  ["list for an object", (v) => (v.scene = []), /scene is not an object/],
+];
+for (const [name, harm, sentence] of wrong) {
+  test(`refused in one sentence: ${name}`, () => {
+    const value = copy();
+    harm(value);
+    assert.throws(() => decoded(value), { name: "Malformed", message: sentence });
+  });
+}
+
+test("text that is no document is refused", () => {
+  for (const text of ["", "{", "null", "[]", "3", '"x"', '{"format":"foretouch-view"}', JSON.stringify(whole).slice(0, -9)]) {
+    assert.throws(() => decodeDocument(text), { name: "Malformed" });
+  }
+});
+
+test("whatever single value is replaced, the document is read or refused, never anything else", () => {
+  const nonsense = [null, -1, 1e300, "", "<script>", [], {}, true, { f32: 3 }];
+  const small = replay({ seconds: 1, rate: 4 });
+  let refused = 0, tried = 0;
+  const visit = (node) => {
+    for (const key of Object.keys(node)) {
+      const kept = node[key];
+      for (const value of nonsense) {
+        node[key] = value;
+        ++tried;
+        try {
+          decoded(small);
+        } catch (error) {
+          assert.equal(error.name, "Malformed", `${key}: ${error.stack}`);
+          ++refused;
+        }
+      }
+      node[key] = kept;
+      if (typeof kept === "object" && kept !== null && !(Array.isArray(kept) && kept.length > 20)) visit(kept);
+    }
+  };
+  visit(small);
+  assert.ok(refused > 0.5 * tried, `${refused} of ${tried}`);
+});
+
+test("a live document sends the page nowhere else", () => {
+  for (const address of ["https://elsewhere.example/events", "//elsewhere.example", "events", "javascript:alert(1)", "/\\elsewhere"]) {
+    assert.throws(() => decoded({ ...live(), live: { events: address } }), { name: "Malformed" });
+  }
+});
+
+test("live events are read, and refused where they are wrong", () => {
+  const { avatars } = decoded(live());
+  const event = stepEvent(0.2, 0.3, 3);
+  const read = decodeStep(JSON.stringify(event), avatars);
+  assert.equal(read.t1, 0.3);
+  assert.ok(read.contacts.length > 0);
+  for (const harm of [{ avatar: 7 }, { from: [1] }, { to: null }, { t1: 0 }, { from: event.from.map(() => 0) }, { contacts: [{}] }]) {
+    assert.throws(() => decodeStep(JSON.stringify({ ...event, ...harm }), avatars), { name: "Malformed" });
+  }
+  assert.deepEqual(decodeStatus('{"answered":5,"query_p50_us":null}'), { answered: 5 });
+  assert.throws(() => decodeStatus("nonsense"), { name: "Malformed" });
+});
+
+test("contacts hold from when they are met to the end of their step; missed ones are counted", () => {
+  const view = decoded(whole), clips = view.avatars.map((avatar) => new RecordedClip(avatar.links, avatar.track));
+  const contacts = allContacts(view.avatars, clips), longest = longestStep(contacts);
+  assert.ok(contacts.every((contact, i) => i === 0 || contacts[i - 1].at <= contact.at));
+  for (const contact of contacts) {
+    assert.ok(contactsAt(contacts, contact.at, longest).includes(contact));
+    assert.ok(!contactsAt(contacts, contact.at - 1e-6, longest).includes(contact));
+    assert.ok(!contactsAt(contacts, contact.span.t1 + 1e-6, longest).includes(contact));
+    assert.equal(contacts[firstAfter(contacts, contact.at - 1e-9)].at, contact.at);
+  }
+  const { seen, all } = discreteCount(contacts);
+  assert.equal(all - seen, whole.avatars[0].contacts.filter((contact) => contact.missed_by_poses).length);
+  assert.ok(seen > 0 && seen < all, "the fixture has both");
+  const { track } = view.avatars[0];
+  for (const contact of contacts.filter((one) => one.missedByPoses === true)) {
+    assert.ok(!isSeenAtPose(contact, track, contact.span.t0));
+    assert.ok(!touchingLinks(track, contact.span.t0).has(contact.link));
+  }
+  for (const contact of contacts.filter((one) => one.missedByPoses === false)) {
+    assert.ok(isSeenAtPose(contact, track, contact.span.t0) || isSeenAtPose(contact, track, contact.span.t1));
+  }
+  assert.equal(contacts[mostTelling(contacts, clips)].missedByPoses, true);
+});
+
+test("the timeline's rows, ticks and windows", () => {
+  const view = decoded(whole), clips = view.avatars.map((avatar) => new RecordedClip(avatar.links, avatar.track));
+  const rows = rowsOf(allContacts(view.avatars, clips), view.avatars);
+  assert.equal(rows.reduce((sum, row) => sum + row.contacts.length, 0), whole.avatars[0].contacts.length);
+  assert.deepEqual(ticks({ t0: 0, t1: 1 }, 5).times.map((t) => t.toFixed(1)), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+  assert.ok(ticks({ t0: 0, t1: 1e-9 }, 10).times.length < 20);
+  const window = zoomed({ t0: 0, t1: 10 }, 0.5, 2, { t0: 0, t1: 10 });
+  assert.deepEqual(window, { t0: 1, t1: 6 });
+  assert.deepEqual(zoomed(window, 100, 3, { t0: 0, t1: 10 }), { t0: 0, t1: 10 });
+});
+
+test("a document cannot end its own block", () => {
+  const page = pageWith('<script type="application/json" id="foretouch-view"></script>', '{"title":"</script><b>"}');
+  assert.equal(page.match(/<\/script>/g).length, 1);
+  assert.throws(() => pageWith("<p>", "{}"));
+});
