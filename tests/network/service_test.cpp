@@ -286,7 +286,9 @@ TEST(Service, ShowsWhoeverLooksEachStepThatIsAnswered) {
     EXPECT_EQ(shown[n].sequence, answer.sequenceTo);
     EXPECT_EQ(shown[n].contacts, answer.contacts.size());
     EXPECT_EQ(shown[n].toX, 0.4 * static_cast<double>(answer.sequenceTo % 4 + answer.avatar));
-    if (n > 0) EXPECT_EQ(shown[n].fromX, shown[n - 1].toX);
+    if (n > 0) {
+      EXPECT_EQ(shown[n].fromX, shown[n - 1].toX);
+    }
   }
   EXPECT_EQ(next[0], static_cast<std::size_t>(kPosesEach));
   EXPECT_EQ(next[2], static_cast<std::size_t>(kPosesEach));

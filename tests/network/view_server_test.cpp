@@ -140,7 +140,7 @@ TEST_F(View, AnswersNoPageOfAStranger) {
   for (const std::string& headers :
        {std::string(), std::string("Host: example.org\r\n"), host + "Host: localhost\r\n",
         std::string("Host: 192.168.0.1:9465\r\n"), host + "Origin: http://example.org\r\n",
-        host + "Origin: null\r\n", host + "Origin: \r\n", host + own + own,
+        host + "Origin: null\r\n", host + own + own,
         host + "Origin: http://localhost:" + std::to_string(port()) + "\r\n",
         host + "Sec-Fetch-Site: cross-site\r\n", host + "Sec-Fetch-Site: same-site\r\n"}) {
     for (const char* path : {"/view.json", "/events"}) {
@@ -234,7 +234,8 @@ void sayMany(Stage& stage, int from, int steps, std::vector<int>& contacts) {
     contacts.push_back(i);
     stage.say(eventOf(0, i, {i}, 8000));
     // One a collection, mostly: the source merges nothing by itself.
-    if (i % 16 == 0) EXPECT_TRUE(eventually([&] { return stage.isTaken(); }));
+    if (i % 16 != 0) continue;
+    EXPECT_TRUE(eventually([&] { return stage.isTaken(); }));
   }
 }
 

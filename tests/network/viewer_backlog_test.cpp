@@ -73,7 +73,7 @@ TEST(ViewerBacklog, KeepsEveryContactOfStepsThatAreSkipped) {
       said[topic].insert(said[topic].end(), contacts.begin(), contacts.end());
       steps[topic] += static_cast<std::int64_t>(event.steps);
       backlog.add(event, wholeOf(event));
-      const std::uint32_t mood = random() % 40;  // mostly asleep
+      const auto mood = random() % 40;  // mostly asleep
       if (mood == 0) drain(backlog, read);
       if (mood == 1) drain(backlog, read, 1);
     }

@@ -21,6 +21,7 @@
 #include "tools/bench/scaling_command.h"
 #include "tools/bench/stream_command.h"
 #include "tools/bench/trade_command.h"
+#include "tools/bench/view_command.h"
 
 namespace foretouch::tools {
 namespace {
@@ -145,6 +146,7 @@ void addBenchCommand(CLI::App& program, ExitCode& exit) {
   addBenchPeersCommand(*bench, exit);
   addBenchExtremesCommand(*bench, exit);
   addBenchStreamCommands(*bench, exit);
+  addBenchViewCommand(*bench, exit);
   addBenchDeadlineCommand(*bench, exit);
   addBenchTradeCommand(*bench, exit);
 }

@@ -22,27 +22,6 @@ namespace {
 constexpr double kBytesPerMb = 1024.0 * 1024.0;
 constexpr double kSecondsPerHour = 3600.0;
 
-std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds) {
-  std::vector<LoadSender> senders;
-  for (const StreamCrowd& crowd : crowds) {
-    for (int i = 0; i < crowd.avatars; ++i) {
-      senders.push_back({static_cast<std::int32_t>(senders.size()) + 1, crowd.rateHz});
-    }
-  }
-  return senders;
-}
-
-std::vector<std::string> serviceArguments(const BenchFiles& files, std::size_t avatars, int workers,
-                                          const std::string& logPath) {
-  std::vector<std::string> arguments = {"--scene", files.scenePath, "--workers",
-                                        std::to_string(workers)};
-  for (std::size_t i = 1; i <= avatars; ++i) {
-    arguments.insert(arguments.end(), {"--avatar", std::to_string(i) + "=" + files.avatarPath});
-  }
-  if (!logPath.empty()) arguments.insert(arguments.end(), {"--log", logPath});
-  return arguments;
-}
-
 template <typename Of>
 std::vector<double> sorted(const std::vector<LoadAnswer>& answers, Of of) {
   std::vector<double> values;
@@ -101,19 +80,6 @@ std::vector<BenchCell> streamRow(const StreamCrowd& crowd, const LoadOutcome& ou
   return row;
 }
 
-std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers) {
-  namespace fs = std::filesystem;
-  return {{"scene",
-           fmt::format("{}, {} triangles", fs::path(inputs.files.scenePath).filename().string(),
-                       inputs.scene.numTriangles())},
-          {"avatar", fmt::format("{}, {} links with {} LSS",
-                                 fs::path(inputs.files.avatarPath).filename().string(),
-                                 inputs.avatar.numLinks(), inputs.avatar.numLss())},
-          {"clip", fmt::format("{}, a pose a frame, forth and back",
-                               fs::path(inputs.files.motionPath).filename().string())},
-          {"workers", std::to_string(workers)}};
-}
-
 struct Sample {
   double seconds;
   std::int64_t residentBytes, openFiles;
@@ -139,6 +105,40 @@ class Watch {
 };
 
 }  // namespace
+
+std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds) {
+  std::vector<LoadSender> senders;
+  for (const StreamCrowd& crowd : crowds) {
+    for (int i = 0; i < crowd.avatars; ++i) {
+      senders.push_back({static_cast<std::int32_t>(senders.size()) + 1, crowd.rateHz});
+    }
+  }
+  return senders;
+}
+
+std::vector<std::string> serviceArguments(const BenchFiles& files, std::size_t avatars, int workers,
+                                          const std::string& logPath) {
+  std::vector<std::string> arguments = {"--scene", files.scenePath, "--workers",
+                                        std::to_string(workers)};
+  for (std::size_t i = 1; i <= avatars; ++i) {
+    arguments.insert(arguments.end(), {"--avatar", std::to_string(i) + "=" + files.avatarPath});
+  }
+  if (!logPath.empty()) arguments.insert(arguments.end(), {"--log", logPath});
+  return arguments;
+}
+
+std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers) {
+  namespace fs = std::filesystem;
+  return {{"scene",
+           fmt::format("{}, {} triangles", fs::path(inputs.files.scenePath).filename().string(),
+                       inputs.scene.numTriangles())},
+          {"avatar", fmt::format("{}, {} links with {} LSS",
+                                 fs::path(inputs.files.avatarPath).filename().string(),
+                                 inputs.avatar.numLinks(), inputs.avatar.numLss())},
+          {"clip", fmt::format("{}, a pose a frame, forth and back",
+                               fs::path(inputs.files.motionPath).filename().string())},
+          {"workers", std::to_string(workers)}};
+}
 
 Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place) {
   const StepSelection everyFrame{1, static_cast<std::int64_t>(inputs.clip.frames.size()) - 1};

@@ -28,6 +28,15 @@ struct StreamRequest {
   std::string command;  ///< As typed in.
 };
 
+/// Numbered from 1.
+[[nodiscard]] std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds);
+/// Of `foretouch serve`, for so many senders. `logPath` may be empty.
+[[nodiscard]] std::vector<std::string> serviceArguments(const BenchFiles& files,
+                                                        std::size_t avatars, int workers,
+                                                        const std::string& logPath);
+/// What the figures depend on.
+[[nodiscard]] std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers);
+
 /// The clip as its senders send it, a pose a frame.
 [[nodiscard]] Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place);
 

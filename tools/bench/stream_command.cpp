@@ -27,31 +27,6 @@ struct StreamTexts {
   std::string minutes = "2", garbage = "0.01", log;
 };
 
-/// "10x90,1x1000": ten senders of 90 poses a second, one of 1,000.
-Result<std::vector<StreamCrowd>> parseCrowds(const std::string& option, const std::string& text) {
-  std::vector<StreamCrowd> crowds;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    const std::string word = text.substr(start, end - start);
-    const std::size_t cross = word.find('x');
-    if (cross == std::string::npos) {
-      return Error{ErrorCode::Syntax, option, -1, -1,
-                   "expected AVATARSxHZ,... as in 10x90,1x1000, found '" + word + "'"};
-    }
-    const auto avatars = parseCount(option, word.substr(0, cross), kMaxAvatars);
-    if (!avatars.ok()) return avatars.error();
-    const auto rate = parsePositive(option, word.substr(cross + 1));
-    if (!rate.ok()) return rate.error();
-    if (rate.value() > kMaxRateHz) {
-      return Error{ErrorCode::OutOfRange, option, -1, -1,
-                   fmt::format("expected at most {} poses a second", kMaxRateHz)};
-    }
-    crowds.push_back({avatars.value(), rate.value()});
-    start = end + 1;
-  }
-  return crowds;
-}
-
 ExitCode runStream(const StreamTexts& texts) {
   StreamRequest request;
   Settling settle;
@@ -105,6 +80,30 @@ ExitCode runSoak(const StreamTexts& texts) {
 }
 
 }  // namespace
+
+Result<std::vector<StreamCrowd>> parseCrowds(const std::string& option, const std::string& text) {
+  std::vector<StreamCrowd> crowds;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    const std::size_t cross = word.find('x');
+    if (cross == std::string::npos) {
+      return Error{ErrorCode::Syntax, option, -1, -1,
+                   "expected AVATARSxHZ,... as in 10x90,1x1000, found '" + word + "'"};
+    }
+    const auto avatars = parseCount(option, word.substr(0, cross), kMaxAvatars);
+    if (!avatars.ok()) return avatars.error();
+    const auto rate = parsePositive(option, word.substr(cross + 1));
+    if (!rate.ok()) return rate.error();
+    if (rate.value() > kMaxRateHz) {
+      return Error{ErrorCode::OutOfRange, option, -1, -1,
+                   fmt::format("expected at most {} poses a second", kMaxRateHz)};
+    }
+    crowds.push_back({avatars.value(), rate.value()});
+    start = end + 1;
+  }
+  return crowds;
+}
 
 void addBenchStreamCommands(CLI::App& bench, ExitCode& exit) {
   const auto stream = std::make_shared<StreamTexts>();

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "articulated/text_file.h"
+#include "network/loopback.h"
 #include "network/messages.h"
 #include "tools/inputs/policy_section.h"
 #include "tools/inputs/toml_section.h"
@@ -40,14 +41,14 @@ void readSuffix(TomlSection& section, std::string& suffix) {
                      inQuotes(suffix), *section.find("suffix"));
 }
 
-/// Empty, or a host and a port.
-void readAddress(TomlSection& section, const std::string& key, TomlReading& reading,
-                 std::string& address) {
-  section.text(key.c_str(), address);
+/// Empty, or what `parse` takes.
+void readAddress(TomlSection& section, const char* key, TomlReading& reading, std::string& address,
+                 Result<HttpAddress> (*parse)(const std::string&, const std::string&)) {
+  section.text(key, address);
   if (address.empty()) return;
-  const auto parsed = parseHttpAddress("[service] " + key, address);
+  const auto parsed = parse(std::string("[service] ") + key, address);
   if (parsed.ok()) return;
-  reading.fail(parsed.error().code, lineOf(*section.find(key.c_str())),
+  reading.fail(parsed.error().code, lineOf(*section.find(key)),
                parsed.error().file + ": " + parsed.error().message);
 }
 
@@ -63,8 +64,8 @@ void readService(TomlSection section, TomlReading& reading, ServeConfig& config)
   section.integer("budget_us", 0, kMaxServeBudgetUs, config.budgetUs);
   section.text("log", config.log);
   config.log = resolved(config.log, reading.file);
-  readAddress(section, "http", reading, config.http);
-  readAddress(section, "view", reading, config.view);
+  readAddress(section, "http", reading, config.http, parseHttpAddress);
+  readAddress(section, "view", reading, config.view, parseViewAddress);
 }
 
 void readScene(TomlSection section, TomlReading& reading, ServeConfig& config) {
@@ -157,6 +158,15 @@ Result<ServeConfig> readServeConfig(const std::string& path) {
   const auto text = readWholeFile(path, kMaxServeConfigBytes);
   if (!text.ok()) return text.error();
   return parseServeConfig(text.value(), path);
+}
+
+Result<HttpAddress> parseViewAddress(const std::string& option, const std::string& text) {
+  auto address = parseHttpAddress(option, text);
+  if (!address.ok() || isLoopback(address.value().host)) return address;
+  return Error{
+      ErrorCode::OutOfRange, option, -1, -1,
+      "expected localhost or an address of this machine alone (from others: ssh -L), found " +
+          inQuotes(text)};
 }
 
 Result<HttpAddress> parseHttpAddress(const std::string& option, const std::string& text) {

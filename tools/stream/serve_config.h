@@ -85,5 +85,8 @@ struct HttpAddress {
 /// `option` is what errors call it.
 [[nodiscard]] Result<HttpAddress> parseHttpAddress(const std::string& option,
                                                    const std::string& text);
+/// The same of this machine alone.
+[[nodiscard]] Result<HttpAddress> parseViewAddress(const std::string& option,
+                                                   const std::string& text);
 
 }  // namespace foretouch::tools

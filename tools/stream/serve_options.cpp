@@ -54,9 +54,14 @@ Result<std::vector<ServedAvatar>> parseAvatars(const std::vector<std::string>& t
   return avatars;
 }
 
-/// Not split yet: it is shown as it was given.
-Result<std::string> parseAddress(const std::string& option, const std::string& text) {
-  const auto address = parseHttpAddress(option, text);
+/// As it was given, once it is seen to be an address.
+Result<std::string> parseHttp(const std::string& text) {
+  const auto address = parseHttpAddress("--http", text);
+  if (!address.ok()) return address.error();
+  return text;
+}
+Result<std::string> parseView(const std::string& text) {
+  const auto address = parseViewAddress("--view", text);
   if (!address.ok()) return address.error();
   return text;
 }
@@ -73,10 +78,8 @@ void settleService(const ServeTexts& texts, ServeConfig& config, Settling& settl
         [](const std::string& text) { return parseCount("--queue", text, kMaxServeQueue); });
   given(config.budgetUs, texts.budgetUs,
         [](const std::string& text) { return parseBudgetUs("--budget-us", text); });
-  given(config.http, texts.http,
-        [](const std::string& text) { return parseAddress("--http", text); });
-  given(config.view, texts.view,
-        [](const std::string& text) { return parseAddress("--view", text); });
+  given(config.http, texts.http, parseHttp);
+  given(config.view, texts.view, parseView);
   if (!texts.log.empty()) config.log = texts.log;
 }
 

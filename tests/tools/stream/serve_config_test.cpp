@@ -45,6 +45,7 @@ TEST(ServeConfig, SmallestFileHasTheDefaults) {
   EXPECT_EQ(c.budgetUs, 0);
   EXPECT_EQ(c.log, "");
   EXPECT_EQ(c.http, "");
+  EXPECT_EQ(c.view, "");
   EXPECT_EQ(c.scene, "etc/room.glb");
   EXPECT_EQ(c.sceneScale, 1.0);
   EXPECT_EQ(c.sceneUp, UpAxis::Y);
@@ -71,6 +72,7 @@ queue = 65536
 budget_us = 2_500
 log = "/var/lib/foretouch/a.lcmlog"
 http = "127.0.0.1:9464"
+view = "[::1]:9465"
 [scene]
 file = "../room.ply"
 scale = 1e-2
@@ -108,6 +110,7 @@ file = "/srv/zero.avatar.json"
   EXPECT_EQ(c.budgetUs, 2500);
   EXPECT_EQ(c.log, "/var/lib/foretouch/a.lcmlog");
   EXPECT_EQ(c.http, "127.0.0.1:9464");
+  EXPECT_EQ(c.view, "[::1]:9465");
   EXPECT_EQ(c.scene, "etc/../room.ply");
   EXPECT_EQ(c.sceneScale, 0.01);
   EXPECT_EQ(c.sceneUp, UpAxis::Z);
@@ -215,6 +218,16 @@ TEST(ServeConfig, TextsThatCannotBeUsedAreRefused) {
                                 "a b:1", "127.0.0.1:-1", "http://127.0.0.1:80"}) {
     EXPECT_TRUE(has(errorOf("service", std::string("http = \"") + bad + "\""),
                     ":2: [service] http: expected a host and a port"))
+        << bad;
+  }
+}
+
+TEST(ServeConfig, AViewIsForThisMachineAlone) {
+  EXPECT_TRUE(has(errorOf("service", "view = \"9465\""), "[service] view: expected a host"));
+  for (const char* const bad :
+       {"0.0.0.0:9465", "192.168.0.1:9465", "[::]:9465", "example.org:9465"}) {
+    EXPECT_TRUE(has(errorOf("service", std::string("view = \"") + bad + "\""),
+                    ":2: [service] view: expected localhost or an address of this machine"))
         << bad;
   }
 }

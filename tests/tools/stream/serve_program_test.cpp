@@ -162,6 +162,8 @@ TEST(ServeProgram, RefusesBadOptionsByName) {
       {{"--queue", "many"}, "--queue: expected"},
       {{"--budget-us", "-3"}, "--budget-us: expected"},
       {{"--http", "9464"}, "--http: expected a host and a port"},
+      {{"--view", "9465"}, "--view: expected a host and a port"},
+      {{"--view=0.0.0.0:9465"}, "--view: expected localhost or an address of this machine"},
       {{"--avatar", "3=" + world.folder / "man.json"}, "--avatar: avatar 3 is given twice"},
       {{"--suffix", "a b"}, "--suffix: expected printable ASCII"},
       {{"--suffix", std::string(64, 'x')}, "--suffix: expected"},

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/network/http_client.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tools/program_run.h"
@@ -301,6 +302,89 @@ TEST_F(StreamPrograms, EndWhenToldTo) {
     const Ended ended = run.ended();
     EXPECT_EQ(ended.exitCode, 0) << words[0] << ended.err;
   }
+}
+
+/// A contact as listeners and viewers both tell of it: whose, when, and what is touched how.
+std::string contactKey(const json& avatar, const json& sequence, const std::string& link,
+                       json contact) {
+  for (const char* const field : {"link", "sequence", "time"}) contact.erase(field);
+  return json{avatar, sequence, link, contact}.dump();
+}
+
+/// The data of events of this name.
+std::vector<json> eventsIn(const std::string& text, const std::string& name) {
+  std::vector<json> events;
+  const std::string begin = "event: " + name + "\ndata: ";
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    const std::size_t from = at + begin.size();
+    const std::size_t end = text.find("\n\n", from);
+    if (end == std::string::npos) break;
+    events.push_back(json::parse(text.substr(from, end - from)));
+  }
+  return events;
+}
+
+TEST_F(StreamPrograms, ShowViewersEveryContactThatListenersHear) {
+  const std::vector<std::string> replayed = replayedClip();
+  const auto serving = service({"--view"});
+  constexpr std::uint16_t kPort = 9465;  // the documented one
+  EXPECT_TRUE(holds(serving->outSoFar(), "http://127.0.0.1:9465/")) << serving->outSoFar();
+  const std::string page = get(kPort, "/");
+  EXPECT_EQ(statusOf(page), 200);
+  EXPECT_TRUE(holds(page, "<!doctype html>") || holds(page, "<!DOCTYPE html>"));
+  const std::string answer = get(kPort, "/view.json");
+  ASSERT_EQ(statusOf(answer), 200);
+  const json document = json::parse(answer.substr(answer.find("\r\n\r\n") + 4));
+  EXPECT_EQ(document["format"], "foretouch-view");
+  EXPECT_EQ(document["kind"], "live");
+  EXPECT_EQ(document["live"]["events"], "/events");
+  const json links = document["avatars"][0]["links"];
+  EXPECT_FALSE(document["scene"]["objects"].empty());
+
+  Connection viewer(kPort);
+  viewer.send("GET /events HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  std::string seen = viewer.receivedUpTo("event: status\ndata: ");
+  const auto listening = listener(replayed.size());
+  // Slower than the bound of shown steps, then many times as fast.
+  ASSERT_EQ(runForetouch(publishWords({"--url", kUrl, "--speed", "12"})).exitCode, 0);
+  const Ended heard = listening->ended();
+  ASSERT_EQ(heard.exitCode, 0) << heard.err;
+  const std::vector<std::string> lines = answersIn(heard.out);
+  ASSERT_EQ(lines.size(), replayed.size());
+  const json last = json::parse(lines.back());
+  seen += viewer.receivedUpTo("\"sequence\":" + last["sequence"][1].dump() + ",\"utime\"");
+  seen += viewer.receivedUpTo("event: status");
+  expectEndsInOrder(*serving);  // with the viewer there
+  seen += viewer.received();
+
+  std::vector<std::string> told, shown;
+  for (const std::string& line : lines) {
+    const json heardOf = json::parse(line);
+    for (const json& contact : heardOf["contacts"]) {
+      told.push_back(
+          contactKey(heardOf["avatar"], heardOf["sequence"][1], contact["link"], contact));
+    }
+  }
+  std::size_t steps = 0, events = 0;
+  for (const json& step : eventsIn(seen, "step")) {
+    ++events;
+    steps += 1 + step["skipped"].get<std::size_t>();
+    EXPECT_EQ(step["from"].size(), 7 * links.size());
+    EXPECT_EQ(step["to"].size(), 7 * links.size());
+    EXPECT_LE(step["t0"].get<double>(), step["t1"].get<double>());
+    for (const json& contact : step["contacts"]) {
+      shown.push_back(contactKey(step["avatar"], contact["sequence"],
+                                 links[contact["link"].get<std::size_t>()]["name"], contact));
+    }
+  }
+  EXPECT_EQ(shown, told);  // in order, too
+  EXPECT_GT(told.size(), 10u);
+  EXPECT_EQ(steps, lines.size());
+  EXPECT_LT(events, steps);  // some were skipped
+  const std::vector<json> statuses = eventsIn(seen, "status");
+  ASSERT_GT(statuses.size(), 1u);
+  EXPECT_EQ(statuses.front()["viewers"], 1);
+  EXPECT_EQ(statuses.back()["answered"], lines.size());
 }
 
 TEST_F(StreamPrograms, NameAUrlThatIsNone) {
