@@ -91,6 +91,10 @@ ft_status takeOptions(const ft_query_options* given, ft_query& query) {
 using namespace foretouch;
 using namespace foretouch::c;
 
+ft_status ft_pose_init(ft_pose* pose, size_t size) {
+  return initStruct(__func__, pose, size, "ft_pose", ft_pose{});
+}
+
 ft_status ft_query_create(const ft_scene* scene, const ft_avatar* avatar,
                           const ft_query_options* options, ft_query** query) {
   return guarded(__func__, [&]() -> ft_status {

@@ -20,6 +20,7 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"articulated", {"lss"}},
     {"tessellation", {"articulated", "lss"}},
     {"middleware", {"tessellation", "articulated", "lss"}},
+    {"bindings", {"middleware", "tessellation", "articulated", "lss"}},
     {"network", {"middleware", "tessellation", "articulated", "lss"}},
     {"tools", {"network", "middleware", "tessellation", "articulated", "lss"}},
     {"bindings", {"middleware", "tessellation", "articulated", "lss"}},

@@ -1,11 +1,11 @@
 /* A forearm of 30 cm swings about the elbow, towards a pole's edge: first as one step of a quarter
  * turn, then in eight steps, as a stream of poses comes in.
- *   cc swing.c -lforetouch -lm        or        cc swing.c $(pkg-config --cflags --libs foretouch) -lm */
+ *   cc swing.c -lforetouch -lm        or        cc swing.c $(pkg-config --cflags --libs foretouch)
+ * -lm */
+#include <foretouch/foretouch.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-#include <foretouch/foretouch.h>
 
 static const char* const kVerdicts[] = {"clear", "contact", "starts_in_contact", "undecided"};
 

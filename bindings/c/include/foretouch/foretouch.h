@@ -1,30 +1,31 @@
 /* foretouch.h: Foretouch for programs that do not speak C++: what an articulated body meets between
- * two poses, when, where and along which normal. C99 and C++. One page about its use: docs/c-api.md.
+ * two poses, when, where and along which normal. C99 and C++. One page about its use:
+ * docs/c-api.md.
  *
- * Units and frames. Metres, radians, doubles; right-handed world W, +Y up; t is normalised, 0 at the
- * earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. What engines have
- * instead: ft_positions_from_floats() and its three sisters.
+ * Units and frames. Metres, radians, doubles; right-handed world W, +Y up; t is normalised, 0 at
+ * the earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. What engines
+ * have instead: ft_positions_from_floats() and its three sisters.
  *
  * Errors. Every function that can fail gives an ft_status: FT_OK, or what was wrong, and then
  * ft_last_error() says where and what was expected. A function that fails writes nothing but, where
- * it has one, the required count, and sets the handle that it was to make to NULL. Arguments are not
- * trusted: NULL, NaN, wrong sizes, counts beyond the limits and handles of another kind are refused.
- * What cannot be checked is the caller's word: pointers point to as much as the counts say, and a
- * handle is not used after it was destroyed. Nothing aborts, no C++ exception gets out.
+ * it has one, the required count, and NULL for the handle or text it was to give. Arguments are
+ * not trusted: NULL, NaN, wrong sizes, counts beyond the limits and handles of another kind are
+ * refused. What cannot be checked is the caller's word: pointers point to as much as the counts
+ * say, and a handle is not used after it was destroyed. Nothing aborts, no C++ exception gets out.
  *
  * Memory. Handles are made by ft_*_create*() and released by ft_*_destroy(), in any order: a query
- * and a clip keep what they were made of. Arrays are the caller's, in both directions; nothing keeps
- * a pointer into them. A function that fills an array takes its capacity in elements and gives the
- * count that it has in *required (which may be NULL): with too little room it writes nothing and
- * gives FT_ERROR_BUFFER_TOO_SMALL; capacity 0 with a NULL array only asks.
+ * and a clip keep what they were made of. Arrays are the caller's, in both directions; nothing
+ * keeps a pointer into them. A function that fills an array takes its capacity in elements and
+ * gives the count that it has in *required (which may be NULL): with too little room it writes
+ * nothing and gives FT_ERROR_BUFFER_TOO_SMALL; capacity 0 with a NULL array only asks.
  *
- * Threads. Scenes, avatars and clips never change: any number of threads may use one. A query is for
- * one thread at a time: make one a thread and avatar. ft_last_error() is each thread's own.
+ * Threads. Scenes, avatars and clips never change: any number of threads may use one. A query is
+ * for one thread at a time: make one a thread and avatar. ft_last_error() is each thread's own.
  *
  * Versions. A struct's first field is its size, which the ft_*_init() function of the struct or the
- * caller sets. Fields are only ever added at the end, with zero for their default: a smaller size is
- * an older program's, whose missing fields have defaults; a larger one is a newer program's, accepted
- * where all that is unknown here is zero. Structs without a size never change. */
+ * caller sets. Fields are only ever added at the end, with zero for their default: a smaller size
+ * is an older program's, whose missing fields have defaults; a larger one is a newer program's,
+ * accepted where all that is unknown here is zero. Structs without a size never change. */
 #ifndef FORETOUCH_FORETOUCH_H
 #define FORETOUCH_FORETOUCH_H
 
@@ -56,10 +57,10 @@ typedef int32_t ft_status;
 enum {
   FT_OK = 0,
   /* Of the call itself. */
-  FT_ERROR_NULL_ARGUMENT = 1,    /* NULL where something is needed. */
-  FT_ERROR_WRONG_HANDLE = 2,     /* No handle of this kind. */
-  FT_ERROR_STRUCT_SIZE = 3,      /* A size that no version of the struct has, or its newer fields. */
-  FT_ERROR_ABI_VERSION = 4,      /* The library is older than the header. */
+  FT_ERROR_NULL_ARGUMENT = 1, /* NULL where something is needed. */
+  FT_ERROR_WRONG_HANDLE = 2,  /* No handle of this kind. */
+  FT_ERROR_STRUCT_SIZE = 3,   /* A size that no version of the struct has, or its newer fields. */
+  FT_ERROR_ABI_VERSION = 4,   /* The library is older than the header. */
   FT_ERROR_BUFFER_TOO_SMALL = 5, /* *required says how much room is needed. */
   FT_ERROR_NO_STEP = 6,          /* Asks about a step before the first one was answered. */
   FT_ERROR_OUT_OF_MEMORY = 7,
@@ -74,10 +75,10 @@ enum {
   FT_ERROR_OUT_OF_RANGE = 106,   /* A finite number outside its legal range. */
   FT_ERROR_UNKNOWN_NAME = 107,
   FT_ERROR_DUPLICATE_NAME = 108,
-  FT_ERROR_BAD_HIERARCHY = 109, /* A parent after its child. */
-  FT_ERROR_EMPTY = 110,         /* No joints, no frames, no triangles. */
-  FT_ERROR_MISMATCH = 111,      /* Two inputs do not fit each other. */
-  FT_ERROR_IMPORT_FAILED = 112, /* The importer refused the file. */
+  FT_ERROR_BAD_HIERARCHY = 109,  /* A parent after its child. */
+  FT_ERROR_EMPTY = 110,          /* No joints, no frames, no triangles. */
+  FT_ERROR_MISMATCH = 111,       /* Two inputs do not fit each other. */
+  FT_ERROR_IMPORT_FAILED = 112,  /* The importer refused the file. */
   FT_ERROR_IMPORT_CRASHED = 113, /* The importer died or ran into its limits. */
   FT_ERROR_DEVICE_FAILED = 114   /* Embree refused to work. */
 };
@@ -95,14 +96,15 @@ FT_API ft_status ft_check_abi(uint32_t header_version);
 /* To be asked once, before all else: does the library that was found know what this header says? */
 #define FT_CHECK_ABI() ft_check_abi(FT_ABI_VERSION)
 
-/* ---- Scenes: static triangles ----------------------------------------------------------------- */
+/* ---- Scenes: static triangles -----------------------------------------------------------------
+ */
 
 typedef struct ft_scene ft_scene;
 
 typedef struct ft_scene_arrays {
   uint32_t size;
-  uint32_t reserved;        /* 0 */
-  const double* positions;  /* x, y, z a vertex, W, metres, |coordinate| <= 1e7 */
+  uint32_t reserved;       /* 0 */
+  const double* positions; /* x, y, z a vertex, W, metres, |coordinate| <= 1e7 */
   size_t vertex_count;
   const uint32_t* indices; /* 3 a triangle; NULL: three vertices a triangle, in their order */
   size_t triangle_count;   /* 1 to 50,000,000 */
@@ -156,7 +158,8 @@ FT_API ft_status ft_scene_object_name(const ft_scene* scene, int32_t object, con
 /* NULL is legal. Not while another thread uses this handle. */
 FT_API void ft_scene_destroy(ft_scene* scene);
 
-/* ---- Avatars: joints, and LSS (capsules) that bound the links that move with them --------------- */
+/* ---- Avatars: joints, and LSS (capsules) that bound the links that move with them ---------------
+ */
 
 typedef struct ft_avatar ft_avatar;
 
@@ -212,7 +215,8 @@ FT_API ft_status ft_avatar_rest_pose(const ft_avatar* avatar, double* rotations,
                                      double* translations, size_t capacity, size_t* required);
 FT_API void ft_avatar_destroy(ft_avatar* avatar);
 
-/* ---- Poses and clips ---------------------------------------------------------------------------- */
+/* ---- Poses and clips ----------------------------------------------------------------------------
+ */
 
 /* Every joint in its parent's frame, a root in W. */
 typedef struct ft_pose {
@@ -231,7 +235,8 @@ enum {
   FT_AXES_Z_UP_LEFT = 2   /* centimetres, left-handed: Unreal. (x, y, z) becomes (x, z, y) / 100 */
 };
 
-/* `count` triples or quadruples; NULL and count 0 are legal. Non-finite numbers pass through. O(n). */
+/* `count` triples or quadruples; NULL and count 0 are legal. Non-finite numbers pass through. O(n).
+ */
 FT_API ft_status ft_positions_from_floats(const float* xyz, size_t count, int32_t axes,
                                           double* positions);
 FT_API ft_status ft_positions_to_floats(const double* positions, size_t count, int32_t axes,
@@ -270,7 +275,8 @@ FT_API ft_status ft_clip_pose(const ft_clip* clip, size_t frame, double* rotatio
                               double* translations, size_t capacity, size_t* required);
 FT_API void ft_clip_destroy(ft_clip* clip);
 
-/* ---- Queries: what does each link meet first? ---------------------------------------------------- */
+/* ---- Queries: what does each link meet first?
+ * ---------------------------------------------------- */
 
 typedef struct ft_query ft_query;
 
@@ -324,7 +330,8 @@ FT_API ft_status ft_query_set_options(ft_query* query, const ft_query_options* o
 /* Answers the motion from one pose to another: every joint turns at constant rate on the shorter
  * arc, translations are linear, links follow down the chain. `from` NULL: from where the last step
  * ended (FT_ERROR_NO_STEP where none has). Once memory has grown to what the scene asks for,
- * allocates nothing. A step that fails is as if it had not been asked. Cost: docs/performance.md. */
+ * allocates nothing. A step that fails is as if it had not been asked. Cost: docs/performance.md.
+ */
 FT_API ft_status ft_query_step(ft_query* query, const ft_pose* from, const ft_pose* to);
 
 enum {
@@ -372,7 +379,7 @@ FT_API ft_status ft_query_contacts(const ft_query* query, ft_contact* contacts, 
 
 /* Where a link is at one t, in W, and how fast, per unit of t. */
 typedef struct ft_transform {
-  double rotation[4], translation[3];        /* w, x, y, z; metres */
+  double rotation[4], translation[3]; /* w, x, y, z; metres */
   double angular_velocity[3], velocity[3];
 } ft_transform;
 

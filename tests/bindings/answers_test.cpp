@@ -1,0 +1,257 @@
+// The C library answers what the C++ one does, bit for bit. They are two copies of the code in this
+// program: libforetouch holds its own and shows none of it.
+#include <cstring>
+#include <optional>
+
+#include "middleware/query.h"
+#include "tests/bindings/c_world.h"
+#include "tests/middleware/mesh_body.h"
+#include "tests/middleware/random_scene.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using test::Random;
+
+/// The same options, for both.
+struct Options {
+  QueryOptions cxx;
+  ft_query_options c = test::initialised(ft_query_options_init);
+  std::vector<ft_ignored_pair> ignored;
+  std::vector<ft_link_policy> policies;
+
+  void ignore(LinkId link, ObjectId object) {
+    cxx.ignored.push_back({link, object});
+    ignored.push_back({link, object});
+    c.ignored = ignored.data();
+    c.ignored_count = ignored.size();
+  }
+  void policy(double tolerance, bool isExact) {
+    cxx.linkPolicies.push_back({tolerance, isExact ? Fidelity::Exact : Fidelity::Link});
+    policies.push_back({tolerance, isExact ? FT_FIDELITY_EXACT : FT_FIDELITY_LINK, 0});
+    c.policies = policies.data();
+    c.policy_count = policies.size();
+  }
+};
+
+struct Rung {
+  Fidelity cxx;
+  std::int32_t c;
+};
+constexpr Rung kRungs[] = {{Fidelity::Link, FT_FIDELITY_LINK},
+                           {Fidelity::Limb, FT_FIDELITY_LIMB},
+                           {Fidelity::Avatar, FT_FIDELITY_AVATAR},
+                           {Fidelity::Ellipsoid, FT_FIDELITY_ELLIPSOID},
+                           {Fidelity::Exact, FT_FIDELITY_EXACT}};
+
+/// Of one step, all that can be asked, for links that differ from case to case.
+void draw(Random& random, const test::RandomBody& body, int objects, Options& options) {
+  const Rung& rung = kRungs[random.below(5)];
+  options.cxx.fidelity = rung.cxx;
+  options.c.fidelity = rung.c;
+  options.cxx.tolerance = options.c.tolerance = random.magnitude(1e-6, 1e-2);
+  if (random.chance(0.2)) {
+    options.cxx.workBudget = options.c.work_budget = static_cast<std::uint64_t>(random.below(300));
+  }
+  if (random.chance(0.2)) {
+    options.cxx.scope = Scope::FirstOfAvatar;
+    options.c.scope = FT_SCOPE_FIRST_OF_AVATAR;
+  }
+  for (int i = random.below(3); i > 0; --i) {
+    options.ignore(random.below(body.avatar.numLinks()), random.below(objects + 1) - 1);
+  }
+  const bool isOfLinks = rung.cxx == Fidelity::Link || rung.cxx == Fidelity::Exact;
+  for (LinkId link = 0; isOfLinks && random.chance(0.99) && link < body.avatar.numLinks(); ++link) {
+    if (link == 0 && random.chance(0.7)) break;  // no policies at all
+    options.policy(random.magnitude(1e-6, 1e-2), random.chance(0.5));
+  }
+  if (options.policies.size() == static_cast<std::size_t>(body.avatar.numLinks())) return;
+  options.cxx.linkPolicies.clear();
+  options.c.policies = nullptr;
+  options.c.policy_count = 0;
+}
+
+void expectSameVector(const double (&c)[3], const Vector3d& cxx) {
+  EXPECT_EQ(std::memcmp(c, cxx.data(), sizeof c), 0) << c[0] << " and " << cxx.x();
+}
+
+void expectSame(const ft_contact& c, const LinkContact& cxx, const Scene& scene) {
+  EXPECT_EQ(c.size, sizeof c);
+  EXPECT_EQ(c.link, cxx.link);
+  EXPECT_EQ(c.verdict, static_cast<int>(cxx.verdict));
+  EXPECT_EQ(c.reason, static_cast<int>(cxx.reason));
+  EXPECT_EQ(c.toi, cxx.toi);
+  EXPECT_EQ(c.free_until, cxx.freeUntil);
+  EXPECT_EQ(c.separation, cxx.separation);
+  EXPECT_EQ(c.penetration, cxx.penetration);
+  expectSameVector(c.point_scene, cxx.p_WScene);
+  expectSameVector(c.point_link, cxx.p_WLink);
+  expectSameVector(c.normal, cxx.nhat_SL_W);
+  EXPECT_EQ(c.triangle, cxx.triangle);
+  EXPECT_EQ(c.object, cxx.triangle < 0 ? -1 : scene.object(cxx.triangle));
+  EXPECT_EQ(c.lss, cxx.lss);
+  EXPECT_EQ(c.link_triangle, cxx.linkTriangle);
+  EXPECT_EQ(c.link_feature, static_cast<int>(cxx.linkFeature));
+  EXPECT_EQ(c.scene_feature, static_cast<int>(cxx.sceneFeature));
+}
+
+/// Those not clear, in the order of reports.
+void expectReported(const ft_query* query, const StepContacts& step, const Scene& scene) {
+  std::vector<LinkContact> expected;
+  for (const LinkContact& contact : step.links) {
+    if (contact.verdict != Verdict::Clear) expected.push_back(contact);
+  }
+  std::sort(expected.begin(), expected.end(), isReportedBefore);
+  std::size_t count = 0;
+  ASSERT_EQ(ft_query_contacts(query, nullptr, 0, &count), FT_OK);
+  ASSERT_EQ(count, expected.size());
+  std::vector<ft_contact> contacts(count + 1);
+  contacts[0].size = sizeof(ft_contact);
+  ASSERT_EQ(ft_query_contacts(query, contacts.data(), count, &count), FT_OK);
+  for (std::size_t i = 0; i < count; ++i) expectSame(contacts[i], expected[i], scene);
+  EXPECT_EQ(contacts[count].size, count == 0 ? sizeof(ft_contact) : 0u) << "written past the end";
+}
+
+void expectSameCounters(const ft_query* query, const QueryCounters& cxx) {
+  ft_counters c{};
+  c.size = sizeof c;
+  ASSERT_EQ(ft_query_counters(query, &c), FT_OK);
+  EXPECT_EQ(c.nodes, cxx.nodes);
+  EXPECT_EQ(c.leaves, cxx.leaves);
+  EXPECT_EQ(c.candidates, cxx.candidates);
+  EXPECT_EQ(c.cluster_steps, cxx.clusterSteps);
+  EXPECT_EQ(c.lane_steps, cxx.laneSteps);
+  EXPECT_EQ(c.part_steps, cxx.partSteps);
+  EXPECT_EQ(c.advancements, cxx.advancements);
+  EXPECT_EQ(c.hierarchy_tests, cxx.hierarchyTests);
+  EXPECT_EQ(c.plane_tests, cxx.planeTests);
+  EXPECT_EQ(c.leaf_tests, cxx.leafTests);
+  EXPECT_EQ(c.states, cxx.states);
+  EXPECT_EQ(c.rung_tests, cxx.rungTests);
+}
+
+/// Where links are, and what a discrete check says, at one t.
+void expectSameStates(ft_query* query, const test::RandomBody& body, const ChainMotion& motion,
+                      double t, const Scene& scene, const QueryOptions& options) {
+  std::vector<ft_transform> transforms(static_cast<std::size_t>(motion.numLinks()));
+  ASSERT_EQ(ft_motion_transforms(query, t, transforms.data(), transforms.size(), nullptr), FT_OK);
+  QueryScratch scratch;
+  for (LinkId link = 0; link < motion.numLinks(); ++link) {
+    const LinkState state = motion.stateAt(link, t);
+    const ft_transform& c = transforms[static_cast<std::size_t>(link)];
+    expectSameVector(c.translation, state.p_WL);
+    expectSameVector(c.velocity, state.v_WL);
+    expectSameVector(c.angular_velocity, state.w_WL);
+    const Quaternion q(c.rotation[0], c.rotation[1], c.rotation[2], c.rotation[3]);
+    EXPECT_LT((q.toRotationMatrix() - state.R_WL).norm(), 1e-14);
+    std::int32_t touches = -1;
+    ASSERT_EQ(ft_touches_at(query, link, t, &touches), FT_OK);
+    EXPECT_EQ(touches, touchesAt(body.avatar, motion, link, t, scene, options, scratch) ? 1 : 0);
+  }
+}
+
+TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
+  constexpr int kCases = 400;
+  int contacts = 0, undecided = 0, clear = 0, exact = 0;
+  for (int i = 0; i < kCases; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    Random random(static_cast<std::uint64_t>(i));
+    constexpr int kObjects = 4;
+    const Vector3d center =
+        random.chance(0.3) ? Vector3d(1e4 * random.direction()) : Vector3d(0, 0, 0);
+    const RawScene raw = test::clutter(random, 700, kObjects, center);
+    const Scene scene = Scene::build(raw).value();
+    const test::RandomBody body = test::bodyInClutter(random, 1 + random.below(8), center);
+    const auto mesh = test::meshWithin(body.avatar, random, 6, 0.9);
+    Options options;
+    draw(random, body, kObjects, options);
+    options.cxx.surface = AvatarSurface::build(body.avatar, mesh).value();
+
+    const auto query =
+        test::makeQuery(test::makeScene(raw), test::makeAvatar(body.avatar, mesh), &options.c);
+    ASSERT_NE(query, nullptr);
+    const test::PoseArrays from(body.from), to(body.to);
+    const ft_pose first = from.view(), second = to.view();
+    ASSERT_EQ(ft_query_step(query.get(), &first, &second), FT_OK) << ft_last_error();
+    const ChainMotion motion = body.motion();
+    const StepContacts step = firstContacts(body.avatar, motion, scene, options.cxx).value();
+
+    std::vector<ft_contact> links(step.links.size());
+    links[0].size = sizeof(ft_contact);
+    std::size_t count = 0;
+    ASSERT_EQ(ft_query_links(query.get(), links.data(), links.size(), &count), FT_OK);
+    ASSERT_EQ(count, step.links.size());
+    for (std::size_t link = 0; link < count; ++link) {
+      expectSame(links[link], step.links[link], scene);
+      contacts += links[link].verdict == FT_VERDICT_CONTACT;
+      undecided += links[link].verdict == FT_VERDICT_UNDECIDED;
+      clear += links[link].verdict == FT_VERDICT_CLEAR;
+      exact += links[link].link_triangle >= 0;
+    }
+    expectReported(query.get(), step, scene);
+    expectSameCounters(query.get(), step.counters);
+    expectSameStates(query.get(), body, motion, random.uniform(0, 1), scene, options.cxx);
+  }
+  EXPECT_GT(contacts, kCases / 12);
+  EXPECT_GT(undecided, kCases / 10);
+  EXPECT_GT(clear, kCases / 2);
+  EXPECT_GT(exact, kCases / 10);
+}
+
+TEST(CAnswers, FollowAStreamOfPosesFromWhereTheLastStepEnded) {
+  Random random(7);
+  const RawScene raw = test::clutter(random, 200, 2, Vector3d::Zero());
+  const test::RandomBody body = test::bodyInClutter(random, 6, Vector3d::Zero());
+  const auto query = test::makeQuery(test::makeScene(raw), test::makeAvatar(body.avatar));
+  const Scene scene = Scene::build(raw).value();
+  const test::PoseArrays from(body.from), to(body.to);
+  const ft_pose first = from.view(), second = to.view();
+  ASSERT_EQ(ft_query_step(query.get(), &first, &second), FT_OK);
+  ASSERT_EQ(ft_query_step(query.get(), nullptr, &first), FT_OK);  // and back
+  const StepContacts back =
+      firstContacts(body.avatar, ChainMotion(body.avatar.skeleton(), body.to, body.from), scene)
+          .value();
+  std::vector<ft_contact> links(back.links.size());
+  links[0].size = sizeof(ft_contact);
+  ASSERT_EQ(ft_query_links(query.get(), links.data(), links.size(), nullptr), FT_OK);
+  for (std::size_t i = 0; i < links.size(); ++i) expectSame(links[i], back.links[i], scene);
+}
+
+TEST(CAnswers, OutliveTheHandlesTheyWereMadeOf) {
+  test::SmallWorld world;
+  const auto query = test::makeQuery(world.scene, world.avatar);
+  world.scene.reset();
+  world.avatar.reset();
+  const ft_pose up = world.up(), lowered = world.lowered();
+  ASSERT_EQ(ft_query_step(query.get(), &up, &lowered), FT_OK);
+  ft_contact contact{};
+  contact.size = sizeof contact;
+  ASSERT_EQ(ft_query_links(query.get(), &contact, 1, nullptr), FT_OK);
+  EXPECT_EQ(contact.verdict, FT_VERDICT_CONTACT);
+  // 1 m less the radius, at 1.5 m in the unit of t.
+  EXPECT_LE(contact.toi, 0.96 / 1.5);
+  EXPECT_GT(contact.toi, 0.95 / 1.5);
+}
+
+TEST(CAnswers, OfAStepThatFailedAreThoseOfTheOneBefore) {
+  test::SmallWorld world;
+  const auto query = test::makeQuery(world.scene, world.avatar);
+  const ft_pose up = world.up(), lowered = world.lowered();
+  ASSERT_EQ(ft_query_step(query.get(), &up, &lowered), FT_OK);
+  const double nan[3] = {0, std::nan(""), 0};
+  const ft_pose bad = test::SmallWorld::poseOf(test::SmallWorld::kIdentity, nan);
+  EXPECT_EQ(ft_query_step(query.get(), nullptr, &bad), FT_ERROR_NON_FINITE);
+  EXPECT_EQ(ft_query_step(query.get(), &bad, &up), FT_ERROR_NON_FINITE);
+  ft_contact contact{};
+  contact.size = sizeof contact;
+  ASSERT_EQ(ft_query_links(query.get(), &contact, 1, nullptr), FT_OK);
+  EXPECT_EQ(contact.verdict, FT_VERDICT_CONTACT);
+  ASSERT_EQ(ft_query_step(query.get(), nullptr, &up), FT_OK);  // from `lowered` still
+  ft_transform start;
+  ASSERT_EQ(ft_motion_transforms(query.get(), 0, &start, 1, nullptr), FT_OK);
+  EXPECT_EQ(start.translation[1], test::SmallWorld::kLowered[1]);
+}
+
+}  // namespace
+}  // namespace foretouch

@@ -1,0 +1,123 @@
+// The binary interface of version 1 on x86-64, in numbers: programs are compiled against them, so
+// these lines only ever get company.
+#include <cstddef>
+#include <foretouch/foretouch.h>
+
+#include <gtest/gtest.h>
+
+#define AT(type, field, offset) static_assert(offsetof(type, field) == (offset))
+
+static_assert(sizeof(ft_status) == 4);
+
+static_assert(sizeof(ft_scene_arrays) == 64);
+AT(ft_scene_arrays, size, 0);
+AT(ft_scene_arrays, reserved, 4);
+AT(ft_scene_arrays, positions, 8);
+AT(ft_scene_arrays, vertex_count, 16);
+AT(ft_scene_arrays, indices, 24);
+AT(ft_scene_arrays, triangle_count, 32);
+AT(ft_scene_arrays, objects, 40);
+AT(ft_scene_arrays, object_names, 48);
+AT(ft_scene_arrays, object_count, 56);
+
+static_assert(sizeof(ft_import_options) == 40);
+AT(ft_import_options, up, 4);
+AT(ft_import_options, scale, 8);
+AT(ft_import_options, memory_limit_bytes, 16);
+AT(ft_import_options, time_limit_s, 24);
+AT(ft_import_options, importer, 32);
+
+static_assert(sizeof(ft_scene_info) == 88);
+AT(ft_scene_info, object_count, 4);
+AT(ft_scene_info, triangles, 8);
+AT(ft_scene_info, dropped_non_finite, 16);
+AT(ft_scene_info, zero_area, 24);
+AT(ft_scene_info, duplicates, 32);
+AT(ft_scene_info, box_min, 40);
+AT(ft_scene_info, box_max, 64);
+
+static_assert(sizeof(ft_lss) == 56);
+AT(ft_lss, b, 24);
+AT(ft_lss, radius, 48);
+static_assert(sizeof(ft_triangle) == 72);
+
+static_assert(sizeof(ft_avatar_arrays) == 96);
+AT(ft_avatar_arrays, joint_count, 8);
+AT(ft_avatar_arrays, names, 16);
+AT(ft_avatar_arrays, parents, 24);
+AT(ft_avatar_arrays, offsets, 32);
+AT(ft_avatar_arrays, rotations, 40);
+AT(ft_avatar_arrays, lss, 48);
+AT(ft_avatar_arrays, lss_links, 56);
+AT(ft_avatar_arrays, lss_count, 64);
+AT(ft_avatar_arrays, triangles, 72);
+AT(ft_avatar_arrays, triangle_links, 80);
+AT(ft_avatar_arrays, triangle_count, 88);
+
+static_assert(sizeof(ft_pose) == 24);
+AT(ft_pose, joint_count, 4);
+AT(ft_pose, rotations, 8);
+AT(ft_pose, translations, 16);
+
+static_assert(sizeof(ft_clip_options) == 48);
+AT(ft_clip_options, up, 4);
+AT(ft_clip_options, scale, 8);
+AT(ft_clip_options, yaw_deg, 16);
+AT(ft_clip_options, origin, 24);
+
+static_assert(sizeof(ft_clip_info) == 24);
+AT(ft_clip_info, matched_joints, 4);
+AT(ft_clip_info, frame_count, 8);
+AT(ft_clip_info, frame_time_s, 16);
+
+static_assert(sizeof(ft_ignored_pair) == 8);
+static_assert(sizeof(ft_link_policy) == 16);
+AT(ft_link_policy, fidelity, 8);
+
+static_assert(sizeof(ft_query_options) == 72);
+AT(ft_query_options, fidelity, 4);
+AT(ft_query_options, tolerance, 8);
+AT(ft_query_options, work_budget, 16);
+AT(ft_query_options, deadline_us, 24);
+AT(ft_query_options, scope, 32);
+AT(ft_query_options, reserved, 36);
+AT(ft_query_options, ignored, 40);
+AT(ft_query_options, ignored_count, 48);
+AT(ft_query_options, policies, 56);
+AT(ft_query_options, policy_count, 64);
+
+static_assert(sizeof(ft_contact) == 144);
+AT(ft_contact, link, 4);
+AT(ft_contact, verdict, 8);
+AT(ft_contact, reason, 12);
+AT(ft_contact, toi, 16);
+AT(ft_contact, free_until, 24);
+AT(ft_contact, separation, 32);
+AT(ft_contact, penetration, 40);
+AT(ft_contact, point_scene, 48);
+AT(ft_contact, point_link, 72);
+AT(ft_contact, normal, 96);
+AT(ft_contact, triangle, 120);
+AT(ft_contact, object, 124);
+AT(ft_contact, lss, 128);
+AT(ft_contact, link_triangle, 132);
+AT(ft_contact, link_feature, 136);
+AT(ft_contact, scene_feature, 140);
+
+static_assert(sizeof(ft_transform) == 104);
+AT(ft_transform, translation, 32);
+AT(ft_transform, angular_velocity, 56);
+AT(ft_transform, velocity, 80);
+
+static_assert(sizeof(ft_counters) == 104);
+AT(ft_counters, nodes, 8);
+AT(ft_counters, hierarchy_tests, 64);
+AT(ft_counters, rung_tests, 96);
+
+namespace {
+
+TEST(CLayout, IsWhatProgramsWereCompiledAgainst) {
+  EXPECT_EQ(FT_ABI_VERSION, 1);  // a field or a function more: count up, and add its lines above
+}
+
+}  // namespace

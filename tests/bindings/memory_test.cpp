@@ -1,0 +1,191 @@
+// The C library under a shortage of memory, and in steady state. This program's operator new is the
+// library's too: it can be told to fail once, at its n-th call.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/bindings/c_world.h"
+#include "tests/middleware/random_scene.h"
+
+namespace {
+
+std::atomic<std::uint64_t> allocations{0};
+thread_local std::int64_t callsUntilFailure = -1;  // -1: never; of this thread alone
+
+void* allocate(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  if (callsUntilFailure == 0) {
+    callsUntilFailure = -1;
+    return nullptr;
+  }
+  if (callsUntilFailure > 0) --callsUntilFailure;
+  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+  return std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
+}
+
+void* allocateOrThrow(std::size_t size, std::size_t alignment) {
+  void* const memory = allocate(size, alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+constexpr std::size_t kAlignment = alignof(std::max_align_t);
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return allocateOrThrow(size, kAlignment);
+}
+void* operator new[](std::size_t size) {
+  return allocateOrThrow(size, kAlignment);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocateOrThrow(size, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return allocateOrThrow(size, static_cast<std::size_t>(alignment));
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return allocate(size, kAlignment);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+  return allocate(size, kAlignment);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace foretouch {
+namespace {
+
+/// Calls `ask` with the first, the second, ... allocation failing, until none is left to fail.
+/// Gives how many failed.
+template <typename Ask>
+int failingOneByOne(const Ask& ask) {
+  constexpr int kMost = 100000;
+  for (int n = 0; n < kMost; ++n) {
+    callsUntilFailure = n;
+    const ft_status status = ask();
+    const bool didFail = callsUntilFailure == -1;
+    callsUntilFailure = -1;
+    if (!didFail) {
+      EXPECT_EQ(status, FT_OK) << ft_last_error();
+      return n;
+    }
+    // What is only a convenience may be gone without.
+    if (status != FT_OK) {
+      EXPECT_EQ(status, FT_ERROR_OUT_OF_MEMORY) << n << ": " << ft_last_error();
+    }
+  }
+  ADD_FAILURE() << "no end";
+  return 0;
+}
+
+struct World {
+  World()
+      : random(11),
+        raw(test::clutter(random, 800, 2, Eigen::Vector3d::Zero())),
+        body(test::bodyInClutter(random, 5, Eigen::Vector3d::Zero())) {}
+  test::Random random;
+  RawScene raw;
+  test::RandomBody body;
+};
+
+TEST(CMemory, RunningOutWhileAnAvatarIsMadeIsAnError) {
+  const World world;
+  const test::AvatarArrays arrays(world.body.avatar);
+  const ft_avatar_arrays view = arrays.view();
+  const int failed = failingOneByOne([&] {
+    ft_avatar* avatar = nullptr;
+    const ft_status status = ft_avatar_create(&view, &avatar);
+    EXPECT_EQ(avatar != nullptr, status == FT_OK);
+    ft_avatar_destroy(avatar);
+    return status;
+  });
+  EXPECT_GT(failed, 10);
+}
+
+TEST(CMemory, RunningOutInAQueryIsAnErrorAndLeavesItUsable) {
+  const World world;
+  const auto scene = test::makeScene(world.raw);
+  const auto avatar = test::makeAvatar(world.body.avatar);
+  const test::PoseArrays from(world.body.from), to(world.body.to);
+  const ft_pose first = from.view(), second = to.view();
+  std::vector<ft_contact> expected(5), links(5);
+  expected[0].size = links[0].size = sizeof(ft_contact);
+  const auto undisturbed = test::makeQuery(scene, avatar);
+  ASSERT_EQ(ft_query_step(undisturbed.get(), &first, &second), FT_OK);
+  ASSERT_EQ(ft_query_links(undisturbed.get(), expected.data(), 5, nullptr), FT_OK);
+
+  const int made = failingOneByOne([&] {
+    ft_query* query = nullptr;
+    const ft_status status = ft_query_create(scene.get(), avatar.get(), nullptr, &query);
+    EXPECT_EQ(query != nullptr, status == FT_OK);
+    ft_query_destroy(query);
+    return status;
+  });
+  EXPECT_GT(made, 10);
+
+  test::QueryHandle query;
+  const int asked = failingOneByOne([&] {
+    const std::int64_t until = std::exchange(callsUntilFailure, -1);
+    query = test::makeQuery(scene, avatar);  // a fresh one, which has to grow
+    callsUntilFailure = until;
+    const ft_status status = ft_query_step(query.get(), &first, &second);
+    if (status == FT_OK) return status;
+    const std::int64_t after = std::exchange(callsUntilFailure, -1);
+    EXPECT_EQ(ft_query_links(query.get(), nullptr, 0, nullptr), FT_ERROR_NO_STEP);
+    EXPECT_EQ(ft_query_step(query.get(), &first, &second), FT_OK) << ft_last_error();
+    EXPECT_EQ(ft_query_links(query.get(), links.data(), 5, nullptr), FT_OK);
+    EXPECT_EQ(std::memcmp(links.data(), expected.data(), 5 * sizeof(ft_contact)), 0);
+    callsUntilFailure = after;
+    return static_cast<ft_status>(FT_ERROR_OUT_OF_MEMORY);
+  });
+  EXPECT_GT(asked, 3);
+}
+
+TEST(CMemory, IsNotAskedForOnceItHasGrown) {
+  const World world;
+  const auto query =
+      test::makeQuery(test::makeScene(world.raw), test::makeAvatar(world.body.avatar));
+  const test::PoseArrays from(world.body.from), to(world.body.to);
+  const ft_pose first = from.view(), second = to.view();
+  std::vector<ft_contact> contacts(5);
+  std::vector<ft_transform> transforms(5);
+  std::uint64_t before = 0;
+  for (int round = 0; round < 6; ++round) {
+    before = allocations;
+    EXPECT_EQ(ft_query_step(query.get(), &first, &second), FT_OK);
+    EXPECT_EQ(ft_query_step(query.get(), nullptr, &first), FT_OK);
+    contacts[0].size = sizeof(ft_contact);
+    std::size_t count = 0;
+    EXPECT_EQ(ft_query_contacts(query.get(), contacts.data(), 5, &count), FT_OK);
+    EXPECT_GT(count, 0u);
+    EXPECT_EQ(ft_motion_transforms(query.get(), 0.5, transforms.data(), 5, nullptr), FT_OK);
+  }
+  EXPECT_EQ(allocations - before, 0u);
+}
+
+}  // namespace
+}  // namespace foretouch

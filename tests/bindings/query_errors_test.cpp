@@ -1,0 +1,167 @@
+// Every way in which a query, a step and what is asked of it can be refused.
+#include <limits>
+
+#include "tests/bindings/c_world.h"
+
+namespace foretouch {
+namespace {
+
+using test::expectRefused;
+using test::refuse;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr auto kMinusOne = static_cast<std::size_t>(-1);
+
+struct Asking {
+  test::SmallWorld world;
+  ft_query_options options = test::initialised(ft_query_options_init);
+  [[nodiscard]] ft_status make() const {
+    ft_query* query = reinterpret_cast<ft_query*>(1);
+    const ft_status status =
+        ft_query_create(world.scene.get(), world.avatar.get(), &options, &query);
+    EXPECT_EQ(query == nullptr, status != FT_OK);
+    ft_query_destroy(query);
+    return status;
+  }
+};
+
+TEST(CQueryErrors, OfQueryOptions) {
+  EXPECT_EQ(Asking().make(), FT_OK);
+  const ft_ignored_pair ignored[1] = {{0, 1}};
+  const ft_link_policy policies[2] = {{1e-3, FT_FIDELITY_LINK, 0}, {1e-3, FT_FIDELITY_LINK, 0}};
+  for (const double tolerance : {0.0, -1.0, kNaN, 1e-10, 2e7}) {
+    Asking a;
+    a.options.tolerance = tolerance;
+    expectRefused(a.make(), FT_ERROR_OUT_OF_RANGE, {"tolerance"});
+  }
+  refuse<Asking>([&](Asking& a) { a.options.deadline_us = kNaN; }, FT_ERROR_OUT_OF_RANGE,
+                 {"deadline"});
+  refuse<Asking>([&](Asking& a) { a.options.deadline_us = -1; }, FT_ERROR_OUT_OF_RANGE,
+                 {"deadline"});
+  refuse<Asking>([&](Asking& a) { a.options.fidelity = 5; }, FT_ERROR_OUT_OF_RANGE,
+                 {"fidelity", "5"});
+  refuse<Asking>([&](Asking& a) { a.options.fidelity = FT_FIDELITY_EXACT; }, FT_ERROR_MISMATCH,
+                 {"triangles"});
+  refuse<Asking>([&](Asking& a) { a.options.scope = -1; }, FT_ERROR_OUT_OF_RANGE, {"scope"});
+  refuse<Asking>([&](Asking& a) { a.options.reserved = 1; }, FT_ERROR_STRUCT_SIZE, {"reserved"});
+  refuse<Asking>([&](Asking& a) { a.options.ignored_count = 1; }, FT_ERROR_NULL_ARGUMENT,
+                 {"ignored"});
+  refuse<Asking>(
+      [&](Asking& a) {
+        a.options.ignored_count = kMinusOne;
+        a.options.ignored = ignored;
+      },
+      FT_ERROR_LIMIT_EXCEEDED, {"ignored"});
+  refuse<Asking>(
+      [&](Asking& a) {
+        a.options.ignored_count = 1;
+        a.options.ignored = ignored;
+      },
+      FT_ERROR_OUT_OF_RANGE, {"ignored"});
+  refuse<Asking>([&](Asking& a) { a.options.policy_count = 1; }, FT_ERROR_NULL_ARGUMENT,
+                 {"policies"});
+  refuse<Asking>(
+      [&](Asking& a) {
+        a.options.policy_count = 2;
+        a.options.policies = policies;
+      },
+      FT_ERROR_MISMATCH, {"one a link"});
+  refuse<Asking>(
+      [&](Asking& a) {
+        a.options.policy_count = kMinusOne;
+        a.options.policies = policies;
+      },
+      FT_ERROR_LIMIT_EXCEEDED, {"policies"});
+  for (const ft_link_policy policy :
+       {ft_link_policy{kNaN, 0, 0}, ft_link_policy{1e-3, FT_FIDELITY_LIMB, 0},
+        ft_link_policy{1e-3, 77, 0}}) {
+    Asking a;
+    a.options.policy_count = 1;
+    a.options.policies = &policy;
+    expectRefused(a.make(), FT_ERROR_OUT_OF_RANGE, {});
+    EXPECT_EQ(ft_last_error_index(), 0);
+  }
+  const ft_link_policy reserved = {1e-3, FT_FIDELITY_LINK, 1};
+  Asking a;
+  a.options.policies = &reserved;
+  a.options.policy_count = 1;
+  expectRefused(a.make(), FT_ERROR_STRUCT_SIZE, {"reserved"});
+}
+
+TEST(CQueryErrors, OfSteps) {
+  test::SmallWorld world;
+  const auto query = test::makeQuery(world.scene, world.avatar);
+  const ft_pose up = world.up();
+  expectRefused(ft_query_step(query.get(), nullptr, &up), FT_ERROR_NO_STEP, {"from"});
+  expectRefused(ft_query_step(query.get(), &up, nullptr), FT_ERROR_NULL_ARGUMENT, {"to"});
+  ft_pose pose = up;
+  pose.joint_count = 2;
+  expectRefused(ft_query_step(query.get(), &up, &pose), FT_ERROR_MISMATCH, {"to", "1 joints", "2"});
+  pose = up;
+  pose.rotations = nullptr;
+  expectRefused(ft_query_step(query.get(), &pose, &up), FT_ERROR_NULL_ARGUMENT, {"rotations"});
+  pose = up;
+  pose.size = 3;
+  expectRefused(ft_query_step(query.get(), &pose, &up), FT_ERROR_STRUCT_SIZE, {"from"});
+  const double rotation[4] = {2, 0, 0, 0}, far[3] = {0, 1e8, 0};
+  pose = test::SmallWorld::poseOf(rotation, test::SmallWorld::kUp);
+  expectRefused(ft_query_step(query.get(), &up, &pose), FT_ERROR_OUT_OF_RANGE,
+                {"to", "stick", "norm"});
+  EXPECT_EQ(ft_last_error_index(), 0);
+  pose = test::SmallWorld::poseOf(test::SmallWorld::kIdentity, far);
+  expectRefused(ft_query_step(query.get(), &up, &pose), FT_ERROR_OUT_OF_RANGE, {"1e7"});
+  pose.translations = nullptr;  // the rest offset
+  EXPECT_EQ(ft_query_step(query.get(), &up, &pose), FT_OK);
+}
+
+TEST(CQueryErrors, OfAnswers) {
+  test::SmallWorld world;
+  const auto query = test::makeQuery(world.scene, world.avatar);
+  ft_contact contact{};
+  contact.size = sizeof contact;
+  ft_transform transform;
+  ft_counters counters{};
+  counters.size = sizeof counters;
+  std::int32_t touches = 7;
+  std::size_t count = 7;
+  const auto expectNoStep = [&] {
+    expectRefused(ft_query_links(query.get(), &contact, 1, &count), FT_ERROR_NO_STEP,
+                  {"ft_query_step"});
+    expectRefused(ft_query_contacts(query.get(), &contact, 1, &count), FT_ERROR_NO_STEP, {});
+    expectRefused(ft_motion_transforms(query.get(), 0, &transform, 1, &count), FT_ERROR_NO_STEP,
+                  {});
+    expectRefused(ft_touches_at(query.get(), 0, 0, &touches), FT_ERROR_NO_STEP, {});
+    expectRefused(ft_query_counters(query.get(), &counters), FT_ERROR_NO_STEP, {});
+  };
+  expectNoStep();
+  const ft_pose up = world.up(), lowered = world.lowered();
+  ASSERT_EQ(ft_query_step(query.get(), &up, &lowered), FT_OK);
+  expectRefused(ft_query_links(query.get(), nullptr, 1, &count), FT_ERROR_NULL_ARGUMENT,
+                {"contacts"});
+  expectRefused(ft_query_links(query.get(), &contact, 0, &count), FT_ERROR_BUFFER_TOO_SMALL,
+                {"room for 1"});
+  EXPECT_EQ(count, 1u);
+  contact.size = 0;
+  expectRefused(ft_query_contacts(query.get(), &contact, 1, &count), FT_ERROR_STRUCT_SIZE,
+                {"ft_contact"});
+  for (const double t : {-0.1, 1.1, kNaN, std::numeric_limits<double>::infinity()}) {
+    expectRefused(ft_motion_transforms(query.get(), t, &transform, 1, &count),
+                  FT_ERROR_OUT_OF_RANGE, {"t:"});
+    expectRefused(ft_touches_at(query.get(), 0, t, &touches), FT_ERROR_OUT_OF_RANGE, {"t:"});
+  }
+  expectRefused(ft_motion_transforms(query.get(), 0, &transform, 0, nullptr),
+                FT_ERROR_BUFFER_TOO_SMALL, {});
+  expectRefused(ft_touches_at(query.get(), 1, 0, &touches), FT_ERROR_OUT_OF_RANGE, {"link"});
+  expectRefused(ft_touches_at(query.get(), -1, 0, &touches), FT_ERROR_OUT_OF_RANGE, {"link"});
+  expectRefused(ft_touches_at(query.get(), 0, 0, nullptr), FT_ERROR_NULL_ARGUMENT, {"touches"});
+  expectRefused(ft_query_counters(query.get(), nullptr), FT_ERROR_NULL_ARGUMENT, {"ft_counters"});
+  EXPECT_EQ(touches, 7);
+  ASSERT_EQ(ft_touches_at(query.get(), 0, 1, &touches), FT_OK);
+  EXPECT_EQ(touches, 0);  // it went right through
+  ASSERT_EQ(ft_query_set_options(query.get(), nullptr), FT_OK);
+  expectNoStep();
+  EXPECT_EQ(ft_query_step(query.get(), nullptr, &up), FT_OK);  // the pose is kept
+}
+
+}  // namespace
+}  // namespace foretouch

@@ -1,0 +1,245 @@
+// Calls with arguments drawn from what callers get wrong: NULL, handles of other kinds, NaN, counts
+// that are no counts, sizes of structs that were never set, indices out of range. Whatever comes,
+// the answer is a status of the list, and a handle where and only where it is FT_OK. Arrays are as
+// long as the largest count that is not refused for being too large.
+#include <array>
+#include <limits>
+#include <string>
+
+#include "tests/bindings/c_world.h"
+#include "tests/support/random_geometry.h"
+
+namespace foretouch {
+namespace {
+
+using test::Random;
+
+constexpr std::size_t kRoom = 8;
+
+class Caller {
+ public:
+  explicit Caller(std::uint64_t seed) : random_(seed) {}
+
+  void callSomething(test::SmallWorld& world, ft_query* query) {
+    switch (random_.below(9)) {
+      case 0: makeScene(); break;
+      case 1: makeAvatar(); break;
+      case 2: makeQuery(world); break;
+      case 3: step(query); break;
+      case 4: readAnswers(query); break;
+      case 5: askAvatar(world); break;
+      case 6: convert(); break;
+      case 7: askScene(world); break;
+      default: setOptions(query); break;
+    }
+  }
+  [[nodiscard]] int accepted() const { return accepted_; }
+  [[nodiscard]] int refused() const { return refused_; }
+
+ private:
+  double number() {
+    switch (random_.below(8)) {
+      case 0: return std::numeric_limits<double>::quiet_NaN();
+      case 1: return std::numeric_limits<double>::infinity();
+      case 2: return 1e300;
+      case 3: return -1.0;
+      case 4: return 0.0;
+      default: return random_.uniform(0.0, 1.0);
+    }
+  }
+  std::int32_t index() {
+    constexpr std::array<std::int32_t, 8> kIndices = {
+        0, 0, 0, 1, 2, -1, 1 << 30, std::numeric_limits<std::int32_t>::min()};
+    return kIndices[static_cast<std::size_t>(random_.below(8))];
+  }
+  /// Never between kRoom and what is refused.
+  std::size_t count() {
+    if (random_.chance(0.1)) return static_cast<std::size_t>(-random_.below(5) - 1);
+    return static_cast<std::size_t>(random_.below(4));
+  }
+  std::uint32_t sizeOr(std::size_t right) {
+    if (random_.chance(0.8)) return static_cast<std::uint32_t>(right);
+    constexpr std::array<std::uint32_t, 6> kSizes = {0, 4, 7, 8, 16, 0xffffffffu};
+    return kSizes[static_cast<std::size_t>(random_.below(6))];
+  }
+  template <typename T>
+  T* maybe(T* pointer) {
+    return random_.chance(0.1) ? nullptr : pointer;
+  }
+  void take(ft_status status) {
+    EXPECT_STRNE(ft_status_name(status), "unknown") << status;
+    EXPECT_NE(status, FT_ERROR_INTERNAL) << ft_last_error();
+    if (status != FT_OK) {
+      EXPECT_STRNE(ft_last_error(), "");
+    }
+    (status == FT_OK ? accepted_ : refused_) += 1;
+  }
+  template <typename Handle>
+  void takeHandle(ft_status status, Handle*& handle, void (*release)(Handle*)) {
+    take(status);
+    EXPECT_EQ(handle != nullptr, status == FT_OK);
+    release(handle);
+  }
+  void fillNumbers() {
+    const bool isTame = random_.chance(0.5);
+    for (double& value : numbers_) value = isTame ? random_.uniform(-1.0, 1.0) : number();
+    for (std::size_t q = 0; isTame && q + 4 <= numbers_.size(); q += 4) {
+      if (random_.chance(0.7))
+        numbers_[q] = 1.0, numbers_[q + 1] = numbers_[q + 2] = numbers_[q + 3] = 0.0;
+    }
+    for (std::int32_t& i : indices_) i = isTame ? random_.below(2) : index();
+  }
+
+  void makeScene() {
+    fillNumbers();
+    std::array<std::uint32_t, 3 * kRoom> corners{};
+    for (auto& corner : corners) corner = static_cast<std::uint32_t>(random_.below(4));
+    ft_scene_arrays arrays{};
+    arrays.size = sizeOr(sizeof arrays);
+    arrays.positions = maybe(numbers_.data());
+    arrays.vertex_count = random_.chance(0.7) ? 4 : std::min(count(), kRoom);
+    arrays.indices = maybe(corners.data());
+    arrays.triangle_count = count();
+    arrays.objects = maybe(indices_.data());
+    arrays.object_names = maybe(names_.data());
+    arrays.object_count = count();
+    if (arrays.indices == nullptr) arrays.vertex_count = 3 * arrays.triangle_count;
+    ft_scene* scene = nullptr;
+    takeHandle(ft_scene_create(maybe(&arrays), &scene), scene, ft_scene_destroy);
+  }
+
+  void makeAvatar() {
+    fillNumbers();
+    std::array<ft_lss, kRoom> lss{};
+    for (ft_lss& l : lss) l = {{0, 0, 0}, {number(), 0, 0}, number()};
+    std::array<ft_triangle, kRoom> triangles{};
+    ft_avatar_arrays arrays{};
+    arrays.size = sizeOr(sizeof arrays);
+    arrays.joint_count = count();
+    arrays.names = maybe(names_.data());
+    std::array<std::int32_t, kRoom> parents = {-1, random_.chance(0.8) ? 0 : index(), index(),
+                                               index()};
+    arrays.parents = maybe(parents.data());
+    arrays.offsets = maybe(numbers_.data());
+    arrays.rotations = maybe(numbers_.data());
+    arrays.lss = maybe(lss.data());
+    arrays.lss_links = maybe(indices_.data());
+    arrays.lss_count = count();
+    arrays.triangles = random_.chance(0.8) ? nullptr : triangles.data();
+    arrays.triangle_links = maybe(indices_.data());
+    arrays.triangle_count = arrays.triangles == nullptr ? 0 : count();
+    ft_avatar* avatar = nullptr;
+    takeHandle(ft_avatar_create(maybe(&arrays), &avatar), avatar, ft_avatar_destroy);
+  }
+
+  ft_query_options options() {
+    ft_query_options made = test::initialised(ft_query_options_init);
+    made.size = sizeOr(sizeof made);
+    if (random_.chance(0.3)) made.fidelity = index();
+    if (random_.chance(0.3)) made.tolerance = number();
+    if (random_.chance(0.3)) made.work_budget = static_cast<std::uint64_t>(random_.below(1000));
+    if (random_.chance(0.3)) made.deadline_us = number();
+    if (random_.chance(0.3)) made.scope = index();
+    for (ft_ignored_pair& pair : ignored_) pair = {index(), index()};
+    for (ft_link_policy& policy : policies_) policy = {number(), index(), 0};
+    if (random_.chance(0.3)) made.ignored = maybe(ignored_.data()), made.ignored_count = count();
+    if (random_.chance(0.3)) made.policies = maybe(policies_.data()), made.policy_count = count();
+    return made;
+  }
+  void makeQuery(test::SmallWorld& world) {
+    const ft_query_options made = options();
+    const ft_scene* scene = maybe(world.scene.get());
+    if (random_.chance(0.1)) scene = reinterpret_cast<const ft_scene*>(world.avatar.get());
+    ft_query* query = nullptr;
+    takeHandle(ft_query_create(scene, maybe(world.avatar.get()), maybe(&made), &query), query,
+               ft_query_destroy);
+  }
+  void setOptions(ft_query* query) {
+    const ft_query_options made = options();
+    take(ft_query_set_options(maybe(query), maybe(&made)));
+  }
+
+  ft_pose pose() {
+    ft_pose made{};
+    made.size = sizeOr(sizeof made);
+    made.joint_count = random_.chance(0.9) ? 1u : static_cast<std::uint32_t>(index());
+    made.rotations = maybe(numbers_.data());
+    made.translations = maybe(numbers_.data() + 4);
+    return made;
+  }
+  void step(ft_query* query) {
+    fillNumbers();
+    const ft_pose from = pose(), to = pose();
+    take(ft_query_step(maybe(query), random_.chance(0.3) ? nullptr : &from, maybe(&to)));
+  }
+
+  void readAnswers(ft_query* query) {
+    std::array<ft_contact, 2> contacts{};
+    contacts[0].size = sizeOr(sizeof(ft_contact));
+    std::array<ft_transform, 2> transforms{};
+    ft_counters counters{};
+    counters.size = sizeOr(sizeof counters);
+    std::size_t required = 0;
+    std::int32_t touches = 0;
+    const auto capacity = static_cast<std::size_t>(random_.below(3));
+    take(ft_query_links(maybe(query), maybe(contacts.data()), capacity, maybe(&required)));
+    take(ft_query_contacts(maybe(query), maybe(contacts.data()), capacity, maybe(&required)));
+    take(ft_motion_transforms(maybe(query), number(), maybe(transforms.data()), capacity,
+                              maybe(&required)));
+    take(ft_touches_at(maybe(query), index(), number(), maybe(&touches)));
+    take(ft_query_counters(maybe(query), maybe(&counters)));
+  }
+  void askAvatar(test::SmallWorld& world) {
+    const ft_avatar* avatar = maybe(world.avatar.get());
+    if (random_.chance(0.1)) avatar = reinterpret_cast<const ft_avatar*>(world.scene.get());
+    const char* name = nullptr;
+    std::int32_t joint = 0;
+    std::size_t required = 0;
+    take(ft_avatar_joint_name(avatar, index(), maybe(&name)));
+    take(ft_avatar_joint_parent(avatar, index(), maybe(&joint)));
+    take(ft_avatar_find_joint(avatar, maybe(random_.chance(0.5) ? "stick" : ""), maybe(&joint)));
+    take(ft_avatar_rest_pose(avatar, maybe(numbers_.data()), maybe(numbers_.data()),
+                             static_cast<std::size_t>(random_.below(3)), maybe(&required)));
+  }
+  void askScene(test::SmallWorld& world) {
+    const char* name = nullptr;
+    ft_scene_info info{};
+    info.size = sizeOr(sizeof info);
+    take(ft_scene_object_name(maybe(world.scene.get()), index(), maybe(&name)));
+    take(ft_scene_get_info(maybe(world.scene.get()), maybe(&info)));
+  }
+  void convert() {
+    std::array<float, 4 * kRoom> floats{};
+    fillNumbers();
+    take(ft_rotations_from_floats(maybe(floats.data()), count(), index(), maybe(numbers_.data())));
+    take(ft_positions_to_floats(maybe(numbers_.data()), count(), index(), maybe(floats.data())));
+  }
+
+  Random random_;
+  std::array<double, 8 * kRoom> numbers_{};
+  std::array<std::int32_t, kRoom> indices_{};
+  std::array<ft_ignored_pair, kRoom> ignored_{};
+  std::array<ft_link_policy, kRoom> policies_{};
+  std::array<const char*, kRoom> names_ = {"stick", "b", "\xff", "", nullptr, "f", "g", "h"};
+  int accepted_ = 0, refused_ = 0;
+};
+
+TEST(CArguments, WhateverTheyAreGetAStatus) {
+  constexpr int kCases = 4000, kCalls = 6;
+  test::SmallWorld world;
+  int accepted = 0, refused = 0;
+  for (int i = 0; i < kCases; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const auto query = test::makeQuery(world.scene, world.avatar);
+    Caller caller(static_cast<std::uint64_t>(i));
+    for (int call = 0; call < kCalls; ++call) caller.callSomething(world, query.get());
+    accepted += caller.accepted();
+    refused += caller.refused();
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(accepted, kCases);
+  EXPECT_GT(refused, kCases);
+}
+
+}  // namespace
+}  // namespace foretouch

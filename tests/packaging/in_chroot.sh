@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# The part of try_packages.sh that runs inside: in_chroot.sh FOLDER
+set -euo pipefail
+cd "$1"
+export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
+say() { echo "try_packages: $*"; }
+# Only what packages ask for themselves: a dependency that is not said must be missed here.
+install() { apt-get install -y -qq --no-install-recommends "$@" >apt.log 2>&1 || { cat apt.log; exit 1; }; }
+of() { find "$PWD/packages" -name "$1_*.deb"; }
+
+say "the program alone"
+install "$(of foretouch)"
+foretouch demo --output demo.jsonl >demo.txt
+grep -q '"format":"foretouch-results"' demo.jsonl
+grep -E '^(steps|contacts) ' demo.txt
+test -f /usr/lib/systemd/system/foretouch.service
+test ! -e /etc/systemd/system/multi-user.target.wants/foretouch.service
+test -f /usr/share/doc/foretouch/copyright
+
+say "the C example, with a compiler and nothing else of C++ or CMake"
+apt-get purge -y -qq foretouch >/dev/null
+install "$(of 'libforetouch0*')" "$(of libforetouch-dev)"
+install gcc libc6-dev pkg-config
+example=/usr/share/foretouch/c-example
+cc -std=c99 -pedantic -Wall -Wextra -Werror "$example/swing.c" -o swing -lforetouch -lm
+./swing | tee swing.txt
+grep -q '^contact at t = 0.[34]' swing.txt
+# shellcheck disable=SC2046
+cc "$example/swing.c" -o swing-pkg-config $(pkg-config --cflags --libs foretouch) -lm
+./swing-pkg-config | cmp - swing.txt
+
+say "the C and C++ examples by CMake"
+install g++ cmake make
+cmake -S "$example" -B c-example >cmake.log && cmake --build c-example >>cmake.log
+c-example/swing | cmp - swing.txt
+cmake -S consumer -B cxx-example -DCMAKE_BUILD_TYPE=Release >cmake.log && cmake --build cxx-example >>cmake.log
+cxx-example/consumer
+
+python=$(of python3-foretouch)
+if [ -n "$python" ]; then
+  say "Python"
+  install "$python"
+  python3 -c 'import foretouch; print("foretouch", foretouch.__version__)'
+else
+  say "no package for Python among them"
+fi
+
+say "all of them together, and away again"
+install ./packages/*.deb
+apt-get purge -y -qq foretouch 'libforetouch*' >/dev/null
+if find /usr -name '*foretouch*' | grep .; then
+  echo "left behind by the packages" >&2
+  exit 1
+fi
+say "passed"

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Installs the Debian packages in a chroot with apt and uses them as somebody would who knows nothing
+# of this source tree: runs the demonstration, builds and runs the C and C++ examples, runs Python.
+#   try_packages.sh CHROOT FOLDER_OF_PACKAGES
+set -euo pipefail
+chroot=$1 packages=$2
+here=$(dirname "$0")
+work=/tmp/try-packages
+rm -rf "$chroot$work"
+mkdir -p "$chroot$work/packages"
+cp "$packages"/*.deb "$chroot$work/packages/"
+cp -r "$here/../consumer" "$chroot$work/"
+cp "$here/in_chroot.sh" "$chroot$work/"
+chroot "$chroot" /bin/bash "$work/in_chroot.sh" "$work"
