@@ -1,5 +1,6 @@
 """Real threads on shared objects: the same answers as alone, and the GIL is not held."""
 
+import multiprocessing
 import threading
 import time
 import unittest
@@ -71,6 +72,24 @@ class Threads(unittest.TestCase):
             return True
 
         self.assertTrue(all(self.in_threads(work)))
+
+    def test_forked_children_may_ask(self):
+        def work(connection):
+            steps = self.query.first_contacts_many(self.poses, threads=2)
+            connection.send(steps.toi.copy())
+
+        context = multiprocessing.get_context("fork")
+        ours, theirs = context.Pipe()
+        child = context.Process(target=work, args=(theirs,))
+        child.start()
+        try:
+            self.assertTrue(ours.poll(60))
+            np.testing.assert_array_equal(ours.recv(), self.expected)
+        finally:
+            child.kill()
+            child.join()
+            ours.close()
+            theirs.close()
 
     def test_python_runs_on_while_a_batch_is_asked(self):
         poses = foretouch.Poses(np.tile(self.poses.rotations, (60, 1, 1)),
