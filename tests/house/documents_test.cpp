@@ -127,7 +127,7 @@ TEST(Documents, TheIndexLinksEveryOneOfThem) {
 TEST(Documents, AnchorsAreMadeAsHostsMakeThem) {
   EXPECT_EQ(anchorOf("Pairs to ignore"), "pairs-to-ignore");
   EXPECT_EQ(anchorOf("Joint positions (CSV)"), "joint-positions-csv");
-  EXPECT_EQ(anchorOf("`foretouch log --json`"), "foretouch-log---json");
+  EXPECT_EQ(anchorOf("`foretouch log info --json`"), "foretouch-log-info---json");
   EXPECT_EQ(anchorOf("8. Exact fidelity"), "8-exact-fidelity");
 }
 
