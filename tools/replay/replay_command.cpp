@@ -229,11 +229,17 @@ Result<Done> writeGlb(const ReplayGlb& glb, const std::string& path) {
 Result<Done> runReplay(const ReplayJob& job,
                        const std::function<void(const ReplaySummary&)>& tell) {
   const ReplayRequest& request = job.request;
-  const auto checked =
-      checkOutputs(job.outputPath, job.report.path,
-                   {request.scenePath, request.avatarPath, request.motionPath, request.robotPath,
-                    request.mapPath, request.policyPath, request.skinPath});
-  if (!checked.ok()) return checked.error();
+  for (const std::string& output : {job.outputPath, job.glb.path}) {
+    if (output.empty()) continue;
+    const auto checked =
+        checkOutput(output, {request.scenePath, request.avatarPath, request.motionPath,
+                             request.robotPath, request.mapPath, request.policyPath});
+    if (!checked.ok()) return checked.error();
+  }
+  if (job.glb.path == job.outputPath) {
+    return Error{ErrorCode::FileUnwritable, job.glb.path, -1, -1,
+                 "is to hold the results as well; expected another file for the GLB"};
+  }
   const auto inputs = loadReplayInputs(request);
   if (!inputs.ok()) return inputs.error();
   for (const std::string& remark : remarksOn(inputs.value())) printNote(remark);

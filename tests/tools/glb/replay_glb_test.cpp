@@ -114,7 +114,7 @@ TEST(ReplayGlbProgram, RefusesBadUse) {
   const SmallWorld world;
   const std::string out = world.folder / "out.jsonl";
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"--glb", out}, "--glb: expected another file than --output"},
+      {{"--glb", out}, "is to hold the results as well; expected another file"},
       {{"--glb", world.folder / "clip.bvh"}, "is an input as well"},
       {{"--glb", world.folder / "nowhere/out.glb"}, "nowhere"},
       {{"--glb", world.folder / "out.glb", "--glb-triangles", "0"}, "--glb-triangles"},
