@@ -19,10 +19,9 @@ namespace foretouch::tools {
 struct ReportOptions {
   std::string path;  ///< Empty: no report.
   std::size_t maxTriangles = kDefaultViewTriangles;
+  std::size_t maxContacts = 100'000;
+  std::size_t maxRotations = std::size_t{8} << 20;  ///< Numbers of all avatars' rotations: 64 MiB.
 };
-
-/// More contacts than this are not shown.
-inline constexpr std::size_t kMaxViewContacts = 100'000;
 
 /// The name of a file without its folders.
 [[nodiscard]] std::string fileName(const std::string& path);

@@ -1,11 +1,123 @@
 #include "tools/report/indexed_mesh.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <meshoptimizer.h>
+#include <utility>
 
 namespace foretouch::tools {
 namespace {
 
 constexpr std::size_t kVertexBytes = 3 * sizeof(float);
+
+using Indices = std::vector<std::uint32_t>;
+
+/// One side of a triangle.
+struct Side {
+  std::uint32_t low = 0, high = 0;  ///< Its vertices.
+  std::uint32_t triangle = 0;
+  bool isUpward = false;  ///< The triangle runs through it from low to high.
+
+  [[nodiscard]] auto edge() const { return std::make_pair(low, high); }
+};
+
+std::vector<Side> sidesOf(const Indices& indices) {
+  std::vector<Side> sides;
+  sides.reserve(indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const std::uint32_t from = indices[i], to = indices[i % 3 == 2 ? i - 2 : i + 1];
+    if (from == to) continue;
+    sides.push_back(
+        {std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(i / 3), from < to});
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    return std::make_pair(x.edge(), x.triangle) < std::make_pair(y.edge(), y.triangle);
+  });
+  return sides;
+}
+
+struct Neighbour {
+  std::uint32_t triangle = 0;
+  bool isOpposed = false;  ///< Both run through the edge in the same direction.
+};
+
+/// Of one triangle, across edges that exactly two triangles share.
+struct Neighbours {
+  std::array<Neighbour, 3> across;
+  std::uint32_t count = 0;
+
+  void add(const Neighbour& neighbour) { across[count++] = neighbour; }
+  [[nodiscard]] const Neighbour* begin() const { return across.data(); }
+  [[nodiscard]] const Neighbour* end() const { return across.data() + count; }
+};
+
+std::vector<Neighbours> neighboursOf(const Indices& indices) {
+  const std::vector<Side> sides = sidesOf(indices);
+  std::vector<Neighbours> neighbours(indices.size() / 3);
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && sides[end].edge() == sides[i].edge()) ++end;
+    if (end == i + 2) {
+      const Side &one = sides[i], &other = sides[i + 1];
+      const bool isOpposed = one.isUpward == other.isUpward;
+      neighbours[one.triangle].add({other.triangle, isOpposed});
+      neighbours[other.triangle].add({one.triangle, isOpposed});
+    }
+    i = end;
+  }
+  return neighbours;
+}
+
+/// Turns triangles round so that neighbours agree, as far as they can: scenes do not say which side
+/// is out, and the simplifier takes an edge whose triangles disagree for a rim.
+void orient(Indices& indices) {
+  const std::vector<Neighbours> neighbours = neighboursOf(indices);
+  std::vector<std::uint8_t> isReached(neighbours.size(), 0), isTurned(neighbours.size(), 0);
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t first = 0; first < neighbours.size(); ++first) {
+    if (isReached[first] != 0) continue;
+    isReached[first] = 1;
+    open.assign(1, first);
+    while (!open.empty()) {
+      const std::uint32_t triangle = open.back();
+      open.pop_back();
+      for (const Neighbour& next : neighbours[triangle]) {
+        if (isReached[next.triangle] != 0) continue;
+        isReached[next.triangle] = 1;
+        isTurned[next.triangle] = isTurned[triangle] ^ (next.isOpposed ? 1 : 0);
+        open.push_back(next.triangle);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < isTurned.size(); ++i) {
+    if (isTurned[i] != 0) std::swap(indices[3 * i + 1], indices[3 * i + 2]);
+  }
+}
+
+/// An error of 1 is the size of the mesh: the target alone decides.
+constexpr float kAnyError = 1.0f;
+
+/// Meshes of more triangles are clustered right away: edges would take gigabytes.
+constexpr std::size_t kMostByEdges = 5'000'000;
+
+/// By collapsing edges; what its topology does not let go stays.
+Indices collapsed(const ViewMesh& mesh, std::size_t target, float& error) {
+  Indices kept(mesh.indices.size());
+  kept.resize(meshopt_simplify(kept.data(), mesh.indices.data(), mesh.indices.size(),
+                               mesh.positions.data(), mesh.vertices(), kVertexBytes, 3 * target,
+                               kAnyError, 0, &error));
+  return kept;
+}
+
+/// By merging the vertices that share a cell of a grid: needs no topology.
+Indices clustered(const ViewMesh& mesh, const Indices& indices, std::size_t target, float& error) {
+  Indices kept(indices.size());
+  kept.resize(meshopt_simplifySloppy(kept.data(), indices.data(), indices.size(),
+                                     mesh.positions.data(), mesh.vertices(), kVertexBytes,
+                                     3 * target, kAnyError, &error));
+  return kept;
+}
 
 }  // namespace
 
@@ -24,16 +136,22 @@ ViewMesh indexed(Corners corners) {
 }
 
 Simplified simplified(const Corners& corners, std::size_t target) {
-  const ViewMesh mesh = indexed(corners);
+  ViewMesh mesh = indexed(corners);
   Simplified made;
   if (mesh.indices.empty()) return made;
-  // An error of 1 is the size of the mesh: the target alone decides.
-  constexpr float kAnyError = 1.0f;
   float error = 0.0f;
-  std::vector<std::uint32_t> kept(mesh.indices.size());
-  kept.resize(meshopt_simplifySloppy(kept.data(), mesh.indices.data(), mesh.indices.size(),
-                                     mesh.positions.data(), mesh.vertices(), kVertexBytes,
-                                     3 * target, kAnyError, &error));
+  Indices kept = mesh.indices;
+  if (mesh.triangles() <= kMostByEdges) {
+    orient(mesh.indices);
+    kept = collapsed(mesh, target, error);
+  }
+  // Edges are collapsed in bunches: a little more than the target is as good as it.
+  const std::size_t enough = target + target / 20;
+  if (kept.size() > 3 * enough) {
+    float coarser = 0.0f;
+    kept = clustered(mesh, kept, target, coarser);
+    error += coarser;
+  }
   made.corners.reserve(3 * kept.size());
   for (const std::uint32_t vertex : kept) {
     const float* const place = mesh.positions.data() + std::size_t{3} * vertex;

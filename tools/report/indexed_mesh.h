@@ -21,9 +21,9 @@ struct Simplified {
   double error = 0.0;  ///< Details up to about this size (m) may be gone: an estimate.
 };
 
-/// At most about `target` triangles, by merging the corners that share a cell of a grid
-/// (meshoptimizer's sloppy simplifier): that needs no topology, which triangles from anywhere do
-/// not have.
+/// At most about `target` triangles: by collapsing edges [Garland97], and, where triangles from
+/// anywhere have too little topology for that, by merging corners that share a cell of a grid; both
+/// as meshoptimizer has them. Time and memory: O(n log n), O(n).
 [[nodiscard]] Simplified simplified(const Corners& corners, std::size_t target);
 
 }  // namespace foretouch::tools

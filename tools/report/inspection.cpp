@@ -101,11 +101,11 @@ Result<Pose> poseAt(const Inspected& inspected, std::int64_t index) {
   return pose;
 }
 
-Result<Done> addTrack(const Inspected& inspected, TrackBuilder& track,
+Result<Done> addTrack(const Inspected& inspected, const ReportOptions& options, TrackBuilder& track,
                       std::vector<std::string>& notes, const ReportProgress& progress) {
   const std::int64_t wanted = inspected.played ? inspected.played->steps.count + 1 : 1;
   const std::int64_t poses =
-      std::min(wanted, static_cast<std::int64_t>(track.capacity(kMaxTrackValues)));
+      std::min(wanted, static_cast<std::int64_t>(track.capacity(options.maxRotations)));
   for (std::int64_t i = 0; i < poses && progress(i, poses); ++i) {
     const auto pose = poseAt(inspected, i);
     if (!pose.ok()) return pose.error();
@@ -231,7 +231,7 @@ Result<ViewDocument> documentOf(const Inspected& inspected, const ReportOptions&
     std::optional<TouchQuestion> question;
     if (inspected.scene) question.emplace(TouchQuestion{*inspected.scene, query});
     TrackBuilder track(*body, question ? &*question : nullptr);
-    const auto added = addTrack(inspected, track, document.notes, progress);
+    const auto added = addTrack(inspected, options, track, document.notes, progress);
     if (!added.ok()) return added.error();
     action = track.box();
     ViewAvatar avatar;

@@ -57,8 +57,8 @@ LogReport::Player& LogReport::playerOf(const AnsweredPose& answered) {
 /// Each avatar has its share, so that one does not take what the others need.
 bool LogReport::hasRoom(const Player& player) const {
   return player.leftOut == 0 &&
-         player.track.poses() < player.track.capacity(kMaxTrackValues / players_.size()) &&
-         player.contacts.size() < kMaxViewContacts / players_.size();
+         player.track.poses() < player.track.capacity(options_.maxRotations / players_.size()) &&
+         player.contacts.size() < options_.maxContacts / players_.size();
 }
 
 void LogReport::add(const AnsweredPose& answered) {

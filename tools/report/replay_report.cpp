@@ -12,12 +12,12 @@ ReplayReport::ReplayReport(const ReplayInputs& inputs, const ReportOptions& opti
       options_(options),
       question_{inputs.scene, inputs.query},
       track_(inputs.avatar, &question_),
-      mostSteps_(static_cast<std::int64_t>(track_.capacity(kMaxTrackValues)) - 1) {}
+      mostSteps_(static_cast<std::int64_t>(track_.capacity(options.maxRotations)) - 1) {}
 
 void ReplayReport::add(const ReplayedStep& step) {
   const StepAnswer& answer = step.answer;
   isFull_ = isFull_ || answer.step >= mostSteps_ ||
-            contacts_.size() + answer.contacts.size() > kMaxViewContacts;
+            contacts_.size() + answer.contacts.size() > options_.maxContacts;
   if (isFull_) return;
   latenciesUs_.push_back(answer.latencyUs);
   for (const LinkContact& contact : answer.contacts) {

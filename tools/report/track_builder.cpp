@@ -29,8 +29,8 @@ TrackBuilder::TrackBuilder(const Avatar& avatar, const TouchQuestion* question)
   if (question_ != nullptr) track_.touchingFirst.push_back(0);
 }
 
-std::size_t TrackBuilder::capacity(std::size_t values) const {
-  return values / (4 * static_cast<std::size_t>(avatar_.numLinks()));
+std::size_t TrackBuilder::capacity(std::size_t numbers) const {
+  return numbers / (4 * static_cast<std::size_t>(avatar_.numLinks()));
 }
 
 void TrackBuilder::addPose(double timeS, const Pose& pose) {

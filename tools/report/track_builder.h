@@ -18,9 +18,6 @@
 
 namespace foretouch::tools {
 
-/// What a document holds of poses, in doubles of all avatars' rotations together: 64 MiB.
-inline constexpr std::size_t kMaxTrackValues = std::size_t{8} << 20;
-
 /// Where links are touched at poses is asked of `scene` with `query`.
 struct TouchQuestion {
   const Scene& scene;
@@ -32,8 +29,8 @@ class TrackBuilder {
   /// `avatar`, and what `question` refers to, must outlive it; null: nothing is asked.
   TrackBuilder(const Avatar& avatar, const TouchQuestion* question);
 
-  /// Poses of this avatar that `values` doubles of rotations hold.
-  [[nodiscard]] std::size_t capacity(std::size_t values) const;
+  /// Poses of this avatar whose rotations are at most `numbers` numbers.
+  [[nodiscard]] std::size_t capacity(std::size_t numbers) const;
 
   /// `timeS` is later than that of the pose before. Cost: a query of one instant a link.
   void addPose(double timeS, const Pose& pose);
