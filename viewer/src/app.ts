@@ -53,6 +53,7 @@ function initialStore(model: Model): Store {
     showsGhosts: contact !== null,
     showsSwept: false,
     cutsAway: model.document.kind !== "inspection",
+    tracks: true,
     shape: hasLss ? "lss" : "mesh",
     theme: preferredTheme(),
     follows: model.isLive,

@@ -16,7 +16,7 @@ const nudge = 1 / 50;
 const defaultStep = 0.1;
 
 export function listenForKeys(model: Model, store: Store, actions: Actions): void {
-  const flip = (name: "showsDiscrete" | "showsGhosts" | "showsSwept" | "cutsAway") => (): void =>
+  const flip = (name: "showsDiscrete" | "showsGhosts" | "showsSwept" | "cutsAway" | "tracks") => (): void =>
     store.set({ [name]: !store.state[name] });
   const keys: Record<string, (event: KeyboardEvent) => void> = {
     " ": () => togglePlaying(store, model),
@@ -30,6 +30,7 @@ export function listenForKeys(model: Model, store: Store, actions: Actions): voi
     g: flip("showsGhosts"),
     s: flip("showsSwept"),
     c: flip("cutsAway"),
+    t: flip("tracks"),
     l: () => toggleShape(store),
     f: () => actions.frame(),
     Escape: () => store.set({ contact: null, link: null }),

@@ -39,7 +39,7 @@ export class Player {
     if (!state.isPlaying) return false;
     const time = state.time + elapsed * state.speed;
     if (time < this.model.end) this.store.set({ time });
-    else this.store.set({ time: this.model.end, isPlaying: false });
+    else this.store.set({ time: this.model.end, isPlaying: false, follows: this.model.isLive });
     return this.store.state.isPlaying;
   }
 

@@ -22,6 +22,8 @@ export interface ViewState {
   showsGhosts: boolean;
   showsSwept: boolean;
   cutsAway: boolean;
+  /** Whether the camera goes along with the avatar while time runs. */
+  tracks: boolean;
   shape: Shape;
   theme: Theme;
   /** Live only: whether time follows the stream. */

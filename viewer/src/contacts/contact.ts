@@ -28,10 +28,10 @@ export function contactOf(
   recorded: RecordedContact,
 ): Contact {
   const u = recorded.toi ?? recorded.freeUntil ?? 0;
-  const at = recorded.time ?? span.t0 + u * (span.t1 - span.t0);
-  // Rounding must not show a contact outside the step that it was found in.
-  const within = Math.min(span.t1, Math.max(span.t0, at));
-  return { ...recorded, avatar, linkName, at: within, span };
+  // Rounding must not show a contact after its step; before it may lie one of a step that a stream
+  // has not sent.
+  const at = Math.min(span.t1, recorded.time ?? span.t0 + u * (span.t1 - span.t0));
+  return { ...recorded, avatar, linkName, at, span };
 }
 
 /** In order of time; contacts of the same time keep the document's order. */
@@ -69,5 +69,5 @@ export function contactsAt(contacts: readonly Contact[], time: number, longestSt
 
 /** Of the whole list: what contactsAt() has to look back over. */
 export function longestStep(contacts: readonly Contact[]): number {
-  return contacts.reduce((longest, c) => Math.max(longest, c.span.t1 - c.span.t0), 0);
+  return contacts.reduce((longest, c) => Math.max(longest, c.span.t1 - c.at), 0);
 }

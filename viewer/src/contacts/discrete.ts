@@ -10,9 +10,12 @@ export interface DiscreteCount {
   readonly all: number;
 }
 
-/** How many contacts a check at the poses sees; null where nobody looked. */
+/**
+ * How many contacts a check at the poses sees, of those that begin between poses; null where nobody
+ * looked. What starts in contact or is undecided has no instant to miss.
+ */
 export function discreteCount(contacts: readonly Contact[]): DiscreteCount | null {
-  const known = contacts.filter((contact) => contact.missedByPoses !== null);
+  const known = contacts.filter((one) => one.verdict === "contact" && one.missedByPoses !== null);
   if (known.length === 0) return null;
   return { seen: known.filter((contact) => contact.missedByPoses === false).length, all: known.length };
 }

@@ -8,15 +8,18 @@ import type { Contact } from "./contact.js";
 const maxCandidates = 2000;
 
 /**
- * Index of the contact whose link moves furthest in its step, those first that a check at the poses
- * misses; -1 where there are no contacts.
+ * Index of the contact whose link moves furthest in its step and has the least company in it, those
+ * first that a check at the poses misses; -1 where there are no contacts.
  */
 export function mostTelling(contacts: readonly Contact[], clips: readonly Clip[]): number {
   const postures = clips.map((clip) => new Posture(clip));
+  const company = new Map<string, number>();
+  const stepOf = (contact: Contact): string => `${contact.avatar}:${contact.step}`;
+  for (const contact of contacts) company.set(stepOf(contact), (company.get(stepOf(contact)) ?? 0) + 1);
   let best = -1, bestScore = -Infinity;
   contacts.slice(0, maxCandidates).forEach((contact, index) => {
     const rank = contact.verdict === "contact" ? (contact.missedByPoses === true ? 2 : 1) : 0;
-    const score = rank * 1e6 + travel(contact, postures[contact.avatar]);
+    const score = rank * 1e6 + travel(contact, postures[contact.avatar]) / (company.get(stepOf(contact)) ?? 1);
     if (score > bestScore) [best, bestScore] = [index, score];
   });
   return best;

@@ -50,7 +50,7 @@ export function decodeStep(text: string, avatars: readonly Avatar[]): StepEvent 
   const event = reader(text, "step");
   const id = event.field("avatar").count();
   const avatar = avatars.findIndex((one) => one.id === id);
-  if (avatar < 0) event.field("avatar").fail(`is ${id}, whom the document does not know`);
+  if (avatar < 0) event.field("avatar").fail(`is ${id}, whom the document does not know: reload the page`);
   const links = avatars[avatar].links.length;
   const t0 = event.field("t0").number();
   return {

@@ -7,7 +7,7 @@ import type { StatusEvent, StepEvent } from "../data/events.js";
 import { decodeStatus, decodeStep } from "../data/events.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
-import { keptSeconds, LiveClip } from "./live_clip.js";
+import { LiveClip } from "./live_clip.js";
 
 export type Connection = "connecting" | "connected" | "reconnecting";
 
@@ -68,13 +68,13 @@ export class Feed {
     if (!(clip instanceof LiveClip)) return;
     // A first pose has no step before it: it is held for no time at all.
     const span = { t0: event.t0, t1: Math.max(event.t1, event.t0 + 1e-6) };
+    if (event.skipped > 0) bridge(clip, event);
     const step = clip.add({ ...span, from: event.from, to: event.to });
     const links = this.model.avatars[event.avatar].links;
     for (const fields of event.contacts) {
       this.contacts.push(contactOf(event.avatar, links[fields.link].name, span, { ...fields, step }));
     }
-    const oldest = event.t1 - keptSeconds;
-    const kept = this.contacts.filter((contact) => contact.at >= oldest && contact.at <= this.model.end + keptSeconds);
+    const kept = this.contacts.filter((one) => this.model.clips[one.avatar].spanOf(one.step) !== null);
     if (kept.length !== this.contacts.length || event.contacts.length > 0) {
       this.contacts = kept.sort((a, b) => a.at - b.at);
       this.model.replaceContacts([...this.contacts]);
@@ -94,4 +94,10 @@ export class Feed {
     this.state = { ...this.state, ...changes };
     this.onState();
   }
+}
+
+/** Steps that were answered but not sent: straight over them, rather than standing still. */
+function bridge(clip: LiveClip, event: StepEvent): void {
+  const from = clip.latestPose;
+  if (from !== null && event.t0 > clip.end) clip.add({ t0: clip.end, t1: event.t0, from, to: event.from });
 }

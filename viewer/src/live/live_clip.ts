@@ -9,6 +9,9 @@ import { fraction, lastAtMost, parentsOf } from "../motion/clip.js";
 /** How far back one can look, seconds. */
 export const keptSeconds = 60;
 
+/** A step that begins this much before the last one ended is one of a new clock, seconds. */
+const clockSlack = 1e-3;
+
 export interface LiveStep extends Span {
   readonly from: LocalPose;
   readonly to: LocalPose;
@@ -40,12 +43,17 @@ export class LiveClip implements Clip {
   /** Takes one step and forgets those out of reach; returns its number. A stream that begins anew
    * (its clock goes back) begins a new clip. */
   add(step: LiveStep): number {
-    if (this.hasPose && step.t0 < this.end - 1e-6) this.forget(this.steps.length);
+    if (this.hasPose && step.t0 < this.end - clockSlack) this.forget(this.steps.length);
     this.steps.push(step);
     this.starts.push(step.t0);
     const old = lastAtMost(this.starts, step.t1 - keptSeconds);
     if (old > 0) this.forget(old);
     return this.firstNumber + this.steps.length - 1;
+  }
+
+  /** Where the latest step ends; null where there is none. */
+  get latestPose(): LocalPose | null {
+    return this.steps[this.steps.length - 1]?.to ?? null;
   }
 
   private forget(count: number): void {

@@ -11,6 +11,10 @@ export class Caption {
   readonly node = element("div", { class: "caption" });
   readonly legend = element("ul", { class: "legend", label: "Colours in the view" });
   private readonly text = element("p", { class: "story" });
+  private readonly gap = element("p", {
+    class: "story",
+    text: "Not answered: no step covers this instant. The avatar holds its last pose.",
+  });
   private readonly banner = element("p", { class: "banner" });
 
   private shownLegend = "";
@@ -20,12 +24,15 @@ export class Caption {
     private readonly store: Store,
   ) {
     this.banner.setAttribute("role", "status");
-    this.node.append(this.banner, this.text);
+    this.node.append(this.banner, this.text, this.gap);
     this.update();
   }
 
   update(): void {
-    const { contact, showsDiscrete } = this.store.state;
+    const { contact, showsDiscrete, time } = this.store.state;
+    const clip = this.model.clips[contact?.avatar ?? 0];
+    const isAnswered = clip === undefined || clip.start === clip.end || clip.instantAt(time).step >= 0;
+    this.gap.hidden = isAnswered || this.model.isLive;
     this.text.hidden = contact === null;
     if (contact !== null) setText(this.text, story(contact, this.model.timeZero));
     const discrete = discreteCount(this.model.contacts);

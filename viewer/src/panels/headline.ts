@@ -14,8 +14,8 @@ export function showHeadline(model: Model): void {
 function headline(model: Model): string {
   if (model.document.kind === "inspection") return "Is this the right unit, the right axis and the right place?";
   if (model.isLive) return "Live: what the service answers, as it answers it.";
-  const { contacts } = model;
-  if (contacts.length === 0) return "No contact in the whole clip.";
+  const contacts = model.contacts.filter((contact) => contact.verdict === "contact");
+  if (model.contacts.length === 0) return "No contact in the whole clip.";
   const discrete = discreteCount(contacts);
   if (discrete === null || discrete.seen === discrete.all) return `${plural(contacts.length, "contact")}.`;
   const missed = discrete.all - discrete.seen;

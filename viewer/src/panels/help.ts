@@ -12,6 +12,7 @@ const keys: readonly (readonly [string, string])[] = [
   ["S", "swept volume"],
   ["L", "LSS or meshes"],
   ["C", "cut away what hides the avatar"],
+  ["T", "track: the camera goes along with the avatar"],
   ["F", "frame the contact, or everything"],
   ["Esc", "choose nothing"],
   ["?", "this help"],

@@ -12,6 +12,7 @@ export function summaryCard(view: ViewDocument): HTMLElement | null {
 export function settingsCard(view: ViewDocument): HTMLElement | null {
   if (view.settings.length === 0) return null;
   const fold = element("details", { class: "card" });
+  fold.open = true;
   const lines = view.settings.map(({ name, value }) => [name, value] as const);
   fold.append(element("summary", { text: "Settings" }), definitionTable(lines));
   if (view.tool !== "") fold.append(element("p", { class: "quiet", text: `Made by ${view.tool}.` }));

@@ -11,7 +11,7 @@ export const speeds: readonly number[] = [1 / 8, 1 / 4, 1 / 2, 1, 2];
 const speedNames = ["⅛×", "¼×", "½×", "1×", "2×"];
 const scrubberSteps = 100000;
 
-type Toggle = "showsDiscrete" | "showsGhosts" | "showsSwept" | "cutsAway";
+type Toggle = "showsDiscrete" | "showsGhosts" | "showsSwept" | "cutsAway" | "tracks";
 
 export class Transport {
   readonly node = element("div", { class: "transport" });
@@ -90,6 +90,7 @@ export class Transport {
     if (this.model.contacts.length > 0) add("showsGhosts", "Ghosts", "The pose before the step and the pose asked for (G)");
     if (hasSwept) add("showsSwept", "Swept volume", "Certified surface of what the link sweeps in the step (S)");
     if (this.model.document.scene.indices.length > 0) add("cutsAway", "Cut away", "Leave out what hides the avatar (C)");
+    if (this.model.avatars.length > 0) add("tracks", "Track", "The camera goes along with the avatar while time runs (T)");
     if (this.model.avatars.some((avatar) => avatar.meshes.length > 0 && avatar.lss.length > 0)) {
       this.shape = button("LSS", "The avatar's LSS instead of its meshes (L)", () => toggleShape(this.store), "toggle");
       group.append(this.shape);

@@ -38,5 +38,5 @@ if (cutRadius > 0.0) {
   vec3 cutAxis = cutFocus / cutDistance;
   float cutAlong = dot(cutPosition, cutAxis);
   float cutAside = length(cutPosition - cutAlong * cutAxis);
-  if (cutAlong < cutDistance - cutRadius && cutAside < 1.35 * cutRadius * cutAlong / cutDistance + 0.05) discard;
+  if (cutAlong < cutDistance - cutRadius && cutAside < 0.8 * cutRadius * cutAlong / cutDistance + 0.05) discard;
 }`;

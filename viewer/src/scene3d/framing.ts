@@ -8,7 +8,11 @@ const directions = 12;
 /** Of the camera above the horizon, radians. */
 const elevations = [0.28, 0.5, 0.8];
 /** Looking further into a scene for what is in the way costs more time than it is worth. */
-const maxTrianglesLookedAt = 60000;
+const maxTrianglesLookedAt = 40000;
+/** Off the scene, metres. */
+const lift = 0.02;
+/** What hiding one point weighs against a direction that is liked (up to about 2.5). */
+const hiddenCost = 0.8;
 
 export interface Sight {
   /** In the view's coordinates, as everything here. */
@@ -22,6 +26,8 @@ export interface Subject {
   readonly radius: number;
   /** The point that should be seen, and from which side; null where there is none. */
   readonly point: THREE.Vector3 | null;
+  /** What else should not be hidden. */
+  readonly wanted: readonly THREE.Vector3[];
   readonly normal: THREE.Vector3 | null;
   readonly motion: THREE.Vector3 | null;
 }
@@ -55,7 +61,7 @@ export function distanceFor(radius: number, camera: THREE.PerspectiveCamera): nu
 
 function liking(subject: Subject, towards: THREE.Vector3, elevation: number): number {
   let score = 1 - Math.abs(elevation - 0.35);
-  if (subject.normal !== null) score += 0.8 * Math.min(0.6, subject.normal.dot(towards));
+  if (subject.normal !== null) score += 1.2 * Math.min(0.5, subject.normal.dot(towards));
   if (subject.motion !== null && subject.motion.lengthSq() > 0) {
     score += 0.9 * (1 - Math.abs(subject.motion.clone().normalize().dot(towards)));
   }
@@ -64,8 +70,10 @@ function liking(subject: Subject, towards: THREE.Vector3, elevation: number): nu
 
 /** How many of what should be seen from `position` is hidden. */
 function hiding(subject: Subject, position: THREE.Vector3, scene: Scene): number {
-  const wanted = [subject.centre, ...(subject.point === null ? [] : [subject.point])];
-  return wanted.filter((point) => isHidden(point, position, scene)).length * 1.1;
+  const { point, normal } = subject;
+  // The point lies on the scene, which would hide it.
+  const seen = point === null ? [] : [normal === null ? point : point.clone().addScaledVector(normal, lift)];
+  return [...seen, ...subject.wanted].filter((one) => isHidden(one, position, scene)).length * hiddenCost;
 }
 
 function isHidden(point: THREE.Vector3, position: THREE.Vector3, scene: Scene): boolean {

@@ -128,7 +128,7 @@ void main() {
   vShape = shape;
   vState = state;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-  float size = state > 2.5 ? 22.0 : state > 1.5 ? 15.0 : 6.0;
+  float size = state > 2.5 ? 22.0 : state > 1.5 ? 15.0 : 5.0;
   gl_PointSize = size * pixelRatio;
   if (state < 0.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`,
@@ -150,7 +150,7 @@ void main() {
   vec3 colour = verdict == 0 ? colours[0] : verdict == 1 ? colours[1] : colours[2];
   float rim = vState > 2.5 ? 0.3 : 0.22;
   bool isHalo = vState > 1.5 && depth < rim;
-  gl_FragColor = vec4(isHalo ? halo : colour, vState > 1.5 ? 1.0 : 0.55);
+  gl_FragColor = vec4(isHalo ? halo : colour, vState > 1.5 ? 1.0 : 0.4);
   #include <colorspace_fragment>
 }`,
   });

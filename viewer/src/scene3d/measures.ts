@@ -2,6 +2,8 @@
 
 import * as THREE from "three";
 import type { Bounds, Vector } from "../data/document.js";
+import { emptyBounds, union } from "./bounds.js";
+import type { Label } from "./labels.js";
 import type { Palette } from "./palette.js";
 
 const maxGridMetres = 200;
@@ -11,32 +13,53 @@ const axisColours = { x: "#d55e00", y: "#009e73", z: "#0072b2" };
 
 export class Measures {
   readonly group = new THREE.Group();
-  private readonly boxes: THREE.LineBasicMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.8 });
+  private readonly lines = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.8 });
   private grid: THREE.GridHelper | null = null;
-  private readonly origin: Vector;
+  private readonly bounds: Bounds;
 
+  /** `origin` is the world's point that the view has at zero. */
   constructor(
-    origin: Vector,
-    private readonly bounds: Bounds,
+    private readonly origin: Vector,
+    private readonly boxes: readonly Bounds[],
   ) {
-    this.origin = origin;
+    this.bounds = boxes.reduce(union, emptyBounds);
     this.group.add(...axes(origin));
-    this.addBox(bounds);
+    for (const box of boxes) this.addBox(box);
   }
 
-  addBox(bounds: Bounds): void {
-    const box = new THREE.Box3(
-      new THREE.Vector3(...bounds.min).sub(new THREE.Vector3(...this.origin)),
-      new THREE.Vector3(...bounds.max).sub(new THREE.Vector3(...this.origin)),
-    );
+  /** Names of the axes, and the sides of every box. */
+  labels(): Label[] {
+    const names: Label[] = (["x", "y", "z"] as const).map((name, axis) => {
+      const end: [number, number, number] = [0, 0, 0];
+      end[axis] = 1.08 * axisLength;
+      return { kind: "axis", text: name, at: this.local(end) };
+    });
+    return [...names, ...this.boxes.flatMap((box) => this.sides(box))];
+  }
+
+  private sides({ min, max }: Bounds): Label[] {
+    const middle = (axis: number): number => (min[axis] + max[axis]) / 2;
+    const places: Vector[] = [[middle(0), min[1], max[2]], [max[0], middle(1), max[2]], [max[0], min[1], middle(2)]];
+    return places.map((place, axis) => {
+      const text = `${(max[axis] - min[axis]).toFixed(2)} m`;
+      return { kind: "dimension", text, at: this.local(place) };
+    });
+  }
+
+  private local(point: Vector): THREE.Vector3 {
+    return new THREE.Vector3(...point).sub(new THREE.Vector3(...this.origin));
+  }
+
+  private addBox({ min, max }: Bounds): void {
+    const box = new THREE.Box3(this.local(min), this.local(max));
     const size = box.getSize(new THREE.Vector3()), edges = new THREE.BoxGeometry(size.x, size.y, size.z);
-    const lines = new THREE.LineSegments(new THREE.EdgesGeometry(edges), this.boxes);
+    const lines = new THREE.LineSegments(new THREE.EdgesGeometry(edges), this.lines);
     lines.position.copy(box.getCenter(new THREE.Vector3()));
     this.group.add(lines);
   }
 
   paint(palette: Palette): void {
-    this.boxes.color.set(palette.faint);
+    this.lines.color.set(palette.faint);
     this.grid?.removeFromParent();
     const { min, max } = this.bounds;
     const extent = Math.max(max[0] - min[0], max[2] - min[2]);

@@ -92,7 +92,7 @@ export class Stage {
 }
 
 function lights(): THREE.Light[] {
-  const sky = new THREE.HemisphereLight(0xffffff, 0x9aa3b0, 1.9);
+  const sky = new THREE.HemisphereLight(0xffffff, 0xc4cad3, 1.9);
   const sun = new THREE.DirectionalLight(0xffffff, 1.6);
   sun.position.set(0.5, 1, 0.35);
   const fill = new THREE.DirectionalLight(0xffffff, 0.5);

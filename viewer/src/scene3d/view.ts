@@ -4,8 +4,9 @@ import * as THREE from "three";
 import type { Contact } from "../contacts/contact.js";
 import { contactsAt } from "../contacts/contact.js";
 import { isSeenAtPose, touchingLinks } from "../contacts/discrete.js";
-import type { Bounds, Vector } from "../data/document.js";
+import type { Vector } from "../data/document.js";
 import type { Model } from "../model.js";
+import { choose } from "../panels/choosing.js";
 import { seconds } from "../panels/words.js";
 import type { Change, Store } from "../state.js";
 import { ball, emptyBounds, union } from "./bounds.js";
@@ -19,15 +20,14 @@ import { Markers, MarkerState } from "./markers.js";
 import { Measures } from "./measures.js";
 import { palettes } from "./palette.js";
 import { Performer } from "./performer.js";
-import { pickLink } from "./picking.js";
+import { contactNear, linkUnder, listenForClicks } from "./pointer.js";
 import { Scenery } from "./scenery.js";
 import { Stage } from "./stage.js";
 import { SweptView } from "./swept_view.js";
+import { Tracking } from "./tracking.js";
 
 /** How long a contact stays lit while time runs, seconds: shorter than this nobody sees it. */
 const afterglow = 0.3;
-/** Touch and mouse alike, CSS pixels. */
-const markerReach = 14;
 /** Of an avatar's size. */
 const arrowLength = 0.11;
 
@@ -35,6 +35,7 @@ export class View3D {
   private readonly stage: Stage;
   private readonly flight: Flight;
   private readonly labels: Labels;
+  private readonly tracking: Tracking;
   private readonly cutaway = new Cutaway();
   private readonly scenery: Scenery;
   private readonly markers = new Markers();
@@ -51,6 +52,7 @@ export class View3D {
   ) {
     this.stage = new Stage(host);
     this.flight = new Flight(this.stage);
+    this.tracking = new Tracking(this.stage);
     this.labels = new Labels(this.stage, host);
     this.origin = model.document.scene.origin;
     this.scenery = new Scenery(model.document.scene, this.cutaway);
@@ -63,7 +65,7 @@ export class View3D {
     this.measures = model.document.kind === "inspection" ? this.makeMeasures() : null;
     this.markers.setContacts(model.contacts, this.origin);
     this.stage.onFrame(() => this.beforeFrame());
-    this.listenForClicks();
+    listenForClicks(this.stage.canvas, (x, y) => this.click(x, y));
     this.paint();
     this.update(new Set(["time"]));
   }
@@ -120,6 +122,7 @@ export class View3D {
       performer.paint(palettes[state.theme], this.touchingOf(index, lit), chosen);
       this.poseGhosts(performer, index);
     });
+    this.track();
     this.markers.setStates((contact) => {
       if (contact === state.contact) return MarkerState.Chosen;
       return lit.has(contact) ? MarkerState.Lit : MarkerState.Dim;
@@ -149,6 +152,15 @@ export class View3D {
     return contactsAt(contacts, state.time, longestStep + glow).concat(
       contactsAt(contacts, state.time - glow, longestStep + glow),
     );
+  }
+
+  private track(): void {
+    const { state } = this.store;
+    const performer = this.performers[state.link?.avatar ?? 0];
+    const isTracking = state.tracks && (state.isPlaying || state.follows) && performer?.clip.hasPose === true;
+    if (!isTracking) return this.tracking.follow(null);
+    const [x, y, z] = performer.posture.transform(0).slice(9);
+    this.tracking.follow(this.local([x, y, z]));
   }
 
   private poseGhosts(performer: Performer, index: number): void {
@@ -197,8 +209,9 @@ export class View3D {
     const middle = this.local(centre).lerp(point, 0.55);
     return {
       centre: middle,
-      radius: Math.max(0.92 * radius, middle.distanceTo(point) + 0.2 * radius),
+      radius: Math.max(0.8 * radius, middle.distanceTo(point) + 0.2 * radius),
       point,
+      wanted: [this.local(centre), before, after],
       normal: contact.normal === null ? null : new THREE.Vector3(...contact.normal),
       motion: after.sub(before),
     };
@@ -216,7 +229,7 @@ export class View3D {
     const isScenePart = this.model.document.kind === "inspection" || bounds.length === 0;
     if (isScenePart && this.model.document.scene.bounds !== null) bounds.push(this.model.document.scene.bounds);
     const { centre, radius } = ball(bounds.reduce(union, emptyBounds));
-    return { centre: this.local(centre), radius: 1.1 * radius, point: null, normal: null, motion: null };
+    return { centre: this.local(centre), radius: 1.1 * radius, point: null, wanted: [], normal: null, motion: null };
   }
 
   private avatarRadius(index: number): number {
@@ -226,7 +239,7 @@ export class View3D {
 
   private currentLabels(): Label[] {
     const contact = this.store.state.contact;
-    const labels = this.measures === null ? [] : this.dimensionLabels();
+    const labels = this.measures?.labels() ?? [];
     if (contact === null || contact.point === null) return labels;
     const object = contact.object === null ? "" : ` × ${contact.object}`;
     const text = `${contact.linkName}${object} · ${seconds(contact.at - this.model.timeZero)}`;
@@ -234,85 +247,27 @@ export class View3D {
   }
 
   private makeMeasures(): Measures {
-    const boxes = this.measuredBoxes();
-    const measures = new Measures(this.origin, boxes.reduce(union, emptyBounds));
-    for (const box of boxes) measures.addBox(box);
-    this.stage.scene.add(measures.group);
-    return measures;
-  }
-
-  private measuredBoxes(): Bounds[] {
     for (const performer of this.performers) performer.moveTo(this.store.state.time);
     const { bounds } = this.model.document.scene;
     const boxes = this.performers.filter((one) => one.clip.hasPose).map((one) => one.bounds());
-    return bounds === null ? boxes : [bounds, ...boxes];
-  }
-
-  private dimensionLabels(): Label[] {
-    const axes: Label[] = (["x", "y", "z"] as const).map((name, axis) => {
-      const end: [number, number, number] = [0, 0, 0];
-      end[axis] = 1.08;
-      return { kind: "axis", text: name, at: this.local(end) };
-    });
-    return axes.concat(this.measuredBoxes().flatMap(({ min, max }) => {
-      const middle = (axis: number): number => (min[axis] + max[axis]) / 2;
-      const size = (axis: number): string => `${(max[axis] - min[axis]).toFixed(2)} m`;
-      return [
-        { kind: "dimension" as const, text: size(0), at: this.local([middle(0), min[1], max[2]]) },
-        { kind: "dimension" as const, text: size(1), at: this.local([max[0], middle(1), max[2]]) },
-        { kind: "dimension" as const, text: size(2), at: this.local([max[0], min[1], middle(2)]) },
-      ];
-    }));
+    const measures = new Measures(this.origin, bounds === null ? boxes : [bounds, ...boxes]);
+    this.stage.scene.add(measures.group);
+    return measures;
   }
 
   showLabels(): void {
     this.labels.set(this.currentLabels());
   }
 
-  private listenForClicks(): void {
-    const { canvas } = this.stage;
-    let down: [number, number] | null = null;
-    canvas.addEventListener("pointerdown", (event) => (down = [event.offsetX, event.offsetY]));
-    canvas.addEventListener("pointerup", (event) => {
-      if (down === null) return;
-      const hasMoved = Math.hypot(event.offsetX - down[0], event.offsetY - down[1]) > 5;
-      if (!hasMoved) this.click(event.offsetX, event.offsetY);
-      down = null;
-    });
-  }
-
   private click(x: number, y: number): void {
-    const contact = this.contactNear(x, y);
-    if (contact !== null) {
-      this.store.set({ contact, time: contact.at, isPlaying: false, link: { avatar: contact.avatar, link: contact.link } });
-      return;
-    }
-    const ray = this.stage.rayThrough(x, y);
-    const from = this.worldOf(ray.origin), direction: Vector = [ray.direction.x, ray.direction.y, ray.direction.z];
-    let best = Infinity;
-    let link = null;
-    this.performers.forEach((performer, avatar) => {
-      const hit = performer.clip.hasPose ? pickLink(performer.avatar, performer.posture.world, from, direction) : null;
-      if (hit === null || hit.distance >= best) return;
-      best = hit.distance;
-      link = { avatar, link: hit.link };
-    });
-    this.store.set({ link, contact: null });
-  }
-
-  private contactNear(x: number, y: number): Contact | null {
-    let best: Contact | null = null, bestDistance = markerReach;
     const { state } = this.store;
     const lit = new Set(this.litContacts());
-    for (const contact of this.model.contacts) {
-      const at = contact.point === null ? null : this.screenOf(contact.point);
-      if (at === null) continue;
-      // What is lit wins over the many that are not.
-      const handicap = lit.has(contact) || contact === state.contact ? 0 : 6;
-      const distance = Math.hypot(at[0] - x, at[1] - y) + handicap;
-      if (distance < bestDistance) [best, bestDistance] = [contact, distance];
-    }
-    return best;
+    const isLit = (contact: Contact): boolean => lit.has(contact) || contact === state.contact;
+    const contact = contactNear(this.model.contacts, isLit, (point) => this.screenOf(point), x, y);
+    if (contact !== null) return choose(this.store, contact);
+    const { origin, direction } = this.stage.rayThrough(x, y);
+    const link = linkUnder(this.performers, this.worldOf(origin), [direction.x, direction.y, direction.z]);
+    this.store.set({ link, contact: null });
   }
 
   private local(point: Vector): THREE.Vector3 {

@@ -25,10 +25,12 @@ export class Timeline {
   readonly node = element("section", { class: "timeline", label: "Timeline of contacts" });
   private readonly axis = element("canvas", { class: "axis" });
   private readonly canvas = element("canvas", { class: "bars" });
+  private readonly scroll = element("div", { class: "scroll" }, this.canvas);
   private readonly hint = element("p", { class: "hint" });
   private rows: Row[] = [];
   private window: Window;
   private isAsked = false;
+  private isNew = true;
 
   constructor(
     private readonly model: Model,
@@ -36,8 +38,7 @@ export class Timeline {
   ) {
     this.window = this.whole();
     this.rows = rowsOf(model.contacts, model.avatars);
-    const scroll = element("div", { class: "scroll" }, this.canvas);
-    this.node.append(this.makeBar(), this.axis, scroll);
+    this.node.append(this.makeBar(), this.axis, this.scroll);
     for (const canvas of [this.axis, this.canvas]) {
       canvas.setAttribute("role", "img");
       new Gestures(canvas, {
@@ -54,7 +55,17 @@ export class Timeline {
     if (changes.has("contacts")) this.rows = rowsOf(this.model.contacts, this.model.avatars);
     if (this.model.isLive) this.window = this.whole();
     else if (changes.has("time")) this.followTime();
+    if (changes.has("contact")) this.showRow();
     this.draw();
+  }
+
+  /** Scrolls to the row of what is chosen. */
+  showRow(): void {
+    const { contact } = this.store.state;
+    const row = this.rows.findIndex((one) => one.link === contact?.link && one.avatar === contact.avatar);
+    const top = row * rowHeight, { scrollTop, clientHeight } = this.scroll;
+    const isSeen = top >= scrollTop && top + rowHeight <= scrollTop + clientHeight;
+    if (row >= 0 && !isSeen) this.scroll.scrollTop = top - (clientHeight - rowHeight) / 2;
   }
 
   private whole(): Window {
@@ -73,8 +84,10 @@ export class Timeline {
     const middle = (): number => this.store.state.time;
     const legend = element("span", { class: "verdicts" });
     for (const verdict of ["contact", "starts_in_contact", "undecided"] as const) {
-      if (!this.model.contacts.some((contact) => contact.verdict === verdict) && !this.model.isLive) continue;
-      legend.append(element("span", { class: `swatch ${verdict}` }), element("span", { text: verdictNames[verdict] }));
+      const count = this.model.contacts.filter((contact) => contact.verdict === verdict).length;
+      if (count === 0 && !this.model.isLive) continue;
+      const text = this.model.isLive ? verdictNames[verdict] : `${count} ${verdictNames[verdict]}`;
+      legend.append(element("span", { class: `swatch ${verdict}` }), element("span", { text }));
     }
     return element("div", { class: "timeline-bar" }, element("h2", { text: "Contacts over time" }), legend, this.hint,
       element("div", { class: "group" },
@@ -145,9 +158,11 @@ export class Timeline {
       this.isAsked = false;
       this.drawAxis();
       this.drawRows();
-      const words = `${plural(this.model.contacts.length, "contact")} of ${plural(this.rows.length, "link")}`;
+      if (this.isNew) this.showRow();
+      this.isNew = false;
+      const words = plural(this.rows.length, "link");
       this.hint.textContent = words;
-      this.canvas.setAttribute("aria-label", `Timeline: ${words}. The table of contacts has them in words.`);
+      this.canvas.setAttribute("aria-label", `Timeline of contacts: ${words}. The table of contacts has them in words.`);
       this.axis.setAttribute("aria-label", "Time axis");
     });
   }
