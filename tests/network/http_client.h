@@ -1,6 +1,7 @@
 // tests/network/http_client.h: HTTP as bytes: what a browser says, and what no browser would.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <netinet/in.h>
 #include <string>
@@ -53,10 +54,11 @@ class Connection {
     const ssize_t got = ::recv(socket_, buffer, sizeof buffer, 0);
     return got > 0 ? std::string(buffer, static_cast<std::size_t>(got)) : std::string();
   }
-  /// Up to and with `text`, or to the end of the connection.
+  /// Up to and with `text`, or to the end of the connection or of patience.
   std::string receivedUpTo(const std::string& text) {
     std::string received;
-    while (received.find(text) == std::string::npos) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (received.find(text) == std::string::npos && std::chrono::steady_clock::now() < until) {
       const std::string next = receivedNext();
       if (next.empty()) break;
       received += next;

@@ -34,9 +34,11 @@ using test::statusOf;
 /// Events under a test's hand. The server owns a source that reads here.
 class Stage {
  public:
-  void say(ViewEvent event) {
+  void say(ViewEvent event) { sayTogether({std::move(event)}); }
+  /// They are collected together.
+  void sayTogether(const std::vector<ViewEvent>& events) {
     const std::lock_guard lock(mutex_);
-    events_.push_back(std::move(event));
+    events_.insert(events_.end(), events.begin(), events.end());
   }
   void take(std::vector<ViewEvent>& events) {
     const std::lock_guard lock(mutex_);
@@ -168,9 +170,7 @@ TEST_F(View, IsForThisMachineAlone) {
 TEST_F(View, ShowsNewcomersTheLastOfEveryTopicAndThenWhatComes) {
   start();
   const auto first = viewer();
-  stage_->say(eventOf(1, 1, {11}));
-  stage_->say(eventOf(0, 1));
-  stage_->say(eventOf(1, 2, {12}));
+  stage_->sayTogether({eventOf(1, 1, {11}), eventOf(0, 1), eventOf(1, 2, {12})});
   std::string seen = first->receivedUpTo("\"sequence\":2,\"contacts\":[11,12]");
   const auto second = viewer();
   const std::string shown =
