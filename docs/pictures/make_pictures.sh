@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Draws the pictures of docs/ from the bundled example, by the built program: make_pictures.sh FORETOUCH
+set -euo pipefail
+program=$(realpath "$1")
+pictures=$(cd "$(dirname "$0")" && pwd)
+example=$(realpath "$(dirname "$program")/../share/foretouch/examples")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+python3 "$pictures/concepts.py"
+cd "$work"
+"$program" demo --output demo.jsonl --report demo.html >/dev/null
+inputs=(--scene "$example/room.obj" --avatar "$example/dancer.avatar.json" --motion "$example/dancer.bvh")
+"$program" view "${inputs[@]}" --output look.html >/dev/null
+"$program" view "${inputs[@]}" --up z --output wrong.html >/dev/null
+PYTHONDONTWRITEBYTECODE=1 python3 "$pictures/report_pictures.py" demo.html look.html wrong.html "$pictures"
+ls -l "$pictures"/*.png
