@@ -1,19 +1,45 @@
 #!/usr/bin/env bash
-# Installs the build into a folder of its own and builds the README's library example against it with
-# find_package, as somebody else's project would.
-#   consumer_test.sh CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER GENERATOR
+# Installs the build into a folder of its own and builds examples against it as somebody else's
+# projects would: the README's in C++ with find_package, the one in C with find_package and with
+# pkg-config.
+#   consumer_test.sh CMAKE BUILD_FOLDER SOURCE_FOLDER CXX_COMPILER GENERATOR C_COMPILER
 set -euo pipefail
-cmake=$1 build=$2 source=$3 compiler=$4 generator=$5
+cmake=$1 build=$2 source=$3 cxx=$4 generator=$5 cc=$6
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$cmake" --install "$build" --prefix "$folder/prefix" >"$folder/install.log"
-"$cmake" -G "$generator" -S "$source/tests/consumer" -B "$folder/build" -DCMAKE_PREFIX_PATH="$folder/prefix" \
-  -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release
-"$cmake" --build "$folder/build"
-"$folder/build/consumer"
+prefix=$folder/prefix
+"$cmake" --install "$build" --prefix "$prefix" >"$folder/install.log"
+
+consume() {  # consume NAME SOURCES CMAKE_OPTIONS...
+  local name=$1 sources=$2
+  shift 2
+  "$cmake" -G "$generator" -S "$sources" -B "$folder/$name" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release "$@"
+  "$cmake" --build "$folder/$name"
+}
+
+consume consumer "$source/tests/consumer" -DCMAKE_CXX_COMPILER="$cxx"
+"$folder/consumer/consumer" | tee "$folder/cxx.txt"
+
+if [ -f "$prefix/include/foretouch/foretouch.h" ]; then
+  consume swing "$prefix/share/foretouch/c-example" -DCMAKE_C_COMPILER="$cc"
+  "$folder/swing/swing" | tee "$folder/c.txt"
+  # The same question, the same answer.
+  cmp "$folder/cxx.txt" <(head -n 1 "$folder/c.txt")
+
+  library=$(dirname "$(find "$prefix" -name libforetouch.so)")
+  read -ra flags <<<"$(PKG_CONFIG_PATH=$library/pkgconfig pkg-config --cflags --libs foretouch)"
+  for program in "$prefix/share/foretouch/c-example/swing.c" "$source/tests/consumer/import.c"; do
+    "$cc" -std=c99 -pedantic -Wall -Wextra -Werror "$program" -o "$folder/$(basename "$program" .c)-c" "${flags[@]}" -lm
+  done
+  export LD_LIBRARY_PATH=$library
+  "$folder/swing-c" | cmp - "$folder/c.txt"
+  printf 'v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n' >"$folder/scene.obj"
+  "$folder/import-c" "$folder/scene.obj"
+fi
+
 # The program works from where it was installed: it finds its importer and its example.
-if [ -x "$folder/prefix/bin/foretouch" ]; then
+if [ -x "$prefix/bin/foretouch" ]; then
   cd "$folder"
-  "$folder/prefix/bin/foretouch" demo --output demo.jsonl >demo.txt
+  "$prefix/bin/foretouch" demo --output demo.jsonl >demo.txt
   grep -q '"format":"foretouch-results"' demo.jsonl
 fi

@@ -18,7 +18,7 @@ test ! -e /etc/systemd/system/multi-user.target.wants/foretouch.service
 test -f /usr/share/doc/foretouch/copyright
 
 say "the C example, with a compiler and nothing else of C++ or CMake"
-apt-get purge -y -qq foretouch >/dev/null
+apt-get purge -y -qq foretouch >apt.log 2>&1
 install "$(of 'libforetouch0*')" "$(of libforetouch-dev)"
 install gcc libc6-dev pkg-config
 example=/usr/share/foretouch/c-example
@@ -47,7 +47,7 @@ fi
 
 say "all of them together, and away again"
 install ./packages/*.deb
-apt-get purge -y -qq foretouch 'libforetouch*' >/dev/null
+apt-get purge -y -qq foretouch 'libforetouch*' >apt.log 2>&1
 if find /usr -name '*foretouch*' | grep .; then
   echo "left behind by the packages" >&2
   exit 1
