@@ -11,6 +11,6 @@ cd "$work"
 "$program" demo --output demo.jsonl --report demo.html >/dev/null
 inputs=(--scene "$example/room.obj" --avatar "$example/dancer.avatar.json" --motion "$example/dancer.bvh")
 "$program" view "${inputs[@]}" --output look.html >/dev/null
-"$program" view "${inputs[@]}" --up z --output wrong.html >/dev/null
+"$program" view "${inputs[@]}" --scene-scale 0.01 --output wrong.html >/dev/null
 PYTHONDONTWRITEBYTECODE=1 python3 "$pictures/report_pictures.py" demo.html look.html wrong.html "$pictures"
 ls -l "$pictures"/*.png
