@@ -130,7 +130,8 @@ void addSceneRows(const Scene& scene, ViewDocument& document) {
   const SceneAudit& audit = scene.audit();
   std::vector<ViewRow>& rows = document.summary;
   rows.push_back({"scene", fmt::format("{} triangles", audit.triangles),
-                  fmt::format("{} objects", scene.objectNames().size())});
+                  fmt::format("in {} object{}", scene.objectNames().size(),
+                              scene.objectNames().size() == 1 ? "" : "s")});
   rows.push_back({"size of the scene", sizeText(audit.boxMax - audit.boxMin), "x, y (up), z"});
   rows.push_back({"height of the scene",
                   fmt::format("{:.4g} to {:.4g} m", audit.boxMin.y(), audit.boxMax.y()), ""});

@@ -195,21 +195,22 @@ class Gathering {
 };
 
 void noteClipping(const ViewScene& view, const Choice& choice, std::vector<std::string>& notes) {
-  notes.push_back(fmt::format(
-      "{} has {} triangles: only the {} within {:g} m of the action are shown. Contacts "
-      "were looked for in all of them.",
-      view.name, view.trianglesInFile, choice.ids.size(), choice.reachM));
+  notes.push_back(
+      fmt::format("{} has {} triangles: only the {} within {:g} m of the action are shown. That is "
+                  "for the page alone: queries take all of them.",
+                  view.name, view.trianglesInFile, choice.ids.size(), choice.reachM));
 }
 
 void noteSimplifying(const ViewScene& view, const Choice& choice, double errorM,
                      std::vector<std::string>& notes) {
-  const std::string part = choice.reachM > 0.0
-                               ? fmt::format(", of which {} are within {:g} m of the action",
-                                             choice.ids.size(), choice.reachM)
-                               : "";
+  const bool isClipped = choice.ids.size() < view.trianglesInFile;
+  const std::string part = isClipped ? fmt::format(", of which {} are within {:g} m of the action",
+                                                   choice.ids.size(), choice.reachM)
+                                     : "";
   notes.push_back(fmt::format(
       "{} has {} triangles{}: they are shown simplified to {}, which may hide details of {:.2g} m. "
-      "Contacts were looked for in the triangles themselves; those touched are shown as they are.",
+      "That is for the page alone: queries take the triangles as they are, and those that contacts "
+      "name are shown so.",
       view.name, view.trianglesInFile, part, view.mesh.triangles(), errorM));
 }
 

@@ -117,9 +117,9 @@ std::string logOfTwo(const SmallWorld& world, Lose lose) {
   std::map<std::int32_t, int> poses;
   for (const std::string name : {"one", "two"}) {
     const std::string log = world.folder / (name + ".lcmlog");
-    const std::string avatar = (name == "one" ? "1=" : "2=") + (world.folder / "man.json");
-    EXPECT_EQ(runForetouch({"publish", world.folder / (name + ".bvh"), "--avatar", avatar,
-                            "--start", "1000000", "--output", log})
+    EXPECT_EQ(runForetouch({"publish", world.folder / (name + ".bvh"), "--avatar",
+                            world.folder / "man.json", "--id", name == "one" ? "1" : "2", "--start",
+                            "1000000", "--output", log})
                   .exitCode,
               0);
     auto reader = EventLogReader::open(log).value();
