@@ -1,6 +1,7 @@
 // tests/network/http_client.h: HTTP as bytes: what a browser says, and what no browser would.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <netinet/in.h>
@@ -50,24 +51,31 @@ class Connection {
   void sendNoMore() { ::shutdown(socket_, SHUT_WR); }
   /// What comes next; empty where the connection has ended.
   std::string receivedNext() {
+    if (!held_.empty()) return std::exchange(held_, {});
     char buffer[4096];
     const ssize_t got = ::recv(socket_, buffer, sizeof buffer, 0);
     return got > 0 ? std::string(buffer, static_cast<std::size_t>(got)) : std::string();
   }
-  /// Up to and with `text`, or to the end of the connection or of patience.
+  /// Up to and with `text`, and no more; or to the end of the connection or of patience.
   std::string receivedUpTo(const std::string& text) {
     std::string received;
     const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    while (received.find(text) == std::string::npos && std::chrono::steady_clock::now() < until) {
+    for (std::size_t from = 0; std::chrono::steady_clock::now() < until;) {
       const std::string next = receivedNext();
       if (next.empty()) break;
       received += next;
+      const std::size_t found = received.find(text, from);
+      if (found != std::string::npos) {
+        held_ = received.substr(found + text.size());
+        return received.substr(0, found + text.size());
+      }
+      from = received.size() - std::min(received.size(), text.size());
     }
     return received;
   }
   /// To the end of the connection.
   std::string received() {
-    std::string text;
+    std::string text = std::exchange(held_, {});
     char buffer[4096];
     for (ssize_t got = 0; (got = ::recv(socket_, buffer, sizeof buffer, 0)) > 0;) {
       text.append(buffer, static_cast<std::size_t>(got));
@@ -78,6 +86,7 @@ class Connection {
  private:
   int socket_ = -1;
   bool isOpen_ = false;
+  std::string held_;  // read, and not given out yet
 };
 
 inline std::string asked(std::uint16_t port, const std::string& request) {

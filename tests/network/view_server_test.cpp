@@ -235,7 +235,7 @@ void sayMany(Stage& stage, int from, int steps, std::vector<int>& contacts) {
     stage.say(eventOf(0, i, {i}, 8000));
     // One a collection, mostly: the source merges nothing by itself.
     if (i % 16 != 0) continue;
-    EXPECT_TRUE(eventually([&] { return stage.isTaken(); }));
+    EXPECT_TRUE(eventually([&] { return stage.isTaken() || stage.viewers == 0; }));
   }
 }
 
@@ -251,9 +251,8 @@ TEST_F(View, LetsSlowViewersSkipStepsAndNoContact) {
   std::vector<int> said;
   sayMany(*stage_, 1, kSteps, said);
   reading.join();
-  const std::string seenSlowly =
-      slow->receivedUpTo("\"sequence\":" + std::to_string(kSteps) + ",") +
-      slow->receivedUpTo("\n\n");
+  std::string seenSlowly = slow->receivedUpTo("\"sequence\":" + std::to_string(kSteps) + ",");
+  seenSlowly += slow->receivedUpTo("\n\n");
   std::vector<int> contacts;
   std::int64_t steps = 0;
   const std::vector<SentEvent> events = sentEvents(seenSlowly);
