@@ -1,16 +1,12 @@
-// bindings/python/answers.cpp: foretouch.Step, Steps, Contact and Verdict.
+// bindings/python/answers.cpp: foretouch.Step and Steps.
 #include "bindings/python/answers.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cstdio>
-#include <type_traits>
 #include <utility>
 
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
-#include "middleware/exact/feature.h"
 
 namespace foretouch::python {
 namespace {
@@ -36,146 +32,6 @@ constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 14>
      {"settled_above", &QueryCounters::settledAbove}}};
 static_assert(sizeof(QueryCounters) == kCounters.size() * sizeof(std::uint64_t),
               "name the new counter above");
-
-PyObject* verdictType = nullptr;  // borrowed from the module
-
-/// "contact" as a member of an enumeration is CONTACT.
-std::string upperCase(std::string word) {
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return word;
-}
-
-py::object verdictOf(const LinkContact& contact) {
-  return py::reinterpret_borrow<py::object>(verdictType)(static_cast<int>(contact.verdict));
-}
-
-const LinkContact& contactOf(const Contact& contact) {
-  return contact.answers->contacts[contact.place];
-}
-
-bool isTouching(const LinkContact& contact) {
-  return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
-}
-
-// ---- Contact ----
-
-/// A property that only a contact has; None for what is clear or undecided.
-template <typename Read>
-auto ofTouch(const Read& read) {
-  return [read](const Contact& contact) -> py::object {
-    const LinkContact& c = contactOf(contact);
-    if (!isTouching(c)) return py::none();
-    auto value = read(contact, c);
-    if constexpr (std::is_base_of_v<py::object, decltype(value)>) {
-      return value;
-    } else {
-      return py::cast(value);
-    }
-  };
-}
-
-auto pointOf(Vector3d LinkContact::*field) {
-  return ofTouch(
-      [field](const Contact&, const LinkContact& c) { return Numbers(3, (c.*field).data()); });
-}
-
-py::object featureOf(const Contact& contact, FeatureKind LinkContact::*field) {
-  const LinkContact& c = contactOf(contact);
-  if (c.linkTriangle < 0) return py::none();
-  return py::str(toString(c.*field));
-}
-
-const std::string& objectNameOf(const Contact& contact, const LinkContact& c) {
-  const Scene& scene = *contact.answers->scene;
-  return scene.objectNames()[std::size_t(scene.object(c.triangle))];
-}
-
-py::str linkNameOf(const Contact& contact) {
-  return nameOf(*contact.answers->avatar, contactOf(contact).link);
-}
-
-std::string representation(const Contact& contact) {
-  const LinkContact& c = contactOf(contact);
-  const std::string& link = contact.answers->avatar->skeleton().name(c.link);
-  std::array<char, 96> numbers{};
-  if (isTouching(c)) {
-    const bool begins = c.verdict == Verdict::StartsInContact;
-    std::snprintf(numbers.data(), numbers.size(), " at t=%.6g, %.3g mm %s, triangle %d>", c.toi,
-                  1e3 * (begins ? c.penetration : c.separation), begins ? "deep" : "apart",
-                  c.triangle);
-    return "<foretouch.Contact: " + link + (begins ? " starts in contact with " : " meets ") +
-           objectNameOf(contact, c) + numbers.data();
-  }
-  if (c.verdict == Verdict::Clear) return "<foretouch.Contact: " + link + " is clear>";
-  std::snprintf(numbers.data(), numbers.size(), ", free until t=%.6g>", c.freeUntil);
-  return "<foretouch.Contact: " + link + " is undecided (" + toString(c.reason) + ")" +
-         numbers.data();
-}
-
-void bindContact(py::module_& module) {
-  const auto field = [](auto member) {
-    return [member](const Contact& contact) { return contactOf(contact).*member; };
-  };
-  py::class_<Contact>(module, "Contact",
-                      "What one link meets first in one step. What only a contact has is None\n"
-                      "where the link is clear or undecided. Metres, world frame.")
-      .def_property_readonly("link", &linkNameOf, "The link's name.")
-      .def_property_readonly("link_id", field(&LinkContact::link))
-      .def_property_readonly("verdict", [](const Contact& c) { return verdictOf(contactOf(c)); })
-      .def_property_readonly(
-          "reason",
-          [](const Contact& contact) -> py::object {
-            const LinkContact& c = contactOf(contact);
-            if (c.reason == UndecidedReason::None) return py::none();
-            return py::str(toString(c.reason));
-          },
-          "Why it is undecided: 'work-budget', 'resolution' or 'after-first'.")
-      .def_property_readonly("toi",
-                             ofTouch([](const Contact&, const LinkContact& c) { return c.toi; }),
-                             "Time of impact in [0, 1], never late.")
-      .def_property_readonly("free_until", field(&LinkContact::freeUntil),
-                             "Nothing is touched before; 1 where the link is clear.")
-      .def_property_readonly(
-          "separation", ofTouch([](const Contact&, const LinkContact& c) { return c.separation; }),
-          "At toi, at most the tolerance.")
-      .def_property_readonly("penetration", ofTouch([](const Contact&, const LinkContact& c) {
-                               return c.penetration;
-                             }))
-      .def_property_readonly("point", pointOf(&LinkContact::p_WScene), "(3,), on the scene.")
-      .def_property_readonly("on_link", pointOf(&LinkContact::p_WLink), "(3,), on the link.")
-      .def_property_readonly("normal", pointOf(&LinkContact::nhat_SL_W),
-                             "(3,), unit, from the scene to the link.")
-      .def_property_readonly(
-          "triangle", ofTouch([](const Contact&, const LinkContact& c) { return c.triangle; }))
-      .def_property_readonly("object", ofTouch([](const Contact& contact, const LinkContact& c) {
-                               return readable(objectNameOf(contact, c));
-                             }),
-                             "The name of the triangle's object.")
-      .def_property_readonly("object_id", ofTouch([](const Contact& contact, const LinkContact& c) {
-                               return contact.answers->scene->object(c.triangle);
-                             }))
-      .def_property_readonly("lss",
-                             ofTouch([](const Contact&, const LinkContact& c) { return c.lss; }),
-                             "Which of the link's LSS.")
-      .def_property_readonly(
-          "link_triangle",
-          [](const Contact& contact) -> py::object {
-            const LinkContact& c = contactOf(contact);
-            if (c.linkTriangle < 0) return py::none();
-            return py::int_(c.linkTriangle);
-          },
-          "At exact fidelity: which of the link's triangles.")
-      .def_property_readonly(
-          "link_feature",
-          [](const Contact& contact) { return featureOf(contact, &LinkContact::linkFeature); },
-          "At exact fidelity: 'vertex', 'edge' or 'face'.")
-      .def_property_readonly(
-          "scene_feature",
-          [](const Contact& contact) { return featureOf(contact, &LinkContact::sceneFeature); },
-          "The same of the scene's triangle.")
-      .def("__repr__", &representation);
-}
 
 // ---- arrays over links, and over steps and links ----
 
@@ -309,8 +165,8 @@ std::string stepText(const Step& step) {
   std::string text = "<foretouch.Step: ";
   const auto found = contacts(step);
   if (found.empty()) return text + "all " + std::to_string(step.answers->links()) + " links clear>";
-  return text + std::to_string(found.size()) + " links not clear, first " +
-         representation(found.front()) + ">";
+  return text + std::to_string(found.size()) + " links not clear, first " + textOf(found.front()) +
+         ">";
 }
 
 void bindStep(py::module_& module) {
@@ -359,23 +215,9 @@ void bindSteps(py::module_& module) {
       });
 }
 
-void bindVerdict(py::module_& module) {
-  py::dict members;
-  for (const Verdict verdict :
-       {Verdict::Clear, Verdict::Contact, Verdict::StartsInContact, Verdict::Undecided}) {
-    members[py::str(upperCase(toString(verdict)))] = static_cast<int>(verdict);
-  }
-  const py::object type = py::module_::import("enum").attr("IntEnum")(
-      "Verdict", members, py::arg("module") = "foretouch._foretouch");
-  module.attr("Verdict") = type;
-  verdictType = type.ptr();
-}
-
 }  // namespace
 
 void bindAnswers(py::module_& module) {
-  bindVerdict(module);
-  bindContact(module);
   bindStep(module);
   bindSteps(module);
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "articulated/avatar.h"
@@ -39,5 +40,7 @@ struct Contact {
   SharedAnswers answers;
   std::size_t place = 0;  ///< In Answers::contacts.
 };
+/// For a person, in angle brackets.
+[[nodiscard]] std::string textOf(const Contact& contact);
 
 }  // namespace foretouch::python

@@ -11,6 +11,8 @@ void bindAvatar(pybind11::module_& module);
 void bindSurface(pybind11::module_& module);
 void bindClip(pybind11::module_& module);
 void bindMotion(pybind11::module_& module);
+void bindVerdict(pybind11::module_& module);
+void bindContact(pybind11::module_& module);
 void bindAnswers(pybind11::module_& module);
 void bindQuery(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);

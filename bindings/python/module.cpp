@@ -11,6 +11,8 @@ PYBIND11_MODULE(_foretouch, module) {
   bindSurface(module);
   bindClip(module);
   bindMotion(module);
+  bindVerdict(module);
+  bindContact(module);
   bindAnswers(module);
   bindQuery(module);
   bindSweep(module);

@@ -23,7 +23,6 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"bindings", {"middleware", "tessellation", "articulated", "lss"}},
     {"network", {"middleware", "tessellation", "articulated", "lss"}},
     {"tools", {"network", "middleware", "tessellation", "articulated", "lss"}},
-    {"bindings", {"middleware", "tessellation", "articulated", "lss"}},
     {"examples", {"articulated", "lss"}},
 };
 

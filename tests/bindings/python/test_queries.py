@@ -153,7 +153,9 @@ class Options(unittest.TestCase):
     def test_coarser_fidelities_are_never_later(self):
         link = self.ask()
         for fidelity in ["limb", "avatar", "ellipsoid"]:
-            self.assertLessEqual(self.ask(fidelity=fidelity)["fore"].toi, link["fore"].toi + 1e-2)
+            coarse = self.ask(fidelity=fidelity)["fore"]
+            self.assertLessEqual(coarse.toi, link["fore"].toi + 1e-2)
+            self.assertEqual((coarse.object, coarse.lss), ("wall", 0))
 
     def test_counters_count(self):
         counters = self.ask().counters
