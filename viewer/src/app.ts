@@ -52,7 +52,7 @@ function initialStore(model: Model): Store {
     showsDiscrete: false,
     showsGhosts: contact !== null,
     showsSwept: false,
-    cutsAway: model.document.kind !== "inspection",
+    cutsAway: true,
     tracks: true,
     shape: hasLss ? "lss" : "mesh",
     theme: preferredTheme(),
@@ -97,7 +97,8 @@ function addControls(model: Model, store: Store): void {
   const transport = new Transport(model, store);
   const timeline = new Timeline(model, store);
   const hasTime = model.isLive || model.end > model.start;
-  if (hasTime) byId("controls").append(transport.node, timeline.node);
+  if (hasTime) byId("controls").append(transport.node);
+  if (hasTime && model.document.kind !== "inspection") byId("controls").append(timeline.node);
   store.subscribe((changes) => {
     transport.update(changes);
     timeline.update(changes);

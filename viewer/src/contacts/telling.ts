@@ -19,7 +19,7 @@ export function mostTelling(contacts: readonly Contact[], clips: readonly Clip[]
   let best = -1, bestScore = -Infinity;
   contacts.slice(0, maxCandidates).forEach((contact, index) => {
     const rank = contact.verdict === "contact" ? (contact.missedByPoses === true ? 2 : 1) : 0;
-    const score = rank * 1e6 + travel(contact, postures[contact.avatar]) / (company.get(stepOf(contact)) ?? 1);
+    const score = rank * 1e6 + travel(contact, postures[contact.avatar]) / (company.get(stepOf(contact)) ?? 1) ** 2;
     if (score > bestScore) [best, bestScore] = [index, score];
   });
   return best;

@@ -31,7 +31,7 @@ export function notesCard(view: ViewDocument): HTMLElement | null {
 
 function reductionNotes(view: ViewDocument): string[] {
   const { reduction, indices, trianglesInFile, name } = view.scene;
-  if (reduction === "none" || view.notes.some((note) => note.includes(reduction))) return [];
+  if (reduction === "none" || view.notes.some((note) => note.includes(name))) return [];
   const shown = `${count(indices.length / 3)} of the ${count(trianglesInFile)} triangles of ${name}`;
   return [`The scene is ${reduction}: shown are ${shown}. Contacts were computed with all of them.`];
 }

@@ -32,10 +32,10 @@ export class Transport {
     this.live.hidden = !model.isLive;
     this.makeScrubber();
     this.makeSpeed();
-    const moves = element("div", { class: "group" },
-      button("⟨", "Previous contact ([)", () => chooseNeighbour(store, model, -1)), this.play,
-      button("⟩", "Next contact (])", () => chooseNeighbour(store, model, 1)), this.live,
-    );
+    const previous = button("⟨", "Previous contact ([)", () => chooseNeighbour(store, model, -1));
+    const next = button("⟩", "Next contact (])", () => chooseNeighbour(store, model, 1));
+    previous.hidden = next.hidden = model.document.kind === "inspection";
+    const moves = element("div", { class: "group" }, previous, this.play, next, this.live);
     this.node.append(moves, this.scrubber, this.clock, this.speed, this.makeToggles());
     this.update(new Set());
   }

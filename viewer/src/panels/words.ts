@@ -24,7 +24,7 @@ export function microseconds(value: number): string {
 }
 
 export function vector(v: Vector, digits = 4): string {
-  return v.map((value) => value.toFixed(digits).replace("-", "−")).join(", ");
+  return v.map((value) => value.toFixed(digits).replace(/^-(?=[0.]*$)/, "").replace("-", "−")).join(", ");
 }
 
 export function count(value: number): string {

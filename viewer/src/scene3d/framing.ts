@@ -2,22 +2,29 @@
 // the motion, and with nothing in the way if that can be had.
 
 import * as THREE from "three";
-import type { Scene } from "../data/document.js";
+import type { Occluders } from "./occluders.js";
 
 const directions = 12;
 /** Of the camera above the horizon, radians. */
-const elevations = [0.28, 0.5, 0.8];
-/** Looking further into a scene for what is in the way costs more time than it is worth. */
-const maxTrianglesLookedAt = 40000;
+const elevations = [0.28, 0.5, 0.8, 1];
+/** Of a contact, and of everything: into a room one looks from above, radians. */
+const likedElevation = 0.35, likedElevationOfAll = 0.8;
 /** Off the scene, metres. */
 const lift = 0.02;
 /** What hiding one point weighs against a direction that is liked (up to about 2.5). */
-const hiddenCost = 0.8;
+const hiddenCost = 0.9;
 
 export interface Sight {
   /** In the view's coordinates, as everything here. */
   readonly target: THREE.Vector3;
   readonly position: THREE.Vector3;
+}
+
+/** A segment with a radius, metres. */
+export interface Limb {
+  readonly a: THREE.Vector3;
+  readonly b: THREE.Vector3;
+  readonly radius: number;
 }
 
 /** What a sight is to show. */
@@ -28,11 +35,13 @@ export interface Subject {
   readonly point: THREE.Vector3 | null;
   /** What else should not be hidden. */
   readonly wanted: readonly THREE.Vector3[];
+  /** What of the avatar itself may be in the way of `point`. */
+  readonly body: readonly Limb[];
   readonly normal: THREE.Vector3 | null;
   readonly motion: THREE.Vector3 | null;
 }
 
-export function sightOf(subject: Subject, camera: THREE.PerspectiveCamera, scene: Scene): Sight {
+export function sightOf(subject: Subject, camera: THREE.PerspectiveCamera, occluders: Occluders): Sight {
   const distance = distanceFor(subject.radius, camera);
   let best: Sight | null = null, bestScore = -Infinity;
   for (const elevation of elevations) {
@@ -42,7 +51,7 @@ export function sightOf(subject: Subject, camera: THREE.PerspectiveCamera, scene
         Math.cos(elevation) * Math.sin(azimuth), Math.sin(elevation), Math.cos(elevation) * Math.cos(azimuth),
       );
       const position = subject.centre.clone().addScaledVector(towards, distance);
-      const score = liking(subject, towards, elevation) - hiding(subject, position, scene);
+      const score = liking(subject, towards, elevation) - hiding(subject, position, occluders);
       if (score > bestScore) {
         best = { target: subject.centre.clone(), position };
         bestScore = score;
@@ -60,8 +69,8 @@ export function distanceFor(radius: number, camera: THREE.PerspectiveCamera): nu
 }
 
 function liking(subject: Subject, towards: THREE.Vector3, elevation: number): number {
-  let score = 1 - Math.abs(elevation - 0.35);
-  if (subject.normal !== null) score += 1.2 * Math.min(0.5, subject.normal.dot(towards));
+  let score = 1 - Math.abs(elevation - (subject.point === null ? likedElevationOfAll : likedElevation));
+  if (subject.normal !== null) score += 0.7 * Math.min(0.5, Math.max(-0.4, subject.normal.dot(towards)));
   if (subject.motion !== null && subject.motion.lengthSq() > 0) {
     score += 0.9 * (1 - Math.abs(subject.motion.clone().normalize().dot(towards)));
   }
@@ -69,25 +78,20 @@ function liking(subject: Subject, towards: THREE.Vector3, elevation: number): nu
 }
 
 /** How many of what should be seen from `position` is hidden. */
-function hiding(subject: Subject, position: THREE.Vector3, scene: Scene): number {
+function hiding(subject: Subject, position: THREE.Vector3, occluders: Occluders): number {
   const { point, normal } = subject;
   // The point lies on the scene, which would hide it.
   const seen = point === null ? [] : [normal === null ? point : point.clone().addScaledVector(normal, lift)];
-  return [...seen, ...subject.wanted].filter((one) => isHidden(one, position, scene)).length * hiddenCost;
+  const hidden = [...seen, ...subject.wanted].filter((one) => occluders.hides(one, position)).length;
+  const behind = [...seen, ...subject.wanted].filter((one) => isBehindBody(one, position, subject.body)).length;
+  return (hidden + 0.7 * behind) * hiddenCost;
 }
 
-function isHidden(point: THREE.Vector3, position: THREE.Vector3, scene: Scene): boolean {
-  const direction = point.clone().sub(position);
-  const distance = direction.length();
-  const ray = new THREE.Ray(position, direction.divideScalar(distance));
-  const a = new THREE.Vector3(), b = new THREE.Vector3(), c = new THREE.Vector3(), at = new THREE.Vector3();
-  const triangles = scene.indices.length / 3;
-  const stride = Math.max(1, Math.ceil(triangles / maxTrianglesLookedAt));
-  for (let t = 0; t < triangles; t += stride) {
-    a.fromArray(scene.positions, 3 * scene.indices[3 * t]);
-    b.fromArray(scene.positions, 3 * scene.indices[3 * t + 1]);
-    c.fromArray(scene.positions, 3 * scene.indices[3 * t + 2]);
-    if (ray.intersectTriangle(a, b, c, false, at) !== null && at.distanceTo(position) < 0.97 * distance) return true;
-  }
-  return false;
+function isBehindBody(point: THREE.Vector3, position: THREE.Vector3, body: readonly Limb[]): boolean {
+  const direction = point.clone().sub(position).normalize();
+  const ray = new THREE.Ray(position, direction), nearest = new THREE.Vector3();
+  return body.some(({ a, b, radius }) => {
+    const square = ray.distanceSqToSegment(a, b, nearest);
+    return square < radius * radius && nearest.distanceTo(position) < point.distanceTo(position);
+  });
 }

@@ -6,18 +6,20 @@ import { contactsAt } from "../contacts/contact.js";
 import { isSeenAtPose, touchingLinks } from "../contacts/discrete.js";
 import type { Vector } from "../data/document.js";
 import type { Model } from "../model.js";
+import { pointAt, transformSize } from "../motion/chain.js";
 import { choose } from "../panels/choosing.js";
 import { seconds } from "../panels/words.js";
 import type { Change, Store } from "../state.js";
 import { ball, emptyBounds, union } from "./bounds.js";
 import { Cutaway } from "./cutaway.js";
 import { Flight } from "./flight.js";
-import type { Subject } from "./framing.js";
+import type { Limb, Subject } from "./framing.js";
 import { sightOf } from "./framing.js";
 import type { Label } from "./labels.js";
 import { Labels } from "./labels.js";
 import { Markers, MarkerState } from "./markers.js";
 import { Measures } from "./measures.js";
+import { Occluders } from "./occluders.js";
 import { palettes } from "./palette.js";
 import { Performer } from "./performer.js";
 import { contactNear, linkUnder, listenForClicks } from "./pointer.js";
@@ -35,6 +37,7 @@ export class View3D {
   private readonly stage: Stage;
   private readonly flight: Flight;
   private readonly labels: Labels;
+  private readonly occluders: Occluders;
   private readonly tracking: Tracking;
   private readonly cutaway = new Cutaway();
   private readonly scenery: Scenery;
@@ -56,6 +59,7 @@ export class View3D {
     this.labels = new Labels(this.stage, host);
     this.origin = model.document.scene.origin;
     this.scenery = new Scenery(model.document.scene, this.cutaway);
+    this.occluders = new Occluders(model.document.scene);
     this.swept = new SweptView(model.avatars);
     this.performers = model.avatars.map(
       (avatar, i) => new Performer(avatar, model.clips[i], store.state.shape, this.origin),
@@ -97,7 +101,7 @@ export class View3D {
   frame(isInstant: boolean): void {
     const contact = this.store.state.contact;
     const subject = contact === null || contact.point === null ? this.wholeSubject() : this.subjectOf(contact);
-    this.flight.to(sightOf(subject, this.stage.camera, this.model.document.scene), isInstant);
+    this.flight.to(sightOf(subject, this.stage.camera, this.occluders), isInstant);
     this.pose();
   }
 
@@ -125,7 +129,9 @@ export class View3D {
     this.track();
     this.markers.setStates((contact) => {
       if (contact === state.contact) return MarkerState.Chosen;
-      return lit.has(contact) ? MarkerState.Lit : MarkerState.Dim;
+      if (lit.has(contact)) return MarkerState.Lit;
+      // What starts in contact goes on from the step before: as a trace it only hides where contacts begin.
+      return contact.verdict === "starts_in_contact" ? MarkerState.Hidden : MarkerState.Dim;
     });
     const hasChosenArrow = state.contact !== null && !state.showsDiscrete;
     const arrows = hasChosenArrow ? new Set([state.contact as Contact, ...lit]) : lit;
@@ -209,12 +215,23 @@ export class View3D {
     const middle = this.local(centre).lerp(point, 0.55);
     return {
       centre: middle,
-      radius: Math.max(0.8 * radius, middle.distanceTo(point) + 0.2 * radius),
+      radius: Math.max(0.86 * radius, middle.distanceTo(point) + 0.2 * radius),
       point,
-      wanted: [this.local(centre), before, after],
+      body: this.limbsBeside(contact),
+      wanted: [before, after],
       normal: contact.normal === null ? null : new THREE.Vector3(...contact.normal),
-      motion: after.sub(before),
+      motion: after.clone().sub(before),
     };
+  }
+
+  /** All limbs but the one in contact and the one it moves with, as they are posed. */
+  private limbsBeside(contact: Contact): Limb[] {
+    const { avatar, posture } = this.performers[contact.avatar];
+    const beside = avatar.lss.filter(({ link }) => link !== contact.link && link !== avatar.links[contact.link].parent);
+    return beside.map(({ link, a, b, radius }) => {
+      const at = transformSize * link;
+      return { a: this.local(pointAt(posture.world, at, a)), b: this.local(pointAt(posture.world, at, b)), radius };
+    });
   }
 
   private linkOrigin(contact: Contact, u: number): THREE.Vector3 {
@@ -229,7 +246,8 @@ export class View3D {
     const isScenePart = this.model.document.kind === "inspection" || bounds.length === 0;
     if (isScenePart && this.model.document.scene.bounds !== null) bounds.push(this.model.document.scene.bounds);
     const { centre, radius } = ball(bounds.reduce(union, emptyBounds));
-    return { centre: this.local(centre), radius: 1.1 * radius, point: null, wanted: [], normal: null, motion: null };
+    const wanted = bounds.map((box) => this.local(ball(box).centre));
+    return { centre: this.local(centre), radius: 0.9 * radius, point: null, wanted, body: [], normal: null, motion: null };
   }
 
   private avatarRadius(index: number): number {

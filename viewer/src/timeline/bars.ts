@@ -27,7 +27,7 @@ export class BarPainter {
     }
     context.fillStyle = this.fill(contact.verdict, colour);
     context.fillRect(x0, y, width, height);
-    if (contact.verdict !== "contact") context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
+    if (contact.verdict !== "contact" && width > 2 * minBarWidth) context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
     if (contact.verdict === "contact" && width > 8) {
       context.fillStyle = this.palette.ink;
       context.fillRect(x0, y - 2, 2, height + 4);
