@@ -154,10 +154,10 @@ std::string turningClip(int joints, int frames, std::mt19937_64& random) {
   for (int frame = 0; frame < frames; ++frame) {
     for (int i = 0; i < 3; ++i) text += std::to_string(place(random)) + " ";
     for (int joint = 0; joint < joints; ++joint) {
-      // Joint 1 turns by half a turn about z, to rounding, every step.
+      // Joint 1 turns by half a turn, to rounding, every step: which way, the last bits tell.
       const bool isHalf = joint == 1;
       text += std::to_string(isHalf ? 180.0 * frame : angle(random)) + " ";
-      text += (isHalf ? "0 0 "
+      text += (isHalf ? "37 53 "
                       : std::to_string(angle(random)) + " " + std::to_string(angle(random)) + " ");
     }
     text += "\n";
