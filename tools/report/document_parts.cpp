@@ -92,7 +92,9 @@ std::vector<ViewLinkMesh> linkMeshes(const std::vector<std::vector<Triangle>>& t
     }
     if (count > kMaxLinkTriangles) {
       const auto target = static_cast<std::size_t>(share * static_cast<double>(triangles.size()));
-      corners = simplified(corners, target).corners;
+      const Simplifier simplifier(corners);
+      corners.clear();
+      simplifier.append(simplifier.downTo(target), corners);
     }
     meshes.push_back({static_cast<LinkId>(link), indexed(std::move(corners))});
   }

@@ -95,29 +95,8 @@ void orient(Indices& indices) {
   }
 }
 
-/// An error of 1 is the size of the mesh: the target alone decides.
-constexpr float kAnyError = 1.0f;
-
 /// Meshes of more triangles are clustered right away: edges would take gigabytes.
 constexpr std::size_t kMostByEdges = 5'000'000;
-
-/// By collapsing edges; what its topology does not let go stays.
-Indices collapsed(const ViewMesh& mesh, std::size_t target, float& error) {
-  Indices kept(mesh.indices.size());
-  kept.resize(meshopt_simplify(kept.data(), mesh.indices.data(), mesh.indices.size(),
-                               mesh.positions.data(), mesh.vertices(), kVertexBytes, 3 * target,
-                               kAnyError, 0, &error));
-  return kept;
-}
-
-/// By merging the vertices that share a cell of a grid: needs no topology.
-Indices clustered(const ViewMesh& mesh, const Indices& indices, std::size_t target, float& error) {
-  Indices kept(indices.size());
-  kept.resize(meshopt_simplifySloppy(kept.data(), indices.data(), indices.size(),
-                                     mesh.positions.data(), mesh.vertices(), kVertexBytes,
-                                     3 * target, kAnyError, &error));
-  return kept;
-}
 
 }  // namespace
 
@@ -135,31 +114,52 @@ ViewMesh indexed(Corners corners) {
   return mesh;
 }
 
-Simplified simplified(const Corners& corners, std::size_t target) {
-  ViewMesh mesh = indexed(corners);
-  Simplified made;
-  if (mesh.indices.empty()) return made;
-  float error = 0.0f;
-  Indices kept = mesh.indices;
-  if (mesh.triangles() <= kMostByEdges) {
-    orient(mesh.indices);
-    kept = collapsed(mesh, target, error);
-  }
+Simplifier::Simplifier(const Corners& corners) : mesh_(indexed(corners)) {
+  if (mesh_.triangles() == 0) return;
+  scaleM_ = static_cast<double>(
+      meshopt_simplifyScale(mesh_.positions.data(), mesh_.vertices(), kVertexBytes));
+  if (hasEdges()) orient(mesh_.indices);
+}
+
+bool Simplifier::hasEdges() const {
+  return mesh_.triangles() <= kMostByEdges;
+}
+
+Simplified Simplifier::within(double errorM) const {
+  if (!hasEdges() || !(scaleM_ > 0.0)) return {mesh_.indices, 0.0};
+  return collapsed(0, static_cast<float>(errorM / scaleM_));
+}
+
+Simplified Simplifier::downTo(std::size_t target) const {
+  // An error of 1 is the size of the mesh: the target alone decides.
+  constexpr float kAnyError = 1.0f;
+  Simplified made = hasEdges() ? collapsed(target, kAnyError) : Simplified{mesh_.indices, 0.0};
   // Edges are collapsed in bunches: a little more than the target is as good as it.
-  const std::size_t enough = target + target / 20;
-  if (kept.size() > 3 * enough) {
-    float coarser = 0.0f;
-    kept = clustered(mesh, kept, target, coarser);
-    error += coarser;
+  if (made.triangles() <= target + target / 20) return made;
+  float error = 0.0f;
+  std::vector<std::uint32_t> kept(made.indices.size());
+  kept.resize(meshopt_simplifySloppy(kept.data(), made.indices.data(), made.indices.size(),
+                                     mesh_.positions.data(), mesh_.vertices(), kVertexBytes,
+                                     3 * target, kAnyError, &error));
+  return {std::move(kept), made.errorM + scaleM_ * static_cast<double>(error)};
+}
+
+Simplified Simplifier::collapsed(std::size_t target, float error) const {
+  float found = 0.0f;
+  std::vector<std::uint32_t> kept(mesh_.indices.size());
+  if (!kept.empty()) {
+    kept.resize(meshopt_simplify(kept.data(), mesh_.indices.data(), mesh_.indices.size(),
+                                 mesh_.positions.data(), mesh_.vertices(), kVertexBytes, 3 * target,
+                                 error, 0, &found));
   }
-  made.corners.reserve(3 * kept.size());
-  for (const std::uint32_t vertex : kept) {
-    const float* const place = mesh.positions.data() + std::size_t{3} * vertex;
-    made.corners.insert(made.corners.end(), place, place + 3);
+  return {std::move(kept), scaleM_ * static_cast<double>(found)};
+}
+
+void Simplifier::append(const Simplified& made, Corners& corners) const {
+  for (const std::uint32_t vertex : made.indices) {
+    const float* const place = mesh_.positions.data() + std::size_t{3} * vertex;
+    corners.insert(corners.end(), place, place + 3);
   }
-  const float scale = meshopt_simplifyScale(mesh.positions.data(), mesh.vertices(), kVertexBytes);
-  made.error = static_cast<double>(error) * static_cast<double>(scale);
-  return made;
 }
 
 }  // namespace foretouch::tools

@@ -1,8 +1,9 @@
 // tools/report/indexed_mesh.h: triangles with corners of their own as an indexed mesh, and as fewer
-// triangles.
+// triangles. Metres.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "tools/report/view_document.h"
@@ -15,15 +16,35 @@ using Corners = std::vector<float>;
 /// Equal corners become one vertex, zeros of either sign being equal; triangles keep their order.
 [[nodiscard]] ViewMesh indexed(Corners corners);
 
-/// Fewer triangles over some of the corners.
+/// Fewer triangles over some of a mesh's vertices.
 struct Simplified {
-  Corners corners;
-  double error = 0.0;  ///< Details up to about this size (m) may be gone: an estimate.
+  std::vector<std::uint32_t> indices;
+  double errorM = 0.0;  ///< Details up to about this size may be gone: an estimate.
+
+  [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
 };
 
-/// At most about `target` triangles: by collapsing edges [Garland97], and, where triangles from
-/// anywhere have too little topology for that, by merging corners that share a cell of a grid; both
-/// as meshoptimizer has them. Time and memory: O(n log n), O(n).
-[[nodiscard]] Simplified simplified(const Corners& corners, std::size_t target);
+/// Makes one mesh simpler, more than once if need be: by collapsing edges [Garland97] and, where
+/// triangles from anywhere have too little topology for that, by merging vertices that share a cell
+/// of a grid; both as meshoptimizer has them. Time and memory: O(n log n), O(n).
+class Simplifier {
+ public:
+  explicit Simplifier(const Corners& corners);
+
+  /// As few triangles as an error of `errorM` allows.
+  [[nodiscard]] Simplified within(double errorM) const;
+  /// At most about `target` triangles.
+  [[nodiscard]] Simplified downTo(std::size_t target) const;
+
+  void append(const Simplified& made, Corners& corners) const;
+  [[nodiscard]] std::size_t triangles() const { return mesh_.triangles(); }
+
+ private:
+  [[nodiscard]] bool hasEdges() const;
+  [[nodiscard]] Simplified collapsed(std::size_t target, float error) const;
+
+  ViewMesh mesh_;
+  double scaleM_ = 0.0;  ///< Of an error of 1.
+};
 
 }  // namespace foretouch::tools

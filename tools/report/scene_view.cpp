@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -130,17 +131,6 @@ void poolCrumbs(std::vector<Part>& parts, std::size_t mostTriangles) {
   parts.push_back(std::move(pool));
 }
 
-/// The share of a large object's triangles that may stay, so that all together are `most`.
-double shareOfLarge(const std::vector<Part>& parts, std::size_t most) {
-  std::size_t spared = 0, large = 0;
-  for (const Part& part : parts) {
-    spared += isSmall(part) ? part.ids.size() : part.fixed.size();
-    large += isSmall(part) ? 0 : part.ids.size() - part.fixed.size();
-  }
-  const std::size_t rest = most > spared ? most - spared : 0;
-  return large > 0 ? std::min(1.0, static_cast<double>(rest) / static_cast<double>(large)) : 1.0;
-}
-
 void append(const Scene& scene, TriangleId id, const Vector3d& origin, Corners& corners) {
   for (const Vector3d& vertex : scene.triangle(id).vertices) {
     const Eigen::Vector3f position = (vertex - origin).cast<float>();
@@ -162,22 +152,13 @@ class Gathering {
     close();
   }
 
-  void addSimplified(const Part& part, double share) {
+  /// `made` stands for those of the part that need not stay.
+  void addSimplified(const Part& part, const Simplifier& simplifier, const Simplified& made) {
     open(part);
-    Corners all;
-    for (const TriangleId id : part.ids) {
-      if (!contains(part.fixed, id)) append(scene_, id, view_.origin, all);
-    }
-    const auto target = static_cast<std::size_t>(share * static_cast<double>(all.size() / 9));
-    const Simplified fewer = simplified(all, target);
-    corners_.insert(corners_.end(), fewer.corners.begin(), fewer.corners.end());
+    simplifier.append(made, corners_);
     for (const TriangleId id : part.fixed) append(scene_, id, view_.origin, corners_);
-    errorM_ = std::max(errorM_, fewer.error);
     close();
   }
-
-  /// Of all that was simplified.
-  [[nodiscard]] double errorM() const { return errorM_; }
 
   void finish() { view_.mesh = indexed(std::move(corners_)); }
 
@@ -191,8 +172,69 @@ class Gathering {
   const Scene& scene_;
   ViewScene& view_;
   Corners corners_;
-  double errorM_ = 0.0;
 };
+
+Simplifier simplifierOf(const Scene& scene, const Part& part, const Vector3d& origin) {
+  Corners corners;
+  for (const TriangleId id : part.ids) {
+    if (!contains(part.fixed, id)) append(scene, id, origin, corners);
+  }
+  return Simplifier(corners);
+}
+
+/// All objects with the same error, the least that leaves at most `most` triangles; where none
+/// does, each with the same share of its triangles.
+std::vector<Simplified> simplifiedTo(const std::vector<Simplifier>& simplifiers, std::size_t most,
+                                     double sizeM) {
+  // From a millionth of the scene to a sixteenth, each 1.41 times the one before.
+  constexpr int kFinest = -40, kCoarsest = -8;
+  std::vector<Simplified> best;
+  int low = kFinest, high = kCoarsest;
+  while (low <= high) {
+    const int middle = low + (high - low) / 2;
+    std::vector<Simplified> made;
+    std::size_t total = 0;
+    for (const Simplifier& simplifier : simplifiers) {
+      made.push_back(simplifier.within(sizeM * std::pow(2.0, 0.5 * middle)));
+      total += made.back().triangles();
+    }
+    const bool isEnough = total <= most;
+    if (isEnough) best = std::move(made);
+    isEnough ? high = middle - 1 : low = middle + 1;
+  }
+  if (!best.empty()) return best;
+  std::size_t total = 0;
+  for (const Simplifier& simplifier : simplifiers) total += simplifier.triangles();
+  for (const Simplifier& simplifier : simplifiers) {
+    best.push_back(
+        simplifier.downTo(most * simplifier.triangles() / std::max<std::size_t>(1, total)));
+  }
+  return best;
+}
+
+/// Adds all parts in at most about `most` triangles; what details may be hidden by that (m).
+double addSimplified(const Scene& scene, const std::vector<Part>& parts, std::size_t most,
+                     const Vector3d& origin, Gathering& gathering) {
+  std::size_t spared = 0;
+  std::vector<Simplifier> simplifiers;
+  for (const Part& part : parts) {
+    spared += isSmall(part) ? part.ids.size() : part.fixed.size();
+    if (!isSmall(part)) simplifiers.push_back(simplifierOf(scene, part, origin));
+  }
+  const double sizeM = (scene.audit().boxMax - scene.audit().boxMin).norm();
+  const auto made = simplifiedTo(simplifiers, most > spared ? most - spared : 0, sizeM);
+  double errorM = 0.0;
+  std::size_t next = 0;
+  for (const Part& part : parts) {
+    if (isSmall(part)) {
+      gathering.addWhole(part);
+      continue;
+    }
+    gathering.addSimplified(part, simplifiers[next], made[next]);
+    errorM = std::max(errorM, made[next++].errorM);
+  }
+  return errorM;
+}
 
 void noteClipping(const ViewScene& view, const Choice& choice, std::vector<std::string>& notes) {
   notes.push_back(
@@ -236,14 +278,11 @@ ViewScene viewOf(const Scene& scene, const SceneRequest& request, std::vector<st
     return view;
   }
   poolCrumbs(parts, request.maxTriangles);
-  const double share = shareOfLarge(parts, request.maxTriangles);
-  for (const Part& part : parts) {
-    isSmall(part) ? gathering.addWhole(part) : gathering.addSimplified(part, share);
-  }
+  const double errorM = addSimplified(scene, parts, request.maxTriangles, view.origin, gathering);
   gathering.finish();
   view.reduction = SceneReduction::Simplified;
   view.triangleIds.clear();
-  noteSimplifying(view, choice, gathering.errorM(), notes);
+  noteSimplifying(view, choice, errorM, notes);
   return view;
 }
 
