@@ -138,7 +138,7 @@ TEST(ReplayGlb, RefusesTimesThatFloatsDoNotTellApart) {
   EXPECT_NE(refused.error().message.find("100 s"), std::string::npos);
 }
 
-/// A chain of joints that all turn about all axes; some of a step's turns are next to half a turn.
+/// A chain of joints that all turn about all axes.
 std::string turningClip(int joints, int frames, std::mt19937_64& random) {
   std::uniform_real_distribution<double> angle(-180.0, 180.0), place(-1.0, 1.0);
   std::string text =
@@ -154,11 +154,7 @@ std::string turningClip(int joints, int frames, std::mt19937_64& random) {
   for (int frame = 0; frame < frames; ++frame) {
     for (int i = 0; i < 3; ++i) text += std::to_string(place(random)) + " ";
     for (int joint = 0; joint < joints; ++joint) {
-      // Joint 1 turns by half a turn, to rounding, every step: which way, the last bits tell.
-      const bool isHalf = joint == 1;
-      text += std::to_string(isHalf ? 180.0 * frame : angle(random)) + " ";
-      text += (isHalf ? "37 53 "
-                      : std::to_string(angle(random)) + " " + std::to_string(angle(random)) + " ");
+      for (int i = 0; i < 3; ++i) text += std::to_string(angle(random)) + " ";
     }
     text += "\n";
   }
@@ -178,10 +174,25 @@ std::string chainAvatar(int joints) {
   return json{{"format", "foretouch-avatar"}, {"version", 1}, {"links", links}}.dump();
 }
 
+/// Lets a joint turn by half a turn, to rounding, in every step: the last bits of doubles tell
+/// which way.
+void turnByHalves(Clip& clip, JointId joint) {
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> normal;
+  Quaternion turn(normal(random), normal(random), normal(random), normal(random));
+  for (Pose& pose : clip.frames) {
+    turn = Quaternion(turn *
+                      Quaternion(0, normal(random), normal(random), normal(random)).normalized())
+               .normalized();
+    pose.rotations[static_cast<std::size_t>(joint)] = turn;
+  }
+}
+
 tools::ReplayInputs chainInputs(int joints, int frames, const Vector3d& origin) {
   std::mt19937_64 random(7);
   Avatar avatar = parseAvatar(chainAvatar(joints), "chain.json").value();
   Clip clip = parseBvh(turningClip(joints, frames, random), "chain.bvh").value();
+  turnByHalves(clip, 1);
   JointMatch match = matchJoints(avatar.skeleton(), clip.skeleton).value();
   tools::ReplayRequest request;
   request.placement.origin = origin;
