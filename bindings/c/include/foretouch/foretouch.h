@@ -1,6 +1,5 @@
-/* foretouch.h: Foretouch for programs that do not speak C++: what an articulated body meets between
- * two poses, when, where and along which normal. C99 and C++. One page about its use:
- * docs/c-api.md.
+/* foretouch.h: Foretouch in C99 and C++: what an articulated body meets between two poses, when,
+ * where and along which normal. One page about its use: docs/c-api.md.
  *
  * Units and frames. Metres, radians, doubles; right-handed world W, +Y up; t is normalised, 0 at
  * the earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. What engines
@@ -42,16 +41,20 @@
 extern "C" {
 #endif
 
-/* ---- Versions -------------------------------------------------------------------------------- */
+/* ---- Versions ---- */
 
 /* Of this header. It counts up when a function or a field is added; programs built with an older
  * header go on working. What would break them changes the library's soname instead. */
 #define FT_ABI_VERSION 1
 
-/* Of the library that runs, "0.1.0". Never fails; the text lives for ever. */
+/* Both of the library that runs: "0.1.0", which lives for ever, and its FT_ABI_VERSION. */
 FT_API const char* ft_version(void);
-/* Of the library that runs. Never fails. */
 FT_API uint32_t ft_abi_version(void);
+
+typedef struct ft_scene ft_scene;
+typedef struct ft_avatar ft_avatar;
+typedef struct ft_clip ft_clip;
+typedef struct ft_query ft_query;
 
 typedef int32_t ft_status;
 enum {
@@ -96,10 +99,7 @@ FT_API ft_status ft_check_abi(uint32_t header_version);
 /* To be asked once, before all else: does the library that was found know what this header says? */
 #define FT_CHECK_ABI() ft_check_abi(FT_ABI_VERSION)
 
-/* ---- Scenes: static triangles -----------------------------------------------------------------
- */
-
-typedef struct ft_scene ft_scene;
+/* ---- Scenes: static triangles ---- */
 
 typedef struct ft_scene_arrays {
   uint32_t size;
@@ -158,10 +158,7 @@ FT_API ft_status ft_scene_object_name(const ft_scene* scene, int32_t object, con
 /* NULL is legal. Not while another thread uses this handle. */
 FT_API void ft_scene_destroy(ft_scene* scene);
 
-/* ---- Avatars: joints, and LSS (capsules) that bound the links that move with them ---------------
- */
-
-typedef struct ft_avatar ft_avatar;
+/* ---- Avatars: joints, and LSS (capsules) that bound the links that move with them ---- */
 
 /* A line-swept sphere in its link's frame, metres. a = b: a sphere. */
 typedef struct ft_lss {
@@ -215,8 +212,7 @@ FT_API ft_status ft_avatar_rest_pose(const ft_avatar* avatar, double* rotations,
                                      double* translations, size_t capacity, size_t* required);
 FT_API void ft_avatar_destroy(ft_avatar* avatar);
 
-/* ---- Poses and clips ----------------------------------------------------------------------------
- */
+/* ---- Poses and clips ---- */
 
 /* Every joint in its parent's frame, a root in W. */
 typedef struct ft_pose {
@@ -246,8 +242,6 @@ FT_API ft_status ft_rotations_from_floats(const float* xyzw, size_t count, int32
 FT_API ft_status ft_rotations_to_floats(const double* wxyz, size_t count, int32_t axes,
                                         float* xyzw);
 
-typedef struct ft_clip ft_clip;
-
 typedef struct ft_clip_options {
   uint32_t size;
   int32_t up;       /* of the file, as in ft_import_options */
@@ -275,10 +269,7 @@ FT_API ft_status ft_clip_pose(const ft_clip* clip, size_t frame, double* rotatio
                               double* translations, size_t capacity, size_t* required);
 FT_API void ft_clip_destroy(ft_clip* clip);
 
-/* ---- Queries: what does each link meet first?
- * ---------------------------------------------------- */
-
-typedef struct ft_query ft_query;
+/* ---- Queries: what does each link meet first? ---- */
 
 /* What a link's surface is, coarsest last but one. */
 enum {
