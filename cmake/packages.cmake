@@ -7,7 +7,7 @@
 set(library_package libforetouch${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(FORETOUCH_PACKAGE_CONTACT "Foretouch maintainers <root@localhost>" CACHE STRING
     "Who answers for the packages: Name <address>")
-get_property(components GLOBAL PROPERTY COMPONENTS)
+get_cmake_property(components COMPONENTS)
 
 # What every package of Debian has.
 set(package_of_runtime foretouch)
@@ -51,15 +51,19 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(same_version "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+# The first line of every description; `about` begins the rest.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "continuous collision detection of avatars")
 string(CONCAT about
-  " Foretouch tells what an articulated body (a VR user, a mocap actor, a robot)\n"
-  " meets between two poses: when each link first touches the scene, where, and\n"
-  " along which normal. It never reports a contact late, rounding included.\n .\n")
+  "Foretouch tells what an articulated body (a VR user, a mocap actor, a robot)\n"
+  "meets between two poses: when each link first touches the scene, where, and\n"
+  "along which normal. It never reports a contact late, rounding included.\n\n"
+  "This package holds")
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME foretouch)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
-    "continuous collision detection of avatars\n${about} This package holds the program foretouch with its demonstration, its service\n for pose streams over LCM (installed, not enabled), and the importer of models.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${about} the program foretouch with its demonstration, its
+service for pose streams over LCM (installed, not enabled), and the importer of
+model files.")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library_package})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
@@ -67,8 +71,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "foretouch")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
-set(CPACK_DEBIAN_LIBRARY_DESCRIPTION
-    "continuous collision detection of avatars - C library\n${about} This package holds the C library, for engines.")
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "${about} the C library, for engines.")
 
 # The static C++ libraries ask for what they stand on; the C library does not.
 set(development_needs libeigen3-dev libembree-dev libfmt-dev libhwy-dev nlohmann-json3-dev)
@@ -79,8 +82,8 @@ list(JOIN development_needs ", " development_needs)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libforetouch-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library_package} ${same_version}, ${development_needs}")
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
-    "continuous collision detection of avatars - development files\n${about} This package holds the headers of C and C++, the static C++ libraries, CMake\n and pkg-config files, and an example in C.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${about} the headers of C and C++, the static C++
+libraries, CMake and pkg-config files, and an example in C.")
 
 if(python IN_LIST components)
   list(APPEND CPACK_COMPONENTS_ALL python)
@@ -89,8 +92,7 @@ if(python IN_LIST components)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "foretouch")
-  set(CPACK_DEBIAN_PYTHON_DESCRIPTION
-      "continuous collision detection of avatars - Python module\n${about} This package holds the module foretouch for Python 3.")
+  set(CPACK_DEBIAN_PYTHON_DESCRIPTION "${about} the module foretouch for Python 3.")
 endif()
 
 include(CPack)

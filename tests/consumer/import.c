@@ -1,8 +1,7 @@
 /* Somebody else's program in C reads a scene: the library finds the importer that came with it.
  *   import SCENE */
-#include <stdio.h>
-
 #include <foretouch/foretouch.h>
+#include <stdio.h>
 
 int main(int count, char** arguments) {
   ft_scene* scene = NULL;
