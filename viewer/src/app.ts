@@ -51,7 +51,7 @@ function initialStore(model: Model): Store {
     link: null,
     showsDiscrete: false,
     showsGhosts: contact !== null,
-    showsSwept: false,
+    showsSwept: model.avatars.some((avatar) => avatar.swept.length > 0),
     cutsAway: true,
     tracks: true,
     shape: hasLss ? "lss" : "mesh",

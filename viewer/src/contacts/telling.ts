@@ -6,6 +6,8 @@ import type { Contact } from "./contact.js";
 
 /** Looking further does not find a better picture, only a later one. */
 const maxCandidates = 2000;
+/** More than anything travels in a step, metres. */
+const rankWeight = 1e6;
 
 /**
  * Index of the contact whose link moves furthest in its step and has the least company in it, those
@@ -19,10 +21,16 @@ export function mostTelling(contacts: readonly Contact[], clips: readonly Clip[]
   let best = -1, bestScore = -Infinity;
   contacts.slice(0, maxCandidates).forEach((contact, index) => {
     const rank = contact.verdict === "contact" ? (contact.missedByPoses === true ? 2 : 1) : 0;
-    const score = rank * 1e6 + travel(contact, postures[contact.avatar]) / (company.get(stepOf(contact)) ?? 1) ** 2;
+    const score = rank * rankWeight + (midway(contact) * travel(contact, postures[contact.avatar])) / (company.get(stepOf(contact)) ?? 1) ** 2;
     if (score > bestScore) [best, bestScore] = [index, score];
   });
   return best;
+}
+
+/** 1 for a contact halfway between the poses, 0 for one at either. */
+function midway(contact: Contact): number {
+  const toi = contact.toi ?? 0;
+  return 4 * toi * (1 - toi);
 }
 
 /** How far the link's point of contact moves from the step's first pose to its last, metres. */
