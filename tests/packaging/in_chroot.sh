@@ -39,8 +39,11 @@ cxx-example/consumer
 python=$(of python3-foretouch)
 if [ -n "$python" ]; then
   say "Python"
-  install "$python"
+  install "$python" "$(of foretouch)"
   python3 -c 'import foretouch; print("foretouch", foretouch.__version__)'
+  for program in python-example/*.py; do
+    [ ! -f "$program" ] || python3 "$program"
+  done
 else
   say "no package for Python among them"
 fi

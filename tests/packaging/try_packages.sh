@@ -10,5 +10,6 @@ rm -rf "$chroot$work"
 mkdir -p "$chroot$work/packages"
 cp "$packages"/*.deb "$chroot$work/packages/"
 cp -r "$here/../consumer" "$chroot$work/"
+if [ -d "$here/../../bindings/python/example" ]; then cp -r "$here/../../bindings/python/example" "$chroot$work/python-example"; fi
 cp "$here/in_chroot.sh" "$chroot$work/"
 chroot "$chroot" /bin/bash "$work/in_chroot.sh" "$work"
