@@ -95,8 +95,8 @@ class EventLogReader {
   [[nodiscard]] std::uint64_t position() const;
   [[nodiscard]] std::uint64_t size() const;
   /// The next event is the first one at or after `utimeUs` in a log whose stamps grow and whose
-  /// blocks are in order; by the index where there are check sums, else from the start. Counts start
-  /// anew.
+  /// blocks are in order; by the index where there are check sums, else from the start. Counts
+  /// start anew.
   [[nodiscard]] Result<Done> seek(std::int64_t utimeUs);
 
  private:

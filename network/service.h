@@ -5,8 +5,8 @@
 // too many makes the oldest one go. Workers take the mail, each avatar's in order, answer it and
 // publish. Another thread publishes the status. A journal, where there is one, is written by a
 // thread of its own. Nothing waits for a disk or for the network: an answer that the system does
-// not take is counted, not sent again. An observer, where there is one, is shown each step after its
-// answer went out, in the thread that answered it.
+// not take is counted, not sent again. An observer, where there is one, is shown each step after
+// its answer went out, in the thread that answered it.
 //
 // Whenever they are taken, counts satisfy: received = answered + rejected + waiting.
 #pragma once

@@ -6,8 +6,8 @@
 
 namespace foretouch {
 
-/// One evaluation of a pair in lanes, or as much other work, in microseconds: about what it takes on
-/// a 2.x GHz server core. Elsewhere a budget takes more or less time, but the same work.
+/// One evaluation of a pair in lanes, or as much other work, in microseconds: about what it takes
+/// on a 2.x GHz server core. Elsewhere a budget takes more or less time, but the same work.
 inline constexpr double kEvaluationUs = 0.01;
 
 /// QueryOptions::workBudget of a step that may take about `budgetUs`; at least 1.
