@@ -12,8 +12,8 @@ def example_folder() -> Path:
     """The folder of room.obj, dancer.bvh and dancer.avatar.json: $FORETOUCH_EXAMPLES, or where the
     installation (or build tree) that this package belongs to has it."""
     named = os.environ.get("FORETOUCH_EXAMPLES")
-    # PREFIX/lib/python3/dist-packages/foretouch/_examples.py
-    prefix = Path(__file__).resolve().parents[4]
+    # This file is PREFIX/lib/python3/dist-packages/foretouch/_examples.py.
+    prefix = (Path(__file__).resolve().parent / "../../../..").resolve()
     folder = Path(named) if named else prefix / "share" / "foretouch" / "examples"
     if (folder / "room.obj").is_file():
         return folder

@@ -1,6 +1,7 @@
 """Objects keep what they need, and nothing else; references are counted right."""
 
 import gc
+import os
 import sys
 import unittest
 import weakref
@@ -78,15 +79,16 @@ class Lifetime(unittest.TestCase):
         use()
         gc.collect()
         before = [sys.getrefcount(x) for x in watched]
-        for _ in range(50):
+        for _ in range(300):
             use()
         gc.collect()
         after = [sys.getrefcount(x) for x in watched]
-        # None is counted by everyone; a leak would show as 50.
+        # None is counted by everyone; a leak would show as 300 or more.
         for name, x, y in zip("avatar scene motion query rest array member enum none".split(),
                               before, after):
-            self.assertLess(abs(y - x), 25, name)
+            self.assertLess(abs(y - x), 150, name)
 
+    @unittest.skipIf("asan" in os.environ.get("LD_PRELOAD", ""), "freed memory is kept aside")
     def test_memory_does_not_grow(self):
         avatar, scene = arm(), wall()
         motion = swing(avatar)
