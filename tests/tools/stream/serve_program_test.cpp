@@ -351,7 +351,9 @@ TEST(ServeProgram, ShipsAUnitThatSystemdAccepts) {
   const std::string program = "@CMAKE_INSTALL_FULL_BINDIR@/foretouch";
   unit.replace(unit.find(program), program.size(), FORETOUCH_PROGRAM);
   const std::string data = "@CMAKE_INSTALL_FULL_DATADIR@";
-  unit.replace(unit.find(data), data.size(), "/usr/share");
+  for (auto at = unit.find(data); at != std::string::npos; at = unit.find(data)) {
+    unit.replace(at, data.size(), "/usr/share");
+  }
   const TempFolder folder;
   const std::string path = folder.write("foretouch.service", unit);
   const std::string said = folder / "said";
