@@ -10,14 +10,14 @@
 #include "tools/audit/scene_command.h"
 #include "tools/bench/command.h"
 #include "tools/bench/tune_command.h"
+#include "tools/commands/demo_command.h"
+#include "tools/commands/replay_command.h"
+#include "tools/commands/serve_command.h"
 #include "tools/console.h"
 #include "tools/log/log_command.h"
-#include "tools/replay/demo_command.h"
-#include "tools/replay/replay_command.h"
 #include "tools/report/view_command.h"
 #include "tools/stream/listen_command.h"
 #include "tools/stream/publish_command.h"
-#include "tools/stream/serve_command.h"
 #include "tools/sweep/sweep_command.h"
 
 namespace foretouch::tools {

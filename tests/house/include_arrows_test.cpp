@@ -124,6 +124,42 @@ TEST(IncludeArrows, LibrariesStayInTheirRooms) {
   }
 }
 
+/// The rooms of tools/. What lies in tools/ itself is for all of them, but for the program's own
+/// two files, which know all.
+const std::map<std::string, std::set<std::string>> kToolsRooms = {
+    {"inputs", {}},
+    {"audit", {"inputs"}},
+    {"replay", {"inputs"}},
+    {"stream", {"inputs"}},
+    {"glb", {"replay", "inputs"}},
+    {"sweep", {"glb", "inputs"}},
+    {"log", {"stream", "replay", "inputs"}},
+    {"report", {"log", "audit", "replay", "inputs"}},
+    {"view", {"report", "stream"}},
+    {"bench", {"stream", "replay", "inputs"}},
+    {"commands", {"view", "report", "log", "sweep", "glb", "stream", "replay", "audit", "inputs"}},
+};
+
+TEST(IncludeArrows, PointOneWayBetweenTheRoomsOfTools) {
+  const fs::path tools = fs::path(FORETOUCH_SOURCE_DIR) / "tools";
+  const std::set<std::string> knowAll = {"main.cpp", "program.cpp"};
+  int seen = 0;
+  for (const Include& include : includesOf(tools)) {
+    if (!include.quoted || firstWord(include.target) != "tools") continue;
+    const fs::path from = include.file.lexically_relative(tools);
+    const fs::path to = fs::path(include.target).lexically_relative("tools");
+    if (!to.has_parent_path() || knowAll.count(from.string()) != 0) continue;
+    const std::string room = from.has_parent_path() ? from.begin()->string() : "";
+    const std::string target = to.begin()->string();
+    const auto allowed = kToolsRooms.find(room);
+    ++seen;
+    EXPECT_TRUE(allowed != kToolsRooms.end() &&
+                (target == room || allowed->second.count(target) != 0))
+        << include.file << " includes " << include.target;
+  }
+  EXPECT_GT(seen, 300);
+}
+
 // Inside tools/, the peers of `bench peers` are known to their own sources alone.
 TEST(IncludeArrows, PeersStayBehindTheirDoor) {
   const std::map<std::string, std::string> rooms = {

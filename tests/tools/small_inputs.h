@@ -8,7 +8,7 @@
 #include "articulated/avatar_file.h"
 #include "articulated/bvh_reader.h"
 #include "tests/tools/small_world.h"
-#include "tools/replay/replay_inputs.h"
+#include "tools/inputs/replay_inputs.h"
 
 namespace foretouch::test {
 

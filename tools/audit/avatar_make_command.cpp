@@ -19,7 +19,7 @@
 #include "tools/arguments.h"
 #include "tools/audit/audits.h"
 #include "tools/audit/surface_audit.h"
-#include "tools/replay/replay_inputs.h"
+#include "tools/inputs/replay_inputs.h"
 
 namespace foretouch::tools {
 namespace {

@@ -5,9 +5,9 @@
 #include "articulated/avatar_file.h"
 #include "articulated/bvh_avatar.h"
 #include "tools/console.h"
+#include "tools/inputs/example_folder.h"
 #include "tools/inputs/joint_map.h"
 #include "tools/inputs/motion_file.h"
-#include "tools/replay/example_folder.h"
 
 namespace foretouch::tools {
 namespace {

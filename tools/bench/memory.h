@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "tools/replay/replay_inputs.h"
+#include "tools/inputs/replay_inputs.h"
 
 namespace foretouch::tools {
 

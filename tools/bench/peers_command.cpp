@@ -16,8 +16,8 @@
 #include "tools/bench/peers.h"
 #include "tools/bench/report.h"
 #include "tools/bench/scene.h"
+#include "tools/inputs/example_folder.h"
 #include "tools/progress.h"
-#include "tools/replay/example_folder.h"
 
 namespace foretouch::tools {
 namespace {

@@ -7,8 +7,8 @@
 #include "articulated/motion.h"
 #include "lss/assert.h"
 #include "tools/bench/leaf_timing.h"
-#include "tools/bench/ray_set.h"
 #include "tools/progress.h"
+#include "tools/replay/ray_set.h"
 
 namespace foretouch::tools {
 namespace {

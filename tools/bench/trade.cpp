@@ -14,7 +14,7 @@
 #include "tools/bench/trade/runner.h"
 #include "tools/bench/trade/trade_tables.h"
 #include "tools/console.h"
-#include "tools/replay/step_selection.h"
+#include "tools/inputs/step_selection.h"
 
 namespace foretouch::tools {
 namespace {

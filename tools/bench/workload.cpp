@@ -11,8 +11,8 @@
 #include "articulated/motion.h"
 #include "middleware/query.h"
 #include "tools/console.h"
+#include "tools/inputs/step_selection.h"
 #include "tools/progress.h"
-#include "tools/replay/step_selection.h"
 
 namespace foretouch::tools {
 namespace {

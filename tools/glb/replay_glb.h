@@ -10,7 +10,7 @@
 
 #include "articulated/result.h"
 #include "middleware/query.h"
-#include "tools/replay/replay_inputs.h"
+#include "tools/inputs/replay_inputs.h"
 #include "tools/replay/results_writer.h"
 
 namespace foretouch::tools {

@@ -11,7 +11,7 @@
 #include "articulated/joint_match.h"
 #include "articulated/result.h"
 #include "tools/inputs/motion_file.h"
-#include "tools/replay/step_selection.h"
+#include "tools/inputs/step_selection.h"
 
 namespace foretouch::tools {
 

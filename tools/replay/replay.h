@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "articulated/result.h"
-#include "tools/replay/replay_inputs.h"
+#include "tools/inputs/replay_inputs.h"
 #include "tools/replay/step_solver.h"
 
 namespace foretouch::tools {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/contact_json.h"
 #include "tools/json_text.h"
-#include "tools/replay/contact_json.h"
 
 namespace foretouch::tools {
 std::vector<LinkContact> notClear(const std::vector<LinkContact>& links) {

@@ -9,7 +9,7 @@
 #include "articulated/avatar.h"
 #include "middleware/query.h"
 #include "middleware/scene.h"
-#include "tools/replay/replay_inputs.h"
+#include "tools/inputs/replay_inputs.h"
 
 namespace foretouch::tools {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "tools/bench/ray_set.h"
 #include "tools/console.h"
+#include "tools/replay/ray_set.h"
 
 namespace foretouch::tools {
 namespace {

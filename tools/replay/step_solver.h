@@ -9,8 +9,8 @@
 #include "articulated/motion.h"
 #include "articulated/result.h"
 #include "middleware/query.h"
+#include "tools/inputs/replay_inputs.h"
 #include "tools/replay/fidelity_comparison.h"
-#include "tools/replay/replay_inputs.h"
 #include "tools/replay/results_writer.h"
 #include "tools/replay/rigid_comparison.h"
 

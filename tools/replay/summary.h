@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "middleware/query.h"
-#include "tools/replay/replay_inputs.h"
+#include "tools/inputs/replay_inputs.h"
 #include "tools/replay/rigid_comparison.h"
 #include "tools/replay/step_solver.h"
 

@@ -10,7 +10,7 @@
 
 #include "middleware/avatar_surface.h"
 #include "middleware/scene.h"
-#include "tools/replay/replay_inputs.h"
+#include "tools/inputs/replay_inputs.h"
 #include "tools/report/scene_view.h"
 #include "tools/report/view_document.h"
 

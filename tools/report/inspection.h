@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "articulated/result.h"
-#include "tools/replay/replay_inputs.h"
+#include "tools/inputs/replay_inputs.h"
 #include "tools/report/document_parts.h"
 #include "tools/report/report_progress.h"
 #include "tools/report/view_document.h"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "tools/replay/replay_log.h"
-#include "tools/replay/replay_log_summary.h"
+#include "tools/log/replay_log.h"
+#include "tools/log/replay_log_summary.h"
 #include "tools/report/document_parts.h"
 #include "tools/report/swept_views.h"
 #include "tools/report/track_builder.h"

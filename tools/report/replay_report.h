@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "tools/replay/replay_inputs.h"
+#include "tools/inputs/replay_inputs.h"
 #include "tools/replay/step_solver.h"
 #include "tools/replay/summary.h"
 #include "tools/report/document_parts.h"

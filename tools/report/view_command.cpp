@@ -14,10 +14,10 @@
 #include "articulated/text_file.h"
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
-#include "tools/replay/replay_log.h"
-#include "tools/replay/results_output.h"
+#include "tools/log/replay_log.h"
 #include "tools/report/inspection.h"
 #include "tools/report/report_file.h"
+#include "tools/results_output.h"
 #include "tools/settling.h"
 
 namespace foretouch::tools {

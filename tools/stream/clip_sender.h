@@ -8,7 +8,7 @@
 #include "articulated/result.h"
 #include "network/messages.h"
 #include "tools/inputs/clip_pose.h"
-#include "tools/replay/step_selection.h"
+#include "tools/inputs/step_selection.h"
 
 namespace foretouch::tools {
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "articulated/text_file.h"
+#include "tools/contact_json.h"
 #include "tools/json_text.h"
-#include "tools/replay/contact_json.h"
 
 namespace foretouch::tools {
 namespace {

@@ -9,6 +9,7 @@
 #include "articulated/result.h"
 #include "middleware/scene.h"
 #include "network/stream_solver.h"
+#include "tools/inputs/replay_inputs.h"
 #include "tools/stream/serve_config.h"
 
 namespace foretouch::tools {

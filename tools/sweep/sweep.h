@@ -13,7 +13,7 @@
 #include "articulated/result.h"
 #include "middleware/scene_import.h"
 #include "tessellation/swept_surface.h"
-#include "tools/replay/step_selection.h"
+#include "tools/inputs/step_selection.h"
 
 namespace foretouch::tools {
 

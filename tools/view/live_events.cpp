@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/contact_json.h"
 #include "tools/json_text.h"
-#include "tools/replay/contact_json.h"
 #include "tools/stream/contacts_line.h"
 
 namespace foretouch::tools {

@@ -15,8 +15,8 @@
 #include "tools/arguments.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/played_clip.h"
+#include "tools/inputs/replay_inputs.h"
 #include "tools/json_text.h"
-#include "tools/replay/replay_inputs.h"
 #include "tools/settling.h"
 
 namespace foretouch::tools {

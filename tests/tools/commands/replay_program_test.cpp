@@ -1,0 +1,298 @@
+// tests/tools/commands/replay_program_test.cpp: `foretouch replay` from files to files.
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program_run.h"
+#include "tests/tools/small_inputs.h"
+#include "tests/tools/small_world.h"
+#include "tools/inputs/example_folder.h"
+
+namespace foretouch::test {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The results file as it would be without its latency fields.
+std::string resultsWithoutLatency(const std::string& path) {
+  std::string text;
+  for (const std::string& line : linesOf(contentOf(path))) text += withoutLatency(line) + "\n";
+  return text;
+}
+
+std::vector<double> toAndFro(int frames) {
+  std::vector<double> places;
+  for (int i = 0; i < frames; ++i) places.push_back((i % 3 - 1) * (0.3 + 1e-4 * i));
+  return places;
+}
+
+TEST(ReplayProgram, WritesAHeaderAndALineAStep) {
+  const SmallWorld world;
+  const std::string out = world.folder / "out.jsonl";
+  const Ended ended = runForetouch(world.replay({"--rate", "10", "--output", out}));
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  EXPECT_NE(ended.out.find("of 2 contacts, 2 (100.0 %) touch nothing at either pose"),
+            std::string::npos)
+      << ended.out;
+
+  const std::vector<std::string> lines = linesOf(contentOf(out));
+  ASSERT_EQ(lines.size(), 4u);
+  const json header = json::parse(lines[0]);
+  EXPECT_EQ(header["format"], "foretouch-results");
+  EXPECT_EQ(header["version"], 1);
+  EXPECT_EQ(header["steps"], 3);
+  EXPECT_EQ(header["links"], json({"Hips", "Arm"}));
+  for (std::size_t n = 0; n < 3; ++n) {
+    const json step = json::parse(lines[n + 1]);
+    EXPECT_EQ(step["step"], n);
+    EXPECT_NEAR(step["t1"].get<double>() - step["t0"].get<double>(), 0.1, 1e-15);
+    EXPECT_GE(step["latency_us"].get<double>(), 0.0);
+    EXPECT_EQ(step["contacts"].size(), n == 1 ? 2u : 0u);
+  }
+  const json contact = json::parse(lines[2])["contacts"][0];
+  EXPECT_EQ(contact["link"], "Hips");
+  EXPECT_EQ(contact["verdict"], "contact");
+  EXPECT_EQ(contact["object"], "wall");
+  // The sphere (0.1 m) touches x = 0 at 0.3 of the way from -0.25 to 0.25, in the middle of the
+  // wall.
+  EXPECT_LE(contact["toi"].get<double>(), 0.3 + 1e-12);
+  EXPECT_GE(contact["toi"].get<double>(), 0.3 - 2e-3);
+  EXPECT_NEAR(contact["time"].get<double>(), 0.1 + 0.1 * contact["toi"].get<double>(), 1e-15);
+  EXPECT_GE(contact["separation"].get<double>(), 0.0);
+  EXPECT_LE(contact["separation"].get<double>(), 1e-3);
+  EXPECT_NEAR(contact["point"][0].get<double>(), 0.0, 1e-12);
+  EXPECT_NEAR(contact["normal"][0].get<double>(), -1.0, 1e-9);
+  EXPECT_NEAR(contact["on_link"][0].get<double>(), -contact["separation"].get<double>(), 1e-9);
+  EXPECT_EQ(contact.count("penetration"), 0u);
+}
+
+TEST(ReplayProgram, ReportsHowDeepAStepStarts) {
+  const SmallWorld world;
+  world.folder.write("inside.bvh", clipAlongX({0.04, 0.5}));
+  const std::string out = world.folder / "out.jsonl";
+  ASSERT_EQ(
+      runForetouch(world.replay({"--output", out}, "wall.obj", "man.json", "inside.bvh")).exitCode,
+      0);
+  const json contact = json::parse(linesOf(contentOf(out))[1])["contacts"][0];
+  EXPECT_EQ(contact["verdict"], "starts_in_contact");
+  EXPECT_EQ(contact["toi"], 0);
+  EXPECT_EQ(contact["separation"], 0);
+  EXPECT_NEAR(contact["penetration"].get<double>(), 0.06, 1e-12);
+}
+
+TEST(ReplayProgram, WritesTheSameBytesForAnyThreadsAndEitherCuller) {
+  const SmallWorld world;
+  world.folder.write("long.bvh", clipAlongX(toAndFro(600)));
+  std::string first;
+  for (const std::string threads : {"1", "2", "4"}) {
+    for (const std::string culler : {"flat", "point-query"}) {
+      const std::string out = world.folder / (threads + culler);
+      ASSERT_EQ(
+          runForetouch(world.replay({"--threads", threads, "--culler", culler, "--output", out},
+                                    "wall.obj", "man.json", "long.bvh"))
+              .exitCode,
+          0);
+      const std::string results = resultsWithoutLatency(out);
+      if (first.empty()) first = results;
+      EXPECT_EQ(results, first) << threads << " " << culler;
+    }
+  }
+  EXPECT_EQ(linesOf(first).size(), 600u);
+  EXPECT_NE(first.find("\"contact\""), std::string::npos);
+  EXPECT_EQ(first.find("latency"), std::string::npos);
+}
+
+/// What a step's line says of a link: how long it is free of contact, and whether that is all.
+struct Said {
+  double free = 1.0;
+  bool isUndecided = false;
+};
+
+std::vector<std::map<std::string, Said>> saidIn(const std::string& path) {
+  std::vector<std::map<std::string, Said>> steps;
+  const std::vector<std::string> lines = linesOf(contentOf(path));
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::map<std::string, Said> step;
+    for (const json& contact : json::parse(lines[i])["contacts"]) {
+      const bool isUndecided = contact["verdict"] == "undecided";
+      if (isUndecided) {
+        EXPECT_EQ(contact["reason"], "work-budget");
+      }
+      step[contact["link"]] = {contact[isUndecided ? "free_until" : "toi"], isUndecided};
+    }
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+TEST(ReplayProgram, ProvesMoreWithALargerBudgetAndTheSameOnAnyThread) {
+  const std::string folder = tools::exampleFolder().value();
+  const TempFolder out;
+  const auto replayed = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"replay",
+                                       "--scene",
+                                       folder + "/room.obj",
+                                       "--avatar",
+                                       folder + "/dancer.avatar.json",
+                                       "--motion",
+                                       folder + "/dancer.bvh",
+                                       "--rate",
+                                       "10",
+                                       "--output",
+                                       out / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = runForetouch(arguments);
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    return saidIn(out / name);
+  };
+  auto before = replayed("1", {"--budget-us", "1", "--threads", "1"});
+  replayed("2", {"--budget-us", "1", "--threads", "2"});
+  EXPECT_EQ(resultsWithoutLatency(out / "1"), resultsWithoutLatency(out / "2"));
+  EXPECT_EQ(json::parse(linesOf(contentOf(out / "1"))[0])["budget_us"], 1);
+  std::size_t undecidedBefore = before.size() * 1000;
+  for (const std::string budget : {"5", "20", "60000000", ""}) {
+    const auto now =
+        budget.empty() ? replayed("all", {}) : replayed("more", {"--budget-us", budget});
+    ASSERT_EQ(now.size(), before.size());
+    std::size_t undecided = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      for (const auto& [link, said] : now[i]) {
+        undecided += said.isUndecided ? 1 : 0;
+        const auto earlier = before[i].find(link);
+        const double free = earlier == before[i].end() ? 1.0 : earlier->second.free;
+        EXPECT_LE(free, said.free) << link << " of step " << i;
+      }
+    }
+    EXPECT_LE(undecided, undecidedBefore);
+    undecidedBefore = undecided;
+    before = now;
+  }
+  EXPECT_EQ(undecidedBefore, 0u);
+}
+
+TEST(ReplayProgram, RefusesABudgetBesideWhatCannotKeepIt) {
+  const SmallWorld world;
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--compare-rigid"},
+                                                  {"--compare-link", "--fidelity", "exact"},
+                                                  {"--culler", "point-query"}}) {
+    std::vector<std::string> arguments = options;
+    arguments.insert(arguments.end(), {"--budget-us", "5", "--output", world.folder / "x.jsonl"});
+    const Ended ended = runForetouch(world.replay(arguments));
+    EXPECT_EQ(ended.exitCode, 2);
+    EXPECT_EQ(ended.err.find("foretouch: --budget-us: expected none with "), 0u) << ended.err;
+    EXPECT_NE(ended.err.find(options[0]), std::string::npos) << ended.err;
+  }
+}
+
+TEST(ReplayProgram, ObeysRateScalePlaceIgnoreAndUp) {
+  const SmallWorld world;
+  world.folder.write("long.bvh", clipAlongX({-75, -50, -25, 25, 50, 75, 90}));
+  const std::string out = world.folder / "out.jsonl";
+  const auto contactsOf = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = world.replay(options, "wall.obj", "man.json", "long.bvh");
+    arguments.insert(arguments.end(), {"--output", out, "--scale", "0.01"});
+    const Ended ended = runForetouch(arguments);
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    std::vector<std::string> texts;
+    const auto lines = linesOf(contentOf(out));
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      const json step = json::parse(lines[i]);
+      for (const json& contact : step["contacts"]) {
+        texts.push_back(std::to_string(i - 1) + contact["link"].get<std::string>());
+      }
+    }
+    return texts;
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(contactsOf({}), (Texts{"2Hips", "2Arm"}));
+  EXPECT_EQ(contactsOf({"--rate", "5"}), (Texts{"1Hips", "1Arm"}));
+  EXPECT_EQ(contactsOf({"--ignore", "Hips:wall"}), (Texts{"2Arm"}));
+  EXPECT_EQ(contactsOf({"--ignore", "Hips", "--ignore", "A*:w*"}), Texts{});
+  EXPECT_EQ(contactsOf({"--place", "-9,0,0"}), Texts{});
+  EXPECT_EQ(contactsOf({"--place", "1,0,0,90"}), Texts{});  // turned, it moves along the wall
+  EXPECT_EQ(contactsOf({"--place", "0.63,0,0,180"}), (Texts{"4Hips", "4Arm"}));
+  EXPECT_EQ(contactsOf({"--up", "z", "--place", "0,9,0"}), Texts{});
+}
+
+TEST(ReplayProgram, NamesWhatDoesNotMatch) {
+  const SmallWorld world;
+  std::string clip = clipThroughWall();
+  clip.replace(clip.find("Arm"), 3, "Leg");
+  world.folder.write("leg.bvh", clip);
+  const std::string out = world.folder / "out.jsonl";
+  const auto arguments = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--output", out});
+    return world.replay(more, "wall.obj", "man.json", "leg.bvh");
+  };
+  const Ended ended = runForetouch(arguments({}));
+  EXPECT_EQ(ended.exitCode, 0);
+  EXPECT_NE(ended.err.find("keep their rest values: 'Arm'"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("drive nothing: 'Leg'"), std::string::npos) << ended.err;
+  EXPECT_EQ(json::parse(linesOf(contentOf(out))[0])["unmatched_joints"], json({"Arm"}));
+  const std::string map = world.folder.write("map.json", R"({"Arm": "Leg"})");
+  EXPECT_EQ(runForetouch(arguments({"--map", map})).err, "");
+}
+
+TEST(ReplayProgram, NotesAWrongUnit) {
+  const SmallWorld world;
+  const Ended ended =
+      runForetouch(world.replay({"--output", world.folder / "out.jsonl", "--scale", "0.01"}));
+  EXPECT_EQ(ended.exitCode, 0);
+  EXPECT_NE(ended.err.find("is --scale right?"), std::string::npos) << ended.err;
+}
+
+TEST(ReplayProgram, GivesStandardOutputToTheResultsWhereAsked) {
+  const SmallWorld world;
+  const Ended ended = runForetouch(world.replay({"--output", "/dev/stdout"}));
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.err.find("link-steps"), std::string::npos) << ended.err;
+}
+
+TEST(ReplayProgram, ReplacesOlderResultsOnlyOnSuccess) {
+  const SmallWorld world;
+  const std::string out = world.folder.write("out.jsonl", "older\n");
+  EXPECT_EQ(runForetouch(world.replay({"--rate", "99", "--output", out})).exitCode, 2);
+  EXPECT_EQ(contentOf(out), "older\n");
+  EXPECT_EQ(runForetouch(world.replay({"--output", out})).exitCode, 0);
+  EXPECT_EQ(linesOf(contentOf(out)).size(), 4u);
+}
+
+TEST(ReplayProgram, LeavesNothingWhenInterrupted) {
+  const SmallWorld world;
+  world.folder.write("long.bvh", clipAlongX(toAndFro(400'000)));
+  const auto before = world.folder.names();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    ProgramRun run(
+        world.replay({"--threads", "2", "--compare-rigid", "--output", world.folder / "out.jsonl"},
+                     "wall.obj", "man.json", "long.bvh"));
+    // Once its unfinished file is there, and stays there, the replay is under way. (The trial that
+    // comes before is there for less than a millisecond.)
+    int seen = 0;
+    for (int i = 0; i < 30'000 && seen < 5; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      seen = world.folder.names().size() > before.size() ? seen + 1 : 0;
+    }
+    ASSERT_EQ(seen, 5);
+    run.send(signal);
+    const Ended ended = run.ended();
+    EXPECT_EQ(ended.signal, signal) << "exit code " << ended.exitCode << ended.err;
+    EXPECT_EQ(world.folder.names(), before);
+  }
+}
+
+}  // namespace
+}  // namespace foretouch::test

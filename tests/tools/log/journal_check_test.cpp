@@ -1,0 +1,153 @@
+#include "tools/log/journal_check.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tools/stream/answer_tracker.h"
+
+namespace foretouch::tools {
+namespace {
+
+ContactsMessage answer(std::int64_t sequence, std::int32_t avatar = 1) {
+  ContactsMessage message;
+  message.avatar = avatar;
+  message.session = 9;
+  message.sequenceFrom = sequence - 1;
+  message.sequenceTo = sequence;
+  message.utimeFromUs = 1000 * (sequence - 1);
+  message.utimeToUs = 1000 * sequence;
+  message.tolerance = 1e-3;
+  message.verdicts = {Verdict::Clear, Verdict::Clear};
+  return message;
+}
+
+Bytes bytesOf(const ContactsMessage& message) {
+  Bytes bytes;
+  encode(message, bytes);
+  return bytes;
+}
+
+struct Check {
+  JournalCheck check;
+  void recorded(const ContactsMessage& message) { check.addRecorded(message, bytesOf(message)); }
+  void replayed(const ContactsMessage& message) { check.addReplayed(message, bytesOf(message)); }
+  [[nodiscard]] std::string first() const { return check.firstDifference().value_or("none"); }
+};
+
+TEST(JournalCheck, FindsEqualAnswersInEitherOrderWhateverTheirStamps) {
+  Check c;
+  EXPECT_FALSE(c.check.hasRecord());
+  for (std::int64_t i = 1; i < 50; ++i) {
+    ContactsMessage stamped = answer(i);
+    stamped.receiveUtimeUs = 5 * i;
+    stamped.sendUtimeUs = 6 * i;
+    stamped.queryUs = 0.5;
+    if (i % 3 == 0) c.recorded(stamped);
+    c.replayed(answer(i));
+    if (i % 3 != 0) c.recorded(stamped);
+  }
+  EXPECT_TRUE(c.check.isEqual());
+  EXPECT_EQ(c.check.equal(), 49);
+  EXPECT_EQ(c.check.recorded(), 49);
+  EXPECT_EQ(c.first(), "none");
+}
+
+TEST(JournalCheck, NamesTheFirstThatDiffers) {
+  Check c;
+  for (std::int64_t i = 1; i < 9; ++i) {
+    c.replayed(answer(i));
+    ContactsMessage other = answer(i);
+    if (i == 4 || i == 6) other.lost = 1;
+    c.recorded(other);
+  }
+  EXPECT_FALSE(c.check.isEqual());
+  EXPECT_EQ(c.check.equal(), 6);
+  EXPECT_EQ(c.first().rfind("avatar 1, session 9, pose 4 is answered differently: ", 0), 0u)
+      << c.first();
+}
+
+TEST(JournalCheck, SaysWhichOptionDiffers) {
+  Check c;
+  c.replayed(answer(1));
+  ContactsMessage other = answer(1);
+  other.tolerance = 0.002;
+  c.recorded(other);
+  EXPECT_EQ(c.first(),
+            "avatar 1, session 9, pose 1 is answered differently: the tolerance is "
+            "0.002 in the log, 0.001 here");
+}
+
+TEST(JournalCheck, NamesWhatOneSideLacks) {
+  Check missing;
+  missing.recorded(answer(1));
+  missing.replayed(answer(1));
+  missing.replayed(answer(2));
+  missing.recorded(answer(3, 2));
+  EXPECT_FALSE(missing.check.isEqual());
+  EXPECT_EQ(missing.first(), "avatar 1, session 9, pose 2 is answered here, and not in the log");
+  Check extra;
+  extra.recorded(answer(5));
+  extra.replayed(answer(6));
+  extra.recorded(answer(6));
+  EXPECT_EQ(extra.first(), "avatar 1, session 9, pose 5 is answered in the log, and not here");
+}
+
+TEST(JournalCheck, ForgivesALogThatWasCutOffWhatIsBeyondItsEnd) {
+  Check c;
+  for (std::int64_t i = 1; i < 8; ++i) {
+    c.replayed(answer(i));
+    if (i < 6) c.recorded(answer(i));
+  }
+  EXPECT_FALSE(c.check.isEqual());
+  c.check.endIsOpen();
+  EXPECT_TRUE(c.check.isEqual());
+  EXPECT_EQ(c.check.equal(), 5);
+  EXPECT_EQ(c.check.beyondEnd(), 2);
+  Check inside;
+  inside.replayed(answer(1));
+  inside.replayed(answer(2));
+  inside.recorded(answer(2));
+  inside.check.endIsOpen();
+  EXPECT_FALSE(inside.check.isEqual());  // the first is missing before the end
+}
+
+TEST(JournalCheck, PairsRepeatedSequencesInTheirOrder) {
+  Check c;
+  ContactsMessage second = answer(1);
+  second.utimeToUs += 77;  // a sender that does not say its session was restarted
+  c.recorded(answer(1));
+  c.recorded(second);
+  c.replayed(answer(1));
+  c.replayed(second);
+  EXPECT_TRUE(c.check.isEqual());
+  EXPECT_EQ(c.check.equal(), 2);
+  c.recorded(answer(1));
+  EXPECT_FALSE(c.check.isEqual());
+}
+
+TEST(AnswerTracker, NoticesWhatTheAnswersThemselvesSayIsMissing) {
+  AnswerTracker tracker;
+  EXPECT_FALSE(tracker.take(answer(5)));  // who joins late has missed nothing
+  EXPECT_FALSE(tracker.take(answer(6)));
+  EXPECT_FALSE(tracker.take(answer(100, 2)));
+  ContactsMessage gap = answer(10);
+  gap.sequenceFrom = 6;  // poses were lost, answers were not
+  EXPECT_FALSE(tracker.take(gap));
+  const auto missing = tracker.take(answer(13));
+  ASSERT_TRUE(missing);
+  EXPECT_NE(missing->find("avatar 1"), std::string::npos);
+  EXPECT_NE(missing->find("12"), std::string::npos) << *missing;
+  ContactsMessage restarted = answer(30);
+  restarted.session = 10;
+  EXPECT_FALSE(tracker.take(restarted));
+  ContactsMessage first = answer(90);
+  first.session = 10;
+  first.kind = StepKind::First;
+  EXPECT_FALSE(tracker.take(first));
+  EXPECT_EQ(tracker.gaps(), 1);
+}
+
+}  // namespace
+}  // namespace foretouch::tools

@@ -1,0 +1,37 @@
+// tools/commands/replay_command.h: `foretouch replay`.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "articulated/result.h"
+#include "tools/console.h"
+#include "tools/glb/replay_glb.h"
+#include "tools/replay/replay.h"
+#include "tools/replay/summary.h"
+#include "tools/report/document_parts.h"
+
+namespace CLI {
+class App;
+}
+
+namespace foretouch::tools {
+
+/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
+void addReplayCommand(CLI::App& program, ExitCode& exit);
+
+/// A replay whose options are settled.
+struct ReplayJob {
+  ReplayRequest request;
+  ReplayOptions options;
+  std::string outputPath;
+  ReportOptions report;
+};
+
+/// Runs a job: remarks on stderr, results to the output file, the report to its own, and the
+/// summary to `tell`. Each file appears once it is complete, or not at all: not after an error, and
+/// not after a signal, which ends the program.
+[[nodiscard]] Result<Done> runReplay(const ReplayJob& job,
+                                     const std::function<void(const ReplaySummary&)>& tell);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,62 @@
+#include "tools/commands/replay_log_command.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "articulated/text_file.h"
+#include "tools/interrupt.h"
+#include "tools/log/replay_log_summary.h"
+#include "tools/progress.h"
+#include "tools/report/log_report.h"
+#include "tools/report/report_file.h"
+#include "tools/results_output.h"
+#include "tools/stream/contacts_line.h"
+
+namespace foretouch::tools {
+
+Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
+                                     const std::function<void(const std::string&)>& tell) {
+  std::vector<std::string> inputPaths{job.request.query.scenePath, job.request.query.motionPath};
+  inputPaths.push_back(job.request.query.policyPath);
+  for (const NumberedAvatar& avatar : job.request.avatars) inputPaths.push_back(avatar.path);
+  inputPaths.push_back(job.request.query.skinPath);
+  const auto checked = checkOutputs(job.outputPath, job.report.path, inputPaths);
+  if (!checked.ok()) return checked.error();
+  const auto inputs = loadLogReplayInputs(job.request);
+  if (!inputs.ok()) return inputs.error();
+
+  LogReplaySummary summary(inputs.value());
+  std::optional<LogReport> report;
+  if (!job.report.path.empty()) report.emplace(inputs.value(), job.report);
+  const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
+  auto file = PendingFile::create(job.outputPath);
+  if (!file.ok()) return file.error();
+  file.value().write(logHeaderLine(inputs.value()));
+  ProgressBar progress("replay", 100);
+  auto replayed = replayLog(inputs.value(), [&](const AnsweredPose& answered) {
+    file.value().write(contactsLine(answered.answer, Stamps::Without));
+    summary.add(answered.answer, answered.avatar);
+    if (report) report->add(answered);
+    if (answered.logBytes > 0) {
+      progress.advanceTo(
+          static_cast<std::int64_t>(100 * answered.positionBytes / answered.logBytes));
+    }
+    return !guard.requested();
+  });
+  if (!replayed.ok() || guard.requested()) return replayed;
+  const auto written = file.value().commit();
+  if (!written.ok()) return written.error();
+  if (report) {
+    const auto reported = writeReport(job.report.path, guard,
+                                      [&](const ReportProgress& watch) -> Result<ViewDocument> {
+                                        return report->document(replayed.value(), summary, watch);
+                                      });
+    if (!reported.ok()) return reported.error();
+    if (guard.requested()) return replayed;
+  }
+  tell(summary.text(replayed.value()));
+  return replayed;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,227 @@
+#include "tools/commands/serve_command.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "network/metrics_server.h"
+#include "network/metrics_text.h"
+#include "network/service.h"
+#include "tools/stream/serve_options.h"
+#include "tools/stream/served_world.h"
+#include "tools/stream/service_manager.h"
+#include "tools/stream/stop_signal.h"
+#include "tools/view/serve_view.h"
+
+namespace foretouch::tools {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// A failure of the service is noticed after this long.
+constexpr milliseconds kLookEvery{500};
+
+/// Tries the network before it is relied on, and opens it.
+Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
+  const auto url = parseUdpmUrl(config.url);
+  if (!url.ok()) return inFile(url.error(), "--url");
+  const auto tried = testMulticast(url.value());
+  if (!tried.ok()) return inFile(tried.error(), config.url);
+  const std::vector<std::string> channels = receivedChannels(config.suffix);
+  auto receiver = config.receiver == ReceiverKind::Own ? openUdpmReceiver(url.value(), channels)
+                                                       : openLcmReceiver(config.url, channels);
+  if (!receiver.ok()) return inFile(receiver.error(), config.url);
+  auto publisher = openUdpmPublisher(url.value());
+  if (!publisher.ok()) return inFile(publisher.error(), config.url);
+  parts.receiver = std::move(receiver).value();
+  parts.publisher = std::move(publisher).value();
+  return Done{};
+}
+
+/// A folder gets a file of its own for every run: a service that is started anew finds its last log
+/// in place, and overwrites nothing.
+std::string logPathIn(const std::string& given) {
+  std::error_code none;
+  if (!std::filesystem::is_directory(given, none)) return given;
+  const std::int64_t utimeUs = systemClock().utimeUs();
+  constexpr std::int64_t kUsPerS = 1'000'000, kUsPerMs = 1000;
+  const std::time_t seconds = utimeUs / kUsPerS;
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  char stamp[32];
+  std::strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%S", &utc);
+  const std::string name = fmt::format("{}.{:03}Z.lcmlog", stamp, utimeUs % kUsPerS / kUsPerMs);
+  return (std::filesystem::path(given) / name).string();
+}
+
+Result<Done> openLog(const ServeConfig& config, ServiceParts& parts) {
+  if (config.log.empty()) return Done{};
+  auto sink = createLogSink(config.log);
+  if (!sink.ok()) return inFile(sink.error(), config.log);
+  parts.journal = std::move(sink).value();
+  return Done{};
+}
+
+Result<std::optional<MetricsServer>> openHttp(const ServeConfig& config, const Service& service) {
+  if (config.http.empty()) return std::optional<MetricsServer>();
+  const auto address = parseHttpAddress("--http", config.http);
+  if (!address.ok()) return address.error();
+  MetricsServer::Pages pages;
+  pages.metrics = [&service] {
+    return metricsText(service.facts(), service.counts(), service.times());
+  };
+  pages.health = [&service] { return service.health(); };
+  auto server = MetricsServer::start(address.value().host, address.value().port, std::move(pages));
+  if (!server.ok()) return inFile(server.error(), "--http");
+  if (!isLoopback(address.value().host)) {
+    printNote("--http: whoever reaches " + config.http + " can read the metrics");
+  }
+  return std::optional<MetricsServer>(std::move(server).value());
+}
+
+std::string describe(const ServeConfig& config, const ServedWorld& world) {
+  std::string text =
+      fmt::format("serving {} ({} triangles) to {} avatar{}", config.scene, world.numTriangles,
+                  world.avatars.size(), world.avatars.size() == 1 ? "" : "s");
+  text += fmt::format(" at {} fidelity, {} m, {} worker{}, on {}", toString(config.fidelity),
+                      config.tolerance, config.workers, config.workers == 1 ? "" : "s", config.url);
+  if (!config.policies.empty()) text += ", some links by policy";
+  if (!config.suffix.empty()) text += ", suffix " + config.suffix;
+  if (!config.log.empty()) text += ", log " + config.log;
+  if (!config.http.empty()) text += ", metrics on " + config.http;
+  if (!config.view.empty()) text += ", to be watched at http://" + config.view + "/";
+  return text;
+}
+
+/// Says once when the log begins to miss events.
+class JournalWatch {
+ public:
+  explicit JournalWatch(std::string log) : log_(std::move(log)) {}
+  void look(const Service& service) {
+    const std::uint64_t failures = service.counts().journalFailures;
+    if (failures == 0 || hasTold_) return;
+    hasTold_ = true;
+    printNote(log_ + ": events are not recorded: " + service.journalFailure());
+  }
+
+ private:
+  std::string log_;
+  bool hasTold_ = false;
+};
+
+/// Until a signal comes or the service cannot go on.
+void waitForEnd(const Service& service, const ServiceManager& manager, StopSignal& stop,
+                JournalWatch& journal) {
+  const milliseconds every = std::min(kLookEvery, manager.aliveEvery().value_or(kLookEvery));
+  while (!stop.wait(every) && !service.failure()) {
+    journal.look(service);
+    if (manager.aliveEvery() && service.health().isWell) manager.alive();
+  }
+}
+
+std::string summaryOf(const ServiceCounts& counts) {
+  return fmt::format(
+      "{} poses: {} answered, {} refused, {} lost on the way; {} messages not sent, "
+      "{} events not recorded\n",
+      counts.received, counts.answered, counts.rejected(), counts.lost, counts.publishFailures,
+      counts.journalFailures);
+}
+
+/// A log at its size limit and a reader of our output that went away are errors of a write, not the
+/// end of the service.
+void surviveFailedWrites() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+ExitCode runTexts(const ServeTexts& texts) {
+  surviveFailedWrites();
+  const auto config = settledServeConfig(texts);
+  if (!config.ok()) return failed(config.error());
+  const auto served = serve(config.value());
+  return served.ok() ? ExitCode::Done : failed(served.error());
+}
+
+constexpr char kExamples[] = R"(Examples:
+  foretouch serve --scene room.obj --avatar dancer.avatar.json
+  foretouch serve --scene kitchen.ply --up z --avatar 1=anna.json --avatar 2=ben.json \
+      --workers 2 --log today.lcmlog --http 127.0.0.1:9464
+  foretouch serve --scene room.obj --avatar dancer.avatar.json --view
+  foretouch serve --config service.toml --workers 4
+
+Prints "ready" once it takes poses. SIGINT, SIGTERM and SIGHUP end it in order: what waits is
+answered first. docs/streaming.md has the whole story.)";
+
+}  // namespace
+
+Result<Done> serve(const ServeConfig& given) {
+  ServeConfig config = given;
+  config.log = logPathIn(given.log);
+  auto world = loadServedWorld(config);
+  if (!world.ok()) return world.error();
+  for (const std::string& remark : world.value().remarks) printNote(remark);
+  ServiceParts parts;
+  const auto wire = openWire(config, parts);
+  if (!wire.ok()) return wire.error();
+  const auto log = openLog(config, parts);
+  if (!log.ok()) return log.error();
+
+  auto view = prepareView(config, world.value());
+  if (!view.ok()) return view.error();
+  ViewFeed feed(world.value().avatars.size());
+  if (view.value()) parts.observer = &feed;
+
+  ServiceOptions options;
+  options.workers = config.workers;
+  options.queue = static_cast<std::size_t>(config.queue);
+  options.suffix = config.suffix;
+  options.build = "foretouch " FORETOUCH_VERSION " " FORETOUCH_BUILD_TYPE;
+  options.scene = config.scene;
+  const std::string line = describe(config, world.value());
+  StopSignal stop;
+  auto service = Service::start(std::move(world.value().avatars), std::move(parts), options);
+  if (!service.ok()) return service.error();
+  auto http = openHttp(config, service.value());
+  if (!http.ok()) return http.error();
+  auto watched = openView(config, std::move(view).value(), service.value(), feed);
+  if (!watched.ok()) return watched.error();
+
+  printOut(line + "\nready\n");
+  if (!outputArrived()) {
+    return Error{ErrorCode::FileUnwritable, "standard output", -1, -1, "cannot be written"};
+  }
+  const ServiceManager manager;
+  manager.ready(line);
+  JournalWatch journal(config.log);
+  waitForEnd(service.value(), manager, stop, journal);
+  manager.stopping();
+  service.value().stop();
+  http.value().reset();
+  watched.value().reset();
+  journal.look(service.value());
+  printOut(summaryOf(service.value().counts()));
+  if (const auto failure = service.value().failure()) return inFile(*failure, config.url);
+  return Done{};
+}
+
+void addServeCommand(CLI::App& program, ExitCode& exit) {
+  const auto texts = std::make_shared<ServeTexts>();
+  CLI::App* const command =
+      program.add_subcommand("serve", "Answer poses that come over LCM, until told to stop");
+  addServeOptions(*command, texts);
+  command->footer(kExamples);
+  command->callback([texts, &exit] { exit = runTexts(*texts); });
+}
+
+}  // namespace foretouch::tools

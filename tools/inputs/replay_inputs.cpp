@@ -1,0 +1,120 @@
+#include "tools/inputs/replay_inputs.h"
+
+#include <utility>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+#include <fmt/format.h>
+
+#include "middleware/link_mesh.h"
+#include "network/work_budget.h"
+#include "tools/console.h"
+#include "tools/inputs/clip_pose.h"
+#include "tools/inputs/ignored_pairs.h"
+#include "tools/inputs/played_clip.h"
+#include "tools/inputs/skin_file.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// What building has freed the allocator keeps, as if more building were to come: a third of what a
+/// large scene leaves behind.
+void giveBackFreeMemory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
+
+/// The meshes that the avatar file refers to, where the fidelity asks for them.
+Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, QueryOptions& query) {
+  if (query.fidelity == Fidelity::Skinned) {
+    auto skin = loadSkin(request.skinPath, request.skinScale, request.skinUp, avatar);
+    if (!skin.ok()) return skin.error();
+    query.skin = std::move(skin).value();
+    return Done{};
+  }
+  if (query.fidelity != Fidelity::Exact) return Done{};
+  std::vector<LinkId> exact;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    if (query.linkPolicies.empty() ||
+        query.linkPolicies[static_cast<std::size_t>(link)].fidelity == Fidelity::Exact) {
+      exact.push_back(link);
+    }
+  }
+  auto meshes = loadLinkMeshes(avatar, request.avatarPath, exact);
+  if (!meshes.ok()) return inFile(meshes.error(), request.avatarPath);
+  auto surface = AvatarSurface::build(avatar, std::move(meshes).value());
+  if (!surface.ok()) return inFile(surface.error(), request.avatarPath);
+  // The first steps' latencies are the query's, unless policies ask for little to be there.
+  if (query.linkPolicies.empty()) surface.value().prepare();
+  query.surface = std::move(surface).value();
+  return Done{};
+}
+
+}  // namespace
+
+Result<Scene> loadScene(const ReplayRequest& request) {
+  SceneImportOptions options;
+  options.scale = request.sceneScale;
+  options.up = request.sceneUp;
+  auto imported = importScene(request.scenePath, options);
+  if (!imported.ok()) return inFile(imported.error(), request.scenePath);
+  auto scene = Scene::build(std::move(imported.value().scene));
+  if (!scene.ok()) return inFile(scene.error(), request.scenePath);
+  giveBackFreeMemory();
+  return scene;
+}
+
+Result<QueryOptions> queryOptionsFor(const ReplayRequest& request, const Avatar& avatar,
+                                     const Scene& scene) {
+  QueryOptions query;
+  query.tolerance = request.tolerance;
+  query.culler = request.culler;
+  query.fidelity = request.fidelity;
+  query.leafMethod = request.leafMethod;
+  query.scope = request.scope;
+  if (request.budgetUs > 0) query.workBudget = workBudget(static_cast<double>(request.budgetUs));
+  auto ignored = parseIgnoredPairs(request.ignore, avatar.skeleton(), scene.objectNames());
+  if (!ignored.ok()) return ignored.error();
+  query.ignored = std::move(ignored).value();
+  const auto applied =
+      applyPolicies(request.policies, avatar.skeleton(), scene.objectNames(), query);
+  if (!applied.ok()) return applied.error();
+  const auto surface = loadSurface(request, avatar, query);
+  if (!surface.ok()) return surface.error();
+  return query;
+}
+
+Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
+  auto played = loadPlayedClip(request);
+  if (!played.ok()) return played.error();
+  auto& [avatar, clip, match, steps, isUpright] = played.value();
+  auto scene = loadScene(request);
+  if (!scene.ok()) return scene.error();
+  auto query = queryOptionsFor(request, avatar, scene.value());
+  if (!query.ok()) return query.error();
+  return ReplayInputs{
+      request, std::move(scene).value(), std::move(avatar), std::move(clip), std::move(match),
+      steps,   std::move(query).value(), isUpright};
+}
+
+std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
+  const ReplayRequest& request = inputs.request;
+  std::vector<std::string> remarks = remarksOnClip(inputs.avatar, inputs.clip, inputs.match,
+                                                   request.avatarPath, request.motionPath);
+  if (const std::size_t dropped = inputs.scene.audit().droppedNonFinite; dropped > 0) {
+    remarks.push_back(fmt::format("{}: {} triangles with a vertex that is not finite were left out",
+                                  request.scenePath, dropped));
+  }
+  return remarks;
+}
+
+Result<Pose> poseAtFrame(const ReplayInputs& inputs, std::int64_t frame) {
+  return poseAtFrame({inputs.avatar, inputs.clip, inputs.match, inputs.request.placement,
+                      inputs.isUpright, inputs.request.motionPath},
+                     frame);
+}
+
+}  // namespace foretouch::tools

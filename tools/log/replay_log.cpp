@@ -1,0 +1,233 @@
+#include "tools/log/replay_log.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "articulated/avatar_file.h"
+#include "tools/console.h"
+#include "tools/json_text.h"
+#include "tools/replay/results_writer.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// Other avatars are counted one by one up to this many.
+constexpr std::size_t kMaxOthers = 1024;
+
+Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
+  std::vector<StreamSolver> solvers;
+  for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {
+    ReplayRequest request = inputs.request.query;
+    request.avatarPath = inputs.request.avatars[i].path;
+    auto options = queryOptionsFor(request, inputs.avatars[i], inputs.scene);
+    if (!options.ok()) return options.error();
+    auto solver = StreamSolver::make(inputs.request.avatars[i].id, inputs.avatars[i], inputs.scene,
+                                     options.value(), inputs.request.policy);
+    if (!solver.ok()) return inFile(solver.error(), request.avatarPath);
+    solvers.push_back(std::move(solver).value());
+  }
+  return solvers;
+}
+
+/// Does the log hold any answer? Answers of the replay wait for theirs only where it does.
+Result<bool> holdsAnswers(const std::string& path, const std::string& channel) {
+  auto log = EventLogReader::open(path);
+  if (!log.ok()) return inFile(log.error(), path);
+  LogEvent event;
+  for (;;) {
+    const auto more = log.value().next(event);
+    if (!more.ok()) return inFile(more.error(), path);
+    if (!more.value()) return false;
+    if (event.channel == channel) return true;
+  }
+}
+
+/// One replay: the events of a log, one after another.
+class LogReplay {
+ public:
+  LogReplay(const LogReplayInputs& inputs, std::vector<StreamSolver> solvers, bool compares)
+      : inputs_(inputs), solvers_(std::move(solvers)), compares_(compares) {
+    for (std::size_t i = 0; i < solvers_.size(); ++i) indexOf_[solvers_[i].id()] = i;
+  }
+
+  /// The index of the avatar whose pose was answered, the answer then being answer().
+  std::optional<std::size_t> take(const LogEvent& event) {
+    if (event.channel == inputs_.channels.pose) return takePose(event);
+    if (event.channel == inputs_.channels.skeleton) takeSkeleton(event);
+    if (event.channel == inputs_.channels.contacts) takeRecorded(event);
+    return std::nullopt;
+  }
+  [[nodiscard]] const ContactsMessage& answer() const { return answer_; }
+  [[nodiscard]] const StreamSolver& solver(std::size_t avatar) const { return solvers_[avatar]; }
+
+  LogReplayReport finish(const LogCounts& log) {
+    report_.log = log;
+    if (log.isTruncated || log.tailEvents > 0) report_.journal.endIsOpen();
+    for (const StreamSolver& solver : solvers_) {
+      const StreamCounts& counts = solver.counts();
+      report_.lost += static_cast<std::int64_t>(counts.lost);
+      report_.gaps += static_cast<std::int64_t>(counts.gaps);
+      report_.timelines += static_cast<std::int64_t>(counts.timelines);
+      for (std::size_t i = 0; i < kNumRejects; ++i) report_.rejects[i] += counts.rejects[i];
+    }
+    return std::move(report_);
+  }
+
+ private:
+  void reject(Reject reason) { ++report_.rejects[static_cast<std::size_t>(reason)]; }
+
+  StreamSolver* solverOf(std::int32_t avatar) {
+    const auto found = indexOf_.find(avatar);
+    return found == indexOf_.end() ? nullptr : &solvers_[found->second];
+  }
+
+  std::optional<std::size_t> takePose(const LogEvent& event) {
+    const Reject unreadable = decode(event.payload, pose_);
+    if (unreadable != Reject::None) {
+      ++report_.poses;
+      reject(unreadable);
+      return std::nullopt;
+    }
+    StreamSolver* const solver = solverOf(pose_.avatar);
+    if (solver == nullptr) {
+      if (report_.others.size() < kMaxOthers || report_.others.count(pose_.avatar) > 0) {
+        ++report_.others[pose_.avatar];
+      }
+      return std::nullopt;
+    }
+    ++report_.poses;
+    if (solver->take(pose_, answer_) != Reject::None) return std::nullopt;  // counted by the stream
+    ++report_.answers;
+    if (compares_) {
+      encode(answer_, payload_);
+      report_.journal.addReplayed(answer_, payload_);
+    }
+    return indexOf_.at(pose_.avatar);
+  }
+
+  void takeSkeleton(const LogEvent& event) {
+    const Reject unreadable = decode(event.payload, skeleton_);
+    StreamSolver* const solver = unreadable == Reject::None ? solverOf(skeleton_.avatar) : nullptr;
+    if (unreadable == Reject::None && solver == nullptr) return;
+    ++report_.skeletons;
+    if (solver == nullptr) return reject(unreadable);
+    static_cast<void>(solver->take(skeleton_));  // counted by the stream
+  }
+
+  void takeRecorded(const LogEvent& event) {
+    if (decode(event.payload, recorded_) != Reject::None) {
+      ++report_.unreadableAnswers;
+    } else if (solverOf(recorded_.avatar) != nullptr) {
+      report_.journal.addRecorded(recorded_, event.payload);
+    }
+  }
+
+  const LogReplayInputs& inputs_;
+  std::vector<StreamSolver> solvers_;
+  bool compares_;
+  std::map<std::int32_t, std::size_t> indexOf_;
+  LogReplayReport report_;
+  SkeletonMessage skeleton_;
+  PoseMessage pose_;
+  ContactsMessage answer_, recorded_;
+  Bytes payload_;
+};
+
+}  // namespace
+
+bool isEventLog(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".lcmlog") return true;
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(path, problem))
+    return false;  // no pipe loses its first bytes
+  constexpr std::array<unsigned char, 4> kMagic{0xED, 0xA1, 0xDA, 0x01};
+  std::array<unsigned char, kMagic.size()> first{};
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             &std::fclose);
+  return file && std::fread(first.data(), 1, first.size(), file.get()) == first.size() &&
+         first == kMagic;
+}
+
+Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request) {
+  auto channels = channelNames(request.suffix);
+  if (!channels.ok()) return channels.error();
+  std::vector<Avatar> avatars;
+  for (const NumberedAvatar& numbered : request.avatars) {
+    auto avatar = readAvatarFile(numbered.path);
+    if (!avatar.ok()) return inFile(avatar.error(), numbered.path);
+    avatars.push_back(std::move(avatar).value());
+  }
+  auto scene = loadScene(request.query);
+  if (!scene.ok()) return scene.error();
+  return LogReplayInputs{request, std::move(channels).value(), std::move(scene).value(),
+                         std::move(avatars)};
+}
+
+Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSink& sink) {
+  const std::string& path = inputs.request.query.motionPath;
+  auto solvers = solversFor(inputs);
+  if (!solvers.ok()) return solvers.error();
+  const auto compares = holdsAnswers(path, inputs.channels.contacts);
+  if (!compares.ok()) return compares.error();
+  auto log = EventLogReader::open(path);
+  if (!log.ok()) return inFile(log.error(), path);
+  LogReplay replay(inputs, std::move(solvers).value(), compares.value());
+  LogEvent event;
+  for (;;) {
+    const auto more = log.value().next(event);
+    if (!more.ok()) return inFile(more.error(), path);
+    if (!more.value()) break;
+    const auto avatar = replay.take(event);
+    if (!avatar) continue;
+    const StreamSolver& solver = replay.solver(*avatar);
+    if (!sink({replay.answer(), *avatar, solver.lastStep(), solver.options(),
+               log.value().position(), log.value().size()})) {
+      break;
+    }
+  }
+  return replay.finish(log.value().counts());
+}
+
+std::string logHeaderLine(const LogReplayInputs& inputs) {
+  const LogReplayRequest& request = inputs.request;
+  const ReplayRequest& query = request.query;
+  constexpr double kUsPerS = 1e6;
+  std::string text = R"({"format":"foretouch-results","version":1)";
+  text += fmt::format(R"(,"tool":"{}","scene":{},"motion":{},"suffix":{})", FORETOUCH_VERSION,
+                      jsonFileName(query.scenePath), jsonFileName(query.motionPath),
+                      jsonString(request.suffix));
+  text += fmt::format(R"(,"tolerance":{},"fidelity":"{}")", numberText(query.tolerance),
+                      toString(query.fidelity));
+  text += policyField(query) + surfaceFields(query);
+  text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", numberText(query.sceneScale),
+                      query.sceneUp == UpAxis::Z ? "z" : "y", jsonList(query.ignore));
+  text += fmt::format(R"(,"budget_us":{},"max_step":{},"confirmations":{},"unmatched_at_rest":{})",
+                      query.budgetUs,
+                      numberText(static_cast<double>(request.policy.maxStepUs) / kUsPerS),
+                      request.policy.confirmations, request.policy.unmatchedAtRest);
+  text += R"(,"avatars":[)";
+  for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {
+    std::vector<std::string> links;
+    for (LinkId link = 0; link < inputs.avatars[i].numLinks(); ++link) {
+      links.push_back(inputs.avatars[i].skeleton().name(link));
+    }
+    text +=
+        fmt::format(R"({}{{"id":{},"avatar":{},"links":{}}})", i > 0 ? "," : "",
+                    request.avatars[i].id, jsonFileName(request.avatars[i].path), jsonList(links));
+  }
+  return text + "]}\n";
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,85 @@
+// tools/log/replay_log.h: the poses that an event log holds, answered as a service answers them,
+// and compared with the answers that the log holds.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/result.h"
+#include "network/avatar_stream.h"
+#include "network/event_log.h"
+#include "network/messages.h"
+#include "network/reject.h"
+#include "network/stream_solver.h"
+#include "tools/inputs/numbered_avatars.h"
+#include "tools/inputs/replay_inputs.h"
+#include "tools/log/journal_check.h"
+#include "tools/stream/channel_names.h"
+
+namespace foretouch::tools {
+
+/// True for a path that ends in .lcmlog, and for a file that begins as event logs do.
+[[nodiscard]] bool isEventLog(const std::string& path);
+
+struct LogReplayRequest {
+  /// Scene and query; `motionPath` is the log. What is about clips is not read, nor avatarPath.
+  ReplayRequest query;
+  std::vector<NumberedAvatar> avatars;
+  StreamPolicy policy;
+  std::string suffix;
+};
+
+struct LogReplayInputs {
+  LogReplayRequest request;
+  ChannelNames channels;
+  Scene scene;
+  std::vector<Avatar> avatars;  ///< In the order of the request.
+};
+
+/// Reads, checks and fits the inputs to one another, all but the log's content. Errors name the
+/// file or option.
+[[nodiscard]] Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request);
+
+struct LogReplayReport {
+  LogCounts log;
+  std::int64_t poses = 0, skeletons = 0;  ///< Of the avatars that are replayed, or unreadable.
+  std::int64_t answers = 0;
+  std::int64_t lost = 0, gaps = 0, timelines = 0;  ///< As StreamCounts, of all avatars together.
+  RejectCounts rejects{};  ///< Of poses and skeletons, also of those that cannot be read.
+  /// Avatars that the log has poses of, and that are not replayed; how many poses.
+  std::map<std::int32_t, std::int64_t> others;
+  std::int64_t unreadableAnswers = 0;  ///< That the log holds: nothing can be equal to them.
+  JournalCheck journal;
+
+  /// Nothing that the log says is contradicted.
+  [[nodiscard]] bool agrees() const {
+    return unreadableAnswers == 0 && (!journal.hasRecord() || journal.isEqual());
+  }
+};
+
+/// A pose of the log and its answer, as long as the sink has them.
+struct AnsweredPose {
+  const ContactsMessage& answer;
+  std::size_t avatar;                     ///< Its index in the request.
+  const StreamStep& step;                 ///< That the pose ended.
+  const QueryOptions& query;              ///< That was asked.
+  std::uint64_t positionBytes, logBytes;  ///< How far the log has been read.
+};
+
+/// Takes the answers in the order of the log; false ends the replay early.
+using AnswerSink = std::function<bool(const AnsweredPose& answered)>;
+
+/// Answers every pose that a service with the same options would answer, as fast as possible and in
+/// this thread. The receiving and sending stamps of answers are 0.
+[[nodiscard]] Result<LogReplayReport> replayLog(const LogReplayInputs& inputs,
+                                                const AnswerSink& sink);
+
+/// The first line of the results of a log (docs/formats.md, "Results of a log").
+[[nodiscard]] std::string logHeaderLine(const LogReplayInputs& inputs);
+
+}  // namespace foretouch::tools

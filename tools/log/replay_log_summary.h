@@ -1,0 +1,52 @@
+// tools/log/replay_log_summary.h: what a person reads at the end of the replay of a log.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "network/messages.h"
+#include "tools/log/replay_log.h"
+
+namespace foretouch::tools {
+
+/// Collects answers and puts them into words. Keeps a float an answer and a few numbers a link.
+class LogReplaySummary {
+ public:
+  /// `inputs` must outlive it.
+  explicit LogReplaySummary(const LogReplayInputs& inputs);
+
+  /// `avatar` is its index in the request.
+  void add(const ContactsMessage& answer, std::size_t avatar);
+
+  [[nodiscard]] std::string text(const LogReplayReport& report) const;
+
+  /// "N of N verdicts equal the journal's, byte for byte", and what differs first; empty where the
+  /// log holds no verdicts.
+  [[nodiscard]] static std::string comparison(const LogReplayReport& report);
+
+  struct Counts {
+    std::int64_t contacts = 0, startsInContact = 0, undecided = 0;
+  };
+  [[nodiscard]] const Counts& total() const { return total_; }
+  /// The time at or below which this share of the queries was answered.
+  [[nodiscard]] double queryUs(double share) const;
+
+ private:
+  [[nodiscard]] std::string head() const;
+  [[nodiscard]] std::string stream(const LogReplayReport& report) const;
+  [[nodiscard]] std::string verdicts() const;
+  [[nodiscard]] std::string byLink() const;
+  [[nodiscard]] std::string cost() const;
+
+  const LogReplayInputs& inputs_;
+  Counts total_;
+  std::vector<std::vector<Counts>> ofLink_;  // by avatar and link
+  std::array<std::int64_t, kNumAnswerReasons> reasons_{};
+  std::int64_t withContact_ = 0;
+  std::vector<float> queriesUs_;
+};
+
+}  // namespace foretouch::tools

@@ -1,0 +1,49 @@
+#include "tools/results_output.h"
+
+#include <filesystem>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+#include "articulated/text_file.h"
+#include "tools/arguments.h"
+#include "tools/interrupt.h"
+
+namespace foretouch::tools {
+
+Result<Done> checkOutput(const std::string& output, const std::vector<std::string>& inputs) {
+  const auto separate = checkIsNoInput(output, inputs);
+  if (!separate.ok()) return separate.error();
+  // Opening a pipe and closing it again would tell its reader that there is nothing more to come.
+  std::error_code absent;
+  const std::filesystem::file_status status = std::filesystem::status(output, absent);
+  if (std::filesystem::is_other(status)) return Done{};
+  const InterruptGuard guard;  // the trial file must not stay behind
+  const auto trial = PendingFile::create(output);
+  if (!trial.ok()) return trial.error();
+  return Done{};
+}
+
+Result<Done> checkOutputs(const std::string& output, const std::string& report,
+                          const std::vector<std::string>& inputs) {
+  const auto checked = checkOutput(output, inputs);
+  if (!checked.ok() || report.empty()) return checked;
+  namespace fs = std::filesystem;
+  std::error_code absent;
+  const bool areOne = fs::equivalent(output, report, absent) ||
+                      fs::weakly_canonical(output, absent) == fs::weakly_canonical(report, absent);
+  if (areOne) {
+    return Error{ErrorCode::FileUnwritable, report, -1, -1,
+                 "is to hold the results as well; expected another file for the report"};
+  }
+  return checkOutput(report, inputs);
+}
+
+bool isStandardOutput(const std::string& path) {
+  struct stat file {
+  }, out{};
+  return ::stat(path.c_str(), &file) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 &&
+         file.st_dev == out.st_dev && file.st_ino == out.st_ino;
+}
+
+}  // namespace foretouch::tools
