@@ -31,9 +31,10 @@ cc "$example/swing.c" -o swing-pkg-config $(pkg-config --cflags --libs foretouch
 
 say "the C and C++ examples by CMake"
 install g++ cmake make
-cmake -S "$example" -B c-example >cmake.log && cmake --build c-example >>cmake.log
+by_cmake() { { cmake "$@" -DCMAKE_BUILD_TYPE=Release && cmake --build "${*: -1}"; } >cmake.log 2>&1 || { cat cmake.log; exit 1; }; }
+by_cmake -S "$example" -B c-example
 c-example/swing | cmp - swing.txt
-cmake -S consumer -B cxx-example -DCMAKE_BUILD_TYPE=Release >cmake.log && cmake --build cxx-example >>cmake.log
+by_cmake -S consumer -B cxx-example
 cxx-example/consumer
 
 python=$(of python3-foretouch)
@@ -50,7 +51,7 @@ fi
 
 say "all of them together, and away again"
 install ./packages/*.deb
-apt-get purge -y -qq foretouch 'libforetouch*' >apt.log 2>&1
+apt-get purge -y -qq foretouch 'libforetouch*' python3-foretouch >apt.log 2>&1
 if find /usr -name '*foretouch*' | grep .; then
   echo "left behind by the packages" >&2
   exit 1

@@ -12,4 +12,5 @@ cp "$packages"/*.deb "$chroot$work/packages/"
 cp -r "$here/../consumer" "$chroot$work/"
 if [ -d "$here/../../bindings/python/example" ]; then cp -r "$here/../../bindings/python/example" "$chroot$work/python-example"; fi
 cp "$here/in_chroot.sh" "$chroot$work/"
-chroot "$chroot" /bin/bash "$work/in_chroot.sh" "$work"
+# Nothing of this machine's environment: compilers and paths in it need not be there.
+chroot "$chroot" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin /bin/bash "$work/in_chroot.sh" "$work"
