@@ -92,6 +92,8 @@ if(python IN_LIST components)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "foretouch")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+      "${PROJECT_SOURCE_DIR}/cmake/packages/python/postinst;${PROJECT_SOURCE_DIR}/cmake/packages/python/prerm")
   set(CPACK_DEBIAN_PYTHON_DESCRIPTION "${about} the module foretouch for Python 3.")
 endif()
 
