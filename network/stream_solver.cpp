@@ -78,11 +78,12 @@ Reject StreamSolver::take(const SkeletonMessage& message) {
 
 Reject StreamSolver::take(const PoseMessage& message, ContactsMessage& answer) {
   if (message.avatar != id_) return Reject::UnknownAvatar;
-  const Reject reject = stream_.take(message, step_);
+  StreamStep step;
+  const Reject reject = stream_.take(message, step);
   if (reject != Reject::None) return reject;
   lastStep_ = step;
   const Clock::time_point start = Clock::now();
-  const auto done = query(*step_.from, *step_.to);
+  const auto done = query(*step.from, *step.to);
   lastQueryUs_ = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
   FORETOUCH_ASSERT(done.ok());  // make() has tried these options
   if (!done.ok()) {
@@ -91,7 +92,7 @@ Reject StreamSolver::take(const PoseMessage& message, ContactsMessage& answer) {
       contact.reason = UndecidedReason::Resolution;
     }
   }
-  fill(step_, answer);
+  fill(step, answer);
   return Reject::None;
 }
 

@@ -60,7 +60,6 @@ class StreamSolver {
   Scene scene_;
   QueryOptions options_;
   AvatarStream stream_;
-  StreamStep step_;
   /// At skinned fidelity, per link: the links that move its triangles.
   std::vector<std::vector<LinkId>> movedBy_;
   StreamStep lastStep_;

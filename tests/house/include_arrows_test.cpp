@@ -43,6 +43,7 @@ const std::map<std::string, std::set<std::string>> kLibraries = {
     {"httplib.h", {"network"}},
     {"CLI", {"tools"}},
     {"meshoptimizer.h", {"tools"}},
+    {"pybind11", {"bindings"}},
     {"fcl", {"tools"}},
     {"ccd", {"tools"}},
     {"BulletCollision", {"tools"}},

@@ -34,6 +34,7 @@ struct ReplayTexts {
               skinUp = "y", tolerance = "0.001", culler = "flat", threads = "cores";
   std::string suffix, maxStep = "10", confirmations = "3", budgetUs;
   std::string policy, report, reportTriangles = std::to_string(kDefaultViewTriangles);
+  std::string glb, glbTriangles = "1000000";
   std::vector<std::string> avatars, ignore, packages;
   bool compareRigid = false, compareLink = false, rays = false, unmatchedAtRest = false;
 };
@@ -76,6 +77,7 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   request.policyPath = texts.policy;
   job.outputPath = texts.output;
   job.report.path = texts.report;
+  job.glb.path = texts.glb;
   job.options.compareRigid = texts.compareRigid;
   job.options.compareLink = texts.compareLink;
   job.options.rays = texts.rays;
@@ -96,8 +98,15 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   settle.into(request.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
   settle.into(request.tolerance, parseTolerance("--tolerance", texts.tolerance));
   settle.into(request.culler, parseCuller("--culler", texts.culler));
+  if (!texts.budgetUs.empty()) {
+    settle.into(request.budgetUs, parseBudgetUs("--budget-us", texts.budgetUs));
+  }
   settle.into(job.report.maxTriangles,
               parseReportTriangles("--report-triangles", texts.reportTriangles));
+  int glbTriangles = 0;
+  settle.into(glbTriangles,
+              parseCount("--glb-triangles", texts.glbTriangles, static_cast<int>(kMaxTriangles)));
+  job.glb.mostTriangles = static_cast<std::size_t>(glbTriangles);
   if (!texts.policy.empty()) settle.into(request.policies, readPolicyFile(texts.policy));
   if (texts.rate != "all") {
     double rateHz = 0.0;
@@ -229,16 +238,13 @@ Result<Done> writeGlb(const ReplayGlb& glb, const std::string& path) {
 Result<Done> runReplay(const ReplayJob& job,
                        const std::function<void(const ReplaySummary&)>& tell) {
   const ReplayRequest& request = job.request;
-  for (const std::string& output : {job.outputPath, job.glb.path}) {
-    if (output.empty()) continue;
+  for (const std::string& page : {job.report.path, job.glb.path}) {
     const auto checked =
-        checkOutput(output, {request.scenePath, request.avatarPath, request.motionPath,
-                             request.robotPath, request.mapPath, request.policyPath});
+        checkOutputs(job.outputPath, page,
+                     {request.scenePath, request.avatarPath, request.motionPath, request.robotPath,
+                      request.mapPath, request.policyPath, request.skinPath,
+                      page == job.glb.path ? job.report.path : ""});
     if (!checked.ok()) return checked.error();
-  }
-  if (job.glb.path == job.outputPath) {
-    return Error{ErrorCode::FileUnwritable, job.glb.path, -1, -1,
-                 "is to hold the results as well; expected another file for the GLB"};
   }
   const auto inputs = loadReplayInputs(request);
   if (!inputs.ok()) return inputs.error();
@@ -247,6 +253,7 @@ Result<Done> runReplay(const ReplayJob& job,
   ReplaySummary summary(inputs.value());
   std::optional<ReplayReport> report;
   if (!job.report.path.empty()) report.emplace(inputs.value(), job.report);
+  ReplayGlb glb(inputs.value(), job.glb);
   {
     const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
     auto file = PendingFile::create(job.outputPath);
@@ -257,6 +264,7 @@ Result<Done> runReplay(const ReplayJob& job,
       file.value().write(step.line);
       summary.add(step);
       if (report) report->add(step);
+      glb.add(step.answer);
       progress.advanceTo(step.answer.step + 1);
       return !guard.requested();
     });
@@ -308,6 +316,9 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   option("--report", texts->report, "FILE", "The report: a page for a browser, all in one file");
   option("--report-triangles", texts->reportTriangles, "N",
          "Of a heavier scene the report shows what is near the action, or a simplified form");
+  option("--glb", texts->glb, "FILE",
+         "Also the replay as an animated GLB, for any viewer of glTF (docs/formats.md)");
+  option("--glb-triangles", texts->glbTriangles, "N", "Triangles of that file at most");
   option("--rate", texts->rate, "HZ", "Poses a second to use of the clip; animations: 30 if all");
   option("--scale", texts->scale, "S", "Metres per unit of the clip: 0.01 for centimetres");
   option("--motion-up", texts->motionUp, "y|z", "Which axis of the clip points up");

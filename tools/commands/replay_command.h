@@ -26,6 +26,7 @@ struct ReplayJob {
   ReplayOptions options;
   std::string outputPath;
   ReportOptions report;
+  GlbRequest glb;
 };
 
 /// Runs a job: remarks on stderr, results to the output file, the report to its own, and the

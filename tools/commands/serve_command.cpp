@@ -177,10 +177,9 @@ Result<Done> serve(const ServeConfig& given) {
   const auto log = openLog(config, parts);
   if (!log.ok()) return log.error();
 
-  auto view = prepareView(config, world.value());
-  if (!view.ok()) return view.error();
+  std::optional<ServeView> view = prepareView(config, world.value());
   ViewFeed feed(world.value().avatars.size());
-  if (view.value()) parts.observer = &feed;
+  if (view) parts.observer = &feed;
 
   ServiceOptions options;
   options.workers = config.workers;
@@ -194,7 +193,7 @@ Result<Done> serve(const ServeConfig& given) {
   if (!service.ok()) return service.error();
   auto http = openHttp(config, service.value());
   if (!http.ok()) return http.error();
-  auto watched = openView(config, std::move(view).value(), service.value(), feed);
+  auto watched = openView(config, std::move(view), service.value(), feed);
   if (!watched.ok()) return watched.error();
 
   printOut(line + "\nready\n");

@@ -4,25 +4,9 @@
 
 #include "articulated/avatar_file.h"
 #include "tools/console.h"
-#include "tools/replay/replay_inputs.h"
 
 namespace foretouch::tools {
 namespace {
-
-/// What a replay of the same stream would be asked with.
-ReplayRequest asReplay(const ServeConfig& config, const std::string& avatarPath) {
-  ReplayRequest request;
-  request.scenePath = config.scene;
-  request.sceneScale = config.sceneScale;
-  request.sceneUp = config.sceneUp;
-  request.avatarPath = avatarPath;
-  request.tolerance = config.tolerance;
-  request.fidelity = config.fidelity;
-  request.ignore = config.ignore;
-  request.policies = config.policies;
-  request.budgetUs = config.budgetUs;
-  return request;
-}
 
 Result<StreamSolver> loadAvatar(const ServeConfig& config, const ServedAvatar& served,
                                 const Scene& scene) {
@@ -36,6 +20,20 @@ Result<StreamSolver> loadAvatar(const ServeConfig& config, const ServedAvatar& s
 }
 
 }  // namespace
+
+ReplayRequest asReplay(const ServeConfig& config, const std::string& avatarPath) {
+  ReplayRequest request;
+  request.scenePath = config.scene;
+  request.sceneScale = config.sceneScale;
+  request.sceneUp = config.sceneUp;
+  request.avatarPath = avatarPath;
+  request.tolerance = config.tolerance;
+  request.fidelity = config.fidelity;
+  request.ignore = config.ignore;
+  request.policies = config.policies;
+  request.budgetUs = config.budgetUs;
+  return request;
+}
 
 Result<ServedWorld> loadServedWorld(const ServeConfig& config) {
   const auto scene = loadScene(asReplay(config, std::string()));

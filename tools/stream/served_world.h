@@ -21,6 +21,9 @@ struct ServedWorld {
   std::vector<std::string> remarks;  ///< What was tolerated: one sentence each.
 };
 
+/// What a replay of the avatar's stream would be asked with.
+[[nodiscard]] ReplayRequest asReplay(const ServeConfig& config, const std::string& avatarPath);
+
 /// Reads and checks all that the configuration names. Errors name the file or option.
 [[nodiscard]] Result<ServedWorld> loadServedWorld(const ServeConfig& config);
 

@@ -4,16 +4,13 @@
 
 #include <string>
 
-#include "articulated/result.h"
 #include "tools/stream/serve_config.h"
 #include "tools/stream/served_world.h"
 
 namespace foretouch::tools {
 
-/// The page's HTML.
-[[nodiscard]] std::string livePage();
-
-/// Its document, of kind "live" (docs/formats.md, "View documents").
-[[nodiscard]] Result<std::string> liveDocument(const ServeConfig& config, const ServedWorld& world);
+/// A view document of kind "live" (docs/formats.md, "View documents"). Scenes beyond
+/// kDefaultViewTriangles are simplified, which takes its time.
+[[nodiscard]] std::string liveDocument(const ServeConfig& config, const ServedWorld& world);
 
 }  // namespace foretouch::tools

@@ -3,29 +3,29 @@
 #include <memory>
 #include <utility>
 
+#include "tools/console.h"
+#include "tools/report/viewer_page.h"
 #include "tools/view/live_document.h"
 
 namespace foretouch::tools {
 
-Result<std::optional<ServeView>> prepareView(const ServeConfig& config, const ServedWorld& world) {
-  if (config.view.empty()) return std::optional<ServeView>();
-  auto document = liveDocument(config, world);
-  if (!document.ok()) return document.error();
+std::optional<ServeView> prepareView(const ServeConfig& config, const ServedWorld& world) {
+  if (config.view.empty()) return std::nullopt;
   ServeView view;
-  view.page = livePage();
-  view.document = std::move(document).value();
+  view.page = viewerPage();
+  view.document = liveDocument(config, world);
   for (const StreamSolver& avatar : world.avatars) view.world.avatarIds.push_back(avatar.id());
   view.world.objectNames = world.scene.objectNames();
   view.world.objectOf = [scene = world.scene](TriangleId triangle) {
     return static_cast<std::size_t>(scene.object(triangle));
   };
-  return std::optional<ServeView>(std::move(view));
+  return view;
 }
 
 Result<std::optional<ViewServer>> openView(const ServeConfig& config, std::optional<ServeView> view,
                                            const Service& service, ViewFeed& feed) {
   if (!view) return std::optional<ViewServer>();
-  const auto address = parseHttpAddress("--view", config.view);
+  const auto address = parseViewAddress("--view", config.view);
   if (!address.ok()) return address.error();
   view->world.startUtimeUs = service.facts().startUtimeUs;
   ViewServer::Pages pages;

@@ -20,9 +20,9 @@ struct ServeView {
   LiveWorld world;
 };
 
-/// Nothing where nobody asked for it. Errors: a scene that cannot be shown.
-[[nodiscard]] Result<std::optional<ServeView>> prepareView(const ServeConfig& config,
-                                                           const ServedWorld& world);
+/// None where nobody asked for it.
+[[nodiscard]] std::optional<ServeView> prepareView(const ServeConfig& config,
+                                                   const ServedWorld& world);
 
 /// `feed` is the service's observer; both outlive the server. Errors name the option.
 [[nodiscard]] Result<std::optional<ViewServer>> openView(const ServeConfig& config,
