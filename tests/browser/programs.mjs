@@ -1,0 +1,61 @@
+// The programs under test, run as a person would run them.
+
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import { dataFile } from "./setting.mjs";
+
+const maxOutputBytes = 1 << 28;
+
+export async function run(program, words) {
+  const { stdout } = await promisify(execFile)(program, words, { maxBuffer: maxOutputBytes });
+  return stdout;
+}
+
+/** The clips that tests play: each makes the words of `foretouch replay` that say what is played, and where. */
+export const clips = {
+  demo: ({ examples }) => ({
+    scene: ["--scene", join(examples, "room.obj")],
+    played: ["--avatar", join(examples, "dancer.avatar.json"), "--motion", join(examples, "dancer.bvh"), "--rate", "10"],
+  }),
+  async kick(setting, folder) {
+    const scene = ["--scene", dataFile(setting, "scenes/kitchen_fatihrmutfak.ply"), "--up", "z"];
+    const played = await recordedClip(setting, folder, "mocap/bandai1_kick_normal_001.bvh", 0.01);
+    return { scene, played: [...played, "--place", "1,0.02,-1"] };
+  },
+  async dance(setting, folder) {
+    const scene = ["--scene", dataFile(setting, "scenes/kitchen_fatihrmutfak.ply"), "--up", "z"];
+    const played = await recordedClip(setting, folder, "mocap/bandai1_dance-short_normal_001.bvh", 0.01);
+    return { scene, played: [...played, "--place", "1,0.02,-1"] };
+  },
+  async robot(setting, folder) {
+    const model = dataFile(setting, "avatars/robot_expressive.glb"), avatar = join(folder, "robot.avatar.json"), scale = "0.3";
+    await run(setting.program, ["avatar", "mesh", model, "--scale", scale, "--output", avatar]);
+    return { scene: clips.demo(setting).scene, played: ["--avatar", avatar, "--motion", model, "--scale", scale] };
+  },
+};
+
+async function recordedClip(setting, folder, name, scale) {
+  const motion = dataFile(setting, name), avatar = join(folder, "recorded.avatar.json");
+  await run(setting.program, ["avatar", "bvh", motion, "--scale", `${scale}`, "--output", avatar]);
+  return ["--avatar", avatar, "--motion", motion, "--scale", `${scale}`];
+}
+
+/** Replays a clip: the report, the results and what was printed. */
+export async function reportOf(setting, folder, name) {
+  const clip = await clips[name](setting, folder);
+  const page = join(folder, `${name}.html`), output = join(folder, `${name}.jsonl`);
+  const printed = await run(setting.program, ["replay", ...clip.scene, ...clip.played, "--output", output, "--report", page]);
+  return { ...clip, name, page, printed, results: resultsIn(output) };
+}
+
+/** Every contact of a results file, with the step and the times that it belongs to. */
+function resultsIn(path) {
+  const [header, ...steps] = readFileSync(path, "utf8").trimEnd().split("\n").map((line) => JSON.parse(line));
+  assert.equal(header.format, "foretouch-results");
+  assert.equal(steps.length, header.steps);
+  const contacts = steps.flatMap(({ step, t0, t1, contacts }) => contacts.map((contact) => ({ ...contact, step, t0, t1 })));
+  return { header, contacts };
+}

@@ -1,0 +1,65 @@
+// The pages as a person sees them, in Chromium, made by the built program.
+//   node tests/browser/run.mjs [--program FORETOUCH] [--viewer FOLDER] [--only report,motion,live]
+//       [--transforms VIEW_TRANSFORMS] [--examples FOLDER] [--data FOLDER] [--shots FOLDER]
+// Runs in a network namespace of its own where the system allows one. Exit code 77: nothing can run here.
+
+import { spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { Browsing } from "./browsing.mjs";
+import { Skipped, missingFor, settingFrom } from "./setting.mjs";
+
+const allSkipped = 77;
+const suites = ["report", "motion", "live"];
+
+const setting = settingFrom(process.argv.slice(2));
+const missing = missingFor(setting);
+if (missing !== null) {
+  console.log(`[  SKIPPED ] browser tests: ${missing}`);
+  process.exit(allSkipped);
+}
+process.exit(ranInNamespace(setting) ?? (await runSuites(setting)));
+
+/** The exit code of the same command without a network; null where this is that command, or none is to be had. */
+function ranInNamespace({ source }) {
+  const inNamespace = join(source, "tests/network/in_namespace.sh");
+  if (process.env.FORETOUCH_PRIVATE_NETWORK !== undefined) return null;
+  if (spawnSync(inNamespace, ["true"]).status !== 0) return null;
+  return spawnSync(inNamespace, [process.execPath, ...process.argv.slice(1)], { stdio: "inherit" }).status;
+}
+
+async function runSuites(setting) {
+  const folder = mkdtempSync(join(tmpdir(), "foretouch-browser-"));
+  mkdirSync(setting.shots, { recursive: true });
+  const counts = { ok: 0, skipped: 0, failed: 0 };
+  const browsing = await Browsing.start(setting);
+  try {
+    for (const suite of suites.filter((name) => setting.only?.includes(name) ?? true)) {
+      const { casesOf } = await import(`./${suite}_test.mjs`);
+      for await (const [name, run] of casesOf({ setting, folder, browsing })) {
+        ++counts[await outcome(`${suite}: ${name}`, run)];
+      }
+    }
+  } finally {
+    await browsing.end();
+    rmSync(folder, { recursive: true, force: true });
+  }
+  console.log(`${counts.ok} ok, ${counts.skipped} skipped, ${counts.failed} failed; screenshots: ${setting.shots}`);
+  if (counts.failed > 0) return 1;
+  return counts.ok > 0 ? 0 : allSkipped;
+}
+
+async function outcome(name, run) {
+  const start = Date.now();
+  try {
+    const words = await run();
+    const seconds = ((Date.now() - start) / 1000).toFixed(1);
+    console.log(`[ OK ] ${name} (${seconds} s)${words === undefined ? "" : `: ${words}`}`);
+    return "ok";
+  } catch (error) {
+    const isSkipped = error instanceof Skipped;
+    console.log(isSkipped ? `[  SKIPPED ] ${name}: ${error.message}` : `[ FAILED ] ${name}\n${error.stack}`);
+    return isSkipped ? "skipped" : "failed";
+  }
+}
