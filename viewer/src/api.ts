@@ -1,5 +1,6 @@
 // window.foretouch: the page's small interface, for tests and for those who embed the page.
 
+import type { Contact } from "./contacts/contact.js";
 import type { Vector } from "./data/document.js";
 import type { Clip } from "./motion/clip.js";
 import { Posture } from "./motion/clip.js";
@@ -17,6 +18,8 @@ export interface Foretouch {
   seek(seconds: number): void;
   /** Of all avatars' contacts in order of time (equal times in the document's order). */
   selectContact(index: number): void;
+  /** What the page knows of a contact: the document's own numbers. */
+  contact(index: number): Contact;
   /** Index of the selected contact; -1 where none is. */
   selected(): number;
   state(): PageState;
@@ -59,10 +62,8 @@ export function publish(ready: Promise<void>, page: () => Page | null, error: ()
     ready,
     transformAt: (avatar, link, time) => transformAt(open().model.clips[avatar], link, time),
     seek: (time) => open().store.set({ time, isPlaying: false, follows: false }),
-    selectContact: (index) => {
-      const { model, store } = open();
-      choose(store, model.contacts[index] ?? fail(`there is no contact ${index}`));
-    },
+    selectContact: (index) => choose(open().store, contactAt(open(), index)),
+    contact: (index) => ({ ...contactAt(open(), index) }),
     selected: () => {
       const { model, store } = open();
       return store.state.contact === null ? -1 : model.contacts.indexOf(store.state.contact);
@@ -70,6 +71,10 @@ export function publish(ready: Promise<void>, page: () => Page | null, error: ()
     state: () => stateOf(page(), error()),
     screenOf: (point) => page()?.view?.screenOf(point) ?? null,
   };
+}
+
+function contactAt({ model }: Page, index: number): Contact {
+  return model.contacts[index] ?? fail(`there is no contact ${index}`);
 }
 
 function transformAt(clip: Clip | undefined, link: number, time: number): number[] {
