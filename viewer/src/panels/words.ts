@@ -7,19 +7,22 @@ export function seconds(value: number): string {
   return `${value.toFixed(3)} s`;
 }
 
+/** Three digits turn more than this into 1000: the next unit's. */
+const roundsUp = 0.9995;
+
 /** Metres, or the unit that leaves few zeros. */
 export function length(metres: number): string {
   const size = Math.abs(metres);
   if (size === 0) return "0";
   if (size < 1e-6) return `${metres.toExponential(1)} m`;
-  if (size < 1e-3) return `${(metres * 1e6).toPrecision(3)} µm`;
+  if (size < roundsUp * 1e-3) return `${(metres * 1e6).toPrecision(3)} µm`;
   if (size < 0.1) return `${(metres * 1e3).toPrecision(3)} mm`;
   return `${metres.toPrecision(4)} m`;
 }
 
 export function microseconds(value: number): string {
-  if (value >= 1e6) return `${(value / 1e6).toPrecision(3)} s`;
-  if (value >= 1e3) return `${(value / 1e3).toPrecision(3)} ms`;
+  if (value >= roundsUp * 1e6) return `${(value / 1e6).toPrecision(3)} s`;
+  if (value >= roundsUp * 1e3) return `${(value / 1e3).toPrecision(3)} ms`;
   return `${value.toPrecision(3)} µs`;
 }
 
