@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { dataFile } from "./setting.mjs";
@@ -22,12 +22,12 @@ export const clips = {
   }),
   async kick(setting, folder) {
     const scene = ["--scene", dataFile(setting, "scenes/kitchen_fatihrmutfak.ply"), "--up", "z"];
-    const played = await recordedClip(setting, folder, "mocap/bandai1_kick_normal_001.bvh", 0.01);
+    const played = await recordedClip(setting, folder, dataFile(setting, "mocap/bandai1_kick_normal_001.bvh"), 0.01);
     return { scene, played: [...played, "--place", "1,0.02,-1"] };
   },
   async dance(setting, folder) {
     const scene = ["--scene", dataFile(setting, "scenes/kitchen_fatihrmutfak.ply"), "--up", "z"];
-    const played = await recordedClip(setting, folder, "mocap/bandai1_dance-short_normal_001.bvh", 0.01);
+    const played = await recordedClip(setting, folder, dataFile(setting, "mocap/bandai1_dance-short_normal_001.bvh"), 0.01);
     return { scene, played: [...played, "--place", "1,0.02,-1"] };
   },
   async robot(setting, folder) {
@@ -35,10 +35,40 @@ export const clips = {
     await run(setting.program, ["avatar", "mesh", model, "--scale", scale, "--output", avatar]);
     return { scene: clips.demo(setting).scene, played: ["--avatar", avatar, "--motion", model, "--scale", scale] };
   },
+  /** An arm that turns on and on: its angle goes from 350 degrees to 10, its quaternion to the other side. */
+  async wrapping(setting, folder) {
+    const motion = join(folder, "wrapping.bvh");
+    writeFileSync(motion, wrappingClip());
+    return { scene: clips.demo(setting).scene, played: await recordedClip(setting, folder, motion, 1) };
+  },
 };
 
-async function recordedClip(setting, folder, name, scale) {
-  const motion = dataFile(setting, name), avatar = join(folder, "recorded.avatar.json");
+function wrappingClip() {
+  const frames = Array.from({ length: 60 }, (_, i) => `0 1 0 ${(17 * i) % 360} 0 0 ${(31 * i) % 360} ${(13 * i) % 360} 0`);
+  return `HIERARCHY
+ROOT Body
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+  JOINT Arm
+  {
+    OFFSET 0 0.5 0
+    CHANNELS 3 Zrotation Xrotation Yrotation
+    End Site
+    {
+      OFFSET 0.6 0 0
+    }
+  }
+}
+MOTION
+Frames: ${frames.length}
+Frame Time: 0.05
+${frames.join("\n")}
+`;
+}
+
+async function recordedClip(setting, folder, motion, scale) {
+  const avatar = join(folder, "recorded.avatar.json");
   await run(setting.program, ["avatar", "bvh", motion, "--scale", `${scale}`, "--output", avatar]);
   return ["--avatar", avatar, "--motion", motion, "--scale", `${scale}`];
 }
