@@ -43,6 +43,17 @@ export const clips = {
   },
 };
 
+/** The bundled clip as a stream: words of `serve` and `publish`, and of the `replay` that gives the same answers. */
+export function liveClip({ examples }) {
+  const avatar = join(examples, "dancer.avatar.json"), motion = join(examples, "dancer.bvh"), rate = "30";
+  const served = ["--scene", join(examples, "room.obj"), "--avatar", avatar];
+  return {
+    served,
+    published: [motion, "--avatar", avatar, "--rate", rate],
+    replayed: [...served, "--motion", motion, "--rate", rate],
+  };
+}
+
 function wrappingClip() {
   const frames = Array.from({ length: 60 }, (_, i) => `0 1 0 ${(17 * i) % 360} 0 0 ${(31 * i) % 360} ${(13 * i) % 360} 0`);
   return `HIERARCHY
@@ -82,7 +93,7 @@ export async function reportOf(setting, folder, name) {
 }
 
 /** Every contact of a results file, with the step and the times that it belongs to. */
-function resultsIn(path) {
+export function resultsIn(path) {
   const [header, ...steps] = readFileSync(path, "utf8").trimEnd().split("\n").map((line) => JSON.parse(line));
   assert.equal(header.format, "foretouch-results");
   assert.equal(steps.length, header.steps);
