@@ -30,8 +30,10 @@ export function vector(v: Vector, digits = 4): string {
   return v.map((value) => value.toFixed(digits).replace(/^-(?=[0.]*$)/, "").replace("-", "−")).join(", ");
 }
 
+const counts = new Intl.NumberFormat("en-GB");
+
 export function count(value: number): string {
-  return value.toLocaleString("en-GB");
+  return counts.format(value);
 }
 
 export function plural(value: number, one: string, many = `${one}s`): string {

@@ -29,6 +29,8 @@ export class Timeline {
   private readonly hint = element("p", { class: "hint" });
   private rows: Row[] = [];
   private window: Window;
+  /** Of the canvases, CSS pixels: asked for once a drawing, for each asking lays the page out anew. */
+  private width = 0;
   private isAsked = false;
   private isNew = true;
 
@@ -112,11 +114,11 @@ export class Timeline {
   }
 
   private gutter(): number {
-    return Math.min(maxGutter, Math.round(this.axis.clientWidth * gutterShare));
+    return Math.min(maxGutter, Math.round(this.width * gutterShare));
   }
 
   private secondsPerPixel(): number {
-    return (this.window.t1 - this.window.t0) / Math.max(1, this.axis.clientWidth - this.gutter() - reach);
+    return (this.window.t1 - this.window.t0) / Math.max(1, this.width - this.gutter() - reach);
   }
 
   private timeAt(x: number): number {
@@ -156,6 +158,7 @@ export class Timeline {
     this.isAsked = true;
     requestAnimationFrame(() => {
       this.isAsked = false;
+      this.width = this.axis.clientWidth;
       this.drawAxis();
       this.drawRows();
       if (this.isNew) this.showRow();
@@ -172,7 +175,7 @@ export class Timeline {
     if (context === null) return;
     const palette = palettes[this.store.state.theme], zero = this.model.timeZero;
     const relative = { t0: this.window.t0 - zero, t1: this.window.t1 - zero };
-    const { times, digits } = ticks(relative, (this.axis.clientWidth - this.gutter()) / 80);
+    const { times, digits } = ticks(relative, (this.width - this.gutter()) / 80);
     context.font = "11px system-ui, sans-serif";
     context.fillStyle = palette.faint;
     context.textAlign = "center";
@@ -186,7 +189,7 @@ export class Timeline {
     const times = this.model.avatars[this.store.state.contact?.avatar ?? 0]?.track?.poseTimes;
     if (times === undefined) return;
     const first = Math.max(0, lastAtMost(times, this.window.t0)), last = lastAtMost(times, this.window.t1);
-    if (last - first > (this.axis.clientWidth - this.gutter()) / 5) return;
+    if (last - first > (this.width - this.gutter()) / 5) return;
     context.fillStyle = colour;
     for (let i = first; i <= last; ++i) {
       const x = this.xOf(times[i]);
@@ -206,7 +209,7 @@ export class Timeline {
       const y = index * rowHeight;
       context.fillStyle = palette.grid;
       context.globalAlpha = 0.5;
-      context.fillRect(0, y + rowHeight - 1, this.canvas.clientWidth, 1);
+      context.fillRect(0, y + rowHeight - 1, this.width, 1);
       context.globalAlpha = 1;
       this.drawName(context, row, y, row.link === chosen?.link && row.avatar === chosen.avatar ? palette.ink : palette.faint);
       this.drawBars(context, painter, row, y, showsDiscrete, chosen, palette.ink);
@@ -234,7 +237,7 @@ export class Timeline {
   ): void {
     context.save();
     context.beginPath();
-    context.rect(this.gutter() - 1, y, this.canvas.clientWidth, rowHeight);
+    context.rect(this.gutter() - 1, y, this.width, rowHeight);
     context.clip();
     const top = y + (rowHeight - barHeight) / 2;
     for (const contact of row.contacts) {
