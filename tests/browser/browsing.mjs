@@ -6,16 +6,17 @@ import { pathToFileURL } from "node:url";
 import { playwrightOf } from "./setting.mjs";
 
 /** WebGL by software: machines that test have no graphics card. */
-const flags = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const softwareWebGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+export const noWebGL = ["--disable-gpu", "--disable-3d-apis"];
 /** Long enough for a loaded machine: nothing here is judged by the clock. */
 export const patience = 60000;
 /** What the software renderer says about reading its own pixels is no complaint of the page. */
 const harmless = /GPU stall due to ReadPixels/;
 
 export class Browsing {
-  static async start(setting) {
+  static async start(setting, flags = softwareWebGL) {
     const { chromium } = playwrightOf(setting);
-    return new Browsing(await chromium.launch({ executablePath: setting.chromium, args: flags, timeout: patience }));
+    return new Browsing(await chromium.launch({ executablePath: setting.chromium, args: ["--no-sandbox", ...flags], timeout: patience }));
   }
 
   constructor(browser) {

@@ -3,11 +3,11 @@
 //       [--transforms VIEW_TRANSFORMS] [--examples FOLDER] [--data FOLDER] [--shots FOLDER]
 // Runs in a network namespace of its own where the system allows one. Exit code 77: nothing can run here.
 
-import { spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browsing } from "./browsing.mjs";
+import { ranInNamespace } from "./namespace.mjs";
 import { Skipped, missingFor, settingFrom } from "./setting.mjs";
 
 const allSkipped = 77;
@@ -20,14 +20,6 @@ if (missing !== null) {
   process.exit(allSkipped);
 }
 process.exit(ranInNamespace(setting) ?? (await runSuites(setting)));
-
-/** The exit code of the same command without a network; null where this is that command, or none is to be had. */
-function ranInNamespace({ source }) {
-  const inNamespace = join(source, "tests/network/in_namespace.sh");
-  if (process.env.FORETOUCH_PRIVATE_NETWORK !== undefined) return null;
-  if (spawnSync(inNamespace, ["true"]).status !== 0) return null;
-  return spawnSync(inNamespace, [process.execPath, ...process.argv.slice(1)], { stdio: "inherit" }).status;
-}
 
 async function runSuites(setting) {
   const folder = mkdtempSync(join(tmpdir(), "foretouch-browser-"));
