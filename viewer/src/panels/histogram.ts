@@ -23,7 +23,7 @@ export class Histogram {
   ) {
     const sorted = latencies.filter((value) => value > 0).sort((a, b) => a - b);
     this.bins = binned(sorted);
-    const at = (share: number): string => microseconds(sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))]);
+    const at = (share: number): string => microseconds(sorted[Math.ceil(share * sorted.length) - 1]);
     const words = `Half of ${plural(sorted.length, "step")} took at most ${at(0.5)}, 99 in 100 at most ${at(0.99)}, the longest ${microseconds(sorted[sorted.length - 1])}.`;
     this.host.setAttribute("role", "img");
     this.host.setAttribute("aria-label", `Histogram of the time a step took. ${words}`);
