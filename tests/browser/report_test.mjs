@@ -6,6 +6,7 @@ import { expectSameContact, readEveryContact } from "./contact_check.mjs";
 import { unreachableControls, sidewaysScroll } from "./controls.mjs";
 import { coloursOf, countAround, differenceAt, isAvatarColour, isContactColour, linkPlaces, pixelsOf } from "./pixels.mjs";
 import { reportOf } from "./programs.mjs";
+import { shownNumbers } from "./shown_numbers.mjs";
 import { clickBars } from "./timeline_clicks.mjs";
 
 export async function* casesOf(context) {
@@ -19,6 +20,7 @@ export async function* casesOf(context) {
     yield [`${name}: a click on the timeline goes there`, () => report.timeline()];
     yield [`${name}: keys go from contact to contact`, () => report.keys()];
     yield [`${name}: the discrete check counts as the summary does`, () => report.discreteCheck()];
+    yield [`${name}: the histogram's percentiles are the summary's`, () => report.percentiles()];
     yield [`${name}: all controls can be reached`, () => report.controls()];
     yield [`${name}: dark`, () => report.dark()];
     yield [`${name}: nothing was complained of or asked for`, () => report.visit.end()];
@@ -149,6 +151,14 @@ class OpenedReport {
     assert.equal(await this.page.evaluate(() => window.foretouch.state().showsDiscrete), false);
     const row = this.page.locator("table.pairs tr", { has: this.page.getByText("missed by poses", { exact: true }) });
     assert.match(await row.locator("td").first().innerText(), new RegExp(`^${missed}\\b`));
+  }
+
+  async percentiles() {
+    const printed = /latency of a step, us .* p50 (\S+) .* p99 (\S+) +max (\S+)/.exec(this.report.printed).slice(1).map(Number);
+    const words = await this.page.getByText(/^Half of \d+ steps took at most/).innerText();
+    const shown = / at most (.*), 99 in 100 at most (.*), the longest (.*)\.$/.exec(words).slice(1).map((text) => shownNumbers(text)[0]);
+    const half = 0.05;  // of the last digit that the program prints, microseconds
+    shown.forEach(({ value, slack }, i) => assert.ok(Math.abs(value - 1e-6 * printed[i]) <= slack + 1e-6 * half * (1 + 1e-6), `${words}; printed are ${printed}`));
   }
 
   async controls() {

@@ -2,7 +2,8 @@
 
 import assert from "node:assert/strict";
 
-const units = { "": 1, s: 1, m: 1, mm: 1e-3, "µm": 1e-6 };
+/** In metres and seconds. */
+const units = { "": 1, s: 1, ms: 1e-3, "µs": 1e-6, m: 1, mm: 1e-3, "µm": 1e-6 };
 const pattern = /^([-−]?)(\d+)(?:\.(\d+))?(?:e([-+]\d+))?$/;
 
 /** The printed values, and half a unit of their last digit: how far off rounding may be. */
