@@ -7,6 +7,7 @@
 
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
+#include "middleware/counter_fields.h"
 
 namespace foretouch::python {
 namespace {
@@ -14,24 +15,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr auto kContactBytes = static_cast<py::ssize_t>(sizeof(LinkContact));
-
-constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 14> kCounters{
-    {{"nodes", &QueryCounters::nodes},
-     {"leaves", &QueryCounters::leaves},
-     {"candidates", &QueryCounters::candidates},
-     {"cluster_steps", &QueryCounters::clusterSteps},
-     {"lane_steps", &QueryCounters::laneSteps},
-     {"part_steps", &QueryCounters::partSteps},
-     {"advancements", &QueryCounters::advancements},
-     {"hierarchy_tests", &QueryCounters::hierarchyTests},
-     {"plane_tests", &QueryCounters::planeTests},
-     {"cubic_tests", &QueryCounters::cubicTests},
-     {"leaf_tests", &QueryCounters::leafTests},
-     {"states", &QueryCounters::states},
-     {"rung_tests", &QueryCounters::rungTests},
-     {"settled_above", &QueryCounters::settledAbove}}};
-static_assert(sizeof(QueryCounters) == kCounters.size() * sizeof(std::uint64_t),
-              "name the new counter above");
 
 // ---- arrays over links, and over steps and links ----
 
@@ -155,7 +138,7 @@ double freePrefix(const Step& step) {
 
 py::dict counterDict(const Step& step) {
   py::dict counters;
-  for (const auto& [name, field] : kCounters) {
+  for (const auto& [name, field] : kCounterFields) {
     counters[name] = step.answers->counters[step.step].*field;
   }
   return counters;

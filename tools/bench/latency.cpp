@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "middleware/counter_fields.h"
 #include "tools/bench/machine.h"
-#include "tools/counter_fields.h"
 
 namespace foretouch::tools {
 namespace {

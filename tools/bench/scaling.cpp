@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "middleware/counter_fields.h"
 #include "tools/bench/machine.h"
 #include "tools/bench/pool.h"
-#include "tools/counter_fields.h"
 
 namespace foretouch::tools {
 namespace {

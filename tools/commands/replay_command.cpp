@@ -14,6 +14,7 @@
 #include "articulated/text_file.h"
 #include "tools/arguments.h"
 #include "tools/commands/replay_log_command.h"
+#include "tools/inputs/clip_options.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
 #include "tools/report/replay_report.h"
@@ -28,14 +29,15 @@ namespace {
 
 /// Values as typed in.
 struct ReplayTexts {
-  std::string scene, motion, animation, robot, map, output, rate = "all";
-  std::string scale = "1", sceneScale = "1", motionUp = "y", up = "y", place = "0,0,0,0";
+  std::string scene, motion, output;
+  ClipTexts clip;
+  std::string sceneScale = "1", up = "y";
   std::string fidelity = "link", leaves = "advancement", scope = "links", skin, skinScale = "1",
               skinUp = "y", tolerance = "0.001", culler = "flat", threads = "cores";
   std::string suffix, maxStep = "10", confirmations = "3", budgetUs;
   std::string policy, report, reportTriangles = std::to_string(kDefaultViewTriangles);
   std::string glb, glbTriangles = "1000000";
-  std::vector<std::string> avatars, ignore, packages;
+  std::vector<std::string> avatars, ignore;
   bool compareRigid = false, compareLink = false, rays = false, unmatchedAtRest = false;
 };
 
@@ -69,10 +71,6 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   request.scenePath = texts.scene;
   if (texts.avatars.size() == 1) request.avatarPath = texts.avatars.front();
   request.motionPath = texts.motion;
-  request.animation = texts.animation;
-  request.robotPath = texts.robot;
-  request.packagePaths = texts.packages;
-  request.mapPath = texts.map;
   request.ignore = texts.ignore;
   request.policyPath = texts.policy;
   job.outputPath = texts.output;
@@ -89,12 +87,8 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
   request.skinPath = texts.skin;
   settle.into(request.skinScale, parsePositive("--skin-scale", texts.skinScale));
   settle.into(request.skinUp, parseUpAxis("--skin-up", texts.skinUp));
-  settle.into(request.placement, parsePlacement("--place", texts.place));
-  UpAxis motionUp = UpAxis::Y;
-  settle.into(motionUp, parseUpAxis("--motion-up", texts.motionUp));
-  request.placement.motionUpZ = motionUp == UpAxis::Z;
+  settleClip(texts.clip, settle, request);
   settle.into(request.sceneUp, parseUpAxis("--up", texts.up));
-  settle.into(request.motionScale, parsePositive("--scale", texts.scale));
   settle.into(request.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
   settle.into(request.tolerance, parseTolerance("--tolerance", texts.tolerance));
   settle.into(request.culler, parseCuller("--culler", texts.culler));
@@ -108,11 +102,6 @@ Result<ReplayJob> settled(const ReplayTexts& texts) {
               parseCount("--glb-triangles", texts.glbTriangles, static_cast<int>(kMaxTriangles)));
   job.glb.mostTriangles = static_cast<std::size_t>(glbTriangles);
   if (!texts.policy.empty()) settle.into(request.policies, readPolicyFile(texts.policy));
-  if (texts.rate != "all") {
-    double rateHz = 0.0;
-    settle.into(rateHz, parsePositive("--rate", texts.rate));
-    request.rateHz = rateHz;
-  }
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   job.options.threads = static_cast<int>(std::min<unsigned>(cores, kMaxThreads));
   if (texts.threads != "cores") {
@@ -305,13 +294,6 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
          "BVH clip, animated model (glb, gltf, fbx, dae, x), joint positions (csv), or event log "
          "(lcmlog)")
       ->required();
-  option("--animation", texts->animation, "NAME",
-         "Which animation of a model: its name, or its number from 0; the first if not given");
-  option("--robot", texts->robot, "URDF", "The robot that joint positions are about");
-  command
-      ->add_option("--package", texts->packages, "Folder of the robot's packages; may be repeated")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
   option("--output", texts->output, "FILE", "Results, as lines of JSON")->required();
   option("--report", texts->report, "FILE", "The report: a page for a browser, all in one file");
   option("--report-triangles", texts->reportTriangles, "N",
@@ -319,13 +301,11 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   option("--glb", texts->glb, "FILE",
          "Also the replay as an animated GLB, for any viewer of glTF (docs/formats.md)");
   option("--glb-triangles", texts->glbTriangles, "N", "Triangles of that file at most");
-  option("--rate", texts->rate, "HZ", "Poses a second to use of the clip; animations: 30 if all");
-  option("--scale", texts->scale, "S", "Metres per unit of the clip: 0.01 for centimetres");
-  option("--motion-up", texts->motionUp, "y|z", "Which axis of the clip points up");
+  option("--rate", texts->clip.rate, "HZ",
+         "Poses a second to use of the clip; animations: 30 if all");
+  addClipOptions(*command, texts->clip);
   option("--scene-scale", texts->sceneScale, "S", "Metres per unit of the scene");
   option("--up", texts->up, "y|z", "Which axis of the scene points up");
-  option("--place", texts->place, "X,Y,Z[,YAW]",
-         "Where the clip's origin stands in the scene: metres, and degrees about +Y");
   option("--fidelity", texts->fidelity, "RUNG",
          "What touches: one ellipsoid, one LSS (avatar), one a limb, the links' LSS (link), "
          "their meshes (exact), or a skin (skinned)");
@@ -338,7 +318,6 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
          "Every link's first contact, or only the first of all");
   option("--tolerance", texts->tolerance, "M", "Largest separation (m) of a reported contact");
   option("--threads", texts->threads, "N", "Threads");
-  option("--map", texts->map, "FILE", R"(Joint names that differ: {"avatar joint": "clip joint"})");
   option("--culler", texts->culler, "flat|point-query", "Way to cull; both find the same");
   command->add_option("--ignore", texts->ignore, "Contacts not asked for; may be repeated")
       ->type_name("PAIRS")

@@ -13,6 +13,7 @@
 
 #include "articulated/text_file.h"
 #include "tools/arguments.h"
+#include "tools/inputs/clip_options.h"
 #include "tools/interrupt.h"
 #include "tools/log/replay_log.h"
 #include "tools/report/inspection.h"
@@ -25,10 +26,10 @@ namespace {
 
 /// Values as typed in.
 struct ViewTexts {
-  std::vector<std::string> files, packages;
-  std::string scene, avatar, motion, animation, robot, map,
-      output = "foretouch-view.html", rate = "all", scale = "1", sceneScale = "1", motionUp = "y",
-      up = "y", place = "0,0,0,0", triangles = std::to_string(kDefaultViewTriangles);
+  std::vector<std::string> files;
+  ClipTexts clip;
+  std::string scene, avatar, motion, output = "foretouch-view.html", sceneScale = "1", up = "y",
+                                     triangles = std::to_string(kDefaultViewTriangles);
 };
 
 struct ViewJob {
@@ -91,26 +92,13 @@ Result<ViewJob> settled(const ViewTexts& texts) {
   request.scenePath = texts.scene;
   request.avatarPath = texts.avatar;
   request.motionPath = texts.motion;
-  request.animation = texts.animation;
-  request.robotPath = texts.robot;
-  request.packagePaths = texts.packages;
-  request.mapPath = texts.map;
   job.report.path = texts.output;
   Settling settle;
   settle.require(assignFiles(texts.files, request));
-  settle.into(request.placement, parsePlacement("--place", texts.place));
-  UpAxis motionUp = UpAxis::Y;
-  settle.into(motionUp, parseUpAxis("--motion-up", texts.motionUp));
-  request.placement.motionUpZ = motionUp == UpAxis::Z;
+  settleClip(texts.clip, settle, request);
   settle.into(request.sceneUp, parseUpAxis("--up", texts.up));
-  settle.into(request.motionScale, parsePositive("--scale", texts.scale));
   settle.into(request.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
   settle.into(job.report.maxTriangles, parseReportTriangles("--report-triangles", texts.triangles));
-  if (texts.rate != "all") {
-    double rateHz = 0.0;
-    settle.into(rateHz, parsePositive("--rate", texts.rate));
-    request.rateHz = rateHz;
-  }
   if (settle.error()) return *settle.error();
   if (request.scenePath.empty() && request.avatarPath.empty() && request.motionPath.empty()) {
     return Error{ErrorCode::Empty, "view", -1, -1, "expected a scene, an avatar or a motion"};
@@ -176,24 +164,14 @@ void addViewCommand(CLI::App& program, ExitCode& exit) {
   option("--avatar", texts->avatar, "FILE", "Avatar file (see foretouch avatar)");
   option("--motion", texts->motion, "CLIP",
          "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)");
-  option("--animation", texts->animation, "NAME",
-         "Which animation of a model: its name, or its number from 0; the first if not given");
-  option("--robot", texts->robot, "URDF", "The robot that joint positions are about");
-  command
-      ->add_option("--package", texts->packages, "Folder of the robot's packages; may be repeated")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
   option("--output", texts->output, "FILE", "The report: a page for a browser, all in one file");
   option("--report-triangles", texts->triangles, "N",
          "Of a heavier scene the report shows what is near the avatar, or a simplified form");
-  option("--rate", texts->rate, "HZ", "Poses a second to show of the clip; animations: 30 if all");
-  option("--scale", texts->scale, "S", "Metres per unit of the clip: 0.01 for centimetres");
-  option("--motion-up", texts->motionUp, "y|z", "Which axis of the clip points up");
+  option("--rate", texts->clip.rate, "HZ",
+         "Poses a second to show of the clip; animations: 30 if all");
+  addClipOptions(*command, texts->clip);
   option("--scene-scale", texts->sceneScale, "S", "Metres per unit of the scene");
   option("--up", texts->up, "y|z", "Which axis of the scene points up");
-  option("--place", texts->place, "X,Y,Z[,YAW]",
-         "Where the clip's origin stands in the scene: metres, and degrees about +Y");
-  option("--map", texts->map, "FILE", R"(Joint names that differ: {"avatar joint": "clip joint"})");
   command->footer(kExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });
 }

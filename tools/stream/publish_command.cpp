@@ -13,6 +13,7 @@
 #include "network/event_log.h"
 #include "network/wire.h"
 #include "tools/arguments.h"
+#include "tools/inputs/clip_options.h"
 #include "tools/inputs/numbered_avatars.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/settling.h"
@@ -23,9 +24,8 @@ namespace {
 
 /// Values as typed in.
 struct PublishTexts {
-  std::string clip, avatar, id = "1", rate = "all", speed = "1", url, suffix, output, start;
-  std::string scale = "1", motionUp = "y", place = "0,0,0,0", map, animation, robot;
-  std::vector<std::string> packages;
+  std::string motion, avatar, id = "1", speed = "1", url, suffix, output, start;
+  ClipTexts clip;
   bool loop = false;
 };
 
@@ -61,27 +61,14 @@ Result<PublishJob> settled(const PublishTexts& texts) {
   PublishJob job;
   PublishRequest& request = job.request;
   request.avatarPath = texts.avatar;
-  request.motionPath = texts.clip;
-  request.mapPath = texts.map;
-  request.animation = texts.animation;
-  request.robotPath = texts.robot;
-  request.packagePaths = texts.packages;
+  request.motionPath = texts.motion;
   job.outputPath = texts.output;
   job.url = urlOrDefault(texts.url);
   job.options.loop = texts.loop;
 
   Settling settle;
   settle.require(checkTogether(texts));
-  settle.into(request.placement, parsePlacement("--place", texts.place));
-  UpAxis motionUp = UpAxis::Y;
-  settle.into(motionUp, parseUpAxis("--motion-up", texts.motionUp));
-  request.placement.motionUpZ = motionUp == UpAxis::Z;
-  settle.into(request.motionScale, parsePositive("--scale", texts.scale));
-  if (texts.rate != "all") {
-    double rateHz = 0.0;
-    settle.into(rateHz, parsePositive("--rate", texts.rate));
-    request.rateHz = rateHz;
-  }
+  settleClip(texts.clip, settle, request);
   settle.into(job.options.speed, parseSpeed(texts.speed));
   settle.into(job.options.channels, channelNames(texts.suffix));
   settle.into(job.options.sender.avatar, parseAvatarId("--id", texts.id));
@@ -90,7 +77,7 @@ Result<PublishJob> settled(const PublishTexts& texts) {
     settle.into(job.options.sender.startUtimeUs, parseUtime("--start", texts.start));
   }
   job.options.sender.source =
-      "foretouch publish " + std::filesystem::path(texts.clip).filename().string();
+      "foretouch publish " + std::filesystem::path(texts.motion).filename().string();
   job.options.sender.source.resize(std::min(job.options.sender.source.size(), kMaxTextBytes / 2));
   if (settle.error()) return *settle.error();
   return job;
@@ -194,12 +181,13 @@ void addPublishCommand(CLI::App& program, ExitCode& exit) {
   const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
     return command->add_option(name, text, help)->type_name(type)->capture_default_str();
   };
-  option("CLIP", texts->clip, "",
+  option("CLIP", texts->motion, "",
          "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)")
       ->required();
   option("--avatar", texts->avatar, "FILE", "Avatar file (see foretouch avatar)")->required();
   option("--id", texts->id, "N", "What the service calls the avatar");
-  option("--rate", texts->rate, "HZ", "Poses a second to use of the clip; animations: 30 if all");
+  option("--rate", texts->clip.rate, "HZ",
+         "Poses a second to use of the clip; animations: 30 if all");
   option("--speed", texts->speed, "S",
          "Times the clip's own; 0: as fast as the system takes them, which may lose some");
   command->add_flag("--loop", texts->loop, "Over and over, each time as a new session");
@@ -208,18 +196,7 @@ void addPublishCommand(CLI::App& program, ExitCode& exit) {
   option("--output", texts->output, "LOG", "Write a new event log instead of sending");
   option("--start", texts->start, "US",
          "Time of the log's first pose, microseconds since 1970; now if not given");
-  option("--scale", texts->scale, "S", "Metres per unit of the clip: 0.01 for centimetres");
-  option("--motion-up", texts->motionUp, "y|z", "Which axis of the clip points up");
-  option("--place", texts->place, "X,Y,Z[,YAW]",
-         "Where the clip's origin stands in the scene: metres, and degrees about +Y");
-  option("--map", texts->map, "FILE", R"(Joint names that differ: {"avatar joint": "clip joint"})");
-  option("--animation", texts->animation, "NAME",
-         "Which animation of a model: its name, or its number from 0; the first if not given");
-  option("--robot", texts->robot, "URDF", "The robot that joint positions are about");
-  command
-      ->add_option("--package", texts->packages, "Folder of the robot's packages; may be repeated")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
+  addClipOptions(*command, texts->clip);
   command->footer(kExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });
 }

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "tools/arguments.h"
+#include "tools/inputs/clip_options.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
@@ -26,10 +27,9 @@ constexpr int kMostTriangles = 1'000'000'000;
 
 /// Values as typed in.
 struct SweepTexts {
-  std::string avatar, motion, animation, robot, map, output, from, to,
-      rate = "all", scale = "1", motionUp = "y", place = "0,0,0,0", error = "0.001",
-      maxTriangles = "20000000";
-  std::vector<std::string> links, packages;
+  std::string avatar, motion, output, from, to, error = "0.001", maxTriangles = "20000000";
+  ClipTexts clip;
+  std::vector<std::string> links;
   bool inner = false;
 };
 
@@ -54,10 +54,6 @@ Result<SweepJob> settled(const SweepTexts& texts) {
   SweepRequest& request = job.request;
   request.avatarPath = texts.avatar;
   request.motionPath = texts.motion;
-  request.animation = texts.animation;
-  request.robotPath = texts.robot;
-  request.packagePaths = texts.packages;
-  request.mapPath = texts.map;
   request.links = namesIn(texts.links);
   if (texts.links.empty()) request.links = {"all"};
   request.surface.side = texts.inner ? SurfaceSide::Inner : SurfaceSide::Outer;
@@ -65,24 +61,20 @@ Result<SweepJob> settled(const SweepTexts& texts) {
   Settling settle;
   settle.into(job.format, meshFormatOf(texts.output));
   settle.require(
-      checkIsNoInput(texts.output, {texts.avatar, texts.motion, texts.robot, texts.map}));
+      checkIsNoInput(texts.output, {texts.avatar, texts.motion, texts.clip.robot, texts.clip.map}));
   const bool isGlb = job.format == MeshFormat::Glb;
   request.surface.bits = isGlb ? CoordinateBits::Single : CoordinateBits::Double;
   settle.into(request.surface.error, parseTolerance("--error", texts.error));
   int most = 0;
   settle.into(most, parseCount("--max-triangles", texts.maxTriangles, kMostTriangles));
   request.surface.maxTriangles = static_cast<std::size_t>(most);
-  settle.into(request.placement, parsePlacement("--place", texts.place));
-  UpAxis motionUp = UpAxis::Y;
-  settle.into(motionUp, parseUpAxis("--motion-up", texts.motionUp));
-  request.placement.motionUpZ = motionUp == UpAxis::Z;
-  settle.into(request.motionScale, parsePositive("--scale", texts.scale));
+  settleClip(texts.clip, settle, request);
   const auto optional = [&](std::optional<double>& place, const Result<double>& parsed) {
     double number = 0.0;
     settle.into(number, parsed);
     place = number;
   };
-  if (texts.rate != "all") optional(request.rateHz, parsePositive("--rate", texts.rate));
+  if (texts.clip.rate != "all") optional(request.rateHz, parsePositive("--rate", texts.clip.rate));
   if (!texts.from.empty()) optional(request.fromS, parseNumber("--from", texts.from));
   if (!texts.to.empty()) optional(request.toS, parseNumber("--to", texts.to));
   if (settle.error()) return *settle.error();
@@ -197,23 +189,13 @@ void addSweepCommand(CLI::App& program, ExitCode& exit) {
       ->allow_extra_args(false);
   option("--from", texts->from, "S", "Seconds in the clip; its begin if not given");
   option("--to", texts->to, "S", "Seconds in the clip; its end if not given");
-  option("--rate", texts->rate, "HZ", "Poses a second to use of the clip; animations: 30 if all");
+  option("--rate", texts->clip.rate, "HZ",
+         "Poses a second to use of the clip; animations: 30 if all");
   option("--error", texts->error, "M", "Largest distance (m) between surface and swept volume");
   command->add_flag("--inner", texts->inner, "The surface inside the swept volume, not around it");
   option("--output", texts->output, "FILE", "Mesh to write: .obj, .ply or .glb")->required();
   option("--max-triangles", texts->maxTriangles, "N", "Give up beyond this many");
-  option("--animation", texts->animation, "NAME",
-         "Which animation of a model: its name, or its number from 0; the first if not given");
-  option("--robot", texts->robot, "URDF", "The robot that joint positions are about");
-  command
-      ->add_option("--package", texts->packages, "Folder of the robot's packages; may be repeated")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
-  option("--scale", texts->scale, "S", "Metres per unit of the clip: 0.01 for centimetres");
-  option("--motion-up", texts->motionUp, "y|z", "Which axis of the clip points up");
-  option("--place", texts->place, "X,Y,Z[,YAW]",
-         "Where the clip's origin stands: metres, and degrees about +Y");
-  option("--map", texts->map, "FILE", R"(Joint names that differ: {"avatar joint": "clip joint"})");
+  addClipOptions(*command, texts->clip);
   command->footer(kExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });
 }

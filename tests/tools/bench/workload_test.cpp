@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/counter_fields.h"
 #include "tests/tools/bench/world.h"
 #include "tools/bench/pool.h"
 #include "tools/bench/timing.h"
-#include "tools/counter_fields.h"
 
 namespace foretouch::tools {
 namespace {

@@ -1,4 +1,5 @@
-// tools/counter_fields.h: the counters of a query by name, for whoever sums or prints them all.
+// middleware/counter_fields.h: the counters of a query by name, for whoever sums or prints them
+// all.
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 
 #include "middleware/query.h"
 
-namespace foretouch::tools {
+namespace foretouch {
 
 /// Add a counter here and every benchmark reports it.
 inline constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::*>, 14>
@@ -28,4 +29,4 @@ inline constexpr std::array<std::pair<const char*, std::uint64_t QueryCounters::
 static_assert(sizeof(QueryCounters) == kCounterFields.size() * sizeof(std::uint64_t),
               "name the new counter above");
 
-}  // namespace foretouch::tools
+}  // namespace foretouch
