@@ -63,23 +63,26 @@ struct Choice {
   double reachM = 0.0;  ///< 0: all of it.
 };
 
-Choice chosen(const Scene& scene, const SceneRequest& request,
-              const std::vector<TriangleId>& contacted) {
+Choice allOf(const Scene& scene, const std::vector<TriangleId>& contacted) {
   const SceneAudit& audit = scene.audit();
-  const AlignedBox3d everywhere(audit.boxMin, audit.boxMax);
-  if (audit.triangles > request.maxTriangles && !request.action.isEmpty()) {
-    Choice widest;
-    for (const double reachM : kReachesM) {
-      Choice choice{within(scene, grown(request.action, reachM), contacted), reachM};
-      if (choice.ids.size() > request.maxTriangles) {
-        if (widest.ids.empty()) widest = std::move(choice);
-      } else if (!choice.ids.empty()) {
-        return choice;
-      }
+  return {within(scene, AlignedBox3d(audit.boxMin, audit.boxMax), contacted), 0.0};
+}
+
+/// What is near the action, the widest reach that is light enough, else the widest of all; all of
+/// it where nothing is near.
+Choice nearAction(const Scene& scene, const SceneRequest& request,
+                  const std::vector<TriangleId>& contacted) {
+  if (request.action.isEmpty()) return allOf(scene, contacted);
+  Choice widest;
+  for (const double reachM : kReachesM) {
+    Choice choice{within(scene, grown(request.action, reachM), contacted), reachM};
+    if (choice.ids.size() > request.maxTriangles) {
+      if (widest.ids.empty()) widest = std::move(choice);
+    } else if (!choice.ids.empty()) {
+      return choice;
     }
-    if (!widest.ids.empty()) return widest;
   }
-  return {within(scene, everywhere, contacted), 0.0};
+  return widest.ids.empty() ? allOf(scene, contacted) : widest;
 }
 
 /// Near the action where there is any, but not farther from the scene than need be.
@@ -111,14 +114,14 @@ bool isSmall(const Part& part) {
   return part.ids.size() <= kSmallObject;
 }
 
-/// Where there are so many small objects that they cannot be spared, they become one.
-void poolCrumbs(std::vector<Part>& parts, std::size_t mostTriangles) {
+/// Where there are so many small objects that they cannot be spared, they become one: true.
+bool poolCrumbs(std::vector<Part>& parts, std::size_t mostTriangles) {
   std::size_t triangles = 0, objects = 0;
   for (const Part& part : parts) {
     triangles += isSmall(part) ? part.ids.size() : 0;
     objects += isSmall(part) ? 1 : 0;
   }
-  if (triangles <= mostTriangles / 2) return;
+  if (triangles <= mostTriangles / 2) return false;
   Part pool{fmt::format("{} small objects", objects), {}, {}};
   for (const Part& part : parts) {
     if (!isSmall(part)) continue;
@@ -129,6 +132,7 @@ void poolCrumbs(std::vector<Part>& parts, std::size_t mostTriangles) {
   pool.fixed = sorted(std::move(pool.fixed));
   parts.erase(std::remove_if(parts.begin(), parts.end(), isSmall), parts.end());
   parts.push_back(std::move(pool));
+  return true;
 }
 
 void append(const Scene& scene, TriangleId id, const Vector3d& origin, Corners& corners) {
@@ -256,34 +260,73 @@ void noteSimplifying(const ViewScene& view, const Choice& choice, double errorM,
       view.name, view.trianglesInFile, part, view.mesh.triangles(), errorM));
 }
 
-}  // namespace
-
-ViewScene viewOf(const Scene& scene, const SceneRequest& request, std::vector<std::string>& notes) {
-  const std::vector<TriangleId> contacted = sorted(request.contacted);
-  const Choice choice = chosen(scene, request, contacted);
+/// Of a scene's view what no choice changes.
+ViewScene emptyView(const Scene& scene, const SceneRequest& request) {
   ViewScene view;
   view.name = request.name;
   view.origin = originOf(scene.audit(), request.action);
   view.trianglesInFile = scene.audit().triangles;
   view.boundsMin = scene.audit().boxMin;
   view.boundsMax = scene.audit().boxMax;
-  std::vector<Part> parts = partsOf(scene, choice, contacted);
+  return view;
+}
+
+ViewScene wholeTriangles(const Scene& scene, const SceneRequest& request, const Choice& choice,
+                         const std::vector<TriangleId>& contacted) {
+  ViewScene view = emptyView(scene, request);
   Gathering gathering(scene, view);
+  for (const Part& part : partsOf(scene, choice, contacted)) gathering.addWhole(part);
+  gathering.finish();
+  const bool isAll = choice.ids.size() == scene.audit().triangles;
+  view.reduction = isAll ? SceneReduction::None : SceneReduction::Clipped;
+  return view;
+}
+
+struct SimplifiedView {
+  ViewScene view;
+  double errorM = 0.0;
+  bool isPooled = false;  ///< Small objects became one.
+};
+
+SimplifiedView simplified(const Scene& scene, const SceneRequest& request, const Choice& choice,
+                          const std::vector<TriangleId>& contacted) {
+  SimplifiedView made{emptyView(scene, request), 0.0, false};
+  std::vector<Part> parts = partsOf(scene, choice, contacted);
+  made.isPooled = poolCrumbs(parts, request.maxTriangles);
+  Gathering gathering(scene, made.view);
+  made.errorM = addSimplified(scene, parts, request.maxTriangles, made.view.origin, gathering);
+  gathering.finish();
+  made.view.reduction = SceneReduction::Simplified;
+  made.view.triangleIds.clear();
+  return made;
+}
+
+}  // namespace
+
+ViewScene viewOf(const Scene& scene, const SceneRequest& request, std::vector<std::string>& notes) {
+  const std::vector<TriangleId> contacted = sorted(request.contacted);
+  const std::size_t triangles = scene.audit().triangles;
+  if (triangles <= request.maxTriangles) {
+    return wholeTriangles(scene, request, allOf(scene, contacted), contacted);
+  }
+  if (request.harmlessM > 0.0 && triangles / kMostTimesTooHeavy <= request.maxTriangles) {
+    const Choice all = allOf(scene, contacted);
+    SimplifiedView made = simplified(scene, request, all, contacted);
+    const bool isLight = made.view.mesh.triangles() <= request.maxTriangles + contacted.size();
+    if (made.errorM <= request.harmlessM && isLight && !made.isPooled) {
+      noteSimplifying(made.view, all, made.errorM, notes);
+      return std::move(made.view);
+    }
+  }
+  const Choice choice = nearAction(scene, request, contacted);
   if (choice.ids.size() <= request.maxTriangles) {
-    for (const Part& part : parts) gathering.addWhole(part);
-    gathering.finish();
-    const bool isWhole = choice.ids.size() == scene.audit().triangles;
-    view.reduction = isWhole ? SceneReduction::None : SceneReduction::Clipped;
-    if (!isWhole) noteClipping(view, choice, notes);
+    ViewScene view = wholeTriangles(scene, request, choice, contacted);
+    if (view.reduction == SceneReduction::Clipped) noteClipping(view, choice, notes);
     return view;
   }
-  poolCrumbs(parts, request.maxTriangles);
-  const double errorM = addSimplified(scene, parts, request.maxTriangles, view.origin, gathering);
-  gathering.finish();
-  view.reduction = SceneReduction::Simplified;
-  view.triangleIds.clear();
-  noteSimplifying(view, choice, errorM, notes);
-  return view;
+  SimplifiedView made = simplified(scene, request, choice, contacted);
+  noteSimplifying(made.view, choice, made.errorM, notes);
+  return std::move(made.view);
 }
 
 }  // namespace foretouch::tools

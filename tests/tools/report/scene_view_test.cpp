@@ -103,7 +103,8 @@ TEST(SceneView, LeavesOutTrianglesThatAreNotFinite) {
 TEST(SceneView, ClipsToWhatIsNearTheAction) {
   const Scene scene = Scene::build(plates(10, 10)).value();  // 100 m along x
   std::vector<std::string> notes;
-  SceneRequest request{"plates", 700, AlignedBox3d(Vector3d(40, 0, 4), Vector3d(41, 2, 5)), {3}};
+  SceneRequest request{
+      "plates", 700, AlignedBox3d(Vector3d(40, 0, 4), Vector3d(41, 2, 5)), {3}, 0.0};
   const ViewScene view = viewOf(scene, request, notes);
   EXPECT_EQ(view.reduction, SceneReduction::Clipped);
   expectWellFormed(view);
@@ -122,6 +123,24 @@ TEST(SceneView, ClipsToWhatIsNearTheAction) {
   EXPECT_NE(notes[0].find("within 4 m"), std::string::npos) << notes[0];
 }
 
+TEST(SceneView, RatherHidesDetailsThatNobodySeesThanLeavesOutWhatIsFarther) {
+  const Scene scene = Scene::build(plates(10, 10)).value();
+  std::vector<std::string> notes;
+  SceneRequest request{
+      "plates", 700, AlignedBox3d(Vector3d(40, 0, 4), Vector3d(41, 2, 5)), {3}, 0.5};
+  const ViewScene view = viewOf(scene, request, notes);
+  EXPECT_EQ(view.reduction, SceneReduction::Simplified);
+  EXPECT_LE(view.mesh.triangles(), 701u);
+  EXPECT_EQ(view.objects.size(), 10u);
+  EXPECT_TRUE(shows(view, scene.triangle(3)));
+  expectWellFormed(view);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].find("within"), std::string::npos) << notes[0];
+  // Nine times too many: not even tried.
+  request.maxTriangles = 220;
+  EXPECT_EQ(viewOf(scene, request, notes).reduction, SceneReduction::Clipped);
+}
+
 TEST(SceneView, KeepsALargeFloorThatTheActionStandsOn) {
   RawScene raw = plates(10, 10, {500, 0, 500});
   raw.triangles.push_back({{Vector3d(-900, 0, -900), Vector3d(900, 0, -900), Vector3d(0, 0, 900)}});
@@ -130,7 +149,7 @@ TEST(SceneView, KeepsALargeFloorThatTheActionStandsOn) {
   const Scene scene = Scene::build(raw).value();
   std::vector<std::string> notes;
   const ViewScene view =
-      viewOf(scene, {"s", 100, AlignedBox3d(Vector3d(0, 1, 0), Vector3d(1, 2, 1)), {}}, notes);
+      viewOf(scene, {"s", 100, AlignedBox3d(Vector3d(0, 1, 0), Vector3d(1, 2, 1)), {}, 0.0}, notes);
   EXPECT_EQ(view.triangleIds, std::vector<std::uint32_t>{2000});
 }
 
@@ -182,7 +201,7 @@ TEST(SceneView, StaysExactFarFromTheOrigin) {
   for (const std::size_t most : {100'000u, 1500u}) {
     std::vector<std::string> notes;
     const AlignedBox3d action(far, far + Vector3d::Ones());
-    const ViewScene view = viewOf(scene, {"far", most, action, {}}, notes);
+    const ViewScene view = viewOf(scene, {"far", most, action, {}, 0.0}, notes);
     EXPECT_NE(view.reduction, SceneReduction::Simplified);
     expectTheScenesOwn(view, scene, 1e-5);
   }
