@@ -1,6 +1,7 @@
 // What the 3D view shows right now, in words above it: the story of the contact, who is who, and
 // how much a discrete check sees.
 
+import type { Contact } from "../contacts/contact.js";
 import { discreteCount } from "../contacts/discrete.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
@@ -38,7 +39,8 @@ export class Caption {
     const discrete = discreteCount(this.model.contacts);
     this.banner.hidden = !showsDiscrete || discrete === null;
     if (discrete !== null) {
-      setText(this.banner, `A check at the poses alone sees ${discrete.seen} of ${discrete.all} contacts`);
+      const all = `A check at the poses alone sees ${discrete.seen} of ${discrete.all} contacts.`;
+      setText(this.banner, `${all}${fateOf(contact)}`);
     }
     const entries = this.entries(), key = entries.join();
     if (key === this.shownLegend) return;
@@ -61,4 +63,10 @@ export class Caption {
     if (state.showsSwept && sweeps) entries.push(["swept", "swept volume, certified"]);
     return entries;
   }
+}
+
+/** Whether the chosen contact is among those that a check at the poses sees. */
+function fateOf(contact: Contact | null): string {
+  if (contact === null || contact.missedByPoses === null) return "";
+  return contact.missedByPoses ? " It misses the chosen one." : " It sees the chosen one.";
 }

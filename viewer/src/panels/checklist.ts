@@ -61,8 +61,11 @@ function placeCheck(name: string, avatar: Bounds, scene: Bounds): Check {
   if (!isInside) return { question: `Place of ${name}`, answer: "It stands outside the scene.", isDoubtful: true };
   const isOnGround = Math.abs(above) <= footReach;
   const side = above < 0 ? "below" : "above";
-  const answer = `It stands in the scene; its lowest point is ${metres(Math.abs(above))} ${side} the scene's lowest.`;
-  return { question: `Place of ${name}`, answer, isDoubtful: !isOnGround && above < 0 };
+  const place = `its lowest point is ${metres(Math.abs(above))} ${side} the scene's lowest.`;
+  const answer = isOnGround
+    ? `It stands in the scene; ${place}`
+    : `Over the scene's ground plan, but ${place} Is there a floor at its feet, or is another axis up?`;
+  return { question: `Place of ${name}`, answer, isDoubtful: !isOnGround };
 }
 
 export function checklistCard(checks: readonly Check[]): HTMLElement {

@@ -6,7 +6,7 @@ import { verdictNames } from "../contacts/contact.js";
 import type { Model } from "../model.js";
 import type { LinkChoice, Store } from "../state.js";
 import { definitionTable, element } from "./dom.js";
-import { length, plural, seconds, vector } from "./words.js";
+import { length, seconds, tally, vector } from "./words.js";
 
 type Line = readonly [string, string, string?];
 
@@ -81,7 +81,7 @@ export class Details {
       ["avatar", one.name],
       ["moves with", parent < 0 ? "the world" : one.links[parent].name],
       ["LSS", radii.length === 0 ? "none" : `${radii.length}, radius ${radii.slice(0, 4).join(", ")}`],
-      ["contacts", plural(contacts.length, "contact")],
+      ["contacts", tally(contacts)],
     ];
     if (discrete !== null) lines.push(["seen at poses", `${discrete.seen} of ${discrete.all}`]);
     return [element("p", { class: "who" }, element("strong", { text: one.links[link].name })), definitionTable(lines)];

@@ -3,7 +3,7 @@
 import { discreteCount } from "../contacts/discrete.js";
 import type { Model } from "../model.js";
 import { byId } from "./dom.js";
-import { plural } from "./words.js";
+import { count, plural, tally } from "./words.js";
 
 export function showHeadline(model: Model): void {
   byId("title").textContent = model.document.title;
@@ -14,11 +14,10 @@ export function showHeadline(model: Model): void {
 function headline(model: Model): string {
   if (model.document.kind === "inspection") return "Is this the right unit, the right axis and the right place?";
   if (model.isLive) return "Live: what the service answers, as it answers it.";
-  const contacts = model.contacts.filter((contact) => contact.verdict === "contact");
   if (model.contacts.length === 0) return "No contact in the whole clip.";
-  const discrete = discreteCount(contacts);
-  if (discrete === null || discrete.seen === discrete.all) return `${plural(contacts.length, "contact")}.`;
+  const discrete = discreteCount(model.contacts);
+  if (discrete === null || discrete.seen === discrete.all) return `${tally(model.contacts)}.`;
   const missed = discrete.all - discrete.seen;
   const touching = missed === 1 ? "touches" : "touch";
-  return `${plural(contacts.length, "contact")}. ${missed} of them ${touching} nothing at either pose: a check at the poses alone misses them.`;
+  return `${tally(model.contacts)}. ${count(missed)} of the ${plural(discrete.all, "contact")} ${touching} nothing at either pose: a check at the poses alone misses them.`;
 }

@@ -1,7 +1,7 @@
 // Numbers as people read them.
 
 import type { Contact } from "../contacts/contact.js";
-import type { Vector } from "../data/document.js";
+import type { Vector, Verdict } from "../data/document.js";
 
 export function seconds(value: number): string {
   return `${value.toFixed(3)} s`;
@@ -52,8 +52,26 @@ export function story(contact: Contact, timeZero: number): string {
     return `${contact.linkName} is in contact with ${object} when the step begins, at ${from}.`;
   }
   const touch = `${contact.linkName} meets ${object} at ${at}.`;
-  if (contact.missedByPoses === true) {
-    return `${touch} At both poses, ${from} and ${to}, it touches nothing: a check at the poses sees no contact.`;
-  }
-  return `${touch} The step goes from ${from} to ${to}.`;
+  if (contact.missedByPoses !== true) return `${touch} The step goes from ${from} to ${to}.`;
+  const isAtPose = at === from || at === to;
+  if (isAtPose && (contact.separation ?? 0) > 0) return `${nearPose(contact, object, at, at === from)} At both poses, ${from} and ${to}, a gap is left: ${unseen}.`;
+  return `${touch} At both poses, ${from} and ${to}, it touches nothing: ${unseen}.`;
+}
+
+const unseen = "a check at the poses sees no contact";
+
+/** Met at a pose itself, as far as digits show: what is met is the tolerance, not the surface. */
+function nearPose({ linkName, separation }: Contact, object: string, at: string, isAfter: boolean): string {
+  const side = isAfter ? "right after" : "right before";
+  return `${linkName} comes within ${length(separation ?? 0)} of ${object} ${side} the pose at ${at}: near enough to count as a contact.`;
+}
+
+/** How many there are of each verdict. */
+export function tally(contacts: readonly Contact[]): string {
+  const counted = (verdict: Verdict): number => contacts.filter((contact) => contact.verdict === verdict).length;
+  const starts = counted("starts_in_contact"), undecided = counted("undecided");
+  const parts = [plural(counted("contact"), "contact")];
+  if (starts > 0) parts.push(plural(starts, "start in contact", "starts in contact"));
+  if (undecided > 0) parts.push(`${count(undecided)} undecided`);
+  return parts.join(", ");
 }
