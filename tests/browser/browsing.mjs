@@ -78,8 +78,8 @@ export async function settled(page) {
   const quietMs = 400, deadline = Date.now() + patience;
   let before = -1;
   while (Date.now() < deadline) {
-    const { frames } = await page.evaluate(() => window.foretouch.state());
-    if (frames === before) return;
+    const { frames, isAtRest } = await page.evaluate(() => window.foretouch.state());
+    if (frames === before && isAtRest) return;
     before = frames;
     await page.waitForTimeout(quietMs);
   }

@@ -40,6 +40,8 @@ export interface PageState {
   readonly has3D: boolean;
   /** Frames of the 3D view drawn so far: none are drawn where nothing changes. */
   readonly frames: number;
+  /** Whether the 3D view is drawn in full, and nothing more is to be drawn. */
+  readonly isAtRest: boolean;
   /** The sentence shown instead of the document; null where all is well. */
   readonly error: string | null;
 }
@@ -98,6 +100,7 @@ function stateOf(page: Page | null, error: string | null): PageState {
     theme: state?.theme ?? "light",
     has3D: page?.view !== null && page?.view !== undefined,
     frames: page?.view?.frames ?? 0,
+    isAtRest: page?.view?.isAtRest ?? true,
     error,
   };
 }

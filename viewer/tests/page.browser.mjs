@@ -50,8 +50,8 @@ function listen(page) {
 async function settled(page) {
   let before = -1;
   for (let i = 0; i < 60; ++i) {
-    const { frames } = await page.evaluate(() => window.foretouch.state());
-    if (frames === before) return;
+    const { frames, isAtRest } = await page.evaluate(() => window.foretouch.state());
+    if (frames === before && isAtRest) return;
     before = frames;
     await page.waitForTimeout(400);
   }

@@ -16,6 +16,10 @@ export enum MarkerState {
 
 const shapes: Record<Verdict, number> = { contact: 0, starts_in_contact: 1, undecided: 2 };
 const maxArrows = 512;
+/** Thicker links no marker hides, metres. */
+const unhidden = 1000;
+/** Arrows are thinner beside thin links: of this thickness and more they are not, metres. */
+const thickLink = 0.08, thinnest = 0.35;
 /** Of the arrow's length. */
 const shaftRadius = 0.035, headRadius = 0.11, headLength = 0.36;
 
@@ -27,6 +31,7 @@ export class Markers {
   private readonly heads: THREE.InstancedMesh;
   private readonly arrowMaterial = new THREE.MeshBasicMaterial();
   private contacts: readonly Contact[] = [];
+  private thicknessOf: (contact: Contact) => number = () => unhidden;
   private palette: Palette | null = null;
 
   constructor() {
@@ -48,9 +53,11 @@ export class Markers {
     this.group.add(this.points, this.shafts, this.heads);
   }
 
-  /** `origin` is the world's point that the view has at zero. */
-  setContacts(contacts: readonly Contact[], origin: Vector): void {
+  /** `origin` is the world's point that the view has at zero; thickness in metres of the link that a marker may hide. */
+  setContacts(contacts: readonly Contact[], origin: Vector, thicknessOf: (contact: Contact) => number): void {
     this.contacts = contacts;
+    this.thicknessOf = thicknessOf;
+    const thickness = Float32Array.from(contacts, (contact) => Math.min(unhidden, thicknessOf(contact)));
     const positions = new Float32Array(3 * contacts.length);
     const shape = new Float32Array(contacts.length);
     contacts.forEach((contact, i) => {
@@ -62,6 +69,7 @@ export class Markers {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
     geometry.setAttribute("shape", new THREE.BufferAttribute(shape, 1));
+    geometry.setAttribute("thickness", new THREE.BufferAttribute(thickness, 1));
     geometry.setAttribute("state", new THREE.BufferAttribute(new Float32Array(contacts.length), 1));
     this.points.geometry.dispose();
     this.points.geometry = geometry;
@@ -85,7 +93,8 @@ export class Markers {
       const [x, y, z] = contact.point ?? origin;
       turn.setFromUnitVectors(up, new THREE.Vector3(...(contact.normal ?? [0, 1, 0])).normalize());
       const at = new THREE.Vector3(x - origin[0], y - origin[1], z - origin[2]);
-      matrix.compose(at, turn, new THREE.Vector3(length, length, length));
+      const width = length * Math.min(1, Math.max(thinnest, this.thicknessOf(contact) / thickLink));
+      matrix.compose(at, turn, new THREE.Vector3(width, length, width));
       if (this.palette !== null) colour.set(this.palette.ink);
       for (const arrows of [this.shafts, this.heads]) {
         arrows.setMatrixAt(i, matrix);
@@ -104,7 +113,12 @@ export class Markers {
     const colours = [palette.verdicts.contact, palette.verdicts.starts_in_contact, palette.verdicts.undecided];
     this.material.uniforms["colours"].value = colours.map((colour) => new THREE.Color(colour));
     this.material.uniforms["halo"].value = new THREE.Color(palette.halo);
-    this.material.uniforms["pixelRatio"].value = Math.min(2, window.devicePixelRatio);
+  }
+
+  /** Before every frame: what makes markers as large as they are. */
+  setView(pixelRatio: number, camera: THREE.PerspectiveCamera, height: number): void {
+    this.material.uniforms["pixelRatio"].value = pixelRatio;
+    this.material.uniforms["focal"].value = (height / 2) * camera.projectionMatrix.elements[5];
   }
 }
 
@@ -117,25 +131,32 @@ function pointMaterial(): THREE.ShaderMaterial {
       colours: { value: [new THREE.Color(), new THREE.Color(), new THREE.Color()] },
       halo: { value: new THREE.Color() },
       pixelRatio: { value: 1 },
+      focal: { value: 1 },
     },
     vertexShader: `
 attribute float shape;
 attribute float state;
+attribute float thickness;
 varying float vShape;
 varying float vState;
+varying float vHollow;
 uniform float pixelRatio;
+uniform float focal;
 void main() {
   vShape = shape;
   vState = state;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   float size = state > 2.5 ? 22.0 : state > 1.5 ? 15.0 : 5.0;
   gl_PointSize = size * pixelRatio;
+  // A link that the marker would hide is seen through it.
+  vHollow = state > 1.5 && thickness * focal / gl_Position.w < 1.4 * size ? 1.0 : 0.0;
   if (state < 0.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`,
     // Distance from the edge of a disc, a square and a triangle that fill the point.
     fragmentShader: `
 varying float vShape;
 varying float vState;
+varying float vHollow;
 uniform vec3 colours[3];
 uniform vec3 halo;
 float inside(vec2 p) {
@@ -146,9 +167,10 @@ float inside(vec2 p) {
 void main() {
   float depth = inside(vec2(2.0 * gl_PointCoord - 1.0));
   if (depth < 0.0) discard;
+  if (vHollow > 0.5 && depth > 0.42) discard;
   int verdict = int(vShape + 0.5);
   vec3 colour = verdict == 0 ? colours[0] : verdict == 1 ? colours[1] : colours[2];
-  float rim = vState > 2.5 ? 0.3 : 0.22;
+  float rim = vHollow > 0.5 ? 0.12 : vState > 2.5 ? 0.3 : 0.22;
   bool isHalo = vState > 1.5 && depth < rim;
   gl_FragColor = vec4(isHalo ? halo : colour, vState > 1.5 ? 1.0 : 0.4);
   #include <colorspace_fragment>

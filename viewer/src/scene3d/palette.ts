@@ -50,9 +50,9 @@ export const palettes: Record<Theme, Palette> = {
   },
   dark: {
     background: "#14181e",
-    scene: "#4a525e",
-    sceneEdge: "#6d7785",
-    grid: "#3a424d",
+    scene: "#77828f",
+    sceneEdge: "#a3adba",
+    grid: "#4a535f",
     avatar: "#56b4e9",
     avatarHeld: "#4d6577",
     chosenLink: "#a8dcff",

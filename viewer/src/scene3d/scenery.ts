@@ -3,11 +3,14 @@
 import * as THREE from "three";
 import type { Scene } from "../data/document.js";
 import type { Cutaway } from "./cutaway.js";
+import { coarsened } from "./coarse.js";
 import type { Palette } from "./palette.js";
 
 /** Finding edges takes time and memory; scans have no sharp ones worth it. */
 const maxTrianglesWithEdges = 40000;
 const edgeAngleDegrees = 25;
+/** While drawing is slow. */
+const maxCoarseTriangles = 30000;
 /** How much lighter or darker than the tone of the scene an object may be. */
 const toneRange = 0.12;
 
@@ -16,7 +19,14 @@ export class Scenery {
   private readonly faces: THREE.MeshLambertMaterial;
   private readonly edges = new THREE.LineBasicMaterial();
 
-  constructor(scene: Scene, cutaway: Cutaway) {
+  private readonly thin = new THREE.LineBasicMaterial();
+  private fine: THREE.Group | null = null;
+  private coarse: THREE.Group | null = null;
+
+  constructor(
+    private readonly scene: Scene,
+    cutaway: Cutaway,
+  ) {
     this.faces = new THREE.MeshLambertMaterial({
       flatShading: true,
       side: THREE.DoubleSide,
@@ -27,17 +37,39 @@ export class Scenery {
     });
     cutaway.applyTo(this.faces);
     cutaway.applyTo(this.edges);
+    cutaway.applyTo(this.thin);
     if (scene.indices.length === 0) return;
     const geometry = sceneGeometry(scene);
-    this.group.add(new THREE.Mesh(geometry, this.faces));
+    this.fine = new THREE.Group().add(new THREE.Mesh(geometry, this.faces));
     if (scene.indices.length / 3 <= maxTrianglesWithEdges) {
-      this.group.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry, edgeAngleDegrees), this.edges));
+      this.fine.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry, edgeAngleDegrees), this.edges));
     }
+    this.group.add(this.fine);
+  }
+
+  /** In fewer triangles, which are found when first asked for. */
+  set isCoarse(isCoarse: boolean) {
+    if (isCoarse && this.coarse === null && this.scene.indices.length / 3 > maxCoarseTriangles) this.addCoarse();
+    if (this.fine === null || this.coarse === null) return;
+    this.fine.visible = !isCoarse;
+    this.coarse.visible = isCoarse;
+  }
+
+  private addCoarse(): void {
+    const { positions, indices } = this.scene;
+    const { triangles, lines } = coarsened(positions, indices, maxCoarseTriangles);
+    const over = (index: Uint32Array): THREE.BufferGeometry => {
+      const geometry = (this.fine?.children[0] as THREE.Mesh).geometry.clone();
+      return geometry.setIndex(new THREE.BufferAttribute(index, 1));
+    };
+    this.coarse = new THREE.Group().add(new THREE.Mesh(over(triangles), this.faces), new THREE.LineSegments(over(lines), this.thin));
+    this.group.add(this.coarse);
   }
 
   paint(palette: Palette): void {
     this.faces.color.set(palette.scene);
     this.edges.color.set(palette.sceneEdge);
+    this.thin.color.set(palette.scene);
   }
 }
 

@@ -3,12 +3,16 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { drawsBySoftware, whenDrawn } from "./gpu.js";
+import { Pace } from "./pace.js";
 import type { Palette } from "./palette.js";
 
 const fieldOfView = 38;
 const maxPixelRatio = 2;
 /** Metres; what the camera can come as close as. */
 const nearest = 0.02;
+/** After the last change the picture is drawn in full, milliseconds. */
+const stillMs = 300;
 
 export class Stage {
   readonly scene = new THREE.Scene();
@@ -17,11 +21,17 @@ export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
   private isAsked = false;
   private framesDrawn = 0;
-  private beforeFrame: () => void = () => {};
+  private beforeFrame: (isCoarse: boolean) => void = () => {};
+
+  private readonly isSoftware = drawsBySoftware();
+  private readonly pace = new Pace();
+  private isBusy = false;
+  private isFine = false;
+  private stillTimer = 0;
 
   /** Throws where there is no WebGL. */
   constructor(private readonly host: HTMLElement) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, stencil: true, powerPreference: "high-performance" });
+    this.renderer = new THREE.WebGLRenderer({ antialias: !this.isSoftware, stencil: true, powerPreference: "high-performance" });
     const canvas = this.renderer.domElement;
     canvas.setAttribute("aria-hidden", "true");
     host.prepend(canvas);
@@ -42,8 +52,18 @@ export class Stage {
     return this.framesDrawn;
   }
 
-  /** Called before every frame. */
-  onFrame(update: () => void): void {
+  /** Whether nothing is to be drawn, and what was drawn last was drawn in full. */
+  get isAtRest(): boolean {
+    return !this.isAsked && !this.isBusy && this.isFine;
+  }
+
+  /** Pixels of a frame to one of the page. */
+  get pixelRatio(): number {
+    return this.renderer.getPixelRatio();
+  }
+
+  /** Called before every frame, with whether it may be a coarse one. */
+  onFrame(update: (isCoarse: boolean) => void): void {
     this.beforeFrame = update;
   }
 
@@ -52,16 +72,44 @@ export class Stage {
     this.draw();
   }
 
-  /** Asks for a frame. */
+  /** Asks for a frame: drawn at once, or when the one before is done. */
   draw(): void {
     if (this.isAsked) return;
     this.isAsked = true;
-    requestAnimationFrame(() => {
-      this.isAsked = false;
-      this.beforeFrame();
-      this.renderer.render(this.scene, this.camera);
-      ++this.framesDrawn;
-    });
+    window.clearTimeout(this.stillTimer);
+    if (!this.isBusy) requestAnimationFrame(() => this.render(false));
+  }
+
+  private render(isFine: boolean): void {
+    const start = performance.now(), isCoarse = !isFine && this.pace.isCoarse;
+    this.isAsked = false;
+    this.isBusy = true;
+    this.isFine = isFine || this.isFullAt(this.pace.share);
+    this.renderer.setPixelRatio(isFine ? this.fullRatio : this.screenRatio * this.pace.share);
+    this.beforeFrame(isCoarse);
+    this.renderer.render(this.scene, this.camera);
+    ++this.framesDrawn;
+    whenDrawn(this.renderer.getContext() as WebGL2RenderingContext, start, (took) => this.drawn(isFine, took));
+  }
+
+  private drawn(wasFine: boolean, took: number): void {
+    this.isBusy = false;
+    if (!wasFine) this.pace.took(took);
+    if (this.isAsked) requestAnimationFrame(() => this.render(false));
+    else if (!this.isFine) this.stillTimer = window.setTimeout(() => this.render(true), stillMs);
+  }
+
+  private get screenRatio(): number {
+    return Math.min(maxPixelRatio, window.devicePixelRatio);
+  }
+
+  /** Of a picture that stands still. Twice as fine a one is smooth where edges are not smoothed. */
+  private get fullRatio(): number {
+    return this.isSoftware ? maxPixelRatio : this.screenRatio;
+  }
+
+  private isFullAt(share: number): boolean {
+    return this.screenRatio * share === this.fullRatio;
   }
 
   /** Where a point of the view is on the canvas, in CSS pixels; null behind the camera. */
@@ -83,7 +131,6 @@ export class Stage {
 
   private fit(): void {
     const width = Math.max(1, this.host.clientWidth), height = Math.max(1, this.host.clientHeight);
-    this.renderer.setPixelRatio(Math.min(maxPixelRatio, window.devicePixelRatio));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();

@@ -67,8 +67,8 @@ export class View3D {
     this.stage.scene.add(this.scenery.group, this.markers.group, this.swept.group);
     for (const performer of this.performers) this.stage.scene.add(performer.group);
     this.measures = model.document.kind === "inspection" ? this.makeMeasures() : null;
-    this.markers.setContacts(model.contacts, this.origin);
-    this.stage.onFrame(() => this.beforeFrame());
+    this.markers.setContacts(model.contacts, this.origin, (contact) => this.thickness(contact));
+    this.stage.onFrame((isCoarse) => this.beforeFrame(isCoarse));
     listenForClicks(this.stage.canvas, (x, y) => this.click(x, y));
     this.paint();
     this.update(new Set(["time"]));
@@ -76,6 +76,10 @@ export class View3D {
 
   get frames(): number {
     return this.stage.frames;
+  }
+
+  get isAtRest(): boolean {
+    return this.stage.isAtRest;
   }
 
   /** Pixels from the canvas' upper left corner; null behind the camera. */
@@ -87,7 +91,7 @@ export class View3D {
     const { state } = this.store;
     if (changes.has("theme")) this.paint();
     if (changes.has("shape")) for (const one of this.performers) one.setShape(state.shape);
-    if (changes.has("contacts")) this.markers.setContacts(this.model.contacts, this.origin);
+    if (changes.has("contacts")) this.markers.setContacts(this.model.contacts, this.origin, (contact) => this.thickness(contact));
     const isShapeFresh = changes.has("shape") || changes.has("theme");
     const matters: Change[] = [
       "time", "contact", "link", "showsDiscrete", "showsGhosts", "showsSwept", "contacts", "isPlaying",
@@ -191,8 +195,10 @@ export class View3D {
     for (const performer of this.performers) performer.paintGhosts(palette);
   }
 
-  private beforeFrame(): void {
+  private beforeFrame(isCoarse: boolean): void {
     const { state } = this.store;
+    this.scenery.isCoarse = isCoarse;
+    this.markers.setView(this.stage.pixelRatio, this.stage.camera, this.stage.canvas.clientHeight);
     const index = state.contact?.avatar ?? 0;
     const performer = this.performers[index];
     this.stage.camera.updateMatrixWorld();
@@ -262,6 +268,12 @@ export class View3D {
     const object = contact.object === null ? "" : ` × ${contact.object}`;
     const text = `${contact.linkName}${object} · ${seconds(contact.at - this.model.timeZero)}`;
     return [...labels, { kind: "callout", text, at: this.local(contact.point) }];
+  }
+
+  /** Of the thickest LSS of the link in contact; where it has none nothing is small. Metres. */
+  private thickness({ avatar, link }: Contact): number {
+    const radii = this.model.avatars[avatar].lss.filter((lss) => lss.link === link).map((lss) => lss.radius);
+    return radii.length === 0 ? Infinity : 2 * Math.max(...radii);
   }
 
   private makeMeasures(): Measures {

@@ -20,12 +20,16 @@ const maxGutter = 132, gutterShare = 0.26;
 /** Beside a bar, CSS pixels. */
 const reach = 8;
 const zoomStep = 0.6;
+/** How often the window of a stream moves without new contacts, milliseconds. */
+const liveWindowMs = 250;
 
 export class Timeline {
   readonly node = element("section", { class: "timeline", label: "Timeline of contacts" });
   private readonly axis = element("canvas", { class: "axis" });
   private readonly canvas = element("canvas", { class: "bars" });
   private readonly scroll = element("div", { class: "scroll" }, this.canvas);
+  /** Over both canvases, which stay as they are while only time goes on. */
+  private readonly playhead = element("div", { class: "playhead" });
   private readonly hint = element("p", { class: "hint" });
   private rows: Row[] = [];
   private window: Window;
@@ -33,6 +37,8 @@ export class Timeline {
   private width = 0;
   private isAsked = false;
   private isNew = true;
+  /** Until when a live window stays where it is, milliseconds. */
+  private stillUntil = 0;
 
   constructor(
     private readonly model: Model,
@@ -40,7 +46,7 @@ export class Timeline {
   ) {
     this.window = this.whole();
     this.rows = rowsOf(model.contacts, model.avatars);
-    this.node.append(this.makeBar(), this.axis, this.scroll);
+    this.node.append(this.makeBar(), element("div", { class: "tracks" }, this.axis, this.scroll, this.playhead));
     for (const canvas of [this.axis, this.canvas]) {
       canvas.setAttribute("role", "img");
       new Gestures(canvas, {
@@ -55,10 +61,22 @@ export class Timeline {
 
   update(changes: ReadonlySet<Change>): void {
     if (changes.has("contacts")) this.rows = rowsOf(this.model.contacts, this.model.avatars);
-    if (this.model.isLive) this.window = this.whole();
+    const before = this.window;
+    if (this.model.isLive) this.followStream(changes.has("contacts"));
     else if (changes.has("time")) this.followTime();
     if (changes.has("contact")) this.showRow();
-    this.draw();
+    const isTimeAlone = changes.size === 1 && changes.has("time") && this.window === before;
+    if (isTimeAlone) this.movePlayhead();
+    else this.draw();
+  }
+
+  /** The window of a stream grows with it: at once where there are new contacts, else now and then. */
+  private followStream(isUrgent: boolean): void {
+    const now = performance.now();
+    if (isUrgent || now >= this.stillUntil) {
+      this.window = this.whole();
+      this.stillUntil = now + liveWindowMs;
+    }
   }
 
   /** Scrolls to the row of what is chosen. */
@@ -161,6 +179,7 @@ export class Timeline {
       this.width = this.axis.clientWidth;
       this.drawAxis();
       this.drawRows();
+      this.movePlayhead();
       if (this.isNew) this.showRow();
       this.isNew = false;
       const words = plural(this.rows.length, "link");
@@ -181,7 +200,6 @@ export class Timeline {
     context.textAlign = "center";
     for (const time of times) context.fillText(`${time.toFixed(digits)} s`, this.xOf(time + zero), 12);
     this.drawPoses(context, palette.faint);
-    this.drawPlayhead(context, axisHeight, palette.ink, true);
   }
 
   /** A tick a pose, where they can be told apart. */
@@ -218,7 +236,6 @@ export class Timeline {
       context.fillStyle = palette.faint;
       context.fillText("no contacts", this.gutter(), rowHeight / 2);
     }
-    this.drawPlayhead(context, height, palette.ink, false);
   }
 
   private drawName(context: CanvasRenderingContext2D, row: Row, y: number, colour: string): void {
@@ -252,17 +269,10 @@ export class Timeline {
     context.restore();
   }
 
-  private drawPlayhead(context: CanvasRenderingContext2D, height: number, colour: string, hasHead: boolean): void {
+  private movePlayhead(): void {
     const x = this.xOf(this.store.state.time);
-    if (x < this.gutter() - 1) return;
-    context.fillStyle = colour;
-    context.fillRect(Math.round(x) - 0.75, hasHead ? axisHeight - 9 : 0, 1.5, height);
-    if (!hasHead) return;
-    context.beginPath();
-    context.moveTo(x - 5, axisHeight - 11);
-    context.lineTo(x + 5, axisHeight - 11);
-    context.lineTo(x, axisHeight - 3);
-    context.fill();
+    this.playhead.hidden = x < this.gutter() - 1 || x > this.width + 1;
+    this.playhead.style.transform = `translateX(${(x - 0.75).toFixed(2)}px)`;
   }
 }
 
