@@ -7,11 +7,10 @@ import { Malformed } from "./data/reader.js";
 import type { Page } from "./api.js";
 import { publish } from "./api.js";
 import { showDocument } from "./app.js";
+import { servedDocument } from "./live/served.js";
 import { byId, element } from "./panels/dom.js";
 import { applyTheme, preferredTheme } from "./theme.js";
 
-/** Where a served page finds its document. */
-const servedDocument = "view.json";
 const nothingToShow =
   "This page shows what Foretouch found, but nothing has been put into it. Make one with: foretouch replay CLIP --scene SCENE --report report.html";
 
@@ -22,9 +21,7 @@ async function documentText(): Promise<string> {
   const own = document.getElementById("foretouch-view")?.textContent?.trim() ?? "";
   if (own !== "") return own;
   if (!location.protocol.startsWith("http")) throw new Malformed(nothingToShow, "");
-  const answer = await fetch(servedDocument);
-  if (!answer.ok) throw new Malformed("", `could not be had from the server (${answer.status})`);
-  return answer.text();
+  return servedDocument();
 }
 
 function refuse(reason: unknown): void {

@@ -10,19 +10,34 @@ import { LiveClip } from "./live/live_clip.js";
 const secondsOfDay = 86400;
 
 export class Model {
-  readonly avatars: readonly Avatar[];
-  readonly clips: readonly Clip[];
+  private readonly avatarList: Avatar[];
+  private readonly clipList: Clip[];
   private contactList: Contact[];
   private longest: number;
   private zero: number | null = null;
 
   constructor(readonly document: ViewDocument) {
-    this.avatars = document.avatars;
-    this.clips = document.avatars.map((avatar) =>
-      avatar.track === null ? new LiveClip(avatar.links) : new RecordedClip(avatar.links, avatar.track),
-    );
+    this.avatarList = [...document.avatars];
+    this.clipList = document.avatars.map(clipOf);
     this.contactList = allContacts(this.avatars, this.clips);
     this.longest = longestStep(this.contactList);
+  }
+
+  get avatars(): readonly Avatar[] {
+    return this.avatarList;
+  }
+
+  /** One an avatar. */
+  get clips(): readonly Clip[] {
+    return this.clipList;
+  }
+
+  /** Takes those whose id is new, after those that are known; whether there were any. */
+  join(avatars: readonly Avatar[]): boolean {
+    const fresh = avatars.filter(({ id }) => this.avatarList.every((known) => known.id !== id));
+    this.avatarList.push(...fresh);
+    this.clipList.push(...fresh.map(clipOf));
+    return fresh.length > 0;
   }
 
   get isLive(): boolean {
@@ -64,4 +79,8 @@ export class Model {
     const values = this.clips.filter((clip) => clip.hasPose).map(of);
     return values.length === 0 ? 0 : choose(...values);
   }
+}
+
+function clipOf(avatar: Avatar): Clip {
+  return avatar.track === null ? new LiveClip(avatar.links) : new RecordedClip(avatar.links, avatar.track);
 }

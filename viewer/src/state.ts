@@ -30,7 +30,7 @@ export interface ViewState {
   follows: boolean;
 }
 
-export type Change = keyof ViewState | "contacts";
+export type Change = keyof ViewState | "contacts" | "avatars";
 type Listener = (changes: ReadonlySet<Change>) => void;
 
 export class Store {
@@ -55,9 +55,9 @@ export class Store {
     });
   }
 
-  /** The list of contacts itself has changed (live). */
-  contactsChanged(): void {
-    this.batch(() => this.pending.add("contacts"));
+  /** The list itself has changed (live). */
+  listChanged(list: "contacts" | "avatars"): void {
+    this.batch(() => this.pending.add(list));
   }
 
   private batch(change: () => void): void {

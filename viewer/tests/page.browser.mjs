@@ -226,6 +226,15 @@ const tests = {
     await page.evaluate(() => window.foretouch.seek(1));
     await page.waitForTimeout(500);
     assert.equal(await page.evaluate(() => window.foretouch.state().time), 1);
+    server.join();
+    await page.waitForFunction(() => {
+      try {
+        return window.foretouch.transformAt(1, 0, window.foretouch.state().end).length === 12;
+      } catch {
+        return false;
+      }
+    }, undefined, { timeout: 15000 });
+    assert.equal(await page.getByText("Not shown:").count(), 0, "who joins is no complaint");
     server.send("event: step\ndata: {nonsense\n\n");
     await page.getByText("Not shown:").waitFor();
     assert.deepEqual(complaints, []);

@@ -37,6 +37,9 @@ const kinds: readonly StepKind[] = ["consecutive", "first", "across-gap"];
 /** Rotation w, x, y, z and translation of one link. */
 const numbersPerLink = 7;
 
+/** A step of an avatar that the document does not have: it came after the page. */
+export class UnknownAvatar extends Malformed {}
+
 function reader(text: string, name: string): Reader {
   try {
     return new Reader(JSON.parse(text) as unknown, name);
@@ -50,7 +53,7 @@ export function decodeStep(text: string, avatars: readonly Avatar[]): StepEvent 
   const event = reader(text, "step");
   const id = event.field("avatar").count();
   const avatar = avatars.findIndex((one) => one.id === id);
-  if (avatar < 0) event.field("avatar").fail(`is ${id}, whom the document does not know: reload the page`);
+  if (avatar < 0) throw new UnknownAvatar('event "step", avatar', `is ${id}, whom the document does not know`);
   const links = avatars[avatar].links.length;
   const t0 = event.field("t0").number();
   return {

@@ -4,10 +4,12 @@
 import type { Contact } from "../contacts/contact.js";
 import { contactOf } from "../contacts/contact.js";
 import type { StatusEvent, StepEvent } from "../data/events.js";
-import { decodeStatus, decodeStep } from "../data/events.js";
+import { decodeDocument } from "../data/decode.js";
+import { decodeStatus, decodeStep, UnknownAvatar } from "../data/events.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
 import { LiveClip } from "./live_clip.js";
+import { servedDocument } from "./served.js";
 
 export type Connection = "connecting" | "connected" | "reconnecting";
 
@@ -17,6 +19,9 @@ export interface FeedState {
   readonly steps: number;
   readonly skipped: number;
   readonly lost: number;
+  /** That came, whether still kept or not. */
+  readonly contacts: number;
+  readonly latest: Contact | null;
   readonly lastQueryUs: number;
   readonly lastAddedUs: number;
   /** Of the last malformed event; "" where there was none. */
@@ -24,13 +29,17 @@ export interface FeedState {
 }
 
 const retryMs = 2000;
+/** The document is not asked for more often than this, milliseconds. */
+const askAgainMs = 1000;
 
 export class Feed {
   state: FeedState = {
-    connection: "connecting", status: {}, steps: 0, skipped: 0, lost: 0, lastQueryUs: 0, lastAddedUs: 0, complaint: "",
+    connection: "connecting", status: {}, steps: 0, skipped: 0, lost: 0, contacts: 0, latest: null,
+    lastQueryUs: 0, lastAddedUs: 0, complaint: "",
   };
   private contacts: Contact[] = [];
   private source: EventSource | null = null;
+  private isAsking = false;
 
   constructor(
     private readonly address: string,
@@ -59,8 +68,27 @@ export class Feed {
     try {
       take();
     } catch (error) {
-      this.set({ complaint: error instanceof Error ? error.message : String(error) });
+      if (error instanceof UnknownAvatar) void this.meet(error);
+      else this.complain(error);
     }
+  }
+
+  /** An avatar has joined: the document has it by now. Its steps until then are not shown. */
+  private async meet(stranger: UnknownAvatar): Promise<void> {
+    if (this.isAsking) return;
+    this.isAsking = true;
+    try {
+      const { avatars } = decodeDocument(await servedDocument());
+      if (this.model.join(avatars)) this.store.listChanged("avatars");
+      else this.complain(stranger);
+    } catch (error) {
+      this.complain(error);
+    }
+    window.setTimeout(() => (this.isAsking = false), askAgainMs);
+  }
+
+  private complain(error: unknown): void {
+    this.set({ complaint: error instanceof Error ? error.message : String(error) });
   }
 
   private takeStep(event: StepEvent): void {
@@ -71,23 +99,32 @@ export class Feed {
     if (event.skipped > 0) bridge(clip, event);
     const step = clip.add({ ...span, from: event.from, to: event.to });
     const links = this.model.avatars[event.avatar].links;
-    for (const fields of event.contacts) {
-      this.contacts.push(contactOf(event.avatar, links[fields.link].name, span, { ...fields, step }));
-    }
-    const kept = this.contacts.filter((one) => this.model.clips[one.avatar].spanOf(one.step) !== null);
-    if (kept.length !== this.contacts.length || event.contacts.length > 0) {
-      this.contacts = kept.sort((a, b) => a.at - b.at);
-      this.model.replaceContacts([...this.contacts]);
-      this.store.contactsChanged();
-    }
-    const { steps, skipped, lost } = this.state;
+    const fresh = event.contacts.map((fields) => contactOf(event.avatar, links[fields.link].name, span, { ...fields, step }));
+    this.count(event, fresh);
+    this.keep(fresh);
+  }
+
+  /** In words first: a drawing is never waited for. */
+  private count(event: StepEvent, fresh: readonly Contact[]): void {
+    const { steps, skipped, lost, contacts, latest } = this.state;
     this.set({
       steps: steps + 1 + event.skipped,
       skipped: skipped + event.skipped,
       lost: lost + event.lost,
+      contacts: contacts + fresh.length,
+      latest: fresh[fresh.length - 1] ?? latest,
       lastQueryUs: event.queryUs,
       lastAddedUs: event.addedUs,
     });
+  }
+
+  /** Contacts go with the steps that they belong to. */
+  private keep(fresh: readonly Contact[]): void {
+    const kept = this.contacts.filter((one) => this.model.clips[one.avatar].spanOf(one.step) !== null);
+    if (kept.length === this.contacts.length && fresh.length === 0) return;
+    this.contacts = [...kept, ...fresh].sort((a, b) => a.at - b.at);
+    this.model.replaceContacts([...this.contacts]);
+    this.store.listChanged("contacts");
   }
 
   private set(changes: Partial<FeedState>): void {

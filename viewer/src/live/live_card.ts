@@ -1,5 +1,6 @@
 // State of the connection, and counters of the service and of this page.
 
+import type { Contact } from "../contacts/contact.js";
 import type { StatusName } from "../data/events.js";
 import { card, definitionTable, element } from "../panels/dom.js";
 import { count, microseconds } from "../panels/words.js";
@@ -18,7 +19,9 @@ export class LiveCard {
   readonly node: HTMLElement;
   private readonly connection = element("p", { class: "connection" });
   private readonly body = element("div");
-  private isAsked = false;
+  private timer: number | null = null;
+  private stillUntil = 0;
+  private contactsShown = 0;
 
   constructor() {
     this.connection.setAttribute("role", "status");
@@ -31,20 +34,23 @@ export class LiveCard {
       this.connection.dataset["state"] = connection;
       this.connection.textContent = connectionWords[connection];
     }
-    if (this.isAsked) return;
-    this.isAsked = true;
-    window.setTimeout(() => {
-      this.isAsked = false;
-      this.fill(feed);
-    }, refreshMs);
+    // New contacts are told at once, figures alone now and then.
+    const isUrgent = feed.state.contacts !== this.contactsShown;
+    if (isUrgent || performance.now() >= this.stillUntil) return this.fill(feed);
+    this.timer ??= window.setTimeout(() => this.fill(feed), refreshMs);
   }
 
   private fill(feed: Feed): void {
-    const { status, steps, skipped, lastQueryUs, lastAddedUs, complaint } = feed.state;
-    const lines: [string, string, string?][] = counters.flatMap((name): [string, string][] => {
+    window.clearTimeout(this.timer ?? undefined);
+    this.timer = null;
+    this.stillUntil = performance.now() + refreshMs;
+    this.contactsShown = feed.state.contacts;
+    const { status, steps, skipped, contacts, latest, lastQueryUs, lastAddedUs, complaint } = feed.state;
+    const lines: [string, string, string?][] = [["contacts", count(contacts), latest === null ? "" : `the latest: ${nameOf(latest)}`]];
+    for (const name of counters) {
       const value = status[name];
-      return value === undefined ? [] : [[name, count(value)]];
-    });
+      if (value !== undefined) lines.push([name, count(value)]);
+    }
     const percentiles = (name: "query" | "answer"): void => {
       const p50 = status[`${name}_p50_us`], p99 = status[`${name}_p99_us`];
       if (p50 !== undefined && p99 !== undefined) lines.push([`${name}, half below`, microseconds(p50), `99 in 100 below ${microseconds(p99)}`]);
@@ -56,4 +62,8 @@ export class LiveCard {
     this.body.replaceChildren(definitionTable(lines));
     if (complaint !== "") this.body.append(element("p", { class: "complaint", text: `Not shown: ${complaint}` }));
   }
+}
+
+function nameOf({ linkName, object }: Contact): string {
+  return object === null ? linkName : `${linkName} × ${object}`;
 }

@@ -3,7 +3,7 @@
 import { discreteCount } from "../contacts/discrete.js";
 import type { Model } from "../model.js";
 import { byId } from "./dom.js";
-import { count, plural, tally } from "./words.js";
+import { plural, tally } from "./words.js";
 
 export function showHeadline(model: Model): void {
   byId("title").textContent = model.document.title;
@@ -19,5 +19,5 @@ function headline(model: Model): string {
   if (discrete === null || discrete.seen === discrete.all) return `${tally(model.contacts)}.`;
   const missed = discrete.all - discrete.seen;
   const touching = missed === 1 ? "touches" : "touch";
-  return `${tally(model.contacts)}. ${count(missed)} of the ${plural(discrete.all, "contact")} ${touching} nothing at either pose: a check at the poses alone misses them.`;
+  return `${tally(model.contacts)}. ${plural(missed, "contact")} ${touching} nothing at either pose: a discrete check misses ${missed === 1 ? "it" : "them"}.`;
 }

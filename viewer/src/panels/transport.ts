@@ -90,7 +90,7 @@ export class Transport {
     if (this.model.contacts.length > 0) add("showsGhosts", "Ghosts", "The pose before the step and the pose asked for (G)");
     if (hasSwept) add("showsSwept", "Swept volume", "Certified surface of what the link sweeps in the step (S)");
     if (this.model.document.scene.indices.length > 0) add("cutsAway", "Cut away", "Leave out what hides the avatar (C)");
-    if (this.model.avatars.length > 0) add("tracks", "Track", "The camera goes along with the avatar while time runs (T)");
+    if (this.model.avatars.length > 0 || this.model.isLive) add("tracks", "Track", "The camera goes along with the avatar while time runs (T)");
     if (this.model.avatars.some((avatar) => avatar.meshes.length > 0 && avatar.lss.length > 0)) {
       this.shape = button("LSS", "The avatar's LSS instead of its meshes (L)", () => toggleShape(this.store), "toggle");
       group.append(this.shape);

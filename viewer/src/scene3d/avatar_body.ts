@@ -10,9 +10,10 @@ import { appendCapsule, emptySurface } from "./capsule.js";
 /** In the stencil where an avatar itself is seen. */
 export const bodyStencil = 1;
 
-/** Vertices of a whole avatar, each moved by its link alone. */
+/** Vertices of a whole avatar, each moved by its link alone; in the other shape where it has but that. */
 export function bodyGeometry(avatar: Avatar, shape: Shape): THREE.BufferGeometry {
-  return shape === "mesh" ? meshGeometry(avatar) : capsuleGeometry(avatar);
+  const isMesh = avatar.lss.length === 0 || (shape === "mesh" && avatar.meshes.length > 0);
+  return isMesh ? meshGeometry(avatar) : capsuleGeometry(avatar);
 }
 
 function capsuleGeometry(avatar: Avatar): THREE.BufferGeometry {

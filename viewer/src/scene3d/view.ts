@@ -43,7 +43,7 @@ export class View3D {
   private readonly scenery: Scenery;
   private readonly markers = new Markers();
   private readonly swept: SweptView;
-  private readonly performers: Performer[];
+  private readonly performers: Performer[] = [];
   private readonly measures: Measures | null;
   private readonly origin: Vector;
 
@@ -61,11 +61,8 @@ export class View3D {
     this.scenery = new Scenery(model.document.scene, this.cutaway);
     this.occluders = new Occluders(model.document.scene);
     this.swept = new SweptView(model.avatars);
-    this.performers = model.avatars.map(
-      (avatar, i) => new Performer(avatar, model.clips[i], store.state.shape, this.origin),
-    );
     this.stage.scene.add(this.scenery.group, this.markers.group, this.swept.group);
-    for (const performer of this.performers) this.stage.scene.add(performer.group);
+    this.addPerformers();
     this.measures = model.document.kind === "inspection" ? this.makeMeasures() : null;
     this.markers.setContacts(model.contacts, this.origin, (contact) => this.thickness(contact));
     this.stage.onFrame((isCoarse) => this.beforeFrame(isCoarse));
@@ -89,6 +86,7 @@ export class View3D {
 
   update(changes: ReadonlySet<Change>): void {
     const { state } = this.store;
+    if (changes.has("avatars")) this.addPerformers();
     if (changes.has("theme")) this.paint();
     if (changes.has("shape")) for (const one of this.performers) one.setShape(state.shape);
     if (changes.has("contacts")) this.markers.setContacts(this.model.contacts, this.origin, (contact) => this.thickness(contact));
@@ -118,6 +116,17 @@ export class View3D {
     const isCentral = at !== null && Math.abs(at[0] / clientWidth - 0.5) < 0.3 && Math.abs(at[1] / clientHeight - 0.5) < 0.3;
     const distance = this.stage.camera.position.distanceTo(this.local(point));
     if (!isCentral || distance > 5 * this.avatarRadius(this.store.state.contact?.avatar ?? 0)) this.frame(false);
+  }
+
+  /** For those avatars that have none yet. */
+  private addPerformers(): void {
+    const { avatars, clips } = this.model, { shape, theme } = this.store.state;
+    for (let i = this.performers.length; i < avatars.length; ++i) {
+      const performer = new Performer(avatars[i], clips[i], shape, this.origin);
+      performer.paintGhosts(palettes[theme]);
+      this.performers.push(performer);
+      this.stage.scene.add(performer.group);
+    }
   }
 
   private pose(): void {

@@ -1,0 +1,59 @@
+// What makes moving pictures quick: how finely they are drawn, and the scene in fewer triangles.
+
+import assert from "node:assert/strict";
+import test from "node:test";
+import { coarsened } from "../build/scene3d/coarse.js";
+import { Pace } from "../build/scene3d/pace.js";
+
+test("slow frames are drawn with fewer pixels, quick ones with more again", () => {
+  const pace = new Pace();
+  const tell = (milliseconds, times) => Array.from({ length: times }, () => pace.took(milliseconds));
+  assert.deepEqual([pace.share, pace.isCoarse], [1, false]);
+  tell(90, 1);
+  tell(40, 1);
+  tell(90, 1);
+  assert.equal(pace.share, 1, "one slow frame says nothing");
+  tell(90, 1);
+  assert.deepEqual([pace.share, pace.isCoarse], [0.75, true]);
+  tell(200, 20);
+  assert.equal(pace.share, 0.35, "there is a coarsest");
+  tell(40, 100);
+  assert.equal(pace.share, 0.35, "neither slow nor quick: it stays");
+  tell(10, 30);
+  assert.equal(pace.share, 0.5);
+  tell(10, 200);
+  assert.deepEqual([pace.share, pace.isCoarse], [1, false]);
+});
+
+/** A square of `side` metres in 2 n² triangles, and beside it a thread a millimetre thick. */
+function squareAndThread(side, n) {
+  const positions = [], indices = [];
+  for (let i = 0; i <= n; ++i) for (let k = 0; k <= n; ++k) positions.push((side * i) / n, 0, (side * k) / n);
+  const at = (i, k) => (n + 1) * i + k;
+  for (let i = 0; i < n; ++i) for (let k = 0; k < n; ++k) {
+    indices.push(at(i, k), at(i + 1, k), at(i, k + 1), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1));
+  }
+  const first = positions.length / 3;
+  positions.push(5, 0, 0, 5, 1, 0, 5.001, 1, 0);
+  indices.push(first, first + 1, first + 2);
+  return { positions: Float32Array.from(positions), indices: Uint32Array.from(indices), first };
+}
+
+test("the coarse scene covers what the fine one does, and keeps threads as lines", () => {
+  const { positions, indices, first } = squareAndThread(2, 100);
+  const { triangles, lines } = coarsened(positions, indices, 2000);
+  assert.ok(triangles.length / 3 <= 2000 && triangles.length > 0);
+  let area = 0;
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => triangles[i + k]);
+    const side = (p, q, axis) => positions[3 * q + axis] - positions[3 * p + axis];
+    area += Math.abs(side(a, b, 0) * side(a, c, 2) - side(a, b, 2) * side(a, c, 0)) / 2;
+  }
+  assert.ok(Math.abs(area - 4) < 0.5, `${area} of 4 square metres`);
+  assert.ok([...lines].includes(first) && [...lines].includes(first + 1), "the thread");
+});
+
+test("few triangles stay, merged within the smallest cell alone", () => {
+  const { positions, indices } = squareAndThread(2, 10);
+  assert.equal(coarsened(positions, indices, 1000).triangles.length, indices.length - 3);
+});
