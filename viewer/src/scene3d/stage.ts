@@ -85,7 +85,7 @@ export class Stage {
     this.isAsked = false;
     this.isBusy = true;
     this.isFine = isFine || this.isFullAt(this.pace.share);
-    this.renderer.setPixelRatio(isFine ? this.fullRatio : this.screenRatio * this.pace.share);
+    this.setPixelRatio(isFine ? this.fullRatio : this.screenRatio * this.pace.share);
     this.beforeFrame(isCoarse);
     this.renderer.render(this.scene, this.camera);
     ++this.framesDrawn;
@@ -97,6 +97,11 @@ export class Stage {
     if (!wasFine) this.pace.took(took);
     if (this.isAsked) requestAnimationFrame(() => this.render(false));
     else if (!this.isFine) this.stillTimer = window.setTimeout(() => this.render(true), stillMs);
+  }
+
+  /** The renderer makes its buffers anew even where nothing changes. */
+  private setPixelRatio(ratio: number): void {
+    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
   }
 
   private get screenRatio(): number {
