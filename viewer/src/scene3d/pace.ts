@@ -8,9 +8,14 @@ const slowMs = 80, quickMs = 25;
 const slowInARow = 2, quickInARow = 30;
 
 export class Pace {
-  private level = 0;
+  private level: number;
   private slow = 0;
   private quick = 0;
+
+  /** Where drawing is known to be slow it begins coarsely. */
+  constructor(isSlow = false) {
+    this.level = isSlow ? 1 : 0;
+  }
 
   /** Of the full resolution. */
   get share(): number {

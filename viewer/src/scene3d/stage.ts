@@ -24,7 +24,7 @@ export class Stage {
   private beforeFrame: (isCoarse: boolean) => void = () => {};
 
   private readonly isSoftware = drawsBySoftware();
-  private readonly pace = new Pace();
+  private readonly pace = new Pace(this.isSoftware);
   private isBusy = false;
   private isFine = false;
   private stillTimer = 0;
