@@ -89,6 +89,10 @@ class Page:
         # Two frames: what was asked for is drawn in the first.
         self.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(0))))")
         time.sleep(0.7)  # panels and the camera settle
+        for _ in range(600):  # a moving picture is drawn coarsely where drawing is slow
+            if self.run("foretouch.state().isAtRest"):
+                break
+            time.sleep(0.1)
         data = self.call("Page.captureScreenshot", format="png", optimizeForSpeed=False)["data"]
         with open(path, "wb") as file:
             file.write(base64.b64decode(data))
