@@ -50,6 +50,9 @@ std::vector<ViewRow> querySettings(const ReplayRequest& request) {
   if (request.scope != Scope::EveryLink) rows.push_back({"scope", toString(request.scope), ""});
   if (!request.policyPath.empty()) rows.push_back({"policy", fileName(request.policyPath), ""});
   if (!request.ignore.empty()) rows.push_back({"ignored", joined(request.ignore), ""});
+  if (request.budgetUs > 0) {
+    rows.push_back({"budget", fmt::format("{} us a step, as work", request.budgetUs), ""});
+  }
   return rows;
 }
 

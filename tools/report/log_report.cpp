@@ -157,9 +157,6 @@ std::vector<ViewRow> LogReport::settings() const {
     rows.push_back({fmt::format("avatar {}", avatar.id), fileName(avatar.path), ""});
   }
   for (ViewRow& row : querySettings(request.query)) rows.push_back(std::move(row));
-  if (request.query.budgetUs > 0) {
-    rows.push_back({"budget", fmt::format("{} us a pose", request.query.budgetUs), ""});
-  }
   return rows;
 }
 

@@ -3,7 +3,6 @@
 #include <cstddef>
 
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 
 #include "tools/report/document_parts.h"
 #include "tools/report/view_writer.h"
@@ -23,7 +22,6 @@ void addSettings(const ServeConfig& config, ViewDocument& document) {
   }
   add({{"workers", std::to_string(config.workers), ""}, {"address", config.url, ""}});
   if (!config.suffix.empty()) add({{"suffix", config.suffix, ""}});
-  if (config.budgetUs > 0) add({{"budget", fmt::format("{} us", config.budgetUs), "as work"}});
 }
 
 ViewAvatar viewOf(const ServedAvatar& served, const StreamSolver& solver,
