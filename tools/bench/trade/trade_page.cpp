@@ -23,8 +23,8 @@ constexpr char kPosesOnly[] = "poses only";
 /// What lies closer to touching than this (m) is drawn there.
 constexpr double kLeastError = 1e-9;
 
-/// The rows of one scene and clip.
-using Rows = std::vector<const TradeRow*>;
+/// Those of one scene and clip.
+using Rows = TradeRows;
 
 std::string lengthText(double m) {
   if (!std::isfinite(m)) return "unknown";
@@ -45,16 +45,6 @@ std::string noteOf(const TradeRow& row) {
       row.strategy, lengthText(row.tolerance), row.rateHz, row.us.mean, row.us.p99,
       row.score.missed, row.score.contacts, row.score.late, row.score.falseOnes,
       lengthText(row.score.distanceErrorMean));
-}
-
-std::vector<std::string> strategiesOf(const Rows& rows) {
-  std::vector<std::string> names;
-  for (const TradeRow* const row : rows) {
-    if (std::find(names.begin(), names.end(), row->strategy) == names.end()) {
-      names.push_back(row->strategy);
-    }
-  }
-  return names;
 }
 
 template <typename IsWanted>

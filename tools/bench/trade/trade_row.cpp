@@ -48,6 +48,16 @@ TradeScore TradeScorer::score() const {
   return score;
 }
 
+std::vector<std::string> strategiesOf(const TradeRows& rows) {
+  std::vector<std::string> names;
+  for (const TradeRow* const row : rows) {
+    if (std::find(names.begin(), names.end(), row->strategy) == names.end()) {
+      names.push_back(row->strategy);
+    }
+  }
+  return names;
+}
+
 std::vector<bool> frontierOf(const std::vector<TradeChoice>& choices) {
   const auto beats = [](const TradeChoice& x, const TradeChoice& y) {
     return x.isSafe && x.cost <= y.cost && x.error <= y.error &&

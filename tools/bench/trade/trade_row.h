@@ -55,6 +55,11 @@ struct TradeRow {
   bool onFrontier = false;  ///< Of its scene, clip and rate.
 };
 
+/// Some of the rows; whoever holds them holds the rows as well.
+using TradeRows = std::vector<const TradeRow*>;
+/// The names of their strategies, each once, in the order in which they come.
+[[nodiscard]] std::vector<std::string> strategiesOf(const TradeRows& rows);
+
 /// One choice: what it costs, how wrong it is, and whether it may be taken at all.
 struct TradeChoice {
   double cost = 0.0, error = 0.0;

@@ -14,7 +14,7 @@
 namespace foretouch::tools {
 namespace {
 
-using Rows = std::vector<const TradeRow*>;
+using Rows = TradeRows;
 
 const char* wordFor(TradePromise promise) {
   switch (promise) {
@@ -103,16 +103,6 @@ struct Together {
     score.distanceErrorMax = std::max(score.distanceErrorMax, s.distanceErrorMax);
   }
 };
-
-std::vector<std::string> strategiesOf(const Rows& rows) {
-  std::vector<std::string> names;
-  for (const TradeRow* const row : rows) {
-    if (std::find(names.begin(), names.end(), row->strategy) == names.end()) {
-      names.push_back(row->strategy);
-    }
-  }
-  return names;
-}
 
 BenchTable strategyTable(const Rows& base, double tolerance, double rateHz) {
   BenchTable table{
