@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "articulated/text_file.h"
+#include "articulated/quoted.h"
 
 namespace foretouch {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "articulated/text_file.h"
+#include "articulated/quoted.h"
 
 namespace foretouch {
 namespace {

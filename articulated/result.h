@@ -1,5 +1,6 @@
 // articulated/result.h: how bad input is reported. An Error names the file, the place in it and
-// what was expected; the outcome of geometry is never an Error but a Verdict (middleware/query.h).
+// what was expected; the outcome of geometry is never an Error but a Verdict
+// (middleware/query/query.h).
 #pragma once
 
 #include <cstdint>

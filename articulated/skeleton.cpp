@@ -5,7 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "articulated/text_file.h"
+#include "articulated/quoted.h"
 
 namespace foretouch {
 namespace {

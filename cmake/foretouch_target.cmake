@@ -1,5 +1,26 @@
 # What every target of the house has in common.
 
+# Everything above the kernel is compiled several sources at once: headers cost far more than what
+# includes them. The kernel is not: there each source has its own constants of a proof, under the names
+# that its note gives them. It has its headers compiled once instead.
+#   foretouch_unity(<target> [batch size])
+function(foretouch_unity target)
+  if(FORETOUCH_UNITY)
+    set(batch ${ARGN} 8)
+    list(GET batch 0 batch)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+    # A class that holds what is local to its source is fine as long as it is local as well.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
+endfunction()
+function(foretouch_precompile target)
+  if(FORETOUCH_UNITY)
+    target_precompile_headers(${target} PRIVATE
+      <algorithm> <array> <cmath> <cstdint> <limits> <memory> <string> <utility> <vector>
+      <Eigen/Core> <Eigen/Geometry>)
+  endif()
+endfunction()
+
 # Warnings, checks and sanitizers. -ffp-contract=off: the error bounds of docs/guarantees.md count one
 # rounding an operation; a contracted multiply-add would round elsewhere and differ between CPUs.
 function(foretouch_compile_options target)
@@ -17,10 +38,10 @@ function(foretouch_compile_options target)
   endif()
 endfunction()
 
-# foretouch_library(<folder> HEADERS ... SOURCES ... LINKS ... PRIVATE_LINKS ...)
+# foretouch_library(<folder> [UNITY] HEADERS ... SOURCES ... LINKS ... PRIVATE_LINKS ...)
 # makes target foretouch_<folder>, alias foretouch::<folder>, installed and exported.
 function(foretouch_library folder)
-  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY" "" "HEADERS;SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   set(target foretouch_${folder})
   add_library(${target} ${ARG_SOURCES} ${ARG_HEADERS})
   add_library(foretouch::${folder} ALIAS ${target})
@@ -28,6 +49,11 @@ function(foretouch_library folder)
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     POSITION_INDEPENDENT_CODE ON)
   foretouch_compile_options(${target})
+  if(ARG_UNITY)
+    foretouch_unity(${target})
+  else()
+    foretouch_precompile(${target})
+  endif()
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/foretouch>)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "examples/circle.h"
 #include "examples/fixed_random.h"
 
 namespace foretouch::examples {
@@ -12,8 +13,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// An open cone; a sheet of no thickness, as lamp shades nearly are.
 void addShade(MeshBuilder& mesh, double bottomY, double bottomR, double topY, double topR) {

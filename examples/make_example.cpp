@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "articulated/avatar_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "examples/bvh_writer.h"
 #include "examples/choreography.h"
 #include "examples/dancer_body.h"

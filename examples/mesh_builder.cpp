@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "examples/circle.h"
+
 namespace foretouch::examples {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// sign(x)*|x|^power: the cosine and sine of a superellipse. What is zero up to rounding is zero: a
 /// small power would make 1e-16 visible.

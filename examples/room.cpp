@@ -6,14 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "examples/circle.h"
 #include "examples/fixed_random.h"
 
 namespace foretouch::examples {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// An opening in a wall, along the wall and upwards.
 struct Opening {

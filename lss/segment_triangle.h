@@ -26,8 +26,8 @@ struct ClosestPoints {
 
 /// Segment from `a` to `b`; zero length is legal. Triangles without area are legal: a segment, a
 /// point. All coordinates finite, below 1e100. The result does not depend on the order of the
-/// triangle's vertices as long as they come sorted (middleware/scene.h), nor on coordinates far
-/// from the origin: everything is computed relative to the triangle's first vertex.
+/// triangle's vertices as long as they come sorted (middleware/scene/scene.h), nor on coordinates
+/// far from the origin: everything is computed relative to the triangle's first vertex.
 [[nodiscard]] ClosestPoints closestPoints(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                           const Triangle& triangle);
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "middleware/query.h"
+#include "middleware/query_counters.h"
 
 namespace foretouch {
 

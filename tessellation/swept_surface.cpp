@@ -5,8 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "articulated/quoted.h"
 #include "lss/assert.h"
 #include "tessellation/sheet_bound.h"
 #include "tessellation/swept_chain.h"
@@ -14,6 +13,10 @@
 
 namespace foretouch {
 namespace {
+
+std::string tooSmall(double error, const std::string& what) {
+  return "an error of " + inDigits(error) + " m is too small for " + what;
+}
 
 using Eigen::Vector3d;
 
@@ -112,8 +115,7 @@ class SweptSurfaceBuilder::Parts {
     polytope_ = std::move(polytope).value();
     if (certified(lss_, options_, budget_, polytope_, budget_.sheet) > options_.error) {
       return problem(ErrorCode::OutOfRange,
-                     fmt::format("an error of {:g} m is too small for a radius of {:g} m",
-                                 options_.error, lss_.radius));
+                     tooSmall(options_.error, "a radius of " + inDigits(lss_.radius) + " m"));
     }
     return Done{};
   }
@@ -139,7 +141,7 @@ class SweptSurfaceBuilder::Parts {
   [[nodiscard]] Error tooFarOut() const;
   [[nodiscard]] Error tooMany() const {
     return problem(ErrorCode::LimitExceeded,
-                   fmt::format("more than {} triangles", options_.maxTriangles));
+                   "more than " + std::to_string(options_.maxTriangles) + " triangles");
   }
 
   Lss lss_;
@@ -157,8 +159,8 @@ Error SweptSurfaceBuilder::Parts::tooFarOut() const {
   const bool isSingle = options_.bits == CoordinateBits::Single;
   const double reach = static_cast<double>(largestCoordinate()) * budget_.spacing;
   return problem(ErrorCode::OutOfRange,
-                 fmt::format("an error of {:g} m is too small for {} coordinates beyond {:.3g} m",
-                             options_.error, isSingle ? "single-precision" : "double", reach));
+                 tooSmall(options_.error, std::string(isSingle ? "single-precision" : "double") +
+                                              " coordinates beyond " + inDigits(reach, 3) + " m"));
 }
 
 Result<LatticePoint> SweptSurfaceBuilder::Parts::onLattice(const Vector3d& point) const {
@@ -218,9 +220,7 @@ Result<Done> SweptSurfaceBuilder::Parts::add(const ChainMotion& motion, LinkId l
   const AxisBounds bounds = axisBounds(lss_, motion.bounds(link));
   if (!(std::max(bounds.positionRoundingA, bounds.positionRoundingB) <= budget_.position)) {
     return problem(ErrorCode::OutOfRange,
-                   fmt::format("an error of {:g} m is too small for the rounding of poses this far "
-                               "from the origin",
-                               options_.error));
+                   tooSmall(options_.error, "the rounding of poses this far from the origin"));
   }
   const double acceleration = std::max(bounds.accelerationA, bounds.accelerationB);
   const double length = span.endT - span.beginT;
@@ -228,8 +228,8 @@ Result<Done> SweptSurfaceBuilder::Parts::add(const ChainMotion& motion, LinkId l
       std::ceil(length * std::sqrt(acceleration / (8.0 * budget_.chord)) * kOutward);
   if (!(wanted < kMaxPiecesPerSpan)) {
     return problem(ErrorCode::LimitExceeded,
-                   fmt::format("an error of {:g} m takes more than {:g} pieces of one step",
-                               options_.error, kMaxPiecesPerSpan));
+                   "an error of " + inDigits(options_.error) + " m takes more than " +
+                       inDigits(kMaxPiecesPerSpan) + " pieces of one step");
   }
   auto first = instantAt(motion, link, span.beginT);
   if (!first.ok()) return first.error();
@@ -284,9 +284,7 @@ Result<SweptSurfaceBuilder> SweptSurfaceBuilder::create(const Lss& lss_L,
   // Above this, and below, powers of two near the error leave a double's range.
   if (!(options.error >= 1e-12 && options.error <= 1e6)) {
     return problem(ErrorCode::OutOfRange,
-                   fmt::format("expected an error from 1e-12 to 1e6 m, found "
-                               "{:g}",
-                               options.error));
+                   "expected an error from 1e-12 to 1e6 m, found " + inDigits(options.error));
   }
   auto parts = std::make_unique<Parts>(lss_L, options);
   const auto ready = parts->prepare();

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 
 namespace foretouch::tools {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "articulated/joint_match.h"
 #include "articulated/result.h"
-#include "middleware/query.h"
-#include "middleware/scene_import.h"
+#include "assets/avatar/joint_match.h"
+#include "assets/import/scene_import.h"
+#include "middleware/query/query.h"
 
 namespace foretouch::tools {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "middleware/query.h"
+#include "middleware/query/query.h"
 
 namespace foretouch::tools {
 

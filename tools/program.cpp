@@ -6,19 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/audit/avatar_command.h"
-#include "tools/audit/scene_command.h"
-#include "tools/bench/command.h"
-#include "tools/bench/tune_command.h"
-#include "tools/commands/demo_command.h"
-#include "tools/commands/replay_command.h"
-#include "tools/commands/serve_command.h"
 #include "tools/console.h"
-#include "tools/log/log_command.h"
-#include "tools/report/view_command.h"
-#include "tools/stream/listen_command.h"
-#include "tools/stream/publish_command.h"
-#include "tools/sweep/sweep_command.h"
 
 namespace foretouch::tools {
 namespace {
@@ -40,25 +28,14 @@ std::string helpOf(const CLI::App& app) {
   return words + " --help";
 }
 
-ExitCode run(int argc, const char* const* argv) {
-  CLI::App program("Continuous collision detection of avatars: what is touched between two poses.",
-                   "foretouch");
-  program.set_version_flag("--version", "foretouch " FORETOUCH_VERSION);
+ExitCode run(const ProgramText& text, const AddCommands& addCommands, int argc,
+             const char* const* argv) {
+  CLI::App program(text.purpose, text.name);
+  program.set_version_flag("--version", std::string(text.name) + " " FORETOUCH_VERSION);
   program.require_subcommand(1);
-  program.footer("Start with: foretouch demo");
+  program.footer(text.start);
   ExitCode exit = ExitCode::Done;
-  addDemoCommand(program, exit);
-  addReplayCommand(program, exit);
-  addViewCommand(program, exit);
-  addServeCommand(program, exit);
-  addPublishCommand(program, exit);
-  addListenCommand(program, exit);
-  addAvatarCommand(program, exit);
-  addSceneCommand(program, exit);
-  addSweepCommand(program, exit);
-  addLogCommand(program, exit);
-  addTuneCommand(program, exit);
-  addBenchCommand(program, exit);
+  addCommands(program, exit);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -73,10 +50,11 @@ ExitCode run(int argc, const char* const* argv) {
 
 }  // namespace
 
-int runProgram(int argc, const char* const* argv) noexcept {
+int runProgram(const ProgramText& text, const AddCommands& addCommands, int argc,
+               const char* const* argv) noexcept {
   ExitCode exit = ExitCode::BadInput;
   try {
-    exit = run(argc, argv);
+    exit = run(text, addCommands, argc, argv);
   } catch (const std::bad_alloc&) {
     printError("ran out of memory");
   } catch (const std::exception& e) {

@@ -5,7 +5,7 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
 

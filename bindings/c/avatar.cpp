@@ -4,11 +4,11 @@
 #include <string_view>
 #include <utility>
 
-#include "articulated/avatar_file.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/mesh/link_mesh.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/import_options.h"
 #include "bindings/c/sized_struct.h"
-#include "middleware/link_mesh.h"
 
 namespace foretouch::c {
 

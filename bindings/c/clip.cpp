@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "articulated/bvh_reader.h"
+#include "assets/bvh/bvh_reader.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/import_options.h"
 #include "bindings/c/sized_struct.h"

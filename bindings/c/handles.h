@@ -9,13 +9,13 @@
 
 #include "articulated/avatar.h"
 #include "articulated/clip.h"
-#include "articulated/joint_match.h"
 #include "articulated/motion.h"
 #include "articulated/pose.h"
+#include "assets/avatar/joint_match.h"
 #include "bindings/c/status.h"
-#include "middleware/avatar_surface.h"
-#include "middleware/query.h"
-#include "middleware/scene.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
+#include "middleware/surface/avatar_surface.h"
 
 namespace foretouch::c {
 

@@ -1,8 +1,8 @@
 // bindings/c/import_options.h: options of the child process that reads models, and where it is.
 #pragma once
 
+#include "assets/import/scene_import.h"
 #include "bindings/c/sized_struct.h"
-#include "middleware/scene_import.h"
 
 namespace foretouch::c {
 

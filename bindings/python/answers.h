@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "middleware/query.h"
-#include "middleware/scene.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::python {
 

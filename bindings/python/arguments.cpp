@@ -4,7 +4,7 @@
 #include <limits>
 #include <pybind11/stl.h>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 
 namespace foretouch::python {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "articulated/avatar_file.h"
-#include "articulated/bvh_avatar.h"
-#include "articulated/bvh_reader.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/bvh/bvh_avatar.h"
+#include "assets/bvh/bvh_reader.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"
@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using SharedAvatar = std::shared_ptr<Avatar>;
 
-SharedAvatar load(const py::object& file) {
+SharedAvatar loadAvatar(const py::object& file) {
   const std::string from = path(file, "path");
   const py::gil_scoped_release free;
   return std::make_shared<Avatar>(valueOf(readAvatarFile(from), from));
@@ -122,7 +122,7 @@ py::list lssList(const Avatar& avatar) {
   return perLink;
 }
 
-std::string representation(const Avatar& avatar) {
+std::string representAvatar(const Avatar& avatar) {
   return "<foretouch.Avatar of " + std::to_string(avatar.numLinks()) + " links, " +
          std::to_string(avatar.numLss()) + " LSS>";
 }
@@ -134,7 +134,7 @@ void bindAvatar(py::module_& module) {
       module, "Avatar",
       "A tree of links, each bounded by line-swept spheres (LSS) in its frame. Immutable; any\n"
       "number of threads may use one. Metres, quaternions in the order w, x, y, z.")
-      .def_static("load", &load, py::arg("path"), "An avatar file (docs/formats.md).")
+      .def_static("load", &loadAvatar, py::arg("path"), "An avatar file (docs/formats.md).")
       .def_static("from_arrays", &fromArrays, py::arg("names"), py::arg("parents"),
                   py::arg("offsets"), py::arg("rotations"), py::arg("lss"),
                   "names: one a link, unique; parents (n,): an earlier link, -1 for a root;\n"
@@ -160,7 +160,7 @@ void bindAvatar(py::module_& module) {
       .def_property_readonly("parents", &parentArray, "A copy, (n,); -1 for roots.")
       .def_property_readonly("lss", &lssList, "A list a link of Lss.")
       .def("__len__", &Avatar::numLinks)
-      .def("__repr__", &representation);
+      .def("__repr__", &representAvatar);
 }
 
 }  // namespace foretouch::python

@@ -4,8 +4,8 @@
 #include <memory>
 #include <pybind11/stl.h>
 
-#include "articulated/bvh_reader.h"
-#include "articulated/joint_match.h"
+#include "assets/avatar/joint_match.h"
+#include "assets/bvh/bvh_reader.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"
@@ -15,7 +15,7 @@ namespace {
 
 using SharedClip = std::shared_ptr<Clip>;
 
-SharedClip load(const py::object& file, const py::object& scale) {
+SharedClip loadClip(const py::object& file, const py::object& scale) {
   const std::string from = path(file, "path");
   const BvhOptions options{number(scale, "scale")};
   const py::gil_scoped_release free;
@@ -70,7 +70,7 @@ std::vector<std::string> jointNames(const Clip& clip) {
   return names;
 }
 
-std::string representation(const Clip& clip) {
+std::string representClip(const Clip& clip) {
   return "<foretouch.Clip of " + std::to_string(clip.frames.size()) + " frames, " +
          std::to_string(clip.skeleton.numJoints()) + " joints, " +
          std::to_string(clip.durationS()) + " s>";
@@ -81,7 +81,7 @@ std::string representation(const Clip& clip) {
 void bindClip(py::module_& module) {
   const py::object origin = py::make_tuple(0.0, 0.0, 0.0);
   py::class_<Clip, SharedClip>(module, "Clip", "A mocap clip: poses at a fixed rate. Immutable.")
-      .def_static("load", &load, py::arg("path"), py::arg("scale") = 1.0,
+      .def_static("load", &loadClip, py::arg("path"), py::arg("scale") = 1.0,
                   "A BVH file. scale: metres per unit (0.01 for centimetres).")
       .def("poses", &poses, py::arg("avatar"), py::kw_only(), py::arg("joint_map") = py::none(),
            py::arg("up") = "y", py::arg("origin") = origin, py::arg("yaw_deg") = 0.0,
@@ -97,7 +97,7 @@ void bindClip(py::module_& module) {
           "notes", [](const Clip& clip) { return clip.notes; },
           "What the reader tolerated, a sentence each.")
       .def("__len__", [](const Clip& clip) { return clip.frames.size(); })
-      .def("__repr__", &representation);
+      .def("__repr__", &representClip);
 }
 
 }  // namespace foretouch::python

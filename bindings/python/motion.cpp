@@ -9,8 +9,8 @@
 namespace foretouch::python {
 namespace {
 
-std::unique_ptr<Motion> create(std::shared_ptr<Avatar> avatar, const py::object& start,
-                               const py::object& end) {
+std::unique_ptr<Motion> createMotion(std::shared_ptr<Avatar> avatar, const py::object& start,
+                                     const py::object& end) {
   const Skeleton& skeleton = avatar->skeleton();
   Pose from = poseFrom(skeleton, start, "start"), to = poseFrom(skeleton, end, "end");
   ChainMotion chain(skeleton, from, to);
@@ -52,7 +52,7 @@ void bindMotion(py::module_& module) {
       module, "Motion",
       "The in-between motion of an avatar: every joint turns at constant rate on the shorter arc\n"
       "(slerp) and moves on a straight line in its parent's frame, t from 0 to 1. Immutable.")
-      .def(py::init(&create), py::arg("avatar").none(false), py::arg("start"), py::arg("end"))
+      .def(py::init(&createMotion), py::arg("avatar").none(false), py::arg("start"), py::arg("end"))
       .def("transforms", &transforms, py::arg("t"),
            "Where every link is: (n, 4, 4) homogeneous matrices from the link's frame to the\n"
            "world for a number t, (k, n, 4, 4) for k of them.")

@@ -8,7 +8,7 @@
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"
 #include "bindings/python/query_options.h"
-#include "middleware/query_pool.h"
+#include "middleware/query/query_pool.h"
 
 namespace foretouch::python {
 namespace {
@@ -118,10 +118,10 @@ py::array_t<bool> Query::touchesAt(const Motion& motion, const Instants& instant
 
 namespace {
 
-std::unique_ptr<Query> create(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene,
-                              py::object tolerance, py::object fidelity, py::object policies,
-                              py::object ignore, py::object workBudget, py::object deadlineUs,
-                              py::object scope, py::object surface) {
+std::unique_ptr<Query> createQuery(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene,
+                                   py::object tolerance, py::object fidelity, py::object policies,
+                                   py::object ignore, py::object workBudget, py::object deadlineUs,
+                                   py::object scope, py::object surface) {
   auto options =
       optionsFrom({tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface},
                   *avatar, *scene);
@@ -163,7 +163,7 @@ void bindQuery(py::module_& module) {
   py::class_<Query>(module, "Query",
                     "A question that is asked again and again: avatar, scene and options, checked\n"
                     "once, and memory that is kept. Any number of threads may ask one at once.")
-      .def(py::init(&create), py::arg("avatar").none(false), py::arg("scene").none(false),
+      .def(py::init(&createQuery), py::arg("avatar").none(false), py::arg("scene").none(false),
            py::kw_only(), py::arg("tolerance") = usual.tolerance, py::arg("fidelity") = "link",
            py::arg("policies") = py::none(), py::arg("ignore") = py::tuple(),
            py::arg("work_budget") = py::none(), py::arg("deadline_us") = py::none(),

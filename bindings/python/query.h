@@ -11,8 +11,8 @@
 #include "bindings/python/answers.h"
 #include "bindings/python/instants.h"
 #include "bindings/python/motion.h"
-#include "middleware/query.h"
-#include "middleware/scene.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::python {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bindings/python/arguments.h"
-#include "middleware/query.h"
+#include "middleware/query/query.h"
 
 namespace foretouch::python {
 

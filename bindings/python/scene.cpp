@@ -1,15 +1,15 @@
 // bindings/python/scene.cpp: foretouch.Scene.
-#include "middleware/scene.h"
+#include "middleware/scene/scene.h"
 
 #include <limits>
 #include <memory>
 #include <pybind11/stl.h>
 
+#include "assets/import/scene_import.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/importer_place.h"
 #include "bindings/python/poses.h"
-#include "middleware/scene_import.h"
 
 namespace foretouch::python {
 namespace {
@@ -80,9 +80,9 @@ SharedScene fromArrays(const py::object& vertices, const py::object& triangles,
   return built(std::move(raw), "Scene.from_arrays");
 }
 
-SharedScene load(const py::object& file, const py::object& scale, const py::object& up,
-                 const py::object& importer, const py::object& timeLimitS,
-                 const py::object& memoryLimitBytes) {
+SharedScene loadScene(const py::object& file, const py::object& scale, const py::object& up,
+                      const py::object& importer, const py::object& timeLimitS,
+                      const py::object& memoryLimitBytes) {
   static constexpr std::array<std::pair<const char*, UpAxis>, 2> kAxes{
       {{"y", UpAxis::Y}, {"z", UpAxis::Z}}};
   const std::string from = path(file, "path");
@@ -138,7 +138,7 @@ py::object auditOf(const Scene& scene) {
                                   audit.shortestEdge, audit.longestEdge);
 }
 
-std::string representation(const Scene& scene) {
+std::string representScene(const Scene& scene) {
   return "<foretouch.Scene of " + std::to_string(scene.numTriangles()) + " triangles, " +
          std::to_string(scene.objectNames().size()) + " objects>";
 }
@@ -157,7 +157,7 @@ void bindScene(py::module_& module) {
           "vertices (n, 3) in metres; triangles (m, 3) indices of vertices; object_of (m,)\n"
           "indices of object_names. Without object_of all triangles are one object.")
       .def_static(
-          "load", &load, py::arg("path"), py::arg("scale") = usual.scale, py::arg("up") = "y",
+          "load", &loadScene, py::arg("path"), py::arg("scale") = usual.scale, py::arg("up") = "y",
           py::kw_only(), py::arg("importer") = py::none(),
           py::arg("time_limit_s") = usual.timeLimitS,
           py::arg("memory_limit_bytes") = usual.memoryLimitBytes,
@@ -170,7 +170,7 @@ void bindScene(py::module_& module) {
       .def_property_readonly("object_of", &objectArray, "A copy, (m,): indices of object_names.")
       .def_property_readonly("object_names", &nameList)
       .def_property_readonly("audit", &auditOf)
-      .def("__repr__", &representation);
+      .def("__repr__", &representScene);
 }
 
 }  // namespace foretouch::python

@@ -1,10 +1,10 @@
 // bindings/python/surface.cpp: foretouch.Surface, which exact fidelity needs.
 #include "bindings/python/surface.h"
 
+#include "assets/mesh/link_mesh.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/importer_place.h"
-#include "middleware/link_mesh.h"
 
 namespace foretouch::python {
 namespace {
@@ -17,8 +17,8 @@ Surface built(std::shared_ptr<Avatar> avatar, TrianglesPerLink perLink, const st
   return {std::move(avatar), std::move(surface)};
 }
 
-Surface load(std::shared_ptr<Avatar> avatar, const py::object& avatarPath,
-             const py::object& importer) {
+Surface loadSurface(std::shared_ptr<Avatar> avatar, const py::object& avatarPath,
+                    const py::object& importer) {
   const std::string beside = path(avatarPath, "avatar_path");
   ModelImportOptions options;
   options.import.importer = importerPlace(importer);
@@ -65,7 +65,7 @@ Numbers trianglesOf(const Surface& surface, const py::object& link) {
 void bindSurface(py::module_& module) {
   py::class_<Surface>(module, "Surface",
                       "An avatar's own triangles, for fidelity 'exact'. Immutable.")
-      .def_static("load", &load, py::arg("avatar").none(false), py::arg("avatar_path"),
+      .def_static("load", &loadSurface, py::arg("avatar").none(false), py::arg("avatar_path"),
                   py::kw_only(), py::arg("importer") = py::none(),
                   "The meshes that the avatar file at avatar_path refers to.")
       .def_static("from_triangles", &fromTriangles, py::arg("avatar").none(false),

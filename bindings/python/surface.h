@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "articulated/avatar.h"
-#include "middleware/avatar_surface.h"
+#include "middleware/surface/avatar_surface.h"
 
 namespace foretouch::python {
 

@@ -15,13 +15,9 @@
 
 #include "lss/triangle.h"
 #include "middleware/exact/leaf.h"
+#include "middleware/exact/linear_point.h"
 
 namespace foretouch {
-
-/// from + t*(to - from), exactly: of the two doubles as real numbers.
-struct LinearPoint {
-  Eigen::Vector3d from, to;
-};
 
 // All coordinates finite, |coordinate| <= 1e100 and, where not zero, >= 1e-100 (asserted).
 [[nodiscard]] LeafAnswer vertexFace(const LinearPoint& vertex,

@@ -5,7 +5,8 @@
 
 #include <array>
 
-#include "middleware/exact/linear_query.h"
+#include "middleware/exact/leaf.h"
+#include "middleware/exact/linear_point.h"
 
 namespace foretouch::internal {
 

@@ -9,7 +9,7 @@
 
 #include "lss/separation.h"
 #include "middleware/exact/cubic.h"
-#include "middleware/exact/rigid_query.h"
+#include "middleware/exact/nlerp_motion.h"
 
 namespace foretouch::internal {
 

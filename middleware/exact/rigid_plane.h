@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "lss/triangle.h"
-#include "middleware/exact/rigid_query.h"
+#include "middleware/exact/nlerp_motion.h"
 
 namespace foretouch::internal {
 

@@ -5,31 +5,12 @@
 // a microsecond.
 #pragma once
 
-#include <Eigen/Core>
-
-#include "articulated/skeleton.h"
 #include "lss/triangle.h"
-#include "middleware/exact/leaf.h"
+#include "middleware/exact/nlerp_motion.h"
 
 namespace foretouch {
 
-/// x(t) = x0 + t*(x1 - x0), q(t) = q0 + t*(q1 - q0); a point p of the body is at x + R(q)p. The
-/// quaternions need not be unit. Precondition: q0.q1 >= 0 and both have norm in [0.5, 2]
-/// (asserted), so that |q(t)| > 0.
-struct NlerpMotion {
-  Eigen::Vector3d x0, x1;
-  Quaternion q0, q1;
-};
-
-/// The first instant at which the separation is no longer proved to exceed `band` (metres, >= 0).
-/// Sound: where not `hits`, separation > band on all of [0,1]; where `hits`, separation > band on
-/// [0, toiLow). Tight: at some instant of [toiLow, toiHigh] the separation is at most
-/// band + rigidBand(...).
-struct RigidAnswer {
-  LeafAnswer leaf;               ///< `stage` is Filter.
-  bool startsInContact = false;  ///< Separation <= band at t = 0, up to rigidBand().
-  Feature moving, fixed;
-};
+/// A band (metres, >= 0) about the triangle counts as contact.
 [[nodiscard]] RigidAnswer rigidTrianglePair(const NlerpMotion& motion, const Triangle& moving_L,
                                             const Triangle& fixed_W, double band);
 

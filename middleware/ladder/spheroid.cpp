@@ -6,7 +6,7 @@
 
 #include "lss/assert.h"
 #include "lss/separation.h"
-#include "middleware/link_pair.h"
+#include "middleware/query/link_pair.h"
 
 namespace foretouch::internal {
 namespace {

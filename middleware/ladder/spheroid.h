@@ -10,7 +10,7 @@
 #include "articulated/motion.h"
 #include "lss/lss.h"
 #include "lss/triangle.h"
-#include "middleware/rungs.h"
+#include "middleware/ladder/rungs.h"
 
 namespace foretouch::internal {
 

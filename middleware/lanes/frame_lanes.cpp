@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "middleware/culler.h"
+#include "middleware/scene/culler.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "middleware/lanes/frame_lanes.cpp"

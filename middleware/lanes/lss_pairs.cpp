@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "middleware/culler.h"
+#include "middleware/scene/culler.h"
 
 #ifndef FORETOUCH_LANES_LSS_PAIRS_ROWS
 #define FORETOUCH_LANES_LSS_PAIRS_ROWS

@@ -11,7 +11,7 @@
 #include <hwy/aligned_allocator.h>
 #include <vector>
 
-#include "middleware/flat_bvh_lanes.h"
+#include "middleware/scene/flat_bvh_lanes.h"
 #include "tessellation/lss_polynomials.h"
 
 namespace foretouch::internal {

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <optional>
 
-#include "middleware/query.h"
+#include "middleware/query/query.h"
 #include "tests/bindings/c_world.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"

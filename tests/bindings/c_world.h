@@ -12,7 +12,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/pose.h"
-#include "middleware/scene.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::test {
 

@@ -2,10 +2,10 @@
 #include <cstdlib>
 #include <string>
 
-#include "articulated/avatar_file.h"
-#include "articulated/bvh_reader.h"
-#include "articulated/joint_match.h"
-#include "middleware/link_mesh.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/avatar/joint_match.h"
+#include "assets/bvh/bvh_reader.h"
+#include "assets/mesh/link_mesh.h"
 #include "tests/bindings/c_world.h"
 #include "tests/support/temp_folder.h"
 

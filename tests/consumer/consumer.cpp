@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "middleware/query.h"
+#include "middleware/query/query.h"
 
 using namespace foretouch;
 

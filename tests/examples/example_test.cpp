@@ -14,12 +14,12 @@
 
 #include <gtest/gtest.h>
 
-#include "articulated/avatar_file.h"
-#include "articulated/bvh_reader.h"
-#include "articulated/joint_match.h"
 #include "articulated/motion.h"
-#include "middleware/query.h"
-#include "middleware/scene.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/avatar/joint_match.h"
+#include "assets/bvh/bvh_reader.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch {
 namespace {

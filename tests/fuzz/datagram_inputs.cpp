@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "network/messages.h"
-#include "network/udpm_reassembly.h"
+#include "network/wire/messages.h"
+#include "network/wire/udpm_reassembly.h"
 #include "tests/fuzz/promise.h"
 
 namespace foretouch::fuzz {

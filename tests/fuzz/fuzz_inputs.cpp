@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "articulated/avatar_file.h"
-#include "articulated/bvh_avatar.h"
-#include "articulated/bvh_reader.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/bvh/bvh_avatar.h"
+#include "assets/bvh/bvh_reader.h"
 #include "tests/fuzz/promise.h"
 
 namespace foretouch::fuzz {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "network/event_log_format.h"
-#include "network/event_log_reader_access.h"
+#include "network/log/event_log_format.h"
+#include "network/log/event_log_reader_access.h"
 #include "tests/fuzz/promise.h"
 
 namespace foretouch::fuzz {

@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include "network/codec.h"
-#include "network/payload_check.h"
+#include "network/wire/codec.h"
+#include "network/wire/payload_check.h"
 #include "tests/fuzz/promise.h"
 
 namespace foretouch::fuzz {

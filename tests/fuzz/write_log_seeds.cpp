@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "tests/network/log_samples.h"
+#include "tests/network/log/log_samples.h"
 
 int main(int argc, char** argv) {
   using namespace foretouch;

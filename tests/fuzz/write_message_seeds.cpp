@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "network/codec.h"
+#include "network/wire/codec.h"
 #include "tests/network/random_messages.h"
 
 namespace {

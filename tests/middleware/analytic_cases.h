@@ -11,7 +11,7 @@
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "articulated/pose.h"
-#include "middleware/scene.h"
+#include "middleware/scene/scene.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {

@@ -5,7 +5,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "middleware/scene.h"
+#include "middleware/scene/scene.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {

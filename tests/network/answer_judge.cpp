@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "network/codec.h"
+#include "network/wire/codec.h"
 
 namespace foretouch::test {
 namespace {

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <set>
 
-#include "network/messages.h"
-#include "network/reject.h"
-#include "network/stream_solver.h"
+#include "network/stream/stream_solver.h"
+#include "network/wire/messages.h"
+#include "network/wire/reject.h"
 #include "tests/network/simulated_sender.h"
-#include "tests/network/stream_simulation.h"
+#include "tests/network/stream/stream_simulation.h"
 
 namespace foretouch::test {
 

@@ -15,9 +15,9 @@
 
 #include <gtest/gtest.h>
 
-#include "network/udpm_socket.h"
-#include "network/wire.h"
-#include "tests/network/udpm_bytes.h"
+#include "network/wire/udpm_socket.h"
+#include "network/wire/wire.h"
+#include "tests/network/wire/udpm_bytes.h"
 
 namespace foretouch::test {
 

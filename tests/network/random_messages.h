@@ -2,7 +2,7 @@
 // share of awkward ones: empty lists, the largest numbers, denormals, -0.0, names of any UTF-8.
 #pragma once
 
-#include "network/messages.h"
+#include "network/wire/messages.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {

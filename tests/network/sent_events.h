@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "network/view_event.h"
+#include "network/watch/view_event.h"
 
 namespace foretouch::test {
 

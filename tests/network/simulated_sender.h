@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "network/codec.h"
-#include "network/messages.h"
+#include "network/wire/codec.h"
+#include "network/wire/messages.h"
 #include "tests/network/simulated_world.h"
 
 namespace foretouch::test {

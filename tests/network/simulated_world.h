@@ -6,7 +6,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/pose.h"
-#include "middleware/scene.h"
+#include "middleware/scene/scene.h"
 #include "tests/support/oracle_motion.h"
 #include "tests/support/oracle_prover.h"
 #include "tests/support/oracle_scene.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "network/messages.h"
+#include "network/wire/messages.h"
 
 namespace foretouch::test {
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "network/avatar_stream.h"
+#include "network/stream/avatar_stream.h"
 #include "tests/network/small_stream.h"
 
 namespace foretouch::test {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/rungs.h"
+#include "middleware/ladder/rungs.h"
 #include "tests/oracle/sweep_inputs.h"
 #include "tests/support/shared_data.h"
 

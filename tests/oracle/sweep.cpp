@@ -7,7 +7,7 @@
 #include <sstream>
 #include <thread>
 
-#include "middleware/rungs.h"
+#include "middleware/ladder/rungs.h"
 
 namespace foretouch::test {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "articulated/bvh_avatar.h"
-#include "articulated/bvh_reader.h"
-#include "articulated/model_avatar.h"
-#include "articulated/model_clip.h"
-#include "middleware/model_import.h"
-#include "middleware/scene_import.h"
+#include "assets/bvh/bvh_avatar.h"
+#include "assets/bvh/bvh_reader.h"
+#include "assets/import/model_import.h"
+#include "assets/import/scene_import.h"
+#include "assets/model/model_avatar.h"
+#include "assets/model/model_clip.h"
 
 namespace foretouch::test {
 namespace {

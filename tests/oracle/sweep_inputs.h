@@ -9,8 +9,8 @@
 #include "articulated/avatar.h"
 #include "articulated/clip.h"
 #include "articulated/result.h"
-#include "middleware/query.h"
-#include "middleware/scene.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
 #include "tests/support/oracle_judge.h"
 
 namespace foretouch::test {

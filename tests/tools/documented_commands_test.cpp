@@ -1,5 +1,5 @@
 // tests/tools/documented_commands_test.cpp: what the documents tell people to type exists: every
-// subcommand and option of `foretouch`, every task of `./run`.
+// subcommand and option of `foretouch` and `foretouch-bench`, every task of `./run`.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -54,14 +54,18 @@ Help helpFrom(const std::string& text) {
   return help;
 }
 
-/// The help of a subcommand, asked for once.
+bool isProgram(const std::string& word) {
+  return word == "foretouch" || word == "foretouch-bench";
+}
+
+/// The help of a program (the first word) or of a subcommand of it, asked for once.
 const Help& helpOf(const Words& path) {
   static std::map<Words, Help> known;
   const auto found = known.find(path);
   if (found != known.end()) return found->second;
-  Words arguments = path;
+  Words arguments(path.begin() + 1, path.end());
   arguments.emplace_back("--help");
-  const Ended ended = runForetouch(arguments);
+  const Ended ended = path.front() == "foretouch" ? runForetouch(arguments) : runBench(arguments);
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   return known[path] = helpFrom(ended.out);
 }
@@ -112,10 +116,10 @@ bool isWord(const std::string& text) {
   });
 }
 
-/// Words after `foretouch`. "..." and words in capitals stand for something.
+/// The words from the program's name on. "..." and words in capitals stand for something.
 void expectCommand(const Words& words, const std::string& where) {
-  Words path;
-  std::size_t at = 0;
+  Words path{words.front()};
+  std::size_t at = 1;
   while (at < words.size() && isWord(words[at]) && words[at].front() != '-') {
     const Help& help = helpOf(path);
     if (help.subcommands.count(words[at]) == 0) {
@@ -124,7 +128,7 @@ void expectCommand(const Words& words, const std::string& where) {
     }
     path.push_back(words[at++]);
   }
-  if (path.empty()) return;
+  if (path.size() == 1) return;
   for (; at < words.size(); ++at) {
     const std::string option = words[at].substr(0, words[at].find_first_of("=,.;:)]"));
     if (option.rfind("--", 0) != 0 && !(option.size() == 2 && option.front() == '-' &&
@@ -156,9 +160,9 @@ TEST(Documents, TellOnlyOfCommandsAndOptionsThatExist) {
         EXPECT_NE(tasks.find("\n  " + words[1] + ")"), std::string::npos) << where;
         words.erase(words.begin());
       }
-      if (words.empty() || words.front() != "foretouch") continue;
+      if (words.empty() || !isProgram(words.front())) continue;
       ++commands;
-      expectCommand({words.begin() + 1, words.end()}, where);
+      expectCommand(words, where);
     }
   }
   EXPECT_GT(commands, 50);
@@ -166,11 +170,11 @@ TEST(Documents, TellOnlyOfCommandsAndOptionsThatExist) {
 }
 
 TEST(Documents, OptionsAreReadFromHelpTexts) {
-  const Help replay = helpOf({"replay"});
+  const Help replay = helpOf({"foretouch", "replay"});
   EXPECT_EQ(replay.options.count("--scene"), 1u);
   EXPECT_EQ(replay.options.count("--compare-rigid"), 1u);
   EXPECT_EQ(replay.options.count("--sceen"), 0u);
-  const Help avatar = helpOf({"avatar"});
+  const Help avatar = helpOf({"foretouch", "avatar"});
   EXPECT_EQ(avatar.subcommands.count("check"), 1u);
 }
 

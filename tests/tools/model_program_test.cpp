@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "articulated/avatar_file.h"
-#include "articulated/joint_match.h"
-#include "articulated/model_avatar.h"
-#include "articulated/model_clip.h"
 #include "articulated/motion.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/avatar/joint_match.h"
+#include "assets/import/model_import.h"
+#include "assets/model/model_avatar.h"
+#include "assets/model/model_clip.h"
 #include "lss/lss_cover.h"
-#include "middleware/model_import.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"

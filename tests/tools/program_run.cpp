@@ -66,4 +66,8 @@ Ended runForetouch(const std::vector<std::string>& arguments,
   return ProgramRun(arguments, environment).ended();
 }
 
+Ended runBench(const std::vector<std::string>& arguments) {
+  return ProgramRun(arguments, {}, "", std::string(FORETOUCH_PROGRAM) + "-bench").ended();
+}
+
 }  // namespace foretouch::test

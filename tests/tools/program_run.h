@@ -42,5 +42,7 @@ class ProgramRun {
 
 Ended runForetouch(const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment = {});
+/// `foretouch-bench`, which lies beside it.
+Ended runBench(const std::vector<std::string>& arguments);
 
 }  // namespace foretouch::test

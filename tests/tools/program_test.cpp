@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "articulated/avatar_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
 
@@ -25,7 +25,7 @@ TEST(Program, SaysItsVersion) {
 TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
   const Ended top = runForetouch({"--help"});
   EXPECT_EQ(top.exitCode, 0);
-  for (const std::string command : {"demo", "replay", "avatar", "scene", "bench"}) {
+  for (const std::string command : {"demo", "replay", "avatar", "scene", "sweep"}) {
     EXPECT_TRUE(holds(top.out, "\n  " + command)) << command;
   }
   for (const std::vector<std::string>& command :
@@ -36,7 +36,7 @@ TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
                                              {"avatar", "urdf", "--help"},
                                              {"avatar", "check", "--help"},
                                              {"scene", "check", "--help"},
-                                             {"bench", "leaf", "--help"}}) {
+                                             {"log", "info", "--help"}}) {
     const Ended ended = runForetouch(command);
     EXPECT_EQ(ended.exitCode, 0);
     EXPECT_TRUE(holds(ended.out, "Example")) << ended.out;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lss/triangle.h"
-#include "middleware/scene.h"
+#include "middleware/scene/scene.h"
 #include "tools/portable_random.h"
 
 namespace foretouch::test {

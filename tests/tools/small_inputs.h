@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "articulated/avatar_file.h"
-#include "articulated/bvh_reader.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/bvh/bvh_reader.h"
 #include "tests/tools/small_world.h"
 #include "tools/inputs/replay_inputs.h"
 

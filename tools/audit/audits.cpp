@@ -7,17 +7,13 @@
 #include <fmt/format.h>
 
 #include "articulated/motion.h"
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/inputs/played_clip.h"
 
 namespace foretouch::tools {
 namespace {
 
 using Eigen::Vector3d;
-
-std::string row(const char* what, const std::string& value) {
-  return fmt::format("  {:<25}{}\n", what, value);
-}
 
 std::string sides(const Vector3d& extent) {
   return fmt::format("{:.4g} x {:.4g} x {:.4g} m (x, y, z)", extent.x(), extent.y(), extent.z());
@@ -31,6 +27,10 @@ std::vector<std::string> sizeDoubt(double largestSide, double least, double most
 }
 
 }  // namespace
+
+std::string auditRow(const char* what, const std::string& value) {
+  return fmt::format("  {:<25}{}\n", what, value);
+}
 
 AvatarAudit auditAvatar(const Avatar& avatar, const Pose& pose) {
   AvatarAudit audit;
@@ -61,25 +61,26 @@ AvatarAudit auditAvatar(const Avatar& avatar, const Pose& pose) {
 std::string describe(const AvatarAudit& audit, const std::string& poseName) {
   std::string bare = std::to_string(audit.linksWithoutLss.size());
   if (!audit.linksWithoutLss.empty()) bare += ": " + firstOf(audit.linksWithoutLss);
-  return row("links", std::to_string(audit.links)) + row("LSS", std::to_string(audit.lss)) +
-         row("links without an LSS", bare) +
-         row(("size in the " + poseName).c_str(), sides(audit.extent)) +
-         row("radii",
-             fmt::format("{:.4g} to {:.4g} m", audit.smallestRadius, audit.largestRadius)) +
-         row("volume of all LSS", fmt::format("{:.4g} m^3", audit.volume));
+  return auditRow("links", std::to_string(audit.links)) +
+         auditRow("LSS", std::to_string(audit.lss)) + auditRow("links without an LSS", bare) +
+         auditRow(("size in the " + poseName).c_str(), sides(audit.extent)) +
+         auditRow("radii",
+                  fmt::format("{:.4g} to {:.4g} m", audit.smallestRadius, audit.largestRadius)) +
+         auditRow("volume of all LSS", fmt::format("{:.4g} m^3", audit.volume));
 }
 
 std::string describe(const SceneAudit& audit) {
-  return row("triangles", std::to_string(audit.triangles)) +
-         row("not finite, left out", std::to_string(audit.droppedNonFinite)) +
-         row("without area, kept", std::to_string(audit.zeroArea)) +
-         row("duplicates, kept", std::to_string(audit.duplicates)) +
-         row("size", sides(audit.boxMax - audit.boxMin)) +
-         row("from", fmt::format("{:.4g}, {:.4g}, {:.4g}", audit.boxMin.x(), audit.boxMin.y(),
-                                 audit.boxMin.z())) +
-         row("to", fmt::format("{:.4g}, {:.4g}, {:.4g}", audit.boxMax.x(), audit.boxMax.y(),
-                               audit.boxMax.z())) +
-         row("edges", fmt::format("{:.4g} to {:.4g} m", audit.shortestEdge, audit.longestEdge));
+  return auditRow("triangles", std::to_string(audit.triangles)) +
+         auditRow("not finite, left out", std::to_string(audit.droppedNonFinite)) +
+         auditRow("without area, kept", std::to_string(audit.zeroArea)) +
+         auditRow("duplicates, kept", std::to_string(audit.duplicates)) +
+         auditRow("size", sides(audit.boxMax - audit.boxMin)) +
+         auditRow("from", fmt::format("{:.4g}, {:.4g}, {:.4g}", audit.boxMin.x(), audit.boxMin.y(),
+                                      audit.boxMin.z())) +
+         auditRow("to", fmt::format("{:.4g}, {:.4g}, {:.4g}", audit.boxMax.x(), audit.boxMax.y(),
+                                    audit.boxMax.z())) +
+         auditRow("edges",
+                  fmt::format("{:.4g} to {:.4g} m", audit.shortestEdge, audit.longestEdge));
 }
 
 std::vector<std::string> doubtsAbout(const AvatarAudit& audit) {

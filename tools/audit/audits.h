@@ -10,7 +10,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/pose.h"
-#include "middleware/scene.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::tools {
 
@@ -41,6 +41,9 @@ struct AvatarAudit {
 /// What a check says no to, one sentence each; empty where nothing looks wrong.
 [[nodiscard]] std::vector<std::string> doubtsAbout(const AvatarAudit& audit);
 [[nodiscard]] std::vector<std::string> doubtsAbout(const SceneAudit& audit);
+
+/// One aligned line of an audit.
+[[nodiscard]] std::string auditRow(const char* what, const std::string& value);
 
 /// The ten objects with the most triangles, aligned, the largest first.
 [[nodiscard]] std::string largestObjects(const Scene& scene);

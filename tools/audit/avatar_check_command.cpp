@@ -8,9 +8,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "articulated/avatar_file.h"
-#include "articulated/joint_match.h"
-#include "middleware/link_mesh.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/avatar/joint_match.h"
+#include "assets/mesh/link_mesh.h"
 #include "tools/arguments.h"
 #include "tools/audit/audits.h"
 #include "tools/audit/surface_audit.h"

@@ -9,13 +9,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "articulated/avatar_file.h"
-#include "articulated/bvh_avatar.h"
-#include "articulated/bvh_reader.h"
-#include "articulated/model_avatar.h"
-#include "articulated/text_file.h"
-#include "middleware/link_mesh.h"
-#include "middleware/model_import.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/bvh/bvh_avatar.h"
+#include "assets/bvh/bvh_reader.h"
+#include "assets/import/model_import.h"
+#include "assets/mesh/link_mesh.h"
+#include "assets/model/model_avatar.h"
+#include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/audit/audits.h"
 #include "tools/audit/surface_audit.h"

@@ -8,15 +8,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "middleware/scene.h"
-#include "middleware/scene_import.h"
+#include "assets/import/scene_import.h"
+#include "middleware/scene/scene.h"
 #include "tools/arguments.h"
 #include "tools/audit/audits.h"
 
 namespace foretouch::tools {
 namespace {
 
-struct CheckTexts {
+struct SceneTexts {
   std::string scene, up = "y", scale = "1";
 };
 
@@ -28,7 +28,7 @@ std::string describe(const SceneImportReport& report) {
       "left out by import", report.skippedPrimitives, report.skippedFaces);
 }
 
-ExitCode check(const CheckTexts& texts) {
+ExitCode check(const SceneTexts& texts) {
   SceneImportOptions options;
   const auto up = parseUpAxis("--up", texts.up);
   if (!up.ok()) return failed(up.error());
@@ -56,7 +56,7 @@ ExitCode check(const CheckTexts& texts) {
 void addSceneCommand(CLI::App& program, ExitCode& exit) {
   CLI::App* const scene = program.add_subcommand("scene", "Check scenes");
   scene->require_subcommand(1);
-  const auto texts = std::make_shared<CheckTexts>();
+  const auto texts = std::make_shared<SceneTexts>();
   CLI::App* const command = scene->add_subcommand(
       "check", "Measure a scene; exit code 1 where its size or its triangles are amiss");
   command->add_option("scene", texts->scene, "Scene: any mesh format that assimp reads")

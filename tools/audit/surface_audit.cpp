@@ -2,16 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "lss/lss_cover.h"
+#include "tools/audit/audits.h"
 #include "tools/inputs/played_clip.h"
 
 namespace foretouch::tools {
 namespace {
-
-std::string row(const char* what, const std::string& value) {
-  return fmt::format("  {:<25}{}\n", what, value);
-}
 
 std::string countAndNames(const std::vector<std::string>& names) {
   const std::string count = std::to_string(names.size());
@@ -56,11 +53,11 @@ std::string describe(const SurfaceAudit& audit) {
     outside += fmt::format(", the worst by {:.4g} mm, on {}", 1e3 * audit.worstOutside,
                            inQuotes(audit.worstLink));
   }
-  return row("triangles of links", std::to_string(audit.triangles)) +
-         row("  outside their LSS", outside) +
-         row("excess volume of LSS", excessInWords(audit.lssVolume, audit.hullVolume)) +
-         row("links of one triangle", countAndNames(audit.ofOneTriangle)) +
-         row("meshes without an LSS", countAndNames(audit.withoutLss));
+  return auditRow("triangles of links", std::to_string(audit.triangles)) +
+         auditRow("  outside their LSS", outside) +
+         auditRow("excess volume of LSS", excessInWords(audit.lssVolume, audit.hullVolume)) +
+         auditRow("links of one triangle", countAndNames(audit.ofOneTriangle)) +
+         auditRow("meshes without an LSS", countAndNames(audit.withoutLss));
 }
 
 std::vector<std::string> doubtsAbout(const SurfaceAudit& audit) {

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/audit/audits.h"
 #include "tools/commands/replay_command.h"
 #include "tools/inputs/example_folder.h"

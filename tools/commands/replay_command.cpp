@@ -11,7 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/commands/replay_log_command.h"
 #include "tools/inputs/clip_options.h"
@@ -197,7 +197,7 @@ ExitCode runTexts(const CLI::App& command, const ReplayTexts& texts) {
   return isLog ? runLog(texts) : runClip(texts);
 }
 
-constexpr char kExamples[] = R"(Examples:
+constexpr char kReplayExamples[] = R"(Examples:
   foretouch replay --scene room.obj --avatar dancer.avatar.json --motion dancer.bvh \
       --rate 10 --output contacts.jsonl
   foretouch replay --scene kitchen.ply --up z --avatar a.avatar.json --motion walk.bvh \
@@ -338,7 +338,7 @@ void addReplayCommand(CLI::App& program, ExitCode& exit) {
   command->add_flag("--compare-link", texts->compareLink,
                     "With --fidelity exact: also count the LSS contacts that the meshes refute");
   command->add_flag("--rays", texts->rays, "Also time 16 occlusion rays a step, as a yardstick");
-  command->footer(kExamples);
+  command->footer(kReplayExamples);
   command->callback([texts, command, &exit] { exit = runTexts(*command, *texts); });
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/interrupt.h"
 #include "tools/log/replay_log_summary.h"
 #include "tools/progress.h"

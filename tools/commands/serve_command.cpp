@@ -15,9 +15,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "network/metrics_server.h"
-#include "network/metrics_text.h"
-#include "network/service.h"
+#include "network/service/metrics_server.h"
+#include "network/service/metrics_text.h"
+#include "network/service/service.h"
 #include "tools/stream/serve_options.h"
 #include "tools/stream/served_world.h"
 #include "tools/stream/service_manager.h"
@@ -153,7 +153,7 @@ ExitCode runTexts(const ServeTexts& texts) {
   return served.ok() ? ExitCode::Done : failed(served.error());
 }
 
-constexpr char kExamples[] = R"(Examples:
+constexpr char kServeExamples[] = R"(Examples:
   foretouch serve --scene room.obj --avatar dancer.avatar.json
   foretouch serve --scene kitchen.ply --up z --avatar 1=anna.json --avatar 2=ben.json \
       --workers 2 --log today.lcmlog --http 127.0.0.1:9464
@@ -219,7 +219,7 @@ void addServeCommand(CLI::App& program, ExitCode& exit) {
   CLI::App* const command =
       program.add_subcommand("serve", "Answer poses that come over LCM, until told to stop");
   addServeOptions(*command, texts);
-  command->footer(kExamples);
+  command->footer(kServeExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });
 }
 

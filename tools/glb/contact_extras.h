@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "middleware/query.h"
-#include "middleware/scene.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
 #include "tools/replay/results_writer.h"
 
 namespace foretouch::tools {

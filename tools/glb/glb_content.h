@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/glb/glb_mesh.h"
 #include "tools/glb/gltf_document.h"
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "lss/assert.h"
+#include "tools/little_endian.h"
 
 namespace foretouch::tools {
 namespace {
@@ -15,13 +16,6 @@ constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr std::uint32_t kHeadBytes = 12, kChunkHeadBytes = 8;
 constexpr std::size_t kAlignment = 4;
 constexpr std::size_t kMostBytes = 0xFFFF'FFFF;
-
-template <typename T>
-void append(std::string& bytes, T value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof value);
-}
 
 }  // namespace
 
@@ -71,11 +65,11 @@ Result<std::string> GltfDocument::glbHead() const {
   std::string head;
   for (const std::size_t word : {std::size_t{kGlbMagic}, std::size_t{kGlbVersion}, total,
                                  text.size(), std::size_t{kJsonChunk}}) {
-    append(head, static_cast<std::uint32_t>(word));
+    appendBytes(head, static_cast<std::uint32_t>(word));
   }
   head += text;
-  append(head, static_cast<std::uint32_t>(binaryBytes_));
-  append(head, kBinaryChunk);
+  appendBytes(head, static_cast<std::uint32_t>(binaryBytes_));
+  appendBytes(head, kBinaryChunk);
   return head;
 }
 
@@ -84,11 +78,11 @@ json gltfVector(const Eigen::Vector3d& v) {
 }
 
 void appendFloat(std::string& bytes, double value) {
-  append(bytes, static_cast<float>(value));
+  appendBytes(bytes, static_cast<float>(value));
 }
 
 void appendIndex(std::string& bytes, std::uint32_t index) {
-  append(bytes, index);
+  appendBytes(bytes, index);
 }
 
 }  // namespace foretouch::tools

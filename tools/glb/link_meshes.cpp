@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "middleware/link_mesh.h"
+#include "assets/mesh/link_mesh.h"
 #include "tools/glb/replay_scene.h"
 
 namespace foretouch::tools {

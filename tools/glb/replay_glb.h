@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "middleware/query.h"
+#include "tools/glb/shown_contact.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/results_writer.h"
 
@@ -18,14 +18,6 @@ namespace foretouch::tools {
 struct GlbRequest {
   std::string path;                       ///< Empty: none is asked for.
   std::size_t mostTriangles = 1'000'000;  ///< Of scene, avatar and swept surfaces together.
-};
-
-/// A contact that is to be shown.
-struct ShownContact {
-  LinkContact contact;
-  std::int64_t step = 0;
-  double t0S = 0.0, t1S = 0.0, timeS = 0.0;
-  bool isMissedByPoses = false;
 };
 
 /// Collects the answers of a replay, in bounded memory.

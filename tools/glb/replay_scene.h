@@ -11,7 +11,8 @@
 #include "articulated/motion.h"
 #include "tools/glb/appearances.h"
 #include "tools/glb/glb_content.h"
-#include "tools/glb/replay_glb.h"
+#include "tools/glb/shown_contact.h"
+#include "tools/inputs/replay_inputs.h"
 
 namespace foretouch::tools {
 

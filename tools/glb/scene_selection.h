@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "middleware/scene.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::tools {
 

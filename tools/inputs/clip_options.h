@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "articulated/joint_match.h"
 #include "articulated/result.h"
+#include "assets/avatar/joint_match.h"
 #include "tools/settling.h"
 
 namespace CLI {

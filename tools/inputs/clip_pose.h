@@ -6,8 +6,8 @@
 
 #include "articulated/avatar.h"
 #include "articulated/clip.h"
-#include "articulated/joint_match.h"
 #include "articulated/result.h"
+#include "assets/avatar/joint_match.h"
 
 namespace foretouch::tools {
 

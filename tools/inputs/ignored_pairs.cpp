@@ -4,7 +4,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/inputs/name_pattern.h"
 #include "tools/inputs/near_names.h"
 

@@ -6,7 +6,7 @@
 
 #include "articulated/result.h"
 #include "articulated/skeleton.h"
-#include "middleware/query.h"
+#include "middleware/query/query.h"
 
 namespace foretouch::tools {
 

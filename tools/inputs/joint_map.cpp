@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/console.h"
 
 namespace foretouch::tools {

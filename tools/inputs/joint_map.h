@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "articulated/joint_match.h"
 #include "articulated/result.h"
+#include "assets/avatar/joint_match.h"
 
 namespace foretouch::tools {
 

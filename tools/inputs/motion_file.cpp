@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "articulated/bvh_reader.h"
-#include "articulated/model_clip.h"
-#include "articulated/text_file.h"
-#include "middleware/model_import.h"
+#include "assets/bvh/bvh_reader.h"
+#include "assets/import/model_import.h"
+#include "assets/model/model_clip.h"
+#include "assets/text_file.h"
 #include "tools/console.h"
 
 namespace foretouch::tools {

@@ -8,7 +8,7 @@
 
 #include "articulated/clip.h"
 #include "articulated/result.h"
-#include "middleware/scene_import.h"
+#include "assets/import/scene_import.h"
 
 namespace foretouch::tools {
 

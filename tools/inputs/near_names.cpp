@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 
 namespace foretouch::tools {
 namespace {

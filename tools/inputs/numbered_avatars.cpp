@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 
 namespace foretouch::tools {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "articulated/avatar_file.h"
-#include "articulated/text_file.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/text_file.h"
 #include "tools/console.h"
 #include "tools/inputs/joint_map.h"
 

@@ -8,8 +8,8 @@
 
 #include "articulated/avatar.h"
 #include "articulated/clip.h"
-#include "articulated/joint_match.h"
 #include "articulated/result.h"
+#include "assets/avatar/joint_match.h"
 #include "tools/inputs/motion_file.h"
 #include "tools/inputs/step_selection.h"
 

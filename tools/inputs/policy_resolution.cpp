@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/inputs/ignored_pairs.h"
 #include "tools/inputs/name_pattern.h"
 #include "tools/inputs/near_names.h"

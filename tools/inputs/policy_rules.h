@@ -11,22 +11,10 @@
 
 #include "articulated/result.h"
 #include "articulated/skeleton.h"
-#include "middleware/query.h"
+#include "middleware/query_options.h"
+#include "tools/inputs/policy_rule.h"
 
 namespace foretouch::tools {
-
-inline constexpr std::size_t kMaxPolicyRules = 256;
-
-/// One table. What it leaves out stays as it was.
-struct PolicyRule {
-  std::string file;                  ///< Where it stands, for errors.
-  std::int64_t line = -1;            ///< 1-based.
-  std::vector<std::string> links;    ///< Patterns (tools/inputs/name_pattern.h); none: every link.
-  std::vector<std::string> objects;  ///< The same of the scene's objects; none: every object.
-  std::optional<double> tolerance;   ///< Metres, kMinTolerance to kMaxTolerance.
-  std::optional<Fidelity> fidelity;  ///< Link or Exact; only where no objects are named.
-  std::optional<bool> ignore;        ///< False: asked for again.
-};
 
 /// A file of nothing but [[policy]] tables, at least one and at most kMaxPolicyRules. `file` is the
 /// path that `text` came from. Errors name the line. Never throws.

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tools/inputs/policy_rules.h"
+#include "tools/inputs/policy_rule.h"
 #include "tools/inputs/toml_section.h"
 
 namespace foretouch::tools {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "middleware/link_mesh.h"
-#include "network/work_budget.h"
+#include "assets/mesh/link_mesh.h"
+#include "network/stream/work_budget.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/ignored_pairs.h"

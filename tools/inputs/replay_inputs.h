@@ -9,11 +9,11 @@
 
 #include "articulated/avatar.h"
 #include "articulated/clip.h"
-#include "articulated/joint_match.h"
 #include "articulated/result.h"
-#include "middleware/query.h"
-#include "middleware/scene.h"
-#include "middleware/scene_import.h"
+#include "assets/avatar/joint_match.h"
+#include "assets/import/scene_import.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
 #include "tools/inputs/policy_rules.h"
 #include "tools/inputs/step_selection.h"
 

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "articulated/model_avatar.h"
-#include "articulated/text_file.h"
-#include "middleware/model_import.h"
+#include "assets/import/model_import.h"
+#include "assets/model/model_avatar.h"
+#include "assets/text_file.h"
 #include "tools/console.h"
 
 namespace foretouch::tools {

@@ -6,8 +6,8 @@
 
 #include "articulated/avatar.h"
 #include "articulated/result.h"
-#include "middleware/scene_import.h"
-#include "middleware/skinned_surface.h"
+#include "assets/import/scene_import.h"
+#include "middleware/surface/skinned_surface.h"
 
 namespace foretouch::tools {
 

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "network/messages.h"
+#include "network/wire/messages.h"
 #include "tools/inputs/near_names.h"
 
 namespace foretouch::tools {

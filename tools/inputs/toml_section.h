@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 
 // An exception per broken file is one too many, and what the format needs is two values deep.
 #define TOML_EXCEPTIONS 0

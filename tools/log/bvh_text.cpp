@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "articulated/bvh_reader.h"
-#include "articulated/text_file.h"
+#include "assets/bvh/bvh_reader.h"
+#include "assets/text_file.h"
 
 namespace foretouch::tools {
 namespace {

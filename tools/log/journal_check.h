@@ -9,8 +9,8 @@
 #include <string>
 #include <tuple>
 
-#include "network/codec.h"
-#include "network/messages.h"
+#include "network/wire/codec.h"
+#include "network/wire/messages.h"
 
 namespace foretouch::tools {
 

@@ -12,8 +12,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "articulated/text_file.h"
-#include "network/event_log.h"
+#include "assets/text_file.h"
+#include "network/log/event_log.h"
 #include "tools/arguments.h"
 #include "tools/inputs/numbered_avatars.h"
 #include "tools/interrupt.h"
@@ -140,7 +140,7 @@ ExitCode runTexts(const ConvertTexts& texts) {
   return ExitCode::Done;
 }
 
-constexpr char kExamples[] = R"(Examples:
+constexpr char kConvertExamples[] = R"(Examples:
   foretouch log convert today.lcmlog --output today.jsonl
   foretouch log convert today.lcmlog --avatar 2 --output ben.bvh
   foretouch log convert dancer.bvh --avatar dancer.avatar.json --output dancer.lcmlog
@@ -162,7 +162,7 @@ void addLogConvertCommand(CLI::App& log, ExitCode& exit) {
   option("--avatar", texts->avatar, "ID|[ID=]FILE",
          "Of a log: whose poses, 1 if not given. Of a clip: the avatar file that it moves");
   option("--suffix", texts->suffix, "TEXT", "Ending of the channels' names");
-  command->footer(kExamples);
+  command->footer(kConvertExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });
 }
 

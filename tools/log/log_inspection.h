@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "network/event_log.h"
+#include "network/log/event_log.h"
 
 namespace foretouch::tools {
 

@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "articulated/bvh_reader.h"
 #include "articulated/pose.h"
-#include "articulated/text_file.h"
-#include "network/codec.h"
-#include "network/event_log.h"
+#include "assets/bvh/bvh_reader.h"
+#include "assets/text_file.h"
+#include "network/log/event_log.h"
+#include "network/wire/codec.h"
 #include "tools/console.h"
 #include "tools/log/bvh_text.h"
 #include "tools/stream/channel_names.h"

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "articulated/avatar_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
 #include "tools/json_text.h"
 #include "tools/replay/results_writer.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "network/reject.h"
+#include "network/wire/reject.h"
 #include "tools/replay/summary.h"
 
 namespace foretouch::tools {

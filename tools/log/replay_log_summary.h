@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "network/messages.h"
+#include "network/wire/messages.h"
 #include "tools/log/replay_log.h"
 
 namespace foretouch::tools {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "articulated/motion.h"
-#include "middleware/ray_yardstick.h"
+#include "middleware/scene/ray_yardstick.h"
 
 namespace foretouch::tools {
 

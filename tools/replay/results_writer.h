@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "middleware/query.h"
-#include "middleware/scene.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
 #include "tools/inputs/replay_inputs.h"
 
 namespace foretouch::tools {

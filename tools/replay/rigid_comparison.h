@@ -8,8 +8,8 @@
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "articulated/result.h"
-#include "middleware/query.h"
-#include "middleware/scene.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::tools {
 

@@ -8,7 +8,7 @@
 
 #include "articulated/motion.h"
 #include "articulated/result.h"
-#include "middleware/query.h"
+#include "middleware/query/query.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/fidelity_comparison.h"
 #include "tools/replay/results_writer.h"
@@ -28,7 +28,7 @@ struct ReplayedStep {
 struct StepExtras {
   const RigidComparison* rigid = nullptr;  ///< Null: no comparison.
   bool link = false;                       ///< Also answer at link fidelity.
-  bool rays = false;  ///< Also time a set of rays (middleware/ray_yardstick.h).
+  bool rays = false;  ///< Also time a set of rays (middleware/scene/ray_yardstick.h).
 };
 
 /// Answers single steps, in any order; one a thread. What it is given must outlive it.

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "middleware/ray_yardstick.h"
+#include "middleware/scene/ray_yardstick.h"
 
 namespace foretouch::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "middleware/query.h"
+#include "middleware/query/query.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/rigid_comparison.h"
 #include "tools/replay/step_solver.h"

@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include "middleware/avatar_surface.h"
-#include "middleware/scene.h"
+#include "middleware/scene/scene.h"
+#include "middleware/surface/avatar_surface.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/report/scene_view.h"
 #include "tools/report/view_document.h"

@@ -9,11 +9,11 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "articulated/avatar_file.h"
-#include "articulated/bvh_avatar.h"
-#include "articulated/text_file.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/bvh/bvh_avatar.h"
+#include "assets/mesh/link_mesh.h"
+#include "assets/text_file.h"
 #include "lss/assert.h"
-#include "middleware/link_mesh.h"
 #include "tools/audit/audits.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"

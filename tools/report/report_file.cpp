@@ -1,6 +1,6 @@
 #include "tools/report/report_file.h"
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/progress.h"
 #include "tools/report/view_writer.h"
 #include "tools/report/viewer_page.h"

@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include "middleware/scene.h"
+#include "middleware/scene/scene.h"
 #include "tools/report/view_document.h"
 
 namespace foretouch::tools {

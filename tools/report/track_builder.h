@@ -12,8 +12,8 @@
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "articulated/pose.h"
-#include "middleware/query.h"
-#include "middleware/scene.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
 #include "tools/report/view_document.h"
 
 namespace foretouch::tools {

@@ -11,7 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/inputs/clip_options.h"
 #include "tools/interrupt.h"
@@ -139,7 +139,7 @@ ExitCode runTexts(const ViewTexts& texts) {
   return ExitCode::Done;
 }
 
-constexpr char kExamples[] = R"(Examples:
+constexpr char kViewExamples[] = R"(Examples:
   foretouch view room.obj dancer.bvh
   foretouch view --scene kitchen.ply --up z --avatar a.avatar.json --motion walk.bvh --scale 0.01 \
       --place 1.5,0,-2,90 --output kitchen.html
@@ -172,7 +172,7 @@ void addViewCommand(CLI::App& program, ExitCode& exit) {
   addClipOptions(*command, texts->clip);
   option("--scene-scale", texts->sceneScale, "S", "Metres per unit of the scene");
   option("--up", texts->up, "y|z", "Which axis of the scene points up");
-  command->footer(kExamples);
+  command->footer(kViewExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });
 }
 

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
-#include "middleware/query.h"
+#include "middleware/query/query.h"
 
 namespace foretouch::tools {
 

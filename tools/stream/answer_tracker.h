@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "network/messages.h"
+#include "network/wire/messages.h"
 
 namespace foretouch::tools {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "articulated/text_file.h"
-#include "network/messages.h"
-#include "network/wire.h"
+#include "assets/text_file.h"
+#include "network/wire/messages.h"
+#include "network/wire/wire.h"
 
 namespace foretouch::tools {
 

@@ -7,7 +7,7 @@
 
 namespace foretouch::tools {
 
-/// The four channels of network/messages.h, each with the suffix.
+/// The four channels of network/wire/messages.h, each with the suffix.
 struct ChannelNames {
   std::string skeleton, pose, contacts, status;
 };

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <utility>
 
-#include "network/clock.h"
+#include "network/service/clock.h"
 
 namespace foretouch::tools {
 namespace {

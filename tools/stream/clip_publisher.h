@@ -8,7 +8,7 @@
 #include <string>
 
 #include "articulated/result.h"
-#include "network/codec.h"
+#include "network/wire/codec.h"
 #include "tools/stream/channel_names.h"
 #include "tools/stream/clip_sender.h"
 

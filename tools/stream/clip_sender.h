@@ -6,7 +6,7 @@
 #include <string>
 
 #include "articulated/result.h"
-#include "network/messages.h"
+#include "network/wire/messages.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/step_selection.h"
 

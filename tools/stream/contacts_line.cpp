@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/contact_json.h"
 #include "tools/json_text.h"
 

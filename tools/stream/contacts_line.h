@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "network/messages.h"
+#include "network/wire/messages.h"
 
 namespace foretouch::tools {
 
@@ -26,8 +26,8 @@ enum class Stamps { With, Without };
 /// For people.
 [[nodiscard]] std::string statusText(const StatusMessage& message);
 
-/// Microseconds since the epoch of the instant `toi` within the step from `fromUs` to `toUs`, rounded
-/// down: never later than the contact.
+/// Microseconds since the epoch of the instant `toi` within the step from `fromUs` to `toUs`,
+/// rounded down: never later than the contact.
 [[nodiscard]] std::int64_t utimeOf(std::int64_t fromUs, std::int64_t toUs, double toi);
 [[nodiscard]] std::int64_t utimeOf(const ContactsMessage& message, double toi);
 

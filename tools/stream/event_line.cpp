@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "network/codec.h"
+#include "network/wire/codec.h"
 #include "tools/json_text.h"
 #include "tools/stream/contacts_line.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "network/event_log.h"
+#include "network/log/event_log.h"
 #include "tools/stream/channel_names.h"
 
 namespace foretouch::tools {

@@ -13,8 +13,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "network/codec.h"
-#include "network/wire.h"
+#include "network/wire/codec.h"
+#include "network/wire/wire.h"
 #include "tools/arguments.h"
 #include "tools/settling.h"
 #include "tools/stream/answer_tracker.h"
@@ -158,7 +158,7 @@ ExitCode runTexts(const ListenTexts& texts) {
   return ended.ok() ? ended.value() : failed(ended.error());
 }
 
-constexpr char kExamples[] = R"(Examples:
+constexpr char kListenExamples[] = R"(Examples:
   foretouch listen
   foretouch listen --json --status > verdicts.jsonl
   foretouch listen --count 100 --timeout 5
@@ -181,7 +181,7 @@ void addListenCommand(CLI::App& program, ExitCode& exit) {
   command->add_flag("--status", texts->status, "The service's heartbeats as well");
   option("--count", texts->count, "N", "End after so many verdicts");
   option("--timeout", texts->timeout, "S", "End after so many seconds without a verdict");
-  command->footer(kExamples);
+  command->footer(kListenExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });
 }
 

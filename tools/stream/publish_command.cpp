@@ -8,10 +8,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "articulated/text_file.h"
-#include "network/clock.h"
-#include "network/event_log.h"
-#include "network/wire.h"
+#include "assets/text_file.h"
+#include "network/log/event_log.h"
+#include "network/service/clock.h"
+#include "network/wire/wire.h"
 #include "tools/arguments.h"
 #include "tools/inputs/clip_options.h"
 #include "tools/inputs/numbered_avatars.h"
@@ -142,7 +142,7 @@ ExitCode runTexts(const PublishTexts& texts) {
   return ExitCode::Done;
 }
 
-constexpr char kExamples[] = R"(Examples:
+constexpr char kPublishExamples[] = R"(Examples:
   foretouch publish dancer.bvh --avatar dancer.avatar.json --rate 30 --loop
   foretouch publish walk.bvh --avatar a.avatar.json --scale 0.01 --place 1.5,0,-2,90 --id 2
   foretouch publish dancer.bvh --avatar dancer.avatar.json --output dancer.lcmlog
@@ -197,7 +197,7 @@ void addPublishCommand(CLI::App& program, ExitCode& exit) {
   option("--start", texts->start, "US",
          "Time of the log's first pose, microseconds since 1970; now if not given");
   addClipOptions(*command, texts->clip);
-  command->footer(kExamples);
+  command->footer(kPublishExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });
 }
 

@@ -10,9 +10,9 @@
 #include <system_error>
 #include <utility>
 
-#include "articulated/text_file.h"
-#include "network/loopback.h"
-#include "network/messages.h"
+#include "assets/text_file.h"
+#include "network/wire/loopback.h"
+#include "network/wire/messages.h"
 #include "tools/inputs/policy_section.h"
 #include "tools/inputs/toml_section.h"
 

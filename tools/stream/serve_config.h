@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "middleware/query.h"
-#include "middleware/scene_import.h"
-#include "network/avatar_stream.h"
-#include "network/wire.h"
+#include "assets/import/scene_import.h"
+#include "middleware/query/query.h"
+#include "network/stream/avatar_stream.h"
+#include "network/wire/wire.h"
 #include "tools/inputs/policy_rules.h"
 
 namespace foretouch::tools {

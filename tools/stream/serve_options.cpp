@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/console.h"
 #include "tools/inputs/numbered_avatars.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "articulated/avatar_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
 
 namespace foretouch::tools {

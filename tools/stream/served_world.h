@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "middleware/scene.h"
-#include "network/stream_solver.h"
+#include "middleware/scene/scene.h"
+#include "network/stream/stream_solver.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/stream/serve_config.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/stream/serve_config.h"
 

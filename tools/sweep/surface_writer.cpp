@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/glb/gltf_document.h"
+#include "tools/little_endian.h"
 
 namespace foretouch::tools {
 namespace {
@@ -32,14 +33,6 @@ class Output {
   PendingFile* file_;
   std::size_t bytes_ = 0;
 };
-
-// Both binary formats are little-endian; so is every machine that this is built for.
-template <typename T>
-void append(std::string& bytes, T value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof value);
-}
 
 Error tooLarge(const char* format) {
   return Error{ErrorCode::LimitExceeded, "--output", -1, -1,
@@ -89,9 +82,9 @@ Result<Done> writePly(const Sweep& sweep, SurfaceSide side, Output& out) {
     for (const SweptSurface& part : link.parts) {
       for (std::size_t i = 0; i < part.vertices.size(); ++i) {
         bytes.clear();
-        for (const double x : part.vertices[i]) append(bytes, x);
-        append(bytes, part.timesS[i]);
-        append(bytes, static_cast<std::int32_t>(link.link));
+        for (const double x : part.vertices[i]) appendBytes(bytes, x);
+        appendBytes(bytes, part.timesS[i]);
+        appendBytes(bytes, static_cast<std::int32_t>(link.link));
         out.write(bytes);
       }
     }
@@ -101,8 +94,8 @@ Result<Done> writePly(const Sweep& sweep, SurfaceSide side, Output& out) {
     for (const SweptSurface& part : link.parts) {
       for (const auto& t : part.triangles) {
         bytes.clear();
-        append(bytes, static_cast<std::uint8_t>(3));
-        for (const std::uint32_t corner : t) append(bytes, first + corner);
+        appendBytes(bytes, static_cast<std::uint8_t>(3));
+        for (const std::uint32_t corner : t) appendBytes(bytes, first + corner);
         out.write(bytes);
       }
       first += static_cast<std::uint32_t>(part.vertices.size());
@@ -166,9 +159,9 @@ void writeBinary(const LinkSurface& link, Output& out) {
   for (const SweptSurface& part : link.parts) {
     for (std::size_t i = 0; i < part.vertices.size(); ++i) {
       bytes.clear();
-      for (const double x : part.vertices[i]) append(bytes, static_cast<float>(x));
-      append(bytes, static_cast<float>(part.timesS[i]));
-      append(bytes, static_cast<float>(link.link));
+      for (const double x : part.vertices[i]) appendBytes(bytes, static_cast<float>(x));
+      appendBytes(bytes, static_cast<float>(part.timesS[i]));
+      appendBytes(bytes, static_cast<float>(link.link));
       out.write(bytes);
     }
   }
@@ -176,7 +169,7 @@ void writeBinary(const LinkSurface& link, Output& out) {
   for (const SweptSurface& part : link.parts) {
     for (const auto& t : part.triangles) {
       bytes.clear();
-      for (const std::uint32_t corner : t) append(bytes, first + corner);
+      for (const std::uint32_t corner : t) appendBytes(bytes, first + corner);
       out.write(bytes);
     }
     first += static_cast<std::uint32_t>(part.vertices.size());

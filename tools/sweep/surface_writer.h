@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tools/sweep/sweep.h"
 
 namespace foretouch::tools {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "articulated/text_file.h"
+#include "assets/text_file.h"
 #include "tessellation/swept_lss.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"

@@ -9,9 +9,9 @@
 
 #include "articulated/avatar.h"
 #include "articulated/clip.h"
-#include "articulated/joint_match.h"
 #include "articulated/result.h"
-#include "middleware/scene_import.h"
+#include "assets/avatar/joint_match.h"
+#include "assets/import/scene_import.h"
 #include "tessellation/swept_surface.h"
 #include "tools/inputs/step_selection.h"
 

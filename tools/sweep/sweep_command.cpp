@@ -159,7 +159,7 @@ ExitCode runTexts(const SweepTexts& texts) {
   return done.ok() ? ExitCode::Done : failed(done.error());
 }
 
-constexpr char kExamples[] = R"(Examples:
+constexpr char kSweepExamples[] = R"(Examples:
   foretouch sweep --avatar dancer.avatar.json --motion dancer.bvh --links LeftHand,RightHand \
       --from 2 --to 3 --error 0.001 --output hands.ply
   foretouch sweep --avatar a.avatar.json --motion walk.bvh --scale 0.01 --rate 10 --inner \
@@ -196,7 +196,7 @@ void addSweepCommand(CLI::App& program, ExitCode& exit) {
   option("--output", texts->output, "FILE", "Mesh to write: .obj, .ply or .glb")->required();
   option("--max-triangles", texts->maxTriangles, "N", "Give up beyond this many");
   addClipOptions(*command, texts->clip);
-  command->footer(kExamples);
+  command->footer(kSweepExamples);
   command->callback([texts, &exit] { exit = runTexts(*texts); });
 }
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "middleware/scene.h"
-#include "network/messages.h"
-#include "network/view_event.h"
-#include "network/view_feed.h"
+#include "middleware/scene/scene.h"
+#include "network/watch/view_event.h"
+#include "network/watch/view_feed.h"
+#include "network/wire/messages.h"
 
 namespace foretouch::tools {
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "articulated/result.h"
-#include "network/service.h"
-#include "network/view_feed.h"
-#include "network/view_server.h"
+#include "network/service/service.h"
+#include "network/watch/view_feed.h"
+#include "network/watch/view_server.h"
 #include "tools/stream/serve_config.h"
 #include "tools/stream/served_world.h"
 #include "tools/view/live_events.h"

@@ -7,7 +7,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "middleware/rungs.h"
+#include "middleware/ladder/rungs.h"
 #include "tests/support/precise.h"
 #include "tests/support/random_geometry.h"
 #include "tests/support/random_motion.h"

@@ -12,8 +12,8 @@
 #include "articulated/chain_nodes.h"
 #include "articulated/motion.h"
 #include "lss/simd.h"
-#include "middleware/lane_backtracking.h"
-#include "middleware/part_lanes.h"
+#include "middleware/query/lane_backtracking.h"
+#include "middleware/query/part_lanes.h"
 #include "tests/support/precise.h"
 #include "tests/support/random_motion.h"
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "lss/simd.h"
-#include "middleware/culler.h"
+#include "middleware/scene/culler.h"
 #include "tests/support/oracle_distance.h"
 #include "tests/support/random_geometry.h"
 

@@ -12,7 +12,7 @@
 #include "lss/simd.h"
 #include "lss/single.h"
 #include "lss/triangle_separation.h"
-#include "middleware/link_pair.h"
+#include "middleware/query/link_pair.h"
 #include "tests/support/precise.h"
 #include "tests/support/random_geometry.h"
 

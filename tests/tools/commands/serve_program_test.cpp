@@ -17,15 +17,15 @@
 
 #include <gtest/gtest.h>
 
-#include "articulated/avatar_file.h"
 #include "articulated/pose.h"
-#include "network/codec.h"
-#include "network/event_log.h"
-#include "network/service.h"
-#include "network/wire.h"
+#include "assets/avatar/avatar_file.h"
+#include "bench/private_network.h"
+#include "network/log/event_log.h"
+#include "network/service/service.h"
+#include "network/wire/codec.h"
+#include "network/wire/wire.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
-#include "tools/bench/private_network.h"
 #include "tools/stream/serve_config.h"
 
 namespace foretouch::test {

@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "articulated/avatar_file.h"
-#include "articulated/bvh_reader.h"
-#include "middleware/model_import.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/bvh/bvh_reader.h"
+#include "assets/import/model_import.h"
 #include "tests/tools/glb/glb_reader.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_inputs.h"

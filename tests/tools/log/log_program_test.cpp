@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "network/event_log.h"
+#include "network/log/event_log.h"
 #include "tests/tools/program_run.h"
 
 namespace foretouch::test {

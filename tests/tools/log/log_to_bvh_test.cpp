@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "articulated/bvh_reader.h"
-#include "network/codec.h"
-#include "network/event_log.h"
+#include "assets/bvh/bvh_reader.h"
+#include "network/log/event_log.h"
+#include "network/wire/codec.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/temp_folder.h"
 #include "tools/log/bvh_text.h"

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "network/codec.h"
-#include "network/event_log.h"
+#include "network/log/event_log.h"
+#include "network/wire/codec.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
 #include "tests/tools/stream/stream_lines.h"

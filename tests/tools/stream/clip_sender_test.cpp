@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "articulated/avatar_file.h"
-#include "articulated/bvh_reader.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/bvh/bvh_reader.h"
 #include "tests/tools/small_world.h"
 #include "tools/stream/clip_publisher.h"
 

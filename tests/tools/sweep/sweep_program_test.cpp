@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "middleware/scene_import.h"
+#include "assets/import/scene_import.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
 

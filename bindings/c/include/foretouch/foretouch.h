@@ -382,7 +382,8 @@ FT_API ft_status ft_motion_transforms(ft_query* query, double t, ft_transform* t
  * the last step's motion, else 0. By computed distances, without the promise. */
 FT_API ft_status ft_touches_at(ft_query* query, int32_t link, double t, int32_t* touches);
 
-/* Work of the last step, which no machine load changes (middleware/query.h, QueryCounters). */
+/* Work of the last step, which no machine load changes (middleware/query/query.h, QueryCounters).
+ */
 typedef struct ft_counters {
   uint32_t size;
   uint32_t reserved; /* 0 */

@@ -1,0 +1,45 @@
+// assets/avatar/joint_match.h: which joint of a clip drives which joint of an avatar.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/clip.h"
+#include "articulated/result.h"
+
+namespace foretouch {
+
+/// Avatar joint name -> clip joint name, for names that differ.
+using JointNameMap = std::map<std::string, std::string>;
+
+/// Matched by name only; what does not match is listed, never guessed.
+struct JointMatch {
+  std::vector<JointId> clipJointOf;  ///< Per avatar joint; kNoParent where the clip has none.
+  std::vector<std::string> unmatchedAvatar;  ///< Avatar joints that keep their rest values.
+  std::vector<std::string> unmatchedClip;    ///< Clip joints that drive nothing.
+};
+
+/// Error where no joint matches at all, or where `names` mentions a joint that neither side has.
+[[nodiscard]] Result<JointMatch> matchJoints(const Skeleton& avatar, const Skeleton& clip,
+                                             const JointNameMap& names = {});
+
+/// The clip's frame as a pose of the avatar. Joints without data keep the avatar's rest values; a
+/// joint without position channels keeps the avatar's rest offset. `frame` is within the clip.
+[[nodiscard]] Pose poseOfAvatar(const Skeleton& avatar, const Clip& clip, const JointMatch& match,
+                                std::size_t frame);
+
+/// Where a clip stands in the scene: first Z-up to Y-up ((x,y,z) becomes (x,z,-y)) where asked,
+/// then the rotation by `yawDeg` about +Y, then the translation `origin` (metres). Applied to
+/// roots. `origin` may carry a pose beyond kMaxCoordinate: it takes validatedPose() again before
+/// use.
+struct Placement {
+  bool motionUpZ = false;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  double yawDeg = 0.0;
+};
+
+[[nodiscard]] Pose placed(const Skeleton& skeleton, Pose pose, const Placement& placement);
+
+}  // namespace foretouch

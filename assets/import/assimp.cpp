@@ -1,0 +1,140 @@
+#include "assets/import/assimp.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+
+#include <assimp/config.h>
+#include <assimp/importerdesc.h>
+
+#include "middleware/scene/raw_scene.h"
+
+namespace foretouch::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+bool indicesAreInRange(const aiMesh& mesh, const aiFace& face) {
+  return mesh.mVertices != nullptr &&
+         std::all_of(face.mIndices, face.mIndices + face.mNumIndices,
+                     [&](unsigned index) { return index < mesh.mNumVertices; });
+}
+
+void addFace(const aiMesh& mesh, const aiFace& face, MeshTriangles& out) {
+  if (face.mNumIndices == 3) {
+    out.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+    return;
+  }
+  std::vector<Vector3d> corners;
+  corners.reserve(face.mNumIndices);
+  for (unsigned k = 0; k < face.mNumIndices; ++k) {
+    corners.push_back(vertexOf(mesh, face.mIndices[k]));
+  }
+  const std::size_t first = out.triangles.size();
+  cutPolygon(corners, out.triangles);
+  for (std::size_t i = first; i < out.triangles.size(); ++i) {
+    for (std::uint32_t& corner : out.triangles[i]) corner = face.mIndices[corner];
+  }
+}
+
+/// Metres per unit. FBX alone states its unit without applying it (in centimetres); Collada's is
+/// applied by its reader, the other formats are metres or say nothing.
+double metresPerUnit(const Assimp::Importer& importer, const aiScene& scene) {
+  const int index = importer.GetPropertyInteger("importerIndex", -1);
+  const aiImporterDesc* reader =
+      index < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(index));
+  const bool isFbx = reader != nullptr && reader->mFileExtensions != nullptr &&
+                     std::string_view(reader->mFileExtensions) == "fbx";
+  float centimetres = 0.0F;
+  if (!isFbx || scene.mMetaData == nullptr ||
+      !scene.mMetaData->Get("UnitScaleFactor", centimetres) || !(centimetres > 0.0F)) {
+    return 1.0;
+  }
+  return static_cast<double>(centimetres) / 100.0;
+}
+
+void setUp(Assimp::Importer& importer, Animations animations) {
+  // Files with bones and no mesh get a mesh of bones otherwise, a surface that nobody drew.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  // What is not read cannot break.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, animations == Animations::Read);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_TEXTURES, false);
+}
+
+}  // namespace
+
+AssimpFile readWithAssimp(const std::string& path, Animations animations) {
+  // Never destroyed: assimp frees its tree by recursion, and a deep one that was read well must not
+  // crash afterwards.
+  Assimp::Importer& importer = *new Assimp::Importer;
+  setUp(importer, animations);
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (!importer.IsExtensionSupported(extension)) {
+    throw Failure{ImportFailure::UnknownFormat, extension};
+  }
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (scene == nullptr) {
+    const std::string reason = importer.GetErrorString();
+    // assimp catches its own failed allocations and leaves their name.
+    const bool outOfMemory = reason.find("bad_alloc") != std::string::npos;
+    throw Failure{outOfMemory ? ImportFailure::OutOfMemory : ImportFailure::Refused, reason};
+  }
+  if (scene->mRootNode == nullptr) throw Failure{ImportFailure::Refused, "no root node"};
+  return {scene, metresPerUnit(importer, *scene)};
+}
+
+Affine transformOf(const aiMatrix4x4& m) {
+  Affine transform;
+  transform.linear << m.a1, m.a2, m.a3, m.b1, m.b2, m.b3, m.c1, m.c2, m.c3;
+  transform.translation = Vector3d(m.a4, m.b4, m.c4);
+  return transform;
+}
+
+Vector3d vertexOf(const aiMesh& mesh, std::uint32_t index) {
+  const aiVector3D& v = mesh.mVertices[index];
+  return {v.x, v.y, v.z};
+}
+
+MeshTriangles trianglesOf(const aiMesh& mesh) {
+  MeshTriangles out;
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    const aiFace& face = mesh.mFaces[f];
+    if (face.mNumIndices < 3) {
+      ++out.skippedPrimitives;
+    } else if (!indicesAreInRange(mesh, face)) {
+      ++out.skippedFaces;
+    } else {
+      addFace(mesh, face, out);
+    }
+    if (out.triangles.size() > kMaxTriangles) {
+      throw Failure{ImportFailure::TooLarge,
+                    "a mesh of more than " + std::to_string(kMaxTriangles) + " triangles"};
+    }
+  }
+  return out;
+}
+
+void checkMeshIndex(const aiScene& scene, unsigned mesh) {
+  if (mesh >= scene.mNumMeshes) {
+    throw Failure{ImportFailure::Refused, "a node places a mesh that the file does not hold"};
+  }
+}
+
+std::vector<VisitedNode> nodesOf(const aiScene& scene, std::size_t limit) {
+  std::vector<VisitedNode> visited, pending{{scene.mRootNode, -1}};
+  while (!pending.empty()) {
+    const VisitedNode current = pending.back();
+    pending.pop_back();
+    if (visited.size() == limit) {
+      throw Failure{ImportFailure::TooLarge, "more than " + std::to_string(limit) + " nodes"};
+    }
+    const auto index = static_cast<std::int32_t>(visited.size());
+    visited.push_back(current);
+    for (unsigned i = current.node->mNumChildren; i > 0; --i) {
+      pending.push_back({current.node->mChildren[i - 1], index});
+    }
+  }
+  return visited;
+}
+
+}  // namespace foretouch::internal

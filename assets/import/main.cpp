@@ -1,0 +1,112 @@
+// foretouch-import: reads a model file and writes what it holds to standard output: its triangles
+// (assets/import/protocol.h), or with --model its nodes, meshes, bones and animations
+// (assets/import/model_stream.h). A helper of the library, run as a child under limits that its
+// parent sets; the only program that links assimp and urdfdom.
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <unistd.h>
+
+#include "assets/import/assimp.h"
+#include "assets/import/model.h"
+#include "assets/import/model_stream.h"
+#include "assets/import/scene.h"
+
+namespace foretouch::internal {
+namespace {
+
+bool writeAll(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = write(fd, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+bool isUrdf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".urdf";
+}
+
+bool sendModel(const ModelQuestion& question, ModelWriter& writer) {
+  const Model model = isUrdf(question.path) ? readUrdf(question) : readModel(question);
+  return writer.write(model);
+}
+
+/// The exit status.
+template <typename Writer, typename Send>
+int answer(Send send) {
+  // Standard output is kept for the stream; what the libraries print goes to stderr.
+  const int output = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  if (output < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
+    std::perror("foretouch-import: standard output");
+    return 2;
+  }
+  Writer writer([output](std::string_view bytes) { return writeAll(output, bytes); });
+  try {
+    return send(writer) ? 0 : 1;
+  } catch (const Failure& failure) {
+    writer.fail(failure.kind, failure.text);
+  } catch (const std::bad_alloc&) {
+    writer.fail(ImportFailure::OutOfMemory, "");
+  } catch (const std::exception& error) {
+    writer.fail(ImportFailure::Refused, error.what());
+  }
+  return 1;
+}
+
+/// Nothing where the arguments are no question about a model.
+std::optional<ModelQuestion> modelQuestion(int argc, char** argv) {
+  if (argc < 3 || std::string_view(argv[1]) != "--model") return std::nullopt;
+  ModelQuestion question;
+  question.path = argv[2];
+  for (int i = 3; i < argc; ++i) {
+    const std::string_view option = argv[i];
+    if (option == "--visual") {
+      question.visual = true;
+    } else if (option == "--package" && i + 1 < argc) {
+      question.packagePaths.emplace_back(argv[++i]);
+    } else {
+      return std::nullopt;
+    }
+  }
+  return question;
+}
+
+int run(int argc, char** argv) {
+  const auto question = modelQuestion(argc, argv);
+  if (question.has_value()) {
+    return answer<ModelWriter>([&](ModelWriter& writer) { return sendModel(*question, writer); });
+  }
+  const std::string path = argv[1];
+  return answer<ImportWriter>([&](ImportWriter& writer) { return sendScene(path, writer); });
+}
+
+}  // namespace
+}  // namespace foretouch::internal
+
+int main(int argc, char** argv) {
+  const bool isQuestion = argc == 2 || foretouch::internal::modelQuestion(argc, argv).has_value();
+  if (!isQuestion || std::string_view(argv[1]) == "--help" || isatty(STDOUT_FILENO) != 0) {
+    std::fputs(
+        "usage: foretouch-import FILE\n"
+        "       foretouch-import --model FILE [--visual] [--package DIR]...\n"
+        "Writes the triangles, or the rigged model, of a file to standard output, in a binary\n"
+        "form that the foretouch library reads. Not meant to be run by hand.\n",
+        stderr);
+    return 2;
+  }
+  _exit(foretouch::internal::run(argc, argv));
+}

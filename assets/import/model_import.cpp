@@ -1,0 +1,106 @@
+#include "assets/import/model_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <system_error>
+#include <utility>
+
+#include "assets/import/model_stream.h"
+#include "assets/import/run.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using internal::importError;
+
+std::vector<std::string> argumentsFor(const std::string& path, const ModelImportOptions& options) {
+  std::vector<std::string> arguments{"--model", path};
+  if (options.urdfSurface == UrdfSurface::Visual) arguments.emplace_back("--visual");
+  for (const std::string& folder : options.packagePaths) {
+    arguments.emplace_back("--package");
+    arguments.push_back(folder);
+  }
+  return arguments;
+}
+
+/// Every length; frames and scales of nodes stay as they are.
+void scaleLengths(Model& model, double scale) {
+  for (ModelNode& node : model.nodes) {
+    node.toParent.translation *= scale;
+    for (Lss& lss : node.lss) lss = {lss.a * scale, lss.b * scale, lss.radius * scale};
+    if (node.joint == ModelJointType::Prismatic) {
+      node.lowerLimit *= scale;
+      node.upperLimit *= scale;
+    }
+  }
+  for (ModelMesh& mesh : model.meshes) {
+    for (Vector3d& vertex : mesh.vertices) vertex *= scale;
+    for (ModelBone& bone : mesh.bones) bone.meshToBone.translation *= scale;
+  }
+  for (ModelAnimation& animation : model.animations) {
+    for (ModelTrack& track : animation.tracks) {
+      for (auto& key : track.positions) key.value *= scale;
+    }
+  }
+}
+
+/// (x, y, z) becomes (x, z, -y): at the roots, and in the animations that move them.
+void turnRoots(Model& model) {
+  Affine turn;
+  turn.linear << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  const double half = std::sqrt(0.5);
+  const Quaternion rotation(half, -half, 0, 0);
+  for (ModelNode& node : model.nodes) {
+    if (node.parent < 0) node.toParent = turn * node.toParent;
+  }
+  for (ModelAnimation& animation : model.animations) {
+    for (ModelTrack& track : animation.tracks) {
+      if (model.nodes[static_cast<std::size_t>(track.node)].parent >= 0) continue;
+      for (auto& key : track.positions) key.value = turn * key.value;
+      for (auto& key : track.rotations) key.value = rotation * key.value;
+    }
+  }
+}
+
+bool holdsNothing(const Model& model) {
+  return model.meshes.empty() && model.animations.empty() &&
+         std::all_of(model.nodes.begin(), model.nodes.end(),
+                     [](const ModelNode& node) { return node.lss.empty(); });
+}
+
+Result<Model> importChecked(const std::string& path, const ModelImportOptions& options) {
+  for (const std::string& folder : options.packagePaths) {
+    if (folder.find('\0') == std::string::npos) continue;
+    return importError(path, ErrorCode::OutOfRange, "expected package paths without zero bytes");
+  }
+  internal::ModelReader reader;
+  if (const auto error =
+          internal::runImporter(path, options.import, argumentsFor(path, options), reader)) {
+    return *error;
+  }
+  Model model = reader.take();
+  if (holdsNothing(model)) {
+    return importError(path, ErrorCode::Empty,
+                       "expected triangles, spheres, capsules or animations, found none" +
+                           (model.notes.empty() ? "" : " (" + model.notes.front() + ")"));
+  }
+  if (options.import.scale != 1.0) scaleLengths(model, options.import.scale);
+  if (options.import.up == UpAxis::Z) turnRoots(model);
+  return Result<Model>(std::move(model));
+}
+
+}  // namespace
+
+Result<Model> importModel(const std::string& path, const ModelImportOptions& options) {
+  try {
+    return importChecked(path, options);
+  } catch (const std::bad_alloc&) {
+    return importError(path, ErrorCode::LimitExceeded, "not enough memory for the model");
+  } catch (const std::system_error& error) {
+    return importError(path, ErrorCode::ImportFailed, error.what());
+  }
+}
+
+}  // namespace foretouch

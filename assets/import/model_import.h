@@ -1,0 +1,32 @@
+// assets/import/model_import.h: rigged models from files: every format with bones or nodes that
+// assimp reads, and URDF. Read in the same child process, under the same limits, as scenes
+// (assets/import/scene_import.h); what it hands back is checked like any other untrusted data.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "assets/import/scene_import.h"
+#include "assets/model/model.h"
+
+namespace foretouch {
+
+/// Which of a URDF's two descriptions of a link becomes its surface.
+enum class UrdfSurface : std::uint8_t { Collision, Visual };
+
+struct ModelImportOptions {
+  SceneImportOptions import;  ///< scale, up, limits and the importer's place, as for scenes.
+  UrdfSurface urdfSurface = UrdfSurface::Collision;
+  /// Folders in which package://NAME/... is looked for, as FOLDER/NAME/... and FOLDER/...; the
+  /// URDF's own folder and its parents are tried after them.
+  std::vector<std::string> packagePaths;
+};
+
+/// The model, in metres and +Y up (the turn and the scale are applied to roots' transforms and to
+/// lengths, so that the frames of nodes are free of them). Never throws, never crashes with the
+/// file, never leaves a child process behind.
+[[nodiscard]] Result<Model> importModel(const std::string& path,
+                                        const ModelImportOptions& options = {});
+
+}  // namespace foretouch

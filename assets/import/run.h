@@ -1,0 +1,26 @@
+// assets/import/run.h: a question put to foretouch-import, from options to answer or error:
+// what importing a scene and importing a model have in common. Not installed.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "assets/import/imported_scene.h"
+#include "assets/import/stream.h"
+
+namespace foretouch::internal {
+
+/// An error about the file that is being imported.
+[[nodiscard]] Error importError(const std::string& path, ErrorCode code, std::string message);
+
+/// Checks the options and that `path` is a file with an extension, finds the importer, and runs it
+/// with `arguments` (which name the path too), feeding `reader`. Nothing where the answer is
+/// complete. May throw std::bad_alloc and std::system_error.
+[[nodiscard]] std::optional<Error> runImporter(const std::string& path,
+                                               const SceneImportOptions& options,
+                                               const std::vector<std::string>& arguments,
+                                               FrameReader& reader);
+
+}  // namespace foretouch::internal

@@ -1,0 +1,65 @@
+#include "assets/import/scene_import.h"
+
+#include <filesystem>
+#include <new>
+#include <system_error>
+
+#include "assets/import/protocol.h"
+#include "assets/import/run.h"
+#include "assets/import/text.h"
+
+namespace foretouch {
+namespace {
+
+using internal::importError;
+
+/// Many formats name nothing; a contact had better say more than "". The file's name then has to
+/// do.
+void nameTheNameless(RawScene& scene, const std::string& path) {
+  const std::string stem = internal::readableText(std::filesystem::path(path).stem().string(),
+                                                  internal::kMaxObjectNameBytes);
+  for (std::string& name : scene.objectNames) {
+    if (name.empty()) name = stem;
+  }
+}
+
+/// Metres and +Y up: scale, then turn.
+void place(RawScene& scene, const SceneImportOptions& options) {
+  for (Triangle& triangle : scene.triangles) {
+    for (Eigen::Vector3d& vertex : triangle.vertices) {
+      vertex *= options.scale;
+      if (options.up == UpAxis::Z) vertex = Eigen::Vector3d(vertex.x(), vertex.z(), -vertex.y());
+    }
+  }
+}
+
+Result<ImportedScene> importChecked(const std::string& path, const SceneImportOptions& options) {
+  internal::ImportReader reader;
+  if (const auto error = internal::runImporter(path, options, {path}, reader)) return *error;
+  ImportedScene imported = reader.take();
+  if (imported.scene.triangles.empty()) {
+    return importError(path, ErrorCode::Empty,
+                       "expected triangles, found none (" +
+                           std::to_string(imported.report.skippedPrimitives) +
+                           " points and lines, " + std::to_string(imported.report.skippedFaces) +
+                           " faces with indices out of range)");
+  }
+  nameTheNameless(imported.scene, path);
+  place(imported.scene, options);
+  return Result<ImportedScene>(std::move(imported));
+}
+
+}  // namespace
+
+Result<ImportedScene> importScene(const std::string& path, const SceneImportOptions& options) {
+  try {
+    return importChecked(path, options);
+  } catch (const std::bad_alloc&) {
+    return importError(path, ErrorCode::LimitExceeded,
+                       "not enough memory for the model's triangles");
+  } catch (const std::system_error& error) {
+    return importError(path, ErrorCode::ImportFailed, error.what());
+  }
+}
+
+}  // namespace foretouch

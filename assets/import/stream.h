@@ -1,0 +1,116 @@
+// assets/import/stream.h: the frames in which foretouch-import answers its parent, whatever it
+// was asked for. Not installed.
+//
+// A greeting (magic, version, byte order), then frames: type and payload size as 32-bit numbers,
+// then the payload. Last a trailer with a count and a checksum of everything before it. Or, at any
+// place before the trailer, a failure with its text. Native byte order: both ends are processes of
+// one machine. The checksum finds a stream that something else wrote into; that the readers trust
+// nothing they are told guards against the rest.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace foretouch::internal {
+
+inline constexpr std::size_t kMaxImportFrameBytes = std::size_t{1} << 20;
+inline constexpr std::size_t kMaxImportNameBytes = std::size_t{64} << 20;  // all names together
+inline constexpr std::size_t kMaxFailureTextBytes = 1024;
+
+enum class ImportFailure : std::uint32_t {
+  None,
+  Refused,        ///< The file breaks its format's rules.
+  UnknownFormat,  ///< No reader for the file's extension.
+  TooLarge,       ///< More of something than the limits.
+  OutOfMemory,
+};
+
+/// Types below belong to scenes (import_protocol.cpp), from 16 to models (import_model_stream.h).
+inline constexpr std::uint32_t kTrailerFrame = 4, kFailureFrame = 5;
+
+template <typename T>
+std::string_view bytesOf(const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+/// The value at the start of `bytes`, which must be long enough.
+template <typename T>
+T valueIn(std::string_view bytes) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  T value;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  return value;
+}
+
+/// The child's end, less what the frames mean.
+class FrameWriter {
+ public:
+  /// Takes bytes away; false where that failed for good.
+  using Sink = std::function<bool(std::string_view)>;
+  explicit FrameWriter(Sink sink);
+
+  bool fail(ImportFailure failure, std::string_view text);
+
+ protected:
+  void frame(std::uint32_t type, std::string_view payload);
+  /// False where any byte could not be handed over.
+  bool end(std::uint64_t count);
+
+ private:
+  void put(std::string_view bytes);
+  void flush();
+
+  Sink sink_;
+  bool intact_ = true;
+  std::uint64_t checksum_;
+  std::string outgoing_;  // frames on their way: many are small
+};
+
+/// The parent's end: a parser that is fed as bytes arrive and believes none of them.
+class FrameReader {
+ public:
+  enum class State : std::uint8_t {
+    Reading,
+    Complete,  ///< The trailer arrived and agrees.
+    Failed,    ///< The child reported failure() and failureText().
+    Broken,    ///< The bytes break the protocol: broken() says how.
+  };
+  virtual ~FrameReader() = default;
+
+  /// After anything but Reading, further bytes are ignored.
+  State feed(std::string_view bytes);
+
+  [[nodiscard]] State state() const { return state_; }
+  [[nodiscard]] bool greeted() const { return greeted_; }
+  [[nodiscard]] ImportFailure failure() const { return failure_; }
+  [[nodiscard]] const std::string& failureText() const { return failureText_; }
+  [[nodiscard]] const std::string& broken() const { return broken_; }
+
+ protected:
+  /// Any frame but a failure and the trailer.
+  virtual void parseFrame(std::uint32_t type, std::string_view payload) = 0;
+  /// Has everything that was promised arrived, `count` of it?
+  [[nodiscard]] virtual bool isWhole(std::uint64_t count) const = 0;
+  void breakOff(std::string reason);
+
+ private:
+  std::size_t parseOne(std::string_view bytes);
+  std::size_t parseGreeting(std::string_view bytes);
+  void parseFailure(std::string_view payload);
+  void parseTrailer(std::string_view payload);
+
+  State state_ = State::Reading;
+  bool greeted_ = false;
+  std::uint64_t checksum_ = 0;
+  ImportFailure failure_ = ImportFailure::None;
+  std::string failureText_, broken_;
+  std::string pending_;  // the incomplete frame at the end of what was fed
+};
+
+}  // namespace foretouch::internal

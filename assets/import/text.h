@@ -1,0 +1,19 @@
+// assets/import/text.h: text out of model files and of the importer, made safe to show.
+// Not installed.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace foretouch::internal {
+
+/// Well-formed UTF-8 of at most `limitBytes`, cut between characters. Control characters (C0, DEL,
+/// C1) become spaces, so that no text of a file can drive a terminal; what is not UTF-8 becomes
+/// U+FFFD; spaces at both ends are dropped.
+[[nodiscard]] std::string readableText(std::string_view text, std::size_t limitBytes);
+
+/// A name of the file for a message: readable, at most 120 bytes of it, in single quotes.
+[[nodiscard]] std::string quotedName(std::string_view name);
+
+}  // namespace foretouch::internal

@@ -1,0 +1,174 @@
+#include <cmath>
+#include <console_bridge/console.h>
+#include <exception>
+#include <set>
+#include <string>
+#include <urdf_parser/urdf_parser.h>
+#include <utility>
+#include <vector>
+
+#include "assets/import/assimp.h"
+#include "assets/import/model.h"
+#include "assets/import/text.h"
+#include "assets/import/urdf_surface.h"
+#include "assets/import/urdf_text.h"
+#include "assets/text_file.h"
+
+namespace foretouch::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kMaxUrdfBytes = std::size_t{16} << 20;
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw Failure{ImportFailure::Refused, text};
+}
+
+/// urdfdom says what is wrong in its log alone, and of some errors nowhere else: a link whose
+/// shapes it could not read is handed on without them. The first error is the nearest to the cause.
+class FirstError : public console_bridge::OutputHandler {
+ public:
+  FirstError() { console_bridge::useOutputHandler(this); }
+  ~FirstError() override { console_bridge::noOutputHandler(); }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && text_.empty()) text_ = text;
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+urdf::ModelInterfaceSharedPtr parse(const std::string& xml) {
+  FirstError reason;
+  urdf::ModelInterfaceSharedPtr robot;
+  try {
+    robot = urdf::parseURDF(xml);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    refuse(error.what());
+  }
+  if (!reason.text().empty()) refuse(reason.text());
+  if (robot == nullptr || robot->getRoot() == nullptr) refuse("urdfdom gives no reason");
+  return robot;
+}
+
+Vector3d axisOf(const urdf::Joint& joint) {
+  const Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
+  const Vector3d unit = axis.stableNormalized();
+  if (!(std::abs(unit.norm() - 1.0) < 1e-6)) {
+    refuse("joint " + quotedName(joint.name) + " has no axis: zero or not finite");
+  }
+  return unit;
+}
+
+class RobotTree {
+ public:
+  RobotTree(const urdf::ModelInterface& robot, UrdfSurface& surface, ModelBuilder& builder)
+      : robot_(robot), surface_(surface), builder_(builder) {}
+
+  /// Depth first from the root, on a stack of our own.
+  void add() {
+    struct Pending {
+      const urdf::Link* link;
+      const urdf::Joint* joint;
+      std::int32_t parent;
+    };
+    std::vector<Pending> pending{{robot_.getRoot().get(), nullptr, -1}};
+    std::set<const urdf::Link*> reached;
+    while (!pending.empty()) {
+      const Pending current = pending.back();
+      pending.pop_back();
+      if (!reached.insert(current.link).second) {
+        refuse("link " + quotedName(current.link->name) + " is the child of several joints");
+      }
+      const auto index = static_cast<std::int32_t>(builder_.model.nodes.size());
+      addNode(*current.link, current.joint, current.parent);
+      surface_.add(*current.link, index);
+      const auto& joints = current.link->child_joints;
+      for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
+        const auto child = robot_.getLink((*joint)->child_link_name);
+        if (child == nullptr) refuse("joint " + quotedName((*joint)->name) + " leads to no link");
+        pending.push_back({child.get(), joint->get(), index});
+      }
+    }
+    if (reached.size() != robot_.links_.size()) {
+      refuse("the links form a cycle: " + std::to_string(robot_.links_.size() - reached.size()) +
+             " of them hang on no root");
+    }
+  }
+
+ private:
+  void addNode(const urdf::Link& link, const urdf::Joint* joint, std::int32_t parent) {
+    ModelNode node;
+    node.name = link.name;
+    node.parent = parent;
+    if (joint != nullptr) setJoint(*joint, node);
+    ModelSize more;
+    more.nodes = 1;
+    more.nameBytes = node.name.size() + node.jointName.size();
+    builder_.count(more);
+    builder_.model.nodes.push_back(std::move(node));
+  }
+
+  void setJoint(const urdf::Joint& joint, ModelNode& node) {
+    node.jointName = joint.name;
+    node.toParent =
+        affineOf(joint.parent_to_joint_origin_transform, "joint " + quotedName(joint.name));
+    switch (joint.type) {
+      case urdf::Joint::FIXED: node.joint = ModelJointType::Fixed; return;
+      case urdf::Joint::REVOLUTE: node.joint = ModelJointType::Revolute; break;
+      case urdf::Joint::CONTINUOUS: node.joint = ModelJointType::Continuous; break;
+      case urdf::Joint::PRISMATIC: node.joint = ModelJointType::Prismatic; break;
+      case urdf::Joint::PLANAR:
+        builder_.note("joint " + quotedName(joint.name) + " is planar: read as free to move");
+        return;
+      case urdf::Joint::FLOATING:
+      case urdf::Joint::UNKNOWN: return;
+    }
+    node.axis = axisOf(joint);
+    if (node.joint != ModelJointType::Continuous && joint.limits != nullptr) {
+      setLimits(joint, node);
+    }
+  }
+
+  void setLimits(const urdf::Joint& joint, ModelNode& node) {
+    const double lower = joint.limits->lower, upper = joint.limits->upper;
+    if (!std::isfinite(lower) || !std::isfinite(upper)) {
+      refuse("joint " + quotedName(joint.name) + " has a limit that is not finite");
+    }
+    if (lower > upper) {
+      builder_.note("joint " + quotedName(joint.name) +
+                    " has its lower limit above its upper one: read as without limits");
+      return;
+    }
+    node.lowerLimit = lower;
+    node.upperLimit = upper;
+  }
+
+  const urdf::ModelInterface& robot_;
+  UrdfSurface& surface_;
+  ModelBuilder& builder_;
+};
+
+}  // namespace
+
+Model readUrdf(const ModelQuestion& question) {
+  const auto text = readWholeFile(question.path, kMaxUrdfBytes);
+  if (!text.ok()) {
+    throw Failure{text.error().code == ErrorCode::LimitExceeded ? ImportFailure::TooLarge
+                                                                : ImportFailure::Refused,
+                  text.error().message};
+  }
+  const UrdfText reduced = readUrdfText(text.value());
+  const auto robot = parse(reduced.xml);
+  ModelBuilder builder;
+  for (const std::string& note : reduced.notes) builder.note(note);
+  UrdfSurface surface(question, reduced, builder);
+  RobotTree(*robot, surface, builder).add();
+  return builder.take();
+}
+
+}  // namespace foretouch::internal

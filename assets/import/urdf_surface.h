@@ -1,0 +1,73 @@
+// assets/import/urdf_surface.h: the shapes of a URDF's links as triangles and LSS of a model's
+// nodes. In foretouch-import only. Not installed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <urdf_model/link.h>
+#include <urdf_model/pose.h>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "assets/import/model.h"
+#include "assets/import/urdf_text.h"
+
+namespace foretouch::internal {
+
+/// Triangles in one frame.
+struct FlatMesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+};
+
+/// The box about its centre, twelve triangles.
+[[nodiscard]] FlatMesh boxOf(const Eigen::Vector3d& size);
+
+/// A prism about the z axis and its centre that contains the cylinder of that radius and length,
+/// rounding included: its 32 sides touch it, so its edges stand off by half a percent of the
+/// radius.
+[[nodiscard]] FlatMesh cylinderAround(double radius, double length);
+
+/// Rotation and translation; throws where a number is not finite or beyond kMaxCoordinate.
+[[nodiscard]] Affine affineOf(const urdf::Pose& pose, const std::string& owner);
+
+class UrdfSurface {
+ public:
+  UrdfSurface(const ModelQuestion& question, const UrdfText& text, ModelBuilder& builder)
+      : question_(question), text_(text), builder_(builder) {}
+
+  /// Adds the link's shapes of the kind that was asked for to node `node` of the builder's model.
+  /// Where there are none, or none can be read, those of the other kind, with a note: a link
+  /// without a surface is a contact that is missed.
+  void add(const urdf::Link& link, std::int32_t node);
+
+ private:
+  struct Shape {
+    const urdf::Geometry* geometry;
+    Affine toLink;
+    std::string name;
+    bool isCapsule;
+  };
+
+  [[nodiscard]] std::vector<Shape> shapesOf(const urdf::Link& link, UrdfShapeKind kind) const;
+  /// How many of the shapes are there now.
+  int addAll(const std::vector<Shape>& shapes, const std::string& link, std::int32_t node);
+  bool addShape(const Shape& shape, const std::string& link, std::int32_t node);
+  void addRound(const Shape& shape, double halfLength, double radius, std::int32_t node);
+  void addMesh(const Shape& shape, const FlatMesh& mesh, const Eigen::Vector3d& scale,
+               std::int32_t node);
+  /// Null, with a note, where the file is missing or cannot be read.
+  const FlatMesh* meshOf(const std::string& reference, const std::string& link);
+  [[nodiscard]] std::string find(const std::string& reference) const;
+
+  const ModelQuestion& question_;
+  const UrdfText& text_;
+  ModelBuilder& builder_;
+  std::map<std::string, std::optional<FlatMesh>> meshes_;  // by path: files are shared by links
+};
+
+}  // namespace foretouch::internal

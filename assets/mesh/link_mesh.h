@@ -1,0 +1,39 @@
+// assets/mesh/link_mesh.h: the triangles that an avatar file refers to. "mesh": {"file": F, "node":
+// N} means, of model F in metres: the triangles of skinned meshes that bone N owns (by
+// avatarFromModel()'s rule), at bind time, and those of unskinned meshes at node N, both in N's
+// frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/result.h"
+#include "assets/import/model_import.h"
+#include "lss/triangle.h"
+
+namespace foretouch {
+
+/// Per link, in its frame; links without a mesh get none. `avatarPath`: relative files are looked
+/// for beside it. Each file is imported once, in the import child. Where its frames scale or its
+/// vertices are no floats, avatarFromModel()'s rule decides for unskinned meshes too. Error where a
+/// file cannot be read, a node is not there or there twice, or it has no triangles or one that is
+/// not finite: Error::index is the link.
+[[nodiscard]] Result<std::vector<std::vector<Triangle>>> loadLinkMeshes(
+    const Avatar& avatar, const std::string& avatarPath, const ModelImportOptions& options = {});
+
+/// The same of these links alone: the others get none, and files that only they refer to are not
+/// read.
+[[nodiscard]] Result<std::vector<std::vector<Triangle>>> loadLinkMeshes(
+    const Avatar& avatar, const std::string& avatarPath, const std::vector<LinkId>& links,
+    const ModelImportOptions& options = {});
+
+/// Writes per-link triangles as a GLB that loadLinkMeshes() reads back bit for bit: a node a link,
+/// placed by the skeleton's rest pose so that a viewer shows the body, its mesh in the link's
+/// frame. Precondition: coordinates are floats (avatarFromModel() rounds), as glTF holds no
+/// doubles.
+[[nodiscard]] Result<Done> writeLinkMeshes(const Skeleton& skeleton,
+                                           const std::vector<std::vector<Triangle>>& triangles,
+                                           const std::string& path);
+
+}  // namespace foretouch

@@ -1,0 +1,29 @@
+#include "assets/mesh/link_mesh_skinned.h"
+
+#include "assets/model/model_avatar.h"
+#include "assets/text_file.h"
+
+namespace foretouch::internal {
+
+Result<std::vector<std::vector<Triangle>>> surfacesOfLinks(const Model& model,
+                                                           const std::vector<std::string>& names,
+                                                           const std::string& path) {
+  const auto made = avatarFromModel(model);
+  if (!made.ok()) {
+    Error error = made.error();
+    error.file = path;
+    return error;
+  }
+  std::vector<std::vector<Triangle>> surfaces;
+  for (const std::string& name : names) {
+    const auto link = made.value().avatar.skeleton().find(name);
+    if (!link.has_value()) {
+      return Error{ErrorCode::UnknownName, path, -1, -1,
+                   "no link of the model is named " + inQuotes(name)};
+    }
+    surfaces.push_back(made.value().surface[static_cast<std::size_t>(*link)]);
+  }
+  return surfaces;
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,19 @@
+// assets/mesh/link_mesh_skinned.h: triangles of links by avatarFromModel()'s rule. Not installed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "assets/model/model.h"
+#include "lss/triangle.h"
+
+namespace foretouch::internal {
+
+/// For each of `names` the triangles of that link of the model's avatar. Links are named like their
+/// nodes; where nodes share a name, as avatarFromModel() tells them apart. Error, naming `path`,
+/// where the model makes no avatar or has no such link.
+[[nodiscard]] Result<std::vector<std::vector<Triangle>>> surfacesOfLinks(
+    const Model& model, const std::vector<std::string>& names, const std::string& path);
+
+}  // namespace foretouch::internal

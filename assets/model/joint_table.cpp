@@ -1,0 +1,159 @@
+#include "assets/model/joint_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_set>
+#include <utility>
+
+#include "articulated/skeleton.h"
+#include "assets/bvh/bvh_reader.h"
+#include "assets/bvh/bvh_text.h"
+#include "assets/text_file.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Of the mean spacing: clocks that print milliseconds at 100 Hz stay below it.
+constexpr double kSpacingTolerance = 0.01;
+
+std::string_view trimmed(std::string_view text) {
+  const auto isBlank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view unquoted(std::string_view cell) {
+  cell = trimmed(cell);
+  const bool isQuoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+  return isQuoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
+constexpr std::size_t kMaxCells = static_cast<std::size_t>(kMaxJoints) + 1;
+
+/// No more of them than say that there are too many.
+std::vector<std::string_view> cellsOf(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(unquoted(line.substr(0, comma)));
+    if (comma == std::string_view::npos || cells.size() > kMaxCells) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Hands out lines that say something.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (rest_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+      rest_.remove_prefix(kByteOrderMark.size());
+    }
+  }
+  std::optional<std::string_view> next() {
+    while (!rest_.empty()) {
+      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+      const std::string_view line = trimmed(rest_.substr(0, end));
+      rest_.remove_prefix(std::min(end + 1, rest_.size()));
+      ++number_;
+      if (!line.empty() && line.front() != '#') return line;
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] std::int64_t number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  std::int64_t number_ = 0;
+};
+
+std::optional<Error> readHeader(std::string_view line, std::int64_t number, JointTable& table) {
+  const auto names = cellsOf(line);
+  if (!isKeyword(names.front(), "time")) {
+    return bvhError(ErrorCode::Syntax, number,
+                    "expected a header that begins with time, found " + inQuotes(names.front()));
+  }
+  if (names.size() < 2 || names.size() > kMaxCells) {
+    return bvhError(ErrorCode::OutOfRange, number,
+                    "expected 1 to " + std::to_string(kMaxJoints) + " joints after time");
+  }
+  std::unordered_set<std::string_view> seen;
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    if (!seen.insert(names[i]).second) {
+      return bvhError(ErrorCode::DuplicateName, number,
+                      "two columns are called " + inQuotes(names[i]));
+    }
+    table.joints.emplace_back(names[i]);
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> readRow(std::string_view line, std::int64_t number, JointTable& table,
+                             std::vector<double>& times) {
+  const auto cells = cellsOf(line);
+  if (cells.size() != table.joints.size() + 1) {
+    return bvhError(ErrorCode::Syntax, number,
+                    "expected " + std::to_string(table.joints.size() + 1) + " cells, found " +
+                        (cells.size() > kMaxCells ? "more" : std::to_string(cells.size())));
+  }
+  if ((table.rows.size() + 1) * cells.size() > kMaxTableValues) {
+    return bvhError(ErrorCode::LimitExceeded, number,
+                    "expected at most " + std::to_string(kMaxTableValues) + " values");
+  }
+  std::vector<double> row;
+  for (const std::string_view cell : cells) {
+    const BvhNumber value = readBvhNumber(cell);
+    if (value.problem != nullptr) {
+      return bvhError(value.code, number,
+                      "expected a number, found " + inQuotes(cell) + ", which " + value.problem);
+    }
+    row.push_back(value.value);
+  }
+  times.push_back(row.front());
+  row.erase(row.begin());
+  table.rows.push_back(std::move(row));
+  table.lines.push_back(number);
+  return std::nullopt;
+}
+
+/// Sets the frame time, where the rows have one.
+std::optional<Error> findSpacing(const std::vector<double>& times, JointTable& table) {
+  if (times.size() < 2) {
+    return bvhError(ErrorCode::Empty, -1,
+                    "expected at least 2 rows, found " + std::to_string(times.size()));
+  }
+  const double spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  if (!(spacing >= kMinFrameTimeS && spacing <= kMaxFrameTimeS)) {
+    return bvhError(ErrorCode::OutOfRange, table.lines.back(),
+                    "expected rows 1e-6 to 3600 s apart, found " + std::to_string(spacing));
+  }
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double step = times[i] - times[i - 1];
+    if (std::abs(step - spacing) <= kSpacingTolerance * spacing) continue;
+    return bvhError(ErrorCode::OutOfRange, table.lines[i],
+                    "expected rows equally spaced, " + std::to_string(spacing) +
+                        " s apart to within a hundredth, found " + std::to_string(step));
+  }
+  table.frameTimeS = spacing;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<JointTable> parseJointTable(std::string_view csv) {
+  Lines lines(csv);
+  JointTable table;
+  const auto header = lines.next();
+  if (!header) return bvhError(ErrorCode::Empty, -1, "expected a header: time and joint names");
+  if (auto error = readHeader(*header, lines.number(), table)) return *std::move(error);
+  std::vector<double> times;
+  while (const auto line = lines.next()) {
+    if (auto error = readRow(*line, lines.number(), table, times)) return *std::move(error);
+  }
+  if (auto error = findSpacing(times, table)) return *std::move(error);
+  return table;
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,97 @@
+// assets/model/model.h: a rigged model as a file tells it (glTF, FBX, Collada, URDF ...): nodes,
+// meshes, skins, joints and animations. Unjudged: what it means as an avatar is decided by
+// assets/model/model_avatar.h. Metres, radians, seconds; the file's unit has been applied.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/skeleton.h"
+#include "lss/lss.h"
+
+namespace foretouch {
+
+/// An affine map x -> linear*x + translation.
+struct Affine {
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] Affine operator*(const Affine& inner) const {
+    return {linear * inner.linear, linear * inner.translation + translation};
+  }
+  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& p) const {
+    return linear * p + translation;
+  }
+};
+
+/// How a node may move against its parent; files without joints (all but URDF) leave it Free.
+enum class ModelJointType : std::uint8_t { Free, Fixed, Revolute, Continuous, Prismatic };
+
+struct ModelNode {
+  std::string name;          ///< UTF-8 without control characters; may be empty or repeated.
+  std::int32_t parent = -1;  ///< Index of an earlier node; -1: a root.
+  Affine toParent;           ///< At rest. May scale, shear or mirror: files do.
+  std::vector<Lss>
+      lss;  ///< Spheres and capsules that the file states as such, in the node's frame.
+  ModelJointType joint = ModelJointType::Free;
+  std::string jointName;  ///< URDF names joints apart from links; else empty.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of the joint, in the node's frame, unit.
+  double lowerLimit = 0.0, upperLimit = 0.0;        ///< Radians or metres; equal: none stated.
+};
+
+/// How much a bone moves which vertices of a mesh.
+struct ModelBone {
+  std::int32_t node = -1;  ///< -1: the file names a node that it does not hold (`name` tells).
+  std::string name;
+  Affine meshToBone;  ///< At bind time: from mesh space into the bone's frame.
+  struct Weight {
+    std::int32_t vertex;
+    double weight;  ///< As the file states it: may be zero, negative or NaN.
+  };
+  std::vector<Weight> weights;
+};
+
+/// A mesh where a node puts it; a mesh that n nodes place appears n times.
+struct ModelMesh {
+  std::string name;
+  std::int32_t node = -1;                              ///< Whose frame the vertices are in.
+  std::vector<Eigen::Vector3d> vertices;               ///< May hold NaN: files do.
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< Indices are in range.
+  std::vector<ModelBone> bones;                        ///< Empty: moves rigidly with its node.
+};
+
+/// The keys of one node. A list without keys leaves that part at the node's rest.
+struct ModelTrack {
+  std::int32_t node = -1;
+  struct VectorKey {
+    double timeS;
+    Eigen::Vector3d value;
+  };
+  struct RotationKey {
+    double timeS;
+    Quaternion value;
+  };
+  std::vector<VectorKey> positions, scales;
+  std::vector<RotationKey> rotations;
+};
+
+struct ModelAnimation {
+  std::string name;
+  double durationS = 0.0;
+  std::vector<ModelTrack> tracks;
+};
+
+struct Model {
+  std::vector<ModelNode> nodes;  ///< Parents before children.
+  std::vector<ModelMesh> meshes;
+  std::vector<ModelAnimation> animations;
+  /// What the reader met and passed over, one sentence each (a missing mesh file, faces with
+  /// indices out of range, points and lines, ...). Bounded in number.
+  std::vector<std::string> notes;
+};
+
+}  // namespace foretouch

@@ -1,0 +1,45 @@
+// assets/model/model_tracks.h: the keys of a model's animation, sampled. Internal to model_clip.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "assets/model/model.h"
+
+namespace foretouch::internal {
+
+/// One node's keys, in order of time and finite, ready to be sampled.
+class SampledTrack {
+ public:
+  /// `rest`: the node's frame at rest in its parent's. Keys that are not finite, and rotations of
+  /// no length, are left out and counted.
+  SampledTrack(const ModelTrack& track, const Affine& rest);
+
+  /// The node's frame in its parent's: between keys linear, rotations on the shorter arc at
+  /// constant rate; before the first and after the last key, that key. The scale is the one at
+  /// rest.
+  [[nodiscard]] Affine at(double timeS) const;
+
+  [[nodiscard]] std::int32_t node() const { return track_.node; }
+  [[nodiscard]] bool turns() const { return !track_.rotations.empty(); }
+  [[nodiscard]] bool shifts() const { return !track_.positions.empty(); }
+  [[nodiscard]] double lastKeyS() const { return lastKeyS_; }
+  [[nodiscard]] std::size_t leftOut() const { return leftOut_; }
+  /// The file's scale differs from the one at rest by more than a thousandth at some key.
+  [[nodiscard]] bool scalesAnew() const { return scalesAnew_; }
+
+ private:
+  template <typename Keys>
+  void clean(Keys& keys);
+  void findScale();
+
+  ModelTrack track_;
+  Affine rest_;
+  Eigen::Matrix3d scale_;  ///< rest_.linear = rotation * scale_.
+  double lastKeyS_ = 0.0;
+  std::size_t leftOut_ = 0;
+  bool scalesAnew_ = false;
+};
+
+}  // namespace foretouch::internal

@@ -1,0 +1,216 @@
+#include "assets/text_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <memory>
+#include <new>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace foretouch {
+namespace {
+
+constexpr std::size_t kChunkBytes = 1u << 20;
+
+Error fileError(ErrorCode code, const std::string& path, std::string message) {
+  Error error;
+  error.code = code;
+  error.file = path;
+  error.message = std::move(message);
+  return error;
+}
+
+/// Closes on every way out; PendingFile needs the result of close() and so keeps its own.
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  [[nodiscard]] int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+/// Reads to the end or until `limitBytes` are passed: files in /proc state a size of zero, and
+/// others may grow meanwhile.
+Result<std::string> readAll(int descriptor, const std::string& path, std::size_t sizeHint,
+                            std::size_t limitBytes) {
+  std::string text;
+  text.reserve(sizeHint);
+  std::string chunk(kChunkBytes, '\0');
+  for (;;) {
+    const ssize_t got = ::read(descriptor, chunk.data(), chunk.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) {
+      return fileError(ErrorCode::FileUnreadable, path,
+                       std::string("reading failed: ") + std::strerror(errno));
+    }
+    if (got == 0) return text;
+    if (static_cast<std::size_t>(got) > limitBytes - text.size()) {
+      return fileError(ErrorCode::LimitExceeded, path,
+                       "expected at most " + std::to_string(limitBytes) + " bytes, found more");
+    }
+    text.append(chunk, 0, static_cast<std::size_t>(got));
+  }
+}
+
+/// The file behind symbolic links; the path itself where nothing is there yet.
+std::string resolved(const std::string& path) {
+  const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
+                                                         &std::free);
+  return real ? std::string(real.get()) : path;
+}
+
+struct Opened {
+  std::string temporary;
+  int descriptor = -1;
+};
+
+/// O_EXCL: a file or link that somebody planted under the name is never written through. The number
+/// makes the name unique within this process, the process id among processes.
+Opened openTemporary(const std::string& target, mode_t mode) {
+  static std::atomic<std::uint64_t> counter{0};
+  constexpr int kAttempts = 64;  // leftovers of earlier processes with our id are the only obstacle
+  Opened opened;
+  for (int i = 0; i < kAttempts; ++i) {
+    opened.temporary =
+        target + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter.fetch_add(1));
+    opened.descriptor =
+        ::open(opened.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (opened.descriptor >= 0 || errno != EEXIST) break;
+  }
+  return opened;
+}
+
+/// The rename is only on the disk once the folder is; not every file system can do this, and the
+/// file is complete either way, so a failure is no error.
+void syncFolderOf(const std::string& target) {
+  const std::size_t slash = target.find_last_of('/');
+  const std::string folder = slash == std::string::npos ? "." : target.substr(0, slash + 1);
+  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.get() >= 0) static_cast<void>(::fsync(descriptor.get()));
+}
+
+}  // namespace
+
+Result<std::string> readWholeFile(const std::string& path, std::size_t limitBytes) {
+  // O_NONBLOCK: opening a pipe without a writer would wait for ever.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (file.get() < 0) {
+    return fileError(ErrorCode::FileNotFound, path,
+                     std::string("cannot be opened: ") + std::strerror(errno));
+  }
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+    return fileError(ErrorCode::FileUnreadable, path, "is not a regular file");
+  }
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  if (size > limitBytes) {
+    return fileError(
+        ErrorCode::LimitExceeded, path,
+        "expected at most " + std::to_string(limitBytes) + " bytes, found " + std::to_string(size));
+  }
+  try {
+    return readAll(file.get(), path, static_cast<std::size_t>(size), limitBytes);
+  } catch (const std::bad_alloc&) {
+    return fileError(ErrorCode::LimitExceeded, path, "does not fit into memory");
+  }
+}
+
+PendingFile::PendingFile(std::string path, std::string target, std::string temporary,
+                         int descriptor)
+    : path_(std::move(path)),
+      target_(std::move(target)),
+      temporary_(std::move(temporary)),
+      descriptor_(descriptor) {}
+
+PendingFile::PendingFile(PendingFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      failure_(other.failure_),
+      buffer_(std::move(other.buffer_)) {}
+
+PendingFile::~PendingFile() {
+  discard();
+}
+
+Result<PendingFile> PendingFile::create(const std::string& path) {
+  const std::string target = resolved(path);
+  struct stat status {};
+  const bool exists = ::stat(target.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) {
+    return fileError(ErrorCode::FileUnwritable, path, "is a folder, expected a file to write");
+  }
+  Opened opened;
+  if (exists && !S_ISREG(status.st_mode)) {
+    opened.descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+  } else {
+    opened = openTemporary(target, exists ? status.st_mode & 0777 : 0666);
+  }
+  // open() took the umask off the mode; a file that is replaced keeps the mode it had.
+  if (opened.descriptor >= 0 && exists && !opened.temporary.empty()) {
+    static_cast<void>(::fchmod(opened.descriptor, status.st_mode & 0777));
+  }
+  if (opened.descriptor < 0) {
+    return fileError(ErrorCode::FileUnwritable, path,
+                     std::string("cannot be written: ") + std::strerror(errno));
+  }
+  return PendingFile(path, target, opened.temporary, opened.descriptor);
+}
+
+void PendingFile::write(const std::string& text) {
+  buffer_ += text;
+  if (buffer_.size() >= kChunkBytes) flush();
+}
+
+void PendingFile::flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty() && failure_ == 0) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    if (written >= 0) {
+      rest.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      failure_ = errno;
+    }
+  }
+  buffer_.clear();
+}
+
+Result<Done> PendingFile::commit() {
+  FORETOUCH_ASSERT(descriptor_ >= 0);  // once only
+  flush();
+  const bool inPlace = temporary_.empty();
+  if (failure_ == 0 && !inPlace && ::fsync(descriptor_) != 0) failure_ = errno;
+  if (::close(std::exchange(descriptor_, -1)) != 0 && failure_ == 0) failure_ = errno;
+  if (failure_ == 0 && !inPlace) {
+    if (::rename(temporary_.c_str(), target_.c_str()) == 0) {
+      temporary_.clear();
+      syncFolderOf(target_);
+    } else {
+      failure_ = errno;
+    }
+  }
+  discard();
+  if (failure_ == 0) return Done{};
+  return fileError(ErrorCode::FileUnwritable, path_,
+                   std::string("writing failed: ") + std::strerror(failure_));
+}
+
+void PendingFile::discard() noexcept {
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+}  // namespace foretouch

@@ -1,0 +1,35 @@
+#include "bench/commands.h"
+
+#include <CLI/CLI.hpp>
+
+#include "bench/deadline_command.h"
+#include "bench/documents_command.h"
+#include "bench/extremes_command.h"
+#include "bench/latency_command.h"
+#include "bench/leaf_command.h"
+#include "bench/memory_command.h"
+#include "bench/peers_command.h"
+#include "bench/scaling_command.h"
+#include "bench/stream_command.h"
+#include "bench/trade_command.h"
+#include "bench/tune_command.h"
+#include "bench/view_command.h"
+
+namespace foretouch::tools {
+
+void addBenchCommands(CLI::App& program, ExitCode& exit) {
+  addBenchLatencyCommand(program, exit);
+  addBenchScalingCommand(program, exit);
+  addBenchDocumentCommands(program, exit);
+  addBenchMemoryCommand(program, exit);
+  addBenchLeafCommand(program, exit);
+  addBenchPeersCommand(program, exit);
+  addBenchExtremesCommand(program, exit);
+  addBenchStreamCommands(program, exit);
+  addBenchViewCommand(program, exit);
+  addBenchDeadlineCommand(program, exit);
+  addBenchTradeCommand(program, exit);
+  addTuneCommand(program, exit);
+}
+
+}  // namespace foretouch::tools

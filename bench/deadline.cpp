@@ -1,0 +1,200 @@
+#include "bench/deadline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/machine.h"
+#include "bench/timing.h"
+#include "tools/progress.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// One limit, and what came of it.
+struct Limit {
+  std::string name;
+  double deadlineUs = std::numeric_limits<double>::infinity();
+  QueryOptions query;
+  std::int64_t asks = 0, whole = 0, links = 0, undecided = 0, unsound = 0;
+  double freeOfUndecided = 0.0;
+  std::vector<double> timesUs;
+};
+
+std::vector<Limit> limitsOf(const DeadlineRequest& request, QueryOptions query) {
+  query.tolerance = request.tolerance;
+  std::vector<Limit> limits;
+  limits.push_back(
+      {"none", std::numeric_limits<double>::infinity(), query, 0, 0, 0, 0, 0, 0.0, {}});
+  for (const double deadlineUs : request.deadlinesUs) {
+    Limit limit = limits.front();
+    limit.name = fmt::format("{:g} us", deadlineUs);
+    limit.query.deadlineUs = limit.deadlineUs = deadlineUs;
+    limits.push_back(std::move(limit));
+  }
+  for (const int work : request.workBudgets) {
+    Limit limit = limits.front();
+    limit.name = fmt::format("work {}", work);
+    limit.query.workBudget = static_cast<std::uint64_t>(work);
+    limits.push_back(std::move(limit));
+  }
+  return limits;
+}
+
+Result<std::vector<StepContacts>> touchesOf(const Avatar& avatar,
+                                            const std::vector<StepPoses>& steps, const Scene& scene,
+                                            QueryOptions query, StepMemory& memory) {
+  query.tolerance = kTouchTolerance;
+  query.backtracking = Backtracking::Scalar;
+  std::vector<StepContacts> touches;
+  for (const StepPoses& poses : steps) {
+    const auto answered = answerStep(avatar, poses, scene, query, memory);
+    if (!answered.ok()) return answered.error();
+    touches.push_back(memory.contacts);
+  }
+  return touches;
+}
+
+void count(const StepContacts& answer, const StepContacts& touch, Limit& limit) {
+  ++limit.asks;
+  std::int64_t undecided = 0;
+  for (const LinkContact& contact : answer.links) {
+    if (contact.verdict != Verdict::Undecided) continue;
+    ++undecided;
+    limit.freeOfUndecided += contact.freeUntil;
+  }
+  limit.links += static_cast<std::int64_t>(answer.links.size());
+  limit.undecided += undecided;
+  limit.whole += undecided == 0 ? 1 : 0;
+  limit.unsound += unsoundLinks(answer, touch);
+}
+
+BenchTable deadlineTable() {
+  return {"deadlines",
+          "What is answered in time, and by how much it is overrun",
+          {{"limit", "limit", 0},
+           {"asks", "queries", 0},
+           {"whole_percent", "all links decided %", 2},
+           {"undecided_percent", "links undecided %", 2},
+           {"free_until", "of these free until, mean", 3},
+           {"unsound", "unsound", 0},
+           {"p50_us", "p50 us", 2},
+           {"p99_us", "p99 us", 2},
+           {"p999_us", "p99.9 us", 2},
+           {"overrun_p50_us", "overrun p50 us", 2},
+           {"overrun_p99_us", "p99 us", 2},
+           {"overrun_p999_us", "p99.9 us", 2},
+           {"overrun_max_us", "max us", 1}},
+          {}};
+}
+
+std::vector<BenchCell> rowOf(Limit& limit) {
+  std::sort(limit.timesUs.begin(), limit.timesUs.end());
+  const auto percent = [](std::int64_t part, std::int64_t all) {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::int64_t>(all, 1));
+  };
+  const auto overrun = [&](double timeUs) { return std::max(0.0, timeUs - limit.deadlineUs); };
+  std::vector<BenchCell> row;
+  row.reserve(13);
+  row.emplace_back(limit.name);
+  row.emplace_back(limit.asks);
+  row.emplace_back(percent(limit.whole, limit.asks));
+  row.emplace_back(percent(limit.undecided, limit.links));
+  row.emplace_back(limit.undecided == 0
+                       ? std::numeric_limits<double>::quiet_NaN()
+                       : limit.freeOfUndecided / static_cast<double>(limit.undecided));
+  row.emplace_back(limit.unsound);
+  for (const double share : {0.5, 0.99, 0.999}) row.emplace_back(valueAtRank(limit.timesUs, share));
+  for (const double share : {0.5, 0.99, 0.999}) {
+    row.emplace_back(overrun(valueAtRank(limit.timesUs, share)));
+  }
+  row.emplace_back(overrun(limit.timesUs.back()));
+  return row;
+}
+
+}  // namespace
+
+std::int64_t unsoundLinks(const StepContacts& answer, const StepContacts& touch) {
+  std::int64_t unsound = 0;
+  for (std::size_t i = 0; i < answer.links.size(); ++i) {
+    const LinkContact& said = answer.links[i];
+    const LinkContact& touched = touch.links[i];
+    const bool touches =
+        touched.verdict == Verdict::Contact || touched.verdict == Verdict::StartsInContact;
+    if (touches && said.freeUntil > touched.freeUntil + kTouchTime) ++unsound;
+  }
+  return unsound;
+}
+
+Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request) {
+  const auto inputs = loadBenchInputs(request.options.files);
+  if (!inputs.ok()) return inputs.error();
+  const auto scene = refinedScene(inputs.value(), request.triangles);
+  if (!scene.ok()) return scene.error();
+  const auto body = bodyOf(inputs.value(), request.links);
+  if (!body.ok()) return body.error();
+  const auto query = queryFor(inputs.value(), body.value(), request.options);
+  if (!query.ok()) return query.error();
+  const auto workload = chooseSteps(inputs.value(), body.value(), request.options.workload);
+  if (!workload.ok()) return workload.error();
+  const auto steps = posesOf(inputs.value(), body.value(), workload.value());
+  if (!steps.ok()) return steps.error();
+  if (steps.value().empty()) {
+    return Error{ErrorCode::Empty, "bench deadline", -1, -1, "no steps were found"};
+  }
+  const Avatar& avatar = body.value().avatar;
+  StepMemory memory;
+  const auto touches = touchesOf(avatar, steps.value(), scene.value(), query.value(), memory);
+  if (!touches.ok()) return touches.error();
+
+  std::vector<Limit> limits = limitsOf(request, query.value());
+  const auto numSteps = static_cast<std::int64_t>(steps.value().size());
+  const std::int64_t passes = (request.asks + numSteps - 1) / numSteps;
+  ProgressBar progress("deadlines", passes);
+  for (std::int64_t pass = 0; pass < passes; ++pass) {
+    for (std::size_t i = 0; i < steps.value().size(); ++i) {
+      for (Limit& limit : limits) {
+        const Clock::time_point start = Clock::now();
+        const auto answered =
+            answerStep(avatar, steps.value()[i], scene.value(), limit.query, memory);
+        const std::chrono::duration<double, std::micro> took = Clock::now() - start;
+        if (!answered.ok()) return answered.error();
+        limit.timesUs.push_back(took.count());
+        count(memory.contacts, touches.value()[i], limit);
+      }
+    }
+    progress.advanceTo(pass + 1);
+  }
+
+  DeadlineBench bench;
+  BenchReport& report = bench.report;
+  report.kind = "deadline";
+  report.title = "Deadlines and work budgets";
+  report.command = request.options.command;
+  report.date = dateNow();
+  report.machine = machineFacts();
+  report.workload = workloadFacts(inputs.value(), scene.value(), avatar, query.value());
+  report.workload.emplace_back("steps", describe(workload.value()));
+  report.workload.emplace_back("tolerance", fmt::format("{:g} m", request.tolerance));
+  BenchTable table = deadlineTable();
+  for (Limit& limit : limits) {
+    bench.unsound += limit.unsound;
+    table.rows.push_back(rowOf(limit));
+  }
+  report.tables.push_back(std::move(table));
+  report.notes = {
+      "Every query's answer is held against the same step's touch, which the scalar form finds at "
+      "1e-7 m; unsound counts links that are said to be free beyond it. `./run oracle "
+      "--deadline-us` and `--work-budget` judge the same by an oracle of its own.",
+      "A deadline is looked at between pieces of work; the overrun is what the last piece, and the "
+      "machine, took beyond it. Work is counted in evaluations in lanes and overruns nothing but "
+      "the clock."};
+  return bench;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,15 @@
+// bench/deadline_command.h: `foretouch-bench deadline`.
+#pragma once
+
+#include "tools/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace foretouch::tools {
+
+/// Adds the subcommand to `foretouch bench`; what it ends with goes to `exit`.
+void addBenchDeadlineCommand(CLI::App& bench, ExitCode& exit);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,209 @@
+#include "bench/extremes/asking.h"
+
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/extremes/float_mode.h"
+#include "lss/simd.h"
+
+namespace foretouch::tools::extremes {
+namespace {
+
+using Eigen::Vector3d;
+
+std::array<double, 3> numbersOf(const Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+std::array<double, 4> numbersOf(const Quaternion& q) {
+  return {q.w(), q.x(), q.y(), q.z()};
+}
+
+/// In the order w, x, y, z, as the motion's definition has it, and in the thread's own mode:
+/// volatile keeps the compiler from knowing better.
+bool isBelowZero(const std::array<double, 4>& a, const std::array<double, 4>& b) {
+  volatile double sum = a[0] * b[0];
+  for (std::size_t i = 1; i < 4; ++i) {
+    const volatile double product = a[i] * b[i];
+    sum = sum + product;
+  }
+  return sum < 0.0;
+}
+
+/// Everything of a case that the product makes of it.
+struct Prepared {
+  Avatar avatar;
+  Pose from, to;
+  Scene scene;
+  std::optional<AvatarSurface> surface;
+};
+
+Result<Prepared> prepare(const ExtremeCase& extreme) {
+  auto skeleton = Skeleton::build(extreme.skeleton);
+  if (!skeleton.ok()) return skeleton.error();
+  auto avatar = Avatar::build(skeleton.value(), extreme.lss);
+  if (!avatar.ok()) return avatar.error();
+  auto from = validatedPose(skeleton.value(), extreme.from);
+  if (!from.ok()) return from.error();
+  auto to = validatedPose(skeleton.value(), extreme.to);
+  if (!to.ok()) return to.error();
+  auto scene = Scene::build(extreme.scene);
+  if (!scene.ok()) return scene.error();
+  Prepared prepared{std::move(avatar).value(), std::move(from).value(), std::move(to).value(),
+                    std::move(scene).value(), std::nullopt};
+  if (extreme.surface.empty()) return prepared;
+  auto surface = AvatarSurface::build(prepared.avatar, extreme.surface);
+  if (!surface.ok()) return surface.error();
+  prepared.surface = std::move(surface).value();
+  return prepared;
+}
+
+OracleWorld worldOf(const ExtremeCase& extreme, const Prepared& prepared) {
+  OracleWorld world;
+  for (std::size_t j = 0; j < prepared.from.rotations.size(); ++j) {
+    OracleJoint joint;
+    joint.parent = prepared.avatar.skeleton().parent(static_cast<JointId>(j));
+    joint.fromRotation = numbersOf(prepared.from.rotations[j]);
+    joint.toRotation = numbersOf(prepared.to.rotations[j]);
+    joint.fromTranslation = numbersOf(prepared.from.translations[j]);
+    joint.toTranslation = numbersOf(prepared.to.translations[j]);
+    joint.isFlipped = isBelowZero(joint.fromRotation, joint.toRotation);
+    world.joints.push_back(joint);
+  }
+  world.hulls = hullsOf(extreme, Fidelity::Link);
+  std::set<OracleTriangle> seen;
+  for (const Triangle& triangle : extreme.scene.triangles) {
+    if (!isFinite(triangle)) continue;
+    Triangle sorted = triangle;
+    std::sort(sorted.vertices.begin(), sorted.vertices.end(),
+              [](const auto& p, const auto& q) { return numbersOf(p) < numbersOf(q); });
+    const OracleTriangle numbers{numbersOf(sorted.vertices[0]), numbersOf(sorted.vertices[1]),
+                                 numbersOf(sorted.vertices[2])};
+    if (seen.insert(numbers).second) world.triangles.push_back(numbers);
+  }
+  return world;
+}
+
+class Asker {
+ public:
+  Asker(const ExtremeCase& extreme, const Prepared& prepared, bool isFlushed, Asked& asked)
+      : prepared_(prepared),
+        motion_(prepared.avatar.skeleton(), prepared.from, prepared.to),
+        isFlushed_(isFlushed),
+        asked_(asked) {
+    options_.tolerance = extreme.tolerance;
+  }
+
+  void run() {
+    for (const Simd simd : supportedSimd()) {
+      useSimd(simd);
+      options_.backtracking = Backtracking::Lanes;
+      everyFidelity(fmt::format("lanes {}", toString(simd)));
+    }
+    useSimd(std::nullopt);
+    options_.scope = Scope::FirstOfAvatar;
+    one("lanes, first of avatar", Fidelity::Link);
+    options_.scope = Scope::EveryLink;
+    cubics("lanes, cubics");
+    options_.backtracking = Backtracking::Scalar;
+    everyFidelity("scalar");
+    cubics("scalar, cubics");
+  }
+
+ private:
+  void everyFidelity(const std::string& way) {
+    for (const Culler culler : {Culler::FlatBvh, Culler::PointQuery}) {
+      options_.culler = culler;
+      const std::string both = way + (culler == Culler::FlatBvh ? ", flat" : ", point-query");
+      one(both, Fidelity::Link);
+      if (prepared_.surface) one(both, Fidelity::Exact);
+    }
+    options_.culler = Culler::FlatBvh;
+  }
+
+  void cubics(const std::string& way) {
+    if (!prepared_.surface) return;
+    options_.leafMethod = LeafMethod::Cubics;
+    one(way, Fidelity::Exact);
+    options_.leafMethod = LeafMethod::Advancement;
+  }
+
+  void one(const std::string& way, Fidelity fidelity) {
+    if (asked_.refusal) return;
+    options_.fidelity = fidelity;
+    if (fidelity == Fidelity::Exact) options_.surface = prepared_.surface;
+    Answer answer;
+    answer.way = fmt::format("{}, {}{}", way, toString(fidelity), isFlushed_ ? ", flushed" : "");
+    answer.fidelity = fidelity;
+    answer.isFlushed = isFlushed_;
+    answer.scope = options_.scope;
+    const auto done =
+        firstContacts(prepared_.avatar, motion_, prepared_.scene, options_, scratch_, answer.step);
+    if (!done.ok()) {
+      asked_.refusal = done.error();
+      return;
+    }
+    asked_.answers.push_back(std::move(answer));
+  }
+
+  const Prepared& prepared_;
+  ChainMotion motion_;
+  bool isFlushed_;
+  Asked& asked_;
+  QueryOptions options_;
+  QueryScratch scratch_;
+};
+
+}  // namespace
+
+std::vector<OracleHull> hullsOf(const ExtremeCase& extreme, Fidelity fidelity) {
+  std::vector<OracleHull> hulls;
+  for (std::size_t link = 0; link < extreme.lss.size(); ++link) {
+    if (fidelity == Fidelity::Exact && link < extreme.surface.size() &&
+        !extreme.surface[link].empty()) {
+      for (const Triangle& t : extreme.surface[link]) {
+        hulls.push_back(
+            {static_cast<int>(link),
+             3,
+             {numbersOf(t.vertices[0]), numbersOf(t.vertices[1]), numbersOf(t.vertices[2])},
+             0.0});
+      }
+      continue;
+    }
+    for (const Lss& lss : extreme.lss[link]) {
+      hulls.push_back(
+          {static_cast<int>(link), 2, {numbersOf(lss.a), numbersOf(lss.b), {}}, lss.radius});
+    }
+  }
+  return hulls;
+}
+
+Asked ask(const ExtremeCase& extreme) {
+  Asked asked;
+  std::vector<bool> refused;
+  for (const bool isFlushed : {false, true}) {
+    if (isFlushed && !canFlushDenormals()) continue;
+    const FloatMode mode(isFlushed);
+    auto prepared = prepare(extreme);
+    refused.push_back(!prepared.ok());
+    if (!prepared.ok()) {
+      asked.refusal = prepared.error();
+      continue;
+    }
+    asked.world[isFlushed ? 1 : 0] = worldOf(extreme, prepared.value());
+    asked.refusal.reset();
+    Asker(extreme, prepared.value(), isFlushed, asked).run();
+    refused.back() = asked.refusal.has_value();
+  }
+  for (const bool isRefused : refused) asked.isRefusedAlike &= isRefused == refused.front();
+  if (refused.front() && asked.isRefusedAlike) asked.answers.clear();
+  return asked;
+}
+
+std::uint64_t workOf(const QueryCounters& c) {
+  return c.nodes + c.leaves + c.candidates + c.clusterSteps + c.laneSteps + c.partSteps +
+         c.advancements + c.planeTests + c.cubicTests + c.states;
+}
+
+}  // namespace foretouch::tools::extremes

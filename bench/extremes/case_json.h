@@ -1,0 +1,15 @@
+// bench/extremes/case_json.h: one case in full, for whoever wants to look at it elsewhere.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/extremes/extreme_case.h"
+
+namespace foretouch::tools::extremes {
+
+/// Format "foretouch-extremes" version 1: all numbers to the last digit, "nan", "inf" and "-inf" as
+/// words. A scene of more than a thousand triangles keeps its different ones.
+[[nodiscard]] std::string casesJson(const std::vector<ExtremeCase>& cases);
+
+}  // namespace foretouch::tools::extremes

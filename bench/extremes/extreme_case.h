@@ -1,0 +1,98 @@
+// bench/extremes/extreme_case.h: one step to be asked, as a user would hand it in: unchecked.
+// And the pieces that families make such steps of.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/pose.h"
+#include "articulated/skeleton.h"
+#include "lss/lss.h"
+#include "lss/triangle.h"
+#include "middleware/scene/scene.h"
+#include "tools/portable_random.h"
+
+namespace foretouch::tools::extremes {
+
+/// A straight fall to the plane y = 0: the instant of touching is the ratio of two differences of
+/// doubles, (high - radius) / (high - low).
+struct Fall {
+  double high = 0.0, low = 0.0, radius = 0.0;
+};
+
+struct ExtremeCase {
+  std::string family, member;
+  std::uint64_t seed = 0;
+  RawSkeleton skeleton;
+  std::vector<std::vector<Lss>> lss;  ///< Per link, in L.
+  Pose from, to;
+  RawScene scene;
+  double tolerance = 1e-3;
+  std::vector<std::vector<Triangle>> surface;  ///< Per link; empty: link fidelity alone.
+  bool isLegal = true;                         ///< Else it must be refused.
+  std::optional<Fall> fall;  ///< Of the last link, where it is that and ends at the plane or below.
+
+  /// Into the scene, as object 0.
+  void add(const Triangle& triangle);
+};
+
+/// Numbers of one case, from its seed.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : random_(seed) {}
+  double uniform(double low, double high) { return random_.uniform(low, high); }
+  /// Log-uniform.
+  double magnitude(double low, double high);
+  bool chance(double share) { return uniform(0.0, 1.0) < share; }
+  double sign() { return chance(0.5) ? 1.0 : -1.0; }
+  double pick(std::initializer_list<double> values);
+  std::size_t below(std::size_t count);
+  Eigen::Vector3d direction();
+  Eigen::Vector3d inBox(double half) { return random_.inBox(half); }
+  Quaternion rotation(double angle);  ///< About any axis.
+
+ private:
+  PortableRandom random_;
+};
+
+[[nodiscard]] Quaternion aboutAxis(const Eigen::Vector3d& unitAxis, double angle);
+
+/// What a chain of limbs is like.
+struct RigShape {
+  int joints = 2;
+  double reach = 0.5;  ///< Of a limb (m).
+  double radius = 0.05;
+  double turn = 0.8;                                 ///< Of a joint in the step, at most (rad).
+  double travel = 0.5;                               ///< Of the root, at most (m).
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Of the root's ways.
+};
+/// A case with such a chain, one LSS a limb, and no scene yet.
+[[nodiscard]] ExtremeCase rigged(Draw& draw, const RigShape& shape);
+
+/// How triangles lie about the motion.
+struct AimShape {
+  int count = 6;
+  double size = 0.3;                    ///< Edges (m).
+  double gapLow = 1e-4, gapHigh = 0.2;  ///< From an LSS at some instant (m), log-uniform.
+  double inside = 0.2;                  ///< Share of triangles that are pushed into it instead.
+};
+/// Adds triangles that some limb comes near to at some instant.
+void aim(Draw& draw, ExtremeCase& extreme, const AimShape& shape);
+/// The corner that aim() puts such a triangle at. Poses are taken as they are.
+[[nodiscard]] Eigen::Vector3d aimed(Draw& draw, const ExtremeCase& extreme, const AimShape& shape);
+
+/// Gives every limb triangles of its own, all inside its LSS; `thin` of them slivers.
+void cover(Draw& draw, ExtremeCase& extreme, bool thin);
+
+/// One joint that goes from one place to another without turning, and one ball or rod on it.
+[[nodiscard]] ExtremeCase sliding(const Lss& lss, const Eigen::Vector3d& from,
+                                  const Eigen::Vector3d& to);
+/// In the plane y = `height`, reaching `half` and more around the origin.
+[[nodiscard]] Triangle floorAt(double height, double half = 50.0);
+
+}  // namespace foretouch::tools::extremes

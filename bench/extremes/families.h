@@ -1,0 +1,47 @@
+// bench/extremes/families.h: the extremes that are tried, each with random members and
+// hand-made worst ones. A case is its family, its seed and the sizes below, and nothing else.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/extremes/extreme_case.h"
+
+namespace foretouch::tools::extremes {
+
+/// Of the members that are large; smaller ones for quick trials.
+struct ExtremeSizes {
+  std::size_t coincident = 100'000;  ///< Triangles in one place.
+  int chain = 128;                   ///< Links in a row.
+};
+
+struct Member {
+  std::string name;
+  std::function<ExtremeCase(Draw&, const ExtremeSizes&)> make;
+};
+
+struct Family {
+  std::string name;
+  std::string about;  ///< For people: what is extreme in it.
+  std::vector<Member> members;
+  int share = 1;  ///< Of the cases asked for, one in so many: a case costs so much more.
+};
+
+/// In the order of docs/extremes.md.
+[[nodiscard]] const std::vector<Family>& families();
+/// Its `seed % members`-th member, drawn from `seed`.
+[[nodiscard]] ExtremeCase makeCase(const Family& family, std::uint64_t seed,
+                                   const ExtremeSizes& sizes);
+
+namespace internal {
+// By what is extreme: where things are, what shape they have, how they move, what is no input.
+void addPlaces(std::vector<Family>& families);
+void addShapes(std::vector<Family>& families);
+void addMotions(std::vector<Family>& families);
+void addRefusals(std::vector<Family>& families);
+}  // namespace internal
+
+}  // namespace foretouch::tools::extremes

@@ -1,0 +1,274 @@
+#include "bench/latency.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "bench/machine.h"
+#include "middleware/counter_fields.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// What was measured at one rate.
+struct RateTimes {
+  double rateHz;
+  const Workload& workload;
+  const std::vector<BenchCase>& cases;
+  const Timing& timing;
+
+  [[nodiscard]] double raySetUs() const { return percentilesOf(timing.raySetUs).p50; }
+};
+
+template <typename Field>
+std::vector<double> column(const CaseTimes& times, Field field) {
+  std::vector<double> values;
+  for (const TimedStep& step : times.steps) values.push_back(static_cast<double>(field(step)));
+  return values;
+}
+
+double warmOf(const TimedStep& step) {
+  return step.warmUs;
+}
+
+BenchTable latencyTable() {
+  return {"latency",
+          "Latency of a step, microseconds, and in ray-sets",
+          {{"rate_hz", "Hz", -1},
+           {"tolerance_m", "tolerance m", -1},
+           {"simd", "vectors", 0},
+           {"caches", "caches", 0},
+           {"steps", "steps", 0},
+           {"mean_us", "mean", 2},
+           {"p50_us", "p50", 2},
+           {"p90_us", "p90", 2},
+           {"p99_us", "p99", 2},
+           {"max_us", "max", 1},
+           {"ray_set_us", "ray-set", 3},
+           {"mean_ray_sets", "mean/rays", 1},
+           {"p50_ray_sets", "p50/rays", 1},
+           {"p99_ray_sets", "p99/rays", 1}},
+          {}};
+}
+
+BenchTable countersTable() {
+  BenchTable table{
+      "counters",
+      "Work of a step, mean counts",
+      {{"rate_hz", "Hz", -1}, {"tolerance_m", "tolerance m", -1}, {"simd", "vectors", 0}},
+      {}};
+  for (const char* key : {"contacts", "starts", "undecided"}) {
+    table.columns.push_back({key, key, 3});
+  }
+  for (const auto& [name, field] : kCounterFields) table.columns.push_back({name, name, 2});
+  return table;
+}
+
+BenchTable ratiosTable() {
+  return {"ratios", "Ratios within this run", {{"what", "what", 0}, {"ratio", "ratio", 2}}, {}};
+}
+
+BenchTable rawTable() {
+  BenchTable table{"steps", "Steps", {}, {}};
+  for (const char* key :
+       {"rate_hz", "tolerance_m", "simd", "step", "x", "y", "z", "yaw_deg", "frame", "warm_us",
+        "first_us", "cold_us", "ray_set_us", "contacts", "starts", "undecided"}) {
+    table.columns.push_back({key, key, 3});
+  }
+  for (const auto& [name, field] : kCounterFields) table.columns.push_back({name, name, 0});
+  return table;
+}
+
+void addLatencyRows(const RateTimes& at, BenchTable& table) {
+  const double rays = at.raySetUs();
+  for (std::size_t c = 0; c < at.cases.size(); ++c) {
+    const BenchCase& way = at.cases[c];
+    const CaseTimes& times = at.timing.cases[c];
+    const auto add = [&](const char* caches, std::vector<double> values) {
+      const auto count = static_cast<std::int64_t>(values.size());
+      const Percentiles p = percentilesOf(std::move(values));
+      table.rows.push_back({at.rateHz, way.query.tolerance, std::string(toString(way.simd)),
+                            std::string(caches), count, p.mean, p.p50, p.p90, p.p99, p.max, rays,
+                            p.mean / rays, p.p50 / rays, p.p99 / rays});
+    };
+    add("warm", column(times, warmOf));
+    if (c > 0) continue;
+    add("first of all", column(times, [](const TimedStep& s) { return s.firstUs; }));
+    add("every repeat", times.everyUs);
+    if (way.cold) add("cold", column(times, [](const TimedStep& s) { return s.coldUs; }));
+  }
+}
+
+/// The mean counts of a step, in the order of the table's columns from "contacts" on.
+std::vector<BenchCell> meanCounts(const CaseTimes& times) {
+  const auto mean = [&](auto field) { return percentilesOf(column(times, field)).mean; };
+  std::vector<BenchCell> counts = {mean([](const TimedStep& s) { return s.contacts; }),
+                                   mean([](const TimedStep& s) { return s.starts; }),
+                                   mean([](const TimedStep& s) { return s.undecided; })};
+  for (const auto& [name, field] : kCounterFields) {
+    counts.emplace_back(mean([field = field](const TimedStep& s) { return s.counters.*field; }));
+  }
+  return counts;
+}
+
+/// Widths that count alike at one tolerance share a row.
+void addCounterRows(const RateTimes& at, BenchTable& table) {
+  constexpr std::size_t kSimd = 2, kCounts = 3;  // columns
+  const auto first = static_cast<std::ptrdiff_t>(table.rows.size());
+  for (std::size_t c = 0; c < at.cases.size(); ++c) {
+    const std::vector<BenchCell> counts = meanCounts(at.timing.cases[c]);
+    const BenchCell tolerance = at.cases[c].query.tolerance;
+    const std::string simd = toString(at.cases[c].simd);
+    const auto same = std::find_if(
+        table.rows.begin() + first, table.rows.end(), [&](const std::vector<BenchCell>& row) {
+          return row[1] == tolerance &&
+                 std::equal(counts.begin(), counts.end(), row.begin() + kCounts);
+        });
+    if (same != table.rows.end()) {
+      std::get<std::string>((*same)[kSimd]) += ", " + simd;
+      continue;
+    }
+    std::vector<BenchCell> row = {at.rateHz, tolerance, simd};
+    row.insert(row.end(), counts.begin(), counts.end());
+    table.rows.push_back(std::move(row));
+  }
+}
+
+/// Each case against the first, and cold against warm.
+void addRatioRows(const RateTimes& at, BenchTable& table) {
+  const CaseTimes& base = at.timing.cases.front();
+  const Percentiles warm = percentilesOf(column(base, warmOf));
+  const auto add = [&](const std::string& what, double ratio) {
+    table.rows.push_back({fmt::format("{:g} Hz: {}", at.rateHz, what), ratio});
+  };
+  for (std::size_t c = 1; c < at.cases.size(); ++c) {
+    const Percentiles other = percentilesOf(column(at.timing.cases[c], warmOf));
+    const std::string names = at.cases[c].name + " over " + at.cases.front().name;
+    add(names + ", mean", other.mean / warm.mean);
+    add(names + ", p99", other.p99 / warm.p99);
+  }
+  if (!at.cases.front().cold) return;
+  const Percentiles cold = percentilesOf(column(base, [](const TimedStep& s) { return s.coldUs; }));
+  add("cold over warm, p50", cold.p50 / warm.p50);
+  add("cold over warm, p99", cold.p99 / warm.p99);
+}
+
+void addRawRows(const RateTimes& at, BenchTable& table) {
+  for (std::size_t c = 0; c < at.cases.size(); ++c) {
+    for (std::size_t i = 0; i < at.timing.cases[c].steps.size(); ++i) {
+      const TimedStep& step = at.timing.cases[c].steps[i];
+      const StepPick& pick = at.workload.picks[i];
+      const Eigen::Vector3d& p = pick.placement.origin;
+      std::vector<BenchCell> row = {at.rateHz,
+                                    at.cases[c].query.tolerance,
+                                    std::string(toString(at.cases[c].simd)),
+                                    static_cast<std::int64_t>(i),
+                                    p.x(),
+                                    p.y(),
+                                    p.z(),
+                                    pick.placement.yawDeg,
+                                    pick.frame,
+                                    step.warmUs,
+                                    step.firstUs,
+                                    step.coldUs,
+                                    at.timing.raySetUs[i],
+                                    std::int64_t{step.contacts},
+                                    std::int64_t{step.starts},
+                                    std::int64_t{step.undecided}};
+      for (const auto& [name, field] : kCounterFields) {
+        row.emplace_back(static_cast<std::int64_t>(step.counters.*field));
+      }
+      table.rows.push_back(std::move(row));
+    }
+  }
+}
+
+/// Every tolerance at the first width, and every width at the first tolerance.
+std::vector<BenchCase> casesOf(const LatencyRequest& request, const QueryOptions& query) {
+  std::vector<BenchCase> cases;
+  const auto add = [&](double tolerance, Simd simd) {
+    BenchCase way;
+    way.name = fmt::format("{:g} m {}", tolerance, toString(simd));
+    way.query = query;
+    way.query.tolerance = tolerance;
+    way.simd = simd;
+    way.cold = cases.empty() && request.options.timing.coldMb > 0;
+    cases.push_back(std::move(way));
+  };
+  for (const double tolerance : request.tolerances) add(tolerance, request.widths.front());
+  for (std::size_t i = 1; i < request.widths.size(); ++i) {
+    add(request.tolerances.front(), request.widths[i]);
+  }
+  return cases;
+}
+
+std::vector<std::string> notesOn(const TimingOptions& timing, double overheadUs) {
+  return {
+      "A step is timed from two validated poses to the contacts of all links, building the motion "
+      "included; one thread, memory reused.",
+      fmt::format("warm: the least of {} times in a row. first of all: the first of them, after "
+                  "other steps. every repeat: all of them. cold: {} MB streamed through the caches "
+                  "before the step, the least of {} passes. Less {:.3f} us for the clock.",
+                  timing.repeats, timing.coldMb, timing.coldPasses, overheadUs),
+      "A ray-set is 16 occlusion rays along the links' ways; its time here is the median over the "
+      "same steps, taken in turns with them."};
+}
+
+BenchReport startedReport(const LatencyRequest& request, const BenchInputs& inputs,
+                          const Scene& scene, const Avatar& avatar, const QueryOptions& query) {
+  BenchReport report;
+  report.kind = "latency";
+  report.title = fmt::format("Latency of a step: {} in {} triangles, {} links, {} fidelity",
+                             std::filesystem::path(inputs.files.scenePath).filename().string(),
+                             scene.numTriangles(), avatar.numLinks(), toString(query.fidelity));
+  report.command = request.options.command;
+  report.date = dateNow();
+  report.machine = machineFacts();
+  report.workload = workloadFacts(inputs, scene, avatar, query);
+  report.tables = {latencyTable(), ratiosTable(), countersTable()};
+  return report;
+}
+
+}  // namespace
+
+Result<MeasuredBench> measureLatency(const LatencyRequest& request) {
+  const auto inputs = loadBenchInputs(request.options.files);
+  if (!inputs.ok()) return inputs.error();
+  const auto scene = refinedScene(inputs.value(), request.triangles);
+  if (!scene.ok()) return scene.error();
+  const auto body = bodyOf(inputs.value(), request.links);
+  if (!body.ok()) return body.error();
+  const auto query = queryFor(inputs.value(), body.value(), request.options);
+  if (!query.ok()) return query.error();
+
+  MeasuredBench bench{
+      startedReport(request, inputs.value(), scene.value(), body.value().avatar, query.value()),
+      rawTable()};
+  BenchReport& report = bench.report;
+  const std::vector<BenchCase> cases = casesOf(request, query.value());
+  double overheadUs = 0.0;
+  for (const double rateHz : request.ratesHz) {
+    WorkloadRequest wanted = request.options.workload;
+    wanted.rateHz = rateHz;
+    const auto workload = chooseSteps(inputs.value(), body.value(), wanted);
+    if (!workload.ok()) return workload.error();
+    const auto steps = posesOf(inputs.value(), body.value(), workload.value());
+    if (!steps.ok()) return steps.error();
+    const auto timing =
+        timeSteps(body.value().avatar, steps.value(), scene.value(), cases, request.options.timing);
+    if (!timing.ok()) return timing.error();
+    const RateTimes at{rateHz, workload.value(), cases, timing.value()};
+    report.workload.emplace_back(fmt::format("at {:g} Hz", rateHz), describe(workload.value()));
+    addLatencyRows(at, report.tables[0]);
+    addRatioRows(at, report.tables[1]);
+    addCounterRows(at, report.tables[2]);
+    addRawRows(at, bench.raw);
+    overheadUs = timing.value().overheadUs;
+  }
+  if (report.tables[1].rows.empty()) report.tables.erase(report.tables.begin() + 1);
+  report.notes = notesOn(request.options.timing, overheadUs);
+  return bench;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,28 @@
+// bench/latency.h: `foretouch-bench latency`: what a step takes.
+#pragma once
+
+#include <vector>
+
+#include "bench/options.h"
+#include "bench/report.h"
+
+namespace foretouch::tools {
+
+struct LatencyRequest {
+  BenchOptions options;
+  std::vector<double> ratesHz = {5.0}, tolerances = {1e-3};
+  std::vector<Simd> widths;   ///< At least one.
+  int links = 0;              ///< 0: the avatar's own.
+  std::size_t triangles = 0;  ///< 0: the scene's own.
+};
+
+struct MeasuredBench {
+  BenchReport report;
+  BenchTable raw;  ///< A line a step.
+};
+
+/// Tables: "latency" (percentiles), "ratios" (between rows of it, where there are several),
+/// "counters" (means a step).
+[[nodiscard]] Result<MeasuredBench> measureLatency(const LatencyRequest& request);
+
+}  // namespace foretouch::tools

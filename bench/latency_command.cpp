@@ -1,0 +1,73 @@
+#include "bench/latency_command.h"
+
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "bench/latency.h"
+#include "tools/arguments.h"
+#include "tools/settling.h"
+
+namespace foretouch::tools {
+namespace {
+
+struct LatencyTexts : BenchTexts {
+  std::string rate = "5,10,30", tolerance = "0.001,0.00001", simd = "all", links = "own",
+              triangles = "own", coldMb = "16";
+};
+
+Result<LatencyRequest> settledLatency(const LatencyTexts& texts) {
+  constexpr int kMaxColdMb = 1024;
+  LatencyRequest request;
+  Settling settle;
+  settle.into(request.options, settled(texts));
+  settle.into(request.ratesHz, parsePositives("--rate", texts.rate));
+  settle.into(request.tolerances, parseTolerances("--tolerance", texts.tolerance));
+  settle.into(request.widths, parseSimds("--simd", texts.simd));
+  settle.into(request.links, parseOwnOrCount("--links", texts.links, kMaxBenchLinks));
+  int triangles = 0;
+  settle.into(triangles, parseOwnOrCount("--triangles", texts.triangles, kMaxBenchTriangles));
+  request.triangles = static_cast<std::size_t>(triangles);
+  request.options.timing.coldMb = 0;
+  if (texts.coldMb != "0") {
+    settle.into(request.options.timing.coldMb, parseCount("--cold-mb", texts.coldMb, kMaxColdMb));
+  }
+  if (settle.error()) return *settle.error();
+  return request;
+}
+
+ExitCode run(const LatencyTexts& texts) {
+  const auto request = settledLatency(texts);
+  if (!request.ok()) return failed(request.error());
+  const auto bench = measureLatency(request.value());
+  if (!bench.ok()) return failed(bench.error());
+  const auto written = writeReport(bench.value().report, texts.json, bench.value().raw, texts.csv);
+  if (!written.ok()) return failed(written.error());
+  printOut(reportText(bench.value().report));
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+void addBenchLatencyCommand(CLI::App& bench, ExitCode& exit) {
+  const auto texts = std::make_shared<LatencyTexts>();
+  CLI::App* const command = bench.add_subcommand(
+      "latency", "How long a step takes, and how many sets of 16 rays that is");
+  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
+    command->add_option(name, text, help)->type_name(type)->capture_default_str();
+  };
+  option("--rate", texts->rate, "HZ,...", "Poses a second");
+  option("--tolerance", texts->tolerance, "M,...", "Tolerances (m)");
+  option("--simd", texts->simd, "NAME,...", "Vector instructions: their names, all or widest");
+  option("--links", texts->links, "N|own", "Links: fewer are cut off, more are grown");
+  option("--triangles", texts->triangles, "N|own", "Triangles that the scene is divided into");
+  option("--cold-mb", texts->coldMb, "MB",
+         "Streamed through the caches before a cold step; 0: none");
+  addBenchOptions(*command, *texts);
+  command->footer(
+      "Example:\n  foretouch-bench latency --triangles 300000 --links 16 --json latency.json");
+  command->callback([texts, &exit] { exit = run(*texts); });
+}
+
+}  // namespace foretouch::tools

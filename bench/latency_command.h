@@ -1,0 +1,15 @@
+// bench/latency_command.h: `foretouch-bench latency`.
+#pragma once
+
+#include "tools/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace foretouch::tools {
+
+/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `bench`.
+void addBenchLatencyCommand(CLI::App& bench, ExitCode& exit);
+
+}  // namespace foretouch::tools

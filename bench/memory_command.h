@@ -1,0 +1,15 @@
+// bench/memory_command.h: `foretouch-bench memory`.
+#pragma once
+
+#include "tools/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace foretouch::tools {
+
+/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `bench`.
+void addBenchMemoryCommand(CLI::App& bench, ExitCode& exit);
+
+}  // namespace foretouch::tools

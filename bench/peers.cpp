@@ -1,0 +1,200 @@
+#include "bench/peers.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/peers/foretouch_solvers.h"
+#ifdef FORETOUCH_HAS_PEERS
+#include "bench/peers/peer_solvers.h"
+#endif
+
+namespace foretouch::tools {
+namespace {
+
+std::vector<Triangle> trianglesOf(const Scene& scene) {
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 0; i < scene.numTriangles(); ++i) {
+    const Triangle& triangle = scene.triangle(static_cast<TriangleId>(i));
+    if (isFinite(triangle)) triangles.push_back(triangle);
+  }
+  return triangles;
+}
+
+std::int64_t roundsOf(const SweepSolvers& solvers, const RoundCounts& rounds) {
+  std::int64_t count = 0;
+  for (const auto& solver : solvers) count += solver->isPeer() ? rounds.peers : rounds.own;
+  return count;
+}
+
+std::int64_t asCell(std::size_t count) {
+  return static_cast<std::int64_t>(count);
+}
+
+std::vector<BenchCell> rowOf(const SolverRun& run, const Judgement& j) {
+  return {run.name,           j.time.medianUs,  j.time.meanUs,
+          j.time.p99Us,       asCell(j.missed), asCell(j.missedDeep),
+          asCell(j.late),     1e3 * j.latestM,  asCell(j.falseHits),
+          asCell(j.falseFar), j.medianToiError, j.p99ToiError};
+}
+
+BenchTable tableOf(const ComparedSet& set) {
+  BenchTable table;
+  table.name = set.motions.name;
+  std::transform(table.name.begin(), table.name.end(), table.name.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  table.title = fmt::format("{}: {}; {} motions, {} of them in contact", set.motions.name,
+                            set.motions.description, set.motions.sweeps.size(),
+                            set.judgements.front().contacts);
+  table.columns = {{"solver", "solver and setting"},
+                   {"median_us", "median us"},
+                   {"mean_us", "mean us"},
+                   {"p99_us", "p99 us"},
+                   {"missed", "missed"},
+                   {"missed_deep", "deep"},
+                   {"late", "late"},
+                   {"latest_mm", "latest mm", 3},
+                   {"false", "false"},
+                   {"false_far", "far"},
+                   {"toi_error_median", "toi error, median", 7},
+                   {"toi_error_p99", "p99", 7}};
+  for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    table.rows.push_back(rowOf(set.runs[i], set.judgements[i]));
+  }
+  return table;
+}
+
+BenchTable fasterTable(const std::vector<ComparedSet>& sets) {
+  BenchTable table{"faster",
+                   "Foretouch and the fastest peer that misses nothing and is never late",
+                   {{"set", "set"},
+                    {"solver", "Foretouch at"},
+                    {"mean_us", "mean us"},
+                    {"median_us", "median us"},
+                    {"peer", "fastest sound peer"},
+                    {"peer_mean_us", "its mean us"},
+                    {"times_faster", "times faster", 1}},
+                   {}};
+  for (const ComparedSet& set : sets) {
+    const auto fastest = fastestSoundPeer(set.runs, set.judgements);
+    if (!fastest) continue;
+    const double peerUs = set.judgements[*fastest].time.meanUs;
+    for (std::size_t i = 0; i < set.runs.size(); ++i) {
+      if (set.runs[i].isPeer) continue;
+      const TimeFigures& own = set.judgements[i].time;
+      table.rows.push_back({set.motions.name, set.runs[i].name, own.meanUs, own.medianUs,
+                            set.runs[*fastest].name, peerUs, peerUs / own.meanUs});
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+bool hasPeers() {
+#ifdef FORETOUCH_HAS_PEERS
+  return true;
+#else
+  return false;
+#endif
+}
+
+std::string builtInPeers() {
+#ifdef FORETOUCH_HAS_PEERS
+  return peerVersions();
+#else
+  return "";
+#endif
+}
+
+Result<std::vector<ComparedSet>> comparePeers(
+    const Scene& scene, const PeersPlan& plan,
+    const std::function<void(std::int64_t, std::int64_t)>& progress) {
+  const std::vector<Triangle> triangles = trianglesOf(scene);
+  const ReferenceScene reference(triangles);
+#ifdef FORETOUCH_HAS_PEERS
+  const PeerScenes peers(triangles);
+#endif
+  std::vector<ComparedSet> compared;
+  std::int64_t done = 0;
+  for (const MotionSetKind& kind : plan.sets) {
+    auto motions = drawnSet(kind, reference, plan.motions, plan.seed);
+    if (!motions.ok()) return motions.error();
+    ComparedSet set{std::move(motions).value(), {}, {}};
+    auto solvers = foretouchSolvers(scene, set.motions.lss_L);
+    if (!solvers.ok()) return solvers.error();
+    SweepSolvers all = std::move(solvers).value();
+#ifdef FORETOUCH_HAS_PEERS
+    for (auto& solver : peers.solvers(set.motions.lss_L)) all.push_back(std::move(solver));
+#endif
+    const auto total = static_cast<std::int64_t>(plan.sets.size()) * roundsOf(all, plan.rounds);
+    set.runs = runSolvers(set.motions, all, plan.rounds, [&] { progress(++done, total); });
+    for (const SolverRun& run : set.runs) set.judgements.push_back(judged(set.motions, run));
+    compared.push_back(std::move(set));
+  }
+  return compared;
+}
+
+std::vector<BenchTable> peerTables(const std::vector<ComparedSet>& sets) {
+  std::vector<BenchTable> tables;
+  for (const ComparedSet& set : sets) tables.push_back(tableOf(set));
+  tables.push_back(fasterTable(sets));
+  return tables;
+}
+
+BenchTable rawPeerTable(const std::vector<ComparedSet>& sets) {
+  BenchTable table{"motions",
+                   "Every motion and solver",
+                   {{"set", "set"},
+                    {"motion", "motion"},
+                    {"solver", "solver and setting"},
+                    {"us", "us"},
+                    {"touches", "touches"},
+                    {"toi", "toi"},
+                    {"true_touches", "in truth"},
+                    {"true_toi", "true toi"}},
+                   {}};
+  for (const ComparedSet& set : sets) {
+    for (const SolverRun& run : set.runs) {
+      for (std::size_t i = 0; i < run.answers.size(); ++i) {
+        const SweepTruth& truth = set.motions.truths[i];
+        table.rows.push_back({set.motions.name, asCell(i), run.name, run.us[i],
+                              std::int64_t{run.answers[i].touches}, run.answers[i].toi,
+                              std::int64_t{truth.touches}, truth.toi});
+      }
+    }
+  }
+  return table;
+}
+
+std::vector<std::string> peerNotes(const std::vector<ComparedSet>& sets) {
+  std::size_t uncertain = 0;
+  for (const ComparedSet& set : sets) uncertain += set.motions.uncertain;
+  return {fmt::format("Truth: conservative advancement to {:g} m by code of its own; motions drawn "
+                      "and left out because it stayed uncertain: {}.",
+                      kReferenceSeparation, uncertain),
+          fmt::format("missed: contacts not reported; deep: of these, deeper than {0:g} m. late: "
+                      "reported more than {0:g} m of motion after the contact; latest: the most. "
+                      "false: contacts reported on free motions; far: of these, on motions that "
+                      "never come within {0:g} m.",
+                      kJudgedDistance),
+          "Times: CPU time of the thread for one motion of one link, building Foretouch's motion "
+          "and the peers' transforms included; mean, median and p99 over the motions.",
+          "Time of impact: in units of the motion. A sound peer misses nothing and is never late."};
+}
+
+std::size_t brokenPromises(const std::vector<ComparedSet>& sets) {
+  std::size_t broken = 0;
+  for (const ComparedSet& set : sets) {
+    for (std::size_t i = 0; i < set.runs.size(); ++i) {
+      if (set.runs[i].isPeer) continue;
+      broken += set.judgements[i].missed + set.judgements[i].late;
+    }
+  }
+  return broken;
+}
+
+}  // namespace foretouch::tools

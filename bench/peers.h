@@ -1,0 +1,53 @@
+// bench/peers.h: Foretouch beside its peers on made-up motions in one scene: what is
+// measured, and how it reads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "bench/peers/comparison.h"
+#include "bench/peers/motion_sets.h"
+#include "bench/report.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch::tools {
+
+/// Whether FCL and Bullet are built in (CMake option FORETOUCH_PEERS).
+[[nodiscard]] bool hasPeers();
+/// "FCL 0.7.0 and Bullet 3.24 (double precision)"; empty where they are not built in.
+[[nodiscard]] std::string builtInPeers();
+
+struct PeersPlan {
+  std::vector<MotionSetKind> sets;
+  std::size_t motions = 1'000;  ///< A set.
+  std::uint64_t seed = 1;
+  RoundCounts rounds;
+};
+
+struct ComparedSet {
+  MotionSet motions;
+  std::vector<SolverRun> runs;
+  std::vector<Judgement> judgements;  ///< One a run.
+};
+
+/// Draws the sets and runs every solver on them. `progress` is told how many rounds of solvers are
+/// done, of how many. Errors: a scene that the motions do not fit.
+[[nodiscard]] Result<std::vector<ComparedSet>> comparePeers(
+    const Scene& scene, const PeersPlan& plan,
+    const std::function<void(std::int64_t done, std::int64_t total)>& progress);
+
+/// A table a set, and a table of how many times faster Foretouch is than the fastest sound peer.
+[[nodiscard]] std::vector<BenchTable> peerTables(const std::vector<ComparedSet>& sets);
+/// A row a motion and solver.
+[[nodiscard]] BenchTable rawPeerTable(const std::vector<ComparedSet>& sets);
+/// How the columns are to be read.
+[[nodiscard]] std::vector<std::string> peerNotes(const std::vector<ComparedSet>& sets);
+
+/// Contacts that Foretouch missed or reported late, all sets and tolerances together: its promise
+/// is that there are none.
+[[nodiscard]] std::size_t brokenPromises(const std::vector<ComparedSet>& sets);
+
+}  // namespace foretouch::tools

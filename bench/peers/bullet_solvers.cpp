@@ -1,0 +1,211 @@
+#include "bench/peers/bullet_solvers.h"
+
+#include <BulletCollision/CollisionShapes/btTriangleShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+#include <algorithm>
+#include <array>
+#include <btBulletCollisionCommon.h>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace foretouch::tools {
+namespace {
+
+/// Bullet clips the turn of one cast at 45 degrees (ANGULAR_MOTION_THRESHOLD): a motion that turns
+/// further has to be cut, or ends in another pose than it was told.
+constexpr double kMostTurnOfCast = 0.78;
+/// convexSweepTest() gathers triangles by the box of the last pose's rotation; finer pieces make up
+/// for that.
+constexpr double kFineTurnOfCast = 0.1;
+
+btVector3 toBullet(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+btTransform toBullet(const RigidPose& pose) {
+  const Quaternion& q = pose.rotation;
+  return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), toBullet(pose.pivot));
+}
+
+}  // namespace
+
+/// Members in the order in which they need one another.
+struct BulletScene::Impl {
+  Impl() = default;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() { world.removeCollisionObject(&object); }
+
+  std::vector<btVector3> vertices;
+  std::vector<int> indices;
+  btTriangleIndexVertexArray mesh;
+  std::unique_ptr<btBvhTriangleMeshShape> shape;
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btCollisionWorld world{&dispatcher, &broadphase, &configuration};
+  btCollisionObject object;
+};
+
+namespace {
+
+using SharedScene = std::shared_ptr<BulletScene::Impl>;
+
+/// A capsule anywhere in the link's frame: Bullet turns a shape about its origin, which has to be
+/// the pivot. The margin is the radius, so that its GJK works on the bare axis.
+class BulletCapsule {
+ public:
+  explicit BulletCapsule(const Lss& lss_L)
+      : ends_{toBullet(lss_L.a), toBullet(lss_L.b)},
+        radii_{lss_L.radius, lss_L.radius},
+        shape_(ends_.data(), radii_.data(), 2) {
+    shape_.setMargin(lss_L.radius);
+  }
+  [[nodiscard]] const btConvexShape& shape() const { return shape_; }
+
+ private:
+  std::array<btVector3, 2> ends_;
+  std::array<btScalar, 2> radii_;
+  btMultiSphereShape shape_;
+};
+
+/// A motion cut into equal pieces, cast one after another until one hits.
+class BulletSolver : public SweepSolver {
+ public:
+  /// `mostTurn` (radians) of one cast; zero: the whole motion is one.
+  BulletSolver(const std::string& name, SharedScene scene, const Lss& lss_L, double mostTurn)
+      : SweepSolver(name + (mostTurn > 0.0 ? fmt::format(", pieces of {:g} rad", mostTurn)
+                                           : std::string(", whole motion")),
+                    true),
+        scene_(std::move(scene)),
+        capsule_(lss_L),
+        mostTurn_(mostTurn) {}
+
+  SweepAnswer solve(const RigidSweep& sweep) override {
+    const int pieces = mostTurn_ > 0.0
+                           ? std::max(1, static_cast<int>(std::ceil(sweep.turn.norm() / mostTurn_)))
+                           : 1;
+    btTransform from = toBullet(poseAt(sweep, 0.0));
+    for (int piece = 0; piece < pieces; ++piece) {
+      const btTransform to = toBullet(poseAt(sweep, static_cast<double>(piece + 1) / pieces));
+      const double fraction = cast(from, to);
+      if (fraction < 1.0) return {true, (piece + std::max(fraction, 0.0)) / pieces};
+      from = to;
+    }
+    return {false, 1.0};
+  }
+
+ protected:
+  /// The fraction of the piece at which it hits; 1 or more: it does not.
+  virtual double cast(const btTransform& from, const btTransform& to) = 0;
+  [[nodiscard]] const btConvexShape& shape() const { return capsule_.shape(); }
+  [[nodiscard]] BulletScene::Impl& scene() const { return *scene_; }
+
+ private:
+  SharedScene scene_;
+  BulletCapsule capsule_;
+  double mostTurn_;
+};
+
+class BulletSweepTest : public BulletSolver {
+ public:
+  using BulletSolver::BulletSolver;
+
+ protected:
+  double cast(const btTransform& from, const btTransform& to) override {
+    btCollisionWorld::ClosestConvexResultCallback closest(from.getOrigin(), to.getOrigin());
+    scene().world.convexSweepTest(&shape(), from, to, closest);
+    return closest.m_closestHitFraction;
+  }
+};
+
+/// Casts the capsule against every triangle it is given and keeps the earliest hit.
+class TriangleCast : public btTriangleCallback {
+ public:
+  TriangleCast(const btConvexShape& shape, const btTransform& from, const btTransform& to)
+      : shape_(shape), from_(from), to_(to) {}
+
+  void processTriangle(btVector3* vertices, int /*part*/, int /*index*/) override {
+    btTriangleShape triangle(vertices[0], vertices[1], vertices[2]);
+    triangle.setMargin(0.0);
+    btVoronoiSimplexSolver simplex;
+    btGjkEpaPenetrationDepthSolver penetration;
+    btContinuousConvexCollision collision(&shape_, &triangle, &simplex, &penetration);
+    btConvexCast::CastResult result;
+    result.m_fraction = 1.0;
+    if (collision.calcTimeOfImpact(from_, to_, rest_, rest_, result)) {
+      earliest_ = std::min<double>(earliest_, result.m_fraction);
+    }
+  }
+  [[nodiscard]] double earliest() const { return earliest_; }
+
+ private:
+  const btConvexShape& shape_;
+  const btTransform &from_, &to_;
+  const btTransform rest_ = btTransform::getIdentity();
+  double earliest_ = 1.0;
+};
+
+class BulletTriangleCasts : public BulletSolver {
+ public:
+  using BulletSolver::BulletSolver;
+
+ protected:
+  double cast(const btTransform& from, const btTransform& to) override {
+    btVector3 speed, spin, low, high;
+    btTransformUtil::calculateVelocity(from, to, 1.0, speed, spin);
+    shape().calculateTemporalAabb(from, speed, spin, 1.0, low, high);
+    TriangleCast triangles(shape(), from, to);
+    scene().shape->processAllTriangles(&triangles, low, high);
+    return triangles.earliest();
+  }
+};
+
+}  // namespace
+
+std::string bulletVersion() {
+  return fmt::format("Bullet {}.{:02} (double precision)", btGetVersion() / 100,
+                     btGetVersion() % 100);
+}
+
+BulletScene::BulletScene(const std::vector<Triangle>& triangles) : impl_(std::make_shared<Impl>()) {
+  for (const Triangle& triangle : triangles) {
+    for (const Eigen::Vector3d& v : triangle.vertices) {
+      impl_->indices.push_back(static_cast<int>(impl_->vertices.size()));
+      impl_->vertices.push_back(toBullet(v));
+    }
+  }
+  btIndexedMesh part;
+  part.m_numTriangles = static_cast<int>(triangles.size());
+  part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(impl_->indices.data());
+  part.m_triangleIndexStride = 3 * sizeof(int);
+  part.m_numVertices = static_cast<int>(impl_->vertices.size());
+  part.m_vertexBase = reinterpret_cast<const unsigned char*>(impl_->vertices.data());
+  part.m_vertexStride = sizeof(btVector3);
+  impl_->mesh.addIndexedMesh(part);
+  const bool quantizedBoxes = true;  // the tree that Bullet recommends
+  impl_->shape = std::make_unique<btBvhTriangleMeshShape>(&impl_->mesh, quantizedBoxes);
+  impl_->shape->setMargin(0.0);
+  impl_->object.setCollisionShape(impl_->shape.get());
+  impl_->world.addCollisionObject(&impl_->object);
+}
+
+BulletScene::~BulletScene() = default;
+
+SweepSolvers BulletScene::solvers(const Lss& lss_L) const {
+  SweepSolvers solvers;
+  for (const double mostTurn : {0.0, kMostTurnOfCast, kFineTurnOfCast}) {
+    solvers.push_back(
+        std::make_unique<BulletSweepTest>("Bullet convexSweepTest", impl_, lss_L, mostTurn));
+  }
+  for (const double mostTurn : {0.0, kMostTurnOfCast, kFineTurnOfCast}) {
+    solvers.push_back(std::make_unique<BulletTriangleCasts>("Bullet cast of each triangle", impl_,
+                                                            lss_L, mostTurn));
+  }
+  return solvers;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,208 @@
+#include "bench/peers/fcl_solvers.h"
+
+#include <fcl/config.h>
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/math/motion/interp_motion.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/continuous_collision.h>
+#include <fcl/narrowphase/distance.h>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace foretouch::tools {
+
+using Eigen::Vector3d;
+
+/// Boxes for collision and rectangle swept spheres for distance: FCL's own recommendation.
+using FclMesh = fcl::BVHModel<fcl::OBBRSSd>;
+
+struct FclScene::Impl {
+  std::shared_ptr<FclMesh> mesh = std::make_shared<FclMesh>();
+};
+
+namespace {
+
+/// Evaluations of the distance; reached by nothing that stays in metres.
+constexpr int kMostAdvancements = 100'000;
+
+/// Metres by which FCL's distances may be off: its solvers stop at 1e-6.
+constexpr double kDistanceSlack = 1e-5;
+
+/// FCL's capsule lies along z around its frame's origin: that frame C in the link's frame L.
+struct FclCapsule {
+  explicit FclCapsule(const Lss& lss_L)
+      : center_L(0.5 * (lss_L.a + lss_L.b)),
+        rotation_LC(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), lss_L.b - lss_L.a)),
+        shape(lss_L.radius, (lss_L.b - lss_L.a).norm()) {}
+
+  [[nodiscard]] fcl::Transform3d poseOf(const RigidPose& pose_WL) const {
+    const Eigen::Quaterniond rotation_WL(pose_WL.rotation);
+    fcl::Transform3d pose = fcl::Transform3d::Identity();
+    pose.linear() = (rotation_WL * rotation_LC).toRotationMatrix();
+    pose.translation() = pose_WL.pivot + rotation_WL * center_L;
+    return pose;
+  }
+  /// The pivot, which is L's origin, in C.
+  [[nodiscard]] Vector3d pivot_C() const { return -(rotation_LC.conjugate() * center_L); }
+
+  Vector3d center_L;
+  Eigen::Quaterniond rotation_LC;
+  fcl::Capsuled shape;
+};
+
+class FclSolver : public SweepSolver {
+ public:
+  FclSolver(std::string name, std::shared_ptr<const FclScene::Impl> scene, const Lss& lss_L)
+      : SweepSolver(std::move(name), true), scene_(std::move(scene)), capsule_(lss_L) {}
+
+ protected:
+  [[nodiscard]] const FclMesh& mesh() const { return *scene_->mesh; }
+  [[nodiscard]] const FclCapsule& capsule() const { return capsule_; }
+
+ private:
+  std::shared_ptr<const FclScene::Impl> scene_;
+  FclCapsule capsule_;
+};
+
+/// A way to ask for distances.
+struct FclDistance {
+  const char* name;
+  fcl::GJKSolverType solver;
+  /// What was nearest before bounds the search: it cannot be farther now than it was, plus the
+  /// motion since. The same answers, sooner.
+  bool isBounded;
+};
+constexpr FclDistance kPlainDistance = {"libccd", fcl::GST_LIBCCD, false};
+constexpr FclDistance kBoundedDistance = {"libccd, bounded", fcl::GST_LIBCCD, true};
+constexpr FclDistance kOwnBoundedDistance = {"own GJK, bounded", fcl::GST_INDEP, true};
+
+/// Conservative advancement around fcl::distance(), as a user would write it. The speed bound is
+/// the tightest of one number a motion: that of the axis, not of the surface.
+class FclAdvancement : public FclSolver {
+ public:
+  FclAdvancement(std::shared_ptr<const FclScene::Impl> scene, const Lss& lss_L,
+                 const FclDistance& how, double tolerance)
+      : FclSolver(fmt::format("FCL distance ({}), advanced by hand, {:g} m", how.name, tolerance),
+                  std::move(scene), lss_L),
+        isBounded_(how.isBounded),
+        tolerance_(tolerance) {
+    request_.gjk_solver_type = how.solver;
+  }
+
+  SweepAnswer solve(const RigidSweep& sweep) override {
+    const fcl::Transform3d rest = fcl::Transform3d::Identity();
+    const double speed = fastestAxisPoint(sweep);
+    double t = 0.0, bound = std::numeric_limits<double>::max();
+    for (int step = 0; step < kMostAdvancements; ++step) {
+      fcl::DistanceResultd result(bound);
+      const double distance = fcl::distance<double>(
+          &mesh(), rest, &capsule().shape, capsule().poseOf(poseAt(sweep, t)), request_, result);
+      if (distance <= tolerance_) return {true, t};
+      if (distance >= speed * (1.0 - t)) return {false, 1.0};
+      t += distance / speed;
+      if (isBounded_) bound = 2.0 * distance + kDistanceSlack;
+    }
+    return {true, t};
+  }
+
+ private:
+  fcl::DistanceRequestd request_;
+  bool isBounded_;
+  double tolerance_;
+};
+
+/// fcl::continuousCollide() with its default method: poses tested one after another.
+class FclContinuous : public FclSolver {
+ public:
+  FclContinuous(std::shared_ptr<const FclScene::Impl> scene, const Lss& lss_L, int samples)
+      : FclSolver(fmt::format("FCL continuousCollide, {} samples", samples), std::move(scene),
+                  lss_L),
+        request_(static_cast<std::size_t>(samples)) {}
+
+  SweepAnswer solve(const RigidSweep& sweep) override {
+    const fcl::Transform3d from = capsule().poseOf(poseAt(sweep, 0.0)),
+                           to = capsule().poseOf(poseAt(sweep, 1.0));
+    // The constructors without a reference point leave it unset, and the one of transforms with it
+    // leaves the velocities unset.
+    const fcl::InterpMotion<double> moving(from.linear(), from.translation(), to.linear(),
+                                           to.translation(), capsule().pivot_C());
+    const fcl::Matrix3d unturned = fcl::Matrix3d::Identity();
+    const Vector3d origin = Vector3d::Zero();
+    const fcl::InterpMotion<double> resting(unturned, origin, unturned, origin, origin);
+    fcl::ContinuousCollisionResultd result;
+    fcl::continuousCollide<double>(&mesh(), &resting, &capsule().shape, &moving, request_, result);
+    return {result.is_collide, result.time_of_contact};
+  }
+
+ private:
+  fcl::ContinuousCollisionRequestd request_;
+};
+
+/// Sub-step-and-test, what most programs do: fcl::collide() at so many poses after the first.
+class FclSubsteps : public FclSolver {
+ public:
+  FclSubsteps(std::shared_ptr<const FclScene::Impl> scene, const Lss& lss_L, int samples)
+      : FclSolver(fmt::format("FCL collide, {} sub-steps", samples), std::move(scene), lss_L),
+        samples_(samples) {}
+
+  SweepAnswer solve(const RigidSweep& sweep) override {
+    const fcl::Transform3d rest = fcl::Transform3d::Identity();
+    const fcl::CollisionRequestd request;
+    for (int i = 1; i <= samples_; ++i) {
+      const double t = static_cast<double>(i) / samples_;
+      fcl::CollisionResultd result;
+      if (fcl::collide<double>(&mesh(), rest, &capsule().shape, capsule().poseOf(poseAt(sweep, t)),
+                               request, result) > 0) {
+        return {true, t};
+      }
+    }
+    return {false, 1.0};
+  }
+
+ private:
+  int samples_;
+};
+
+}  // namespace
+
+std::string fclVersion() {
+  return "FCL " FCL_VERSION;
+}
+
+FclScene::FclScene(const std::vector<Triangle>& triangles) {
+  auto scene = std::make_shared<Impl>();
+  std::vector<fcl::Vector3d> vertices;
+  std::vector<fcl::Triangle> corners;
+  for (const Triangle& triangle : triangles) {
+    const std::size_t first = vertices.size();
+    for (const Vector3d& v : triangle.vertices) vertices.push_back(v);
+    corners.emplace_back(first, first + 1, first + 2);
+  }
+  scene->mesh->beginModel(static_cast<int>(corners.size()), static_cast<int>(vertices.size()));
+  scene->mesh->addSubModel(vertices, corners);
+  scene->mesh->endModel();
+  impl_ = std::move(scene);
+}
+
+FclScene::~FclScene() = default;
+
+SweepSolvers FclScene::solvers(const Lss& lss_L) const {
+  SweepSolvers solvers;
+  for (const FclDistance& how : {kPlainDistance, kBoundedDistance, kOwnBoundedDistance}) {
+    for (const double tolerance : {1e-3, 1e-4}) {
+      solvers.push_back(std::make_unique<FclAdvancement>(impl_, lss_L, how, tolerance));
+    }
+  }
+  for (const int samples : {10, 100}) {
+    solvers.push_back(std::make_unique<FclContinuous>(impl_, lss_L, samples));
+  }
+  for (const int samples : {10, 100}) {
+    solvers.push_back(std::make_unique<FclSubsteps>(impl_, lss_L, samples));
+  }
+  return solvers;
+}
+
+}  // namespace foretouch::tools

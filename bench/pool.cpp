@@ -1,0 +1,56 @@
+#include "bench/pool.h"
+
+#include <chrono>
+
+#include "middleware/query/query_pool.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<StepTask> tasksAt(int instant, int avatars, const Avatar& avatar,
+                              const std::vector<StepPoses>& steps, const QueryOptions& query) {
+  const auto count = static_cast<std::int64_t>(steps.size());
+  std::vector<StepTask> tasks;
+  tasks.reserve(static_cast<std::size_t>(avatars));
+  for (std::int64_t which = 0; which < avatars; ++which) {
+    const StepPoses& poses =
+        steps[static_cast<std::size_t>((instant + count * which / avatars) % count)];
+    tasks.push_back({&avatar, &poses.from, &poses.to, &query});
+  }
+  return tasks;
+}
+
+}  // namespace
+
+Result<CrowdTimes> timeCrowd(const Avatar& avatar, const std::vector<StepPoses>& steps,
+                             const Scene& scene, const QueryOptions& query, int avatars,
+                             int instants, int threads) {
+  auto pool = QueryPool::start(threads);
+  if (!pool.ok()) return pool.error();
+  CrowdTimes times;
+  std::vector<StepContacts> answers;
+  for (int instant = 0; instant < instants; ++instant) {
+    const std::vector<StepTask> tasks = tasksAt(instant, avatars, avatar, steps, query);
+    const Clock::time_point start = Clock::now();
+    const auto done = pool.value().answer(scene, tasks, answers);
+    const double seconds = secondsSince(start);
+    if (!done.ok()) return done.error();
+    times.wallS += seconds;
+    times.instantUs.push_back(1e6 * seconds);
+    times.steps += avatars;
+    for (const StepContacts& answer : answers) {
+      for (const LinkContact& contact : answer.links) {
+        times.contacts += contact.verdict == Verdict::Contact ? 1 : 0;
+      }
+    }
+  }
+  return times;
+}
+
+}  // namespace foretouch::tools

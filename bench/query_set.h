@@ -1,0 +1,48 @@
+// bench/query_set.h: labelled leaf queries from CSV files, in the manner of the query sets
+// published with [Wang21]: 8 rows a query (4 points at t = 0, then at t = 1), 7 integers a row (x,
+// y and z as numerator and denominator, then 0 or 1: do they meet). Folders named vertex-face and
+// edge-edge tell the kind; the folder around them names the set.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "articulated/result.h"
+#include "middleware/exact/linear_query.h"
+
+namespace foretouch::tools {
+
+enum class QueryKind { VertexFace, EdgeEdge };
+[[nodiscard]] const char* toString(QueryKind kind);
+
+/// Vertex and face, or edge and edge, in this order.
+struct LabelledQuery {
+  std::array<LinearPoint, 4> points;
+  bool hits = false;
+};
+[[nodiscard]] LeafAnswer answer(QueryKind kind, const LabelledQuery& query);
+
+struct QuerySet {
+  std::string name;
+  QueryKind kind = QueryKind::VertexFace;
+  std::vector<LabelledQuery> queries;
+};
+
+/// Larger files and deeper folders than any known set needs are refused.
+inline constexpr std::size_t kMaxQueryFileBytes = std::size_t{1} << 28;
+inline constexpr std::size_t kMaxQueryFiles = 10'000;
+inline constexpr int kMaxQueryDepth = 4;
+
+/// Every coordinate must be exactly a double within the limits of linear_query.h. Errors name file
+/// and line.
+[[nodiscard]] Result<std::vector<LabelledQuery>> parseQueries(std::string_view text,
+                                                              const std::string& file);
+
+/// All sets under the folders, in order of name, the files of one set and kind joined. Errors: a
+/// folder that is absent or holds no queries, or a bad file.
+[[nodiscard]] Result<std::vector<QuerySet>> readQuerySets(const std::vector<std::string>& folders);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,66 @@
+// bench/report.h: what every benchmark hands over: tables with what they were measured on,
+// and the same content as a table on the terminal, as JSON and as CSV. A benchmark fills a
+// BenchReport and chooses its own tables and columns.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "articulated/result.h"
+
+namespace foretouch::tools {
+
+/// A count, a measured number, or words.
+using BenchCell = std::variant<std::int64_t, double, std::string>;
+
+struct BenchColumn {
+  std::string key;    ///< Of the JSON and the CSV: lower_case, with its unit ("p50_us").
+  std::string title;  ///< Of tables for people.
+  int decimals = 2;   ///< Of measured numbers in tables for people; -1: six digits in all. Files
+                      ///< keep all digits.
+};
+
+struct BenchTable {
+  std::string name;   ///< Of the JSON: lower_case.
+  std::string title;  ///< One line for people.
+  std::vector<BenchColumn> columns;
+  std::vector<std::vector<BenchCell>> rows;  ///< As many cells as columns (asserted).
+};
+
+/// Name and value of something that a measurement depends on.
+using BenchFact = std::pair<std::string, std::string>;
+
+struct BenchReport {
+  std::string kind;     ///< "latency", "scaling", ...
+  std::string title;    ///< One line for people.
+  std::string command;  ///< As typed in.
+  std::string date;     ///< UTC, "2026-01-31 12:00".
+  std::vector<BenchFact> machine, workload;
+  std::vector<BenchTable> tables;
+  std::vector<std::string> notes;  ///< What a reader of the tables must know; sentences.
+};
+
+/// Aligned columns under their titles.
+[[nodiscard]] std::string tableText(const BenchTable& table);
+/// Facts, tables and notes, for a terminal.
+[[nodiscard]] std::string reportText(const BenchReport& report);
+/// A line of keys, then a line a row; words are quoted where they must be.
+[[nodiscard]] std::string tableCsv(const BenchTable& table);
+
+/// One object, format "foretouch-bench" version 1; numbers that are not finite become null.
+[[nodiscard]] std::string reportJson(const BenchReport& report);
+/// The inverse; `name` stands for the file in errors. Null becomes NaN.
+[[nodiscard]] Result<BenchReport> parseReport(const std::string& json, const std::string& name);
+
+/// A section of Markdown, headed by the title.
+[[nodiscard]] std::string reportMarkdown(const BenchReport& report);
+
+/// Writes the report as JSON and the raw rows as CSV; an empty path writes nothing. Errors name the
+/// file.
+[[nodiscard]] Result<Done> writeReport(const BenchReport& report, const std::string& jsonPath,
+                                       const BenchTable& raw, const std::string& csvPath);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,308 @@
+#include "bench/scaling.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/machine.h"
+#include "bench/pool.h"
+#include "middleware/counter_fields.h"
+
+namespace foretouch::tools {
+namespace {
+
+BenchTable scalingTable() {
+  BenchTable table{"scaling",
+                   "Cost of a step, one thing varied at a time: microseconds, and in ray-sets",
+                   {{"axis", "axis", 0},
+                    {"value", "value", -1},
+                    {"triangles", "triangles", 0},
+                    {"links", "links", 0},
+                    {"lss", "LSS", 0},
+                    {"steps", "steps", 0},
+                    {"contact_steps_percent", "contact %", 1},
+                    {"mean_us", "mean", 2},
+                    {"p50_us", "p50", 2},
+                    {"p99_us", "p99", 2},
+                    {"ray_set_us", "ray-set", 3},
+                    {"mean_ray_sets", "mean/rays", 1},
+                    {"p50_ray_sets", "p50/rays", 1},
+                    {"p99_ray_sets", "p99/rays", 1},
+                    {"mean_over_base", "mean/base", 2}},
+                   {}};
+  for (const auto& [name, field] : kCounterFields) table.columns.push_back({name, name, 1});
+  return table;
+}
+
+BenchTable crowdTable() {
+  return {"crowd",
+          "Many avatars in one scene: steps a second",
+          {{"avatars", "avatars", 0},
+           {"threads", "threads", 0},
+           {"steps", "steps", 0},
+           {"contacts", "contacts", 0},
+           {"steps_per_s", "steps/s", 0},
+           {"over_one_thread", "over 1 thread", 2},
+           {"instant_p50_us", "all avatars, p50 us", 1},
+           {"instant_p99_us", "p99 us", 1}},
+          {}};
+}
+
+BenchTable rawTable() {
+  return {"steps",
+          "Steps",
+          {{"axis", "axis", 0},
+           {"value", "value", -1},
+           {"step", "step", 0},
+           {"warm_us", "warm", 3},
+           {"ray_set_us", "ray-set", 3},
+           {"contacts", "contacts", 0},
+           {"starts", "starts", 0}},
+          {}};
+}
+
+/// What one row is measured on.
+struct Point {
+  const char* axis;
+  double value;
+  std::size_t triangles;
+  int links;
+  double rateHz;
+  double tolerance;
+};
+
+class ScalingBench {
+ public:
+  ScalingBench(const ScalingRequest& request, const BenchInputs& inputs)
+      : request_(request), inputs_(inputs), scene_(inputs.scene) {
+    bench_.report.tables = {scalingTable()};
+    bench_.raw = rawTable();
+  }
+
+  [[nodiscard]] Result<MeasuredBench> run();
+
+ private:
+  [[nodiscard]] Point basePoint(const char* axis) const {
+    return {axis, 0.0, request_.triangles, request_.links, request_.rateHz, request_.tolerance};
+  }
+  /// The base anew, then a row a value: the machine may have drifted since the last axis.
+  template <typename Value, typename Set>
+  [[nodiscard]] Result<Done> axis(const char* name, const std::vector<Value>& values,
+                                  double baseValue, const Set& set);
+  [[nodiscard]] Result<double> row(const Point& point, double baseMeanUs);
+  [[nodiscard]] Result<Done> prepare(const Point& point);
+  void addRow(const Point& point, const Timing& timing, double baseMeanUs);
+  [[nodiscard]] Result<Done> crowd();
+  [[nodiscard]] Result<CrowdTimes> quickestCrowd(int avatars, int threads,
+                                                 const QueryOptions& query);
+
+  const ScalingRequest& request_;
+  const BenchInputs& inputs_;
+  MeasuredBench bench_;
+  // What the last row was measured on, kept where the next one is on the same.
+  Scene scene_;
+  std::size_t sceneTriangles_ = 0;
+  std::optional<BenchBody> body_;
+  int bodyLinks_ = -1;
+  QueryOptions query_;
+  std::optional<Workload> workload_;
+  std::vector<StepPoses> steps_;
+};
+
+Result<Done> ScalingBench::prepare(const Point& point) {
+  if (sceneTriangles_ != point.triangles) {
+    scene_ = inputs_.scene;  // never two refined scenes in memory
+    auto scene = refinedScene(inputs_, point.triangles);
+    if (!scene.ok()) return scene.error();
+    scene_ = std::move(scene).value();
+    sceneTriangles_ = point.triangles;
+  }
+  const bool newBody = bodyLinks_ != point.links;
+  if (newBody) {
+    auto body = bodyOf(inputs_, point.links);
+    if (!body.ok()) return body.error();
+    body_ = std::move(body).value();
+    bodyLinks_ = point.links;
+    auto query = queryFor(inputs_, *body_, request_.options);
+    if (!query.ok()) return query.error();
+    query_ = std::move(query).value();
+  }
+  const bool newSteps = !workload_ || workload_->request.rateHz != point.rateHz;
+  if (newSteps) {
+    WorkloadRequest wanted = request_.options.workload;
+    wanted.rateHz = point.rateHz;
+    const auto base = bodyOf(inputs_, request_.links);  // the same steps for every body
+    if (!base.ok()) return base.error();
+    auto workload = chooseSteps(inputs_, base.value(), wanted);
+    if (!workload.ok()) return workload.error();
+    workload_ = std::move(workload).value();
+  }
+  if (!newBody && !newSteps) return Done{};
+  auto steps = posesOf(inputs_, *body_, *workload_);
+  if (!steps.ok()) return steps.error();
+  steps_ = std::move(steps).value();
+  return Done{};
+}
+
+void ScalingBench::addRow(const Point& point, const Timing& timing, double baseMeanUs) {
+  const std::vector<TimedStep>& steps = timing.cases.front().steps;
+  const auto count = static_cast<double>(steps.size());
+  std::vector<double> us;
+  double contactSteps = 0.0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    us.push_back(steps[i].warmUs);
+    contactSteps += steps[i].contacts > 0 ? 1.0 : 0.0;
+    bench_.raw.rows.push_back({std::string(point.axis), point.value, static_cast<std::int64_t>(i),
+                               steps[i].warmUs, timing.raySetUs[i], std::int64_t{steps[i].contacts},
+                               std::int64_t{steps[i].starts}});
+  }
+  const Percentiles p = percentilesOf(std::move(us));
+  const double rays = percentilesOf(timing.raySetUs).p50;
+  std::vector<BenchCell> row = {std::string(point.axis),
+                                point.value,
+                                static_cast<std::int64_t>(scene_.numTriangles()),
+                                std::int64_t{body_->avatar.numLinks()},
+                                std::int64_t{body_->avatar.numLss()},
+                                static_cast<std::int64_t>(steps.size()),
+                                100.0 * contactSteps / count,
+                                p.mean,
+                                p.p50,
+                                p.p99,
+                                rays,
+                                p.mean / rays,
+                                p.p50 / rays,
+                                p.p99 / rays,
+                                baseMeanUs > 0.0 ? p.mean / baseMeanUs : 1.0};
+  for (const auto& [name, field] : kCounterFields) {
+    double sum = 0.0;
+    for (const TimedStep& step : steps) sum += static_cast<double>(step.counters.*field);
+    row.emplace_back(sum / count);
+  }
+  bench_.report.tables.front().rows.push_back(std::move(row));
+}
+
+/// The mean of the row's steps.
+Result<double> ScalingBench::row(const Point& point, double baseMeanUs) {
+  const auto prepared = prepare(point);
+  if (!prepared.ok()) return prepared.error();
+  BenchCase way;
+  way.query = query_;
+  way.query.tolerance = point.tolerance;
+  way.simd = supportedSimd().back();
+  const auto timing = timeSteps(body_->avatar, steps_, scene_, {way}, request_.options.timing);
+  if (!timing.ok()) return timing.error();
+  addRow(point, timing.value(), baseMeanUs);
+  double sum = 0.0;
+  for (const TimedStep& step : timing.value().cases.front().steps) sum += step.warmUs;
+  return sum / static_cast<double>(steps_.size());
+}
+
+template <typename Value, typename Set>
+Result<Done> ScalingBench::axis(const char* name, const std::vector<Value>& values,
+                                double baseValue, const Set& set) {
+  if (values.empty()) return Done{};
+  Point base = basePoint(name);
+  base.value = baseValue;
+  const auto baseMeanUs = row(base, 0.0);
+  if (!baseMeanUs.ok()) return baseMeanUs.error();
+  for (const Value value : values) {
+    if (static_cast<double>(value) == baseValue) continue;
+    Point point = basePoint(name);
+    point.value = static_cast<double>(value);
+    set(point, value);
+    const auto done = row(point, baseMeanUs.value());
+    if (!done.ok()) return done.error();
+  }
+  return Done{};
+}
+
+Result<CrowdTimes> ScalingBench::quickestCrowd(int avatars, int threads,
+                                               const QueryOptions& query) {
+  const int instants = std::max(1, (request_.crowdSteps + avatars - 1) / avatars);
+  std::optional<CrowdTimes> quickest;
+  for (int repeat = 0; repeat < request_.crowdRepeats; ++repeat) {
+    auto times = timeCrowd(body_->avatar, steps_, scene_, query, avatars, instants, threads);
+    if (!times.ok()) return times.error();
+    if (!quickest || times.value().wallS < quickest->wallS) quickest = std::move(times).value();
+  }
+  return *quickest;
+}
+
+Result<Done> ScalingBench::crowd() {
+  if (request_.avatarsAxis.empty() || request_.threadsAxis.empty()) return Done{};
+  const auto prepared = prepare(basePoint("crowd"));
+  if (!prepared.ok()) return prepared.error();
+  QueryOptions query = query_;
+  query.tolerance = request_.tolerance;
+  BenchTable table = crowdTable();
+  for (const int avatars : request_.avatarsAxis) {
+    double oneThread = std::numeric_limits<double>::quiet_NaN();
+    for (const int threads : request_.threadsAxis) {
+      const auto times = quickestCrowd(avatars, threads, query);
+      if (!times.ok()) return times.error();
+      const double perS = static_cast<double>(times.value().steps) / times.value().wallS;
+      if (threads == 1) oneThread = perS;
+      const Percentiles p = percentilesOf(times.value().instantUs);
+      table.rows.push_back({std::int64_t{avatars}, std::int64_t{threads}, times.value().steps,
+                            times.value().contacts, perS, perS / oneThread, p.p50, p.p99});
+    }
+  }
+  bench_.report.tables.push_back(std::move(table));
+  return Done{};
+}
+
+Result<MeasuredBench> ScalingBench::run() {
+  const auto setTriangles = [](Point& p, int n) { p.triangles = static_cast<std::size_t>(n); };
+  const double baseTriangles =
+      static_cast<double>(std::max(request_.triangles, inputs_.raw.triangles.size()));
+  const double baseLinks = request_.links == 0 ? inputs_.avatar.numLinks() : request_.links;
+  for (const Result<Done>&done :
+       {axis("links", request_.linksAxis, baseLinks, [](Point&p, int n) { p.links = n; }),
+        axis("rate Hz", request_.rateAxis, request_.rateHz,
+             [](Point&p, double rate) { p.rateHz = rate; }),
+        axis("tolerance m", request_.toleranceAxis, request_.tolerance,
+             [](Point&p, double tolerance) { p.tolerance = tolerance; }),
+        crowd(), axis("triangles", request_.trianglesAxis, baseTriangles, setTriangles)}) {
+    if (!done.ok()) return done.error();
+  }
+  BenchReport& report = bench_.report;
+  report.kind = "scaling";
+  report.title = "Scaling";
+  report.command = request_.options.command;
+  report.date = dateNow();
+  report.machine = machineFacts();
+  const auto prepared = prepare(basePoint("base"));
+  if (!prepared.ok()) return prepared.error();
+  report.workload = workloadFacts(inputs_, scene_, body_->avatar, query_);
+  report.workload.emplace_back(fmt::format("at {:g} Hz", request_.rateHz), describe(*workload_));
+  report.notes = {
+      fmt::format("The first row of each axis is the base, measured anew: {:g} triangles, {:g} "
+                  "links, {:g} Hz, {:g} m. mean/base compares with it.",
+                  baseTriangles, baseLinks, request_.rateHz, request_.tolerance),
+      fmt::format(
+          "A step's time is the least of {} in a row, one thread, {} vectors. Steps are the "
+          "same ones on every axis but rate; links that are grown may add contacts.",
+          request_.options.timing.repeats, toString(supportedSimd().back())),
+      "A scene is never made coarser: where fewer triangles are asked for, the column says how "
+      "many "
+      "there were."};
+  if (report.tables.size() > 1) {
+    report.notes.push_back(fmt::format(
+        "Crowd: every avatar takes one step an instant, threads share the (instant, avatar) items; "
+        "the quickest of {} runs.",
+        request_.crowdRepeats));
+  }
+  return std::move(bench_);
+}
+
+}  // namespace
+
+Result<MeasuredBench> measureScaling(const ScalingRequest& request) {
+  const auto inputs = loadBenchInputs(request.options.files);
+  if (!inputs.ok()) return inputs.error();
+  return ScalingBench(request, inputs.value()).run();
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,289 @@
+#include "bench/stream.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/machine.h"
+#include "bench/service_process.h"
+#include "bench/timing.h"
+#include "network/wire/reject.h"
+#include "tools/stream/clip_sender.h"
+
+namespace foretouch::tools {
+namespace {
+
+constexpr double kBytesPerMb = 1024.0 * 1024.0;
+constexpr double kSecondsPerHour = 3600.0;
+
+template <typename Of>
+std::vector<double> sorted(const std::vector<LoadAnswer>& answers, Of of) {
+  std::vector<double> values;
+  values.reserve(answers.size());
+  for (const LoadAnswer& answer : answers) values.push_back(of(answer));
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+void appendRanks(std::vector<BenchCell>& row, const std::vector<double>& ascending) {
+  for (const double share : {0.5, 0.99, 0.999}) row.emplace_back(valueAtRank(ascending, share));
+  row.emplace_back(ascending.empty() ? 0.0 : ascending.back());
+}
+
+void appendRankColumns(BenchTable& table, const std::string& key, const std::string& title) {
+  for (const char* rank : {"p50", "p99", "p99.9", "max"}) {
+    std::string suffix = rank;
+    suffix.erase(std::remove(suffix.begin(), suffix.end(), '.'), suffix.end());
+    table.columns.push_back({key + "_" + suffix + "_us", title + " " + rank, 0});
+  }
+}
+
+BenchTable streamTable() {
+  BenchTable table{"stream",
+                   "Pose sent to verdict received, and where the time goes: microseconds",
+                   {{"avatars", "avatars", 0},
+                    {"rate_hz", "poses/s each", 0},
+                    {"poses", "poses", 0},
+                    {"lost", "lost", 0},
+                    {"gaps", "gaps", 0},
+                    {"late_sends", "sent late", 0}},
+                   {}};
+  appendRankColumns(table, "round_trip", "round trip");
+  table.columns.push_back({"query_p50_us", "query p50", 1});
+  table.columns.push_back({"query_p99_us", "query p99", 1});
+  appendRankColumns(table, "added", "added");
+  return table;
+}
+
+std::vector<BenchCell> streamRow(const StreamCrowd& crowd, const LoadOutcome& outcome) {
+  std::vector<BenchCell> row;
+  row.reserve(16);
+  row.emplace_back(static_cast<std::int64_t>(crowd.avatars));
+  row.emplace_back(crowd.rateHz);
+  for (const std::int64_t count :
+       {outcome.sent, outcome.unanswered, outcome.gaps, outcome.lateSends}) {
+    row.emplace_back(count);
+  }
+  const auto queries = sorted(outcome.answers, [](const LoadAnswer& a) { return a.queryUs; });
+  appendRanks(row, sorted(outcome.answers, [](const LoadAnswer& a) { return a.roundTripUs; }));
+  row.emplace_back(valueAtRank(queries, 0.5));
+  row.emplace_back(valueAtRank(queries, 0.99));
+  appendRanks(row, sorted(outcome.answers, [](const LoadAnswer& a) {
+                return std::max(0.0F, a.serviceUs - a.queryUs);
+              }));
+  return row;
+}
+
+struct Sample {
+  double seconds;
+  std::int64_t residentBytes, openFiles;
+};
+
+/// Resident memory and descriptors of the service, once a second.
+class Watch {
+ public:
+  explicit Watch(const ServiceProcess& service) : service_(service) {}
+  void sample() {
+    samples_.push_back({secondsSince(start_), service_.residentBytes(), service_.openFiles()});
+  }
+  [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+  const ServiceProcess& service_;
+  Clock::time_point start_ = Clock::now();
+  std::vector<Sample> samples_;
+};
+
+}  // namespace
+
+std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds) {
+  std::vector<LoadSender> senders;
+  for (const StreamCrowd& crowd : crowds) {
+    for (int i = 0; i < crowd.avatars; ++i) {
+      senders.push_back({static_cast<std::int32_t>(senders.size()) + 1, crowd.rateHz});
+    }
+  }
+  return senders;
+}
+
+std::vector<std::string> serviceArguments(const BenchFiles& files, std::size_t avatars, int workers,
+                                          const std::string& logPath) {
+  std::vector<std::string> arguments = {"--scene", files.scenePath, "--workers",
+                                        std::to_string(workers)};
+  for (std::size_t i = 1; i <= avatars; ++i) {
+    arguments.insert(arguments.end(), {"--avatar", std::to_string(i) + "=" + files.avatarPath});
+  }
+  if (!logPath.empty()) arguments.insert(arguments.end(), {"--log", logPath});
+  return arguments;
+}
+
+std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers) {
+  namespace fs = std::filesystem;
+  return {{"scene",
+           fmt::format("{}, {} triangles", fs::path(inputs.files.scenePath).filename().string(),
+                       inputs.scene.numTriangles())},
+          {"avatar", fmt::format("{}, {} links with {} LSS",
+                                 fs::path(inputs.files.avatarPath).filename().string(),
+                                 inputs.avatar.numLinks(), inputs.avatar.numLss())},
+          {"clip", fmt::format("{}, a pose a frame, forth and back",
+                               fs::path(inputs.files.motionPath).filename().string())},
+          {"workers", std::to_string(workers)}};
+}
+
+Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place) {
+  const StepSelection everyFrame{1, static_cast<std::int64_t>(inputs.clip.frames.size()) - 1};
+  SenderOptions options;
+  options.source = "foretouch bench";
+  const ClipSender sender(
+      {inputs.avatar, inputs.clip, inputs.match, place, inputs.isUpright, inputs.files.motionPath},
+      everyFrame, options);
+  LoadTrack track;
+  track.skeleton = sender.skeleton(0);
+  track.poses.resize(static_cast<std::size_t>(sender.numPoses()));
+  for (std::int64_t pose = 0; pose < sender.numPoses(); ++pose) {
+    const auto filled = sender.fill(pose, 0, track.poses[static_cast<std::size_t>(pose)]);
+    if (!filled.ok()) return filled.error();
+  }
+  return track;
+}
+
+Result<StreamBench> measureStream(const StreamRequest& request) {
+  const auto inputs = loadBenchInputs(request.files);
+  if (!inputs.ok()) return inputs.error();
+  const auto track = loadTrack(inputs.value(), request.place);
+  if (!track.ok()) return track.error();
+  StreamBench bench;
+  BenchTable table = streamTable();
+  for (const StreamCrowd& crowd : request.crowds) {
+    LoadRequest load;
+    load.senders = sendersOf({crowd});
+    load.durationS = request.durationS;
+    auto service = ServiceProcess::start(serviceArguments(inputs.value().files, load.senders.size(),
+                                                          request.workers, std::string()));
+    if (!service.ok()) return service.error();
+    const auto outcome = runLoad(track.value(), load);
+    if (!outcome.ok()) return outcome.error();
+    service.value().stop();
+    table.rows.push_back(streamRow(crowd, outcome.value()));
+    bench.lost += outcome.value().unanswered;
+  }
+  BenchReport& report = bench.report;
+  report.kind = "stream";
+  report.title = "The stream: pose sent to verdict received, over multicast";
+  report.command = request.command;
+  report.date = dateNow();
+  report.machine = machineFacts();
+  report.workload = streamFacts(inputs.value(), request.workers);
+  report.tables.push_back(std::move(table));
+  report.notes = {
+      "Senders and the receiver of verdicts are one process, the service another, in a network "
+      "namespace of their own; every rank is over all answers of a row.",
+      "Round trip: from before the pose is handed to the system to the verdict's receipt, three "
+      "processes' worth of scheduling on this machine's cores. Query: the service's own, from two "
+      "poses to all verdicts. Added: from the system's stamp on the pose's datagram to the "
+      "answer's "
+      "hand-over, less the query.",
+      "Lost: poses without an answer, by sequence. Sent late: more than a period after they were "
+      "due, which is this machine's doing."};
+  return bench;
+}
+
+double slopeOf(const std::vector<double>& times, const std::vector<double>& values) {
+  const auto n = static_cast<double>(times.size());
+  if (times.size() < 2) return 0.0;
+  double meanT = 0.0, meanV = 0.0, up = 0.0, down = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    meanT += times[i] / n;
+    meanV += values[i] / n;
+  }
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    up += (times[i] - meanT) * (values[i] - meanV);
+    down += (times[i] - meanT) * (times[i] - meanT);
+  }
+  return down > 0.0 ? up / down : 0.0;
+}
+
+Result<SoakOutcome> soakStream(const SoakRequest& request) {
+  const auto inputs = loadBenchInputs(request.files);
+  if (!inputs.ok()) return inputs.error();
+  const auto track = loadTrack(inputs.value(), request.place);
+  if (!track.ok()) return track.error();
+  LoadRequest load;
+  load.senders = sendersOf(request.crowds);
+  load.durationS = 60.0 * request.minutes;
+  load.garbageShare = request.garbageShare;
+  auto service = ServiceProcess::start(serviceArguments(inputs.value().files, load.senders.size(),
+                                                        request.workers, request.logPath));
+  if (!service.ok()) return service.error();
+  Watch watch(service.value());
+  const auto ran = runLoad(track.value(), load, [&] { watch.sample(); });
+  if (!ran.ok()) return ran.error();
+  const LoadOutcome& outcome = ran.value();
+
+  SoakOutcome soak;
+  soak.lost = outcome.unanswered;
+  soak.filesConstant = true;
+  std::vector<double> hours, megabytes;
+  std::int64_t files = -1;
+  for (const Sample& sample : watch.samples()) {
+    if (sample.seconds < request.warmUpShare * load.durationS) continue;
+    if (files < 0) files = sample.openFiles;
+    soak.filesConstant = soak.filesConstant && sample.openFiles == files;
+    hours.push_back(sample.seconds / kSecondsPerHour);
+    megabytes.push_back(static_cast<double>(sample.residentBytes) / kBytesPerMb);
+  }
+  soak.slopeMbPerHour = slopeOf(hours, megabytes);
+  if (!megabytes.empty()) soak.grownMb = megabytes.back() - megabytes.front();
+  soak.exitCode = service.value().stop();
+
+  const auto trips = sorted(outcome.answers, [](const LoadAnswer& a) { return a.roundTripUs; });
+  BenchTable table{
+      "soak", "What came of it", {{"quantity", "quantity", 0}, {"value", "value", -1}}, {}};
+  const auto row = [&](const char* name, double value) {
+    table.rows.push_back({std::string(name), value});
+  };
+  row("minutes", request.minutes);
+  row("poses", static_cast<double>(outcome.sent));
+  row("garbage datagrams", static_cast<double>(outcome.garbage));
+  row("lost", static_cast<double>(outcome.unanswered));
+  row("answered twice", static_cast<double>(outcome.repeated));
+  row("gaps", static_cast<double>(outcome.gaps));
+  row("send failures", static_cast<double>(outcome.sendFailures));
+  row("answers dropped here before they were read", static_cast<double>(outcome.ownDrops));
+  row("service: poses dropped by the system", static_cast<double>(outcome.status.kernelDrops));
+  row("service: answers not sent", static_cast<double>(outcome.status.publishFailures));
+  row("service: refused, garbage among them", static_cast<double>(outcome.status.rejected));
+  for (const StatusMessage::Count& count : outcome.status.counts) {
+    if (count.reason != toString(Reject::Overrun)) continue;
+    row("service: overrun", static_cast<double>(count.count));
+  }
+  row("resident memory, first MB", megabytes.empty() ? 0.0 : megabytes.front());
+  row("resident memory, last MB", megabytes.empty() ? 0.0 : megabytes.back());
+  row("slope after warm-up, MB/h", soak.slopeMbPerHour);
+  row("open files", static_cast<double>(files));
+  row("open files changed", soak.filesConstant ? 0.0 : 1.0);
+  row("round trip p50 us", valueAtRank(trips, 0.5));
+  row("round trip p99.9 us", valueAtRank(trips, 0.999));
+  row("round trip max us", trips.empty() ? 0.0 : trips.back());
+  row("service's exit code", soak.exitCode);
+  soak.report.kind = "soak";
+  soak.report.title = "The stream, soaked";
+  soak.report.command = request.command;
+  soak.report.date = dateNow();
+  soak.report.machine = machineFacts();
+  soak.report.workload = streamFacts(inputs.value(), request.workers);
+  soak.report.tables.push_back(std::move(table));
+  return soak;
+}
+
+}  // namespace foretouch::tools

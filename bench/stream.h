@@ -1,0 +1,78 @@
+// bench/stream.h: the stream measured: senders in this process, `foretouch serve` as another
+// one, real multicast in a private network; and the same for hours, watched for what grows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "bench/inputs.h"
+#include "bench/report.h"
+#include "bench/stream_load.h"
+
+namespace foretouch::tools {
+
+/// So many senders, each with so many poses a second.
+struct StreamCrowd {
+  int avatars = 1;
+  double rateHz = 90.0;
+};
+
+struct StreamRequest {
+  BenchFiles files;
+  Placement place;
+  std::string floor;  ///< Object that contacts are not asked for; empty: none.
+  std::vector<StreamCrowd> crowds;
+  double durationS = 10.0;  ///< Of each crowd.
+  int workers = 1;
+  std::string command;  ///< As typed in.
+};
+
+/// Numbered from 1.
+[[nodiscard]] std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds);
+/// Of `foretouch serve`, for so many senders. `logPath` may be empty.
+[[nodiscard]] std::vector<std::string> serviceArguments(const BenchFiles& files,
+                                                        std::size_t avatars, int workers,
+                                                        const std::string& logPath);
+/// What the figures depend on.
+[[nodiscard]] std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers);
+
+/// The clip as its senders send it, a pose a frame.
+[[nodiscard]] Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place);
+
+struct StreamBench {
+  BenchReport report;
+  std::int64_t lost = 0;  ///< Poses without an answer, of all crowds.
+};
+
+/// Every crowd against a service of its own. Precondition: enterPrivateNetwork() was called.
+[[nodiscard]] Result<StreamBench> measureStream(const StreamRequest& request);
+
+struct SoakRequest {
+  BenchFiles files;
+  Placement place;
+  std::vector<StreamCrowd> crowds;  ///< All at once.
+  double minutes = 2.0;
+  double warmUpShare = 0.25;   ///< Of the time: before memory is watched.
+  double garbageShare = 0.01;  ///< Datagrams of garbage per pose.
+  int workers = 1;
+  std::string logPath;  ///< The service's journal; empty: none.
+  std::string command;
+};
+
+struct SoakOutcome {
+  BenchReport report;
+  std::int64_t lost = 0;
+  double slopeMbPerHour = 0.0;  ///< Of resident memory after warm-up, by least squares.
+  double grownMb = 0.0;         ///< From the first to the last sample after warm-up.
+  bool filesConstant = false;
+  int exitCode = -1;  ///< Of the service.
+};
+
+/// One service under one load. Precondition as above.
+[[nodiscard]] Result<SoakOutcome> soakStream(const SoakRequest& request);
+
+/// Slope of `values` over `times` by least squares; 0 for fewer than two.
+[[nodiscard]] double slopeOf(const std::vector<double>& times, const std::vector<double>& values);
+
+}  // namespace foretouch::tools

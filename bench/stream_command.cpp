@@ -1,0 +1,148 @@
+#include "bench/stream_command.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/machine.h"
+#include "bench/private_network.h"
+#include "bench/stream.h"
+#include "tools/arguments.h"
+#include "tools/settling.h"
+
+namespace foretouch::tools {
+namespace {
+
+constexpr int kMaxAvatars = 1000, kMaxWorkers = 64;
+constexpr double kMaxRateHz = 100'000.0;
+/// What a service may grow by. Below the second one it is single pages, of which minutes make a
+/// steep slope.
+constexpr double kMostMbPerHour = 1.0, kNoGrowthMb = 0.25;
+
+struct StreamTexts {
+  std::string crowds, seconds = "10", workers = "1", place = "0,0,0,0", json, csv;
+  std::string minutes = "2", garbage = "0.01", log;
+};
+
+ExitCode runStream(const StreamTexts& texts) {
+  StreamRequest request;
+  Settling settle;
+  settle.into(request.crowds, parseCrowds("--crowds", texts.crowds));
+  settle.into(request.durationS, parsePositive("--seconds", texts.seconds));
+  settle.into(request.workers, parseCount("--workers", texts.workers, kMaxWorkers));
+  settle.into(request.place, parsePlacement("--place", texts.place));
+  if (settle.error()) return failed(*settle.error());
+  request.command = ownCommandLine();
+  const auto entered = enterPrivateNetwork();
+  if (!entered.ok()) return failed(entered.error());
+  const auto bench = measureStream(request);
+  if (!bench.ok()) return failed(bench.error());
+  const BenchReport& report = bench.value().report;
+  const auto written = writeReport(report, texts.json, report.tables.front(), texts.csv);
+  if (!written.ok()) return failed(written.error());
+  printOut(reportText(report));
+  return ExitCode::Done;
+}
+
+ExitCode runSoak(const StreamTexts& texts) {
+  SoakRequest request;
+  Settling settle;
+  settle.into(request.crowds, parseCrowds("--crowds", texts.crowds));
+  settle.into(request.minutes, parsePositive("--minutes", texts.minutes));
+  if (texts.garbage == "0") {
+    request.garbageShare = 0.0;
+  } else {
+    settle.into(request.garbageShare, parsePositive("--garbage", texts.garbage));
+  }
+  settle.into(request.workers, parseCount("--workers", texts.workers, kMaxWorkers));
+  settle.into(request.place, parsePlacement("--place", texts.place));
+  if (settle.error()) return failed(*settle.error());
+  request.logPath = texts.log;
+  request.command = ownCommandLine();
+  const auto entered = enterPrivateNetwork();
+  if (!entered.ok()) return failed(entered.error());
+  const auto soak = soakStream(request);
+  if (!soak.ok()) return failed(soak.error());
+  const BenchReport& report = soak.value().report;
+  const auto written = writeReport(report, texts.json, report.tables.front(), texts.csv);
+  if (!written.ok()) return failed(written.error());
+  printOut(reportText(report));
+  const bool isSound =
+      soak.value().lost == 0 && soak.value().filesConstant &&
+      (soak.value().slopeMbPerHour < kMostMbPerHour || soak.value().grownMb < kNoGrowthMb) &&
+      soak.value().exitCode == 0;
+  if (isSound) return ExitCode::Done;
+  printError("the service lost poses, grew, or did not end well: see the table");
+  return ExitCode::CheckSaysNo;
+}
+
+}  // namespace
+
+Result<std::vector<StreamCrowd>> parseCrowds(const std::string& option, const std::string& text) {
+  std::vector<StreamCrowd> crowds;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    const std::size_t cross = word.find('x');
+    if (cross == std::string::npos) {
+      return Error{ErrorCode::Syntax, option, -1, -1,
+                   "expected AVATARSxHZ,... as in 10x90,1x1000, found '" + word + "'"};
+    }
+    const auto avatars = parseCount(option, word.substr(0, cross), kMaxAvatars);
+    if (!avatars.ok()) return avatars.error();
+    const auto rate = parsePositive(option, word.substr(cross + 1));
+    if (!rate.ok()) return rate.error();
+    if (rate.value() > kMaxRateHz) {
+      return Error{ErrorCode::OutOfRange, option, -1, -1,
+                   fmt::format("expected at most {} poses a second", kMaxRateHz)};
+    }
+    crowds.push_back({avatars.value(), rate.value()});
+    start = end + 1;
+  }
+  return crowds;
+}
+
+void addBenchStreamCommands(CLI::App& bench, ExitCode& exit) {
+  const auto stream = std::make_shared<StreamTexts>();
+  stream->crowds = "1x30,1x90,1x1000,1x10000,10x90,10x1000,50x90";
+  const auto soak = std::make_shared<StreamTexts>();
+  soak->crowds = "4x90,1x1000";
+  const auto addShared = [](CLI::App& command, StreamTexts& texts) {
+    const auto option = [&](const char* name, std::string& text, const char* type,
+                            const char* help) {
+      command.add_option(name, text, help)->type_name(type)->capture_default_str();
+    };
+    option("--crowds", texts.crowds, "NxHZ,...", "So many avatars, each so many poses a second");
+    option("--workers", texts.workers, "N", "Threads of the service that answer");
+    option("--place", texts.place, "X,Y,Z[,YAW]", "Where the bundled dancer stands in the room");
+    option("--json", texts.json, "FILE", "Also write the figures to a file");
+    option("--csv", texts.csv, "FILE", "Also write the table to a file");
+  };
+  CLI::App* const streamCommand = bench.add_subcommand(
+      "stream", "Pose sent to verdict received: senders and service in a private network");
+  addShared(*streamCommand, *stream);
+  streamCommand->add_option("--seconds", stream->seconds, "Of each crowd")
+      ->type_name("S")
+      ->capture_default_str();
+  streamCommand->footer(
+      "Example:\n  foretouch-bench stream --crowds 1x90,50x90 --json stream.json");
+  streamCommand->callback([stream, &exit] { exit = runStream(*stream); });
+
+  CLI::App* const soakCommand = bench.add_subcommand(
+      "soak", "One service under load and garbage; exit code 1 where it loses, grows or leaks");
+  addShared(*soakCommand, *soak);
+  soakCommand->add_option("--minutes", soak->minutes, "How long")
+      ->type_name("M")
+      ->capture_default_str();
+  soakCommand->add_option("--garbage", soak->garbage, "Datagrams of garbage per pose")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  soakCommand->add_option("--log", soak->log, "The service's journal")->type_name("FILE");
+  soakCommand->footer("Example:\n  foretouch-bench soak --minutes 30");
+  soakCommand->callback([soak, &exit] { exit = runSoak(*soak); });
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,332 @@
+#include "bench/stream_load.h"
+
+#include <algorithm>
+#include <arpa/inet.h>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <memory>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <thread>
+#include <unistd.h>
+#include <unordered_map>
+#include <utility>
+
+#include "network/service/clock.h"
+#include "network/wire/codec.h"
+#include "network/wire/udpm_datagram.h"
+#include "tools/portable_random.h"
+
+namespace foretouch::tools {
+namespace {
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+constexpr int kReceiveTimeoutMs = 100;
+constexpr std::chrono::milliseconds kStatusPeriod{1100};
+constexpr std::int64_t kPatienceNs = kNsPerS;  // for the last answers
+
+std::int64_t steadyNs() {
+  return std::chrono::steady_clock::now().time_since_epoch().count();
+}
+
+std::int64_t utimeUs() {
+  return systemClock().utimeUs();
+}
+
+void sleepUntil(std::int64_t ns) {
+  const timespec due{static_cast<time_t>(ns / kNsPerS), static_cast<long>(ns % kNsPerS)};
+  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) == EINTR) {
+  }
+}
+
+/// When each pose was sent, by sender and sequence; 0: not yet, -1: answered. Written by the
+/// sending thread, read and marked by the receiving one.
+class SendTimes {
+ public:
+  explicit SendTimes(const LoadRequest& request) {
+    for (const LoadSender& sender : request.senders) {
+      const auto count = static_cast<std::size_t>(std::ceil(sender.rateHz * request.durationS)) + 1;
+      times_.push_back(std::vector<std::atomic<std::int64_t>>(count));
+    }
+  }
+  [[nodiscard]] std::int64_t count(std::size_t sender) const {
+    return static_cast<std::int64_t>(times_[sender].size());
+  }
+  [[nodiscard]] std::atomic<std::int64_t>& at(std::size_t sender, std::int64_t sequence) {
+    return times_[sender][static_cast<std::size_t>(sequence)];
+  }
+
+ private:
+  std::vector<std::vector<std::atomic<std::int64_t>>> times_;
+};
+
+/// Datagrams that a service must bear: noise, cut and lying copies of a valid one.
+class Garbage {
+ public:
+  Garbage(const UdpmUrl& url, const Bytes& validPayload, std::uint64_t seed)
+      : random_(seed), valid_(datagramsOf(kPoseChannel, validPayload, 0).front()) {
+    socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    group_.sin_family = AF_INET;
+    group_.sin_port = htons(url.port);
+    ::inet_pton(AF_INET, url.group.c_str(), &group_.sin_addr);
+  }
+  Garbage(const Garbage&) = delete;
+  Garbage& operator=(const Garbage&) = delete;
+  ~Garbage() { ::close(socket_); }
+
+  void send() {
+    const Bytes bytes = make();
+    ::sendto(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT,
+             reinterpret_cast<const sockaddr*>(&group_), sizeof group_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t below(std::size_t n) {
+    return static_cast<std::size_t>(random_.uniform(0.0, static_cast<double>(n)));
+  }
+  [[nodiscard]] Bytes make() {
+    constexpr std::size_t kMostNoise = 1200;
+    Bytes bytes = valid_;
+    switch (below(4)) {
+      case 0:  // noise
+        bytes.resize(1 + below(kMostNoise));
+        for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(below(256));
+        return bytes;
+      case 1:  // cut
+        bytes.resize(1 + below(bytes.size() - 1));
+        return bytes;
+      case 2: {  // counts and lengths that lie; stamps and quaternions are left as they are
+        const std::size_t place = 8 + below(60);
+        bytes[std::min(place, bytes.size() - 1)] ^= static_cast<std::uint8_t>(0x80 | below(128));
+        bytes.pop_back();  // so that it can never be a valid pose
+        return bytes;
+      }
+      default: {  // a fragment of a message that never comes
+        Bytes fragment = {'L', 'C', '0', '3'};
+        for (int i = 0; i < 16; ++i) fragment.push_back(static_cast<std::uint8_t>(below(256)));
+        fragment.insert(fragment.end(), bytes.begin(), bytes.end());
+        return fragment;
+      }
+    }
+  }
+
+  PortableRandom random_;
+  Bytes valid_;
+  int socket_ = -1;
+  sockaddr_in group_{};
+};
+
+class Senders {
+ public:
+  Senders(const LoadTrack& track, const LoadRequest& request, Publisher& publisher,
+          SendTimes& times, LoadOutcome& outcome)
+      : track_(track), request_(request), publisher_(publisher), times_(times), outcome_(outcome) {
+    startNs_ = steadyNs();
+    startUtimeUs_ = utimeUs();
+    for (std::size_t s = 0; s < request.senders.size(); ++s) {
+      const double period = static_cast<double>(kNsPerS) / request.senders[s].rateHz;
+      // Spread over a period, as independent senders are.
+      const double phase =
+          period * static_cast<double>(s) / static_cast<double>(request.senders.size());
+      schedule_.push_back({period, phase, 0});
+    }
+  }
+
+  [[nodiscard]] std::int64_t session() const { return startUtimeUs_; }
+
+  void sendSkeletons() {
+    Bytes payload;
+    SkeletonMessage skeleton = track_.skeleton;
+    for (const LoadSender& sender : request_.senders) {
+      skeleton.avatar = sender.avatar;
+      skeleton.session = session();
+      skeleton.sendUtimeUs = utimeUs();
+      skeleton.rateHz = sender.rateHz;
+      encode(skeleton, payload);
+      publisher_.publish(kSkeletonChannel, payload);
+    }
+  }
+
+  void run(const std::function<void()>& everySecond) {
+    std::unique_ptr<Garbage> garbage = makeGarbage();
+    double owed = 0.0;
+    std::int64_t nextSecondNs = startNs_ + kNsPerS;
+    const std::int64_t endNs =
+        startNs_ + static_cast<std::int64_t>(request_.durationS * static_cast<double>(kNsPerS));
+    for (;;) {
+      const std::size_t s = nextSender();
+      const std::int64_t dueNs = dueAt(s);
+      if (dueNs >= endNs) break;
+      sleepUntil(dueNs);
+      if (steadyNs() >= nextSecondNs) {
+        sendSkeletons();
+        if (everySecond) everySecond();
+        nextSecondNs += kNsPerS;
+      }
+      sendPose(s, dueNs);
+      for (owed += request_.garbageShare; owed >= 1.0; owed -= 1.0) {
+        garbage->send();
+        ++outcome_.garbage;
+      }
+    }
+  }
+
+ private:
+  struct Due {
+    double periodNs, phaseNs;
+    std::int64_t sequence;
+  };
+
+  [[nodiscard]] std::unique_ptr<Garbage> makeGarbage() const {
+    Bytes payload;
+    encode(track_.poses.front(), payload);
+    return std::make_unique<Garbage>(request_.url, payload, request_.seed);
+  }
+  [[nodiscard]] std::int64_t dueAt(std::size_t s) const {
+    const Due& due = schedule_[s];
+    return startNs_ + static_cast<std::int64_t>(due.phaseNs +
+                                                due.periodNs * static_cast<double>(due.sequence));
+  }
+  [[nodiscard]] std::size_t nextSender() const {
+    std::size_t first = 0;
+    for (std::size_t s = 1; s < schedule_.size(); ++s) {
+      if (dueAt(s) < dueAt(first)) first = s;
+    }
+    return first;
+  }
+  /// Forth and back over the track.
+  [[nodiscard]] const PoseMessage& poseAt(std::int64_t sequence) const {
+    const auto last = static_cast<std::int64_t>(track_.poses.size()) - 1;
+    const std::int64_t place = sequence % (2 * last);
+    return track_.poses[static_cast<std::size_t>(place <= last ? place : 2 * last - place)];
+  }
+
+  void sendPose(std::size_t s, std::int64_t dueNs) {
+    Due& due = schedule_[s];
+    const std::int64_t sequence = due.sequence++;
+    pose_ = poseAt(sequence);
+    pose_.avatar = request_.senders[s].avatar;
+    pose_.session = session();
+    pose_.sequence = sequence;
+    pose_.utimeUs = startUtimeUs_ + (dueNs - startNs_) / 1000;
+    pose_.sendUtimeUs = utimeUs();
+    pose_.skeletonHash = track_.skeleton.hash;
+    encode(pose_, payload_);
+    const std::int64_t now = steadyNs();
+    times_.at(s, sequence).store(now, std::memory_order_relaxed);
+    ++outcome_.sent;
+    outcome_.lateSends += static_cast<double>(now - dueNs) > due.periodNs ? 1 : 0;
+    outcome_.sendFailures += publisher_.publish(kPoseChannel, payload_) ? 0 : 1;
+  }
+
+  const LoadTrack& track_;
+  const LoadRequest& request_;
+  Publisher& publisher_;
+  SendTimes& times_;
+  LoadOutcome& outcome_;
+  std::int64_t startNs_ = 0, startUtimeUs_ = 0;
+  std::vector<Due> schedule_;
+  PoseMessage pose_;
+  Bytes payload_;
+};
+
+class Answers {
+ public:
+  Answers(const LoadRequest& request, Receiver& receiver, SendTimes& times)
+      : receiver_(receiver), times_(times) {
+    for (std::size_t s = 0; s < request.senders.size(); ++s) {
+      senderOf_[request.senders[s].avatar] = s;
+    }
+  }
+
+  void receiveUntilStopped() {
+    std::vector<WireMessage> messages;
+    while (!stop_.load(std::memory_order_relaxed)) {
+      messages.clear();
+      if (!receiver_.receive(messages, kReceiveTimeoutMs).ok()) return;
+      const std::int64_t now = steadyNs();
+      for (const WireMessage& message : messages) take(message, now);
+    }
+  }
+  void stop() { stop_ = true; }
+  [[nodiscard]] std::int64_t answered() const { return answered_.load(std::memory_order_relaxed); }
+
+  std::int64_t session = 0;  // set before the first pose is sent
+  std::vector<LoadAnswer> answers;
+  std::int64_t repeated = 0, gaps = 0;
+  StatusMessage status;
+
+ private:
+  void take(const WireMessage& message, std::int64_t now) {
+    if (message.channel == kStatusChannel) {
+      if (decode(message.payload, heard_) == Reject::None) status = heard_;
+      return;
+    }
+    if (decode(message.payload, contacts_) != Reject::None || contacts_.session != session) return;
+    const auto found = senderOf_.find(contacts_.avatar);
+    if (found == senderOf_.end()) return;
+    const std::size_t s = found->second;
+    if (contacts_.sequenceTo < 0 || contacts_.sequenceTo >= times_.count(s)) return;
+    const std::int64_t sent = times_.at(s, contacts_.sequenceTo).exchange(-1);
+    if (sent < 0) {
+      ++repeated;
+      return;
+    }
+    gaps += contacts_.kind == StepKind::AcrossGap ? 1 : 0;
+    LoadAnswer answer;
+    answer.roundTripUs = static_cast<float>(static_cast<double>(now - sent) * 1e-3);
+    answer.serviceUs = static_cast<float>(contacts_.sendUtimeUs - contacts_.receiveUtimeUs);
+    answer.queryUs = static_cast<float>(contacts_.queryUs);
+    answer.sender = static_cast<std::int32_t>(s);
+    answers.push_back(answer);
+    answered_.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  Receiver& receiver_;
+  SendTimes& times_;
+  std::unordered_map<std::int32_t, std::size_t> senderOf_;
+  ContactsMessage contacts_;
+  StatusMessage heard_;
+  std::atomic<bool> stop_{false};
+  std::atomic<std::int64_t> answered_{0};
+};
+
+void waitForTheLast(const Answers& answers, std::int64_t sent) {
+  const std::int64_t until = steadyNs() + kPatienceNs;
+  while (answers.answered() < sent && steadyNs() < until) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+}  // namespace
+
+Result<LoadOutcome> runLoad(const LoadTrack& track, const LoadRequest& request,
+                            const std::function<void()>& everySecond) {
+  auto receiver = openUdpmReceiver(request.url, {kContactsChannel, kStatusChannel});
+  if (!receiver.ok()) return receiver.error();
+  auto publisher = openUdpmPublisher(request.url);
+  if (!publisher.ok()) return publisher.error();
+  LoadOutcome outcome;
+  SendTimes times(request);
+  Answers answers(request, *receiver.value(), times);
+  Senders senders(track, request, *publisher.value(), times, outcome);
+  answers.session = senders.session();
+  std::thread listening([&] { answers.receiveUntilStopped(); });
+  senders.sendSkeletons();
+  senders.run(everySecond);
+  waitForTheLast(answers, outcome.sent);
+  std::this_thread::sleep_for(kStatusPeriod);  // for the status that tells of all of it
+  answers.stop();
+  listening.join();
+  outcome.answers = std::move(answers.answers);
+  outcome.repeated = answers.repeated;
+  outcome.gaps = answers.gaps;
+  outcome.status = std::move(answers.status);
+  outcome.unanswered = outcome.sent - static_cast<std::int64_t>(outcome.answers.size());
+  outcome.ownDrops = static_cast<std::int64_t>(receiver.value()->counts().kernelDrops);
+  return outcome;
+}
+
+}  // namespace foretouch::tools

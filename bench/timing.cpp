@@ -1,0 +1,203 @@
+#include "bench/timing.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "articulated/motion.h"
+#include "bench/leaf_timing.h"
+#include "lss/assert.h"
+#include "tools/progress.h"
+#include "tools/replay/ray_set.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Puts the processor's own choice of instructions back at the end.
+class SimdChoice {
+ public:
+  SimdChoice() = default;
+  SimdChoice(const SimdChoice&) = delete;
+  SimdChoice& operator=(const SimdChoice&) = delete;
+  ~SimdChoice() { useSimd(std::nullopt); }
+  void take(Simd simd) {
+    if (simd == current_) return;
+    [[maybe_unused]] const bool supported = useSimd(simd);
+    FORETOUCH_ASSERT(supported);
+    current_ = simd;
+  }
+
+ private:
+  Simd current_ = Simd::Other;
+};
+
+/// Memory that is written and read to push everything else out of the caches.
+class CacheFlood {
+ public:
+  explicit CacheFlood(int megabytes) : words_(static_cast<std::size_t>(megabytes) << 17) {}
+  void run() {
+    std::uint64_t sum = kept_;
+    for (std::uint64_t& word : words_) word = ++sum;
+    for (const std::uint64_t word : words_) sum += word;
+    kept_ = sum;
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;
+  volatile std::uint64_t kept_ = 0;  // or the compiler would leave the loops out
+};
+
+/// One pass of one case over one step, timed.
+class StepClock {
+ public:
+  StepClock(const Avatar& avatar, const Scene& scene)
+      : avatar_(avatar), scene_(scene), overheadUs_(clockOverheadUs()) {}
+
+  /// Microseconds of a step; what was answered goes to `answer`.
+  Result<double> ask(const StepPoses& poses, const BenchCase& way, StepContacts& answer) {
+    simd_.take(way.simd);
+    const Clock::time_point start = Clock::now();
+    const auto done = answerStep(avatar_, poses, scene_, way.query, memory_);
+    const double us = since(start);
+    if (!done.ok()) return done.error();
+    answer = memory_.contacts;
+    return us;
+  }
+
+  Result<double> castRays(const std::array<RaySegment, kRaysPerSet>& rays) const {
+    const Clock::time_point start = Clock::now();
+    const auto hits = castRaySet(scene_, rays);
+    const double us = since(start);
+    if (!hits.ok()) return hits.error();
+    return us;
+  }
+
+  [[nodiscard]] double overheadUs() const { return overheadUs_; }
+
+ private:
+  [[nodiscard]] double since(Clock::time_point start) const {
+    const double us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+    return std::max(0.0, us - overheadUs_);
+  }
+
+  const Avatar& avatar_;
+  const Scene& scene_;
+  double overheadUs_;
+  StepMemory memory_;
+  SimdChoice simd_;
+};
+
+void record(const StepContacts& answer, TimedStep& step) {
+  step.counters = answer.counters;
+  for (const LinkContact& contact : answer.links) {
+    step.contacts += contact.verdict == Verdict::Contact ? 1 : 0;
+    step.starts += contact.verdict == Verdict::StartsInContact ? 1 : 0;
+    step.undecided += contact.verdict == Verdict::Undecided ? 1 : 0;
+  }
+}
+
+Result<Done> timeWarm(StepClock& clock, const StepPoses& poses, const BenchCase& way, int repeats,
+                      CaseTimes& times) {
+  TimedStep step;
+  StepContacts answer;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    const auto us = clock.ask(poses, way, answer);
+    if (!us.ok()) return us.error();
+    if (repeat == 0) step.firstUs = us.value();
+    step.warmUs = repeat == 0 ? us.value() : std::min(step.warmUs, us.value());
+    times.everyUs.push_back(us.value());
+  }
+  record(answer, step);
+  times.steps.push_back(step);
+  return Done{};
+}
+
+Result<Done> timeRays(const StepClock& clock, const Avatar& avatar, const StepPoses& poses,
+                      int repeats, std::vector<double>& raySetUs) {
+  const auto rays = raysAlong(ChainMotion(avatar.skeleton(), poses.from, poses.to));
+  double least = std::numeric_limits<double>::infinity();
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    const auto us = clock.castRays(rays);
+    if (!us.ok()) return us.error();
+    least = std::min(least, us.value());
+  }
+  raySetUs.push_back(least);
+  return Done{};
+}
+
+Result<Done> timeCold(StepClock& clock, const std::vector<StepPoses>& steps, const BenchCase& way,
+                      const TimingOptions& options, CaseTimes& times) {
+  CacheFlood flood(options.coldMb);
+  StepContacts answer;
+  for (int pass = 0; pass < options.coldPasses; ++pass) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      flood.run();
+      const auto us = clock.ask(steps[i], way, answer);
+      if (!us.ok()) return us.error();
+      double& coldUs = times.steps[i].coldUs;
+      coldUs = pass == 0 ? us.value() : std::min(coldUs, us.value());
+    }
+  }
+  return Done{};
+}
+
+}  // namespace
+
+double valueAtRank(const std::vector<double>& ascending, double share) {
+  if (ascending.empty()) return 0.0;
+  const auto count = static_cast<double>(ascending.size());
+  const auto rank = static_cast<std::size_t>(std::ceil(share * count));
+  return ascending[std::max<std::size_t>(rank, 1) - 1];
+}
+
+Percentiles percentilesOf(std::vector<double> values) {
+  Percentiles figures;
+  if (values.empty()) return figures;
+  std::sort(values.begin(), values.end());
+  const auto count = static_cast<double>(values.size());
+  const auto rank = [&](double share) { return valueAtRank(values, share); };
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return {sum / count, rank(0.5), rank(0.9), rank(0.99), values.back()};
+}
+
+[[gnu::noinline]] Result<Done> answerStep(const Avatar& avatar, const StepPoses& poses,
+                                          const Scene& scene, const QueryOptions& query,
+                                          StepMemory& memory) {
+  memory.motion.assign(avatar.skeleton(), poses.from, poses.to);
+  return firstContacts(avatar, memory.motion, scene, query, memory.scratch, memory.contacts);
+}
+
+Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& steps,
+                         const Scene& scene, const std::vector<BenchCase>& cases,
+                         const TimingOptions& options) {
+  FORETOUCH_ASSERT(!steps.empty() && options.repeats >= 1);
+  StepClock clock(avatar, scene);
+  Timing timing;
+  timing.cases.resize(cases.size());
+  timing.overheadUs = clock.overheadUs();
+  // The first set builds the scene's ray structures.
+  const auto first = clock.castRays(
+      raysAlong(ChainMotion(avatar.skeleton(), steps.front().from, steps.front().to)));
+  if (!first.ok()) return first.error();
+  ProgressBar progress("steps", static_cast<std::int64_t>(steps.size()));
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (std::size_t c = 0; c < cases.size(); ++c) {
+      const auto done = timeWarm(clock, steps[i], cases[c], options.repeats, timing.cases[c]);
+      if (!done.ok()) return done.error();
+    }
+    const auto rays = timeRays(clock, avatar, steps[i], options.repeats, timing.raySetUs);
+    if (!rays.ok()) return rays.error();
+    progress.advanceTo(static_cast<std::int64_t>(i) + 1);
+  }
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    if (!cases[c].cold || options.coldMb == 0) continue;
+    const auto done = timeCold(clock, steps, cases[c], options, timing.cases[c]);
+    if (!done.ok()) return done.error();
+  }
+  return timing;
+}
+
+}  // namespace foretouch::tools

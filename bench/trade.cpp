@@ -1,0 +1,249 @@
+#include "bench/trade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/machine.h"
+#include "bench/options.h"
+#include "bench/trade/dominance.h"
+#include "bench/trade/runner.h"
+#include "bench/trade/trade_tables.h"
+#include "tools/console.h"
+#include "tools/inputs/step_selection.h"
+
+namespace foretouch::tools {
+namespace {
+
+std::string nameOf(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+void noteOnce(std::string note, BenchReport& report) {
+  auto& notes = report.notes;
+  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+}
+
+/// Where a clip stands, and around which frame it is looked at.
+struct TradePlace {
+  Placement placement;
+  double middleS = 0.0;
+};
+
+std::vector<TradeContender> contendersFor(const TradeWorld& world,
+                                          const std::vector<double>& tolerances,
+                                          const std::optional<AvatarSurface>& surface) {
+  std::vector<TradeContender> all;
+  for (const double tolerance : tolerances) {
+    const auto add = [&](std::unique_ptr<Strategy> strategy, bool isExact = false) {
+      all.push_back({std::move(strategy), tolerance, isExact});
+    };
+    for (const int instants : {1, 4, 16, 64}) add(sampling(world, instants, tolerance));
+    add(voxelSweep(world));
+    add(subdivision(world, tolerance));
+    add(advancement(world, tolerance));
+    add(certificates(world, tolerance));
+    QueryOptions options;
+    options.tolerance = tolerance;
+    options.backtracking = Backtracking::Scalar;
+    add(foretouchQuery(world, options, "Foretouch, scalar"));
+    options.backtracking = Backtracking::Lanes;
+    add(foretouchQuery(world, options, "Foretouch"));
+    for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid}) {
+      options.fidelity = rung;
+      add(foretouchQuery(world, options, std::string("Foretouch, ") + toString(rung)));
+    }
+    if (!surface) continue;
+    options.fidelity = Fidelity::Exact;
+    options.surface = surface;
+    add(foretouchQuery(world, options, "Foretouch, exact"), true);
+  }
+  return all;
+}
+
+/// One scene and clip.
+class WorldBench {
+ public:
+  WorldBench(const TradeRequest& request, const BenchInputs& inputs, BenchBody body,
+             std::optional<AvatarSurface> surface)
+      : request_(request),
+        inputs_(inputs),
+        body_(std::move(body)),
+        surface_(std::move(surface)),
+        world_(inputs.avatar, inputs.scene) {}
+
+  Result<Done> run(MeasuredTrade& bench, JudgedTruth& judged) {
+    const auto places = findPlaces();
+    if (!places.ok()) return places.error();
+    bool isJudged = false;
+    for (const double rateHz : request_.ratesHz) {
+      auto run = runAt(rateHz, places.value());
+      if (!run.ok()) return run.error();
+      if (run.value().windows.empty()) {
+        noteOnce(
+            fmt::format("{} holds no steps at {:g} Hz.", nameOf(inputs_.files.motionPath), rateHz),
+            bench.report);
+        continue;
+      }
+      if (!isJudged) run.value().judged = request_.judged;
+      isJudged = true;
+      auto contenders = contendersFor(world_, request_.tolerances, surface_);
+      auto result = runTrade(world_, surface_, run.value(), contenders);
+      if (!result.ok()) return result.error();
+      judged.add(result.value().judged);
+      for (TradeRow& row : result.value().rows) bench.rows.push_back(std::move(row));
+    }
+    return Done{};
+  }
+
+ private:
+  /// Where the workload of `bench latency` finds contacts, one step of each place.
+  Result<std::vector<TradePlace>> findPlaces() {
+    WorkloadRequest wanted = request_.workload;
+    const double clipHz = 1.0 / inputs_.clip.frameTimeS;
+    wanted.rateHz = std::min(request_.baseRateHz, clipHz);
+    const auto workload = chooseSteps(inputs_, body_, wanted);
+    if (!workload.ok()) return workload.error();
+    std::vector<TradePlace> places;
+    std::optional<Placement> last;
+    for (const StepPick& pick : workload.value().picks) {
+      const bool isKnown =
+          last && last->origin == pick.placement.origin && last->yawDeg == pick.placement.yawDeg;
+      if (isKnown || pick.kind != StepClass::Contact) continue;
+      if (places.size() == static_cast<std::size_t>(request_.places)) break;
+      last = pick.placement;
+      const double frame =
+          static_cast<double>(pick.frame) + 0.5 * static_cast<double>(workload.value().stride);
+      places.push_back({pick.placement, frame * inputs_.clip.frameTimeS});
+    }
+    if (!places.empty()) return places;
+    return Error{ErrorCode::Empty, inputs_.files.motionPath, -1, -1,
+                 "touches nothing at any place that was tried in " +
+                     nameOf(inputs_.files.scenePath) + "; expected one with a contact"};
+  }
+
+  Result<TradeRun> runAt(double rateHz, const std::vector<TradePlace>& places) {
+    TradeRun run;
+    run.scene = nameOf(inputs_.files.scenePath);
+    run.clip = nameOf(inputs_.files.motionPath);
+    run.rateHz = rateHz;
+    run.passes = request_.passes;
+    const auto steps = selectSteps(inputs_.clip.frames.size(), inputs_.clip.frameTimeS, rateHz);
+    if (!steps.ok()) return run;  // a rate that the clip does not have
+    run.stepMs = 1e3 * static_cast<double>(steps.value().stride) * inputs_.clip.frameTimeS;
+    for (const TradePlace& place : places) {
+      auto window = windowAt(place, steps.value().stride);
+      if (!window.ok()) return window.error();
+      if (!window.value().empty()) run.windows.push_back(std::move(window).value());
+    }
+    return run;
+  }
+
+  Result<TradeWindow> windowAt(const TradePlace& place, std::int64_t stride) {
+    const double frameTimeS = inputs_.clip.frameTimeS;
+    const auto lastFrame = static_cast<std::int64_t>(inputs_.clip.frames.size()) - 1;
+    const auto wanted = static_cast<std::int64_t>(std::llround(request_.seconds / frameTimeS));
+    const std::int64_t span = std::min(lastFrame, wanted);
+    const auto middle = static_cast<std::int64_t>(std::llround(place.middleS / frameTimeS));
+    const std::int64_t first = std::clamp<std::int64_t>(middle - span / 2, 0, lastFrame - span);
+    TradeWindow window;
+    for (std::int64_t frame = first; frame + stride <= first + span; frame += stride) {
+      auto from = poseAt(place, frame), to = poseAt(place, frame + stride);
+      if (!from.ok()) return from.error();
+      if (!to.ok()) return to.error();
+      window.push_back({std::move(from).value(), std::move(to).value()});
+    }
+    return window;
+  }
+
+  Result<Pose> poseAt(const TradePlace& place, std::int64_t frame) {
+    return validatedPose(inputs_.avatar.skeleton(), placedPose(inputs_, place.placement, frame));
+  }
+
+  const TradeRequest& request_;
+  const BenchInputs& inputs_;
+  BenchBody body_;
+  std::optional<AvatarSurface> surface_;
+  TradeWorld world_;
+};
+
+Result<Done> measureWorld(const TradeRequest& request, const BenchFiles& files,
+                          MeasuredTrade& bench, JudgedTruth& judged) {
+  const auto inputs = loadBenchInputs(files);
+  if (!inputs.ok()) return inputs.error();
+  auto body = bodyOf(inputs.value(), 0);
+  if (!body.ok()) return body.error();
+  BenchOptions options;
+  options.fidelity = Fidelity::Exact;
+  options.surfaceTriangles = request.surfaceTriangles;
+  auto query = queryFor(inputs.value(), body.value(), options);
+  if (!query.ok()) return query.error();
+  for (auto& fact :
+       workloadFacts(inputs.value(), inputs.value().scene, inputs.value().avatar, query.value())) {
+    const bool isKnown = std::find(bench.report.workload.begin(), bench.report.workload.end(),
+                                   fact) != bench.report.workload.end();
+    if (!isKnown && fact.first != "fidelity") bench.report.workload.push_back(std::move(fact));
+  }
+  WorldBench world(request, inputs.value(), std::move(body).value(),
+                   std::move(query).value().surface);
+  return world.run(bench, judged);
+}
+
+void addNotes(const TradeRequest& request, const JudgedTruth& judged,
+              const std::vector<TradeRow>& rows, BenchReport& report) {
+  report.notes.push_back(dominanceText(dominanceOf(rows)));
+  report.notes.push_back(fmt::format(
+      "Windows of {:g} s of the clip at up to {} places a scene, every step of them; one thread. A "
+      "strategy goes through a window as a stream would bring it, strategies take turns window by "
+      "window, and of {} passes a step's least time counts.",
+      request.seconds, request.places, request.passes));
+  report.notes.push_back(fmt::format(
+      "Truth: the scalar form at {:g} m, on bodies thinner and thicker, so that what is called "
+      "missed, late or false is so beyond doubt. A judge of other code "
+      "(bench/extremes/oracle.h) "
+      "was asked about {} links: {} were free as long as told ({} undecided within its budget), "
+      "{} of {} contacts touched by when told, {} answers differed.",
+      kTruthTolerance, judged.links, judged.free, judged.open, judged.touching, judged.contacts,
+      judged.wrong));
+  report.notes.push_back(
+      "All but Foretouch look distances up in one plain tree of boxes, in doubles and without "
+      "proof of rounding: compare them with one another and with Foretouch, scalar; the time that "
+      "separates these from Foretouch is its tree and its lanes as much as its strategy.");
+  report.notes.push_back(
+      "Sampling and poses take the tolerance as a margin within which a link counts as touching. "
+      "Distance error: how far from touching a link is when its contact is reported, false ones "
+      "included, starts not; exact is held against the truth of its surface, and its distance is "
+      "not told.");
+}
+
+}  // namespace
+
+Result<MeasuredTrade> measureTrade(const TradeRequest& request) {
+  MeasuredTrade bench;
+  bench.baseTolerance = request.baseTolerance;
+  bench.baseRateHz = request.baseRateHz;
+  BenchReport& report = bench.report;
+  report.kind = "trade";
+  report.title = "Speed for accuracy";
+  report.command = request.command;
+  report.date = dateNow();
+  report.machine = machineFacts();
+  JudgedTruth judged;
+  for (const BenchFiles& files : request.worlds) {
+    const auto done = measureWorld(request, files, bench, judged);
+    if (!done.ok()) return done.error();
+  }
+  if (bench.rows.empty()) {
+    return Error{ErrorCode::Empty, "--rate", -1, -1, "expected a rate that a clip has"};
+  }
+  markFrontier(bench.rows);
+  report.tables = tablesForPeople(bench.rows, bench.baseTolerance, bench.baseRateHz);
+  addNotes(request, judged, bench.rows, report);
+  return bench;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,40 @@
+// bench/trade.h: `foretouch-bench trade`: what speed costs in accuracy, and accuracy in
+// speed, over strategies, tolerances, rates, clips and scenes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "bench/inputs.h"
+#include "bench/report.h"
+#include "bench/trade/trade_row.h"
+#include "bench/workload.h"
+
+namespace foretouch::tools {
+
+struct TradeRequest {
+  std::vector<BenchFiles> worlds;  ///< A scene and a clip each.
+  std::vector<double> tolerances;  ///< Metres.
+  std::vector<double> ratesHz;     ///< Those that a clip does not have are left out of it.
+  double baseTolerance = 1e-3;     ///< While the rate is looked at; one of the tolerances.
+  double baseRateHz = 5.0;         ///< While the tolerance is looked at; one of the rates.
+  double seconds = 4.0;            ///< Of the clip, at each place.
+  int places = 3;                  ///< In each scene.
+  int passes = 3;
+  int judged = 40;  ///< Links a world.
+  std::size_t surfaceTriangles = 20'000;
+  WorkloadRequest workload;  ///< Seed, floor and lift count.
+  std::string command;       ///< As typed in.
+};
+
+struct MeasuredTrade {
+  std::vector<TradeRow> rows;
+  double baseTolerance = 0.0, baseRateHz = 0.0;
+  BenchReport report;
+};
+
+/// Errors name the file or option.
+[[nodiscard]] Result<MeasuredTrade> measureTrade(const TradeRequest& request);
+
+}  // namespace foretouch::tools

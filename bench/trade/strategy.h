@@ -1,0 +1,56 @@
+// bench/trade/strategy.h: what `bench trade` asks of every way to find what a moving avatar
+// touches, Foretouch's and the others'. t is normalised: 0 at the earlier pose, 1 at the later.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/pose.h"
+#include "bench/trade/nearest_tree.h"
+
+namespace foretouch::tools {
+
+/// Two validated poses of the strategy's avatar.
+struct TradeStep {
+  const Pose& from;
+  const Pose& to;
+  bool continues = false;  ///< `from` is the `to` of the step asked before.
+};
+
+struct LinkTouch {
+  bool touches = false;
+  double toi = 1.0;  ///< Where it touches: when, as the strategy has it.
+};
+
+/// What a strategy promises of every link.
+enum class TradePromise : std::uint8_t {
+  Nothing,   ///< Contacts may be missed or late.
+  Sound,     ///< None is missed, none is late.
+  Accurate,  ///< Sound, and no farther than the tolerance from touching when reported.
+};
+
+/// One strategy with one setting, in one scene, for one avatar. All that a user would prepare once
+/// is prepared when it is made; solve() is what is timed. For one thread.
+class Strategy {
+ public:
+  Strategy(std::string name, TradePromise promise) : name_(std::move(name)), promise_(promise) {}
+  Strategy(const Strategy&) = delete;
+  Strategy& operator=(const Strategy&) = delete;
+  virtual ~Strategy() = default;
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] TradePromise promise() const { return promise_; }
+
+  /// `touches` gets one entry a link of the avatar, in order.
+  virtual void solve(const TradeStep& step, std::vector<LinkTouch>& touches, TradeWork& work) = 0;
+
+ private:
+  std::string name_;
+  TradePromise promise_;
+};
+
+using Strategies = std::vector<std::unique_ptr<Strategy>>;
+
+}  // namespace foretouch::tools

@@ -1,0 +1,178 @@
+#include "bench/trade/truth.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "bench/extremes/oracle.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// A body thinner by this touches only where the body itself overlaps.
+constexpr double kThinner = 2.0 * kTruthTolerance;
+
+std::array<double, 3> numbersOf(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+std::array<double, 4> numbersOf(const Quaternion& q) {
+  return {q.w(), q.x(), q.y(), q.z()};
+}
+
+bool isBelowZero(const std::array<double, 4>& a, const std::array<double, 4>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0.0;
+}
+
+extremes::OracleWorld worldOf(const TradeWorld& world, const StepPoses& step, LinkId link) {
+  extremes::OracleWorld result;
+  for (LinkId j = 0; j < world.avatar.numLinks(); ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    extremes::OracleJoint joint;
+    joint.parent = world.avatar.skeleton().parent(j);
+    joint.fromRotation = numbersOf(step.from.rotations[i]);
+    joint.toRotation = numbersOf(step.to.rotations[i]);
+    joint.fromTranslation = numbersOf(step.from.translations[i]);
+    joint.toTranslation = numbersOf(step.to.translations[i]);
+    joint.isFlipped = isBelowZero(joint.fromRotation, joint.toRotation);
+    result.joints.push_back(joint);
+  }
+  const ChainMotion motion(world.avatar.skeleton(), step.from, step.to);
+  const LinkState state = motion.stateAt(link, 0.0);
+  Eigen::Vector3d low = state.p_WL, high = state.p_WL;
+  double reach = 0.0;
+  for (const Lss& lss : world.avatar.lss(link)) {
+    extremes::OracleHull hull;
+    hull.link = link;
+    hull.points[0] = numbersOf(lss.a);
+    hull.points[1] = numbersOf(lss.b);
+    hull.radius = lss.radius;
+    result.hulls.push_back(hull);
+    const double rho = std::max(lss.a.norm(), lss.b.norm());
+    reach = std::max(reach, motion.bounds(link).speedAt(rho) + lss.radius);
+    low = low.cwiseMin(state.pointAt(lss.a)).cwiseMin(state.pointAt(lss.b));
+    high = high.cwiseMax(state.pointAt(lss.a)).cwiseMax(state.pointAt(lss.b));
+  }
+  constexpr double kMargin = 1e-3;  // metres; generous against rounding
+  const Eigen::Vector3d grown = Eigen::Vector3d::Constant(reach + kMargin);
+  std::vector<TriangleId> near;
+  world.tree.collect(low - grown, high + grown, near);
+  for (const TriangleId id : near) {
+    const auto& v = world.scene.triangle(id).vertices;
+    result.triangles.push_back({numbersOf(v[0]), numbersOf(v[1]), numbersOf(v[2])});
+  }
+  return result;
+}
+
+bool touchesAtAll(const LinkContact& contact) {
+  return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
+}
+
+}  // namespace
+
+Avatar withRadiiChanged(const Avatar& avatar, double by) {
+  std::vector<std::vector<Lss>> lss;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    lss.push_back(avatar.lss(link));
+    for (Lss& one : lss.back()) one.radius = std::max(0.0, one.radius + by);
+  }
+  return Avatar::build(avatar.skeleton(), std::move(lss)).value();  // as legal as before
+}
+
+TruthTeller::TruthTeller(const TradeWorld& world, const std::optional<AvatarSurface>& surface)
+    : world_(world), thinner_(withRadiiChanged(world.avatar, -kThinner)) {
+  options_.tolerance = kTruthTolerance;
+  options_.backtracking = Backtracking::Scalar;
+  if (!surface) return;
+  options_.fidelity = Fidelity::Exact;
+  options_.surface = surface;
+}
+
+Result<StepContacts> TruthTeller::ask(const Avatar& avatar, const StepPoses& step) {
+  const ChainMotion motion(avatar.skeleton(), step.from, step.to);
+  return firstContacts(avatar, motion, world_.scene, options_, scratch_);
+}
+
+Result<std::vector<LinkTruth>> TruthTeller::truthOf(const StepPoses& step) {
+  const auto own = ask(world_.avatar, step);
+  if (!own.ok()) return own.error();
+  // A surface cannot be thinned: there, what is within the finest tolerance counts as touching, and
+  // nothing is called late.
+  const auto sure = options_.surface ? own : ask(thinner_, step);
+  if (!sure.ok()) return sure.error();
+  std::vector<LinkTruth> truths;
+  for (std::size_t i = 0; i < own.value().links.size(); ++i) {
+    const LinkContact& first = own.value().links[i];
+    const LinkContact& last = sure.value().links[i];
+    LinkTruth truth;
+    truth.starts = first.verdict == Verdict::StartsInContact;
+    truth.touches = touchesAtAll(last) || truth.starts;
+    truth.freeUntil = first.freeUntil;
+    truth.touchesBy = truth.starts       ? 0.0
+                      : options_.surface ? 1.0
+                                         : std::max(last.freeUntil, first.freeUntil);
+    truths.push_back(truth);
+  }
+  return truths;
+}
+
+Result<std::vector<bool>> TruthTeller::comesWithin(const StepPoses& step, double distance) {
+  if (!thicker_ || thickerBy_ != distance) {
+    thicker_ = withRadiiChanged(world_.avatar, distance);
+    thickerBy_ = distance;
+  }
+  QueryOptions options = options_;
+  options.fidelity = Fidelity::Link;  // a surface lies within its LSS
+  options.surface.reset();
+  const ChainMotion motion(thicker_->skeleton(), step.from, step.to);
+  const auto contacts = firstContacts(*thicker_, motion, world_.scene, options, scratch_);
+  if (!contacts.ok()) return contacts.error();
+  std::vector<bool> within;
+  for (const LinkContact& contact : contacts.value().links) {
+    within.push_back(contact.verdict != Verdict::Clear);
+  }
+  return within;
+}
+
+double TruthTeller::separationAt(const StepPoses& step, LinkId link, double t) {
+  const ChainMotion motion(world_.avatar.skeleton(), step.from, step.to);
+  const LinkState state = motion.stateAt(link, t);
+  TradeWork work;
+  double least = kFarM;
+  for (const Lss& lss : world_.avatar.lss(link)) {
+    const double distance = world_.tree.distance(state.pointAt(lss.a), state.pointAt(lss.b),
+                                                 kFarM + lss.radius, 0.0, work);
+    least = std::min(least, distance - lss.radius);
+  }
+  return least;
+}
+
+void JudgedTruth::add(const JudgedTruth& other) {
+  links += other.links;
+  free += other.free;
+  touching += other.touching;
+  contacts += other.contacts;
+  open += other.open;
+  wrong += other.wrong;
+}
+
+JudgedTruth judge(const TradeWorld& world, const StepPoses& step, LinkId link,
+                  const LinkTruth& truth) {
+  JudgedTruth judged;
+  judged.links = 1;
+  const extremes::Oracle oracle(worldOf(world, step, link));
+  std::vector<double> until(static_cast<std::size_t>(world.avatar.numLinks()), 0.0);
+  until[static_cast<std::size_t>(link)] = truth.freeUntil;
+  const auto proof = oracle.proveFree(until)[static_cast<std::size_t>(link)];
+  judged.free += proof.freedom == extremes::Freedom::Proven ? 1 : 0;
+  judged.open += proof.freedom == extremes::Freedom::Open ? 1 : 0;
+  judged.wrong += proof.freedom == extremes::Freedom::Touches ? 1 : 0;
+  if (!truth.touches) return judged;
+  judged.contacts = 1;
+  const bool touches = oracle.separationAt(link, truth.touchesBy) <= extremes::Precise(0);
+  judged.touching += touches ? 1 : 0;
+  judged.wrong += touches ? 0 : 1;
+  return judged;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,81 @@
+// bench/trade/truth.h: what truly happens to every link in a step, and the tools to tell it:
+// the product's plain scalar form at a tolerance finer than any that is measured, on bodies a
+// little thinner and a little thicker, so that what is said of a strategy is said on the safe side;
+// and, for a sample of links, a judge that shares no code with it (bench/extremes/oracle.h).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "articulated/result.h"
+#include "bench/trade/nearest_tree.h"
+#include "bench/trade/strategies.h"
+#include "bench/workload.h"
+#include "middleware/query/query.h"
+
+namespace foretouch::tools {
+
+/// Of the truth (m). Tolerances that are measured should not be finer.
+inline constexpr double kTruthTolerance = 1e-7;
+
+/// What is known for certain of one link in one step.
+struct LinkTruth {
+  bool starts = false;     ///< In contact at t = 0.
+  bool touches = false;    ///< It touches, beyond doubt.
+  double freeUntil = 1.0;  ///< It does not touch before.
+  double touchesBy = 1.0;  ///< Where it touches: by then it has.
+  bool operator==(const LinkTruth& o) const {
+    return starts == o.starts && touches == o.touches && freeUntil == o.freeUntil &&
+           touchesBy == o.touchesBy;
+  }
+};
+
+/// The avatar with its radii changed by `by` (m), none below zero.
+[[nodiscard]] Avatar withRadiiChanged(const Avatar& avatar, double by);
+
+/// Tells the truth of an avatar in a scene. For one thread; not timed.
+class TruthTeller {
+ public:
+  /// `surface`: of exact fidelity; none: the links' LSS.
+  TruthTeller(const TradeWorld& world, const std::optional<AvatarSurface>& surface);
+
+  /// One a link.
+  [[nodiscard]] Result<std::vector<LinkTruth>> truthOf(const StepPoses& step);
+  /// Per link: does it come nearer than `distance` (m) at any time? What is nearer by less than
+  /// kTruthTolerance may count.
+  [[nodiscard]] Result<std::vector<bool>> comesWithin(const StepPoses& step, double distance);
+  /// Separation (m) of the link's LSS and the scene at `t`; not more than kFarM. Below zero by how
+  /// deep the scene is within a radius.
+  [[nodiscard]] double separationAt(const StepPoses& step, LinkId link, double t);
+
+  static constexpr double kFarM = 2.0;
+
+ private:
+  [[nodiscard]] Result<StepContacts> ask(const Avatar& avatar, const StepPoses& step);
+
+  const TradeWorld& world_;
+  Avatar thinner_;
+  double thickerBy_ = 0.0;
+  std::optional<Avatar> thicker_;
+  QueryOptions options_;
+  QueryScratch scratch_;
+};
+
+/// What the judge said of a sample of links.
+struct JudgedTruth {
+  std::int64_t links = 0;     ///< Asked.
+  std::int64_t free = 0;      ///< Proven free as long as the truth says.
+  std::int64_t touching = 0;  ///< Shown to touch by when the truth says (of those that do).
+  std::int64_t contacts = 0;  ///< Of the links, those that the truth says touch.
+  std::int64_t open = 0;      ///< Not decided within the judge's budget.
+  std::int64_t wrong = 0;     ///< The judge disagrees.
+  void add(const JudgedTruth& other);
+};
+
+/// Asks the judge about one link: free until truth.freeUntil, touching by truth.touchesBy. Its
+/// scene is the triangles that the link can reach.
+[[nodiscard]] JudgedTruth judge(const TradeWorld& world, const StepPoses& step, LinkId link,
+                                const LinkTruth& truth);
+
+}  // namespace foretouch::tools

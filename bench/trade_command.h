@@ -1,0 +1,15 @@
+// bench/trade_command.h: `foretouch-bench trade`.
+#pragma once
+
+#include "tools/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace foretouch::tools {
+
+/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `bench`.
+void addBenchTradeCommand(CLI::App& bench, ExitCode& exit);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,228 @@
+#include "middleware/query/backtracking.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "lss/assert.h"
+#include "middleware/query/start.h"
+
+namespace foretouch::internal {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Later first, so that the standard heap's top is the earliest; the triangle makes the order
+/// total.
+struct Later {
+  bool operator()(const Candidate& x, const Candidate& y) const {
+    if (x.freeUntil != y.freeUntil) return x.freeUntil > y.freeUntil;
+    if (x.triangle != y.triangle) return x.triangle > y.triangle;
+    if (x.lss != y.lss) return x.lss > y.lss;
+    return y.part < x.part;
+  }
+};
+
+/// Farther first, so that the heap's top is the nearest; total likewise.
+struct Farther {
+  bool operator()(const Candidate& x, const Candidate& y) const {
+    if (x.nearest != y.nearest) return x.nearest > y.nearest;
+    if (x.triangle != y.triangle) return x.triangle > y.triangle;
+    if (x.lss != y.lss) return x.lss > y.lss;
+    return y.part < x.part;
+  }
+};
+
+class Backtracker {
+ public:
+  Backtracker(const LinkQuery& query, std::vector<Candidate>& heap, QueryCounters& counters)
+      : query_(query), heap_(heap), counters_(counters), states_(query, counters) {}
+
+  LinkContact run() {
+    best_.link = query_.parts.link;
+    startCandidates();
+    while (!heap_.empty() && !hasContact() && heap_.front().freeUntil <= horizon_) {
+      if (query_.meter.isPartSpent(counters_)) {
+        giveUp(heap_.front().freeUntil, UndecidedReason::WorkBudget);
+        break;
+      }
+      std::pop_heap(heap_.begin(), heap_.end(), Later{});
+      advance();
+    }
+    if (hasContact()) settleTies();
+    return best_;
+  }
+
+  LinkContact runAtStart() {
+    best_.link = query_.parts.link;
+    lookNearestFirst(0.0);
+    return best_;
+  }
+
+ private:
+  void startCandidates() {
+    for (Candidate& candidate : heap_) {
+      FORETOUCH_ASSERT(candidate.pieces != 0);
+      candidate.freeUntil = nextPossible(candidate, candidate.freeUntil);
+    }
+    std::make_heap(heap_.begin(), heap_.end(), Later{});
+  }
+
+  /// The earliest instant from `t` on at which the pair's boxes meet; infinity if none before 1.
+  [[nodiscard]] double nextPossible(const Candidate& candidate, double t) const {
+    if (t >= candidate.end) return kInfinity;
+    const int here = query_.pieces.at(t);
+    if ((candidate.pieces >> here & 1u) != 0) return t;
+    for (int k = here + 1; k < query_.pieces.count; ++k) {
+      if ((candidate.pieces >> k & 1u) != 0) return query_.pieces.timeOf(k);
+    }
+    return kInfinity;
+  }
+
+  /// Looks at the candidate (the heap's last, just popped) at its instant and moves it on, ends it,
+  /// puts the parts below in its place, or takes it as the link's contact.
+  void advance() {
+    Candidate& candidate = heap_.back();
+    const double t = candidate.freeUntil;
+    const PairState pair = pairAt(candidate, t);
+    const bool isSurface = query_.isSurface(candidate.lss, candidate.part);
+    if (pair.gapUpper <= query_.tolerance) {
+      if (!isSurface) return descendFrom(pair, t);
+      best_ = contactOf(query_, candidate, pair, t);
+      heap_.pop_back();
+      return;
+    }
+    const double reached = provenFrom(query_, candidate, pair, t, counters_);
+    if (!(reached > t)) {
+      if (!isSurface) return descendFrom(pair, t);
+      giveUp(t, UndecidedReason::Resolution);
+      heap_.pop_back();
+      return;
+    }
+    candidate.freeUntil = nextPossible(candidate, reached);
+    candidate.nearest = -kInfinity;
+    if (candidate.freeUntil <= horizon_ && candidate.freeUntil < 1.0) {
+      std::push_heap(heap_.begin(), heap_.end(), Later{});
+    } else {
+      heap_.pop_back();
+    }
+  }
+
+  /// From an instant on, the two parts below take the place of the heap's last candidate; the plane
+  /// that was found for it moves them on where it can.
+  void descendFrom(const PairState& pair, double t) {
+    descend(Later{}, [&](Candidate& part) {
+      ++counters_.planeTests;
+      const double step = query_.parts.stepByPlane(part.lss, part.part, states_.at(t).state,
+                                                   query_.scene.triangle(part.triangle), pair.nhat,
+                                                   query_.tolerance);
+      if (step > 0.0) part.freeUntil = nextPossible(part, after(t, step));
+    });
+  }
+
+  /// Puts the two parts below in the place of the heap's last candidate. `prepare` makes each ready
+  /// for the order that the heap is in.
+  template <typename Order, typename Prepare>
+  void descend(const Order& order, const Prepare& prepare) {
+    const Candidate parent = heap_.back();
+    heap_.pop_back();
+    const std::array<Part, 2> parts = query_.below(parent.lss, parent.part);
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (i == 1 && parts[1] == parts[0]) break;
+      Candidate child = parent;
+      child.part = parts[i];
+      prepare(child);
+      if (!(child.freeUntil < 1.0) || child.freeUntil > horizon_) continue;
+      heap_.push_back(child);
+      std::push_heap(heap_.begin(), heap_.end(), order);
+    }
+  }
+
+  [[nodiscard]] PairState pairAt(const Candidate& candidate, double t) {
+    return pairOf(query_, candidate, states_.at(t), counters_);
+  }
+
+  [[nodiscard]] bool hasContact() const {
+    return best_.verdict == Verdict::Contact || best_.verdict == Verdict::StartsInContact;
+  }
+
+  /// Of the contacts at the very instant of the first one found, finds the one that is reported.
+  /// What is left in the heap is not earlier, and what is later does not matter.
+  void settleTies() {
+    const double t = best_.toi;
+    const auto tiesEnd = std::partition(heap_.begin(), heap_.end(),
+                                        [t](const Candidate& c) { return c.freeUntil == t; });
+    heap_.erase(tiesEnd, heap_.end());
+    lookNearestFirst(t);
+  }
+
+  /// Finds the contact at `t` that is reported, if there is one. A limb deep in furniture touches
+  /// thousands of triangles at once and the smallest separation wins, so the nearest boxes are
+  /// looked at first, until the boxes alone tell that no better one is left. A spent budget ends
+  /// it: the verdict stands, and of its contacts the best one that was seen.
+  void lookNearestFirst(double t) {
+    for (Candidate& candidate : heap_) {
+      candidate.nearest = std::max(candidate.nearest, leastGap(query_, candidate, states_.at(t)));
+    }
+    std::make_heap(heap_.begin(), heap_.end(), Farther{});
+    while (!heap_.empty() && heap_.front().nearest <= reach()) {
+      if (query_.meter.isPartSpent(counters_)) return settleUnseen(t);
+      std::pop_heap(heap_.begin(), heap_.end(), Farther{});
+      const PairState pair = pairAt(heap_.back(), t);
+      if (pair.gapUpper <= query_.tolerance &&
+          !query_.isSurface(heap_.back().lss, heap_.back().part)) {
+        descend(Farther{}, [&](Candidate& part) {
+          part.nearest = std::max(part.nearest, leastGap(query_, part, states_.at(t)));
+        });
+        continue;
+      }
+      if (pair.gapUpper <= query_.tolerance) {
+        const LinkContact contact = contactOf(query_, heap_.back(), pair, t);
+        if (!hasContact() || comesFirst(contact, best_)) best_ = contact;
+      }
+      heap_.pop_back();
+    }
+  }
+
+  /// At t = 0 what was not looked at may go deeper than the contact that was found: whether the
+  /// link starts in contact is then open. Later, being free before it, nothing can.
+  void settleUnseen(double t) {
+    if (t > 0.0 || best_.verdict != Verdict::Contact) return;
+    best_ = undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget);
+  }
+
+  /// What is farther than this is no contact, or none that could be reported.
+  [[nodiscard]] double reach() const {
+    return hasContact() ? best_.separation - best_.penetration : query_.tolerance;
+  }
+
+  void giveUp(double t, UndecidedReason reason) {
+    if (best_.verdict != Verdict::Clear) return;  // a contact at this very instant stands
+    best_ = undecidedContact(query_.parts.link, t, reason);
+    horizon_ = t;
+  }
+
+  const LinkQuery& query_;
+  std::vector<Candidate>& heap_;
+  QueryCounters& counters_;
+  LinkContact best_;
+  double horizon_ = kInfinity;  // nothing later than this can change the answer
+  StateCache states_;
+};
+
+}  // namespace
+
+LinkContact contactAtStart(const LinkQuery& query, std::vector<Candidate>& candidates,
+                           QueryCounters& counters) {
+  if (query.isExact()) return meshContactAtStart(query, candidates, nullptr, counters);
+  return Backtracker(query, candidates, counters).runAtStart();
+}
+
+LinkContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,
+                      QueryCounters& counters) {
+  return Backtracker(query, candidates, counters).run();
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,27 @@
+// middleware/query/backtracking.h: the first contact of one link, by conservative advancement on
+// the true curved motion. Scalar and plain: the reference that faster forms are held against. Not
+// installed.
+//
+// At time t a plane with unit normal n separates LSS and triangle. It keeps doing so until an end e
+// of the axis has crossed it, and e approaches it by at most s*(-n.v_e) + A_e*s^2/2 within s. So no
+// contact before the first s where clearance_e - radius + s*(n.v_e) - A_e*s^2/2 falls to the floor,
+// tolerance/4. Proof with rounding: docs/guarantees.md 5. After [Mirtich96] and, for the directed
+// bound, [Tang09] C2A Lemma 4.1; here each end has its own clearance, speed and acceleration.
+#pragma once
+
+#include "middleware/query/link_query.h"
+
+namespace foretouch::internal {
+
+/// The link's contact at t = 0, which ends the matter, or a verdict of Clear that says only that
+/// none was found there (within the budget). `candidates`: all pairs whose boxes, grown by the
+/// tolerance, meet at t = 0. A limb inside furniture is answered by these few, whatever it sweeps
+/// afterwards. Consumes `candidates` (used as a heap).
+[[nodiscard]] LinkContact contactAtStart(const LinkQuery& query, std::vector<Candidate>& candidates,
+                                         QueryCounters& counters);
+
+/// The link's first contact on [0,1]. Consumes `candidates` (used as a heap).
+[[nodiscard]] LinkContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,
+                                    QueryCounters& counters);
+
+}  // namespace foretouch::internal

@@ -1,0 +1,207 @@
+#include "middleware/query/lane_backtracking.h"
+
+#include <algorithm>
+
+#include "lss/assert.h"
+#include "middleware/scene/culler.h"
+
+namespace foretouch::internal {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Below this share of the tolerance lanes give a pair up, to the parts below or to doubles, which
+/// will mostly find contact: what lanes prove is a little less than the truth.
+constexpr double kHandOverShare = 0.75;
+
+class LaneBacktracker {
+ public:
+  LaneBacktracker(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch,
+                  QueryCounters& counters)
+      : query_(query),
+        surface_(*query.parts.surface),
+        candidates_(candidates),
+        scratch_(scratch),
+        counters_(counters),
+        states_(query, counters),
+        floor_(floatAbove(kFloorShare * query.tolerance)),
+        handOver_(kHandOverShare * query.tolerance),
+        end_(scratch.lanes.end()) {}
+
+  LinkContact run() {
+    best_.link = query_.parts.link;
+    surface_.prepare();
+    start();
+    while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
+      if (query_.meter.isPartSpent(counters_)) return leftUndone();
+      // Triangles first: a contact spares all that is later.
+      const bool areTriangles =
+          !scratch_.triangles.isEmpty() && !scratch_.lss.isBefore(scratch_.triangles);
+      takeBatch(areTriangles ? scratch_.triangles : scratch_.lss);
+      if (count_ == 0) continue;
+      counters_.partSteps += count_;
+      if (areTriangles) {
+        scratch_.lanes.proveTriangles(count_);
+      } else {
+        scratch_.lanes.proveLss(count_);
+      }
+      for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
+    }
+    return best_;
+  }
+
+ private:
+  void start() {
+    scratch_.lss.reset(scratch_.lanes.begin(), end_);
+    scratch_.triangles.reset(scratch_.lanes.begin(), end_);
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      PartPair pair;
+      pair.freeUntil = candidates_[i].freeUntil;
+      pair.candidate = static_cast<std::int32_t>(i);
+      pair.isWhole = true;
+      push(pair);
+    }
+  }
+
+  /// The pairs that are left say how far the link is free; a contact that none of them can come
+  /// before stands.
+  [[nodiscard]] LinkContact leftUndone() {
+    double freeUntil = horizon_;
+    for (TimeBuckets* buckets : {&scratch_.lss, &scratch_.triangles}) {
+      while (!buckets->isEmpty()) freeUntil = std::min(freeUntil, buckets->pop().freeUntil);
+    }
+    if (freeUntil == horizon_ && best_.verdict != Verdict::Clear) return best_;
+    return undecidedContact(query_.parts.link, freeUntil, UndecidedReason::WorkBudget);
+  }
+
+  void push(const PartPair& pair) {
+    (!pair.isWhole && pair.part.isTriangle() ? scratch_.triangles : scratch_.lss).push(pair);
+  }
+
+  [[nodiscard]] const Candidate& candidateOf(const PartPair& pair) const {
+    return candidates_[static_cast<std::size_t>(pair.candidate)];
+  }
+  /// The LSS bounds no triangle: it is the surface, and its pairs are for doubles.
+  [[nodiscard]] bool isBare(const PartPair& pair) const {
+    return !surface_.hasTriangles(candidateOf(pair).lss);
+  }
+  /// Fills the lanes with what is earliest.
+  void takeBatch(TimeBuckets& buckets) {
+    count_ = 0;
+    while (count_ < kTrianglePairLanes && !buckets.isEmpty()) {
+      const PartPair pair = buckets.pop();
+      if (pair.freeUntil > horizon_) continue;
+      if (pair.isWhole && !isBare(pair)) {
+        enter(pair);
+        continue;
+      }
+      if (pair.isWhole || (pair.part.isTriangle() && query_.leafMethod == LeafMethod::Cubics)) {
+        look(pair);
+        continue;
+      }
+      const Candidate& candidate = candidateOf(pair);
+      scratch_.lanes.put(count_, candidate.laneTriangle,
+                         surface_.lanePart(candidate.lss, pair.part),
+                         scratch_.lanes.laneTime(pair.freeUntil), floor_);
+      batch_[count_++] = pair;
+    }
+  }
+
+  /// Moves a lane's pair on as far as is proven, or gives it up.
+  void settle(std::size_t lane) {
+    const PartPair& pair = batch_[lane];
+    if (pair.freeUntil > horizon_) return;
+    if (scratch_.lanes.lower(lane) > handOver_) {
+      const double reached = scratch_.lanes.freeUntil(lane);
+      if (reached > pair.freeUntil) return moveOn(pair, reached);
+    }
+    if (pair.part.isTriangle()) return look(pair);
+    descend(pair);
+  }
+
+  void moveOn(PartPair pair, double reached) {
+    if (reached >= end_ || reached > horizon_) return;
+    pair.freeUntil = reached;
+    push(pair);
+  }
+
+  /// From an LSS, which was given up as a whole, into its hierarchy.
+  void enter(PartPair pair) {
+    Candidate& candidate = candidates_[static_cast<std::size_t>(pair.candidate)];
+    if (candidate.laneTriangle < 0) {
+      candidate.laneTriangle = scratch_.lanes.add(query_.scene.triangle(candidate.triangle));
+    }
+    pair.isWhole = false;
+    pair.part = surface_.root(candidate.lss);
+    if (pair.part.isTriangle()) {
+      push(pair);
+    } else {
+      descend(pair);
+    }
+  }
+
+  void descend(PartPair pair) {
+    for (const HierarchyChild part : surface_.below(candidateOf(pair).lss, pair.part)) {
+      pair.part = part;
+      push(pair);
+    }
+  }
+
+  /// In doubles: contact, or on.
+  void look(const PartPair& pair) {
+    const double t = pair.freeUntil;
+    Candidate candidate = candidateOf(pair);
+    if (!pair.isWhole) candidate.part = Part::of(pair.part);
+    const PairState state = pairOf(query_, candidate, states_.at(t), counters_);
+    if (state.gapUpper <= query_.tolerance) {
+      const LinkContact contact = contactOf(query_, candidate, state, t);
+      if (t < horizon_ || best_.verdict == Verdict::Undecided || comesFirst(contact, best_)) {
+        best_ = contact;
+      }
+      horizon_ = t;
+      return;
+    }
+    const double reached = provenFrom(query_, candidate, state, t, counters_);
+    if (reached > t) return moveOn(pair, reached);
+    giveUp(t);
+  }
+
+  /// The numbers cannot resolve the pair; a contact at this very instant stands.
+  void giveUp(double t) {
+    if (t == horizon_) return;
+    best_ = undecidedContact(query_.parts.link, t, UndecidedReason::Resolution);
+    horizon_ = t;
+  }
+
+  const LinkQuery& query_;
+  const LinkSurface& surface_;
+  std::vector<Candidate>& candidates_;
+  PartScratch& scratch_;
+  QueryCounters& counters_;
+  StateCache states_;
+  float floor_;
+  double handOver_;
+  double end_;
+  std::array<PartPair, kTrianglePairLanes> batch_;
+  std::size_t count_ = 0;
+  double horizon_ = kInfinity;  // nothing later than this can change the answer
+  LinkContact best_;
+};
+
+}  // namespace
+
+void TimeBuckets::reset(double begin, double end) {
+  FORETOUCH_ASSERT(begin < end);
+  begin_ = begin;
+  bucketsPerTime_ = kBuckets / (end - begin);
+  occupied_ = 0;
+  free_ = kNone;
+  entries_.clear();
+}
+
+LinkContact backtrackInLanes(const LinkQuery& query, std::vector<Candidate>& candidates,
+                             PartScratch& scratch, QueryCounters& counters) {
+  FORETOUCH_ASSERT(query.isExact() && !candidates.empty());
+  return LaneBacktracker(query, candidates, scratch, counters).run();
+}
+
+}  // namespace foretouch::internal

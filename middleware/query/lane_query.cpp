@@ -1,0 +1,490 @@
+#include "middleware/query/lane_query.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <tuple>
+
+#include "lss/assert.h"
+#include "lss/simd.h"
+#include "middleware/query/lane_backtracking.h"
+#include "middleware/query/start.h"
+#include "middleware/scene/scene_parts.h"
+#include "middleware/surface/link_surface.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Shares of the tolerance. The floor is the scalar code's. Below three quarters the scalar code is
+/// asked: what lanes prove is a little less than the truth, so it will mostly find contact. And
+/// what lanes call certain must be so for the scalar code too, whose rounding is far below the
+/// rest.
+constexpr double kHandOverShare = 0.75;
+constexpr double kCertainShare = 1.0 - 0x1p-10;
+/// No pair is certainly in contact.
+constexpr float kNeverCertain = -1.0F;
+/// Polynomials that are off by less than this share of the tolerance, or by this (m), decide almost
+/// as well as exact ones: it is in their radius, and more slabs cost more.
+constexpr double kInterpolationShare = 1.0 / 64.0;
+constexpr double kLeastInterpolationError = 4e-6;
+/// Steps that clusters are given before their triangles are asked: where they are through after
+/// these, up to eight triangles need not be.
+constexpr int kClusterRounds = 6;
+/// Leaves whose triangles are advanced together. The first that touch spare the others most of
+/// their steps.
+constexpr std::size_t kPartsAtOnce = 4;
+/// Equal parts of a slab by which clusters are brought in order of time.
+constexpr std::size_t kTimeBins = 32;
+/// Where work is limited: what a slab may cost before it is taken in halves, so that some of the
+/// motion is proven where the whole is too much; and how often it is halved.
+constexpr std::uint64_t kSlabWork = 2048;
+constexpr int kMostHalvings = 6;
+constexpr float kBegin = -1.0F, kEnd = 1.0F;  // of u
+
+FloatBox sweptBox(const SweptBoxes& boxes, std::int32_t lss) {
+  FloatBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = boxes.lower[axis][lss];
+    box.upper[axis] = boxes.upper[axis][lss];
+  }
+  return box;
+}
+
+/// An empty box, which meets nothing.
+void closeBox(SweptBoxes& boxes, std::int32_t lss) {
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes.lower[axis][lss] = std::numeric_limits<float>::infinity();
+    boxes.upper[axis][lss] = -std::numeric_limits<float>::infinity();
+  }
+}
+
+bool isAnyTouched(const StepContacts& step) {
+  return std::any_of(step.links.begin(), step.links.end(),
+                     [](const LinkContact& c) { return c.verdict != Verdict::Clear; });
+}
+
+}  // namespace
+
+const LssTable& tableOf(const Avatar& avatar, LaneScratch& lanes) {
+  if (lanes.avatar != avatar.identity()) {
+    lanes.table = LssTable(avatar);
+    lanes.avatar = avatar.identity();
+  }
+  return lanes.table;
+}
+
+LaneQuery::LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion,
+                     const Scene& scene, const QueryOptions& options, const TriangleCuller& culler,
+                     ScratchParts& scratch)
+    : body_(body),
+      table_(table),
+      motion_(motion),
+      scene_(scene),
+      options_(options),
+      scratch_(scratch),
+      culler_(culler),
+      lanes_(scratch.lanes),
+      bvh_(scene.parts().bvh),
+      range_(tolerancesOf(options)),
+      meter_(options) {
+  useTolerance(range_.least);
+  scratch_.evaluator.reset(motion);
+  lanes_.margins.clear();
+  if (range_.least == range_.largest) return;
+  for (const LinkPolicy& policy : options.linkPolicies) lanes_.margins.push_back(policy.tolerance);
+}
+
+void LaneQuery::useTolerance(double tolerance) {
+  tolerance_ = tolerance;
+  tolerances_.floor = floatAbove(kFloorShare * tolerance);
+  tolerances_.handOver = floatBelow(kHandOverShare * tolerance);
+}
+
+void LaneQuery::run(StepContacts& step) {
+  findWhoIsAsked();
+  const int slabs = slabsFor(
+      table_, motion_, std::max(kInterpolationShare * range_.least, kLeastInterpolationError));
+  if (meter_.isLimited()) return runWithin(step, slabs);
+  for (int slab = 0; slab < slabs; ++slab) {
+    begin_ = static_cast<double>(slab) / slabs;
+    end_ = static_cast<double>(slab + 1) / slabs;
+    if (!collectHits(step.counters)) continue;
+    if (answerSlab(step) && options_.scope == Scope::FirstOfAvatar) return;
+  }
+}
+
+/// All links in the slab at hand; true if one of them is not clear.
+bool LaneQuery::answerSlab(StepContacts& step) {
+  bool isTouched = false;
+  float limit = kEnd;  // nothing later than this is asked for
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
+    const auto first = static_cast<std::size_t>(table_.first(link));
+    const auto end = static_cast<std::size_t>(table_.first(link + 1));
+    if (lanes_.first[first] == lanes_.first[end]) continue;
+    LinkContact& contact = step.links[static_cast<std::size_t>(link)];
+    contact = answer(link, limit, step.counters);
+    if (contact.verdict == Verdict::Clear) continue;
+    isTouched = true;
+    lanes_.isAsked[static_cast<std::size_t>(link)] = 0;
+    if (options_.scope == Scope::FirstOfAvatar) {
+      limit = std::min(limit, lanesTimeOf(contact.freeUntil));
+    }
+  }
+  return isTouched;
+}
+
+/// As run(), until the work is spent. Slabs that cost much are begun again as two halves: the order
+/// of the work does not depend on the budget, which only cuts it off, so more of it never proves
+/// less.
+void LaneQuery::runWithin(StepContacts& step, int slabs) {
+  const int finest = slabs << kMostHalvings;
+  lanes_.freeUntil.assign(static_cast<std::size_t>(body_.numLinks()), 0.0);
+  int slab = 0, count = slabs;
+  while (slab < count) {
+    begin_ = static_cast<double>(slab) / count;
+    end_ = static_cast<double>(slab + 1) / count;
+    meter_.beginPart(step.counters, count < finest ? kSlabWork : WorkMeter::kUnlimited);
+    if (answerSlabWithin(step)) {
+      if (options_.scope == Scope::FirstOfAvatar && isAnyTouched(step)) return;
+      ++slab;
+      while (count > slabs && slab % 2 == 0) {
+        slab /= 2;
+        count /= 2;
+      }
+    } else if (meter_.isSpent(step.counters)) {
+      return leaveUndone(step);
+    } else {
+      slab *= 2;
+      count *= 2;
+    }
+  }
+}
+
+/// The links that are asked in the slab at hand, each as far as it is not proven free; false where
+/// the work of the slab was spent before the last one was answered.
+bool LaneQuery::answerSlabWithin(StepContacts& step) {
+  const bool isNear = collectHits(step.counters);
+  const auto isOpen = [&](LinkId link) {
+    const auto i = static_cast<std::size_t>(link);
+    return lanes_.isAsked[i] != 0 && lanes_.freeUntil[i] < end_;
+  };
+  const auto isLinkNear = [&](LinkId link) {
+    return isNear && lanes_.first[static_cast<std::size_t>(table_.first(link))] !=
+                         lanes_.first[static_cast<std::size_t>(table_.first(link + 1))];
+  };
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
+    if (isOpen(link) && !isLinkNear(link)) lanes_.freeUntil[static_cast<std::size_t>(link)] = end_;
+  }
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
+    if (!isOpen(link)) continue;
+    const auto i = static_cast<std::size_t>(link);
+    const LinkContact contact = answer(link, kEnd, step.counters);
+    if (contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::WorkBudget) {
+      lanes_.freeUntil[i] = std::max(lanes_.freeUntil[i], contact.freeUntil);
+      return false;
+    }
+    lanes_.freeUntil[i] = end_;
+    if (contact.verdict == Verdict::Clear) continue;
+    step.links[i] = contact;
+    lanes_.isAsked[i] = 0;
+  }
+  return true;
+}
+
+/// What is not answered is free as far as it is proven.
+void LaneQuery::leaveUndone(StepContacts& step) const {
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
+    const auto i = static_cast<std::size_t>(link);
+    if (lanes_.isAsked[i] == 0 || lanes_.freeUntil[i] >= 1.0) continue;
+    step.links[i] = undecidedContact(link, lanes_.freeUntil[i], UndecidedReason::WorkBudget);
+  }
+}
+
+LinkContact LaneQuery::undone(LinkId link) const {
+  return undecidedContact(link, begin_, UndecidedReason::WorkBudget);
+}
+
+void LaneQuery::findWhoIsAsked() {
+  lanes_.isAsked.assign(static_cast<std::size_t>(body_.numLinks()), 1);
+  for (const IgnoredPair& pair : body_.ignored()) {
+    if (pair.object == IgnoredPair::kEveryObject) {
+      lanes_.isAsked[static_cast<std::size_t>(pair.link)] = 0;
+    }
+  }
+}
+
+bool LaneQuery::collectHits(QueryCounters& counters) {
+  const LssTable& table = table_;
+  if (!hasNodes_ || begin_ != 0.0 || end_ != 1.0) {
+    lanes_.nodes.evaluate(motion_, begin_, end_, scene_.parts().origin);
+    counters.states +=
+        static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(body_.numLinks());
+  }
+  if (lanes_.margins.empty()) {
+    sweptBoxes(table, motion_, lanes_.nodes, range_.least, lanes_.boxes);
+  } else {
+    sweptBoxes(table, motion_, lanes_.nodes, lanes_.margins, lanes_.boxes);
+  }
+  for (std::int32_t lss = 0; lss < table.size(); ++lss) {
+    if (lanes_.isAsked[static_cast<std::size_t>(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
+  }
+  lanes_.hits.clear();
+  if (options_.culler == Culler::FlatBvh) {
+    BoxLanes boxes;
+    boxes.count = lanes_.boxes.count;
+    for (int axis = 0; axis < 3; ++axis) {
+      boxes.lower[axis] = lanes_.boxes.lower[axis];
+      boxes.upper[axis] = lanes_.boxes.upper[axis];
+    }
+    bvh_.collectWholeLeaves(boxes, lanes_.hits, counters.nodes, counters.leaves);
+  } else {
+    collectByCuller(counters);
+  }
+  if (lanes_.hits.empty()) return false;
+  sortHits();
+  return true;
+}
+
+/// What the reference culler finds, as hits of the tree's leaves.
+void LaneQuery::collectByCuller(QueryCounters& counters) {
+  const Eigen::Vector3d& origin = scene_.parts().origin;
+  for (std::int32_t lss = 0; lss < lanes_.boxes.count; ++lss) {
+    Aabb box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = origin[axis] + static_cast<double>(lanes_.boxes.lower[axis][lss]);
+      box.max[axis] = origin[axis] + static_cast<double>(lanes_.boxes.upper[axis][lss]);
+    }
+    if (!(box.min.x() <= box.max.x())) continue;
+    box.grow(0.0);
+    scratch_.found.clear();
+    culler_.collect(box, scratch_.found, counters.nodes);
+    for (const TriangleId id : scratch_.found) {
+      const FlatBvh::Slot slot = bvh_.slotOf(id);
+      lanes_.hits.push_back({slot.leaf, static_cast<std::uint16_t>(lss),
+                             static_cast<std::uint8_t>(1U << slot.place)});
+    }
+  }
+  mergeHits();
+}
+
+/// One hit a leaf and LSS.
+void LaneQuery::mergeHits() {
+  auto& hits = lanes_.hits;
+  std::sort(hits.begin(), hits.end(), [](const LeafHit& x, const LeafHit& y) {
+    return std::tie(x.box, x.leaf) < std::tie(y.box, y.leaf);
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (kept > 0 && hits[kept - 1].box == hits[i].box && hits[kept - 1].leaf == hits[i].leaf) {
+      hits[kept - 1].triangles |= hits[i].triangles;
+    } else {
+      hits[kept++] = hits[i];
+    }
+  }
+  hits.resize(kept);
+}
+
+/// By LSS, otherwise in the order of the walk (counting sort).
+void LaneQuery::sortHits() {
+  const auto count = static_cast<std::size_t>(table_.size());
+  lanes_.first.assign(count + 2, 0);
+  for (const LeafHit& hit : lanes_.hits) ++lanes_.first[hit.box + 2U];
+  for (std::size_t i = 2; i < count + 2; ++i) lanes_.first[i] += lanes_.first[i - 1];
+  lanes_.leaf.resize(lanes_.hits.size() + kMaxLanes);
+  lanes_.triangles.resize(lanes_.hits.size());
+  for (const LeafHit& hit : lanes_.hits) {
+    const std::uint32_t place = lanes_.first[hit.box + 1U]++;
+    lanes_.leaf[place] = static_cast<std::int32_t>(hit.leaf);
+    lanes_.triangles[place] = hit.triangles;
+  }
+}
+
+LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters) {
+  const LinkSurface* const surface = surfaceOf(options_, link);
+  scratch_.ignored.collect(body_.ignored(), link);
+  if (!lanes_.margins.empty()) useTolerance(toleranceOf(options_, link));
+  // What touches an LSS may yet miss the triangles in it.
+  tolerances_.contact = surface == nullptr ? floatBelow(kCertainShare * tolerance_) : kNeverCertain;
+  float best = limit;
+  if (surface != nullptr && begin_ == 0.0) {
+    // A link inside furniture is answered by what it touches at once, whatever it sweeps
+    // afterwards.
+    best = kBegin;
+    const LinkContact atStart = answerBefore(link, surface, best, counters);
+    if (atStart.verdict != Verdict::Clear) return atStart;
+    best = limit;
+  }
+  const LinkContact contact = answerBefore(link, surface, best, counters);
+  const bool isBelieved = best == limit;
+  if (isBelieved || (contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(best))) {
+    return contact;
+  }
+  // Lanes dropped what is later than a contact that the scalar code then did not find. Both being
+  // proved this does not happen; if it did, nothing may be missed.
+  tolerances_.contact = kNeverCertain;
+  best = limit;
+  return answerBefore(link, surface, best, counters);
+}
+
+/// Asks for nothing later than `best`, which is lowered by contacts that are certain. At exact
+/// fidelity: where `best` is the step's beginning, whether there is contact then, else what comes
+/// after it.
+LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, float& best,
+                                    QueryCounters& counters) {
+  scratch_.candidates.clear();
+  const std::int32_t firstLss = table_.first(link);
+  for (std::int32_t lss = firstLss; lss < table_.first(link + 1); ++lss) {
+    lanes_.handed.count = 0;
+    if (!advanceLss(lss, best, counters)) return undone(link);
+    addCandidates(lss - firstLss);
+  }
+  const double latest = timeOf(best);
+  auto& candidates = scratch_.candidates;
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& c) { return c.freeUntil > latest; }),
+                   candidates.end());
+  LinkContact contact;
+  contact.link = link;
+  if (candidates.empty()) return contact;
+  prepareScalar(link);
+  const LinkQuery query{{link, body_.lss(link), scratch_.axisBounds, motion_, surface, nullptr},
+                        scene_,
+                        Pieces{},
+                        tolerance_,
+                        meter_,
+                        options_.leafMethod,
+                        scratch_.evaluator};
+  if (surface == nullptr) return backtrack(query, candidates, counters);
+  return surfaceContact(query, best == kBegin && begin_ == 0.0, counters);
+}
+
+/// At exact fidelity: of the link's triangles, by the LSS candidates' times.
+LinkContact LaneQuery::surfaceContact(const LinkQuery& query, bool atStart,
+                                      QueryCounters& counters) {
+  PartScratch& parts = lanes_.parts;
+  // A single lane is slower than doubles, which need fewer evaluations.
+  const bool inLanes = activeSimd() != Simd::Scalar;
+  if (inLanes) {
+    const FramePolynomials polynomials =
+        framePolynomialsOf(query.parts.link, motion_, lanes_.nodes);
+    parts.lanes.reset(polynomials, scene_.parts().origin, begin_, end_);
+  }
+  if (atStart) {
+    if (inLanes) {
+      for (Candidate& candidate : scratch_.candidates) {
+        candidate.laneTriangle = parts.lanes.add(scene_.triangle(candidate.triangle));
+      }
+    }
+    return meshContactAtStart(query, scratch_.candidates, inLanes ? &parts : nullptr, counters);
+  }
+  return inLanes ? backtrackInLanes(query, scratch_.candidates, parts, counters)
+                 : backtrack(query, scratch_.candidates, counters);
+}
+
+void LaneQuery::prepareScalar(LinkId link) {
+  scratch_.axisBounds.clear();
+  for (const Lss& lss : body_.lss(link)) {
+    scratch_.axisBounds.push_back(axisBounds(lss, motion_.bounds(link)));
+  }
+}
+
+/// The LSS's pairs through the slab; what lanes leave is in `handed`. False where the work was
+/// spent before all were through.
+bool LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
+  const auto begin = lanes_.first[static_cast<std::size_t>(lss)];
+  const auto end = lanes_.first[static_cast<std::size_t>(lss) + 1];
+  if (begin == end) return true;
+  if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
+  const LssTable::Entry& entry = table_[lss];
+  const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes);
+  const LaneLss lane = laneLss(polynomials, entry.radius);
+  float origin[3];
+  for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);
+  lanes_.pairs.setSpheres(lane, bvh_.clusters(), lanes_.leaf.data() + begin, end - begin, origin,
+                          kBegin);
+  lanes_.clusters.count = 0;
+  counters.clusterSteps +=
+      lanes_.pairs.advanceSpheres(lane, tolerances_, kClusterRounds, best, lanes_.clusters);
+  sortClusters();
+  std::size_t done = 0;
+  while (done < lanes_.clusters.count) {
+    if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
+    done = collectParts(begin, done, best);
+    lanes_.pairs.addTriangles(lane, lanes_.leafParts.data(), lanes_.leafParts.size(),
+                              sweptBox(lanes_.boxes, lss), origin, bvh_.vertexRounding());
+    counters.candidates += lanes_.pairs.count();
+    counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
+  }
+  return true;
+}
+
+/// Brings those that are open from early on to the front: what is found there ends the others.
+void LaneQuery::sortClusters() {
+  HandedOver& clusters = lanes_.clusters;
+  const std::size_t count = clusters.count;
+  lanes_.order.resize(count);
+  std::array<std::uint32_t, kTimeBins + 1> first{};
+  const auto binOf = [&](std::size_t i) {
+    const float share = 0.5F * (clusters.time[i] + 1.0F);
+    return std::min(static_cast<std::size_t>(share * kTimeBins), kTimeBins - 1);
+  };
+  for (std::size_t i = 0; i < count; ++i) ++first[binOf(i) + 1];
+  for (std::size_t bin = 0; bin < kTimeBins; ++bin) first[bin + 1] += first[bin];
+  for (std::size_t i = 0; i < count; ++i)
+    lanes_.order[first[binOf(i)]++] = static_cast<std::uint32_t>(i);
+}
+
+/// The triangles of the next clusters that were not proven clear, from the time on that is open.
+/// Returns where to go on.
+std::size_t LaneQuery::collectParts(std::size_t begin, std::size_t done, float best) {
+  lanes_.leafParts.clear();
+  for (; done < lanes_.clusters.count && lanes_.leafParts.size() < kPartsAtOnce; ++done) {
+    const std::uint32_t i = lanes_.order[done];
+    if (lanes_.clusters.time[i] > best) continue;
+    const std::size_t hit = begin + static_cast<std::size_t>(lanes_.clusters.key[i]);
+    const BvhLeaf& leaf = bvh_.leaf(static_cast<std::uint32_t>(lanes_.leaf[hit]));
+    const std::uint8_t asked = scratch_.ignored.empty()
+                                   ? lanes_.triangles[hit]
+                                   : withoutIgnored(lanes_.triangles[hit], leaf);
+    if (asked != 0) lanes_.leafParts.push_back({&leaf, asked, lanes_.clusters.time[i]});
+  }
+  return done;
+}
+
+std::uint8_t LaneQuery::withoutIgnored(std::uint8_t triangles, const BvhLeaf& leaf) const {
+  unsigned asked = triangles;
+  for (unsigned slot = 0; slot < kBvhWidth; ++slot) {
+    if ((asked >> slot & 1U) != 0 && scratch_.ignored.has(scene_.object(leaf.id[slot]))) {
+      asked &= ~(1U << slot);
+    }
+  }
+  return static_cast<std::uint8_t>(asked);
+}
+
+void LaneQuery::addCandidates(std::int32_t lssOfLink) {
+  const HandedOver& handed = lanes_.handed;
+  for (std::size_t i = 0; i < handed.count; ++i) {
+    Candidate candidate;
+    candidate.triangle = handed.key[i];
+    candidate.lss = lssOfLink;
+    candidate.pieces = 1;
+    candidate.nearest = handed.gap[i];
+    candidate.freeUntil = timeOf(handed.time[i]);
+    candidate.end = end_;
+    scratch_.candidates.push_back(candidate);
+  }
+}
+
+/// Rounded up.
+float LaneQuery::lanesTimeOf(double t) const {
+  return std::min(kEnd, floatAbove(2.0 * (t - begin_) / (end_ - begin_) - 1.0));
+}
+
+/// A slab's bounds are multiples of a power of two and u is a float, so nothing rounds but u + 1
+/// for the least u, which kTimeRounding of the lanes leaves room for.
+double LaneQuery::timeOf(float u) const {
+  return begin_ + 0.5 * (static_cast<double>(u) + 1.0) * (end_ - begin_);
+}
+
+}  // namespace foretouch::internal

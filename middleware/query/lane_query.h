@@ -1,0 +1,78 @@
+// middleware/query/lane_query.h: a query the fast way. All links' frames at a few instants, boxes
+// of all LSS, one walk of the scene's tree for all of them; then, for the LSS that are near
+// anything, certified polynomials, advancement of clusters and of triangles in lanes; and the
+// scalar code, in doubles, for the pairs that lanes could not decide. Not installed.
+#pragma once
+
+#include <cstdint>
+
+#include "middleware/query/backtracking.h"
+#include "middleware/query/body.h"
+#include "middleware/query/link_options.h"
+#include "middleware/query/scratch_parts.h"
+#include "middleware/query/work_meter.h"
+#include "middleware/scene/flat_bvh.h"
+
+namespace foretouch::internal {
+
+/// One query over all links of one step, at link or exact fidelity.
+class LaneQuery {
+ public:
+  /// `table` is of the body's LSS.
+  LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion, const Scene& scene,
+            const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch);
+
+  /// The scratch's nodes are those of this motion over [0,1], with the scene's origin.
+  void keepNodes() { hasNodes_ = true; }
+
+  /// Fills `step`, whose links are all Clear.
+  void run(StepContacts& step);
+
+ private:
+  void useTolerance(double tolerance);
+  void findWhoIsAsked();
+  /// Of all LSS in the slab at hand; false if there are none.
+  [[nodiscard]] bool collectHits(QueryCounters& counters);
+  void collectByCuller(QueryCounters& counters);
+  void mergeHits();
+  void sortHits();
+  [[nodiscard]] bool answerSlab(StepContacts& step);
+  void runWithin(StepContacts& step, int slabs);
+  [[nodiscard]] bool answerSlabWithin(StepContacts& step);
+  void leaveUndone(StepContacts& step) const;
+  [[nodiscard]] LinkContact answer(LinkId link, float limit, QueryCounters& counters);
+  [[nodiscard]] LinkContact answerBefore(LinkId link, const LinkSurface* surface, float& best,
+                                         QueryCounters& counters);
+  [[nodiscard]] LinkContact undone(LinkId link) const;
+  [[nodiscard]] LinkContact surfaceContact(const LinkQuery& query, bool atStart,
+                                           QueryCounters& counters);
+  void prepareScalar(LinkId link);
+  [[nodiscard]] bool advanceLss(std::int32_t lss, float& best, QueryCounters& counters);
+  void sortClusters();
+  [[nodiscard]] std::size_t collectParts(std::size_t begin, std::size_t done, float best);
+  [[nodiscard]] std::uint8_t withoutIgnored(std::uint8_t triangles, const BvhLeaf& leaf) const;
+  void addCandidates(std::int32_t lssOfLink);
+  [[nodiscard]] double timeOf(float u) const;
+  [[nodiscard]] float lanesTimeOf(double t) const;
+
+  const Body& body_;
+  const LssTable& table_;
+  const ChainMotion& motion_;
+  const Scene& scene_;
+  const QueryOptions& options_;
+  ScratchParts& scratch_;
+  const TriangleCuller& culler_;
+  LaneScratch& lanes_;
+  const FlatBvh& bvh_;
+  ToleranceRange range_;  // of all links
+  double tolerance_;      // of the link at hand
+  LaneTolerances tolerances_;
+  WorkMeter meter_;
+  double begin_ = 0.0, end_ = 1.0;  // of the slab at hand
+  bool hasNodes_ = false;
+};
+
+/// The avatar's table, kept in the scratch while queries ask for the same avatar.
+[[nodiscard]] const LssTable& tableOf(const Avatar& avatar, LaneScratch& lanes);
+
+}  // namespace foretouch::internal

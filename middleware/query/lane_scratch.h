@@ -1,0 +1,37 @@
+// middleware/query/lane_scratch.h: what a lane query (lane_query.h) keeps between queries. Not
+// installed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "articulated/chain_nodes.h"
+#include "middleware/lanes/lss_pairs.h"
+#include "middleware/query/lane_backtracking.h"
+#include "middleware/scene/flat_bvh.h"
+#include "tessellation/lss_polynomials.h"
+#include "tessellation/swept_boxes.h"
+
+namespace foretouch::internal {
+
+struct LaneScratch {
+  std::uint64_t avatar = 0;  // whose table this is
+  LssTable table;
+  ChainNodes nodes;
+  SweptBoxes boxes;
+  std::vector<LeafHit> hits;  // of all LSS, in the order of the walk
+  // The hits by LSS, `first` where those of an LSS begin.
+  std::vector<std::uint32_t> first;
+  std::vector<std::int32_t> leaf;  // padded by kMaxLanes
+  std::vector<std::uint8_t> triangles;
+  PairLanes pairs;
+  std::vector<LeafPart> leafParts;    // of the LSS at hand
+  std::vector<std::uint32_t> order;   // of the clusters, by time
+  HandedOver clusters, handed;        // of the LSS at hand
+  PartScratch parts;                  // of the link at hand, at exact fidelity
+  std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
+  std::vector<double> freeUntil;      // per link, where work is limited: how far it is proven free
+  std::vector<double> margins;        // per link, where tolerances differ
+};
+
+}  // namespace foretouch::internal

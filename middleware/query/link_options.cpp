@@ -1,0 +1,16 @@
+#include "middleware/query/link_options.h"
+
+namespace foretouch::internal {
+
+const LinkSurface* surfaceOf(const QueryOptions& options, LinkId link) {
+  if (fidelityOf(options, link) != Fidelity::Exact) return nullptr;
+  return options.surface->parts().links[static_cast<std::size_t>(link)].get();
+}
+
+const SkinParts* skinOf(const QueryOptions& options, LinkId link) {
+  if (options.fidelity != Fidelity::Skinned) return nullptr;
+  const SkinParts& parts = options.skin->parts();
+  return parts.numTriangles(link) > 0 ? &parts : nullptr;
+}
+
+}  // namespace foretouch::internal

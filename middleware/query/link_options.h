@@ -1,0 +1,48 @@
+// middleware/query/link_options.h: the options of a query as they hold for one link. Not installed.
+#pragma once
+
+#include <algorithm>
+
+#include "middleware/query_options.h"
+#include "middleware/surface/link_surface.h"
+#include "middleware/surface/skin_parts.h"
+
+namespace foretouch::internal {
+
+/// Above link fidelity.
+[[nodiscard]] inline bool isRung(Fidelity fidelity) {
+  return fidelity == Fidelity::Limb || fidelity == Fidelity::Avatar ||
+         fidelity == Fidelity::Ellipsoid;
+}
+
+/// What the link is asked with.
+[[nodiscard]] inline double toleranceOf(const QueryOptions& options, LinkId link) {
+  return options.linkPolicies.empty()
+             ? options.tolerance
+             : options.linkPolicies[static_cast<std::size_t>(link)].tolerance;
+}
+[[nodiscard]] inline Fidelity fidelityOf(const QueryOptions& options, LinkId link) {
+  return options.linkPolicies.empty()
+             ? options.fidelity
+             : options.linkPolicies[static_cast<std::size_t>(link)].fidelity;
+}
+struct ToleranceRange {
+  double least, largest;
+};
+/// Of all links.
+[[nodiscard]] inline ToleranceRange tolerancesOf(const QueryOptions& options) {
+  if (options.linkPolicies.empty()) return {options.tolerance, options.tolerance};
+  ToleranceRange range{kMaxTolerance, 0.0};
+  for (const LinkPolicy& policy : options.linkPolicies) {
+    range.least = std::min(range.least, policy.tolerance);
+    range.largest = std::max(range.largest, policy.tolerance);
+  }
+  return range;
+}
+
+/// The surface that the link has at exact fidelity; null at others.
+[[nodiscard]] const LinkSurface* surfaceOf(const QueryOptions& options, LinkId link);
+/// The skin, at skinned fidelity; null at others, and of a link that owns none of it.
+[[nodiscard]] const SkinParts* skinOf(const QueryOptions& options, LinkId link);
+
+}  // namespace foretouch::internal

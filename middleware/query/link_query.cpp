@@ -1,0 +1,135 @@
+#include "middleware/query/link_query.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+#include "middleware/exact/chain_piece.h"
+#include "middleware/exact/feature.h"
+#include "middleware/exact/linear_query.h"
+#include "middleware/scene/culler.h"
+
+namespace foretouch::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Scene to link. Where part and triangle meet, their difference has no direction: then the
+/// normal of the features, then any unit vector.
+Vector3d contactNormal(const PairState& pair) {
+  if (pair.nhat.squaredNorm() > 0.5) return pair.nhat.normalized();
+  if (pair.distance > 0.0) return pair.difference.stableNormalized();
+  if (pair.featureNormal.stableNorm() > 0.0) return pair.featureNormal.stableNormalized();
+  return Vector3d::UnitY();
+}
+
+}  // namespace
+
+// The sum may have been moved up by half a unit in the last place.
+double after(double t, double step) {
+  const double next = t + step;
+  return next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
+}
+
+LinkContact undecidedContact(LinkId link, double freeUntil, UndecidedReason reason) {
+  LinkContact contact;
+  contact.link = link;
+  contact.verdict = Verdict::Undecided;
+  contact.reason = reason;
+  contact.freeUntil = contact.toi = freeUntil;
+  return contact;
+}
+
+int Pieces::at(double t) const {
+  int k = std::min(count - 1, static_cast<int>(t * count));
+  // The product may have rounded across a boundary; the boundaries are what timeOf() says.
+  while (k > 0 && t < timeOf(k)) --k;
+  while (k + 1 < count && t >= timeOf(k + 1)) ++k;
+  return k;
+}
+
+std::array<Part, 2> LinkQuery::below(std::int32_t lss, Part part) const {
+  const LssHierarchy& hierarchy = parts.surface->hierarchy(lss);
+  HierarchyChild child = hierarchy.root();
+  if (part.isWhole() && child.isTriangle()) return {Part::of(child), Part::of(child)};
+  if (!part.isWhole()) child = HierarchyChild::node(part.index());
+  const auto& children = hierarchy.node(child.index()).children;
+  return {Part::of(children[0]), Part::of(children[1])};
+}
+
+double leastGap(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed) {
+  const Aabb box = query.parts.boxOfPoints(candidate.lss, candidate.part, posed);
+  const double radius =
+      candidate.part.isTriangle() ? 0.0 : query.parts.lssOf(candidate.lss, candidate.part).radius;
+  const double gap = box.distance(boxOf(query.scene.triangle(candidate.triangle))) - radius;
+  return gap - 1e-12 * (1.0 + std::abs(gap) + box.max.cwiseAbs().maxCoeff());
+}
+
+PairState pairOf(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed,
+                 QueryCounters& counters) {
+  ++counters.advancements;
+  if (candidate.part.isTriangle()) ++counters.leafTests;
+  if (query.isExact() && !candidate.part.isTriangle()) ++counters.hierarchyTests;
+  return query.parts.pair(candidate.lss, candidate.part, posed,
+                          query.scene.triangle(candidate.triangle));
+}
+
+double provenFrom(const LinkQuery& query, const Candidate& candidate, const PairState& pair,
+                  double t, QueryCounters& counters) {
+  const double floor = kFloorShare * query.tolerance;
+  if (query.leafMethod == LeafMethod::Cubics && query.isExact() && candidate.part.isTriangle()) {
+    ++counters.cubicTests;
+    const double reached = freeUntilByCubics(query.evaluator, query.parts.link, t, 1.0,
+                                             query.parts.surface->triangle(candidate.part.index()),
+                                             query.scene.triangle(candidate.triangle), floor,
+                                             kFloorShare * query.tolerance, pair.nhat);
+    if (reached > t) return reached;
+  }
+  return after(t, stepFrom(pair, floor));
+}
+
+LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const PairState& pair,
+                      double t) {
+  LinkContact contact;
+  contact.link = query.parts.link;
+  // At t = 0 nothing before it proves the pair apart: of an LSS what cannot be proven apart counts
+  // as touching; triangles, where the computed vertices are, have an exact answer.
+  const bool starts = t == 0.0 && pair.gapLower() <= 0.0 &&
+                      (!candidate.part.isTriangle() ||
+                       trianglesMeet(pair.hull, query.scene.triangle(candidate.triangle)));
+  contact.verdict = starts ? Verdict::StartsInContact : Verdict::Contact;
+  contact.toi = contact.freeUntil = t;
+  contact.separation = starts ? 0.0 : std::min(query.tolerance, std::max(0.0, pair.estimate()));
+  contact.penetration = starts ? std::max(0.0, -pair.estimate()) : 0.0;
+  contact.triangle = candidate.triangle;
+  contact.lss = candidate.lss;
+  contact.nhat_SL_W = contactNormal(pair);
+  contact.p_WScene = pair.onScene;
+  contact.p_WLink = pair.onHull - pair.radius * contact.nhat_SL_W;
+  if (candidate.part.isTriangle()) {
+    contact.linkTriangle = candidate.part.index();
+    contact.linkFeature = featureAt(pair.hull, pair.onHull);
+    contact.sceneFeature = featureAt(query.scene.triangle(candidate.triangle), pair.onScene);
+  }
+  return contact;
+}
+
+bool comesFirst(const LinkContact& x, const LinkContact& y) {
+  if (x.verdict != y.verdict) return x.verdict == Verdict::StartsInContact;
+  const auto key = [](const LinkContact& c) {
+    return std::array<double, 7>{c.separation - c.penetration,
+                                 c.p_WScene.x(),
+                                 c.p_WScene.y(),
+                                 c.p_WScene.z(),
+                                 c.nhat_SL_W.x(),
+                                 c.nhat_SL_W.y(),
+                                 c.nhat_SL_W.z()};
+  };
+  const auto keyX = key(x), keyY = key(y);
+  if (keyX != keyY) return keyX < keyY;
+  return std::tie(x.triangle, x.lss, x.linkTriangle) < std::tie(y.triangle, y.lss, y.linkTriangle);
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,119 @@
+// middleware/query/link_query.h: the question about one link: its pairs with the scene's triangles,
+// and what each of them tells at an instant. Not installed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "articulated/motion.h"
+#include "middleware/contact.h"
+#include "middleware/query/link_pair.h"
+#include "middleware/query/work_meter.h"
+#include "middleware/query_options.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch::internal {
+
+/// A step never goes below this share of the tolerance, so that contact is found from outside.
+inline constexpr double kFloorShare = 0.25;
+
+/// The equal pieces into which [0,1] is cut for culling: piece k is [timeOf(k), timeOf(k+1)].
+struct Pieces {
+  int count = 1;  // at most kMaxPieces
+  [[nodiscard]] double timeOf(int k) const { return static_cast<double>(k) / count; }
+  /// The piece that holds `t`, which is in [0,1).
+  [[nodiscard]] int at(double t) const;
+};
+inline constexpr int kMaxPieces = 32;
+
+/// One part of the link against one triangle, on the pieces in which their boxes meet. A query
+/// begins with whole LSS; at exact fidelity one that comes within the tolerance gives way to the
+/// two parts below it, from that instant on.
+struct Candidate {
+  TriangleId triangle = -1;
+  std::int32_t lss = -1;
+  std::uint32_t pieces = 0;  // bit k: piece k
+  // At freeUntil the gap is not smaller, as boxes, lanes or separations tell.
+  double nearest = -std::numeric_limits<double>::infinity();
+  double freeUntil = 0.0;  // proven: separation > 0 on [0, freeUntil), >= floor there unless 0
+  double end = 1.0;        // not asked for from then on
+  Part part = Part::whole();
+  std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, where there are any
+};
+
+/// Free before `freeUntil`, and nothing claimed after it.
+[[nodiscard]] LinkContact undecidedContact(LinkId link, double freeUntil, UndecidedReason reason);
+
+/// What backtrack() needs to know of one link; all references outlive the call.
+struct LinkQuery {
+  LinkParts parts;
+  const Scene& scene;
+  Pieces pieces;
+  double tolerance;
+  const WorkMeter& meter;
+  LeafMethod leafMethod;
+  MotionEvaluator& evaluator;  // of parts.motion
+
+  [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }
+  /// Nothing is below it: what it touches, the link touches.
+  [[nodiscard]] bool isSurface(std::int32_t lss, Part part) const {
+    return !isExact() || part.isTriangle() || !parts.surface->hasTriangles(lss);
+  }
+  /// The two parts below one that is not the surface itself (one, twice, where the LSS bounds a
+  /// single triangle).
+  [[nodiscard]] std::array<Part, 2> below(std::int32_t lss, Part part) const;
+};
+
+/// The link's states at the instants that are asked for, the last one kept: neighbouring candidates
+/// ask for the same.
+class StateCache {
+ public:
+  StateCache(const LinkQuery& query, QueryCounters& counters)
+      : query_(query), counters_(counters) {}
+  [[nodiscard]] const PosedLink& at(double t) {
+    if (t == time_) return posed_;
+    if (query_.parts.skin != nullptr) {
+      query_.evaluator.statesAt(t, posed_.all);
+      counters_.states += posed_.all.size();
+    } else {
+      posed_.state = query_.evaluator.stateAt(query_.parts.link, t);
+      ++counters_.states;
+    }
+    time_ = t;
+    return posed_;
+  }
+
+ private:
+  const LinkQuery& query_;
+  QueryCounters& counters_;
+  PosedLink posed_;
+  double time_ = -1.0;
+};
+
+/// A lower bound on the separation that pair() would compute, by the boxes of part and triangle.
+/// Its slack, thousands of roundings of the coordinates, keeps it below whatever either side rounds
+/// to.
+[[nodiscard]] double leastGap(const LinkQuery& query, const Candidate& candidate,
+                              const PosedLink& posed);
+
+/// The candidate's pair at one instant, counted.
+[[nodiscard]] PairState pairOf(const LinkQuery& query, const Candidate& candidate,
+                               const PosedLink& posed, QueryCounters& counters);
+
+/// Up to which t the candidate's pair is proven apart, from `t` on, as `pair` tells of it there; at
+/// most 1, and `t` itself where nothing is proven.
+[[nodiscard]] double provenFrom(const LinkQuery& query, const Candidate& candidate,
+                                const PairState& pair, double t, QueryCounters& counters);
+
+/// t + step, rounded down, and at most 1.
+[[nodiscard]] double after(double t, double step);
+
+/// What is reported of a pair that is in contact at `t`.
+[[nodiscard]] LinkContact contactOf(const LinkQuery& query, const Candidate& candidate,
+                                    const PairState& pair, double t);
+
+/// The order of contacts with equal toi, as query.h states it.
+[[nodiscard]] bool comesFirst(const LinkContact& x, const LinkContact& y);
+
+}  // namespace foretouch::internal

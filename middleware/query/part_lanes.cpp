@@ -1,0 +1,87 @@
+#include "middleware/query/part_lanes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lss/assert.h"
+#include "middleware/scene/culler.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Of a scene's vertex, taken relative to the origin and rounded (lanes/frame_lanes.md 4).
+constexpr double kVertexRounding = 2.0 * 0x1p-24;
+constexpr double kOriginRounding = 2.0 * 0x1p-53;
+/// What underflow may lose (m).
+constexpr double kUnderflow = 0x1p-90;
+/// Rounds the sum of a floor and a radius up.
+constexpr float kFloorInflation = 1.0F + 4.0F * 0x1p-24F;
+
+}  // namespace
+
+void PartLanes::reset(const FramePolynomials& polynomials, const Eigen::Vector3d& nodesOrigin_W,
+                      double begin, double end) {
+  FORETOUCH_ASSERT(begin < end);
+  frame_ = laneFrame(polynomials);
+  for (int axis = 0; axis < 3; ++axis)
+    origin_[axis] = nodesOrigin_W[axis] + polynomials.origin[axis];
+  originPad_ = kOriginRounding * origin_.norm() + kUnderflow;
+  begin_ = begin;
+  end_ = end;
+  halfSpan_ = 0.5 * (end - begin);
+  instantsPerTime_ = 1.0 / (kInstant * halfSpan_);
+  triangles_.clear();
+}
+
+std::int32_t PartLanes::add(const Triangle& triangle_W) {
+  SceneTriangle scene{};
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& v = triangle_W.vertices[i];
+    double squares = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = v[axis] - origin_[axis];
+      scene.vertex[i][axis] = static_cast<float>(x);
+      squares += x * x;
+    }
+    largest = std::max(largest, squares);
+  }
+  scene.pad = floatAbove(kVertexRounding * std::sqrt(largest) + originPad_);
+  triangles_.push_back(scene);
+  return static_cast<std::int32_t>(triangles_.size()) - 1;
+}
+
+void PartLanes::put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u,
+                    float floor) {
+  const SceneTriangle& scene = triangles_[static_cast<std::size_t>(triangle)];
+  for (int i = 0; i < 3; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      parts_.point[i][axis][lane] = part.point[i][axis];
+      pairs_.scene[i][axis][lane] = scene.vertex[i][axis];
+    }
+  }
+  parts_.u[lane] = u;
+  parts_.rho[lane] = part.rho;
+  parts_.scenePad[lane] = scene.pad;
+  pairs_.floor[lane] = (floor + part.radius) * kFloorInflation;
+  radius_[lane] = part.radius;
+}
+
+void PartLanes::proveTriangles(std::size_t count) {
+  placeParts(frame_, parts_, count, pairs_);
+  proveSteps(pairs_, count, steps_);
+}
+
+void PartLanes::proveLss(std::size_t count) {
+  placeParts(frame_, parts_, count, pairs_);
+  proveSegmentSteps(pairs_, count, steps_);
+}
+
+double PartLanes::freeUntil(std::size_t lane) const {
+  const double from = timeOf(parts_.u[lane]);
+  const double step = static_cast<double>(steps_.step[lane]) * halfSpan_;
+  const double next = from + step;
+  return next >= end_ ? end_ : std::nextafter(next, 0.0);
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,79 @@
+// middleware/query/part_lanes.h: parts of one link against triangles of the scene, sixteen pairs at
+// a time, each at its own instant: fills the lanes (lanes/frame_lanes.h), has them proved
+// (lanes/triangle_pairs.h) and turns what they say back into t. Not installed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "lss/triangle.h"
+#include "middleware/lanes/frame_lanes.h"
+#include "middleware/lanes/triangle_pairs.h"
+
+namespace foretouch::internal {
+
+/// One link over one span of t, whose length and bounds are multiples of 2^-20. Memory is kept; for
+/// one thread.
+class PartLanes {
+ public:
+  /// `nodesOrigin_W`: what the polynomials' origin is relative to. Forgets the scene's triangles.
+  void reset(const FramePolynomials& polynomials, const Eigen::Vector3d& nodesOrigin_W,
+             double begin, double end);
+
+  [[nodiscard]] double begin() const { return begin_; }
+  [[nodiscard]] double end() const { return end_; }
+
+  /// A number for the triangle, ascending from 0.
+  std::int32_t add(const Triangle& triangle_W);
+
+  /// The last instant, not after `t` in [begin, end), that lanes can begin at.
+  [[nodiscard]] float laneTime(double t) const {
+    const auto instant = static_cast<std::int32_t>((t - begin_) * instantsPerTime_);
+    // The difference may have been rounded up.
+    return uOf(timeOf(uOf(instant)) > t ? instant - 1 : instant);
+  }
+  /// Exact for what laneTime() returns.
+  [[nodiscard]] double timeOf(float u) const {
+    return begin_ + (static_cast<double>(u) + 1.0) * halfSpan_;
+  }
+
+  /// Fills a lane. `floor` (m): of the part's own surface, its radius counted.
+  void put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u, float floor);
+  /// Proves the first `count` lanes: all of triangles, or all of LSS.
+  void proveTriangles(std::size_t count);
+  void proveLss(std::size_t count);
+
+  /// Lower bound (m) on the separation of the lane's part and triangle; not above 0 where nothing
+  /// is proven.
+  [[nodiscard]] double lower(std::size_t lane) const {
+    return static_cast<double>(steps_.lower[lane]) - static_cast<double>(radius_[lane]);
+  }
+  /// Up to which t the pair keeps its floor, rounded down; at most the span's end.
+  [[nodiscard]] double freeUntil(std::size_t lane) const;
+
+ private:
+  /// Instants that lanes begin at are this far apart in u: floats all over [-1,1], and so are their
+  /// distances from -1.
+  static constexpr double kInstant = 0x1p-24;
+  static float uOf(std::int32_t instant) { return static_cast<float>(instant * kInstant - 1.0); }
+
+  struct SceneTriangle {
+    float vertex[3][3];  // relative to origin_
+    float pad;
+  };
+
+  LaneFrame frame_{};
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  double begin_ = 0.0, end_ = 1.0, halfSpan_ = 0.5, instantsPerTime_ = 1.0 / kInstant;
+  double originPad_ = 0.0;
+  std::vector<SceneTriangle> triangles_;
+  PartBlock parts_{};
+  TrianglePairBlock pairs_{};
+  TrianglePairSteps steps_{};
+  PairFloats radius_{};
+};
+
+}  // namespace foretouch::internal

@@ -1,0 +1,184 @@
+#include "middleware/query/query.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "middleware/query/body.h"
+#include "middleware/query/lane_query.h"
+#include "middleware/query/link_options.h"
+#include "middleware/query/reach.h"
+#include "middleware/query/rung_query.h"
+#include "middleware/query/scalar_query.h"
+#include "middleware/query/scratch_parts.h"
+#include "middleware/scene/scene_parts.h"
+
+namespace foretouch {
+
+namespace {
+
+Result<Done> checkedTolerance(double tolerance, LinkId link) {
+  if (tolerance >= kMinTolerance && tolerance <= kMaxTolerance) return Done{};
+  return Error{ErrorCode::OutOfRange, "tolerance", -1, link, "expected 1e-9 to 1e7 metres"};
+}
+
+/// One policy a link, each of a fidelity at which links are answered one by one.
+Result<Done> checkedPolicies(const Avatar& avatar, const QueryOptions& options) {
+  if (options.linkPolicies.empty()) return Done{};
+  const auto isOfLinks = [](Fidelity fidelity) {
+    return fidelity == Fidelity::Link || fidelity == Fidelity::Exact;
+  };
+  if (!isOfLinks(options.fidelity)) {
+    return Error{ErrorCode::Mismatch, "linkPolicies", -1, -1,
+                 std::string("expected none at fidelity ") + toString(options.fidelity) +
+                     ": only at link and exact fidelity has each link a surface of its own"};
+  }
+  if (options.linkPolicies.size() != static_cast<std::size_t>(avatar.numLinks())) {
+    return Error{ErrorCode::Mismatch, "linkPolicies", -1, -1,
+                 "expected none or one a link of the avatar"};
+  }
+  LinkId link = 0;
+  for (const LinkPolicy& policy : options.linkPolicies) {
+    auto tolerance = checkedTolerance(policy.tolerance, link);
+    if (!tolerance.ok()) return tolerance;
+    if (!isOfLinks(policy.fidelity)) {
+      return Error{ErrorCode::OutOfRange, "linkPolicies", -1, link,
+                   "expected link or exact fidelity"};
+    }
+    ++link;
+  }
+  return Done{};
+}
+
+bool isAnyExact(const QueryOptions& options) {
+  const auto& policies = options.linkPolicies;
+  if (policies.empty()) return options.fidelity == Fidelity::Exact;
+  return std::any_of(policies.begin(), policies.end(),
+                     [](const LinkPolicy& policy) { return policy.fidelity == Fidelity::Exact; });
+}
+
+Result<Done> checked(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+                     const QueryOptions& options) {
+  auto tolerance = checkedTolerance(options.tolerance, -1);
+  if (!tolerance.ok()) return tolerance;
+  auto policies = checkedPolicies(avatar, options);
+  if (!policies.ok()) return policies;
+  if (!(options.deadlineUs >= 0.0)) {
+    return Error{ErrorCode::OutOfRange, "deadline", -1, -1, "expected microseconds, at least 0"};
+  }
+  if (motion.numLinks() != avatar.numLinks()) {
+    return Error{ErrorCode::Mismatch, "motion", -1, -1,
+                 "expected a motion of this avatar's skeleton, found another number of joints"};
+  }
+  if (isAnyExact(options) &&
+      (!options.surface || options.surface->numLinks() != avatar.numLinks())) {
+    return Error{ErrorCode::Mismatch, "fidelity", -1, -1,
+                 "expected the surface of this avatar, which exact fidelity needs"};
+  }
+  if (options.fidelity == Fidelity::Skinned &&
+      (!options.skin || options.skin->numLinks() != avatar.numLinks())) {
+    return Error{ErrorCode::Mismatch, "fidelity", -1, -1,
+                 "expected the skin of this avatar, which skinned fidelity needs"};
+  }
+  const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
+  for (const IgnoredPair& pair : options.ignored) {
+    if (pair.link < 0 || pair.link >= avatar.numLinks() ||
+        pair.object < IgnoredPair::kEveryObject || pair.object >= numObjects) {
+      return Error{ErrorCode::OutOfRange, "ignored", -1, pair.link,
+                   "expected a link of the avatar and an object of the scene"};
+    }
+  }
+  return Done{};
+}
+
+Result<const internal::TriangleCuller*> cullerOf(const Scene& scene, Culler which) {
+  if (which == Culler::FlatBvh) {
+    return static_cast<const internal::TriangleCuller*>(&scene.parts().bvh);
+  }
+  const auto built = scene.parts().pointQueryCuller();
+  if (!built.ok()) return built.error();
+  return static_cast<const internal::TriangleCuller*>(built.value());
+}
+
+/// Skins change shape, and the walk numbers its boxes.
+bool inLanes(const Avatar& avatar, const QueryOptions& options) {
+  return avatar.numLss() <= internal::BoxLanes::kMaxBoxes &&
+         options.backtracking == Backtracking::Lanes && options.fidelity != Fidelity::Skinned;
+}
+
+/// At link or exact fidelity, by whichever way the options ask for.
+void linkQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+               const QueryOptions& options, const internal::TriangleCuller& culler,
+               internal::ScratchParts& scratch, StepContacts& step) {
+  const internal::Body body(avatar, options.ignored);
+  if (options.descent == Descent::ByNeed && options.fidelity != Fidelity::Skinned &&
+      internal::nothingInReach(internal::tableOf(avatar, scratch.lanes), motion, scene,
+                               internal::tolerancesOf(options).largest, step.counters)) {
+    return;
+  }
+  if (!inLanes(avatar, options)) {
+    internal::scalarQuery(body, motion, scene, options, culler, scratch, step);
+    return;
+  }
+  internal::LaneQuery(body, internal::tableOf(avatar, scratch.lanes), motion, scene, options,
+                      culler, scratch)
+      .run(step);
+}
+
+/// Of links that touch nothing before the first contact of all nothing more is said.
+void keepFirst(StepContacts& step) {
+  double first = 1.0;
+  bool isTouched = false;
+  for (const LinkContact& contact : step.links) {
+    if (contact.verdict == Verdict::Clear) continue;
+    isTouched = true;
+    first = std::min(first, contact.freeUntil);
+  }
+  if (!isTouched) return;
+  for (LinkContact& contact : step.links) {
+    if (contact.verdict != Verdict::Clear && contact.freeUntil <= first) continue;
+    const LinkId link = contact.link;
+    contact = LinkContact{};
+    contact.link = link;
+    contact.verdict = Verdict::Undecided;
+    contact.reason = UndecidedReason::AfterFirst;
+    contact.toi = contact.freeUntil = first;
+  }
+}
+
+}  // namespace
+
+Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+                           const QueryOptions& options, QueryScratch& scratch, StepContacts& step) {
+  auto check = checked(avatar, motion, scene, options);
+  if (!check.ok()) return check;
+  const auto culler = cullerOf(scene, options.culler);
+  if (!culler.ok()) return culler.error();
+  step.counters = {};
+  step.links.assign(static_cast<std::size_t>(avatar.numLinks()), LinkContact{});
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    step.links[static_cast<std::size_t>(link)].link = link;
+  }
+  const auto ask = internal::isRung(options.fidelity) ? internal::rungQuery : linkQuery;
+  ask(avatar, motion, scene, options, *culler.value(), scratch.parts(), step);
+  if (options.scope == Scope::FirstOfAvatar) keepFirst(step);
+  return Done{};
+}
+
+Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& motion,
+                                   const Scene& scene, const QueryOptions& options,
+                                   QueryScratch& scratch) {
+  StepContacts step;
+  const auto done = firstContacts(avatar, motion, scene, options, scratch, step);
+  if (!done.ok()) return done.error();
+  return step;
+}
+
+Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& motion,
+                                   const Scene& scene, const QueryOptions& options) {
+  QueryScratch scratch;
+  return firstContacts(avatar, motion, scene, options, scratch);
+}
+
+}  // namespace foretouch

@@ -1,0 +1,165 @@
+#include "middleware/query/query_pool.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "lss/assert.h"
+
+namespace foretouch {
+namespace {
+
+/// What one thread keeps between queries.
+struct alignas(128) Worker {
+  QueryScratch scratch;
+  ChainMotion motion;
+  // Written throughout a query, and then exchanged for the task's: answers side by side share cache
+  // lines.
+  StepContacts answer;
+  std::size_t failed = 0;  // the first task of this thread that had an error
+  std::optional<Error> error;
+};
+
+/// A list of tasks that the threads take from, one by one.
+struct Work {
+  const Scene* scene = nullptr;
+  const std::vector<StepTask>* tasks = nullptr;
+  std::vector<StepContacts>* answers = nullptr;
+  std::atomic<std::size_t> next{0};
+
+  void takePart(Worker& worker) {
+    worker.error.reset();
+    for (;;) {
+      const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
+      if (i >= tasks->size()) return;
+      const StepTask& task = (*tasks)[i];
+      worker.motion.assign(task.avatar->skeleton(), *task.from, *task.to);
+      const auto done = firstContacts(*task.avatar, worker.motion, *scene, *task.options,
+                                      worker.scratch, worker.answer);
+      std::swap(worker.answer, (*answers)[i]);
+      // A thread takes tasks in ascending order.
+      if (!done.ok() && !worker.error) {
+        worker.failed = i;
+        worker.error = done.error();
+      }
+    }
+  }
+};
+
+}  // namespace
+
+/// A list may follow the last one within microseconds, and waking a sleeping thread takes longer
+/// than many lists.
+template <typename Condition>
+void waitBriefly(const Condition& isMet) {
+  constexpr std::chrono::microseconds kBriefly{50};
+  const auto end = std::chrono::steady_clock::now() + kBriefly;
+  while (!isMet() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+}
+
+/// The lock is taken to begin and to end a list, never for a task.
+struct QueryPool::Impl {
+  std::vector<Worker> workers;  // the calling thread's first
+  std::vector<std::thread> threads;
+  Work work;
+  std::mutex mutex;
+  std::condition_variable begins, ends;
+  std::atomic<std::uint64_t> list{0};   // how many lists have begun
+  std::atomic<std::size_t> working{0};  // threads that are not done with the list at hand
+  bool isStopping = false;
+
+  ~Impl() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      isStopping = true;
+    }
+    begins.notify_all();
+    for (std::thread& thread : threads) thread.join();
+  }
+
+  void run(std::size_t index) {
+    std::uint64_t seen = 0;
+    for (;;) {
+      waitBriefly([&] { return list.load(std::memory_order_acquire) != seen; });
+      std::unique_lock<std::mutex> lock(mutex);
+      begins.wait(lock, [&] { return isStopping || list != seen; });
+      if (isStopping) return;
+      seen = list;
+      lock.unlock();
+      work.takePart(workers[index]);
+      lock.lock();
+      if (--working == 0) ends.notify_one();
+    }
+  }
+
+  void answerAll() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      working = threads.size();
+      ++list;
+    }
+    begins.notify_all();
+    work.takePart(workers.front());
+    waitBriefly([&] { return working.load(std::memory_order_acquire) == 0; });
+    std::unique_lock<std::mutex> lock(mutex);
+    ends.wait(lock, [&] { return working == 0; });
+  }
+};
+
+QueryPool::QueryPool(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+QueryPool::~QueryPool() = default;
+QueryPool::QueryPool(QueryPool&&) noexcept = default;
+QueryPool& QueryPool::operator=(QueryPool&&) noexcept = default;
+
+Result<QueryPool> QueryPool::start(int threads) {
+  if (threads < 1 || threads > kMaxPoolThreads) {
+    return Error{ErrorCode::OutOfRange, "threads", -1, -1,
+                 "expected a number from 1 to " + std::to_string(kMaxPoolThreads)};
+  }
+  auto impl = std::make_unique<Impl>();
+  impl->workers.resize(static_cast<std::size_t>(threads));
+  impl->threads.reserve(static_cast<std::size_t>(threads - 1));
+  try {
+    for (std::size_t i = 1; i < impl->workers.size(); ++i) {
+      impl->threads.emplace_back([pool = impl.get(), i] { pool->run(i); });
+    }
+  } catch (const std::system_error& failure) {
+    return Error{ErrorCode::DeviceFailed, "threads", -1, -1,
+                 std::string("the system gives no more threads: ") + failure.what()};
+  }
+  return QueryPool(std::move(impl));
+}
+
+int QueryPool::threads() const {
+  return static_cast<int>(impl_->workers.size());
+}
+
+Result<Done> QueryPool::answer(const Scene& scene, const std::vector<StepTask>& tasks,
+                               std::vector<StepContacts>& answers) {
+  for (const StepTask& task : tasks) {
+    FORETOUCH_ASSERT(task.avatar != nullptr && task.from != nullptr && task.to != nullptr &&
+                     task.options != nullptr);
+    static_cast<void>(task);
+  }
+  answers.resize(tasks.size());
+  Work& work = impl_->work;
+  work.scene = &scene;
+  work.tasks = &tasks;
+  work.answers = &answers;
+  work.next.store(0, std::memory_order_relaxed);
+  impl_->answerAll();
+  const Worker* first = nullptr;
+  for (const Worker& worker : impl_->workers) {
+    if (worker.error && (first == nullptr || worker.failed < first->failed)) first = &worker;
+  }
+  if (first != nullptr) return *first->error;
+  return Done{};
+}
+
+}  // namespace foretouch

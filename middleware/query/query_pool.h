@@ -1,0 +1,51 @@
+// middleware/query/query_pool.h: many avatars, many steps, one scene: a fixed set of threads that
+// answers lists of queries. A query takes no lock and, once the threads' memory has grown,
+// allocates nothing; the answers are the same for any number of threads.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/pose.h"
+#include "articulated/result.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch {
+
+/// One avatar's step. What it points to must outlive the call; poses are validated ones of the
+/// avatar's skeleton.
+struct StepTask {
+  const Avatar* avatar = nullptr;
+  const Pose* from = nullptr;
+  const Pose* to = nullptr;
+  const QueryOptions* options = nullptr;
+};
+
+inline constexpr int kMaxPoolThreads = 256;
+
+class QueryPool {
+ public:
+  /// `threads` in [1, kMaxPoolThreads], the calling one among them. Errors: a number out of range,
+  /// or threads that the system does not give.
+  static Result<QueryPool> start(int threads);
+  ~QueryPool();
+  QueryPool(QueryPool&&) noexcept;
+  QueryPool& operator=(QueryPool&&) noexcept;
+
+  [[nodiscard]] int threads() const;
+
+  /// Answers all tasks and returns when the last one is done; `answers` is resized and reused. The
+  /// error is that of the first task that has one; the others are answered. Not for two threads at
+  /// once.
+  Result<Done> answer(const Scene& scene, const std::vector<StepTask>& tasks,
+                      std::vector<StepContacts>& answers);
+
+ private:
+  struct Impl;
+  explicit QueryPool(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace foretouch

@@ -1,0 +1,252 @@
+#include "middleware/query/rung_query.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "lss/assert.h"
+#include "lss/segment_triangle.h"
+#include "middleware/ladder/rungs.h"
+#include "middleware/query/body.h"
+#include "middleware/query/lane_query.h"
+#include "middleware/query/scalar_query.h"
+#include "middleware/query/spheroid_query.h"
+#include "middleware/scene/scene_parts.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// One query. A group is what one volume stands for: a limb, or a tree.
+class RungQuery {
+ public:
+  RungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+            const QueryOptions& options, ScratchParts& scratch)
+      : avatar_(avatar),
+        motion_(motion),
+        scene_(scene),
+        options_(options),
+        scratch_(scratch),
+        meter_(options),
+        rungs_(scratch.rungs) {}
+
+  void evaluate(QueryCounters& counters) {
+    scratch_.lanes.nodes.evaluate(motion_, 0.0, 1.0, scene_.parts().origin);
+    counters.states +=
+        static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(avatar_.numLinks());
+    rungs_.volumes.evaluate(avatar_, motion_, scratch_.lanes.nodes,
+                            options_.fidelity != Fidelity::Limb);
+    counters.rungTests += numGroups();
+  }
+
+  void run(const TriangleCuller& culler, StepContacts& step) {
+    evaluate(step.counters);
+    findIgnored();
+    if (options_.fidelity == Fidelity::Ellipsoid) {
+      askSpheroids(culler, step);
+    } else {
+      askLss(culler, step);
+    }
+    spread(step);
+  }
+
+  /// Of one link at one instant.
+  [[nodiscard]] bool touchesAt(LinkId link, double t) {
+    QueryCounters counters;
+    evaluate(counters);
+    findIgnored();
+    for (std::size_t group = 0; group < numGroups(); ++group) {
+      const std::vector<LinkId>& links = linksOf(group);
+      if (std::find(links.begin(), links.end(), link) == links.end()) continue;
+      if (!isAsked(link) || scratch_.ignored.collect(rungs_.ignored, carrierOf(group)))
+        return false;
+      return options_.fidelity == Fidelity::Ellipsoid ? spheroidTouchesAt(group, t)
+                                                      : lssTouchesAt(group, t);
+    }
+    return false;
+  }
+
+  [[nodiscard]] std::size_t numGroups() const {
+    return byLimb() ? limbs().limbs().size() : limbs().trees().size();
+  }
+  [[nodiscard]] LinkId carrierOf(std::size_t group) const {
+    return byLimb() ? limbs().limbs()[group].carrier : limbs().trees()[group].root;
+  }
+  [[nodiscard]] const std::vector<LinkId>& linksOf(std::size_t group) const {
+    return byLimb() ? limbs().limbs()[group].links : limbs().trees()[group].links;
+  }
+  [[nodiscard]] const Lss& volumeOf(std::size_t group) const {
+    return byLimb() ? rungs_.volumes.limb(group) : rungs_.volumes.tree(group);
+  }
+  [[nodiscard]] Spheroid spheroidOf(std::size_t group) const {
+    return spheroidAround(volumeOf(group), carrierOf(group), motion_, scratch_.lanes.nodes);
+  }
+
+ private:
+  [[nodiscard]] bool byLimb() const { return options_.fidelity == Fidelity::Limb; }
+  [[nodiscard]] const Limbs& limbs() const { return rungs_.volumes.limbs(); }
+  [[nodiscard]] bool isAsked(LinkId link) const {
+    return rungs_.isAsked[static_cast<std::size_t>(link)] != 0;
+  }
+
+  /// Which links are asked for at all, and which objects no link of a group asks for.
+  void findIgnored() {
+    rungs_.isAsked.assign(static_cast<std::size_t>(avatar_.numLinks()), 1);
+    rungs_.ignored.clear();
+    for (const IgnoredPair& pair : options_.ignored) {
+      if (pair.object == IgnoredPair::kEveryObject) {
+        rungs_.isAsked[static_cast<std::size_t>(pair.link)] = 0;
+      }
+    }
+    for (std::size_t group = 0; group < numGroups(); ++group) {
+      const std::vector<LinkId>& links = linksOf(group);
+      const auto first =
+          std::find_if(links.begin(), links.end(), [this](LinkId link) { return isAsked(link); });
+      if (first == links.end()) {
+        rungs_.ignored.push_back({carrierOf(group), IgnoredPair::kEveryObject});
+        continue;
+      }
+      for (const IgnoredPair& pair : options_.ignored) {
+        if (pair.link == *first && allIgnore(links, pair.object)) {
+          rungs_.ignored.push_back({carrierOf(group), pair.object});
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] bool allIgnore(const std::vector<LinkId>& links, ObjectId object) const {
+    return std::all_of(links.begin(), links.end(), [&](LinkId link) {
+      const auto isPair = [&](const IgnoredPair& pair) {
+        return pair.link == link && pair.object == object;
+      };
+      return !isAsked(link) ||
+             std::any_of(options_.ignored.begin(), options_.ignored.end(), isPair);
+    });
+  }
+
+  void askLss(const TriangleCuller& culler, StepContacts& step) {
+    rungs_.perLink.resize(static_cast<std::size_t>(avatar_.numLinks()));
+    for (std::vector<Lss>& lss : rungs_.perLink) lss.clear();
+    for (std::size_t group = 0; group < numGroups(); ++group) {
+      if (linksOf(group).empty()) continue;
+      rungs_.perLink[static_cast<std::size_t>(carrierOf(group))].push_back(volumeOf(group));
+    }
+    const Body body(rungs_.perLink, rungs_.ignored);
+    if (options_.backtracking == Backtracking::Lanes) {
+      rungs_.table.assign(rungs_.perLink);
+      LaneQuery query(body, rungs_.table, motion_, scene_, options_, culler, scratch_);
+      query.keepNodes();
+      query.run(step);
+    } else {
+      scalarQuery(body, motion_, scene_, options_, culler, scratch_, step);
+    }
+    rungs_.answers.clear();
+    for (std::size_t group = 0; group < numGroups(); ++group) {
+      LinkContact& answer = step.links[static_cast<std::size_t>(carrierOf(group))];
+      rungs_.answers.push_back(answer);
+      const LinkId link = answer.link;
+      answer = LinkContact();
+      answer.link = link;
+    }
+  }
+
+  void askSpheroids(const TriangleCuller& culler, StepContacts& step) {
+    rungs_.answers.clear();
+    for (std::size_t group = 0; group < numGroups(); ++group) {
+      rungs_.answers.emplace_back();
+      if (scratch_.ignored.collect(rungs_.ignored, carrierOf(group))) continue;
+      const Spheroid spheroid = spheroidOf(group);
+      const SpheroidQuery query{spheroid,           scene_, culler,
+                                options_.tolerance, meter_, scratch_.ignored};
+      rungs_.answers.back() = firstContactOf(query, scratch_.found, step.counters);
+    }
+  }
+
+  /// Every link that is asked for gets its group's answer.
+  void spread(StepContacts& step) const {
+    for (std::size_t group = 0; group < numGroups(); ++group) {
+      for (const LinkId link : linksOf(group)) {
+        if (!isAsked(link)) continue;
+        LinkContact& contact = step.links[static_cast<std::size_t>(link)];
+        contact = rungs_.answers[group];
+        contact.link = link;
+      }
+    }
+  }
+
+  template <typename Touches>
+  [[nodiscard]] bool anyTouches(const Aabb& box, const Touches& touches) {
+    scratch_.found.clear();
+    std::uint64_t visited = 0;
+    scene_.parts().bvh.collect(box, scratch_.found, visited);
+    return std::any_of(scratch_.found.begin(), scratch_.found.end(), [&](TriangleId id) {
+      return !scratch_.ignored.has(scene_.object(id)) && touches(scene_.triangle(id));
+    });
+  }
+
+  [[nodiscard]] bool lssTouchesAt(std::size_t group, double t) {
+    const Lss& lss = volumeOf(group);
+    const AxisEnds ends = axisEnds(lss, motion_.stateAt(carrierOf(group), t));
+    Aabb box;
+    box.add(ends.a);
+    box.add(ends.b);
+    box.grow(lss.radius);
+    return anyTouches(box, [&](const Triangle& triangle) {
+      return closestPoints(ends.a, ends.b, triangle).distance <= lss.radius;
+    });
+  }
+
+  [[nodiscard]] bool spheroidTouchesAt(std::size_t group, double t) {
+    const Spheroid spheroid = spheroidOf(group);
+    Aabb box;
+    box.add(spheroid.centerAt(t));
+    box.grow(spheroid.longest());
+    return anyTouches(box, [&](const Triangle& triangle) {
+      return SpheroidPair(spheroid, triangle).at(t).lower <= 0.0;
+    });
+  }
+
+  const Avatar& avatar_;
+  const ChainMotion& motion_;
+  const Scene& scene_;
+  const QueryOptions& options_;
+  ScratchParts& scratch_;
+  WorkMeter meter_;
+  RungScratch& rungs_;
+};
+
+}  // namespace
+
+void rungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+               const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
+               StepContacts& step) {
+  RungQuery(avatar, motion, scene, options, scratch).run(culler, step);
+}
+
+bool rungTouchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
+                   const Scene& scene, const QueryOptions& options, ScratchParts& scratch) {
+  return RungQuery(avatar, motion, scene, options, scratch).touchesAt(link, t);
+}
+
+}  // namespace foretouch::internal
+
+namespace foretouch {
+
+std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& motion,
+                                    const Scene& scene, Fidelity rung) {
+  FORETOUCH_ASSERT(internal::isRung(rung) && motion.numLinks() == avatar.numLinks());
+  QueryScratch scratch;
+  QueryOptions options;
+  options.fidelity = rung;
+  internal::RungQuery query(avatar, motion, scene, options, scratch.parts());
+  QueryCounters counters;
+  query.evaluate(counters);
+  std::vector<RungVolume> volumes;
+  for (std::size_t group = 0; group < query.numGroups(); ++group) {
+    if (query.linksOf(group).empty()) continue;
+    RungVolume volume{query.carrierOf(group), query.linksOf(group), query.volumeOf(group), {}};
+    if (rung == Fidelity::Ellipsoid) volume.spheroid = query.spheroidOf(group);
+    volumes.push_back(std::move(volume));
+  }
+  return volumes;
+}
+
+}  // namespace foretouch

@@ -1,0 +1,26 @@
+// middleware/query/rung_query.h: a query above link fidelity: the step's volumes, their first
+// contacts, and those given to the links that they stand for. Not installed.
+#pragma once
+
+#include "articulated/avatar.h"
+#include "articulated/motion.h"
+#include "middleware/contact.h"
+#include "middleware/query/query_scratch.h"
+#include "middleware/query_options.h"
+#include "middleware/scene/culler.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch::internal {
+
+/// Fills `step`, whose links are all Clear. The options have been checked;
+/// isRung(options.fidelity).
+void rungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+               const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
+               StepContacts& step);
+
+/// Does the volume that stands for the link touch a triangle at `t`?
+[[nodiscard]] bool rungTouchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link,
+                                 double t, const Scene& scene, const QueryOptions& options,
+                                 ScratchParts& scratch);
+
+}  // namespace foretouch::internal

@@ -1,0 +1,225 @@
+#include "middleware/query/scalar_query.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "middleware/query/backtracking.h"
+#include "middleware/query/link_options.h"
+#include "middleware/query/scratch_parts.h"
+#include "middleware/query/skin_sweep.h"
+#include "middleware/scene/scene_parts.h"
+#include "middleware/surface/link_surface.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Pieces are made so short that no link moves farther than this (m) in one, up to kMaxPiecesUsed.
+/// Longer pieces mean more candidates that are not near, shorter ones more forward kinematics; only
+/// speed depends on it.
+constexpr double kPieceTravel = 0.08;
+constexpr int kMaxPiecesUsed = 12;
+static_assert(kMaxPiecesUsed <= kMaxPieces);
+
+/// One query over all links of one step.
+class StepQuery {
+ public:
+  StepQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
+            const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch)
+      : body_(body),
+        motion_(motion),
+        scene_(scene),
+        options_(options),
+        culler_(culler),
+        scratch_(scratch),
+        meter_(options) {}
+
+  void run(StepContacts& step) {
+    scratch_.evaluator.reset(motion_);
+    cutIntoPieces();
+    step.counters.states += static_cast<std::uint64_t>(body_.numLinks() * (pieces_.count + 1));
+    for (LinkId link = 0; link < body_.numLinks(); ++link) {
+      // Equal shares, so that the last links have theirs; what one leaves is the others'.
+      const auto others = static_cast<std::uint64_t>(body_.numLinks() - link);
+      meter_.beginPart(step.counters, meter_.left(step.counters) / others);
+      step.links[static_cast<std::size_t>(link)] = firstContactOf(link, step.counters);
+    }
+  }
+
+ private:
+  void cutIntoPieces() {
+    double travel = 0.0;
+    for (LinkId link = 0; link < body_.numLinks(); ++link) {
+      for (const Lss& lss : body_.lss(link)) {
+        travel = std::max(travel, axisBounds(lss, motion_.bounds(link)).speed);
+      }
+    }
+    const double wanted = std::ceil(travel / kPieceTravel);
+    pieces_.count = static_cast<int>(std::min<double>(kMaxPiecesUsed, std::max(1.0, wanted)));
+    // Never fewer, which would give their memory back.
+    scratch_.nodes.resize(
+        std::max(scratch_.nodes.size(), static_cast<std::size_t>(pieces_.count) + 1));
+    for (int k = 0; k <= pieces_.count; ++k) {
+      scratch_.evaluator.statesAt(pieces_.timeOf(k), scratch_.nodes[static_cast<std::size_t>(k)]);
+    }
+  }
+
+  LinkContact firstContactOf(LinkId link, QueryCounters& counters) {
+    skin_ = skinOf(options_, link);
+    tolerance_ = toleranceOf(options_, link);
+    if (skin_ != nullptr) return firstSkinContactOf(link, counters);
+    LinkContact contact;
+    contact.link = link;
+    surface_ = surfaceOf(options_, link);
+    if (scratch_.ignored.collect(body_.ignored(), link) || body_.lss(link).empty()) return contact;
+    const Aabb swept = sweep(link);
+    scratch_.found.clear();
+    culler_.collect(swept, scratch_.found, counters.nodes);
+    const LinkQuery query = queryOf(link);
+    gather(scratch_.startBoxes, 1);
+    counters.candidates += scratch_.candidates.size();
+    contact = contactAtStart(query, scratch_.candidates, counters);
+    if (contact.verdict != Verdict::Clear) return contact;
+    gather(scratch_.boxes, pieces_.count);
+    counters.candidates += scratch_.candidates.size();
+    return backtrack(query, scratch_.candidates, counters);
+  }
+
+  [[nodiscard]] LinkQuery queryOf(LinkId link) const {
+    return {{link, body_.lss(link), scratch_.axisBounds, motion_, surface_, skin_},
+            scene_,
+            pieces_,
+            tolerance_,
+            meter_,
+            options_.leafMethod,
+            scratch_.evaluator};
+  }
+
+  LinkContact firstSkinContactOf(LinkId link, QueryCounters& counters) {
+    LinkContact contact;
+    contact.link = link;
+    const LinkQuery query = queryOf(link);
+    const std::int32_t numTriangles = query.parts.skin->numTriangles(link);
+    if (scratch_.ignored.collect(body_.ignored(), link)) return contact;
+    sweepSkin(query.parts, scratch_.nodes, pieces_, tolerance_, scratch_.startBoxes,
+              scratch_.boxes);
+    if (!isNearAnything(scratch_.boxes, counters)) return contact;
+    gatherSkin(scratch_.startBoxes, 1, numTriangles, counters);
+    contact = contactAtStart(query, scratch_.candidates, counters);
+    if (contact.verdict != Verdict::Clear) return contact;
+    gatherSkin(scratch_.boxes, pieces_.count, numTriangles, counters);
+    return backtrack(query, scratch_.candidates, counters);
+  }
+
+  bool isNearAnything(const std::vector<Aabb>& boxes, QueryCounters& counters) {
+    Aabb all;
+    for (const Aabb& box : boxes) all.add(box);
+    scratch_.found.clear();
+    culler_.collect(all, scratch_.found, counters.nodes);
+    return !scratch_.found.empty();
+  }
+
+  /// Pairs of the skin's triangles with the scene's, by `count` boxes a triangle of the skin.
+  void gatherSkin(const std::vector<Aabb>& boxes, int count, std::int32_t numTriangles,
+                  QueryCounters& counters) {
+    scratch_.candidates.clear();
+    for (std::int32_t i = 0; i < numTriangles; ++i) {
+      const Aabb* const own = boxes.data() + static_cast<std::ptrdiff_t>(i) * count;
+      Aabb all;
+      for (int k = 0; k < count; ++k) all.add(own[k]);
+      scratch_.found.clear();
+      culler_.collect(all, scratch_.found, counters.nodes);
+      for (const TriangleId id : scratch_.found) {
+        if (scratch_.ignored.has(scene_.object(id))) continue;
+        const std::uint32_t meets = piecesMeeting(own, count, boxOf(scene_.triangle(id)));
+        if (meets == 0) continue;
+        addCandidate(id, 0, meets, Part::of(HierarchyChild::triangle(i)));
+      }
+    }
+    counters.candidates += scratch_.candidates.size();
+  }
+
+  void addCandidate(TriangleId triangle, std::int32_t lss, std::uint32_t pieces, Part part) {
+    Candidate candidate;
+    candidate.triangle = triangle;
+    candidate.lss = lss;
+    candidate.pieces = pieces;
+    candidate.part = part;
+    scratch_.candidates.push_back(candidate);
+  }
+
+  /// Bit k: the k-th of `count` boxes meets `box`.
+  [[nodiscard]] static std::uint32_t piecesMeeting(const Aabb* boxes, int count, const Aabb& box) {
+    std::uint32_t meets = 0;
+    for (int k = 0; k < count; ++k) {
+      meets |= static_cast<std::uint32_t>(boxes[k].overlaps(box)) << k;
+    }
+    return meets;
+  }
+
+  /// Boxes of every LSS of the link at the start and on every piece, grown by the tolerance;
+  /// returns their union.
+  Aabb sweep(LinkId link) {
+    Aabb all;
+    scratch_.axisBounds.clear();
+    scratch_.startBoxes.clear();
+    scratch_.boxes.clear();
+    for (const Lss& lss : body_.lss(link)) {
+      const AxisBounds bounds = axisBounds(lss, motion_.bounds(link));
+      scratch_.axisBounds.push_back(bounds);
+      AxisEnds begin = axisEnds(lss, nodeState(0, link));
+      scratch_.startBoxes.push_back(sweptBox(lss, bounds, begin, begin, 0.0, tolerance_));
+      for (int k = 0; k < pieces_.count; ++k) {
+        const AxisEnds end = axisEnds(lss, nodeState(k + 1, link));
+        const double span = pieces_.timeOf(k + 1) - pieces_.timeOf(k);
+        scratch_.boxes.push_back(sweptBox(lss, bounds, begin, end, span, tolerance_));
+        all.add(scratch_.boxes.back());
+        begin = end;
+      }
+    }
+    return all;
+  }
+
+  [[nodiscard]] const LinkState& nodeState(int k, LinkId link) const {
+    return scratch_.nodes[static_cast<std::size_t>(k)][static_cast<std::size_t>(link)];
+  }
+
+  /// The candidates among the triangles found, by `count` boxes an LSS. This double-precision test
+  /// makes every culler's answer the same.
+  void gather(const std::vector<Aabb>& boxes, int count) {
+    scratch_.candidates.clear();
+    const auto numLss = static_cast<std::int32_t>(scratch_.axisBounds.size());
+    for (const TriangleId id : scratch_.found) {
+      if (scratch_.ignored.has(scene_.object(id))) continue;
+      const Aabb box = boxOf(scene_.triangle(id));
+      for (std::int32_t lss = 0; lss < numLss; ++lss) {
+        const std::uint32_t meets = piecesMeeting(boxes.data() + lss * count, count, box);
+        if (meets != 0) {
+          addCandidate(id, lss, meets, Part::whole());
+        }
+      }
+    }
+  }
+
+  const Body& body_;
+  const ChainMotion& motion_;
+  const Scene& scene_;
+  const QueryOptions& options_;
+  const TriangleCuller& culler_;
+  ScratchParts& scratch_;
+  WorkMeter meter_;
+  double tolerance_ = 0.0;  // of the link at hand
+  // Of the link at hand; null at other fidelities.
+  const LinkSurface* surface_ = nullptr;
+  const SkinParts* skin_ = nullptr;
+  Pieces pieces_;
+};
+
+}  // namespace
+
+void scalarQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
+                 const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
+                 StepContacts& step) {
+  StepQuery(body, motion, scene, options, culler, scratch).run(step);
+}
+
+}  // namespace foretouch::internal

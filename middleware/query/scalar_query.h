@@ -1,0 +1,21 @@
+// middleware/query/scalar_query.h: a query the plain way, link by link, in doubles: the reference
+// that lane queries are held against, and the only way for skins and work budgets. Not installed.
+#pragma once
+
+#include "articulated/avatar.h"
+#include "articulated/motion.h"
+#include "middleware/contact.h"
+#include "middleware/query/body.h"
+#include "middleware/query/query_scratch.h"
+#include "middleware/query_options.h"
+#include "middleware/scene/culler.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch::internal {
+
+/// Fills `step`, whose links are all Clear. The options have been checked.
+void scalarQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
+                 const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
+                 StepContacts& step);
+
+}  // namespace foretouch::internal

@@ -1,0 +1,31 @@
+// middleware/query/spheroid_query.h: the first contact of a moving spheroid with the scene. Not
+// installed.
+#pragma once
+
+#include <vector>
+
+#include "middleware/contact.h"
+#include "middleware/ladder/spheroid.h"
+#include "middleware/query/ignored_objects.h"
+#include "middleware/query/work_meter.h"
+#include "middleware/query_options.h"
+#include "middleware/scene/culler.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch::internal {
+
+struct SpheroidQuery {
+  const Spheroid& spheroid;
+  const Scene& scene;
+  const TriangleCuller& culler;
+  double tolerance;
+  const WorkMeter& meter;
+  const IgnoredObjects& ignored;
+};
+
+/// Every triangle's instants depend on that triangle and the spheroid alone, so the answer does not
+/// depend on the order in which `found` brings them. `found` is scratch.
+[[nodiscard]] LinkContact firstContactOf(const SpheroidQuery& query, std::vector<TriangleId>& found,
+                                         QueryCounters& counters);
+
+}  // namespace foretouch::internal

@@ -1,0 +1,102 @@
+// middleware/query/touches_at.cpp: the discrete check of middleware/query/query.h.
+#include <cstddef>
+
+#include "lss/assert.h"
+#include "lss/segment_triangle.h"
+#include "middleware/exact/linear_query.h"
+#include "middleware/query/link_options.h"
+#include "middleware/query/query.h"
+#include "middleware/query/rung_query.h"
+#include "middleware/query/scratch_parts.h"
+#include "middleware/scene/scene_parts.h"
+#include "middleware/surface/link_surface.h"
+
+namespace foretouch {
+namespace {
+
+using internal::IgnoredObjects;
+
+bool touches(const Lss& lss, const LinkState& state, const Triangle& triangle) {
+  const AxisEnds ends = axisEnds(lss, state);
+  return closestPoints(ends.a, ends.b, triangle).distance <= lss.radius;
+}
+
+/// Does any of the link's triangles under one LSS meet `triangle`? Decided exactly for the vertices
+/// as computed.
+bool meshTouches(const internal::LinkSurface& surface, std::int32_t lss, const LinkState& state,
+                 const Triangle& triangle) {
+  const LssHierarchy& hierarchy = surface.hierarchy(lss);
+  std::vector<HierarchyChild> stack{hierarchy.root()};
+  while (!stack.empty()) {
+    const HierarchyChild child = stack.back();
+    stack.pop_back();
+    if (!child.isTriangle()) {
+      const LssHierarchy::Node& node = hierarchy.node(child.index());
+      if (!touches(node.lss, state, triangle)) continue;
+      stack.insert(stack.end(), node.children.begin(), node.children.end());
+      continue;
+    }
+    Triangle moved = surface.triangle(child.index());
+    for (Eigen::Vector3d& vertex : moved.vertices) vertex = state.pointAt(vertex);
+    if (trianglesMeet(moved, triangle)) return true;
+  }
+  return false;
+}
+
+bool skinTouches(const internal::LinkParts& parts, double t, const Scene& scene,
+                 const IgnoredObjects& ignored, std::vector<TriangleId>& found) {
+  internal::PosedLink posed;
+  parts.motion.statesAt(t, posed.all);
+  for (std::int32_t i = 0; i < parts.skin->numTriangles(parts.link); ++i) {
+    const Triangle moved = parts.movingTriangle(i, posed).triangle;
+    found.clear();
+    std::uint64_t visited = 0;
+    scene.parts().bvh.collect(internal::boxOf(moved), found, visited);
+    for (const TriangleId id : found) {
+      if (!ignored.has(scene.object(id)) && trianglesMeet(moved, scene.triangle(id))) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
+               const Scene& scene, const QueryOptions& options, QueryScratch& scratch) {
+  FORETOUCH_ASSERT(link >= 0 && link < avatar.numLinks());
+  if (internal::isRung(options.fidelity)) {
+    return internal::rungTouchesAt(avatar, motion, link, t, scene, options, scratch.parts());
+  }
+  const internal::LinkSurface* const surface = internal::surfaceOf(options, link);
+  std::vector<TriangleId>& found = scratch.parts().found;
+  IgnoredObjects& ignored = scratch.parts().ignored;
+  if (ignored.collect(options.ignored, link)) return false;
+  if (const internal::SkinParts* const skin = internal::skinOf(options, link)) {
+    const std::vector<AxisBounds> none;
+    const internal::LinkParts parts{link, avatar.lss(link), none, motion, nullptr, skin};
+    return skinTouches(parts, t, scene, ignored, found);
+  }
+  const LinkState state = motion.stateAt(link, t);
+  for (std::size_t i = 0; i < avatar.lss(link).size(); ++i) {
+    const Lss& lss = avatar.lss(link)[i];
+    const auto index = static_cast<std::int32_t>(i);
+    const AxisEnds ends = axisEnds(lss, state);
+    Aabb box;
+    box.add(ends.a);
+    box.add(ends.b);
+    box.grow(lss.radius);
+    found.clear();
+    std::uint64_t visited = 0;
+    scene.parts().bvh.collect(box, found, visited);
+    for (const TriangleId id : found) {
+      if (ignored.has(scene.object(id)) || !touches(lss, state, scene.triangle(id))) continue;
+      if (surface == nullptr || !surface->hasTriangles(index) ||
+          meshTouches(*surface, index, state, scene.triangle(id))) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace foretouch

@@ -1,0 +1,87 @@
+// middleware/scene/flat_bvh.h: the fast culler: Embree builds the tree (rtcBuildBVH), we flatten it
+// into 8-wide nodes of floats rounded outward and leaves of eight triangles, and walk it ourselves,
+// one box at a time or all boxes of a pose at once. Proofs: flat_bvh.md. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "articulated/result.h"
+#include "middleware/scene/culler.h"
+#include "middleware/scene/flat_bvh_lanes.h"
+
+namespace foretouch::internal {
+
+/// Boxes and vertices in float, relative to an origin that is subtracted in double. Subtraction and
+/// rounding are monotone, so boxes that overlap in the world overlap here: no slack is needed.
+/// About 65 bytes a triangle. The same tree for any number of threads.
+class FlatBvh final : public TriangleCuller {
+ public:
+  using Leaf = BvhLeaf;
+
+  FlatBvh();
+  FlatBvh(FlatBvh&&) noexcept;
+  FlatBvh& operator=(FlatBvh&&) noexcept;
+  ~FlatBvh() override;
+
+  /// A tree of `triangles[id]` for every id of `ids`, which are finite; at least one.
+  static Result<FlatBvh> build(const std::vector<Triangle>& triangles,
+                               const std::vector<TriangleId>& ids, const Eigen::Vector3d& origin);
+
+  void collect(const Aabb& box, std::vector<TriangleId>& ids,
+               std::uint64_t& visited) const override;
+
+  /// Does any leaf's box, as the node above it has it, meet `box`? No: nor does any triangle's.
+  [[nodiscard]] bool meetsLeaf(const Aabb& box, std::uint64_t& visited) const;
+
+  /// Appends every (leaf, box) of which a triangle's box meets the box: all triangles whose true
+  /// boxes meet the box that was rounded outward, each once a box. A leaf's triangles are boxed by
+  /// their rounded vertices, so that nothing is superfluous but by the rounding of either box. The
+  /// order depends on nothing but the tree and the boxes. Adds to the counters: a node or a leaf
+  /// counts once for every kBoxGroup boxes.
+  void collectLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits, std::uint64_t& nodesVisited,
+                     std::uint64_t& leavesVisited) const;
+
+  /// The same with every (leaf, box) of which the leaf's box, as the node above it has it, meets
+  /// the box: a superset, which reads no leaf: what does not fit the caches is read only where it
+  /// is needed. The hits of a box come in ascending order of leaves, in either form.
+  void collectWholeLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
+                          std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const;
+
+  [[nodiscard]] std::uint32_t numLeaves() const {
+    return static_cast<std::uint32_t>(leaves_.size());
+  }
+  [[nodiscard]] std::uint32_t numNodes() const { return static_cast<std::uint32_t>(nodes_.size()); }
+  [[nodiscard]] const BvhLeaf& leaf(std::uint32_t index) const { return leaves_[index]; }
+  [[nodiscard]] const Cluster& cluster(std::uint32_t index) const { return clusters_[index]; }
+  /// All of them, a leaf each.
+  [[nodiscard]] const Cluster* clusters() const { return clusters_.data(); }
+  [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
+  /// Bound (m) on the distance of a leaf's vertex, taken back to the world without rounding, from
+  /// the triangle's. Depends on the box of the whole scene only.
+  [[nodiscard]] double vertexRounding() const { return vertexRounding_; }
+
+  struct Slot {
+    std::uint32_t leaf;
+    int place;  ///< 0..7
+  };
+  /// Where a triangle of the tree lies. The first call makes the table, 4 bytes a triangle; safe
+  /// from many threads.
+  [[nodiscard]] Slot slotOf(TriangleId id) const;
+
+ private:
+  struct SlotTable;
+  void walk(const BoxLanes& boxes, const Cluster* clusters, std::vector<LeafHit>& hits,
+            std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const;
+  friend class FlatBvhBuilder;
+
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  double vertexRounding_ = 0.0;
+  std::vector<BvhNode> nodes_;  // root first
+  std::vector<BvhLeaf> leaves_;
+  std::vector<Cluster> clusters_;  // per leaf
+  std::unique_ptr<SlotTable> slots_;
+};
+
+}  // namespace foretouch::internal

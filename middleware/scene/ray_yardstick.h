@@ -1,0 +1,27 @@
+// middleware/scene/ray_yardstick.h: what a ray costs in the same scene and process. Absolute times
+// drift on shared machines; "as many ray-sets" does not. A ray decides nothing here: Embree's rays
+// are float.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "articulated/result.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch {
+
+/// Rays a set holds.
+inline constexpr int kRaysPerSet = 16;
+
+struct RaySegment {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();  ///< W, metres.
+};
+
+/// Casts the set with rtcOccluded1, one ray at a time, and counts the rays that hit something.
+/// The first call builds the scene's ray structures; do not time that one.
+[[nodiscard]] Result<int> castRaySet(const Scene& scene,
+                                     const std::array<RaySegment, kRaysPerSet>& rays);
+
+}  // namespace foretouch

@@ -1,0 +1,149 @@
+#include "middleware/scene/scene.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "articulated/skeleton.h"
+#include "lss/assert.h"
+#include "middleware/scene/scene_parts.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+
+bool lexicographicallyLess(const Vector3d& p, const Vector3d& q) {
+  return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+}
+
+Result<Done> checked(const RawScene& raw) {
+  if (raw.triangles.size() > kMaxTriangles) {
+    return Error{ErrorCode::LimitExceeded, "", -1, -1,
+                 "expected at most " + std::to_string(kMaxTriangles) + " triangles, found " +
+                     std::to_string(raw.triangles.size())};
+  }
+  if (raw.objectOf.size() != raw.triangles.size()) {
+    return Error{ErrorCode::Mismatch, "", -1, -1, "expected one object index a triangle"};
+  }
+  for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
+    const auto index = static_cast<std::int64_t>(i);
+    if (raw.objectOf[i] < 0 ||
+        static_cast<std::size_t>(raw.objectOf[i]) >= raw.objectNames.size()) {
+      return Error{ErrorCode::OutOfRange, "", -1, index,
+                   "triangle " + std::to_string(i) + ": expected an object index below " +
+                       std::to_string(raw.objectNames.size())};
+    }
+    for (const Vector3d& vertex : raw.triangles[i].vertices) {
+      if (vertex.allFinite() && vertex.cwiseAbs().maxCoeff() > kMaxCoordinate) {
+        return Error{ErrorCode::OutOfRange, "", -1, index,
+                     "triangle " + std::to_string(i) + ": expected coordinates within 1e7 m"};
+      }
+    }
+  }
+  return Done{};
+}
+
+/// A number that says where a triangle lies and nothing else.
+std::uint64_t hashOf(const Triangle& triangle) {
+  std::uint64_t hash = 0;
+  for (const Vector3d& vertex : triangle.vertices) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &vertex[axis], sizeof bits);
+      // The finaliser of splitmix64 [Steele14].
+      hash += bits + 0x9e3779b97f4a7c15u;
+      hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
+      hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
+      hash ^= hash >> 31;
+    }
+  }
+  return hash;
+}
+
+/// The ids in an order that depends on the triangles' vertices alone: the tree, and with it the
+/// steps that queries take, must not depend on the order in which triangles arrive.
+std::vector<TriangleId> inOrderOfGeometry(const std::vector<Triangle>& triangles,
+                                          const std::vector<TriangleId>& ids) {
+  std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
+  keyed.reserve(ids.size());
+  for (const TriangleId id : ids) {
+    keyed.emplace_back(hashOf(triangles[static_cast<std::size_t>(id)]), id);
+  }
+  std::sort(keyed.begin(), keyed.end(), [&](const auto& x, const auto& y) {
+    if (x.first != y.first) return x.first < y.first;
+    const auto &v = triangles[static_cast<std::size_t>(x.second)].vertices,
+               &w = triangles[static_cast<std::size_t>(y.second)].vertices;
+    if (v != w) {
+      return std::lexicographical_compare(v.begin(), v.end(), w.begin(), w.end(),
+                                          lexicographicallyLess);
+    }
+    return x.second < y.second;
+  });
+  std::vector<TriangleId> ordered;
+  ordered.reserve(keyed.size());
+  for (const auto& [hash, id] : keyed) ordered.push_back(id);
+  return ordered;
+}
+
+}  // namespace
+
+Result<Scene> Scene::build(RawScene raw) {
+  const auto check = checked(raw);
+  if (!check.ok()) return check.error();
+  auto parts = std::make_shared<internal::SceneParts>();
+  parts->audit = auditScene(raw);
+  if (parts->audit.triangles == 0) {
+    return Error{ErrorCode::Empty, "", -1, -1, "expected at least one finite triangle, found none"};
+  }
+  parts->triangles = std::move(raw.triangles);
+  parts->objectOf = std::move(raw.objectOf);
+  parts->objectNames = std::move(raw.objectNames);
+  parts->origin = 0.5 * (parts->audit.boxMin + parts->audit.boxMax);
+  for (std::size_t i = 0; i < parts->triangles.size(); ++i) {
+    Triangle& triangle = parts->triangles[i];
+    if (!isFinite(triangle)) continue;
+    std::sort(triangle.vertices.begin(), triangle.vertices.end(), lexicographicallyLess);
+    parts->finiteIds.push_back(static_cast<TriangleId>(i));
+  }
+  auto bvh = internal::FlatBvh::build(
+      parts->triangles, inOrderOfGeometry(parts->triangles, parts->finiteIds), parts->origin);
+  if (!bvh.ok()) return bvh.error();
+  parts->bvh = std::move(bvh).value();
+  return Scene(std::move(parts));
+}
+
+std::size_t Scene::numTriangles() const {
+  return parts_->triangles.size();
+}
+
+const Triangle& Scene::triangle(TriangleId id) const {
+  FORETOUCH_ASSERT(id >= 0 && static_cast<std::size_t>(id) < parts_->triangles.size());
+  return parts_->triangles[static_cast<std::size_t>(id)];
+}
+
+ObjectId Scene::object(TriangleId id) const {
+  FORETOUCH_ASSERT(id >= 0 && static_cast<std::size_t>(id) < parts_->objectOf.size());
+  return parts_->objectOf[static_cast<std::size_t>(id)];
+}
+
+const std::vector<std::string>& Scene::objectNames() const {
+  return parts_->objectNames;
+}
+
+const SceneAudit& Scene::audit() const {
+  return parts_->audit;
+}
+
+Result<const internal::PointQueryCuller*> internal::SceneParts::pointQueryCuller() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (pointQueryCuller_ == nullptr) {
+    auto built = PointQueryCuller::build(triangles, finiteIds, origin);
+    if (!built.ok()) return built.error();
+    pointQueryCuller_ = std::move(built).value();
+  }
+  return static_cast<const PointQueryCuller*>(pointQueryCuller_.get());
+}
+
+}  // namespace foretouch

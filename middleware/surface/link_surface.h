@@ -1,0 +1,88 @@
+// middleware/surface/link_surface.h: what stands behind an AvatarSurface. Not installed.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "lss/lss_hierarchy.h"
+#include "lss/triangle.h"
+#include "middleware/lanes/frame_lanes.h"
+
+namespace foretouch::internal {
+
+/// What takes a node's place in lanes: the parts `kPartLevels` below it, and triangles that come
+/// before. More at once than a node's two children fill the lanes sooner, and cost nothing where
+/// one of those would be descended from.
+inline constexpr int kPartLevels = 2;
+class PartsBelow {
+ public:
+  PartsBelow(const LssHierarchy& hierarchy, HierarchyChild node);
+  [[nodiscard]] const HierarchyChild* begin() const { return parts_.data(); }
+  [[nodiscard]] const HierarchyChild* end() const { return parts_.data() + count_; }
+
+ private:
+  void add(const LssHierarchy& hierarchy, HierarchyChild part, int levels);
+
+  std::array<HierarchyChild, std::size_t{1} << kPartLevels> parts_;
+  std::size_t count_ = 0;
+};
+
+/// The triangles of one link, each under the one LSS of the link that contains it.
+class LinkSurface {
+ public:
+  LinkSurface(std::vector<Triangle> triangles, std::vector<std::vector<std::int32_t>> idsOfLss)
+      : triangles_(std::move(triangles)), idsOfLss_(std::move(idsOfLss)) {}
+
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+  [[nodiscard]] const Triangle& triangle(std::int32_t id) const {
+    return triangles_[static_cast<std::size_t>(id)];
+  }
+  /// False: the LSS bounds no triangle and is itself the surface.
+  [[nodiscard]] bool hasTriangles(std::int32_t lss) const {
+    return !idsOfLss_[static_cast<std::size_t>(lss)].empty();
+  }
+  /// Built on first use, once, whichever thread comes first. Precondition: hasTriangles(lss).
+  [[nodiscard]] const LssHierarchy& hierarchy(std::int32_t lss) const;
+  void prepare() const;
+  /// That hierarchy as lanes take it. Precondition of all three: prepare() was called.
+  [[nodiscard]] HierarchyChild root(std::int32_t lss) const {
+    return hierarchies_[static_cast<std::size_t>(lss)]->root();
+  }
+  [[nodiscard]] const LanePart& lanePart(std::int32_t lss, HierarchyChild part) const {
+    return part.isTriangle() ? laneTriangles_[static_cast<std::size_t>(part.index())]
+                             : laneNode(lss, part).part;
+  }
+  [[nodiscard]] const PartsBelow& below(std::int32_t lss, HierarchyChild node) const {
+    return laneNode(lss, node).below;
+  }
+
+ private:
+  using Hierarchies = std::vector<std::optional<LssHierarchy>>;
+  struct LaneNode {
+    LanePart part;
+    PartsBelow below;
+  };
+
+  void prepareLanes() const;
+  [[nodiscard]] const LaneNode& laneNode(std::int32_t lss, HierarchyChild node) const {
+    return laneNodes_[static_cast<std::size_t>(lss)][static_cast<std::size_t>(node.index())];
+  }
+  std::vector<Triangle> triangles_;
+  std::vector<std::vector<std::int32_t>> idsOfLss_;
+  mutable std::once_flag built_;
+  mutable Hierarchies hierarchies_;
+  mutable std::vector<LanePart> laneTriangles_;
+  mutable std::vector<std::vector<LaneNode>> laneNodes_;  // per LSS
+};
+
+struct SurfaceParts {
+  std::vector<std::unique_ptr<LinkSurface>> links;  // one a link of the avatar
+  std::size_t numTriangles = 0;
+};
+
+}  // namespace foretouch::internal

@@ -1,0 +1,26 @@
+// middleware/surface/skin_parts.h: what stands behind a SkinnedSurface. Not installed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "articulated/skin.h"
+
+namespace foretouch::internal {
+
+struct SkinParts {
+  Skin skin;
+  std::vector<std::int32_t> firstOfLink;  // one more than links: link l has [l, l+1)
+
+  [[nodiscard]] std::int32_t numTriangles(LinkId link) const {
+    const auto l = static_cast<std::size_t>(link);
+    return firstOfLink[l + 1] - firstOfLink[l];
+  }
+  [[nodiscard]] const std::array<std::int32_t, 3>& triangle(LinkId link, std::int32_t index) const {
+    const std::int32_t first = firstOfLink[static_cast<std::size_t>(link)];
+    return skin.triangles[static_cast<std::size_t>(first + index)];
+  }
+};
+
+}  // namespace foretouch::internal

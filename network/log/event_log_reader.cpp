@@ -1,0 +1,162 @@
+#include <optional>
+#include <utility>
+
+#include "network/log/event_log_blocks.h"
+#include "network/log/event_log_reader_access.h"
+
+namespace foretouch {
+
+const char* toString(LogDamage damage) {
+  switch (damage) {
+    case LogDamage::Skipped: return "skipped bytes";
+    case LogDamage::BadBlock: return "bad block";
+    case LogDamage::MissingBlocks: return "missing blocks";
+    case LogDamage::RepeatedBlock: return "repeated block";
+    case LogDamage::UncheckedTail: return "unchecked tail";
+    case LogDamage::Truncated: return "truncated";
+    case LogDamage::OtherLog: return "another log";
+  }
+  return "skipped bytes";
+}
+
+struct EventLogReader::Impl {
+  Impl(std::unique_ptr<LogBytes> bytes, LogReadOptions readOptions)
+      : options(std::move(readOptions)),
+        window(std::move(bytes)),
+        blocks(window, counts, options) {}
+
+  /// Reads from the start again.
+  void restart() {
+    counts = LogCounts{};
+    pending.reset();
+    isChecked = counts.hasCheckSums = kind.hasCheckSums;
+    position = 0;
+    if (isChecked) blocks.start(0, kind.logId);
+  }
+
+  bool nextUnchecked(LogEvent& event) {
+    for (;;) {
+      const FoundFrame found = findFrame(window, position, window.size());
+      const std::uint64_t begin = found.isFound ? found.frame.offset : window.size();
+      counts.badEvents += found.impossible;
+      if (begin > position) passOver(begin, found.isTorn);
+      position = begin;
+      if (!found.isFound) return false;
+      if (!window.isOnBlockChannel(found.frame, begin)) {
+        position = found.frame.end();
+        return window.eventOf(found.frame, event);
+      }
+      BlockEvent check;
+      if (window.blockEventAt(begin, check) == BlockEventState::Intact) {
+        isChecked = counts.hasCheckSums = true;
+        blocks.start(begin, check.logId);
+        return false;
+      }
+      position = found.frame.end();
+    }
+  }
+
+  void passOver(std::uint64_t to, bool isTorn) {
+    counts.skippedBytes += to - position;
+    counts.isTruncated = counts.isTruncated || isTorn;
+    if (options.onFinding) {
+      options.onFinding(
+          {isTorn ? LogDamage::Truncated : LogDamage::Skipped, position, to - position, 0});
+    }
+  }
+
+  /// Neither counts it as given out.
+  bool read(LogEvent& event, bool& isUnchecked) {
+    isUnchecked = !isChecked && nextUnchecked(event);
+    return isUnchecked || (isChecked && blocks.next(event));
+  }
+
+  LogReadOptions options;
+  LogWindow window;
+  LogCounts counts;
+  LogKind kind;
+  CheckedBlocks blocks;
+  bool isChecked = false;
+  std::uint64_t position = 0;  ///< Of the events that are not checked.
+  struct Pending {
+    LogEvent event;
+    bool isUnchecked = false;
+  };
+  std::optional<Pending> pending;  ///< Found by seek().
+};
+
+EventLogReader::EventLogReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+EventLogReader::EventLogReader(EventLogReader&&) noexcept = default;
+EventLogReader& EventLogReader::operator=(EventLogReader&&) noexcept = default;
+EventLogReader::~EventLogReader() = default;
+
+Result<EventLogReader> EventLogReaderAccess::open(std::unique_ptr<LogBytes> bytes,
+                                                  const std::string& name,
+                                                  const LogReadOptions& options) {
+  auto impl = std::make_unique<EventLogReader::Impl>(std::move(bytes), options);
+  impl->kind = findKind(impl->window);
+  if (impl->window.failure()) return *impl->window.failure();
+  if (impl->kind.isEmpty) {
+    Error error;
+    error.code = ErrorCode::Empty;
+    error.file = name;
+    error.message = "no event of an LCM log in it (expected ED A1 DA 01 and a whole event)";
+    return error;
+  }
+  impl->restart();
+  return EventLogReader(std::move(impl));
+}
+
+Result<EventLogReader> EventLogReader::open(const std::string& path,
+                                            const LogReadOptions& options) {
+  auto bytes = openLogFile(path);
+  if (!bytes.ok()) return bytes.error();
+  return EventLogReaderAccess::open(std::move(bytes).value(), path, options);
+}
+
+Result<bool> EventLogReader::next(LogEvent& event) {
+  bool isUnchecked = false, isFound = false;
+  if (impl_->pending) {
+    std::swap(event, impl_->pending->event);
+    isUnchecked = impl_->pending->isUnchecked;
+    impl_->pending.reset();
+    isFound = true;
+  } else {
+    isFound = impl_->read(event, isUnchecked);
+    if (impl_->window.failure()) return *impl_->window.failure();
+  }
+  if (!isFound) return false;
+  ++impl_->counts.events;
+  if (isUnchecked) ++impl_->counts.uncheckedEvents;
+  return true;
+}
+
+const LogCounts& EventLogReader::counts() const {
+  return impl_->counts;
+}
+
+std::uint64_t EventLogReader::position() const {
+  return impl_->isChecked ? impl_->blocks.position() : impl_->position;
+}
+
+std::uint64_t EventLogReader::size() const {
+  return impl_->window.size();
+}
+
+Result<Done> EventLogReader::seek(std::int64_t utimeUs) {
+  impl_->restart();
+  if (impl_->kind.logId) {
+    const auto place = findBlockOf(impl_->window, *impl_->kind.logId, utimeUs);
+    if (place) impl_->blocks.start(place->offset, impl_->kind.logId, place->number);
+  }
+  Impl::Pending found;
+  while (impl_->read(found.event, found.isUnchecked)) {
+    if (found.event.utimeUs < utimeUs) continue;
+    impl_->pending = std::move(found);
+    break;
+  }
+  if (impl_->window.failure()) return *impl_->window.failure();
+  return Done{};
+}
+
+}  // namespace foretouch

@@ -1,0 +1,144 @@
+#include "network/service/mail_room.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace foretouch {
+
+MailRoom::MailRoom(std::size_t avatars, std::size_t poses, std::size_t handlers)
+    : maxPoses_(poses), maxHandled_(handlers), boxes_(avatars) {
+  for (Box& box : boxes_) box.mail.reserve(poses + kMaxWaitingSkeletons);
+  ready_.reserve(avatars);
+}
+
+/// Senders repeat their skeleton every second. One that says what the last waiting one says changes
+/// nothing once that has been taken.
+bool MailRoom::isRepeated(const Box& box, const Mail& mail) {
+  if (mail.kind != MailKind::Skeleton) return false;
+  const auto last = std::find_if(box.mail.rbegin(), box.mail.rend(), [](const auto& waiting) {
+    return waiting->kind == MailKind::Skeleton;
+  });
+  return last != box.mail.rend() && (*last)->skeleton.hash == mail.skeleton.hash &&
+         (*last)->skeleton.session == mail.skeleton.session &&
+         (*last)->skeleton.generation == mail.skeleton.generation;
+}
+
+/// True where the oldest mail of this kind had to go.
+bool MailRoom::makeRoom(Box& box, MailKind kind) {
+  const bool isPose = kind == MailKind::Pose;
+  std::size_t& waiting = isPose ? box.poses : box.skeletons;
+  if (waiting < (isPose ? maxPoses_ : kMaxWaitingSkeletons)) return false;
+  const auto oldest = std::find_if(box.mail.begin(), box.mail.end(),
+                                   [&](const auto& mail) { return mail->kind == kind; });
+  keep(std::move(*oldest));
+  box.mail.erase(oldest);
+  --waiting;
+  return true;
+}
+
+std::unique_ptr<Mail> MailRoom::emptyMail() {
+  if (empty_.empty()) return std::make_unique<Mail>();
+  auto mail = std::move(empty_.back());
+  empty_.pop_back();
+  return mail;
+}
+
+/// For use again. Skeletons are rare and may be large: their memory is given back.
+void MailRoom::keep(std::unique_ptr<Mail> mail) {
+  constexpr std::size_t kKeptBytes = 256u << 10;  // a pose of all joints there may be
+  if (mail->kind == MailKind::Skeleton) mail->skeleton = SkeletonMessage();
+  if (mail->payload.capacity() > kKeptBytes) Bytes().swap(mail->payload);
+  empty_.push_back(std::move(mail));
+}
+
+void MailRoom::makeReady(std::size_t avatar) {
+  boxes_[avatar].isReady = true;
+  ready_.push_back(avatar);
+  // A leader takes what it posted itself.
+  if (!isLed_) changed_.notify_one();
+}
+
+MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail) {
+  const std::lock_guard lock(mutex_);
+  if (isClosed_) return Posted::Closed;
+  Box& box = boxes_[avatar];
+  if (isRepeated(box, *mail)) return Posted::Kept;
+  const MailKind kind = mail->kind;
+  const bool dropped = makeRoom(box, kind);
+  ++(kind == MailKind::Pose ? box.poses : box.skeletons);
+  box.mail.push_back(std::exchange(mail, emptyMail()));
+  if (!box.isReady && !box.isHandled) makeReady(avatar);
+  if (!dropped) return Posted::Kept;
+  return kind == MailKind::Pose ? Posted::DroppedPose : Posted::DroppedSkeleton;
+}
+
+MailRoom::Taken MailRoom::take(std::size_t& avatar, std::unique_ptr<Mail>& mail,
+                               std::chrono::milliseconds wait) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, wait, [&] { return mayTake() || isOver(); });
+  return takeNow(avatar, mail);
+}
+
+MailRoom::Taken MailRoom::takeOrLead(std::size_t& avatar, std::unique_ptr<Mail>& mail,
+                                     std::chrono::milliseconds wait) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, wait, [&] { return mayTake() || mayLead() || isOver(); });
+  if (mayTake() || !mayLead()) return takeNow(avatar, mail);
+  isLed_ = true;
+  return Taken::Lead;
+}
+
+MailRoom::Taken MailRoom::takeNow(std::size_t& avatar, std::unique_ptr<Mail>& mail) {
+  if (!mayTake()) return isOver() ? Taken::Closed : Taken::Nothing;
+  avatar = ready_.front();
+  ready_.erase(ready_.begin());
+  Box& box = boxes_[avatar];
+  box.isReady = false;
+  box.isHandled = true;
+  ++handled_;
+  keep(std::exchange(mail, std::move(box.mail.front())));
+  box.mail.erase(box.mail.begin());
+  --(mail->kind == MailKind::Pose ? box.poses : box.skeletons);
+  return Taken::Mail;
+}
+
+void MailRoom::endLead(bool isForGood) {
+  const std::lock_guard lock(mutex_);
+  isLed_ = false;
+  isLeadOver_ = isLeadOver_ || isForGood;
+  // One to lead; the others where there is more than the caller takes itself.
+  if (isForGood || ready_.size() > 1) {
+    changed_.notify_all();
+  } else {
+    changed_.notify_one();
+  }
+}
+
+void MailRoom::waitForLastLead() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return isLeadOver_; });
+}
+
+void MailRoom::finish(std::size_t avatar) {
+  const std::lock_guard lock(mutex_);
+  Box& box = boxes_[avatar];
+  box.isHandled = false;
+  --handled_;
+  if (!box.mail.empty()) makeReady(avatar);
+  if (isClosed_ && handled_ == 0) changed_.notify_all();
+}
+
+void MailRoom::close() {
+  const std::lock_guard lock(mutex_);
+  isClosed_ = true;
+  changed_.notify_all();
+}
+
+std::size_t MailRoom::waitingPoses() const {
+  const std::lock_guard lock(mutex_);
+  std::size_t waiting = 0;
+  for (const Box& box : boxes_) waiting += box.poses;
+  return waiting;
+}
+
+}  // namespace foretouch

@@ -1,0 +1,47 @@
+#include "network/service/metrics_server.h"
+
+#include <utility>
+
+#include "network/service/bounded_http.h"
+
+namespace foretouch {
+namespace {
+
+void addPages(httplib::Server& server, MetricsServer::Pages pages) {
+  server.Get("/metrics", [page = std::move(pages.metrics)](const httplib::Request&,
+                                                           httplib::Response& response) {
+    response.set_content(page(), "text/plain; version=0.0.4; charset=utf-8");
+  });
+  server.Get("/healthz", [page = std::move(pages.health)](const httplib::Request&,
+                                                          httplib::Response& response) {
+    const ServiceHealth health = page();
+    response.status = health.isWell ? 200 : 503;
+    response.set_content(health.text, "text/plain; charset=utf-8");
+  });
+}
+
+}  // namespace
+
+struct MetricsServer::Impl {
+  internal::BoundedHttp server{internal::HttpBounds{kMaxRequestBytes, kRequestMs, 0}};
+};
+
+MetricsServer::MetricsServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MetricsServer::MetricsServer(MetricsServer&&) noexcept = default;
+MetricsServer& MetricsServer::operator=(MetricsServer&&) noexcept = default;
+MetricsServer::~MetricsServer() = default;
+
+Result<MetricsServer> MetricsServer::start(const std::string& host, std::uint16_t port,
+                                           Pages pages) {
+  auto impl = std::make_unique<Impl>();
+  addPages(impl->server, std::move(pages));
+  const auto started = impl->server.start("metrics", host, port);
+  if (!started.ok()) return started.error();
+  return MetricsServer(std::move(impl));
+}
+
+std::uint16_t MetricsServer::port() const {
+  return impl_->server.port();
+}
+
+}  // namespace foretouch

@@ -1,0 +1,135 @@
+#include "network/service/metrics_text.h"
+
+#include <cstdio>
+#include <string_view>
+
+namespace foretouch {
+namespace {
+
+constexpr double kSecondsPerUs = 1e-6;
+
+std::string number(double value) {
+  char text[32];
+  const int length = std::snprintf(text, sizeof text, "%.12g", value);
+  return {text, static_cast<std::size_t>(length)};
+}
+
+/// A label's value: backslash, quote and line break are escaped.
+std::string quoted(std::string_view text) {
+  std::string value = "\"";
+  for (const char c : text) {
+    if (c == '\\' || c == '"') value += '\\';
+    if (c == '\n') {
+      value += "\\n";
+    } else {
+      value += c;
+    }
+  }
+  return value + "\"";
+}
+
+class Page {
+ public:
+  void counter(const std::string& name, const std::string& help, std::uint64_t value) {
+    head(name, help, "counter");
+    line(name, "", std::to_string(value));
+  }
+  void gauge(const std::string& name, const std::string& help, const std::string& value) {
+    head(name, help, "gauge");
+    line(name, "", value);
+  }
+  void info(const std::string& name, const std::string& help, const std::string& labels) {
+    head(name, help, "gauge");
+    line(name, labels, "1");
+  }
+  void rejects(const std::string& name, const std::string& help, const RejectCounts& counts) {
+    head(name, help, "counter");
+    for (std::size_t i = 1; i < kNumRejects; ++i) {
+      line(name, "reason=" + quoted(toString(static_cast<Reject>(i))), std::to_string(counts[i]));
+    }
+  }
+  void faults(const std::string& name, const std::string& help, const WireCounts& counts) {
+    head(name, help, "counter");
+    for (std::size_t i = 1; i < kNumDatagramFaults; ++i) {
+      line(name, "fault=" + quoted(toString(static_cast<DatagramFault>(i))),
+           std::to_string(counts.faults[i]));
+    }
+  }
+  void histogram(const std::string& name, const std::string& help, const LatencyHistogram& values) {
+    head(name, help, "histogram");
+    for (std::size_t i = 0; i < LatencyHistogram::kBoundsUs.size(); ++i) {
+      line(name + "_bucket", "le=" + quoted(number(LatencyHistogram::kBoundsUs[i] * kSecondsPerUs)),
+           std::to_string(values.countAtMost(i)));
+    }
+    line(name + "_bucket", "le=\"+Inf\"", std::to_string(values.count()));
+    line(name + "_sum", "", number(values.sumUs() * kSecondsPerUs));
+    line(name + "_count", "", std::to_string(values.count()));
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  void head(const std::string& name, const std::string& help, const char* type) {
+    text_ += "# HELP " + name + " " + help + "\n# TYPE " + name + " " + type + "\n";
+  }
+  void line(const std::string& name, const std::string& labels, const std::string& value) {
+    text_ += name;
+    if (!labels.empty()) text_ += "{" + labels + "}";
+    text_ += " " + value + "\n";
+  }
+  std::string text_;
+};
+
+void addPoses(Page& page, const ServiceCounts& counts) {
+  page.counter("foretouch_poses_received_total", "Poses that arrived, whatever became of them.",
+               counts.received);
+  page.counter("foretouch_poses_answered_total", "Accepted poses, each with its answer.",
+               counts.answered);
+  page.rejects("foretouch_poses_rejected_total", "Poses that were refused.", counts.rejects);
+  page.gauge("foretouch_poses_waiting", "Poses in the mailboxes or being answered.",
+             std::to_string(counts.waiting));
+  page.counter("foretouch_poses_lost_total", "Poses that never came, by their sequence.",
+               counts.lost);
+  page.counter("foretouch_answers_across_gap_total", "Answers that claim nothing to be clear.",
+               counts.gaps);
+  page.gauge("foretouch_last_pose_timestamp_seconds", "When the last pose arrived; 0 before any.",
+             number(static_cast<double>(counts.lastPoseUtimeUs) * kSecondsPerUs));
+  page.counter("foretouch_skeletons_received_total", "Skeletons that arrived.", counts.skeletons);
+  page.rejects("foretouch_skeletons_rejected_total", "Skeletons that were refused.",
+               counts.skeletonRejects);
+}
+
+void addWire(Page& page, const ServiceCounts& counts) {
+  page.counter("foretouch_publish_failures_total", "Messages that the system did not take.",
+               counts.publishFailures);
+  page.counter("foretouch_journal_failures_total", "Events that could not be recorded.",
+               counts.journalFailures);
+  page.counter("foretouch_datagrams_received_total", "Datagrams that were read.",
+               counts.wire.datagrams);
+  page.faults("foretouch_datagrams_faulty_total", "Datagrams that were no messages.", counts.wire);
+  page.counter("foretouch_datagrams_dropped_total", "Datagrams that the system dropped unread.",
+               counts.wire.kernelDrops);
+  page.counter("foretouch_messages_other_channels_total", "Messages on channels of others.",
+               counts.wire.otherChannels);
+}
+
+}  // namespace
+
+std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
+                        const AnswerTimes& times) {
+  Page page;
+  page.info("foretouch_build_info", "What is running.",
+            "build=" + quoted(facts.build) + ",scene=" + quoted(facts.scene));
+  page.gauge("foretouch_start_time_seconds", "When the service started.",
+             number(static_cast<double>(facts.startUtimeUs) * kSecondsPerUs));
+  page.gauge("foretouch_avatars", "Avatars that are served.", std::to_string(facts.numAvatars));
+  page.gauge("foretouch_workers", "Threads that answer.", std::to_string(facts.numWorkers));
+  addPoses(page, counts);
+  addWire(page, counts);
+  page.histogram("foretouch_answer_latency_seconds",
+                 "From receiving a pose to having sent its answer.", times.latency);
+  page.histogram("foretouch_query_seconds", "Of the answers' latency, the query alone.",
+                 times.query);
+  return page.text();
+}
+
+}  // namespace foretouch

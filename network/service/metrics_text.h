@@ -1,0 +1,14 @@
+// network/service/metrics_text.h: a service's counts in Prometheus' text format 0.0.4.
+// docs/streaming.md, "Metrics", lists the names, which are stable.
+#pragma once
+
+#include <string>
+
+#include "network/service/service.h"
+
+namespace foretouch {
+
+[[nodiscard]] std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
+                                      const AnswerTimes& times);
+
+}  // namespace foretouch

@@ -1,0 +1,449 @@
+#include "network/service/service.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <unordered_map>
+#include <utility>
+
+#include "network/service/mail_room.h"
+#include "network/service/service_status.h"
+#include "network/service/thread_beat.h"
+
+namespace foretouch {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// A stop is noticed after this long.
+constexpr int kReceiveWaitMs = 100;
+/// Idle threads and the status show that they live this often.
+constexpr milliseconds kBeatEvery{500};
+
+struct ServedStream {
+  StreamSolver solver;
+  std::size_t index = 0;
+  std::uint64_t lost = 0, gaps = 0;  // of the solver's counts, those that have been added up
+  bool isBroken = false;             // an exception left its state unknown: it answers no more
+};
+
+/// What a thread uses again and again.
+struct Desk {
+  ContactsMessage answer;
+  Bytes payload;
+};
+
+struct Channels {
+  explicit Channels(const std::string& suffix)
+      : skeleton(kSkeletonChannel + suffix),
+        pose(kPoseChannel + suffix),
+        contacts(kContactsChannel + suffix),
+        status(kStatusChannel + suffix) {}
+  std::string skeleton, pose, contacts, status;
+};
+
+std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
+                               const ServiceOptions& options) {
+  const auto refused = [](ErrorCode code, const std::string& message) {
+    return Error{code, "", -1, -1, message};
+  };
+  if (avatars.empty()) return refused(ErrorCode::Empty, "expected at least one avatar");
+  if (options.workers < 1 || options.workers > kMaxServiceWorkers) {
+    return refused(ErrorCode::OutOfRange, "expected 1 to " + std::to_string(kMaxServiceWorkers) +
+                                              " workers, found " + std::to_string(options.workers));
+  }
+  if (options.queue < 1 || options.queue > kMaxServiceQueue) {
+    return refused(ErrorCode::OutOfRange, "expected a queue of 1 to " +
+                                              std::to_string(kMaxServiceQueue) + " poses, found " +
+                                              std::to_string(options.queue));
+  }
+  if (options.statusEvery < milliseconds(1)) {
+    return refused(ErrorCode::OutOfRange, "expected a status at most every millisecond");
+  }
+  // Of the four names, FORETOUCH_SKELETON and FORETOUCH_CONTACTS are the longest.
+  if (Channels(options.suffix).skeleton.size() > kMaxChannelBytes) {
+    return refused(ErrorCode::LimitExceeded, "expected a suffix that leaves channel names within " +
+                                                 std::to_string(kMaxChannelBytes) +
+                                                 " bytes, found " +
+                                                 std::to_string(options.suffix.size()) + " bytes");
+  }
+  return std::nullopt;
+}
+
+std::string shortened(std::string text) {
+  if (text.size() > kMaxTextBytes) text.resize(kMaxTextBytes);
+  return text;
+}
+
+std::string seconds(double value) {
+  std::string text = std::to_string(value);
+  return text.substr(0, text.find('.') + 4) + " s";
+}
+
+}  // namespace
+
+std::vector<std::string> receivedChannels(const std::string& suffix) {
+  const Channels channels(suffix);
+  return {channels.skeleton, channels.pose};
+}
+
+struct Service::Impl {
+  Impl(std::vector<StreamSolver> solvers, ServiceParts surroundings, const ServiceOptions& chosen)
+      : options(chosen),
+        parts(std::move(surroundings)),
+        channels(chosen.suffix),
+        room(solvers.size(), chosen.queue, static_cast<std::size_t>(chosen.workers)),
+        threadBeats(static_cast<std::size_t>(chosen.workers) + 1) {
+    facts = {shortened(chosen.build), shortened(chosen.scene), solvers.size(), chosen.workers,
+             parts.clock->utimeUs()};
+    for (StreamSolver& solver : solvers) {
+      indexOf.emplace(solver.id(), streams.size());
+      streams.push_back({std::move(solver), streams.size()});
+    }
+  }
+
+  const ServiceOptions options;
+  ServiceParts parts;
+  const Channels channels;
+  ServiceFacts facts;
+  std::vector<ServedStream> streams;
+  std::unordered_map<std::int32_t, std::size_t> indexOf;  // of an avatar's id: its stream
+  MailRoom room;
+  ServiceCounter counter;
+  std::optional<Journal> journal;
+
+  mutable std::mutex mutex;  // of what follows
+  std::condition_variable stopsNow;
+  bool isStatusOver = false;
+  std::optional<Error> failure;
+  AnswerTimes lastSecond;
+
+  std::atomic<bool> isStopping{false};
+  ThreadBeat receiverBeat, statusBeat;  // of whoever receives; of the status
+  std::vector<ThreadBeat> threadBeats;
+  std::thread statusThread;
+  std::vector<std::thread> threads;  // that receive and answer, in turns
+  std::vector<WireMessage> arrived;  // of whoever receives
+
+  void fail(Error error) {
+    const std::lock_guard lock(mutex);
+    if (!failure) failure = std::move(error);
+  }
+
+  /// Runs `work`; what it throws becomes the service's failure.
+  template <typename Work>
+  bool guarded(const char* what, const Work& work) {
+    try {
+      work();
+      return true;
+    } catch (const std::exception& e) {
+      fail({ErrorCode::LimitExceeded, "", -1, -1, std::string(what) + " failed: " + e.what()});
+    }
+    return false;
+  }
+
+  // Receiving and answering, in turns.
+
+  void serve(ThreadBeat& beat) {
+    Desk desk;
+    auto mail = std::make_unique<Mail>();
+    std::size_t index = 0;
+    for (;;) {
+      const MailRoom::Taken taken = room.takeOrLead(index, mail, kBeatEvery);
+      beat.beat();
+      if (taken == MailRoom::Taken::Closed) return;
+      if (taken == MailRoom::Taken::Lead) lead(mail, beat);
+      if (taken != MailRoom::Taken::Mail) continue;
+      handle(streams[index], *mail, desk);
+      room.finish(index);
+    }
+  }
+
+  /// Receives until something has come, or nothing more will.
+  void lead(std::unique_ptr<Mail>& mail, ThreadBeat& beat) {
+    bool isOver = false;
+    const bool done = guarded("receiving", [&] {
+      do {
+        isOver = receive(mail);
+        receiverBeat.beat();
+        beat.beat();
+      } while (!isOver && arrived.empty());
+    });
+    room.endLead(isOver || !done);
+  }
+
+  /// True where nothing more is to be received.
+  bool receive(std::unique_ptr<Mail>& mail) {
+    const bool isLast = isStopping.load();  // what the system holds already is still taken
+    arrived.clear();
+    const auto received = parts.receiver->receive(arrived, isLast ? 0 : kReceiveWaitMs);
+    counter.wire(parts.receiver->counts());
+    for (WireMessage& message : arrived) sort(message, mail);
+    if (!received.ok()) fail(received.error());
+    return isLast || !received.ok();
+  }
+
+  void sort(WireMessage& message, std::unique_ptr<Mail>& mail) {
+    mail->receiveUtimeUs = message.receiveUtimeUs;
+    if (message.channel == channels.pose) {
+      counter.receivedPose(message.receiveUtimeUs);
+      mail->kind = MailKind::Pose;
+      const Reject reject = decode(message.payload, mail->pose);
+      if (reject != Reject::None) return counter.rejectedPose(reject);
+      post(mail->pose.avatar, message, mail);
+    } else if (message.channel == channels.skeleton) {
+      counter.receivedSkeleton();
+      mail->kind = MailKind::Skeleton;
+      const Reject reject = decode(message.payload, mail->skeleton);
+      if (reject != Reject::None) return counter.rejectedSkeleton(reject);
+      post(mail->skeleton.avatar, message, mail);
+    }
+  }
+
+  void post(std::int32_t id, WireMessage& message, std::unique_ptr<Mail>& mail) {
+    const MailKind kind = mail->kind;
+    const auto known = indexOf.find(id);
+    if (known == indexOf.end()) return reject(kind, Reject::UnknownAvatar);
+    mail->payload.swap(message.payload);
+    if (room.post(known->second, mail) != MailRoom::Posted::Kept) reject(kind, Reject::Overrun);
+  }
+
+  void reject(MailKind kind, Reject reason) {
+    kind == MailKind::Pose ? counter.rejectedPose(reason) : counter.rejectedSkeleton(reason);
+  }
+
+  // Answering.
+
+  void handle(ServedStream& stream, const Mail& mail, Desk& desk) {
+    if (stream.isBroken) return reject(mail.kind, Reject::Overrun);
+    bool isCounted = false;
+    const bool done = guarded("answering", [&] {
+      if (mail.kind == MailKind::Pose) return answer(stream, mail, desk, isCounted);
+      record(mail.receiveUtimeUs, channels.skeleton, mail.payload);
+      const Reject reason = stream.solver.take(mail.skeleton);
+      if (reason != Reject::None) counter.rejectedSkeleton(reason);
+    });
+    if (done) return;
+    stream.isBroken = true;
+    if (!isCounted) reject(mail.kind, Reject::Overrun);
+  }
+
+  void answer(ServedStream& stream, const Mail& mail, Desk& desk, bool& isCounted) {
+    record(mail.receiveUtimeUs, channels.pose, mail.payload);
+    const Reject reason = stream.solver.take(mail.pose, desk.answer);
+    addUp(stream);
+    if (reason != Reject::None) {
+      isCounted = true;
+      return counter.rejectedPose(reason);
+    }
+    desk.answer.receiveUtimeUs = mail.receiveUtimeUs;
+    desk.answer.sendUtimeUs = parts.clock->utimeUs();
+    encode(desk.answer, desk.payload);
+    publish(channels.contacts, desk.payload);
+    const std::int64_t sentUtimeUs = parts.clock->utimeUs();
+    record(desk.answer.sendUtimeUs, channels.contacts, desk.payload);
+    isCounted = true;
+    counter.answeredPose(static_cast<double>(sentUtimeUs - mail.receiveUtimeUs),
+                         desk.answer.queryUs);
+    StepObserver* const observer = parts.observer;
+    if (observer != nullptr && observer->wants(stream.index)) {
+      observer->observe(stream.index, stream.solver.lastStep(), desk.answer);
+    }
+  }
+
+  void addUp(ServedStream& stream) {
+    const StreamCounts& counts = stream.solver.counts();
+    if (counts.lost == stream.lost && counts.gaps == stream.gaps) return;
+    counter.lostPoses(counts.lost - std::exchange(stream.lost, counts.lost),
+                      counts.gaps - std::exchange(stream.gaps, counts.gaps));
+  }
+
+  void publish(const std::string& channel, const Bytes& payload) {
+    const bool isSent =
+        payload.size() <= kMaxMessageBytes && parts.publisher->publish(channel, payload);
+    if (!isSent) counter.failedPublish();
+  }
+
+  void record(std::int64_t utimeUs, const std::string& channel, const Bytes& payload) {
+    if (journal) journal->add(utimeUs, channel, payload);
+  }
+
+  // Telling how it goes.
+
+  void tell() {
+    auto next = std::chrono::steady_clock::now() + options.statusEvery;
+    for (;;) {
+      bool isLast = false;
+      {
+        std::unique_lock lock(mutex);
+        const auto wakeAt = std::min(next, std::chrono::steady_clock::now() + kBeatEvery);
+        isLast = stopsNow.wait_until(lock, wakeAt, [&] { return isStatusOver; });
+      }
+      statusBeat.beat();
+      if (!isLast && std::chrono::steady_clock::now() < next) continue;
+      next = std::chrono::steady_clock::now() + options.statusEvery;
+      tellOnce();
+      if (isLast) return;
+    }
+  }
+
+  void tellOnce() {
+    const AnswerTimes recent = counter.takeRecentTimes();
+    {
+      const std::lock_guard lock(mutex);
+      lastSecond = recent;
+    }
+    const StatusMessage message = status();
+    Bytes payload;
+    encode(message, payload);
+    publish(channels.status, payload);
+    record(message.utimeUs, channels.status, payload);
+  }
+
+  [[nodiscard]] StatusMessage status() const {
+    const ServiceCounts counts = counter.counts();
+    const std::lock_guard lock(mutex);
+    return statusOf(facts, counts, lastSecond, parts.clock->utimeUs());
+  }
+
+  [[nodiscard]] ServiceHealth health() const {
+    ServiceHealth health;
+    const auto unwell = [&](const std::string& line) {
+      health.isWell = false;
+      health.text += line + "\n";
+    };
+    {
+      const std::lock_guard lock(mutex);
+      if (failure) unwell("failed: " + describe(*failure));
+    }
+    const auto check = [&](const std::string& thread, std::int64_t idleMs) {
+      if (idleMs <= options.stuckAfter.count()) return;
+      unwell("stuck: " + thread + " has not got on for " +
+             seconds(static_cast<double>(idleMs) * 1e-3));
+    };
+    check("receiving", receiverBeat.idleMs());
+    check("the status", statusBeat.idleMs());
+    for (std::size_t i = 0; i < threadBeats.size(); ++i) {
+      check("thread " + std::to_string(i), threadBeats[i].idleMs());
+    }
+    if (journal) check("the log", journal->idleMs());
+    if (health.isWell) health.text = "ok\n";
+    const std::int64_t last = counter.counts().lastPoseUtimeUs;
+    health.text += last == 0
+                       ? "no pose yet\n"
+                       : "last pose " +
+                             seconds(static_cast<double>(parts.clock->utimeUs() - last) * 1e-6) +
+                             " ago\n";
+    return health;
+  }
+
+  // Starting and stopping.
+
+  Result<Done> start() {
+    if (parts.journal) {
+      auto started = Journal::start(std::move(parts.journal), options.journal,
+                                    [this] { counter.failedJournal(); });
+      if (!started.ok()) return started.error();
+      journal.emplace(std::move(started).value());
+    }
+    try {
+      statusThread = std::thread([this] { guarded("the status", [this] { tell(); }); });
+      // One more than there are to be workers: somebody always receives.
+      for (ThreadBeat& beat : threadBeats) {
+        threads.emplace_back([this, &beat] {
+          // Without one of the threads there might be nobody to lead: the service ends.
+          if (!guarded("a thread", [&] { serve(beat); })) room.endLead(true);
+        });
+      }
+    } catch (const std::system_error& e) {
+      return Error{ErrorCode::LimitExceeded, "", -1, -1,
+                   std::string("expected more threads than the system gives: ") + e.what()};
+    }
+    return Done{};
+  }
+
+  void stop() {
+    isStopping = true;
+    if (!threads.empty()) room.waitForLastLead();
+    room.close();
+    for (std::thread& thread : threads) {
+      if (thread.joinable()) thread.join();
+    }
+    {
+      const std::lock_guard lock(mutex);
+      isStatusOver = true;
+      stopsNow.notify_all();
+    }
+    if (statusThread.joinable()) statusThread.join();
+    if (journal) journal->close();
+  }
+};
+
+Service::Service(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Service::Service(Service&&) noexcept = default;
+Service& Service::operator=(Service&& other) noexcept {
+  if (this != &other) {
+    if (impl_) impl_->stop();
+    impl_ = std::move(other.impl_);
+  }
+  return *this;
+}
+Service::~Service() {
+  if (impl_) impl_->stop();
+}
+
+Result<Service> Service::start(std::vector<StreamSolver> avatars, ServiceParts parts,
+                               const ServiceOptions& options) {
+  if (const auto problem = problemOf(avatars, options)) return *problem;
+  const std::size_t numAvatars = avatars.size();
+  auto impl = std::make_unique<Impl>(std::move(avatars), std::move(parts), options);
+  if (impl->indexOf.size() != numAvatars) {
+    return Error{ErrorCode::DuplicateName, "", -1, -1, "expected avatars of different ids"};
+  }
+  const auto started = impl->start();
+  if (!started.ok()) {
+    impl->stop();
+    return started.error();
+  }
+  return Service(std::move(impl));
+}
+
+void Service::stop() {
+  impl_->stop();
+}
+
+StatusMessage Service::status() const {
+  return impl_->status();
+}
+
+ServiceCounts Service::counts() const {
+  return impl_->counter.counts();
+}
+
+AnswerTimes Service::times() const {
+  return impl_->counter.times();
+}
+
+const ServiceFacts& Service::facts() const {
+  return impl_->facts;
+}
+
+ServiceHealth Service::health() const {
+  return impl_->health();
+}
+
+std::optional<Error> Service::failure() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->failure;
+}
+
+std::string Service::journalFailure() const {
+  return impl_->journal ? impl_->journal->lastFailure() : std::string();
+}
+
+}  // namespace foretouch

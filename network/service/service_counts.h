@@ -1,0 +1,72 @@
+// network/service/service_counts.h: what a service has seen and done since it started, as plain
+// values, and the one place where its threads count it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+#include "network/service/latency_histogram.h"
+#include "network/wire/reject.h"
+#include "network/wire/wire.h"
+
+namespace foretouch {
+
+/// What does not change while a service runs.
+struct ServiceFacts {
+  std::string build, scene;
+  std::size_t numAvatars = 0;
+  int numWorkers = 0;
+  std::int64_t startUtimeUs = 0;
+};
+
+/// One moment's counts: received == answered + rejected() + waiting, whenever they are taken.
+struct ServiceCounts {
+  std::uint64_t received = 0;  ///< Poses, whatever became of them.
+  std::uint64_t answered = 0;  ///< One contacts_t an accepted pose, also where sending it failed.
+  std::uint64_t waiting = 0;   ///< In the mailboxes, and those that are being answered.
+  std::uint64_t lost = 0;      ///< Poses that never came, by their sequence.
+  std::uint64_t gaps = 0;      ///< Answers across a gap.
+  std::uint64_t skeletons = 0;
+  RejectCounts rejects{};          ///< Of poses.
+  RejectCounts skeletonRejects{};  ///< Of skeletons.
+  std::uint64_t publishFailures = 0, journalFailures = 0;
+  WireCounts wire;
+  std::int64_t lastPoseUtimeUs = 0;  ///< When the last pose arrived; 0: none has.
+
+  [[nodiscard]] std::uint64_t rejected() const;
+};
+
+/// The answers of some span of time.
+struct AnswerTimes {
+  LatencyHistogram latency;  ///< From receiving the pose to having sent its answer.
+  LatencyHistogram query;    ///< Of it, the query alone.
+};
+
+class ServiceCounter {
+ public:
+  void receivedPose(std::int64_t utimeUs);
+  /// Of a pose that was received.
+  void rejectedPose(Reject reason);
+  void answeredPose(double latencyUs, double queryUs);
+  void receivedSkeleton();
+  void rejectedSkeleton(Reject reason);
+  void lostPoses(std::uint64_t lost, std::uint64_t gaps);
+  void failedPublish();
+  void failedJournal();
+  void wire(const WireCounts& counts);
+
+  [[nodiscard]] ServiceCounts counts() const;
+  /// Since the start.
+  [[nodiscard]] AnswerTimes times() const;
+  /// Since the last call of this.
+  [[nodiscard]] AnswerTimes takeRecentTimes();
+
+ private:
+  mutable std::mutex mutex_;
+  ServiceCounts counts_;
+  AnswerTimes all_, recent_;
+};
+
+}  // namespace foretouch

@@ -1,0 +1,58 @@
+#include "network/service/service_status.h"
+
+#include <string>
+#include <vector>
+
+namespace foretouch {
+namespace {
+
+void addReasons(const ServiceCounts& counts, std::vector<StatusMessage::Count>& reasons) {
+  const auto add = [&](const std::string& reason, std::uint64_t count) {
+    if (count > 0) reasons.push_back({reason, static_cast<std::int64_t>(count)});
+  };
+  for (std::size_t i = 0; i < kNumRejects; ++i) {
+    add(toString(static_cast<Reject>(i)), counts.rejects[i] + counts.skeletonRejects[i]);
+  }
+  for (std::size_t i = 0; i < kNumDatagramFaults; ++i) {
+    add(std::string("datagram-") + toString(static_cast<DatagramFault>(i)),
+        i == 0 ? 0 : counts.wire.faults[i]);
+  }
+}
+
+void addTimes(const AnswerTimes& recent, StatusMessage& message) {
+  constexpr double kMedian = 0.5, kTail = 0.99;
+  message.latencyP50Us = recent.latency.quantileUs(kMedian);
+  message.latencyP99Us = recent.latency.quantileUs(kTail);
+  message.latencyMaxUs = recent.latency.maxUs();
+  message.queryP50Us = recent.query.quantileUs(kMedian);
+  message.queryP99Us = recent.query.quantileUs(kTail);
+  message.queryMaxUs = recent.query.maxUs();
+}
+
+}  // namespace
+
+StatusMessage statusOf(const ServiceFacts& facts, const ServiceCounts& counts,
+                       const AnswerTimes& recent, std::int64_t utimeUs) {
+  StatusMessage message;
+  message.utimeUs = utimeUs;
+  message.startUtimeUs = facts.startUtimeUs;
+  message.build = facts.build;
+  message.scene = facts.scene;
+  message.numAvatars = static_cast<std::int32_t>(facts.numAvatars);
+  message.numWorkers = facts.numWorkers;
+  const auto whole = [](std::uint64_t count) { return static_cast<std::int64_t>(count); };
+  message.received = whole(counts.received);
+  message.answered = whole(counts.answered);
+  message.rejected = whole(counts.rejected());
+  message.lost = whole(counts.lost);
+  message.gaps = whole(counts.gaps);
+  message.waiting = whole(counts.waiting);
+  message.publishFailures = whole(counts.publishFailures);
+  message.journalFailures = whole(counts.journalFailures);
+  message.kernelDrops = whole(counts.wire.kernelDrops);
+  addReasons(counts, message.counts);
+  addTimes(recent, message);
+  return message;
+}
+
+}  // namespace foretouch

@@ -1,0 +1,198 @@
+#include "network/stream/avatar_stream.h"
+
+#include <limits>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "assets/avatar/joint_match.h"
+#include "network/stream/pose_assembly.h"
+#include "network/stream/stream_timeline.h"
+
+namespace foretouch {
+namespace {
+
+constexpr std::int64_t kLongestStepUs = 86'400'000'000;  // a day
+constexpr int kFewestConfirmations = 1, kMostConfirmations = 1000;
+
+Result<Done> checked(const StreamPolicy& policy) {
+  if (policy.maxStepUs < 1 || policy.maxStepUs > kLongestStepUs) {
+    return Error{ErrorCode::OutOfRange, "maxStepUs", -1, -1,
+                 "expected 1 to " + std::to_string(kLongestStepUs) + " microseconds, found " +
+                     std::to_string(policy.maxStepUs)};
+  }
+  if (policy.confirmations < kFewestConfirmations || policy.confirmations > kMostConfirmations) {
+    return Error{ErrorCode::OutOfRange, "confirmations", -1, -1,
+                 "expected " + std::to_string(kFewestConfirmations) + " to " +
+                     std::to_string(kMostConfirmations) + " poses, found " +
+                     std::to_string(policy.confirmations)};
+  }
+  return Done{};
+}
+
+/// The word for what Skeleton::build() found wrong.
+Reject rejectOf(const Error& error, const RawSkeleton& raw) {
+  switch (error.code) {
+    case ErrorCode::NonFinite: return Reject::NonFinite;
+    case ErrorCode::BadHierarchy: return Reject::BadHierarchy;
+    case ErrorCode::LimitExceeded: return Reject::Limit;
+    case ErrorCode::OutOfRange: {  // of a rotation, or of an offset
+      const auto& joint = raw.joints[static_cast<std::size_t>(error.index)];
+      return joint.offset.cwiseAbs().maxCoeff() > kMaxCoordinate ? Reject::OutOfRange
+                                                                 : Reject::NonUnit;
+    }
+    default: return raw.joints.empty() ? Reject::Limit : Reject::BadName;
+  }
+}
+
+/// Which of a sender's skeletons: the order in which they are said.
+struct SkeletonStamp {
+  std::int64_t session = 0;
+  std::int32_t generation = 0;
+  std::int64_t hash = 0;
+};
+
+/// Why `next` may not take the place of `inUse`, which has another hash.
+Reject orderOf(const SkeletonStamp& inUse, const SkeletonStamp& next) {
+  if (next.session != inUse.session) {
+    return next.session < inUse.session ? Reject::OldSession : Reject::None;
+  }
+  return next.generation <= inUse.generation ? Reject::OldGeneration : Reject::None;
+}
+
+/// A skeleton that is refused for its age, said again and again: its sender has been restarted, or
+/// its clock was set back.
+class SkeletonRun {
+ public:
+  void clear() { count_ = 0; }
+  /// Copies of one message count once.
+  [[nodiscard]] bool completes(const SkeletonStamp& stamp, std::int64_t sendUtimeUs, int needed) {
+    const bool isSame = count_ > 0 && stamp.session == stamp_.session &&
+                        stamp.generation == stamp_.generation && stamp.hash == stamp_.hash;
+    if (isSame && sendUtimeUs <= sendUtimeUs_) return false;
+    count_ = isSame ? count_ + 1 : 1;
+    stamp_ = stamp;
+    sendUtimeUs_ = sendUtimeUs;
+    return count_ >= needed;
+  }
+
+ private:
+  int count_ = 0;
+  SkeletonStamp stamp_;
+  std::int64_t sendUtimeUs_ = 0;
+};
+
+}  // namespace
+
+struct AvatarStream::Impl {
+  Impl(const Avatar& avatar, const StreamPolicy& streamPolicy)
+      : policy(streamPolicy),
+        skeleton(avatar.skeleton()),
+        timeline(streamPolicy),
+        assembly(avatar.skeleton(), streamPolicy.unmatchedAtRest) {}
+
+  [[nodiscard]] Reject takeSkeleton(const SkeletonMessage& message);
+  [[nodiscard]] Reject takePose(const PoseMessage& message, StreamStep& step);
+  void describe(const PoseMessage& message, const internal::PosePlace& place, StreamStep& step);
+
+  StreamPolicy policy;
+  Skeleton skeleton;
+  bool hasSkeleton = false;
+  SkeletonStamp inUse;
+  SkeletonRun oldSkeletons;
+  internal::StreamTimeline timeline;
+  internal::PoseAssembly assembly;
+  std::vector<AnswerReason> unknown;
+};
+
+AvatarStream::AvatarStream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+AvatarStream::AvatarStream(AvatarStream&&) noexcept = default;
+AvatarStream& AvatarStream::operator=(AvatarStream&&) noexcept = default;
+AvatarStream::~AvatarStream() = default;
+
+Result<AvatarStream> AvatarStream::make(const Avatar& avatar, const StreamPolicy& policy) {
+  const auto check = checked(policy);
+  if (!check.ok()) return check.error();
+  return AvatarStream(std::make_unique<Impl>(avatar, policy));
+}
+
+Reject AvatarStream::take(const SkeletonMessage& message) {
+  const Reject reject = impl_->takeSkeleton(message);
+  if (reject != Reject::None) ++counts_.rejects[static_cast<std::size_t>(reject)];
+  return reject;
+}
+
+Reject AvatarStream::Impl::takeSkeleton(const SkeletonMessage& message) {
+  const auto built = Skeleton::build(message.skeleton);
+  if (!built.ok()) return rejectOf(built.error(), message.skeleton);
+  if (message.hash != skeletonHash(message.skeleton)) return Reject::BadHash;
+  const SkeletonStamp stamp{message.session, message.generation, message.hash};
+  if (hasSkeleton && message.hash == inUse.hash) {
+    if (orderOf(inUse, stamp) == Reject::None) inUse = stamp;
+    oldSkeletons.clear();
+    return Reject::None;
+  }
+  const auto match = matchJoints(skeleton, built.value());
+  if (!match.ok()) return Reject::NoMatch;
+  const Reject order = hasSkeleton ? orderOf(inUse, stamp) : Reject::None;
+  if (order != Reject::None &&
+      !oldSkeletons.completes(stamp, message.sendUtimeUs, policy.confirmations)) {
+    return order;
+  }
+  inUse = stamp;
+  hasSkeleton = true;
+  oldSkeletons.clear();
+  timeline.end();
+  assembly.use(match.value(), built.value().numJoints());
+  return Reject::None;
+}
+
+Reject AvatarStream::take(const PoseMessage& message, StreamStep& step) {
+  ++counts_.poses;
+  const Reject reject = impl_->takePose(message, step);
+  if (reject != Reject::None) {
+    ++counts_.rejects[static_cast<std::size_t>(reject)];
+    return reject;
+  }
+  ++counts_.accepted;
+  if (step.kind == StepKind::First) ++counts_.timelines;
+  if (step.kind == StepKind::AcrossGap) ++counts_.gaps;
+  const auto lost = static_cast<std::uint64_t>(step.lost);
+  const std::uint64_t room = std::numeric_limits<std::uint64_t>::max() - counts_.lost;
+  counts_.lost += lost < room ? lost : room;
+  return Reject::None;
+}
+
+Reject AvatarStream::Impl::takePose(const PoseMessage& message, StreamStep& step) {
+  if (!hasSkeleton) return Reject::UnknownSkeleton;
+  if (message.skeletonHash != inUse.hash) return Reject::SkeletonMismatch;
+  const Reject content = assembly.check(message);
+  if (content != Reject::None) return content;
+  const internal::PosePlace place =
+      timeline.place({message.session, message.sequence, message.utimeUs});
+  if (place.reject != Reject::None) return place.reject;
+  oldSkeletons.clear();
+  assembly.assemble(message, place.isSession);
+  describe(message, place, step);
+  return Reject::None;
+}
+
+void AvatarStream::Impl::describe(const PoseMessage& message, const internal::PosePlace& place,
+                                  StreamStep& step) {
+  const internal::PoseAssembly::Known& to = assembly.later();
+  const auto& from = place.kind == StepKind::First ? to : assembly.earlier();
+  internal::findUnknownLinks(skeleton, from.reasons, to.reasons, unknown);
+  step.kind = place.kind;
+  step.from = &from.pose;
+  step.to = &to.pose;
+  step.session = message.session;
+  step.sequenceFrom = place.from.sequence;
+  step.sequenceTo = message.sequence;
+  step.utimeFromUs = place.from.utimeUs;
+  step.utimeToUs = message.utimeUs;
+  step.skeletonHash = message.skeletonHash;
+  step.lost = place.lost;
+  step.unknown = &unknown;
+}
+
+}  // namespace foretouch

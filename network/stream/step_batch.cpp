@@ -1,0 +1,34 @@
+#include "network/stream/step_batch.h"
+
+#include <algorithm>
+
+namespace foretouch {
+
+void StepBatch::add(const StreamStep& step, const ContactsMessage& answer) {
+  newest_.from = *step.from;
+  newest_.to = *step.to;
+  newest_.kind = answer.kind;
+  newest_.sequence = answer.sequenceTo;
+  newest_.lost = answer.lost;
+  newest_.utimeFromUs = answer.utimeFromUs;
+  newest_.utimeToUs = answer.utimeToUs;
+  newest_.queryUs = answer.queryUs;
+  const auto serviceUs = static_cast<double>(answer.sendUtimeUs - answer.receiveUtimeUs);
+  newest_.addedUs = std::max(0.0, serviceUs - answer.queryUs);
+  const std::size_t room = kMaxBatchContacts - contacts_.size();
+  const std::size_t taken = std::min(room, answer.contacts.size());
+  for (std::size_t i = 0; i < taken; ++i) {
+    const AnsweredContact& listed = answer.contacts[i];
+    contacts_.push_back(
+        {listed.contact, listed.reason, answer.sequenceTo, answer.utimeFromUs, answer.utimeToUs});
+  }
+  numLeftOut_ += answer.contacts.size() - taken;
+  ++numSteps_;
+}
+
+void StepBatch::clear() {
+  contacts_.clear();
+  numSteps_ = numLeftOut_ = 0;
+}
+
+}  // namespace foretouch

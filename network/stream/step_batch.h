@@ -1,0 +1,56 @@
+// network/stream/step_batch.h: answered steps of one avatar, put together for those who watch: the
+// newest in full, and of all of them every link that was not clear.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "articulated/pose.h"
+#include "network/stream/avatar_stream.h"
+#include "network/wire/messages.h"
+
+namespace foretouch {
+
+/// Contacts that a batch holds; what comes beyond them is counted.
+inline constexpr std::size_t kMaxBatchContacts = 4096;
+
+/// One link that is not clear, and the step in which it is not.
+struct WatchedContact {
+  LinkContact contact;
+  AnswerReason reason = AnswerReason::None;
+  std::int64_t sequence = 0;                    ///< Of the pose that ends the step.
+  std::int64_t utimeFromUs = 0, utimeToUs = 0;  ///< Of the step.
+};
+
+struct WatchedStep {
+  Pose from, to;  ///< Parent-relative, of the avatar's joints.
+  StepKind kind = StepKind::First;
+  std::int64_t sequence = 0, lost = 0;
+  std::int64_t utimeFromUs = 0, utimeToUs = 0;
+  double queryUs = 0.0;
+  double addedUs = 0.0;  ///< From receiving the pose to handing over its answer, less the query.
+};
+
+class StepBatch {
+ public:
+  /// A step after those that are held.
+  void add(const StreamStep& step, const ContactsMessage& answer);
+  /// Keeps its memory.
+  void clear();
+
+  [[nodiscard]] std::uint64_t numSteps() const { return numSteps_; }
+  /// Precondition: numSteps() > 0.
+  [[nodiscard]] const WatchedStep& newest() const { return newest_; }
+  /// Of all steps, in their order, a step's earliest first.
+  [[nodiscard]] const std::vector<WatchedContact>& contacts() const { return contacts_; }
+  /// Contacts beyond kMaxBatchContacts.
+  [[nodiscard]] std::uint64_t numLeftOut() const { return numLeftOut_; }
+
+ private:
+  WatchedStep newest_;
+  std::vector<WatchedContact> contacts_;
+  std::uint64_t numSteps_ = 0, numLeftOut_ = 0;
+};
+
+}  // namespace foretouch

@@ -1,0 +1,64 @@
+// network/stream/stream_timeline.h: the order of one avatar's poses: which of them continue a
+// timeline, which begin one, which are refused. Integers alone; whatever they are, nothing
+// overflows. The table of rules is docs/streaming.md, "What is accepted". Not installed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "network/stream/stream_policy.h"
+#include "network/wire/messages.h"
+#include "network/wire/reject.h"
+
+namespace foretouch::internal {
+
+/// What orders a pose, and tells it from all others of its avatar.
+struct PoseStamp {
+  std::int64_t session = 0, sequence = 0, utimeUs = 0;
+
+  friend bool operator==(const PoseStamp& x, const PoseStamp& y) {
+    return x.session == y.session && x.sequence == y.sequence && x.utimeUs == y.utimeUs;
+  }
+};
+
+/// What became of a pose.
+struct PosePlace {
+  Reject reject = Reject::None;
+  StepKind kind = StepKind::First;
+  std::int64_t lost = 0;   ///< At most the largest int64.
+  PoseStamp from;          ///< The pose before; itself for First.
+  bool isSession = false;  ///< The first pose, or of another session than the one before.
+};
+
+class StreamTimeline {
+ public:
+  explicit StreamTimeline(const StreamPolicy& policy) : policy_(policy) {}
+
+  /// Decides, and where the pose is accepted makes it the last one.
+  [[nodiscard]] PosePlace place(const PoseStamp& stamp);
+  /// The next pose that is accepted ends no motion. What has been answered is still known.
+  void end() { isEnded_ = true; }
+
+  /// As many of the poses answered last are known one by one: none of them is answered again.
+  static constexpr std::size_t kAnsweredKept = 256;
+
+ private:
+  [[nodiscard]] Reject refusal(const PoseStamp& stamp) const;
+  [[nodiscard]] bool isAnswered(const PoseStamp& stamp) const;
+  [[nodiscard]] bool isTooLate(const PoseStamp& from, const PoseStamp& to) const;
+  [[nodiscard]] bool completesRun(const PoseStamp& stamp);
+  void accept(const PoseStamp& stamp);
+
+  StreamPolicy policy_;
+  PoseStamp last_;
+  bool hasLast_ = false, isEnded_ = false;
+  /// A lower sequence came with a later capture: the sender was restarted, or counts no poses.
+  bool isContradicted_ = false;
+  int run_ = 0;  // refused poses that continue one another, up to runLast_
+  PoseStamp runLast_;
+  std::array<PoseStamp, kAnsweredKept> answered_;
+  std::size_t numAnswered_ = 0;  // ever; the next one's place, modulo kAnsweredKept
+};
+
+}  // namespace foretouch::internal

@@ -1,0 +1,22 @@
+// network/stream/work_budget.h: a wish for time as an amount of work. The wall clock decides no
+// verdict, so that a replay repeats it; what a query may spend is counted in evaluations in lanes.
+#pragma once
+
+#include <cstdint>
+
+namespace foretouch {
+
+/// One evaluation of a pair in lanes, or as much other work, in microseconds: about what it takes
+/// on a 2.x GHz server core. Elsewhere a budget takes more or less time, but the same work.
+inline constexpr double kEvaluationUs = 0.01;
+
+/// QueryOptions::workBudget of a step that may take about `budgetUs`; at least 1.
+/// Precondition: budgetUs > 0 and finite.
+[[nodiscard]] inline std::uint64_t workBudget(double budgetUs) {
+  constexpr double kMost = 1e15;  // beyond any query; a whole number as a double
+  const double work = budgetUs / kEvaluationUs;
+  if (!(work > 1.0)) return 1;
+  return static_cast<std::uint64_t>(work < kMost ? work : kMost);
+}
+
+}  // namespace foretouch

@@ -1,0 +1,146 @@
+#include "network/watch/view_server.h"
+
+#include <optional>
+#include <utility>
+
+#include "network/service/bounded_http.h"
+#include "network/wire/loopback.h"
+
+namespace foretouch {
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+using Handled = httplib::Server::HandlerResponse;
+
+constexpr int kRequestMs = 2000;
+/// A document of megabytes, read by a browser that is busy.
+constexpr int kResponseMs = 15'000;
+
+/// The seat of the viewer whose request this thread answers: the library's handlers do not know the
+/// connection, and each is answered by one thread.
+thread_local std::optional<Audience::Seat> seatInHand;
+
+/// One of it, or none at all: two are somebody's trick.
+std::optional<std::string> onlyHeader(const Request& request, const char* name) {
+  const std::size_t count = request.get_header_value_count(name);
+  if (count > 1) return std::nullopt;
+  return request.get_header_value(name);
+}
+
+/// Whether this machine's user asked, and not the page of a stranger in this user's browser.
+bool isOurs(const Request& request) {
+  const auto host = onlyHeader(request, "Host");
+  if (!host || !isLoopbackHost(*host)) return false;
+  const auto origin = onlyHeader(request, "Origin");
+  if (!origin || (request.has_header("Origin") && !isOwnOrigin(*origin, *host))) return false;
+  // Browsers say so also where they send no Origin. The page itself may be linked to.
+  const std::string site = request.get_header_value("Sec-Fetch-Site");
+  return site.empty() || site == "same-origin" || site == "none" || request.path == "/";
+}
+
+void refuse(Response& response, int status, const char* why) {
+  response.status = status;
+  response.set_content(std::string(why) + "\n", "text/plain; charset=utf-8");
+}
+
+Handled checked(const Request& request, Response& response) {
+  seatInHand.reset();
+  if (request.method != "GET" && request.method != "HEAD") {
+    response.set_header("Allow", "GET, HEAD");
+    refuse(response, 405, "GET only");
+    return Handled::Handled;
+  }
+  if (isOurs(request)) return Handled::Unhandled;
+  refuse(response, 403, "only for this machine, by its own name, and for its own page");
+  return Handled::Handled;
+}
+
+httplib::Headers safetyHeaders() {
+  return {{"Cache-Control", "no-store"},
+          {"X-Content-Type-Options", "nosniff"},
+          {"Referrer-Policy", "no-referrer"},
+          {"Cross-Origin-Resource-Policy", "same-origin"},
+          {"Content-Security-Policy",
+           "default-src 'self' 'unsafe-inline' data: blob:; connect-src 'self'; base-uri 'none'; "
+           "form-action 'none'; frame-ancestors 'none'"}};
+}
+
+void serveText(httplib::Server& server, const char* path, std::string content, const char* type) {
+  const auto text = std::make_shared<const std::string>(std::move(content));
+  server.Get(path, [text, type](const Request&, Response& response) {
+    if (text->empty()) return response.set_content("", type);
+    response.set_content_provider(
+        text->size(), type,
+        [text](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+          return sink.write(text->data() + offset, length);
+        });
+  });
+}
+
+void serveEvents(httplib::Server& server, Audience& audience) {
+  server.Get("/events", [&audience](const Request& request, Response& response) {
+    if (request.method == "GET") {
+      std::optional<Audience::Seat> seat = audience.claimSeat();
+      if (!seat) {
+        response.set_header("Retry-After", "10");
+        return refuse(response, 503, "too many are watching");
+      }
+      seatInHand.emplace(std::move(*seat));
+    }
+    // Headers now; the audience sends the rest.
+    response.set_content_provider("text/event-stream", [](std::size_t, httplib::DataSink& sink) {
+      sink.done();
+      return true;
+    });
+  });
+}
+
+}  // namespace
+
+struct ViewServer::Impl {
+  explicit Impl(Audience started) : audience(std::move(started)) {}
+  Audience audience;
+  internal::BoundedHttp server{internal::HttpBounds{kMaxViewRequestBytes, kRequestMs, kResponseMs}};
+};
+
+ViewServer::ViewServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ViewServer::ViewServer(ViewServer&&) noexcept = default;
+ViewServer& ViewServer::operator=(ViewServer&&) noexcept = default;
+ViewServer::~ViewServer() = default;
+
+Result<ViewServer> ViewServer::start(const std::string& host, std::uint16_t port, Pages pages,
+                                     const AudienceOptions& options) {
+  if (!isLoopback(host)) {
+    return Error{ErrorCode::OutOfRange, "", -1, -1,
+                 "cannot serve the view on " + host +
+                     ": expected localhost or a numeric address of this machine alone; to watch "
+                     "from another one, use a tunnel: ssh -L"};
+  }
+  auto audience = Audience::start(std::move(pages.events), options);
+  if (!audience.ok()) return audience.error();
+  auto impl = std::make_unique<Impl>(std::move(audience).value());
+  internal::BoundedHttp& server = impl->server;
+  server.set_default_headers(safetyHeaders());
+  server.set_pre_routing_handler(checked);
+  serveText(server, "/", std::move(pages.page), "text/html; charset=utf-8");
+  serveText(server, "/view.json", std::move(pages.document), "application/json");
+  serveEvents(server, impl->audience);
+  server.takeOver = [](socket_t socket, bool isAnswered) {
+    std::optional<Audience::Seat> seat = std::exchange(seatInHand, std::nullopt);
+    return seat && isAnswered && seat->take(socket);
+  };
+  const auto started = server.start("the view", host, port);
+  if (!started.ok()) return started.error();
+  return ViewServer(std::move(impl));
+}
+
+std::uint16_t ViewServer::port() const {
+  return impl_->server.port();
+}
+
+std::size_t ViewServer::numViewers() const {
+  return impl_->audience.size();
+}
+
+}  // namespace foretouch

@@ -1,0 +1,52 @@
+// network/wire/codec_lcm.h: what the four codecs share: the way between bytes and a type made by
+// lcm-gen, and the ranges that numbers must keep. For sources of the codec alone.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+
+#include "lss/assert.h"
+#include "network/wire/codec.h"
+#include "network/wire/payload_check.h"
+#include "network/wire/reject.h"
+
+namespace foretouch {
+
+/// Of stamps (us), sequences and counts: below this, differences of two of them fit in an int64.
+inline constexpr std::int64_t kMaxWireInteger = (std::int64_t{1} << 62) - 1;
+
+inline bool inRange(std::initializer_list<std::int64_t> values) {
+  for (const std::int64_t value : values) {
+    if (value < 0 || value > kMaxWireInteger) return false;
+  }
+  return true;
+}
+
+inline bool allFinite(std::initializer_list<double> values) {
+  for (const double value : values) {
+    if (!std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+/// Checked before lcm-gen's decoder sees a byte, or allocates for one.
+template <typename LcmType>
+[[nodiscard]] Reject fromBytes(PayloadType type, ByteView payload, LcmType& wire) {
+  const Reject reject = checkPayload(type, payload);
+  if (reject != Reject::None) return reject;
+  const int size = static_cast<int>(payload.size);
+  return wire.decode(payload.data, 0, size) == size ? Reject::None : Reject::Length;
+}
+
+template <typename LcmType>
+void toBytes(PayloadType type, const LcmType& wire, Bytes& payload) {
+  payload.resize(static_cast<std::size_t>(wire.getEncodedSize()));
+  const int written = wire.encode(payload.data(), 0, static_cast<int>(payload.size()));
+  payload.resize(written > 0 ? static_cast<std::size_t>(written) : 0);
+  FORETOUCH_ASSERT(checkPayload(type, payload) == Reject::None);
+  static_cast<void>(type);
+}
+
+}  // namespace foretouch

@@ -1,0 +1,139 @@
+// network/wire/messages.h: what is said over the wire, as plain values. Units and frames are those
+// of network/lcm/*.lcm, which define the bytes: metres, unit quaternions (w, x, y, z), microseconds
+// since the Unix epoch; parent-relative poses (roots: in the world W).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/skeleton.h"
+#include "middleware/query/query.h"
+
+namespace foretouch {
+
+inline constexpr std::int16_t kMessageVersion = 1;
+
+/// Channels; an instance of its own may add a suffix to all four.
+inline constexpr char kSkeletonChannel[] = "FORETOUCH_SKELETON";
+inline constexpr char kPoseChannel[] = "FORETOUCH_POSE";
+inline constexpr char kContactsChannel[] = "FORETOUCH_CONTACTS";
+inline constexpr char kStatusChannel[] = "FORETOUCH_STATUS";
+/// Of a whole channel name, suffix included, in bytes (LCM_MAX_CHANNEL_NAME_LENGTH).
+inline constexpr std::size_t kMaxChannelBytes = 63;
+
+/// Largest message that is read or written, in bytes: a skeleton of kMaxJoints joints with long
+/// names fits.
+inline constexpr std::size_t kMaxMessageBytes = 4u << 20;
+/// Longest text in a message that is no joint's name, in bytes.
+inline constexpr std::size_t kMaxTextBytes = 4096;
+
+struct SkeletonMessage {
+  std::int32_t avatar = 0;
+  std::int64_t session = 0;
+  std::int64_t sendUtimeUs = 0;
+  std::int32_t generation = 0;
+  std::int64_t hash = 0;  ///< skeletonHash() of `skeleton`.
+  std::string source;
+  double rateHz = 0.0;  ///< 0: unknown.
+  RawSkeleton skeleton;
+};
+
+/// Bits of PoseJoint::flags.
+enum JointFlag : std::uint8_t { kJointValid = 1, kJointTracked = 2, kJointInferred = 4 };
+
+struct PoseJoint {
+  std::int32_t joint = 0;  ///< Index in the sender's skeleton.
+  std::uint8_t flags = 0;
+  Quaternion rotation = Quaternion::Identity();  ///< Means nothing unless kJointValid.
+};
+
+struct PoseTranslation {
+  std::int32_t joint = 0;
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+};
+
+struct PoseMessage {
+  std::int32_t avatar = 0;
+  std::int64_t session = 0;
+  std::int64_t sequence = 0;
+  std::int64_t utimeUs = 0;  ///< Capture.
+  std::int64_t sendUtimeUs = 0;
+  std::int64_t skeletonHash = 0;
+  std::vector<PoseJoint> joints;              ///< Each joint at most once, in any order.
+  std::vector<PoseTranslation> translations;  ///< Of joints that are in `joints`.
+};
+
+/// Why a link of an answer is undecided: what a query says (UndecidedReason), and what only a
+/// stream knows. The numbers are those on the wire.
+enum class AnswerReason : std::uint8_t {
+  None = 0,
+  WorkBudget = 1,
+  Resolution = 2,
+  AfterFirst = 3,
+  Gap = 4,             ///< Poses were lost: what happened between the two is not known.
+  MissingJoint = 5,    ///< A joint above the link, or its own, is not in one of the poses.
+  InvalidJoint = 6,    ///< ... is marked as not valid.
+  StaleJoint = 7,      ///< ... is valid but neither tracked nor inferred: an old value.
+  UnmatchedJoint = 8,  ///< ... is not in the sender's skeleton.
+};
+inline constexpr std::uint8_t kNumAnswerReasons = 9;
+
+/// "gap", "missing-joint", ...; those of a query as toString(UndecidedReason).
+[[nodiscard]] const char* toString(AnswerReason reason);
+
+/// What an answer is about.
+enum class StepKind : std::int8_t {
+  Consecutive = 0,  ///< From one pose to the next one that was sent.
+  First = 1,        ///< The first pose of a timeline: an instant, not a motion.
+  AcrossGap = 2,    ///< Poses between the two were lost: nothing is clear.
+};
+[[nodiscard]] const char* toString(StepKind kind);
+
+/// One link that is not clear.
+struct AnsweredContact {
+  LinkContact contact;  ///< `reason` is the query's own; `lss` does not travel (-1).
+  AnswerReason reason = AnswerReason::None;
+  std::string linkName, objectName;
+};
+
+struct ContactsMessage {
+  std::int32_t avatar = 0;
+  std::int64_t session = 0;
+  std::int64_t sequenceFrom = 0, sequenceTo = 0;
+  std::int64_t utimeFromUs = 0, utimeToUs = 0;  ///< Capture.
+  std::int64_t skeletonHash = 0;
+  StepKind kind = StepKind::Consecutive;
+  std::int64_t lost = 0;
+  double tolerance = 0.0;
+  Fidelity fidelity = Fidelity::Link;
+  std::int64_t workBudget = 0;            ///< QueryOptions::workBudget; 0: none.
+  std::vector<Verdict> verdicts;          ///< Of every link of the avatar, in order.
+  std::vector<AnsweredContact> contacts;  ///< Links that are not clear, earliest first.
+  std::int64_t receiveUtimeUs = 0;
+  std::int64_t sendUtimeUs = 0;
+  double queryUs = 0.0;
+};
+
+struct StatusMessage {
+  std::int64_t utimeUs = 0, startUtimeUs = 0;
+  std::string build, scene;
+  std::int32_t numAvatars = 0, numWorkers = 0;
+  std::int64_t received = 0, answered = 0, rejected = 0, lost = 0, gaps = 0, waiting = 0;
+  struct Count {
+    std::string reason;
+    std::int64_t count = 0;
+  };
+  std::vector<Count> counts;
+  std::int64_t publishFailures = 0, journalFailures = 0, kernelDrops = 0;
+  double latencyP50Us = 0.0, latencyP99Us = 0.0, latencyMaxUs = 0.0;
+  double queryP50Us = 0.0, queryP99Us = 0.0, queryMaxUs = 0.0;
+};
+
+/// Of names, parents and rest pose, as docs/formats.md says ("Skeleton hash"): XXH64 over the
+/// joints in order. Two skeletons with the same hash are taken to be the same.
+[[nodiscard]] std::int64_t skeletonHash(const RawSkeleton& skeleton);
+
+}  // namespace foretouch

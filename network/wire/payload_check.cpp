@@ -1,0 +1,193 @@
+#include "network/wire/payload_check.h"
+
+#include <cstring>
+#include <foretouch/contacts_t.hpp>
+#include <foretouch/pose_t.hpp>
+#include <foretouch/skeleton_t.hpp>
+#include <foretouch/status_t.hpp>
+
+namespace foretouch {
+namespace {
+
+/// A place in a payload that cannot leave it. Integers are big-endian.
+class Cursor {
+ public:
+  explicit Cursor(ByteView bytes) : at_(bytes.data), left_(bytes.size) {}
+
+  [[nodiscard]] const std::uint8_t* at() const { return at_; }
+  [[nodiscard]] std::size_t left() const { return left_; }
+
+  [[nodiscard]] bool skip(std::size_t bytes) {
+    if (bytes > left_) return false;
+    at_ += bytes;
+    left_ -= bytes;
+    return true;
+  }
+
+  template <typename Integer>
+  [[nodiscard]] bool read(Integer& integer) {
+    const std::uint8_t* const from = at_;
+    if (!skip(sizeof(Integer))) return false;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sizeof(Integer); ++i) bits = bits << 8 | from[i];
+    integer = static_cast<Integer>(bits);
+    return true;
+  }
+
+ private:
+  const std::uint8_t* at_;
+  std::size_t left_;
+};
+
+/// One or more fields of a type, as they lie in its bytes.
+struct Field {
+  enum class Kind : std::uint8_t {
+    Fixed,  ///< `size` bytes.
+    Count,  ///< An int32 up to kMaxListed, which later lists are as long as.
+    List,   ///< `size` bytes, as often as the last count says.
+    Text,   ///< At most `size` bytes and its NUL, after their number.
+    Texts,  ///< As often as the last count says.
+  };
+  Kind kind;
+  std::size_t size;
+};
+
+constexpr std::size_t kInt8 = 1, kByte = 1, kInt32 = 4, kInt64 = 8, kDouble = 8;
+
+constexpr Field fixed(std::size_t size) {
+  return {Field::Kind::Fixed, size};
+}
+constexpr Field count() {
+  return {Field::Kind::Count, 0};
+}
+constexpr Field list(std::size_t size) {
+  return {Field::Kind::List, size};
+}
+constexpr Field text() {
+  return {Field::Kind::Text, kMaxTextBytes};
+}
+constexpr Field texts(std::size_t limit) {
+  return {Field::Kind::Texts, limit};
+}
+
+// Each type after its version, in the order of network/lcm.
+constexpr Field kSkeletonFields[] = {
+    fixed(kInt32 + 2 * kInt64 + kInt32 + kInt64),  // avatar, session, send_utime, generation, hash
+    text(),                                        // source
+    fixed(kDouble),                                // rate
+    count(),
+    texts(kMaxNameBytes),                       // names
+    list(kInt32 + 3 * kDouble + 4 * kDouble)};  // parents, offsets, rotations
+
+constexpr Field kPoseFields[] = {
+    fixed(kInt32 + 5 * kInt64),  // avatar, session, sequence, utime, send_utime, skeleton_hash
+    count(),
+    list(kInt32 + kByte + 4 * kDouble),    // joints, flags, rotations
+    count(), list(kInt32 + 3 * kDouble)};  // translated_joints, translations
+
+constexpr Field kContactsFields[] = {
+    fixed(kInt32 + 6 * kInt64),       // avatar, session, sequences, utimes, skeleton_hash
+    fixed(kInt8 + kInt64 + kDouble),  // kind, lost, tolerance
+    text(),                           // fidelity
+    fixed(kInt64),                    // work_budget
+    count(),
+    list(kByte),  // verdicts
+    count(),
+    list(kInt32),                  // links
+    texts(kMaxNameBytes),          // link_names
+    list(kByte + 3 * kDouble),     // reasons, free_until, separation, penetration
+    list(9 * kDouble + kInt32),    // witness points, normals, triangles
+    texts(kMaxTextBytes),          // objects
+    list(kInt32 + 2 * kByte),      // link_triangles, link_features, scene_features
+    fixed(2 * kInt64 + kDouble)};  // receive_utime, send_utime, query_us
+
+constexpr Field kStatusFields[] = {
+    fixed(2 * kInt64),  // utime, start_utime
+    text(),             // build
+    text(),             // scene
+    fixed(2 * kInt32),  // num_avatars, num_workers
+    fixed(6 * kInt64),  // received, answered, rejected, lost, gaps, waiting
+    count(),
+    texts(kMaxTextBytes),              // reasons
+    list(kInt64),                      // counts
+    fixed(3 * kInt64 + 6 * kDouble)};  // failures and drops, latencies
+
+Reject checkText(Cursor& cursor, std::size_t limit) {
+  std::int32_t length = 0;  // with its NUL
+  if (!cursor.read(length) || length < 1) return Reject::Length;
+  const auto bytes = static_cast<std::size_t>(length);
+  if (bytes - 1 > limit) return Reject::Limit;
+  const std::uint8_t* const first = cursor.at();
+  if (!cursor.skip(bytes)) return Reject::Length;
+  // A NUL within would end the text early in other languages, and when it is written again.
+  return std::memchr(first, 0, bytes) == first + (bytes - 1) ? Reject::None : Reject::Length;
+}
+
+Reject checkCount(Cursor& cursor, std::size_t& counted) {
+  std::int32_t number = 0;
+  if (!cursor.read(number)) return Reject::Length;
+  if (number < 0 || number > kMaxListed) return Reject::Limit;
+  counted = static_cast<std::size_t>(number);
+  return Reject::None;
+}
+
+/// `counted` is what the last count before this field said.
+Reject checkField(const Field& field, Cursor& cursor, std::size_t& counted) {
+  switch (field.kind) {
+    case Field::Kind::Fixed: return cursor.skip(field.size) ? Reject::None : Reject::Length;
+    case Field::Kind::List:
+      return cursor.skip(counted * field.size) ? Reject::None : Reject::Length;
+    case Field::Kind::Count: return checkCount(cursor, counted);
+    case Field::Kind::Text: return checkText(cursor, field.size);
+    case Field::Kind::Texts: {
+      Reject reject = Reject::None;
+      for (std::size_t i = 0; i < counted && reject == Reject::None; ++i) {
+        reject = checkText(cursor, field.size);
+      }
+      return reject;
+    }
+  }
+  return Reject::Length;
+}
+
+template <std::size_t n>
+Reject checkFields(const Field (&fields)[n], Cursor cursor) {
+  std::size_t counted = 0;
+  for (const Field& field : fields) {
+    const Reject reject = checkField(field, cursor, counted);
+    if (reject != Reject::None) return reject;
+  }
+  return cursor.left() == 0 ? Reject::None : Reject::Length;
+}
+
+std::int64_t fingerprintOf(PayloadType type) {
+  switch (type) {
+    case PayloadType::Skeleton: return skeleton_t::getHash();
+    case PayloadType::Pose: return pose_t::getHash();
+    case PayloadType::Contacts: return contacts_t::getHash();
+    case PayloadType::Status: return status_t::getHash();
+  }
+  return 0;
+}
+
+}  // namespace
+
+Reject checkPayload(PayloadType type, ByteView payload) {
+  if (payload.size > kMaxMessageBytes) return Reject::Limit;
+  Cursor cursor(payload);
+  std::int64_t fingerprint = 0;
+  std::int16_t version = 0;
+  if (!cursor.read(fingerprint)) return Reject::Length;
+  if (fingerprint != fingerprintOf(type)) return Reject::Fingerprint;
+  if (!cursor.read(version)) return Reject::Length;
+  if (version != kMessageVersion) return Reject::Version;
+  switch (type) {
+    case PayloadType::Skeleton: return checkFields(kSkeletonFields, cursor);
+    case PayloadType::Pose: return checkFields(kPoseFields, cursor);
+    case PayloadType::Contacts: return checkFields(kContactsFields, cursor);
+    case PayloadType::Status: return checkFields(kStatusFields, cursor);
+  }
+  return Reject::Length;
+}
+
+}  // namespace foretouch

@@ -1,0 +1,48 @@
+// network/wire/reject.h: why a message was not accepted. Every refusal is counted under one of
+// these words; none is fatal and none is answered.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace foretouch {
+
+enum class Reject : std::uint8_t {
+  None,
+  // What the bytes are.
+  Length,        ///< Shorter or longer than its own counts say, or a text without its end.
+  Fingerprint,   ///< Of another type, or of another version of it.
+  Version,       ///< The `version` field is not kMessageVersion.
+  Limit,         ///< A count beyond its limit.
+  NonFinite,     ///< NaN or infinity in a joint that is marked valid, or in another message.
+  NonUnit,       ///< A quaternion whose norm is off by more than kMaxQuaternionNormError.
+  OutOfRange,    ///< A finite number outside its range: a coordinate, a time, a flag.
+  BadName,       ///< Not a legal joint name, or one that a skeleton has twice.
+  BadIndex,      ///< A joint or link that cannot exist, or one that is listed twice.
+  BadHierarchy,  ///< A parent after its child.
+  BadHash,       ///< A skeleton whose hash is not that of its content.
+  // What it is about.
+  UnknownAvatar,     ///< The service was not told of this avatar.
+  NoMatch,           ///< A skeleton of which no joint has the name of one of the avatar's.
+  OldGeneration,     ///< A skeleton older than the one in use.
+  UnknownSkeleton,   ///< A pose before any skeleton.
+  SkeletonMismatch,  ///< A pose of another skeleton than the one in use.
+  // Where it stands in its stream.
+  Duplicate,    ///< The same session, sequence and capture time again.
+  OutOfOrder,   ///< Older than a pose that has been answered.
+  StaleStamp,   ///< A later sequence with a capture time that is not later.
+  FutureStamp,  ///< Captured longer than StreamPolicy::maxStepUs after the last pose.
+  OldSession,   ///< Of a sender that has been restarted since.
+  // What the service could not do.
+  Overrun,  ///< Older than others that were waiting when the queue was full.
+};
+inline constexpr std::size_t kNumRejects = static_cast<std::size_t>(Reject::Overrun) + 1;
+
+/// A stable word, as it appears in status_t and in metrics: "out-of-order"; "none".
+[[nodiscard]] const char* toString(Reject reject);
+
+/// How often each was given.
+using RejectCounts = std::array<std::uint64_t, kNumRejects>;
+
+}  // namespace foretouch

@@ -1,0 +1,48 @@
+// network/wire/udpm_socket.h: the sockets of LCM's UDP multicast. Not installed.
+#pragma once
+
+#include <netinet/in.h>
+#include <string>
+#include <utility>
+
+#include "articulated/result.h"
+#include "network/wire/wire.h"
+
+namespace foretouch {
+
+/// Owns a file descriptor.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd = -1) : fd_(fd) {}
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  ~Descriptor();
+  [[nodiscard]] int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+/// "udpm://239.255.76.67:7667?ttl=0".
+[[nodiscard]] std::string toString(const UdpmUrl& url);
+[[nodiscard]] sockaddr_in addressOf(const UdpmUrl& url);
+
+/// What errno says, and what to type where a multicast route is missing.
+[[nodiscard]] Error socketError(const UdpmUrl& url, const std::string& what, int errorNumber);
+
+/// Non-blocking. Bound to the group on `url.port` (0: any free one, not shared) and joined.
+[[nodiscard]] Result<Descriptor> openListeningSocket(const UdpmUrl& url);
+/// Non-blocking, with the ttl set.
+[[nodiscard]] Result<Descriptor> openSendingSocket(const UdpmUrl& url);
+
+/// Joins the group on the interface that the route to it names now. Harmless where it is joined
+/// already; needed again where that interface went away. Returns errno, 0 for joined.
+int joinGroup(int fd, const UdpmUrl& url);
+
+/// Waits until there is something to read. False: nothing within the time, or interrupted.
+[[nodiscard]] bool waitReadable(int fd, int timeoutMs);
+
+}  // namespace foretouch

@@ -1,0 +1,91 @@
+#include <arpa/inet.h>
+#include <charconv>
+#include <netinet/in.h>
+#include <string>
+#include <string_view>
+
+#include "network/wire/wire.h"
+
+namespace foretouch {
+namespace {
+
+constexpr std::string_view kScheme = "udpm://";
+constexpr std::size_t kMaxReceiveBufferBytes = std::size_t{1} << 30;
+
+Error errorIn(const std::string& url, ErrorCode code, const std::string& message) {
+  return {code, url, -1, -1, message};
+}
+
+template <typename T>
+bool readNumber(std::string_view text, T least, T most, T& number) {
+  T read{};
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), read);
+  if (fault != std::errc() || end != text.data() + text.size()) return false;
+  if (read < least || read > most) return false;
+  number = read;
+  return true;
+}
+
+/// Cuts off and returns what stands before `separator`, all of it if there is none.
+std::string_view upTo(char separator, std::string_view& rest) {
+  const std::size_t at = rest.find(separator);
+  const std::string_view head = rest.substr(0, at);
+  rest = at == std::string_view::npos ? std::string_view() : rest.substr(at + 1);
+  return head;
+}
+
+bool isMulticast(const std::string& group) {
+  in_addr address{};
+  return inet_pton(AF_INET, group.c_str(), &address) == 1 && IN_MULTICAST(ntohl(address.s_addr));
+}
+
+Result<Done> readOption(const std::string& url, std::string_view option, UdpmUrl& parsed) {
+  std::string_view value = option;
+  const std::string_view key = upTo('=', value);
+  const std::string quoted = "'" + std::string(value) + "'";
+  if (key == "ttl") {
+    if (readNumber(value, 0, 255, parsed.ttl)) return Done{};
+    return errorIn(url, ErrorCode::OutOfRange, "ttl: expected 0 to 255, found " + quoted);
+  }
+  if (key == "recv_buf_size") {
+    if (readNumber(value, std::size_t{1}, kMaxReceiveBufferBytes, parsed.receiveBufferBytes)) {
+      return Done{};
+    }
+    return errorIn(url, ErrorCode::OutOfRange,
+                   "recv_buf_size: expected 1 to 1073741824 bytes, found " + quoted);
+  }
+  return errorIn(url, ErrorCode::UnknownName,
+                 "expected the options ttl and recv_buf_size, found '" + std::string(key) + "'");
+}
+
+}  // namespace
+
+Result<UdpmUrl> parseUdpmUrl(const std::string& url) {
+  std::string_view rest = url;
+  if (rest.substr(0, kScheme.size()) != kScheme) {
+    return errorIn(url, ErrorCode::Syntax, "expected udpm://GROUP:PORT?ttl=TTL");
+  }
+  rest.remove_prefix(kScheme.size());
+  std::string_view place = upTo('?', rest);
+  const bool hasPort = place.find(':') != std::string_view::npos;
+
+  UdpmUrl parsed;
+  const std::string group(upTo(':', place));
+  if (!group.empty() && !isMulticast(group)) {
+    return errorIn(
+        url, ErrorCode::OutOfRange,
+        "group: expected an address from 224.0.0.0 to 239.255.255.255, found '" + group + "'");
+  }
+  if (!group.empty()) parsed.group = group;
+  if (hasPort && !readNumber<std::uint16_t>(place, 1, 65535, parsed.port)) {
+    return errorIn(url, ErrorCode::OutOfRange,
+                   "port: expected 1 to 65535, found '" + std::string(place) + "'");
+  }
+  while (!rest.empty()) {
+    const auto read = readOption(url, upTo('&', rest), parsed);
+    if (!read.ok()) return read.error();
+  }
+  return parsed;
+}
+
+}  // namespace foretouch

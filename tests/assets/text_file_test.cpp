@@ -1,0 +1,189 @@
+#include "assets/text_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_folder.h"
+
+namespace foretouch {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::set<std::string> names() const { return folder_.names(); }
+  test::TempFolder folder_;
+};
+
+using ReadWholeFile = Folder;
+using PendingFileTest = Folder;
+
+std::string readBack(const std::string& path) {
+  auto text = readWholeFile(path, 1u << 26);
+  return text.ok() ? text.value() : "unreadable: " + describe(text.error());
+}
+
+void writeText(const std::string& path, const std::string& text) {
+  std::ofstream(path) << text;
+}
+
+TEST_F(ReadWholeFile, ReadsEveryByte) {
+  const std::string text("a\0b\r\n\xff", 6);
+  writeText(file("f"), text);
+  EXPECT_EQ(readBack(file("f")), text);
+  writeText(file("empty"), "");
+  EXPECT_EQ(readBack(file("empty")), "");
+}
+
+TEST_F(ReadWholeFile, RefusesWhatIsMissingOrNoFileOrTooLarge) {
+  EXPECT_EQ(readWholeFile(file("none"), 10).error().code, ErrorCode::FileNotFound);
+  EXPECT_EQ(readWholeFile(folder_.path(), 10).error().code, ErrorCode::FileUnreadable);
+  EXPECT_EQ(readWholeFile("/dev/zero", 10).error().code, ErrorCode::FileUnreadable);
+  writeText(file("ten"), "0123456789");
+  EXPECT_EQ(readWholeFile(file("ten"), 9).error().code, ErrorCode::LimitExceeded);
+  EXPECT_TRUE(readWholeFile(file("ten"), 10).ok());
+}
+
+TEST_F(ReadWholeFile, DoesNotWaitForAPipe) {
+  ASSERT_EQ(::mkfifo(file("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(readWholeFile(file("pipe"), 10).error().code, ErrorCode::FileUnreadable);
+}
+
+TEST_F(ReadWholeFile, LimitHoldsForFilesThatStateNoSize) {
+  // A file in /proc states a size of 0 whatever it holds.
+  EXPECT_EQ(readWholeFile("/proc/self/status", 10).error().code, ErrorCode::LimitExceeded);
+  EXPECT_GT(readBack("/proc/self/status").size(), 10u);
+}
+
+TEST_F(PendingFileTest, AppearsOnlyWithCommit) {
+  auto pending = PendingFile::create(file("out"));
+  ASSERT_TRUE(pending.ok());
+  pending.value().write("one ");
+  pending.value().write("two");
+  EXPECT_FALSE(fs::exists(file("out")));
+  ASSERT_TRUE(pending.value().commit().ok());
+  EXPECT_EQ(readBack(file("out")), "one two");
+  EXPECT_EQ(names(), std::set<std::string>{"out"});
+}
+
+TEST_F(PendingFileTest, DroppedItLeavesNothingAndTheOldFileStands) {
+  writeText(file("out"), "old");
+  {
+    auto pending = PendingFile::create(file("out"));
+    ASSERT_TRUE(pending.ok());
+    pending.value().write(std::string(3u << 20, 'x'));  // beyond its buffer: part is on the disk
+    EXPECT_EQ(names().size(), 2u);
+  }
+  EXPECT_EQ(names(), std::set<std::string>{"out"});
+  EXPECT_EQ(readBack(file("out")), "old");
+}
+
+TEST_F(PendingFileTest, ReplacesAndKeepsPermissions) {
+  writeText(file("out"), "old");
+  ASSERT_EQ(::chmod(file("out").c_str(), 0624), 0);
+  auto pending = PendingFile::create(file("out"));
+  ASSERT_TRUE(pending.ok());
+  pending.value().write("new");
+  ASSERT_TRUE(pending.value().commit().ok());
+  EXPECT_EQ(readBack(file("out")), "new");
+  struct stat status {};
+  ASSERT_EQ(::stat(file("out").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0624u);
+}
+
+TEST_F(PendingFileTest, FollowsASymbolicLink) {
+  writeText(file("real"), "old");
+  fs::create_symlink("real", file("link"));
+  auto pending = PendingFile::create(file("link"));
+  ASSERT_TRUE(pending.ok());
+  pending.value().write("new");
+  ASSERT_TRUE(pending.value().commit().ok());
+  EXPECT_TRUE(fs::is_symlink(file("link")));
+  EXPECT_EQ(readBack(file("real")), "new");
+}
+
+TEST_F(PendingFileTest, MovedFromItOwnsNothing) {
+  auto pending = PendingFile::create(file("out"));
+  ASSERT_TRUE(pending.ok());
+  {
+    PendingFile moved = std::move(pending).value();
+    moved.write("x");
+    ASSERT_TRUE(moved.commit().ok());
+  }
+  EXPECT_EQ(readBack(file("out")), "x");
+}
+
+TEST_F(PendingFileTest, SaysWhyAFolderOrAMissingOneCannotBeWritten) {
+  EXPECT_EQ(PendingFile::create(folder_.path()).error().code, ErrorCode::FileUnwritable);
+  const auto missing = PendingFile::create(file("none/out"));
+  ASSERT_FALSE(missing.ok());
+  EXPECT_EQ(missing.error().code, ErrorCode::FileUnwritable);
+  EXPECT_EQ(missing.error().file, file("none/out"));
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(PendingFileTest, SaysWhyAReadOnlyFolderCannotBeWritten) {
+  // The superuser may write anywhere; where there is /proc, not even there.
+  const bool isSuperuser = ::geteuid() == 0;
+  const std::string target = isSuperuser ? "/proc/foretouch-out" : file("out");
+  if (!isSuperuser) fs::permissions(folder_.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  const auto pending = PendingFile::create(target);
+  fs::permissions(folder_.path(), fs::perms::owner_all);
+  ASSERT_FALSE(pending.ok());
+  EXPECT_EQ(pending.error().code, ErrorCode::FileUnwritable);
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(PendingFileTest, WritesToADeviceDirectlyAndReportsAFullOne) {
+  auto null = PendingFile::create("/dev/null");
+  ASSERT_TRUE(null.ok());
+  null.value().write("x");
+  EXPECT_TRUE(null.value().commit().ok());
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));  // not renamed over
+
+  auto full = PendingFile::create("/dev/full");
+  ASSERT_TRUE(full.ok());
+  full.value().write("x");
+  const auto done = full.value().commit();
+  ASSERT_FALSE(done.ok());
+  EXPECT_EQ(done.error().code, ErrorCode::FileUnwritable);
+  EXPECT_EQ(done.error().file, "/dev/full");
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(IsUtf8, KnowsTheBoundsOfTheStandard) {
+  for (const char* good :
+       {"", "a", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xee\x80\x80",
+        "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"}) {
+    EXPECT_TRUE(isUtf8(good)) << good;
+  }
+  for (const char* bad : {"\x80", "\xc0\x80", "\xc1\xbf", "\xc2", "\xc2\x7f", "\xe0\x9f\xbf",
+                          "\xe0\xa0", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80",
+                          "\xf5\x80\x80\x80", "\xff", "a\xe2\x82"}) {
+    EXPECT_FALSE(isUtf8(bad)) << bad;
+  }
+}
+
+TEST(InQuotes, ShowsTextAndHidesWhatDrivesTerminals) {
+  EXPECT_EQ(inQuotes("Left Arm"), "'Left Arm'");
+  EXPECT_EQ(inQuotes("\xc3\xa0"), "'\xc3\xa0'");
+  EXPECT_EQ(inQuotes("\x1b[0m\xff\xc2\x9b"), "'\\x1b[0m\\xff\\xc2\\x9b'");
+  EXPECT_EQ(inQuotes(std::string_view("\0", 1)), "'\\x00'");
+}
+
+TEST(InQuotes, CutsLongTextBetweenLetters) {
+  const std::string cut = inQuotes(std::string(47, 'x') + "\xc3\xa0zzz");
+  EXPECT_EQ(cut, "'" + std::string(47, 'x') + "\xc3\xa0...'");
+  EXPECT_EQ(inQuotes(std::string(48, 'x')), "'" + std::string(48, 'x') + "'");
+}
+
+}  // namespace
+}  // namespace foretouch

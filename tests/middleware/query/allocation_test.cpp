@@ -1,0 +1,154 @@
+// Counts every call of malloc and its kin in this program: once the memory of a thread has grown,
+// queries make none.
+#include <gtest/gtest.h>
+
+#include "lss/simd.h"
+#include "middleware/query/query.h"
+#include "middleware/query/query_pool.h"
+#include "tests/middleware/mesh_body.h"
+#include "tests/middleware/random_scene.h"
+#include "tests/support/allocation_count.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using test::Random;
+
+class Allocations : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!test::countsAllocations()) GTEST_SKIP() << "this build has an allocator of its own";
+  }
+};
+
+constexpr int kBodies = 30;
+
+TEST_F(Allocations, AreCounted) {
+  const std::uint64_t before = test::numAllocations();
+  std::vector<int> some(100);
+  EXPECT_GT(test::numAllocations(), before);
+  EXPECT_EQ(some.size(), 100U);
+}
+
+/// All bodies again and again; what the last round allocates.
+std::uint64_t inSteadyState(const std::vector<test::RandomBody>& bodies, const Scene& scene,
+                            const std::vector<QueryOptions>& options) {
+  QueryScratch scratch;
+  ChainMotion motion;
+  StepContacts step;
+  std::uint64_t before = 0, contacts = 0;
+  for (int round = 0; round < 3; ++round) {
+    before = test::numAllocations();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const test::RandomBody& body = bodies[i];
+      motion.assign(body.avatar.skeleton(), body.from, body.to);
+      EXPECT_TRUE(
+          firstContacts(body.avatar, motion, scene, options[i % options.size()], scratch, step)
+              .ok());
+      for (const LinkContact& contact : step.links) contacts += contact.verdict != Verdict::Clear;
+    }
+  }
+  EXPECT_GT(contacts, bodies.size());
+  return test::numAllocations() - before;
+}
+
+TEST_F(Allocations, OfQueriesAtLinkFidelityAreNone) {
+  Random random(3);
+  const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();
+  // One avatar, many steps: as a stream of its poses is answered.
+  std::vector<test::RandomBody> bodies(kBodies, test::bodyInClutter(random, 9, Vector3d::Zero()));
+  for (test::RandomBody& body : bodies) {
+    for (auto& rotation : body.to.rotations) rotation = random.turn(0.5);
+  }
+  QueryOptions options;
+  options.ignored = {{2, 1}};
+  for (const Simd simd : supportedSimd()) {
+    ASSERT_TRUE(useSimd(simd));
+    EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U) << toString(simd);
+  }
+  useSimd(std::nullopt);
+  options.backtracking = Backtracking::Scalar;
+  EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
+}
+
+TEST_F(Allocations, OfQueriesAboveLinkFidelityAreNone) {
+  Random random(6);
+  const Scene scene = Scene::build(test::clutter(random, 200, 3, Vector3d::Zero())).value();
+  std::vector<test::RandomBody> bodies(kBodies, test::bodyInClutter(random, 9, Vector3d::Zero()));
+  for (test::RandomBody& body : bodies) {
+    for (auto& rotation : body.to.rotations) rotation = random.turn(0.5);
+  }
+  for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid}) {
+    QueryOptions options;
+    options.fidelity = rung;
+    options.ignored = {{2, 1}, {3, IgnoredPair::kEveryObject}};
+    EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U) << toString(rung);
+    options.backtracking = Backtracking::Scalar;
+    EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U) << toString(rung);
+  }
+}
+
+TEST_F(Allocations, OfQueriesAtExactFidelityAreNone) {
+  Random random(4);
+  const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();
+  std::vector<test::RandomBody> bodies(kBodies, test::bodyInClutter(random, 9, Vector3d::Zero()));
+  for (test::RandomBody& body : bodies) {
+    for (auto& rotation : body.to.rotations) rotation = random.turn(0.5);
+  }
+  QueryOptions options;
+  options.fidelity = Fidelity::Exact;
+  options.surface =
+      AvatarSurface::build(bodies[0].avatar, test::meshWithin(bodies[0].avatar, random, 12, 0.9))
+          .value();
+  EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
+}
+
+TEST_F(Allocations, OfQueriesWhoseLinksDifferAreNone) {
+  Random random(4);
+  const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();
+  std::vector<test::RandomBody> bodies(kBodies, test::bodyInClutter(random, 9, Vector3d::Zero()));
+  for (test::RandomBody& body : bodies) {
+    for (auto& rotation : body.to.rotations) rotation = random.turn(0.5);
+  }
+  QueryOptions options;
+  options.surface =
+      AvatarSurface::build(bodies[0].avatar, test::meshWithin(bodies[0].avatar, random, 12, 0.9))
+          .value();
+  for (int link = 0; link < 9; ++link) {
+    options.linkPolicies.push_back(
+        {link % 2 == 0 ? 1e-4 : 5e-3, link % 3 == 0 ? Fidelity::Exact : Fidelity::Link});
+  }
+  QueryOptions alike;
+  EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
+  EXPECT_EQ(inSteadyState(bodies, scene, {options, alike}), 0U);
+  options.backtracking = Backtracking::Scalar;
+  for (LinkPolicy& policy : options.linkPolicies) policy.fidelity = Fidelity::Link;
+  EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
+}
+
+TEST_F(Allocations, OfAPoolAreNone) {
+  Random random(5);
+  const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();
+  // Avatars that differ make a thread's tables anew; copies of one share theirs.
+  const std::vector<test::RandomBody> bodies(kBodies,
+                                             test::bodyInClutter(random, 9, Vector3d::Zero()));
+  const QueryOptions options;
+  std::vector<StepTask> tasks;
+  for (const test::RandomBody& body : bodies) {
+    tasks.push_back({&body.avatar, &body.from, &body.to, &options});
+  }
+  QueryPool pool = QueryPool::start(2).value();
+  std::vector<StepContacts> answers;
+  // Which thread takes which task is chance: all of them have to have grown.
+  std::uint64_t last = 1;
+  for (int round = 0; round < 50 && last != 0; ++round) {
+    const std::uint64_t before = test::numAllocations();
+    ASSERT_TRUE(pool.answer(scene, tasks, answers).ok());
+    last = test::numAllocations() - before;
+  }
+  EXPECT_EQ(last, 0U);
+}
+
+}  // namespace
+}  // namespace foretouch

@@ -1,0 +1,161 @@
+// tests/network/stream/stream_simulator.cpp: the simulation of streams at any length. Exit code 0:
+// every promise kept; 1: one broken, and how to see it again; 2: bad use.
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "tests/network/stream/stream_simulation.h"
+
+namespace {
+
+using foretouch::kNumAnswerReasons;
+using foretouch::kNumRejects;
+using foretouch::Verdict;
+using foretouch::test::Mutation;
+using foretouch::test::SimulationOptions;
+using foretouch::test::SimulationRun;
+using foretouch::test::SimulationTally;
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::uint64_t sumOf(const foretouch::RejectCounts& rejects) {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t count : rejects) sum += count;
+  return sum;
+}
+
+/// Loss alone or with all other faults, and how much is lost.
+using Rows = std::map<std::pair<bool, double>, SimulationTally>;
+
+void printTable(const Rows& rows) {
+  std::printf("%-12s %6s %8s %10s %10s %8s %8s %10s %8s %8s %8s\n", "faults", "loss", "seeds",
+              "sent", "answered", "gaps", "rejects", "link-steps", "clear", "contact", "undecided");
+  for (const auto& [key, tally] : rows) {
+    const auto share = [&t = tally](Verdict verdict) {
+      return percent(t.verdicts[static_cast<std::size_t>(verdict)], t.linkSteps());
+    };
+    std::printf(
+        "%-12s %5.1f%% %8llu %10llu %10llu %7.2f%% %7.2f%% %10llu %7.2f%% %7.2f%% %7.2f%%\n",
+        key.first ? "all" : "loss alone", 100.0 * key.second,
+        static_cast<unsigned long long>(tally.seeds),
+        static_cast<unsigned long long>(tally.posesSent),
+        static_cast<unsigned long long>(tally.answered), percent(tally.gaps, tally.answered),
+        percent(sumOf(tally.rejects), tally.posesArrived),
+        static_cast<unsigned long long>(tally.linkSteps()), share(Verdict::Clear),
+        share(Verdict::Contact) + share(Verdict::StartsInContact), share(Verdict::Undecided));
+  }
+}
+
+void printCounts(const SimulationTally& all) {
+  std::printf("\nundecided, by reason:");
+  for (std::uint8_t i = 0; i < kNumAnswerReasons; ++i) {
+    if (all.reasons[i] == 0) continue;
+    std::printf(" %s %llu", toString(static_cast<foretouch::AnswerReason>(i)),
+                static_cast<unsigned long long>(all.reasons[i]));
+  }
+  std::printf("\nrejected, by reason:");
+  for (std::size_t i = 0; i < kNumRejects; ++i) {
+    if (all.rejects[i] == 0) continue;
+    std::printf(" %s %llu", toString(static_cast<foretouch::Reject>(i)),
+                static_cast<unsigned long long>(all.rejects[i]));
+  }
+  std::printf(
+      "\n%llu timelines; %llu altered poses kept every rule and were answered; %llu steps joined "
+      "two runs of a sender without sessions\n"
+      "%llu link-steps judged by the oracle, of which it gave up %llu\n",
+      static_cast<unsigned long long>(all.timelines),
+      static_cast<unsigned long long>(all.alteredAnswered),
+      static_cast<unsigned long long>(all.unknowable), static_cast<unsigned long long>(all.judged),
+      static_cast<unsigned long long>(all.unproved));
+}
+
+struct Arguments {
+  std::uint64_t seeds = 1000, first = 0;
+  SimulationOptions options;
+};
+
+std::optional<Mutation> mutationOf(const std::string& name) {
+  for (const Mutation mutation : foretouch::test::kMutations) {
+    if (name == toString(mutation)) return mutation;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> mutationNames() {
+  std::vector<std::string> names;
+  for (const Mutation mutation : foretouch::test::kMutations)
+    names.emplace_back(toString(mutation));
+  return names;
+}
+
+std::optional<Arguments> parse(int argc, char** argv, int& code) {
+  Arguments a;
+  double loss = 0.0;
+  std::string mutation;
+  CLI::App app{"Streams over a faulty network, each answer judged by an independent oracle"};
+  app.add_option("--seeds", a.seeds, "How many runs")->check(CLI::PositiveNumber);
+  app.add_option("--first", a.first, "The first seed");
+  const auto* const lossOption =
+      app.add_option("--loss", loss, "Share of messages lost; drawn by the seed if not given")
+          ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--break", mutation, "Break this rule on purpose, which must be found")
+      ->check(CLI::IsMember(mutationNames()));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    code = app.exit(error) == 0 ? 0 : 2;
+    return std::nullopt;
+  }
+  if (lossOption->count() > 0) a.options.loss = loss;
+  a.options.mutation = mutationOf(mutation).value_or(Mutation::None);
+  return a;
+}
+
+void printViolations(std::uint64_t seed, const SimulationRun& run,
+                     const SimulationOptions& options) {
+  for (const std::string& violation : run.violations) {
+    std::printf("seed %llu: %s\n", static_cast<unsigned long long>(seed), violation.c_str());
+  }
+  std::printf("  again: ./run simulate --first %llu --seeds 1",
+              static_cast<unsigned long long>(seed));
+  if (options.loss) std::printf(" --loss %.17g", *options.loss);
+  if (options.mutation != Mutation::None) std::printf(" --break %s", toString(options.mutation));
+  std::printf("\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int code = 0;
+  const auto arguments = parse(argc, argv, code);
+  if (!arguments) return code;
+  constexpr std::uint64_t kMostShown = 10;
+  const auto start = std::chrono::steady_clock::now();
+  Rows rows;
+  SimulationTally all;
+  std::uint64_t failed = 0;
+  for (std::uint64_t i = 0; i < arguments->seeds; ++i) {
+    const std::uint64_t seed = arguments->first + i;
+    const SimulationRun run = simulate(seed, arguments->options);
+    rows[{!run.isLossAlone, run.loss}].add(run.tally);
+    all.add(run.tally);
+    if (run.violations.empty()) continue;
+    if (++failed <= kMostShown) printViolations(seed, run, arguments->options);
+  }
+  printTable(rows);
+  printCounts(all);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::printf("%llu seeds in %.1f s: %llu with a broken promise\n",
+              static_cast<unsigned long long>(arguments->seeds), seconds,
+              static_cast<unsigned long long>(failed));
+  return failed == 0 ? 0 : 1;
+}

@@ -1,0 +1,17 @@
+// tools/little_endian.h: numbers as the bytes of a binary file. Every format written here is
+// little-endian, and so is every machine that this is built for.
+#pragma once
+
+#include <cstring>
+#include <string>
+
+namespace foretouch::tools {
+
+template <typename T>
+void appendBytes(std::string& bytes, T value) {
+  char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  bytes.append(raw, sizeof value);
+}
+
+}  // namespace foretouch::tools
