@@ -4,6 +4,7 @@
 # includes them. The kernel is not: there each source has its own constants of a proof, under the names
 # that its note gives them. It has its headers compiled once instead.
 #   foretouch_unity(<target> [batch size])
+#   foretouch_precompile(<target> [more headers])
 function(foretouch_unity target)
   if(FORETOUCH_UNITY)
     set(batch ${ARGN} 8)
@@ -17,7 +18,7 @@ function(foretouch_precompile target)
   if(FORETOUCH_UNITY)
     target_precompile_headers(${target} PRIVATE
       <algorithm> <array> <cmath> <cstdint> <limits> <memory> <string> <utility> <vector>
-      <Eigen/Core> <Eigen/Geometry>)
+      <Eigen/Core> <Eigen/Geometry> ${ARGN})
   endif()
 endfunction()
 

@@ -23,7 +23,7 @@ using test::Matrix4d;
 using test::oneTriangle;
 using test::Vector3d;
 
-const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 bool isNoted(const Clip& clip, const std::string& part) {
   return std::any_of(clip.notes.begin(), clip.notes.end(),
@@ -195,7 +195,7 @@ TEST(ClipFromModel, SamplesFromZeroToTheLastKeyAndClampsOutside) {
   clip = clipFromModel(model, {"", 4.0}).value();
   ASSERT_EQ(clip.frames.size(), 9u);
   EXPECT_EQ(clip.frames[8].translations[0].x(), 1.0);
-  for (const double duration : {0.0, -1.0, kNan}) {
+  for (const double duration : {0.0, -1.0, kNotANumber}) {
     model.animations[0].durationS = duration;
     EXPECT_EQ(clipFromModel(model, {"", 4.0}).value().frames.size(), 5u);
   }
@@ -252,7 +252,7 @@ TEST(ClipFromModel, DrivesTheAvatarOfAnotherFileOfTheSameRig) {
 TEST(ClipFromModel, SortsKeysAndLeavesOutWhatIsNone) {
   Model model = shifting();
   auto& track = model.animations[0].tracks[0];
-  track.positions = {{1.0, {1, 0, 0}}, {kNan, {9, 9, 9}}, {0.0, {0, 0, 0}}, {0.5, {kNan, 0, 0}}};
+  track.positions = {{1.0, {1, 0, 0}}, {kNotANumber, {9, 9, 9}}, {0.0, {0, 0, 0}}, {0.5, {kNotANumber, 0, 0}}};
   track.rotations = {{0.0, Quaternion(0, 0, 0, 0)}, {0.0, Quaternion(2, 0, 0, 0)}};
   const Clip clip = clipFromModel(model, {"", 2.0}).value();
   ASSERT_EQ(clip.frames.size(), 3u);
@@ -305,7 +305,7 @@ TEST(ClipFromModel, RefusesWhatHasNoMotionAndWhatIsTooMuch) {
     return clip.ok() ? ErrorCode::Syntax : clip.error().code;
   };
   Model model = shifting();
-  for (const double rate : {0.0, -1.0, 1e7, 1e-4, kNan}) {
+  for (const double rate : {0.0, -1.0, 1e7, 1e-4, kNotANumber}) {
     EXPECT_EQ(codeOf(model, rate), ErrorCode::OutOfRange);
   }
   model.animations[0].durationS = 1e9;

@@ -9,8 +9,8 @@ namespace {
 using test::expectRefused;
 using test::refuse;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr auto kMinusOne = static_cast<std::size_t>(-1);
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr auto kNegative = static_cast<std::size_t>(-1);
 
 struct Asking {
   test::SmallWorld world;
@@ -29,12 +29,12 @@ TEST(CQueryErrors, OfQueryOptions) {
   EXPECT_EQ(Asking().make(), FT_OK);
   const ft_ignored_pair ignored[1] = {{0, 1}};
   const ft_link_policy policies[2] = {{1e-3, FT_FIDELITY_LINK, 0}, {1e-3, FT_FIDELITY_LINK, 0}};
-  for (const double tolerance : {0.0, -1.0, kNaN, 1e-10, 2e7}) {
+  for (const double tolerance : {0.0, -1.0, kNotANumber, 1e-10, 2e7}) {
     Asking a;
     a.options.tolerance = tolerance;
     expectRefused(a.make(), FT_ERROR_OUT_OF_RANGE, {"tolerance"});
   }
-  refuse<Asking>([&](Asking& a) { a.options.deadline_us = kNaN; }, FT_ERROR_OUT_OF_RANGE,
+  refuse<Asking>([&](Asking& a) { a.options.deadline_us = kNotANumber; }, FT_ERROR_OUT_OF_RANGE,
                  {"deadline"});
   refuse<Asking>([&](Asking& a) { a.options.deadline_us = -1; }, FT_ERROR_OUT_OF_RANGE,
                  {"deadline"});
@@ -48,7 +48,7 @@ TEST(CQueryErrors, OfQueryOptions) {
                  {"ignored"});
   refuse<Asking>(
       [&](Asking& a) {
-        a.options.ignored_count = kMinusOne;
+        a.options.ignored_count = kNegative;
         a.options.ignored = ignored;
       },
       FT_ERROR_LIMIT_EXCEEDED, {"ignored"});
@@ -68,12 +68,12 @@ TEST(CQueryErrors, OfQueryOptions) {
       FT_ERROR_MISMATCH, {"one a link"});
   refuse<Asking>(
       [&](Asking& a) {
-        a.options.policy_count = kMinusOne;
+        a.options.policy_count = kNegative;
         a.options.policies = policies;
       },
       FT_ERROR_LIMIT_EXCEEDED, {"policies"});
   for (const ft_link_policy policy :
-       {ft_link_policy{kNaN, 0, 0}, ft_link_policy{1e-3, FT_FIDELITY_LIMB, 0},
+       {ft_link_policy{kNotANumber, 0, 0}, ft_link_policy{1e-3, FT_FIDELITY_LIMB, 0},
         ft_link_policy{1e-3, 77, 0}}) {
     Asking a;
     a.options.policy_count = 1;
@@ -144,7 +144,7 @@ TEST(CQueryErrors, OfAnswers) {
   contact.size = 0;
   expectRefused(ft_query_contacts(query.get(), &contact, 1, &count), FT_ERROR_STRUCT_SIZE,
                 {"ft_contact"});
-  for (const double t : {-0.1, 1.1, kNaN, std::numeric_limits<double>::infinity()}) {
+  for (const double t : {-0.1, 1.1, kNotANumber, std::numeric_limits<double>::infinity()}) {
     expectRefused(ft_motion_transforms(query.get(), t, &transform, 1, &count),
                   FT_ERROR_OUT_OF_RANGE, {"t:"});
     expectRefused(ft_touches_at(query.get(), 0, t, &touches), FT_ERROR_OUT_OF_RANGE, {"t:"});

@@ -13,14 +13,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/house/source_files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contentOf(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using foretouch::house::contentOf;
 
 /// Markdown at the root and in docs/, and the examples' page.
 std::vector<fs::path> documents() {

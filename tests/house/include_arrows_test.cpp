@@ -11,9 +11,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/house/source_files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
+using foretouch::house::contentOf;
 
 /// Folder -> the folders it may include, itself left out.
 const std::map<std::string, std::set<std::string>> kArrows = {
@@ -273,11 +276,6 @@ TEST(IncludeArrows, PeersStayBehindTheirDoor) {
     seen.insert(room->first);
   }
   EXPECT_EQ(seen.size(), rooms.size());
-}
-
-std::string contentOf(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST(Readme, ShowsTheExampleThatIsBuiltAndRun) {

@@ -11,6 +11,7 @@
 #include "assets/model/model_avatar.h"
 #include "assets/model/model_clip.h"
 #include "lss/lss_cover.h"
+#include "tests/support/holds.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
@@ -18,10 +19,6 @@
 
 namespace foretouch::test {
 namespace {
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// Two boxes, 0.5 m wide, one on the other: 24 triangles.
 std::string twoBoxes() {

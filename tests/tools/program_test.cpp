@@ -5,15 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "assets/avatar/avatar_file.h"
+#include "tests/support/holds.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
 
 namespace foretouch::test {
 namespace {
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST(Program, SaysItsVersion) {
   const Ended ended = runForetouch({"--version"});

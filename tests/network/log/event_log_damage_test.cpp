@@ -128,7 +128,7 @@ TEST(EventLogDamage, AWrongLengthInAForeignLogCostsThatEvent) {
 TEST(EventLogDamage, GarbageBetweenEventsIsPassedOver) {
   const std::vector<LogEvent> events = numberedEvents(9, 60);
   Bytes garbage = numberedEvent(77, 1'000).payload;
-  append(garbage, {0xED, 0xA1, 0xDA, 0x01, 0xED, 0xA1});
+  append(garbage, Bytes{0xED, 0xA1, 0xDA, 0x01, 0xED, 0xA1});
   Bytes foreign;
   for (const LogEvent& event : events) {
     append(foreign, garbage);

@@ -35,7 +35,7 @@ const std::string kPoses = kPoseChannel;
 const std::string kSkeletons = kSkeletonChannel;
 
 /// A wall across x = 1.
-Scene wall() {
+Scene farWall() {
   RawScene raw;
   raw.objectNames = {"wall"};
   const Eigen::Vector3d a(1.0, -5.0, -5.0), b(1.0, 9.0, -5.0), c(1.0, 0.0, 9.0);
@@ -45,7 +45,7 @@ Scene wall() {
 }
 
 std::vector<StreamSolver> solversOf(std::int32_t avatars) {
-  const Scene scene = wall();
+  const Scene scene = farWall();
   std::vector<StreamSolver> solvers;
   for (std::int32_t id = 0; id < avatars; ++id) {
     solvers.push_back(StreamSolver::make(id, smallAvatar(), scene, {}, {}).value());

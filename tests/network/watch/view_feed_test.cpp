@@ -74,17 +74,17 @@ TEST(ShowPace, LosesNothingOfAStreamOfItsOwnRateThatJitters) {
   std::mt19937 random(1);
   ShowPace pace;
   std::int64_t waiting = 0, joined = 0;
-  constexpr std::int64_t kTickUs = 10'000, kPeriodUs = 33'334, kPoses = 3000;
+  constexpr std::int64_t kTickUs = 10'000, kPeriodUs = 33'334, kPosesSent = 3000;
   std::int64_t nextPoseUs = 0, pose = 0;
-  for (std::int64_t nowUs = 0; pose < kPoses; nowUs += kTickUs) {
-    for (; nextPoseUs <= nowUs && pose < kPoses; ++pose) {
+  for (std::int64_t nowUs = 0; pose < kPosesSent; nowUs += kTickUs) {
+    for (; nextPoseUs <= nowUs && pose < kPosesSent; ++pose) {
       joined += waiting > 0 ? 1 : 0;
       waiting = 1;
       nextPoseUs = (pose + 1) * kPeriodUs + static_cast<std::int64_t>(random() % 8000);
     }
     if (waiting > 0 && pace.passes(nowUs)) waiting = 0;
   }
-  EXPECT_LT(joined, kPoses / 100);
+  EXPECT_LT(joined, kPosesSent / 100);
 }
 
 TEST(StepBatch, KeepsTheNewestStepAndEveryContact) {

@@ -32,7 +32,7 @@ using test::sentEvents;
 using test::statusOf;
 
 /// Events under a test's hand. The server owns a source that reads here.
-class Stage {
+class ServedStage {
  public:
   void say(ViewEvent event) { sayTogether({std::move(event)}); }
   /// They are collected together.
@@ -59,13 +59,13 @@ class Stage {
 
 class FakeSource final : public EventSource {
  public:
-  explicit FakeSource(std::shared_ptr<Stage> stage) : stage_(std::move(stage)) {}
+  explicit FakeSource(std::shared_ptr<ServedStage> stage) : stage_(std::move(stage)) {}
   void setViewers(std::size_t count) override { stage_->viewers = count; }
   void collect(Time, std::vector<ViewEvent>& events) override { stage_->take(events); }
   void rest() override { ++stage_->rests; }
 
  private:
-  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<ServedStage> stage_;
 };
 
 constexpr char kWatch[] = "GET /events HTTP/1.1\r\nHost: localhost\r\n\r\n";
@@ -94,7 +94,7 @@ class View : public testing::Test {
     return asked(port(), method + " " + path + " HTTP/1.1\r\n" + headers + "\r\n");
   }
 
-  std::shared_ptr<Stage> stage_ = std::make_shared<Stage>();
+  std::shared_ptr<ServedStage> stage_ = std::make_shared<ServedStage>();
   std::optional<ViewServer> server_;
 };
 
@@ -229,7 +229,7 @@ TEST_F(View, HasABoundedNumberOfViewers) {
 }
 
 /// Large steps, so that buffers fill; `contacts` in order.
-void sayMany(Stage& stage, int from, int steps, std::vector<int>& contacts) {
+void sayMany(ServedStage& stage, int from, int steps, std::vector<int>& contacts) {
   for (int i = from; i < from + steps; ++i) {
     contacts.push_back(i);
     stage.say(eventOf(0, i, {i}, 8000));

@@ -24,6 +24,7 @@
 #include "network/service/service.h"
 #include "network/wire/codec.h"
 #include "network/wire/wire.h"
+#include "tests/support/holds.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
 #include "tools/stream/serve_config.h"
@@ -32,10 +33,6 @@ namespace foretouch::test {
 namespace {
 
 using std::chrono::milliseconds;
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 template <typename Condition>
 bool eventually(const Condition& isMet) {

@@ -13,7 +13,7 @@ namespace foretouch::tools {
 namespace {
 
 const std::vector<std::string> kLinks{"Hips", "Spine", "LeftFoot", "LeftHand", "LeftHandIndex1"};
-const std::vector<std::string> kObjects{"floor", "table", "chair_1", "chair_2"};
+const std::vector<std::string> kRoomObjects{"floor", "table", "chair_1", "chair_2"};
 
 Skeleton skeleton() {
   RawSkeleton raw;
@@ -28,7 +28,7 @@ Skeleton skeleton() {
 Result<QueryOptions> resolved(const std::string& text, QueryOptions options = {}) {
   const auto rules = parsePolicyFile(text, "etc/policy.toml");
   if (!rules.ok()) return rules.error();
-  const auto done = applyPolicies(rules.value(), skeleton(), kObjects, options);
+  const auto done = applyPolicies(rules.value(), skeleton(), kRoomObjects, options);
   if (!done.ok()) return done.error();
   return options;
 }

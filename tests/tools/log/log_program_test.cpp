@@ -62,18 +62,18 @@ TEST(LogProgram, InfoAsJsonIsComplete) {
   const TempFolder folder;
   const Ended ended = runForetouch({"log", "info", "--json", writeLog(folder)});
   EXPECT_EQ(ended.exitCode, 0);
-  const Json json = Json::parse(ended.out);
-  EXPECT_EQ(json["state"], "sound");
-  EXPECT_EQ(json["counts"]["events"], 20);
-  EXPECT_EQ(json["counts"]["check_sums"], true);
-  EXPECT_EQ(json["counts"]["closed"], true);
-  ASSERT_EQ(json["channels"].size(), 2u);
-  EXPECT_EQ(json["channels"][0]["channel"], "A");
-  EXPECT_EQ(json["channels"][0]["events"], 7);
-  EXPECT_EQ(json["channels"][0]["payload_bytes"], 700);
+  const Json told = Json::parse(ended.out);
+  EXPECT_EQ(told["state"], "sound");
+  EXPECT_EQ(told["counts"]["events"], 20);
+  EXPECT_EQ(told["counts"]["check_sums"], true);
+  EXPECT_EQ(told["counts"]["closed"], true);
+  ASSERT_EQ(told["channels"].size(), 2u);
+  EXPECT_EQ(told["channels"][0]["channel"], "A");
+  EXPECT_EQ(told["channels"][0]["events"], 7);
+  EXPECT_EQ(told["channels"][0]["payload_bytes"], 700);
   // 7 events, 30 ms apart.
-  EXPECT_DOUBLE_EQ(json["channels"][0]["rate_hz"].get<double>(), 6 / 0.18);
-  EXPECT_EQ(json["channels"][1]["events"], 13);
+  EXPECT_DOUBLE_EQ(told["channels"][0]["rate_hz"].get<double>(), 6 / 0.18);
+  EXPECT_EQ(told["channels"][1]["events"], 13);
 }
 
 TEST(LogProgram, CheckSaysWhatIsDamagedAndWhere) {
@@ -87,15 +87,15 @@ TEST(LogProgram, CheckSaysWhatIsDamagedAndWhere) {
   EXPECT_NE(ended.out.find("sound.lcmlog: sound, 20 events"), std::string::npos) << ended.out;
   ended = runForetouch({"log", "check", "--json", damaged});
   EXPECT_EQ(ended.exitCode, 1);
-  const Json json = Json::parse(ended.out);
-  ASSERT_EQ(json["findings"].size(), 1u);
-  EXPECT_EQ(json["findings"][0]["damage"], "bad block");
-  const auto offset = json["findings"][0]["offset"].get<std::size_t>();
-  const auto bytes = json["findings"][0]["bytes"].get<std::size_t>();
+  const Json told = Json::parse(ended.out);
+  ASSERT_EQ(told["findings"].size(), 1u);
+  EXPECT_EQ(told["findings"][0]["damage"], "bad block");
+  const auto offset = told["findings"][0]["offset"].get<std::size_t>();
+  const auto bytes = told["findings"][0]["bytes"].get<std::size_t>();
   const std::size_t changed = contentOf(damaged).find(std::string(50, '\x0A') + 'x') + 50;
   EXPECT_LE(offset, changed);
   EXPECT_GT(offset + bytes, changed);
-  EXPECT_EQ(json["counts"]["bad_blocks"], 1);
+  EXPECT_EQ(told["counts"]["bad_blocks"], 1);
 }
 
 TEST(LogProgram, CheckNamesWhatIsNoLog) {

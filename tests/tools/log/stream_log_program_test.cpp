@@ -9,6 +9,7 @@
 
 #include "network/log/event_log.h"
 #include "network/wire/codec.h"
+#include "tests/support/holds.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
 #include "tests/tools/stream/stream_lines.h"
@@ -18,10 +19,6 @@ namespace foretouch::test {
 namespace {
 
 using nlohmann::json;
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// The small world, its clip also as a log.
 class LoggedWorld : public SmallWorld {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/holds.h"
 #include "tests/tools/small_inputs.h"
 #include "tools/progress.h"
 #include "tools/replay/replay.h"
@@ -29,9 +30,7 @@ std::string summaryOf(const ReplayInputs& inputs, ReplaySummary& summary,
   return summary.text(options.threads);
 }
 
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::holds;
 
 TEST(ReplaySummary, CountsStepsLinksAndWhatThePosesMiss) {
   // Through the wall; away from it; back so that the hips end in it while the arm does not reach

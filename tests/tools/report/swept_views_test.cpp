@@ -39,7 +39,7 @@ ViewDocument document(const ReplayInputs& inputs) {
   return made;
 }
 
-std::vector<double> swing(int poses) {
+std::vector<double> swingOf(int poses) {
   std::vector<double> places;
   for (int i = 0; i < poses; ++i) places.push_back(i % 2 == 0 ? -0.5 : 0.5 + 0.01 * i);
   return places;
@@ -52,7 +52,7 @@ double distanceFromSegment(const Vector3d& p, const Vector3d& a, const Vector3d&
 }
 
 TEST(AddSwept, ShowsTheSweepOfEveryContact) {
-  const ReplayInputs inputs = test::smallInputs(swing(7));
+  const ReplayInputs inputs = test::smallInputs(swingOf(7));
   ViewDocument made = document(inputs);
   addSwept({}, made, onward());
   EXPECT_TRUE(made.notes.empty());
@@ -79,7 +79,7 @@ TEST(AddSwept, ShowsTheSweepOfEveryContact) {
 }
 
 TEST(AddSwept, ShowsWhatPosesMissFirstAndSaysWhatIsLeftOut) {
-  const ReplayInputs inputs = test::smallInputs(swing(31));
+  const ReplayInputs inputs = test::smallInputs(swingOf(31));
   ViewDocument made = document(inputs);
   SweptRequest request;
   request.maxTriangles = 3000;

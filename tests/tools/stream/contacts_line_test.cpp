@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-LinkContact contactOf(LinkId link, Verdict verdict, double time) {
+LinkContact contactWith(LinkId link, Verdict verdict, double time) {
   LinkContact contact;
   contact.link = link;
   contact.verdict = verdict;
@@ -45,9 +45,9 @@ TEST(ContactsLine, WritesEveryField) {
   message.receiveUtimeUs = 5;
   message.sendUtimeUs = 6;
   message.queryUs = 1.5;
-  LinkContact gap = contactOf(1, Verdict::Undecided, 0.0);
+  LinkContact gap = contactWith(1, Verdict::Undecided, 0.0);
   message.contacts = {{gap, AnswerReason::Gap, "Arm", ""},
-                      {contactOf(0, Verdict::Contact, 0.5), AnswerReason::None, "Hi\"ps", "wall"}};
+                      {contactWith(0, Verdict::Contact, 0.5), AnswerReason::None, "Hi\"ps", "wall"}};
   EXPECT_EQ(
       contactsLine(message, Stamps::With),
       R"({"avatar":7,"session":1700000000000000,"sequence":[41,42],"utime":[1000000,1100000],)"
@@ -81,7 +81,7 @@ TEST(ContactsLine, HasTheContactsOfAResultsFile) {
   test::Random random(3);
   for (int i = 0; i < 200; ++i) {
     const auto verdict = static_cast<Verdict>(1 + random.below(3));
-    LinkContact contact = contactOf(random.below(2), verdict, random.uniform(0.0, 1.0));
+    LinkContact contact = contactWith(random.below(2), verdict, random.uniform(0.0, 1.0));
     contact.separation = random.magnitude(1e-9, 1e-3);
     contact.penetration = random.magnitude(1e-9, 1.0);
     contact.p_WLink = random.direction();
@@ -131,8 +131,8 @@ TEST(ContactsText, SaysWhatIsTouchedAndKeepsControlSequencesOut) {
   ContactsMessage message = smallMessage();
   EXPECT_EQ(contactsText(message), "avatar 7, pose 42: clear\n");
   message.contacts = {
-      {contactOf(0, Verdict::Contact, 0.25), AnswerReason::None, "Hand", "ta\x1b[2Jble"},
-      {contactOf(0, Verdict::Undecided, 0.0), AnswerReason::MissingJoint, "Foot", ""}};
+      {contactWith(0, Verdict::Contact, 0.25), AnswerReason::None, "Hand", "ta\x1b[2Jble"},
+      {contactWith(0, Verdict::Undecided, 0.0), AnswerReason::MissingJoint, "Foot", ""}};
   message.kind = StepKind::AcrossGap;
   message.lost = 2;
   EXPECT_EQ(contactsText(message),

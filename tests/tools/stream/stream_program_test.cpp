@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/network/http_client.h"
+#include "tests/support/holds.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tools/program_run.h"
@@ -26,10 +27,6 @@ using nlohmann::json;
 using Words = std::vector<std::string>;
 
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// How long what must come is waited for; only failures take so long.
 bool waitFor(const std::function<bool()>& isThere) {
