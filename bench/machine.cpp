@@ -71,7 +71,7 @@ std::string dateNow() {
 }
 
 std::string commandLine(const std::vector<std::string>& arguments) {
-  std::string line = "foretouch";
+  std::string line = "foretouch-bench";
   for (const std::string& argument : arguments) {
     const std::size_t slash = argument.find_last_of('/');
     const std::string word = slash == std::string::npos ? argument : argument.substr(slash + 1);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "lss/assert.h"
+#include "lss/safe_step.h"
 #include "lss/separation.h"
-#include "middleware/query/link_pair.h"
 
 namespace foretouch::internal {
 namespace {

@@ -14,8 +14,6 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Rounds steps down past the rounding of their formula (some ten roundings of positive terms).
-constexpr double kStepShrink = 1.0 - 1e-12;
 /// Covers the rounding of norms and of a few operations on bounds.
 constexpr double kInflation = 1.0 + 1e-12;
 
@@ -173,17 +171,6 @@ Aabb LinkParts::boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& p
   box.add(ends.a);
   box.add(ends.b);
   return box;
-}
-
-double safeStep(double clearance, double speed, double acceleration) {
-  FORETOUCH_ASSERT(clearance > 0.0 && acceleration >= 0.0);
-  const double root = std::sqrt(speed * speed + 2.0 * acceleration * clearance);
-  // Two forms of the positive root, each a sum of terms of one sign.
-  if (speed <= 0.0) {
-    const double closing = root - speed;
-    return closing > 0.0 ? kStepShrink * (2.0 * clearance / closing) : kInfinity;
-  }
-  return acceleration > 0.0 ? kStepShrink * ((speed + root) / acceleration) : kInfinity;
 }
 
 double stepFrom(const PairState& pair, double floor) {

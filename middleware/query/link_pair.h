@@ -11,6 +11,7 @@
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "lss/lss_hierarchy.h"
+#include "lss/safe_step.h"
 #include "lss/triangle.h"
 #include "middleware/scene/triangle_id.h"
 #include "middleware/surface/link_surface.h"
@@ -95,11 +96,6 @@ struct LinkParts {
   /// A box around the part's points, as computed.
   [[nodiscard]] Aabb boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const;
 };
-
-/// Largest s >= 0, rounded down, such that clearance + s*speed - acceleration*s^2/2 >= 0 on all of
-/// [0, s]; infinity where it never falls below. `clearance` > 0, `acceleration` >= 0; `speed` is
-/// the rate at which the clearance grows (negative: closing). Exposed for its test.
-[[nodiscard]] double safeStep(double clearance, double speed, double acceleration);
 
 /// For how long the pair's separation stays at `floor` or above; 0 where that is not proven now.
 [[nodiscard]] double stepFrom(const PairState& pair, double floor);

@@ -52,7 +52,7 @@ TEST(TableCsv, QuotesWordsAndLeavesGaps) {
 }
 
 TEST(CommandLine, QuotesWordsAndNamesFilesWithoutTheirFolders) {
-  EXPECT_EQ(commandLine({"bench", "--scene", "/some/where/a room.obj", "--place", "0,0,0", "it's"}),
+  EXPECT_EQ(commandLine({"--scene", "/some/where/a room.obj", "--place", "0,0,0", "it's"}),
             "foretouch-bench --scene 'a room.obj' --place 0,0,0 'it'\\''s'");
 }
 
