@@ -17,7 +17,19 @@ consume() {  # consume NAME SOURCES CMAKE_OPTIONS...
   "$cmake" --build "$folder/$name"
 }
 
+# The kernel stands alone: who asks queries links no file formats, no JSON, and starts no processes.
+expect_kernel_alone() {  # expect_kernel_alone PROGRAM
+  local linked started
+  linked=$(ldd "$1" | grep -E 'fmt|assimp|urdfdom|tinyxml|lcm|httplib' || true)
+  started=$(nm --undefined-only "$1" | grep -wE 'fork|vfork|execv|execve|execvp|posix_spawn|socket' || true)
+  if [ -n "$linked$started" ]; then
+    printf 'A program that links foretouch::middleware alone has more:\n%s\n%s\n' "$linked" "$started" >&2
+    exit 1
+  fi
+}
+
 consume consumer "$source/tests/consumer" -DCMAKE_CXX_COMPILER="$cxx"
+expect_kernel_alone "$folder/consumer/consumer"
 "$folder/consumer/consumer" | tee "$folder/cxx.txt"
 
 if [ -f "$prefix/include/foretouch/foretouch.h" ]; then
