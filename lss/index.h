@@ -10,7 +10,7 @@ namespace foretouch {
 
 /// The place of a joint, link, node or triangle in its list. Ids are signed, since -1 means none.
 /// Precondition: id >= 0 (asserted).
-[[nodiscard]] constexpr std::size_t indexOf(std::int32_t id) {
+[[nodiscard]] constexpr std::size_t slotOf(std::int32_t id) {
   FORETOUCH_ASSERT(id >= 0);
   return static_cast<std::size_t>(id);
 }

@@ -48,11 +48,11 @@ Result<std::vector<Drive>> findDrives(const Model& model, const JointTable& tabl
     if (found == joints.end() && (found = nodes.find(name)) == nodes.end()) {
       return Error{ErrorCode::UnknownName, "", -1, -1, "the robot has no joint " + inQuotes(name)};
     }
-    if (isDriven[indexOf(found->second)]) {
+    if (isDriven[slotOf(found->second)]) {
       return Error{ErrorCode::DuplicateName, "", -1, -1,
                    "column " + inQuotes(name) + " moves a joint that an earlier column moves"};
     }
-    isDriven[indexOf(found->second)] = true;
+    isDriven[slotOf(found->second)] = true;
     drives.push_back({found->second, 0.0});
   }
   return drives;
@@ -89,7 +89,7 @@ std::vector<std::string> notesOn(const Model& model, const JointTable& table,
   std::vector<std::string> notes, idle, beyond;
   double worst = 0.0;
   for (std::size_t i = 0; i < drives.size(); ++i) {
-    if (!isMovable(model.nodes[indexOf(drives[i].node)])) idle.push_back(table.joints[i]);
+    if (!isMovable(model.nodes[slotOf(drives[i].node)])) idle.push_back(table.joints[i]);
     if (!(drives[i].worstExcess > kLimitTolerance)) continue;
     beyond.push_back(table.joints[i]);
     worst = std::max(worst, drives[i].worstExcess);
@@ -108,16 +108,16 @@ Result<Clip> clipOf(const Model& model, const JointTable& table, std::vector<Dri
   auto collector = internal::FrameCollector::create(model, table.rows.size());
   if (!collector.ok()) return collector.error();
   for (const Drive& drive : drives) {
-    const ModelNode& node = model.nodes[indexOf(drive.node)];
+    const ModelNode& node = model.nodes[slotOf(drive.node)];
     if (isMovable(node)) collector.value().moves(drive.node, turns(node));
   }
   std::vector<Affine> frames = internal::restFrames(model);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     for (std::size_t i = 0; i < drives.size(); ++i) {
-      const ModelNode& node = model.nodes[indexOf(drives[i].node)];
+      const ModelNode& node = model.nodes[slotOf(drives[i].node)];
       if (!isMovable(node)) continue;
       checkLimits(node, table.rows[row][i], drives[i]);
-      frames[indexOf(drives[i].node)] = movedFrame(node, table.rows[row][i]);
+      frames[slotOf(drives[i].node)] = movedFrame(node, table.rows[row][i]);
     }
     const auto added = collector.value().add(frames);
     if (added.ok()) continue;

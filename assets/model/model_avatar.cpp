@@ -46,12 +46,12 @@ std::vector<std::string> bonesWithoutTriangles(const Model& model, const ModelLi
   std::vector<bool> isBone(model.nodes.size(), false);
   for (const ModelMesh& mesh : model.meshes) {
     for (const ModelBone& bone : mesh.bones) {
-      if (bone.node >= 0) isBone[indexOf(bone.node)] = true;
+      if (bone.node >= 0) isBone[slotOf(bone.node)] = true;
     }
   }
   std::vector<std::string> names;
   for (std::size_t link = 0; link < surface.triangles.size(); ++link) {
-    if (surface.triangles[link].empty() && isBone[indexOf(links.nodeOfLink[link])]) {
+    if (surface.triangles[link].empty() && isBone[slotOf(links.nodeOfLink[link])]) {
       names.push_back(links.skeleton.name(static_cast<LinkId>(link)));
     }
   }
@@ -75,7 +75,7 @@ ModelAvatarReport reportOn(const Model& model, const ModelLinks& links,
 
 Result<Done> checkOptions(const ModelAvatarOptions& options) {
   const bool isCount =
-      options.maxLssPerLink >= 1 && indexOf(options.maxLssPerLink) <= kMaxLssPerLink;
+      options.maxLssPerLink >= 1 && slotOf(options.maxLssPerLink) <= kMaxLssPerLink;
   if (isCount) return Done{};
   return Error{ErrorCode::OutOfRange, "", -1, -1,
                "expected 1 to " + std::to_string(kMaxLssPerLink) + " LSS a link, found " +
@@ -104,7 +104,7 @@ Result<ModelAvatar> avatarFromModel(const Model& model, const ModelAvatarOptions
     report.hullVolume += measure.hullVolume;
     report.excessVolume += std::max(0.0, measure.lssVolume - measure.hullVolume);
     lss.push_back(
-        statedLss(model.nodes[indexOf(links.value().nodeOfLink[link])], links.value().shape[link]));
+        statedLss(model.nodes[slotOf(links.value().nodeOfLink[link])], links.value().shape[link]));
     lss.back().insert(lss.back().end(), fitted.begin(), fitted.end());
     any = any || !lss.back().empty();
     const bool isReferred = !options.meshFile.empty() && !triangles.empty();

@@ -57,7 +57,7 @@ void LinkFinder::findLoads() {
   loaded_ = ownership_.carries;
   for (const ModelMesh& mesh : model_.meshes) {
     for (const ModelBone& bone : mesh.bones) {
-      if (bone.node >= 0) loaded_[indexOf(bone.node)] = true;
+      if (bone.node >= 0) loaded_[slotOf(bone.node)] = true;
     }
   }
   for (std::size_t i = 0; i < size_; ++i) {
@@ -70,7 +70,7 @@ void LinkFinder::findMoved() {
   moved_.assign(size_, false);
   for (const ModelAnimation& animation : model_.animations) {
     for (const ModelTrack& track : animation.tracks) {
-      if (track.node >= 0) moved_[indexOf(track.node)] = true;
+      if (track.node >= 0) moved_[slotOf(track.node)] = true;
     }
   }
 }
@@ -81,12 +81,12 @@ void LinkFinder::findServed() {
   for (std::size_t i = 0; i < size_; ++i) served_[i] = static_cast<std::int32_t>(i);
   for (std::size_t i = size_; i-- > 0;) {
     const std::int32_t parent = model_.nodes[i].parent;
-    if (parent < 0 || !isIdlePivot(indexOf(parent))) continue;
-    const std::string& pivot = model_.nodes[indexOf(parent)].name;
-    const std::string& name = model_.nodes[indexOf(served_[i])].name;
+    if (parent < 0 || !isIdlePivot(slotOf(parent))) continue;
+    const std::string& pivot = model_.nodes[slotOf(parent)].name;
+    const std::string& name = model_.nodes[slotOf(served_[i])].name;
     const std::size_t length = pivot.find(kPivotMark);
     if (name.size() == length && pivot.compare(0, length, name) == 0) {
-      served_[indexOf(parent)] = served_[i];
+      served_[slotOf(parent)] = served_[i];
     }
   }
 }
@@ -97,14 +97,14 @@ std::vector<bool> LinkFinder::links() {
   findServed();
   std::vector<bool> isLink = loaded_;
   for (std::size_t i = 0; i < size_; ++i) {
-    if (moved_[i]) isLink[indexOf(served_[i])] = true;
+    if (moved_[i]) isLink[slotOf(served_[i])] = true;
   }
   const std::vector<bool> isNeeded = isLink;
   for (std::size_t i = size_; i-- > 0;) {
     const std::int32_t parent = model_.nodes[i].parent;
     // Through pivots too, links or not: what is above them counts.
     if (parent < 0 || !isLink[i]) continue;
-    isLink[indexOf(parent)] = true;
+    isLink[slotOf(parent)] = true;
   }
   for (std::size_t i = 0; i < size_; ++i) {
     if (isIdlePivot(i) && !isNeeded[i]) isLink[i] = false;
@@ -158,8 +158,8 @@ std::vector<LinkId> linksAbove(const Model& model, const std::vector<LinkId>& li
   for (std::size_t i = 0; i < above.size(); ++i) {
     const std::int32_t parent = model.nodes[i].parent;
     if (parent < 0) continue;
-    above[i] = linkOfNode[indexOf(parent)] != kNoParent ? linkOfNode[indexOf(parent)]
-                                                        : above[indexOf(parent)];
+    above[i] = linkOfNode[slotOf(parent)] != kNoParent ? linkOfNode[slotOf(parent)]
+                                                        : above[slotOf(parent)];
   }
   return above;
 }
@@ -192,7 +192,7 @@ std::optional<Error> countError(std::size_t links) {
                  "the model has no node that carries or moves anything; expected bones, meshes, "
                  "joints or an animation"};
   }
-  if (links > indexOf(kMaxJoints)) {
+  if (links > slotOf(kMaxJoints)) {
     return Error{ErrorCode::LimitExceeded, "", -1, -1,
                  "expected at most " + std::to_string(kMaxJoints) + " links, found " +
                      std::to_string(links)};
@@ -236,7 +236,7 @@ Result<Done> checkModel(const Model& model) {
     bool isSound = isNode(mesh.node);
     for (const auto& triangle : mesh.triangles) {
       for (const std::int32_t v : triangle) {
-        isSound = isSound && v >= 0 && indexOf(v) < mesh.vertices.size();
+        isSound = isSound && v >= 0 && slotOf(v) < mesh.vertices.size();
       }
     }
     for (const ModelBone& bone : mesh.bones)
@@ -267,7 +267,7 @@ Result<ModelLinks> modelLinks(const Model& model, const ModelOwnership& ownershi
   }
   if (auto error = countError(links.nodeOfLink.size())) return *std::move(error);
   for (std::size_t i = 0; i < isLink.size(); ++i) {
-    links.servedLink.push_back(links.linkOfNode[indexOf(finder.served(i))]);
+    links.servedLink.push_back(links.linkOfNode[slotOf(finder.served(i))]);
   }
 
   const std::vector<Affine> world = worldFrames(model, restFrames(model));
@@ -277,18 +277,18 @@ Result<ModelLinks> modelLinks(const Model& model, const ModelOwnership& ownershi
   std::vector<RigidFrame> frames;
   std::vector<std::string> names;
   for (const std::int32_t node : links.nodeOfLink) {
-    const Affine& frame = world[indexOf(node)];
+    const Affine& frame = world[slotOf(node)];
     if (!frame.translation.allFinite() || !(frame.linear.cwiseAbs().maxCoeff() <= kLargestScale)) {
-      return nodeError(ErrorCode::OutOfRange, model, indexOf(node),
+      return nodeError(ErrorCode::OutOfRange, model, slotOf(node),
                        "is scaled by more than 1e9 or has no finite place in the world");
     }
     frames.push_back({nearestRotation(frame.linear), frame.translation});
     links.shape.push_back(frames.back().rotation.transpose() * frame.linear);
-    const LinkId parent = above[indexOf(node)];
+    const LinkId parent = above[slotOf(node)];
     RawJoint joint =
-        relative(frames.back(), parent == kNoParent ? nullptr : &frames[indexOf(parent)]);
+        relative(frames.back(), parent == kNoParent ? nullptr : &frames[slotOf(parent)]);
     joint.parent = parent;
-    joint.name = naming.nameOf(model.nodes[indexOf(node)]);
+    joint.name = naming.nameOf(model.nodes[slotOf(node)]);
     names.push_back(joint.name);
     raw.joints.push_back(std::move(joint));
   }
@@ -306,7 +306,7 @@ Pose poseOfFrames(const Model& model, const ModelLinks& links, const std::vector
   std::vector<RigidFrame> frames;
   Pose pose;
   for (std::size_t link = 0; link < links.nodeOfLink.size(); ++link) {
-    const Affine& frame = world[indexOf(links.nodeOfLink[link])];
+    const Affine& frame = world[slotOf(links.nodeOfLink[link])];
     const Eigen::Matrix3d& shape = links.shape[link];
     // The R for which |frame - R shape| is least; at rest, the one that the shape was taken with.
     frames.push_back({nearestRotation(frame.linear * shape.transpose()), frame.translation});
@@ -314,7 +314,7 @@ Pose poseOfFrames(const Model& model, const ModelLinks& links, const std::vector
     worstShear[link] = std::max(worstShear[link], off / std::max(shape.norm(), 1e-300));
     const LinkId parent = links.skeleton.parent(static_cast<LinkId>(link));
     const RawJoint joint =
-        relative(frames.back(), parent == kNoParent ? nullptr : &frames[indexOf(parent)]);
+        relative(frames.back(), parent == kNoParent ? nullptr : &frames[slotOf(parent)]);
     pose.rotations.push_back(joint.rotation);
     pose.translations.push_back(joint.offset);
   }

@@ -45,7 +45,7 @@ class SurfaceBuilder {
   /// A vertex as a point of a node's link.
   [[nodiscard]] std::optional<Vector3d> placed(std::int32_t node, const Vector3d& vertex) {
     const auto [found, isNew] = placings_.try_emplace(node);
-    if (isNew) found->second.linear = links_.shape[indexOf(links_.linkOfNode[indexOf(node)])];
+    if (isNew) found->second.linear = links_.shape[slotOf(links_.linkOfNode[slotOf(node)])];
     return asFloat(found->second * vertex);
   }
   std::int32_t skinVertex(std::size_t m, std::int32_t vertex);
@@ -67,7 +67,7 @@ void SurfaceBuilder::findPlacings(const ModelMesh& mesh) {
   placings_.clear();
   for (const ModelBone& bone : mesh.bones) {
     if (bone.node < 0) continue;
-    const Affine shape{links_.shape[indexOf(links_.linkOfNode[indexOf(bone.node)])],
+    const Affine shape{links_.shape[slotOf(links_.linkOfNode[slotOf(bone.node)])],
                        Vector3d::Zero()};
     placings_.try_emplace(bone.node, shape * bone.meshToBone);
   }
@@ -78,11 +78,11 @@ std::optional<std::vector<SkinInfluence>> SurfaceBuilder::influencesOf(std::size
   const ModelMesh& mesh = model_.meshes[m];
   const MeshOwnership& owned = ownership_.meshes[m];
   const std::vector<NodeInfluence> rigid = {{mesh.node, 1.0}};
-  const auto& nodes = mesh.bones.empty() ? rigid : owned.influences[indexOf(vertex)];
+  const auto& nodes = mesh.bones.empty() ? rigid : owned.influences[slotOf(vertex)];
   std::vector<SkinInfluence> influences;
   for (const NodeInfluence& influence : nodes) {
-    const LinkId link = links_.linkOfNode[indexOf(influence.node)];
-    const auto p_L = placed(influence.node, mesh.vertices[indexOf(vertex)]);
+    const LinkId link = links_.linkOfNode[slotOf(influence.node)];
+    const auto p_L = placed(influence.node, mesh.vertices[slotOf(vertex)]);
     if (!p_L) return std::nullopt;
     influences.push_back({link, influence.weight, *p_L});
   }
@@ -92,7 +92,7 @@ std::optional<std::vector<SkinInfluence>> SurfaceBuilder::influencesOf(std::size
 }
 
 std::int32_t SurfaceBuilder::skinVertex(std::size_t m, std::int32_t vertex) {
-  std::int32_t& known = skinVertices_[indexOf(vertex)];
+  std::int32_t& known = skinVertices_[slotOf(vertex)];
   if (known != kUnseen) return known;
   auto influences = influencesOf(m, vertex);
   if (!influences) return known = kNowhere;
@@ -112,7 +112,7 @@ void SurfaceBuilder::addMesh(std::size_t m) {
     bool isPlaced = true;
     for (std::size_t k = 0; k < 3 && isPlaced; ++k) {
       const std::int32_t vertex = mesh.triangles[t][k];
-      const auto p_L = placed(owner, mesh.vertices[indexOf(vertex)]);
+      const auto p_L = placed(owner, mesh.vertices[slotOf(vertex)]);
       corners[k] = skinVertex(m, vertex);
       isPlaced = p_L.has_value() && corners[k] != kNowhere;
       if (isPlaced) triangle.vertices[k] = *p_L;
@@ -121,9 +121,9 @@ void SurfaceBuilder::addMesh(std::size_t m) {
       ++surface_.dropped;
       continue;
     }
-    const LinkId link = links_.linkOfNode[indexOf(owner)];
-    surface_.triangles[indexOf(link)].push_back(triangle);
-    corners_[indexOf(link)].push_back(corners);
+    const LinkId link = links_.linkOfNode[slotOf(owner)];
+    surface_.triangles[slotOf(link)].push_back(triangle);
+    corners_[slotOf(link)].push_back(corners);
   }
 }
 

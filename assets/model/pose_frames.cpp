@@ -46,10 +46,10 @@ Result<FrameCollector> FrameCollector::create(const Model& model, std::size_t fr
 /// A pivot turns its link about a point elsewhere, which shifts it too; take() sees whether it
 /// does.
 void FrameCollector::moves(std::int32_t node, bool turns) {
-  const LinkId link = links_.servedLink[indexOf(node)];
+  const LinkId link = links_.servedLink[slotOf(node)];
   if (link == kNoParent) return;
-  isMoved_[indexOf(link)] = true;
-  if (turns) isTurned_[indexOf(link)] = true;
+  isMoved_[slotOf(link)] = true;
+  if (turns) isTurned_[slotOf(link)] = true;
 }
 
 Result<Done> FrameCollector::add(const std::vector<Affine>& toParent) {
