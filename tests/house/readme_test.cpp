@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "articulated/avatar_file.h"
 #include "articulated/motion.h"
-#include "middleware/query.h"
-#include "middleware/scene.h"
-#include "middleware/scene_import.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/import/scene_import.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
 #include "tests/house/markdown.h"
 
 namespace foretouch::test {
