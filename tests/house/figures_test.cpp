@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/house/markdown.h"
+#include "tests/house/source_files.h"
 #include "tests/support/temp_folder.h"
 
 namespace foretouch::test {
@@ -16,7 +17,7 @@ namespace {
 TEST(Figures, OfTheDocumentsAreThoseOfTheirMeasurements) {
   Measurements measurements(std::string(FORETOUCH_SOURCE_DIR) + "/docs/measurements");
   for (const auto& document : markdownFiles()) {
-    for (const std::string& complaint : measurements.complaintsAbout(contentOfDocument(document))) {
+    for (const std::string& complaint : measurements.complaintsAbout(house::contentOf(document))) {
       ADD_FAILURE() << document.string() << ": " << complaint;
     }
   }
@@ -28,7 +29,7 @@ TEST(Figures, OfTheDocumentsAreThoseOfTheirMeasurements) {
 }
 
 TEST(Figures, TheFirstScreenHasOnePerPromise) {
-  const std::string readme = contentOfDocument(std::string(FORETOUCH_SOURCE_DIR) + "/README.md");
+  const std::string readme = house::contentOf(std::string(FORETOUCH_SOURCE_DIR) + "/README.md");
   const std::string screen = readme.substr(0, readme.find("```"));
   for (const std::string name : {"oracle-contacts", "room-5hz-p50", "rigid-missed-5hz"}) {
     EXPECT_NE(screen.find("<!-- figure: " + name + " -->"), std::string::npos) << name;

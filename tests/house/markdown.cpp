@@ -1,8 +1,6 @@
 #include "tests/house/markdown.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <sstream>
 
@@ -69,11 +67,6 @@ std::vector<fs::path> markdownFiles() {
   }
   std::sort(found.begin(), found.end());
   return found;
-}
-
-std::string contentOfDocument(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::size_t columnsOf(std::string_view line) {

@@ -11,8 +11,6 @@ namespace foretouch::test {
 /// Every Markdown file of the sources; not what is built or installed beside them.
 std::vector<std::filesystem::path> markdownFiles();
 
-std::string contentOfDocument(const std::filesystem::path& path);
-
 /// Columns that a line of UTF-8 takes: its code points.
 std::size_t columnsOf(std::string_view line);
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/house/source_files.h"
+
 namespace foretouch::test {
 namespace {
 
@@ -24,7 +26,7 @@ TEST(Markdown, LinesHaveAtMostAHundredColumns) {
   int documents = 0, written = 0;
   for (const auto& document : markdownFiles()) {
     ++documents;
-    const std::string text = contentOfDocument(document);
+    const std::string text = house::contentOf(document);
     if (isWritten(document)) {
       ++written;
       EXPECT_NE(text.find("Made by `./run bench`"), std::string::npos);

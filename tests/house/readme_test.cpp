@@ -1,4 +1,5 @@
 // The six lines of README's first screen: they are these, and they find what they say.
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -11,7 +12,7 @@
 #include "assets/import/scene_import.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
-#include "tests/house/markdown.h"
+#include "tests/house/source_files.h"
 
 namespace foretouch::test {
 namespace {
@@ -57,7 +58,7 @@ TEST_F(ReadmesFirstScreen, FindsWhatIsBetweenTwoPoses) {
 std::string linesAbove() {
   const std::string begin = "  // README begins\n", end = "  // README ends\n";
   const std::string source =
-      contentOfDocument(std::string(FORETOUCH_SOURCE_DIR) + "/tests/house/readme_test.cpp");
+      house::contentOf(std::string(FORETOUCH_SOURCE_DIR) + "/tests/house/readme_test.cpp");
   const std::size_t from = source.find("\n" + begin) + 1 + begin.size();
   const std::string indented = source.substr(from, source.find("\n" + end) + 1 - from);
   std::string lines;
@@ -69,7 +70,7 @@ std::string linesAbove() {
 }
 
 TEST(Readme, FirstScreenShowsTheLinesThatAreRun) {
-  const std::string readme = contentOfDocument(std::string(FORETOUCH_SOURCE_DIR) + "/README.md");
+  const std::string readme = house::contentOf(std::string(FORETOUCH_SOURCE_DIR) + "/README.md");
   const std::string lines = linesAbove();
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 6);
   EXPECT_EQ(lines.find("{{"), std::string::npos);
