@@ -82,18 +82,22 @@ def chunk(kind, content):
     return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
 
 
-def shrink(path, most_bytes):
-    """Rewrites the file; fails where that does not make it small enough."""
+def shrink(path, most_bytes, to=None, part=None):
+    """Rewrites the file, or writes `part` of it (left, top, right, bottom) as `to`; fails where that
+    does not make it small enough."""
     with open(path, "rb") as file:
         rows, channels, width = rows_of(file.read())
-    pixels = [list(zip(row[0::channels], row[1::channels], row[2::channels])) for row in rows]
+    left, top, right, bottom = part or (0, 0, width, len(rows))
+    pixels = [list(zip(row[0::channels], row[1::channels], row[2::channels]))[left:right]
+              for row in rows[top:bottom]]
+    width, path = right - left, to or path
     counts = {}
     for row in pixels:
         for color in row:
             counts[color] = counts.get(color, 0) + 1
     palette, index_of = palette_for(counts)
     raw = b"".join(b"\0" + bytes(index_of[color] for color in row) for row in pixels)
-    data = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(rows), 8, 3, 0, 0, 0))
+    data = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(pixels), 8, 3, 0, 0, 0))
     data += chunk(b"PLTE", b"".join(bytes(color) for color in palette))
     data += chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b"")
     if len(data) > most_bytes:

@@ -1,0 +1,27 @@
+// tests/house/markdown.h: the documents of the house, and their lines as Markdown reads them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace foretouch::test {
+
+/// Every Markdown file of the sources; not what is built or installed beside them.
+std::vector<std::filesystem::path> markdownFiles();
+
+/// Columns that a line of UTF-8 takes: its code points.
+std::size_t columnsOf(std::string_view line);
+
+struct WideLine {
+  int number = 0;  ///< From 1.
+  std::size_t columns = 0;
+};
+
+/// Lines of more than `most` columns. Exempt, as they cannot be wrapped: rows of tables, lines that
+/// are one HTML tag or comment, lines that are one link, fences of program output (```text) and of
+/// lines of JSON (```jsonl), and what a program writes between comments NAME:begin and NAME:end.
+std::vector<WideLine> wideLines(std::string_view text, std::size_t most);
+
+}  // namespace foretouch::test

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# docs/performance.md is, byte for byte, what `./run bench` makes of the files in docs/measurements/.
+#   performance_test.sh FORETOUCH_BENCH SOURCE_FOLDER
+set -euo pipefail
+bench=$1 source=$2
+made=$(mktemp)
+trap 'rm -f "$made"' EXIT
+# `run` says which files, in which order.
+names=$(sed -n '/^performance_document()/,/^}/s/.*for name in \(.*\); do.*/\1/p' "$source/run")
+files=()
+for name in $names; do files+=("$source/docs/measurements/$name.json"); done
+[ ${#files[@]} -ge 5 ] || { echo "run names ${#files[@]} files for docs/performance.md"; exit 1; }
+"$bench" report "${files[@]}" --output "$made"
+diff "$source/docs/performance.md" "$made"
