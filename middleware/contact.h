@@ -3,6 +3,7 @@
 // promise, its proof and the constants in it: docs/guarantees.md.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -25,13 +26,22 @@ enum class Verdict : std::uint8_t {
 /// "clear", "contact", "starts_in_contact", "undecided".
 [[nodiscard]] const char* toString(Verdict verdict);
 
+/// Why a link is undecided. The numbers are those on the wire.
 enum class UndecidedReason : std::uint8_t {
-  None,
-  WorkBudget,  ///< QueryOptions::workBudget or deadlineUs was spent.
-  Resolution,  ///< Doubles cannot resolve the tolerance at these coordinates.
-  AfterFirst,  ///< Scope::FirstOfAvatar: another link's contact is earlier.
+  None = 0,
+  WorkBudget = 1,  ///< QueryOptions::workBudget or deadlineUs was spent.
+  Resolution = 2,  ///< Doubles cannot resolve the tolerance at these coordinates.
+  AfterFirst = 3,  ///< Scope::FirstOfAvatar: another link's contact is earlier.
+  // Queries never give those that follow; streams of poses do (docs/streaming.md).
+  Gap = 4,             ///< Poses were lost: what happened between the two is not known.
+  MissingJoint = 5,    ///< A joint above the link, or its own, is not in one of the poses.
+  InvalidJoint = 6,    ///< ... is marked as not valid.
+  StaleJoint = 7,      ///< ... is valid but neither tracked nor inferred: an old value.
+  UnmatchedJoint = 8,  ///< ... is not in the sender's skeleton.
 };
+inline constexpr std::uint8_t kNumUndecidedReasons = 9;
 
+/// "none", "work-budget", "resolution", "after-first", "gap", "missing-joint", ...
 [[nodiscard]] const char* toString(UndecidedReason reason);
 
 /// What one link meets first on one motion.
@@ -68,8 +78,18 @@ struct StepContacts {
   QueryCounters counters;
 };
 
+/// What is said of a link that is free until `freeUntil`, and of which nothing is known after it.
+[[nodiscard]] LinkContact undecidedContact(LinkId link, double freeUntil, UndecidedReason reason);
+
 /// The order in which links are reported: earliest first, an undecided one at its freeUntil; of
 /// those at the same time the lowest link first.
 [[nodiscard]] bool isReportedBefore(const LinkContact& x, const LinkContact& y);
+
+/// The links that are reported, in that order: all that are not Clear. Every format that lists
+/// contacts lists these. O(links log links).
+[[nodiscard]] std::vector<LinkId> reported(const StepContacts& step);
+/// The same of `count` contacts, one per link, in order. Allocates nothing once `links` has room
+/// for every link.
+void listReported(const LinkContact* contacts, std::size_t count, std::vector<LinkId>& links);
 
 }  // namespace foretouch

@@ -1,40 +1,41 @@
 #include "tools/contact_json.h"
 
-#include <fmt/format.h>
+#include <type_traits>
+#include <variant>
 
+#include "middleware/contact_fields.h"
 #include "middleware/exact/feature.h"
-#include "tools/json_text.h"
 
 namespace foretouch::tools {
 namespace {
 
-std::string numbers(const Eigen::Vector3d& v) {
-  return fmt::format("[{},{},{}]", numberText(v.x()), numberText(v.y()), numberText(v.z()));
+template <typename Value>
+void writeValue(const Value& value, JsonWriter& out) {
+  if constexpr (std::is_enum_v<Value>) {
+    out.value(toString(value));
+  } else {
+    out.value(value);
+  }
 }
 
 }  // namespace
 
-void appendContact(const LinkContact& contact, const ContactWords& words, std::string& text) {
-  text += fmt::format(R"({{"link":{},"verdict":"{}")", words.link, toString(contact.verdict));
-  if (contact.verdict == Verdict::Undecided) {
-    text += fmt::format(R"(,"free_until":{},"reason":"{}"}})", numberText(contact.freeUntil),
-                        words.reason);
-    return;
+void writeContact(const LinkContact& contact, const ContactWords& words, JsonWriter& out) {
+  for (const ContactField& field : kContactFields) {
+    if (!isTold(field.use, contact)) continue;
+    const std::string_view name = field.name;
+    out.key(name);
+    if (name == "link") {
+      out.raw(words.link);
+    } else if (name == "object") {
+      out.raw(words.object);
+    } else {
+      std::visit([&](auto member) { writeValue(contact.*member, out); }, field.member);
+    }
+    if (name != "toi") continue;
+    if (words.timeS) out.field("time", *words.timeS);
+    if (words.utimeUs) out.field("utime", *words.utimeUs);
   }
-  text += fmt::format(R"(,"toi":{},{},"separation":{})", numberText(contact.toi), words.instant,
-                      numberText(contact.separation));
-  if (contact.verdict == Verdict::StartsInContact) {
-    text += fmt::format(R"(,"penetration":{})", numberText(contact.penetration));
-  }
-  text += fmt::format(R"(,"point":{},"on_link":{},"normal":{},"triangle":{},"object":{})",
-                      numbers(contact.p_WScene), numbers(contact.p_WLink),
-                      numbers(contact.nhat_SL_W), contact.triangle, words.object);
-  if (contact.linkTriangle >= 0) {
-    text += fmt::format(R"(,"link_triangle":{},"link_feature":"{}","scene_feature":"{}")",
-                        contact.linkTriangle, toString(contact.linkFeature),
-                        toString(contact.sceneFeature));
-  }
-  text += '}';
 }
 
 }  // namespace foretouch::tools

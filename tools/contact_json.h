@@ -1,24 +1,25 @@
-// tools/contact_json.h: one contact as JSON (docs/formats.md, "Results"): the same text in a
-// results file and in the lines of a stream.
+// tools/contact_json.h: one contact as JSON (docs/formats.md, "Results"): the same fields in a
+// results file, in the lines of a stream, in view documents, in live events and in a GLB.
 #pragma once
 
-#include <string>
+#include <cstdint>
+#include <optional>
 #include <string_view>
 
-#include "middleware/query/query.h"
+#include "assets/json_writer.h"
+#include "middleware/contact.h"
 
 namespace foretouch::tools {
 
-/// What a contact says in words; `link` and `object` are JSON strings already.
+/// What a contact itself does not say; JSON already.
 struct ContactWords {
-  std::string_view link;
-  std::string_view object;  ///< Not read where the link is undecided.
-  std::string_view reason;  ///< Read only where it is.
-  std::string_view
-      instant;  ///< When it is touched, as a field: "time":0.34. Not read there either.
+  std::string_view link;    ///< Its name, or its number.
+  std::string_view object;  ///< Not read where the link is undecided, nor are those that follow.
+  std::optional<double> timeS;          ///< When it is touched: in the clip,
+  std::optional<std::int64_t> utimeUs;  ///< and on the clock.
 };
 
-/// The object's text, without a line break. `contact` is not clear.
-void appendContact(const LinkContact& contact, const ContactWords& words, std::string& text);
+/// The fields that kContactFields says it has, into an object that is open. `contact` is not clear.
+void writeContact(const LinkContact& contact, const ContactWords& words, JsonWriter& out);
 
 }  // namespace foretouch::tools

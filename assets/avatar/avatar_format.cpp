@@ -2,25 +2,20 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "assets/avatar/avatar_file.h"
+#include "assets/json_writer.h"
 
 namespace foretouch {
 namespace {
 
 /// Shortest text that reads back as the same double. "-0" would read back as the integer 0.
-std::string numberText(double value) {
+std::string signedText(double value) {
   return value == 0.0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);
 }
 
 std::string vectorText(const Eigen::Vector3d& v) {
-  return fmt::format("[{}, {}, {}]", numberText(v.x()), numberText(v.y()), numberText(v.z()));
-}
-
-/// In quotes, escaped. Names and paths of an Avatar are UTF-8, so this cannot fail.
-std::string stringText(const std::string& text) {
-  return nlohmann::json(text).dump();
+  return fmt::format("[{}, {}, {}]", signedText(v.x()), signedText(v.y()), signedText(v.z()));
 }
 
 bool isIdentity(const Quaternion& q) {  // bit for bit: a -0 must survive the file
@@ -32,7 +27,7 @@ std::string lssText(const std::vector<Lss>& list) {
   std::string out;
   for (const Lss& lss : list) {
     out += fmt::format("{}{{\"a\": {}, \"b\": {}, \"radius\": {}}}", out.empty() ? "" : ",\n    ",
-                       vectorText(lss.a), vectorText(lss.b), numberText(lss.radius));
+                       vectorText(lss.a), vectorText(lss.b), signedText(lss.radius));
   }
   return out;
 }
@@ -41,19 +36,19 @@ std::string linkText(const Avatar& avatar, LinkId link) {
   const Skeleton& skeleton = avatar.skeleton();
   const JointId parent = skeleton.parent(link);
   std::string out = fmt::format("  {{\"name\": {}, \"parent\": {}, \"offset\": {}",
-                                stringText(skeleton.name(link)),
-                                parent == kNoParent ? "null" : stringText(skeleton.name(parent)),
+                                jsonString(skeleton.name(link)),
+                                parent == kNoParent ? "null" : jsonString(skeleton.name(parent)),
                                 vectorText(skeleton.restOffset(link)));
   const Quaternion& q = skeleton.restRotation(link);
   if (!isIdentity(q)) {
-    out += fmt::format(", \"rotation\": [{}, {}, {}, {}]", numberText(q.w()), numberText(q.x()),
-                       numberText(q.y()), numberText(q.z()));
+    out += fmt::format(", \"rotation\": [{}, {}, {}, {}]", signedText(q.w()), signedText(q.x()),
+                       signedText(q.y()), signedText(q.z()));
   }
   out += fmt::format(",\n   \"lss\": [{}]", lssText(avatar.lss(link)));
   const MeshReference& mesh = avatar.mesh(link);
   if (!mesh.file.empty()) {
-    out += fmt::format(",\n   \"mesh\": {{\"file\": {}, \"node\": {}}}", stringText(mesh.file),
-                       stringText(mesh.node));
+    out += fmt::format(",\n   \"mesh\": {{\"file\": {}, \"node\": {}}}", jsonString(mesh.file),
+                       jsonString(mesh.node));
   }
   return out + "}";
 }

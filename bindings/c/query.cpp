@@ -1,5 +1,4 @@
 // bindings/c/query.cpp: ft_query, from its making to the step.
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -42,17 +41,6 @@ ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skele
   return FT_OK;
 }
 
-void listReported(ft_query::Step& step) {
-  step.reported.clear();
-  for (const LinkContact& contact : step.answer.links) {
-    if (contact.verdict != Verdict::Clear) step.reported.push_back(contact.link);
-  }
-  const auto& links = step.answer.links;
-  std::sort(step.reported.begin(), step.reported.end(), [&](LinkId x, LinkId y) {
-    return isReportedBefore(links[static_cast<std::size_t>(x)], links[static_cast<std::size_t>(y)]);
-  });
-}
-
 /// Answers query.from to query.to into query.next.
 ft_status answerNext(ft_query& query, const QueryOptions& options) {
   if (query.isScratchSuspect) query.scratch = QueryScratch();
@@ -63,7 +51,8 @@ ft_status answerNext(ft_query& query, const QueryOptions& options) {
                                   query.next.answer);
   query.isScratchSuspect = false;
   if (!done.ok()) return failure(done.error());
-  listReported(query.next);
+  const auto& links = query.next.answer.links;
+  listReported(links.data(), links.size(), query.next.reported);
   return FT_OK;
 }
 

@@ -102,21 +102,12 @@ void defineArrays(py::class_<Holder>& type) {
 
 // ---- Step and Steps ----
 
-std::vector<std::size_t> reported(const Step& step) {
-  const LinkContact* const first = firstOf(step);
-  std::vector<std::size_t> links;
-  for (std::size_t i = 0; i < step.answers->links(); ++i) {
-    if (first[i].verdict != Verdict::Clear) links.push_back(i);
-  }
-  std::sort(links.begin(), links.end(),
-            [first](std::size_t x, std::size_t y) { return isReportedBefore(first[x], first[y]); });
-  return links;
-}
-
 std::vector<Contact> contacts(const Step& step) {
+  std::vector<LinkId> reported;
+  listReported(firstOf(step), step.answers->links(), reported);
   std::vector<Contact> found;
-  for (const std::size_t link : reported(step)) {
-    found.push_back({step.answers, step.step * step.answers->links() + link});
+  for (const LinkId link : reported) {
+    found.push_back({step.answers, step.step * step.answers->links() + std::size_t(link)});
   }
   return found;
 }
@@ -160,7 +151,7 @@ void bindStep(py::module_& module) {
   type.def_property_readonly("contacts", &contactList,
                              "Of the links that are not clear, earliest first.")
       .def_property_readonly(
-          "is_clear", [](const Step& step) { return reported(step).empty(); },
+          "is_clear", [](const Step& step) { return contacts(step).empty(); },
           "Whether every link is proven free on the whole motion.")
       .def_property_readonly("free_prefix", &freePrefix,
                              "No link touches anything before this t: the least free_until.")

@@ -33,15 +33,6 @@ double after(double t, double step) {
   return next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
 }
 
-LinkContact undecidedContact(LinkId link, double freeUntil, UndecidedReason reason) {
-  LinkContact contact;
-  contact.link = link;
-  contact.verdict = Verdict::Undecided;
-  contact.reason = reason;
-  contact.freeUntil = contact.toi = freeUntil;
-  return contact;
-}
-
 int Pieces::at(double t) const {
   int k = std::min(count - 1, static_cast<int>(t * count));
   // The product may have rounded across a boundary; the boundaries are what timeOf() says.

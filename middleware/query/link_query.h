@@ -42,9 +42,6 @@ struct Candidate {
   std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, where there are any
 };
 
-/// Free before `freeUntil`, and nothing claimed after it.
-[[nodiscard]] LinkContact undecidedContact(LinkId link, double freeUntil, UndecidedReason reason);
-
 /// What backtrack() needs to know of one link; all references outlive the call.
 struct LinkQuery {
   LinkParts parts;

@@ -138,12 +138,7 @@ void keepFirst(StepContacts& step) {
   if (!isTouched) return;
   for (LinkContact& contact : step.links) {
     if (contact.verdict != Verdict::Clear && contact.freeUntil <= first) continue;
-    const LinkId link = contact.link;
-    contact = LinkContact{};
-    contact.link = link;
-    contact.verdict = Verdict::Undecided;
-    contact.reason = UndecidedReason::AfterFirst;
-    contact.toi = contact.freeUntil = first;
+    contact = undecidedContact(contact.link, first, UndecidedReason::AfterFirst);
   }
 }
 

@@ -109,10 +109,8 @@ class Sweep {
   /// A contact at this very instant stands.
   void giveUp(double t, UndecidedReason reason) {
     if (t >= horizon_) return;
-    best_ = LinkContact();
-    best_.verdict = Verdict::Undecided;
-    best_.reason = reason;
-    best_.freeUntil = best_.toi = horizon_ = t;
+    best_ = undecidedContact(best_.link, t, reason);
+    horizon_ = t;
   }
 
   [[nodiscard]] LinkContact contactOf(TriangleId id, const SpheroidPair::Look& look,

@@ -102,7 +102,7 @@ struct AvatarStream::Impl {
   SkeletonRun oldSkeletons;
   internal::StreamTimeline timeline;
   internal::PoseAssembly assembly;
-  std::vector<AnswerReason> unknown;
+  std::vector<UndecidedReason> unknown;
 };
 
 AvatarStream::AvatarStream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

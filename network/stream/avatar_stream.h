@@ -45,7 +45,7 @@ struct StreamStep {
   std::int64_t lost = 0;  ///< Poses between the two; may be 0 AcrossGap (see above).
   /// Per link: why it cannot be decided whatever a query says; None: the query decides. Gap is not
   /// among them: it applies to all links by `kind`, where the link would be clear.
-  const std::vector<AnswerReason>* unknown = nullptr;
+  const std::vector<UndecidedReason>* unknown = nullptr;
 };
 
 struct StreamCounts {

@@ -19,13 +19,14 @@ std::int32_t* placeOf(std::vector<std::int32_t>& places, std::int32_t joint) {
 
 }  // namespace
 
-void findUnknownLinks(const Skeleton& skeleton, const std::vector<AnswerReason>& from,
-                      const std::vector<AnswerReason>& to, std::vector<AnswerReason>& reasons) {
+void findUnknownLinks(const Skeleton& skeleton, const std::vector<UndecidedReason>& from,
+                      const std::vector<UndecidedReason>& to,
+                      std::vector<UndecidedReason>& reasons) {
   reasons.resize(from.size());
   for (std::size_t link = 0; link < reasons.size(); ++link) {  // parents come first
-    AnswerReason reason = to[link] != AnswerReason::None ? to[link] : from[link];
+    UndecidedReason reason = to[link] != UndecidedReason::None ? to[link] : from[link];
     const JointId parent = skeleton.parents()[link];
-    if (reason == AnswerReason::None && parent != kNoParent) {
+    if (reason == UndecidedReason::None && parent != kNoParent) {
       reason = reasons[static_cast<std::size_t>(parent)];
     }
     reasons[link] = reason;
@@ -42,7 +43,7 @@ void PoseAssembly::use(const JointMatch& match, std::int32_t numSenderJoints) {
   translated_.assign(n, kNowhere);
   isTranslated_.assign(n, 0);
   later_.pose = restPose(avatar_);
-  later_.reasons.assign(senderJointOf_.size(), AnswerReason::MissingJoint);
+  later_.reasons.assign(senderJointOf_.size(), UndecidedReason::MissingJoint);
   earlier_ = later_;
 }
 
@@ -93,14 +94,14 @@ void PoseAssembly::assemble(const PoseMessage& message, bool isSession) {
 void PoseAssembly::assembleJoint(std::size_t joint, const PoseMessage& message) {
   later_.pose.rotations[joint] = earlier_.pose.rotations[joint];
   later_.pose.translations[joint] = earlier_.pose.translations[joint];
-  AnswerReason& reason = later_.reasons[joint];
+  UndecidedReason& reason = later_.reasons[joint];
   if (senderJointOf_[joint] == kNoParent) {  // rest values since use()
-    reason = unmatchedAtRest_ ? AnswerReason::None : AnswerReason::UnmatchedJoint;
+    reason = unmatchedAtRest_ ? UndecidedReason::None : UndecidedReason::UnmatchedJoint;
     return;
   }
   const auto sender = static_cast<std::size_t>(senderJointOf_[joint]);
   reason = reasonOf(sender, message);
-  if (reason != AnswerReason::None) return;
+  if (reason != UndecidedReason::None) return;
   const auto& listed = message.joints[static_cast<std::size_t>(listed_[sender])];
   const auto unit = unitQuaternion(listed.rotation);
   FORETOUCH_ASSERT(unit.has_value());
@@ -111,19 +112,19 @@ void PoseAssembly::assembleJoint(std::size_t joint, const PoseMessage& message) 
   }
   later_.pose.translations[joint] =
       message.translations[static_cast<std::size_t>(translated_[sender])].translation;
-  if (isTranslated_[sender] == 0 && earlier_.reasons[joint] == AnswerReason::None) {
-    earlier_.reasons[joint] = AnswerReason::MissingJoint;
+  if (isTranslated_[sender] == 0 && earlier_.reasons[joint] == UndecidedReason::None) {
+    earlier_.reasons[joint] = UndecidedReason::MissingJoint;
   }
   isTranslated_[sender] = 1;
 }
 
-AnswerReason PoseAssembly::reasonOf(std::size_t sender, const PoseMessage& message) const {
-  if (listed_[sender] == kNowhere) return AnswerReason::MissingJoint;
+UndecidedReason PoseAssembly::reasonOf(std::size_t sender, const PoseMessage& message) const {
+  if (listed_[sender] == kNowhere) return UndecidedReason::MissingJoint;
   const std::uint8_t flags = message.joints[static_cast<std::size_t>(listed_[sender])].flags;
-  if ((flags & kJointValid) == 0) return AnswerReason::InvalidJoint;
-  if ((flags & (kJointTracked | kJointInferred)) == 0) return AnswerReason::StaleJoint;
+  if ((flags & kJointValid) == 0) return UndecidedReason::InvalidJoint;
+  if ((flags & (kJointTracked | kJointInferred)) == 0) return UndecidedReason::StaleJoint;
   const bool lacksTranslation = translated_[sender] == kNowhere && isTranslated_[sender] != 0;
-  return lacksTranslation ? AnswerReason::MissingJoint : AnswerReason::None;
+  return lacksTranslation ? UndecidedReason::MissingJoint : UndecidedReason::None;
 }
 
 }  // namespace foretouch::internal

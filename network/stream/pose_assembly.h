@@ -16,8 +16,9 @@ namespace foretouch::internal {
 /// Why each link cannot be known in one of the two poses, or in both: the reason of the first joint
 /// that has one, going up from the link's own to its root; the later pose's where both have one.
 /// `reasons` is resized.
-void findUnknownLinks(const Skeleton& skeleton, const std::vector<AnswerReason>& from,
-                      const std::vector<AnswerReason>& to, std::vector<AnswerReason>& reasons);
+void findUnknownLinks(const Skeleton& skeleton, const std::vector<UndecidedReason>& from,
+                      const std::vector<UndecidedReason>& to,
+                      std::vector<UndecidedReason>& reasons);
 
 /// Keeps the two poses of a step. Allocates in use() alone.
 ///
@@ -42,8 +43,8 @@ class PoseAssembly {
   void assemble(const PoseMessage& message, bool isSession);
 
   struct Known {
-    Pose pose;                          ///< As validatedPose() makes it.
-    std::vector<AnswerReason> reasons;  ///< Per joint: why it is unknown; None: known.
+    Pose pose;                             ///< As validatedPose() makes it.
+    std::vector<UndecidedReason> reasons;  ///< Per joint: why it is unknown; None: known.
   };
   [[nodiscard]] const Known& earlier() const { return earlier_; }
   [[nodiscard]] const Known& later() const { return later_; }
@@ -52,7 +53,7 @@ class PoseAssembly {
   [[nodiscard]] Reject checkJoints(const PoseMessage& message);
   [[nodiscard]] Reject checkTranslations(const PoseMessage& message);
   void assembleJoint(std::size_t joint, const PoseMessage& message);
-  [[nodiscard]] AnswerReason reasonOf(std::size_t sender, const PoseMessage& message) const;
+  [[nodiscard]] UndecidedReason reasonOf(std::size_t sender, const PoseMessage& message) const;
 
   Skeleton avatar_;
   bool unmatchedAtRest_;

@@ -17,10 +17,10 @@ void StepBatch::add(const StreamStep& step, const ContactsMessage& answer) {
   newest_.addedUs = std::max(0.0, serviceUs - answer.queryUs);
   const std::size_t room = kMaxBatchContacts - contacts_.size();
   const std::size_t taken = std::min(room, answer.contacts.size());
-  for (std::size_t i = 0; i < taken; ++i) {
-    const AnsweredContact& listed = answer.contacts[i];
-    contacts_.push_back(
-        {listed.contact, listed.reason, answer.sequenceTo, answer.utimeFromUs, answer.utimeToUs});
+  for (std::size_t i = 0; i < taken; ++i) contacts_.push_back(answer.contacts[i].contact);
+  if (taken > 0) {
+    touchingSteps_.push_back(
+        {answer.sequenceTo, answer.utimeFromUs, answer.utimeToUs, contacts_.size()});
   }
   numLeftOut_ += answer.contacts.size() - taken;
   ++numSteps_;
@@ -28,6 +28,7 @@ void StepBatch::add(const StreamStep& step, const ContactsMessage& answer) {
 
 void StepBatch::clear() {
   contacts_.clear();
+  touchingSteps_.clear();
   numSteps_ = numLeftOut_ = 0;
 }
 

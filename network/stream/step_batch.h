@@ -15,12 +15,11 @@ namespace foretouch {
 /// Contacts that a batch holds; what comes beyond them is counted.
 inline constexpr std::size_t kMaxBatchContacts = 4096;
 
-/// One link that is not clear, and the step in which it is not.
-struct WatchedContact {
-  LinkContact contact;
-  AnswerReason reason = AnswerReason::None;
-  std::int64_t sequence = 0;                    ///< Of the pose that ends the step.
-  std::int64_t utimeFromUs = 0, utimeToUs = 0;  ///< Of the step.
+/// A step of a batch, and where its contacts end in StepBatch::contacts().
+struct BatchedStep {
+  std::int64_t sequence = 0;  ///< Of the pose that ends the step.
+  std::int64_t utimeFromUs = 0, utimeToUs = 0;
+  std::size_t endOfContacts = 0;
 };
 
 struct WatchedStep {
@@ -42,14 +41,17 @@ class StepBatch {
   [[nodiscard]] std::uint64_t numSteps() const { return numSteps_; }
   /// Precondition: numSteps() > 0.
   [[nodiscard]] const WatchedStep& newest() const { return newest_; }
-  /// Of all steps, in their order, a step's earliest first.
-  [[nodiscard]] const std::vector<WatchedContact>& contacts() const { return contacts_; }
+  /// Links that are not clear, of all steps, in their order, a step's earliest first.
+  [[nodiscard]] const std::vector<LinkContact>& contacts() const { return contacts_; }
+  /// The steps that have any of these, in order.
+  [[nodiscard]] const std::vector<BatchedStep>& touchingSteps() const { return touchingSteps_; }
   /// Contacts beyond kMaxBatchContacts.
   [[nodiscard]] std::uint64_t numLeftOut() const { return numLeftOut_; }
 
  private:
   WatchedStep newest_;
-  std::vector<WatchedContact> contacts_;
+  std::vector<LinkContact> contacts_;
+  std::vector<BatchedStep> touchingSteps_;
   std::uint64_t numSteps_ = 0, numLeftOut_ = 0;
 };
 

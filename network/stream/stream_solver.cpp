@@ -1,6 +1,5 @@
 #include "network/stream/stream_solver.h"
 
-#include <algorithm>
 #include <chrono>
 #include <limits>
 
@@ -10,25 +9,6 @@ namespace foretouch {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-
-AnswerReason reasonOf(UndecidedReason reason) {
-  switch (reason) {
-    case UndecidedReason::None: return AnswerReason::None;
-    case UndecidedReason::WorkBudget: return AnswerReason::WorkBudget;
-    case UndecidedReason::Resolution: return AnswerReason::Resolution;
-    case UndecidedReason::AfterFirst: return AnswerReason::AfterFirst;
-  }
-  return AnswerReason::Resolution;
-}
-
-/// Nothing is claimed of the link.
-LinkContact nothingOf(LinkId link) {
-  LinkContact contact;
-  contact.link = link;
-  contact.verdict = Verdict::Undecided;
-  contact.toi = contact.freeUntil = 0.0;
-  return contact;
-}
 
 /// As contacts_t says it: 0 where there is none.
 std::int64_t budgetOf(const QueryOptions& options) {
@@ -88,8 +68,7 @@ Reject StreamSolver::take(const PoseMessage& message, ContactsMessage& answer) {
   FORETOUCH_ASSERT(done.ok());  // make() has tried these options
   if (!done.ok()) {
     for (LinkContact& contact : contacts_.links) {
-      contact = nothingOf(contact.link);
-      contact.reason = UndecidedReason::Resolution;
+      contact = undecidedContact(contact.link, 0.0, UndecidedReason::Resolution);
     }
   }
   fill(step, answer);
@@ -116,52 +95,41 @@ void StreamSolver::fill(const StreamStep& step, ContactsMessage& answer) {
   answer.workBudget = budgetOf(options_);
   answer.queryUs = lastQueryUs_;
 
-  notClear_.clear();
-  answer.verdicts.resize(contacts_.links.size());
-  for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
-    AnswerReason reason = AnswerReason::None;
-    const LinkContact contact = answered(link, step, reason);
-    answer.verdicts[static_cast<std::size_t>(link)] = contact.verdict;
-    if (contact.verdict != Verdict::Clear) notClear_.emplace_back(contact, reason);
+  answer.verdicts.clear();
+  for (LinkContact& contact : contacts_.links) {
+    const UndecidedReason reason = notClaimed(contact, step);
+    if (reason != UndecidedReason::None) contact = undecidedContact(contact.link, 0.0, reason);
+    answer.verdicts.push_back(contact.verdict);
   }
-  std::sort(notClear_.begin(), notClear_.end(),
-            [](const auto& x, const auto& y) { return isReportedBefore(x.first, y.first); });
-  answer.contacts.resize(notClear_.size());
-  for (std::size_t i = 0; i < notClear_.size(); ++i) {
-    list(notClear_[i].first, notClear_[i].second, answer.contacts[i]);
+  listReported(contacts_.links.data(), contacts_.links.size(), reported_);
+  answer.contacts.resize(reported_.size());
+  for (std::size_t i = 0; i < reported_.size(); ++i) {
+    list(contacts_.links[static_cast<std::size_t>(reported_[i])], answer.contacts[i]);
   }
 }
 
-LinkContact StreamSolver::answered(LinkId link, const StreamStep& step,
-                                   AnswerReason& reason) const {
-  const LinkContact& found = contacts_.links[static_cast<std::size_t>(link)];
+UndecidedReason StreamSolver::notClaimed(const LinkContact& found, const StreamStep& step) const {
+  const UndecidedReason unknown = unknownOf(found.link, step);
+  if (unknown != UndecidedReason::None || step.kind != StepKind::AcrossGap) return unknown;
   const bool isTouching =
       found.verdict == Verdict::Contact || found.verdict == Verdict::StartsInContact;
-  reason = unknownOf(link, step);
-  if (reason == AnswerReason::None && step.kind == StepKind::AcrossGap && !isTouching) {
-    reason = AnswerReason::Gap;
-  }
-  if (reason != AnswerReason::None) return nothingOf(link);
-  if (found.verdict == Verdict::Undecided) reason = reasonOf(found.reason);
-  return found;
+  return isTouching ? UndecidedReason::None : UndecidedReason::Gap;
 }
 
-AnswerReason StreamSolver::unknownOf(LinkId link, const StreamStep& step) const {
-  const std::vector<AnswerReason>& unknown = *step.unknown;
-  const AnswerReason own = unknown[static_cast<std::size_t>(link)];
-  if (own != AnswerReason::None || movedBy_.empty()) return own;
+UndecidedReason StreamSolver::unknownOf(LinkId link, const StreamStep& step) const {
+  const std::vector<UndecidedReason>& unknown = *step.unknown;
+  const UndecidedReason own = unknown[static_cast<std::size_t>(link)];
+  if (own != UndecidedReason::None || movedBy_.empty()) return own;
   for (const LinkId moving : movedBy_[static_cast<std::size_t>(link)]) {
-    const AnswerReason reason = unknown[static_cast<std::size_t>(moving)];
-    if (reason != AnswerReason::None) return reason;
+    const UndecidedReason reason = unknown[static_cast<std::size_t>(moving)];
+    if (reason != UndecidedReason::None) return reason;
   }
-  return AnswerReason::None;
+  return UndecidedReason::None;
 }
 
-void StreamSolver::list(const LinkContact& contact, AnswerReason reason,
-                        AnsweredContact& listed) const {
+void StreamSolver::list(const LinkContact& contact, AnsweredContact& listed) const {
   listed.contact = contact;
   listed.contact.lss = -1;
-  listed.reason = reason;
   listed.linkName = avatar_.skeleton().name(contact.link);
   if (contact.triangle < 0) {
     listed.objectName.clear();

@@ -50,10 +50,10 @@ class StreamSolver {
                const QueryOptions& options, AvatarStream stream);
   [[nodiscard]] Result<Done> query(const Pose& from, const Pose& to);
   void fill(const StreamStep& step, ContactsMessage& answer);
-  [[nodiscard]] LinkContact answered(LinkId link, const StreamStep& step,
-                                     AnswerReason& reason) const;
-  [[nodiscard]] AnswerReason unknownOf(LinkId link, const StreamStep& step) const;
-  void list(const LinkContact& contact, AnswerReason reason, AnsweredContact& listed) const;
+  /// Why nothing is claimed of the link, whatever the query found; None where what it found is.
+  [[nodiscard]] UndecidedReason notClaimed(const LinkContact& found, const StreamStep& step) const;
+  [[nodiscard]] UndecidedReason unknownOf(LinkId link, const StreamStep& step) const;
+  void list(const LinkContact& contact, AnsweredContact& listed) const;
 
   std::int32_t id_ = 0;
   Avatar avatar_;
@@ -68,7 +68,7 @@ class StreamSolver {
   ChainMotion motion_;
   QueryScratch scratch_;
   StepContacts contacts_;
-  std::vector<std::pair<LinkContact, AnswerReason>> notClear_;
+  std::vector<LinkId> reported_;
 };
 
 }  // namespace foretouch

@@ -23,10 +23,10 @@ struct ContactTexts {
 struct ViewEvent {
   std::size_t topic = 0;  ///< The newer of two events of a topic replaces the older one.
   std::string name;       ///< "step"
-  SharedText head;        ///< A JSON object without the brace that ends it.
-  /// What head lacks, where the event is of steps: contacts, how many steps it stands for (skipped
+  SharedText fields;      ///< Of a JSON object, with commas between them.
+  /// What these lack, where the event is of steps: contacts, how many steps it stands for (skipped
   /// is one less), and how many contacts found no room.
-  std::uint64_t steps = 0;  ///< 0: head is all there is.
+  std::uint64_t steps = 0;  ///< 0: the fields are all there is.
   ContactTexts contacts;
   std::uint64_t numLeftOut = 0;
 };

@@ -17,14 +17,6 @@ static_assert(static_cast<int>(Verdict::Undecided) == contacts_t::UNDECIDED);
 static_assert(static_cast<int>(StepKind::Consecutive) == contacts_t::CONSECUTIVE);
 static_assert(static_cast<int>(StepKind::First) == contacts_t::FIRST);
 static_assert(static_cast<int>(StepKind::AcrossGap) == contacts_t::ACROSS_GAP);
-// The first AnswerReasons are the query's.
-static_assert(static_cast<int>(UndecidedReason::WorkBudget) ==
-              static_cast<int>(AnswerReason::WorkBudget));
-static_assert(static_cast<int>(UndecidedReason::Resolution) ==
-              static_cast<int>(AnswerReason::Resolution));
-static_assert(static_cast<int>(UndecidedReason::AfterFirst) ==
-              static_cast<int>(AnswerReason::AfterFirst));
-constexpr auto kLastQueryReason = static_cast<std::uint8_t>(AnswerReason::AfterFirst);
 constexpr auto kLastVerdict = static_cast<std::uint8_t>(Verdict::Undecided);
 constexpr auto kLastFeature = static_cast<std::uint8_t>(FeatureKind::Face);
 constexpr auto kLastKind = static_cast<std::int8_t>(StepKind::AcrossGap);
@@ -89,7 +81,7 @@ bool isNothing(const Eigen::Vector3d& vector) {
 
 Reject checkCodes(const contacts_t& wire, std::size_t i, Verdict verdict) {
   const bool undecided = verdict == Verdict::Undecided;
-  if (wire.reasons[i] >= kNumAnswerReasons || (wire.reasons[i] != 0) != undecided ||
+  if (wire.reasons[i] >= kNumUndecidedReasons || (wire.reasons[i] != 0) != undecided ||
       wire.link_features[i] > kLastFeature || wire.scene_features[i] > kLastFeature ||
       wire.triangles[i] < -1 || wire.link_triangles[i] < -1) {
     return Reject::OutOfRange;
@@ -132,12 +124,9 @@ Reject readContact(contacts_t& wire, std::size_t i, Verdict verdict, AnsweredCon
   contact.linkTriangle = wire.link_triangles[i];
   reject = checkNumbers(contact);
   if (reject != Reject::None) return reject;
-  answered.reason = static_cast<AnswerReason>(wire.reasons[i]);
+  contact.reason = static_cast<UndecidedReason>(wire.reasons[i]);
   if (verdict == Verdict::Undecided) {
     if (!describesNothing(wire, i, contact)) return Reject::OutOfRange;
-    if (wire.reasons[i] <= kLastQueryReason) {
-      contact.reason = static_cast<UndecidedReason>(wire.reasons[i]);
-    }
   } else {
     contact.toi = contact.freeUntil;
     contact.linkFeature = static_cast<FeatureKind>(wire.link_features[i]);
@@ -212,7 +201,7 @@ void writeContact(const AnsweredContact& answered, std::size_t i, contacts_t& wi
   const Eigen::Vector3d& normal = described ? contact.nhat_SL_W : nothing;
   wire.links[i] = contact.link;
   wire.link_names[i] = answered.linkName;
-  wire.reasons[i] = static_cast<std::uint8_t>(answered.reason);
+  wire.reasons[i] = static_cast<std::uint8_t>(contact.reason);
   wire.free_until[i] = contact.freeUntil;
   wire.separation[i] = described ? contact.separation : 0.0;
   wire.penetration[i] = described ? contact.penetration : 0.0;

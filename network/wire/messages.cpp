@@ -35,21 +35,6 @@ class HashedBytes {
 
 }  // namespace
 
-const char* toString(AnswerReason reason) {
-  switch (reason) {
-    case AnswerReason::None: return toString(UndecidedReason::None);
-    case AnswerReason::WorkBudget: return toString(UndecidedReason::WorkBudget);
-    case AnswerReason::Resolution: return toString(UndecidedReason::Resolution);
-    case AnswerReason::AfterFirst: return toString(UndecidedReason::AfterFirst);
-    case AnswerReason::Gap: return "gap";
-    case AnswerReason::MissingJoint: return "missing-joint";
-    case AnswerReason::InvalidJoint: return "invalid-joint";
-    case AnswerReason::StaleJoint: return "stale-joint";
-    case AnswerReason::UnmatchedJoint: return "unmatched-joint";
-  }
-  return "none";
-}
-
 const char* toString(StepKind kind) {
   switch (kind) {
     case StepKind::Consecutive: return "consecutive";

@@ -66,24 +66,6 @@ struct PoseMessage {
   std::vector<PoseTranslation> translations;  ///< Of joints that are in `joints`.
 };
 
-/// Why a link of an answer is undecided: what a query says (UndecidedReason), and what only a
-/// stream knows. The numbers are those on the wire.
-enum class AnswerReason : std::uint8_t {
-  None = 0,
-  WorkBudget = 1,
-  Resolution = 2,
-  AfterFirst = 3,
-  Gap = 4,             ///< Poses were lost: what happened between the two is not known.
-  MissingJoint = 5,    ///< A joint above the link, or its own, is not in one of the poses.
-  InvalidJoint = 6,    ///< ... is marked as not valid.
-  StaleJoint = 7,      ///< ... is valid but neither tracked nor inferred: an old value.
-  UnmatchedJoint = 8,  ///< ... is not in the sender's skeleton.
-};
-inline constexpr std::uint8_t kNumAnswerReasons = 9;
-
-/// "gap", "missing-joint", ...; those of a query as toString(UndecidedReason).
-[[nodiscard]] const char* toString(AnswerReason reason);
-
 /// What an answer is about.
 enum class StepKind : std::int8_t {
   Consecutive = 0,  ///< From one pose to the next one that was sent.
@@ -94,8 +76,7 @@ enum class StepKind : std::int8_t {
 
 /// One link that is not clear.
 struct AnsweredContact {
-  LinkContact contact;  ///< `reason` is the query's own; `lss` does not travel (-1).
-  AnswerReason reason = AnswerReason::None;
+  LinkContact contact;  ///< `lss` does not travel (-1).
   std::string linkName, objectName;
 };
 

@@ -46,7 +46,7 @@ void checkContent(const ContactsMessage& message) {
     require(contact.verdict == message.verdicts[static_cast<std::size_t>(contact.link)] &&
                 contact.verdict != Verdict::Clear,
             "contacts have the verdicts");
-    require((answered.reason != AnswerReason::None) == (contact.verdict == Verdict::Undecided),
+    require((contact.reason != UndecidedReason::None) == (contact.verdict == Verdict::Undecided),
             "what is undecided has a reason");
     require(contact.freeUntil >= 0.0 && contact.freeUntil <= 1.0, "times are normalised");
   }

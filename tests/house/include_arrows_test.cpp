@@ -197,6 +197,21 @@ TEST(IncludeArrows, PointOneWayBetweenRooms) {
   }
 }
 
+// What writes JSON has assets/json_writer.h: the library that parses it is slow to compile, and is
+// for those who read, and for glTF, which is built as one large document.
+TEST(IncludeArrows, JsonIsParsedInFewRooms) {
+  const fs::path root(FORETOUCH_SOURCE_DIR);
+  std::set<std::string> rooms;
+  for (const char* folder : {"assets", "network", "tools", "bindings", "examples"}) {
+    for (const Include& include : includesOf(root / folder)) {
+      if (firstWord(include.target) != "nlohmann") continue;
+      rooms.insert(folder + ("/" + roomOf(include.file.lexically_relative(root).string())));
+    }
+  }
+  EXPECT_EQ(rooms, (std::set<std::string>{"assets/avatar", "assets/mesh", "tools/glb",
+                                          "tools/inputs", "tools/sweep"}));
+}
+
 /// A header and its source are one unit.
 std::string unitOf(const std::string& path) {
   const std::string stem = path.substr(0, path.rfind('.'));

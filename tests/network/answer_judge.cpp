@@ -48,7 +48,7 @@ void AnswerJudge::judge(const HandedPose& pose, const ContactsMessage& answer) {
   for (const Verdict verdict : answer.verdicts) ++tally.verdicts[static_cast<std::size_t>(verdict)];
   for (const AnsweredContact& contact : answer.contacts) {
     if (contact.contact.verdict != Verdict::Undecided) continue;
-    ++tally.reasons[static_cast<std::size_t>(contact.reason)];
+    ++tally.reasons[static_cast<std::size_t>(contact.contact.reason)];
   }
   checkForm(pose, answer);
   checkPlace(pose, answer);

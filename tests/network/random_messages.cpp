@@ -81,10 +81,7 @@ AnsweredContact contact(Random& random, LinkId link, Verdict verdict) {
   contact.verdict = verdict;
   contact.freeUntil = random.chance(0.2) ? 1.0 : random.uniform(0.0, 1.0);
   if (verdict == Verdict::Undecided) {
-    answered.reason = static_cast<AnswerReason>(1 + random.below(kNumAnswerReasons - 1));
-    if (answered.reason <= AnswerReason::AfterFirst) {
-      contact.reason = static_cast<UndecidedReason>(answered.reason);
-    }
+    contact.reason = static_cast<UndecidedReason>(1 + random.below(kNumUndecidedReasons - 1));
     return answered;
   }
   contact.toi = contact.freeUntil;

@@ -19,10 +19,10 @@ inline ViewEvent eventOf(std::int64_t avatar, std::int64_t sequence,
   ViewEvent event;
   event.topic = static_cast<std::size_t>(avatar);
   event.name = "step";
-  std::string head =
-      "{\"avatar\":" + std::to_string(avatar) + ",\"sequence\":" + std::to_string(sequence);
-  if (padding > 0) head += ",\"from\":\"" + std::string(padding, 'x') + "\"";
-  event.head = std::make_shared<const std::string>(head);
+  std::string fields =
+      "\"avatar\":" + std::to_string(avatar) + ",\"sequence\":" + std::to_string(sequence);
+  if (padding > 0) fields += ",\"from\":\"" + std::string(padding, 'x') + "\"";
+  event.fields = std::make_shared<const std::string>(fields);
   event.steps = 1;
   std::string text;
   for (const int contact : contacts) text += (text.empty() ? "" : ",") + std::to_string(contact);

@@ -29,7 +29,7 @@ class StreamFixture : public testing::Test {
   [[nodiscard]] std::uint64_t counted(Reject reject) const {
     return stream_.counts().rejects[static_cast<std::size_t>(reject)];
   }
-  [[nodiscard]] AnswerReason unknown(JointId link) const {
+  [[nodiscard]] UndecidedReason unknown(JointId link) const {
     return (*step_.unknown)[static_cast<std::size_t>(link)];
   }
   /// The skeleton, and poses up to `n`, each accepted.

@@ -25,7 +25,7 @@ std::string inWords(const ReplaySummary& summary) {
       "motion\n"
       "in between and found {} first contacts; looking at the poses alone would have missed {}.\n",
       kDemoRateHz, summary.total().contacts, summary.total().missedByPoses);
-  for (const MissedContact& missed : summary.firstMissed()) {
+  for (const ReportedContact& missed : summary.firstMissed()) {
     const LinkContact& contact = missed.contact;
     const auto object = static_cast<std::size_t>(inputs.scene.object(contact.triangle));
     text += fmt::format(

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "assets/json_writer.h"
 #include "tools/contact_json.h"
-#include "tools/json_text.h"
 
 namespace foretouch::tools {
 namespace {
@@ -14,31 +14,28 @@ const std::string& objectOf(const LinkContact& contact, const Scene& scene) {
 
 }  // namespace
 
-double timeOf(const LinkContact& contact, const StepAnswer& answer) {
-  return answer.t0S + contact.toi * (answer.t1S - answer.t0S);
-}
-
-std::string contactTitle(const LinkContact& contact, double timeS, const Skeleton& skeleton,
+std::string contactTitle(const ReportedContact& shown, const Skeleton& skeleton,
                          const Scene& scene) {
-  return fmt::format("{} at {}, {:.3f} s", skeleton.name(contact.link), objectOf(contact, scene),
-                     timeS);
+  return fmt::format("{} at {}, {:.3f} s", skeleton.name(shown.contact.link),
+                     objectOf(shown.contact, scene), shown.timeS);
 }
 
-nlohmann::json contactExtras(const LinkContact& contact, std::int64_t step, double timeS,
-                             bool isMissedByPoses, const Skeleton& skeleton, const Scene& scene) {
-  const std::string link = jsonString(skeleton.name(contact.link));
-  const std::string object = jsonString(objectOf(contact, scene));
-  const std::string instant = R"("time":)" + numberText(timeS);
+nlohmann::json contactExtras(const ReportedContact& shown, const Skeleton& skeleton,
+                             const Scene& scene) {
+  const std::string link = jsonString(skeleton.name(shown.contact.link));
+  const std::string object = jsonString(objectOf(shown.contact, scene));
   ContactWords words;
   words.link = link;
   words.object = object;
-  words.instant = instant;
+  words.timeS = shown.timeS;
   std::string text;
-  appendContact(contact, words, text);
-  nlohmann::json extras = nlohmann::json::parse(text);
-  extras["step"] = step;
-  extras["missed_by_poses"] = isMissedByPoses;
-  return extras;
+  JsonWriter out(text);
+  out.beginObject();
+  writeContact(shown.contact, words, out);
+  out.field("step", shown.step);
+  out.field("missed_by_poses", shown.missedByPoses);
+  out.endObject();
+  return nlohmann::json::parse(text);
 }
 
 }  // namespace foretouch::tools

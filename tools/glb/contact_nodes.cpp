@@ -21,22 +21,22 @@ constexpr GlbMaterial kAmber{"starts in contact", {0.90, 0.50, 0.02, 1.0}};
 /// as the next one has its own.
 constexpr double kHoldS = 1.0;
 
-double endOf(const ShownContact& shown) {
-  if (shown.contact.verdict == Verdict::StartsInContact) return shown.t1S;
-  return std::max(shown.t1S, shown.timeS + kHoldS);
+double endOf(const ReportedContact& shown, const Stage& stage) {
+  const double t1S = stage.inputs.timeOfStep(shown.step + 1);
+  if (shown.contact.verdict == Verdict::StartsInContact) return t1S;
+  return std::max(t1S, shown.timeS + kHoldS);
 }
 
-json markerNode(const ShownContact& shown, const Stage& stage, std::size_t mesh) {
+json markerNode(const ReportedContact& shown, const Stage& stage, std::size_t mesh) {
   const LinkContact& contact = shown.contact;
   const Skeleton& skeleton = stage.inputs.avatar.skeleton();
   const Scene& scene = stage.inputs.scene;
   const auto turn = Quaternion::FromTwoVectors(Vector3d::UnitY(), contact.nhat_SL_W).normalized();
-  return {{"name", contactTitle(contact, shown.timeS, skeleton, scene)},
+  return {{"name", contactTitle(shown, skeleton, scene)},
           {"mesh", mesh},
           {"translation", gltfVector(contact.p_WScene - stage.origin)},
           {"rotation", json::array({turn.x(), turn.y(), turn.z(), turn.w()})},
-          {"extras", contactExtras(contact, shown.step, shown.timeS, shown.isMissedByPoses,
-                                   skeleton, scene)}};
+          {"extras", contactExtras(shown, skeleton, scene)}};
 }
 
 /// What the link covers during the step; nothing where that takes more triangles than `most`, or
@@ -45,7 +45,7 @@ struct SweptLink {
   std::vector<Triangle> triangles;
   double certifiedError = 0.0;
 };
-std::optional<SweptLink> sweptBy(const Stage& stage, const ShownContact& shown, double error,
+std::optional<SweptLink> sweptBy(const Stage& stage, const ReportedContact& shown, double error,
                                  std::size_t most) {
   const auto step = static_cast<std::size_t>(shown.step);
   const Avatar& avatar = stage.inputs.avatar;
@@ -70,22 +70,24 @@ std::optional<SweptLink> sweptBy(const Stage& stage, const ShownContact& shown, 
   return swept;
 }
 
-json sweepNode(const ShownContact& shown, const Stage& stage, const SweptLink& swept,
+json sweepNode(const ReportedContact& shown, const Stage& stage, const SweptLink& swept,
                std::size_t mesh) {
   const std::string& link = stage.inputs.avatar.skeleton().name(shown.contact.link);
-  return {{"name", fmt::format("sweep of {}, {:.3f} to {:.3f} s", link, shown.t0S, shown.t1S)},
+  const double t0S = stage.inputs.timeOfStep(shown.step);
+  const double t1S = stage.inputs.timeOfStep(shown.step + 1);
+  return {{"name", fmt::format("sweep of {}, {:.3f} to {:.3f} s", link, t0S, t1S)},
           {"mesh", mesh},
           {"extras",
            {{"link", link},
             {"step", shown.step},
-            {"t0", shown.t0S},
-            {"t1", shown.t1S},
+            {"t0", t0S},
+            {"t1", t1S},
             {"certified_error", swept.certifiedError}}}};
 }
 
 }  // namespace
 
-std::vector<Appearance> addMarkers(const Stage& stage, const std::vector<ShownContact>& contacts,
+std::vector<Appearance> addMarkers(const Stage& stage, const std::vector<ReportedContact>& contacts,
                                    std::size_t parent, GlbContent& content) {
   std::vector<Appearance> appearances;
   if (contacts.empty()) return appearances;
@@ -102,16 +104,16 @@ std::vector<Appearance> addMarkers(const Stage& stage, const std::vector<ShownCo
     return *mesh;
   };
   GltfDocument& document = content.document();
-  for (const ShownContact& shown : contacts) {
+  for (const ReportedContact& shown : contacts) {
     const std::size_t node =
         document.add("nodes", markerNode(shown, stage, meshFor(shown.contact.verdict)));
     document.at("nodes", parent)["children"].push_back(node);
-    appearances.push_back({node, shown.timeS, endOf(shown)});
+    appearances.push_back({node, shown.timeS, endOf(shown, stage)});
   }
   return appearances;
 }
 
-std::vector<Appearance> addSweeps(const Stage& stage, const std::vector<ShownContact>& contacts,
+std::vector<Appearance> addSweeps(const Stage& stage, const std::vector<ReportedContact>& contacts,
                                   std::size_t parent, GlbContent& content, TriangleBudget& budget,
                                   std::vector<std::string>& notes) {
   constexpr double kError = 0.01;    // of the avatar's extent
@@ -121,7 +123,7 @@ std::vector<Appearance> addSweeps(const Stage& stage, const std::vector<ShownCon
   std::optional<std::size_t> material;
   std::vector<Appearance> appearances;
   std::size_t leftOut = 0;
-  for (const ShownContact& shown : contacts) {
+  for (const ReportedContact& shown : contacts) {
     if (shown.contact.verdict != Verdict::Contact) continue;
     const auto swept = sweptBy(stage, shown, kError * stage.extent, own.left());
     if (!swept || swept->triangles.empty() || !own.take(swept->triangles.size())) {
@@ -135,7 +137,7 @@ std::vector<Appearance> addSweeps(const Stage& stage, const std::vector<ShownCon
         content.addMesh("sweep of " + link, {{meshOf(swept->triangles, stage.origin), *material}});
     const std::size_t node = document.add("nodes", sweepNode(shown, stage, *swept, mesh));
     document.at("nodes", parent)["children"].push_back(node);
-    appearances.push_back({node, shown.t0S, endOf(shown)});
+    appearances.push_back({node, stage.inputs.timeOfStep(shown.step), endOf(shown, stage)});
   }
   if (leftOut > 0) {
     notes.push_back(fmt::format("the swept volumes of {} contacts are left out", leftOut));

@@ -50,7 +50,7 @@ void ReplayGlb::add(const StepAnswer& answer) {
       continue;
     }
     const auto& missed = answer.missedByPoses;
-    kept.push_back({contact, answer.step, answer.t0S, answer.t1S, timeOf(contact, answer),
+    kept.push_back({contact, answer.step, timeOf(contact, answer.t0S, answer.t1S), "",
                     std::find(missed.begin(), missed.end(), contact.link) != missed.end()});
   }
 }
@@ -59,7 +59,7 @@ Result<std::vector<std::string>> ReplayGlb::write() const {
   const auto staged = stageOf(inputs_);
   if (!staged.ok()) return inFile(staged.error(), request_.path);
   const Stage& stage = staged.value();
-  std::vector<ShownContact> shown = contacts_;
+  std::vector<ReportedContact> shown = contacts_;
   shown.insert(shown.end(), startsInContact_.begin(), startsInContact_.end());
 
   std::vector<std::string> notes;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "tools/glb/shown_contact.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/results_writer.h"
+#include "tools/reported_contact.h"
 
 namespace foretouch::tools {
 
@@ -37,7 +37,7 @@ class ReplayGlb {
  private:
   const ReplayInputs& inputs_;
   GlbRequest request_;
-  std::vector<ShownContact> contacts_, startsInContact_;
+  std::vector<ReportedContact> contacts_, startsInContact_;
   std::int64_t undecided_ = 0, notShown_ = 0;
 };
 

@@ -11,8 +11,8 @@
 #include "articulated/motion.h"
 #include "tools/glb/appearances.h"
 #include "tools/glb/glb_content.h"
-#include "tools/glb/shown_contact.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/reported_contact.h"
 
 namespace foretouch::tools {
 
@@ -52,17 +52,17 @@ class TriangleBudget {
 
 /// A node below `parent` for every object of the scene, in triangles nearest to the avatar's way
 /// first; those of `contacts` are among them.
-void addScene(const Stage& stage, const std::vector<ShownContact>& contacts, std::size_t parent,
+void addScene(const Stage& stage, const std::vector<ReportedContact>& contacts, std::size_t parent,
               GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes);
 
 /// A marker below `parent` for every contact: a ball at the point, an arrow along the normal.
 [[nodiscard]] std::vector<Appearance> addMarkers(const Stage& stage,
-                                                 const std::vector<ShownContact>& contacts,
+                                                 const std::vector<ReportedContact>& contacts,
                                                  std::size_t parent, GlbContent& content);
 
 /// What each contact's link covers during its step, below `parent`.
 [[nodiscard]] std::vector<Appearance> addSweeps(const Stage& stage,
-                                                const std::vector<ShownContact>& contacts,
+                                                const std::vector<ReportedContact>& contacts,
                                                 std::size_t parent, GlbContent& content,
                                                 TriangleBudget& budget,
                                                 std::vector<std::string>& notes);

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/json_text.h"
+#include "assets/json_writer.h"
 #include "tools/stream/contacts_line.h"
 
 namespace foretouch::tools {

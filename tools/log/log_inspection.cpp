@@ -3,43 +3,60 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "assets/json_writer.h"
 #include "tools/progress.h"
 
 namespace foretouch::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr double kUsPerS = 1e6;
 
-std::string dump(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+/// With a point, whole or not.
+std::string rateText(double rateHz) {
+  std::string text = numberText(rateHz);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
 }
 
-Json toJson(const ChannelFacts& facts) {
-  return {{"events", facts.events},
-          {"payload_bytes", facts.payloadBytes},
-          {"earliest_us", facts.earliestUs},
-          {"latest_us", facts.latestUs},
-          {"rate_hz", facts.rateHz()}};
+void writeFacts(const ChannelFacts& facts, JsonWriter& out) {
+  out.field("events", facts.events);
+  out.field("payload_bytes", facts.payloadBytes);
+  out.field("earliest_us", facts.earliestUs);
+  out.field("latest_us", facts.latestUs);
+  out.rawField("rate_hz", rateText(facts.rateHz()));
 }
 
-Json toJson(const LogFinding& finding) {
-  Json json = {
-      {"damage", toString(finding.damage)}, {"offset", finding.offset}, {"bytes", finding.bytes}};
-  if (finding.count > 0) json["count"] = finding.count;
-  return json;
+void write(const LogFinding& finding, JsonWriter& out) {
+  out.beginObject();
+  out.field("damage", toString(finding.damage));
+  out.field("offset", finding.offset);
+  out.field("bytes", finding.bytes);
+  if (finding.count > 0) out.field("count", finding.count);
+  out.endObject();
 }
 
-Json toJson(const LogCounts& counts) {
-  return {{"events", counts.events},          {"unchecked_events", counts.uncheckedEvents},
-          {"tail_events", counts.tailEvents}, {"blocks", counts.blocks},
-          {"bad_blocks", counts.badBlocks},   {"missing_blocks", counts.missingBlocks},
-          {"bad_events", counts.badEvents},   {"skipped_bytes", counts.skippedBytes},
-          {"truncated", counts.isTruncated},  {"check_sums", counts.hasCheckSums},
-          {"closed", counts.isClosed}};
+void write(const LogCounts& counts, JsonWriter& out) {
+  out.beginObject();
+  out.field("events", counts.events);
+  out.field("unchecked_events", counts.uncheckedEvents);
+  out.field("tail_events", counts.tailEvents);
+  out.field("blocks", counts.blocks);
+  out.field("bad_blocks", counts.badBlocks);
+  out.field("missing_blocks", counts.missingBlocks);
+  out.field("bad_events", counts.badEvents);
+  out.field("skipped_bytes", counts.skippedBytes);
+  out.field("truncated", counts.isTruncated);
+  out.field("check_sums", counts.hasCheckSums);
+  out.field("closed", counts.isClosed);
+  out.endObject();
+}
+
+void writeChannel(const std::string& name, const ChannelFacts& facts, JsonWriter& out) {
+  out.beginObject();
+  out.field("channel", name);
+  writeFacts(facts, out);
+  out.endObject();
 }
 
 std::string line(const char* name, const std::string& value) {
@@ -166,25 +183,42 @@ std::string describe(const LogInspection& inspection) {
 }
 
 std::string jsonLine(const LogInspection& inspection) {
-  Json json = {
-      {"file", inspection.path},       {"state", inspection.isSound() ? "sound" : "damaged"},
-      {"bytes", inspection.bytes},     {"counts", toJson(inspection.counts)},
-      {"all", toJson(inspection.all)}, {"stamps_backwards", inspection.stampsBackwards}};
-  json["channels"] = Json::array();
-  for (const auto& [name, facts] : inspection.channels) {
-    Json channel = {{"channel", name}};
-    channel.update(toJson(facts));
-    json["channels"].push_back(std::move(channel));
-  }
-  json["other_channels"] = toJson(inspection.otherChannels);
-  json["findings"] = Json::array();
-  for (const LogFinding& finding : inspection.findings) json["findings"].push_back(toJson(finding));
-  json["unlisted_findings"] = inspection.unlistedFindings;
-  return dump(json);
+  const auto writeAll = [](const ChannelFacts& facts, JsonWriter& out) {
+    out.beginObject();
+    writeFacts(facts, out);
+    out.endObject();
+  };
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.field("file", inspection.path);
+  out.field("state", inspection.isSound() ? "sound" : "damaged");
+  out.field("bytes", inspection.bytes);
+  out.key("counts");
+  write(inspection.counts, out);
+  out.key("all");
+  writeAll(inspection.all, out);
+  out.field("stamps_backwards", inspection.stampsBackwards);
+  out.list("channels", inspection.channels,
+           [&](const auto& channel) { writeChannel(channel.first, channel.second, out); });
+  out.key("other_channels");
+  writeAll(inspection.otherChannels, out);
+  out.list("findings", inspection.findings,
+           [&](const LogFinding& finding) { write(finding, out); });
+  out.field("unlisted_findings", inspection.unlistedFindings);
+  out.endObject();
+  return text + "\n";
 }
 
 std::string jsonLine(const std::string& path, const Error& error) {
-  return dump({{"file", path}, {"state", "unreadable"}, {"error", foretouch::describe(error)}});
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.field("file", path);
+  out.field("state", "unreadable");
+  out.field("error", foretouch::describe(error));
+  out.endObject();
+  return text + "\n";
 }
 
 }  // namespace foretouch::tools

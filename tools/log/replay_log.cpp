@@ -14,7 +14,6 @@
 
 #include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
-#include "tools/json_text.h"
 #include "tools/replay/results_writer.h"
 
 namespace foretouch::tools {
@@ -204,30 +203,32 @@ std::string logHeaderLine(const LogReplayInputs& inputs) {
   const LogReplayRequest& request = inputs.request;
   const ReplayRequest& query = request.query;
   constexpr double kUsPerS = 1e6;
-  std::string text = R"({"format":"foretouch-results","version":1)";
-  text += fmt::format(R"(,"tool":"{}","scene":{},"motion":{},"suffix":{})", FORETOUCH_VERSION,
-                      jsonFileName(query.scenePath), jsonFileName(query.motionPath),
-                      jsonString(request.suffix));
-  text += fmt::format(R"(,"tolerance":{},"fidelity":"{}")", numberText(query.tolerance),
-                      toString(query.fidelity));
-  text += policyField(query) + surfaceFields(query);
-  text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", numberText(query.sceneScale),
-                      query.sceneUp == UpAxis::Z ? "z" : "y", jsonList(query.ignore));
-  text += fmt::format(R"(,"budget_us":{},"max_step":{},"confirmations":{},"unmatched_at_rest":{})",
-                      query.budgetUs,
-                      numberText(static_cast<double>(request.policy.maxStepUs) / kUsPerS),
-                      request.policy.confirmations, request.policy.unmatchedAtRest);
-  text += R"(,"avatars":[)";
+  std::string text;
+  JsonWriter out(text);
+  beginResults(out);
+  writeFileName("scene", query.scenePath, out);
+  writeFileName("motion", query.motionPath, out);
+  out.field("suffix", request.suffix);
+  writeQuestion(query, out);
+  writePolicies(query, out);
+  writeSurface(query, out);
+  writeSceneOptions(query, out);
+  out.field("budget_us", query.budgetUs);
+  out.field("max_step", static_cast<double>(request.policy.maxStepUs) / kUsPerS);
+  out.field("confirmations", request.policy.confirmations);
+  out.field("unmatched_at_rest", request.policy.unmatchedAtRest);
+  out.key("avatars");
+  out.beginArray();
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {
-    std::vector<std::string> links;
-    for (LinkId link = 0; link < inputs.avatars[i].numLinks(); ++link) {
-      links.push_back(inputs.avatars[i].skeleton().name(link));
-    }
-    text +=
-        fmt::format(R"({}{{"id":{},"avatar":{},"links":{}}})", i > 0 ? "," : "",
-                    request.avatars[i].id, jsonFileName(request.avatars[i].path), jsonList(links));
+    out.beginObject();
+    out.field("id", request.avatars[i].id);
+    writeFileName("avatar", request.avatars[i].path, out);
+    writeLinkNames(inputs.avatars[i], out);
+    out.endObject();
   }
-  return text + "]}\n";
+  out.endArray();
+  out.endObject();
+  return text + "\n";
 }
 
 }  // namespace foretouch::tools

@@ -41,7 +41,8 @@ void LogReplaySummary::add(const ContactsMessage& answer, std::size_t avatar) {
   for (const AnsweredContact& answered : answer.contacts) {
     const Verdict verdict = answered.contact.verdict;
     touches = touches || verdict != Verdict::Undecided;
-    if (verdict == Verdict::Undecided) ++reasons_[static_cast<std::size_t>(answered.reason)];
+    if (verdict == Verdict::Undecided)
+      ++reasons_[static_cast<std::size_t>(answered.contact.reason)];
     const auto link = static_cast<std::size_t>(answered.contact.link);
     for (Counts* counts : {&total_, &ofLink_[avatar][link]}) {
       counts->contacts += verdict == Verdict::Contact ? 1 : 0;
@@ -116,7 +117,7 @@ std::string LogReplaySummary::verdicts() const {
   text += row("undecided", total_.undecided);
   for (std::size_t i = 0; i < reasons_.size(); ++i) {
     if (reasons_[i] > 0) {
-      text += row(fmt::format("  {}", toString(static_cast<AnswerReason>(i))), reasons_[i]);
+      text += row(fmt::format("  {}", toString(static_cast<UndecidedReason>(i))), reasons_[i]);
     }
   }
   return text;

@@ -44,7 +44,7 @@ class LogReplaySummary {
   const LogReplayInputs& inputs_;
   Counts total_;
   std::vector<std::vector<Counts>> ofLink_;  // by avatar and link
-  std::array<std::int64_t, kNumAnswerReasons> reasons_{};
+  std::array<std::int64_t, kNumUndecidedReasons> reasons_{};
   std::int64_t withContact_ = 0;
   std::vector<float> queriesUs_;
 };

@@ -1,104 +1,127 @@
 #include "tools/replay/results_writer.h"
 
 #include <algorithm>
-#include <iterator>
-
-#include <fmt/format.h>
+#include <filesystem>
 
 #include "tools/contact_json.h"
-#include "tools/json_text.h"
 
 namespace foretouch::tools {
-std::vector<LinkContact> notClear(const std::vector<LinkContact>& links) {
-  std::vector<LinkContact> contacts;
-  std::copy_if(links.begin(), links.end(), std::back_inserter(contacts),
-               [](const LinkContact& c) { return c.verdict != Verdict::Clear; });
-  std::sort(contacts.begin(), contacts.end(), isReportedBefore);
-  return contacts;
-}
-
 namespace {
 
-/// Each rule as it was given.
-std::string policiesJson(const std::vector<PolicyRule>& rules) {
-  std::string text = "[";
-  for (const PolicyRule& rule : rules) {
-    std::string fields;
-    if (!rule.links.empty()) fields += ",\"links\":" + jsonList(rule.links);
-    if (!rule.objects.empty()) fields += ",\"objects\":" + jsonList(rule.objects);
-    if (rule.tolerance) fields += ",\"tolerance\":" + numberText(*rule.tolerance);
-    if (rule.fidelity) fields += std::string(",\"fidelity\":\"") + toString(*rule.fidelity) + '"';
-    if (rule.ignore) fields += *rule.ignore ? ",\"ignore\":true" : ",\"ignore\":false";
-    if (text.size() > 1) text += ',';
-    text += '{' + fields.substr(1) + '}';
-  }
-  return text + ']';
+std::string nameOfFile(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+const char* nameOf(UpAxis up) {
+  return up == UpAxis::Z ? "z" : "y";
+}
+
+/// A rule as it was given.
+void writeRule(const PolicyRule& rule, JsonWriter& out) {
+  out.beginObject();
+  if (!rule.links.empty()) out.field("links", rule.links);
+  if (!rule.objects.empty()) out.field("objects", rule.objects);
+  if (rule.tolerance) out.field("tolerance", *rule.tolerance);
+  if (rule.fidelity) out.field("fidelity", toString(*rule.fidelity));
+  if (rule.ignore) out.field("ignore", *rule.ignore);
+  out.endObject();
+}
+
+void writePlacement(const ReplayRequest& request, JsonWriter& out) {
+  out.field("scale", request.motionScale);
+  out.field("motion_up", request.placement.motionUpZ ? "z" : "y");
+  out.key("place");
+  out.beginArray();
+  for (const double x : request.placement.origin) out.value(x);
+  out.value(request.placement.yawDeg);
+  out.endArray();
 }
 
 /// What only motions that are no BVH clips depend on.
-std::string motionFields(const ReplayRequest& request) {
-  std::string text;
-  if (!request.animation.empty()) {
-    text += fmt::format(R"(,"animation":{})", jsonString(request.animation));
-  }
-  if (!request.robotPath.empty()) {
-    text += fmt::format(R"(,"robot":{})", jsonFileName(request.robotPath));
-  }
-  return text;
+void writeMotion(const ReplayRequest& request, JsonWriter& out) {
+  if (!request.animation.empty()) out.field("animation", request.animation);
+  if (!request.robotPath.empty()) writeFileName("robot", request.robotPath, out);
 }
 
 }  // namespace
 
-std::string policyField(const ReplayRequest& request) {
-  return request.policies.empty() ? "" : ",\"policy\":" + policiesJson(request.policies);
+void beginResults(JsonWriter& out) {
+  out.beginObject();
+  out.field("format", "foretouch-results");
+  out.field("version", 1);
+  out.field("tool", FORETOUCH_VERSION);
 }
 
-std::string surfaceFields(const ReplayRequest& request) {
+void writeFileName(const char* name, const std::string& path, JsonWriter& out) {
+  out.field(name, nameOfFile(path));
+}
+
+void writeLinkNames(const Avatar& avatar, JsonWriter& out) {
+  out.key("links");
+  out.beginArray();
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) out.value(avatar.skeleton().name(link));
+  out.endArray();
+}
+
+void writeQuestion(const ReplayRequest& request, JsonWriter& out) {
+  out.field("tolerance", request.tolerance);
+  out.field("fidelity", toString(request.fidelity));
+}
+
+void writeSceneOptions(const ReplayRequest& request, JsonWriter& out) {
+  out.field("scene_scale", request.sceneScale);
+  out.field("up", nameOf(request.sceneUp));
+  out.field("ignore", request.ignore);
+}
+
+void writePolicies(const ReplayRequest& request, JsonWriter& out) {
+  if (request.policies.empty()) return;
+  out.list("policy", request.policies, [&](const PolicyRule& rule) { writeRule(rule, out); });
+}
+
+void writeSurface(const ReplayRequest& request, JsonWriter& out) {
   const bool isExact =
       request.fidelity == Fidelity::Exact ||
       std::any_of(request.policies.begin(), request.policies.end(),
                   [](const PolicyRule& r) { return r.fidelity == Fidelity::Exact; });
   if (isExact) {
-    return fmt::format(R"(,"leaves":"{}")", toString(request.leafMethod));
+    out.field("leaves", toString(request.leafMethod));
+  } else if (request.fidelity == Fidelity::Skinned) {
+    writeFileName("skin", request.skinPath, out);
+    out.field("skin_scale", request.skinScale);
+    out.field("skin_up", nameOf(request.skinUp));
   }
-  if (request.fidelity == Fidelity::Skinned) {
-    return fmt::format(R"(,"skin":{},"skin_scale":{},"skin_up":"{}")",
-                       jsonFileName(request.skinPath), numberText(request.skinScale),
-                       request.skinUp == UpAxis::Z ? "z" : "y");
-  }
-  return "";
 }
 
 std::string headerLine(const ReplayInputs& inputs) {
   const ReplayRequest& request = inputs.request;
-  std::vector<std::string> links;
-  for (LinkId link = 0; link < inputs.avatar.numLinks(); ++link) {
-    links.push_back(inputs.avatar.skeleton().name(link));
+  std::string text;
+  JsonWriter out(text);
+  beginResults(out);
+  writeFileName("scene", request.scenePath, out);
+  writeFileName("avatar", request.avatarPath, out);
+  writeFileName("motion", request.motionPath, out);
+  out.key("rate");
+  if (request.rateHz) {
+    out.value(*request.rateHz);
+  } else {
+    out.null();
   }
-  const Eigen::Vector3d& origin = request.placement.origin;
-  std::string text = R"({"format":"foretouch-results","version":1)";
-  text += fmt::format(R"(,"tool":"{}","scene":{},"avatar":{},"motion":{})", FORETOUCH_VERSION,
-                      jsonFileName(request.scenePath), jsonFileName(request.avatarPath),
-                      jsonFileName(request.motionPath));
-  text += fmt::format(R"(,"rate":{},"k":{},"frame_time":{},"steps":{})",
-                      request.rateHz ? numberText(*request.rateHz) : "null", inputs.steps.stride,
-                      numberText(inputs.clip.frameTimeS), inputs.steps.count);
-  text += fmt::format(R"(,"tolerance":{},"fidelity":"{}")", numberText(request.tolerance),
-                      toString(request.fidelity));
-  text += fmt::format(R"(,"scale":{},"motion_up":"{}","place":[{},{},{},{}])",
-                      numberText(request.motionScale), request.placement.motionUpZ ? "z" : "y",
-                      numberText(origin.x()), numberText(origin.y()), numberText(origin.z()),
-                      numberText(request.placement.yawDeg));
-  text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", numberText(request.sceneScale),
-                      request.sceneUp == UpAxis::Z ? "z" : "y", jsonList(request.ignore));
-  if (request.scope != Scope::EveryLink) {
-    text += fmt::format(R"(,"scope":"{}")", toString(request.scope));
-  }
-  if (request.budgetUs > 0) text += fmt::format(R"(,"budget_us":{})", request.budgetUs);
-  text += policyField(request) + surfaceFields(request) + motionFields(request);
-  text += fmt::format(R"(,"links":{},"unmatched_joints":{})", jsonList(links),
-                      jsonList(inputs.match.unmatchedAvatar));
-  return text + "}\n";
+  out.field("k", inputs.steps.stride);
+  out.field("frame_time", inputs.clip.frameTimeS);
+  out.field("steps", inputs.steps.count);
+  writeQuestion(request, out);
+  writePlacement(request, out);
+  writeSceneOptions(request, out);
+  if (request.scope != Scope::EveryLink) out.field("scope", toString(request.scope));
+  if (request.budgetUs > 0) out.field("budget_us", request.budgetUs);
+  writePolicies(request, out);
+  writeSurface(request, out);
+  writeMotion(request, out);
+  writeLinkNames(inputs.avatar, out);
+  out.field("unmatched_joints", inputs.match.unmatchedAvatar);
+  out.endObject();
+  return text + "\n";
 }
 
 StepFormat::StepFormat(const Avatar& avatar, const Scene& scene) : scene_(scene) {
@@ -109,28 +132,31 @@ StepFormat::StepFormat(const Avatar& avatar, const Scene& scene) : scene_(scene)
 }
 
 std::string StepFormat::line(const StepAnswer& answer) const {
-  std::string text = fmt::format(R"({{"step":{},"t0":{},"t1":{},"contacts":[)", answer.step,
-                                 numberText(answer.t0S), numberText(answer.t1S));
-  for (std::size_t i = 0; i < answer.contacts.size(); ++i) {
-    if (i > 0) text += ',';
-    append(answer.contacts[i], answer, text);
-  }
-  return text + fmt::format("],\"latency_us\":{:.1f}}}\n", answer.latencyUs);
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.field("step", answer.step);
+  out.field("t0", answer.t0S);
+  out.field("t1", answer.t1S);
+  out.list("contacts", answer.contacts,
+           [&](const LinkContact& contact) { write(contact, answer, out); });
+  out.key("latency_us");
+  out.fixed(answer.latencyUs, 1);
+  out.endObject();
+  return text + "\n";
 }
 
-void StepFormat::append(const LinkContact& contact, const StepAnswer& answer,
-                        std::string& text) const {
+void StepFormat::write(const LinkContact& contact, const StepAnswer& answer,
+                       JsonWriter& out) const {
   ContactWords words;
   words.link = links_[static_cast<std::size_t>(contact.link)];
-  words.reason = toString(contact.reason);
-  std::string instant;
   if (contact.verdict != Verdict::Undecided) {
     words.object = objects_[static_cast<std::size_t>(scene_.object(contact.triangle))];
-    instant = fmt::format(R"("time":{})",
-                          numberText(answer.t0S + contact.toi * (answer.t1S - answer.t0S)));
-    words.instant = instant;
+    words.timeS = timeOf(contact, answer.t0S, answer.t1S);
   }
-  appendContact(contact, words, text);
+  out.beginObject();
+  writeContact(contact, words, out);
+  out.endObject();
 }
 
 }  // namespace foretouch::tools

@@ -7,30 +7,36 @@
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "assets/json_writer.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/reported_contact.h"
 
 namespace foretouch::tools {
 
-/// What one step is answered with. `contacts` are the links that are not clear, earliest first, and
-/// of those at the same time the lowest link first.
+/// What one step is answered with.
 struct StepAnswer {
   std::int64_t step = 0;
-  double t0S = 0.0, t1S = 0.0;  ///< Seconds from the clip's first frame.
-  std::vector<LinkContact> contacts;
+  double t0S = 0.0, t1S = 0.0;        ///< Seconds from the clip's first frame.
+  std::vector<LinkContact> contacts;  ///< Of the links that reported() gives, in its order.
   std::vector<LinkId> missedByPoses;  ///< Links in contact that touch nothing at either pose.
   QueryCounters counters;
   double latencyUs = 0.0;
 };
 
-/// The links that are not clear, in the order of StepAnswer::contacts.
-[[nodiscard]] std::vector<LinkContact> notClear(const std::vector<LinkContact>& links);
-
-/// Of a first line: `,"policy":[...]`, each rule as it was given; nothing where there is none.
-[[nodiscard]] std::string policyField(const ReplayRequest& request);
-/// Of a first line: what only exact and skinned fidelity depend on, each field after a comma.
-[[nodiscard]] std::string surfaceFields(const ReplayRequest& request);
+// Of first lines, those of a log's results included. Each writes fields into an object that is
+// open, but for beginResults(), which opens it.
+void beginResults(JsonWriter& out);
+/// Without the folders.
+void writeFileName(const char* name, const std::string& path, JsonWriter& out);
+void writeLinkNames(const Avatar& avatar, JsonWriter& out);
+void writeQuestion(const ReplayRequest& request, JsonWriter& out);
+void writeSceneOptions(const ReplayRequest& request, JsonWriter& out);
+/// Each rule as it was given; nothing where there is none.
+void writePolicies(const ReplayRequest& request, JsonWriter& out);
+/// What only exact and skinned fidelity depend on.
+void writeSurface(const ReplayRequest& request, JsonWriter& out);
 
 /// The first line. Names neither threads nor culler: they do not change what follows.
 [[nodiscard]] std::string headerLine(const ReplayInputs& inputs);
@@ -44,7 +50,7 @@ class StepFormat {
   [[nodiscard]] std::string line(const StepAnswer& answer) const;
 
  private:
-  void append(const LinkContact& contact, const StepAnswer& answer, std::string& text) const;
+  void write(const LinkContact& contact, const StepAnswer& answer, JsonWriter& out) const;
 
   Scene scene_;
   std::vector<std::string> links_, objects_;  // as JSON strings

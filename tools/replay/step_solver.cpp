@@ -59,7 +59,9 @@ StepAnswer StepSolver::recorded(std::int64_t step, const StepContacts& contacts,
   answer.step = step;
   answer.t0S = inputs_.timeOfStep(step);
   answer.t1S = inputs_.timeOfStep(step + 1);
-  answer.contacts = notClear(contacts.links);
+  for (const LinkId link : reported(contacts)) {
+    answer.contacts.push_back(contacts.links[static_cast<std::size_t>(link)]);
+  }
   answer.counters = contacts.counters;
   answer.latencyUs = std::round(10.0 * latencyUs) / 10.0;
   return answer;

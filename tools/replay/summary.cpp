@@ -55,8 +55,8 @@ void ReplaySummary::add(const ReplayedStep& step) {
     ++ofLink_[static_cast<std::size_t>(contact.link)].missedByPoses;
     const bool isFirstOfStep = contact.link == answer.missedByPoses.front();
     if (isFirstOfStep && firstMissed_.size() < kKeptMissed) {
-      const double timeS = answer.t0S + contact.toi * (answer.t1S - answer.t0S);
-      firstMissed_.push_back({answer.step, contact, timeS});
+      firstMissed_.push_back(
+          {contact, answer.step, timeOf(contact, answer.t0S, answer.t1S), "", true});
     }
   }
   stepsWithContact_ += touches ? 1 : 0;

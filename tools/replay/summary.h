@@ -13,13 +13,6 @@
 
 namespace foretouch::tools {
 
-/// A contact that neither of its step's two poses shows.
-struct MissedContact {
-  std::int64_t step = 0;
-  LinkContact contact;
-  double timeS = 0.0;
-};
-
 /// The value below or at which `share` (in [0,1]) of the values lie, by nearest rank; 0 where there
 /// are none. Reorders `values`.
 [[nodiscard]] double percentile(std::vector<float>& values, double share);
@@ -37,7 +30,7 @@ class ReplaySummary {
 
   /// Contacts that a check of the poses misses: the earliest of a step, of the first kKeptMissed
   /// steps that have one.
-  [[nodiscard]] const std::vector<MissedContact>& firstMissed() const { return firstMissed_; }
+  [[nodiscard]] const std::vector<ReportedContact>& firstMissed() const { return firstMissed_; }
   static constexpr std::size_t kKeptMissed = 5;
 
   [[nodiscard]] const ReplayInputs& inputs() const { return inputs_; }
@@ -65,7 +58,7 @@ class ReplaySummary {
   std::int64_t steps_ = 0, stepsWithContact_ = 0;
   Counts total_;
   std::vector<Counts> ofLink_;
-  std::vector<MissedContact> firstMissed_;
+  std::vector<ReportedContact> firstMissed_;
   std::optional<RigidCounts> rigid_;
   std::optional<FidelityCounts> link_;
   QueryCounters work_;

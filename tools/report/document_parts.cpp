@@ -133,7 +133,7 @@ void addScene(const Scene& scene, const std::string& path, std::size_t maxTriang
   request.name = fileName(path);
   request.maxTriangles = maxTriangles;
   for (const ViewAvatar& avatar : document.avatars) {
-    for (const ViewContact& contact : avatar.contacts) {
+    for (const ReportedContact& contact : avatar.contacts) {
       if (contact.contact.triangle < 0) continue;
       request.contacted.push_back(contact.contact.triangle);
       action.extend(contact.contact.p_WScene);
@@ -143,14 +143,13 @@ void addScene(const Scene& scene, const std::string& path, std::size_t maxTriang
   document.scene = viewOf(scene, request, document.notes);
 }
 
-ViewContact contactView(const LinkContact& contact, const Scene& scene, std::uint32_t step,
-                        double t0S, double t1S, const char* reason) {
-  ViewContact view;
+ReportedContact contactView(const LinkContact& contact, const Scene& scene, std::int64_t step,
+                            double t0S, double t1S) {
+  ReportedContact view;
   view.step = step;
   view.contact = contact;
-  view.reason = reason;
   if (contact.verdict != Verdict::Undecided) {
-    view.timeS = t0S + contact.toi * (t1S - t0S);
+    view.timeS = timeOf(contact, t0S, t1S);
     view.object = scene.objectNames()[static_cast<std::size_t>(scene.object(contact.triangle))];
   }
   return view;

@@ -46,8 +46,7 @@ void addScene(const Scene& scene, const std::string& path, std::size_t maxTriang
               Eigen::AlignedBox3d action, ViewDocument& document);
 
 /// A contact as results have it. `contact` is not clear.
-[[nodiscard]] ViewContact contactView(const LinkContact& contact, const Scene& scene,
-                                      std::uint32_t step, double t0S, double t1S,
-                                      const char* reason);
+[[nodiscard]] ReportedContact contactView(const LinkContact& contact, const Scene& scene,
+                                          std::int64_t step, double t0S, double t1S);
 
 }  // namespace foretouch::tools

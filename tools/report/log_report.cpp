@@ -93,8 +93,7 @@ void LogReport::addStep(const AnsweredPose& answered, Player& player) {
   const double t0S = player.track.timeS(from), t1S = player.track.timeS(to);
   player.track.addStep(from, to, answered.answer.queryUs);
   for (const AnsweredContact& found : answered.answer.contacts) {
-    ViewContact view =
-        contactView(found.contact, inputs_.scene, step, t0S, t1S, toString(found.reason));
+    ReportedContact view = contactView(found.contact, inputs_.scene, step, t0S, t1S);
     const LinkId link = found.contact.link;
     view.missedByPoses = found.contact.verdict == Verdict::Contact &&
                          !player.track.touches(from, link) && !player.track.touches(to, link);
@@ -115,7 +114,7 @@ ViewAvatar LogReport::avatarOf(std::size_t index, double fromS, ViewDocument& do
   view.track = player.track.finish();
   view.contacts = std::move(player.contacts);
   for (double& timeS : view.track->poseTimesS) timeS -= fromS;
-  for (ViewContact& contact : view.contacts) contact.timeS -= fromS;
+  for (ReportedContact& contact : view.contacts) contact.timeS -= fromS;
   return view;
 }
 

@@ -39,7 +39,7 @@ class LogReport {
     QueryOptions query;
     TouchQuestion question;
     TrackBuilder track;
-    std::vector<ViewContact> contacts;
+    std::vector<ReportedContact> contacts;
     double shiftS = 0.0;  ///< Added to the times of this timeline.
     std::int64_t moved = 0, leftOut = 0, acrossGaps = 0;
 

@@ -21,8 +21,7 @@ void ReplayReport::add(const ReplayedStep& step) {
   if (isFull_) return;
   latenciesUs_.push_back(answer.latencyUs);
   for (const LinkContact& contact : answer.contacts) {
-    ViewContact view = contactView(contact, inputs_.scene, static_cast<std::uint32_t>(answer.step),
-                                   answer.t0S, answer.t1S, toString(contact.reason));
+    ReportedContact view = contactView(contact, inputs_.scene, answer.step, answer.t0S, answer.t1S);
     view.missedByPoses =
         std::count(answer.missedByPoses.begin(), answer.missedByPoses.end(), contact.link) > 0;
     contacts_.push_back(std::move(view));

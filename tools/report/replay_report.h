@@ -41,7 +41,7 @@ class ReplayReport {
   std::int64_t mostSteps_;
   bool isFull_ = false;
   std::vector<double> latenciesUs_;  // one a step that is kept
-  std::vector<ViewContact> contacts_;
+  std::vector<ReportedContact> contacts_;
 };
 
 }  // namespace foretouch::tools

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 /// A contact whose link's sweep is to be shown.
 struct Wanted {
   std::size_t avatar = 0;
-  const ViewContact* contact = nullptr;
+  const ReportedContact* contact = nullptr;
 
   [[nodiscard]] auto rank() const {
     const bool starts = contact->contact.verdict == Verdict::StartsInContact;
@@ -32,10 +32,10 @@ std::vector<Wanted> wantedOf(const ViewDocument& document) {
   std::vector<Wanted> wanted;
   for (std::size_t i = 0; i < document.avatars.size(); ++i) {
     const ViewAvatar& avatar = document.avatars[i];
-    for (const ViewContact& contact : avatar.contacts) {
+    for (const ReportedContact& contact : avatar.contacts) {
       const bool hasLss = !avatar.avatar->lss(contact.contact.link).empty();
-      const bool isMotion =
-          avatar.track->stepFrom[contact.step] != avatar.track->stepTo[contact.step];
+      const auto step = static_cast<std::size_t>(contact.step);
+      const bool isMotion = avatar.track->stepFrom[step] != avatar.track->stepTo[step];
       if (contact.contact.verdict != Verdict::Undecided && hasLss && isMotion) {
         wanted.push_back({i, &contact});
       }
@@ -70,12 +70,12 @@ bool append(const SweptSurface& surface, ViewSwept& swept) {
 }
 
 /// Nothing where a surface would need more than `maxTriangles` or cannot be built at that error.
-std::optional<ViewSwept> sweptBy(const ViewAvatar& avatar, const ViewContact& contact,
+std::optional<ViewSwept> sweptBy(const ViewAvatar& avatar, const ReportedContact& contact,
                                  const SweptRequest& request, std::size_t maxTriangles) {
   const LinkId link = contact.contact.link;
-  const ChainMotion motion = motionOf(avatar, contact.step);
   ViewSwept swept;
-  swept.step = contact.step;
+  swept.step = static_cast<std::uint32_t>(contact.step);
+  const ChainMotion motion = motionOf(avatar, swept.step);
   swept.link = link;
   for (const Lss& lss : avatar.avatar->lss(link)) {
     SweptSurfaceOptions options;

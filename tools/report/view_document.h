@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
-#include "middleware/query/query.h"
+#include "tools/reported_contact.h"
 
 namespace foretouch::tools {
 
@@ -77,16 +77,6 @@ struct ViewTrack {
   [[nodiscard]] std::size_t poses() const { return poseTimesS.size(); }
 };
 
-/// What a line of results says of one link that is not clear.
-struct ViewContact {
-  std::uint32_t step = 0;
-  LinkContact contact;
-  double timeS = 0.0;          ///< Of the contact; not read where it is undecided.
-  const char* reason = "";     ///< Read only there.
-  std::string object;          ///< Not read there.
-  bool missedByPoses = false;  ///< Nothing is touched at either pose.
-};
-
 /// A certified outer surface of what one link sweeps in one step.
 struct ViewSwept {
   std::uint32_t step = 0;
@@ -102,7 +92,7 @@ struct ViewAvatar {
   const Avatar* avatar = nullptr;  ///< Links and LSS; outlives the document.
   std::vector<ViewLinkMesh> meshes;
   std::optional<ViewTrack> track;
-  std::vector<ViewContact> contacts;
+  std::vector<ReportedContact> contacts;  ///< `step`: an index of the track's steps.
   std::vector<ViewSwept> swept;
 };
 

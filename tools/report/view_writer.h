@@ -15,7 +15,4 @@ using TextSink = std::function<void(const std::string& piece)>;
 /// end the element of a page that holds it. Memory: O(1) beside the document.
 void writeView(const ViewDocument& document, const TextSink& sink);
 
-/// `text` as a JSON string without any "<"; what is not UTF-8 becomes U+FFFD.
-[[nodiscard]] std::string viewString(const std::string& text);
-
 }  // namespace foretouch::tools

@@ -6,17 +6,38 @@
 
 #include "assets/text_file.h"
 #include "tools/contact_json.h"
-#include "tools/json_text.h"
 
 namespace foretouch::tools {
 namespace {
 
-void appendAnswered(const AnsweredContact& answered, const ContactsMessage& message,
-                    std::string& text) {
+void writeAnswered(const AnsweredContact& answered, const ContactsMessage& message,
+                   JsonWriter& out) {
   const std::string link = jsonString(answered.linkName);
   const std::string object = jsonString(answered.objectName);
-  const std::string instant = fmt::format(R"("utime":{})", utimeOf(message, answered.contact.toi));
-  appendContact(answered.contact, {link, object, toString(answered.reason), instant}, text);
+  ContactWords words;
+  words.link = link;
+  words.object = object;
+  words.utimeUs = utimeOf(message, answered.contact.toi);
+  out.beginObject();
+  writeContact(answered.contact, words, out);
+  out.endObject();
+}
+
+void writePair(const char* name, std::int64_t from, std::int64_t to, JsonWriter& out) {
+  out.key(name);
+  out.beginArray();
+  out.value(from);
+  out.value(to);
+  out.endArray();
+}
+
+void writeShares(const char* name, double p50, double p99, double most, JsonWriter& out) {
+  out.key(name);
+  out.beginObject();
+  out.field("p50", p50);
+  out.field("p99", p99);
+  out.field("max", most);
+  out.endObject();
 }
 
 double milliseconds(std::int64_t us) {
@@ -37,7 +58,7 @@ std::string contactText(const AnsweredContact& answered, const ContactsMessage& 
     case Verdict::StartsInContact:
       return fmt::format("{} is in {}", link, inQuotes(answered.objectName));
     case Verdict::Undecided:
-      return fmt::format("{} undecided ({})", link, toString(answered.reason));
+      return fmt::format("{} undecided ({})", link, toString(contact.reason));
   }
   return link + " clear";
 }
@@ -57,21 +78,29 @@ std::int64_t utimeOf(std::int64_t fromUs, std::int64_t toUs, double toi) {
   return fromUs + static_cast<std::int64_t>(whole) - (isRoundedUp ? 1 : 0);
 }
 
-std::string contactsLine(const ContactsMessage& message, Stamps stamps) {
-  std::string text = fmt::format(
-      R"({{"avatar":{},"session":{},"sequence":[{},{}],"utime":[{},{}],"kind":"{}","lost":{},"contacts":[)",
-      message.avatar, message.session, message.sequenceFrom, message.sequenceTo,
-      message.utimeFromUs, message.utimeToUs, toString(message.kind), message.lost);
-  for (std::size_t i = 0; i < message.contacts.size(); ++i) {
-    if (i > 0) text += ',';
-    appendAnswered(message.contacts[i], message, text);
-  }
-  text += ']';
+void writeContacts(const ContactsMessage& message, Stamps stamps, JsonWriter& out) {
+  out.beginObject();
+  out.field("avatar", message.avatar);
+  out.field("session", message.session);
+  writePair("sequence", message.sequenceFrom, message.sequenceTo, out);
+  writePair("utime", message.utimeFromUs, message.utimeToUs, out);
+  out.field("kind", toString(message.kind));
+  out.field("lost", message.lost);
+  out.list("contacts", message.contacts,
+           [&](const AnsweredContact& answered) { writeAnswered(answered, message, out); });
   if (stamps == Stamps::With) {
-    text += fmt::format(R"(,"receive_utime":{},"send_utime":{},"query_us":{})",
-                        message.receiveUtimeUs, message.sendUtimeUs, numberText(message.queryUs));
+    out.field("receive_utime", message.receiveUtimeUs);
+    out.field("send_utime", message.sendUtimeUs);
+    out.field("query_us", message.queryUs);
   }
-  return text + "}\n";
+  out.endObject();
+}
+
+std::string contactsLine(const ContactsMessage& message, Stamps stamps) {
+  std::string text;
+  JsonWriter out(text);
+  writeContacts(message, stamps, out);
+  return text + "\n";
 }
 
 std::string contactsText(const ContactsMessage& message) {
@@ -89,28 +118,40 @@ std::string contactsText(const ContactsMessage& message) {
   return text + "\n";
 }
 
+void writeStatus(const StatusMessage& message, JsonWriter& out) {
+  out.beginObject();
+  out.field("utime", message.utimeUs);
+  out.field("start_utime", message.startUtimeUs);
+  out.field("build", message.build);
+  out.field("scene", message.scene);
+  out.field("avatars", message.numAvatars);
+  out.field("workers", message.numWorkers);
+  out.field("received", message.received);
+  out.field("answered", message.answered);
+  out.field("rejected", message.rejected);
+  out.field("lost", message.lost);
+  out.field("gaps", message.gaps);
+  out.field("waiting", message.waiting);
+  out.key("reasons");
+  out.beginObject();
+  for (const StatusMessage::Count& count : message.counts) out.field(count.reason, count.count);
+  out.endObject();
+  out.field("publish_failures", message.publishFailures);
+  out.field("journal_failures", message.journalFailures);
+  out.field("kernel_drops", message.kernelDrops);
+  writeShares("latency_us", message.latencyP50Us, message.latencyP99Us, message.latencyMaxUs, out);
+  writeShares("query_us", message.queryP50Us, message.queryP99Us, message.queryMaxUs, out);
+  out.endObject();
+}
+
 std::string statusLine(const StatusMessage& message) {
-  std::string text = fmt::format(
-      R"({{"status":{{"utime":{},"start_utime":{},"build":{},"scene":{},"avatars":{},"workers":{})",
-      message.utimeUs, message.startUtimeUs, jsonString(message.build), jsonString(message.scene),
-      message.numAvatars, message.numWorkers);
-  text += fmt::format(
-      R"(,"received":{},"answered":{},"rejected":{},"lost":{},"gaps":{},"waiting":{},"reasons":{{)",
-      message.received, message.answered, message.rejected, message.lost, message.gaps,
-      message.waiting);
-  for (std::size_t i = 0; i < message.counts.size(); ++i) {
-    text += fmt::format("{}{}:{}", i > 0 ? "," : "", jsonString(message.counts[i].reason),
-                        message.counts[i].count);
-  }
-  text += fmt::format(R"(}},"publish_failures":{},"journal_failures":{},"kernel_drops":{})",
-                      message.publishFailures, message.journalFailures, message.kernelDrops);
-  text += fmt::format(R"(,"latency_us":{{"p50":{},"p99":{},"max":{}}})",
-                      numberText(message.latencyP50Us), numberText(message.latencyP99Us),
-                      numberText(message.latencyMaxUs));
-  text +=
-      fmt::format(R"(,"query_us":{{"p50":{},"p99":{},"max":{}}})", numberText(message.queryP50Us),
-                  numberText(message.queryP99Us), numberText(message.queryMaxUs));
-  return text + "}}\n";
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.key("status");
+  writeStatus(message, out);
+  out.endObject();
+  return text + "\n";
 }
 
 std::string statusText(const StatusMessage& message) {

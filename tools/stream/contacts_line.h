@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "assets/json_writer.h"
 #include "network/wire/messages.h"
 
 namespace foretouch::tools {
@@ -14,14 +15,18 @@ namespace foretouch::tools {
 /// two runs agree on.
 enum class Stamps { With, Without };
 
-/// One object and a line break. The objects of its `contacts` are those of a results file, with
-/// "utime" in the place of "time".
+/// An answer and a heartbeat as one object each.
+void writeContacts(const ContactsMessage& message, Stamps stamps, JsonWriter& out);
+void writeStatus(const StatusMessage& message, JsonWriter& out);
+
+/// writeContacts() and a line break. The objects of its `contacts` are those of a results file,
+/// with "utime" in the place of "time".
 [[nodiscard]] std::string contactsLine(const ContactsMessage& message, Stamps stamps);
 
 /// The same for people: "avatar 1, pose 42: LeftHand touches 'table' at 41 % of 33.3 ms".
 [[nodiscard]] std::string contactsText(const ContactsMessage& message);
 
-/// One object and a line break.
+/// {"status":...} around writeStatus(), and a line break.
 [[nodiscard]] std::string statusLine(const StatusMessage& message);
 /// For people.
 [[nodiscard]] std::string statusText(const StatusMessage& message);

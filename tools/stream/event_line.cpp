@@ -4,95 +4,110 @@
 
 #include <fmt/format.h>
 
+#include "assets/json_writer.h"
 #include "network/wire/codec.h"
-#include "tools/json_text.h"
 #include "tools/stream/contacts_line.h"
 
 namespace foretouch::tools {
 namespace {
 
-std::string numbers(const Eigen::Vector3d& v) {
-  return fmt::format("[{},{},{}]", numberText(v.x()), numberText(v.y()), numberText(v.z()));
-}
-
-std::string numbers(const Quaternion& q) {
-  return fmt::format("[{},{},{},{}]", numberText(q.w()), numberText(q.x()), numberText(q.y()),
-                     numberText(q.z()));
+void writeRotation(const Quaternion& q, JsonWriter& out) {
+  out.key("rotation");
+  out.beginArray();
+  for (const double value : {q.w(), q.x(), q.y(), q.z()}) out.value(value);
+  out.endArray();
 }
 
 /// Beyond what a JSON number holds everywhere.
 std::string hashText(std::int64_t hash) {
-  return fmt::format("\"{:016x}\"", static_cast<std::uint64_t>(hash));
+  return fmt::format("{:016x}", static_cast<std::uint64_t>(hash));
 }
 
-std::string fieldOf(const SkeletonMessage& message) {
-  std::string text = fmt::format(
-      R"("skeleton":{{"avatar":{},"session":{},"send_utime":{},"generation":{},"hash":{},"source":{},"rate":{},"joints":[)",
-      message.avatar, message.session, message.sendUtimeUs, message.generation,
-      hashText(message.hash), jsonString(message.source), numberText(message.rateHz));
-  const char* separator = "";
-  for (const RawJoint& joint : message.skeleton.joints) {
-    text += fmt::format(R"({}{{"name":{},"parent":{},"offset":{},"rotation":{}}})", separator,
-                        jsonString(joint.name), joint.parent, numbers(joint.offset),
-                        numbers(joint.rotation));
-    separator = ",";
-  }
-  return text + "]}";
+void write(const SkeletonMessage& message, JsonWriter& out) {
+  out.key("skeleton");
+  out.beginObject();
+  out.field("avatar", message.avatar);
+  out.field("session", message.session);
+  out.field("send_utime", message.sendUtimeUs);
+  out.field("generation", message.generation);
+  out.field("hash", hashText(message.hash));
+  out.field("source", message.source);
+  out.field("rate", message.rateHz);
+  out.list("joints", message.skeleton.joints, [&](const RawJoint& joint) {
+    out.beginObject();
+    out.field("name", joint.name);
+    out.field("parent", joint.parent);
+    out.field("offset", joint.offset);
+    writeRotation(joint.rotation, out);
+    out.endObject();
+  });
+  out.endObject();
 }
 
-std::string fieldOf(const PoseMessage& message) {
-  std::string text = fmt::format(
-      R"("pose":{{"avatar":{},"session":{},"sequence":{},"utime":{},"send_utime":{},"skeleton_hash":{},"joints":[)",
-      message.avatar, message.session, message.sequence, message.utimeUs, message.sendUtimeUs,
-      hashText(message.skeletonHash));
-  const char* separator = "";
-  for (const PoseJoint& joint : message.joints) {
-    text += fmt::format(R"({}{{"joint":{},"flags":{},"rotation":{}}})", separator, joint.joint,
-                        joint.flags, numbers(joint.rotation));
-    separator = ",";
-  }
-  text += R"(],"translations":[)";
-  separator = "";
-  for (const PoseTranslation& translation : message.translations) {
-    text += fmt::format(R"({}{{"joint":{},"translation":{}}})", separator, translation.joint,
-                        numbers(translation.translation));
-    separator = ",";
-  }
-  return text + "]}";
+void write(const PoseMessage& message, JsonWriter& out) {
+  out.key("pose");
+  out.beginObject();
+  out.field("avatar", message.avatar);
+  out.field("session", message.session);
+  out.field("sequence", message.sequence);
+  out.field("utime", message.utimeUs);
+  out.field("send_utime", message.sendUtimeUs);
+  out.field("skeleton_hash", hashText(message.skeletonHash));
+  out.list("joints", message.joints, [&](const PoseJoint& joint) {
+    out.beginObject();
+    out.field("joint", joint.joint);
+    out.field("flags", joint.flags);
+    writeRotation(joint.rotation, out);
+    out.endObject();
+  });
+  out.list("translations", message.translations, [&](const PoseTranslation& translation) {
+    out.beginObject();
+    out.field("joint", translation.joint);
+    out.field("translation", translation.translation);
+    out.endObject();
+  });
+  out.endObject();
 }
 
-std::string fieldOf(const ContactsMessage& message) {
-  std::string object = contactsLine(message, Stamps::With);
-  object.pop_back();  // the line break
-  return "\"contacts\":" + object;
+void write(const ContactsMessage& message, JsonWriter& out) {
+  out.key("contacts");
+  writeContacts(message, Stamps::With, out);
 }
 
-std::string fieldOf(const StatusMessage& message) {
-  const std::string line = statusLine(message);  // {"status":{...}} and a line break
-  return line.substr(1, line.size() - 3);
+void write(const StatusMessage& message, JsonWriter& out) {
+  out.key("status");
+  writeStatus(message, out);
 }
 
 template <typename Message>
-std::string readField(const LogEvent& event) {
+void writeMessage(const LogEvent& event, JsonWriter& out) {
   Message message;
   const Reject reject = decode(event.payload, message);
-  if (reject == Reject::None) return fieldOf(message);
-  return fmt::format(R"("bytes":{},"refused":"{}")", event.payload.size(), toString(reject));
+  if (reject == Reject::None) return write(message, out);
+  out.field("bytes", event.payload.size());
+  out.field("refused", toString(reject));
 }
 
-std::string contentOf(const LogEvent& event, const ChannelNames& channels) {
-  if (event.channel == channels.pose) return readField<PoseMessage>(event);
-  if (event.channel == channels.skeleton) return readField<SkeletonMessage>(event);
-  if (event.channel == channels.contacts) return readField<ContactsMessage>(event);
-  if (event.channel == channels.status) return readField<StatusMessage>(event);
-  return fmt::format(R"("bytes":{})", event.payload.size());
+void writeContent(const LogEvent& event, const ChannelNames& channels, JsonWriter& out) {
+  if (event.channel == channels.pose) return writeMessage<PoseMessage>(event, out);
+  if (event.channel == channels.skeleton) return writeMessage<SkeletonMessage>(event, out);
+  if (event.channel == channels.contacts) return writeMessage<ContactsMessage>(event, out);
+  if (event.channel == channels.status) return writeMessage<StatusMessage>(event, out);
+  out.field("bytes", event.payload.size());
 }
 
 }  // namespace
 
 std::string eventLine(const LogEvent& event, const ChannelNames& channels) {
-  return fmt::format("{{\"event\":{},\"received\":{},\"channel\":{},{}}}\n", event.number,
-                     event.utimeUs, jsonString(event.channel), contentOf(event, channels));
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.field("event", event.number);
+  out.field("received", event.utimeUs);
+  out.field("channel", event.channel);
+  writeContent(event, channels, out);
+  out.endObject();
+  return text + "\n";
 }
 
 }  // namespace foretouch::tools

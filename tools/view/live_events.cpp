@@ -1,14 +1,11 @@
 #include "tools/view/live_events.h"
 
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "tools/contact_json.h"
-#include "tools/json_text.h"
+#include "tools/reported_contact.h"
 #include "tools/stream/contacts_line.h"
 
 namespace foretouch::tools {
@@ -21,28 +18,21 @@ constexpr double kSecondsPerUs = 1e-6;
 /// chain of a hundred links that is a micrometre.
 constexpr double kPoseUnits = 1e8;
 
-using Text = fmt::memory_buffer;
-
-void appendRounded(double value, Text& text) {
+void writeRounded(double value, JsonWriter& out) {
   // Adding zero makes -0 the 0 that is shorter.
-  fmt::format_to(std::back_inserter(text), "{}", std::round(value * kPoseUnits) / kPoseUnits + 0.0);
+  out.value(std::round(value * kPoseUnits) / kPoseUnits + 0.0);
 }
 
 /// w, x, y, z and the translation of each link, flattened.
-void appendPose(const char* name, const Pose& pose, Text& text) {
-  fmt::format_to(std::back_inserter(text), ",\"{}\":", name);
-  char separator = '[';
-  const auto append = [&](double value) {
-    text.push_back(separator);
-    appendRounded(value, text);
-    separator = ',';
-  };
+void writePose(const char* name, const Pose& pose, JsonWriter& out) {
+  out.key(name);
+  out.beginArray();
   for (std::size_t i = 0; i < pose.rotations.size(); ++i) {
     const Quaternion& q = pose.rotations[i];
-    for (const double value : {q.w(), q.x(), q.y(), q.z()}) append(value);
-    for (const double value : pose.translations[i]) append(value);
+    for (const double value : {q.w(), q.x(), q.y(), q.z()}) writeRounded(value, out);
+    for (const double value : pose.translations[i]) writeRounded(value, out);
   }
-  text.push_back(']');
+  out.endArray();
 }
 
 SharedText shared(std::string text) {
@@ -74,61 +64,80 @@ void LiveEvents::collect(Time now, std::vector<ViewEvent>& events) {
 
 ViewEvent LiveEvents::statusEvent() const {
   const StatusMessage status = status_();
+  std::string text;
+  JsonWriter out(text);
+  out.field("answered", status.answered);
+  out.field("rejected", status.rejected);
+  out.field("lost", status.lost);
+  out.field("gaps", status.gaps);
+  out.field("waiting", status.waiting);
+  out.field("query_p50_us", status.queryP50Us);
+  out.field("query_p99_us", status.queryP99Us);
+  out.field("answer_p50_us", status.latencyP50Us);
+  out.field("answer_p99_us", status.latencyP99Us);
+  out.field("viewers", numViewers_);
   ViewEvent event;
   event.topic = kStatusTopic;
   event.name = "status";
-  event.head = shared(fmt::format(
-      R"({{"answered":{},"rejected":{},"lost":{},"gaps":{},"waiting":{},"query_p50_us":{},"query_p99_us":{},"answer_p50_us":{},"answer_p99_us":{},"viewers":{})",
-      status.answered, status.rejected, status.lost, status.gaps, status.waiting,
-      numberText(status.queryP50Us), numberText(status.queryP99Us), numberText(status.latencyP50Us),
-      numberText(status.latencyP99Us), numViewers_));
+  event.fields = shared(std::move(text));
   return event;
 }
 
-ViewEvent LiveEvents::stepEvent(std::size_t avatar) const {
+std::string LiveEvents::stepFields(std::size_t avatar) const {
   const WatchedStep& step = batch_.newest();
-  Text text;
-  fmt::format_to(
-      std::back_inserter(text),
-      R"({{"avatar":{},"sequence":{},"utime":[{},{}],"t0":{},"t1":{},"kind":"{}","lost":{},"query_us":{},"added_us":{})",
-      world_.avatarIds[avatar], step.sequence, step.utimeFromUs, step.utimeToUs,
-      numberText(secondsOf(step.utimeFromUs)), numberText(secondsOf(step.utimeToUs)),
-      toString(step.kind), step.lost, numberText(step.queryUs), numberText(step.addedUs));
-  appendPose("from", step.from, text);
-  appendPose("to", step.to, text);
+  std::string text;
+  JsonWriter out(text);
+  out.field("avatar", world_.avatarIds[avatar]);
+  out.field("sequence", step.sequence);
+  out.key("utime");
+  out.beginArray();
+  out.value(step.utimeFromUs);
+  out.value(step.utimeToUs);
+  out.endArray();
+  out.field("t0", secondsOf(step.utimeFromUs));
+  out.field("t1", secondsOf(step.utimeToUs));
+  out.field("kind", toString(step.kind));
+  out.field("lost", step.lost);
+  out.field("query_us", step.queryUs);
+  out.field("added_us", step.addedUs);
+  writePose("from", step.from, out);
+  writePose("to", step.to, out);
+  return text;
+}
 
+ViewEvent LiveEvents::stepEvent(std::size_t avatar) const {
   ViewEvent event;
   event.topic = kStatusTopic + 1 + avatar;
   event.name = "step";
-  event.head = shared(fmt::to_string(text));
+  event.fields = shared(stepFields(avatar));
   event.steps = batch_.numSteps();
   event.numLeftOut = batch_.numLeftOut();
   event.contacts.count = batch_.contacts().size();
   if (event.contacts.count == 0) return event;
   std::string contacts;
-  for (const WatchedContact& watched : batch_.contacts()) {
-    if (!contacts.empty()) contacts += ',';
-    contacts += contactText(watched);
+  JsonWriter out(contacts);
+  std::size_t next = 0;
+  for (const BatchedStep& step : batch_.touchingSteps()) {
+    for (; next < step.endOfContacts; ++next) write(batch_.contacts()[next], step, out);
   }
   event.contacts.text = shared(std::move(contacts));
   return event;
 }
 
-std::string LiveEvents::contactText(const WatchedContact& watched) const {
-  const LinkContact& contact = watched.contact;
+void LiveEvents::write(const LinkContact& contact, const BatchedStep& step, JsonWriter& out) const {
   const std::string link = std::to_string(contact.link);
   const std::string object =
       contact.triangle < 0 ? "\"\""
                            : jsonString(world_.objectNames[world_.objectOf(contact.triangle)]);
-  const double fromS = secondsOf(watched.utimeFromUs);
-  const double spanS = secondsOf(watched.utimeToUs) - fromS;
-  const std::string instant =
-      fmt::format(R"("time":{},"utime":{})", numberText(fromS + contact.toi * spanS),
-                  utimeOf(watched.utimeFromUs, watched.utimeToUs, contact.toi));
-  std::string text = fmt::format(R"({{"sequence":{},)", watched.sequence);
-  std::string rest;
-  appendContact(contact, {link, object, toString(watched.reason), instant}, rest);
-  return text.append(rest, 1, std::string::npos);  // without its brace
+  ContactWords words;
+  words.link = link;
+  words.object = object;
+  words.timeS = timeOf(contact, secondsOf(step.utimeFromUs), secondsOf(step.utimeToUs));
+  words.utimeUs = utimeOf(step.utimeFromUs, step.utimeToUs, contact.toi);
+  out.beginObject();
+  out.field("sequence", step.sequence);
+  writeContact(contact, words, out);
+  out.endObject();
 }
 
 double LiveEvents::secondsOf(std::int64_t utimeUs) const {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/json_writer.h"
 #include "middleware/scene/scene.h"
 #include "network/watch/view_event.h"
 #include "network/watch/view_feed.h"
@@ -36,7 +37,8 @@ class LiveEvents final : public EventSource {
  private:
   [[nodiscard]] ViewEvent statusEvent() const;
   [[nodiscard]] ViewEvent stepEvent(std::size_t avatar) const;
-  [[nodiscard]] std::string contactText(const WatchedContact& watched) const;
+  [[nodiscard]] std::string stepFields(std::size_t avatar) const;
+  void write(const LinkContact& contact, const BatchedStep& step, JsonWriter& out) const;
   [[nodiscard]] double secondsOf(std::int64_t utimeUs) const;
 
   ViewFeed& feed_;

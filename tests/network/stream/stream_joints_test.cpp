@@ -28,34 +28,34 @@ class StreamJoints : public test::StreamFixture {};
 
 TEST_F(StreamJoints, KnowsALinkWhoseJointsAreAllKnownInBothPoses) {
   follow(1);
-  EXPECT_EQ(*step_.unknown, std::vector<AnswerReason>(4, AnswerReason::None));
+  EXPECT_EQ(*step_.unknown, std::vector<UndecidedReason>(4, UndecidedReason::None));
   PoseMessage inferred = nthPose(2);
   for (PoseJoint& joint : inferred.joints) joint.flags = kJointValid | kJointInferred;
   ASSERT_EQ(take(inferred), Reject::None);
-  EXPECT_EQ(*step_.unknown, std::vector<AnswerReason>(4, AnswerReason::None));
+  EXPECT_EQ(*step_.unknown, std::vector<UndecidedReason>(4, UndecidedReason::None));
 }
 
 TEST_F(StreamJoints, KnowsNothingBelowAJointThatIsNot) {
   struct Case {
     std::uint8_t flags;
-    AnswerReason reason;
+    UndecidedReason reason;
   };
   std::int64_t n = 1;
   follow(0);
   for (const Case& c :
-       {Case{0, AnswerReason::InvalidJoint}, Case{kJointTracked, AnswerReason::InvalidJoint},
-        Case{kJointValid, AnswerReason::StaleJoint}}) {
+       {Case{0, UndecidedReason::InvalidJoint}, Case{kJointTracked, UndecidedReason::InvalidJoint},
+        Case{kJointValid, UndecidedReason::StaleJoint}}) {
     PoseMessage message = nthPose(n++);
     message.joints[test::kArm].flags = c.flags;
     ASSERT_EQ(take(message), Reject::None);
     for (int pose = 0; pose < 2; ++pose) {  // it is the later pose's, then the earlier one's
-      EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
+      EXPECT_EQ(unknown(test::kHips), UndecidedReason::None);
       EXPECT_EQ(unknown(test::kArm), c.reason);
       EXPECT_EQ(unknown(test::kHand), c.reason);
-      EXPECT_EQ(unknown(test::kLeg), AnswerReason::None);
+      EXPECT_EQ(unknown(test::kLeg), UndecidedReason::None);
       ASSERT_EQ(take(nthPose(n++)), Reject::None);
     }
-    EXPECT_EQ(unknown(test::kHand), AnswerReason::None);
+    EXPECT_EQ(unknown(test::kHand), UndecidedReason::None);
   }
 }
 
@@ -66,10 +66,10 @@ TEST_F(StreamJoints, NamesTheReasonNearestToTheLink) {
   message.joints[test::kArm].flags = kJointValid;
   message.joints.erase(message.joints.begin() + test::kHand);
   ASSERT_EQ(take(message), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::InvalidJoint);
-  EXPECT_EQ(unknown(test::kArm), AnswerReason::StaleJoint);
-  EXPECT_EQ(unknown(test::kHand), AnswerReason::MissingJoint);
-  EXPECT_EQ(unknown(test::kLeg), AnswerReason::InvalidJoint);
+  EXPECT_EQ(unknown(test::kHips), UndecidedReason::InvalidJoint);
+  EXPECT_EQ(unknown(test::kArm), UndecidedReason::StaleJoint);
+  EXPECT_EQ(unknown(test::kHand), UndecidedReason::MissingJoint);
+  EXPECT_EQ(unknown(test::kLeg), UndecidedReason::InvalidJoint);
 }
 
 TEST_F(StreamJoints, HoldsWhatIsUnknownAtItsLastKnownValue) {
@@ -105,7 +105,7 @@ TEST_F(StreamJoints, DoesNotKnowAJointThatTheSenderLacks) {
     EXPECT_EQ(take(poseMessage(three, 0, 0)), Reject::None);
     return *step_.unknown;
   };
-  using R = AnswerReason;
+  using R = UndecidedReason;
   EXPECT_EQ(firstOf(false),
             (std::vector<R>{R::None, R::UnmatchedJoint, R::UnmatchedJoint, R::None}));
   EXPECT_EQ(firstOf(true), std::vector<R>(4, R::None));
@@ -117,23 +117,23 @@ TEST_F(StreamJoints, DoesNotTakeTheRestOffsetForATranslationThatWasNotSent) {
   PoseMessage without = nthPose(2);
   without.translations.clear();
   ASSERT_EQ(take(without), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::MissingJoint);
+  EXPECT_EQ(unknown(test::kHips), UndecidedReason::MissingJoint);
   EXPECT_EQ(step_.to->translations[0], nthPose(1).translations[0].translation);
   ASSERT_EQ(take(nthPose(3)), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::MissingJoint);  // of the earlier pose
+  EXPECT_EQ(unknown(test::kHips), UndecidedReason::MissingJoint);  // of the earlier pose
   ASSERT_EQ(take(nthPose(4)), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
+  EXPECT_EQ(unknown(test::kHips), UndecidedReason::None);
   // Another session owes nothing to this one.
   without = nthPose(0, 2);
   without.translations.clear();
   ASSERT_EQ(take(without), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
+  EXPECT_EQ(unknown(test::kHips), UndecidedReason::None);
   EXPECT_EQ(step_.to->translations[0], skeleton_.joints[0].offset);
   // What came before the first translation was not the rest offset for sure.
   ASSERT_EQ(take(nthPose(1, 2)), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::MissingJoint);
+  EXPECT_EQ(unknown(test::kHips), UndecidedReason::MissingJoint);
   ASSERT_EQ(take(nthPose(2, 2)), Reject::None);
-  EXPECT_EQ(unknown(test::kHips), AnswerReason::None);
+  EXPECT_EQ(unknown(test::kHips), UndecidedReason::None);
 }
 
 // The same poses as a replay of a clip makes of them, bit for bit.
@@ -198,7 +198,7 @@ TEST_F(StreamJoints, MakesOfAClipsFramesWhatAReplayMakesOfThem) {
     const Pose expected = validatedPose(avatar, poseOfAvatar(avatar, clip, match, f)).value();
     EXPECT_TRUE(areSameBits(*step_.to, expected)) << "frame " << f;
     EXPECT_TRUE(areSameBits(*step_.from, f > 0 ? before : expected)) << "frame " << f;
-    EXPECT_EQ(*step_.unknown, std::vector<AnswerReason>(4, AnswerReason::None));
+    EXPECT_EQ(*step_.unknown, std::vector<UndecidedReason>(4, UndecidedReason::None));
     before = expected;
   }
 }

@@ -50,9 +50,9 @@ struct SimulationTally {
   std::uint64_t alteredAnswered = 0;  ///< Bytes were changed, yet every rule was kept.
   /// Steps between two runs of a sender without sessions that goes on in the old one's numbers.
   std::uint64_t unknowable = 0;
-  RejectCounts rejects{};                                  ///< Of bytes, poses and skeletons.
-  std::array<std::uint64_t, 4> verdicts{};                 ///< Of link-steps.
-  std::array<std::uint64_t, kNumAnswerReasons> reasons{};  ///< Of undecided ones.
+  RejectCounts rejects{};                                     ///< Of bytes, poses and skeletons.
+  std::array<std::uint64_t, 4> verdicts{};                    ///< Of link-steps.
+  std::array<std::uint64_t, kNumUndecidedReasons> reasons{};  ///< Of undecided ones.
   std::uint64_t judged = 0;    ///< Link-steps that the oracle was asked of.
   std::uint64_t unproved = 0;  ///< It gave up.
 

@@ -30,9 +30,10 @@ TEST(StreamSimulation, KeepsEveryPromise) {
   EXPECT_GT(verdicts(Verdict::Undecided), linkSteps / 10);
   EXPECT_EQ(all.unproved, 0U);
   EXPECT_GT(all.answered, all.posesSent / 2);
-  for (const AnswerReason reason :
-       {AnswerReason::WorkBudget, AnswerReason::Gap, AnswerReason::MissingJoint,
-        AnswerReason::InvalidJoint, AnswerReason::StaleJoint, AnswerReason::UnmatchedJoint}) {
+  for (const UndecidedReason reason :
+       {UndecidedReason::WorkBudget, UndecidedReason::Gap, UndecidedReason::MissingJoint,
+        UndecidedReason::InvalidJoint, UndecidedReason::StaleJoint,
+        UndecidedReason::UnmatchedJoint}) {
     EXPECT_GT(all.reasons[static_cast<std::size_t>(reason)], 100U) << toString(reason);
   }
   for (const Reject reject :

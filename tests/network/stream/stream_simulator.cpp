@@ -14,8 +14,8 @@
 
 namespace {
 
-using foretouch::kNumAnswerReasons;
 using foretouch::kNumRejects;
+using foretouch::kNumUndecidedReasons;
 using foretouch::Verdict;
 using foretouch::test::Mutation;
 using foretouch::test::SimulationOptions;
@@ -56,9 +56,9 @@ void printTable(const Rows& rows) {
 
 void printCounts(const SimulationTally& all) {
   std::printf("\nundecided, by reason:");
-  for (std::uint8_t i = 0; i < kNumAnswerReasons; ++i) {
+  for (std::uint8_t i = 0; i < kNumUndecidedReasons; ++i) {
     if (all.reasons[i] == 0) continue;
-    std::printf(" %s %llu", toString(static_cast<foretouch::AnswerReason>(i)),
+    std::printf(" %s %llu", toString(static_cast<foretouch::UndecidedReason>(i)),
                 static_cast<unsigned long long>(all.reasons[i]));
   }
   std::printf("\nrejected, by reason:");

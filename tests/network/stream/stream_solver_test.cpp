@@ -132,7 +132,7 @@ TEST_F(Solver, FindsAContactBetweenTwoPosesThatTouchNothing) {
   EXPECT_EQ(names, (std::vector<std::string>{"Arm", "Hand", "Leg", "Hips"}));
   const AnsweredContact& hips = answer_.contacts.back();
   EXPECT_EQ(hips.objectName, "a wall of bricks");
-  EXPECT_EQ(hips.reason, AnswerReason::None);
+  EXPECT_EQ(hips.contact.reason, UndecidedReason::None);
   EXPECT_EQ(hips.contact.lss, -1);
   EXPECT_NEAR(hips.contact.toi, 0.475, 1e-3);
   EXPECT_LE(hips.contact.toi, 0.475);
@@ -146,12 +146,12 @@ TEST_F(Solver, ClaimsNothingAcrossAGapButContacts) {
   EXPECT_EQ(answer_.verdicts, std::vector<Verdict>(4, Verdict::Undecided));
   ASSERT_EQ(answer_.contacts.size(), 4U);
   for (const AnsweredContact& contact : answer_.contacts) {
-    EXPECT_EQ(contact.reason, AnswerReason::Gap);
+    EXPECT_EQ(contact.contact.reason, UndecidedReason::Gap);
     EXPECT_EQ(contact.contact.freeUntil, 0.0);
   }
   move(0.85, 7);  // arm and hand reach the wall
   EXPECT_EQ(answer_.verdicts[test::kArm], Verdict::Contact);
-  EXPECT_EQ(contactOf(test::kHips).reason, AnswerReason::Gap);
+  EXPECT_EQ(contactOf(test::kHips).contact.reason, UndecidedReason::Gap);
   EXPECT_EQ(answer_.contacts[0].linkName, "Hips");  // at 0, before what touches later
   move(0.85, 8);
   EXPECT_EQ(answer_.verdicts[test::kArm], Verdict::StartsInContact);
@@ -165,7 +165,7 @@ TEST_F(Solver, ClaimsNothingBelowAnUnknownJoint) {
   ASSERT_EQ(solver_.take(pose, answer_), Reject::None);
   EXPECT_EQ(answer_.verdicts, (std::vector<Verdict>{Verdict::Contact, Verdict::Undecided,
                                                     Verdict::Undecided, Verdict::Contact}));
-  EXPECT_EQ(contactOf(test::kHand).reason, AnswerReason::StaleJoint);
+  EXPECT_EQ(contactOf(test::kHand).contact.reason, UndecidedReason::StaleJoint);
   EXPECT_EQ(contactOf(test::kHand).contact.freeUntil, 0.0);
   EXPECT_EQ(contactOf(test::kHand).contact.triangle, -1);
 }
@@ -213,7 +213,7 @@ TEST(StreamSolverBudget, IsSaidAndItsReasonPassedOn) {
   EXPECT_EQ(answer.workBudget, 1);
   ASSERT_FALSE(answer.contacts.empty());
   EXPECT_EQ(answer.contacts[0].contact.verdict, Verdict::Undecided);
-  EXPECT_EQ(answer.contacts[0].reason, AnswerReason::WorkBudget);
+  EXPECT_EQ(answer.contacts[0].contact.reason, UndecidedReason::WorkBudget);
 }
 
 // Of skins: a triangle that an unknown link pulls along is not known, whichever link it is told of.

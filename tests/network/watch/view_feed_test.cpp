@@ -50,9 +50,14 @@ class Steps {
 };
 
 void append(const StepBatch& batch, std::vector<ContactId>& seen) {
-  for (const WatchedContact& watched : batch.contacts()) {
-    seen.emplace_back(watched.sequence, watched.contact.link);
+  std::size_t next = 0;
+  for (const BatchedStep& step : batch.touchingSteps()) {
+    EXPECT_LT(next, step.endOfContacts);
+    for (; next < step.endOfContacts; ++next) {
+      seen.emplace_back(step.sequence, batch.contacts()[next].link);
+    }
   }
+  EXPECT_EQ(next, batch.contacts().size());
 }
 
 TEST(ShowPace, LetsThroughSoManyASecondWhateverComes) {

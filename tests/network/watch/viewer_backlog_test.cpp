@@ -42,7 +42,7 @@ TEST(SentText, IsOneEvent) {
             "\"contacts_left_out\":5}\n\n");
   ViewEvent status;
   status.name = "status";
-  status.head = std::make_shared<const std::string>("{\"answered\":1");
+  status.fields = std::make_shared<const std::string>("\"answered\":1");
   EXPECT_EQ(sentText(status), "event: status\ndata: {\"answered\":1}\n\n");
 }
 

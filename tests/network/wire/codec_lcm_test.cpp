@@ -92,7 +92,7 @@ void expectSame(const PoseMessage& m, const pose_t& w) {
 void expectSame(const AnsweredContact& m, const contacts_t& w, std::size_t i) {
   const LinkContact& c = m.contact;
   EXPECT_TRUE(w.links[i] == c.link && w.link_names[i] == m.linkName &&
-              w.reasons[i] == static_cast<int>(m.reason) && same(w.free_until[i], c.freeUntil));
+              w.reasons[i] == static_cast<int>(c.reason) && same(w.free_until[i], c.freeUntil));
   if (c.verdict == Verdict::Undecided) {
     EXPECT_TRUE(w.triangles[i] == -1 && w.objects[i].empty() && w.link_triangles[i] == -1 &&
                 w.link_features[i] == 0 && w.scene_features[i] == 0);

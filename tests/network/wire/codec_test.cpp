@@ -274,7 +274,7 @@ ContactsMessage fourLinks() {
   undecided.contact.link = 2;
   undecided.contact.verdict = Verdict::Undecided;
   undecided.contact.freeUntil = 0.0;
-  undecided.reason = AnswerReason::MissingJoint;
+  undecided.contact.reason = UndecidedReason::MissingJoint;
   AnsweredContact& touching = message.contacts[1];
   touching.linkName = "Arm";
   touching.objectName = "table";
@@ -312,15 +312,17 @@ TEST(DecodeContacts, RefusesCodesThatDoNotExist) {
               Reject::OutOfRange);
   }
   const auto first = [](int bad) {
-    return contactsAfter(
-        [&](ContactsMessage& m) { m.contacts[0].reason = static_cast<AnswerReason>(bad); });
+    return contactsAfter([&](ContactsMessage& m) {
+      m.contacts[0].contact.reason = static_cast<UndecidedReason>(bad);
+    });
   };
-  EXPECT_EQ(first(kNumAnswerReasons), Reject::OutOfRange);
+  EXPECT_EQ(first(kNumUndecidedReasons), Reject::OutOfRange);
   EXPECT_EQ(first(0), Reject::OutOfRange);  // undecided without a reason
   const auto second = [](auto change) {
     return contactsAfter([&](ContactsMessage& m) { change(m.contacts[1]); });
   };
-  EXPECT_EQ(second([](AnsweredContact& c) { c.reason = AnswerReason::Gap; }), Reject::OutOfRange);
+  EXPECT_EQ(second([](AnsweredContact& c) { c.contact.reason = UndecidedReason::Gap; }),
+            Reject::OutOfRange);
   const auto beyond = static_cast<FeatureKind>(3);
   EXPECT_EQ(second([&](AnsweredContact& c) { c.contact.linkFeature = beyond; }),
             Reject::OutOfRange);

@@ -47,8 +47,9 @@ TEST(Words, OfReasonsAndRejectsDiffer) {
   for (std::size_t i = 0; i < kNumRejects; ++i) words.insert(toString(static_cast<Reject>(i)));
   EXPECT_EQ(words.size(), kNumRejects);
   words.clear();
-  for (int i = 0; i < kNumAnswerReasons; ++i) words.insert(toString(static_cast<AnswerReason>(i)));
-  EXPECT_EQ(words.size(), kNumAnswerReasons);
+  for (int i = 0; i < kNumUndecidedReasons; ++i)
+    words.insert(toString(static_cast<UndecidedReason>(i)));
+  EXPECT_EQ(words.size(), kNumUndecidedReasons);
 }
 
 }  // namespace

@@ -21,16 +21,6 @@ LinkContact contactOf(LinkId link, Verdict verdict, double time) {
   return contact;
 }
 
-TEST(NotClear, ListsTheEarliestFirstAndTiesByLink) {
-  const auto contacts =
-      notClear({contactOf(0, Verdict::Contact, 0.5), contactOf(1, Verdict::Clear, 1.0),
-                contactOf(2, Verdict::Undecided, 0.25), contactOf(3, Verdict::StartsInContact, 0.0),
-                contactOf(4, Verdict::Contact, 0.25), contactOf(5, Verdict::Contact, 0.5)});
-  std::vector<LinkId> links;
-  for (const LinkContact& contact : contacts) links.push_back(contact.link);
-  EXPECT_EQ(links, (std::vector<LinkId>{3, 2, 4, 0, 5}));
-}
-
 TEST(StepFormat, WritesEveryFieldOfEveryVerdict) {
   const ReplayInputs inputs = smallInputs({0, 1});
   StepAnswer answer;

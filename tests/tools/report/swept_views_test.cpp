@@ -25,7 +25,7 @@ ViewDocument document(const ReplayInputs& inputs) {
   }
   for (std::uint32_t i = 0; i < inputs.steps.count; ++i) {
     track.addStep(i, i + 1);
-    ViewContact contact;
+    ReportedContact contact;
     contact.step = i;
     contact.contact.verdict = Verdict::Contact;
     contact.contact.triangle = 0;

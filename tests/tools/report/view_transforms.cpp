@@ -16,12 +16,12 @@
 #include <fmt/format.h>
 
 #include "articulated/motion.h"
+#include "assets/json_writer.h"
 #include "tests/support/random_geometry.h"
 #include "tools/arguments.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/inputs/replay_inputs.h"
-#include "tools/json_text.h"
 #include "tools/settling.h"
 
 namespace foretouch::tools {

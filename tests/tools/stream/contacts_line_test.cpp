@@ -46,8 +46,8 @@ TEST(ContactsLine, WritesEveryField) {
   message.sendUtimeUs = 6;
   message.queryUs = 1.5;
   LinkContact gap = contactWith(1, Verdict::Undecided, 0.0);
-  message.contacts = {{gap, AnswerReason::Gap, "Arm", ""},
-                      {contactWith(0, Verdict::Contact, 0.5), AnswerReason::None, "Hi\"ps", "wall"}};
+  gap.reason = UndecidedReason::Gap;
+  message.contacts = {{gap, "Arm", ""}, {contactWith(0, Verdict::Contact, 0.5), "Hi\"ps", "wall"}};
   EXPECT_EQ(
       contactsLine(message, Stamps::With),
       R"({"avatar":7,"session":1700000000000000,"sequence":[41,42],"utime":[1000000,1100000],)"
@@ -90,8 +90,7 @@ TEST(ContactsLine, HasTheContactsOfAResultsFile) {
     contact.reason =
         verdict == Verdict::Undecided ? UndecidedReason::Resolution : UndecidedReason::None;
     answer.contacts.push_back(contact);
-    message.contacts.push_back(
-        {contact, AnswerReason::Resolution, inputs.avatar.skeleton().name(contact.link), "wall"});
+    message.contacts.push_back({contact, inputs.avatar.skeleton().name(contact.link), "wall"});
   }
   const std::string file = StepFormat(inputs.avatar, inputs.scene).line(answer);
   const std::string line = contactsLine(message, Stamps::Without);
@@ -130,9 +129,8 @@ TEST(UtimeOf, IsNeverAfterTheContactAndLessThanAMicrosecondBefore) {
 TEST(ContactsText, SaysWhatIsTouchedAndKeepsControlSequencesOut) {
   ContactsMessage message = smallMessage();
   EXPECT_EQ(contactsText(message), "avatar 7, pose 42: clear\n");
-  message.contacts = {
-      {contactWith(0, Verdict::Contact, 0.25), AnswerReason::None, "Hand", "ta\x1b[2Jble"},
-      {contactWith(0, Verdict::Undecided, 0.0), AnswerReason::MissingJoint, "Foot", ""}};
+  message.contacts = {{contactWith(0, Verdict::Contact, 0.25), "Hand", "ta\x1b[2Jble"},
+                      {undecidedContact(0, 0.0, UndecidedReason::MissingJoint), "Foot", ""}};
   message.kind = StepKind::AcrossGap;
   message.lost = 2;
   EXPECT_EQ(contactsText(message),

@@ -1,0 +1,91 @@
+// middleware/contact_fields.h: the fields of a contact, in one list. What writes contacts as JSON
+// takes their names and order from here; the C struct, the Python class, the message on the wire,
+// the page's decoder and the tables in docs are held to it by tests.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <variant>
+
+#include <Eigen/Core>
+
+#include "middleware/contact.h"
+
+namespace foretouch {
+
+/// Of which contacts a format says the field.
+enum class ContactFieldUse : std::uint8_t {
+  Every,
+  Undecided,
+  Touching,  ///< Contact and StartsInContact.
+  StartsInContact,
+  Exact,  ///< Touching, with a triangle of the link (linkTriangle is not -1).
+  Never,  ///< Not in JSON and not on the wire.
+};
+
+using ContactMember = std::variant<std::int32_t LinkContact::*, double LinkContact::*,
+                                   Eigen::Vector3d LinkContact::*, Verdict LinkContact::*,
+                                   UndecidedReason LinkContact::*, FeatureKind LinkContact::*>;
+
+struct ContactField {
+  const char* name;  ///< In JSON and in Python; in the page's code as camelCase.
+  const char* inC;   ///< In ft_contact.
+  /// In contacts_t: of vectors what comes before _x, _y and _z; nothing where it has no such field.
+  const char* onWire;
+  ContactMember member;
+  ContactFieldUse use;
+  const char* unit;  ///< "1" where it has none.
+  const char* meaning;
+};
+
+/// In the order in which JSON has them. `object` is the scene's word for the triangle.
+inline constexpr std::array<ContactField, 16> kContactFields{{
+    {"link", "link", "links", &LinkContact::link, ContactFieldUse::Every, "1",
+     "the link that is told of"},
+    {"verdict", "verdict", "verdicts", &LinkContact::verdict, ContactFieldUse::Every, "1",
+     "what is known of its motion"},
+    {"free_until", "free_until", "free_until", &LinkContact::freeUntil, ContactFieldUse::Undecided,
+     "1", "nothing is touched before this t"},
+    {"reason", "reason", "reasons", &LinkContact::reason, ContactFieldUse::Undecided, "1",
+     "why nothing is known after it"},
+    {"toi", "toi", "", &LinkContact::toi, ContactFieldUse::Touching, "1",
+     "time of impact, never late"},
+    {"separation", "separation", "separation", &LinkContact::separation, ContactFieldUse::Touching,
+     "m", "at toi"},
+    {"penetration", "penetration", "penetration", &LinkContact::penetration,
+     ContactFieldUse::StartsInContact, "m", "how deep it begins"},
+    {"point", "point_scene", "point", &LinkContact::p_WScene, ContactFieldUse::Touching, "m",
+     "witness point on the scene, in the world"},
+    {"on_link", "point_link", "on_link", &LinkContact::p_WLink, ContactFieldUse::Touching, "m",
+     "witness point on the link's surface, in the world"},
+    {"normal", "normal", "normal", &LinkContact::nhat_SL_W, ContactFieldUse::Touching, "1",
+     "unit, from the scene to the link, in the world"},
+    {"triangle", "triangle", "triangles", &LinkContact::triangle, ContactFieldUse::Touching, "1",
+     "of the scene"},
+    {"object", "object", "objects", &LinkContact::triangle, ContactFieldUse::Touching, "1",
+     "the triangle's object"},
+    {"lss", "lss", "", &LinkContact::lss, ContactFieldUse::Never, "1", "which of the link's LSS"},
+    {"link_triangle", "link_triangle", "link_triangles", &LinkContact::linkTriangle,
+     ContactFieldUse::Exact, "1", "which of the link's triangles"},
+    {"link_feature", "link_feature", "link_features", &LinkContact::linkFeature,
+     ContactFieldUse::Exact, "1", "what of it holds the witness point"},
+    {"scene_feature", "scene_feature", "scene_features", &LinkContact::sceneFeature,
+     ContactFieldUse::Exact, "1", "the same of the scene's triangle"},
+}};
+
+/// Whether a format says a field of this use of `contact`.
+[[nodiscard]] constexpr bool isTold(ContactFieldUse use, const LinkContact& contact) {
+  const bool isUndecided = contact.verdict == Verdict::Undecided;
+  const bool isTouching = !isUndecided && contact.verdict != Verdict::Clear;
+  switch (use) {
+    case ContactFieldUse::Every: return true;
+    case ContactFieldUse::Undecided: return isUndecided;
+    case ContactFieldUse::Touching: return isTouching;
+    case ContactFieldUse::StartsInContact: return contact.verdict == Verdict::StartsInContact;
+    case ContactFieldUse::Exact: return isTouching && contact.linkTriangle >= 0;
+    case ContactFieldUse::Never: return false;
+  }
+  return false;
+}
+
+}  // namespace foretouch
