@@ -11,7 +11,7 @@
 #include "tests/network/simulated_sender.h"
 #include "tests/network/simulated_world.h"
 #include "tests/network/stream/stream_simulation.h"
-#include "tests/support/oracle_judge.h"
+#include "judge/judge.h"
 
 namespace foretouch::test {
 

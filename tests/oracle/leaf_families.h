@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/support/random_geometry.h"
-#include "tests/support/rational_linear.h"
+#include "judge/rational_linear.h"
 
 namespace foretouch::test {
 

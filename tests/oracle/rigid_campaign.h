@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/oracle/leaf_campaign.h"
-#include "tests/support/oracle_rigid.h"
+#include "judge/rigid_prover.h"
 
 namespace foretouch::test {
 

@@ -7,7 +7,7 @@
 #include "middleware/exact/filter_corners.h"
 #include "middleware/exact/rigid_curves.h"
 #include "tests/middleware/exact/leaf_samples.h"
-#include "tests/support/precise.h"
+#include "judge/plain_motion.h"
 
 namespace foretouch::test {
 namespace {
@@ -71,7 +71,7 @@ TEST(FilterCorners, RoundingStaysBelowItsBounds) {
       const Precise3 side = cross(at(j), at(corners.next(j)));
       for (int axis = 0; axis < 3; ++axis) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        sides = std::max(sides, share(valueAt(internal::sideOf(corners, j, u, v), t), side.c[axis],
+        sides = std::max(sides, share(valueAt(internal::sideOf(corners, j, u, v), t), side[axis],
                                       internal::kSideRounding * corners.largestSide(u, v)));
       }
     }
@@ -147,7 +147,7 @@ TEST(RigidCurves, RoundingStaysBelowItsBound) {
       const Precise3 computed(curves.at(t).vertices[i]);
       worstPosition = std::max(
           worstPosition,
-          share(norm * 0 + foretouch::test::norm(computed - truth), 0, curves.positionError(t)));
+          share(norm * 0 + foretouch::oracle::norm(computed - truth), 0, curves.positionError(t)));
     }
   }
   std::printf("share of the bound used: along %.3f, positions %.3f\n", worst, worstPosition);

@@ -8,7 +8,7 @@
 
 #include "middleware/exact/moving_polygon.h"
 #include "tests/middleware/exact/leaf_samples.h"
-#include "tests/support/precise.h"
+#include "judge/plain_motion.h"
 
 namespace foretouch::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "middleware/exact/rigid_plane.h"
-#include "tests/support/precise.h"
+#include "judge/plain_motion.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {

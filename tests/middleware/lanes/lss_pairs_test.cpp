@@ -11,7 +11,7 @@
 
 #include "lss/simd.h"
 #include "middleware/scene/culler.h"
-#include "tests/support/oracle_distance.h"
+#include "judge/distance.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::internal {

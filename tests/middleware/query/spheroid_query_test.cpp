@@ -10,7 +10,7 @@
 
 #include "middleware/scene/scene_parts.h"
 #include "tests/middleware/random_scene.h"
-#include "tests/support/oracle_distance.h"
+#include "judge/distance.h"
 
 namespace foretouch {
 namespace {
