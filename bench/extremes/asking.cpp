@@ -165,14 +165,12 @@ std::vector<oracle::Hull> hullsOf(const ExtremeCase& extreme, Fidelity fidelity)
     if (fidelity == Fidelity::Exact && link < extreme.surface.size() &&
         !extreme.surface[link].empty()) {
       for (const Triangle& t : extreme.surface[link]) {
-        hulls.push_back(
-            {static_cast<int>(link), 3, plain(t), 0.0});
+        hulls.push_back({static_cast<int>(link), 3, plain(t), 0.0});
       }
       continue;
     }
     for (const Lss& lss : extreme.lss[link]) {
-      hulls.push_back(
-          {static_cast<int>(link), 2, {plain(lss.a), plain(lss.b), {}}, lss.radius});
+      hulls.push_back({static_cast<int>(link), 2, {plain(lss.a), plain(lss.b), {}}, lss.radius});
     }
   }
   return hulls;

@@ -130,7 +130,8 @@ class Judge {
     }
   }
 
-  void soundness(const Answer& answer, const LinkContact& contact, const oracle::FreedomProof& proof) {
+  void soundness(const Answer& answer, const LinkContact& contact,
+                 const oracle::FreedomProof& proof) {
     if (contact.freeUntil == 0.0 && contact.verdict != Verdict::Clear) return;
     if (proof.freedom == oracle::Freedom::Open) report(Fault::Open, name(answer, contact));
     const bool isClaimed = contact.verdict == Verdict::Clear ? proof.touchesAt <= 1.0
@@ -152,7 +153,8 @@ class Judge {
     }
   }
 
-  void tightness(const Answer& answer, const LinkContact& contact, const oracle::HullOracle& truth) {
+  void tightness(const Answer& answer, const LinkContact& contact,
+                 const oracle::HullOracle& truth) {
     const double ulp = kUlp * truth.extent(contact.link);
     const double allowed = roundingsAt(truth.depth(contact.link));
     if (contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::Resolution) {

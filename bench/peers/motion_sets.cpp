@@ -38,7 +38,8 @@ RigidSweep drawn(const MotionSetKind& kind, const oracle::Scene& scene, Portable
   sweep.lss_L = lssOf(kind);
   sweep.rotation = anyRotation(random);
   const Vector3d center_L = 0.5 * (sweep.lss_L.a + sweep.lss_L.b);
-  sweep.from = random.inBox(rich(scene.box().low), rich(scene.box().high)) - sweep.rotation * center_L;
+  sweep.from =
+      random.inBox(rich(scene.box().low), rich(scene.box().high)) - sweep.rotation * center_L;
   const Vector3d travel = direction(random);
   sweep.to = sweep.from + random.uniform(0.0, kind.mostTravel) * travel;
   const Vector3d axis = direction(random);
@@ -86,8 +87,8 @@ std::optional<SweepTruth> truthOf(const oracle::Scene& scene, const RigidSweep& 
   return truth;
 }
 
-Result<MotionSet> drawnSet(const MotionSetKind& kind, const oracle::Scene& scene,
-                           std::size_t count, std::uint64_t seed) {
+Result<MotionSet> drawnSet(const MotionSetKind& kind, const oracle::Scene& scene, std::size_t count,
+                           std::uint64_t seed) {
   PortableRandom random(seed);
   MotionSet set{kind.name, kind.description, lssOf(kind), {}, {}, 0};
   const std::size_t wantedColliding = count / 2, wantedFree = count - count / 2;

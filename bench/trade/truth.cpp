@@ -115,9 +115,8 @@ double TruthTeller::separationAt(const StepPoses& step, LinkId link, double t) {
   const LinkState state = motion.stateAt(link, t);
   double least = kFarM;
   for (const Lss& lss : world_.avatar.lss(link)) {
-    const double distance =
-        oracle::distanceTo(world_.judged, plain(state.pointAt(lss.a)), plain(state.pointAt(lss.b)),
-                           kFarM + lss.radius);
+    const double distance = oracle::distanceTo(world_.judged, plain(state.pointAt(lss.a)),
+                                               plain(state.pointAt(lss.b)), kFarM + lss.radius);
     least = std::min(least, distance - lss.radius);
   }
   return least;

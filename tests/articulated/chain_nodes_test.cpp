@@ -135,8 +135,7 @@ TEST(ChainNodes, InstantsStayCloseToTheirFormula) {
     nodes.evaluate(motion, begin, end, Vector3d::Zero());
     for (int k = 0; k < kNodes; ++k) {
       const Real exact =
-          Real(begin) + (Real(end) - Real(begin)) *
-                            ((1 - cos(Real(k) * Real::pi() / 7)) / 2);
+          Real(begin) + (Real(end) - Real(begin)) * ((1 - cos(Real(k) * Real::pi() / 7)) / 2);
       EXPECT_LE(asDouble(abs(Real(nodes.instant(k)) - exact)), 0x1p-52);
     }
   }

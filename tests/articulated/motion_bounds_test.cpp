@@ -53,7 +53,7 @@ void compare(const RandomMotion& m, double t, Random& random, Shares& shares) {
     const Vector3d unit = random.direction();
     const double turned =
         asDouble(oracle::norm(oracle::Precise3(state.R_WL * unit) -
-                            oracle::rotate(frames[i].rotation, oracle::Precise3(unit))));
+                              oracle::rotate(frames[i].rotation, oracle::Precise3(unit))));
     const double turnBound = b.rotationRounding + MotionBounds::kPointRounding;
     ASSERT_LE(turned, turnBound);
     shares.rotation = std::max(shares.rotation, turned / turnBound);

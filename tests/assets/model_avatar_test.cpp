@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/assets/model_samples.h"
 #include "judge/plain_motion.h"
+#include "tests/assets/model_samples.h"
 
 namespace foretouch {
 namespace {
@@ -177,8 +177,8 @@ TEST(AvatarFromModel, KeepsEveryTriangleInsideOneLssOfItsLink) {
           return std::all_of(
               triangle.vertices.begin(), triangle.vertices.end(), [&](const auto& v) {
                 const oracle::Precise3 p(v);
-                return oracle::preciseDistance(oracle::Precise3(l.a), oracle::Precise3(l.b), {p, p, p}) <=
-                       oracle::Precise(l.radius);
+                return oracle::preciseDistance(oracle::Precise3(l.a), oracle::Precise3(l.b),
+                                               {p, p, p}) <= oracle::Precise(l.radius);
               });
         });
         ASSERT_TRUE(isInside);

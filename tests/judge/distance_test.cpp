@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "judge/scene.h"
 #include "judge/plain_distance.h"
+#include "judge/scene.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::oracle {

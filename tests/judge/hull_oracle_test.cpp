@@ -59,15 +59,15 @@ TEST(PlainDistance, IsThatOfOtherFormulasAndMoreDigits) {
 
 TEST(PlainDistance, OfWhatMeetsIsZeroExactly) {
   int meeting = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     Random random(static_cast<std::uint64_t>(i));
     const Triangle one = hostile(random), other = hostile(random);
     const Precise distance = preciseDistance(cornersOf<Precise>(one), cornersOf<Precise>(other));
     EXPECT_TRUE(distance == 0 || distance > 1e-20) << i;
     meeting += distance == 0 ? 1 : 0;
   }
-  EXPECT_GT(meeting, 40);
-  EXPECT_LT(meeting, 360);
+  EXPECT_GT(meeting, 20);
+  EXPECT_LT(meeting, 500);
 }
 
 TEST(PreciseMotion, IsThatOfSlerpBySineWeights) {

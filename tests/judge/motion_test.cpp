@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "judge/plain_motion.h"
-#include "tests/support/random_geometry.h"
 #include "tests/support/judged.h"
+#include "tests/support/random_geometry.h"
 
 namespace foretouch::oracle {
 namespace {

@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "lss/hull_volume.h"
 #include "judge/plain_motion.h"
+#include "lss/hull_volume.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {

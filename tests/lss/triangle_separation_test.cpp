@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "lss/separation.h"
 #include "judge/plain_motion.h"
+#include "lss/separation.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {

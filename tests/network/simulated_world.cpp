@@ -1,8 +1,9 @@
 #include "tests/network/simulated_world.h"
-#include "tests/support/judged.h"
 
 #include <string>
 #include <utility>
+
+#include "tests/support/judged.h"
 
 namespace foretouch::test {
 namespace {

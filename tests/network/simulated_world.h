@@ -6,10 +6,10 @@
 
 #include "articulated/avatar.h"
 #include "articulated/pose.h"
-#include "middleware/scene/scene.h"
-#include "judge/motion.h"
 #include "judge/capsule_prover.h"
+#include "judge/motion.h"
 #include "judge/scene.h"
+#include "middleware/scene/scene.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {

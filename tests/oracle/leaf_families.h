@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/random_geometry.h"
 #include "judge/rational_linear.h"
+#include "tests/support/random_geometry.h"
 
 namespace foretouch::test {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/oracle/leaf_campaign.h"
 #include "judge/rigid_prover.h"
+#include "tests/oracle/leaf_campaign.h"
 
 namespace foretouch::test {
 

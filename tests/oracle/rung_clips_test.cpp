@@ -8,8 +8,8 @@
 
 #include "middleware/ladder/rungs.h"
 #include "tests/oracle/sweep_inputs.h"
-#include "tests/support/shared_data.h"
 #include "tests/support/judged.h"
+#include "tests/support/shared_data.h"
 
 namespace foretouch::test {
 namespace {

@@ -101,8 +101,7 @@ class Sweeper {
       LinkContact contact = step.links[static_cast<std::size_t>(volume.links.front())];
       contact.link = volume.carrier;
       if (options_.tamper) options_.tamper(contact);
-      judge(n, contact, truth, {plain(volume.lss)},
-            tally);
+      judge(n, contact, truth, {plain(volume.lss)}, tally);
     }
   }
 

@@ -13,12 +13,12 @@
 
 #include <Eigen/Geometry>
 
+#include "judge/motion.h"
 #include "lss/lss.h"
 #include "tessellation/swept_surface.h"
-#include "judge/motion.h"
+#include "tests/support/judged.h"
 #include "tests/support/random_geometry.h"
 #include "tests/support/random_motion.h"
-#include "tests/support/judged.h"
 
 namespace foretouch::test {
 

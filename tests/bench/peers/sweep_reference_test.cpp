@@ -16,9 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 using oracle::FirstTouch;
+using oracle::TouchOutcome;
 using tools::PortableRandom;
 using tools::RigidSweep;
-using oracle::TouchOutcome;
 
 const std::vector<Triangle> kFloor = {
     {{Vector3d(-9, 0, -9), Vector3d(9, 0, -9), Vector3d(0, 0, 18)}}};

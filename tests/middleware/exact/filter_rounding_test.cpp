@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "middleware/exact/filter_corners.h"
 #include "middleware/exact/rigid_curves.h"
 #include "tests/middleware/exact/leaf_samples.h"
-#include "judge/plain_motion.h"
 
 namespace foretouch::test {
 namespace {

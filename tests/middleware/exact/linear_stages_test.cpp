@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "middleware/exact/moving_polygon.h"
 #include "tests/middleware/exact/leaf_samples.h"
-#include "judge/plain_motion.h"
 
 namespace foretouch::test {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/exact/rigid_plane.h"
 #include "judge/plain_motion.h"
+#include "middleware/exact/rigid_plane.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/middleware/exact/leaf_samples.h"
 #include "judge/plain_motion.h"
+#include "tests/middleware/exact/leaf_samples.h"
 #include "tests/support/shared_data.h"
 
 namespace foretouch::test {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "tests/middleware/exact/leaf_samples.h"
 #include "judge/plain_motion.h"
+#include "tests/middleware/exact/leaf_samples.h"
 
 namespace foretouch::test {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "middleware/ladder/rungs.h"
 #include "judge/plain_motion.h"
+#include "middleware/ladder/rungs.h"
 #include "tests/support/random_geometry.h"
 #include "tests/support/random_motion.h"
 

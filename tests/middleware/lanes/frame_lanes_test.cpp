@@ -11,10 +11,10 @@
 
 #include "articulated/chain_nodes.h"
 #include "articulated/motion.h"
+#include "judge/plain_motion.h"
 #include "lss/simd.h"
 #include "middleware/query/lane_backtracking.h"
 #include "middleware/query/part_lanes.h"
-#include "judge/plain_motion.h"
 #include "tests/support/random_motion.h"
 
 namespace foretouch::internal {

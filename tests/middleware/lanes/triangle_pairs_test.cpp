@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "lss/simd.h"
 #include "lss/single.h"
 #include "lss/triangle_separation.h"
 #include "middleware/query/link_pair.h"
-#include "judge/plain_motion.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::internal {

@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "lss/fit.h"
 #include "middleware/query/query.h"
-#include "judge/plain_motion.h"
-#include "tests/support/random_geometry.h"
 #include "tests/support/judged.h"
+#include "tests/support/random_geometry.h"
 
 namespace foretouch {
 namespace {
@@ -170,7 +170,7 @@ class ExactContacts : public testing::TestWithParam<std::tuple<Family, LeafMetho
 
 /// In fifty digits, of the avatar's and the scene's doubles as given.
 oracle::Precise preciseSeparation(const MeshCase& c, const Avatar& avatar, const Pose& from,
-                             const Pose& to, const std::vector<Triangle>& scene, double t) {
+                                  const Pose& to, const std::vector<Triangle>& scene, double t) {
   const auto joints = test::plainJoints(avatar.skeleton(), from, to);
   const auto frame = oracle::preciseFrames(joints, t)[1];
   oracle::Precise least(1e9);

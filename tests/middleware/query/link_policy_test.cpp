@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/judge.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_pool.h"
 #include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
-#include "judge/judge.h"
 #include "tests/support/judged_answer.h"
 
 namespace foretouch {

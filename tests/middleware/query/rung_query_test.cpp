@@ -7,12 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/judge.h"
 #include "lss/simd.h"
 #include "middleware/ladder/rungs.h"
 #include "middleware/query/query.h"
 #include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/random_scene.h"
-#include "judge/judge.h"
 #include "tests/support/judged_answer.h"
 
 namespace foretouch {
@@ -65,15 +65,13 @@ TEST_P(RungQueries, AreSoundAndTightByTheOracle) {
     SCOPED_TRACE(i);
     const Case c = someCase(i, 16);
     const oracle::Scene scene(test::plain(c.raw.triangles));
-    const oracle::Motion truth(
-        test::plainJoints(c.step.avatar.skeleton(), c.step.from, c.step.to));
+    const oracle::Motion truth(test::plainJoints(c.step.avatar.skeleton(), c.step.from, c.step.to));
     for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar}) {
       QueryOptions options = at(rung, std::array<double, 3>{1e-2, 1e-3, 1e-6}[i % 3]);
       if (i % 4 == 0) options.backtracking = Backtracking::Scalar;
       const StepContacts got = answer(c, options);
       for (const RungVolume& volume : rungVolumes(c.step.avatar, c.step.motion(), c.scene, rung)) {
-        const std::vector<oracle::Capsule> capsule{
-            test::plain(volume.lss)};
+        const std::vector<oracle::Capsule> capsule{test::plain(volume.lss)};
         const LinkContact& first = got.links[static_cast<std::size_t>(volume.links.front())];
         const oracle::Judgement judgement = oracle::Judge(scene, truth, volume.carrier, capsule)
                                                 .judge(test::plain(first), options.tolerance);

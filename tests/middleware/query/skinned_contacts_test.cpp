@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "middleware/query/query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
-#include "judge/plain_motion.h"
 #include "tests/support/judged.h"
 
 namespace foretouch {

@@ -13,10 +13,10 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "lss/simd.h"
 #include "middleware/scene/scene_parts.h"
 #include "tests/middleware/random_scene.h"
-#include "judge/plain_motion.h"
 
 namespace foretouch {
 namespace {

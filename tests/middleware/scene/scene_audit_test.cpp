@@ -15,8 +15,8 @@
 namespace foretouch {
 namespace {
 
-using oracle::Exact;
 using Eigen::Vector3d;
+using oracle::Exact;
 
 RawScene sceneOf(std::vector<Triangle> triangles) {
   RawScene scene;
