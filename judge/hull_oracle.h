@@ -25,7 +25,7 @@ struct Hull {
   double radius = 0.0;
 };
 
-/// Lengths are bounded by roots in float, which keep at least 1.1e-19 m a joint.
+/// Lengths are bounded by roots in float, which keep at least 1.1e-19 m per joint.
 inline constexpr double kLeastExtent = 1e-16;
 
 struct HullWorld {
@@ -59,7 +59,7 @@ class HullOracle {
   /// radius. Infinite (1e300) for a link without hulls.
   [[nodiscard]] Precise separationAt(int link, double t) const;
 
-  /// One a link: is it free on [0, until[link]]? 0: nothing is asked.
+  /// One per link: is it free on [0, until[link]]? 0: nothing is asked.
   [[nodiscard]] std::vector<FreedomProof> proveFree(const std::vector<double>& until) const;
 
   /// Largest magnitude (m), at least kLeastExtent, of what the link's separations are made of: the
@@ -79,7 +79,7 @@ class HullOracle {
   std::vector<Corners<Real>> quickTriangles_;
   std::vector<Corners<Precise>> preciseTriangles_;
   std::vector<double> extents_;
-  std::vector<Real> guards_;  // one a hull
+  std::vector<Real> guards_;  // one per hull
 };
 
 }  // namespace foretouch::oracle

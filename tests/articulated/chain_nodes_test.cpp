@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iostream>
 
-#include <boost/math/constants/constants.hpp>
 #include <gtest/gtest.h>
 
 #include "lss/simd.h"

@@ -12,6 +12,9 @@
 namespace foretouch::test {
 namespace {
 
+using oracle::Precise3;
+using oracle::PreciseQuaternion;
+using Real = oracle::Precise;
 using internal::Corners;
 
 Precise3 cornerAt(const internal::MovingPolygon& polygon, int i, bool end) {
@@ -145,9 +148,8 @@ TEST(RigidCurves, RoundingStaysBelowItsBound) {
       const double value = internal::valueAt(curves.along(n, i), t);
       worst = std::max(worst, share(value, along, internal::kRigidRounding * curves.scale()));
       const Precise3 computed(curves.at(t).vertices[i]);
-      worstPosition = std::max(
-          worstPosition,
-          share(norm * 0 + foretouch::oracle::norm(computed - truth), 0, curves.positionError(t)));
+      worstPosition = std::max(worstPosition, share(norm * 0 + oracle::norm(computed - truth), 0,
+                                                    curves.positionError(t)));
     }
   }
   std::printf("share of the bound used: along %.3f, positions %.3f\n", worst, worstPosition);

@@ -13,6 +13,9 @@
 namespace foretouch::test {
 namespace {
 
+using oracle::Precise3;
+using oracle::preciseDistance;
+using Real = oracle::Precise;
 using internal::Decision;
 using internal::StageAnswer;
 

@@ -12,6 +12,10 @@
 namespace foretouch::test {
 namespace {
 
+using oracle::Precise3;
+using oracle::preciseDistance;
+using oracle::PreciseQuaternion;
+using Real = oracle::Precise;
 using Eigen::Vector3d;
 
 const Triangle kFloor{{Vector3d(-9, -9, 0), Vector3d(9, -9, 0), Vector3d(0, 9, 0)}};

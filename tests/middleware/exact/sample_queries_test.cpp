@@ -14,6 +14,8 @@
 namespace foretouch::test {
 namespace {
 
+using Real = oracle::Precise;
+
 std::vector<std::string> cellsOf(const std::string& line) {
   std::vector<std::string> cells;
   std::stringstream stream(line);

@@ -6,6 +6,9 @@
 namespace foretouch::test {
 namespace {
 
+using oracle::Precise3;
+using oracle::preciseDistance;
+using Real = oracle::Precise;
 using MovingTriangle = std::array<LinearPoint, 3>;
 
 const MovingTriangle kFloor = {still(0, 0, 0), still(4, 0, 0), still(0, 4, 0)};
