@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/judged.h"
 #include "bench/peers/foretouch_solvers.h"
 #ifdef FORETOUCH_HAS_PEERS
 #include "bench/peers/peer_solvers.h"
@@ -13,15 +14,6 @@
 
 namespace foretouch::tools {
 namespace {
-
-std::vector<Triangle> trianglesOf(const Scene& scene) {
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i < scene.numTriangles(); ++i) {
-    const Triangle& triangle = scene.triangle(static_cast<TriangleId>(i));
-    if (isFinite(triangle)) triangles.push_back(triangle);
-  }
-  return triangles;
-}
 
 std::int64_t roundsOf(const SweepSolvers& solvers, const RoundCounts& rounds) {
   std::int64_t count = 0;
@@ -113,8 +105,8 @@ std::string builtInPeers() {
 Result<std::vector<ComparedSet>> comparePeers(
     const Scene& scene, const PeersPlan& plan,
     const std::function<void(std::int64_t, std::int64_t)>& progress) {
-  const std::vector<Triangle> triangles = trianglesOf(scene);
-  const ReferenceScene reference(triangles);
+  const std::vector<Triangle> triangles = finiteTriangles(scene);
+  const oracle::Scene reference(plain(triangles));
 #ifdef FORETOUCH_HAS_PEERS
   const PeerScenes peers(triangles);
 #endif
@@ -175,7 +167,7 @@ std::vector<std::string> peerNotes(const std::vector<ComparedSet>& sets) {
   for (const ComparedSet& set : sets) uncertain += set.motions.uncertain;
   return {fmt::format("Truth: conservative advancement to {:g} m by code of its own; motions drawn "
                       "and left out because it stayed uncertain: {}.",
-                      kReferenceSeparation, uncertain),
+                      oracle::kTouchSeparation, uncertain),
           fmt::format("missed: contacts not reported; deep: of these, deeper than {0:g} m. late: "
                       "reported more than {0:g} m of motion after the contact; latest: the most. "
                       "false: contacts reported on free motions; far: of these, on motions that "

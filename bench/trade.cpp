@@ -204,7 +204,7 @@ void addNotes(const TradeRequest& request, const JudgedTruth& judged,
   report.notes.push_back(fmt::format(
       "Truth: the scalar form at {:g} m, on bodies thinner and thicker, so that what is called "
       "missed, late or false is so beyond doubt. A judge of other code "
-      "(bench/extremes/oracle.h) "
+      "(judge/hull_oracle.h) "
       "was asked about {} links: {} were free as long as told ({} undecided within its budget), "
       "{} of {} contacts touched by when told, {} answers differed.",
       kTruthTolerance, judged.links, judged.free, judged.open, judged.touching, judged.contacts,

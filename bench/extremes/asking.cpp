@@ -1,24 +1,20 @@
 #include "bench/extremes/asking.h"
 
+#include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "bench/extremes/float_mode.h"
+#include "bench/judged.h"
 #include "lss/simd.h"
 
 namespace foretouch::tools::extremes {
 namespace {
 
 using Eigen::Vector3d;
-
-std::array<double, 3> numbersOf(const Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-std::array<double, 4> numbersOf(const Quaternion& q) {
-  return {q.w(), q.x(), q.y(), q.z()};
-}
 
 /// In the order w, x, y, z, as the motion's definition has it, and in the thread's own mode:
 /// volatile keeps the compiler from knowing better.
@@ -59,29 +55,35 @@ Result<Prepared> prepare(const ExtremeCase& extreme) {
   return prepared;
 }
 
-OracleWorld worldOf(const ExtremeCase& extreme, const Prepared& prepared) {
-  OracleWorld world;
-  for (std::size_t j = 0; j < prepared.from.rotations.size(); ++j) {
-    OracleJoint joint;
-    joint.parent = prepared.avatar.skeleton().parent(static_cast<JointId>(j));
-    joint.fromRotation = numbersOf(prepared.from.rotations[j]);
-    joint.toRotation = numbersOf(prepared.to.rotations[j]);
-    joint.fromTranslation = numbersOf(prepared.from.translations[j]);
-    joint.toTranslation = numbersOf(prepared.to.translations[j]);
-    joint.isFlipped = isBelowZero(joint.fromRotation, joint.toRotation);
-    world.joints.push_back(joint);
-  }
-  world.hulls = hullsOf(extreme, Fidelity::Link);
-  std::set<OracleTriangle> seen;
-  for (const Triangle& triangle : extreme.scene.triangles) {
+bool isBefore(const Vector3d& p, const Vector3d& q) {
+  return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+}
+
+/// Each triangle once, however its corners are ordered.
+std::vector<oracle::Triangle> distinctOf(const std::vector<Triangle>& triangles) {
+  std::vector<oracle::Triangle> distinct;
+  std::set<std::array<double, 9>> seen;
+  for (const Triangle& triangle : triangles) {
     if (!isFinite(triangle)) continue;
     Triangle sorted = triangle;
-    std::sort(sorted.vertices.begin(), sorted.vertices.end(),
-              [](const auto& p, const auto& q) { return numbersOf(p) < numbersOf(q); });
-    const OracleTriangle numbers{numbersOf(sorted.vertices[0]), numbersOf(sorted.vertices[1]),
-                                 numbersOf(sorted.vertices[2])};
-    if (seen.insert(numbers).second) world.triangles.push_back(numbers);
+    std::sort(sorted.vertices.begin(), sorted.vertices.end(), isBefore);
+    std::array<double, 9> numbers;
+    for (std::size_t i = 0; i < 9; ++i) {
+      numbers[i] = sorted.vertices[i / 3][static_cast<Eigen::Index>(i % 3)];
+    }
+    if (seen.insert(numbers).second) distinct.push_back(plain(sorted));
   }
+  return distinct;
+}
+
+oracle::HullWorld worldOf(const ExtremeCase& extreme, const Prepared& prepared) {
+  oracle::HullWorld world;
+  world.joints = plainJoints(prepared.avatar.skeleton(), prepared.from, prepared.to);
+  for (oracle::Joint& joint : world.joints) {
+    joint.isFlipped = isBelowZero(joint.fromRotation, joint.toRotation);
+  }
+  world.hulls = hullsOf(extreme, Fidelity::Link);
+  world.triangles = distinctOf(extreme.scene.triangles);
   return world;
 }
 
@@ -157,23 +159,18 @@ class Asker {
 
 }  // namespace
 
-std::vector<OracleHull> hullsOf(const ExtremeCase& extreme, Fidelity fidelity) {
-  std::vector<OracleHull> hulls;
+std::vector<oracle::Hull> hullsOf(const ExtremeCase& extreme, Fidelity fidelity) {
+  std::vector<oracle::Hull> hulls;
   for (std::size_t link = 0; link < extreme.lss.size(); ++link) {
     if (fidelity == Fidelity::Exact && link < extreme.surface.size() &&
         !extreme.surface[link].empty()) {
       for (const Triangle& t : extreme.surface[link]) {
-        hulls.push_back(
-            {static_cast<int>(link),
-             3,
-             {numbersOf(t.vertices[0]), numbersOf(t.vertices[1]), numbersOf(t.vertices[2])},
-             0.0});
+        hulls.push_back({static_cast<int>(link), 3, plain(t), 0.0});
       }
       continue;
     }
     for (const Lss& lss : extreme.lss[link]) {
-      hulls.push_back(
-          {static_cast<int>(link), 2, {numbersOf(lss.a), numbersOf(lss.b), {}}, lss.radius});
+      hulls.push_back({static_cast<int>(link), 2, {plain(lss.a), plain(lss.b), {}}, lss.radius});
     }
   }
   return hulls;

@@ -9,7 +9,7 @@
 
 #include "articulated/result.h"
 #include "bench/extremes/extreme_case.h"
-#include "bench/extremes/oracle.h"
+#include "judge/hull_oracle.h"
 #include "middleware/query/query.h"
 
 namespace foretouch::tools::extremes {
@@ -29,7 +29,7 @@ struct Asked {
   std::vector<Answer> answers;
   /// The truth's input, as the product holds it: validated poses, and the sign of each joint's dot
   /// product as doubles compute it. By isFlushed; the hulls are link fidelity's.
-  OracleWorld world[2];
+  oracle::HullWorld world[2];
 };
 
 /// Denormals kept, and flushed where the processor can. Leaves the widest vectors in use; not for
@@ -37,7 +37,7 @@ struct Asked {
 [[nodiscard]] Asked ask(const ExtremeCase& extreme);
 
 /// The hulls of the case's surface at that fidelity.
-[[nodiscard]] std::vector<OracleHull> hullsOf(const ExtremeCase& extreme, Fidelity fidelity);
+[[nodiscard]] std::vector<oracle::Hull> hullsOf(const ExtremeCase& extreme, Fidelity fidelity);
 
 /// Evaluations of every kind that the step took.
 [[nodiscard]] std::uint64_t workOf(const QueryCounters& counters);

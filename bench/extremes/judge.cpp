@@ -18,7 +18,7 @@ constexpr double kTouchingShare = 1e-40;
 constexpr double kUnitSlack = 1e-9;
 constexpr std::size_t kMostFindings = 12;
 
-bool isBit(const OracleWorld& a, const OracleWorld& b) {
+bool isBit(const oracle::HullWorld& a, const oracle::HullWorld& b) {
   return a.joints == b.joints && a.triangles == b.triangles;
 }
 
@@ -104,15 +104,15 @@ class Judge {
   }
 
   template <typename IsMeant>
-  void truth(Fidelity fidelity, const IsMeant& isMeant, const OracleWorld& given) {
+  void truth(Fidelity fidelity, const IsMeant& isMeant, const oracle::HullWorld& given) {
     std::vector<const Answer*> answers;
     for (const Answer& answer : asked_.answers) {
       if (answer.fidelity == fidelity && isMeant(answer)) answers.push_back(&answer);
     }
     if (answers.empty()) return;
-    OracleWorld world = given;
+    oracle::HullWorld world = given;
     world.hulls = hullsOf(extreme_, fidelity);
-    const Oracle oracle(std::move(world));
+    const oracle::HullOracle truth(std::move(world));
     std::vector<double> until(answers.front()->step.links.size(), 0.0);
     for (const Answer* answer : answers) {
       for (const LinkContact& contact : answer->step.links) {
@@ -120,22 +120,23 @@ class Judge {
         last = std::max(last, std::isfinite(contact.freeUntil) ? contact.freeUntil : 1.0);
       }
     }
-    const std::vector<FreedomProof> proofs = oracle.proveFree(until);
+    const std::vector<oracle::FreedomProof> proofs = truth.proveFree(until);
     separations_.clear();
     for (const Answer* answer : answers) {
       for (const LinkContact& contact : answer->step.links) {
         soundness(*answer, contact, proofs[static_cast<std::size_t>(contact.link)]);
-        tightness(*answer, contact, oracle);
+        tightness(*answer, contact, truth);
       }
     }
   }
 
-  void soundness(const Answer& answer, const LinkContact& contact, const FreedomProof& proof) {
+  void soundness(const Answer& answer, const LinkContact& contact,
+                 const oracle::FreedomProof& proof) {
     if (contact.freeUntil == 0.0 && contact.verdict != Verdict::Clear) return;
-    if (proof.freedom == Freedom::Open) report(Fault::Open, name(answer, contact));
+    if (proof.freedom == oracle::Freedom::Open) report(Fault::Open, name(answer, contact));
     const bool isClaimed = contact.verdict == Verdict::Clear ? proof.touchesAt <= 1.0
                                                              : proof.touchesAt < contact.freeUntil;
-    if (proof.freedom == Freedom::Touches && isClaimed) {
+    if (proof.freedom == oracle::Freedom::Touches && isClaimed) {
       report(Fault::Late,
              fmt::format("{}, touches at {:.17g}", name(answer, contact), proof.touchesAt));
     }
@@ -146,15 +147,16 @@ class Judge {
     if (extreme_.fall && isLast && answer.fidelity == Fidelity::Link) {
       const Fall& fall = *extreme_.fall;
       if (contact.verdict == Verdict::Clear ||
-          isAfterFall(contact.freeUntil, fall.high, fall.low, fall.radius)) {
+          oracle::isAfterFall(contact.freeUntil, fall.high, fall.low, fall.radius)) {
         report(Fault::Late, name(answer, contact) + ", later than its closed form");
       }
     }
   }
 
-  void tightness(const Answer& answer, const LinkContact& contact, const Oracle& oracle) {
-    const double ulp = kUlp * oracle.extent(contact.link);
-    const double allowed = roundingsAt(oracle.depth(contact.link));
+  void tightness(const Answer& answer, const LinkContact& contact,
+                 const oracle::HullOracle& truth) {
+    const double ulp = kUlp * truth.extent(contact.link);
+    const double allowed = roundingsAt(truth.depth(contact.link));
     if (contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::Resolution) {
       const double share = extreme_.tolerance / (4.0 / 3.0 * allowed * ulp);
       tally_.unresolved.offer(share, extreme_.seed);
@@ -164,7 +166,7 @@ class Judge {
       }
     }
     if (contact.verdict != Verdict::Contact && contact.verdict != Verdict::StartsInContact) return;
-    const double separation = separationAt(oracle, contact);
+    const double separation = separationAt(truth, contact);
     if (contact.verdict == Verdict::StartsInContact) {
       tally_.start.offer(separation / ulp, extreme_.seed);
       tally_.startShare.offer(separation / (allowed * ulp), extreme_.seed);
@@ -176,7 +178,7 @@ class Judge {
     }
     tally_.tightness.offer(separation / extreme_.tolerance, extreme_.seed);
     tally_.excess.offer((separation - extreme_.tolerance) / ulp, extreme_.seed);
-    if (separation < -kTouchingShare * oracle.extent(contact.link)) {
+    if (separation < -kTouchingShare * truth.extent(contact.link)) {
       report(Fault::Late,
              fmt::format("{}, penetrates by {:g} m", name(answer, contact), -separation));
     }
@@ -186,11 +188,11 @@ class Judge {
     }
   }
 
-  double separationAt(const Oracle& oracle, const LinkContact& contact) {
+  double separationAt(const oracle::HullOracle& truth, const LinkContact& contact) {
     const auto key = std::make_pair(contact.link, contact.toi);
     const auto known = separations_.find(key);
     if (known != separations_.end()) return known->second;
-    const auto separation = static_cast<double>(oracle.separationAt(contact.link, contact.toi));
+    const auto separation = static_cast<double>(truth.separationAt(contact.link, contact.toi));
     separations_.emplace(key, separation);
     return separation;
   }

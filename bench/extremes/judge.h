@@ -29,9 +29,9 @@ enum class Fault : std::uint8_t {
 /// A step of one avatar may cost so many evaluations and no more.
 inline constexpr std::uint64_t kMostWork = 100'000'000;
 
-/// In units of 2^-52 of the extent (Oracle::extent): how far proven bounds may lie apart at a link
-/// of that depth, so that a start in contact may be so far from touching and a tolerance below 4/3
-/// of it need not be resolved. docs/extremes.md derives it.
+/// In units of 2^-52 of the extent (HullOracle::extent): how far proven bounds may lie apart at a
+/// link of that depth, so that a start in contact may be so far from touching and a tolerance below
+/// 4/3 of it need not be resolved. docs/extremes.md derives it.
 [[nodiscard]] double roundingsAt(int depth);
 
 struct Finding {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bench/judged.h"
 #include "tools/portable_random.h"
 
 namespace foretouch::tools {
@@ -32,12 +33,13 @@ Lss lssOf(const MotionSetKind& kind) {
           Vector3d(kPivotBeside, 0.0, kPivotBefore + kAxisLength), kind.radius};
 }
 
-RigidSweep drawn(const MotionSetKind& kind, const ReferenceScene& scene, PortableRandom& random) {
+RigidSweep drawn(const MotionSetKind& kind, const oracle::Scene& scene, PortableRandom& random) {
   RigidSweep sweep;
   sweep.lss_L = lssOf(kind);
   sweep.rotation = anyRotation(random);
   const Vector3d center_L = 0.5 * (sweep.lss_L.a + sweep.lss_L.b);
-  sweep.from = random.inBox(scene.low(), scene.high()) - sweep.rotation * center_L;
+  sweep.from =
+      random.inBox(rich(scene.box().low), rich(scene.box().high)) - sweep.rotation * center_L;
   const Vector3d travel = direction(random);
   sweep.to = sweep.from + random.uniform(0.0, kind.mostTravel) * travel;
   const Vector3d axis = direction(random);
@@ -45,10 +47,11 @@ RigidSweep drawn(const MotionSetKind& kind, const ReferenceScene& scene, Portabl
   return sweep;
 }
 
-bool startsClear(const ReferenceScene& scene, const RigidSweep& sweep) {
+bool startsClear(const oracle::Scene& scene, const RigidSweep& sweep) {
   const AxisInWorld axis = axisAt(sweep, 0.0);
   const double enough = sweep.lss_L.radius + 2.0 * kStartClearance;
-  return scene.distance(axis.a, axis.b, enough) - sweep.lss_L.radius > kStartClearance;
+  const double distance = oracle::distanceTo(scene, plain(axis.a), plain(axis.b), enough);
+  return distance - sweep.lss_L.radius > kStartClearance;
 }
 
 Error tooFew(const MotionSetKind& kind, std::size_t colliding, std::size_t free) {
@@ -62,22 +65,30 @@ Error tooFew(const MotionSetKind& kind, std::size_t colliding, std::size_t free)
 
 }  // namespace
 
-std::optional<SweepTruth> truthOf(const ReferenceScene& scene, const RigidSweep& sweep) {
-  const FirstTouch touch = firstTouch(scene, sweep, sweep.lss_L.radius);
-  if (touch.outcome == TouchOutcome::Uncertain) return std::nullopt;
+oracle::FirstTouch firstTouch(const oracle::Scene& scene, const RigidSweep& sweep, double radius) {
+  const auto axisOf = [&](double t) -> std::array<oracle::Vec3d, 2> {
+    const AxisInWorld axis = axisAt(sweep, t);
+    return {plain(axis.a), plain(axis.b)};
+  };
+  return oracle::firstTouch(scene, {axisOf, fastestAxisPoint(sweep), radius});
+}
+
+std::optional<SweepTruth> truthOf(const oracle::Scene& scene, const RigidSweep& sweep) {
+  const oracle::FirstTouch touch = firstTouch(scene, sweep, sweep.lss_L.radius);
+  if (touch.outcome == oracle::TouchOutcome::Uncertain) return std::nullopt;
   SweepTruth truth;
-  truth.touches = touch.outcome == TouchOutcome::Touch;
+  truth.touches = touch.outcome == oracle::TouchOutcome::Touch;
   truth.toi = touch.t;
   const double judged = truth.touches ? -kJudgedDistance : kJudgedDistance;
-  const FirstTouch other = firstTouch(scene, sweep, sweep.lss_L.radius + judged);
-  if (other.outcome == TouchOutcome::Uncertain) return std::nullopt;
-  truth.isDeep = truth.touches && other.outcome == TouchOutcome::Touch;
-  truth.comesNear = truth.touches || other.outcome == TouchOutcome::Touch;
+  const oracle::FirstTouch other = firstTouch(scene, sweep, sweep.lss_L.radius + judged);
+  if (other.outcome == oracle::TouchOutcome::Uncertain) return std::nullopt;
+  truth.isDeep = truth.touches && other.outcome == oracle::TouchOutcome::Touch;
+  truth.comesNear = truth.touches || other.outcome == oracle::TouchOutcome::Touch;
   return truth;
 }
 
-Result<MotionSet> drawnSet(const MotionSetKind& kind, const ReferenceScene& scene,
-                           std::size_t count, std::uint64_t seed) {
+Result<MotionSet> drawnSet(const MotionSetKind& kind, const oracle::Scene& scene, std::size_t count,
+                           std::uint64_t seed) {
   PortableRandom random(seed);
   MotionSet set{kind.name, kind.description, lssOf(kind), {}, {}, 0};
   const std::size_t wantedColliding = count / 2, wantedFree = count - count / 2;

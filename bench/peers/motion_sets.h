@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "bench/peers/reference.h"
 #include "bench/peers/rigid_sweep.h"
+#include "judge/first_touch.h"
 
 namespace foretouch::tools {
 
@@ -41,7 +41,7 @@ inline constexpr std::array<MotionSetKind, 3> kMotionSets = {
 /// What is true of a motion.
 struct SweepTruth {
   bool touches = false;
-  double toi = 1.0;       ///< First contact, to within kReferenceSeparation of separation.
+  double toi = 1.0;       ///< First contact, to within oracle::kTouchSeparation of separation.
   bool isDeep = false;    ///< Touches also with a radius less by kJudgedDistance.
   bool comesNear = true;  ///< Comes within kJudgedDistance of the scene.
 };
@@ -54,16 +54,20 @@ struct MotionSet {
   std::size_t uncertain = 0;  ///< Motions drawn and left out, as the truth of them stayed unknown.
 };
 
+/// The first touch of the sweep's LSS with `radius` (m) in place of its own.
+[[nodiscard]] oracle::FirstTouch firstTouch(const oracle::Scene& scene, const RigidSweep& sweep,
+                                            double radius);
+
 /// `count` motions: floor(count / 2) colliding and the rest free, in the order drawn. The pivot's
 /// travel has a uniform direction and length, the turn a uniform axis and angle, the LSS starts
 /// anywhere in the scene's box and turned in any way, at least kStartClearance from the scene.
 /// Errors: a scene in which so many of either kind cannot be found. The same on every machine, as
 /// far as its sines are.
-[[nodiscard]] Result<MotionSet> drawnSet(const MotionSetKind& kind, const ReferenceScene& scene,
+[[nodiscard]] Result<MotionSet> drawnSet(const MotionSetKind& kind, const oracle::Scene& scene,
                                          std::size_t count, std::uint64_t seed);
 
 /// The truth of one motion; nothing where it stays uncertain.
-[[nodiscard]] std::optional<SweepTruth> truthOf(const ReferenceScene& scene,
+[[nodiscard]] std::optional<SweepTruth> truthOf(const oracle::Scene& scene,
                                                 const RigidSweep& sweep);
 
 }  // namespace foretouch::tools

@@ -182,23 +182,4 @@ double NearestTree::distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   return best;
 }
 
-void NearestTree::collect(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
-                          std::vector<TriangleId>& found) const {
-  found.clear();
-  std::vector<std::int32_t> pending{0};
-  while (!pending.empty()) {
-    const Node& node = nodes_[static_cast<std::size_t>(pending.back())];
-    pending.pop_back();
-    if (squaredGap(low, high, node.box.low, node.box.high) > 0.0) continue;
-    if (node.count == 0) {
-      pending.push_back(node.first);
-      pending.push_back(node.first + 1);
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      found.push_back(order_[static_cast<std::size_t>(i)]);
-    }
-  }
-}
-
 }  // namespace foretouch::tools

@@ -30,10 +30,6 @@ class NearestTree {
   [[nodiscard]] double distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double cap,
                                 double enough, TradeWork& work) const;
 
-  /// The triangles whose boxes meet the box from `low` to `high`.
-  void collect(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
-               std::vector<TriangleId>& found) const;
-
  private:
   struct Box {
     Eigen::Vector3d low, high;

@@ -8,21 +8,28 @@
 
 #include "articulated/avatar.h"
 #include "articulated/result.h"
+#include "bench/judged.h"
 #include "bench/trade/nearest_tree.h"
 #include "bench/trade/strategy.h"
 #include "bench/trade/voxels.h"
+#include "judge/scene.h"
 #include "middleware/query/query.h"
 
 namespace foretouch::tools {
 
-/// Scene and avatar, with what strategies look things up in.
+/// Scene and avatar, with what strategies look things up in, and what judges them.
 struct TradeWorld {
   TradeWorld(const Avatar& anAvatar, const Scene& aScene)
-      : avatar(anAvatar), scene(aScene), tree(aScene), voxels(aScene) {}
+      : avatar(anAvatar),
+        scene(aScene),
+        tree(aScene),
+        voxels(aScene),
+        judged(plain(finiteTriangles(aScene))) {}
   Avatar avatar;
   Scene scene;
   NearestTree tree;
   VoxelGrid voxels;
+  oracle::Scene judged;  ///< The finite triangles.
 };
 
 /// At `instants` + 1 instants, both poses among them, is anything within the tolerance? 1: the

@@ -1,11 +1,12 @@
 #include "bench/trade/truth.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 
-#include "bench/extremes/oracle.h"
+#include "bench/judged.h"
+#include "judge/first_touch.h"
+#include "judge/hull_oracle.h"
 
 namespace foretouch::tools {
 namespace {
@@ -13,41 +14,15 @@ namespace {
 /// A body thinner by this touches only where the body itself overlaps.
 constexpr double kThinner = 2.0 * kTruthTolerance;
 
-std::array<double, 3> numbersOf(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-std::array<double, 4> numbersOf(const Quaternion& q) {
-  return {q.w(), q.x(), q.y(), q.z()};
-}
-
-bool isBelowZero(const std::array<double, 4>& a, const std::array<double, 4>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0.0;
-}
-
-extremes::OracleWorld worldOf(const TradeWorld& world, const StepPoses& step, LinkId link) {
-  extremes::OracleWorld result;
-  for (LinkId j = 0; j < world.avatar.numLinks(); ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    extremes::OracleJoint joint;
-    joint.parent = world.avatar.skeleton().parent(j);
-    joint.fromRotation = numbersOf(step.from.rotations[i]);
-    joint.toRotation = numbersOf(step.to.rotations[i]);
-    joint.fromTranslation = numbersOf(step.from.translations[i]);
-    joint.toTranslation = numbersOf(step.to.translations[i]);
-    joint.isFlipped = isBelowZero(joint.fromRotation, joint.toRotation);
-    result.joints.push_back(joint);
-  }
+oracle::HullWorld worldOf(const TradeWorld& world, const StepPoses& step, LinkId link) {
+  oracle::HullWorld result;
+  result.joints = plainJoints(world.avatar.skeleton(), step.from, step.to);
   const ChainMotion motion(world.avatar.skeleton(), step.from, step.to);
   const LinkState state = motion.stateAt(link, 0.0);
   Eigen::Vector3d low = state.p_WL, high = state.p_WL;
   double reach = 0.0;
   for (const Lss& lss : world.avatar.lss(link)) {
-    extremes::OracleHull hull;
-    hull.link = link;
-    hull.points[0] = numbersOf(lss.a);
-    hull.points[1] = numbersOf(lss.b);
-    hull.radius = lss.radius;
-    result.hulls.push_back(hull);
+    result.hulls.push_back({link, 2, {plain(lss.a), plain(lss.b), {}}, lss.radius});
     const double rho = std::max(lss.a.norm(), lss.b.norm());
     reach = std::max(reach, motion.bounds(link).speedAt(rho) + lss.radius);
     low = low.cwiseMin(state.pointAt(lss.a)).cwiseMin(state.pointAt(lss.b));
@@ -55,12 +30,13 @@ extremes::OracleWorld worldOf(const TradeWorld& world, const StepPoses& step, Li
   }
   constexpr double kMargin = 1e-3;  // metres; generous against rounding
   const Eigen::Vector3d grown = Eigen::Vector3d::Constant(reach + kMargin);
-  std::vector<TriangleId> near;
-  world.tree.collect(low - grown, high + grown, near);
-  for (const TriangleId id : near) {
-    const auto& v = world.scene.triangle(id).vertices;
-    result.triangles.push_back({numbersOf(v[0]), numbersOf(v[1]), numbersOf(v[2])});
-  }
+  oracle::Box around;
+  around.add(plain(low - grown));
+  around.add(plain(high + grown));
+  std::vector<int> near;
+  const auto all = static_cast<std::size_t>(world.judged.numTriangles());
+  world.judged.collect(around, all, near);
+  for (const int id : near) result.triangles.push_back(world.judged.triangle(id));
   return result;
 }
 
@@ -137,11 +113,10 @@ Result<std::vector<bool>> TruthTeller::comesWithin(const StepPoses& step, double
 double TruthTeller::separationAt(const StepPoses& step, LinkId link, double t) {
   const ChainMotion motion(world_.avatar.skeleton(), step.from, step.to);
   const LinkState state = motion.stateAt(link, t);
-  TradeWork work;
   double least = kFarM;
   for (const Lss& lss : world_.avatar.lss(link)) {
-    const double distance = world_.tree.distance(state.pointAt(lss.a), state.pointAt(lss.b),
-                                                 kFarM + lss.radius, 0.0, work);
+    const double distance = oracle::distanceTo(world_.judged, plain(state.pointAt(lss.a)),
+                                               plain(state.pointAt(lss.b)), kFarM + lss.radius);
     least = std::min(least, distance - lss.radius);
   }
   return least;
@@ -160,16 +135,16 @@ JudgedTruth judge(const TradeWorld& world, const StepPoses& step, LinkId link,
                   const LinkTruth& truth) {
   JudgedTruth judged;
   judged.links = 1;
-  const extremes::Oracle oracle(worldOf(world, step, link));
+  const oracle::HullOracle judge(worldOf(world, step, link));
   std::vector<double> until(static_cast<std::size_t>(world.avatar.numLinks()), 0.0);
   until[static_cast<std::size_t>(link)] = truth.freeUntil;
-  const auto proof = oracle.proveFree(until)[static_cast<std::size_t>(link)];
-  judged.free += proof.freedom == extremes::Freedom::Proven ? 1 : 0;
-  judged.open += proof.freedom == extremes::Freedom::Open ? 1 : 0;
-  judged.wrong += proof.freedom == extremes::Freedom::Touches ? 1 : 0;
+  const auto proof = judge.proveFree(until)[static_cast<std::size_t>(link)];
+  judged.free += proof.freedom == oracle::Freedom::Proven ? 1 : 0;
+  judged.open += proof.freedom == oracle::Freedom::Open ? 1 : 0;
+  judged.wrong += proof.freedom == oracle::Freedom::Touches ? 1 : 0;
   if (!truth.touches) return judged;
   judged.contacts = 1;
-  const bool touches = oracle.separationAt(link, truth.touchesBy) <= extremes::Precise(0);
+  const bool touches = judge.separationAt(link, truth.touchesBy) <= oracle::Precise(0);
   judged.touching += touches ? 1 : 0;
   judged.wrong += touches ? 0 : 1;
   return judged;

@@ -1,7 +1,7 @@
 // bench/trade/truth.h: what truly happens to every link in a step, and the tools to tell it:
 // the product's plain scalar form at a tolerance finer than any that is measured, on bodies a
 // little thinner and a little thicker, so that what is said of a strategy is said on the safe side;
-// and, for a sample of links, a judge that shares no code with it (bench/extremes/oracle.h).
+// and, for a sample of links, a judge that shares no code with it (judge/hull_oracle.h).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "bench/trade/nearest_tree.h"
 #include "bench/trade/strategies.h"
 #include "bench/workload.h"
 #include "middleware/query/query.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iostream>
 
-#include <boost/math/constants/constants.hpp>
 #include <gtest/gtest.h>
 
 #include "lss/simd.h"
@@ -16,10 +15,10 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
+using oracle::Precise3;
 using test::Random;
 using test::RandomMotion;
-using test::Real;
+using Real = oracle::Precise;
 
 double asDouble(const Real& x) {
   return static_cast<double>(x);
@@ -41,7 +40,7 @@ Precise3 rotated(const LinkNodes& link, int k, const Precise3& v) {
 
 void compare(const RandomMotion& m, const ChainNodes& nodes, int k, Random& random,
              Shares& shares) {
-  const auto frames = test::preciseFrames(m.precise, Real(nodes.instant(k)));
+  const auto frames = oracle::preciseFrames(m.precise, Real(nodes.instant(k)));
   const Precise3 origin(nodes.origin());
   for (LinkId link = 0; link < nodes.numLinks(); ++link) {
     SCOPED_TRACE(link);
@@ -55,7 +54,7 @@ void compare(const RandomMotion& m, const ChainNodes& nodes, int k, Random& rand
     ASSERT_LE(asDouble(norm(p)), nodes.reach(link) + nodes.positionRounding(link));
     const Precise3 unit(random.direction());
     const double turned =
-        asDouble(norm(rotated(got, k, unit) - test::rotate(frame.rotation, unit)));
+        asDouble(norm(rotated(got, k, unit) - oracle::rotate(frame.rotation, unit)));
     ASSERT_LE(turned, nodes.rotationRounding(link) * (1.0 + 1e-12));
     shares.rotation = std::max(shares.rotation, turned / nodes.rotationRounding(link));
     const double normSquare = got.q[0][k] * got.q[0][k] + got.q[1][k] * got.q[1][k] +
@@ -109,7 +108,7 @@ TEST(ChainNodes, TurnsOfEverySizeAreReached) {
     const double angle =
         i % 10 == 0 ? kPi : (i % 2 == 0 ? random.uniform(0, kPi) : random.magnitude(1e-16, kPi));
     m.to.rotations[0] = m.from.rotations[0] * random.turn(angle);
-    m.precise = test::preciseJoints(m.skeleton, m.from, m.to);
+    m.precise = test::plainJoints(m.skeleton, m.from, m.to);
     nodes.evaluate(ChainMotion(m.skeleton, m.from, m.to), 0.0, 1.0, Vector3d::Zero());
     compare(m, nodes, 1 + random.below(kNodes - 2), random, shares);
     if (HasFatalFailure()) return;
@@ -118,7 +117,7 @@ TEST(ChainNodes, TurnsOfEverySizeAreReached) {
 }
 
 TEST(ChainNodes, TimesAreTheChebyshevLobattoPoints) {
-  const Real pi = boost::math::constants::pi<Real>();
+  const Real pi = Real::pi();
   for (int k = 0; k < kNodes; ++k) {
     const Real exact = (1 - cos(Real(k) * pi / 7)) / 2;
     EXPECT_EQ(ChainNodes::time(k), asDouble(exact)) << k;
@@ -135,8 +134,7 @@ TEST(ChainNodes, InstantsStayCloseToTheirFormula) {
     nodes.evaluate(motion, begin, end, Vector3d::Zero());
     for (int k = 0; k < kNodes; ++k) {
       const Real exact =
-          Real(begin) + (Real(end) - Real(begin)) *
-                            ((1 - cos(Real(k) * boost::math::constants::pi<Real>() / 7)) / 2);
+          Real(begin) + (Real(end) - Real(begin)) * ((1 - cos(Real(k) * Real::pi() / 7)) / 2);
       EXPECT_LE(asDouble(abs(Real(nodes.instant(k)) - exact)), 0x1p-52);
     }
   }

@@ -12,10 +12,10 @@
 namespace foretouch {
 namespace {
 
-using test::Precise3;
+using oracle::Precise3;
 using test::Random;
 using test::RandomMotion;
-using test::Real;
+using Real = oracle::Precise;
 
 void expectSame(const JointArc& got, const JointArc& expected) {
   for (int i = 0; i < 4; ++i) {

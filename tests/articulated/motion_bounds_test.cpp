@@ -11,10 +11,10 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::PreciseFrame;
+using oracle::PreciseFrame;
 using test::Random;
 using test::RandomMotion;
-using test::Real;
+using Real = oracle::Precise;
 
 double asDouble(const Real& x) {
   return static_cast<double>(x);
@@ -26,17 +26,17 @@ struct Shares {
 };
 
 /// Velocity by a symmetric difference in fifty digits: its own error is about 1e-30.
-test::Precise3 preciseVelocity(const RandomMotion& m, int link, double t, const Vector3d& p_L) {
+oracle::Precise3 preciseVelocity(const RandomMotion& m, int link, double t, const Vector3d& p_L) {
   const Real h("1e-15");
-  const auto before = test::preciseFrames(m.precise, Real(t) - h);
-  const auto after = test::preciseFrames(m.precise, Real(t) + h);
+  const auto before = oracle::preciseFrames(m.precise, Real(t) - h);
+  const auto after = oracle::preciseFrames(m.precise, Real(t) + h);
   const auto i = static_cast<std::size_t>(link);
   return (1 / (2 * h)) * (after[i].at(p_L) - before[i].at(p_L));
 }
 
 void compare(const RandomMotion& m, double t, Random& random, Shares& shares) {
   const ChainMotion motion(m.skeleton, m.from, m.to);
-  const auto frames = test::preciseFrames(m.precise, Real(t));
+  const auto frames = oracle::preciseFrames(m.precise, Real(t));
   std::vector<LinkState> all;
   motion.statesAt(t, all);
   for (LinkId link = 0; link < motion.numLinks(); ++link) {
@@ -47,23 +47,23 @@ void compare(const RandomMotion& m, double t, Random& random, Shares& shares) {
     const MotionBounds& b = motion.bounds(link);
     const double rho = random.magnitude(1e-3, 2.0);
     const Vector3d p_L = rho * random.direction();
-    const double used = asDouble(test::norm(test::Precise3(state.p_WL) - frames[i].origin));
+    const double used = asDouble(oracle::norm(oracle::Precise3(state.p_WL) - frames[i].origin));
     ASSERT_LE(used, b.originRounding);
     shares.origin = std::max(shares.origin, used / b.originRounding);
     const Vector3d unit = random.direction();
     const double turned =
-        asDouble(test::norm(test::Precise3(state.R_WL * unit) -
-                            test::rotate(frames[i].rotation, test::Precise3(unit))));
+        asDouble(oracle::norm(oracle::Precise3(state.R_WL * unit) -
+                              oracle::rotate(frames[i].rotation, oracle::Precise3(unit))));
     const double turnBound = b.rotationRounding + MotionBounds::kPointRounding;
     ASSERT_LE(turned, turnBound);
     shares.rotation = std::max(shares.rotation, turned / turnBound);
-    ASSERT_LE(asDouble(test::norm(test::Precise3(state.pointAt(p_L)) - frames[i].at(p_L))),
+    ASSERT_LE(asDouble(oracle::norm(oracle::Precise3(state.pointAt(p_L)) - frames[i].at(p_L))),
               b.positionRoundingAt(p_L.norm()));
-    const test::Precise3 v = preciseVelocity(m, link, t, p_L);
-    const double velocityUsed = asDouble(test::norm(test::Precise3(state.velocityAt(p_L)) - v));
+    const oracle::Precise3 v = preciseVelocity(m, link, t, p_L);
+    const double velocityUsed = asDouble(oracle::norm(oracle::Precise3(state.velocityAt(p_L)) - v));
     ASSERT_LE(velocityUsed, b.velocityRoundingAt(p_L.norm()));
     shares.velocity = std::max(shares.velocity, velocityUsed / b.velocityRoundingAt(p_L.norm()));
-    ASSERT_LE(asDouble(test::norm(v)), b.speedAt(p_L.norm()));
+    ASSERT_LE(asDouble(oracle::norm(v)), b.speedAt(p_L.norm()));
   }
 }
 
@@ -99,11 +99,11 @@ TEST(ChainMotion, HalfTurnsTakeTheArcOfTheDotProductsSign) {
     Quaternion to = from * random.turn(3.14159265358979323846);
     if (random.chance(0.5)) to.coeffs() = -to.coeffs();
     m.to.rotations[0] = to;
-    const auto precise = test::preciseJoints(m.skeleton, m.from, m.to);
+    const auto precise = test::plainJoints(m.skeleton, m.from, m.to);
     const Vector3d p_L = random.direction();
-    const auto truth = test::preciseFrames(precise, Real(0.5))[0].at(p_L);
+    const auto truth = oracle::preciseFrames(precise, Real(0.5))[0].at(p_L);
     const LinkState state = ChainMotion(m.skeleton, m.from, m.to).stateAt(0, 0.5);
-    ASSERT_LE(asDouble(test::norm(test::Precise3(state.pointAt(p_L)) - truth)), 1e-11);
+    ASSERT_LE(asDouble(oracle::norm(oracle::Precise3(state.pointAt(p_L)) - truth)), 1e-11);
     negative += from.w() * to.w() + from.x() * to.x() + from.y() * to.y() + from.z() * to.z() < 0.0;
   }
   EXPECT_GT(negative, kCases / 4);
@@ -120,20 +120,20 @@ TEST(MotionBounds, SpeedAndAccelerationBoundTheTrueMotion) {
     const RandomMotion m = test::randomMotion(random, 1 + random.below(8));
     const ChainMotion motion(m.skeleton, m.from, m.to);
     const double h = random.magnitude(1e-4, 1.0), s = random.uniform(0.0, 1.0 - h);
-    const auto begin = test::preciseFrames(m.precise, Real(s));
-    const auto end = test::preciseFrames(m.precise, Real(s) + Real(h));
+    const auto begin = oracle::preciseFrames(m.precise, Real(s));
+    const auto end = oracle::preciseFrames(m.precise, Real(s) + Real(h));
     const Real share(random.uniform(0.0, 1.0));
-    const auto between = test::preciseFrames(m.precise, Real(s) + share * Real(h));
+    const auto between = oracle::preciseFrames(m.precise, Real(s) + share * Real(h));
     for (LinkId link = 0; link < motion.numLinks(); ++link) {
       const auto l = static_cast<std::size_t>(link);
       const Vector3d p_L = random.magnitude(1e-3, 1.0) * random.direction();
       const MotionBounds& b = motion.bounds(link);
       const auto chord = begin[l].at(p_L) + share * (end[l].at(p_L) - begin[l].at(p_L));
-      const double sagitta = asDouble(test::norm(between[l].at(p_L) - chord));
+      const double sagitta = asDouble(oracle::norm(between[l].at(p_L) - chord));
       const double allowed = b.accelerationAt(p_L.norm()) * h * h / 8.0;
       ASSERT_LE(sagitta, allowed + 1e-40);
       if (allowed > 0.0) tightestChord = std::max(tightestChord, sagitta / allowed);
-      const double moved = asDouble(test::norm(end[l].at(p_L) - begin[l].at(p_L)));
+      const double moved = asDouble(oracle::norm(end[l].at(p_L) - begin[l].at(p_L)));
       ASSERT_LE(moved, b.speedAt(p_L.norm()) * h);
       tightestSpeed = std::max(tightestSpeed, moved / (b.speedAt(p_L.norm()) * h));
     }

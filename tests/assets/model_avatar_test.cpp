@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "tests/assets/model_samples.h"
-#include "tests/support/precise.h"
 
 namespace foretouch {
 namespace {
@@ -176,9 +176,9 @@ TEST(AvatarFromModel, KeepsEveryTriangleInsideOneLssOfItsLink) {
         const bool isInside = std::any_of(lss.begin(), lss.end(), [&](const Lss& l) {
           return std::all_of(
               triangle.vertices.begin(), triangle.vertices.end(), [&](const auto& v) {
-                const test::Precise3 p(v);
-                return test::preciseDistance(test::Precise3(l.a), test::Precise3(l.b), {p, p, p}) <=
-                       test::Real(l.radius);
+                const oracle::Precise3 p(v);
+                return oracle::preciseDistance(oracle::Precise3(l.a), oracle::Precise3(l.b),
+                                               {p, p, p}) <= oracle::Precise(l.radius);
               });
         });
         ASSERT_TRUE(isInside);

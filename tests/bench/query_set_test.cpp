@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/rational_linear.h"
+#include "judge/rational_linear.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 

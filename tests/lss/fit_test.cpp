@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/precise.h"
+#include "judge/plain_motion.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
+using oracle::Precise3;
 
 std::vector<Vector3d> pointsOf(test::Random& random, int count) {
   std::vector<Vector3d> points;
@@ -32,8 +32,8 @@ TEST(FitLss, ContainsEveryPointRoundingIncluded) {
     for (const Vector3d& p : points) {
       const Precise3 point(p);
       const auto distance =
-          test::preciseDistance(Precise3(lss.a), Precise3(lss.b), {point, point, point});
-      ASSERT_LE(distance, test::Real(lss.radius));
+          oracle::preciseDistance(Precise3(lss.a), Precise3(lss.b), {point, point, point});
+      ASSERT_LE(distance, oracle::Precise(lss.radius));
     }
   }
 }

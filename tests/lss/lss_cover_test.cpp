@@ -7,22 +7,22 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "lss/hull_volume.h"
-#include "tests/support/precise.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
-using test::Real;
+using oracle::Precise3;
+using Real = oracle::Precise;
 
 constexpr double kPi = 3.14159265358979323846;
 
 bool contains(const Lss& lss, const Vector3d& point) {
   const Precise3 p(point);
-  return test::preciseDistance(Precise3(lss.a), Precise3(lss.b), {p, p, p}) <= Real(lss.radius);
+  return oracle::preciseDistance(Precise3(lss.a), Precise3(lss.b), {p, p, p}) <= Real(lss.radius);
 }
 
 bool contains(const Lss& lss, const Triangle& triangle) {

@@ -5,14 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/precise.h"
+#include "judge/plain_motion.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
+using oracle::Precise3;
 
 /// A bent tube of about `count` triangles, as a limb's mesh is.
 std::vector<Triangle> tube(int count, double bend) {
@@ -41,8 +41,8 @@ std::vector<std::int32_t> allOf(const std::vector<Triangle>& triangles) {
 void expectInside(const Triangle& triangle, const Lss& lss) {
   for (const Vector3d& vertex : triangle.vertices) {
     const Precise3 p(vertex);
-    ASSERT_LE(test::preciseDistance(Precise3(lss.a), Precise3(lss.b), {p, p, p}),
-              test::Real(lss.radius));
+    ASSERT_LE(oracle::preciseDistance(Precise3(lss.a), Precise3(lss.b), {p, p, p}),
+              oracle::Precise(lss.radius));
   }
 }
 

@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/precise.h"
+#include "judge/plain_motion.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
+using oracle::Precise3;
 
 const Triangle kFloor{{Vector3d(0, 0, 0), Vector3d(4, 0, 0), Vector3d(0, 0, 4)}};
 
@@ -69,7 +69,7 @@ TEST(ClosestPoints, AgreesWithFiftyDigits) {
     test::Random random(static_cast<std::uint64_t>(i));
     const Vector3d center = i % 4 == 0 ? Vector3d(random.inBox(1e4)) : Vector3d(Vector3d::Zero());
     const test::RandomPair p = test::randomPair(random, 2.0, center);
-    const double truth = static_cast<double>(test::preciseDistance(
+    const double truth = static_cast<double>(oracle::preciseDistance(
         Precise3(p.a), Precise3(p.b), {Precise3(p.v[0]), Precise3(p.v[1]), Precise3(p.v[2])}));
     const double got = closestPoints(p.a, p.b, {p.v}).distance;
     // Never below the truth by more than rounding; above it only where lines nearly coincide

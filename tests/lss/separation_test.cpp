@@ -5,15 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/precise.h"
+#include "judge/plain_motion.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
-using test::Real;
+using oracle::Precise3;
+using Real = oracle::Precise;
 
 struct Judged {
   double truth, lower, upper, slack;
@@ -24,14 +24,14 @@ Judged judge(const test::RandomPair& p) {
   const Precise3 n(s.nhat), a(p.a), b(p.b);
   const std::array<Precise3, 3> v = {Precise3(p.v[0]), Precise3(p.v[1]), Precise3(p.v[2])};
   // The plane's clearances themselves, in fifty digits.
-  EXPECT_LE(test::norm(n), Real(1));
-  Real top = test::dot(n, v[0]);
-  for (const Precise3& vertex : v) top = std::max(top, test::dot(n, vertex));
-  EXPECT_LE(Real(s.clearanceA), test::dot(n, a) - top);
-  EXPECT_LE(Real(s.clearanceB), test::dot(n, b) - top);
+  EXPECT_LE(oracle::norm(n), Real(1));
+  Real top = oracle::dot(n, v[0]);
+  for (const Precise3& vertex : v) top = std::max(top, oracle::dot(n, vertex));
+  EXPECT_LE(Real(s.clearanceA), oracle::dot(n, a) - top);
+  EXPECT_LE(Real(s.clearanceB), oracle::dot(n, b) - top);
   const double extent = (p.a - p.v[0]).lpNorm<1>() + (p.b - p.v[0]).lpNorm<1>() +
                         (p.v[1] - p.v[0]).lpNorm<1>() + (p.v[2] - p.v[0]).lpNorm<1>();
-  return {static_cast<double>(test::preciseDistance(a, b, v)), s.lower(), s.upper,
+  return {static_cast<double>(oracle::preciseDistance(a, b, v)), s.lower(), s.upper,
           kSeparationRounding * extent};
 }
 

@@ -5,23 +5,23 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "lss/separation.h"
-#include "tests/support/precise.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
-using test::Real;
+using oracle::Precise3;
+using Real = oracle::Precise;
 
 std::array<Precise3, 3> precise(const Triangle& t) {
   return {Precise3(t.vertices[0]), Precise3(t.vertices[1]), Precise3(t.vertices[2])};
 }
 
 Real preciseTriangleDistance(const Triangle& one, const Triangle& other) {
-  return test::preciseDistance(precise(one), precise(other));
+  return oracle::preciseDistance(precise(one), precise(other));
 }
 
 struct Pair {
@@ -54,14 +54,14 @@ TEST(TriangleSeparation, BoundsHoldRoundingIncluded) {
     ASSERT_LE(s.lower(), truth);
     ASSERT_GE(s.upper, truth);
     const Precise3 n(s.nhat);
-    ASSERT_LE(test::norm(n), Real(1));
+    ASSERT_LE(oracle::norm(n), Real(1));
     double extent = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
       extent += (pair.one.vertices[k] - pair.other.vertices[0]).lpNorm<1>();
       extent += (pair.other.vertices[k] - pair.other.vertices[0]).lpNorm<1>();
       for (const Vector3d& vertex : pair.other.vertices) {
         ASSERT_LE(Real(s.clearance[k]),
-                  test::dot(n, Precise3(pair.one.vertices[k]) - Precise3(vertex)));
+                  oracle::dot(n, Precise3(pair.one.vertices[k]) - Precise3(vertex)));
       }
     }
     const double slack = kSeparationRounding * extent;

@@ -4,35 +4,12 @@
 #include <sstream>
 
 #include "network/wire/codec.h"
+#include "tests/support/judged_answer.h"
 
 namespace foretouch::test {
 namespace {
 
 constexpr std::size_t kMostViolations = 20;
-
-oracle::Verdict oracleVerdict(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Clear: return oracle::Verdict::Clear;
-    case Verdict::Contact: return oracle::Verdict::Contact;
-    case Verdict::StartsInContact: return oracle::Verdict::StartsInContact;
-    case Verdict::Undecided: return oracle::Verdict::Undecided;
-  }
-  return oracle::Verdict::Undecided;
-}
-
-oracle::Answer oracleAnswer(const LinkContact& contact) {
-  oracle::Answer answer;
-  answer.verdict = oracleVerdict(contact.verdict);
-  answer.toi = contact.toi;
-  answer.freeUntil = contact.freeUntil;
-  answer.separation = contact.separation;
-  answer.penetration = contact.penetration;
-  answer.triangle = contact.triangle;
-  answer.onScene = own(contact.p_WScene);
-  answer.onLink = own(contact.p_WLink);
-  answer.normal = own(contact.nhat_SL_W);
-  return answer;
-}
 
 bool isOneLife(const PoseId& x, const PoseId& y) {
   return x.sender == y.sender && x.life == y.life;
@@ -173,7 +150,7 @@ oracle::Judgement AnswerJudge::judgement(const LinkContact& contact, double tole
                                          const oracle::Motion& motion) const {
   const auto& capsules = body_.capsules[static_cast<std::size_t>(contact.link)];
   oracle::Judge judge(scene_.oracle, motion, contact.link, capsules);
-  oracle::Answer answer = oracleAnswer(contact);
+  oracle::Answer answer = plain(contact);
   oracle::Judgement result;
   for (std::size_t i = 0; i < capsules.size(); ++i) {
     answer.capsule = static_cast<int>(i);

@@ -1,17 +1,14 @@
 #include "tests/network/simulated_world.h"
 
-#include <array>
 #include <string>
 #include <utility>
+
+#include "tests/support/judged.h"
 
 namespace foretouch::test {
 namespace {
 
 constexpr double kRoom = 0.7;  // half its edge, m
-
-std::array<double, 4> own(const Quaternion& q) {
-  return {q.w(), q.x(), q.y(), q.z()};
-}
 
 Skeleton randomSkeleton(Random& random) {
   RawSkeleton raw;
@@ -35,10 +32,6 @@ Lss randomLss(Random& random) {
 
 }  // namespace
 
-oracle::Vec3d own(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 SimulatedBody randomBody(Random& random) {
   Skeleton skeleton = randomSkeleton(random);
   std::vector<std::vector<Lss>> lss(static_cast<std::size_t>(skeleton.numJoints()));
@@ -47,8 +40,7 @@ SimulatedBody randomBody(Random& random) {
     const int count = link > 0 && random.chance(0.15) ? 0 : (random.chance(0.2) ? 2 : 1);
     for (int i = 0; i < count; ++i) {
       lss[link].push_back(randomLss(random));
-      const Lss& made = lss[link].back();
-      capsules[link].push_back({{own(made.a), own(made.b)}, made.radius});
+      capsules[link].push_back(plain(lss[link].back()));
     }
   }
   Avatar avatar = Avatar::build(std::move(skeleton), std::move(lss)).value();
@@ -67,8 +59,7 @@ SimulatedScene randomScene(Random& random) {
     for (auto& vertex : triangle.vertices) vertex = center + random.inBox(size);
     raw.triangles.push_back(triangle);
     raw.objectOf.push_back(0);
-    triangles.push_back(
-        {own(triangle.vertices[0]), own(triangle.vertices[1]), own(triangle.vertices[2])});
+    triangles.push_back(plain(triangle));
   }
   return {Scene::build(std::move(raw)).value(), oracle::Scene(std::move(triangles))};
 }
@@ -123,13 +114,7 @@ Pose TrueMotion::next(double seconds) {
 }
 
 oracle::Motion oracleMotion(const Skeleton& skeleton, const Pose& from, const Pose& to) {
-  std::vector<oracle::Joint> joints;
-  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    joints.push_back({skeleton.parent(j), own(from.rotations[i]), own(to.rotations[i]),
-                      own(from.translations[i]), own(to.translations[i])});
-  }
-  return oracle::Motion(joints);
+  return oracle::Motion(plainJoints(skeleton, from, to));
 }
 
 }  // namespace foretouch::test

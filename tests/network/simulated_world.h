@@ -6,10 +6,10 @@
 
 #include "articulated/avatar.h"
 #include "articulated/pose.h"
+#include "judge/capsule_prover.h"
+#include "judge/motion.h"
+#include "judge/scene.h"
 #include "middleware/scene/scene.h"
-#include "tests/support/oracle_motion.h"
-#include "tests/support/oracle_prover.h"
-#include "tests/support/oracle_scene.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {
@@ -57,6 +57,5 @@ class TrueMotion {
 /// What the oracle says of the motion between two poses of a body.
 [[nodiscard]] oracle::Motion oracleMotion(const Skeleton& skeleton, const Pose& from,
                                           const Pose& to);
-[[nodiscard]] oracle::Vec3d own(const Eigen::Vector3d& v);
 
 }  // namespace foretouch::test

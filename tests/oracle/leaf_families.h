@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "judge/rational_linear.h"
 #include "tests/support/random_geometry.h"
-#include "tests/support/rational_linear.h"
 
 namespace foretouch::test {
 

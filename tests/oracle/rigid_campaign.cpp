@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "middleware/exact/rigid_query.h"
+#include "tests/support/judged.h"
 
 namespace foretouch::test {
 namespace {
@@ -143,9 +144,6 @@ Draft scaled(Random& random) {
   return d;
 }
 
-oracle::Vec3d plain(const Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 Vector3d rich(const oracle::Vec3d& v) {
   return {v.x, v.y, v.z};
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "judge/rigid_prover.h"
 #include "tests/oracle/leaf_campaign.h"
-#include "tests/support/oracle_rigid.h"
 
 namespace foretouch::test {
 

@@ -8,6 +8,7 @@
 
 #include "middleware/ladder/rungs.h"
 #include "tests/oracle/sweep_inputs.h"
+#include "tests/support/judged.h"
 #include "tests/support/shared_data.h"
 
 namespace foretouch::test {
@@ -16,10 +17,6 @@ namespace {
 using oracle::Real;
 using oracle::Vec3d;
 using oracle::Vec3r;
-
-Vec3d plain(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 Scene anyScene() {
   RawScene raw;
@@ -99,7 +96,7 @@ TEST(RungVolumesOfClips, ContainWhatIsBelowThemAndHardlyMore) {
       const Pose from = placed(avatar.skeleton(), frames[first], {});
       const Pose to = placed(avatar.skeleton(), frames[first + stride], {});
       const ChainMotion motion(avatar.skeleton(), from, to);
-      const oracle::Motion truth(oracleJoints(avatar.skeleton(), from, to));
+      const oracle::Motion truth(plainJoints(avatar.skeleton(), from, to));
       constexpr Real kGuard = 1e-15L;
       const auto limbs = rungVolumes(avatar, motion, scene, Fidelity::Limb);
       for (const RungVolume& limb : limbs) {

@@ -82,7 +82,7 @@ class Sweeper {
       note(tally, where(n) + " query failed: " + describe(answer.error()));
       return;
     }
-    const oracle::Motion truth(oracleJoints(skeleton, from, to));
+    const oracle::Motion truth(plainJoints(skeleton, from, to));
     if (query_.fidelity == Fidelity::Limb || query_.fidelity == Fidelity::Avatar) {
       judgeVolumes(n, motion, answer.value(), truth, tally);
       return;
@@ -96,14 +96,12 @@ class Sweeper {
   /// Each volume once, by what its first link was told.
   void judgeVolumes(int n, const ChainMotion& motion, const StepContacts& step,
                     const oracle::Motion& truth, SweepTally& tally) const {
-    const auto plain = [](const Eigen::Vector3d& v) { return oracle::Vec3d{v.x(), v.y(), v.z()}; };
     for (const RungVolume& volume :
          rungVolumes(clip_.avatar, motion, scene_.scene, query_.fidelity)) {
       LinkContact contact = step.links[static_cast<std::size_t>(volume.links.front())];
       contact.link = volume.carrier;
       if (options_.tamper) options_.tamper(contact);
-      judge(n, contact, truth, {{{plain(volume.lss.a), plain(volume.lss.b)}, volume.lss.radius}},
-            tally);
+      judge(n, contact, truth, {plain(volume.lss)}, tally);
     }
   }
 
@@ -121,7 +119,7 @@ class Sweeper {
       return;
     }
     const auto start = Clock::now();
-    const oracle::Answer answer = oracleAnswer(contact);
+    const oracle::Answer answer = plain(contact);
     const oracle::Judgement judgement =
         isExact ? oracle::Judge(scene_.oracle, truth, contact.link,
                                 clip_.meshes[static_cast<std::size_t>(contact.link)])

@@ -15,13 +15,6 @@
 namespace foretouch::test {
 namespace {
 
-oracle::Vec3d own(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-std::array<double, 4> own(const Quaternion& q) {
-  return {q.w(), q.x(), q.y(), q.z()};
-}
-
 /// The largest side of the rest skeleton's box, in file units: arm span or height, alike for
 /// people.
 double restExtent(const Clip& clip) {
@@ -62,9 +55,7 @@ void findStand(SweepClip& clip) {
 std::vector<std::vector<oracle::Capsule>> capsulesOf(const Avatar& avatar) {
   std::vector<std::vector<oracle::Capsule>> capsules(static_cast<std::size_t>(avatar.numLinks()));
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    for (const Lss& lss : avatar.lss(link)) {
-      capsules[static_cast<std::size_t>(link)].push_back({{own(lss.a), own(lss.b)}, lss.radius});
-    }
+    capsules[static_cast<std::size_t>(link)] = plainCapsules(avatar, link);
   }
   return capsules;
 }
@@ -109,10 +100,7 @@ Result<SweepClip> loadModel(const std::string& path, double scale) {
                    Eigen::Vector3d::Zero(),
                    0.0};
   for (const auto& triangles : made.value().surface) {
-    result.meshes.emplace_back();
-    for (const Triangle& t : triangles) {
-      result.meshes.back().push_back({own(t.vertices[0]), own(t.vertices[1]), own(t.vertices[2])});
-    }
+    result.meshes.push_back(plain(triangles));
   }
   auto surface = AvatarSurface::build(result.avatar, std::move(made.value().surface));
   if (!surface) return surface.error();
@@ -170,10 +158,7 @@ Result<SweepScene> loadScene(const std::string& name, const std::string& dataFol
   options.up = known->up;
   auto imported = importScene(dataFolder + "/" + known->file, options);
   if (!imported) return imported.error();
-  std::vector<oracle::Triangle> triangles;
-  for (const Triangle& t : imported.value().scene.triangles) {
-    triangles.push_back({own(t.vertices[0]), own(t.vertices[1]), own(t.vertices[2])});
-  }
+  std::vector<oracle::Triangle> triangles = plain(imported.value().scene.triangles);
   auto scene = Scene::build(std::move(imported.value().scene));
   if (!scene) return scene.error();
   if (scene.value().audit().droppedNonFinite > 0) {
@@ -203,38 +188,6 @@ Pose placed(const Skeleton& skeleton, const Pose& pose, const Placement& placeme
   }
   // Renormalises what the turn rounded. The poses were valid and stay so.
   return std::move(validatedPose(skeleton, std::move(moved))).value();
-}
-
-std::vector<oracle::Joint> oracleJoints(const Skeleton& skeleton, const Pose& from,
-                                        const Pose& to) {
-  std::vector<oracle::Joint> joints;
-  joints.reserve(static_cast<std::size_t>(skeleton.numJoints()));
-  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    joints.push_back({skeleton.parent(j), own(from.rotations[i]), own(to.rotations[i]),
-                      own(from.translations[i]), own(to.translations[i])});
-  }
-  return joints;
-}
-
-oracle::Answer oracleAnswer(const LinkContact& contact) {
-  oracle::Answer answer;
-  switch (contact.verdict) {
-    case Verdict::Clear: answer.verdict = oracle::Verdict::Clear; break;
-    case Verdict::Contact: answer.verdict = oracle::Verdict::Contact; break;
-    case Verdict::StartsInContact: answer.verdict = oracle::Verdict::StartsInContact; break;
-    case Verdict::Undecided: answer.verdict = oracle::Verdict::Undecided; break;
-  }
-  answer.toi = contact.toi;
-  answer.freeUntil = contact.freeUntil;
-  answer.separation = contact.separation;
-  answer.penetration = contact.penetration;
-  answer.triangle = contact.triangle;
-  answer.capsule = contact.linkTriangle >= 0 ? contact.linkTriangle : contact.lss;
-  answer.onScene = own(contact.p_WScene);
-  answer.onLink = own(contact.p_WLink);
-  answer.normal = own(contact.nhat_SL_W);
-  return answer;
 }
 
 }  // namespace foretouch::test

@@ -1,5 +1,5 @@
 // tests/oracle/sweep_inputs.h: real clips and scenes, each in the product's form and in the
-// oracle's. The one place where the product's types become the oracle's.
+// oracle's.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,10 @@
 #include "articulated/avatar.h"
 #include "articulated/clip.h"
 #include "articulated/result.h"
+#include "judge/judge.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
-#include "tests/support/oracle_judge.h"
+#include "tests/support/judged_answer.h"
 
 namespace foretouch::test {
 
@@ -62,9 +63,5 @@ struct Placement {
   double contactRate = 0.0;  ///< Share of probed steps with a contact that does not start so.
 };
 [[nodiscard]] Pose placed(const Skeleton& skeleton, const Pose& pose, const Placement& placement);
-
-[[nodiscard]] std::vector<oracle::Joint> oracleJoints(const Skeleton& skeleton, const Pose& from,
-                                                      const Pose& to);
-[[nodiscard]] oracle::Answer oracleAnswer(const LinkContact& contact);
 
 }  // namespace foretouch::test

@@ -6,7 +6,8 @@
 
 #include "articulated/pose.h"
 #include "articulated/skeleton.h"
-#include "tests/support/precise.h"
+#include "judge/plain_motion.h"
+#include "tests/support/judged.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {
@@ -14,20 +15,8 @@ namespace foretouch::test {
 struct RandomMotion {
   Skeleton skeleton;
   Pose from, to;
-  std::vector<PreciseJoint> precise;
+  std::vector<oracle::Joint> precise;
 };
-
-/// The chain's own yardstick form.
-inline std::vector<PreciseJoint> preciseJoints(const Skeleton& skeleton, const Pose& from,
-                                               const Pose& to) {
-  std::vector<PreciseJoint> joints;
-  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    joints.push_back({skeleton.parent(j), from.rotations[i], to.rotations[i], from.translations[i],
-                      to.translations[i]});
-  }
-  return joints;
-}
 
 /// A turn by an ordinary angle, or one of the awkward ones. Angles within 1e-9 of a half turn are
 /// left out: there rounding of the input chooses the arc, which is a test of its own.
@@ -60,7 +49,7 @@ inline RandomMotion randomMotion(Random& random, int joints) {
                                 (drifts ? random.magnitude(1e-6, 0.5) : 0.0) * random.direction());
   }
   m.skeleton = Skeleton::build(raw).value();
-  m.precise = preciseJoints(m.skeleton, m.from, m.to);
+  m.precise = plainJoints(m.skeleton, m.from, m.to);
   return m;
 }
 

@@ -17,10 +17,10 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
-using test::PreciseFrame;
+using oracle::Precise3;
+using oracle::PreciseFrame;
 using test::Random;
-using test::Real;
+using Real = oracle::Precise;
 
 double asDouble(const Real& x) {
   return static_cast<double>(x);
@@ -36,7 +36,7 @@ float horner(const float* c, float u, bool fused) {
 
 Precise3 evaluated(const float (*rows)[kCoefficients], float u, bool fused) {
   Precise3 p;
-  for (std::size_t i = 0; i < 3; ++i) p.c[i] = Real(horner(rows[i], u, fused));
+  for (std::size_t i = 0; i < 3; ++i) p[i] = Real(horner(rows[i], u, fused));
   return p;
 }
 
@@ -148,7 +148,7 @@ TEST(LssPolynomials, ContainTheTrueLssAndPointsAtEveryWidth) {
       SCOPED_TRACE(toString(simd));
       ASSERT_TRUE(useSimd(simd));
       nodes.evaluate(motion, begin, begin + span, origin);
-      const auto frames = test::preciseFrames(body.motion.precise, instantOf(nodes, u));
+      const auto frames = oracle::preciseFrames(body.motion.precise, instantOf(nodes, u));
       const PreciseFrame& frame = frames[static_cast<std::size_t>(entry.link)];
       checkLss(entry, polynomialsOf(entry, motion, nodes), nodes, frame, u, shares);
       if (HasFatalFailure()) return;
@@ -186,7 +186,7 @@ TEST(LssPolynomials, InterpolationErrorIsABoundAndNotFarFromTheWorst) {
     if (bound < 1e3 * rounding || bound < 1e-5) continue;
     for (int k = 0; k < 24; ++k) {
       const auto u = static_cast<float>(random.uniform(-1.0, 1.0));
-      const auto frames = test::preciseFrames(body.motion.precise, instantOf(nodes, u));
+      const auto frames = oracle::preciseFrames(body.motion.precise, instantOf(nodes, u));
       const Precise3 off = frames[static_cast<std::size_t>(entry.link)].at(Vector3d(entry.a)) -
                            Precise3(nodes.origin()) - vectorOf(got.origin) -
                            evaluated(got.a, u, true);

@@ -13,9 +13,10 @@
 
 #include <Eigen/Geometry>
 
+#include "judge/motion.h"
 #include "lss/lss.h"
 #include "tessellation/swept_surface.h"
-#include "tests/support/oracle_motion.h"
+#include "tests/support/judged.h"
 #include "tests/support/random_geometry.h"
 #include "tests/support/random_motion.h"
 
@@ -257,15 +258,12 @@ class TrueSweep {
  private:
   [[nodiscard]] std::pair<Eigen::Vector3d, Eigen::Vector3d> axisAt(const Part& part,
                                                                    double t) const {
-    const auto at = part.motion.pointsAt<2>(link_,
-                                            {oracle::Vec3d{lss_.a.x(), lss_.a.y(), lss_.a.z()},
-                                             oracle::Vec3d{lss_.b.x(), lss_.b.y(), lss_.b.z()}},
-                                            static_cast<oracle::Real>(t), 0);
-    const auto plain = [](const oracle::Vec3r& v) {
+    const auto at = part.motion.pointsAt<2>(link_, plain(lss_).ends, t, 0);
+    const auto rich = [](const oracle::Vec3r& v) {
       return Eigen::Vector3d(static_cast<double>(v.x), static_cast<double>(v.y),
                              static_cast<double>(v.z));
     };
-    return {plain(at[0].position), plain(at[1].position)};
+    return {rich(at[0].position), rich(at[1].position)};
   }
   [[nodiscard]] double apart(const Part& part, double t, const Eigen::Vector3d& p) const {
     const auto [a, b] = axisAt(part, t);
@@ -279,20 +277,5 @@ class TrueSweep {
   int link_;
   Lss lss_;
 };
-
-inline std::vector<oracle::Joint> oracleJoints(const Skeleton& skeleton, const Pose& from,
-                                               const Pose& to) {
-  std::vector<oracle::Joint> joints;
-  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    const auto turn = [](const Quaternion& q) {
-      return std::array<double, 4>{q.w(), q.x(), q.y(), q.z()};
-    };
-    const auto shift = [](const Eigen::Vector3d& v) { return oracle::Vec3d{v.x(), v.y(), v.z()}; };
-    joints.push_back({skeleton.parent(j), turn(from.rotations[i]), turn(to.rotations[i]),
-                      shift(from.translations[i]), shift(to.translations[i])});
-  }
-  return joints;
-}
 
 }  // namespace foretouch::test

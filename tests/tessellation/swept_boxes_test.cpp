@@ -17,10 +17,10 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
-using test::PreciseFrame;
+using oracle::Precise3;
+using oracle::PreciseFrame;
 using test::Random;
-using test::Real;
+using Real = oracle::Precise;
 
 /// The extreme points of the true LSS, grown by the margin, are between `lower` and `upper`.
 bool contains(const float* lower, const float* upper, const LssTable::Entry& entry,
@@ -29,8 +29,8 @@ bool contains(const float* lower, const float* upper, const LssTable::Entry& ent
   const Precise3 b = frame.at(Vector3d(entry.b)) - Precise3(origin);
   const Real reach = Real(entry.radius) + Real(margin);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (std::min(a.c[axis], b.c[axis]) - reach < Real(lower[axis])) return false;
-    if (std::max(a.c[axis], b.c[axis]) + reach > Real(upper[axis])) return false;
+    if (std::min(a[axis], b[axis]) - reach < Real(lower[axis])) return false;
+    if (std::max(a[axis], b[axis]) + reach > Real(upper[axis])) return false;
   }
   return true;
 }
@@ -59,7 +59,7 @@ TEST(SweptBoxes, ContainTheTrueLssAtEveryWidth) {
       const double first = nodes.instant(piece), last = nodes.instant(piece + 1);
       const double share = random.chance(0.3) ? random.below(2) : random.uniform(0.0, 1.0);
       const Real t = Real(first) + Real(share) * (Real(last) - Real(first));
-      const auto frames = test::preciseFrames(body.motion.precise, t);
+      const auto frames = oracle::preciseFrames(body.motion.precise, t);
       for (std::int32_t k = 0; k < table.size(); ++k) {
         SCOPED_TRACE(k);
         const PreciseFrame& frame = frames[static_cast<std::size_t>(table[k].link)];

@@ -10,13 +10,13 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
+using oracle::Precise3;
 using test::Random;
-using test::Real;
+using Real = oracle::Precise;
 
 bool containsPrecisely(const Aabb& box, const Precise3& p) {
   for (int axis = 0; axis < 3; ++axis) {
-    const Real& x = p.c[static_cast<std::size_t>(axis)];
+    const Real& x = p[static_cast<std::size_t>(axis)];
     if (x < Real(box.min[axis]) || x > Real(box.max[axis])) return false;
   }
   return true;
@@ -42,7 +42,7 @@ TEST(SweptBox, ContainsTheLssThroughoutTheSpan) {
                               axisEnds(lss, motion.stateAt(link, e)), e - s, margin);
     for (int k = 0; k < 6; ++k) {
       const double t = k == 0 ? s : (k == 1 ? e : std::min(e, s + random.uniform(0.0, 1.0) * h));
-      const auto frame = test::preciseFrames(m.precise, Real(t))[static_cast<std::size_t>(link)];
+      const auto frame = oracle::preciseFrames(m.precise, Real(t))[static_cast<std::size_t>(link)];
       const Precise3 a = frame.at(lss.a), b = frame.at(lss.b);
       const Precise3 onAxis = a + Real(random.uniform(0, 1)) * (b - a);
       for (int axis = 0; axis < 3; ++axis) {

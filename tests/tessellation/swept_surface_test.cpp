@@ -63,7 +63,7 @@ SweepCase sweepCase(std::uint64_t seed) {
     const double endT = n + 1 == steps && random.chance(0.3) ? 0.7 : 1.0;
     c.motions.emplace_back(skeleton, from, to);
     c.spans.push_back({beginT, endT, n + beginT, n + endT});
-    c.parts.push_back({oracle::Motion(oracleJoints(skeleton, from, to)), beginT, endT});
+    c.parts.push_back({oracle::Motion(plainJoints(skeleton, from, to)), beginT, endT});
     from = to;
   }
   return c;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "articulated/motion.h"
+#include "tests/support/judged.h"
 #include "tests/tools/random_clutter.h"
 
 namespace foretouch::test {
@@ -16,18 +17,17 @@ using tools::drawnSet;
 using tools::kMotionSets;
 using tools::MotionSet;
 using tools::MotionSetKind;
-using tools::ReferenceScene;
 using tools::RigidSweep;
 
 constexpr std::size_t kMotions = 40;
 
 MotionSet setOf(const MotionSetKind& kind, std::size_t motions = kMotions, std::uint64_t seed = 1) {
-  const ReferenceScene scene(randomClutter(150, 2));
+  const oracle::Scene scene(plain(randomClutter(150, 2)));
   return drawnSet(kind, scene, motions, seed).value();
 }
 
 TEST(MotionSets, HalfCollideAndAllStartClear) {
-  const ReferenceScene scene(randomClutter(150, 2));
+  const oracle::Scene scene(plain(randomClutter(150, 2)));
   for (const MotionSetKind& kind : kMotionSets) {
     SCOPED_TRACE(kind.name);
     const MotionSet set = setOf(kind, kMotions + 1);
@@ -36,7 +36,8 @@ TEST(MotionSets, HalfCollideAndAllStartClear) {
     std::size_t touching = 0;
     for (std::size_t i = 0; i < set.sweeps.size(); ++i) {
       const auto axis = axisAt(set.sweeps[i], 0.0);
-      EXPECT_GT(scene.distance(axis.a, axis.b, 1.0), kind.radius + tools::kStartClearance);
+      EXPECT_GT(oracle::distanceTo(scene, plain(axis.a), plain(axis.b), 1.0),
+                kind.radius + tools::kStartClearance);
       touching += set.truths[i].touches ? 1 : 0;
       EXPECT_LE(set.truths[i].isDeep, set.truths[i].touches);
       EXPECT_GE(set.truths[i].comesNear, set.truths[i].touches);
@@ -77,7 +78,7 @@ TEST(MotionSets, FollowTheSeed) {
 
 TEST(MotionSets, RefuseASceneThatTheyCannotTouch) {
   const Triangle small{{Vector3d(0, 0, 0), Vector3d(1e-6, 0, 0), Vector3d(0, 1e-6, 0)}};
-  const ReferenceScene speck(std::vector<Triangle>{small});
+  const oracle::Scene speck({plain(small)});
   // Every motion starts at the speck, where it may not.
   const auto set = drawnSet(kMotionSets[0], speck, 2, 1);
   ASSERT_FALSE(set.ok());

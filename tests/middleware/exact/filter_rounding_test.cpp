@@ -4,14 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "middleware/exact/filter_corners.h"
 #include "middleware/exact/rigid_curves.h"
 #include "tests/middleware/exact/leaf_samples.h"
-#include "tests/support/precise.h"
 
 namespace foretouch::test {
 namespace {
 
+using oracle::Precise3;
+using oracle::PreciseQuaternion;
+using Real = oracle::Precise;
 using internal::Corners;
 
 Precise3 cornerAt(const internal::MovingPolygon& polygon, int i, bool end) {
@@ -71,7 +74,7 @@ TEST(FilterCorners, RoundingStaysBelowItsBounds) {
       const Precise3 side = cross(at(j), at(corners.next(j)));
       for (int axis = 0; axis < 3; ++axis) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        sides = std::max(sides, share(valueAt(internal::sideOf(corners, j, u, v), t), side.c[axis],
+        sides = std::max(sides, share(valueAt(internal::sideOf(corners, j, u, v), t), side[axis],
                                       internal::kSideRounding * corners.largestSide(u, v)));
       }
     }
@@ -145,9 +148,8 @@ TEST(RigidCurves, RoundingStaysBelowItsBound) {
       const double value = internal::valueAt(curves.along(n, i), t);
       worst = std::max(worst, share(value, along, internal::kRigidRounding * curves.scale()));
       const Precise3 computed(curves.at(t).vertices[i]);
-      worstPosition = std::max(
-          worstPosition,
-          share(norm * 0 + foretouch::test::norm(computed - truth), 0, curves.positionError(t)));
+      worstPosition = std::max(worstPosition, share(norm * 0 + oracle::norm(computed - truth), 0,
+                                                    curves.positionError(t)));
     }
   }
   std::printf("share of the bound used: along %.3f, positions %.3f\n", worst, worstPosition);

@@ -6,13 +6,16 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "middleware/exact/moving_polygon.h"
 #include "tests/middleware/exact/leaf_samples.h"
-#include "tests/support/precise.h"
 
 namespace foretouch::test {
 namespace {
 
+using oracle::Precise3;
+using oracle::preciseDistance;
+using Real = oracle::Precise;
 using internal::Decision;
 using internal::StageAnswer;
 

@@ -5,13 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "middleware/exact/rigid_plane.h"
-#include "tests/support/precise.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {
 namespace {
 
+using oracle::Precise3;
+using oracle::preciseDistance;
+using oracle::PreciseQuaternion;
+using Real = oracle::Precise;
 using Eigen::Vector3d;
 
 const Triangle kFloor{{Vector3d(-9, -9, 0), Vector3d(9, -9, 0), Vector3d(0, 9, 0)}};

@@ -7,12 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "tests/middleware/exact/leaf_samples.h"
-#include "tests/support/precise.h"
 #include "tests/support/shared_data.h"
 
 namespace foretouch::test {
 namespace {
+
+using Real = oracle::Precise;
 
 std::vector<std::string> cellsOf(const std::string& line) {
   std::vector<std::string> cells;

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "tests/middleware/exact/leaf_samples.h"
-#include "tests/support/precise.h"
 
 namespace foretouch::test {
 namespace {
 
+using oracle::Precise3;
+using oracle::preciseDistance;
+using Real = oracle::Precise;
 using MovingTriangle = std::array<LinearPoint, 3>;
 
 const MovingTriangle kFloor = {still(0, 0, 0), still(4, 0, 0), still(0, 4, 0)};

@@ -7,8 +7,8 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
+#include "judge/plain_motion.h"
 #include "middleware/ladder/rungs.h"
-#include "tests/support/precise.h"
 #include "tests/support/random_geometry.h"
 #include "tests/support/random_motion.h"
 
@@ -18,8 +18,8 @@ struct RandomStep {
   Avatar avatar;
   Pose from, to;
   [[nodiscard]] ChainMotion motion() const { return ChainMotion(avatar.skeleton(), from, to); }
-  [[nodiscard]] std::vector<PreciseJoint> precise() const {
-    return preciseJoints(avatar.skeleton(), from, to);
+  [[nodiscard]] std::vector<oracle::Joint> precise() const {
+    return plainJoints(avatar.skeleton(), from, to);
   }
 };
 

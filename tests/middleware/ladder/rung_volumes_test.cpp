@@ -12,12 +12,12 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
-using test::PreciseFrame;
-using test::PreciseQuaternion;
+using oracle::Precise3;
+using oracle::PreciseFrame;
+using oracle::PreciseQuaternion;
 using test::Random;
 using test::RandomStep;
-using test::Real;
+using Real = oracle::Precise;
 
 /// What the yardstick itself rounds: a volume may be the very one below it.
 const Real kDigits(1e-40);
@@ -33,7 +33,7 @@ Precise3 inFrame(const PreciseFrame& frame, const Precise3& p_W) {
                                -frame.rotation.z};
   const Real square = frame.rotation.w * frame.rotation.w + frame.rotation.x * frame.rotation.x +
                       frame.rotation.y * frame.rotation.y + frame.rotation.z * frame.rotation.z;
-  return (1 / square) * test::rotate(back, p_W - frame.origin);
+  return (1 / square) * oracle::rotate(back, p_W - frame.origin);
 }
 
 Real axisDistance(const Lss& lss, const Precise3& p) {
@@ -87,7 +87,7 @@ void expectContained(const RandomStep& step, Random& random, const Vector3d& cen
   ASSERT_EQ(trees.size(), spheroids.size());
   std::size_t covered = 0;
   for (const double t : test::instants(random, 8)) {
-    const auto frames = test::preciseFrames(step.precise(), Real(t));
+    const auto frames = oracle::preciseFrames(step.precise(), Real(t));
     const auto frame = [&](LinkId link) { return frames[static_cast<std::size_t>(link)]; };
     for (const RungVolume& limb : limbs) {
       for (const LinkId link : limb.links) {
@@ -155,7 +155,7 @@ TEST(RungVolumes, OfAThinTurningLinkContainIt) {
     step.to.rotations[0] = random.turn(random.uniform(0.5, 3.1));
     const auto volume = rungVolumes(step.avatar, step.motion(), scene, Fidelity::Ellipsoid).front();
     for (const double t : test::instants(random, 30)) {
-      const auto frame = test::preciseFrames(step.precise(), Real(t)).front();
+      const auto frame = oracle::preciseFrames(step.precise(), Real(t)).front();
       for (const Vector3d& point : {lss.a, lss.b}) {
         EXPECT_LE(sticksOut(volume.spheroid, frame.at(point), 0.0, t, random), kDigits);
       }

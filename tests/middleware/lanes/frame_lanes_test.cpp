@@ -11,19 +11,19 @@
 
 #include "articulated/chain_nodes.h"
 #include "articulated/motion.h"
+#include "judge/plain_motion.h"
 #include "lss/simd.h"
 #include "middleware/query/lane_backtracking.h"
 #include "middleware/query/part_lanes.h"
-#include "tests/support/precise.h"
 #include "tests/support/random_motion.h"
 
 namespace foretouch::internal {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
+using oracle::Precise3;
 using test::Random;
-using test::Real;
+using Real = oracle::Precise;
 
 constexpr double kUnit = 0x1p-24;
 
@@ -63,7 +63,7 @@ struct MovingLink {
   }
   /// The true place of a point of the link.
   [[nodiscard]] Precise3 placeOf(const Vector3d& p_L, const Real& t) const {
-    return test::preciseFrames(chain.precise, t)[static_cast<std::size_t>(link)].at(p_L);
+    return oracle::preciseFrames(chain.precise, t)[static_cast<std::size_t>(link)].at(p_L);
   }
   /// What the lanes' places are relative to.
   [[nodiscard]] Precise3 origin() const {
@@ -143,9 +143,9 @@ Derivatives derivativesOf(const LaneFrame& frame, const LanePart& part, int i, f
   const auto of = [&](int order) {
     Precise3 sum;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      sum.c[axis] = along(frame.p[axis], order);
+      sum[axis] = along(frame.p[axis], order);
       for (std::size_t k = 0; k < 3; ++k) {
-        sum.c[axis] += along(frame.R[3 * axis + k], order) * Real(part.point[i][k]);
+        sum[axis] += along(frame.R[3 * axis + k], order) * Real(part.point[i][k]);
       }
     }
     return sum;

@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/distance.h"
 #include "lss/simd.h"
 #include "middleware/scene/culler.h"
-#include "tests/support/oracle_distance.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::internal {

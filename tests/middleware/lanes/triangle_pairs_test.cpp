@@ -9,20 +9,20 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "lss/simd.h"
 #include "lss/single.h"
 #include "lss/triangle_separation.h"
 #include "middleware/query/link_pair.h"
-#include "tests/support/precise.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::internal {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
+using oracle::Precise3;
 using test::Random;
-using test::Real;
+using Real = oracle::Precise;
 using Vertices = std::array<Vector3d, 3>;
 
 /// One pair as the lanes see it: everything in it is a float.
@@ -100,7 +100,7 @@ std::array<Precise3, 3> precise(const Vertices& v) {
 }
 
 Real trueDistance(const LanePair& pair) {
-  return test::preciseDistance(precise(pair.link), precise(pair.scene));
+  return oracle::preciseDistance(precise(pair.link), precise(pair.scene));
 }
 
 /// Two triangles within about `size` of `center`, a third of them degenerate, or nearly, or close.
@@ -226,7 +226,7 @@ struct TrueMotion {
     for (std::size_t i = 0; i < 3; ++i) {
       moved[i] = link[i] + s * velocity[i] + Real(s * s / 2) * acceleration[i];
     }
-    return test::preciseDistance(moved, scene);
+    return oracle::preciseDistance(moved, scene);
   }
 };
 

@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/precise.h"
+#include "judge/plain_motion.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::internal {
 namespace {
 
 using test::Random;
-using test::Real;
+using Real = oracle::Precise;
 
 // Owns kStepShrink: the step, in fifty digits, keeps the clearance, and wastes nothing.
 TEST(SafeStep, NeverOverstepsAndWastesLittle) {

@@ -9,9 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "lss/fit.h"
 #include "middleware/query/query.h"
-#include "tests/support/precise.h"
+#include "tests/support/judged.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {
@@ -168,25 +169,21 @@ void PrintTo(const Family& family, std::ostream* out) {
 class ExactContacts : public testing::TestWithParam<std::tuple<Family, LeafMethod>> {};
 
 /// In fifty digits, of the avatar's and the scene's doubles as given.
-test::Real preciseSeparation(const MeshCase& c, const Avatar& avatar, const Pose& from,
-                             const Pose& to, const std::vector<Triangle>& scene, double t) {
-  std::vector<test::PreciseJoint> joints;
-  for (std::size_t j = 0; j < 2; ++j) {
-    joints.push_back({avatar.skeleton().parent(static_cast<JointId>(j)), from.rotations[j],
-                      to.rotations[j], from.translations[j], to.translations[j]});
-  }
-  const auto frame = test::preciseFrames(joints, test::Real(t))[1];
-  test::Real least(1e9);
+oracle::Precise preciseSeparation(const MeshCase& c, const Avatar& avatar, const Pose& from,
+                                  const Pose& to, const std::vector<Triangle>& scene, double t) {
+  const auto joints = test::plainJoints(avatar.skeleton(), from, to);
+  const auto frame = oracle::preciseFrames(joints, t)[1];
+  oracle::Precise least(1e9);
   for (const Triangle& part : c.mesh) {
     for (const Triangle& other : scene) {
-      std::array<test::Precise3, 3> p, q;
+      std::array<oracle::Precise3, 3> p, q;
       for (std::size_t i = 0; i < 3; ++i) {
         p[i] = frame.at(part.vertices[i]);
-        q[i] = test::Precise3(other.vertices[i]);
+        q[i] = oracle::Precise3(other.vertices[i]);
       }
       for (std::size_t i = 0; i < 3; ++i) {
-        least = std::min(least, test::preciseDistance(p[i], p[(i + 1) % 3], q));
-        least = std::min(least, test::preciseDistance(q[i], q[(i + 1) % 3], p));
+        least = std::min(least, oracle::preciseDistance(p[i], p[(i + 1) % 3], q));
+        least = std::min(least, oracle::preciseDistance(q[i], q[(i + 1) % 3], p));
       }
     }
   }
@@ -227,9 +224,9 @@ TEST_P(ExactContacts, OfSwingingMeshesAreSoundAndTight) {
     if (c.impact) {
       ASSERT_LE(got.toi, *c.impact) << "late";
     }
-    const test::Real truth = preciseSeparation(c, avatar, from, to, triangles, got.toi);
-    ASSERT_GT(truth, test::Real(0)) << "late";
-    ASSERT_LE(truth, test::Real(options.tolerance)) << "early";
+    const oracle::Precise truth = preciseSeparation(c, avatar, from, to, triangles, got.toi);
+    ASSERT_GT(truth, oracle::Precise(0)) << "late";
+    ASSERT_LE(truth, oracle::Precise(options.tolerance)) << "early";
     EXPECT_NEAR(got.separation, static_cast<double>(truth), 1e-10);
     EXPECT_NEAR((got.p_WLink - got.p_WScene).dot(got.nhat_SL_W), got.separation, 1e-9);
     EXPECT_GE(got.linkTriangle, 0);

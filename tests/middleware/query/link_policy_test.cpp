@@ -5,13 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/judge.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_pool.h"
 #include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
-#include "tests/support/oracle_judge.h"
+#include "tests/support/judged_answer.h"
 
 namespace foretouch {
 namespace {
@@ -156,57 +157,12 @@ TEST_P(LinkPolicies, GiveEachLinkTheAnswerItHasAlone) {
   EXPECT_GT(touched[1], 20);
 }
 
-oracle::Vec3d plain(const Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-std::vector<oracle::Triangle> plain(const std::vector<Triangle>& triangles) {
-  std::vector<oracle::Triangle> result;
-  for (const Triangle& t : triangles) {
-    result.push_back({plain(t.vertices[0]), plain(t.vertices[1]), plain(t.vertices[2])});
-  }
-  return result;
-}
-
-oracle::Motion truthOf(const RandomBody& body) {
-  const auto numbers = [](const Quaternion& q) {
-    return std::array<double, 4>{q.w(), q.x(), q.y(), q.z()};
-  };
-  std::vector<oracle::Joint> joints;
-  for (JointId j = 0; j < body.avatar.numLinks(); ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    joints.push_back({body.avatar.skeleton().parent(j), numbers(body.from.rotations[i]),
-                      numbers(body.to.rotations[i]), plain(body.from.translations[i]),
-                      plain(body.to.translations[i])});
-  }
-  return oracle::Motion(joints);
-}
-
 oracle::Judge judgeOf(const World& world, const oracle::Scene& scene, const oracle::Motion& truth,
                       LinkId link, Fidelity fidelity) {
   if (fidelity == Fidelity::Exact) {
-    return {scene, truth, link, plain(world.mesh[static_cast<std::size_t>(link)])};
+    return {scene, truth, link, test::plain(world.mesh[static_cast<std::size_t>(link)])};
   }
-  std::vector<oracle::Capsule> capsules;
-  for (const Lss& lss : world.body.avatar.lss(link)) {
-    capsules.push_back({{plain(lss.a), plain(lss.b)}, lss.radius});
-  }
-  return {scene, truth, link, capsules};
-}
-
-oracle::Answer oracleAnswer(const LinkContact& c) {
-  oracle::Answer answer;
-  answer.verdict = static_cast<oracle::Verdict>(c.verdict);
-  answer.toi = c.toi;
-  answer.freeUntil = c.freeUntil;
-  answer.separation = c.separation;
-  answer.penetration = c.penetration;
-  answer.triangle = c.triangle;
-  answer.capsule = c.linkTriangle >= 0 ? c.linkTriangle : c.lss;
-  answer.onScene = plain(c.p_WScene);
-  answer.onLink = plain(c.p_WLink);
-  answer.normal = plain(c.nhat_SL_W);
-  return answer;
+  return {scene, truth, link, test::plainCapsules(world.body.avatar, link)};
 }
 
 TEST_P(LinkPolicies, KeepThePromiseOfEachLinkByTheOracle) {
@@ -216,8 +172,9 @@ TEST_P(LinkPolicies, KeepThePromiseOfEachLinkByTheOracle) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(900 + i));
     const World world = someWorld(300 + i, 600, 6);
-    const oracle::Scene scene(plain(world.raw.triangles));
-    const oracle::Motion truth = truthOf(world.body);
+    const oracle::Scene scene(test::plain(world.raw.triangles));
+    const oracle::Motion truth(
+        test::plainJoints(world.body.avatar.skeleton(), world.body.from, world.body.to));
     QueryOptions mixed = options();
     mixed.surface = world.surface;
     mixed.linkPolicies =
@@ -227,7 +184,7 @@ TEST_P(LinkPolicies, KeepThePromiseOfEachLinkByTheOracle) {
       const LinkPolicy policy = mixed.linkPolicies[static_cast<std::size_t>(contact.link)];
       const oracle::Judgement judgement =
           judgeOf(world, scene, truth, contact.link, policy.fidelity)
-              .judge(oracleAnswer(contact), policy.tolerance);
+              .judge(test::plain(contact), policy.tolerance);
       EXPECT_EQ(judgement.finding, oracle::Finding::Ok)
           << "link " << contact.link << " at " << policy.tolerance << ", "
           << toString(policy.fidelity) << ": " << toString(judgement.finding) << " "

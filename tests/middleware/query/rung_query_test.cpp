@@ -7,12 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/judge.h"
 #include "lss/simd.h"
 #include "middleware/ladder/rungs.h"
 #include "middleware/query/query.h"
 #include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/random_scene.h"
-#include "tests/support/oracle_judge.h"
+#include "tests/support/judged_answer.h"
 
 namespace foretouch {
 namespace {
@@ -24,47 +25,6 @@ using test::RandomStep;
 constexpr std::array<Fidelity, 4> kLadder{Fidelity::Ellipsoid, Fidelity::Avatar, Fidelity::Limb,
                                           Fidelity::Link};
 constexpr std::array<Fidelity, 3> kRungs{Fidelity::Ellipsoid, Fidelity::Avatar, Fidelity::Limb};
-
-oracle::Vec3d plain(const Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-oracle::Motion truthOf(const RandomStep& step) {
-  std::vector<oracle::Joint> joints;
-  for (JointId j = 0; j < step.avatar.numLinks(); ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    const auto numbers = [](const Quaternion& q) {
-      return std::array<double, 4>{q.w(), q.x(), q.y(), q.z()};
-    };
-    joints.push_back({step.avatar.skeleton().parent(j), numbers(step.from.rotations[i]),
-                      numbers(step.to.rotations[i]), plain(step.from.translations[i]),
-                      plain(step.to.translations[i])});
-  }
-  return oracle::Motion(joints);
-}
-
-oracle::Scene oracleScene(const RawScene& raw) {
-  std::vector<oracle::Triangle> triangles;
-  for (const Triangle& t : raw.triangles) {
-    triangles.push_back({plain(t.vertices[0]), plain(t.vertices[1]), plain(t.vertices[2])});
-  }
-  return oracle::Scene(std::move(triangles));
-}
-
-oracle::Answer oracleAnswer(const LinkContact& c) {
-  oracle::Answer answer;
-  answer.verdict = static_cast<oracle::Verdict>(c.verdict);
-  answer.toi = c.toi;
-  answer.freeUntil = c.freeUntil;
-  answer.separation = c.separation;
-  answer.penetration = c.penetration;
-  answer.triangle = c.triangle;
-  answer.capsule = c.lss;
-  answer.onScene = plain(c.p_WScene);
-  answer.onLink = plain(c.p_WLink);
-  answer.normal = plain(c.nhat_SL_W);
-  return answer;
-}
 
 /// A body near few triangles, so that its volumes do not always touch something at once.
 struct Case {
@@ -104,18 +64,17 @@ TEST_P(RungQueries, AreSoundAndTightByTheOracle) {
   for (int i = 0; i < 1500; ++i) {
     SCOPED_TRACE(i);
     const Case c = someCase(i, 16);
-    const oracle::Scene scene = oracleScene(c.raw);
-    const oracle::Motion truth = truthOf(c.step);
+    const oracle::Scene scene(test::plain(c.raw.triangles));
+    const oracle::Motion truth(test::plainJoints(c.step.avatar.skeleton(), c.step.from, c.step.to));
     for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar}) {
       QueryOptions options = at(rung, std::array<double, 3>{1e-2, 1e-3, 1e-6}[i % 3]);
       if (i % 4 == 0) options.backtracking = Backtracking::Scalar;
       const StepContacts got = answer(c, options);
       for (const RungVolume& volume : rungVolumes(c.step.avatar, c.step.motion(), c.scene, rung)) {
-        const std::vector<oracle::Capsule> capsule{
-            {{plain(volume.lss.a), plain(volume.lss.b)}, volume.lss.radius}};
+        const std::vector<oracle::Capsule> capsule{test::plain(volume.lss)};
         const LinkContact& first = got.links[static_cast<std::size_t>(volume.links.front())];
         const oracle::Judgement judgement = oracle::Judge(scene, truth, volume.carrier, capsule)
-                                                .judge(oracleAnswer(first), options.tolerance);
+                                                .judge(test::plain(first), options.tolerance);
         EXPECT_EQ(judgement.finding, oracle::Finding::Ok)
             << toString(rung) << " of " << volume.carrier << ": " << toString(judgement.finding)
             << " " << judgement.what;

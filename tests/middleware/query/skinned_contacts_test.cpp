@@ -4,18 +4,19 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "middleware/query/query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
-#include "tests/support/precise.h"
+#include "tests/support/judged.h"
 
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using test::Precise3;
+using oracle::Precise3;
 using test::Random;
-using test::Real;
+using Real = oracle::Precise;
 
 bool touches(const LinkContact& contact) {
   return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
@@ -124,7 +125,7 @@ RandomSkin randomSkin(const Avatar& avatar, const ChainMotion& motion, Random& r
 
 /// The blend in fifty digits.
 std::array<Precise3, 3> preciseTriangle(const RandomSkin& made, LinkId link, std::int32_t index,
-                                        const std::vector<test::PreciseFrame>& frames) {
+                                        const std::vector<oracle::PreciseFrame>& frames) {
   std::size_t first = 0;
   for (LinkId l = 0; l < link; ++l) first += made.counts[static_cast<std::size_t>(l)];
   std::array<Precise3, 3> corners;
@@ -153,12 +154,7 @@ TEST(SkinnedContacts, AreTightInFiftyDigitsAndMissNoSampledTouch) {
     options.fidelity = Fidelity::Skinned;
     options.skin = SkinnedSurface::build(body.avatar, made.skin, made.counts).value();
     const StepContacts step = firstContacts(body.avatar, motion, scene, options).value();
-    std::vector<test::PreciseJoint> joints;
-    for (JointId j = 0; j < body.avatar.numLinks(); ++j) {
-      const auto i = static_cast<std::size_t>(j);
-      joints.push_back({body.avatar.skeleton().parent(j), body.from.rotations[i],
-                        body.to.rotations[i], body.from.translations[i], body.to.translations[i]});
-    }
+    const auto joints = test::plainJoints(body.avatar.skeleton(), body.from, body.to);
     QueryScratch scratch;
     for (const LinkContact& got : step.links) {
       ASSERT_NE(got.verdict, Verdict::Undecided);
@@ -170,7 +166,7 @@ TEST(SkinnedContacts, AreTightInFiftyDigitsAndMissNoSampledTouch) {
       }
       if (got.verdict != Verdict::Contact) continue;
       ++contacts;
-      const auto frames = test::preciseFrames(joints, Real(got.toi));
+      const auto frames = oracle::preciseFrames(joints, Real(got.toi));
       const auto part = preciseTriangle(made, got.link, got.linkTriangle, frames);
       std::array<Precise3, 3> other;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -178,8 +174,8 @@ TEST(SkinnedContacts, AreTightInFiftyDigitsAndMissNoSampledTouch) {
       }
       Real truth(1e9);
       for (std::size_t i = 0; i < 3; ++i) {
-        truth = std::min(truth, test::preciseDistance(part[i], part[(i + 1) % 3], other));
-        truth = std::min(truth, test::preciseDistance(other[i], other[(i + 1) % 3], part));
+        truth = std::min(truth, oracle::preciseDistance(part[i], part[(i + 1) % 3], other));
+        truth = std::min(truth, oracle::preciseDistance(other[i], other[(i + 1) % 3], part));
       }
       EXPECT_LE(truth, Real(options.tolerance)) << "early";
       EXPECT_NEAR(static_cast<double>(truth), got.separation, 1e-11);

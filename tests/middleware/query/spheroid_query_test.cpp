@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/distance.h"
 #include "middleware/scene/scene_parts.h"
 #include "tests/middleware/random_scene.h"
-#include "tests/support/oracle_distance.h"
 
 namespace foretouch {
 namespace {

@@ -13,10 +13,10 @@
 
 #include <gtest/gtest.h>
 
+#include "judge/plain_motion.h"
 #include "lss/simd.h"
 #include "middleware/scene/scene_parts.h"
 #include "tests/middleware/random_scene.h"
-#include "tests/support/precise.h"
 
 namespace foretouch {
 namespace {
@@ -25,9 +25,9 @@ using Eigen::Vector3d;
 using internal::BvhLeaf;
 using internal::FlatBvh;
 using internal::LeafHit;
-using test::Precise3;
+using oracle::Precise3;
 using test::Random;
-using test::Real;
+using Real = oracle::Precise;
 
 /// Boxes of the world, and what the walk takes of them.
 struct Boxes {

@@ -7,18 +7,16 @@
 #include <set>
 #include <vector>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <gtest/gtest.h>
 
+#include "judge/precise.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch {
 namespace {
 
-namespace mp = boost::multiprecision;
-// Enough bits for the difference of any two doubles (2100), and for a product of two such: exact.
-using Exact = mp::number<mp::cpp_bin_float<4400, mp::digit_base_2>, mp::et_off>;
 using Eigen::Vector3d;
+using oracle::Exact;
 
 RawScene sceneOf(std::vector<Triangle> triangles) {
   RawScene scene;

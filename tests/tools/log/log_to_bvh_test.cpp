@@ -25,8 +25,8 @@ using test::randomMotion;
 
 /// Oracle: the angle of the turn between two rotations, in fifty digits.
 double turnBetween(const Quaternion& a, const Quaternion& b) {
-  using test::PreciseQuaternion;
-  using test::Real;
+  using oracle::PreciseQuaternion;
+  using Real = oracle::Precise;
   const auto precise = [](const Quaternion& q, int sign) {
     return PreciseQuaternion{Real(q.w()), Real(sign * q.x()), Real(sign * q.y()),
                              Real(sign * q.z())};

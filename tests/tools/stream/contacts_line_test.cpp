@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/precise.h"
+#include "judge/plain_motion.h"
 #include "tests/support/random_geometry.h"
 #include "tests/tools/small_inputs.h"
 #include "tools/replay/results_writer.h"
@@ -103,7 +103,7 @@ TEST(ContactsLine, HasTheContactsOfAResultsFile) {
 
 // Oracle: fifty digits. Instants that a product in doubles would round up are among them.
 TEST(UtimeOf, IsNeverAfterTheContactAndLessThanAMicrosecondBefore) {
-  using test::Real;
+  using Real = oracle::Precise;
   test::Random random(5);
   int roundedUp = 0;
   for (int i = 0; i < 20000; ++i) {

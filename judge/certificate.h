@@ -1,0 +1,118 @@
+// judge/certificate.h: what one look at a moving segment or triangle and a triangle
+// at rest proves about the span of time around it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "judge/distance.h"
+#include "judge/motion.h"
+
+namespace foretouch::oracle {
+
+/// The hull of `count` points, and what they may do within the half span.
+template <typename S>
+struct HullView {
+  std::size_t count = 2;  ///< 2 or 3.
+  Corners<S> points, velocity;
+  std::array<S, 3> bend{};  ///< acceleration * halfSpan^2 / 2
+  S stray = 0;              ///< How far any of the points can get from here.
+  S halfSpan = 0;
+};
+
+template <typename S>
+struct Certificate {
+  S distance = 0;  ///< At the middle.
+  S least = 0;     ///< Proved lower bound of the distance over the span.
+};
+
+template <typename S>
+Closest<S> closestPoints(const HullView<S>& hull, const Corners<S>& corners) {
+  return hull.count == 3 ? closestPoints(hull.points, corners)
+                         : closestPoints(hull.points[0], hull.points[1], corners);
+}
+
+/// How far in front of the plane through the triangle's foremost corner along the unit vector n the
+/// hull stays: a point's height over it changes by at most |n.v| h + A h^2 / 2. Negative: it may
+/// cross. A lower bound of the distance for any n.
+template <typename S>
+S clearanceAlong(const Vec3<S>& n, const HullView<S>& hull, const Corners<S>& corners) {
+  using std::abs;
+  S front = dot(n, corners[0]);
+  for (const Vec3<S>& corner : corners) front = std::max(front, dot(n, corner));
+  S low = S(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < hull.count; ++i) {
+    const S change = abs(dot(n, hull.velocity[i])) * hull.halfSpan + hull.bend[i];
+    low = std::min(low, S(dot(n, hull.points[i]) - change));
+  }
+  return low - front;
+}
+
+/// The best of the normals of faces and of pairs of edges, both signs.
+template <typename S>
+S clearanceAlongFeatures(const HullView<S>& hull, const Corners<S>& corners) {
+  S best = S(-std::numeric_limits<double>::infinity());
+  const auto offer = [&](const Vec3<S>& normal) {
+    const S length = norm(normal);
+    if (!(length > 0)) return;
+    for (const int sign : {1, -1}) {
+      best = std::max(best, clearanceAlong(S(S(sign) / length) * normal, hull, corners));
+    }
+  };
+  const auto& p = hull.points;
+  offer(cross(corners[1] - corners[0], corners[2] - corners[0]));
+  if (hull.count == 3) offer(cross(p[1] - p[0], p[2] - p[0]));
+  const std::size_t edges = hull.count == 3 ? 3 : 1;
+  for (std::size_t i = 0; i < edges; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      offer(cross(p[(i + 1) % hull.count] - p[i], corners[(j + 1) % 3] - corners[j]));
+    }
+  }
+  return best;
+}
+
+/// Below this share of the size, the difference of the closest points is too noisy a direction.
+inline constexpr double kNoisyDirection = 1e-6;
+
+/// The plane across the direction of the closest points is nearly the best there is; where they are
+/// too close for that, the planes of the features are.
+template <typename S>
+Certificate<S> certify(const HullView<S>& hull, const Corners<S>& corners) {
+  const Closest<S> closest = closestPoints(hull, corners);
+  Certificate<S> c{closest.distance, closest.distance - hull.stray};
+  if (!(closest.distance > 0)) return c;
+  const Vec3<S> n = S(1 / closest.distance) * (closest.onSegment - closest.onTriangle);
+  c.least = std::max(c.least, clearanceAlong(n, hull, corners));
+  S size = 0;
+  for (const Vec3<S>& corner : corners) size = std::max(size, extent(corner));
+  if (closest.distance < S(kNoisyDirection) * size) {
+    c.least = std::max(c.least, clearanceAlongFeatures(hull, corners));
+  }
+  return c;
+}
+
+/// One look at a hull: relative to a nearby point, in double for the quick answer and in long
+/// double for the decision.
+struct HullLook {
+  Vec3d reference;
+  HullView<Real> exact;
+  HullView<double> quick;
+};
+HullLook hullLook(const MovingPoint* points, std::size_t count, Real halfSpan);
+
+/// How much a distance in double may err, as a share of the coordinates' differences: some forty
+/// operations of 2^-53 each, taken fifty times over.
+inline constexpr double kDoubleMargin = 1e-12;
+
+enum class HullCheck {
+  Free,      ///< Separation > -guard throughout the look's span.
+  Touching,  ///< Separation < -guard at its middle, or the hull itself pierced.
+  Open,      ///< Neither is shown.
+};
+/// Hull with a radius against a triangle; `separation` is set where touching.
+HullCheck checkHull(const HullLook& look, Real radius, Real guard, const Triangle& triangle,
+                    Real& separation);
+
+}  // namespace foretouch::oracle

@@ -1,0 +1,43 @@
+// judge/first_touch.cpp: steps of clearance over speed.
+#include "judge/first_touch.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "judge/distance.h"
+
+namespace foretouch::oracle {
+namespace {
+
+/// Metres. Computed distances within kilometres of the origin err by less (2e-13 a coordinate).
+constexpr double kRoundingAllowance = 1e-11;
+
+}  // namespace
+
+double distanceTo(const Scene& scene, const Vec3d& a, const Vec3d& b, double bound) {
+  Box box;
+  box.add(a);
+  box.add(b);
+  double least = bound;
+  scene.visitNear(box, least, [&](int id) {
+    least = std::min(least, closestPoints(a, b, scene.triangle(id)).distance);
+  });
+  return least;
+}
+
+FirstTouch firstTouch(const Scene& scene, const MovingAxis& axis) {
+  double t = 0.0, bound = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kTouchSteps; ++step) {
+    const auto [a, b] = axis.at(t);
+    const double distance = distanceTo(scene, a, b, bound);
+    const double separation = distance - axis.radius - kRoundingAllowance;
+    if (separation <= kTouchSeparation) return {TouchOutcome::Touch, t};
+    if (separation >= axis.speed * (1.0 - t)) return {TouchOutcome::Free, 1.0};
+    t += separation / axis.speed;
+    // What was nearest cannot be farther now than this; twice the step leaves room for rounding.
+    bound = distance + 2.0 * separation;
+  }
+  return {TouchOutcome::Uncertain, t};
+}
+
+}  // namespace foretouch::oracle

@@ -1,0 +1,86 @@
+// judge/judge.h: says whether an answer about one link and one step keeps the
+// promise.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/capsule_prover.h"
+
+namespace foretouch::oracle {
+
+enum class Verdict { Clear, Contact, StartsInContact, Undecided };
+
+/// What was answered, in the oracle's own words.
+struct Answer {
+  Verdict verdict = Verdict::Clear;
+  double toi = 1.0, freeUntil = 1.0;
+  double separation = 0.0, penetration = 0.0;
+  int triangle = -1;  ///< Of the scene handed to the judge.
+  int capsule = -1;   ///< Of the list handed to the judge; of a mesh, its triangle.
+  Vec3d onScene, onLink, normal;
+};
+
+enum class Finding {
+  Ok,
+  Missed,        ///< Clear, but there is contact.
+  Late,          ///< Contact before toi, or before freeUntil.
+  Early,         ///< At toi the scene is farther than the tolerance.
+  WrongStart,    ///< StartsInContact, but at t = 0 nothing is touched.
+  Inconsistent,  ///< Times, separation, points or normal contradict the verdict or each other.
+  Unproved,      ///< The oracle gave up; not the answer's fault, but nothing is shown either.
+};
+const char* toString(Finding finding);
+const char* toString(Verdict verdict);
+
+struct Judgement {
+  Finding finding = Finding::Ok;
+  Real time = 0, separation = 0;  ///< Where the promise breaks, and the true separation there.
+  std::string what;               ///< For Inconsistent: which part.
+  std::uint64_t grazing = 0, looks = 0;
+};
+
+/// How much an answer's start and its witness points may be off, as a share of the scale: the
+/// product decides these with doubles and a stated rounding of about 1e-13 m at body scale. Neither
+/// toi, nor the separation there, nor any claim of freedom gets such an allowance (kSoundGuard).
+inline constexpr Real kWitnessGuard = 1e-12L;
+
+struct Bracket {
+  Real low = 0, high = 0;
+};
+
+/// Both keep references: the scene and the motion outlive it.
+class Judge {
+ public:
+  Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Capsule>& capsules);
+  /// The link's surface is `mesh`, triangles in the link's frame.
+  Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Triangle>& mesh);
+
+  [[nodiscard]] Judgement judge(const Answer& answer, double tolerance);
+
+  /// The true first instant with separation <= 0, to within 1e-9 in t; nothing if there is none.
+  /// A touch that goes no deeper than the sound guard does not count.
+  [[nodiscard]] std::optional<Bracket> firstContact();
+
+  /// The least over the link's surface and the scene; `within` if nothing is nearer.
+  [[nodiscard]] Real separationAt(Real t, double within = Box::kEmpty) const;
+
+ private:
+  [[nodiscard]] Judgement judgeClear();
+  [[nodiscard]] Judgement judgeContact(const Answer& answer, double tolerance);
+  [[nodiscard]] Judgement judgeStart(const Answer& answer);
+  [[nodiscard]] Judgement judgeFree(Real until, Finding ifNot);
+  [[nodiscard]] std::string contradiction(const Answer& answer) const;
+  [[nodiscard]] std::string witnessContradiction(const Answer& answer) const;
+
+  void add(std::unique_ptr<MovingSurface> surface);
+
+  const Scene& scene_;
+  std::vector<std::unique_ptr<MovingSurface>> surfaces_;
+  Real guard_ = 0;
+};
+
+}  // namespace foretouch::oracle

@@ -1,0 +1,64 @@
+// judge/mesh_prover.h: proves a span of the motion of a link whose surface is a set of
+// triangles free of the scene, or finds an instant of contact in it.
+#pragma once
+
+#include <vector>
+
+#include "judge/certificate.h"
+#include "judge/motion.h"
+#include "judge/scene.h"
+#include "judge/surface.h"
+
+namespace foretouch::oracle {
+
+/// Whole parts of the link are first tried as balls: a part that no triangle of the scene comes
+/// near needs one look. Where one does, the part is halved if it is larger than its way in the
+/// span, else the span is; single triangles are decided by certificates as capsules are
+/// (capsule_prover.h). Keeps references: scene and motion outlive it.
+class MeshProver final : public MovingSurface {
+ public:
+  /// `mesh` in the link's frame; may be empty.
+  MeshProver(const Scene& scene, const Motion& motion, int link, const std::vector<Triangle>& mesh);
+
+  [[nodiscard]] SpanOutcome prove(Real from, Real to) override;
+  [[nodiscard]] Real separationAt(Real t, double within) const override;
+  [[nodiscard]] Real separationFrom(int piece, int triangle, Real t) const override;
+  [[nodiscard]] Real distanceToCore(int piece, const Vec3r& point, Real t) const override;
+  [[nodiscard]] Real radius() const override { return 0; }
+  [[nodiscard]] int numPieces() const override { return static_cast<int>(mesh_.size()); }
+  [[nodiscard]] Real scale() const override { return scale_; }
+
+  /// Looks after which a proof is given up; SpanOutcome then is neither free nor touching.
+  static constexpr std::uint64_t kMostLooks = 4'000'000;
+
+ private:
+  /// A part of the link: the triangles order_[first, last), all within `radius` of `center`.
+  struct Part {
+    Vec3d center;
+    double radius = 0.0;
+    int first = 0, last = 0;
+    int left = -1, right = -1;  ///< Its halves; -1 for a single triangle.
+  };
+  using Candidates = std::vector<int>;
+
+  int addPart(int first, int last);
+  bool proveSpan(int part, Real from, Real to, const Candidates* inherited);
+  bool proveHalves(const Part& part, Real from, Real to, const Candidates* candidates);
+  /// False, with `candidates` unfinished, where there are too many to list.
+  bool gather(const MovingPoint& center, double around, bool all, const Candidates* inherited,
+              Candidates& candidates) const;
+  void examine(int piece, Real middle, Real half, Candidates& candidates);
+  void nearest(int index, Real t, Real& least) const;
+  [[nodiscard]] Corners<Real> pieceAt(int piece, Real t) const;
+
+  const Scene& scene_;
+  const Motion& motion_;
+  int link_;
+  std::vector<Triangle> mesh_;
+  std::vector<int> order_;
+  std::vector<Part> parts_;
+  Real scale_ = 1, guard_ = 0;
+  SpanOutcome outcome_;
+};
+
+}  // namespace foretouch::oracle

@@ -1,0 +1,43 @@
+// judge/wide.h: thirty-four digits, for what long double cannot tell: the compiler's 113 bits of
+// mantissa as a number type of its own, so that templates find its functions.
+#pragma once
+
+#include <quadmath.h>
+
+namespace foretouch::oracle {
+
+class Wide {
+ public:
+  Wide() = default;
+  Wide(double x) : value_(x) {}       // NOLINT: exact
+  Wide(long double x) : value_(x) {}  // NOLINT: exact
+  Wide(int x) : value_(x) {}          // NOLINT: exact
+  explicit operator double() const { return static_cast<double>(value_); }
+  explicit operator long double() const { return static_cast<long double>(value_); }
+
+  Wide operator-() const { return of(-value_); }
+  friend Wide operator+(const Wide& a, const Wide& b) { return of(a.value_ + b.value_); }
+  friend Wide operator-(const Wide& a, const Wide& b) { return of(a.value_ - b.value_); }
+  friend Wide operator*(const Wide& a, const Wide& b) { return of(a.value_ * b.value_); }
+  friend Wide operator/(const Wide& a, const Wide& b) { return of(a.value_ / b.value_); }
+  Wide& operator+=(const Wide& o) { return *this = *this + o; }
+  friend bool operator==(const Wide& a, const Wide& b) { return a.value_ == b.value_; }
+  friend bool operator!=(const Wide& a, const Wide& b) { return a.value_ != b.value_; }
+  friend bool operator<(const Wide& a, const Wide& b) { return a.value_ < b.value_; }
+  friend bool operator>(const Wide& a, const Wide& b) { return a.value_ > b.value_; }
+  friend bool operator<=(const Wide& a, const Wide& b) { return a.value_ <= b.value_; }
+  friend bool operator>=(const Wide& a, const Wide& b) { return a.value_ >= b.value_; }
+  friend Wide sqrt(const Wide& x) { return of(sqrtq(x.value_)); }
+  friend Wide abs(const Wide& x) { return of(fabsq(x.value_)); }
+
+ private:
+  __extension__ using Float = __float128;
+  static Wide of(Float value) {
+    Wide wide;
+    wide.value_ = value;
+    return wide;
+  }
+  Float value_ = 0;
+};
+
+}  // namespace foretouch::oracle
