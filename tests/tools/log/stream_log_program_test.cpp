@@ -284,6 +284,20 @@ TEST(LogConvert, WritesALineAnEvent) {
   EXPECT_EQ(poses, 60);
 }
 
+TEST(LogConvert, WritesTheClipThatADamagedLogStillHolds) {
+  const LoggedWorld world;
+  const std::string bytes = contentOf(world.log);
+  const std::string cut =
+      world.folder.write("cut.lcmlog", bytes.substr(0, bytes.size() - bytes.size() / 3));
+  const std::string bvh = world.folder / "cut.bvh";
+  const Ended ended = runForetouch({"log", "convert", cut, "--output", bvh});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_TRUE(holds(ended.out, "frames of avatar 1, in metres")) << ended.out;
+  EXPECT_TRUE(holds(ended.err, "cut.lcmlog: nothing is read after event ")) << ended.err;
+  EXPECT_TRUE(holds(ended.err, "events were read; lost: ")) << ended.err;
+  EXPECT_EQ(contentOf(bvh).rfind("HIERARCHY", 0), 0u);
+}
+
 TEST(LogConvert, RefusesByNameWhatItCannotDo) {
   const LoggedWorld world;
   const auto errorOf = [&](const std::vector<std::string>& more) {
