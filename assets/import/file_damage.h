@@ -8,8 +8,8 @@
 
 namespace foretouch::internal {
 
-/// What is wrong and where; nothing where no damage is found, or the format (.glb, .gltf) is not
-/// looked into. To be asked of refused files only: what a reader puts up with is no
+/// What is wrong and where; nothing where no damage is found, or the format (.glb, .gltf, and those
+/// of XML) is not looked into. To be asked of refused files only: what a reader puts up with is no
 /// reason to refuse a file.
 [[nodiscard]] std::optional<std::string> damageOf(const std::string& path);
 

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/import/model_import.h"
+#include "assets/import/xml_damage.h"
 #include "assets/mesh/link_mesh.h"
 #include "tests/assets/import_files.h"
 #include "tests/support/shared_data.h"
@@ -21,6 +22,7 @@ namespace foretouch::test {
 namespace {
 
 using internal::damageOf;
+using internal::damageOfXml;
 
 /// The triangle of import_files.h with indices, in a GLB's own chunk of 44 bytes.
 constexpr char kJson[] =
@@ -207,6 +209,48 @@ TEST_F(FileDamage, OfExtentsNamesWhatDoesNotFit) {
   EXPECT_EQ(damageIn("a.gltf", replaced(R"("byteLength":44)",
                                         R"("byteLength":44,"uri":"data:a/b;base64,AAAA")")),
             "buffers[0].byteLength: expected at most the 3 bytes of its data URI, found 44");
+}
+
+TEST(XmlDamage, NamesTheLine) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"<a>\n <b/>\n <c x='1' y=\"2\">text &amp; <![CDATA[<]]></c>\n <!-- < --></a>\n", ""},
+      {"\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<!DOCTYPE a [<!ENTITY b \"c\">]>\n<a/>", ""},
+      {"<a>\n<b>\n</a>", "line 3: expected </b>, which closes line 2, found </a>"},
+      {"<a>\n<b>\n", "line 3: expected </b>, which closes line 2, found the end"},
+      {"<a>\n<b", "line 2: expected an attribute, /> or > in <b>, found the end"},
+      {"<a>\n<b c></b></a>", "line 2: expected = after 'c' in <b>, found '>'"},
+      {"<a>\n<b c=1/></a>", "line 2: expected a value in quotes for 'c' in <b>, found '1'"},
+      {"<a>\n<b c=\"1/>\n</a>",
+       "line 2: expected a closing quote after the value of 'c' in <b>, found '<'"},
+      {"<a>\n<b c=\"1\"d=\"2\"/></a>", "line 2: expected a blank in <b>, found 'd'"},
+      {"<a>\n< b/></a>", "line 2: expected a name after <, found ' '"},
+      {"<a>\n<!-- b </a>", "line 2: expected --> after this comment, found none"},
+      {"<a>\n</a b>", "line 2: expected > after </a, found 'b'"},
+      {"<a/>\n<b/>", "line 2: expected nothing after the first element, found <b>"},
+      {"<a/>\n</b>", "line 2: expected no closing tag, as nothing is open, found </b>"},
+      {"\nwords", "line 2: expected an element, found text outside of all: 'words'"},
+      {"\n \n", "line 3: expected an element, found the end"},
+      {std::string("<a>\n\0</a>", 9), "line 2: expected text, found a zero byte"},
+      {std::string("\xFF\xFE<\0a\0/\0>\0", 10), ""},  // UTF-16 is not looked into
+  };
+  for (const auto& [text, expected] : cases) EXPECT_EQ(damageOfXml(text), expected) << text;
+}
+
+// Nothing of a text may be closed twice, or left out, without a line.
+TEST(XmlDamage, IsFoundInEveryCutOfAnElement) {
+  const std::string text = "<a>\n<b c='1'>\n<d/>text</b>\n</a>";
+  EXPECT_EQ(damageOfXml(text), "");
+  for (std::size_t size = 0; size < text.size(); ++size) {
+    EXPECT_EQ(damageOfXml(text.substr(0, size)).rfind("line ", 0), 0u) << size;
+  }
+}
+
+TEST_F(FileDamage, OfColladaNamesTheLine) {
+  const std::string dae =
+      "<?xml version=\"1.0\"?>\n<COLLADA version=\"1.4.1\">\n<asset>\n</COLLADA>\n";
+  EXPECT_EQ(reasonFor("a.dae", dae),
+            "the importer refused the file: line 4: expected </asset>, which closes line 3, found "
+            "</COLLADA>");
 }
 
 /// Cuts, flipped bits, other lengths, other numbers, lost text and zeroed bytes.
