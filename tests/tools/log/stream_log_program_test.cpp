@@ -148,6 +148,8 @@ TEST(ReplayOfALog, ComparesWithTheJournal) {
   EXPECT_EQ(differs.exitCode, 1);
   EXPECT_TRUE(holds(differs.out, "59 of 60 verdicts")) << differs.out;
   EXPECT_TRUE(holds(differs.out, "pose 17 is answered differently")) << differs.out;
+  EXPECT_TRUE(holds(differs.out, "the number of lost poses is 1 in the log, 0 here, in the step "))
+      << differs.out;
 
   const std::string less = world.journal(
       "less.lcmlog", [](const ContactsMessage& answer) { return answer.sequenceTo != 23; });
