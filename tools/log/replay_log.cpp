@@ -15,7 +15,7 @@
 #include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
 #include "tools/json_text.h"
-#include "tools/replay/results_writer.h"
+#include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
 namespace {
@@ -26,13 +26,12 @@ constexpr std::size_t kMaxOthers = 1024;
 Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
   std::vector<StreamSolver> solvers;
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {
-    ReplayRequest request = inputs.request.query;
-    request.avatarPath = inputs.request.avatars[i].path;
-    auto options = queryOptionsFor(request, inputs.avatars[i], inputs.scene);
+    const std::string& path = inputs.request.avatars[i].path;
+    auto options = queryOptionsFor(inputs.request.world, path, inputs.avatars[i], inputs.scene);
     if (!options.ok()) return options.error();
     auto solver = StreamSolver::make(inputs.request.avatars[i].id, inputs.avatars[i], inputs.scene,
                                      options.value(), inputs.request.policy);
-    if (!solver.ok()) return inFile(solver.error(), request.avatarPath);
+    if (!solver.ok()) return inFile(solver.error(), path);
     solvers.push_back(std::move(solver).value());
   }
   return solvers;
@@ -169,14 +168,14 @@ Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request) {
     if (!avatar.ok()) return inFile(avatar.error(), numbered.path);
     avatars.push_back(std::move(avatar).value());
   }
-  auto scene = loadScene(request.query);
+  auto scene = loadScene(request.world);
   if (!scene.ok()) return scene.error();
   return LogReplayInputs{request, std::move(channels).value(), std::move(scene).value(),
                          std::move(avatars)};
 }
 
 Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSink& sink) {
-  const std::string& path = inputs.request.query.motionPath;
+  const std::string& path = inputs.request.logPath;
   auto solvers = solversFor(inputs);
   if (!solvers.ok()) return solvers.error();
   const auto compares = holdsAnswers(path, inputs.channels.contacts);
@@ -201,22 +200,21 @@ Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSin
 }
 
 std::string logHeaderLine(const LogReplayInputs& inputs) {
-  const LogReplayRequest& request = inputs.request;
-  const ReplayRequest& query = request.query;
-  constexpr double kUsPerS = 1e6;
-  std::string text = R"({"format":"foretouch-results","version":1)";
-  text += fmt::format(R"(,"tool":"{}","scene":{},"motion":{},"suffix":{})", FORETOUCH_VERSION,
-                      jsonFileName(query.scenePath), jsonFileName(query.motionPath),
-                      jsonString(request.suffix));
-  text += fmt::format(R"(,"tolerance":{},"fidelity":"{}")", numberText(query.tolerance),
-                      toString(query.fidelity));
-  text += policyField(query) + surfaceFields(query);
-  text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", numberText(query.sceneScale),
-                      query.sceneUp == UpAxis::Z ? "z" : "y", jsonList(query.ignore));
-  text += fmt::format(R"(,"budget_us":{},"max_step":{},"confirmations":{},"unmatched_at_rest":{})",
-                      query.budgetUs,
-                      numberText(static_cast<double>(request.policy.maxStepUs) / kUsPerS),
-                      request.policy.confirmations, request.policy.unmatchedAtRest);
+  LogReplayRequest request = inputs.request;
+  Settings settings;
+  addSceneSettings(settings, request.world);
+  addSuffixSetting(settings, request.suffix);
+  addQuerySettings(settings, request.world);
+  addReplayQuerySettings(settings, request.world);
+  addStreamSettings(settings, request.policy);
+  std::string text =
+      fmt::format(R"({{"format":"foretouch-results","version":1,"tool":"{}")", FORETOUCH_VERSION);
+  text += headerField(settings, "scene");
+  text += fmt::format(R"(,"motion":{})", jsonFileName(request.logPath));
+  text += headerFields(settings, {"suffix", "tolerance", "fidelity", "policy", "leaves", "skin",
+                                  "skin_scale", "skin_up", "scene_scale", "up", "ignore"});
+  text += headerField(settings, "budget_us");  // also where there is none
+  text += headerFields(settings, {"max_step", "confirmations", "unmatched_at_rest"});
   text += R"(,"avatars":[)";
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {
     std::vector<std::string> links;

@@ -17,88 +17,31 @@ std::vector<LinkContact> notClear(const std::vector<LinkContact>& links) {
   return contacts;
 }
 
-namespace {
-
-/// Each rule as it was given.
-std::string policiesJson(const std::vector<PolicyRule>& rules) {
-  std::string text = "[";
-  for (const PolicyRule& rule : rules) {
-    std::string fields;
-    if (!rule.links.empty()) fields += ",\"links\":" + jsonList(rule.links);
-    if (!rule.objects.empty()) fields += ",\"objects\":" + jsonList(rule.objects);
-    if (rule.tolerance) fields += ",\"tolerance\":" + numberText(*rule.tolerance);
-    if (rule.fidelity) fields += std::string(",\"fidelity\":\"") + toString(*rule.fidelity) + '"';
-    if (rule.ignore) fields += *rule.ignore ? ",\"ignore\":true" : ",\"ignore\":false";
-    if (text.size() > 1) text += ',';
-    text += '{' + fields.substr(1) + '}';
-  }
-  return text + ']';
-}
-
-/// What only motions that are no BVH clips depend on.
-std::string motionFields(const ReplayRequest& request) {
-  std::string text;
-  if (!request.animation.empty()) {
-    text += fmt::format(R"(,"animation":{})", jsonString(request.animation));
-  }
-  if (!request.robotPath.empty()) {
-    text += fmt::format(R"(,"robot":{})", jsonFileName(request.robotPath));
-  }
-  return text;
-}
-
-}  // namespace
-
-std::string policyField(const ReplayRequest& request) {
-  return request.policies.empty() ? "" : ",\"policy\":" + policiesJson(request.policies);
-}
-
-std::string surfaceFields(const ReplayRequest& request) {
-  const bool isExact =
-      request.fidelity == Fidelity::Exact ||
-      std::any_of(request.policies.begin(), request.policies.end(),
-                  [](const PolicyRule& r) { return r.fidelity == Fidelity::Exact; });
-  if (isExact) {
-    return fmt::format(R"(,"leaves":"{}")", toString(request.leafMethod));
-  }
-  if (request.fidelity == Fidelity::Skinned) {
-    return fmt::format(R"(,"skin":{},"skin_scale":{},"skin_up":"{}")",
-                       jsonFileName(request.skinPath), numberText(request.skinScale),
-                       request.skinUp == UpAxis::Z ? "z" : "y");
-  }
-  return "";
-}
-
 std::string headerLine(const ReplayInputs& inputs) {
-  const ReplayRequest& request = inputs.request;
+  ReplayRequest request = inputs.request;
+  Settings settings;
+  addMotionSetting(settings, request, "", "");
+  addRateSetting(settings, request);
+  addClipSettings(settings, request);
+  addSceneSettings(settings, request);
+  addQuerySettings(settings, request);
+  addReplayQuerySettings(settings, request);
   std::vector<std::string> links;
   for (LinkId link = 0; link < inputs.avatar.numLinks(); ++link) {
     links.push_back(inputs.avatar.skeleton().name(link));
   }
-  const Eigen::Vector3d& origin = request.placement.origin;
-  std::string text = R"({"format":"foretouch-results","version":1)";
-  text += fmt::format(R"(,"tool":"{}","scene":{},"avatar":{},"motion":{})", FORETOUCH_VERSION,
-                      jsonFileName(request.scenePath), jsonFileName(request.avatarPath),
-                      jsonFileName(request.motionPath));
-  text += fmt::format(R"(,"rate":{},"k":{},"frame_time":{},"steps":{})",
-                      request.rateHz ? numberText(*request.rateHz) : "null", inputs.steps.stride,
+  std::string text =
+      fmt::format(R"({{"format":"foretouch-results","version":1,"tool":"{}")", FORETOUCH_VERSION);
+  text += headerField(settings, "scene");
+  text += fmt::format(R"(,"avatar":{})", jsonFileName(request.avatarPath));
+  text += headerFields(settings, {"motion", "rate"});
+  text += fmt::format(R"(,"k":{},"frame_time":{},"steps":{})", inputs.steps.stride,
                       numberText(inputs.clip.frameTimeS), inputs.steps.count);
-  text += fmt::format(R"(,"tolerance":{},"fidelity":"{}")", numberText(request.tolerance),
-                      toString(request.fidelity));
-  text += fmt::format(R"(,"scale":{},"motion_up":"{}","place":[{},{},{},{}])",
-                      numberText(request.motionScale), request.placement.motionUpZ ? "z" : "y",
-                      numberText(origin.x()), numberText(origin.y()), numberText(origin.z()),
-                      numberText(request.placement.yawDeg));
-  text += fmt::format(R"(,"scene_scale":{},"up":"{}","ignore":{})", numberText(request.sceneScale),
-                      request.sceneUp == UpAxis::Z ? "z" : "y", jsonList(request.ignore));
-  if (request.scope != Scope::EveryLink) {
-    text += fmt::format(R"(,"scope":"{}")", toString(request.scope));
-  }
-  if (request.budgetUs > 0) text += fmt::format(R"(,"budget_us":{})", request.budgetUs);
-  text += policyField(request) + surfaceFields(request) + motionFields(request);
-  text += fmt::format(R"(,"links":{},"unmatched_joints":{})", jsonList(links),
-                      jsonList(inputs.match.unmatchedAvatar));
-  return text + "}\n";
+  text += headerFields(settings, {"tolerance", "fidelity", "scale", "motion_up", "place",
+                                  "scene_scale", "up", "ignore", "scope", "budget_us", "policy",
+                                  "leaves", "skin", "skin_scale", "skin_up", "animation", "robot"});
+  return text + fmt::format(",\"links\":{},\"unmatched_joints\":{}}}\n", jsonList(links),
+                            jsonList(inputs.match.unmatchedAvatar));
 }
 
 StepFormat::StepFormat(const Avatar& avatar, const Scene& scene) : scene_(scene) {

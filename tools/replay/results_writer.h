@@ -27,11 +27,6 @@ struct StepAnswer {
 /// The links that are not clear, in the order of StepAnswer::contacts.
 [[nodiscard]] std::vector<LinkContact> notClear(const std::vector<LinkContact>& links);
 
-/// Of a first line: `,"policy":[...]`, each rule as it was given; nothing where there is none.
-[[nodiscard]] std::string policyField(const ReplayRequest& request);
-/// Of a first line: what only exact and skinned fidelity depend on, each field after a comma.
-[[nodiscard]] std::string surfaceFields(const ReplayRequest& request);
-
 /// The first line. Names neither threads nor culler: they do not change what follows.
 [[nodiscard]] std::string headerLine(const ReplayInputs& inputs);
 
