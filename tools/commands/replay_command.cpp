@@ -1,6 +1,7 @@
 #include "tools/commands/replay_command.h"
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -84,6 +85,7 @@ void addMotionSettings(Settings& settings, AskedReplay& asked) {
   for (const char* const option :
        {"--suffix", "--max-step", "--confirmations", "--unmatched-at-rest"}) {
     Setting& setting = settings.of(option).ofLogs();
+    setting.help.front() = static_cast<char>(std::tolower(setting.help.front()));
     setting.help = "Of a log: " + setting.help;
   }
 }

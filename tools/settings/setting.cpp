@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "assets/text_file.h"
 #include "lss/assert.h"
 #include "tools/settings/near_names.h"
@@ -116,7 +114,9 @@ Error notLegal(const std::string& legal, const GivenValue& given) {
 }
 
 std::string tidyNumber(double number) {
-  std::string text = fmt::format("{}", number);
+  char digitsOf[32];
+  const auto end = std::to_chars(digitsOf, digitsOf + sizeof digitsOf, number).ptr;
+  const std::string text(digitsOf, end);
   const std::size_t e = text.find('e');
   if (e == std::string::npos) return text;
   const bool isSmall = text[e + 1] == '-';
