@@ -72,7 +72,7 @@ void count(const QueryOptions& query, MemoryBench& bench) {
 
 }  // namespace
 
-Result<MemoryBench> measureMemory(const ReplayRequest& request) {
+Result<MemoryBench> measureMemory(const MemoryRequest& request) {
   MemoryBench bench;
   Stages stages(bench);
   auto done = stages.end("program");
@@ -85,7 +85,7 @@ Result<MemoryBench> measureMemory(const ReplayRequest& request) {
   const auto avatar = readAvatarFile(request.avatarPath);
   if (!avatar.ok()) return inFile(avatar.error(), request.avatarPath);
   bench.links = avatar.value().numLinks();
-  const auto query = queryOptionsFor(request, avatar.value(), scene.value());
+  const auto query = queryOptionsFor(request, request.avatarPath, avatar.value(), scene.value());
   if (!query.ok()) return query.error();
   count(query.value(), bench);
   done = stages.end("avatar");

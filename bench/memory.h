@@ -7,9 +7,14 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "tools/inputs/replay_inputs.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
+
+/// What is loaded: a scene, and an avatar in it.
+struct MemoryRequest : WorldRequest {
+  std::string avatarPath;
+};
 
 /// After a stage: what it took, and this process's memory as the system counts it (the import child
 /// not included).
@@ -29,10 +34,10 @@ struct MemoryBench {
   std::int32_t links = 0;
 };
 
-/// Loads what the request names, as a replay does, and asks about the rest pose twice. Its motion
-/// is not read. Errors name the file or option; where the system does not tell a process its
-/// memory, the error is about that.
-[[nodiscard]] Result<MemoryBench> measureMemory(const ReplayRequest& request);
+/// Loads what the request names, as a replay does, and asks about the rest pose twice. Errors name
+/// the file or option; where the system does not tell a process its memory, the error is about
+/// that.
+[[nodiscard]] Result<MemoryBench> measureMemory(const MemoryRequest& request);
 
 /// One row a stage.
 [[nodiscard]] std::string memoryTable(const MemoryBench& bench);

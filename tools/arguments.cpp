@@ -65,8 +65,7 @@ Result<int> parseThreads(const std::string& option, const std::string& text) {
 }
 
 Result<std::size_t> parseReportTriangles(const std::string& option, const std::string& text) {
-  constexpr int kMost = 10'000'000;
-  const auto count = parseCount(option, text, kMost);
+  const auto count = parseCount(option, text, kMostReportTriangles);
   if (!count.ok()) return count.error();
   return static_cast<std::size_t>(count.value());
 }

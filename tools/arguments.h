@@ -13,6 +13,9 @@
 
 namespace foretouch::tools {
 
+/// Triangles that a report may be asked to show of a scene.
+inline constexpr int kMostReportTriangles = 10'000'000;
+
 /// More threads than this are refused: a slip of the finger, not a machine.
 inline constexpr int kMaxThreads = 256;
 

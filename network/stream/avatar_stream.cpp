@@ -12,13 +12,12 @@
 namespace foretouch {
 namespace {
 
-constexpr std::int64_t kLongestStepUs = 86'400'000'000;  // a day
-constexpr int kFewestConfirmations = 1, kMostConfirmations = 1000;
+constexpr int kFewestConfirmations = 1;
 
 Result<Done> checked(const StreamPolicy& policy) {
-  if (policy.maxStepUs < 1 || policy.maxStepUs > kLongestStepUs) {
+  if (policy.maxStepUs < 1 || policy.maxStepUs > kMostStepUs) {
     return Error{ErrorCode::OutOfRange, "maxStepUs", -1, -1,
-                 "expected 1 to " + std::to_string(kLongestStepUs) + " microseconds, found " +
+                 "expected 1 to " + std::to_string(kMostStepUs) + " microseconds, found " +
                      std::to_string(policy.maxStepUs)};
   }
   if (policy.confirmations < kFewestConfirmations || policy.confirmations > kMostConfirmations) {

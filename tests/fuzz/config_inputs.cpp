@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "tests/fuzz/promise.h"
+#include "tools/inputs/policy_rules.h"
 #include "tools/stream/serve_config.h"
 
 namespace foretouch::fuzz {
@@ -66,18 +67,22 @@ bool feedConfig(const std::uint8_t* data, std::size_t size) {
     return false;
   }
   const tools::ServeConfig& config = parsed.value();
-  require(!config.url.empty() && !config.scene.empty(), "what a service needs is there");
-  require(config.workers >= 1 && config.workers <= tools::kMaxServeWorkers, "workers are bounded");
-  require(config.queue >= 1 && config.queue <= tools::kMaxServeQueue, "queues are bounded");
-  require(config.budgetUs >= 0 && config.budgetUs <= tools::kMaxServeBudgetUs, "budgets are");
-  require(std::isfinite(config.sceneScale) && config.sceneScale > 0.0, "the scale is positive");
-  require(std::isfinite(config.tolerance) && config.tolerance >= kMinTolerance, "so is tolerance");
+  require(!config.url.empty() && !config.world.scenePath.empty(), "what a service needs is there");
+  require(config.service.workers >= 1 && config.service.workers <= tools::kMaxServeWorkers,
+          "workers are bounded");
+  require(config.service.queue >= 1 && config.service.queue <= kMaxServiceQueue,
+          "queues are bounded");
+  require(config.world.budgetUs >= 0 && config.world.budgetUs <= tools::kMostBudgetUs,
+          "budgets are");
+  const double scale = config.world.sceneImport.scale, tolerance = config.world.query.tolerance;
+  require(std::isfinite(scale) && scale > 0.0, "the scale is positive");
+  require(tolerance >= kMinTolerance && tolerance <= kMaxTolerance, "the tolerance is legal");
   require(config.stream.maxStepUs >= 1 && config.stream.confirmations >= 1, "so is the policy");
-  checkPolicies(config.policies);
+  checkPolicies(config.world.policies);
   std::set<std::int32_t> ids;
-  for (const tools::ServedAvatar& avatar : config.avatars) {
+  for (const tools::NumberedAvatar& avatar : config.avatars) {
     require(ids.insert(avatar.id).second && avatar.id >= 0, "ids differ");
-    require(!avatar.file.empty(), "an avatar has a file");
+    require(!avatar.path.empty(), "an avatar has a file");
   }
   require(!ids.empty(), "there is an avatar");
   return true;

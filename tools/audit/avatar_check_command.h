@@ -1,14 +1,10 @@
 // tools/audit/avatar_check_command.h: `foretouch avatar check`.
 #pragma once
 
-#include "tools/console.h"
-
-namespace CLI {
-class App;
-}  // namespace CLI
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 
-void addAvatarCheckCommand(CLI::App& avatar, ExitCode& exit);
+[[nodiscard]] Command avatarCheckCommand();
 
 }  // namespace foretouch::tools

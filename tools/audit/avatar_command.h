@@ -1,15 +1,10 @@
 // tools/audit/avatar_command.h: `foretouch avatar` and its subcommands.
 #pragma once
 
-#include "tools/console.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 
-/// Adds the subcommands; what they end with goes to `exit`, which must outlive `program`.
-void addAvatarCommand(CLI::App& program, ExitCode& exit);
+[[nodiscard]] Command avatarCommand();
 
 }  // namespace foretouch::tools

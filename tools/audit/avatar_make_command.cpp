@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "assets/avatar/avatar_file.h"
@@ -20,18 +19,23 @@
 #include "tools/audit/audits.h"
 #include "tools/audit/surface_audit.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/settings/words.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
 
-struct BvhTexts {
-  std::string clip, output, scale = "1", radiusScale = "1";
+/// All that the options say.
+struct AskedOfClip {
+  std::string clip, output;
+  BvhOptions reading;
+  BvhAvatarOptions making;
 };
-
-struct ModelTexts {
-  std::string model, output, scale = "1", up = "y", maxLss = "4";
+struct AskedOfModel {
+  std::string model, output;
+  ModelImportOptions reading;
+  ModelAvatarOptions making;
   bool visual = false, isRobot = false;
-  std::vector<std::string> packages;
 };
 
 /// What was made, and what looks wrong about it.
@@ -43,23 +47,17 @@ void tell(const Avatar& avatar, const std::string& output, const std::string& mo
   for (const std::string& doubt : doubtsAbout(audit)) printNote(output + ": " + doubt);
 }
 
-ExitCode makeFromBvh(const BvhTexts& texts) {
-  BvhAvatarOptions options;
-  const auto radiusScale = parsePositive("--radius-scale", texts.radiusScale);
-  if (!radiusScale.ok()) return failed(radiusScale.error());
-  options.radiusScale = radiusScale.value();
-  const auto separate = checkIsNoInput(texts.output, {texts.clip});
+ExitCode makeFromBvh(const AskedOfClip& asked) {
+  const auto separate = checkIsNoInput(asked.output, {asked.clip});
   if (!separate.ok()) return failed(separate.error());
-  const auto scale = parsePositive("--scale", texts.scale);
-  if (!scale.ok()) return failed(scale.error());
-  const auto clip = readBvhFile(texts.clip, BvhOptions{scale.value()});
-  if (!clip.ok()) return failed(inFile(clip.error(), texts.clip));
-  for (const std::string& note : clip.value().notes) printNote(texts.clip + ": " + note);
-  const auto avatar = avatarFromClip(clip.value(), options);
-  if (!avatar.ok()) return failed(inFile(avatar.error(), texts.clip));
-  const auto written = writeAvatarFile(avatar.value(), texts.output);
-  if (!written.ok()) return failed(inFile(written.error(), texts.output));
-  tell(avatar.value(), texts.output, "");
+  const auto clip = readBvhFile(asked.clip, asked.reading);
+  if (!clip.ok()) return failed(inFile(clip.error(), asked.clip));
+  for (const std::string& note : clip.value().notes) printNote(asked.clip + ": " + note);
+  const auto avatar = avatarFromClip(clip.value(), asked.making);
+  if (!avatar.ok()) return failed(inFile(avatar.error(), asked.clip));
+  const auto written = writeAvatarFile(avatar.value(), asked.output);
+  if (!written.ok()) return failed(inFile(written.error(), asked.output));
+  tell(avatar.value(), asked.output, "");
   return ExitCode::Done;
 }
 
@@ -87,19 +85,6 @@ std::filesystem::path meshPathOf(const std::string& output) {
   return std::filesystem::path(output).replace_extension(".mesh.glb");
 }
 
-Result<ModelImportOptions> importOptions(const ModelTexts& texts) {
-  ModelImportOptions options;
-  const auto scale = parsePositive("--scale", texts.scale);
-  if (!scale.ok()) return scale.error();
-  options.import.scale = scale.value();
-  const auto up = parseUpAxis("--up", texts.up);
-  if (!up.ok()) return up.error();
-  options.import.up = up.value();
-  options.urdfSurface = texts.visual ? UrdfSurface::Visual : UrdfSurface::Collision;
-  options.packagePaths = texts.packages;
-  return options;
-}
-
 /// The mesh first: an avatar file never refers to one that is not there yet.
 Result<Done> writeBoth(const ModelAvatar& made, const std::string& output) {
   {
@@ -116,96 +101,92 @@ Result<Done> writeBoth(const ModelAvatar& made, const std::string& output) {
   return Done{};
 }
 
-ExitCode makeFromModel(const ModelTexts& texts) {
-  const auto import = importOptions(texts);
-  if (!import.ok()) return failed(import.error());
-  ModelAvatarOptions options;
-  const auto maxLss = parseCount("--max-lss", texts.maxLss, static_cast<int>(kMaxLssPerLink));
-  if (!maxLss.ok()) return failed(maxLss.error());
-  options.maxLssPerLink = maxLss.value();
-  options.meshFile = meshPathOf(texts.output).filename().string();
-  for (const std::string& output : {texts.output, meshPathOf(texts.output).string()}) {
-    const auto separate = checkIsNoInput(output, {texts.model});
+ExitCode makeFromModel(AskedOfModel asked) {
+  asked.reading.urdfSurface = asked.visual ? UrdfSurface::Visual : UrdfSurface::Collision;
+  asked.making.meshFile = meshPathOf(asked.output).filename().string();
+  for (const std::string& output : {asked.output, meshPathOf(asked.output).string()}) {
+    const auto separate = checkIsNoInput(output, {asked.model});
     if (!separate.ok()) return failed(separate.error());
   }
-  const auto model = importModel(texts.model, import.value());
-  if (!model.ok()) return failed(inFile(model.error(), texts.model));
-  for (const std::string& note : model.value().notes) printNote(texts.model + ": " + note);
-  const auto made = avatarFromModel(model.value(), options);
-  if (!made.ok()) return failed(inFile(made.error(), texts.model));
-  for (const std::string& note : made.value().report.notes) printNote(texts.model + ": " + note);
-  const auto written = writeBoth(made.value(), texts.output);
+  const auto model = importModel(asked.model, asked.reading);
+  if (!model.ok()) return failed(inFile(model.error(), asked.model));
+  for (const std::string& note : model.value().notes) printNote(asked.model + ": " + note);
+  const auto made = avatarFromModel(model.value(), asked.making);
+  if (!made.ok()) return failed(inFile(made.error(), asked.model));
+  for (const std::string& note : made.value().report.notes) printNote(asked.model + ": " + note);
+  const auto written = writeBoth(made.value(), asked.output);
   if (!written.ok()) return failed(written.error());
 
   std::size_t read = 0;
   for (const ModelMesh& mesh : model.value().meshes) read += mesh.triangles.size();
-  tell(made.value().avatar, texts.output, describe(made.value(), read), texts.isRobot);
+  tell(made.value().avatar, asked.output, describe(made.value(), read), asked.isRobot);
   return ExitCode::Done;
 }
 
-void addOutput(CLI::App& command, std::string& output) {
-  command.add_option("-o,--output", output, "Avatar file to write")->type_name("FILE")->required();
+void addOutput(Settings& settings, std::string& output) {
+  settings.path("-o,--output", "FILE", output, "Avatar file to write").required();
 }
 
 /// What both kinds of models ask for.
-void addModelOptions(CLI::App& command, ModelTexts& texts, const char* scaleHelp) {
-  addOutput(command, texts.output);
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    command.add_option(name, text, help)->type_name(type)->capture_default_str();
-  };
-  option("--scale", texts.scale, "S", scaleHelp);
-  option("--up", texts.up, "y|z", "Which axis of the model points up");
-  option("--max-lss", texts.maxLss, "N", "Most LSS that one link's triangles are split among");
+void addModelSettings(Settings& settings, AskedOfModel& asked, const char* scaleHelp) {
+  addOutput(settings, asked.output);
+  settings.number("--scale", "S", asked.reading.import.scale, kMetresPerUnit, scaleHelp);
+  settings.word("--up", "y|z", asked.reading.import.up, upAxisWords(),
+                "Which axis of the model points up");
+  settings.whole("--max-lss", "N", asked.making.maxLssPerLink, 1, kMaxLssPerLink,
+                 "Most LSS that one link's triangles are split among");
 }
 
 }  // namespace
 
-void addAvatarBvhCommand(CLI::App& avatar, ExitCode& exit) {
-  const auto texts = std::make_shared<BvhTexts>();
-  CLI::App* const command =
-      avatar.add_subcommand("bvh", "Make an avatar from a clip's skeleton, an LSS a bone");
-  command->add_option("clip", texts->clip, "BVH clip")->type_name("CLIP")->required();
-  addOutput(*command, texts->output);
-  command->add_option("--scale", texts->scale, "Metres per unit of the clip: 0.01 for centimetres")
-      ->type_name("S")
-      ->capture_default_str();
-  command->add_option("--radius-scale", texts->radiusScale, "Multiplies every radius")
-      ->type_name("S")
-      ->capture_default_str();
-  command->footer("Example:\n  foretouch avatar bvh walk.bvh --scale 0.01 -o walker.avatar.json");
-  command->callback([texts, &exit] { exit = makeFromBvh(*texts); });
+Command avatarBvhCommand() {
+  const auto asked = std::make_shared<AskedOfClip>();
+  Settings settings;
+  settings.path("clip", "CLIP", asked->clip, "BVH clip").required();
+  addOutput(settings, asked->output);
+  settings.number("--scale", "S", asked->reading.scale, kMetresPerUnit,
+                  "Metres per unit of the clip: 0.01 for centimetres");
+  settings.number("--radius-scale", "S", asked->making.radiusScale, kAboveZero,
+                  "Multiplies every radius");
+  Command command{"bvh", "Make an avatar from a clip's skeleton, an LSS a bone",
+                  "Example:\n  foretouch avatar bvh walk.bvh --scale 0.01 -o walker.avatar.json",
+                  std::move(settings)};
+  command.run = [asked](const Settings&) { return makeFromBvh(*asked); };
+  return command;
 }
 
-void addAvatarMeshCommand(CLI::App& avatar, ExitCode& exit) {
-  const auto texts = std::make_shared<ModelTexts>();
-  CLI::App* const command = avatar.add_subcommand(
-      "mesh", "Make an avatar from a rigged model: LSS that contain its triangles");
-  command
-      ->add_option("model", texts->model, "Model: any format with bones or nodes that assimp reads")
-      ->type_name("BODY")
-      ->required();
-  addModelOptions(*command, *texts, "Metres per unit of the model");
-  command->footer(
-      "Example:\n  foretouch avatar mesh man.glb -o man.avatar.json\n\n"
-      "The links' triangles go beside it, to man.avatar.mesh.glb.");
-  command->callback([texts, &exit] { exit = makeFromModel(*texts); });
+Command avatarMeshCommand() {
+  const auto asked = std::make_shared<AskedOfModel>();
+  Settings settings;
+  settings
+      .path("model", "BODY", asked->model,
+            "Model: any format with bones or nodes that assimp reads")
+      .required();
+  addModelSettings(settings, *asked, "Metres per unit of the model");
+  Command command{"mesh", "Make an avatar from a rigged model: LSS that contain its triangles",
+                  "Example:\n  foretouch avatar mesh man.glb -o man.avatar.json\n\n"
+                  "The links' triangles go beside it, to man.avatar.mesh.glb.",
+                  std::move(settings)};
+  command.run = [asked](const Settings&) { return makeFromModel(*asked); };
+  return command;
 }
 
-void addAvatarUrdfCommand(CLI::App& avatar, ExitCode& exit) {
-  const auto texts = std::make_shared<ModelTexts>();
-  texts->up = "z";
-  texts->isRobot = true;
-  CLI::App* const command = avatar.add_subcommand(
-      "urdf", "Make an avatar from a robot: its spheres and capsules, and LSS around its meshes");
-  command->add_option("robot", texts->model, "URDF file")->type_name("ROBOT")->required();
-  addModelOptions(*command, *texts, "Metres per unit of the robot");
-  command->add_flag("--visual", texts->visual, "Take what is seen for what touches");
-  command->add_option("--package", texts->packages, "Where package://NAME/ is; may be repeated")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
-  command->footer(
-      "Example:\n  foretouch avatar urdf arm.urdf --package ~/ros/src -o arm.avatar.json");
-  command->callback([texts, &exit] { exit = makeFromModel(*texts); });
+Command avatarUrdfCommand() {
+  const auto asked = std::make_shared<AskedOfModel>();
+  asked->reading.import.up = UpAxis::Z;
+  asked->isRobot = true;
+  Settings settings;
+  settings.path("robot", "ROBOT", asked->model, "URDF file").required();
+  addModelSettings(settings, *asked, "Metres per unit of the robot");
+  settings.flag("--visual", asked->visual, "Take what is seen for what touches");
+  settings.list("--package", "DIR", asked->reading.packagePaths,
+                "Where package://NAME/ is; may be repeated");
+  Command command{
+      "urdf", "Make an avatar from a robot: its spheres and capsules, and LSS around its meshes",
+      "Example:\n  foretouch avatar urdf arm.urdf --package ~/ros/src -o arm.avatar.json",
+      std::move(settings)};
+  command.run = [asked](const Settings&) { return makeFromModel(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

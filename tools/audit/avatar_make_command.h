@@ -1,16 +1,12 @@
 // tools/audit/avatar_make_command.h: `foretouch avatar bvh`, `mesh` and `urdf`.
 #pragma once
 
-#include "tools/console.h"
-
-namespace CLI {
-class App;
-}  // namespace CLI
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 
-void addAvatarBvhCommand(CLI::App& avatar, ExitCode& exit);
-void addAvatarMeshCommand(CLI::App& avatar, ExitCode& exit);
-void addAvatarUrdfCommand(CLI::App& avatar, ExitCode& exit);
+[[nodiscard]] Command avatarBvhCommand();
+[[nodiscard]] Command avatarMeshCommand();
+[[nodiscard]] Command avatarUrdfCommand();
 
 }  // namespace foretouch::tools

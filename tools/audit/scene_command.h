@@ -1,15 +1,10 @@
 // tools/audit/scene_command.h: `foretouch scene check`.
 #pragma once
 
-#include "tools/console.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 
-/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
-void addSceneCommand(CLI::App& program, ExitCode& exit);
+[[nodiscard]] Command sceneCommand();
 
 }  // namespace foretouch::tools

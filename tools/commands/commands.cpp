@@ -1,8 +1,7 @@
 #include "tools/commands/commands.h"
 
 #include <string>
-
-#include <CLI/CLI.hpp>
+#include <utility>
 
 #include "tools/audit/avatar_command.h"
 #include "tools/audit/scene_command.h"
@@ -19,29 +18,21 @@ namespace foretouch::tools {
 namespace {
 
 /// Benchmarks left this program: whoever still asks it for them is told where they are.
-void addMovedCommand(CLI::App& program, const std::string& name, const std::string& now,
-                     ExitCode& exit) {
-  CLI::App* const moved = program.add_subcommand(name)->group("")->allow_extras();
-  moved->set_help_flag();
-  moved->callback([name, now, &exit] {
-    printError("foretouch " + name + ": benchmarks are a program of their own, " + now);
-    exit = ExitCode::BadInput;
-  });
+Command movedCommand(const std::string& name, const std::string& now) {
+  Command moved;
+  moved.name = name;
+  moved.isGone = "foretouch " + name + ": benchmarks are a program of their own, " + now;
+  return moved;
 }
 
 void addCommands(CLI::App& program, ExitCode& exit) {
-  addDemoCommand(program, exit);
-  addReplayCommand(program, exit);
-  addViewCommand(program, exit);
-  addServeCommand(program, exit);
-  addPublishCommand(program, exit);
-  addListenCommand(program, exit);
-  addAvatarCommand(program, exit);
-  addSceneCommand(program, exit);
-  addSweepCommand(program, exit);
-  addLogCommand(program, exit);
-  addMovedCommand(program, "bench", "foretouch-bench", exit);
-  addMovedCommand(program, "tune", "foretouch-bench tune", exit);
+  for (const auto command :
+       {demoCommand, replayCommand, viewCommand, serveCommand, publishCommand, listenCommand,
+        avatarCommand, sceneCommand, sweepCommand, logCommand}) {
+    addCommand(program, command(), exit);
+  }
+  addCommand(program, movedCommand("bench", "foretouch-bench"), exit);
+  addCommand(program, movedCommand("tune", "foretouch-bench tune"), exit);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <string>
 #include <system_error>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "assets/text_file.h"
@@ -73,20 +72,17 @@ ExitCode runDemo(const std::string& output, const std::string& report) {
 
 }  // namespace
 
-void addDemoCommand(CLI::App& program, ExitCode& exit) {
+Command demoCommand() {
   const auto output = std::make_shared<std::string>("foretouch-demo.jsonl");
   const auto report = std::make_shared<std::string>();
-  CLI::App* const command = program.add_subcommand(
-      "demo", "Replay the bundled dancer in the bundled room and say what was found");
-  command->add_option("--output", *output, "Results, as lines of JSON")
-      ->type_name("FILE")
-      ->capture_default_str();
-  command
-      ->add_option("--report", *report,
-                   "The report, a page for a browser; beside the results if not given")
-      ->type_name("FILE");
-  command->footer("Example:\n  foretouch demo");
-  command->callback([output, report, &exit] { exit = runDemo(*output, *report); });
+  Settings settings;
+  settings.path("--output", "FILE", *output, "Results, as lines of JSON");
+  settings.path("--report", "FILE", *report,
+                "The report, a page for a browser; beside the results if not given");
+  Command command{"demo", "Replay the bundled dancer in the bundled room and say what was found",
+                  "Example:\n  foretouch demo", std::move(settings)};
+  command.run = [output, report](const Settings&) { return runDemo(*output, *report); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -1,15 +1,10 @@
 // tools/commands/demo_command.h: `foretouch demo`: the bundled example, end to end.
 #pragma once
 
-#include "tools/console.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 
-/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
-void addDemoCommand(CLI::App& program, ExitCode& exit);
+[[nodiscard]] Command demoCommand();
 
 }  // namespace foretouch::tools

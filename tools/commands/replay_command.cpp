@@ -1,63 +1,125 @@
 #include "tools/commands/replay_command.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <cctype>
 #include <memory>
 #include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/commands/replay_log_command.h"
-#include "tools/inputs/clip_options.h"
+#include "tools/inputs/policy_rules.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
 #include "tools/report/replay_report.h"
 #include "tools/report/report_file.h"
 #include "tools/results_output.h"
-#include "tools/settling.h"
-#include "tools/stream/serve_config.h"
-#include "tools/stream/stream_arguments.h"
+#include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
 namespace {
 
-/// Values as typed in.
-struct ReplayTexts {
-  std::string scene, motion, output;
-  ClipTexts clip;
-  std::string sceneScale = "1", up = "y";
-  std::string fidelity = "link", leaves = "advancement", scope = "links", skin, skinScale = "1",
-              skinUp = "y", tolerance = "0.001", culler = "flat", threads = "cores";
-  std::string suffix, maxStep = "10", confirmations = "3", budgetUs;
-  std::string policy, report, reportTriangles = std::to_string(kDefaultViewTriangles);
-  std::string glb, glbTriangles = "1000000";
-  std::vector<std::string> avatars, ignore;
-  bool compareRigid = false, compareLink = false, rays = false, unmatchedAtRest = false;
+/// All that the options say.
+struct AskedReplay {
+  ReplayJob job;
+  std::vector<std::string> avatars;  ///< Of a log numbered, as parseNumberedAvatars() reads them.
+  StreamPolicy stream;
+  std::string suffix;
+  int threads = 0;  ///< 0: one per processor.
 };
 
+void addFileSettings(Settings& settings, AskedReplay& asked) {
+  ReplayRequest& request = asked.job.request;
+  addSceneSettings(settings, request);
+  settings.of("--scene").required();
+  settings
+      .list("--avatar", "[ID=]FILE", asked.avatars,
+            "Avatar file (see foretouch avatar); of a log, its number before it, and repeated")
+      .required();
+  addMotionSetting(settings, request, "--motion", "CLIP|LOG",
+                   "BVH clip, animated model (glb, gltf, fbx, dae, x), joint positions (csv), or "
+                   "event log (lcmlog)")
+      .required();
+  settings.path("--output", "FILE", asked.job.outputPath, "Results, as lines of JSON").required();
+  settings.path("--report", "FILE", asked.job.report.path,
+                "The report: a page for a browser, all in one file");
+  settings.whole(
+      "--report-triangles", "N", asked.job.report.maxTriangles, 1, kMostReportTriangles,
+      "Of a heavier scene the report shows what is near the action, or a simplified form");
+  settings
+      .path("--glb", "FILE", asked.job.glb.path,
+            "Also the replay as an animated GLB, for any viewer of glTF (docs/formats.md)")
+      .ofClips();
+  settings
+      .whole("--glb-triangles", "N", asked.job.glb.mostTriangles, 1, kMaxTriangles,
+             "Triangles of that file at most")
+      .ofClips();
+}
+
+void addComparisonSettings(Settings& settings, ReplayOptions& options) {
+  settings
+      .flag("--compare-rigid", options.compareRigid,
+            "Also count what a model that knows only each link's own two poses misses")
+      .ofClips();
+  settings
+      .flag("--compare-link", options.compareLink,
+            "With --fidelity exact: also count the LSS contacts that the meshes refute")
+      .ofClips();
+  settings.flag("--rays", options.rays, "Also time 16 occlusion rays a step, as a yardstick")
+      .ofClips();
+}
+
+/// What only a clip has, and what only a log has.
+void addMotionSettings(Settings& settings, AskedReplay& asked) {
+  addRateSetting(settings, asked.job.request).ofClips();
+  addClipSettings(settings, asked.job.request);
+  for (const char* const option :
+       {"--scale", "--motion-up", "--place", "--map", "--animation", "--robot", "--package"}) {
+    settings.of(option).ofClips();
+  }
+  addSuffixSetting(settings, asked.suffix);
+  addStreamSettings(settings, asked.stream);
+  for (const char* const option :
+       {"--suffix", "--max-step", "--confirmations", "--unmatched-at-rest"}) {
+    Setting& setting = settings.of(option).ofLogs();
+    setting.help.front() = static_cast<char>(std::tolower(setting.help.front()));
+    setting.help = "Of a log: " + setting.help;
+  }
+}
+
+Settings replaySettings(AskedReplay& asked) {
+  Settings settings;
+  addFileSettings(settings, asked);
+  addQuerySettings(settings, asked.job.request);
+  addReplayQuerySettings(settings, asked.job.request);
+  settings.wholeOr("cores", "--threads", "N", asked.threads, kMaxThreads, "Threads").ofClips();
+  addMotionSettings(settings, asked);
+  addComparisonSettings(settings, asked.job.options);
+  return settings;
+}
+
 /// Options that are legal by themselves, but not together.
-Result<Done> checkTogether(const ReplayTexts& texts, const ReplayRequest& request) {
-  const bool isAboveLinks = request.fidelity == Fidelity::Limb ||
-                            request.fidelity == Fidelity::Avatar ||
-                            request.fidelity == Fidelity::Ellipsoid;
-  if (isAboveLinks && (texts.compareRigid || texts.compareLink)) {
+Result<Done> checkTogether(const ReplayJob& job) {
+  const WorldRequest& request = job.request;
+  const Fidelity fidelity = request.query.fidelity;
+  const bool isAboveLinks =
+      fidelity == Fidelity::Limb || fidelity == Fidelity::Avatar || fidelity == Fidelity::Ellipsoid;
+  const bool compares = job.options.compareRigid || job.options.compareLink;
+  if (isAboveLinks && compares) {
     return Error{ErrorCode::OutOfRange, "--fidelity", -1, -1,
                  "expected link, exact or skinned with --compare-rigid or --compare-link: above "
                  "them links have no surface of their own to compare"};
   }
   if (request.budgetUs == 0) return Done{};
-  if (texts.compareRigid || texts.compareLink) {
+  if (compares) {
     return Error{ErrorCode::Mismatch, "--budget-us", -1, -1,
                  "expected none with --compare-rigid or --compare-link: what is undecided has "
                  "nothing to compare"};
   }
-  if (request.culler != Culler::FlatBvh) {
+  if (request.query.culler != Culler::FlatBvh) {
     return Error{ErrorCode::Mismatch, "--budget-us", -1, -1,
                  "expected none with --culler point-query: cullers do different work, and would "
                  "leave different links undecided"};
@@ -65,76 +127,18 @@ Result<Done> checkTogether(const ReplayTexts& texts, const ReplayRequest& reques
   return Done{};
 }
 
-Result<ReplayJob> settled(const ReplayTexts& texts) {
-  ReplayJob job;
-  ReplayRequest& request = job.request;
-  request.scenePath = texts.scene;
-  if (texts.avatars.size() == 1) request.avatarPath = texts.avatars.front();
-  request.motionPath = texts.motion;
-  request.ignore = texts.ignore;
-  request.policyPath = texts.policy;
-  job.outputPath = texts.output;
-  job.report.path = texts.report;
-  job.glb.path = texts.glb;
-  job.options.compareRigid = texts.compareRigid;
-  job.options.compareLink = texts.compareLink;
-  job.options.rays = texts.rays;
-
-  Settling settle;
-  settle.into(request.fidelity, parseFidelity("--fidelity", texts.fidelity));
-  settle.into(request.scope, parseScope("--scope", texts.scope));
-  settle.into(request.leafMethod, parseLeafMethod("--leaves", texts.leaves));
-  request.skinPath = texts.skin;
-  settle.into(request.skinScale, parsePositive("--skin-scale", texts.skinScale));
-  settle.into(request.skinUp, parseUpAxis("--skin-up", texts.skinUp));
-  settleClip(texts.clip, settle, request);
-  settle.into(request.sceneUp, parseUpAxis("--up", texts.up));
-  settle.into(request.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
-  settle.into(request.tolerance, parseTolerance("--tolerance", texts.tolerance));
-  settle.into(request.culler, parseCuller("--culler", texts.culler));
-  if (!texts.budgetUs.empty()) {
-    settle.into(request.budgetUs, parseBudgetUs("--budget-us", texts.budgetUs));
-  }
-  settle.into(job.report.maxTriangles,
-              parseReportTriangles("--report-triangles", texts.reportTriangles));
-  int glbTriangles = 0;
-  settle.into(glbTriangles,
-              parseCount("--glb-triangles", texts.glbTriangles, static_cast<int>(kMaxTriangles)));
-  job.glb.mostTriangles = static_cast<std::size_t>(glbTriangles);
-  if (!texts.policy.empty()) settle.into(request.policies, readPolicyFile(texts.policy));
-  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  job.options.threads = static_cast<int>(std::min<unsigned>(cores, kMaxThreads));
-  if (texts.threads != "cores") {
-    settle.into(job.options.threads, parseThreads("--threads", texts.threads));
-  }
-  if (settle.error()) return *settle.error();
-  const auto checked = checkTogether(texts, request);
-  if (!checked.ok()) return checked.error();
-  return job;
-}
-
 /// Of the options that make no sense with this kind of motion, one that was given all the same.
-Result<Done> checkOptions(const CLI::App& command, const ReplayTexts& texts, bool isLog) {
-  constexpr std::array kOfClips = {"--rate",    "--place",     "--scale",         "--motion-up",
-                                   "--map",     "--animation", "--robot",         "--package",
-                                   "--threads", "--scope",     "--compare-rigid", "--compare-link",
-                                   "--rays",    "--glb",       "--glb-triangles"};
-  constexpr std::array kOfLogs = {"--suffix", "--max-step", "--confirmations",
-                                  "--unmatched-at-rest"};
-  const auto firstGiven = [&command](const auto& options) {
-    const auto given = std::find_if(options.begin(), options.end(),
-                                    [&](const char* option) { return command.count(option) > 0; });
-    return given == options.end() ? "" : *given;
-  };
-  const std::string misplaced = isLog ? firstGiven(kOfClips) : firstGiven(kOfLogs);
-  if (!misplaced.empty()) {
-    return Error{ErrorCode::Mismatch, misplaced, -1, -1,
+Result<Done> checkOptions(const Settings& settings, const AskedReplay& asked, bool isLog) {
+  const std::string& motion = asked.job.request.motionPath;
+  for (const Setting& setting : settings) {
+    if (!setting.isGiven || !(isLog ? setting.isOfClips : setting.isOfLogs)) continue;
+    return Error{ErrorCode::Mismatch, setting.option, -1, -1,
                  std::string("makes no sense with ") + (isLog ? "an event log" : "a clip") +
-                     " as --motion; expected none, found one with " + inQuotes(texts.motion)};
+                     " as --motion; expected none, found one with " + inQuotes(motion)};
   }
-  if (!isLog && texts.avatars.size() > 1) {
+  if (!isLog && asked.avatars.size() > 1) {
     return Error{ErrorCode::Mismatch, "--avatar", -1, -1,
-                 "expected one avatar for a clip, found " + std::to_string(texts.avatars.size()) +
+                 "expected one avatar for a clip, found " + std::to_string(asked.avatars.size()) +
                      "; an event log may have several"};
   }
   return Done{};
@@ -145,56 +149,45 @@ std::string placesOf(const std::string& output, const std::string& report) {
   return "\nresults: " + output + "\n" + (report.empty() ? "" : "report:  " + report + "\n");
 }
 
-ExitCode runClip(const ReplayTexts& texts) {
-  const auto job = settled(texts);
-  if (!job.ok()) return failed(job.error());
-  const bool outIsTaken =
-      isStandardOutput(job.value().outputPath) || isStandardOutput(job.value().report.path);
-  const auto done = runReplay(job.value(), [&](const ReplaySummary& summary) {
-    const std::string text = summary.text(job.value().options.threads);
-    const std::string places = placesOf(job.value().outputPath, job.value().report.path);
-    outIsTaken ? printAside(text) : printOut(text + places);
+ExitCode runClip(const AskedReplay& asked) {
+  ReplayJob job = asked.job;
+  job.request.avatarPath = asked.avatars.front();
+  const int cores = static_cast<int>(
+      std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(kMaxThreads)));
+  job.options.threads = asked.threads == 0 ? cores : asked.threads;
+  const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
+  const auto done = runReplay(job, [&](const ReplaySummary& summary) {
+    const std::string text = summary.text(job.options.threads);
+    outIsTaken ? printAside(text) : printOut(text + placesOf(job.outputPath, job.report.path));
   });
   return done.ok() ? ExitCode::Done : failed(done.error());
 }
 
-Result<LogReplayJob> settledLog(const ReplayTexts& texts) {
-  auto clip = settled(texts);
-  if (!clip.ok()) return clip.error();
-  LogReplayJob job;
-  job.outputPath = clip.value().outputPath;
-  job.report = clip.value().report;
-  LogReplayRequest& request = job.request;
-  request.query = std::move(clip.value().request);
-  request.suffix = texts.suffix;
-  Settling settle;
-  settle.into(request.avatars, parseNumberedAvatars("--avatar", texts.avatars));
-  settle.into(request.policy.maxStepUs, parseMaxStepUs("--max-step", texts.maxStep));
-  settle.into(request.policy.confirmations,
-              parseCount("--confirmations", texts.confirmations, kMaxServeConfirmations));
-  request.policy.unmatchedAtRest = texts.unmatchedAtRest;
-  if (settle.error()) return *settle.error();
-  return job;
-}
-
-ExitCode runLog(const ReplayTexts& texts) {
-  const auto job = settledLog(texts);
-  if (!job.ok()) return failed(job.error());
-  const std::string& output = job.value().outputPath;
-  const std::string& page = job.value().report.path;
-  const bool outIsTaken = isStandardOutput(output) || isStandardOutput(page);
-  const auto replayed = runLogReplay(job.value(), [&](const std::string& text) {
-    outIsTaken ? printAside(text) : printOut(text + placesOf(output, page));
+ExitCode runLog(const AskedReplay& asked) {
+  auto avatars = parseNumberedAvatars("--avatar", asked.avatars);
+  if (!avatars.ok()) return failed(avatars.error());
+  const ReplayRequest& given = asked.job.request;
+  const LogReplayJob job{
+      {given.motionPath, given, std::move(avatars).value(), asked.stream, asked.suffix},
+      asked.job.outputPath,
+      asked.job.report};
+  const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
+  const auto replayed = runLogReplay(job, [&](const std::string& text) {
+    outIsTaken ? printAside(text) : printOut(text + placesOf(job.outputPath, job.report.path));
   });
   if (!replayed.ok()) return failed(replayed.error());
   return replayed.value().agrees() ? ExitCode::Done : ExitCode::CheckSaysNo;
 }
 
-ExitCode runTexts(const CLI::App& command, const ReplayTexts& texts) {
-  const bool isLog = isEventLog(texts.motion);
-  const auto checked = checkOptions(command, texts, isLog);
-  if (!checked.ok()) return failed(checked.error());
-  return isLog ? runLog(texts) : runClip(texts);
+ExitCode run(const Settings& settings, AskedReplay& asked) {
+  const bool isLog = isEventLog(asked.job.request.motionPath);
+  const auto fitting = checkOptions(settings, asked, isLog);
+  if (!fitting.ok()) return failed(fitting.error());
+  const auto read = readPolicies(asked.job.request);
+  if (!read.ok()) return failed(read.error());
+  const auto together = checkTogether(asked.job);
+  if (!together.ok()) return failed(together.error());
+  return isLog ? runLog(asked) : runClip(asked);
 }
 
 constexpr char kReplayExamples[] = R"(Examples:
@@ -275,71 +268,12 @@ Result<Done> runReplay(const ReplayJob& job,
   return Done{};
 }
 
-void addReplayCommand(CLI::App& program, ExitCode& exit) {
-  const auto texts = std::make_shared<ReplayTexts>();
-  CLI::App* const command = program.add_subcommand(
-      "replay", "Find what an avatar touches between the poses of a recorded clip");
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    return command->add_option(name, text, help)->type_name(type)->capture_default_str();
-  };
-  option("--scene", texts->scene, "FILE", "Scene: any mesh format that assimp reads")->required();
-  command
-      ->add_option(
-          "--avatar", texts->avatars,
-          "Avatar file (see foretouch avatar); of a log, its number before it, and repeated")
-      ->type_name("[ID=]FILE")
-      ->allow_extra_args(false)
-      ->required();
-  option("--motion", texts->motion, "CLIP|LOG",
-         "BVH clip, animated model (glb, gltf, fbx, dae, x), joint positions (csv), or event log "
-         "(lcmlog)")
-      ->required();
-  option("--output", texts->output, "FILE", "Results, as lines of JSON")->required();
-  option("--report", texts->report, "FILE", "The report: a page for a browser, all in one file");
-  option("--report-triangles", texts->reportTriangles, "N",
-         "Of a heavier scene the report shows what is near the action, or a simplified form");
-  option("--glb", texts->glb, "FILE",
-         "Also the replay as an animated GLB, for any viewer of glTF (docs/formats.md)");
-  option("--glb-triangles", texts->glbTriangles, "N", "Triangles of that file at most");
-  option("--rate", texts->clip.rate, "HZ",
-         "Poses a second to use of the clip; animations: 30 if all");
-  addClipOptions(*command, texts->clip);
-  option("--scene-scale", texts->sceneScale, "S", "Metres per unit of the scene");
-  option("--up", texts->up, "y|z", "Which axis of the scene points up");
-  option("--fidelity", texts->fidelity, "RUNG",
-         "What touches: one ellipsoid, one LSS (avatar), one a limb, the links' LSS (link), "
-         "their meshes (exact), or a skin (skinned)");
-  option("--skin", texts->skin, "BODY", "Skinned fidelity: the model that the avatar was made of");
-  option("--skin-scale", texts->skinScale, "S", "Metres per unit of that model");
-  option("--skin-up", texts->skinUp, "y|z", "Which axis of that model points up");
-  option("--leaves", texts->leaves, "advancement|cubics",
-         "Exact fidelity's way with pairs of triangles; both keep the promise");
-  option("--scope", texts->scope, "links|avatar",
-         "Every link's first contact, or only the first of all");
-  option("--tolerance", texts->tolerance, "M", "Largest separation (m) of a reported contact");
-  option("--threads", texts->threads, "N", "Threads");
-  option("--culler", texts->culler, "flat|point-query", "Way to cull; both find the same");
-  command->add_option("--ignore", texts->ignore, "Contacts not asked for; may be repeated")
-      ->type_name("PAIRS")
-      ->allow_extra_args(false);
-  option(
-      "--policy", texts->policy, "FILE",
-      "Tolerance, fidelity and what to ignore, link by link: [[policy]] tables (docs/formats.md)");
-  option("--suffix", texts->suffix, "TEXT", "Of a log: ending of the channels' names");
-  option("--max-step", texts->maxStep, "S", "Of a log: a pose this much after the last is refused");
-  option("--confirmations", texts->confirmations, "N",
-         "Of a log: poses in a row that make a timeline that was not expected");
-  option("--budget-us", texts->budgetUs, "US",
-         "What a step may cost, as an amount of work; links beyond it are undecided");
-  command->add_flag("--unmatched-at-rest", texts->unmatchedAtRest,
-                    "Of a log: joints that the sender does not have keep their rest values");
-  command->add_flag("--compare-rigid", texts->compareRigid,
-                    "Also count what a model that knows only each link's own two poses misses");
-  command->add_flag("--compare-link", texts->compareLink,
-                    "With --fidelity exact: also count the LSS contacts that the meshes refute");
-  command->add_flag("--rays", texts->rays, "Also time 16 occlusion rays a step, as a yardstick");
-  command->footer(kReplayExamples);
-  command->callback([texts, command, &exit] { exit = runTexts(*command, *texts); });
+Command replayCommand() {
+  const auto asked = std::make_shared<AskedReplay>();
+  Command command{"replay", "Find what an avatar touches between the poses of a recorded clip",
+                  kReplayExamples, replaySettings(*asked)};
+  command.run = [asked](const Settings& settings) { return run(settings, *asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

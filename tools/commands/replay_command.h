@@ -5,20 +5,15 @@
 #include <string>
 
 #include "articulated/result.h"
-#include "tools/console.h"
+#include "tools/settings/command_line.h"
 #include "tools/glb/replay_glb.h"
 #include "tools/replay/replay.h"
 #include "tools/replay/summary.h"
 #include "tools/report/document_parts.h"
 
-namespace CLI {
-class App;
-}
-
 namespace foretouch::tools {
 
-/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
-void addReplayCommand(CLI::App& program, ExitCode& exit);
+[[nodiscard]] Command replayCommand();
 
 /// A replay whose options are settled.
 struct ReplayJob {

@@ -17,10 +17,10 @@ namespace foretouch::tools {
 
 Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
                                      const std::function<void(const std::string&)>& tell) {
-  std::vector<std::string> inputPaths{job.request.query.scenePath, job.request.query.motionPath};
-  inputPaths.push_back(job.request.query.policyPath);
+  std::vector<std::string> inputPaths{job.request.world.scenePath, job.request.logPath};
+  inputPaths.push_back(job.request.world.policyPath);
   for (const NumberedAvatar& avatar : job.request.avatars) inputPaths.push_back(avatar.path);
-  inputPaths.push_back(job.request.query.skinPath);
+  inputPaths.push_back(job.request.world.skinPath);
   const auto checked = checkOutputs(job.outputPath, job.report.path, inputPaths);
   if (!checked.ok()) return checked.error();
   const auto inputs = loadLogReplayInputs(job.request);

@@ -12,13 +12,13 @@
 #include <system_error>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "network/service/metrics_server.h"
 #include "network/service/metrics_text.h"
 #include "network/service/service.h"
-#include "tools/stream/serve_options.h"
+#include "tools/settings/channel_names.h"
+#include "tools/stream/serve_config.h"
 #include "tools/stream/served_world.h"
 #include "tools/stream/service_manager.h"
 #include "tools/stream/stop_signal.h"
@@ -38,7 +38,7 @@ Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   if (!url.ok()) return inFile(url.error(), "--url");
   const auto tried = testMulticast(url.value());
   if (!tried.ok()) return inFile(tried.error(), config.url);
-  const std::vector<std::string> channels = receivedChannels(config.suffix);
+  const std::vector<std::string> channels = receivedChannels(config.service.suffix);
   auto receiver = config.receiver == ReceiverKind::Own ? openUdpmReceiver(url.value(), channels)
                                                        : openLcmReceiver(config.url, channels);
   if (!receiver.ok()) return inFile(receiver.error(), config.url);
@@ -92,12 +92,13 @@ Result<std::optional<MetricsServer>> openHttp(const ServeConfig& config, const S
 
 std::string describe(const ServeConfig& config, const ServedWorld& world) {
   std::string text =
-      fmt::format("serving {} ({} triangles) to {} avatar{}", config.scene, world.numTriangles,
-                  world.avatars.size(), world.avatars.size() == 1 ? "" : "s");
-  text += fmt::format(" at {} fidelity, {} m, {} worker{}, on {}", toString(config.fidelity),
-                      config.tolerance, config.workers, config.workers == 1 ? "" : "s", config.url);
-  if (!config.policies.empty()) text += ", some links by policy";
-  if (!config.suffix.empty()) text += ", suffix " + config.suffix;
+      fmt::format("serving {} ({} triangles) to {} avatar{}", config.world.scenePath,
+                  world.numTriangles, world.avatars.size(), world.avatars.size() == 1 ? "" : "s");
+  text += fmt::format(" at {} fidelity, {} m, {} worker{}, on {}",
+                      toString(config.world.query.fidelity), config.world.query.tolerance,
+                      config.service.workers, config.service.workers == 1 ? "" : "s", config.url);
+  if (!config.world.policies.empty()) text += ", some links by policy";
+  if (!config.service.suffix.empty()) text += ", suffix " + config.service.suffix;
   if (!config.log.empty()) text += ", log " + config.log;
   if (!config.http.empty()) text += ", metrics on " + config.http;
   if (!config.view.empty()) text += ", to be watched at http://" + config.view + "/";
@@ -145,12 +146,34 @@ void surviveFailedWrites() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-ExitCode runTexts(const ServeTexts& texts) {
+ExitCode run(const Settings& settings, ServeConfig& config) {
   surviveFailedWrites();
-  const auto config = settledServeConfig(texts);
-  if (!config.ok()) return failed(config.error());
-  const auto served = serve(config.value());
+  // What the environment says stands behind what anybody wrote.
+  const bool isOpen = !settings.isGiven("--url") && config.url == kDefaultUrl;
+  config.url = urlOrDefault(isOpen ? std::string() : config.url);
+  if (config.world.scenePath.empty()) {
+    return failed({ErrorCode::Empty, "--scene", -1, -1, "expected a scene, here or by --config"});
+  }
+  if (config.avatars.empty()) {
+    return failed({ErrorCode::Empty, "--avatar", -1, -1,
+                   "expected at least one avatar, here or by --config"});
+  }
+  const auto served = serve(config);
   return served.ok() ? ExitCode::Done : failed(served.error());
+}
+
+/// First of all: options replace what the file says.
+void addConfigSetting(Settings& settings, ServeConfig& config) {
+  settings.parsed(
+      "--config", "FILE",
+      [&config](const std::string& path) -> Result<Done> {
+        auto read = path.empty() ? Result<ServeConfig>(ServeConfig()) : readServeConfig(path);
+        if (!read.ok()) return read.error();
+        config = std::move(read).value();
+        return Done{};
+      },
+      [] { return std::string(); },
+      "TOML file that says all of this; options below replace what it says");
 }
 
 constexpr char kServeExamples[] = R"(Examples:
@@ -181,12 +204,9 @@ Result<Done> serve(const ServeConfig& given) {
   ViewFeed feed(world.value().avatars.size());
   if (view) parts.observer = &feed;
 
-  ServiceOptions options;
-  options.workers = config.workers;
-  options.queue = static_cast<std::size_t>(config.queue);
-  options.suffix = config.suffix;
+  ServiceOptions options = config.service;
   options.build = "foretouch " FORETOUCH_VERSION " " FORETOUCH_BUILD_TYPE;
-  options.scene = config.scene;
+  options.scene = config.world.scenePath;
   const std::string line = describe(config, world.value());
   StopSignal stop;
   auto service = Service::start(std::move(world.value().avatars), std::move(parts), options);
@@ -214,13 +234,15 @@ Result<Done> serve(const ServeConfig& given) {
   return Done{};
 }
 
-void addServeCommand(CLI::App& program, ExitCode& exit) {
-  const auto texts = std::make_shared<ServeTexts>();
-  CLI::App* const command =
-      program.add_subcommand("serve", "Answer poses that come over LCM, until told to stop");
-  addServeOptions(*command, texts);
-  command->footer(kServeExamples);
-  command->callback([texts, &exit] { exit = runTexts(*texts); });
+Command serveCommand() {
+  const auto config = std::make_shared<ServeConfig>();
+  Settings settings;
+  addConfigSetting(settings, *config);
+  addServeSettings(settings, *config);
+  Command command{"serve", "Answer poses that come over LCM, until told to stop", kServeExamples,
+                  std::move(settings)};
+  command.run = [config](const Settings& given) { return run(given, *config); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -2,17 +2,12 @@
 #pragma once
 
 #include "articulated/result.h"
-#include "tools/console.h"
-#include "tools/stream/serve_config.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/settings/command_line.h"
+#include "tools/settings/serve_settings.h"
 
 namespace foretouch::tools {
 
-/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
-void addServeCommand(CLI::App& program, ExitCode& exit);
+[[nodiscard]] Command serveCommand();
 
 /// Serves until SIGINT, SIGTERM or SIGHUP; then answers what waits. Says on stdout what it serves,
 /// and "ready" on a line of its own once poses are taken. The error is one of starting, or what

@@ -6,7 +6,7 @@
 
 #include "assets/text_file.h"
 #include "tools/inputs/name_pattern.h"
-#include "tools/inputs/near_names.h"
+#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {

@@ -73,6 +73,18 @@ Result<Motion> readTable(const MotionRequest& request) {
 
 }  // namespace
 
+MotionRequest motionRequestOf(const ClipRequest& request) {
+  MotionRequest motion;
+  motion.path = request.motionPath;
+  motion.scale = request.motionScale;
+  motion.up = request.placement.motionUpZ ? UpAxis::Z : UpAxis::Y;
+  motion.animation = request.animation;
+  motion.robot = request.robotPath;
+  motion.packagePaths = request.packagePaths;
+  motion.rateHz = request.rateHz.value_or(motion.rateHz);
+  return motion;
+}
+
 Result<Motion> readMotion(const MotionRequest& request) {
   const Kind kind = kindOf(request.path);
   const auto checked = checkOptions(request, kind);

@@ -9,6 +9,7 @@
 #include "articulated/clip.h"
 #include "articulated/result.h"
 #include "assets/import/scene_import.h"
+#include "tools/settings/clip_settings.h"
 
 namespace foretouch::tools {
 
@@ -24,19 +25,8 @@ struct MotionRequest {
   std::vector<std::string> packagePaths;  ///< Where that URDF's packages are.
 };
 
-/// What the options of a command that plays a clip (ReplayRequest, SweepRequest) ask for.
-template <typename Request>
-[[nodiscard]] MotionRequest motionRequestOf(const Request& request) {
-  MotionRequest motion;
-  motion.path = request.motionPath;
-  motion.scale = request.motionScale;
-  motion.up = request.placement.motionUpZ ? UpAxis::Z : UpAxis::Y;
-  motion.animation = request.animation;
-  motion.robot = request.robotPath;
-  motion.packagePaths = request.packagePaths;
-  motion.rateHz = request.rateHz.value_or(motion.rateHz);
-  return motion;
-}
+/// The motion of a command that plays a clip.
+[[nodiscard]] MotionRequest motionRequestOf(const ClipRequest& request);
 
 struct Motion {
   Clip clip;

@@ -30,17 +30,17 @@ double sizeOfClipToAvatar(const Skeleton& avatar, const Clip& clip, const JointM
 
 }  // namespace
 
-Result<PlayedClip> loadPlayedClip(const std::string& avatarPath, const MotionRequest& motion,
-                                  const std::string& mapPath, std::optional<double> rateHz) {
-  auto avatar = readAvatarFile(avatarPath);
-  if (!avatar.ok()) return inFile(avatar.error(), avatarPath);
-  auto read = readMotion(motion);
+Result<PlayedClip> loadPlayedClip(const ClipRequest& request) {
+  auto avatar = readAvatarFile(request.avatarPath);
+  if (!avatar.ok()) return inFile(avatar.error(), request.avatarPath);
+  auto read = readMotion(motionRequestOf(request));
   if (!read.ok()) return read.error();
   Clip& clip = read.value().clip;
-  auto match = matchWithMap(avatar.value().skeleton(), clip.skeleton, mapPath, motion.path);
+  auto match =
+      matchWithMap(avatar.value().skeleton(), clip.skeleton, request.mapPath, request.motionPath);
   if (!match.ok()) return match.error();
-  const auto steps = selectSteps(clip.frames.size(), clip.frameTimeS, rateHz);
-  if (!steps.ok()) return inFile(steps.error(), motion.path);
+  const auto steps = selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz);
+  if (!steps.ok()) return inFile(steps.error(), request.motionPath);
   return PlayedClip{std::move(avatar).value(), std::move(clip), std::move(match).value(),
                     steps.value(), read.value().isUpright};
 }

@@ -23,18 +23,8 @@ struct PlayedClip {
   bool isUpright = false;  ///< As Motion::isUpright.
 };
 
-/// `rateHz` as selectSteps() takes it. Errors name the file or option.
-[[nodiscard]] Result<PlayedClip> loadPlayedClip(const std::string& avatarPath,
-                                                const MotionRequest& motion,
-                                                const std::string& mapPath,
-                                                std::optional<double> rateHz);
-
-/// The same for the options of a command (ReplayRequest, SweepRequest, PublishRequest).
-template <typename Request>
-[[nodiscard]] Result<PlayedClip> loadPlayedClip(const Request& request) {
-  return loadPlayedClip(request.avatarPath, motionRequestOf(request), request.mapPath,
-                        request.rateHz);
-}
+/// Errors name the file or option.
+[[nodiscard]] Result<PlayedClip> loadPlayedClip(const ClipRequest& request);
 
 /// What the reader tolerated, what did not match and what looks like a wrong unit: one sentence
 /// each, bounded in number.

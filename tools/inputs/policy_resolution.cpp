@@ -6,8 +6,8 @@
 #include "assets/text_file.h"
 #include "tools/inputs/ignored_pairs.h"
 #include "tools/inputs/name_pattern.h"
-#include "tools/inputs/near_names.h"
 #include "tools/inputs/policy_rules.h"
+#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {

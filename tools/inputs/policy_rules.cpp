@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "tools/inputs/policy_section.h"
-#include "tools/inputs/toml_section.h"
+#include "tools/settings/toml_section.h"
 
 namespace foretouch::tools {
 namespace {
@@ -25,8 +25,8 @@ PolicyRule readPolicy(TomlSection section, TomlReading& reading) {
   if (section.find("tolerance") != nullptr) {
     rule.tolerance = kMinTolerance;
     section.number(
-        "tolerance", "a finite number of metres from 1e-9 to 1e7",
-        [](double v) { return v >= kMinTolerance && v <= kMaxTolerance; }, *rule.tolerance);
+        "tolerance", kToleranceRange.inWords().c_str(),
+        [](double v) { return kToleranceRange.contains(v); }, *rule.tolerance);
   }
   if (section.find("fidelity") != nullptr) {
     rule.fidelity = Fidelity::Link;
@@ -80,6 +80,14 @@ Result<std::vector<PolicyRule>> readPolicyFile(const std::string& path) {
   const auto text = readWholeFile(path, kMaxTomlBytes);
   if (!text.ok()) return text.error();
   return parsePolicyFile(text.value(), path);
+}
+
+Result<Done> readPolicies(WorldRequest& request) {
+  if (request.policyPath.empty()) return Done{};
+  auto rules = readPolicyFile(request.policyPath);
+  if (!rules.ok()) return rules.error();
+  request.policies = std::move(rules).value();
+  return Done{};
 }
 
 }  // namespace foretouch::tools

@@ -12,7 +12,7 @@
 #include "articulated/result.h"
 #include "articulated/skeleton.h"
 #include "middleware/query_options.h"
-#include "tools/inputs/policy_rule.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 
@@ -21,6 +21,8 @@ namespace foretouch::tools {
 [[nodiscard]] Result<std::vector<PolicyRule>> parsePolicyFile(std::string_view text,
                                                               const std::string& file);
 [[nodiscard]] Result<std::vector<PolicyRule>> readPolicyFile(const std::string& path);
+/// The rules of the request's own file, where it names one.
+[[nodiscard]] Result<Done> readPolicies(WorldRequest& request);
 
 /// Resolves the rules for one avatar and scene, in order, so that later ones win: fills the
 /// options' ignored pairs and, where rules speak of tolerance or fidelity, their link policies. A

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "tools/inputs/policy_rule.h"
-#include "tools/inputs/toml_section.h"
+#include "tools/settings/policy_rule.h"
+#include "tools/settings/toml_section.h"
 
 namespace foretouch::tools {
 

@@ -8,12 +8,14 @@
 
 #include <fmt/format.h>
 
+#include "assets/import/scene_import.h"
 #include "assets/mesh/link_mesh.h"
-#include "network/stream/work_budget.h"
+#include "middleware/query/work_budget.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/ignored_pairs.h"
 #include "tools/inputs/played_clip.h"
+#include "tools/inputs/policy_rules.h"
 #include "tools/inputs/skin_file.h"
 
 namespace foretouch::tools {
@@ -28,9 +30,10 @@ void giveBackFreeMemory() {
 }
 
 /// The meshes that the avatar file refers to, where the fidelity asks for them.
-Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, QueryOptions& query) {
+Result<Done> loadSurface(const WorldRequest& request, const std::string& avatarPath,
+                         const Avatar& avatar, QueryOptions& query) {
   if (query.fidelity == Fidelity::Skinned) {
-    auto skin = loadSkin(request.skinPath, request.skinScale, request.skinUp, avatar);
+    auto skin = loadSkin(request.skinPath, request.skinImport, avatar);
     if (!skin.ok()) return skin.error();
     query.skin = std::move(skin).value();
     return Done{};
@@ -43,10 +46,10 @@ Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, Que
       exact.push_back(link);
     }
   }
-  auto meshes = loadLinkMeshes(avatar, request.avatarPath, exact);
-  if (!meshes.ok()) return inFile(meshes.error(), request.avatarPath);
+  auto meshes = loadLinkMeshes(avatar, avatarPath, exact);
+  if (!meshes.ok()) return inFile(meshes.error(), avatarPath);
   auto surface = AvatarSurface::build(avatar, std::move(meshes).value());
-  if (!surface.ok()) return inFile(surface.error(), request.avatarPath);
+  if (!surface.ok()) return inFile(surface.error(), avatarPath);
   // The first steps' latencies are the query's, unless policies ask for little to be there.
   if (query.linkPolicies.empty()) surface.value().prepare();
   query.surface = std::move(surface).value();
@@ -55,11 +58,8 @@ Result<Done> loadSurface(const ReplayRequest& request, const Avatar& avatar, Que
 
 }  // namespace
 
-Result<Scene> loadScene(const ReplayRequest& request) {
-  SceneImportOptions options;
-  options.scale = request.sceneScale;
-  options.up = request.sceneUp;
-  auto imported = importScene(request.scenePath, options);
+Result<Scene> loadScene(const WorldRequest& request) {
+  auto imported = importScene(request.scenePath, request.sceneImport);
   if (!imported.ok()) return inFile(imported.error(), request.scenePath);
   auto scene = Scene::build(std::move(imported.value().scene));
   if (!scene.ok()) return inFile(scene.error(), request.scenePath);
@@ -67,14 +67,9 @@ Result<Scene> loadScene(const ReplayRequest& request) {
   return scene;
 }
 
-Result<QueryOptions> queryOptionsFor(const ReplayRequest& request, const Avatar& avatar,
-                                     const Scene& scene) {
-  QueryOptions query;
-  query.tolerance = request.tolerance;
-  query.culler = request.culler;
-  query.fidelity = request.fidelity;
-  query.leafMethod = request.leafMethod;
-  query.scope = request.scope;
+Result<QueryOptions> queryOptionsFor(const WorldRequest& request, const std::string& avatarPath,
+                                     const Avatar& avatar, const Scene& scene) {
+  QueryOptions query = request.query;
   if (request.budgetUs > 0) query.workBudget = workBudget(static_cast<double>(request.budgetUs));
   auto ignored = parseIgnoredPairs(request.ignore, avatar.skeleton(), scene.objectNames());
   if (!ignored.ok()) return ignored.error();
@@ -82,7 +77,7 @@ Result<QueryOptions> queryOptionsFor(const ReplayRequest& request, const Avatar&
   const auto applied =
       applyPolicies(request.policies, avatar.skeleton(), scene.objectNames(), query);
   if (!applied.ok()) return applied.error();
-  const auto surface = loadSurface(request, avatar, query);
+  const auto surface = loadSurface(request, avatarPath, avatar, query);
   if (!surface.ok()) return surface.error();
   return query;
 }
@@ -93,7 +88,7 @@ Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
   auto& [avatar, clip, match, steps, isUpright] = played.value();
   auto scene = loadScene(request);
   if (!scene.ok()) return scene.error();
-  auto query = queryOptionsFor(request, avatar, scene.value());
+  auto query = queryOptionsFor(request, request.avatarPath, avatar, scene.value());
   if (!query.ok()) return query.error();
   return ReplayInputs{
       request, std::move(scene).value(), std::move(avatar), std::move(clip), std::move(match),

@@ -11,40 +11,16 @@
 #include "articulated/clip.h"
 #include "articulated/result.h"
 #include "assets/avatar/joint_match.h"
-#include "assets/import/scene_import.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
-#include "tools/inputs/policy_rules.h"
 #include "tools/inputs/step_selection.h"
+#include "tools/settings/clip_settings.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 
-/// The options of a replay, each legal by itself.
-struct ReplayRequest {
-  std::string scenePath, avatarPath, motionPath;
-  std::string mapPath;           ///< Empty: joints are matched by name alone.
-  std::optional<double> rateHz;  ///< Empty: every frame.
-  double motionScale = 1.0;      ///< Metres per unit of the clip.
-  std::string animation;         ///< Of a motion that is a model.
-  std::string robotPath;         ///< Of a motion that is a table of joint positions.
-  std::vector<std::string> packagePaths;
-  double sceneScale = 1.0;  ///< Metres per unit of the scene.
-  UpAxis sceneUp = UpAxis::Y;
-  Placement placement;
-  double tolerance = 1e-3;
-  Culler culler = Culler::FlatBvh;
-  Fidelity fidelity = Fidelity::Link;
-  LeafMethod leafMethod = LeafMethod::Advancement;
-  Scope scope = Scope::EveryLink;
-  std::string skinPath;    ///< The model whose skin is the surface at skinned fidelity.
-  double skinScale = 1.0;  ///< Metres per unit of that model.
-  UpAxis skinUp = UpAxis::Y;
-  std::vector<std::string> ignore;
-  std::string policyPath;
-  std::vector<PolicyRule> policies;  ///< Of that file, or of a service's; later ones win.
-  /// What a step's query may cost, as workBudget() makes work of it; 0: no limit.
-  std::int64_t budgetUs = 0;
-};
+/// What is asked of a recorded clip: what is played, and the world that it is played in.
+struct ReplayRequest : ClipRequest, WorldRequest {};
 
 struct ReplayInputs {
   ReplayRequest request;
@@ -53,7 +29,7 @@ struct ReplayInputs {
   Clip clip;
   JointMatch match;
   StepSelection steps;
-  QueryOptions query;
+  QueryOptions query;      ///< As asked, with what the avatar and the scene add to it.
   bool isUpright = false;  ///< The clip was turned Y-up as it was read (Motion::isUpright).
 
   [[nodiscard]] double timeOfStep(std::int64_t step) const {
@@ -65,12 +41,13 @@ struct ReplayInputs {
 [[nodiscard]] Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request);
 
 /// The scene that the request names, and nothing else of it.
-[[nodiscard]] Result<Scene> loadScene(const ReplayRequest& request);
+[[nodiscard]] Result<Scene> loadScene(const WorldRequest& request);
 
-/// The options of its queries, with the surface or skin that its fidelity asks for. Where policies
-/// ask for exact links, only these links' meshes are read, and what queries need of each is built
-/// when the first of them comes near anything.
-[[nodiscard]] Result<QueryOptions> queryOptionsFor(const ReplayRequest& request,
+/// The options of queries about the avatar, which was read from `avatarPath`, with the surface or
+/// skin that its fidelity asks for. Where policies ask for exact links, only these links' meshes
+/// are read, and what queries need of each is built when the first of them comes near anything.
+[[nodiscard]] Result<QueryOptions> queryOptionsFor(const WorldRequest& request,
+                                                   const std::string& avatarPath,
                                                    const Avatar& avatar, const Scene& scene);
 
 /// What the reader tolerated, what did not match and what looks like a wrong unit: one sentence

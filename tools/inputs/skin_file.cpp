@@ -39,15 +39,14 @@ std::optional<std::string> difference(const Skeleton& avatar, const Skeleton& mo
 
 }  // namespace
 
-Result<SkinnedSurface> loadSkin(const std::string& path, double scale, UpAxis up,
+Result<SkinnedSurface> loadSkin(const std::string& path, const SceneImportOptions& import,
                                 const Avatar& avatar) {
   if (path.empty()) {
     return Error{ErrorCode::Empty, "--skin", -1, -1,
                  "expected the model whose skin is the surface, which skinned fidelity needs"};
   }
   ModelImportOptions options;
-  options.import.scale = scale;
-  options.import.up = up;
+  options.import = import;
   const auto model = importModel(path, options);
   if (!model.ok()) return inFile(model.error(), path);
   auto made = avatarFromModel(model.value());

@@ -11,10 +11,11 @@
 
 namespace foretouch::tools {
 
-/// `scale`: metres per unit of the model. The model's own avatar must have the links of `avatar`:
+/// The model's own avatar must have the links of `avatar`:
 /// the same names and parents in the same order, rest offsets within a millimetre and rest
 /// rotations within a thousandth. Errors name the file, the link and what differs.
-[[nodiscard]] Result<SkinnedSurface> loadSkin(const std::string& path, double scale, UpAxis up,
+[[nodiscard]] Result<SkinnedSurface> loadSkin(const std::string& path,
+                                              const SceneImportOptions& import,
                                               const Avatar& avatar);
 
 }  // namespace foretouch::tools

@@ -9,13 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "assets/text_file.h"
 #include "network/log/event_log.h"
 #include "tools/arguments.h"
-#include "tools/inputs/numbered_avatars.h"
 #include "tools/interrupt.h"
 #include "tools/log/log_inspection.h"
 #include "tools/log/log_loss.h"
@@ -23,15 +21,17 @@
 #include "tools/log/replay_log.h"
 #include "tools/progress.h"
 #include "tools/results_output.h"
-#include "tools/stream/channel_names.h"
+#include "tools/settings/channel_names.h"
+#include "tools/settings/numbered_avatars.h"
+#include "tools/settings/stream_settings.h"
 #include "tools/stream/event_line.h"
 #include "tools/stream/publish_command.h"
 
 namespace foretouch::tools {
 namespace {
 
-/// Values as typed in.
-struct ConvertTexts {
+/// All that the options say.
+struct Conversion {
   std::string input, output, avatar, suffix;
 };
 
@@ -45,11 +45,11 @@ std::string extensionOf(const std::string& path) {
 /// What was written, for a person.
 using Told = Result<std::string>;
 
-Told toJsonLines(const ConvertTexts& texts, LogLoss& loss) {
-  const auto channels = channelNames(texts.suffix);
+Told toJsonLines(const Conversion& asked, LogLoss& loss) {
+  const auto channels = channelNames(asked.suffix);
   if (!channels.ok()) return channels.error();
   const InterruptGuard guard;
-  auto file = PendingFile::create(texts.output);
+  auto file = PendingFile::create(asked.output);
   if (!file.ok()) return file.error();
   ProgressBar progress("convert", 100);
   std::int64_t events = 0;
@@ -61,7 +61,7 @@ Told toJsonLines(const ConvertTexts& texts, LogLoss& loss) {
     }
     return !guard.requested();
   };
-  const auto read = readEvents(texts.input, loss, write);
+  const auto read = readEvents(asked.input, loss, write);
   if (!read.ok()) return read.error();
   if (guard.requested()) return std::string();
   const auto written = file.value().commit();
@@ -69,18 +69,18 @@ Told toJsonLines(const ConvertTexts& texts, LogLoss& loss) {
   return fmt::format("{} events", events);
 }
 
-Told toBvh(const ConvertTexts& texts, LogLoss& loss) {
-  LogToBvhRequest request{texts.input, texts.suffix, 1};
-  if (!texts.avatar.empty()) {
-    const auto id = parseAvatarId("--avatar", texts.avatar);
+Told toBvh(const Conversion& asked, LogLoss& loss) {
+  LogToBvhRequest request{asked.input, asked.suffix, 1};
+  if (!asked.avatar.empty()) {
+    const auto id = parseAvatarId("--avatar", asked.avatar);
     if (!id.ok()) return id.error();
     request.avatar = id.value();
   }
   const auto bvh = logToBvh(request, loss);
   if (!bvh.ok()) return bvh.error();
-  for (const std::string& note : bvh.value().notes) printNote(texts.input + ": " + note);
+  for (const std::string& note : bvh.value().notes) printNote(asked.input + ": " + note);
   const InterruptGuard guard;
-  auto file = PendingFile::create(texts.output);
+  auto file = PendingFile::create(asked.output);
   if (!file.ok()) return file.error();
   file.value().write(bvh.value().text);
   const auto written = file.value().commit();
@@ -88,58 +88,58 @@ Told toBvh(const ConvertTexts& texts, LogLoss& loss) {
   return fmt::format("{} frames of avatar {}, in metres", bvh.value().frames, request.avatar);
 }
 
-Told toLog(const ConvertTexts& texts) {
-  const auto avatars = parseNumberedAvatars("--avatar", {texts.avatar});
+Told toLog(const Conversion& asked) {
+  const auto avatars = parseNumberedAvatars("--avatar", {asked.avatar});
   if (!avatars.ok()) return avatars.error();
-  const auto channels = channelNames(texts.suffix);
+  const auto channels = channelNames(asked.suffix);
   if (!channels.ok()) return channels.error();
-  PublishRequest request;
+  ClipRequest request;
   request.avatarPath = avatars.value().front().path;
-  request.motionPath = texts.input;
+  request.motionPath = asked.input;
   PublishOptions options;
   options.channels = channels.value();
   options.sender.avatar = avatars.value().front().id;
   options.sender.source = "foretouch log convert";
   options.sender.startUtimeUs = utimeNow();
-  const auto report = publishToLog(request, options, texts.output);
+  const auto report = publishToLog(request, options, asked.output);
   if (!report.ok()) return report.error();
   return fmt::format("{} poses and {} skeletons of avatar {}", report.value().poses,
                      report.value().skeletons, options.sender.avatar);
 }
 
-Told convert(const ConvertTexts& texts, LogLoss& loss) {
-  const std::string extension = extensionOf(texts.output);
-  const bool isLog = isEventLog(texts.input);
-  const auto separate = checkIsNoInput(texts.output, {texts.input});
+Told convert(const Conversion& asked, LogLoss& loss) {
+  const std::string extension = extensionOf(asked.output);
+  const bool isLog = isEventLog(asked.input);
+  const auto separate = checkIsNoInput(asked.output, {asked.input});
   if (!separate.ok()) return separate.error();
-  if (isLog && extension == ".jsonl" && !texts.avatar.empty()) {
+  if (isLog && extension == ".jsonl" && !asked.avatar.empty()) {
     return Error{ErrorCode::Mismatch, "--avatar", -1, -1,
                  "makes no sense with lines of JSON, which hold every avatar; expected none"};
   }
-  if (isLog && extension == ".jsonl") return toJsonLines(texts, loss);
-  if (isLog && extension == ".bvh") return toBvh(texts, loss);
-  if (!isLog && extension == ".lcmlog" && texts.avatar.empty()) {
+  if (isLog && extension == ".jsonl") return toJsonLines(asked, loss);
+  if (isLog && extension == ".bvh") return toBvh(asked, loss);
+  if (!isLog && extension == ".lcmlog" && asked.avatar.empty()) {
     return Error{ErrorCode::Empty, "--avatar", -1, -1,
                  "expected the avatar file that the clip moves"};
   }
-  if (!isLog && extension == ".lcmlog") return toLog(texts);
+  if (!isLog && extension == ".lcmlog") return toLog(asked);
   return Error{ErrorCode::Mismatch, "--output", -1, -1,
                isLog
-                   ? "expected a file that ends in .bvh or .jsonl, found " + inQuotes(texts.output)
-                   : "expected a file that ends in .lcmlog, as " + inQuotes(texts.input) +
-                         " is no event log, found " + inQuotes(texts.output)};
+                   ? "expected a file that ends in .bvh or .jsonl, found " + inQuotes(asked.output)
+                   : "expected a file that ends in .lcmlog, as " + inQuotes(asked.input) +
+                         " is no event log, found " + inQuotes(asked.output)};
 }
 
-ExitCode runTexts(const ConvertTexts& texts) {
+ExitCode run(const Conversion& asked) {
   LogLoss loss;
-  const auto told = convert(texts, loss);
-  for (const std::string& line : loss.lines()) printError(texts.input + ": " + line);
+  const auto told = convert(asked, loss);
+  for (const std::string& line : loss.lines()) printError(asked.input + ": " + line);
   if (!loss.any() && loss.counts().hasCheckSums && !loss.counts().isClosed) {
-    printNote(texts.input + ": " + formatOf(loss.counts()));
+    printNote(asked.input + ": " + formatOf(loss.counts()));
   }
   if (!told.ok()) return failed(told.error());
-  const std::string text = texts.output + ": " + told.value() + "\n";
-  isStandardOutput(texts.output) ? printAside(text) : printOut(text);
+  const std::string text = asked.output + ": " + told.value() + "\n";
+  isStandardOutput(asked.output) ? printAside(text) : printOut(text);
   return loss.any() ? ExitCode::CheckSaysNo : ExitCode::Done;
 }
 
@@ -152,21 +152,19 @@ foretouch publish CLIP --output LOG has the options of a clip that is scaled, tu
 
 }  // namespace
 
-void addLogConvertCommand(CLI::App& log, ExitCode& exit) {
-  const auto texts = std::make_shared<ConvertTexts>();
-  CLI::App* const command =
-      log.add_subcommand("convert", "Turn an event log into BVH or JSON, or a clip into a log");
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    return command->add_option(name, text, help)->type_name(type);
-  };
-  option("INPUT", texts->input, "", "Event log, or a clip as foretouch publish reads it")
-      ->required();
-  option("-o,--output", texts->output, "FILE", "Ends in .bvh, .jsonl or .lcmlog")->required();
-  option("--avatar", texts->avatar, "ID|[ID=]FILE",
-         "Of a log: whose poses, 1 if not given. Of a clip: the avatar file that it moves");
-  option("--suffix", texts->suffix, "TEXT", "Ending of the channels' names");
-  command->footer(kConvertExamples);
-  command->callback([texts, &exit] { exit = runTexts(*texts); });
+Command logConvertCommand() {
+  const auto asked = std::make_shared<Conversion>();
+  Settings settings;
+  settings.path("INPUT", "", asked->input, "Event log, or a clip as foretouch publish reads it")
+      .required();
+  settings.path("-o,--output", "FILE", asked->output, "Ends in .bvh, .jsonl or .lcmlog").required();
+  settings.text("--avatar", "ID|[ID=]FILE", asked->avatar,
+                "Of a log: whose poses, 1 if not given. Of a clip: the avatar file that it moves");
+  addSuffixSetting(settings, asked->suffix);
+  Command command{"convert", "Turn an event log into BVH or JSON, or a clip into a log",
+                  kConvertExamples, std::move(settings)};
+  command.run = [asked](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "tools/log/log_inspection.h"
@@ -13,21 +12,22 @@
 namespace foretouch::tools {
 namespace {
 
-struct InspectTexts {
+/// All that the options say.
+struct AskedLogs {
   std::vector<std::string> logs;
   bool json = false;
 };
 
-ExitCode info(const InspectTexts& texts) {
+ExitCode info(const AskedLogs& asked) {
   ExitCode exit = ExitCode::Done;
-  for (const std::string& path : texts.logs) {
+  for (const std::string& path : asked.logs) {
     const auto inspection = inspectLog(path);
     if (!inspection.ok()) {
-      if (texts.json) printOut(jsonLine(path, inspection.error()));
+      if (asked.json) printOut(jsonLine(path, inspection.error()));
       exit = failed(inFile(inspection.error(), path));
       continue;
     }
-    printOut(texts.json ? jsonLine(inspection.value()) : describe(inspection.value()));
+    printOut(asked.json ? jsonLine(inspection.value()) : describe(inspection.value()));
   }
   return exit;
 }
@@ -60,36 +60,36 @@ ExitCode checkOne(const std::string& path, bool json) {
   return inspection.isSound() ? ExitCode::Done : ExitCode::CheckSaysNo;
 }
 
-ExitCode check(const InspectTexts& texts) {
+ExitCode check(const AskedLogs& asked) {
   ExitCode worst = ExitCode::Done;
-  for (const std::string& path : texts.logs) {
-    worst = std::max(worst, checkOne(path, texts.json));
+  for (const std::string& path : asked.logs) {
+    worst = std::max(worst, checkOne(path, asked.json));
   }
   return worst;
 }
 
-std::shared_ptr<InspectTexts> addOptions(CLI::App& command) {
-  auto texts = std::make_shared<InspectTexts>();
-  command.add_option("log", texts->logs, "LCM event logs")->type_name("LOG")->required();
-  command.add_flag("--json", texts->json, "One line of JSON a log, on stdout");
-  return texts;
+Command commandOf(const char* name, const char* purpose, const char* example,
+                  ExitCode (*run)(const AskedLogs&)) {
+  const auto asked = std::make_shared<AskedLogs>();
+  Settings settings;
+  settings.list("log", "LOG", asked->logs, "LCM event logs").required();
+  settings.flag("--json", asked->json, "One line of JSON a log, on stdout");
+  Command command{name, purpose, example, std::move(settings)};
+  command.run = [asked, run](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace
 
-void addLogInfoCommand(CLI::App& log, ExitCode& exit) {
-  CLI::App* const command = log.add_subcommand("info", "What is in a log: channels, rates, times");
-  const auto texts = addOptions(*command);
-  command->footer("Example:\n  foretouch log info today.lcmlog");
-  command->callback([texts, &exit] { exit = info(*texts); });
+Command logInfoCommand() {
+  return commandOf("info", "What is in a log: channels, rates, times",
+                   "Example:\n  foretouch log info today.lcmlog", info);
 }
 
-void addLogCheckCommand(CLI::App& log, ExitCode& exit) {
-  CLI::App* const command = log.add_subcommand(
-      "check", "Read logs to the end; exit code 1 where one is damaged, 2 where one is no log");
-  const auto texts = addOptions(*command);
-  command->footer("Example:\n  foretouch log check *.lcmlog");
-  command->callback([texts, &exit] { exit = check(*texts); });
+Command logCheckCommand() {
+  return commandOf("check",
+                   "Read logs to the end; exit code 1 where one is damaged, 2 where one is no log",
+                   "Example:\n  foretouch log check *.lcmlog", check);
 }
 
 }  // namespace foretouch::tools

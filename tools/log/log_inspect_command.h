@@ -1,15 +1,11 @@
 // tools/log/log_inspect_command.h: `foretouch log info` and `foretouch log check`.
 #pragma once
 
-#include "tools/console.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 
-void addLogInfoCommand(CLI::App& log, ExitCode& exit);
-void addLogCheckCommand(CLI::App& log, ExitCode& exit);
+[[nodiscard]] Command logInfoCommand();
+[[nodiscard]] Command logCheckCommand();
 
 }  // namespace foretouch::tools

@@ -5,7 +5,6 @@
 #include <string>
 #include <system_error>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "tools/log/log_inspection.h"
@@ -14,7 +13,8 @@
 namespace foretouch::tools {
 namespace {
 
-struct RecoverTexts {
+/// All that the options say.
+struct Recovery {
   std::string log, output;
   bool keepTail = false;
 };
@@ -35,9 +35,9 @@ Result<LogCounts> copyEvents(EventLogReader& reader, EventLogWriter& writer) {
   return reader.counts();
 }
 
-std::string summary(const RecoverTexts& texts, const LogCounts& counts) {
+std::string summary(const Recovery& asked, const LogCounts& counts) {
   std::string text =
-      fmt::format("{}: {} events written to {}\n", texts.log, counts.events, texts.output);
+      fmt::format("{}: {} events written to {}\n", asked.log, counts.events, asked.output);
   const auto add = [&text](std::uint64_t count, const char* what) {
     if (count > 0) text += fmt::format("  {:<25}{}\n", what, count);
   };
@@ -45,46 +45,47 @@ std::string summary(const RecoverTexts& texts, const LogCounts& counts) {
   add(counts.badBlocks, "bad blocks");
   add(counts.missingBlocks, "missing blocks");
   add(counts.badEvents, "bad events");
-  add(counts.tailEvents, texts.keepTail ? "unchecked tail, kept" : "unchecked tail, left out");
+  add(counts.tailEvents, asked.keepTail ? "unchecked tail, kept" : "unchecked tail, left out");
   add(counts.skippedBytes, "bytes lost");
   return text;
 }
 
-ExitCode recover(const RecoverTexts& texts) {
+ExitCode recover(const Recovery& asked) {
   LogReadOptions options;
-  options.keepTail = texts.keepTail;
+  options.keepTail = asked.keepTail;
   std::size_t findings = 0;
   options.onFinding = [&](const LogFinding& finding) {
-    if (++findings <= kMaxListedFindings) printNote(texts.log + ": " + describe(finding));
+    if (++findings <= kMaxListedFindings) printNote(asked.log + ": " + describe(finding));
   };
-  auto reader = EventLogReader::open(texts.log, options);
-  if (!reader.ok()) return failed(inFile(reader.error(), texts.log));
-  auto writer = EventLogWriter::create(texts.output);
-  if (!writer.ok()) return failed(inFile(writer.error(), texts.output));
+  auto reader = EventLogReader::open(asked.log, options);
+  if (!reader.ok()) return failed(inFile(reader.error(), asked.log));
+  auto writer = EventLogWriter::create(asked.output);
+  if (!writer.ok()) return failed(inFile(writer.error(), asked.output));
   const auto counts = copyEvents(reader.value(), writer.value());
   if (!counts.ok()) {
     std::error_code ignored;
-    std::filesystem::remove(texts.output, ignored);
+    std::filesystem::remove(asked.output, ignored);
     return failed(counts.error());
   }
-  printOut(summary(texts, counts.value()));
+  printOut(summary(asked, counts.value()));
   return ExitCode::Done;
 }
 
 }  // namespace
 
-void addLogRecoverCommand(CLI::App& log, ExitCode& exit) {
-  const auto texts = std::make_shared<RecoverTexts>();
-  CLI::App* const command = log.add_subcommand(
-      "recover", "Write every event that can be trusted into a new log with check sums");
-  command->add_option("log", texts->log, "LCM event log")->type_name("LOG")->required();
-  command->add_option("-o,--output", texts->output, "The new log; an existing file is refused")
-      ->type_name("FILE")
-      ->required();
-  command->add_flag("--keep-tail", texts->keepTail,
-                    "Also what follows the last check sum: of a writer that was killed");
-  command->footer("Example:\n  foretouch log recover torn.lcmlog -o whole.lcmlog --keep-tail");
-  command->callback([texts, &exit] { exit = recover(*texts); });
+Command logRecoverCommand() {
+  const auto asked = std::make_shared<Recovery>();
+  Settings settings;
+  settings.path("log", "LOG", asked->log, "LCM event log").required();
+  settings.path("-o,--output", "FILE", asked->output, "The new log; an existing file is refused")
+      .required();
+  settings.flag("--keep-tail", asked->keepTail,
+                "Also what follows the last check sum: of a writer that was killed");
+  Command command{"recover", "Write every event that can be trusted into a new log with check sums",
+                  "Example:\n  foretouch log recover torn.lcmlog -o whole.lcmlog --keep-tail",
+                  std::move(settings)};
+  command.run = [asked](const Settings&) { return recover(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -1,14 +1,10 @@
 // tools/log/log_recover_command.h: `foretouch log recover`.
 #pragma once
 
-#include "tools/console.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 
-void addLogRecoverCommand(CLI::App& log, ExitCode& exit);
+[[nodiscard]] Command logRecoverCommand();
 
 }  // namespace foretouch::tools

@@ -16,7 +16,7 @@
 #include "network/wire/codec.h"
 #include "tools/console.h"
 #include "tools/log/bvh_text.h"
-#include "tools/stream/channel_names.h"
+#include "tools/settings/channel_names.h"
 
 namespace foretouch::tools {
 namespace {

@@ -15,6 +15,8 @@
 #include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
 #include "tools/replay/results_writer.h"
+#include "tools/settings/stream_settings.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
@@ -25,13 +27,12 @@ constexpr std::size_t kMaxOthers = 1024;
 Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
   std::vector<StreamSolver> solvers;
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {
-    ReplayRequest request = inputs.request.query;
-    request.avatarPath = inputs.request.avatars[i].path;
-    auto options = queryOptionsFor(request, inputs.avatars[i], inputs.scene);
+    const std::string& path = inputs.request.avatars[i].path;
+    auto options = queryOptionsFor(inputs.request.world, path, inputs.avatars[i], inputs.scene);
     if (!options.ok()) return options.error();
     auto solver = StreamSolver::make(inputs.request.avatars[i].id, inputs.avatars[i], inputs.scene,
                                      options.value(), inputs.request.policy);
-    if (!solver.ok()) return inFile(solver.error(), request.avatarPath);
+    if (!solver.ok()) return inFile(solver.error(), path);
     solvers.push_back(std::move(solver).value());
   }
   return solvers;
@@ -168,14 +169,14 @@ Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request) {
     if (!avatar.ok()) return inFile(avatar.error(), numbered.path);
     avatars.push_back(std::move(avatar).value());
   }
-  auto scene = loadScene(request.query);
+  auto scene = loadScene(request.world);
   if (!scene.ok()) return scene.error();
   return LogReplayInputs{request, std::move(channels).value(), std::move(scene).value(),
                          std::move(avatars)};
 }
 
 Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSink& sink) {
-  const std::string& path = inputs.request.query.motionPath;
+  const std::string& path = inputs.request.logPath;
   auto solvers = solversFor(inputs);
   if (!solvers.ok()) return solvers.error();
   const auto compares = holdsAnswers(path, inputs.channels.contacts);
@@ -200,23 +201,24 @@ Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSin
 }
 
 std::string logHeaderLine(const LogReplayInputs& inputs) {
-  const LogReplayRequest& request = inputs.request;
-  const ReplayRequest& query = request.query;
-  constexpr double kUsPerS = 1e6;
+  LogReplayRequest request = inputs.request;
+  Settings settings;
+  addSceneSettings(settings, request.world);
+  addSuffixSetting(settings, request.suffix);
+  addQuerySettings(settings, request.world);
+  addReplayQuerySettings(settings, request.world);
+  addStreamSettings(settings, request.policy);
   std::string text;
   JsonWriter out(text);
   beginResults(out);
-  writeFileName("scene", query.scenePath, out);
-  writeFileName("motion", query.motionPath, out);
-  out.field("suffix", request.suffix);
-  writeQuestion(query, out);
-  writePolicies(query, out);
-  writeSurface(query, out);
-  writeSceneOptions(query, out);
-  out.field("budget_us", query.budgetUs);
-  out.field("max_step", static_cast<double>(request.policy.maxStepUs) / kUsPerS);
-  out.field("confirmations", request.policy.confirmations);
-  out.field("unmatched_at_rest", request.policy.unmatchedAtRest);
+  writeHeaderField(settings, "scene", out);
+  writeFileName("motion", request.logPath, out);
+  writeHeaderFields(settings,
+                    {"suffix", "tolerance", "fidelity", "policy", "leaves", "skin", "skin_scale",
+                     "skin_up", "scene_scale", "up", "ignore"},
+                    out);
+  writeHeaderField(settings, "budget_us", out);  // also where there is none
+  writeHeaderFields(settings, {"max_step", "confirmations", "unmatched_at_rest"}, out);
   out.key("avatars");
   out.beginArray();
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {

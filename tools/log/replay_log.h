@@ -16,10 +16,10 @@
 #include "network/stream/stream_solver.h"
 #include "network/wire/messages.h"
 #include "network/wire/reject.h"
-#include "tools/inputs/numbered_avatars.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/log/journal_check.h"
-#include "tools/stream/channel_names.h"
+#include "tools/settings/channel_names.h"
+#include "tools/settings/numbered_avatars.h"
 
 namespace foretouch::tools {
 
@@ -27,8 +27,8 @@ namespace foretouch::tools {
 [[nodiscard]] bool isEventLog(const std::string& path);
 
 struct LogReplayRequest {
-  /// Scene and query; `motionPath` is the log. What is about clips is not read, nor avatarPath.
-  ReplayRequest query;
+  std::string logPath;
+  WorldRequest world;
   std::vector<NumberedAvatar> avatars;
   StreamPolicy policy;
   std::string suffix;

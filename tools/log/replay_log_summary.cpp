@@ -85,10 +85,11 @@ std::string LogReplaySummary::comparison(const LogReplayReport& report) {
 }
 
 std::string LogReplaySummary::head() const {
-  const ReplayRequest& query = inputs_.request.query;
+  const LogReplayRequest& request = inputs_.request;
+  const QueryOptions& query = request.world.query;
   std::string text =
       fmt::format("{} in {}: {} triangles, {} {}\ntolerance {:.3g} m, {} fidelity\n\n",
-                  query.motionPath, query.scenePath, inputs_.scene.audit().triangles,
+                  request.logPath, request.world.scenePath, inputs_.scene.audit().triangles,
                   inputs_.avatars.size(), inputs_.avatars.size() == 1 ? "avatar" : "avatars",
                   query.tolerance, toString(query.fidelity));
   return text;

@@ -4,46 +4,10 @@
 #include <filesystem>
 
 #include "tools/contact_json.h"
+#include "tools/settings/clip_settings.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
-namespace {
-
-std::string nameOfFile(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
-
-const char* nameOf(UpAxis up) {
-  return up == UpAxis::Z ? "z" : "y";
-}
-
-/// A rule as it was given.
-void writeRule(const PolicyRule& rule, JsonWriter& out) {
-  out.beginObject();
-  if (!rule.links.empty()) out.field("links", rule.links);
-  if (!rule.objects.empty()) out.field("objects", rule.objects);
-  if (rule.tolerance) out.field("tolerance", *rule.tolerance);
-  if (rule.fidelity) out.field("fidelity", toString(*rule.fidelity));
-  if (rule.ignore) out.field("ignore", *rule.ignore);
-  out.endObject();
-}
-
-void writePlacement(const ReplayRequest& request, JsonWriter& out) {
-  out.field("scale", request.motionScale);
-  out.field("motion_up", request.placement.motionUpZ ? "z" : "y");
-  out.key("place");
-  out.beginArray();
-  for (const double x : request.placement.origin) out.value(x);
-  out.value(request.placement.yawDeg);
-  out.endArray();
-}
-
-/// What only motions that are no BVH clips depend on.
-void writeMotion(const ReplayRequest& request, JsonWriter& out) {
-  if (!request.animation.empty()) out.field("animation", request.animation);
-  if (!request.robotPath.empty()) writeFileName("robot", request.robotPath, out);
-}
-
-}  // namespace
 
 void beginResults(JsonWriter& out) {
   out.beginObject();
@@ -53,7 +17,7 @@ void beginResults(JsonWriter& out) {
 }
 
 void writeFileName(const char* name, const std::string& path, JsonWriter& out) {
-  out.field(name, nameOfFile(path));
+  out.field(name, std::filesystem::path(path).filename().string());
 }
 
 void writeLinkNames(const Avatar& avatar, JsonWriter& out) {
@@ -63,61 +27,29 @@ void writeLinkNames(const Avatar& avatar, JsonWriter& out) {
   out.endArray();
 }
 
-void writeQuestion(const ReplayRequest& request, JsonWriter& out) {
-  out.field("tolerance", request.tolerance);
-  out.field("fidelity", toString(request.fidelity));
-}
-
-void writeSceneOptions(const ReplayRequest& request, JsonWriter& out) {
-  out.field("scene_scale", request.sceneScale);
-  out.field("up", nameOf(request.sceneUp));
-  out.field("ignore", request.ignore);
-}
-
-void writePolicies(const ReplayRequest& request, JsonWriter& out) {
-  if (request.policies.empty()) return;
-  out.list("policy", request.policies, [&](const PolicyRule& rule) { writeRule(rule, out); });
-}
-
-void writeSurface(const ReplayRequest& request, JsonWriter& out) {
-  const bool isExact =
-      request.fidelity == Fidelity::Exact ||
-      std::any_of(request.policies.begin(), request.policies.end(),
-                  [](const PolicyRule& r) { return r.fidelity == Fidelity::Exact; });
-  if (isExact) {
-    out.field("leaves", toString(request.leafMethod));
-  } else if (request.fidelity == Fidelity::Skinned) {
-    writeFileName("skin", request.skinPath, out);
-    out.field("skin_scale", request.skinScale);
-    out.field("skin_up", nameOf(request.skinUp));
-  }
-}
-
 std::string headerLine(const ReplayInputs& inputs) {
-  const ReplayRequest& request = inputs.request;
+  ReplayRequest request = inputs.request;
+  Settings settings;
+  addMotionSetting(settings, request, "", "");
+  addRateSetting(settings, request);
+  addClipSettings(settings, request);
+  addSceneSettings(settings, request);
+  addQuerySettings(settings, request);
+  addReplayQuerySettings(settings, request);
   std::string text;
   JsonWriter out(text);
   beginResults(out);
-  writeFileName("scene", request.scenePath, out);
+  writeHeaderField(settings, "scene", out);
   writeFileName("avatar", request.avatarPath, out);
-  writeFileName("motion", request.motionPath, out);
-  out.key("rate");
-  if (request.rateHz) {
-    out.value(*request.rateHz);
-  } else {
-    out.null();
-  }
+  writeHeaderFields(settings, {"motion", "rate"}, out);
   out.field("k", inputs.steps.stride);
   out.field("frame_time", inputs.clip.frameTimeS);
   out.field("steps", inputs.steps.count);
-  writeQuestion(request, out);
-  writePlacement(request, out);
-  writeSceneOptions(request, out);
-  if (request.scope != Scope::EveryLink) out.field("scope", toString(request.scope));
-  if (request.budgetUs > 0) out.field("budget_us", request.budgetUs);
-  writePolicies(request, out);
-  writeSurface(request, out);
-  writeMotion(request, out);
+  writeHeaderFields(settings,
+                    {"tolerance", "fidelity", "scale", "motion_up", "place", "scene_scale", "up",
+                     "ignore", "scope", "budget_us", "policy", "leaves", "skin", "skin_scale",
+                     "skin_up", "animation", "robot"},
+                    out);
   writeLinkNames(inputs.avatar, out);
   out.field("unmatched_joints", inputs.match.unmatchedAvatar);
   out.endObject();

@@ -31,12 +31,6 @@ void beginResults(JsonWriter& out);
 /// Without the folders.
 void writeFileName(const char* name, const std::string& path, JsonWriter& out);
 void writeLinkNames(const Avatar& avatar, JsonWriter& out);
-void writeQuestion(const ReplayRequest& request, JsonWriter& out);
-void writeSceneOptions(const ReplayRequest& request, JsonWriter& out);
-/// Each rule as it was given; nothing where there is none.
-void writePolicies(const ReplayRequest& request, JsonWriter& out);
-/// What only exact and skinned fidelity depend on.
-void writeSurface(const ReplayRequest& request, JsonWriter& out);
 
 /// The first line. Names neither threads nor culler: they do not change what follows.
 [[nodiscard]] std::string headerLine(const ReplayInputs& inputs);

@@ -103,8 +103,8 @@ std::string ReplaySummary::head(int threads) const {
       "{} in {}: {} triangles, {} links\n{:.5g} of {:.5g} poses a second, tolerance {:.3g} m, "
       "{} fidelity{}, {} {}\n\n",
       inputs_.request.motionPath, inputs_.request.scenePath, inputs_.scene.audit().triangles,
-      inputs_.avatar.numLinks(), clipHz / stride, clipHz, inputs_.request.tolerance,
-      toString(inputs_.request.fidelity),
+      inputs_.avatar.numLinks(), clipHz / stride, clipHz, inputs_.request.query.tolerance,
+      toString(inputs_.request.query.fidelity),
       inputs_.request.policies.empty() ? "" : ", some links by policy", threads,
       threads == 1 ? "thread" : "threads");
 }

@@ -14,16 +14,6 @@ namespace {
 /// Of all links of an avatar together.
 constexpr std::size_t kMaxLinkTriangles = 100'000;
 
-const char* axisName(bool isZ) {
-  return isZ ? "z" : "y";
-}
-
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
-  return all;
-}
-
 std::size_t countOf(const std::vector<std::vector<Triangle>>& trianglesOfLinks) {
   std::size_t count = 0;
   for (const auto& triangles : trianglesOfLinks) count += triangles.size();
@@ -36,39 +26,35 @@ std::string fileName(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-std::vector<ViewRow> sceneSettings(const ReplayRequest& request) {
-  return {{"scene", fileName(request.scenePath), ""},
-          {"scene's unit", fmt::format("{} m", request.sceneScale), ""},
-          {"scene's up axis", axisName(request.sceneUp == UpAxis::Z), ""}};
-}
-
-std::vector<ViewRow> querySettings(const ReplayRequest& request) {
-  std::vector<ViewRow> rows{{"tolerance", fmt::format("{} m", request.tolerance), ""},
-                            {"fidelity", toString(request.fidelity), ""}};
-  if (request.fidelity == Fidelity::Skinned)
-    rows.push_back({"skin", fileName(request.skinPath), ""});
-  if (request.scope != Scope::EveryLink) rows.push_back({"scope", toString(request.scope), ""});
-  if (!request.policyPath.empty()) rows.push_back({"policy", fileName(request.policyPath), ""});
-  if (!request.ignore.empty()) rows.push_back({"ignored", joined(request.ignore), ""});
-  if (request.budgetUs > 0) {
-    rows.push_back({"budget", fmt::format("{} us a step, as work", request.budgetUs), ""});
+std::vector<ViewRow> rowsOf(const Settings& settings, std::initializer_list<const char*> names) {
+  std::vector<ViewRow> rows;
+  for (const char* const name : names) {
+    const std::string value = settings.ofRow(name).told();
+    if (!value.empty()) rows.push_back({name, value, ""});
   }
   return rows;
 }
 
-std::vector<ViewRow> clipSettings(const ReplayRequest& request) {
-  const Eigen::Vector3d& origin = request.placement.origin;
-  std::vector<ViewRow> rows{{"motion", fileName(request.motionPath), ""},
-                            {"motion's unit", fmt::format("{} m", request.motionScale), ""},
-                            {"motion's up axis", axisName(request.placement.motionUpZ), ""},
-                            {"placed at",
-                             fmt::format("{}, {}, {} m, turned by {} degrees", origin.x(),
-                                         origin.y(), origin.z(), request.placement.yawDeg),
-                             ""}};
-  if (!request.animation.empty()) rows.push_back({"animation", request.animation, ""});
-  if (!request.robotPath.empty()) rows.push_back({"robot", fileName(request.robotPath), ""});
-  if (!request.mapPath.empty()) rows.push_back({"joint map", fileName(request.mapPath), ""});
-  return rows;
+std::vector<ViewRow> sceneSettings(WorldRequest request) {
+  Settings settings;
+  addSceneSettings(settings, request);
+  return rowsOf(settings, {"scene", "scene's unit", "scene's up axis"});
+}
+
+std::vector<ViewRow> querySettings(WorldRequest request) {
+  Settings settings;
+  addQuerySettings(settings, request);
+  addReplayQuerySettings(settings, request);
+  return rowsOf(settings,
+                {"tolerance", "fidelity", "skin", "scope", "policy", "ignored", "budget"});
+}
+
+std::vector<ViewRow> clipSettings(ClipRequest request) {
+  Settings settings;
+  addMotionSetting(settings, request, "", "");
+  addClipSettings(settings, request);
+  return rowsOf(settings, {"motion", "motion's unit", "motion's up axis", "placed at", "animation",
+                           "robot", "joint map"});
 }
 
 std::vector<std::vector<Triangle>> trianglesOf(const AvatarSurface& surface) {
@@ -108,8 +94,8 @@ std::vector<ViewLinkMesh> linkMeshes(const std::vector<std::vector<Triangle>>& t
   return meshes;
 }
 
-void noteFidelity(const ReplayRequest& request, std::vector<std::string>& notes) {
-  switch (request.fidelity) {
+void noteFidelity(Fidelity fidelity, std::vector<std::string>& notes) {
+  switch (fidelity) {
     case Fidelity::Link:
     case Fidelity::Exact: return;
     case Fidelity::Skinned:
@@ -122,7 +108,7 @@ void noteFidelity(const ReplayRequest& request, std::vector<std::string>& notes)
           fmt::format("Contacts are those of volumes that stand for several links each (fidelity "
                       "{}); shown are "
                       "the links' own LSS.",
-                      toString(request.fidelity)));
+                      toString(fidelity)));
       return;
   }
 }

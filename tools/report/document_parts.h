@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,14 @@ struct ReportOptions {
 /// The name of a file without its folders.
 [[nodiscard]] std::string fileName(const std::string& path);
 
+/// Rows of the table, in this order; those without a value are left out.
+[[nodiscard]] std::vector<ViewRow> rowsOf(const Settings& settings,
+                                          std::initializer_list<const char*> names);
 /// How the scene was read, and what was asked of it.
-[[nodiscard]] std::vector<ViewRow> sceneSettings(const ReplayRequest& request);
-[[nodiscard]] std::vector<ViewRow> querySettings(const ReplayRequest& request);
+[[nodiscard]] std::vector<ViewRow> sceneSettings(WorldRequest request);
+[[nodiscard]] std::vector<ViewRow> querySettings(WorldRequest request);
 /// How the clip was read, and where it stands.
-[[nodiscard]] std::vector<ViewRow> clipSettings(const ReplayRequest& request);
+[[nodiscard]] std::vector<ViewRow> clipSettings(ClipRequest request);
 
 /// The triangles of links, in their frames, simplified where they are too many: says so in `notes`.
 [[nodiscard]] std::vector<ViewLinkMesh> linkMeshes(
@@ -38,7 +42,7 @@ struct ReportOptions {
 [[nodiscard]] std::vector<std::vector<Triangle>> trianglesOf(const AvatarSurface& surface);
 
 /// What the page cannot show of how links were asked.
-void noteFidelity(const ReplayRequest& request, std::vector<std::string>& notes);
+void noteFidelity(Fidelity fidelity, std::vector<std::string>& notes);
 
 /// Sets the document's scene, all that its contacts touch included. `action`: around all that
 /// moves; may be empty.

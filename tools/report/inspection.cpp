@@ -41,7 +41,7 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-Result<PlayedClip> loadClipAlone(const ReplayRequest& request) {
+Result<PlayedClip> loadClipAlone(const ClipRequest& request) {
   auto read = readMotion(motionRequestOf(request));
   if (!read.ok()) return read.error();
   Clip& clip = read.value().clip;

@@ -150,24 +150,24 @@ void LogReport::noteWhatIsMissing(std::vector<std::string>& notes) const {
 
 std::vector<ViewRow> LogReport::settings() const {
   const LogReplayRequest& request = inputs_.request;
-  std::vector<ViewRow> rows = sceneSettings(request.query);
-  rows.push_back({"log", fileName(request.query.motionPath), ""});
+  std::vector<ViewRow> rows = sceneSettings(request.world);
+  rows.push_back({"log", fileName(request.logPath), ""});
   for (const NumberedAvatar& avatar : request.avatars) {
     rows.push_back({fmt::format("avatar {}", avatar.id), fileName(avatar.path), ""});
   }
-  for (ViewRow& row : querySettings(request.query)) rows.push_back(std::move(row));
+  for (ViewRow& row : querySettings(request.world)) rows.push_back(std::move(row));
   return rows;
 }
 
 ViewDocument LogReport::document(const LogReplayReport& report, const LogReplaySummary& summary,
                                  const ReportProgress& progress) {
-  const ReplayRequest& query = inputs_.request.query;
+  const LogReplayRequest& request = inputs_.request;
   ViewDocument document;
   document.kind = ViewKind::Log;
-  document.title = fileName(query.motionPath) + " in " + fileName(query.scenePath);
+  document.title = fileName(request.logPath) + " in " + fileName(request.world.scenePath);
   document.settings = settings();
   document.summary = rowsOf(report, summary);
-  noteFidelity(query, document.notes);
+  noteFidelity(request.world.query.fidelity, document.notes);
   noteWhatIsMissing(document.notes);
   double fromS = std::numeric_limits<double>::infinity();
   Eigen::AlignedBox3d action;
@@ -179,7 +179,7 @@ ViewDocument LogReport::document(const LogReplayReport& report, const LogReplayS
   for (std::size_t i = 0; i < players_.size(); ++i) {
     if (players_[i]) document.avatars.push_back(avatarOf(i, fromS, document));
   }
-  addScene(inputs_.scene, query.scenePath, options_.maxTriangles, action, document);
+  addScene(inputs_.scene, request.world.scenePath, options_.maxTriangles, action, document);
   addSwept({}, document, progress);
   return document;
 }

@@ -88,7 +88,7 @@ Result<ViewDocument> ReplayReport::document(const ReplaySummary& summary,
   document.settings = settings();
   document.summary = rowsOf(summary);
   document.notes = remarksOn(inputs_);
-  noteFidelity(request, document.notes);
+  noteFidelity(request.query.fidelity, document.notes);
   if (isFull_) {
     document.notes.push_back(
         fmt::format("The report shows the first {} of {} steps; the results file has them all.",

@@ -9,30 +9,20 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "assets/text_file.h"
 #include "tools/arguments.h"
-#include "tools/inputs/clip_options.h"
 #include "tools/interrupt.h"
 #include "tools/log/replay_log.h"
 #include "tools/report/inspection.h"
 #include "tools/report/report_file.h"
 #include "tools/results_output.h"
-#include "tools/settling.h"
 
 namespace foretouch::tools {
 namespace {
 
-/// Values as typed in.
-struct ViewTexts {
-  std::vector<std::string> files;
-  ClipTexts clip;
-  std::string scene, avatar, motion, output = "foretouch-view.html", sceneScale = "1", up = "y",
-                                     triangles = std::to_string(kDefaultViewTriangles);
-};
-
+/// All that the options say.
 struct ViewJob {
+  std::vector<std::string> files;  ///< Whose names say what they are.
   ReplayRequest request;
   ReportOptions report;
 };
@@ -86,20 +76,10 @@ Result<Done> assignFiles(const std::vector<std::string>& files, ReplayRequest& r
   return Done{};
 }
 
-Result<ViewJob> settled(const ViewTexts& texts) {
-  ViewJob job;
+Result<Done> check(ViewJob& job) {
   ReplayRequest& request = job.request;
-  request.scenePath = texts.scene;
-  request.avatarPath = texts.avatar;
-  request.motionPath = texts.motion;
-  job.report.path = texts.output;
-  Settling settle;
-  settle.require(assignFiles(texts.files, request));
-  settleClip(texts.clip, settle, request);
-  settle.into(request.sceneUp, parseUpAxis("--up", texts.up));
-  settle.into(request.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
-  settle.into(job.report.maxTriangles, parseReportTriangles("--report-triangles", texts.triangles));
-  if (settle.error()) return *settle.error();
+  const auto assigned = assignFiles(job.files, request);
+  if (!assigned.ok()) return assigned;
   if (request.scenePath.empty() && request.avatarPath.empty() && request.motionPath.empty()) {
     return Error{ErrorCode::Empty, "view", -1, -1, "expected a scene, an avatar or a motion"};
   }
@@ -107,7 +87,7 @@ Result<ViewJob> settled(const ViewTexts& texts) {
     return fileError(request.motionPath,
                      "is an event log; expected a clip. `foretouch replay --report` shows logs");
   }
-  return job;
+  return Done{};
 }
 
 Result<Done> view(const ViewJob& job, std::vector<std::string>& notes) {
@@ -127,15 +107,14 @@ Result<Done> view(const ViewJob& job, std::vector<std::string>& notes) {
                      });
 }
 
-ExitCode runTexts(const ViewTexts& texts) {
-  const auto job = settled(texts);
-  if (!job.ok()) return failed(job.error());
+ExitCode run(ViewJob job) {
+  const auto checked = check(job);
+  if (!checked.ok()) return failed(checked.error());
   std::vector<std::string> notes;
-  const auto done = view(job.value(), notes);
+  const auto done = view(job, notes);
   if (!done.ok()) return failed(done.error());
   for (const std::string& note : notes) printNote(note);
-  const std::string& path = job.value().report.path;
-  if (!isStandardOutput(path)) printOut("report: " + path + "\n");
+  if (!isStandardOutput(job.report.path)) printOut("report: " + job.report.path + "\n");
   return ExitCode::Done;
 }
 
@@ -148,32 +127,28 @@ Nothing is asked of the motion: `foretouch replay --report` shows contacts.)";
 
 }  // namespace
 
-void addViewCommand(CLI::App& program, ExitCode& exit) {
-  const auto texts = std::make_shared<ViewTexts>();
-  CLI::App* const command = program.add_subcommand(
-      "view", "Look at a scene, an avatar or a clip before a run: units, axes, placement");
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    return command->add_option(name, text, help)->type_name(type)->capture_default_str();
-  };
-  command
-      ->add_option(
-          "files", texts->files,
-          "Scene (obj, ply, stl, off, 3ds), avatar (json) and clip (bvh, csv), any of them")
-      ->type_name("FILE");
-  option("--scene", texts->scene, "FILE", "Scene: any mesh format that assimp reads");
-  option("--avatar", texts->avatar, "FILE", "Avatar file (see foretouch avatar)");
-  option("--motion", texts->motion, "CLIP",
-         "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)");
-  option("--output", texts->output, "FILE", "The report: a page for a browser, all in one file");
-  option("--report-triangles", texts->triangles, "N",
-         "Of a heavier scene the report shows what is near the avatar, or a simplified form");
-  option("--rate", texts->clip.rate, "HZ",
-         "Poses a second to show of the clip; animations: 30 if all");
-  addClipOptions(*command, texts->clip);
-  option("--scene-scale", texts->sceneScale, "S", "Metres per unit of the scene");
-  option("--up", texts->up, "y|z", "Which axis of the scene points up");
-  command->footer(kViewExamples);
-  command->callback([texts, &exit] { exit = runTexts(*texts); });
+Command viewCommand() {
+  const auto job = std::make_shared<ViewJob>();
+  job->report.path = "foretouch-view.html";
+  Settings settings;
+  settings.list("files", "FILE", job->files,
+                "Scene (obj, ply, stl, off, 3ds), avatar (json) and clip (bvh, csv), any of them");
+  addSceneSettings(settings, job->request);
+  addAvatarSetting(settings, job->request);
+  addMotionSetting(settings, job->request, "--motion", "CLIP");
+  settings.path("--output", "FILE", job->report.path,
+                "The report: a page for a browser, all in one file");
+  settings.whole(
+      "--report-triangles", "N", job->report.maxTriangles, 1, kMostReportTriangles,
+      "Of a heavier scene the report shows what is near the avatar, or a simplified form");
+  addRateSetting(settings, job->request,
+                 "Poses a second to show of the clip; animations: 30 if all");
+  addClipSettings(settings, job->request);
+  Command command{"view",
+                  "Look at a scene, an avatar or a clip before a run: units, axes, placement",
+                  kViewExamples, std::move(settings)};
+  command.run = [job](const Settings&) { return run(*job); };
+  return command;
 }
 
 }  // namespace foretouch::tools

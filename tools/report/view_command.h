@@ -1,15 +1,10 @@
 // tools/report/view_command.h: `foretouch view`: inputs looked at before a run.
 #pragma once
 
-#include "tools/console.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 
-/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
-void addViewCommand(CLI::App& program, ExitCode& exit);
+[[nodiscard]] Command viewCommand();
 
 }  // namespace foretouch::tools

@@ -9,7 +9,7 @@
 
 #include "articulated/result.h"
 #include "network/wire/codec.h"
-#include "tools/stream/channel_names.h"
+#include "tools/settings/channel_names.h"
 #include "tools/stream/clip_sender.h"
 
 namespace foretouch::tools {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "network/log/event_log.h"
-#include "tools/stream/channel_names.h"
+#include "tools/settings/channel_names.h"
 
 namespace foretouch::tools {
 

@@ -10,15 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "network/wire/codec.h"
 #include "network/wire/wire.h"
-#include "tools/arguments.h"
-#include "tools/settling.h"
+#include "tools/settings/channel_names.h"
+#include "tools/settings/stream_settings.h"
+#include "tools/settings/world_settings.h"
 #include "tools/stream/answer_tracker.h"
-#include "tools/stream/channel_names.h"
 #include "tools/stream/contacts_line.h"
 #include "tools/stream/stop_signal.h"
 
@@ -27,40 +26,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Values as typed in.
-struct ListenTexts {
-  std::string url, suffix, count, timeout;
-  bool json = false, status = false;
-};
-
+/// All that the options say.
 struct ListenJob {
-  std::string url;
-  ChannelNames channels;
+  std::string url, suffix;
+  ChannelNames channels;  ///< Of the suffix.
   bool json = false, status = false;
-  std::optional<int> count;        ///< Of verdicts; then it ends.
+  int count = 0;                   ///< Of verdicts; then it ends. 0: it does not.
   std::optional<double> timeoutS;  ///< Without a verdict; then it ends.
 };
-
-Result<ListenJob> settled(const ListenTexts& texts) {
-  ListenJob job;
-  job.url = urlOrDefault(texts.url);
-  job.json = texts.json;
-  job.status = texts.status;
-  Settling settle;
-  settle.into(job.channels, channelNames(texts.suffix));
-  if (!texts.count.empty()) {
-    int count = 0;
-    settle.into(count, parseCount("--count", texts.count, std::numeric_limits<int>::max()));
-    job.count = count;
-  }
-  if (!texts.timeout.empty()) {
-    double timeoutS = 0.0;
-    settle.into(timeoutS, parsePositive("--timeout", texts.timeout));
-    job.timeoutS = timeoutS;
-  }
-  if (settle.error()) return *settle.error();
-  return job;
-}
 
 Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
   const auto url = parseUdpmUrl(job.url);
@@ -94,7 +67,7 @@ class Listener {
     isStatus ? print(job_.json ? statusLine(status_) : statusText(status_)) : printContacts();
   }
 
-  [[nodiscard]] bool isDone() const { return job_.count && verdicts_ >= *job_.count; }
+  [[nodiscard]] bool isDone() const { return job_.count > 0 && verdicts_ >= job_.count; }
   [[nodiscard]] bool isSilent() const {
     const std::chrono::duration<double> silence = Clock::now() - heardAt_;
     return job_.timeoutS && silence.count() >= *job_.timeoutS;
@@ -145,16 +118,18 @@ Result<ExitCode> listen(const ListenJob& job) {
     printNote(fmt::format("{} messages could not be read", listener.rejected()));
   }
   if (drops > 0) printNote(fmt::format("the system dropped {} datagrams unread", drops));
-  if (!job.count || listener.isDone() || isStopped) return ExitCode::Done;
+  if (job.count == 0 || listener.isDone() || isStopped) return ExitCode::Done;
   printError(fmt::format("{} of {} verdicts arrived before {:g} s of silence", listener.verdicts(),
-                         *job.count, job.timeoutS.value_or(0.0)));
+                         job.count, job.timeoutS.value_or(0.0)));
   return ExitCode::CheckSaysNo;
 }
 
-ExitCode runTexts(const ListenTexts& texts) {
-  const auto job = settled(texts);
-  if (!job.ok()) return failed(job.error());
-  const auto ended = listen(job.value());
+ExitCode run(ListenJob job) {
+  const auto channels = channelNames(job.suffix);
+  if (!channels.ok()) return failed(channels.error());
+  job.channels = channels.value();
+  job.url = urlOrDefault(job.url);
+  const auto ended = listen(job);
   return ended.ok() ? ended.value() : failed(ended.error());
 }
 
@@ -168,21 +143,23 @@ verdicts did not come.)";
 
 }  // namespace
 
-void addListenCommand(CLI::App& program, ExitCode& exit) {
-  const auto texts = std::make_shared<ListenTexts>();
-  CLI::App* const command =
-      program.add_subcommand("listen", "Print the verdicts that a service sends, as they come");
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    command->add_option(name, text, help)->type_name(type);
-  };
-  option("--url", texts->url, "URL", "Where from; LCM_DEFAULT_URL, else this machine");
-  option("--suffix", texts->suffix, "TEXT", "Ending of the channels' names");
-  command->add_flag("--json", texts->json, "Lines of JSON instead of text");
-  command->add_flag("--status", texts->status, "The service's heartbeats as well");
-  option("--count", texts->count, "N", "End after so many verdicts");
-  option("--timeout", texts->timeout, "S", "End after so many seconds without a verdict");
-  command->footer(kListenExamples);
-  command->callback([texts, &exit] { exit = runTexts(*texts); });
+Command listenCommand() {
+  const auto job = std::make_shared<ListenJob>();
+  Settings settings;
+  settings.text("--url", "URL", job->url, "Where from; LCM_DEFAULT_URL, else this machine");
+  addSuffixSetting(settings, job->suffix);
+  settings.flag("--json", job->json, "Lines of JSON instead of text");
+  settings.flag("--status", job->status, "The service's heartbeats as well");
+  settings
+      .whole("--count", "N", job->count, 1, std::numeric_limits<int>::max(),
+             "End after so many verdicts")
+      .shown = [] { return std::string(); };
+  settings.number("--timeout", "S", job->timeoutS, kAboveZero, "",
+                  "End after so many seconds without a verdict");
+  Command command{"listen", "Print the verdicts that a service sends, as they come",
+                  kListenExamples, std::move(settings)};
+  command.run = [job](const Settings&) { return run(*job); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -1,15 +1,10 @@
 // tools/stream/listen_command.h: `foretouch listen`.
 #pragma once
 
-#include "tools/console.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 
-/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
-void addListenCommand(CLI::App& program, ExitCode& exit);
+[[nodiscard]] Command listenCommand();
 
 }  // namespace foretouch::tools

@@ -1,94 +1,70 @@
 #include "tools/stream/publish_command.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "assets/text_file.h"
 #include "network/log/event_log.h"
 #include "network/service/clock.h"
 #include "network/wire/wire.h"
-#include "tools/arguments.h"
-#include "tools/inputs/clip_options.h"
-#include "tools/inputs/numbered_avatars.h"
 #include "tools/inputs/played_clip.h"
-#include "tools/settling.h"
+#include "tools/settings/numbered_avatars.h"
+#include "tools/settings/stream_settings.h"
+#include "tools/settings/world_settings.h"
 #include "tools/stream/stop_signal.h"
 
 namespace foretouch::tools {
 namespace {
 
-/// Values as typed in.
-struct PublishTexts {
-  std::string motion, avatar, id = "1", speed = "1", url, suffix, output, start;
-  ClipTexts clip;
-  bool loop = false;
-};
-
+/// All that the options say.
 struct PublishJob {
-  PublishRequest request;
+  ClipRequest request;
   PublishOptions options;
-  std::string url, outputPath;
+  std::string url, suffix, outputPath;
+  std::optional<std::int64_t> startUtimeUs;  ///< Of a log's first pose.
 };
-
-/// 0 is a speed of its own: without waiting.
-Result<double> parseSpeed(const std::string& text) {
-  if (text == "0") return 0.0;
-  return parsePositive("--speed", text);
-}
 
 /// What belongs to live sending makes no sense with a log, and the other way round.
-Result<Done> checkTogether(const PublishTexts& texts) {
+Result<Done> checkTogether(const PublishJob& job) {
   const auto refuse = [](const char* option, const char* why) {
     return Error{ErrorCode::Mismatch, option, -1, -1, why};
   };
   constexpr char kNotWithLog[] = "is about sending to a network; expected none with --output";
-  if (texts.output.empty()) {
-    if (texts.start.empty()) return Done{};
+  if (job.outputPath.empty()) {
+    if (!job.startUtimeUs) return Done{};
     return refuse("--start", "is about a log; expected --output as well");
   }
-  if (texts.loop) return refuse("--loop", kNotWithLog);
-  if (texts.speed != "1") return refuse("--speed", kNotWithLog);
-  if (!texts.url.empty()) return refuse("--url", kNotWithLog);
+  if (job.options.loop) return refuse("--loop", kNotWithLog);
+  if (job.options.speed != PublishOptions().speed) return refuse("--speed", kNotWithLog);
+  if (!job.url.empty()) return refuse("--url", kNotWithLog);
   return Done{};
 }
 
-Result<PublishJob> settled(const PublishTexts& texts) {
-  PublishJob job;
-  PublishRequest& request = job.request;
-  request.avatarPath = texts.avatar;
-  request.motionPath = texts.motion;
-  job.outputPath = texts.output;
-  job.url = urlOrDefault(texts.url);
-  job.options.loop = texts.loop;
-
-  Settling settle;
-  settle.require(checkTogether(texts));
-  settleClip(texts.clip, settle, request);
-  settle.into(job.options.speed, parseSpeed(texts.speed));
-  settle.into(job.options.channels, channelNames(texts.suffix));
-  settle.into(job.options.sender.avatar, parseAvatarId("--id", texts.id));
-  job.options.sender.startUtimeUs = utimeNow();
-  if (!texts.start.empty()) {
-    settle.into(job.options.sender.startUtimeUs, parseUtime("--start", texts.start));
-  }
-  job.options.sender.source =
-      "foretouch publish " + std::filesystem::path(texts.motion).filename().string();
-  job.options.sender.source.resize(std::min(job.options.sender.source.size(), kMaxTextBytes / 2));
-  if (settle.error()) return *settle.error();
-  return job;
+/// What follows from the options together.
+Result<Done> settle(PublishJob& job) {
+  const auto channels = channelNames(job.suffix);
+  if (!channels.ok()) return channels.error();
+  job.options.channels = channels.value();
+  job.url = urlOrDefault(job.url);
+  job.options.sender.startUtimeUs = job.startUtimeUs.value_or(utimeNow());
+  std::string& source = job.options.sender.source;
+  source = "foretouch publish " + std::filesystem::path(job.request.motionPath).filename().string();
+  source.resize(std::min(source.size(), kMaxTextBytes / 2));
+  return Done{};
 }
 
-PlacedClip placedIn(const PlayedClip& played, const PublishRequest& request) {
+PlacedClip placedIn(const PlayedClip& played, const ClipRequest& request) {
   return {played.avatar,     played.clip,      played.match,
           request.placement, played.isUpright, request.motionPath};
 }
 
-Result<PlayedClip> loadWithRemarks(const PublishRequest& request) {
+Result<PlayedClip> loadWithRemarks(const ClipRequest& request) {
   auto played = loadPlayedClip(request);
   if (!played.ok()) return played;
   for (const std::string& remark :
@@ -127,17 +103,18 @@ Result<PublishReport> publishLive(const PublishJob& job) {
   return sent;
 }
 
-ExitCode runTexts(const PublishTexts& texts) {
-  const auto job = settled(texts);
-  if (!job.ok()) return failed(job.error());
-  const bool isLog = !job.value().outputPath.empty();
+ExitCode run(PublishJob job) {
+  const auto together = checkTogether(job);
+  if (!together.ok()) return failed(together.error());
+  const auto settled = settle(job);
+  if (!settled.ok()) return failed(settled.error());
+  const bool isLog = !job.outputPath.empty();
   const auto report =
-      isLog ? publishToLog(job.value().request, job.value().options, job.value().outputPath)
-            : publishLive(job.value());
+      isLog ? publishToLog(job.request, job.options, job.outputPath) : publishLive(job);
   if (!report.ok()) return failed(report.error());
   printOut(fmt::format("{}: {} poses and {} skeletons of avatar {}, session {}\n",
-                       isLog ? job.value().outputPath : job.value().url, report.value().poses,
-                       report.value().skeletons, job.value().options.sender.avatar,
+                       isLog ? job.outputPath : job.url, report.value().poses,
+                       report.value().skeletons, job.options.sender.avatar,
                        report.value().session));
   return ExitCode::Done;
 }
@@ -149,13 +126,36 @@ constexpr char kPublishExamples[] = R"(Examples:
 
 A service (foretouch serve) that knows the avatar answers as foretouch replay does.)";
 
+void addSendingSettings(Settings& settings, PublishJob& job) {
+  settings.whole("--id", "N", job.options.sender.avatar, 0,
+                 std::numeric_limits<std::int32_t>::max(), "What the service calls the avatar");
+  addRateSetting(settings, job.request);
+  settings.number("--speed", "S", job.options.speed, kZeroOrAbove,
+                  "Times the clip's own; 0: as fast as the system takes them, which may lose some");
+  settings.flag("--loop", job.options.loop, "Over and over, each time as a new session");
+  settings.text("--url", "URL", job.url,
+                "Where to; LCM_DEFAULT_URL, else this machine, if not given");
+  addSuffixSetting(settings, job.suffix);
+  settings.path("--output", "LOG", job.outputPath, "Write a new event log instead of sending");
+  settings.parsed(
+      "--start", "US",
+      [&job](const std::string& text) -> Result<Done> {
+        const auto utimeUs = parseUtime("--start", text);
+        if (!utimeUs.ok()) return utimeUs.error();
+        job.startUtimeUs = utimeUs.value();
+        return Done{};
+      },
+      [] { return std::string(); },
+      "Time of the log's first pose, microseconds since 1970; now if not given");
+}
+
 }  // namespace
 
 std::int64_t utimeNow() {
   return systemClock().utimeUs();
 }
 
-Result<PublishReport> publishToLog(const PublishRequest& request, const PublishOptions& options,
+Result<PublishReport> publishToLog(const ClipRequest& request, const PublishOptions& options,
                                    const std::string& logPath) {
   const auto played = loadWithRemarks(request);
   if (!played.ok()) return played.error();
@@ -174,31 +174,17 @@ Result<PublishReport> publishToLog(const PublishRequest& request, const PublishO
   return sent;
 }
 
-void addPublishCommand(CLI::App& program, ExitCode& exit) {
-  const auto texts = std::make_shared<PublishTexts>();
-  CLI::App* const command =
-      program.add_subcommand("publish", "Send a recorded clip as a live stream of poses");
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    return command->add_option(name, text, help)->type_name(type)->capture_default_str();
-  };
-  option("CLIP", texts->motion, "",
-         "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)")
-      ->required();
-  option("--avatar", texts->avatar, "FILE", "Avatar file (see foretouch avatar)")->required();
-  option("--id", texts->id, "N", "What the service calls the avatar");
-  option("--rate", texts->clip.rate, "HZ",
-         "Poses a second to use of the clip; animations: 30 if all");
-  option("--speed", texts->speed, "S",
-         "Times the clip's own; 0: as fast as the system takes them, which may lose some");
-  command->add_flag("--loop", texts->loop, "Over and over, each time as a new session");
-  option("--url", texts->url, "URL", "Where to; LCM_DEFAULT_URL, else this machine, if not given");
-  option("--suffix", texts->suffix, "TEXT", "Ending of the channels' names");
-  option("--output", texts->output, "LOG", "Write a new event log instead of sending");
-  option("--start", texts->start, "US",
-         "Time of the log's first pose, microseconds since 1970; now if not given");
-  addClipOptions(*command, texts->clip);
-  command->footer(kPublishExamples);
-  command->callback([texts, &exit] { exit = runTexts(*texts); });
+Command publishCommand() {
+  const auto job = std::make_shared<PublishJob>();
+  Settings settings;
+  addMotionSetting(settings, job->request, "CLIP", "").required();
+  addAvatarSetting(settings, job->request).required();
+  addSendingSettings(settings, *job);
+  addClipSettings(settings, job->request);
+  Command command{"publish", "Send a recorded clip as a live stream of poses", kPublishExamples,
+                  std::move(settings)};
+  command.run = [job](const Settings&) { return run(*job); };
+  return command;
 }
 
 }  // namespace foretouch::tools

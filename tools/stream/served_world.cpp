@@ -4,47 +4,34 @@
 
 #include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
+#include "tools/inputs/replay_inputs.h"
 
 namespace foretouch::tools {
 namespace {
 
-Result<StreamSolver> loadAvatar(const ServeConfig& config, const ServedAvatar& served,
+Result<StreamSolver> loadAvatar(const ServeConfig& config, const NumberedAvatar& served,
                                 const Scene& scene) {
-  const auto avatar = readAvatarFile(served.file);
-  if (!avatar.ok()) return inFile(avatar.error(), served.file);
-  auto query = queryOptionsFor(asReplay(config, served.file), avatar.value(), scene);
+  const auto avatar = readAvatarFile(served.path);
+  if (!avatar.ok()) return inFile(avatar.error(), served.path);
+  auto query = queryOptionsFor(config.world, served.path, avatar.value(), scene);
   if (!query.ok()) return query.error();
   auto solver = StreamSolver::make(served.id, avatar.value(), scene, query.value(), config.stream);
-  if (!solver.ok()) return inFile(solver.error(), served.file);
+  if (!solver.ok()) return inFile(solver.error(), served.path);
   return solver;
 }
 
 }  // namespace
 
-ReplayRequest asReplay(const ServeConfig& config, const std::string& avatarPath) {
-  ReplayRequest request;
-  request.scenePath = config.scene;
-  request.sceneScale = config.sceneScale;
-  request.sceneUp = config.sceneUp;
-  request.avatarPath = avatarPath;
-  request.tolerance = config.tolerance;
-  request.fidelity = config.fidelity;
-  request.ignore = config.ignore;
-  request.policies = config.policies;
-  request.budgetUs = config.budgetUs;
-  return request;
-}
-
 Result<ServedWorld> loadServedWorld(const ServeConfig& config) {
-  const auto scene = loadScene(asReplay(config, std::string()));
+  const auto scene = loadScene(config.world);
   if (!scene.ok()) return scene.error();
   ServedWorld world{scene.value(), {}, 0, {}};
   world.numTriangles = scene.value().numTriangles();
   if (const std::size_t dropped = scene.value().audit().droppedNonFinite; dropped > 0) {
-    world.remarks.push_back(config.scene + ": " + std::to_string(dropped) +
+    world.remarks.push_back(config.world.scenePath + ": " + std::to_string(dropped) +
                             " triangles with a vertex that is not finite were left out");
   }
-  for (const ServedAvatar& served : config.avatars) {
+  for (const NumberedAvatar& served : config.avatars) {
     auto solver = loadAvatar(config, served, scene.value());
     if (!solver.ok()) return solver.error();
     world.avatars.push_back(std::move(solver).value());

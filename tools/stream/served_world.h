@@ -9,8 +9,7 @@
 #include "articulated/result.h"
 #include "middleware/scene/scene.h"
 #include "network/stream/stream_solver.h"
-#include "tools/inputs/replay_inputs.h"
-#include "tools/stream/serve_config.h"
+#include "tools/settings/serve_settings.h"
 
 namespace foretouch::tools {
 
@@ -20,9 +19,6 @@ struct ServedWorld {
   std::size_t numTriangles = 0;
   std::vector<std::string> remarks;  ///< What was tolerated: one sentence each.
 };
-
-/// What a replay of the avatar's stream would be asked with.
-[[nodiscard]] ReplayRequest asReplay(const ServeConfig& config, const std::string& avatarPath);
 
 /// Reads and checks all that the configuration names. Errors name the file or option.
 [[nodiscard]] Result<ServedWorld> loadServedWorld(const ServeConfig& config);

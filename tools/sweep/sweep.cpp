@@ -11,8 +11,8 @@
 #include "tessellation/swept_lss.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
-#include "tools/inputs/near_names.h"
 #include "tools/inputs/played_clip.h"
+#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {

@@ -14,19 +14,15 @@
 #include "assets/import/scene_import.h"
 #include "tessellation/swept_surface.h"
 #include "tools/inputs/step_selection.h"
+#include "tools/settings/clip_settings.h"
 
 namespace foretouch::tools {
 
 /// The options of a sweep, each legal by itself.
-struct SweepRequest {
-  std::string avatarPath, motionPath, mapPath, animation, robotPath;
-  std::vector<std::string> packagePaths;
+struct SweepRequest : ClipRequest {
   std::vector<std::string> links;    ///< Names, or "all".
   std::optional<double> fromS, toS;  ///< Seconds in the clip; empty: its begin and end.
-  std::optional<double> rateHz;      ///< Empty: every frame.
-  double motionScale = 1.0;          ///< Metres per unit of the clip.
-  Placement placement;
-  SweptSurfaceOptions surface;  ///< maxTriangles: of all links together.
+  SweptSurfaceOptions surface;       ///< maxTriangles: of all links together.
 };
 
 struct SweepInputs {

@@ -8,15 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "tools/arguments.h"
-#include "tools/inputs/clip_options.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
-#include "tools/settling.h"
+#include "tools/settings/world_settings.h"
 #include "tools/sweep/surface_writer.h"
 #include "tools/sweep/sweep.h"
 
@@ -24,14 +22,8 @@ namespace foretouch::tools {
 namespace {
 
 constexpr int kMostTriangles = 1'000'000'000;
-
-/// Values as typed in.
-struct SweepTexts {
-  std::string avatar, motion, output, from, to, error = "0.001", maxTriangles = "20000000";
-  ClipTexts clip;
-  std::vector<std::string> links;
-  bool inner = false;
-};
+/// A file of these is a gigabyte; whoever wants more says so.
+constexpr std::size_t kUsualTriangles = 20'000'000;
 
 /// Names, given apart or with commas.
 std::vector<std::string> namesIn(const std::vector<std::string>& texts) {
@@ -44,41 +36,27 @@ std::vector<std::string> namesIn(const std::vector<std::string>& texts) {
   return names;
 }
 
+/// All that the options say.
 struct SweepJob {
   SweepRequest request;
-  MeshFormat format = MeshFormat::Obj;
+  std::vector<std::string> links;  ///< As given; none: all.
+  std::string output;
+  MeshFormat format = MeshFormat::Obj;  ///< Of the output.
+  bool inner = false;
 };
 
-Result<SweepJob> settled(const SweepTexts& texts) {
-  SweepJob job;
+/// What follows from the options together.
+Result<Done> settle(SweepJob& job) {
   SweepRequest& request = job.request;
-  request.avatarPath = texts.avatar;
-  request.motionPath = texts.motion;
-  request.links = namesIn(texts.links);
-  if (texts.links.empty()) request.links = {"all"};
-  request.surface.side = texts.inner ? SurfaceSide::Inner : SurfaceSide::Outer;
-
-  Settling settle;
-  settle.into(job.format, meshFormatOf(texts.output));
-  settle.require(
-      checkIsNoInput(texts.output, {texts.avatar, texts.motion, texts.clip.robot, texts.clip.map}));
+  request.links = job.links.empty() ? std::vector<std::string>{"all"} : namesIn(job.links);
+  request.surface.side = job.inner ? SurfaceSide::Inner : SurfaceSide::Outer;
+  const auto format = meshFormatOf(job.output);
+  if (!format.ok()) return format.error();
+  job.format = format.value();
   const bool isGlb = job.format == MeshFormat::Glb;
   request.surface.bits = isGlb ? CoordinateBits::Single : CoordinateBits::Double;
-  settle.into(request.surface.error, parseTolerance("--error", texts.error));
-  int most = 0;
-  settle.into(most, parseCount("--max-triangles", texts.maxTriangles, kMostTriangles));
-  request.surface.maxTriangles = static_cast<std::size_t>(most);
-  settleClip(texts.clip, settle, request);
-  const auto optional = [&](std::optional<double>& place, const Result<double>& parsed) {
-    double number = 0.0;
-    settle.into(number, parsed);
-    place = number;
-  };
-  if (texts.clip.rate != "all") optional(request.rateHz, parsePositive("--rate", texts.clip.rate));
-  if (!texts.from.empty()) optional(request.fromS, parseNumber("--from", texts.from));
-  if (!texts.to.empty()) optional(request.toS, parseNumber("--to", texts.to));
-  if (settle.error()) return *settle.error();
-  return job;
+  return checkIsNoInput(
+      job.output, {request.avatarPath, request.motionPath, request.robotPath, request.mapPath});
 }
 
 void remarkOn(const SweepInputs& inputs) {
@@ -120,7 +98,7 @@ std::string report(const SweepInputs& inputs, const Sweep& sweep, std::size_t by
   return text;
 }
 
-Result<Done> runSweep(const SweepJob& job, const std::string& output) {
+Result<Done> runSweep(const SweepJob& job) {
   const auto inputs = loadSweepInputs(job.request);
   if (!inputs.ok()) return inputs.error();
   remarkOn(inputs.value());
@@ -128,7 +106,7 @@ Result<Done> runSweep(const SweepJob& job, const std::string& output) {
   std::string text;
   {
     const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
-    auto file = PendingFile::create(output);
+    auto file = PendingFile::create(job.output);
     if (!file.ok()) return file.error();
     std::optional<ProgressBar> progress;  // how much there is to do is known after the first step
     auto sweep = sweepOf(inputs.value(), [&](std::int64_t done, std::int64_t total) {
@@ -152,10 +130,10 @@ Result<Done> runSweep(const SweepJob& job, const std::string& output) {
   return Done{};
 }
 
-ExitCode runTexts(const SweepTexts& texts) {
-  const auto job = settled(texts);
-  if (!job.ok()) return failed(job.error());
-  const auto done = runSweep(job.value(), texts.output);
+ExitCode run(SweepJob job) {
+  const auto settled = settle(job);
+  if (!settled.ok()) return failed(settled.error());
+  const auto done = runSweep(job);
   return done.ok() ? ExitCode::Done : failed(done.error());
 }
 
@@ -170,34 +148,32 @@ at least once. Formats: docs/formats.md.)";
 
 }  // namespace
 
-void addSweepCommand(CLI::App& program, ExitCode& exit) {
-  const auto texts = std::make_shared<SweepTexts>();
-  CLI::App* const command = program.add_subcommand(
-      "sweep",
-      "Write what links of an avatar cover during a clip as a mesh with a certified error");
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    return command->add_option(name, text, help)->type_name(type)->capture_default_str();
-  };
-  option("--avatar", texts->avatar, "FILE", "Avatar file (see foretouch avatar)")->required();
-  option("--motion", texts->motion, "CLIP",
-         "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)")
-      ->required();
-  command
-      ->add_option("--links", texts->links,
-                   "Links' names, separated by commas, or all (if not given)")
-      ->type_name("NAMES")
-      ->allow_extra_args(false);
-  option("--from", texts->from, "S", "Seconds in the clip; its begin if not given");
-  option("--to", texts->to, "S", "Seconds in the clip; its end if not given");
-  option("--rate", texts->clip.rate, "HZ",
-         "Poses a second to use of the clip; animations: 30 if all");
-  option("--error", texts->error, "M", "Largest distance (m) between surface and swept volume");
-  command->add_flag("--inner", texts->inner, "The surface inside the swept volume, not around it");
-  option("--output", texts->output, "FILE", "Mesh to write: .obj, .ply or .glb")->required();
-  option("--max-triangles", texts->maxTriangles, "N", "Give up beyond this many");
-  addClipOptions(*command, texts->clip);
-  command->footer(kSweepExamples);
-  command->callback([texts, &exit] { exit = runTexts(*texts); });
+Command sweepCommand() {
+  const auto job = std::make_shared<SweepJob>();
+  SweepRequest& request = job->request;
+  request.surface.maxTriangles = kUsualTriangles;
+  Settings settings;
+  addAvatarSetting(settings, request).required();
+  addMotionSetting(settings, request, "--motion", "CLIP").required();
+  settings.list("--links", "NAMES", job->links,
+                "Links' names, separated by commas, or all (if not given)");
+  settings.number("--from", "S", request.fromS, kAnyNumber, "",
+                  "Seconds in the clip; its begin if not given");
+  settings.number("--to", "S", request.toS, kAnyNumber, "",
+                  "Seconds in the clip; its end if not given");
+  addRateSetting(settings, request);
+  settings.number("--error", "M", request.surface.error, kToleranceRange,
+                  "Largest distance (m) between surface and swept volume");
+  settings.flag("--inner", job->inner, "The surface inside the swept volume, not around it");
+  settings.path("--output", "FILE", job->output, "Mesh to write: .obj, .ply or .glb").required();
+  settings.whole("--max-triangles", "N", request.surface.maxTriangles, 1, kMostTriangles,
+                 "Give up beyond this many");
+  addClipSettings(settings, request);
+  Command command{
+      "sweep", "Write what links of an avatar cover during a clip as a mesh with a certified error",
+      kSweepExamples, std::move(settings)};
+  command.run = [job](const Settings&) { return run(*job); };
+  return command;
 }
 
 }  // namespace foretouch::tools

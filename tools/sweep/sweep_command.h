@@ -1,15 +1,10 @@
 // tools/sweep/sweep_command.h: `foretouch sweep`.
 #pragma once
 
-#include "tools/console.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 
-/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
-void addSweepCommand(CLI::App& program, ExitCode& exit);
+[[nodiscard]] Command sweepCommand();
 
 }  // namespace foretouch::tools

@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "network/stream/work_budget.h"
+#include "middleware/query/work_budget.h"
 #include "network/wire/codec.h"
 #include "tests/network/service/service_fakes.h"
 #include "tests/network/small_stream.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/inputs/near_names.h"
+#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {

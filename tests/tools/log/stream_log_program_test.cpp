@@ -76,8 +76,8 @@ class LoggedWorld : public SmallWorld {
   /// From our own solver: what they are does not matter here, only that a replay finds them again.
   [[nodiscard]] std::vector<ContactsMessage> answers() const {
     tools::LogReplayRequest request;
-    request.query.scenePath = folder / "wall.obj";
-    request.query.motionPath = log;
+    request.world.scenePath = folder / "wall.obj";
+    request.logPath = log;
     request.avatars = {{1, folder / "man.json"}};
     const auto inputs = tools::loadLogReplayInputs(request);
     std::vector<ContactsMessage> answers;

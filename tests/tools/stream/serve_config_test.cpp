@@ -38,27 +38,27 @@ TEST(ServeConfig, SmallestFileHasTheDefaults) {
   ASSERT_TRUE(config.ok()) << describe(config.error());
   const ServeConfig& c = config.value();
   EXPECT_EQ(c.url, "udpm://239.255.76.67:7667?ttl=0");
-  EXPECT_EQ(c.suffix, "");
+  EXPECT_EQ(c.service.suffix, "");
   EXPECT_EQ(c.receiver, ReceiverKind::Own);
-  EXPECT_EQ(c.workers, 1);
-  EXPECT_EQ(c.queue, 256);
-  EXPECT_EQ(c.budgetUs, 0);
+  EXPECT_EQ(c.service.workers, 1);
+  EXPECT_EQ(c.service.queue, 256u);
+  EXPECT_EQ(c.world.budgetUs, 0);
   EXPECT_EQ(c.log, "");
   EXPECT_EQ(c.http, "");
   EXPECT_EQ(c.view, "");
-  EXPECT_EQ(c.scene, "etc/room.glb");
-  EXPECT_EQ(c.sceneScale, 1.0);
-  EXPECT_EQ(c.sceneUp, UpAxis::Y);
-  EXPECT_EQ(c.tolerance, 1e-3);
-  EXPECT_EQ(c.fidelity, Fidelity::Link);
-  EXPECT_TRUE(c.ignore.empty());
-  EXPECT_TRUE(c.policies.empty());
+  EXPECT_EQ(c.world.scenePath, "etc/room.glb");
+  EXPECT_EQ(c.world.sceneImport.scale, 1.0);
+  EXPECT_EQ(c.world.sceneImport.up, UpAxis::Y);
+  EXPECT_EQ(c.world.query.tolerance, 1e-3);
+  EXPECT_EQ(c.world.query.fidelity, Fidelity::Link);
+  EXPECT_TRUE(c.world.ignore.empty());
+  EXPECT_TRUE(c.world.policies.empty());
   EXPECT_EQ(c.stream.maxStepUs, 10'000'000);
   EXPECT_EQ(c.stream.confirmations, 3);
   EXPECT_FALSE(c.stream.unmatchedAtRest);
   ASSERT_EQ(c.avatars.size(), 1u);
   EXPECT_EQ(c.avatars[0].id, 1);
-  EXPECT_EQ(c.avatars[0].file, "etc/a.avatar.json");
+  EXPECT_EQ(c.avatars[0].path, "etc/a.avatar.json");
 }
 
 TEST(ServeConfig, EveryKeyIsRead) {
@@ -103,36 +103,36 @@ file = "/srv/zero.avatar.json"
   ASSERT_TRUE(config.ok()) << describe(config.error());
   const ServeConfig& c = config.value();
   EXPECT_EQ(c.url, "udpm://239.1.2.3:7000?ttl=1");
-  EXPECT_EQ(c.suffix, "_LAB");
+  EXPECT_EQ(c.service.suffix, "_LAB");
   EXPECT_EQ(c.receiver, ReceiverKind::Liblcm);
-  EXPECT_EQ(c.workers, 64);
-  EXPECT_EQ(c.queue, 65536);
-  EXPECT_EQ(c.budgetUs, 2500);
+  EXPECT_EQ(c.service.workers, 64);
+  EXPECT_EQ(c.service.queue, 65536u);
+  EXPECT_EQ(c.world.budgetUs, 2500);
   EXPECT_EQ(c.log, "/var/lib/foretouch/a.lcmlog");
   EXPECT_EQ(c.http, "127.0.0.1:9464");
   EXPECT_EQ(c.view, "[::1]:9465");
-  EXPECT_EQ(c.scene, "etc/../room.ply");
-  EXPECT_EQ(c.sceneScale, 0.01);
-  EXPECT_EQ(c.sceneUp, UpAxis::Z);
-  EXPECT_EQ(c.tolerance, 0.002);
-  EXPECT_EQ(c.fidelity, Fidelity::Exact);
-  EXPECT_EQ(c.ignore, (std::vector<std::string>{"Hand:table", "Foot*"}));
-  ASSERT_EQ(c.policies.size(), 2u);
-  EXPECT_EQ(c.policies[0].links, std::vector<std::string>{"*Hand*"});
-  EXPECT_TRUE(c.policies[0].objects.empty());
-  EXPECT_EQ(c.policies[0].tolerance, 1e-4);
-  EXPECT_EQ(c.policies[0].fidelity, Fidelity::Exact);
-  EXPECT_EQ(c.policies[0].ignore, std::nullopt);
-  EXPECT_EQ(c.policies[1].objects, (std::vector<std::string>{"floor", "rug"}));
-  EXPECT_EQ(c.policies[1].tolerance, std::nullopt);
-  EXPECT_EQ(c.policies[1].ignore, true);
+  EXPECT_EQ(c.world.scenePath, "etc/../room.ply");
+  EXPECT_EQ(c.world.sceneImport.scale, 0.01);
+  EXPECT_EQ(c.world.sceneImport.up, UpAxis::Z);
+  EXPECT_EQ(c.world.query.tolerance, 0.002);
+  EXPECT_EQ(c.world.query.fidelity, Fidelity::Exact);
+  EXPECT_EQ(c.world.ignore, (std::vector<std::string>{"Hand:table", "Foot*"}));
+  ASSERT_EQ(c.world.policies.size(), 2u);
+  EXPECT_EQ(c.world.policies[0].links, std::vector<std::string>{"*Hand*"});
+  EXPECT_TRUE(c.world.policies[0].objects.empty());
+  EXPECT_EQ(c.world.policies[0].tolerance, 1e-4);
+  EXPECT_EQ(c.world.policies[0].fidelity, Fidelity::Exact);
+  EXPECT_EQ(c.world.policies[0].ignore, std::nullopt);
+  EXPECT_EQ(c.world.policies[1].objects, (std::vector<std::string>{"floor", "rug"}));
+  EXPECT_EQ(c.world.policies[1].tolerance, std::nullopt);
+  EXPECT_EQ(c.world.policies[1].ignore, true);
   EXPECT_EQ(c.stream.maxStepUs, 250'000);
   EXPECT_EQ(c.stream.confirmations, 5);
   EXPECT_TRUE(c.stream.unmatchedAtRest);
   ASSERT_EQ(c.avatars.size(), 2u);
   EXPECT_EQ(c.avatars[0].id, 7);
   EXPECT_EQ(c.avatars[1].id, 0);
-  EXPECT_EQ(c.avatars[1].file, "/srv/zero.avatar.json");
+  EXPECT_EQ(c.avatars[1].path, "/srv/zero.avatar.json");
 }
 
 TEST(ServeConfig, UnknownKeysAreRefusedWithTheirLineAndTheNearestOne) {
@@ -158,8 +158,9 @@ TEST(ServeConfig, NumbersOutOfRangeAreRefusedWithTheirLine) {
     EXPECT_TRUE(has(errorOf("service", bad), ":2: [service] ")) << bad;
   }
   for (const char* const bad : {"tolerance = 0", "tolerance = 0.9e-9", "tolerance = -1.0",
-                                "tolerance = nan", "tolerance = inf"}) {
-    EXPECT_TRUE(has(errorOf("query", bad), ":2: [query] tolerance: expected a finite number"))
+                                "tolerance = nan", "tolerance = inf", "tolerance = 1.1e7"}) {
+    EXPECT_TRUE(has(errorOf("query", bad),
+                    ":2: [query] tolerance: expected a finite number of metres from 1e-9 to 1e7"))
         << bad;
   }
   for (const char* const bad : {"max_step_s = 0", "max_step_s = 0.0000009", "max_step_s = 86400.1",
@@ -200,6 +201,7 @@ TEST(ServeConfig, WordsThatDoNotExistAreRefused) {
   EXPECT_TRUE(has(errorOf("service", "receiver = \"lcm\""),
                   ":2: [service] receiver: expected \"own\" or \"liblcm\", found 'lcm'"));
   EXPECT_TRUE(has(errorOf("query", "fidelity = \"skinned\""), "expected \"link\" or \"exact\""));
+  EXPECT_TRUE(has(errorOf("query", "fidelity = \"lnik\""), "found 'lnik'; did you mean 'link'?"));
   EXPECT_TRUE(has(errorOf("stream", "unmatched = \"\""), "expected \"undecided\" or \"rest\""));
 }
 
@@ -208,11 +210,12 @@ TEST(ServeConfig, TextsThatCannotBeUsedAreRefused) {
   EXPECT_TRUE(has(errorOf("service", "log = \"a\\u0000b\""), "without control characters"));
   EXPECT_TRUE(has(errorOf("service", "log = \"" + std::string(5000, 'a') + "\""), "4096 bytes"));
   EXPECT_TRUE(
-      has(errorOf("service", "suffix = \"a b\""), ":2: [service] suffix: expected at most"));
+      has(errorOf("service", "suffix = \"a b\""),
+          ":2: [service] suffix: expected printable ASCII without spaces, at most 45 bytes"));
   EXPECT_TRUE(has(errorOf("service", "suffix = \"\u00e9\""), ":2: [service] suffix"));
   EXPECT_EQ(errorOf("service", "suffix = \"" + std::string(45, 'A') + "\""), "accepted");
-  EXPECT_TRUE(
-      has(errorOf("service", "suffix = \"" + std::string(46, 'A') + "\""), "expected at most 45"));
+  EXPECT_TRUE(has(errorOf("service", "suffix = \"" + std::string(46, 'A') + "\""),
+                  "at most 45 bytes of it"));
   for (const char* const bad : {"9464", ":9464", "127.0.0.1", "127.0.0.1:", "127.0.0.1:0",
                                 "127.0.0.1:65536", "127.0.0.1:1x", "::1:9464", "[::1]", "[]:1",
                                 "a b:1", "127.0.0.1:-1", "http://127.0.0.1:80"}) {
@@ -293,7 +296,7 @@ TEST(ServeConfig, FilesAreReadWhole) {
   folder.write("serve.toml", kSmallest);
   const auto config = readServeConfig(path);
   ASSERT_TRUE(config.ok()) << describe(config.error());
-  EXPECT_EQ(config.value().scene, folder / "room.glb");
+  EXPECT_EQ(config.value().world.scenePath, folder / "room.glb");
   folder.write("serve.toml", kSmallest + std::string(kMaxServeConfigBytes, '#'));
   EXPECT_EQ(readServeConfig(path).error().code, ErrorCode::LimitExceeded);
 }

@@ -1,4 +1,4 @@
-#include "tools/inputs/numbered_avatars.h"
+#include "tools/settings/numbered_avatars.h"
 
 #include <charconv>
 #include <limits>

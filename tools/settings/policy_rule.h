@@ -1,4 +1,4 @@
-// tools/inputs/policy_rule.h: one [[policy]] table: what links are asked with where they differ,
+// tools/settings/policy_rule.h: one [[policy]] table: what links are asked with where they differ,
 // and which objects are passed over.
 #pragma once
 
@@ -25,5 +25,8 @@ struct PolicyRule {
   std::optional<Fidelity> fidelity;  ///< Link or Exact; only where no objects are named.
   std::optional<bool> ignore;        ///< False: asked for again.
 };
+
+/// A list of the rules, each as it was given.
+[[nodiscard]] std::string policiesJson(const std::vector<PolicyRule>& rules);
 
 }  // namespace foretouch::tools

@@ -1,4 +1,4 @@
-// tools/inputs/near_names.h: which existing names a misspelt one may have meant.
+// tools/settings/near_names.h: which existing names a misspelt one may have meant.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// tools/stream/channel_names.h: the channels of one service and its senders.
+// tools/settings/channel_names.h: the channels of one service and its senders.
 #pragma once
 
 #include <string>

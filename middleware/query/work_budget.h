@@ -1,4 +1,4 @@
-// network/stream/work_budget.h: a wish for time as an amount of work. The wall clock decides no
+// middleware/query/work_budget.h: a wish for time as an amount of work. The wall clock decides no
 // verdict, so that a replay repeats it; what a query may spend is counted in evaluations in lanes.
 #pragma once
 

@@ -1,11 +1,12 @@
-// tools/inputs/toml_section.h: tables of TOML read key by key, with errors that name the line. Not
-// for what stands outside configuration: it brings toml++ along.
+// tools/settings/toml_section.h: tables of TOML read key by key, with errors that name the line.
+// Not for what stands outside configuration: it brings toml++ along.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 
 #include "articulated/result.h"
 #include "assets/text_file.h"
+#include "tools/settings/setting.h"
 
 // An exception per broken file is one too many, and what the format needs is two values deep.
 #define TOML_EXCEPTIONS 0
@@ -72,6 +74,10 @@ class TomlSection {
   /// The table `key` in this one, or an empty one.
   TomlSection table(const char* key);
 
+  /// Puts what stands at the setting's key in the setting's place. `pathOf` makes of a path what
+  /// can be opened.
+  void read(Setting& setting, const std::function<std::string(const std::string&)>& pathOf);
+
   void text(const char* key, std::string& value, bool mayBeEmpty = true);
 
   void texts(const char* key, std::vector<std::string>& values);
@@ -126,6 +132,10 @@ class TomlSection {
   [[nodiscard]] std::string spelt(const char* key) const;
 
   void wrongType(const char* key, const std::string& expected, const toml::node& node);
+
+  /// Whether the value is of the setting's kind; `given` then holds it.
+  bool readKind(const Setting& setting, const toml::node& node, GivenValue& given);
+  bool readWord(const Setting& setting, const toml::node& node, GivenValue& given);
 
   std::optional<std::string> textOf(const char* key, const toml::node& node, bool mayBeEmpty);
 

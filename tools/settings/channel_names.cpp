@@ -1,4 +1,4 @@
-#include "tools/stream/channel_names.h"
+#include "tools/settings/channel_names.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "tools/inputs/near_names.h"
+#include "tools/settings/near_names.h"
 
 #include <algorithm>
 #include <array>

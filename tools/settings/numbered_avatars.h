@@ -1,4 +1,4 @@
-// tools/inputs/numbered_avatars.h: avatars by the numbers that messages call them, as typed in.
+// tools/settings/numbered_avatars.h: avatars by the numbers that messages call them, as typed in.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
-#include "tools/inputs/toml_section.h"
+#include "tools/settings/toml_section.h"
 
 #include <charconv>
 
 #include "network/wire/messages.h"
-#include "tools/inputs/near_names.h"
+#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {
@@ -108,6 +108,53 @@ TomlSection TomlSection::table(const char* key) {
   if (node->is_table()) return {reading_, *node->as_table(), title};
   wrongType(key, "a table", *node);
   return {reading_, nothing, title};
+}
+
+bool TomlSection::readKind(const Setting& setting, const toml::node& node, GivenValue& given) {
+  const char* const key = setting.key.c_str();
+  switch (setting.kind) {
+    case ValueKind::Number:
+      if (!node.is_number()) return wrongType(key, setting.legal, node), false;
+      given.number = node.is_integer() ? static_cast<double>(node.as_integer()->get())
+                                       : node.as_floating_point()->get();
+      given.found = shownNumber(given.number);
+      if (std::isfinite(given.number)) return true;
+      return outOfRange(key, setting.legal, given.found, node), false;
+    case ValueKind::Whole:
+      if (!node.is_integer()) return wrongType(key, setting.legal, node), false;
+      given.whole = node.as_integer()->get();
+      given.found = std::to_string(given.whole);
+      return true;
+    case ValueKind::List: texts(key, given.texts); return !reading_.error;
+    case ValueKind::Flag:
+    case ValueKind::Text: break;
+  }
+  if (!setting.words.empty()) return readWord(setting, node, given);
+  const auto found = textOf(key, node, setting.mayBeEmpty);
+  if (found) given = {0.0, 0, {*found}, inQuotes(*found)};
+  return found.has_value();
+}
+
+bool TomlSection::readWord(const Setting& setting, const toml::node& node, GivenValue& given) {
+  const char* const key = setting.key.c_str();
+  const auto& words = setting.words;
+  if (!node.is_string()) return wrongType(key, orList(words), node), false;
+  const std::string& found = node.as_string()->get();
+  given = {0.0, 0, {found}, inQuotes(found)};
+  if (std::find(words.begin(), words.end(), found) != words.end()) return true;
+  return outOfRange(key, orList(words), given.found + didYouMean(found, words), node), false;
+}
+
+void TomlSection::read(Setting& setting,
+                       const std::function<std::string(const std::string&)>& pathOf) {
+  const toml::node* const node = find(setting.key.c_str());
+  GivenValue given;
+  if (node == nullptr || !readKind(setting, *node, given)) return;
+  if (setting.isPath) given.texts.front() = pathOf(given.texts.front());
+  const auto taken = setting.take(given);
+  if (taken.ok()) return;
+  reading_.fail(taken.error().code, lineOf(*node),
+                spelt(setting.key.c_str()) + ": " + taken.error().message);
 }
 
 void TomlSection::text(const char* key, std::string& value, bool mayBeEmpty) {

@@ -1,0 +1,96 @@
+#include "tools/settings/clip_settings.h"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "tools/arguments.h"
+#include "assets/json_writer.h"
+#include "tools/settings/world_settings.h"
+
+namespace foretouch::tools {
+namespace {
+
+void addPlaceSetting(Settings& settings, Placement& place) {
+  Setting& setting = settings.parsed(
+      "--place", "X,Y,Z[,YAW]",
+      [&place](const std::string& text) -> Result<Done> {
+        const auto parsed = parsePlacement("", text);
+        if (!parsed.ok()) return parsed.error();
+        place.origin = parsed.value().origin;
+        place.yawDeg = parsed.value().yawDeg;
+        return Done{};
+      },
+      [&place] {
+        return fmt::format("{},{},{},{}", place.origin.x(), place.origin.y(), place.origin.z(),
+                           place.yawDeg);
+      },
+      "Where the clip's origin stands in the scene: metres, and degrees about +Y");
+  setting.json = [&place] {
+    return fmt::format("[{},{},{},{}]", numberText(place.origin.x()), numberText(place.origin.y()),
+                       numberText(place.origin.z()), numberText(place.yawDeg));
+  };
+  setting.told = [&place] {
+    return fmt::format("{}, {}, {} m, turned by {} degrees", place.origin.x(), place.origin.y(),
+                       place.origin.z(), place.yawDeg);
+  };
+  setting.inHeader("place").inReport("placed at");
+}
+
+void addSourceSettings(Settings& settings, ClipRequest& request) {
+  settings
+      .text("--animation", "NAME", request.animation,
+            "Which animation of a model: its name, or its number from 0; the first if not given")
+      .inHeader("animation")
+      .inReport("animation")
+      .namedIf([&request] { return !request.animation.empty(); });
+  settings.path("--robot", "URDF", request.robotPath, "The robot that joint positions are about")
+      .inHeader("robot")
+      .inReport("robot")
+      .namedIf([&request] { return !request.robotPath.empty(); });
+  settings
+      .path("--map", "FILE", request.mapPath,
+            R"(Joint names that differ: {"avatar joint": "clip joint"})")
+      .inReport("joint map");
+  settings.list("--package", "DIR", request.packagePaths,
+                "Folder of the robot's packages; may be repeated");
+}
+
+}  // namespace
+
+Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* option,
+                          const char* value, const char* help) {
+  return settings.path(option, value, request.motionPath, help)
+      .inHeader("motion")
+      .inReport("motion");
+}
+
+Setting& addAvatarSetting(Settings& settings, ClipRequest& request) {
+  return settings.path("--avatar", "FILE", request.avatarPath, "Avatar file (see foretouch avatar)")
+      .inReport("avatar");
+}
+
+Setting& addRateSetting(Settings& settings, ClipRequest& request, const char* help) {
+  return settings.number("--rate", "HZ", request.rateHz, kAboveZero, "all", help).inHeader("rate");
+}
+
+void addClipReadingSettings(Settings& settings, ClipRequest& request) {
+  settings
+      .number("--scale", "S", request.motionScale, kMetresPerUnit,
+              "Metres per unit of the clip: 0.01 for centimetres")
+      .inHeader("scale")
+      .inReport("motion's unit");
+  settings
+      .word<bool>("--motion-up", "y|z", request.placement.motionUpZ, {{"y", false}, {"z", true}},
+                  "Which axis of the clip points up")
+      .inHeader("motion_up")
+      .inReport("motion's up axis");
+  addSourceSettings(settings, request);
+}
+
+void addClipSettings(Settings& settings, ClipRequest& request) {
+  addClipReadingSettings(settings, request);
+  addPlaceSetting(settings, request.placement);
+}
+
+}  // namespace foretouch::tools

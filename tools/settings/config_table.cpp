@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include "tools/settings/serve_settings.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// As a configuration spells it.
+std::string inToml(const Setting& setting) {
+  if (!setting.mayBeEmpty && setting.shown().empty()) return "required";
+  if (setting.kind == ValueKind::Flag) return "`\"" + setting.shown() + "\"`";
+  return "`" + setting.json() + "`";
+}
+
+std::string legalValues(const Setting& setting) {
+  if (!setting.words.empty()) {
+    std::string text;
+    for (const std::string& word : setting.words) {
+      text += (text.empty() ? "`\"" : ", `\"") + word + "\"`";
+    }
+    return text;
+  }
+  if (setting.kind == ValueKind::List) return "texts";
+  return setting.legal.empty() ? "a text" : setting.legal;
+}
+
+/// `|` ends a cell.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
+    text.insert(at, "\\");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string configTable() {
+  ServeConfig config;
+  Settings settings;
+  addServeSettings(settings, config);
+  std::string text = "| key | option | default | legal | what it says |\n|---|---|---|---|---|\n";
+  for (const char* const table : {"service", "scene", "query", "stream"}) {
+    std::string title = fmt::format("`[{}]` ", table);
+    for (const Setting& setting : settings) {
+      if (setting.table != table) continue;
+      text += fmt::format("| {}`{}` | `{}` | {} | {} | {} |\n", title, setting.key, setting.option,
+                          inToml(setting), cell(legalValues(setting)), cell(setting.help));
+      title.clear();
+    }
+  }
+  return text;
+}
+
+}  // namespace foretouch::tools

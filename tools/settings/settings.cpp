@@ -1,0 +1,243 @@
+#include "tools/settings/settings.h"
+
+#include <filesystem>
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "lss/assert.h"
+#include "assets/json_writer.h"
+#include "tools/settings/near_names.h"
+
+namespace foretouch::tools {
+namespace {
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
+
+std::string nameOfFile(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+std::string withSign(double number, const NumberRange& range) {
+  return numberText(number) + (*range.sign == '\0' ? "" : " ") + range.sign;
+}
+
+}  // namespace
+
+std::string NumberRange::inWords() const {
+  std::string text = "a finite number";
+  if (*unit != '\0') text += std::string(" of ") + unit;
+  if (most < std::numeric_limits<double>::max()) {
+    return text + " from " + tidyNumber(least) + " to " + tidyNumber(most);
+  }
+  return least == 0.0 ? text + (takesZero ? " of at least 0" : " greater than 0") : text;
+}
+
+Setting& Settings::number(const char* option, const char* value, double& place, NumberRange range,
+                          const char* help) {
+  Setting& setting = add(option, value, ValueKind::Number, help);
+  setting.legal = range.inWords();
+  setting.take = [&place, range](const GivenValue& given) -> Result<Done> {
+    if (!range.contains(given.number)) return notLegal(range.inWords(), given);
+    place = given.number;
+    return Done{};
+  };
+  setting.shown = setting.json = [&place] { return numberText(place); };
+  setting.told = [&place, range] { return withSign(place, range); };
+  return setting;
+}
+
+Setting& Settings::number(const char* option, const char* value, std::optional<double>& place,
+                          NumberRange range, const char* none, const char* help) {
+  Setting& setting = add(option, value, ValueKind::Number, help);
+  const std::string word = none;
+  setting.legal = range.inWords();
+  if (!word.empty()) {
+    setting.words = {word};
+    setting.legal += " or " + word;
+  }
+  const std::string legal = setting.legal;
+  setting.take = [&place, range, word, legal](const GivenValue& given) -> Result<Done> {
+    const bool isNone = !word.empty() && given.texts.front() == word;
+    if (!isNone && !range.contains(given.number)) return notLegal(legal, given);
+    place = isNone ? std::nullopt : std::optional<double>(given.number);
+    return Done{};
+  };
+  setting.shown = [&place, word] { return place ? numberText(*place) : word; };
+  setting.json = [&place] { return place ? numberText(*place) : "null"; };
+  setting.told = [&place, range] { return place ? withSign(*place, range) : ""; };
+  return setting;
+}
+
+Setting& Settings::wholeAt(const char* option, const char* value, std::int64_t least,
+                           std::int64_t most, std::function<void(std::int64_t)> put,
+                           const char* help) {
+  Setting& setting = add(option, value, ValueKind::Whole, help);
+  setting.legal = fmt::format("a whole number from {} to {}", least, most);
+  setting.take = [least, most, put = std::move(put),
+                  legal = setting.legal](const GivenValue& given) -> Result<Done> {
+    if (given.whole < least || given.whole > most) return notLegal(legal, given);
+    put(given.whole);
+    return Done{};
+  };
+  return setting;
+}
+
+Setting& Settings::wholeOr(const char* word, const char* option, const char* value, int& place,
+                           std::int64_t most, const char* help) {
+  const std::string none = word;
+  Setting& setting = whole(option, value, place, 1, most, help);
+  setting.words = {none};
+  setting.legal += " or " + none;
+  setting.take = [&place, none, most,
+                  legal = setting.legal](const GivenValue& given) -> Result<Done> {
+    const bool isNone = given.texts.front() == none;
+    if (!isNone && (given.whole < 1 || given.whole > most)) return notLegal(legal, given);
+    place = isNone ? 0 : static_cast<int>(given.whole);
+    return Done{};
+  };
+  setting.shown = [&place, none] { return place == 0 ? none : std::to_string(place); };
+  return setting;
+}
+
+Setting& Settings::wordAt(const char* option, const char* value, std::vector<std::string> words,
+                          std::function<void(std::size_t)> put, std::function<std::string()> shown,
+                          const char* help) {
+  Setting& setting = add(option, value, ValueKind::Text, help);
+  setting.words = words;
+  setting.legal = wordList(words);
+  setting.take = [words, put = std::move(put)](const GivenValue& given) -> Result<Done> {
+    const std::string& word = given.texts.front();
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end()) {
+      Error error = notLegal(wordList(words), given);
+      error.message += didYouMean(word, words);
+      return error;
+    }
+    put(static_cast<std::size_t>(found - words.begin()));
+    return Done{};
+  };
+  setting.shown = setting.told = shown;
+  setting.json = [shown] { return jsonString(shown()); };
+  return setting;
+}
+
+Setting& Settings::flag(const char* option, bool& place, const char* help,
+                        std::vector<std::string> words) {
+  FORETOUCH_ASSERT(words.empty() || words.size() == 2);
+  Setting& setting = add(option, "", ValueKind::Flag, help);
+  setting.words = words;
+  setting.legal = wordList(words);
+  setting.take = [&place, words](const GivenValue& given) -> Result<Done> {
+    place = given.texts.empty() || given.texts.front() == words[1];
+    return Done{};
+  };
+  setting.shown = setting.told = [&place, words] {
+    return words.empty() ? std::string() : words[place ? 1 : 0];
+  };
+  setting.json = [&place] { return place ? "true" : "false"; };
+  return setting;
+}
+
+Setting& Settings::text(const char* option, const char* value, std::string& place,
+                        const char* help) {
+  Setting& setting = add(option, value, ValueKind::Text, help);
+  setting.take = [&place](const GivenValue& given) -> Result<Done> {
+    place = given.texts.front();
+    return Done{};
+  };
+  setting.shown = setting.told = [&place] { return place; };
+  setting.json = [&place] { return jsonString(place); };
+  return setting;
+}
+
+Setting& Settings::path(const char* option, const char* value, std::string& place,
+                        const char* help) {
+  Setting& setting = text(option, value, place, help);
+  setting.isPath = true;
+  setting.told = [&place] { return nameOfFile(place); };
+  setting.json = [&place] { return jsonString(std::filesystem::path(place).filename().string()); };
+  return setting;
+}
+
+Setting& Settings::list(const char* option, const char* value, std::vector<std::string>& place,
+                        const char* help) {
+  Setting& setting = add(option, value, ValueKind::List, help);
+  setting.take = [&place](const GivenValue& given) -> Result<Done> {
+    place = given.texts;
+    return Done{};
+  };
+  setting.shown = setting.told = [&place] { return joined(place); };
+  setting.json = [&place] {
+    std::string text;
+    JsonWriter(text).value(place);
+    return text;
+  };
+  return setting;
+}
+
+Setting& Settings::parsed(const char* option, const char* value,
+                          std::function<Result<Done>(const std::string&)> take,
+                          std::function<std::string()> shown, const char* help) {
+  Setting& setting = add(option, value, ValueKind::Text, help);
+  setting.take = [take = std::move(take)](const GivenValue& given) {
+    return take(given.texts.front());
+  };
+  setting.shown = setting.told = std::move(shown);
+  setting.json = [shown = setting.shown] { return jsonString(shown()); };
+  return setting;
+}
+
+Setting& Settings::of(const std::string& option) {
+  const auto found =
+      std::find_if(all_.begin(), all_.end(), [&](const Setting& s) { return s.option == option; });
+  FORETOUCH_ASSERT(found != all_.end());
+  return *found;
+}
+
+bool Settings::isGiven(const std::string& option) const {
+  return std::any_of(all_.begin(), all_.end(),
+                     [&](const Setting& s) { return s.option == option && s.isGiven; });
+}
+
+const Setting& Settings::ofField(const std::string& field) const {
+  const auto found =
+      std::find_if(all_.begin(), all_.end(), [&](const Setting& s) { return s.field == field; });
+  FORETOUCH_ASSERT(found != all_.end());
+  return *found;
+}
+
+const Setting& Settings::ofRow(const std::string& row) const {
+  const auto found =
+      std::find_if(all_.begin(), all_.end(), [&](const Setting& s) { return s.row == row; });
+  FORETOUCH_ASSERT(found != all_.end());
+  return *found;
+}
+
+Setting& Settings::add(const char* option, const char* value, ValueKind kind, const char* help) {
+  Setting& setting = all_.emplace_back();
+  setting.option = option;
+  setting.value = value;
+  setting.kind = kind;
+  setting.help = help;
+  return setting;
+}
+
+void writeHeaderField(const Settings& settings, const char* field, JsonWriter& out) {
+  out.rawField(field, settings.ofField(field).json());
+}
+
+void writeHeaderFields(const Settings& settings, std::initializer_list<const char*> fields,
+                       JsonWriter& out) {
+  for (const char* const field : fields) {
+    const Setting& setting = settings.ofField(field);
+    if (!setting.isNamed || setting.isNamed()) writeHeaderField(settings, field, out);
+  }
+}
+
+}  // namespace foretouch::tools

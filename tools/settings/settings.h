@@ -1,0 +1,118 @@
+// tools/settings/settings.h: a table of settings, each tied to the place of its value.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assets/json_writer.h"
+#include "tools/settings/setting.h"
+
+namespace foretouch::tools {
+
+/// The numbers from `least` to `most`, both legal but for a `least` of 0.
+struct NumberRange {
+  double least, most;
+  const char* unit = "";   ///< "metres"; empty: none.
+  const char* sign = "";   ///< "m", behind a value in reports.
+  bool takesZero = false;  ///< A `least` of 0 is legal, too.
+
+  [[nodiscard]] bool contains(double number) const {
+    return number <= most && (number > least || (number == least && (least > 0.0 || takesZero)));
+  }
+  [[nodiscard]] std::string inWords() const;
+};
+
+/// A word, and what it stands for.
+template <typename Value>
+using Words = std::vector<std::pair<std::string, Value>>;
+
+/// Settings in the order in which help lists them. References to them stay good.
+class Settings {
+ public:
+  Settings() = default;
+  Settings(const Settings&) = delete;
+  Settings& operator=(const Settings&) = delete;
+  Settings(Settings&&) = default;
+  Settings& operator=(Settings&&) = default;
+
+  Setting& number(const char* option, const char* value, double& place, NumberRange range,
+                  const char* help);
+  /// `none` is the word for no number at all; empty: there is no such word, and the option is not
+  /// given.
+  Setting& number(const char* option, const char* value, std::optional<double>& place,
+                  NumberRange range, const char* none, const char* help);
+  template <typename Whole>
+  Setting& whole(const char* option, const char* value, Whole& place, std::int64_t least,
+                 std::int64_t most, const char* help) {
+    Setting& setting = wholeAt(
+        option, value, least, most, [&place](std::int64_t w) { place = static_cast<Whole>(w); },
+        help);
+    setting.shown = setting.json = setting.told = [&place] { return std::to_string(place); };
+    return setting;
+  }
+  /// The same with a word for 0.
+  Setting& wholeOr(const char* word, const char* option, const char* value, int& place,
+                   std::int64_t most, const char* help);
+  template <typename Value>
+  Setting& word(const char* option, const char* value, Value& place, Words<Value> words,
+                const char* help) {
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : words) names.push_back(name);
+    return wordAt(
+        option, value, std::move(names),
+        [&place, words](std::size_t i) { place = words[i].second; },
+        [&place, words] {
+          std::size_t i = 0;
+          while (words[i].second != place) ++i;
+          return words[i].first;
+        },
+        help);
+  }
+  /// A flag, and what it is called in a configuration where it is off and where it is on.
+  Setting& flag(const char* option, bool& place, const char* help,
+                std::vector<std::string> words = {});
+  Setting& text(const char* option, const char* value, std::string& place, const char* help);
+  Setting& path(const char* option, const char* value, std::string& place, const char* help);
+  Setting& list(const char* option, const char* value, std::vector<std::string>& place,
+                const char* help);
+  /// A text with a rule of its own: `take` fills the place, `shown` says what is in it.
+  Setting& parsed(const char* option, const char* value,
+                  std::function<Result<Done>(const std::string&)> take,
+                  std::function<std::string()> shown, const char* help);
+
+  /// The setting of an option, a header's field, a report's row. Precondition: it is there.
+  [[nodiscard]] Setting& of(const std::string& option);
+  /// Whether the command line has it.
+  [[nodiscard]] bool isGiven(const std::string& option) const;
+  [[nodiscard]] const Setting& ofField(const std::string& field) const;
+  [[nodiscard]] const Setting& ofRow(const std::string& row) const;
+
+  [[nodiscard]] auto begin() { return all_.begin(); }
+  [[nodiscard]] auto end() { return all_.end(); }
+  [[nodiscard]] auto begin() const { return all_.begin(); }
+  [[nodiscard]] auto end() const { return all_.end(); }
+
+ private:
+  Setting& add(const char* option, const char* value, ValueKind kind, const char* help);
+  Setting& wholeAt(const char* option, const char* value, std::int64_t least, std::int64_t most,
+                   std::function<void(std::int64_t)> put, const char* help);
+  Setting& wordAt(const char* option, const char* value, std::vector<std::string> words,
+                  std::function<void(std::size_t)> put, std::function<std::string()> shown,
+                  const char* help);
+
+  std::deque<Setting> all_;
+};
+
+/// Of a first line: each field with its value, in this order; those that are not named left out.
+void writeHeaderFields(const Settings& settings, std::initializer_list<const char*> fields,
+                       JsonWriter& out);
+/// The same of one, named or not.
+void writeHeaderField(const Settings& settings, const char* field, JsonWriter& out);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,132 @@
+#include "tools/settings/world_settings.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "tools/settings/words.h"
+
+namespace foretouch::tools {
+namespace {
+
+bool isSkinned(const WorldRequest& request) {
+  return request.query.fidelity == Fidelity::Skinned;
+}
+
+bool isExactAnywhere(const WorldRequest& request) {
+  return request.query.fidelity == Fidelity::Exact ||
+         std::any_of(request.policies.begin(), request.policies.end(),
+                     [](const PolicyRule& rule) { return rule.fidelity == Fidelity::Exact; });
+}
+
+void addSkinSettings(Settings& settings, WorldRequest& request) {
+  const auto isNamed = [&request] { return isSkinned(request) && !isExactAnywhere(request); };
+  settings
+      .path("--skin", "BODY", request.skinPath,
+            "Skinned fidelity: the model that the avatar was made of")
+      .inHeader("skin")
+      .inReport("skin")
+      .namedIf(isNamed)
+      .told = [&request] {
+    const std::size_t name = request.skinPath.rfind('/') + 1;
+    return isSkinned(request) ? request.skinPath.substr(name) : std::string();
+  };
+  settings
+      .number("--skin-scale", "S", request.skinImport.scale, kMetresPerUnit,
+              "Metres per unit of that model")
+      .inHeader("skin_scale")
+      .namedIf(isNamed);
+  settings
+      .word("--skin-up", "y|z", request.skinImport.up, upAxisWords(),
+            "Which axis of that model points up")
+      .inHeader("skin_up")
+      .namedIf(isNamed);
+}
+
+}  // namespace
+
+void addSceneSettings(Settings& settings, WorldRequest& request) {
+  settings.path("--scene", "FILE", request.scenePath, "Scene: any mesh format that assimp reads")
+      .notEmpty()
+      .inConfig("scene", "file")
+      .inHeader("scene")
+      .inReport("scene");
+  settings
+      .number("--scene-scale", "S", request.sceneImport.scale, kMetresPerUnit,
+              "Metres per unit of the scene")
+      .inConfig("scene", "scale")
+      .inHeader("scene_scale")
+      .inReport("scene's unit");
+  settings
+      .word("--up", "y|z", request.sceneImport.up, upAxisWords(),
+            "Which axis of the scene points up")
+      .inConfig("scene", "up")
+      .inHeader("up")
+      .inReport("scene's up axis");
+}
+
+void addQuerySettings(Settings& settings, WorldRequest& request) {
+  settings
+      .number("--tolerance", "M", request.query.tolerance, kToleranceRange,
+              "Largest separation (m) of a reported contact")
+      .inConfig("query", "tolerance")
+      .inHeader("tolerance")
+      .inReport("tolerance");
+  settings
+      .word("--fidelity", "RUNG", request.query.fidelity, fidelityWords(),
+            "What touches: one ellipsoid, one LSS (avatar), one a limb, the links' LSS (link), "
+            "their meshes (exact), or a skin (skinned)")
+      .inConfig("query", "fidelity")
+      .inHeader("fidelity")
+      .inReport("fidelity");
+  settings.list("--ignore", "PAIRS", request.ignore, "Contacts not asked for; may be repeated")
+      .inConfig("query", "ignore")
+      .inHeader("ignore")
+      .inReport("ignored");
+  Setting& budget = settings
+                        .whole("--budget-us", "US", request.budgetUs, 0, kMostBudgetUs,
+                               "What a step may cost, as an amount of work; links beyond it are "
+                               "undecided; 0: no limit")
+                        .inConfig("service", "budget_us")
+                        .inHeader("budget_us")
+                        .inReport("budget")
+                        .namedIf([&request] { return request.budgetUs > 0; });
+  budget.shown = [&request] {
+    return request.budgetUs > 0 ? std::to_string(request.budgetUs) : "";
+  };
+  budget.told = [&request] {
+    return request.budgetUs > 0 ? fmt::format("{} us a step, as work", request.budgetUs) : "";
+  };
+}
+
+void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
+  addSkinSettings(settings, request);
+  settings
+      .word("--leaves", "advancement|cubics", request.query.leafMethod, leafMethodWords(),
+            "Exact fidelity's way with pairs of triangles; both keep the promise")
+      .inHeader("leaves")
+      .namedIf([&request] { return isExactAnywhere(request); });
+  const auto isNarrow = [&request] { return request.query.scope != QueryOptions().scope; };
+  settings
+      .word("--scope", "links|avatar", request.query.scope, scopeWords(),
+            "Every link's first contact, or only the first of all")
+      .ofClips()
+      .inHeader("scope")
+      .inReport("scope")
+      .namedIf(isNarrow)
+      .told = [&request, isNarrow]() -> std::string {
+    return isNarrow() ? toString(request.query.scope) : "";
+  };
+  settings.word("--culler", "flat|point-query", request.query.culler, cullerWords(),
+                "Way to cull; both find the same");
+  settings
+      .path("--policy", "FILE", request.policyPath,
+            "Tolerance, fidelity and what to ignore, link by link: [[policy]] tables "
+            "(docs/formats.md)")
+      .inHeader("policy")
+      .inReport("policy")
+      .namedIf([&request] { return !request.policies.empty(); })
+      .json = [&request] { return policiesJson(request.policies); };
+}
+
+}  // namespace foretouch::tools
