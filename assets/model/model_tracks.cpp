@@ -8,7 +8,7 @@
 namespace foretouch::internal {
 namespace {
 
-constexpr double kNoticeableScale = 1e-3;  // of the scale; exporters round to float
+constexpr double kScaleNote = 1e-3;  // of the scale; exporters round to float
 
 /// Of the sorted keys, those before and after `timeS`, and the share of the way between them.
 template <typename Key>
@@ -72,7 +72,7 @@ void SampledTrack::findScale() {
   }
   for (const auto& key : track_.scales) {
     const Eigen::Vector3d off = key.value.cwiseAbs() - sizes;
-    if (off.cwiseAbs().maxCoeff() > kNoticeableScale * sizes.maxCoeff()) scalesAnew_ = true;
+    if (off.cwiseAbs().maxCoeff() > kScaleNote * sizes.maxCoeff()) scalesAnew_ = true;
   }
 }
 

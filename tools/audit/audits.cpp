@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "articulated/motion.h"
-#include "assets/bvh/stature.h"
 #include "articulated/quoted.h"
+#include "assets/bvh/stature.h"
 #include "tools/inputs/played_clip.h"
 
 namespace foretouch::tools {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "tools/arguments.h"
 #include "assets/json_writer.h"
+#include "tools/arguments.h"
 #include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {

@@ -1,13 +1,13 @@
 #include "tools/settings/settings.h"
 
-#include <filesystem>
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "lss/assert.h"
 #include "assets/json_writer.h"
+#include "lss/assert.h"
 #include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
