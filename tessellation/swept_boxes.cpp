@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "tessellation/point_rounding.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,9 +17,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace foretouch::HWY_NAMESPACE {
 
-/// `x` moved down so far that its nearest float is not above it (point_rounding.h, outward()).
+/// `x` moved down so far that its nearest float is not above it (lss/rounding.h, padding).
 HWY_INLINE NodeVector downward(NodeLanes d, NodeVector x) {
-  const NodeVector slack = hn::MulAdd(hn::Abs(x), hn::Set(d, 0x1p-23), hn::Set(d, 1e-40));
+  const NodeVector slack = hn::MulAdd(hn::Abs(x), hn::Set(d, internal::kFloatPadding),
+                                      hn::Set(d, internal::kFloatUnderflow));
   return hn::Sub(x, slack);
 }
 HWY_INLINE NodeVector upward(NodeLanes d, NodeVector x) {
@@ -172,9 +174,9 @@ namespace {
 HWY_EXPORT(boxesOf);
 HWY_EXPORT(piecesOf);
 
+using internal::kInflation;
+
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// Covers the rounding of the growth's own few operations.
-constexpr double kInflation = 1.0 + 1e-12;
 
 /// How far LSS may reach, beyond their ends at both instants, between two instants `gap` apart.
 class Growth {

@@ -10,13 +10,13 @@
 
 #include <hwy/highway.h>
 
+#include "lss/rounding.h"
 #include "middleware/lanes/lss_pairs.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace foretouch::internal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kUnitRoundoffOfFloat = 0x1p-24f;
 /// Shrinks a computed unit vector, whose norm errs by at most 5 u, to a true norm of at most 1.
 constexpr float kUnitShrinkOfFloat = 1.0f - 8.0f * kUnitRoundoffOfFloat;
 /// Past the rounding of a step's formula: at most ten roundings of terms of one sign.

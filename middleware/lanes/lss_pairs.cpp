@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "middleware/scene/culler.h"
+#include "lss/rounding.h"
 
 #ifndef FORETOUCH_LANES_LSS_PAIRS_ROWS
 #define FORETOUCH_LANES_LSS_PAIRS_ROWS
@@ -41,9 +41,9 @@ inline constexpr auto& kLanesOfBits = kLanesOfBitsTable.rows;
 
 /// Roundings of a plane's arithmetic per metre of extent, and of the vertices' own subtraction
 /// (lss_pairs.md 2).
-inline constexpr double kPlaneRounding = 12.0 * 0x1p-24;
+inline constexpr double kAxisPlaneRounding = 12.0 * kUnitRoundoffOfFloat;
 /// The same per metre of the largest coordinate: a point's norm is at most the root of 3 of it.
-inline constexpr float kRoundingOfCoordinate = static_cast<float>(1.7321 * kPlaneRounding);
+inline constexpr float kRoundingOfCoordinate = static_cast<float>(1.7321 * kAxisPlaneRounding);
 /// A sphere's radius has a part in the rounding of the last subtraction.
 inline constexpr float kSphereInflation = 1.0F + 0x1p-20F;
 /// Past the rounding of a sum of three such terms.
@@ -162,8 +162,6 @@ HWY_EXPORT(gatherTriangles);
 HWY_EXPORT(triangleRounds);
 HWY_EXPORT(sphereRounds);
 
-constexpr double kU = 0x1p-24;
-
 std::size_t roundedUp(std::size_t count) {
   return (count + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
 }
@@ -190,11 +188,11 @@ LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius) {
   lane.accelerationA = polynomials.accelerationA;
   lane.accelerationB = polynomials.accelerationB;
   const double speed = std::max<double>(polynomials.speedA, polynomials.speedB);
-  lane.speedSlack =
-      floatAbove(kU * (4.0 * speed + kDerivativeRounding * double{polynomials.weighted}));
+  lane.speedSlack = floatAbove(kUnitRoundoffOfFloat *
+                               (4.0 * speed + kDerivativeRounding * double{polynomials.weighted}));
   lane.extent = floatAbove(
       std::max(extentOf(lane.a, polynomials.speedA), extentOf(lane.b, polynomials.speedB)));
-  lane.reach = floatAbove(lane.radius + kPlaneRounding * (double{lane.extent} + lane.radius));
+  lane.reach = floatAbove(lane.radius + kAxisPlaneRounding * (double{lane.extent} + lane.radius));
   lane.contactShift = floatBelow(2.0 * (static_cast<double>(lane.radius) + lssRadius));
   return lane;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "middleware/query/start.h"
 
 namespace foretouch::internal {
@@ -118,7 +119,7 @@ class Backtracker {
       const double step = query_.parts.stepByPlane(part.lss, part.part, states_.at(t).state,
                                                    query_.scene.triangle(part.triangle), pair.nhat,
                                                    query_.tolerance);
-      if (step > 0.0) part.freeUntil = nextPossible(part, after(t, step));
+      if (step > 0.0) part.freeUntil = nextPossible(part, timeAfter(t, step, 1.0));
     });
   }
 

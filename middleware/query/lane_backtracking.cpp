@@ -3,15 +3,12 @@
 #include <algorithm>
 
 #include "lss/assert.h"
-#include "middleware/scene/culler.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Below this share of the tolerance lanes give a pair up, to the parts below or to doubles, which
-/// will mostly find contact: what lanes prove is a little less than the truth.
-constexpr double kHandOverShare = 0.75;
 
 class LaneBacktracker {
  public:

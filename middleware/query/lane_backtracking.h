@@ -14,6 +14,10 @@
 
 namespace foretouch::internal {
 
+/// Below this share of the tolerance lanes give a pair up, to the parts below or to doubles, which
+/// will mostly find contact: what lanes prove is a little less than the truth.
+inline constexpr double kHandOverShare = 0.75;
+
 /// A part and a triangle of the scene, proven apart before `freeUntil`.
 struct PartPair {
   double freeUntil = 0.0;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/query/lane_backtracking.h"
 #include "middleware/query/start.h"
@@ -16,11 +17,8 @@
 namespace foretouch::internal {
 namespace {
 
-/// Shares of the tolerance. The floor is the scalar code's. Below three quarters the scalar code is
-/// asked: what lanes prove is a little less than the truth, so it will mostly find contact. And
-/// what lanes call certain must be so for the scalar code too, whose rounding is far below the
-/// rest.
-constexpr double kHandOverShare = 0.75;
+/// What lanes call certain, this share of the tolerance, must be so for the scalar code too, whose
+/// rounding is far below the rest.
 constexpr double kCertainShare = 1.0 - 0x1p-10;
 /// No pair is certainly in contact.
 constexpr float kNeverCertain = -1.0F;

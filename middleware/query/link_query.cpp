@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "lss/rounding.h"
 #include "middleware/exact/chain_piece.h"
 #include "middleware/exact/feature.h"
 #include "middleware/exact/linear_query.h"
@@ -26,12 +27,6 @@ Vector3d contactNormal(const PairState& pair) {
 }
 
 }  // namespace
-
-// The sum may have been moved up by half a unit in the last place.
-double after(double t, double step) {
-  const double next = t + step;
-  return next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
-}
 
 LinkContact undecidedContact(LinkId link, double freeUntil, UndecidedReason reason) {
   LinkContact contact;
@@ -87,7 +82,7 @@ double provenFrom(const LinkQuery& query, const Candidate& candidate, const Pair
                                              kFloorShare * query.tolerance, pair.nhat);
     if (reached > t) return reached;
   }
-  return after(t, stepFrom(pair, floor));
+  return timeAfter(t, stepFrom(pair, floor), 1.0);
 }
 
 LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const PairState& pair,

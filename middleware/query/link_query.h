@@ -106,9 +106,6 @@ class StateCache {
 [[nodiscard]] double provenFrom(const LinkQuery& query, const Candidate& candidate,
                                 const PairState& pair, double t, QueryCounters& counters);
 
-/// t + step, rounded down, and at most 1.
-[[nodiscard]] double after(double t, double step);
-
 /// What is reported of a pair that is in contact at `t`.
 [[nodiscard]] LinkContact contactOf(const LinkQuery& query, const Candidate& candidate,
                                     const PairState& pair, double t);

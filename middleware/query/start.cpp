@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "middleware/scene/culler.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 namespace {

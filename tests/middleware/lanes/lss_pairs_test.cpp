@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/scene/culler.h"
 #include "tests/support/oracle_distance.h"
