@@ -166,16 +166,16 @@ std::size_t roundedUp(std::size_t count) {
   return (count + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
 }
 
-/// |p(u)| <= |p(0)| + speed for u in [-1,1].
+/// |p(u)| <= |p(0)| + speed for u in [-1,1] (lss_pairs.md 2).
 double extentOf(const float (&c)[3][8], float speed) {
   double squared = 0.0;
   for (const auto& row : c) squared += double{row[0]} * row[0];
   return std::sqrt(squared) + speed;
 }
 
-/// What the Horner scheme loses of the derivative, times u: a coefficient j c_j takes part in at
-/// most 16 roundings, and the sum of (2j+2)|c_j| is more than twice that of j |c_j| (lss_pairs.md
-/// 3).
+/// What the Horner scheme loses of the derivative, in roundoffs of `weighted`: a coefficient c_j
+/// takes j ways with at most 13 roundings each, for which 20 are counted, and the sum of
+/// (2j+2)|c_j| is more than twice that of j|c_j| (lss_pairs.md 3).
 constexpr double kDerivativeRounding = 20.0 / 2.0;
 
 }  // namespace
