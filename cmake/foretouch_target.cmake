@@ -25,6 +25,7 @@ endfunction()
 # Warnings, checks and sanitizers. -ffp-contract=off: the error bounds of docs/guarantees.md count one
 # rounding an operation; a contracted multiply-add would round elsewhere and differ between CPUs.
 function(foretouch_compile_options target)
+  set_property(GLOBAL APPEND PROPERTY FORETOUCH_TARGETS ${target})
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
