@@ -28,6 +28,21 @@ Vector3d contactNormal(const PairState& pair) {
 
 }  // namespace
 
+void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links) {
+  links.assign(static_cast<std::size_t>(numLinks), LinkContact{});
+  for (LinkId link = 0; link < numLinks; ++link) {
+    links[static_cast<std::size_t>(link)].link = link;
+  }
+}
+
+LinkContact clearContact(LinkId link) {
+  LinkContact contact;
+  contact.link = link;
+  contact.verdict = Verdict::Clear;
+  contact.freeUntil = contact.toi = 1.0;
+  return contact;
+}
+
 LinkContact undecidedContact(LinkId link, double freeUntil, UndecidedReason reason) {
   LinkContact contact;
   contact.link = link;

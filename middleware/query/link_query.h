@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "articulated/motion.h"
 #include "middleware/contact.h"
@@ -41,6 +42,12 @@ struct Candidate {
   Part part = Part::whole();
   std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, where there are any
 };
+
+/// Says of every link that no query has answered it.
+void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links);
+
+/// Proven: no contact in all that was asked for. The one place that writes Clear.
+[[nodiscard]] LinkContact clearContact(LinkId link);
 
 /// Free before `freeUntil`, and nothing claimed after it.
 [[nodiscard]] LinkContact undecidedContact(LinkId link, double freeUntil, UndecidedReason reason);

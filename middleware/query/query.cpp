@@ -115,6 +115,7 @@ void linkQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& sce
   if (options.descent == Descent::ByNeed && options.fidelity != Fidelity::Skinned &&
       internal::nothingInReach(internal::tableOf(avatar, scratch.lanes), motion, scene,
                                internal::tolerancesOf(options).largest, step.counters)) {
+    for (LinkContact& contact : step.links) contact = internal::clearContact(contact.link);
     return;
   }
   if (!inLanes(avatar, options)) {
@@ -138,12 +139,7 @@ void keepFirst(StepContacts& step) {
   if (!isTouched) return;
   for (LinkContact& contact : step.links) {
     if (contact.verdict != Verdict::Clear && contact.freeUntil <= first) continue;
-    const LinkId link = contact.link;
-    contact = LinkContact{};
-    contact.link = link;
-    contact.verdict = Verdict::Undecided;
-    contact.reason = UndecidedReason::AfterFirst;
-    contact.toi = contact.freeUntil = first;
+    contact = internal::undecidedContact(contact.link, first, UndecidedReason::AfterFirst);
   }
 }
 
@@ -151,15 +147,12 @@ void keepFirst(StepContacts& step) {
 
 Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                            const QueryOptions& options, QueryScratch& scratch, StepContacts& step) {
+  step.counters = {};
+  internal::leaveUnanswered(avatar.numLinks(), step.links);
   auto check = checked(avatar, motion, scene, options);
   if (!check.ok()) return check;
   const auto culler = cullerOf(scene, options.culler);
   if (!culler.ok()) return culler.error();
-  step.counters = {};
-  step.links.assign(static_cast<std::size_t>(avatar.numLinks()), LinkContact{});
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    step.links[static_cast<std::size_t>(link)].link = link;
-  }
   const auto ask = internal::isRung(options.fidelity) ? internal::rungQuery : linkQuery;
   ask(avatar, motion, scene, options, *culler.value(), scratch.parts(), step);
   if (options.scope == Scope::FirstOfAvatar) keepFirst(step);

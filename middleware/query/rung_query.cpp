@@ -130,28 +130,27 @@ class RungQuery {
       rungs_.perLink[static_cast<std::size_t>(carrierOf(group))].push_back(volumeOf(group));
     }
     const Body body(rungs_.perLink, rungs_.ignored);
+    leaveUnanswered(avatar_.numLinks(), rungs_.carriers.links);
+    rungs_.carriers.counters = step.counters;
     if (options_.backtracking == Backtracking::Lanes) {
       rungs_.table.assign(rungs_.perLink);
       LaneQuery query(body, rungs_.table, motion_, scene_, options_, culler, scratch_);
       query.keepNodes();
-      query.run(step);
+      query.run(rungs_.carriers);
     } else {
-      scalarQuery(body, motion_, scene_, options_, culler, scratch_, step);
+      scalarQuery(body, motion_, scene_, options_, culler, scratch_, rungs_.carriers);
     }
+    step.counters = rungs_.carriers.counters;
     rungs_.answers.clear();
     for (std::size_t group = 0; group < numGroups(); ++group) {
-      LinkContact& answer = step.links[static_cast<std::size_t>(carrierOf(group))];
-      rungs_.answers.push_back(answer);
-      const LinkId link = answer.link;
-      answer = LinkContact();
-      answer.link = link;
+      rungs_.answers.push_back(rungs_.carriers.links[static_cast<std::size_t>(carrierOf(group))]);
     }
   }
 
   void askSpheroids(const TriangleCuller& culler, StepContacts& step) {
     rungs_.answers.clear();
     for (std::size_t group = 0; group < numGroups(); ++group) {
-      rungs_.answers.emplace_back();
+      rungs_.answers.push_back(clearContact(carrierOf(group)));
       if (scratch_.ignored.collect(rungs_.ignored, carrierOf(group))) continue;
       const Spheroid spheroid = spheroidOf(group);
       const SpheroidQuery query{spheroid,           scene_, culler,
@@ -160,8 +159,13 @@ class RungQuery {
     }
   }
 
-  /// Every link that is asked for gets its group's answer.
+  /// Every link that is asked for gets its group's answer. Those that are not, and those that have
+  /// no LSS, which are in no group, touch nothing.
   void spread(StepContacts& step) const {
+    for (LinkContact& contact : step.links) {
+      if (isAsked(contact.link) && !avatar_.lss(contact.link).empty()) continue;
+      contact = clearContact(contact.link);
+    }
     for (std::size_t group = 0; group < numGroups(); ++group) {
       for (const LinkId link : linksOf(group)) {
         if (!isAsked(link)) continue;

@@ -12,7 +12,7 @@
 
 namespace foretouch::internal {
 
-/// Fills `step`, whose links are all Clear. The options have been checked;
+/// Answers every link of `step`. The options have been checked;
 /// isRung(options.fidelity).
 void rungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,

@@ -1,5 +1,5 @@
 // middleware/query/scalar_query.h: a query the plain way, link by link, in doubles: the reference
-// that lane queries are held against, and the only way for skins and work budgets. Not installed.
+// that lane queries are held against, and the only way for skins. Not installed.
 #pragma once
 
 #include "articulated/avatar.h"
@@ -13,7 +13,7 @@
 
 namespace foretouch::internal {
 
-/// Fills `step`, whose links are all Clear. The options have been checked.
+/// Answers every link of `step`. The options have been checked.
 void scalarQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
                  const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
                  StepContacts& step);

@@ -18,6 +18,7 @@ struct RungScratch {
   LssTable table;
   std::vector<IgnoredPair> ignored;   // of the volumes, by their carriers
   std::vector<std::uint8_t> isAsked;  // per link: not ignored altogether
+  StepContacts carriers;              // what they are answered for their volumes
   std::vector<LinkContact> answers;   // of the volumes
 };
 

@@ -25,8 +25,6 @@ AnswerReason reasonOf(UndecidedReason reason) {
 LinkContact nothingOf(LinkId link) {
   LinkContact contact;
   contact.link = link;
-  contact.verdict = Verdict::Undecided;
-  contact.toi = contact.freeUntil = 0.0;
   return contact;
 }
 
