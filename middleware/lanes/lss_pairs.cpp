@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "lss/rounding.h"
@@ -203,6 +204,7 @@ void PairLanes::reserve(std::size_t extra) {
   const std::size_t grown = std::max(wanted, roundedUp(2 * capacity_));
   auto rows = hwy::AllocateAligned<float>(kRows * grown);
   auto keys = hwy::AllocateAligned<std::int32_t>(grown);
+  if (rows == nullptr || keys == nullptr) throw std::bad_alloc();
   // What pads a vector is read, and means nothing.
   std::fill_n(rows.get(), kRows * grown, 0.0F);
   std::fill_n(keys.get(), grown, 0);

@@ -29,7 +29,8 @@ Vector3d contactNormal(const PairState& pair) {
 }  // namespace
 
 void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links) {
-  links.assign(static_cast<std::size_t>(numLinks), LinkContact{});
+  links.clear();  // so that no old answer is left where there is no room for a new one
+  links.resize(static_cast<std::size_t>(numLinks));
   for (LinkId link = 0; link < numLinks; ++link) {
     links[static_cast<std::size_t>(link)].link = link;
   }
