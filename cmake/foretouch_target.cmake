@@ -32,7 +32,7 @@ function(foretouch_compile_options target)
     -Woverloaded-virtual -ffp-contract=off
     $<$<BOOL:${FORETOUCH_WERROR}>:-Werror>)
   target_compile_definitions(${target} PRIVATE
-    FORETOUCH_CHECKS=$<IF:$<CONFIG:Debug>,2,$<IF:$<CONFIG:RelWithDebInfo>,1,0>>)
+    FORETOUCH_CHECKS=$<IF:$<CONFIG:Debug,RelWithDebInfo>,1,0>)
   if(FORETOUCH_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${FORETOUCH_SANITIZE}
                            -fno-sanitize-recover=all -fno-omit-frame-pointer)

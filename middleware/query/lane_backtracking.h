@@ -91,9 +91,10 @@ struct PartScratch {
   std::vector<std::int32_t> linkTriangles;  // those that the stack left
 };
 
-/// As backtrack(), for exact fidelity without a budget and for candidates in the span of
-/// `scratch.lanes`, which is told of their triangles as they are needed. Every pair's instants
-/// depend on that pair alone, so the contact reported depends on no order.
+/// As backtrack(), for exact fidelity and for candidates in the span of `scratch.lanes`, which is
+/// told of their triangles as they are needed. Every pair's instants depend on that pair alone, so
+/// the contact reported depends on no order, unless the budget's part at hand is spent before all
+/// pairs are through.
 [[nodiscard]] LinkContact backtrackInLanes(const LinkQuery& query,
                                            std::vector<Candidate>& candidates, PartScratch& scratch,
                                            QueryCounters& counters);

@@ -69,7 +69,7 @@ const LssTable& tableOf(const Avatar& avatar, LaneScratch& lanes) {
 
 LaneQuery::LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion,
                      const Scene& scene, const QueryOptions& options, const TriangleCuller& culler,
-                     ScratchParts& scratch)
+                     const WorkMeter& meter, ScratchParts& scratch)
     : body_(body),
       table_(table),
       motion_(motion),
@@ -80,7 +80,7 @@ LaneQuery::LaneQuery(const Body& body, const LssTable& table, const ChainMotion&
       lanes_(scratch.lanes),
       bvh_(scene.parts().bvh),
       range_(tolerancesOf(options)),
-      meter_(options) {
+      meter_(meter) {
   useTolerance(range_.least);
   scratch_.evaluator.reset(motion);
   lanes_.margins.clear();

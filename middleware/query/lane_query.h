@@ -19,9 +19,10 @@ namespace foretouch::internal {
 /// One query over all links of one step, at link or exact fidelity.
 class LaneQuery {
  public:
-  /// `table` is of the body's LSS.
+  /// `table` is of the body's LSS; `meter` of the query, which began when it did.
   LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion, const Scene& scene,
-            const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch);
+            const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+            ScratchParts& scratch);
 
   /// The scratch's nodes are those of this motion over [0,1], with the scene's origin.
   void keepNodes() { hasNodes_ = true; }

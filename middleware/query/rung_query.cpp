@@ -19,13 +19,13 @@ namespace {
 class RungQuery {
  public:
   RungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
-            const QueryOptions& options, ScratchParts& scratch)
+            const QueryOptions& options, const WorkMeter& meter, ScratchParts& scratch)
       : avatar_(avatar),
         motion_(motion),
         scene_(scene),
         options_(options),
         scratch_(scratch),
-        meter_(options),
+        meter_(meter),
         rungs_(scratch.rungs) {}
 
   void evaluate(QueryCounters& counters) {
@@ -134,11 +134,11 @@ class RungQuery {
     rungs_.carriers.counters = step.counters;
     if (options_.backtracking == Backtracking::Lanes) {
       rungs_.table.assign(rungs_.perLink);
-      LaneQuery query(body, rungs_.table, motion_, scene_, options_, culler, scratch_);
+      LaneQuery query(body, rungs_.table, motion_, scene_, options_, culler, meter_, scratch_);
       query.keepNodes();
       query.run(rungs_.carriers);
     } else {
-      scalarQuery(body, motion_, scene_, options_, culler, scratch_, rungs_.carriers);
+      scalarQuery(body, motion_, scene_, options_, culler, meter_, scratch_, rungs_.carriers);
     }
     step.counters = rungs_.carriers.counters;
     rungs_.answers.clear();
@@ -213,21 +213,21 @@ class RungQuery {
   const Scene& scene_;
   const QueryOptions& options_;
   ScratchParts& scratch_;
-  WorkMeter meter_;
+  const WorkMeter& meter_;
   RungScratch& rungs_;
 };
 
 }  // namespace
 
 void rungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
-               const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
-               StepContacts& step) {
-  RungQuery(avatar, motion, scene, options, scratch).run(culler, step);
+               const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+               ScratchParts& scratch, StepContacts& step) {
+  RungQuery(avatar, motion, scene, options, meter, scratch).run(culler, step);
 }
 
 bool rungTouchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
                    const Scene& scene, const QueryOptions& options, ScratchParts& scratch) {
-  return RungQuery(avatar, motion, scene, options, scratch).touchesAt(link, t);
+  return RungQuery(avatar, motion, scene, options, WorkMeter(options), scratch).touchesAt(link, t);
 }
 
 }  // namespace foretouch::internal

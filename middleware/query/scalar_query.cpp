@@ -24,14 +24,15 @@ static_assert(kMaxPiecesUsed <= kMaxPieces);
 class StepQuery {
  public:
   StepQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
-            const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch)
+            const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+            ScratchParts& scratch)
       : body_(body),
         motion_(motion),
         scene_(scene),
         options_(options),
         culler_(culler),
         scratch_(scratch),
-        meter_(options) {}
+        meter_(meter) {}
 
   void run(StepContacts& step) {
     scratch_.evaluator.reset(motion_);
@@ -213,9 +214,9 @@ class StepQuery {
 }  // namespace
 
 void scalarQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
-                 const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
-                 StepContacts& step) {
-  StepQuery(body, motion, scene, options, culler, scratch).run(step);
+                 const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+                 ScratchParts& scratch, StepContacts& step) {
+  StepQuery(body, motion, scene, options, culler, meter, scratch).run(step);
 }
 
 }  // namespace foretouch::internal

@@ -129,7 +129,9 @@ void addServeOptions(CLI::App& command, const std::shared_ptr<ServeTexts>& texts
          "Whose reader takes datagrams in; liblcm only for networks that are trusted [own]");
   option("--workers", texts->workers, "N", "Threads that answer [1]");
   option("--queue", texts->queue, "N",
-         "Poses that an avatar may have waiting; the oldest then makes way [64]");
+         ("Poses that an avatar may have waiting; the oldest then makes way [" +
+          std::to_string(ServeConfig{}.queue) + "]")
+             .c_str());
   option("--budget-us", texts->budgetUs, "US",
          "What a pose may cost, as an amount of work; links beyond it are undecided");
   option("--log", texts->log, "FILE|DIR",

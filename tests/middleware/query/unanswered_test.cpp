@@ -172,15 +172,16 @@ void ask(const Case& c, const QueryOptions& options, const internal::TriangleCul
          QueryScratch& scratch, StepContacts& step) {
   const internal::Body body(c.body.avatar, options.ignored);
   internal::ScratchParts& parts = scratch.parts();
+  const internal::WorkMeter meter(options);
   if (options.fidelity == Fidelity::Limb || options.fidelity == Fidelity::Avatar ||
       options.fidelity == Fidelity::Ellipsoid) {
-    internal::rungQuery(c.body.avatar, c.motion, c.scene, options, culler, parts, step);
+    internal::rungQuery(c.body.avatar, c.motion, c.scene, options, culler, meter, parts, step);
   } else if (options.backtracking == Backtracking::Scalar ||
              options.fidelity == Fidelity::Skinned) {
-    internal::scalarQuery(body, c.motion, c.scene, options, culler, parts, step);
+    internal::scalarQuery(body, c.motion, c.scene, options, culler, meter, parts, step);
   } else {
     internal::LaneQuery(body, internal::tableOf(c.body.avatar, parts.lanes), c.motion, c.scene,
-                        options, culler, parts)
+                        options, culler, meter, parts)
         .run(step);
   }
 }
