@@ -63,7 +63,7 @@ HWY_INLINE Quaternions scaled(const Quaternions& q, Vector factor) {
   return {hn::Mul(q.x, factor), hn::Mul(q.y, factor), hn::Mul(q.z, factor), hn::Mul(q.w, factor)};
 }
 
-/// A validated pose's quaternions are unit within JointArc::kUnitNormError and stay as given.
+/// A validated pose's quaternions are unit within 12 u and stay as given.
 HWY_INLINE Quaternions unit(Lanes d, const Quaternions& q) {
   const Vector one = hn::Set(d, 1.0);
   const Vector square = dot(q, q);

@@ -102,7 +102,8 @@ struct ChainSums {
 
 /// What one joint does in its parent's frame (roots: in W), as the poses say it: slerp on the arc
 /// from `from` to `to`, whose dot product is not negative as given, and from `translation` by
-/// `drift` within the unit of t. Quaternions w, x, y, z, unit within kUnitNormError.
+/// `drift` within the unit of t. Quaternions w, x, y, z, unit within 12 u (motion_bounds.md
+/// 2).
 struct JointArc {
   double from[4], to[4];
   double translation[3], drift[3];
@@ -111,9 +112,6 @@ struct JointArc {
   double length = 0.0;       ///< Bound on |translation + t*drift| over t in [0,1].
   double driftLength = 0.0;  ///< Bound on |drift|.
   JointId parent = kNoParent;
-
-  /// Bound on | |q| - 1 | of `from` and `to`: twelve unit roundoffs (motion_bounds.md 3).
-  static constexpr double kUnitNormError = 12.0 * kUnitRoundoff;
 };
 
 /// The in-between motion of one skeleton from one validated pose to another. Constant between calls

@@ -146,7 +146,7 @@ double evaluationError(const FittedCurve& curve) {
 
 /// How far the sampled points may be from the true ones at the nodes of the formula.
 double sampleError(const ChainMotion& motion, const ChainNodes& nodes, LinkId link, double rho) {
-  return internal::pointRounding(nodes, link, rho) + motion.bounds(link).speedAt(rho) * kInstant;
+  return internal::pointRounding(nodes.bounds(), rho) + motion.bounds(link).speedAt(rho) * kInstant;
 }
 
 double pointError(const FittedCurve& curve, const ChainMotion& motion, const ChainNodes& nodes,
@@ -218,7 +218,7 @@ FramePolynomials framePolynomialsOf(LinkId link, const ChainMotion& motion,
   turning.angularSpeed = bounds.angularSpeed;
   const double rotationError =
       interpolationError(turning, 1.0, nodes.end() - nodes.begin()) +
-      kLebesgue * (nodes.rotationRounding(link) + bounds.angularSpeed * kInstant) +
+      kLebesgue * (nodes.bounds().rotationRounding + bounds.angularSpeed * kInstant) +
       evaluationError(R) + kFloatPoint * kUnitRoundoffOfFloat;
   const double originError = pointError(p, motion, nodes, link, 0.0) +
                              kFloatSum * kUnitRoundoffOfFloat * p.weighted + kPolynomialUnderflow;

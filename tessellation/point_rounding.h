@@ -20,8 +20,8 @@ struct PointRoundings {
 }
 
 /// The same for one point.
-[[nodiscard]] inline double pointRounding(const ChainNodes& nodes, LinkId, double rho) {
-  const PointRoundings roundings = pointRoundings(nodes.bounds());
+[[nodiscard]] inline double pointRounding(const NodeBounds& bounds, double rho) {
+  const PointRoundings roundings = pointRoundings(bounds);
   return roundings.atOrigin + roundings.perLength * rho;
 }
 

@@ -205,7 +205,6 @@ HWY_INLINE Point<V> direction(const Point<V>& w) {
 struct TriangleKernel {
   const LaneLss& lss;
   const LaneTolerances& tolerances;
-  static constexpr bool kFindsContact = true;
 
   /// The closest points found so far: the difference from triangle to axis, and a direction that
   /// the features themselves define.
@@ -331,7 +330,6 @@ struct TriangleKernel {
 struct SphereKernel {
   const LaneLss& lss;
   const LaneTolerances& tolerances;
-  static constexpr bool kFindsContact = false;
 
   template <class D>
   HWY_INLINE Advance<D> operator()(D d, const LaneRows& rows, std::size_t i,
