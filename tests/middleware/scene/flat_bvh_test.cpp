@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/scene/scene_parts.h"
 #include "tests/middleware/random_scene.h"
