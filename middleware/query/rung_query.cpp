@@ -240,7 +240,8 @@ std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& mot
   QueryScratch scratch;
   QueryOptions options;
   options.fidelity = rung;
-  internal::RungQuery query(avatar, motion, scene, options, scratch.parts());
+  const internal::WorkMeter meter(options);
+  internal::RungQuery query(avatar, motion, scene, options, meter, scratch.parts());
   QueryCounters counters;
   query.evaluate(counters);
   std::vector<RungVolume> volumes;
