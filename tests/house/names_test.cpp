@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -18,6 +17,7 @@
 
 #include "tests/house/defined_names.h"
 #include "tests/house/object_names.h"
+#include "tests/house/source_files.h"
 
 namespace foretouch::house {
 namespace {
@@ -31,9 +31,7 @@ Files sourcesIn(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const fs::path extension = entry.path().extension();
     if (extension != ".h" && extension != ".cpp") continue;
-    std::ifstream file(entry.path());
-    files[entry.path().string()] =
-        definedNames({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+    files[entry.path().string()] = definedNames(contentOf(entry.path()));
   }
   return files;
 }
