@@ -6,6 +6,7 @@
 
 #include "articulated/joint_arcs.h"
 #include "lss/assert.h"
+#include "lss/rounding.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "articulated/chain_nodes.cpp"
@@ -189,19 +190,18 @@ namespace {
 
 HWY_EXPORT(evaluateLinks);
 
-/// Unit roundoff of double.
-constexpr double kU = 0x1p-53;
 /// What the weights' series may leave out: far below what floats lose, and each bit takes time.
 constexpr double kLeftOut = 0x1p-44;
 
 // Derived in articulated/chain_nodes.md; tests/articulated/chain_nodes_test.cpp holds them.
 constexpr double kQuaternion =
-    96.0 * kU + 2.0 * kLeftOut;  ///< One joint's quaternion and its product with the parent's.
-constexpr double kMatrix = 16.0 * kU;  ///< The matrix of a quaternion. Spectral norm.
-constexpr double kArm = 16.0 * kU;     ///< A translation at t, and a matrix times it.
-constexpr double kSum = 10.0 * kU;     ///< Adding it to the parent's position.
+    96.0 * kUnitRoundoff +
+    2.0 * kLeftOut;  ///< One joint's quaternion and its product with the parent's.
+constexpr double kMatrix = 16.0 * kUnitRoundoff;  ///< The matrix of a quaternion. Spectral norm.
+constexpr double kArm = 16.0 * kUnitRoundoff;     ///< A translation at t, and a matrix times it.
+constexpr double kSum = 10.0 * kUnitRoundoff;     ///< Adding it to the parent's position.
 /// Covers the rounding of the bounds' own arithmetic and products of two errors.
-constexpr double kInflation = 1.0 + 1e-9;
+constexpr double kNodeInflation = 1.0 + 1e-9;
 
 /// The longest series: enough for a half turn (versine 1).
 constexpr std::size_t kMaxTerms = 46;
@@ -311,9 +311,10 @@ void ChainNodes::boundRoundings(const ChainMotion& motion) {
   const ChainSums& largest = motion.largestSums();
   const double depth = largest.depth, arm = largest.armReach;
   const double rotation = 4.0 * depth * kQuaternion + kMatrix;
-  bounds_.reach = (rootReach(motion) + arm) * kInflation;
-  bounds_.rotationRounding = rotation * kInflation;
-  bounds_.positionRounding = ((rotation + kArm) * arm + depth * kSum * bounds_.reach) * kInflation;
+  bounds_.reach = (rootReach(motion) + arm) * kNodeInflation;
+  bounds_.rotationRounding = rotation * kNodeInflation;
+  bounds_.positionRounding =
+      ((rotation + kArm) * arm + depth * kSum * bounds_.reach) * kNodeInflation;
 }
 
 void ChainNodes::evaluate(const ChainMotion& motion, double begin, double end,

@@ -56,9 +56,6 @@ class ChainNodes {
   [[nodiscard]] const NodeBounds& bounds() const { return bounds_; }
   /// Of one link: at present the same, as closer ones would take longer to compute than anyone
   /// gains by them.
-  [[nodiscard]] double positionRounding(LinkId) const { return bounds_.positionRounding; }
-  [[nodiscard]] double rotationRounding(LinkId) const { return bounds_.rotationRounding; }
-  [[nodiscard]] double reach(LinkId) const { return bounds_.reach; }
 
   /// (1 - cos(k pi/7))/2, the k-th Chebyshev-Lobatto point of [0,1], rounded.
   [[nodiscard]] static double time(int k);

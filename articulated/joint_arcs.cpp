@@ -1,5 +1,7 @@
 #include "articulated/joint_arcs.h"
 
+#include "lss/rounding.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "articulated/joint_arcs.cpp"
 #include <hwy/foreach_target.h>
@@ -14,15 +16,13 @@ constexpr int kMostLanes = 4;
 using Lanes = HWY_CAPPED(double, kMostLanes);
 using Vector = hn::Vec<Lanes>;
 
-/// Unit roundoff of double.
-constexpr double kU = 0x1p-53;
 /// A quaternion whose computed square is this close to 1 stays as given.
-constexpr double kNormSquareError = 16.0 * kU;
+constexpr double kNormSquareError = 16.0 * kUnitRoundoff;
 /// asin(c/2)*2 <= c*(1 + kArcExcess*c^2) for 0 <= c <= sqrt(2) and a little beyond
 /// (motion_bounds.md 2).
 constexpr double kArcExcess = 0.0556;
 /// The angle from the chord, and the computed rate (rad).
-constexpr double kChordRate = 128.0 * kU;
+constexpr double kChordRate = 128.0 * kUnitRoundoff;
 /// Roots are taken in float and rounded up: 2^-24 of the root for its own rounding, half as much
 /// for its argument's, and next to nothing for the few operations in double around it.
 constexpr double kRootInflation = 1.0 + 0x1p-23;
@@ -63,7 +63,7 @@ HWY_INLINE Quaternions scaled(const Quaternions& q, Vector factor) {
   return {hn::Mul(q.x, factor), hn::Mul(q.y, factor), hn::Mul(q.z, factor), hn::Mul(q.w, factor)};
 }
 
-/// A validated pose's quaternions are unit within JointArc::kUnitNormError and stay as given.
+/// A validated pose's quaternions are unit within 12 u and stay as given.
 HWY_INLINE Quaternions unit(Lanes d, const Quaternions& q) {
   const Vector one = hn::Set(d, 1.0);
   const Vector square = dot(q, q);

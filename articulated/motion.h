@@ -15,6 +15,7 @@
 
 #include "articulated/pose.h"
 #include "articulated/skeleton.h"
+#include "lss/rounding.h"
 
 namespace foretouch {
 
@@ -74,7 +75,7 @@ struct MotionBounds {
   }
   /// Sixteen unit roundoffs: a matrix times a vector, a cross product and a sum (motion_bounds.md
   /// 3).
-  static constexpr double kPointRounding = 16.0 * 0x1p-53;
+  static constexpr double kPointRounding = 16.0 * kUnitRoundoff;
 };
 
 /// What the bounds of a link are made of: sums along its chain, as they are computed, without what
@@ -90,17 +91,19 @@ struct ChainSums {
   [[nodiscard]] MotionBounds bounds() const;
   /// As bounds().angularSpeed and so on, for those who need no more.
   [[nodiscard]] double accelerationAt(double rho) const {
-    return kInflation * (acceleration + (angularAcceleration + angularSpeed * angularSpeed) * rho);
+    return kChainInflation *
+           (acceleration + (angularAcceleration + angularSpeed * angularSpeed) * rho);
   }
 
   /// Covers what rounding may have taken off sums along kMaxChainDepth joints, and off what is made
   /// of them.
-  static constexpr double kInflation = 1.0 + 2e-12;
+  static constexpr double kChainInflation = 1.0 + 2e-12;
 };
 
 /// What one joint does in its parent's frame (roots: in W), as the poses say it: slerp on the arc
 /// from `from` to `to`, whose dot product is not negative as given, and from `translation` by
-/// `drift` within the unit of t. Quaternions w, x, y, z, unit within kUnitNormError.
+/// `drift` within the unit of t. Quaternions w, x, y, z, unit within 12 u (motion_bounds.md
+/// 2).
 struct JointArc {
   double from[4], to[4];
   double translation[3], drift[3];
@@ -109,9 +112,6 @@ struct JointArc {
   double length = 0.0;       ///< Bound on |translation + t*drift| over t in [0,1].
   double driftLength = 0.0;  ///< Bound on |drift|.
   JointId parent = kNoParent;
-
-  /// Bound on | |q| - 1 | of `from` and `to`: twelve unit roundoffs (motion_bounds.md 3).
-  static constexpr double kUnitNormError = 12.0 * 0x1p-53;
 };
 
 /// The in-between motion of one skeleton from one validated pose to another. Constant between calls
@@ -207,26 +207,27 @@ class MotionEvaluator {
 inline MotionBounds ChainSums::bounds() const {
   // Of one joint's rotation, its rate, and one product, in units of the roundoff (motion_bounds.md
   // 3).
-  constexpr double kUnit = 0x1p-53;
-  constexpr double kJointRotation = 128.0 * kUnit, kJointRate = 64.0 * kUnit,
-                   kProduct = 16.0 * kUnit, kSum = 2.0 * kUnit, kVelocitySum = 4.0 * kUnit;
+  constexpr double kJointRotation = 128.0 * kUnitRoundoff, kJointRate = 64.0 * kUnitRoundoff,
+                   kProduct = 16.0 * kUnitRoundoff, kSum = 2.0 * kUnitRoundoff,
+                   kVelocitySum = 4.0 * kUnitRoundoff;
   const double frame = (depth - 1.0) * (kJointRotation + kProduct) + kProduct;
   const double reach = rootReach + armReach;
   const double spinRounding =
       (frame + kJointRate + kSum * depth) * angularSpeed + kJointRate * depth;
   MotionBounds b;
-  b.angularSpeed = angularSpeed * kInflation;
-  b.angularAcceleration = angularAcceleration * kInflation;
-  b.speed = speed * kInflation;
-  b.acceleration = acceleration * kInflation;
-  b.reach = reach * kInflation;
-  b.eighthDerivative = eighthDerivative * kInflation;
-  b.originRounding = (kProduct * rootReach + frame * armReach + kSum * depth * reach) * kInflation;
-  b.rotationRounding = depth * (kJointRotation + kProduct) * kInflation;
+  b.angularSpeed = angularSpeed * kChainInflation;
+  b.angularAcceleration = angularAcceleration * kChainInflation;
+  b.speed = speed * kChainInflation;
+  b.acceleration = acceleration * kChainInflation;
+  b.reach = reach * kChainInflation;
+  b.eighthDerivative = eighthDerivative * kChainInflation;
+  b.originRounding =
+      (kProduct * rootReach + frame * armReach + kSum * depth * reach) * kChainInflation;
+  b.rotationRounding = depth * (kJointRotation + kProduct) * kChainInflation;
   b.velocityRounding = ((spinRounding + 2.0 * frame * angularSpeed) * armReach +
                         (frame + kVelocitySum * depth) * speed) *
-                       kInflation;
-  b.spinRounding = spinRounding * kInflation;
+                       kChainInflation;
+  b.spinRounding = spinRounding * kChainInflation;
   return b;
 }
 

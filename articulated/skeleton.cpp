@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "articulated/quoted.h"
+#include "lss/rounding.h"
 
 namespace foretouch {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 // A quaternion divided by its computed norm has |q|^2 within 12 unit roundoffs of 1 (4 for the sum
 // of squares, halved by the root, 1 for the root, 1 for the division; twice that in the square; 4
 // for the check itself). Above that sum, 16 leaves room; what is closer is left as it is.
-constexpr double kUnitNormSquareError = 16.0 * 0x1p-53;
+constexpr double kUnitNormSquareError = 16.0 * kUnitRoundoff;
 
 Error jointError(ErrorCode code, std::size_t joint, std::string message) {
   Error error;

@@ -25,13 +25,14 @@ endfunction()
 # Warnings, checks and sanitizers. -ffp-contract=off: the error bounds of docs/guarantees.md count one
 # rounding an operation; a contracted multiply-add would round elsewhere and differ between CPUs.
 function(foretouch_compile_options target)
+  set_property(GLOBAL APPEND PROPERTY FORETOUCH_TARGETS ${target})
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
     -Woverloaded-virtual -ffp-contract=off
     $<$<BOOL:${FORETOUCH_WERROR}>:-Werror>)
   target_compile_definitions(${target} PRIVATE
-    FORETOUCH_CHECKS=$<IF:$<CONFIG:Debug>,2,$<IF:$<CONFIG:RelWithDebInfo>,1,0>>)
+    FORETOUCH_CHECKS=$<IF:$<CONFIG:Debug,RelWithDebInfo>,1,0>)
   if(FORETOUCH_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${FORETOUCH_SANITIZE}
                            -fno-sanitize-recover=all -fno-omit-frame-pointer)

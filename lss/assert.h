@@ -1,4 +1,4 @@
-// lss/assert.h: the two tiers of checks for our own mistakes.
+// lss/assert.h: checks for our own mistakes, on in Debug and RelWithDebInfo (FORETOUCH_CHECKS).
 // Bad input never reaches these: it is an Error (articulated/result.h). Geometry never reaches them
 // either: "cannot tell" is a verdict.
 #pragma once
@@ -15,17 +15,9 @@ namespace foretouch::internal {
 
 }  // namespace foretouch::internal
 
-// Cheap checks, on in Debug and RelWithDebInfo (FORETOUCH_CHECKS >= 1).
-#if defined(FORETOUCH_CHECKS) && FORETOUCH_CHECKS >= 1
+#if defined(FORETOUCH_CHECKS) && FORETOUCH_CHECKS
 #define FORETOUCH_ASSERT(condition) \
   ((condition) ? (void)0 : ::foretouch::internal::assertionFailed(#condition, __FILE__, __LINE__))
 #else
 #define FORETOUCH_ASSERT(condition) ((void)sizeof((condition) ? 1 : 0))
-#endif
-
-// Costly invariants and tolerances, on in Debug only (FORETOUCH_CHECKS >= 2).
-#if defined(FORETOUCH_CHECKS) && FORETOUCH_CHECKS >= 2
-#define FORETOUCH_VALIDATE(condition) FORETOUCH_ASSERT(condition)
-#else
-#define FORETOUCH_VALIDATE(condition) ((void)sizeof((condition) ? 1 : 0))
 #endif

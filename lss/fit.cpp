@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 
 namespace foretouch {
 namespace {
@@ -16,7 +17,7 @@ using Points = std::vector<Vector3d>;
 
 /// Rounds the radius up past what axisDistance() may have lost: fewer than sixteen roundings, each
 /// relative to the lengths that it subtracts.
-constexpr double kDistanceRounding = 16.0 * 0x1p-53;
+constexpr double kDistanceRounding = 16.0 * kUnitRoundoff;
 
 /// Steps of the enclosing-circle iteration; its excess shrinks like 1/steps ([BadoiuClarkson03]).
 constexpr int kCircleSteps = 64;

@@ -13,16 +13,16 @@ namespace foretouch::internal {
 /// the rate at which the clearance grows (negative: closing).
 [[nodiscard]] inline double safeStep(double clearance, double speed, double acceleration) {
   // Rounds down past the rounding of the formula (some ten roundings of positive terms).
-  constexpr double kShrink = 1.0 - 1e-12;
+  constexpr double kStepShrink = 1.0 - 1e-12;
   constexpr double kNever = std::numeric_limits<double>::infinity();
   FORETOUCH_ASSERT(clearance > 0.0 && acceleration >= 0.0);
   const double root = std::sqrt(speed * speed + 2.0 * acceleration * clearance);
   // Two forms of the positive root, each a sum of terms of one sign.
   if (speed <= 0.0) {
     const double closing = root - speed;
-    return closing > 0.0 ? kShrink * (2.0 * clearance / closing) : kNever;
+    return closing > 0.0 ? kStepShrink * (2.0 * clearance / closing) : kNever;
   }
-  return acceleration > 0.0 ? kShrink * ((speed + root) / acceleration) : kNever;
+  return acceleration > 0.0 ? kStepShrink * ((speed + root) / acceleration) : kNever;
 }
 
 }  // namespace foretouch::internal

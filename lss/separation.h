@@ -6,13 +6,11 @@
 
 #include <Eigen/Core>
 
+#include "lss/rounding.h"
 #include "lss/segment_triangle.h"
 #include "lss/triangle.h"
 
 namespace foretouch {
-
-/// Unit roundoff of double.
-inline constexpr double kUnitRoundoff = 0x1p-53;
 
 /// Rounding of the plane's and the witnesses' arithmetic, relative to the sum of the extents
 /// involved (docs/guarantees.md 3.2). Doubling it loses accuracy near 1e-14 m a metre; halving it
@@ -20,10 +18,6 @@ inline constexpr double kUnitRoundoff = 0x1p-53;
 inline constexpr double kSeparationRounding = 16.0 * kUnitRoundoff;
 
 namespace internal {
-/// Absorbs what underflow may lose (m): squares of lengths below about 1e-154 vanish entirely.
-inline constexpr double kUnderflow = 1e-150;
-/// Shrinks a computed unit vector so that its true norm is at most 1 (normalising errs by 4 u).
-inline constexpr double kUnitShrink = 1.0 - 0x1p-50;
 /// Where the closest points are nearer than this fraction of the pair's extent, their difference is
 /// a noisy direction and the features' own normal is tried as well.
 inline constexpr double kNoisyDirection = 1e-3;

@@ -28,7 +28,7 @@ enum class Verdict : std::uint8_t {
 
 /// Why a link is undecided. The numbers are those on the wire.
 enum class UndecidedReason : std::uint8_t {
-  None = 0,
+  None = 0,        ///< Decided; or not answered, by a query that failed.
   WorkBudget = 1,  ///< QueryOptions::workBudget or deadlineUs was spent.
   Resolution = 2,  ///< Doubles cannot resolve the tolerance at these coordinates.
   AfterFirst = 3,  ///< Scope::FirstOfAvatar: another link's contact is earlier.
@@ -44,7 +44,8 @@ inline constexpr std::uint8_t kNumUndecidedReasons = 9;
 /// "none", "work-budget", "resolution", "after-first", "gap", "missing-joint", ...
 [[nodiscard]] const char* toString(UndecidedReason reason);
 
-/// What one link meets first on one motion.
+/// What one link meets first on one motion. Undecided and free until 0, which claims nothing, until
+/// a query has answered: Clear is written where the proof of it ends, and nowhere else.
 /// Sound: toi and freeUntil never exceed the true time of first contact, rounding included.
 /// Tight: for Contact, the separation at toi is <= tolerance.
 /// The witness points, normal and triangle are those of the pair with the lowest toi; equal toi:
@@ -54,10 +55,10 @@ inline constexpr std::uint8_t kNumUndecidedReasons = 9;
 /// depend on threads, on the culler or on the triangles' order.
 struct LinkContact {
   LinkId link = 0;
-  Verdict verdict = Verdict::Clear;
+  Verdict verdict = Verdict::Undecided;
   UndecidedReason reason = UndecidedReason::None;
-  double toi = 1.0;        ///< Time of impact, rounded down; valid for Contact and StartsInContact.
-  double freeUntil = 1.0;  ///< Equals toi for Contact and StartsInContact, 1 for Clear.
+  double toi = 0.0;        ///< Time of impact, rounded down; freeUntil where there is no contact.
+  double freeUntil = 0.0;  ///< Equals toi for Contact and StartsInContact, 1 for Clear.
   double separation =
       0.0;  ///< At toi, of witness points to LSS surface, >= 0 (0 if StartsInContact).
   double penetration =

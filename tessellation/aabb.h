@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "lss/rounding.h"
+
 namespace foretouch {
 
 struct Aabb {
@@ -26,7 +28,7 @@ struct Aabb {
   /// rounds by half a unit in the last place of at most |face| + distance, and four of these are
   /// added.
   void grow(double distance) {
-    constexpr double kRounding = 4.0 * 0x1p-53;
+    constexpr double kRounding = 4.0 * kUnitRoundoff;
     for (int i = 0; i < 3; ++i) {
       min[i] -= distance + kRounding * (std::abs(min[i]) + distance);
       max[i] += distance + kRounding * (std::abs(max[i]) + distance);

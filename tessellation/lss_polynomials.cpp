@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "lss/rounding.h"
 #include "lss/single.h"
 #include "tessellation/point_rounding.h"
 #include "tessellation/polynomial_matrices.h"
@@ -118,35 +119,34 @@ HWY_EXPORT(fitPoint);
 HWY_EXPORT(fitRotation);
 
 using internal::FittedCurve;
-using internal::floatAbove;
+using internal::floatPaddedAbove;
+using internal::kInflation;
+using internal::kUnitRoundoffOfFloat;
 using internal::polynomialMatrices;
 
-/// Unit roundoffs of double and float.
-constexpr double kU = 0x1p-53, kFloatU = 0x1p-24;
-/// Covers the rounding of the bounds' own few operations.
-constexpr double kInflation = 1.0 + 1e-12;
 /// Of a node's instant from the Chebyshev-Lobatto point of its span, in t.
 constexpr double kInstant = 0x1p-52;
 
 // Derived in tessellation/lss_polynomials.md 3 and 4; held by
 // tests/tessellation/lss_polynomials_test.cpp.
 constexpr double kLebesgue = 2.5;    ///< Errors at the nodes grow by at most this in between.
-constexpr double kFitting = 4096.0;  ///< The coefficients' rounding in double, in kU of weighted.
-constexpr double kEvaluation = 1.0 + 1e-5;  ///< Products of two roundings in float.
-constexpr double kUnderflow = 1e-36;        ///< Of a few dozen products in float (m).
-constexpr double kDerivative = 1e-13;       ///< Rounding of control points, of weighted.
+constexpr double kFitting = 4096.0;  ///< The coefficients' rounding in double, in u of weighted.
+constexpr double kEvaluation = 1.0 + 1e-5;      ///< Products of two roundings in float.
+constexpr double kPolynomialUnderflow = 1e-36;  ///< Of a few dozen products in float (m).
+constexpr double kDerivative = 1e-13;           ///< Rounding of control points, of weighted.
 /// A matrix times a vector in float, the vector rounded, for a matrix that is a rotation within
-/// 1e-3; and adding the origin. In units of kFloatU.
+/// 1e-3; and adding the origin. In units of its roundoff.
 constexpr double kFloatPoint = 9.0, kFloatSum = 4.1;
 
 /// How far the curve in float is from the curve through the samples, everywhere.
 double evaluationError(const FittedCurve& curve) {
-  return (kFloatU * kEvaluation + kFitting * kU) * curve.weighted + kUnderflow;
+  return (kUnitRoundoffOfFloat * kEvaluation + kFitting * kUnitRoundoff) * curve.weighted +
+         kPolynomialUnderflow;
 }
 
 /// How far the sampled points may be from the true ones at the nodes of the formula.
 double sampleError(const ChainMotion& motion, const ChainNodes& nodes, LinkId link, double rho) {
-  return internal::pointRounding(nodes, link, rho) + motion.bounds(link).speedAt(rho) * kInstant;
+  return internal::pointRounding(nodes.bounds(), rho) + motion.bounds(link).speedAt(rho) * kInstant;
 }
 
 double pointError(const FittedCurve& curve, const ChainMotion& motion, const ChainNodes& nodes,
@@ -158,10 +158,12 @@ double pointError(const FittedCurve& curve, const ChainMotion& motion, const Cha
 }
 
 float speedOf(const FittedCurve& curve) {
-  return floatAbove((curve.speed + kDerivative * curve.weighted) * kInflation + kUnderflow);
+  return floatPaddedAbove((curve.speed + kDerivative * curve.weighted) * kInflation +
+                          kPolynomialUnderflow);
 }
 float accelerationOf(const FittedCurve& curve) {
-  return floatAbove((curve.acceleration + kDerivative * curve.weighted) * kInflation + kUnderflow);
+  return floatPaddedAbove((curve.acceleration + kDerivative * curve.weighted) * kInflation +
+                          kPolynomialUnderflow);
 }
 
 /// A node near the middle of the span.
@@ -191,13 +193,14 @@ LssPolynomials polynomialsOf(const LssTable::Entry& entry, const ChainMotion& mo
       HWY_DYNAMIC_DISPATCH(fitPoint)(polynomialMatrices(), link, entry.b, result.origin, result.b);
   const double error = std::max(pointError(a, motion, nodes, entry.link, entry.rhoA),
                                 pointError(b, motion, nodes, entry.link, entry.rhoB));
-  result.radius = floatAbove((entry.radius + error) * kInflation);
+  result.radius = floatPaddedAbove((entry.radius + error) * kInflation);
   result.speedA = speedOf(a);
   result.speedB = speedOf(b);
   result.accelerationA = accelerationOf(a);
   result.accelerationB = accelerationOf(b);
   // Twice a float's rounding covers the coefficients', and that of the sum.
-  result.weighted = floatAbove(std::max(a.weighted, b.weighted) * (1.0 + 2.0 * kFloatU));
+  result.weighted =
+      floatPaddedAbove(std::max(a.weighted, b.weighted) * (1.0 + 2.0 * kUnitRoundoffOfFloat));
   return result;
 }
 
@@ -215,12 +218,12 @@ FramePolynomials framePolynomialsOf(LinkId link, const ChainMotion& motion,
   turning.angularSpeed = bounds.angularSpeed;
   const double rotationError =
       interpolationError(turning, 1.0, nodes.end() - nodes.begin()) +
-      kLebesgue * (nodes.rotationRounding(link) + bounds.angularSpeed * kInstant) +
-      evaluationError(R) + kFloatPoint * kFloatU;
-  const double originError =
-      pointError(p, motion, nodes, link, 0.0) + kFloatSum * kFloatU * p.weighted + kUnderflow;
-  result.rotationError = floatAbove(rotationError * kEvaluation);
-  result.originError = floatAbove(originError * kInflation);
+      kLebesgue * (nodes.bounds().rotationRounding + bounds.angularSpeed * kInstant) +
+      evaluationError(R) + kFloatPoint * kUnitRoundoffOfFloat;
+  const double originError = pointError(p, motion, nodes, link, 0.0) +
+                             kFloatSum * kUnitRoundoffOfFloat * p.weighted + kPolynomialUnderflow;
+  result.rotationError = floatPaddedAbove(rotationError * kEvaluation);
+  result.originError = floatPaddedAbove(originError * kInflation);
   result.originSpeed = speedOf(p);
   result.rotationSpeed = speedOf(R);
   result.originAcceleration = accelerationOf(p);

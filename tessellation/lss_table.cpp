@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "articulated/chain_nodes.h"
+#include "lss/rounding.h"
 
 namespace foretouch {
 namespace {
 
-/// Covers the rounding of norms and of the bounds' own few operations.
-constexpr double kInflation = 1.0 + 1e-12;
+using internal::kInflation;
 
 /// On |product of (u - u_k)| / 8! over u in [-1,1], u_k the eight Chebyshev-Lobatto points: the
 /// product is sin(x)*sin(7x)/64 at u = cos(x) (lss_polynomials.md 1).

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "lss/rounding.h"
+
 namespace foretouch {
 namespace {
 
@@ -60,7 +62,7 @@ double hullLeavesSheetBy(const AxisEnds& begin, const AxisEnds& end) {
     least = std::min(least, boundFor(sheet, p / larger, s / larger, shortestAxis));
   }
   // Differences and products of the displacements: a few units of roundoff of their lengths.
-  constexpr double kRounding = 64.0 * 0x1p-53;
+  constexpr double kRounding = 64.0 * kUnitRoundoff;
   return least * (1.0 + 1e-12) + kRounding * (sheet.pathA.norm() + sheet.pathB.norm() + turned);
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "tessellation/point_rounding.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,9 +17,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace foretouch::HWY_NAMESPACE {
 
-/// `x` moved down so far that its nearest float is not above it (point_rounding.h, outward()).
+/// `x` moved down so far that its nearest float is not above it (lss/rounding.h, padding).
 HWY_INLINE NodeVector downward(NodeLanes d, NodeVector x) {
-  const NodeVector slack = hn::MulAdd(hn::Abs(x), hn::Set(d, 0x1p-23), hn::Set(d, 1e-40));
+  const NodeVector slack = hn::MulAdd(hn::Abs(x), hn::Set(d, internal::kFloatPadding),
+                                      hn::Set(d, internal::kFloatUnderflow));
   return hn::Sub(x, slack);
 }
 HWY_INLINE NodeVector upward(NodeLanes d, NodeVector x) {
@@ -135,33 +137,6 @@ void boxesOf(const LssTable::Entry* entries, int count, const LinkNodes* links,
   }
 }
 
-/// Boxes of one LSS between neighbouring nodes; `growths`: kNodes of them, one a piece.
-void piecesOf(const LssTable::Entry& entry, const LinkNodes& link, const double* growths,
-              PieceBoxes& result) {
-  const NodeLanes d;
-  const hn::Rebind<float, NodeLanes> floats;
-  for (int axis = 0; axis < 3; ++axis) {
-    alignas(64) double low[kNodes + 1], high[kNodes + 1];
-    for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
-      const NodeVector a = pointAt(d, link, entry.a, 0.0, axis, lane);
-      const NodeVector b = pointAt(d, link, entry.b, 0.0, axis, lane);
-      hn::Store(hn::Min(a, b), d, low + lane);
-      hn::Store(hn::Max(a, b), d, high + lane);
-    }
-    low[kNodes] = low[kNodes - 1];
-    high[kNodes] = high[kNodes - 1];
-    for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
-      const NodeVector grown = hn::Load(d, growths + lane);
-      const NodeVector least =
-          hn::Sub(hn::Min(hn::Load(d, low + lane), hn::LoadU(d, low + lane + 1)), grown);
-      const NodeVector largest =
-          hn::Add(hn::Max(hn::Load(d, high + lane), hn::LoadU(d, high + lane + 1)), grown);
-      hn::StoreU(hn::DemoteTo(floats, downward(d, least)), floats, result.lower[axis] + lane);
-      hn::StoreU(hn::DemoteTo(floats, upward(d, largest)), floats, result.upper[axis] + lane);
-    }
-  }
-}
-
 }  // namespace foretouch::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -170,11 +145,10 @@ namespace foretouch {
 namespace {
 
 HWY_EXPORT(boxesOf);
-HWY_EXPORT(piecesOf);
+
+using internal::kInflation;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// Covers the rounding of the growth's own few operations.
-constexpr double kInflation = 1.0 + 1e-12;
 
 /// How far LSS may reach, beyond their ends at both instants, between two instants `gap` apart.
 class Growth {
@@ -263,23 +237,6 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
   HWY_DYNAMIC_DISPATCH(boxesOf)
   (table.data(), table.size(), &nodes.link(0), growths, boxes.lower, boxes.upper);
   boxes.emptyFrom(table.size());
-}
-
-PieceBoxes pieceBoxes(const LssTable::Entry& entry, const ChainMotion& motion,
-                      const ChainNodes& nodes, double margin) {
-  PieceBoxes result;
-  alignas(64) double growths[kNodes] = {};
-  for (int k = 0; k < kNodePieces; ++k) {
-    const double gap = nodes.instant(k + 1) - nodes.instant(k);
-    const Growth growth(motion, nodes, gap);
-    growths[k] = growth.of(entry, growth.wholeMargin(margin));
-  }
-  HWY_DYNAMIC_DISPATCH(piecesOf)(entry, nodes.link(entry.link), growths, result);
-  for (int axis = 0; axis < 3; ++axis) {
-    result.lower[axis][kNodePieces] = kInfinity;
-    result.upper[axis][kNodePieces] = -kInfinity;
-  }
-  return result;
 }
 
 }  // namespace foretouch

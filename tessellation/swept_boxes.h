@@ -1,5 +1,5 @@
 // tessellation/swept_boxes.h: boxes of floats around everything that LSS cover over a span of a
-// motion or between neighbouring nodes of it. Between two instants a point stays within A*h^2/8 of
+// motion. Between two instants a point stays within A*h^2/8 of
 // its chord; proof with rounding: tessellation/lss_polynomials.md 2. Metres.
 #pragma once
 
@@ -50,16 +50,5 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
 /// The same where links' margins differ: `margins[link]` (m). As many as links (asserted).
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
                 const std::vector<double>& margins, SweptBoxes& boxes);
-
-/// Pieces of a span: between neighbouring nodes.
-inline constexpr int kNodePieces = kNodes - 1;
-/// Boxes of the pieces of one LSS: lower[axis][piece]; the eighth lane is an empty box.
-/// No stricter alignment than its members': see LssPolynomials.
-struct PieceBoxes {
-  float lower[3][kNodes], upper[3][kNodes];
-};
-/// The float boxes of one LSS between neighbouring nodes, as sweptBoxes().
-[[nodiscard]] PieceBoxes pieceBoxes(const LssTable::Entry& entry, const ChainMotion& motion,
-                                    const ChainNodes& nodes, double margin);
 
 }  // namespace foretouch

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
+#include "lss/rounding.h"
+
 namespace foretouch {
-namespace {
 
-/// Covers the rounding of norms and of the growth's own few operations.
-constexpr double kInflation = 1.0 + 1e-12;
-
-}  // namespace
+using internal::kInflation;
 
 AxisBounds axisBounds(const Lss& lss_L, const MotionBounds& bounds) {
   const double rhoA = lss_L.a.norm() * kInflation, rhoB = lss_L.b.norm() * kInflation;

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 
 namespace foretouch {
 namespace {
 
 /// A dot product of three terms, each factor rounded once: below 8 units of roundoff of the sum of
 /// magnitudes; a difference of two such and their comparison stay below twice that.
-constexpr double kDotRounding = 32.0 * 0x1p-53;
+constexpr double kDotRounding = 32.0 * kUnitRoundoff;
 
 using Walk = std::vector<std::uint8_t>;
 

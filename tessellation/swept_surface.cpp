@@ -7,6 +7,7 @@
 
 #include "articulated/quoted.h"
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "tessellation/sheet_bound.h"
 #include "tessellation/swept_chain.h"
 #include "tessellation/swept_lss.h"
@@ -19,6 +20,7 @@ std::string tooSmall(double error, const std::string& what) {
 }
 
 using Eigen::Vector3d;
+using internal::kInflation;
 
 // What the error is spent on. The chord's share counts twice: once for what the pieces are grown
 // by, once for how far their hulls may be from the path. The number of pieces goes with the inverse
@@ -29,7 +31,6 @@ constexpr double kPositionShare = 0.005;  // of the computed axis ends; counts t
 constexpr double kSpacingsPerError = 128.0;
 /// Half the diagonal of a lattice cell, in spacings: how far rounding moves an end of the axis.
 constexpr double kLatticeRounding = 0.8661;
-constexpr double kOutward = 1.0 + 1e-12;
 /// More pieces of one motion than this are refused before they are made.
 constexpr double kMaxPiecesPerSpan = 1e8;
 
@@ -60,11 +61,11 @@ Result<BallPolytope> polytopeFor(const Lss& lss, const SweptSurfaceOptions& opti
                                  const Budget& budget) {
   const double facets = kFacetShare * options.error / budget.spacing;
   if (options.side == SurfaceSide::Outer) {
-    const double radius = (lss.radius + budget.chord + budget.corner()) * kOutward;
+    const double radius = (lss.radius + budget.chord + budget.corner()) * kInflation;
     return polytopeAround(radius / budget.spacing, facets);
   }
   const double radius =
-      (lss.radius - (budget.chord + budget.sheet + budget.corner()) * kOutward) / kOutward;
+      (lss.radius - (budget.chord + budget.sheet + budget.corner()) * kInflation) / kInflation;
   return polytopeWithin(radius / budget.spacing, facets);
 }
 
@@ -92,10 +93,10 @@ bool cutSpan(double begin, double excess, std::vector<double>& ends) {
 double certified(const Lss& lss, const SweptSurfaceOptions& options, const Budget& budget,
                  const BallPolytope& polytope, double sheet) {
   const double ball = options.side == SurfaceSide::Outer
-                          ? polytope.circumradius * budget.spacing * kOutward - lss.radius
-                          : lss.radius - polytope.inradius * budget.spacing / kOutward;
+                          ? polytope.circumradius * budget.spacing * kInflation - lss.radius
+                          : lss.radius - polytope.inradius * budget.spacing / kInflation;
   const double sheets = options.side == SurfaceSide::Outer ? sheet : 0.0;
-  return (ball + budget.chord + sheets + budget.corner()) * kOutward;
+  return (ball + budget.chord + sheets + budget.corner()) * kInflation;
 }
 
 }  // namespace
@@ -225,7 +226,7 @@ Result<Done> SweptSurfaceBuilder::Parts::add(const ChainMotion& motion, LinkId l
   const double acceleration = std::max(bounds.accelerationA, bounds.accelerationB);
   const double length = span.endT - span.beginT;
   const double wanted =
-      std::ceil(length * std::sqrt(acceleration / (8.0 * budget_.chord)) * kOutward);
+      std::ceil(length * std::sqrt(acceleration / (8.0 * budget_.chord)) * kInflation);
   if (!(wanted < kMaxPiecesPerSpan)) {
     return problem(ErrorCode::LimitExceeded,
                    "an error of " + inDigits(options_.error) + " m takes more than " +

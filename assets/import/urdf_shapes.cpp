@@ -2,6 +2,7 @@
 
 #include "assets/import/assimp.h"
 #include "assets/import/urdf_surface.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 namespace {
@@ -10,8 +11,6 @@ using Eigen::Vector3d;
 
 constexpr int kSides = 32;
 constexpr double kPi = 3.14159265358979323846;
-// Far above the rounding of the corners, far below what anyone measures.
-constexpr double kOutward = 1.0 + 1e-12;
 
 }  // namespace
 
@@ -34,8 +33,8 @@ FlatMesh boxOf(const Vector3d& size) {
 
 FlatMesh cylinderAround(double radius, double length) {
   FlatMesh prism;
-  const double corner = radius / std::cos(kPi / kSides) * kOutward;
-  const double halfLength = length / 2 * kOutward;
+  const double corner = radius / std::cos(kPi / kSides) * kInflation;
+  const double halfLength = length / 2 * kInflation;
   for (int i = 0; i < kSides; ++i) {
     const double angle = 2 * kPi * i / kSides;
     const double x = corner * std::cos(angle), y = corner * std::sin(angle);

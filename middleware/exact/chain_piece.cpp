@@ -5,13 +5,12 @@
 
 #include <Eigen/Geometry>
 
+#include "lss/rounding.h"
 #include "middleware/exact/rigid_plane.h"
 
 namespace foretouch::internal {
 namespace {
 
-/// Covers the rounding of the bounds' own arithmetic.
-constexpr double kInflation = 1.0 + 1e-12;
 /// Of a quaternion drawn from a rotation matrix and of the products with it, per metre; thousands
 /// of roundings, far above what either loses.
 constexpr double kQuaternionRounding = 1e-13;

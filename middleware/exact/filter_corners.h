@@ -20,7 +20,7 @@ inline constexpr double kVolumeRounding = 16.0 * kUnitRoundoff;
 inline constexpr double kHalvingRounding = 4.0 * kUnitRoundoff;
 inline constexpr double kValueRounding = 16.0 * kUnitRoundoff;
 inline constexpr double kSideRounding = 16.0 * kUnitRoundoff;
-inline constexpr double kPlaneRounding = 12.0 * kUnitRoundoff;
+inline constexpr double kCornerPlaneRounding = 12.0 * kUnitRoundoff;
 
 struct Corners {
   std::array<Eigen::Vector3d, 4> from, to;

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Absorbs underflow of products of two or three lengths of 1e-116 or more.
-constexpr double kUnderflow = 1e-300;
+constexpr double kFilterUnderflow = 1e-300;
 
 /// Spans looked at before the filter declines. Cost only: the exact stage takes over.
 constexpr int kFilterSpans = 24;
@@ -76,7 +76,7 @@ class Filter {
 
  private:
   double volumeBound(int level) const {
-    return (kVolumeRounding + level * kHalvingRounding) * volumeScale_ + kUnderflow;
+    return (kVolumeRounding + level * kHalvingRounding) * volumeScale_ + kFilterUnderflow;
   }
 
   StageAnswer look(const Span& span) {
@@ -113,7 +113,7 @@ class Filter {
   Decision originInside(double low, double high) const {
     for (int axis = 0; axis < 3; ++axis) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      const double bound = kSideRounding * corners_.largestSide(u, v) + kUnderflow;
+      const double bound = kSideRounding * corners_.largestSide(u, v) + kFilterUnderflow;
       int positive = 0, negative = 0;
       for (int j = 0; j < corners_.count; ++j) {
         const int sign = sideSign(j, u, v, low, high, bound);
@@ -145,7 +145,8 @@ class Filter {
       sum += middle[i];
     }
     const auto separates = [&](const Vector3d& direction) {
-      const double bound = kPlaneRounding * direction.cwiseAbs().dot(corners_.extent) + kUnderflow;
+      const double bound =
+          kCornerPlaneRounding * direction.cwiseAbs().dot(corners_.extent) + kFilterUnderflow;
       for (int i = 0; i < corners_.count; ++i) {
         if (!(direction.dot(start[i]) > bound && direction.dot(end[i]) > bound)) return false;
       }

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "lss/segment_triangle.h"
 #include "middleware/exact/rigid_curves.h"
 #include "middleware/exact/rigid_plane.h"
@@ -20,9 +21,12 @@ namespace {
 
 using Eigen::Vector3d;
 using internal::Cubic;
+using internal::kUnderflow;
+using internal::kUnitShrink;
 
 /// Rounds of planes before contact is reported although it is not proved: errs early. The most that
-/// a million awkward queries needed is between 200 and 400 (two slivers that slide past each other).
+/// a million awkward queries needed is between 200 and 400 (two slivers that slide past each
+/// other).
 constexpr int kMaxPlanes = 2000;
 /// Resolution of the instant up to which a plane is proved to separate.
 constexpr double kTimeResolution = 0x1p-50;
@@ -31,21 +35,19 @@ constexpr int kMaxClips = 100;  // cost only: stopping early is sound
 /// time the error, the planes could not tell.
 constexpr double kErrorsFromContact = 6.0;
 /// Below this share of the extent the difference of the closest points is a noisy direction.
-constexpr double kNoisyDirection = 1e-2;
+constexpr double kNoisyDifference = 1e-2;
 /// A closest point counts as on a vertex or an edge this near (share of the extent). Cost only: it
 /// chooses a plane to try.
-constexpr double kOnFeature = 1e-9;
+constexpr double kNearFeature = 1e-9;
 /// How far beyond what is proved a plane along two edges is tried, in multiples of it, and at
 /// least.
 constexpr double kWindow = 32.0, kLeastWindow = 0x1p-20;
-constexpr double kUnitShrink = 1.0 - 0x1p-50;    // normalising errs by 4 u
 constexpr double kTurnedShrink = 1.0 - 0x1p-46;  // turning by a quaternion errs by below 30 u
 /// rigidBand: kErrorsFromContact position errors, (8 + 1) extents by 1-norms, |q|^2 within a factor
 /// of 32 of its largest: 6 * 128 * 9 * 32 u < 2^18 u = 2^-35. Slivers need more: where both
 /// triangles are thinner than their distance is long, no plane that is tried separates them from
 /// about 1e-9 extents on (seen: 8e-10).
 constexpr double kRigidBand = 0x1p-28;
-constexpr double kUnderflow = 1e-150;
 
 /// Two triangles at one instant, relative to the fixed one's first vertex.
 struct Closest {
@@ -216,7 +218,7 @@ class Advancement {
       }
     };
     offer(closest.difference);
-    if (closest.distance < kNoisyDirection * planeScale_) {
+    if (closest.distance < kNoisyDifference * planeScale_) {
       offer(closest.normal);
       offer(-closest.normal);
       offerAcrossEdges(moving, closest.difference, offer);
@@ -267,7 +269,7 @@ class Advancement {
   /// closest points are on two edges. Looked at not far beyond what the other planes proved.
   double untilAlongEdges(double free, const Triangle& moving, const Closest& closest,
                          double proved) const {
-    const double accuracy = kOnFeature * (planeScale_ + closest.distance);
+    const double accuracy = kNearFeature * (planeScale_ + closest.distance);
     const Feature one = featureAt(moving, closest.onMoving, accuracy);
     const Feature other = featureAt(fixed_, closest.onFixed, accuracy);
     if (one.kind != FeatureKind::Edge || other.kind != FeatureKind::Edge) return free;

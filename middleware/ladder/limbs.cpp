@@ -1,10 +1,9 @@
 #include "middleware/ladder/limbs.h"
 
+#include "lss/rounding.h"
+
 namespace foretouch::internal {
 namespace {
-
-/// Covers the rounding of a norm.
-constexpr double kInflation = 1.0 + 1e-12;
 
 /// Per link: does it or anything below it have LSS?
 std::vector<std::uint8_t> linksThatCount(const Avatar& avatar) {

@@ -5,17 +5,16 @@
 #include <limits>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kU = 0x1p-53;
-/// Covers the rounding of the bounds' own few operations.
-constexpr double kInflation = 1.0 + 1e-12;
 /// Of a relative point, per length of its arms, and of its distance from the axis (rungs.md 3).
-constexpr double kPointRounding = 32.0 * kU, kDistanceRounding = 32.0 * kU;
+constexpr double kRelativePointRounding = 32.0 * kUnitRoundoff,
+                 kAxisDistanceRounding = 32.0 * kUnitRoundoff;
 /// Steps of the enclosing-circle iteration ([BadoiuClarkson03], as in lss/fit.cpp).
 constexpr int kCircleSteps = 3;
 /// The node whose places the axis is fitted to: next to the middle of the step.
@@ -111,7 +110,7 @@ double radiusAround(const std::vector<CarriedBall>& balls, const Lss& axis) {
     const LargestSquares squares = largestSquares(ball.path, segment);
     const double distance = std::sqrt(squares.fromAxis), length = std::sqrt(squares.fromOrigin);
     const double rounding =
-        ball.perLength * length + kDistanceRounding * (length + extent + distance);
+        ball.perLength * length + kAxisDistanceRounding * (length + extent + distance);
     radius = std::max(radius, distance + ball.radius + ball.stray + rounding);
   }
   return radius * kInflation;
@@ -178,7 +177,7 @@ void RungVolumes::addBall(const ChainNodes& nodes, LinkId carrier, const AxisPoi
   }
   relativePoint(nodes.link(carrier), nodes.link(point.link), point.p_L, ball.path);
   const NodeBounds& bounds = nodes.bounds();
-  ball.perLength = bounds.rotationRounding + kPointRounding;
+  ball.perLength = bounds.rotationRounding + kRelativePointRounding;
   ball.stray = (sums.accelerationAt(point.rho) * chord_ + 2.0 * bounds.positionRounding +
                 ball.perLength * point.rho) *
                kInflation;

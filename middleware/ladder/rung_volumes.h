@@ -45,7 +45,7 @@ class RungVolumes {
     double angularSpeed = 0.0, angularAcceleration = 0.0, acceleration = 0.0;
     [[nodiscard]] RelativeSums with(const ChainMotion::JointBounds& joint) const;
     [[nodiscard]] double accelerationAt(double rho) const {
-      return ChainSums::kInflation *
+      return ChainSums::kChainInflation *
              (acceleration + (angularAcceleration + angularSpeed * angularSpeed) * rho);
     }
   };

@@ -1,7 +1,7 @@
 // middleware/ladder/rungs.h: the volumes that stand for an avatar's links above link fidelity
-// (Fidelity::Limb, Avatar, Ellipsoid) on one step: what a query at that fidelity asks about, for
-// those who draw, check or bound them. Metres. Proof that each contains what is below it at every t
-// in [0,1]: middleware/ladder/rungs.md.
+// (Fidelity::Limb, Avatar, Ellipsoid) on one step: what a query at that fidelity asks about, so
+// that its answers can be checked. Metres. Proof that each contains what is below it at every t in
+// [0,1]: middleware/ladder/rungs.md.
 #pragma once
 
 #include <vector>

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "lss/safe_step.h"
 #include "lss/separation.h"
 
@@ -13,13 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kU = 0x1p-53;
-/// Covers the rounding of the bounds' own few operations.
-constexpr double kInflation = 1.0 + 1e-12;
 /// Of a point of the root's frame at a node, per length; and of sums of places in W.
-constexpr double kPointRounding = 32.0 * kU, kSumRounding = 8.0 * kU;
+constexpr double kRootPointRounding = 32.0 * kUnitRoundoff, kSumRounding = 8.0 * kUnitRoundoff;
 /// Of toUnit() and of the ball's place, relative to the lengths over the shortest semi-axis.
-constexpr double kTransformRounding = 32.0 * kU;
+constexpr double kTransformRounding = 32.0 * kUnitRoundoff;
 /// An axis is at least this share of the other, and this long (m): what has no volume gets some.
 constexpr double kLeastShare = 0x1p-10, kLeastAxis = 1e-6;
 constexpr int kMiddle = kNodes / 2;
@@ -112,7 +110,7 @@ Spheroid spheroidAround(const Lss& volume, LinkId root, const ChainMotion& motio
   const double rho = std::max(volume.a.norm(), volume.b.norm()) * kInflation;
   const double turn = motion.jointBounds(root).turn;
   const double rounding =
-      (nodes.bounds().rotationRounding + kPointRounding) * rho +
+      (nodes.bounds().rotationRounding + kRootPointRounding) * rho +
       kSumRounding * (spheroid.start.lpNorm<1>() + offset.lpNorm<1>() +
                       Vector3d(arc.translation).lpNorm<1>() + spheroid.drift.lpNorm<1>());
   const double ball = std::max(
@@ -168,8 +166,7 @@ SpheroidPair::Look SpheroidPair::at(double t) const {
 double SpheroidPair::provenFrom(double t, const Look& look, double floor) const {
   if (!(look.lower > floor)) return t;
   const double speed = look.nhat.dot(velocity_) - slack_;
-  const double next = t + safeStep(look.lower - floor, speed, 0.0);
-  return next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
+  return timeAfter(t, safeStep(look.lower - floor, speed, 0.0), 1.0);
 }
 
 }  // namespace foretouch::internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "middleware/scene/culler.h"
+#include "lss/rounding.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "middleware/lanes/frame_lanes.cpp"
@@ -21,7 +21,7 @@ using Lanes = hn::Vec<Floats>;
 
 /// Outweighs the roundings of a bound's own product and sums, of the points' coordinates, and what
 /// is of second order in the frame's bound.
-constexpr float kBoundInflation = 1.0F + 16.0F * 0x1p-24F;
+constexpr float kBoundInflation = 1.0F + 16.0F * kUnitRoundoffOfFloat;
 
 struct Value {
   Lanes at, rate;
@@ -93,11 +93,7 @@ HWY_EXPORT(placeLanes);
 
 /// Of a velocity, relative to the sums of its terms' absolute values: 17.2 unit roundoffs are
 /// proved.
-constexpr double kRateRounding = 20.0 * 0x1p-24;
-/// What underflow may lose (m; m per u).
-constexpr double kUnderflow = 0x1p-90;
-/// Covers the rounding of a norm in doubles.
-constexpr double kInflation = 1.0 + 1e-12;
+constexpr double kRateRounding = 20.0 * kUnitRoundoffOfFloat;
 
 /// Sum of k |c_k|, which bounds the derivative's terms on [-1,1].
 double rateTerms(const float (&c)[kCoefficients]) {
@@ -110,7 +106,7 @@ template <std::size_t kRows>
 double rateRounding(const float (&rows)[kRows][kCoefficients]) {
   double squares = 0.0;
   for (const auto& row : rows) squares += rateTerms(row) * rateTerms(row);
-  return kRateRounding * std::sqrt(squares) * kInflation + kUnderflow;
+  return kRateRounding * std::sqrt(squares) * kInflation + kFrameUnderflow;
 }
 
 void setPoint(const Eigen::Vector3d& p, float (&point)[3], double& rho) {
@@ -124,11 +120,11 @@ LaneFrame laneFrame(const FramePolynomials& polynomials) {
   LaneFrame frame{};
   std::copy_n(&polynomials.R[0][0], 9 * kCoefficients, &frame.R[0][0]);
   std::copy_n(&polynomials.p[0][0], 3 * kCoefficients, &frame.p[0][0]);
-  frame.originPad = floatAbove(polynomials.originError + kUnderflow);
+  frame.originPad = floatAbove(polynomials.originError + kFrameUnderflow);
   frame.turnPad = polynomials.rotationError;
   frame.originVelocityPad = floatAbove(rateRounding(polynomials.p));
   frame.turnVelocityPad = floatAbove(rateRounding(polynomials.R));
-  frame.originAcceleration = floatAbove(polynomials.originAcceleration + kUnderflow);
+  frame.originAcceleration = floatAbove(polynomials.originAcceleration + kFrameUnderflow);
   frame.turnAcceleration = polynomials.rotationAcceleration;
   return frame;
 }

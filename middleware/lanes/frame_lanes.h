@@ -13,6 +13,9 @@
 
 namespace foretouch::internal {
 
+/// What underflow may lose of a place (m), or of a rate (m per u).
+inline constexpr double kFrameUnderflow = 0x1p-90;
+
 /// A link's frame over a span as the lanes take it. Metres; derivatives per unit of u.
 struct LaneFrame {
   float R[9][kCoefficients], p[3][kCoefficients];  ///< As in FramePolynomials.

@@ -10,13 +10,13 @@
 
 #include <hwy/highway.h>
 
+#include "lss/rounding.h"
 #include "middleware/lanes/lss_pairs.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace foretouch::internal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kUnitRoundoffOfFloat = 0x1p-24f;
 /// Shrinks a computed unit vector, whose norm errs by at most 5 u, to a true norm of at most 1.
 constexpr float kUnitShrinkOfFloat = 1.0f - 8.0f * kUnitRoundoffOfFloat;
 /// Past the rounding of a step's formula: at most ten roundings of terms of one sign.
@@ -205,7 +205,6 @@ HWY_INLINE Point<V> direction(const Point<V>& w) {
 struct TriangleKernel {
   const LaneLss& lss;
   const LaneTolerances& tolerances;
-  static constexpr bool kFindsContact = true;
 
   /// The closest points found so far: the difference from triangle to axis, and a direction that
   /// the features themselves define.
@@ -331,7 +330,6 @@ struct TriangleKernel {
 struct SphereKernel {
   const LaneLss& lss;
   const LaneTolerances& tolerances;
-  static constexpr bool kFindsContact = false;
 
   template <class D>
   HWY_INLINE Advance<D> operator()(D d, const LaneRows& rows, std::size_t i,

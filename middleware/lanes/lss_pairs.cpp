@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
-#include "middleware/scene/culler.h"
+#include "lss/rounding.h"
 
 #ifndef FORETOUCH_LANES_LSS_PAIRS_ROWS
 #define FORETOUCH_LANES_LSS_PAIRS_ROWS
@@ -41,9 +42,9 @@ inline constexpr auto& kLanesOfBits = kLanesOfBitsTable.rows;
 
 /// Roundings of a plane's arithmetic per metre of extent, and of the vertices' own subtraction
 /// (lss_pairs.md 2).
-inline constexpr double kPlaneRounding = 12.0 * 0x1p-24;
+inline constexpr double kAxisPlaneRounding = 12.0 * kUnitRoundoffOfFloat;
 /// The same per metre of the largest coordinate: a point's norm is at most the root of 3 of it.
-inline constexpr float kRoundingOfCoordinate = static_cast<float>(1.7321 * kPlaneRounding);
+inline constexpr float kRoundingOfCoordinate = static_cast<float>(1.7321 * kAxisPlaneRounding);
 /// A sphere's radius has a part in the rounding of the last subtraction.
 inline constexpr float kSphereInflation = 1.0F + 0x1p-20F;
 /// Past the rounding of a sum of three such terms.
@@ -162,22 +163,20 @@ HWY_EXPORT(gatherTriangles);
 HWY_EXPORT(triangleRounds);
 HWY_EXPORT(sphereRounds);
 
-constexpr double kU = 0x1p-24;
-
 std::size_t roundedUp(std::size_t count) {
   return (count + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
 }
 
-/// |p(u)| <= |p(0)| + speed for u in [-1,1].
+/// |p(u)| <= |p(0)| + speed for u in [-1,1] (lss_pairs.md 2).
 double extentOf(const float (&c)[3][8], float speed) {
   double squared = 0.0;
   for (const auto& row : c) squared += double{row[0]} * row[0];
   return std::sqrt(squared) + speed;
 }
 
-/// What the Horner scheme loses of the derivative, times u: a coefficient j c_j takes part in at
-/// most 16 roundings, and the sum of (2j+2)|c_j| is more than twice that of j |c_j| (lss_pairs.md
-/// 3).
+/// What the Horner scheme loses of the derivative, in roundoffs of `weighted`: a coefficient c_j
+/// takes j ways with at most 13 roundings each, for which 20 are counted, and the sum of
+/// (2j+2)|c_j| is more than twice that of j|c_j| (lss_pairs.md 3).
 constexpr double kDerivativeRounding = 20.0 / 2.0;
 
 }  // namespace
@@ -190,11 +189,11 @@ LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius) {
   lane.accelerationA = polynomials.accelerationA;
   lane.accelerationB = polynomials.accelerationB;
   const double speed = std::max<double>(polynomials.speedA, polynomials.speedB);
-  lane.speedSlack =
-      floatAbove(kU * (4.0 * speed + kDerivativeRounding * double{polynomials.weighted}));
+  lane.speedSlack = floatAbove(kUnitRoundoffOfFloat *
+                               (4.0 * speed + kDerivativeRounding * double{polynomials.weighted}));
   lane.extent = floatAbove(
       std::max(extentOf(lane.a, polynomials.speedA), extentOf(lane.b, polynomials.speedB)));
-  lane.reach = floatAbove(lane.radius + kPlaneRounding * (double{lane.extent} + lane.radius));
+  lane.reach = floatAbove(lane.radius + kAxisPlaneRounding * (double{lane.extent} + lane.radius));
   lane.contactShift = floatBelow(2.0 * (static_cast<double>(lane.radius) + lssRadius));
   return lane;
 }
@@ -205,6 +204,7 @@ void PairLanes::reserve(std::size_t extra) {
   const std::size_t grown = std::max(wanted, roundedUp(2 * capacity_));
   auto rows = hwy::AllocateAligned<float>(kRows * grown);
   auto keys = hwy::AllocateAligned<std::int32_t>(grown);
+  if (rows == nullptr || keys == nullptr) throw std::bad_alloc();
   // What pads a vector is read, and means nothing.
   std::fill_n(rows.get(), kRows * grown, 0.0F);
   std::fill_n(keys.get(), grown, 0);

@@ -2,6 +2,8 @@
 // proves (middleware/lanes/triangle_pairs.md).
 #include "middleware/lanes/triangle_pairs.h"
 
+#include "lss/rounding.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "middleware/lanes/triangle_pairs.cpp"
 #include <hwy/foreach_target.h>
@@ -19,17 +21,17 @@ using LaneMask = hn::Mask<Floats>;
 
 /// Of the plane's arithmetic, relative to the extents: 6.02 unit roundoffs are proved. Halving it
 /// breaks the proof; doubling it costs 4e-7 of the extents.
-constexpr float kPlaneRounding = 6.5F * 0x1p-24F;
+constexpr float kPairPlaneRounding = 6.5F * kUnitRoundoffOfFloat;
 /// Of n.velocity, relative to the velocity: 4.02 unit roundoffs are proved.
-constexpr float kSpeedRounding = 4.5F * 0x1p-24F;
+constexpr float kSpeedRounding = 4.5F * kUnitRoundoffOfFloat;
 /// Shrinks a direction whose normalisation errs by at most 4.51 unit roundoffs.
-constexpr float kUnitShrink = 1.0F - 5.0F * 0x1p-24F;
+constexpr float kPairUnitShrink = 1.0F - 5.0F * kUnitRoundoffOfFloat;
 /// Shrinks a step whose formula errs by at most 6.01 unit roundoffs.
-constexpr float kStepShrink = 1.0F - 8.0F * 0x1p-24F;
+constexpr float kPairStepShrink = 1.0F - 8.0F * kUnitRoundoffOfFloat;
 /// Rounds a pad up past the roundings that it goes through.
-constexpr float kInflation = 1.0F + 4.0F * 0x1p-24F;
+constexpr float kPadInflation = 1.0F + 4.0F * kUnitRoundoffOfFloat;
 /// What underflow may lose, even where denormals are flushed to zero (m; m per t).
-constexpr float kUnderflow = 0x1p-80F;
+constexpr float kPairUnderflow = 0x1p-80F;
 /// A direction is used where the square of its length is between these: no square in it has lost
 /// anything, and none is infinite.
 constexpr float kLeastSquare = 0x1p-90F, kMostSquare = 0x1p100F;
@@ -189,7 +191,7 @@ HWY_INLINE void tryDirection(Floats d, const Triangles<kPoints>& pair, const Vec
   const LaneMask usable =
       hn::And(hn::Gt(squared, hn::Set(d, kLeastSquare)), hn::Lt(squared, hn::Set(d, kMostSquare)));
   const Lanes shrink =
-      hn::IfThenElseZero(usable, hn::Div(hn::Set(d, kUnitShrink), hn::Sqrt(squared)));
+      hn::IfThenElseZero(usable, hn::Div(hn::Set(d, kPairUnitShrink), hn::Sqrt(squared)));
   const Vec3 n = scaled(shrink, direction);
   Lanes lowest = dot(n, pair.link[0]), highest = lowest;
   for (int i = 1; i < kPoints; ++i) {
@@ -233,7 +235,7 @@ HWY_INLINE Lanes rootOf(Floats d, Lanes clearance, Lanes speed, Lanes accelerati
   const Lanes sum = hn::Add(root, hn::Abs(speed));
   const Lanes step =
       hn::Div(hn::IfThenElse(opens, sum, twice), hn::IfThenElse(opens, acceleration, sum));
-  return hn::Mul(hn::Set(d, kStepShrink), step);
+  return hn::Mul(hn::Set(d, kPairStepShrink), step);
 }
 
 /// What is proven of how a block's vectors are off, and whether all in it is finite and in range.
@@ -255,7 +257,7 @@ HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t f
     farthest = hn::Max(farthest, place);
     fastestSquare = hn::Max(fastestSquare, speed);
   }
-  const Lanes inflation = hn::Set(d, kInflation), underflow = hn::Set(d, kUnderflow);
+  const Lanes inflation = hn::Set(d, kPadInflation), underflow = hn::Set(d, kPairUnderflow);
   const Lanes positionPad = hn::Load(d, block.positionPad + first);
   const Lanes velocityPad = hn::Load(d, block.velocityPad + first);
   const Lanes extent = hn::Add(hn::Sqrt(farthest), hn::Sqrt(hn::Max(scene[0], scene[1])));
@@ -264,8 +266,8 @@ HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t f
   const LaneMask padsInRange = hn::And(hn::Ge(hn::Min(positionPad, velocityPad), hn::Zero(d)),
                                        hn::Le(pads, hn::Set(d, kMost)));
   Slack slack;
-  slack.position =
-      hn::MulAdd(hn::Set(d, kPlaneRounding), extent, hn::MulAdd(positionPad, inflation, underflow));
+  slack.position = hn::MulAdd(hn::Set(d, kPairPlaneRounding), extent,
+                              hn::MulAdd(positionPad, inflation, underflow));
   slack.velocity = hn::MulAdd(hn::Set(d, kSpeedRounding), fastest,
                               hn::MulAdd(velocityPad, inflation, underflow));
   slack.inRange = hn::And(padsInRange, hn::Le(squares, hn::Set(d, kMost * kMost)));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "middleware/query/start.h"
 
 namespace foretouch::internal {
@@ -41,7 +42,6 @@ class Backtracker {
       : query_(query), heap_(heap), counters_(counters), states_(query, counters) {}
 
   LinkContact run() {
-    best_.link = query_.parts.link;
     startCandidates();
     while (!heap_.empty() && !hasContact() && heap_.front().freeUntil <= horizon_) {
       if (query_.meter.isPartSpent(counters_)) {
@@ -52,11 +52,10 @@ class Backtracker {
       advance();
     }
     if (hasContact()) settleTies();
-    return best_;
+    return best_ ? *best_ : clearContact(query_.parts.link);
   }
 
-  LinkContact runAtStart() {
-    best_.link = query_.parts.link;
+  std::optional<LinkContact> runAtStart() {
     lookNearestFirst(0.0);
     return best_;
   }
@@ -118,7 +117,7 @@ class Backtracker {
       const double step = query_.parts.stepByPlane(part.lss, part.part, states_.at(t).state,
                                                    query_.scene.triangle(part.triangle), pair.nhat,
                                                    query_.tolerance);
-      if (step > 0.0) part.freeUntil = nextPossible(part, after(t, step));
+      if (step > 0.0) part.freeUntil = nextPossible(part, timeAfter(t, step, 1.0));
     });
   }
 
@@ -144,14 +143,12 @@ class Backtracker {
     return pairOf(query_, candidate, states_.at(t), counters_);
   }
 
-  [[nodiscard]] bool hasContact() const {
-    return best_.verdict == Verdict::Contact || best_.verdict == Verdict::StartsInContact;
-  }
+  [[nodiscard]] bool hasContact() const { return best_ && best_->verdict != Verdict::Undecided; }
 
   /// Of the contacts at the very instant of the first one found, finds the one that is reported.
   /// What is left in the heap is not earlier, and what is later does not matter.
   void settleTies() {
-    const double t = best_.toi;
+    const double t = best_->toi;
     const auto tiesEnd = std::partition(heap_.begin(), heap_.end(),
                                         [t](const Candidate& c) { return c.freeUntil == t; });
     heap_.erase(tiesEnd, heap_.end());
@@ -180,7 +177,7 @@ class Backtracker {
       }
       if (pair.gapUpper <= query_.tolerance) {
         const LinkContact contact = contactOf(query_, heap_.back(), pair, t);
-        if (!hasContact() || comesFirst(contact, best_)) best_ = contact;
+        if (!hasContact() || comesFirst(contact, *best_)) best_ = contact;
       }
       heap_.pop_back();
     }
@@ -189,17 +186,17 @@ class Backtracker {
   /// At t = 0 what was not looked at may go deeper than the contact that was found: whether the
   /// link starts in contact is then open. Later, being free before it, nothing can.
   void settleUnseen(double t) {
-    if (t > 0.0 || best_.verdict != Verdict::Contact) return;
+    if (t > 0.0 || !best_ || best_->verdict != Verdict::Contact) return;
     best_ = undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget);
   }
 
   /// What is farther than this is no contact, or none that could be reported.
   [[nodiscard]] double reach() const {
-    return hasContact() ? best_.separation - best_.penetration : query_.tolerance;
+    return hasContact() ? best_->separation - best_->penetration : query_.tolerance;
   }
 
   void giveUp(double t, UndecidedReason reason) {
-    if (best_.verdict != Verdict::Clear) return;  // a contact at this very instant stands
+    if (best_) return;  // a contact at this very instant stands
     best_ = undecidedContact(query_.parts.link, t, reason);
     horizon_ = t;
   }
@@ -207,15 +204,16 @@ class Backtracker {
   const LinkQuery& query_;
   std::vector<Candidate>& heap_;
   QueryCounters& counters_;
-  LinkContact best_;
-  double horizon_ = kInfinity;  // nothing later than this can change the answer
+  std::optional<LinkContact> best_;  // nothing: clear as far as has been looked
+  double horizon_ = kInfinity;       // nothing later than this can change the answer
   StateCache states_;
 };
 
 }  // namespace
 
-LinkContact contactAtStart(const LinkQuery& query, std::vector<Candidate>& candidates,
-                           QueryCounters& counters) {
+std::optional<LinkContact> contactAtStart(const LinkQuery& query,
+                                          std::vector<Candidate>& candidates,
+                                          QueryCounters& counters) {
   if (query.isExact()) return meshContactAtStart(query, candidates, nullptr, counters);
   return Backtracker(query, candidates, counters).runAtStart();
 }

@@ -9,16 +9,20 @@
 // bound, [Tang09] C2A Lemma 4.1; here each end has its own clearance, speed and acceleration.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "middleware/query/link_query.h"
 
 namespace foretouch::internal {
 
-/// The link's contact at t = 0, which ends the matter, or a verdict of Clear that says only that
-/// none was found there (within the budget). `candidates`: all pairs whose boxes, grown by the
-/// tolerance, meet at t = 0. A limb inside furniture is answered by these few, whatever it sweeps
-/// afterwards. Consumes `candidates` (used as a heap).
-[[nodiscard]] LinkContact contactAtStart(const LinkQuery& query, std::vector<Candidate>& candidates,
-                                         QueryCounters& counters);
+/// The link's contact at t = 0, which ends the matter; nothing where none was found there (within
+/// the budget). `candidates`: all pairs whose boxes, grown by the tolerance, meet at t = 0. A limb
+/// inside furniture is answered by these few, whatever it sweeps afterwards. Consumes `candidates`
+/// (used as a heap).
+[[nodiscard]] std::optional<LinkContact> contactAtStart(const LinkQuery& query,
+                                                        std::vector<Candidate>& candidates,
+                                                        QueryCounters& counters);
 
 /// The link's first contact on [0,1]. Consumes `candidates` (used as a heap).
 [[nodiscard]] LinkContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,

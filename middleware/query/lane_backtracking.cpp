@@ -3,15 +3,12 @@
 #include <algorithm>
 
 #include "lss/assert.h"
-#include "middleware/scene/culler.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Below this share of the tolerance lanes give a pair up, to the parts below or to doubles, which
-/// will mostly find contact: what lanes prove is a little less than the truth.
-constexpr double kHandOverShare = 0.75;
 
 class LaneBacktracker {
  public:
@@ -28,7 +25,6 @@ class LaneBacktracker {
         end_(scratch.lanes.end()) {}
 
   LinkContact run() {
-    best_.link = query_.parts.link;
     surface_.prepare();
     start();
     while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
@@ -46,7 +42,7 @@ class LaneBacktracker {
       }
       for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
     }
-    return best_;
+    return best_ ? *best_ : clearContact(query_.parts.link);
   }
 
  private:
@@ -69,7 +65,7 @@ class LaneBacktracker {
     for (TimeBuckets* buckets : {&scratch_.lss, &scratch_.triangles}) {
       while (!buckets->isEmpty()) freeUntil = std::min(freeUntil, buckets->pop().freeUntil);
     }
-    if (freeUntil == horizon_ && best_.verdict != Verdict::Clear) return best_;
+    if (freeUntil == horizon_ && best_) return *best_;
     return undecidedContact(query_.parts.link, freeUntil, UndecidedReason::WorkBudget);
   }
 
@@ -154,7 +150,7 @@ class LaneBacktracker {
     const PairState state = pairOf(query_, candidate, states_.at(t), counters_);
     if (state.gapUpper <= query_.tolerance) {
       const LinkContact contact = contactOf(query_, candidate, state, t);
-      if (t < horizon_ || best_.verdict == Verdict::Undecided || comesFirst(contact, best_)) {
+      if (t < horizon_ || best_->verdict == Verdict::Undecided || comesFirst(contact, *best_)) {
         best_ = contact;
       }
       horizon_ = t;
@@ -183,8 +179,8 @@ class LaneBacktracker {
   double end_;
   std::array<PartPair, kTrianglePairLanes> batch_;
   std::size_t count_ = 0;
-  double horizon_ = kInfinity;  // nothing later than this can change the answer
-  LinkContact best_;
+  double horizon_ = kInfinity;       // nothing later than this can change the answer
+  std::optional<LinkContact> best_;  // nothing: horizon_ is infinite
 };
 
 }  // namespace

@@ -14,6 +14,10 @@
 
 namespace foretouch::internal {
 
+/// Below this share of the tolerance lanes give a pair up, to the parts below or to doubles, which
+/// will mostly find contact: what lanes prove is a little less than the truth.
+inline constexpr double kHandOverShare = 0.75;
+
 /// A part and a triangle of the scene, proven apart before `freeUntil`.
 struct PartPair {
   double freeUntil = 0.0;
@@ -87,9 +91,10 @@ struct PartScratch {
   std::vector<std::int32_t> linkTriangles;  // those that the stack left
 };
 
-/// As backtrack(), for exact fidelity without a budget and for candidates in the span of
-/// `scratch.lanes`, which is told of their triangles as they are needed. Every pair's instants
-/// depend on that pair alone, so the contact reported depends on no order.
+/// As backtrack(), for exact fidelity and for candidates in the span of `scratch.lanes`, which is
+/// told of their triangles as they are needed. Every pair's instants depend on that pair alone, so
+/// the contact reported depends on no order, unless the budget's part at hand is spent before all
+/// pairs are through.
 [[nodiscard]] LinkContact backtrackInLanes(const LinkQuery& query,
                                            std::vector<Candidate>& candidates, PartScratch& scratch,
                                            QueryCounters& counters);

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/query/lane_backtracking.h"
 #include "middleware/query/start.h"
@@ -16,11 +17,8 @@
 namespace foretouch::internal {
 namespace {
 
-/// Shares of the tolerance. The floor is the scalar code's. Below three quarters the scalar code is
-/// asked: what lanes prove is a little less than the truth, so it will mostly find contact. And
-/// what lanes call certain must be so for the scalar code too, whose rounding is far below the
-/// rest.
-constexpr double kHandOverShare = 0.75;
+/// What lanes call certain, this share of the tolerance, must be so for the scalar code too, whose
+/// rounding is far below the rest.
 constexpr double kCertainShare = 1.0 - 0x1p-10;
 /// No pair is certainly in contact.
 constexpr float kNeverCertain = -1.0F;
@@ -59,11 +57,6 @@ void closeBox(SweptBoxes& boxes, std::int32_t lss) {
   }
 }
 
-bool isAnyTouched(const StepContacts& step) {
-  return std::any_of(step.links.begin(), step.links.end(),
-                     [](const LinkContact& c) { return c.verdict != Verdict::Clear; });
-}
-
 }  // namespace
 
 const LssTable& tableOf(const Avatar& avatar, LaneScratch& lanes) {
@@ -76,7 +69,7 @@ const LssTable& tableOf(const Avatar& avatar, LaneScratch& lanes) {
 
 LaneQuery::LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion,
                      const Scene& scene, const QueryOptions& options, const TriangleCuller& culler,
-                     ScratchParts& scratch)
+                     const WorkMeter& meter, ScratchParts& scratch)
     : body_(body),
       table_(table),
       motion_(motion),
@@ -87,7 +80,7 @@ LaneQuery::LaneQuery(const Body& body, const LssTable& table, const ChainMotion&
       lanes_(scratch.lanes),
       bvh_(scene.parts().bvh),
       range_(tolerancesOf(options)),
-      meter_(options) {
+      meter_(meter) {
   useTolerance(range_.least);
   scratch_.evaluator.reset(motion);
   lanes_.margins.clear();
@@ -102,7 +95,7 @@ void LaneQuery::useTolerance(double tolerance) {
 }
 
 void LaneQuery::run(StepContacts& step) {
-  findWhoIsAsked();
+  findWhoIsAsked(step);
   const int slabs = slabsFor(
       table_, motion_, std::max(kInterpolationShare * range_.least, kLeastInterpolationError));
   if (meter_.isLimited()) return runWithin(step, slabs);
@@ -110,8 +103,10 @@ void LaneQuery::run(StepContacts& step) {
     begin_ = static_cast<double>(slab) / slabs;
     end_ = static_cast<double>(slab + 1) / slabs;
     if (!collectHits(step.counters)) continue;
-    if (answerSlab(step) && options_.scope == Scope::FirstOfAvatar) return;
+    if (!answerSlab(step) || options_.scope != Scope::FirstOfAvatar) continue;
+    return leaveAfterFirst(*firstOf(step), step);
   }
+  leaveClear(step);
 }
 
 /// All links in the slab at hand; true if one of them is not clear.
@@ -122,10 +117,10 @@ bool LaneQuery::answerSlab(StepContacts& step) {
     const auto first = static_cast<std::size_t>(table_.first(link));
     const auto end = static_cast<std::size_t>(table_.first(link + 1));
     if (lanes_.first[first] == lanes_.first[end]) continue;
-    LinkContact& contact = step.links[static_cast<std::size_t>(link)];
-    contact = answer(link, limit, step.counters);
+    const LinkContact contact = answer(link, limit, step.counters);
     if (contact.verdict == Verdict::Clear) continue;
     isTouched = true;
+    step.links[static_cast<std::size_t>(link)] = contact;
     lanes_.isAsked[static_cast<std::size_t>(link)] = 0;
     if (options_.scope == Scope::FirstOfAvatar) {
       limit = std::min(limit, lanesTimeOf(contact.freeUntil));
@@ -146,7 +141,8 @@ void LaneQuery::runWithin(StepContacts& step, int slabs) {
     end_ = static_cast<double>(slab + 1) / count;
     meter_.beginPart(step.counters, count < finest ? kSlabWork : WorkMeter::kUnlimited);
     if (answerSlabWithin(step)) {
-      if (options_.scope == Scope::FirstOfAvatar && isAnyTouched(step)) return;
+      const auto first = firstOf(step);
+      if (options_.scope == Scope::FirstOfAvatar && first) return leaveAfterFirst(*first, step);
       ++slab;
       while (count > slabs && slab % 2 == 0) {
         slab /= 2;
@@ -159,6 +155,7 @@ void LaneQuery::runWithin(StepContacts& step, int slabs) {
       count *= 2;
     }
   }
+  leaveClear(step);
 }
 
 /// The links that are asked in the slab at hand, each as far as it is not proven free; false where
@@ -192,12 +189,42 @@ bool LaneQuery::answerSlabWithin(StepContacts& step) {
   return true;
 }
 
+/// When the first of the links that have been answered touches; nothing where none does.
+std::optional<double> LaneQuery::firstOf(const StepContacts& step) const {
+  std::optional<double> first;
+  for (const LinkContact& contact : step.links) {
+    if (lanes_.isAsked[static_cast<std::size_t>(contact.link)] != 0) continue;
+    if (contact.verdict == Verdict::Clear) continue;  // ignored
+    first = std::min(first.value_or(contact.freeUntil), contact.freeUntil);
+  }
+  return first;
+}
+
+/// All links have been looked at until then at least.
+void LaneQuery::leaveAfterFirst(double first, StepContacts& step) const {
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
+    const auto i = static_cast<std::size_t>(link);
+    if (lanes_.isAsked[i] == 0) continue;
+    step.links[i] = undecidedContact(link, first, UndecidedReason::AfterFirst);
+  }
+}
+
+/// The whole step has been looked at: links that are asked for to the end touch nothing.
+void LaneQuery::leaveClear(StepContacts& step) const {
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
+    const auto i = static_cast<std::size_t>(link);
+    if (lanes_.isAsked[i] != 0) step.links[i] = clearContact(link);
+  }
+}
+
 /// What is not answered is free as far as it is proven.
 void LaneQuery::leaveUndone(StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = static_cast<std::size_t>(link);
-    if (lanes_.isAsked[i] == 0 || lanes_.freeUntil[i] >= 1.0) continue;
-    step.links[i] = undecidedContact(link, lanes_.freeUntil[i], UndecidedReason::WorkBudget);
+    if (lanes_.isAsked[i] == 0) continue;
+    const double free = lanes_.freeUntil[i];
+    step.links[i] = free >= 1.0 ? clearContact(link)
+                                : undecidedContact(link, free, UndecidedReason::WorkBudget);
   }
 }
 
@@ -205,11 +232,13 @@ LinkContact LaneQuery::undone(LinkId link) const {
   return undecidedContact(link, begin_, UndecidedReason::WorkBudget);
 }
 
-void LaneQuery::findWhoIsAsked() {
+/// Links that are ignored altogether are answered at once: of theirs nothing is a contact.
+void LaneQuery::findWhoIsAsked(StepContacts& step) {
   lanes_.isAsked.assign(static_cast<std::size_t>(body_.numLinks()), 1);
   for (const IgnoredPair& pair : body_.ignored()) {
     if (pair.object == IgnoredPair::kEveryObject) {
       lanes_.isAsked[static_cast<std::size_t>(pair.link)] = 0;
+      step.links[static_cast<std::size_t>(pair.link)] = clearContact(pair.link);
     }
   }
 }
@@ -344,9 +373,7 @@ LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, flo
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
                                   [&](const Candidate& c) { return c.freeUntil > latest; }),
                    candidates.end());
-  LinkContact contact;
-  contact.link = link;
-  if (candidates.empty()) return contact;
+  if (candidates.empty()) return clearContact(link);
   prepareScalar(link);
   const LinkQuery query{{link, body_.lss(link), scratch_.axisBounds, motion_, surface, nullptr},
                         scene_,
@@ -376,7 +403,8 @@ LinkContact LaneQuery::surfaceContact(const LinkQuery& query, bool atStart,
         candidate.laneTriangle = parts.lanes.add(scene_.triangle(candidate.triangle));
       }
     }
-    return meshContactAtStart(query, scratch_.candidates, inLanes ? &parts : nullptr, counters);
+    return meshContactAtStart(query, scratch_.candidates, inLanes ? &parts : nullptr, counters)
+        .value_or(clearContact(query.parts.link));
   }
   return inLanes ? backtrackInLanes(query, scratch_.candidates, parts, counters)
                  : backtrack(query, scratch_.candidates, counters);

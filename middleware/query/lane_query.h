@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "middleware/query/backtracking.h"
 #include "middleware/query/body.h"
@@ -18,19 +19,21 @@ namespace foretouch::internal {
 /// One query over all links of one step, at link or exact fidelity.
 class LaneQuery {
  public:
-  /// `table` is of the body's LSS.
+  /// `table` is of the body's LSS; `meter` of the query, which began when it did.
   LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion, const Scene& scene,
-            const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch);
+            const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+            ScratchParts& scratch);
 
   /// The scratch's nodes are those of this motion over [0,1], with the scene's origin.
   void keepNodes() { hasNodes_ = true; }
 
-  /// Fills `step`, whose links are all Clear.
+  /// Answers every link of `step`; by Scope::FirstOfAvatar the first ones of all, and the others
+  /// AfterFirst.
   void run(StepContacts& step);
 
  private:
   void useTolerance(double tolerance);
-  void findWhoIsAsked();
+  void findWhoIsAsked(StepContacts& step);
   /// Of all LSS in the slab at hand; false if there are none.
   [[nodiscard]] bool collectHits(QueryCounters& counters);
   void collectByCuller(QueryCounters& counters);
@@ -39,6 +42,9 @@ class LaneQuery {
   [[nodiscard]] bool answerSlab(StepContacts& step);
   void runWithin(StepContacts& step, int slabs);
   [[nodiscard]] bool answerSlabWithin(StepContacts& step);
+  [[nodiscard]] std::optional<double> firstOf(const StepContacts& step) const;
+  void leaveAfterFirst(double first, StepContacts& step) const;
+  void leaveClear(StepContacts& step) const;
   void leaveUndone(StepContacts& step) const;
   [[nodiscard]] LinkContact answer(LinkId link, float limit, QueryCounters& counters);
   [[nodiscard]] LinkContact answerBefore(LinkId link, const LinkSurface* surface, float& best,

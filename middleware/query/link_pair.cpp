@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "lss/separation.h"
 #include "lss/triangle_separation.h"
 
@@ -13,9 +14,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Covers the rounding of norms and of a few operations on bounds.
-constexpr double kInflation = 1.0 + 1e-12;
 
 PairState pairOfLss(const Lss& lss, const AxisBounds& bounds, const LinkState& state,
                     const Triangle& triangle) {

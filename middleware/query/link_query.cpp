@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "lss/rounding.h"
 #include "middleware/exact/chain_piece.h"
 #include "middleware/exact/feature.h"
 #include "middleware/exact/linear_query.h"
@@ -27,10 +28,20 @@ Vector3d contactNormal(const PairState& pair) {
 
 }  // namespace
 
-// The sum may have been moved up by half a unit in the last place.
-double after(double t, double step) {
-  const double next = t + step;
-  return next >= 1.0 ? 1.0 : std::nextafter(next, 0.0);
+void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links) {
+  links.clear();  // so that no old answer is left where there is no room for a new one
+  links.resize(static_cast<std::size_t>(numLinks));
+  for (LinkId link = 0; link < numLinks; ++link) {
+    links[static_cast<std::size_t>(link)].link = link;
+  }
+}
+
+LinkContact clearContact(LinkId link) {
+  LinkContact contact;
+  contact.link = link;
+  contact.verdict = Verdict::Clear;
+  contact.freeUntil = contact.toi = 1.0;
+  return contact;
 }
 
 int Pieces::at(double t) const {
@@ -78,7 +89,7 @@ double provenFrom(const LinkQuery& query, const Candidate& candidate, const Pair
                                              kFloorShare * query.tolerance, pair.nhat);
     if (reached > t) return reached;
   }
-  return after(t, stepFrom(pair, floor));
+  return timeAfter(t, stepFrom(pair, floor), 1.0);
 }
 
 LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const PairState& pair,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "articulated/motion.h"
 #include "middleware/contact.h"
@@ -41,6 +42,12 @@ struct Candidate {
   Part part = Part::whole();
   std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, where there are any
 };
+
+/// Says of every link that no query has answered it.
+void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links);
+
+/// Proven: no contact in all that was asked for. The one place that writes Clear.
+[[nodiscard]] LinkContact clearContact(LinkId link);
 
 /// What backtrack() needs to know of one link; all references outlive the call.
 struct LinkQuery {
@@ -102,9 +109,6 @@ class StateCache {
 /// most 1, and `t` itself where nothing is proven.
 [[nodiscard]] double provenFrom(const LinkQuery& query, const Candidate& candidate,
                                 const PairState& pair, double t, QueryCounters& counters);
-
-/// t + step, rounded down, and at most 1.
-[[nodiscard]] double after(double t, double step);
 
 /// What is reported of a pair that is in contact at `t`.
 [[nodiscard]] LinkContact contactOf(const LinkQuery& query, const Candidate& candidate,

@@ -4,18 +4,16 @@
 #include <cmath>
 
 #include "lss/assert.h"
-#include "middleware/scene/culler.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 namespace {
 
 /// Of a scene's vertex, taken relative to the origin and rounded (lanes/frame_lanes.md 4).
-constexpr double kVertexRounding = 2.0 * 0x1p-24;
-constexpr double kOriginRounding = 2.0 * 0x1p-53;
-/// What underflow may lose (m).
-constexpr double kUnderflow = 0x1p-90;
+constexpr double kVertexRounding = 2.0 * kUnitRoundoffOfFloat;
+constexpr double kOriginRounding = 2.0 * kUnitRoundoff;
 /// Rounds the sum of a floor and a radius up.
-constexpr float kFloorInflation = 1.0F + 4.0F * 0x1p-24F;
+constexpr float kFloorInflation = 1.0F + 4.0F * kUnitRoundoffOfFloat;
 
 }  // namespace
 
@@ -25,7 +23,7 @@ void PartLanes::reset(const FramePolynomials& polynomials, const Eigen::Vector3d
   frame_ = laneFrame(polynomials);
   for (int axis = 0; axis < 3; ++axis)
     origin_[axis] = nodesOrigin_W[axis] + polynomials.origin[axis];
-  originPad_ = kOriginRounding * origin_.norm() + kUnderflow;
+  originPad_ = kOriginRounding * origin_.norm() + kFrameUnderflow;
   begin_ = begin;
   end_ = end;
   halfSpan_ = 0.5 * (end - begin);
@@ -80,8 +78,7 @@ void PartLanes::proveLss(std::size_t count) {
 double PartLanes::freeUntil(std::size_t lane) const {
   const double from = timeOf(parts_.u[lane]);
   const double step = static_cast<double>(steps_.step[lane]) * halfSpan_;
-  const double next = from + step;
-  return next >= end_ ? end_ : std::nextafter(next, 0.0);
+  return timeAfter(from, step, end_);
 }
 
 }  // namespace foretouch::internal

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "lss/assert.h"
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
 #include "middleware/query/link_options.h"
@@ -110,20 +111,29 @@ bool inLanes(const Avatar& avatar, const QueryOptions& options) {
 /// At link or exact fidelity, by whichever way the options ask for.
 void linkQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                const QueryOptions& options, const internal::TriangleCuller& culler,
-               internal::ScratchParts& scratch, StepContacts& step) {
+               const internal::WorkMeter& meter, internal::ScratchParts& scratch,
+               StepContacts& step) {
   const internal::Body body(avatar, options.ignored);
   if (options.descent == Descent::ByNeed && options.fidelity != Fidelity::Skinned &&
       internal::nothingInReach(internal::tableOf(avatar, scratch.lanes), motion, scene,
                                internal::tolerancesOf(options).largest, step.counters)) {
+    for (LinkContact& contact : step.links) contact = internal::clearContact(contact.link);
     return;
   }
   if (!inLanes(avatar, options)) {
-    internal::scalarQuery(body, motion, scene, options, culler, scratch, step);
+    internal::scalarQuery(body, motion, scene, options, culler, meter, scratch, step);
     return;
   }
   internal::LaneQuery(body, internal::tableOf(avatar, scratch.lanes), motion, scene, options,
-                      culler, scratch)
+                      culler, meter, scratch)
       .run(step);
+}
+
+/// No link is as it was before anyone looked.
+[[maybe_unused]] bool isAnswered(const StepContacts& step) {
+  return std::none_of(step.links.begin(), step.links.end(), [](const LinkContact& contact) {
+    return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::None;
+  });
 }
 
 /// Of links that touch nothing before the first contact of all nothing more is said.
@@ -146,17 +156,16 @@ void keepFirst(StepContacts& step) {
 
 Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                            const QueryOptions& options, QueryScratch& scratch, StepContacts& step) {
+  const internal::WorkMeter meter(options);
+  step.counters = {};
+  internal::leaveUnanswered(avatar.numLinks(), step.links);
   auto check = checked(avatar, motion, scene, options);
   if (!check.ok()) return check;
   const auto culler = cullerOf(scene, options.culler);
   if (!culler.ok()) return culler.error();
-  step.counters = {};
-  step.links.assign(static_cast<std::size_t>(avatar.numLinks()), LinkContact{});
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    step.links[static_cast<std::size_t>(link)].link = link;
-  }
   const auto ask = internal::isRung(options.fidelity) ? internal::rungQuery : linkQuery;
-  ask(avatar, motion, scene, options, *culler.value(), scratch.parts(), step);
+  ask(avatar, motion, scene, options, *culler.value(), meter, scratch.parts(), step);
+  FORETOUCH_ASSERT(isAnswered(step));
   if (options.scope == Scope::FirstOfAvatar) keepFirst(step);
   return Done{};
 }

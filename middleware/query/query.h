@@ -16,7 +16,8 @@ namespace foretouch {
 /// The first contact of every link of `avatar` while it moves as `motion` says.
 /// Errors are bad options (tolerance, a policy or an ignored pair out of range) or a motion of
 /// another avatar. Geometry never produces one: see Verdict. The first form fills `step` and, once
-/// scratch and step have grown to what the scene asks for, allocates nothing.
+/// scratch and step have grown to what the scene asks for, allocates nothing. Where it fails, every
+/// link of `step` is Undecided, free until 0.
 [[nodiscard]] Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion,
                                          const Scene& scene, const QueryOptions& options,
                                          QueryScratch& scratch, StepContacts& step);

@@ -1,16 +1,18 @@
 #include "middleware/query/query_pool.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "lss/assert.h"
+#include "middleware/query/link_query.h"
 
 namespace foretouch {
 namespace {
@@ -22,8 +24,20 @@ struct alignas(128) Worker {
   // Written throughout a query, and then exchanged for the task's: answers side by side share cache
   // lines.
   StepContacts answer;
-  std::size_t failed = 0;  // the first task of this thread that had an error
-  std::optional<Error> error;
+  std::vector<FailedTask> failures;  // ascending, as a thread takes tasks
+  bool isSuspect = false;            // a query was broken off: what it kept may be half written
+
+  Result<Done> answerTo(const StepTask& task, const Scene& scene) {
+    if (isSuspect) {
+      scratch = QueryScratch();
+      motion = ChainMotion();
+    }
+    isSuspect = true;
+    motion.assign(task.avatar->skeleton(), *task.from, *task.to);
+    const auto done = firstContacts(*task.avatar, motion, scene, *task.options, scratch, answer);
+    isSuspect = false;
+    return done;
+  }
 };
 
 /// A list of tasks that the threads take from, one by one.
@@ -34,20 +48,26 @@ struct Work {
   std::atomic<std::size_t> next{0};
 
   void takePart(Worker& worker) {
-    worker.error.reset();
+    worker.failures.clear();
     for (;;) {
       const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
       if (i >= tasks->size()) return;
-      const StepTask& task = (*tasks)[i];
-      worker.motion.assign(task.avatar->skeleton(), *task.from, *task.to);
-      const auto done = firstContacts(*task.avatar, worker.motion, *scene, *task.options,
-                                      worker.scratch, worker.answer);
+      take(worker, i);
       std::swap(worker.answer, (*answers)[i]);
-      // A thread takes tasks in ascending order.
-      if (!done.ok() && !worker.error) {
-        worker.failed = i;
-        worker.error = done.error();
-      }
+    }
+  }
+
+  /// Whatever happens, the worker's answer is that to this task.
+  void take(Worker& worker, std::size_t i) {
+    const StepTask& task = (*tasks)[i];
+    try {
+      const auto done = worker.answerTo(task, *scene);
+      if (!done.ok()) worker.failures.push_back({i, done.error()});
+    } catch (const std::exception& failure) {
+      internal::leaveUnanswered(task.avatar->numLinks(), worker.answer.links);
+      worker.answer.counters = {};
+      worker.failures.push_back({i, Error{ErrorCode::DeviceFailed, "query", -1, -1,
+                                          std::string("broken off: ") + failure.what()}});
     }
   }
 };
@@ -68,6 +88,7 @@ struct QueryPool::Impl {
   std::vector<Worker> workers;  // the calling thread's first
   std::vector<std::thread> threads;
   Work work;
+  std::vector<FailedTask> failures;  // of the last list
   std::mutex mutex;
   std::condition_variable begins, ends;
   std::atomic<std::uint64_t> list{0};   // how many lists have begun
@@ -154,12 +175,19 @@ Result<Done> QueryPool::answer(const Scene& scene, const std::vector<StepTask>& 
   work.answers = &answers;
   work.next.store(0, std::memory_order_relaxed);
   impl_->answerAll();
-  const Worker* first = nullptr;
+  std::vector<FailedTask>& failures = impl_->failures;
+  failures.clear();
   for (const Worker& worker : impl_->workers) {
-    if (worker.error && (first == nullptr || worker.failed < first->failed)) first = &worker;
+    failures.insert(failures.end(), worker.failures.begin(), worker.failures.end());
   }
-  if (first != nullptr) return *first->error;
+  std::sort(failures.begin(), failures.end(),
+            [](const FailedTask& x, const FailedTask& y) { return x.task < y.task; });
+  if (!failures.empty()) return failures.front().error;
   return Done{};
+}
+
+const std::vector<FailedTask>& QueryPool::failures() const {
+  return impl_->failures;
 }
 
 }  // namespace foretouch

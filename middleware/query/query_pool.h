@@ -3,6 +3,7 @@
 // allocates nothing; the answers are the same for any number of threads.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct StepTask {
   const QueryOptions* options = nullptr;
 };
 
+/// A task that was not answered, by its place in the list, and why.
+struct FailedTask {
+  std::size_t task = 0;
+  Error error;
+};
+
 inline constexpr int kMaxPoolThreads = 256;
 
 class QueryPool {
@@ -37,10 +44,12 @@ class QueryPool {
   [[nodiscard]] int threads() const;
 
   /// Answers all tasks and returns when the last one is done; `answers` is resized and reused. The
-  /// error is that of the first task that has one; the others are answered. Not for two threads at
-  /// once.
+  /// error is that of the first task that has one, failures() has them all. Every link of a task
+  /// that failed is Undecided, free until 0; the others are answered. Not for two threads at once.
   Result<Done> answer(const Scene& scene, const std::vector<StepTask>& tasks,
                       std::vector<StepContacts>& answers);
+  /// Of the last list, in its order.
+  [[nodiscard]] const std::vector<FailedTask>& failures() const;
 
  private:
   struct Impl;

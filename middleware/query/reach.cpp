@@ -9,7 +9,7 @@ bool nothingInReach(const LssTable& table, const ChainMotion& motion, const Scen
                     double tolerance, QueryCounters& counters) {
   // Covers the rounding of these sums, and of the roots' ways: a box is tens of thousands of
   // roundings wider than what is in it.
-  constexpr double kInflation = 1.0 + 1e-11;
+  constexpr double kReachInflation = 1.0 + 1e-11;
   Aabb box;
   for (LinkId link = 0; link < motion.numLinks(); ++link) {
     if (motion.parent(link) != kNoParent) continue;
@@ -20,7 +20,7 @@ bool nothingInReach(const LssTable& table, const ChainMotion& motion, const Scen
   }
   const double reach =
       (motion.largestSums().armReach + table.largestRho() + table.largestRadius() + tolerance) *
-      kInflation;
+      kReachInflation;
   box.grow(reach);
   box.grow(1e-15 * box.max.cwiseAbs().maxCoeff());
   ++counters.rungTests;

@@ -19,13 +19,13 @@ namespace {
 class RungQuery {
  public:
   RungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
-            const QueryOptions& options, ScratchParts& scratch)
+            const QueryOptions& options, const WorkMeter& meter, ScratchParts& scratch)
       : avatar_(avatar),
         motion_(motion),
         scene_(scene),
         options_(options),
         scratch_(scratch),
-        meter_(options),
+        meter_(meter),
         rungs_(scratch.rungs) {}
 
   void evaluate(QueryCounters& counters) {
@@ -130,28 +130,27 @@ class RungQuery {
       rungs_.perLink[static_cast<std::size_t>(carrierOf(group))].push_back(volumeOf(group));
     }
     const Body body(rungs_.perLink, rungs_.ignored);
+    leaveUnanswered(avatar_.numLinks(), rungs_.carriers.links);
+    rungs_.carriers.counters = step.counters;
     if (options_.backtracking == Backtracking::Lanes) {
       rungs_.table.assign(rungs_.perLink);
-      LaneQuery query(body, rungs_.table, motion_, scene_, options_, culler, scratch_);
+      LaneQuery query(body, rungs_.table, motion_, scene_, options_, culler, meter_, scratch_);
       query.keepNodes();
-      query.run(step);
+      query.run(rungs_.carriers);
     } else {
-      scalarQuery(body, motion_, scene_, options_, culler, scratch_, step);
+      scalarQuery(body, motion_, scene_, options_, culler, meter_, scratch_, rungs_.carriers);
     }
+    step.counters = rungs_.carriers.counters;
     rungs_.answers.clear();
     for (std::size_t group = 0; group < numGroups(); ++group) {
-      LinkContact& answer = step.links[static_cast<std::size_t>(carrierOf(group))];
-      rungs_.answers.push_back(answer);
-      const LinkId link = answer.link;
-      answer = LinkContact();
-      answer.link = link;
+      rungs_.answers.push_back(rungs_.carriers.links[static_cast<std::size_t>(carrierOf(group))]);
     }
   }
 
   void askSpheroids(const TriangleCuller& culler, StepContacts& step) {
     rungs_.answers.clear();
     for (std::size_t group = 0; group < numGroups(); ++group) {
-      rungs_.answers.emplace_back();
+      rungs_.answers.push_back(clearContact(carrierOf(group)));
       if (scratch_.ignored.collect(rungs_.ignored, carrierOf(group))) continue;
       const Spheroid spheroid = spheroidOf(group);
       const SpheroidQuery query{spheroid,           scene_, culler,
@@ -160,8 +159,13 @@ class RungQuery {
     }
   }
 
-  /// Every link that is asked for gets its group's answer.
+  /// Every link that is asked for gets its group's answer. Those that are not, and those that have
+  /// no LSS, which are in no group, touch nothing.
   void spread(StepContacts& step) const {
+    for (LinkContact& contact : step.links) {
+      if (isAsked(contact.link) && !avatar_.lss(contact.link).empty()) continue;
+      contact = clearContact(contact.link);
+    }
     for (std::size_t group = 0; group < numGroups(); ++group) {
       for (const LinkId link : linksOf(group)) {
         if (!isAsked(link)) continue;
@@ -209,21 +213,21 @@ class RungQuery {
   const Scene& scene_;
   const QueryOptions& options_;
   ScratchParts& scratch_;
-  WorkMeter meter_;
+  const WorkMeter& meter_;
   RungScratch& rungs_;
 };
 
 }  // namespace
 
 void rungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
-               const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
-               StepContacts& step) {
-  RungQuery(avatar, motion, scene, options, scratch).run(culler, step);
+               const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+               ScratchParts& scratch, StepContacts& step) {
+  RungQuery(avatar, motion, scene, options, meter, scratch).run(culler, step);
 }
 
 bool rungTouchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
                    const Scene& scene, const QueryOptions& options, ScratchParts& scratch) {
-  return RungQuery(avatar, motion, scene, options, scratch).touchesAt(link, t);
+  return RungQuery(avatar, motion, scene, options, WorkMeter(options), scratch).touchesAt(link, t);
 }
 
 }  // namespace foretouch::internal
@@ -236,7 +240,8 @@ std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& mot
   QueryScratch scratch;
   QueryOptions options;
   options.fidelity = rung;
-  internal::RungQuery query(avatar, motion, scene, options, scratch.parts());
+  const internal::WorkMeter meter(options);
+  internal::RungQuery query(avatar, motion, scene, options, meter, scratch.parts());
   QueryCounters counters;
   query.evaluate(counters);
   std::vector<RungVolume> volumes;

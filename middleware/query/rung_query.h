@@ -6,17 +6,18 @@
 #include "articulated/motion.h"
 #include "middleware/contact.h"
 #include "middleware/query/query_scratch.h"
+#include "middleware/query/work_meter.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 
-/// Fills `step`, whose links are all Clear. The options have been checked;
-/// isRung(options.fidelity).
+/// Answers every link of `step`. The options have been checked, isRung(options.fidelity); `meter`
+/// is of the query, which began when it did.
 void rungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
-               const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
-               StepContacts& step);
+               const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+               ScratchParts& scratch, StepContacts& step);
 
 /// Does the volume that stands for the link touch a triangle at `t`?
 [[nodiscard]] bool rungTouchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link,

@@ -24,14 +24,15 @@ static_assert(kMaxPiecesUsed <= kMaxPieces);
 class StepQuery {
  public:
   StepQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
-            const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch)
+            const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+            ScratchParts& scratch)
       : body_(body),
         motion_(motion),
         scene_(scene),
         options_(options),
         culler_(culler),
         scratch_(scratch),
-        meter_(options) {}
+        meter_(meter) {}
 
   void run(StepContacts& step) {
     scratch_.evaluator.reset(motion_);
@@ -67,18 +68,17 @@ class StepQuery {
     skin_ = skinOf(options_, link);
     tolerance_ = toleranceOf(options_, link);
     if (skin_ != nullptr) return firstSkinContactOf(link, counters);
-    LinkContact contact;
-    contact.link = link;
     surface_ = surfaceOf(options_, link);
-    if (scratch_.ignored.collect(body_.ignored(), link) || body_.lss(link).empty()) return contact;
+    if (scratch_.ignored.collect(body_.ignored(), link) || body_.lss(link).empty()) {
+      return clearContact(link);
+    }
     const Aabb swept = sweep(link);
     scratch_.found.clear();
     culler_.collect(swept, scratch_.found, counters.nodes);
     const LinkQuery query = queryOf(link);
     gather(scratch_.startBoxes, 1);
     counters.candidates += scratch_.candidates.size();
-    contact = contactAtStart(query, scratch_.candidates, counters);
-    if (contact.verdict != Verdict::Clear) return contact;
+    if (const auto atStart = contactAtStart(query, scratch_.candidates, counters)) return *atStart;
     gather(scratch_.boxes, pieces_.count);
     counters.candidates += scratch_.candidates.size();
     return backtrack(query, scratch_.candidates, counters);
@@ -95,17 +95,14 @@ class StepQuery {
   }
 
   LinkContact firstSkinContactOf(LinkId link, QueryCounters& counters) {
-    LinkContact contact;
-    contact.link = link;
     const LinkQuery query = queryOf(link);
     const std::int32_t numTriangles = query.parts.skin->numTriangles(link);
-    if (scratch_.ignored.collect(body_.ignored(), link)) return contact;
+    if (scratch_.ignored.collect(body_.ignored(), link)) return clearContact(link);
     sweepSkin(query.parts, scratch_.nodes, pieces_, tolerance_, scratch_.startBoxes,
               scratch_.boxes);
-    if (!isNearAnything(scratch_.boxes, counters)) return contact;
+    if (!isNearAnything(scratch_.boxes, counters)) return clearContact(link);
     gatherSkin(scratch_.startBoxes, 1, numTriangles, counters);
-    contact = contactAtStart(query, scratch_.candidates, counters);
-    if (contact.verdict != Verdict::Clear) return contact;
+    if (const auto atStart = contactAtStart(query, scratch_.candidates, counters)) return *atStart;
     gatherSkin(scratch_.boxes, pieces_.count, numTriangles, counters);
     return backtrack(query, scratch_.candidates, counters);
   }
@@ -217,9 +214,9 @@ class StepQuery {
 }  // namespace
 
 void scalarQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
-                 const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
-                 StepContacts& step) {
-  StepQuery(body, motion, scene, options, culler, scratch).run(step);
+                 const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+                 ScratchParts& scratch, StepContacts& step) {
+  StepQuery(body, motion, scene, options, culler, meter, scratch).run(step);
 }
 
 }  // namespace foretouch::internal

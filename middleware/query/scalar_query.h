@@ -1,5 +1,5 @@
 // middleware/query/scalar_query.h: a query the plain way, link by link, in doubles: the reference
-// that lane queries are held against, and the only way for skins and work budgets. Not installed.
+// that lane queries are held against, and the only way for skins. Not installed.
 #pragma once
 
 #include "articulated/avatar.h"
@@ -7,15 +7,17 @@
 #include "middleware/contact.h"
 #include "middleware/query/body.h"
 #include "middleware/query/query_scratch.h"
+#include "middleware/query/work_meter.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 
-/// Fills `step`, whose links are all Clear. The options have been checked.
+/// Answers every link of `step`. The options have been checked; `meter` is of the query, which
+/// began when it did.
 void scalarQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
-                 const QueryOptions& options, const TriangleCuller& culler, ScratchParts& scratch,
-                 StepContacts& step);
+                 const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+                 ScratchParts& scratch, StepContacts& step);
 
 }  // namespace foretouch::internal

@@ -18,19 +18,18 @@ struct RungScratch {
   LssTable table;
   std::vector<IgnoredPair> ignored;   // of the volumes, by their carriers
   std::vector<std::uint8_t> isAsked;  // per link: not ignored altogether
+  StepContacts carriers;              // what they are answered for their volumes
   std::vector<LinkContact> answers;   // of the volumes
 };
 
 /// Memory that one thread's queries reuse.
 struct ScratchParts {
-  MotionEvaluator states;                     // of the motion at hand
   std::vector<std::vector<LinkState>> nodes;  // per piece boundary, per link
   std::vector<AxisBounds> axisBounds;         // per LSS of the link at hand
   std::vector<Aabb> startBoxes;               // per LSS of the link at hand, at t = 0
   std::vector<Aabb> boxes;                    // per LSS of the link at hand, per piece
   std::vector<TriangleId> found;
   std::vector<Candidate> candidates;
-  std::vector<Candidate> atStart;  // those of them at t = 0
   MotionEvaluator evaluator;
   LaneScratch lanes;
   IgnoredObjects ignored;  // of the link at hand

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "lss/rounding.h"
+
 namespace foretouch::internal {
 namespace {
-
-constexpr double kInflation = 1.0 + 1e-12;
 
 Aabb boxOf(const MovingTriangle& moving) {
   Aabb box;

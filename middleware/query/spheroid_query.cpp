@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -18,6 +19,9 @@ constexpr double kBoxInflation = 1.0 + 1e-9;
 /// centre decides, and a body in the middle of a room touches thousands.
 constexpr double kStartShares[] = {0.125, 0.25, 0.5, 1.0};
 
+/// The links that the spheroid stands for get its answer, each with its own number.
+constexpr LinkId kAnyLink = 0;
+
 class Sweep {
  public:
   Sweep(const SpheroidQuery& query, std::vector<TriangleId>& found, QueryCounters& counters)
@@ -32,15 +36,17 @@ class Sweep {
       double nearest = unitTolerance_;
       for (const TriangleId id : found_) lookAtStart(id, nearest);
       // All that is nearer than `share` was in the box.
-      if (best_.verdict == Verdict::StartsInContact && nearest <= share - 1.0) return best_;
+      if (best_ && best_->verdict == Verdict::StartsInContact && nearest <= share - 1.0) {
+        return *best_;
+      }
     }
-    best_ = LinkContact();
+    best_.reset();
     horizon_ = HUGE_VAL;
     Aabb box = boxAt(1.0, 0.0);
     box.add(boxAt(1.0, 1.0));
     collect(box);
     for (const TriangleId id : found_) advance(id);
-    return best_;
+    return best_ ? *best_ : clearContact(kAnyLink);
   }
 
  private:
@@ -101,15 +107,15 @@ class Sweep {
 
   void keep(const LinkContact& contact) {
     if (contact.toi > horizon_) return;
-    const bool isTied = contact.toi == horizon_ && best_.verdict != Verdict::Undecided;
-    if (!isTied || comesFirst(contact, best_)) best_ = contact;
+    const bool isTied = contact.toi == horizon_ && best_ && best_->verdict != Verdict::Undecided;
+    if (!isTied || comesFirst(contact, *best_)) best_ = contact;
     horizon_ = contact.toi;
   }
 
   /// A contact at this very instant stands.
   void giveUp(double t, UndecidedReason reason) {
     if (t >= horizon_) return;
-    best_ = undecidedContact(best_.link, t, reason);
+    best_ = undecidedContact(kAnyLink, t, reason);
     horizon_ = t;
   }
 
@@ -143,8 +149,8 @@ class Sweep {
   std::vector<TriangleId>& found_;
   QueryCounters& counters_;
   double unitTolerance_;
-  LinkContact best_;
-  double horizon_ = HUGE_VAL;  // nothing later than this can change the answer
+  std::optional<LinkContact> best_;  // nothing: horizon_ is infinite
+  double horizon_ = HUGE_VAL;        // nothing later than this can change the answer
 };
 
 }  // namespace

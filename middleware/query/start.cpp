@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "middleware/scene/culler.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 namespace {
@@ -42,8 +42,7 @@ class StartSearch {
         states_(query, counters),
         isFar_(floatAbove(query.tolerance)) {}
 
-  LinkContact run() {
-    best_.link = query_.parts.link;
+  std::optional<LinkContact> run() {
     const Farther farther(query_.scene);
     // pieces == 0 marks a candidate whose `nearest` is no longer a bound but the LSS's own
     // separation: popped a second time, nothing that is left is deeper.
@@ -65,7 +64,7 @@ class StartSearch {
         std::push_heap(heap_.begin(), heap_.end(), farther);
       } else {
         searchBelow(candidate);
-        if (best_.verdict == Verdict::StartsInContact) break;
+        if (best_ && best_->verdict == Verdict::StartsInContact) break;
       }
     }
     return best_;
@@ -122,7 +121,7 @@ class StartSearch {
     } else {
       take(contactOf(query_, whole, look(whole), 0.0), touching);
     }
-    if (touching) best_ = *touching;
+    if (touching) best_ = touching;
   }
 
   void searchInDoubles(const Candidate& whole, std::optional<LinkContact>& touching) {
@@ -226,7 +225,7 @@ class StartSearch {
   void take(const LinkContact& contact, std::optional<LinkContact>& touching) {
     if (contact.verdict == Verdict::StartsInContact) {
       if (!touching || contact.linkTriangle < touching->linkTriangle) touching = contact;
-    } else if (best_.verdict == Verdict::Clear || comesFirst(contact, best_)) {
+    } else if (!best_ || comesFirst(contact, *best_)) {
       best_ = contact;
     }
   }
@@ -242,7 +241,7 @@ class StartSearch {
   double isFar_;
   std::vector<Part> stack_;
   std::array<HierarchyChild, kTrianglePairLanes> batch_ = nobody();
-  LinkContact best_;
+  std::optional<LinkContact> best_;
 
   static std::array<HierarchyChild, kTrianglePairLanes> nobody() {
     const HierarchyChild none = HierarchyChild::node(0);
@@ -253,8 +252,9 @@ class StartSearch {
 
 }  // namespace
 
-LinkContact meshContactAtStart(const LinkQuery& query, std::vector<Candidate>& candidates,
-                               PartScratch* lanes, QueryCounters& counters) {
+std::optional<LinkContact> meshContactAtStart(const LinkQuery& query,
+                                              std::vector<Candidate>& candidates,
+                                              PartScratch* lanes, QueryCounters& counters) {
   if (lanes != nullptr) query.parts.surface->prepare();
   return StartSearch(query, candidates, lanes, counters).run();
 }

@@ -1,6 +1,7 @@
 // middleware/query/start.h: does a link's mesh touch the scene at t = 0? Not installed.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "middleware/query/lane_backtracking.h"
@@ -15,8 +16,9 @@ namespace foretouch::internal {
 /// is touched, the contacts within the tolerance are compared as usual. Consumes `candidates`.
 /// With `lanes`, which know the candidates' triangles and whose span begins at 0, these refute what
 /// they can first: the same answer, sooner.
-[[nodiscard]] LinkContact meshContactAtStart(const LinkQuery& query,
-                                             std::vector<Candidate>& candidates, PartScratch* lanes,
-                                             QueryCounters& counters);
+[[nodiscard]] std::optional<LinkContact> meshContactAtStart(const LinkQuery& query,
+                                                            std::vector<Candidate>& candidates,
+                                                            PartScratch* lanes,
+                                                            QueryCounters& counters);
 
 }  // namespace foretouch::internal

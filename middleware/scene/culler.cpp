@@ -1,21 +1,6 @@
 #include "middleware/scene/culler.h"
 
-#include <cmath>
-#include <limits>
-
 namespace foretouch::internal {
-
-float floatBelow(double x) {
-  const float f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? std::nextafterf(f, -std::numeric_limits<float>::infinity())
-                                    : f;
-}
-
-float floatAbove(double x) {
-  const float f = static_cast<float>(x);
-  return static_cast<double>(f) < x ? std::nextafterf(f, std::numeric_limits<float>::infinity())
-                                    : f;
-}
 
 Aabb boxOf(const Triangle& triangle) {
   Aabb box;

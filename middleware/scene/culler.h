@@ -21,10 +21,6 @@ class TriangleCuller {
                        std::uint64_t& visited) const = 0;
 };
 
-/// The float on the safe side of a double.
-[[nodiscard]] float floatBelow(double x);
-[[nodiscard]] float floatAbove(double x);
-
 /// Box of a triangle, exact.
 [[nodiscard]] Aabb boxOf(const Triangle& triangle);
 

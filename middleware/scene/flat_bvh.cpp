@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 namespace {
@@ -118,23 +119,12 @@ bool FlatBvh::meetsLeaf(const Aabb& box, std::uint64_t& visited) const {
   return false;
 }
 
-void FlatBvh::collectLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
-                            std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const {
-  walk(boxes, nullptr, hits, nodesVisited, leavesVisited);
-}
-
 void FlatBvh::collectWholeLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
                                  std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const {
-  walk(boxes, clusters_.data(), hits, nodesVisited, leavesVisited);
-}
-
-void FlatBvh::walk(const BoxLanes& boxes, const Cluster* clusters, std::vector<LeafHit>& hits,
-                   std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const {
   FORETOUCH_ASSERT(boxes.count >= 0 && boxes.count <= BoxLanes::kMaxBoxes);
   BvhWalk walk;
   walk.nodes = nodes_.data();
-  walk.leaves = leaves_.data();
-  walk.clusters = clusters;
+  walk.clusters = clusters_.data();
   for (int first = 0; first < boxes.count; first += kBoxGroup) {
     beginWalk(walk, boxes, first);
     while (!walk.finished()) {

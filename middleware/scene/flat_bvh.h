@@ -35,17 +35,11 @@ class FlatBvh final : public TriangleCuller {
   /// Does any leaf's box, as the node above it has it, meet `box`? No: nor does any triangle's.
   [[nodiscard]] bool meetsLeaf(const Aabb& box, std::uint64_t& visited) const;
 
-  /// Appends every (leaf, box) of which a triangle's box meets the box: all triangles whose true
-  /// boxes meet the box that was rounded outward, each once a box. A leaf's triangles are boxed by
-  /// their rounded vertices, so that nothing is superfluous but by the rounding of either box. The
-  /// order depends on nothing but the tree and the boxes. Adds to the counters: a node or a leaf
-  /// counts once for every kBoxGroup boxes.
-  void collectLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits, std::uint64_t& nodesVisited,
-                     std::uint64_t& leavesVisited) const;
-
-  /// The same with every (leaf, box) of which the leaf's box, as the node above it has it, meets
-  /// the box: a superset, which reads no leaf: what does not fit the caches is read only where it
-  /// is needed. The hits of a box come in ascending order of leaves, in either form.
+  /// Appends every (leaf, box) of which the leaf's box, as the node above it has it, meets the box
+  /// that was rounded outward: all leaves with a triangle whose true box meets it, each once a box.
+  /// No leaf is read: what does not fit the caches is read only where it is needed. The hits of a
+  /// box come in ascending order of leaves; the order depends on nothing but the tree and the
+  /// boxes. Adds to the counters: a node or a leaf counts once for every kBoxGroup boxes.
   void collectWholeLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
                           std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const;
 
@@ -72,8 +66,6 @@ class FlatBvh final : public TriangleCuller {
 
  private:
   struct SlotTable;
-  void walk(const BoxLanes& boxes, const Cluster* clusters, std::vector<LeafHit>& hits,
-            std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const;
   friend class FlatBvhBuilder;
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();

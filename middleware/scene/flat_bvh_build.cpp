@@ -9,6 +9,7 @@
 #include <embree3/rtcore.h>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 #include "middleware/scene/embree_device.h"
 #include "middleware/scene/flat_bvh.h"
 
@@ -242,7 +243,7 @@ class FlatBvhBuilder {
   [[nodiscard]] Cluster clusterOf(const BvhLeaf& leaf) const {
     constexpr int kSteps = 8;
     // Three differences, squares and a root in double: ten roundings at most.
-    constexpr double kRounding = 1.0 + 16.0 * 0x1p-53;
+    constexpr double kRounding = 1.0 + 16.0 * kUnitRoundoff;
     Aabb box;
     for (const auto& corner : leaf.vertex) {
       for (int i = 0; i < kBvhWidth; ++i) box.add({corner[0][i], corner[1][i], corner[2][i]});

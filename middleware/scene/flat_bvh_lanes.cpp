@@ -11,7 +11,7 @@ namespace foretouch::internal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using BoxTag = hn::CappedTag<float, 16>;           // boxes in lanes
-using ChildTag = hn::CappedTag<float, kBvhWidth>;  // children, or triangles of a leaf, in lanes
+using ChildTag = hn::CappedTag<float, kBvhWidth>;  // children in lanes
 
 // Where more boxes than this for each vector of boxes are alive, a node is asked child by child
 // with boxes in lanes; else box by box with children in lanes. Both say the same: only speed
@@ -47,7 +47,7 @@ HWY_INLINE std::uint64_t lanesMeeting(D d, const float* lower, const float* uppe
   return bitsOf(d, meet);
 }
 
-/// Which of eight boxes, children or triangles, meet one other box.
+/// Which of eight boxes, children, meet one other box.
 template <int kOtherStride>
 HWY_INLINE unsigned eightMeeting(const float* lower, const float* upper, const float* otherLower,
                                  const float* otherUpper) {
@@ -90,12 +90,7 @@ HWY_INLINE void prefetch(const void* object, int bytes) {
 HWY_INLINE void push(BvhWalk& walk, std::uint32_t child, std::uint64_t alive) {
   if ((child & BvhNode::kLeafFlag) != 0) {
     walk.leaf[walk.leavesWaiting++] = {alive, child};
-    const std::uint32_t leaf = child & BvhNode::kLeafMask;
-    if (walk.clusters != nullptr) {
-      prefetch(walk.clusters + leaf, sizeof(Cluster));
-    } else {
-      prefetch(walk.leaves + leaf, sizeof(BvhLeaf));
-    }
+    prefetch(walk.clusters + (child & BvhNode::kLeafMask), sizeof(Cluster));
   } else {
     walk.waiting[walk.nodesWaiting++] = {alive, child};
     prefetch(walk.nodes + child, sizeof(BvhNode));
@@ -143,46 +138,17 @@ HWY_INLINE void visitNodes(BvhWalk& walk) {
   }
 }
 
-/// The boxes of a leaf's triangles.
-struct TriangleBoxes {
-  alignas(64) float lower[3][kBvhWidth];
-  alignas(64) float upper[3][kBvhWidth];
-};
-
-HWY_INLINE void boxTriangles(const BvhLeaf& leaf, TriangleBoxes& boxes) {
-  const ChildTag d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < kBvhWidth; i += lanes) {
-      const auto a = hn::Load(d, leaf.vertex[0][axis] + i);
-      const auto b = hn::Load(d, leaf.vertex[1][axis] + i);
-      const auto c = hn::Load(d, leaf.vertex[2][axis] + i);
-      hn::Store(hn::Min(hn::Min(a, b), c), d, boxes.lower[axis] + i);
-      hn::Store(hn::Max(hn::Max(a, b), c), d, boxes.upper[axis] + i);
-    }
-  }
-}
-
-/// Asks the leaves that wait until the hits fill their room.
-HWY_INLINE void askLeaves(BvhWalk& walk) {
+/// Makes hits of the leaves that wait until they fill their room.
+HWY_INLINE void hitLeaves(BvhWalk& walk) {
   while (walk.leavesDone < walk.leavesWaiting && walk.hitCount + kBoxGroup <= BvhWalk::kHitRoom) {
     const BvhWalk::Entry entry = walk.leaf[walk.leavesDone++];
     const std::uint32_t index = entry.target & BvhNode::kLeafMask;
     const unsigned last = (entry.target & ~BvhNode::kLeafFlag) >> BvhNode::kCountShift;
-    const unsigned used = (2u << last) - 1;
+    const auto triangles = static_cast<std::uint8_t>((2u << last) - 1);
     ++walk.leavesVisited;
-    TriangleBoxes boxes;
-    if (walk.clusters == nullptr) boxTriangles(walk.leaves[index], boxes);
     for (std::uint64_t alive = entry.alive; alive != 0; alive &= alive - 1) {
-      const int box = lowestBit(alive);
-      unsigned met = used;
-      if (walk.clusters == nullptr) {
-        met &= eightMeeting<kBoxGroup>(boxes.lower[0], boxes.upper[0], walk.lower[0] + box,
-                                       walk.upper[0] + box);
-      }
-      walk.hit[walk.hitCount] = {index, static_cast<std::uint16_t>(walk.firstBox + box),
-                                 static_cast<std::uint8_t>(met)};
-      walk.hitCount += met != 0 ? 1 : 0;
+      const auto box = static_cast<std::uint16_t>(walk.firstBox + lowestBit(alive));
+      walk.hit[walk.hitCount++] = {index, box, triangles};
     }
   }
   if (walk.leavesDone == walk.leavesWaiting) walk.leavesDone = walk.leavesWaiting = 0;
@@ -191,7 +157,7 @@ HWY_INLINE void askLeaves(BvhWalk& walk) {
 void continueWalkInLanes(BvhWalk& walk) {
   walk.hitCount = 0;
   visitNodes(walk);
-  askLeaves(walk);
+  hitLeaves(walk);
 }
 
 /// Bounds of as many boxes as there are lanes, `missing` where there are fewer than that left.

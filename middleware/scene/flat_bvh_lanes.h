@@ -60,8 +60,7 @@ struct BoxLanes {
   static constexpr int kMaxBoxes = 1 << 16;
 };
 
-/// Bit i of `triangles`: the box of the leaf's i-th triangle meets box `box`; or, of whole leaves,
-/// the leaf has an i-th triangle. Never 0.
+/// Bit i of `triangles`: the leaf has an i-th triangle, which is looked for in box `box`. Never 0.
 struct LeafHit {
   std::uint32_t leaf;
   std::uint16_t box;
@@ -84,10 +83,8 @@ struct BvhWalk {
   };
 
   const BvhNode* nodes;
-  const BvhLeaf* leaves;
-  /// Not null: hits are whole leaves, of which nothing is read but what follows them here.
-  const Cluster* clusters;
-  int firstBox;  ///< Added to the boxes of the hits.
+  const Cluster* clusters;  ///< Of a leaf that is hit the first to be read, by whoever follows.
+  int firstBox;             ///< Added to the boxes of the hits.
 
   // Copied from the caller's boxes, the rest empty; their union.
   int vectorsOfBoxes;

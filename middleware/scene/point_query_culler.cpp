@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lss/assert.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 namespace {

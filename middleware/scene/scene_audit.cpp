@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lss/rounding.h"
 #include "middleware/scene/raw_scene.h"
 
 namespace foretouch {
@@ -71,7 +72,7 @@ bool onLine(double ax, double ay, double bx, double by, double cx, double cy) {
   // With u = 2^-53, each product is off by 3u + O(u^2) of itself (two differences, one product);
   // 4u leaves room for the roundings of this comparison and, above 1e-280, for underflow. What
   // overflows is not a number here or fails the comparison, and goes the exact way too.
-  constexpr double kRounding = 4.0 * 0x1p-53;
+  constexpr double kRounding = 4.0 * kUnitRoundoff;
   const double magnitude = std::abs(left) + std::abs(right);
   if (magnitude > 1e-280 && std::abs(left - right) > kRounding * magnitude) return false;
   ExactSum determinant;

@@ -72,13 +72,6 @@ MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail)
   return kind == MailKind::Pose ? Posted::DroppedPose : Posted::DroppedSkeleton;
 }
 
-MailRoom::Taken MailRoom::take(std::size_t& avatar, std::unique_ptr<Mail>& mail,
-                               std::chrono::milliseconds wait) {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, wait, [&] { return mayTake() || isOver(); });
-  return takeNow(avatar, mail);
-}
-
 MailRoom::Taken MailRoom::takeOrLead(std::size_t& avatar, std::unique_ptr<Mail>& mail,
                                      std::chrono::milliseconds wait) {
   std::unique_lock lock(mutex_);
@@ -132,13 +125,6 @@ void MailRoom::close() {
   const std::lock_guard lock(mutex_);
   isClosed_ = true;
   changed_.notify_all();
-}
-
-std::size_t MailRoom::waitingPoses() const {
-  const std::lock_guard lock(mutex_);
-  std::size_t waiting = 0;
-  for (const Box& box : boxes_) waiting += box.poses;
-  return waiting;
 }
 
 }  // namespace foretouch

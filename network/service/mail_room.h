@@ -54,13 +54,11 @@ class MailRoom {
 
   enum class Taken : std::uint8_t { Mail, Lead, Nothing, Closed };
   /// The next mail of an avatar that nobody handles, in exchange for `mail`; waits up to `wait` for
-  /// one. The avatar is the caller's until finish(). Closed: there is none left and none to come.
-  Taken take(std::size_t& avatar, std::unique_ptr<Mail>& mail, std::chrono::milliseconds wait);
-  void finish(std::size_t avatar);
-  /// The same; where there is no mail to take and no leader, the caller becomes it, until
-  /// endLead().
+  /// one. The avatar is the caller's until finish(). Where there is none and no leader either, the
+  /// caller becomes it, until endLead(). Closed: there is no mail left and none to come.
   Taken takeOrLead(std::size_t& avatar, std::unique_ptr<Mail>& mail,
                    std::chrono::milliseconds wait);
+  void finish(std::size_t avatar);
   /// `isForGood`: nobody leads from now on, as nothing more will come.
   void endLead(bool isForGood);
   /// Until a leader has ended for good.
@@ -68,8 +66,6 @@ class MailRoom {
 
   /// Takes no more mail; what waits is still given out.
   void close();
-  /// Poses that wait, of all avatars.
-  [[nodiscard]] std::size_t waitingPoses() const;
 
  private:
   struct Box {
@@ -90,7 +86,7 @@ class MailRoom {
   Taken takeNow(std::size_t& avatar, std::unique_ptr<Mail>& mail);
 
   const std::size_t maxPoses_, maxHandled_;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Box> boxes_;
   std::vector<std::size_t> ready_;  // avatars with mail that nobody handles, the longest first

@@ -43,7 +43,6 @@ class StreamSolver {
   /// That the last answered pose ended; valid until the next message is taken.
   [[nodiscard]] const StreamStep& lastStep() const { return lastStep_; }
   /// Of the last answered pose: the query alone, for measurements.
-  [[nodiscard]] double lastQueryUs() const { return lastQueryUs_; }
 
  private:
   StreamSolver(std::int32_t id, const Avatar& avatar, const Scene& scene,

@@ -114,7 +114,7 @@ Reject readContact(contacts_t& wire, std::size_t i, Verdict verdict, AnsweredCon
   LinkContact contact;
   contact.link = wire.links[i];
   contact.verdict = verdict;
-  contact.freeUntil = wire.free_until[i];
+  contact.toi = contact.freeUntil = wire.free_until[i];
   contact.separation = wire.separation[i];
   contact.penetration = wire.penetration[i];
   contact.triangle = wire.triangles[i];
@@ -128,7 +128,6 @@ Reject readContact(contacts_t& wire, std::size_t i, Verdict verdict, AnsweredCon
   if (verdict == Verdict::Undecided) {
     if (!describesNothing(wire, i, contact)) return Reject::OutOfRange;
   } else {
-    contact.toi = contact.freeUntil;
     contact.linkFeature = static_cast<FeatureKind>(wire.link_features[i]);
     contact.sceneFeature = static_cast<FeatureKind>(wire.scene_features[i]);
   }

@@ -48,18 +48,18 @@ void compare(const RandomMotion& m, const ChainNodes& nodes, int k, Random& rand
     const auto& frame = frames[static_cast<std::size_t>(link)];
     const Precise3 p(Vector3d(got.p[0][k], got.p[1][k], got.p[2][k]));
     const double moved = asDouble(norm(p - (frame.origin - origin)));
-    ASSERT_LE(moved, nodes.positionRounding(link));
+    ASSERT_LE(moved, nodes.bounds().positionRounding);
     if (moved > 0.0)
-      shares.position = std::max(shares.position, moved / nodes.positionRounding(link));
-    ASSERT_LE(asDouble(norm(p)), nodes.reach(link) + nodes.positionRounding(link));
+      shares.position = std::max(shares.position, moved / nodes.bounds().positionRounding);
+    ASSERT_LE(asDouble(norm(p)), nodes.bounds().reach + nodes.bounds().positionRounding);
     const Precise3 unit(random.direction());
     const double turned =
         asDouble(norm(rotated(got, k, unit) - oracle::rotate(frame.rotation, unit)));
-    ASSERT_LE(turned, nodes.rotationRounding(link) * (1.0 + 1e-12));
-    shares.rotation = std::max(shares.rotation, turned / nodes.rotationRounding(link));
+    ASSERT_LE(turned, nodes.bounds().rotationRounding * (1.0 + 1e-12));
+    shares.rotation = std::max(shares.rotation, turned / nodes.bounds().rotationRounding);
     const double normSquare = got.q[0][k] * got.q[0][k] + got.q[1][k] * got.q[1][k] +
                               got.q[2][k] * got.q[2][k] + got.q[3][k] * got.q[3][k];
-    ASSERT_NEAR(normSquare, 1.0, nodes.rotationRounding(link));
+    ASSERT_NEAR(normSquare, 1.0, nodes.bounds().rotationRounding);
   }
 }
 
@@ -161,7 +161,7 @@ TEST(ChainNodes, DependOnTheLastCallAlone) {
         for (int row = 0; row < 9; ++row)
           ASSERT_EQ(reused.link(link).R[row][k], fresh.link(link).R[row][k]);
       }
-      ASSERT_EQ(reused.positionRounding(link), fresh.positionRounding(link));
+      ASSERT_EQ(reused.bounds().positionRounding, fresh.bounds().positionRounding);
       ASSERT_EQ(motion.bounds(link).eighthDerivative,
                 ChainMotion(m.skeleton, m.from, m.to).bounds(link).eighthDerivative);
     }

@@ -1,4 +1,7 @@
-// What the documents say of files: every relative link leads to a file, and to a heading of it.
+// What the documents say of files: every relative link leads to a file, and to a heading of it. And
+// that nothing but people has written them.
+#include "tests/house/documents.h"
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -15,22 +18,13 @@
 
 #include "tests/house/source_files.h"
 
+namespace foretouch::house {
 namespace {
 
 namespace fs = std::filesystem;
-using foretouch::house::contentOf;
 
-/// Markdown at the root and in docs/, and the examples' page.
 std::vector<fs::path> documents() {
-  const fs::path root(FORETOUCH_SOURCE_DIR);
-  std::vector<fs::path> found{root / "examples" / "README.md"};
-  for (const fs::path& folder : {root, root / "docs"}) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.path().extension() == ".md") found.push_back(entry.path());
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
+  return documentsBelow(FORETOUCH_SOURCE_DIR);
 }
 
 /// The text without code blocks and code spans: what looks like a link there is none.
@@ -129,4 +123,43 @@ TEST(Documents, AnchorsAreMadeAsHostsMakeThem) {
   EXPECT_EQ(anchorOf("8. Exact fidelity"), "8-exact-fidelity");
 }
 
+TEST(Documents, AllOfThemAreRead) {
+  const std::vector<fs::path> found = documents();
+  const fs::path root(FORETOUCH_SOURCE_DIR);
+  EXPECT_GT(found.size(), 30U);
+  // At the root, in docs/, and beside the code.
+  for (const char* const one : {"README.md", "guarantees.md", "lss_pairs.md", "flat_bvh.md"}) {
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const fs::path& document) {
+      return document.filename() == one;
+    })) << one;
+  }
+  // A source package has no git; what is there besides is what nobody has added yet.
+  const std::vector<fs::path> onDisk = documentsOnDisk(root);
+  EXPECT_TRUE(std::includes(onDisk.begin(), onDisk.end(), found.begin(), found.end()));
+}
+
+TEST(Documents, NoneIsMangled) {
+  for (const fs::path& document : documents()) {
+    for (const std::string& line : mangledLines(contentOf(document))) {
+      ADD_FAILURE() << document << ": " << line;
+    }
+  }
+}
+
+// As clang-format once left three notes of the proof.
+TEST(Documents, MangledOnesAreFound) {
+  const auto count = [](const std::string& text) { return mangledLines(text).size(); };
+  EXPECT_EQ(count("#Advancement of an LSS in float lanes\n"), 1U);
+  EXPECT_EQ(count("text\n\n    ##1. What is proven,\n    and what only proposes\n"), 1U);
+  EXPECT_EQ(count("Belongs to `lss_pairs.h`.u = 2 ^ -24,\n                       the roundoff.\n"),
+            2U);
+  EXPECT_EQ(count("the unit roundoff of float.All quantities are relative\n"), 1U);
+  EXPECT_EQ(count("the difference by u(reach + | shift |), a component\n"), 1U);
+  EXPECT_EQ(count("```cpp\nnever closed\n"), 1U);
+  EXPECT_EQ(count("# Title\n\nText of `a.Bc` and 2^-24.\n\n    formula |a| + |b|\n\n"
+                  "- item\n    goes on\n\n```sh\n#comment\n```\n"),
+            0U);
+}
+
 }  // namespace
+}  // namespace foretouch::house

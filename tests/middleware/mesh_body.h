@@ -1,9 +1,15 @@
-// tests/middleware/mesh_body.h: meshes for the links of a random body.
+// tests/middleware/mesh_body.h: meshes and skins for the links of a random body.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "articulated/motion.h"
+#include "articulated/skin.h"
 #include "lss/triangle.h"
 #include "tests/support/random_geometry.h"
 
@@ -29,6 +35,36 @@ inline std::vector<std::vector<Triangle>> meshWithin(const Avatar& avatar, Rando
     }
   }
   return meshes;
+}
+
+/// Every vertex of a random mesh, blended among its own link and two others.
+struct RandomSkin {
+  Skin skin;
+  std::vector<std::size_t> counts;
+};
+
+inline RandomSkin randomSkin(const Avatar& avatar, const ChainMotion& motion, Random& random) {
+  RandomSkin made;
+  const auto meshes = meshWithin(avatar, random, 8, 0.8);
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    const auto& triangles = meshes[static_cast<std::size_t>(link)];
+    made.counts.push_back(triangles.size());
+    for (const Triangle& triangle : triangles) {
+      std::array<std::int32_t, 3> ids;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Eigen::Vector3d p_W = motion.stateAt(link, 0.0).pointAt(triangle.vertices[i]);
+        const double own = random.uniform(0.5, 1.0);
+        std::vector<SkinInfluence> influences{{link, own, triangle.vertices[i]}};
+        const LinkId other = random.below(avatar.numLinks());
+        const LinkState state = motion.stateAt(other, 0.0);
+        influences.push_back({other, 1.0 - own, state.R_WL.transpose() * (p_W - state.p_WL)});
+        ids[i] = static_cast<std::int32_t>(made.skin.vertices.size());
+        made.skin.vertices.push_back(influences);
+      }
+      made.skin.triangles.push_back(ids);
+    }
+  }
+  return made;
 }
 
 }  // namespace foretouch::test

@@ -1,5 +1,6 @@
-// tests/support/allocation_count.h: how often this program has called malloc or its kin. Its source
-// is compiled into each program that asks, whose allocator it then is.
+// tests/support/allocation_count.h: how often this program has called malloc or its kin, and
+// what it does where there is no memory. Its source is compiled into each program that asks, whose
+// allocator it then is.
 #pragma once
 
 #include <cstdint>
@@ -10,5 +11,10 @@ namespace foretouch::test {
 [[nodiscard]] bool countsAllocations();
 /// Of all threads, since the start.
 [[nodiscard]] std::uint64_t numAllocations();
+
+/// One allocation of the program finds no memory: the one after so many more.
+void failAllocationAfter(std::int64_t more);
+/// None does, from now on. True if one has been failed since it was asked for.
+bool stopFailing();
 
 }  // namespace foretouch::test

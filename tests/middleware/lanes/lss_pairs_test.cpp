@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "judge/distance.h"
+#include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/scene/culler.h"
 #include "tests/support/random_geometry.h"

@@ -150,5 +150,59 @@ TEST_F(Allocations, OfAPoolAreNone) {
   EXPECT_EQ(last, 0U);
 }
 
+/// Every task is answered as without a failure, or not at all; how many were not.
+std::size_t tasksNotAnswered(const std::vector<StepContacts>& answers,
+                             const std::vector<StepContacts>& whole) {
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    EXPECT_EQ(answers[i].links.size(), whole[i].links.size());
+    const bool isMissing = !answers[i].links.empty() &&
+                           answers[i].links[0].verdict == Verdict::Undecided &&
+                           answers[i].links[0].reason == UndecidedReason::None;
+    missing += isMissing ? 1 : 0;
+    for (std::size_t link = 0; link < answers[i].links.size(); ++link) {
+      const LinkContact expected = isMissing ? LinkContact{} : whole[i].links[link];
+      EXPECT_EQ(answers[i].links[link].verdict, expected.verdict);
+      EXPECT_EQ(answers[i].links[link].freeUntil, expected.freeUntil);
+    }
+  }
+  return missing;
+}
+
+// A worker that is broken off, at each of its allocations in turn: what it leaves is told, and
+// claims nothing; the next list is answered as ever.
+TEST_F(Allocations, ThatFailInAPoolLeaveNothingClear) {
+  Random random(8);
+  const Scene scene = Scene::build(test::clutter(random, 300, 3, Vector3d::Zero())).value();
+  std::vector<test::RandomBody> bodies;
+  for (int i = 0; i < 4; ++i) bodies.push_back(test::bodyInClutter(random, 6, Vector3d::Zero()));
+  const QueryOptions options;
+  std::vector<StepTask> tasks;
+  for (const test::RandomBody& body : bodies) {
+    tasks.push_back({&body.avatar, &body.from, &body.to, &options});
+  }
+  std::vector<StepContacts> whole;
+  QueryPool reference = QueryPool::start(1).value();
+  ASSERT_TRUE(reference.answer(scene, tasks, whole).ok());
+  std::size_t broken = 0;
+  for (const int threads : {1, 2}) {
+    bool hasFailed = true;
+    for (std::int64_t allocation = 0; hasFailed; ++allocation) {
+      QueryPool pool = QueryPool::start(threads).value();
+      std::vector<StepContacts> answers(tasks.size());
+      test::failAllocationAfter(allocation);
+      const bool isDone = pool.answer(scene, tasks, answers).ok();
+      hasFailed = test::stopFailing();
+      EXPECT_NE(isDone, hasFailed) << allocation;
+      EXPECT_EQ(pool.failures().size(), tasksNotAnswered(answers, whole)) << allocation;
+      EXPECT_EQ(pool.failures().empty(), isDone);
+      broken += pool.failures().size();
+      ASSERT_TRUE(pool.answer(scene, tasks, answers).ok());
+      EXPECT_EQ(tasksNotAnswered(answers, whole), 0U);
+    }
+  }
+  EXPECT_GT(broken, 100U);
+}
+
 }  // namespace
 }  // namespace foretouch

@@ -16,6 +16,8 @@ namespace {
 using Eigen::Vector3d;
 using oracle::Precise3;
 using test::Random;
+using test::randomSkin;
+using test::RandomSkin;
 using Real = oracle::Precise;
 
 bool touches(const LinkContact& contact) {
@@ -91,36 +93,6 @@ TEST(SkinnedContacts, OfAHalfWeightedVertexAreThoseOfItsBlend) {
   }
   EXPECT_GT(hits, 100);
   EXPECT_LT(hits, 290);
-}
-
-/// Every vertex of a random mesh, blended among its own link and two others.
-struct RandomSkin {
-  Skin skin;
-  std::vector<std::size_t> counts;
-};
-
-RandomSkin randomSkin(const Avatar& avatar, const ChainMotion& motion, Random& random) {
-  RandomSkin made;
-  const auto meshes = test::meshWithin(avatar, random, 8, 0.8);
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    const auto& triangles = meshes[static_cast<std::size_t>(link)];
-    made.counts.push_back(triangles.size());
-    for (const Triangle& triangle : triangles) {
-      std::array<std::int32_t, 3> ids;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Vector3d p_W = motion.stateAt(link, 0.0).pointAt(triangle.vertices[i]);
-        const double own = random.uniform(0.5, 1.0);
-        std::vector<SkinInfluence> influences{{link, own, triangle.vertices[i]}};
-        const LinkId other = random.below(avatar.numLinks());
-        const LinkState state = motion.stateAt(other, 0.0);
-        influences.push_back({other, 1.0 - own, state.R_WL.transpose() * (p_W - state.p_WL)});
-        ids[i] = static_cast<std::int32_t>(made.skin.vertices.size());
-        made.skin.vertices.push_back(influences);
-      }
-      made.skin.triangles.push_back(ids);
-    }
-  }
-  return made;
 }
 
 /// The blend in fifty digits.

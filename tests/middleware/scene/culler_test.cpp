@@ -80,16 +80,5 @@ TEST(TriangleCullers, SurviveCoincidentTriangles) {
   EXPECT_EQ(collected(*scene.parts().pointQueryCuller().value(), box).size(), 20000u);
 }
 
-TEST(FloatBounds, NeverRoundInward) {
-  Random random(3);
-  for (int i = 0; i < 100000; ++i) {
-    const double x = random.magnitude(1e-50, 1e30) * (random.chance(0.5) ? 1.0 : -1.0);
-    EXPECT_LE(static_cast<double>(internal::floatBelow(x)), x);
-    EXPECT_GE(static_cast<double>(internal::floatAbove(x)), x);
-  }
-  EXPECT_EQ(internal::floatBelow(0.5), 0.5f);
-  EXPECT_EQ(internal::floatAbove(0.5), 0.5f);
-}
-
 }  // namespace
 }  // namespace foretouch

