@@ -2,24 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <exception>
-#include <filesystem>
 #include <string_view>
 
 #include "assets/import/glb_damage.h"
+#include "assets/import/text.h"
 #include "assets/import/xml_damage.h"
 #include "assets/text_file.h"
 
 namespace foretouch::internal {
 namespace {
-
-std::string extensionOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 /// Of the formats that assimp reads, those that are XML.
 bool isXml(const std::string& extension) {
@@ -38,7 +30,7 @@ std::string damageOfXmlFile(const std::string& path) {
 
 std::optional<std::string> damageOf(const std::string& path) {
   try {
-    const std::string extension = extensionOf(path);
+    const std::string extension = lowerExtensionOf(path);
     std::string damage;
     if (extension == ".glb") damage = damageOfGlb(path);
     if (extension == ".gltf") damage = damageOfGltf(path);
@@ -52,7 +44,7 @@ std::optional<std::string> damageOf(const std::string& path) {
 
 std::optional<std::string> hopelessDamageOf(const std::string& path) {
   try {
-    if (extensionOf(path) == ".glb" && isGlbWithoutItsJson(path)) return damageOf(path);
+    if (lowerExtensionOf(path) == ".glb" && isGlbWithoutItsJson(path)) return damageOf(path);
   } catch (const std::exception&) {
     // Not readable: for the reader to say.
   }

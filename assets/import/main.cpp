@@ -2,12 +2,9 @@
 // (assets/import/protocol.h), or with --model its nodes, meshes, bones and animations
 // (assets/import/model_stream.h). A helper of the library, run as a child under limits that its
 // parent sets; the only program that links assimp and urdfdom.
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
-#include <filesystem>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -19,6 +16,7 @@
 #include "assets/import/model.h"
 #include "assets/import/model_stream.h"
 #include "assets/import/scene.h"
+#include "assets/import/text.h"
 
 namespace foretouch::internal {
 namespace {
@@ -33,15 +31,9 @@ bool writeAll(int fd, std::string_view bytes) {
   return true;
 }
 
-bool isUrdf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".urdf";
-}
-
 bool sendModel(const ModelQuestion& question, ModelWriter& writer) {
-  const Model model = isUrdf(question.path) ? readUrdf(question) : readModel(question);
+  const Model model =
+      lowerExtensionOf(question.path) == ".urdf" ? readUrdf(question) : readModel(question);
   return writer.write(model);
 }
 

@@ -1,5 +1,9 @@
 #include "assets/import/text.h"
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
 #include "assets/text_file.h"
 
 namespace foretouch::internal {
@@ -45,6 +49,13 @@ std::string readableText(std::string_view text, std::size_t limitBytes) {
 
 std::string quotedName(std::string_view name) {
   return "'" + readableText(name, 120) + "'";
+}
+
+std::string lowerExtensionOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
 }  // namespace foretouch::internal

@@ -16,4 +16,7 @@ namespace foretouch::internal {
 /// A name of the file for a message: readable, at most 120 bytes of it, in single quotes.
 [[nodiscard]] std::string quotedName(std::string_view name);
 
+/// ".glb" of "a/B.GLB".
+[[nodiscard]] std::string lowerExtensionOf(const std::string& path);
+
 }  // namespace foretouch::internal

@@ -37,7 +37,7 @@ Fields optionsOf(const ContactsMessage& message) {
 void addContact(const AnsweredContact& answered, Fields& fields) {
   const LinkContact& contact = answered.contact;
   const std::string of = " of " + inQuotes(answered.linkName);
-  fields.push_back({"reason" + of, toString(answered.reason)});
+  fields.push_back({"reason" + of, toString(contact.reason)});
   fields.push_back({"toi" + of, numberText(contact.freeUntil)});
   fields.push_back({"separation" + of, numberText(contact.separation)});
   fields.push_back({"penetration" + of, numberText(contact.penetration)});
