@@ -14,6 +14,7 @@
 
 #include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
+#include "tools/inputs/replay_inputs.h"
 
 namespace foretouch::tools {
 namespace {
