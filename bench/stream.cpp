@@ -143,7 +143,7 @@ std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers) {
 Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place) {
   const StepSelection everyFrame{1, static_cast<std::int64_t>(inputs.clip.frames.size()) - 1};
   SenderOptions options;
-  options.source = "foretouch bench";
+  options.source = "foretouch-bench";
   const ClipSender sender(
       {inputs.avatar, inputs.clip, inputs.match, place, inputs.isUpright, inputs.files.motionPath},
       everyFrame, options);

@@ -9,7 +9,7 @@ namespace foretouch::tools {
 
 enum class ExitCode : int {
   Done = 0,
-  CheckSaysNo = 1,  ///< A check found its subject wanting.
+  CheckSaysNo = 1,  ///< A check found its subject wanting, or part of a damaged input was lost.
   BadInput = 2,     ///< Bad use, bad input, or output that cannot be written.
 };
 

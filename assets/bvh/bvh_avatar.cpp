@@ -13,10 +13,10 @@ namespace foretouch {
 namespace {
 
 using internal::BodyRole;
+using internal::kLegPerStature;
 using internal::radiusPerStature;
 
-// The first is measured, the others are choices; docs/formats.md gives the reasons.
-constexpr double kLegPerStature = 0.49;  // thigh and shank; [Winter09] 0.491, [DeLeva96] 0.492
+// Choices; docs/formats.md gives the reasons.
 constexpr double kShortestBone = 1e-4;   // of stature; below it a bone has no direction to trust
 constexpr double kUnknownRadius = 0.15;  // of the bone's length
 constexpr double kSlenderness = 0.5;     // largest radius of a limb, of the limb's length
@@ -123,18 +123,13 @@ void BodyBuilder::findStature() {
 
 /// Hip to ankle, the mean of all legs; 0 where names tell of none.
 double BodyBuilder::legLength() const {
-  double sum = 0.0;
-  int legs = 0;
+  std::vector<internal::RoleBone> bones;
+  bones.reserve(bones_.size());
   for (const Bone& bone : bones_) {
-    const BodyRole role = roles_[bone.joint];
     const BodyRole next = bone.isTip ? BodyRole::Unknown : roles_[bone.child];
-    const bool isKnee = role == BodyRole::Thigh && next == BodyRole::Shin;
-    const bool isAnkle = role == BodyRole::Shin && (next == BodyRole::Foot || bone.isTip);
-    const bool isWithin = role == next && (role == BodyRole::Thigh || role == BodyRole::Shin);
-    if (isKnee || isAnkle || isWithin) sum += bone.length;
-    legs += isKnee ? 1 : 0;
+    bones.push_back({roles_[bone.joint], next, bone.isTip, bone.length});
   }
-  return legs == 0 ? 0.0 : sum / legs;
+  return internal::legsOf(bones).length;
 }
 
 /// The largest and the second largest extent of the rest pose: height, and the span of the arms.

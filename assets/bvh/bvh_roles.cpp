@@ -100,6 +100,22 @@ std::vector<BodyRole> bodyRoles(const Skeleton& skeleton) {
   return roles;
 }
 
+Legs legsOf(const std::vector<RoleBone>& bones) {
+  Legs legs;
+  double sum = 0.0;
+  for (const RoleBone& bone : bones) {
+    const bool isKnee = bone.role == BodyRole::Thigh && bone.next == BodyRole::Shin;
+    const bool isAnkle = bone.role == BodyRole::Shin && (bone.next == BodyRole::Foot || bone.isTip);
+    const bool isWithin =
+        bone.role == bone.next && (bone.role == BodyRole::Thigh || bone.role == BodyRole::Shin);
+    if (isKnee || isAnkle || isWithin) sum += bone.length;
+    legs.knees += isKnee ? 1 : 0;
+    legs.ankles += isAnkle ? 1 : 0;
+  }
+  if (legs.knees > 0) legs.length = sum / legs.knees;
+  return legs;
+}
+
 // Girths in centimetres, divided by 2 pi and by the mean stature of 178.2: the means of 252 men,
 // [Penrose85] (docs/formats.md). The rest is not in that table and our choice; the reasons are
 // there.

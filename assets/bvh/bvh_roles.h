@@ -30,6 +30,24 @@ enum class BodyRole {
 /// Bandai and MakeHuman, any case) and, where a word has two meanings, from its children's names.
 [[nodiscard]] std::vector<BodyRole> bodyRoles(const Skeleton& skeleton);
 
+/// A bone by the roles of the joints at its ends.
+struct RoleBone {
+  BodyRole role = BodyRole::Unknown;
+  BodyRole next = BodyRole::Unknown;  ///< Unknown where the bone is a tip.
+  bool isTip = false;                 ///< It ends at no joint.
+  double length = 0.0;
+};
+
+/// The mean of all legs.
+struct Legs {
+  int knees = 0, ankles = 0;
+  double length = 0.0;  ///< Hip to ankle; 0 without knees.
+};
+[[nodiscard]] Legs legsOf(const std::vector<RoleBone>& bones);
+
+/// Thigh and shank; [Winter09] 0.491, [DeLeva96] 0.492 (docs/formats.md).
+inline constexpr double kLegPerStature = 0.49;
+
 /// The role's radius as a fraction of stature (docs/formats.md); 0 for Unknown and Root.
 [[nodiscard]] double radiusPerStature(BodyRole role);
 

@@ -7,6 +7,7 @@
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 
+#include "assets/import/file_damage.h"
 #include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
@@ -72,12 +73,15 @@ AssimpFile readWithAssimp(const std::string& path, Animations animations) {
   if (!importer.IsExtensionSupported(extension)) {
     throw Failure{ImportFailure::UnknownFormat, extension};
   }
+  if (const auto damage = hopelessDamageOf(path)) throw Failure{ImportFailure::Refused, *damage};
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr) {
     const std::string reason = importer.GetErrorString();
     // assimp catches its own failed allocations and leaves their name.
     const bool outOfMemory = reason.find("bad_alloc") != std::string::npos;
-    throw Failure{outOfMemory ? ImportFailure::OutOfMemory : ImportFailure::Refused, reason};
+    const auto damage = damageOf(path);  // a count that lies may be what took the memory
+    if (outOfMemory && !damage) throw Failure{ImportFailure::OutOfMemory, reason};
+    throw Failure{ImportFailure::Refused, damage.value_or(reason)};
   }
   if (scene->mRootNode == nullptr) throw Failure{ImportFailure::Refused, "no root node"};
   return {scene, metresPerUnit(importer, *scene)};

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <console_bridge/console.h>
 #include <exception>
@@ -40,7 +41,27 @@ class FirstError : public console_bridge::OutputHandler {
   std::string text_;
 };
 
-urdf::ModelInterfaceSharedPtr parse(const std::string& xml) {
+/// "line 7: " before a reason that puts a word in brackets or quotes, where that word stands on one
+/// line of the file only: urdfdom knows no lines.
+std::string withLine(const std::string& reason, const std::string& text) {
+  for (std::size_t open = reason.find_first_of("['"); open != std::string::npos;
+       open = reason.find_first_of("['", open + 1)) {
+    const std::size_t close = reason.find(reason[open] == '[' ? ']' : '\'', open + 1);
+    if (close == std::string::npos) break;
+    const std::string word = reason.substr(open + 1, close - open - 1);
+    const std::size_t first = text.find(word);
+    open = close;
+    if (word.empty() || first == std::string::npos) continue;
+    const std::size_t end = text.find('\n', first);
+    if (end != std::string::npos && text.find(word, end) != std::string::npos) continue;
+    const auto begin = text.begin();
+    const auto line = std::count(begin, begin + static_cast<std::ptrdiff_t>(first), '\n') + 1;
+    return "line " + std::to_string(line) + ": " + reason;
+  }
+  return reason;
+}
+
+urdf::ModelInterfaceSharedPtr parse(const std::string& xml, const std::string& text) {
   FirstError reason;
   urdf::ModelInterfaceSharedPtr robot;
   try {
@@ -48,9 +69,9 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& xml) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    refuse(error.what());
+    refuse(withLine(error.what(), text));
   }
-  if (!reason.text().empty()) refuse(reason.text());
+  if (!reason.text().empty()) refuse(withLine(reason.text(), text));
   if (robot == nullptr || robot->getRoot() == nullptr) refuse("urdfdom gives no reason");
   return robot;
 }
@@ -163,7 +184,7 @@ Model readUrdf(const ModelQuestion& question) {
                   text.error().message};
   }
   const UrdfText reduced = readUrdfText(text.value());
-  const auto robot = parse(reduced.xml);
+  const auto robot = parse(reduced.xml, text.value());
   ModelBuilder builder;
   for (const std::string& note : reduced.notes) builder.note(note);
   UrdfSurface surface(question, reduced, builder);

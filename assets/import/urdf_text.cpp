@@ -5,6 +5,7 @@
 
 #include "assets/import/assimp.h"
 #include "assets/import/text.h"
+#include "assets/import/xml_damage.h"
 
 namespace foretouch::internal {
 namespace {
@@ -83,20 +84,34 @@ class Reducer {
   UrdfText& out_;
 };
 
+/// TinyXML tells of an element that nothing closes without a line.
+std::string whyMalformed(const std::string& text, const TiXmlDocument& document) {
+  const std::string damage = damageOfXml(text);
+  if (!damage.empty()) return damage;
+  const std::string line = std::to_string(document.ErrorRow());
+  return (document.ErrorRow() > 0 ? "line " + line + ": " : "") + document.ErrorDesc();
+}
+
+std::string withoutRobot(const TiXmlDocument& document) {
+  const TiXmlElement* root = document.RootElement();
+  if (root == nullptr) return "expected a <robot> element, found none";
+  return "line " + std::to_string(root->Row()) + ": expected a <robot> element, found <" +
+         readableText(root->ValueStr(), 80) + ">";
+}
+
 }  // namespace
 
 UrdfText readUrdfText(const std::string& text) {
   if (text.find('\0') != std::string::npos) {
-    throw Failure{ImportFailure::Refused, "not a text: it holds a zero byte"};
+    const std::string damage = damageOfXml(text);
+    throw Failure{ImportFailure::Refused,
+                  damage.empty() ? "not a text: it holds a zero byte" : damage};
   }
   TiXmlDocument document;
   document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
-  if (document.Error()) {
-    throw Failure{ImportFailure::Refused,
-                  "line " + std::to_string(document.ErrorRow()) + ": " + document.ErrorDesc()};
-  }
+  if (document.Error()) throw Failure{ImportFailure::Refused, whyMalformed(text, document)};
   const TiXmlElement* from = document.FirstChildElement("robot");
-  if (from == nullptr) throw Failure{ImportFailure::Refused, "expected a <robot> element"};
+  if (from == nullptr) throw Failure{ImportFailure::Refused, withoutRobot(document)};
   TiXmlElement robot("robot");
   robot.SetAttribute("name", "robot");  // urdfdom refuses robots without a name, which there are
   UrdfText out;

@@ -152,6 +152,24 @@ TEST_F(ImportUrdf, RefusesWhatIsNoXml) {
   }
 }
 
+TEST_F(ImportUrdf, SaysOnWhichLineAFileIsMalformed) {
+  const auto reason = [&](const std::string& text) { return failureOf(text).message; };
+  EXPECT_EQ(reason("<robot name=\"r\">\n<link name=\"a\">\n</robot>\n"),
+            "the importer refused the file: line 3: expected </link>, which closes line 2, found "
+            "</robot>");
+  EXPECT_EQ(reason("<robot name=\"r\">\n<link name=\"a\"/>\n"),
+            "the importer refused the file: line 3: expected </robot>, which closes line 1, found "
+            "the end");
+  EXPECT_EQ(reason("<?xml version=\"1.0\"?>\n<sdf/>"),
+            "the importer refused the file: line 2: expected a <robot> element, found <sdf>");
+  EXPECT_EQ(reason(std::string("<robot>\n\n\0</robot>", 18)),
+            "the importer refused the file: line 3: expected text, found a zero byte");
+  // What urdfdom objects to, where the word stands once.
+  const std::string refused =
+      reason("<robot name=\"r\">\n" + linkWith("<cone radius=\"1\"/>") + "\n</robot>");
+  EXPECT_EQ(refused.rfind("the importer refused the file: line 2: ", 0), 0u) << refused;
+}
+
 TEST_F(ImportUrdf, RefusesFilesAboveItsLimit) {
   std::string text = robot(linkWith(kSphere));
   text.resize((std::size_t{16} << 20) + 1, ' ');

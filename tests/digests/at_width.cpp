@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lss/simd.h"
-#include "tools/program.h"
+#include "tools/commands/commands.h"
 
 int main(int argc, char** argv) {
   const auto simd = argc > 1 ? foretouch::simdFromName(argv[1]) : std::nullopt;
@@ -14,5 +14,5 @@ int main(int argc, char** argv) {
   }
   std::vector<const char*> words(argv + 1, argv + argc);
   words.front() = argv[0];
-  return foretouch::tools::runProgram(argc - 1, words.data());
+  return foretouch::tools::runForetouch(argc - 1, words.data());
 }

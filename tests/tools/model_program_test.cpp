@@ -130,6 +130,49 @@ TEST(AvatarCheck, SaysNoToTrianglesOutsideTheirLssAndTwoToMeshesThatAreNotThere)
   EXPECT_EQ(runForetouch({"avatar", "check", made}).exitCode, 2);
 }
 
+/// Legs 0.44 m long for the unit of 1; Z-up, with the names of a person's legs.
+std::string smallHumanoid() {
+  const auto link = [](const std::string& name, const std::string& length) {
+    return "<link name=\"" + name + "\"><collision><origin xyz=\"0 0 -0.05\"/><geometry>" +
+           "<capsule radius=\"0.02\" length=\"" + length + "\"/></geometry></collision></link>";
+  };
+  const auto joint = [](const std::string& parent, const std::string& child,
+                        const std::string& at) {
+    return "<joint name=\"to_" + child + "\" type=\"fixed\"><parent link=\"" + parent +
+           "\"/><child link=\"" + child + "\"/><origin xyz=\"" + at + "\"/></joint>";
+  };
+  std::string text = "<robot name=\"small\">" + link("torso", "0.2");
+  for (const auto& [side, y] : {std::pair("left_", "0.05"), std::pair("right_", "-0.05")}) {
+    const std::string lead = side;
+    text += link(lead + "thigh", "0.1") + link(lead + "shin", "0.1") + link(lead + "foot", "0.01") +
+            joint("torso", lead + "thigh", std::string("0 ") + y + " -0.1") +
+            joint(lead + "thigh", lead + "shin", "0 0 -0.12") +
+            joint(lead + "shin", lead + "foot", "0 0 -0.1");
+  }
+  return text + "</robot>";
+}
+
+TEST(AvatarCheck, TakesARobotForAsLargeAsItsFileSays) {
+  const TempFolder folder;
+  const std::string made = folder / "small.json";
+  const Ended make =
+      runForetouch({"avatar", "urdf", folder.write("small.urdf", smallHumanoid()), "-o", made});
+  ASSERT_EQ(make.exitCode, 0) << make.err;
+  EXPECT_EQ(make.err, "");
+  const Avatar robot = readAvatarFile(made).value();
+  const auto audit = tools::auditAvatar(robot, restPose(robot.skeleton()));
+  EXPECT_GT(audit.extent.maxCoeff(), 0.4);
+  EXPECT_LT(audit.extent.maxCoeff(), 0.5);  // a person would not be
+  const Ended check = runForetouch({"avatar", "check", made});
+  EXPECT_EQ(check.exitCode, 0) << check.err;
+  // In millimetres, it is no robot.
+  const Ended large = runForetouch(
+      {"avatar", "urdf", folder / "small.urdf", "--scale", "1000", "-o", folder / "large.json"});
+  EXPECT_EQ(large.exitCode, 0);
+  EXPECT_TRUE(holds(large.err, "expected 0.05 to 50 m")) << large.err;
+  EXPECT_EQ(runForetouch({"avatar", "check", folder / "large.json"}).exitCode, 1);
+}
+
 TEST(ReplayJointPositions, FindsWhatTheRobotMeets) {
   const SmallWorld world;
   const std::string robot = world.folder.write("arm.urdf", kRobot);

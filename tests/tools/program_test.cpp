@@ -172,6 +172,53 @@ TEST(AvatarCheck, SaysNoToUnlikelySizesAndToClipsThatDoNotMatch) {
   EXPECT_EQ(runForetouch({"avatar", "check", world.folder / "absent.json"}).exitCode, 2);
 }
 
+/// A person of 1.8 m by the length of the legs, in centimetres.
+std::string personInCentimetres() {
+  std::string text =
+      "HIERARCHY\nROOT Hips\n{\n OFFSET 0 0 0\n"
+      " CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n";
+  for (const auto& [side, x] : {std::pair("Left", "10"), std::pair("Right", "-10")}) {
+    const std::string turns = " CHANNELS 3 Zrotation Xrotation Yrotation\n";
+    text += std::string(" JOINT ") + side + "UpLeg\n {\n OFFSET " + x + " 0 0\n" + turns +
+            " JOINT " + side + "Leg\n {\n OFFSET 0 -45 0\n" + turns + " JOINT " + side +
+            "Foot\n {\n OFFSET 0 -43 0\n" + turns +
+            " End Site\n {\n OFFSET 0 0 15\n }\n }\n }\n }\n";
+  }
+  text +=
+      " JOINT Spine\n {\n OFFSET 0 10 0\n CHANNELS 3 Zrotation Xrotation Yrotation\n"
+      " JOINT Head\n {\n OFFSET 0 50 0\n CHANNELS 3 Zrotation Xrotation Yrotation\n"
+      " End Site\n {\n OFFSET 0 20 0\n }\n }\n }\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n";
+  for (int i = 0; i < 60; ++i) text += i % 30 == 29 ? "0\n" : "0 ";  // 6 of the hips, 3 of 8 joints
+  return text;
+}
+
+TEST(AvatarCheck, SaysNoToAPersonInAnotherUnit) {
+  const TempFolder folder;
+  const std::string clip = folder.write("person.bvh", personInCentimetres());
+  const auto checked = [&](const std::string& scale, const std::string& name) {
+    const Ended make = runForetouch({"avatar", "bvh", clip, "--scale", scale, "-o", folder / name});
+    EXPECT_EQ(make.exitCode, 0) << make.err;
+    return runForetouch({"avatar", "check", folder / name});
+  };
+  const Ended right = checked("0.01", "right.json");
+  EXPECT_EQ(right.exitCode, 0) << right.err;
+  // 0.66 m by legs, and a box that a child of a year would fill.
+  const Ended wrong = checked("0.00369", "wrong.json");
+  EXPECT_EQ(wrong.exitCode, 1) << wrong.out;
+  EXPECT_TRUE(holds(wrong.err, "is 0.663 m tall, by the length of its legs; expected 0.8 to 2.5 m"))
+      << wrong.err;
+  // The clip's unit is told by the avatar's.
+  const std::vector<std::string> match{"avatar",   "check", folder / "right.json",
+                                       "--motion", clip,    "--scale"};
+  std::vector<std::string> good = match, bad = match;
+  good.emplace_back("0.01");
+  bad.emplace_back("1");
+  EXPECT_EQ(runForetouch(good).exitCode, 0);
+  const Ended ended = runForetouch(bad);
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_TRUE(holds(ended.err, "its bones are 100 times as long as the avatar's")) << ended.err;
+}
+
 TEST(SceneCheck, MeasuresObjectsAndSize) {
   const SmallWorld world;
   const Ended ended = runForetouch({"scene", "check", world.folder / "wall.obj"});

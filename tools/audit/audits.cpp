@@ -1,13 +1,15 @@
 #include "tools/audit/audits.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "articulated/motion.h"
-#include "assets/text_file.h"
+#include "assets/bvh/stature.h"
+#include "articulated/quoted.h"
 #include "tools/inputs/played_clip.h"
 
 namespace foretouch::tools {
@@ -24,6 +26,13 @@ std::vector<std::string> sizeDoubt(double largestSide, double least, double most
   if (largestSide >= least && largestSide <= most) return {};
   return {fmt::format("measures {:.4g} m; expected {:g} to {:g} m: is the unit ({}) right?",
                       largestSide, least, most, option)};
+}
+
+/// As importModel() turns the roots of a file whose Z axis points up.
+bool isTurnedFromZUp(const Skeleton& skeleton) {
+  const double half = std::sqrt(0.5);
+  const Quaternion turned(half, -half, 0.0, 0.0);
+  return skeleton.restRotation(0).coeffs().isApprox(turned.coeffs(), 1e-9);
 }
 
 }  // namespace
@@ -55,6 +64,7 @@ AvatarAudit auditAvatar(const Avatar& avatar, const Pose& pose) {
     }
   }
   audit.extent = upper - lower;
+  if (!isTurnedFromZUp(avatar.skeleton())) audit.stature = statureOf(avatar.skeleton());
   return audit;
 }
 
@@ -84,7 +94,17 @@ std::string describe(const SceneAudit& audit) {
 }
 
 std::vector<std::string> doubtsAbout(const AvatarAudit& audit) {
-  return sizeDoubt(audit.extent.maxCoeff(), kSmallestAvatar, kLargestAvatar, "--scale");
+  const double largestSide = audit.extent.maxCoeff();
+  if (!audit.stature) return sizeDoubt(largestSide, kSmallestThing, kLargestThing, "--scale");
+  auto doubts = sizeDoubt(largestSide, kSmallestPerson, kLargestPerson, "--scale");
+  const bool isLikely = *audit.stature >= kSmallestStature && *audit.stature <= kLargestStature;
+  if (doubts.empty() && !isLikely) {
+    doubts.push_back(fmt::format(
+        "is {:.3g} m tall, by the length of its legs; expected {:g} to {:g} m of a person: is the "
+        "unit (--scale) right?",
+        *audit.stature, kSmallestStature, kLargestStature));
+  }
+  return doubts;
 }
 
 std::vector<std::string> doubtsAbout(const SceneAudit& audit) {

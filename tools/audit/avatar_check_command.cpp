@@ -50,16 +50,19 @@ Result<Clip> readClip(const CheckTexts& texts) {
   return std::move(motion).value().clip;
 }
 
-/// How the clip's joints and the avatar's go together, in words; `pose` becomes the first frame's.
+/// How the clip's joints and the avatar's go together, in words; `pose` becomes the first frame's,
+/// and a clip that seems to be in another unit is among the doubts.
 /// An error of code Mismatch, where nothing matches, is what the check says no to.
 Result<std::string> matchOf(const CheckTexts& texts, const Avatar& avatar, const Clip& clip,
-                            Pose& pose) {
+                            Pose& pose, std::vector<std::string>& doubts) {
   const auto match = matchWithMap(avatar.skeleton(), clip.skeleton, texts.map, texts.motion);
   if (!match.ok()) return match.error();
   auto first =
       validatedPose(avatar.skeleton(), poseOfAvatar(avatar.skeleton(), clip, match.value(), 0));
   if (!first.ok()) return first.error();
   pose = std::move(first).value();
+  const auto unit = remarkOnUnit(avatar, clip, match.value(), texts.motion);
+  if (unit) doubts.push_back(*unit);
   const auto& [clipJointOf, unmatchedAvatar, unmatchedClip] = match.value();
   std::string text = fmt::format("  {:<25}{} of {}\n", "joints matched",
                                  clipJointOf.size() - unmatchedAvatar.size(), clipJointOf.size());
@@ -77,7 +80,7 @@ Result<Done> checkMotion(const CheckTexts& texts, const Avatar& avatar, Pose& po
                          Findings& findings) {
   const auto clip = readClip(texts);
   if (!clip.ok()) return clip.error();
-  const auto match = matchOf(texts, avatar, clip.value(), pose);
+  const auto match = matchOf(texts, avatar, clip.value(), pose, findings.doubts);
   if (match.ok()) {
     findings.text += match.value();
   } else if (match.error().code == ErrorCode::Mismatch) {

@@ -30,13 +30,15 @@ struct BvhTexts {
 
 struct ModelTexts {
   std::string model, output, scale = "1", up = "y", maxLss = "4";
-  bool visual = false;
+  bool visual = false, isRobot = false;
   std::vector<std::string> packages;
 };
 
 /// What was made, and what looks wrong about it.
-void tell(const Avatar& avatar, const std::string& output, const std::string& more) {
-  const AvatarAudit audit = auditAvatar(avatar, restPose(avatar.skeleton()));
+void tell(const Avatar& avatar, const std::string& output, const std::string& more,
+          bool isRobot = false) {
+  AvatarAudit audit = auditAvatar(avatar, restPose(avatar.skeleton()));
+  if (isRobot) audit.stature.reset();
   printOut(output + "\n" + describe(audit, "rest pose") + more);
   for (const std::string& doubt : doubtsAbout(audit)) printNote(output + ": " + doubt);
 }
@@ -137,7 +139,7 @@ ExitCode makeFromModel(const ModelTexts& texts) {
 
   std::size_t read = 0;
   for (const ModelMesh& mesh : model.value().meshes) read += mesh.triangles.size();
-  tell(made.value().avatar, texts.output, describe(made.value(), read));
+  tell(made.value().avatar, texts.output, describe(made.value(), read), texts.isRobot);
   return ExitCode::Done;
 }
 
@@ -192,6 +194,7 @@ void addAvatarMeshCommand(CLI::App& avatar, ExitCode& exit) {
 void addAvatarUrdfCommand(CLI::App& avatar, ExitCode& exit) {
   const auto texts = std::make_shared<ModelTexts>();
   texts->up = "z";
+  texts->isRobot = true;
   CLI::App* const command = avatar.add_subcommand(
       "urdf", "Make an avatar from a robot: its spheres and capsules, and LSS around its meshes");
   command->add_option("robot", texts->model, "URDF file")->type_name("ROBOT")->required();

@@ -29,8 +29,6 @@ void addMovedCommand(CLI::App& program, const std::string& name, const std::stri
   });
 }
 
-}  // namespace
-
 void addCommands(CLI::App& program, ExitCode& exit) {
   addDemoCommand(program, exit);
   addReplayCommand(program, exit);
@@ -44,6 +42,16 @@ void addCommands(CLI::App& program, ExitCode& exit) {
   addLogCommand(program, exit);
   addMovedCommand(program, "bench", "foretouch-bench", exit);
   addMovedCommand(program, "tune", "foretouch-bench tune", exit);
+}
+
+}  // namespace
+
+int runForetouch(int argc, const char* const* argv) noexcept {
+  return runProgram(
+      {"foretouch",
+       "Continuous collision detection of avatars: what is touched between two poses.",
+       "Start with: foretouch demo"},
+      addCommands, argc, argv);
 }
 
 }  // namespace foretouch::tools

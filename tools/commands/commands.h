@@ -1,10 +1,11 @@
-// tools/commands/commands.h: all commands of `foretouch`.
+// tools/commands/commands.h: `foretouch`, with all its commands.
 #pragma once
 
 #include "tools/program.h"
 
 namespace foretouch::tools {
 
-void addCommands(CLI::App& program, ExitCode& exit);
+/// The `foretouch` program; see runProgram().
+[[nodiscard]] int runForetouch(int argc, const char* const* argv) noexcept;
 
 }  // namespace foretouch::tools

@@ -63,15 +63,18 @@ std::vector<std::string> remarksOnClip(const Avatar& avatar, const Clip& clip,
     remarks.push_back(fmt::format("{}: {} joints drive nothing: {}", motionPath,
                                   match.unmatchedClip.size(), firstOf(match.unmatchedClip)));
   }
+  const auto unit = remarkOnUnit(avatar, clip, match, motionPath);
+  if (unit) remarks.push_back(*unit);
+  return remarks;
+}
+
+std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,
+                                        const JointMatch& match, const std::string& motionPath) {
   constexpr double kSuspiciousRatio = 2.0;  // people differ by less, centimetres and inches by more
   const double ratio = sizeOfClipToAvatar(avatar.skeleton(), clip, match);
-  if (ratio > kSuspiciousRatio || ratio < 1.0 / kSuspiciousRatio) {
-    remarks.push_back(
-        fmt::format("{}: its bones are {:.4g} times as long as the avatar's; is "
-                    "--scale right?",
-                    motionPath, ratio));
-  }
-  return remarks;
+  if (ratio <= kSuspiciousRatio && ratio >= 1.0 / kSuspiciousRatio) return std::nullopt;
+  return fmt::format("{}: its bones are {:.4g} times as long as the avatar's; is --scale right?",
+                     motionPath, ratio);
 }
 
 std::string firstOf(const std::vector<std::string>& names) {

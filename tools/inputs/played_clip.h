@@ -43,6 +43,11 @@ template <typename Request>
                                                      const std::string& avatarPath,
                                                      const std::string& motionPath);
 
+/// The last of them alone: bones of the clip that are twice as long as the avatar's, or half.
+[[nodiscard]] std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,
+                                                      const JointMatch& match,
+                                                      const std::string& motionPath);
+
 /// "'a', 'b' and 7 more": the first of many names.
 [[nodiscard]] std::string firstOf(const std::vector<std::string>& names);
 

@@ -1,14 +1,12 @@
 #include "tools/log/journal_check.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "assets/json_writer.h"
-#include "tools/stream/contacts_line.h"
+#include "tools/log/answer_difference.h"
 
 namespace foretouch::tools {
 namespace {
@@ -19,41 +17,6 @@ bool sameBytes(ByteView a, ByteView b) {
 
 std::string nameOf(std::int32_t avatar, std::int64_t session, std::int64_t sequence) {
   return fmt::format("avatar {}, session {}, pose {}", avatar, session, sequence);
-}
-
-/// The options under which two answers were given, where they differ: then it is they that differ,
-/// and not the verdicts alone.
-std::string differingOptions(const ContactsMessage& recorded, const ContactsMessage& replayed) {
-  struct Field {
-    const char* name;
-    std::string recorded, replayed;
-  };
-  const std::array<Field, 6> fields{{
-      {"tolerance", numberText(recorded.tolerance), numberText(replayed.tolerance)},
-      {"fidelity", toString(recorded.fidelity), toString(replayed.fidelity)},
-      {"work budget", std::to_string(recorded.workBudget), std::to_string(replayed.workBudget)},
-      {"skeleton hash", std::to_string(recorded.skeletonHash),
-       std::to_string(replayed.skeletonHash)},
-      {"kind", toString(recorded.kind), toString(replayed.kind)},
-      {"number of links", std::to_string(recorded.verdicts.size()),
-       std::to_string(replayed.verdicts.size())},
-  }};
-  for (const Field& field : fields) {
-    if (field.recorded == field.replayed) continue;
-    return fmt::format("the {} is {} in the log, {} here", field.name, field.recorded,
-                       field.replayed);
-  }
-  return "";
-}
-
-std::string differenceOf(const ContactsMessage& recorded, const ContactsMessage& replayed) {
-  const std::string options = differingOptions(recorded, replayed);
-  if (!options.empty()) return options;
-  std::string before = contactsLine(recorded, Stamps::Without);
-  std::string now = contactsLine(replayed, Stamps::Without);
-  before.pop_back();  // the line breaks
-  now.pop_back();
-  return "the log has " + before + ", the replay " + now;
 }
 
 }  // namespace
@@ -108,7 +71,7 @@ void JournalCheck::compare(const ContactsMessage& message, ByteView recorded, By
   const bool isReadable =
       decode(recorded, before) == Reject::None && decode(replayed, now) == Reject::None;
   const std::string text =
-      isReadable ? differenceOf(before, now) : std::string("the two cannot be read");
+      isReadable ? tools::firstDifference(before, now) : std::string("the two cannot be read");
   first_ = Difference{order_, nameOf(message.avatar, message.session, message.sequenceTo) +
                                   " is answered differently: " + text};
 }

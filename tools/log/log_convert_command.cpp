@@ -17,6 +17,8 @@
 #include "tools/arguments.h"
 #include "tools/inputs/numbered_avatars.h"
 #include "tools/interrupt.h"
+#include "tools/log/log_inspection.h"
+#include "tools/log/log_loss.h"
 #include "tools/log/log_to_bvh.h"
 #include "tools/log/replay_log.h"
 #include "tools/progress.h"
@@ -43,42 +45,38 @@ std::string extensionOf(const std::string& path) {
 /// What was written, for a person.
 using Told = Result<std::string>;
 
-Told toJsonLines(const ConvertTexts& texts) {
+Told toJsonLines(const ConvertTexts& texts, LogLoss& loss) {
   const auto channels = channelNames(texts.suffix);
   if (!channels.ok()) return channels.error();
-  auto log = EventLogReader::open(texts.input);
-  if (!log.ok()) return inFile(log.error(), texts.input);
   const InterruptGuard guard;
   auto file = PendingFile::create(texts.output);
   if (!file.ok()) return file.error();
   ProgressBar progress("convert", 100);
-  LogEvent event;
   std::int64_t events = 0;
-  while (!guard.requested()) {
-    const auto more = log.value().next(event);
-    if (!more.ok()) return inFile(more.error(), texts.input);
-    if (!more.value()) break;
+  const auto write = [&](const LogEvent& event, const EventLogReader& log) -> Result<bool> {
     file.value().write(eventLine(event, channels.value()));
     ++events;
-    if (log.value().size() > 0) {
-      progress.advanceTo(
-          static_cast<std::int64_t>(100 * log.value().position() / log.value().size()));
+    if (log.size() > 0) {
+      progress.advanceTo(static_cast<std::int64_t>(100 * log.position() / log.size()));
     }
-  }
+    return !guard.requested();
+  };
+  const auto read = readEvents(texts.input, loss, write);
+  if (!read.ok()) return read.error();
   if (guard.requested()) return std::string();
   const auto written = file.value().commit();
   if (!written.ok()) return written.error();
   return fmt::format("{} events", events);
 }
 
-Told toBvh(const ConvertTexts& texts) {
+Told toBvh(const ConvertTexts& texts, LogLoss& loss) {
   LogToBvhRequest request{texts.input, texts.suffix, 1};
   if (!texts.avatar.empty()) {
     const auto id = parseAvatarId("--avatar", texts.avatar);
     if (!id.ok()) return id.error();
     request.avatar = id.value();
   }
-  const auto bvh = logToBvh(request);
+  const auto bvh = logToBvh(request, loss);
   if (!bvh.ok()) return bvh.error();
   for (const std::string& note : bvh.value().notes) printNote(texts.input + ": " + note);
   const InterruptGuard guard;
@@ -109,7 +107,7 @@ Told toLog(const ConvertTexts& texts) {
                      report.value().skeletons, options.sender.avatar);
 }
 
-Told convert(const ConvertTexts& texts) {
+Told convert(const ConvertTexts& texts, LogLoss& loss) {
   const std::string extension = extensionOf(texts.output);
   const bool isLog = isEventLog(texts.input);
   const auto separate = checkIsNoInput(texts.output, {texts.input});
@@ -118,8 +116,8 @@ Told convert(const ConvertTexts& texts) {
     return Error{ErrorCode::Mismatch, "--avatar", -1, -1,
                  "makes no sense with lines of JSON, which hold every avatar; expected none"};
   }
-  if (isLog && extension == ".jsonl") return toJsonLines(texts);
-  if (isLog && extension == ".bvh") return toBvh(texts);
+  if (isLog && extension == ".jsonl") return toJsonLines(texts, loss);
+  if (isLog && extension == ".bvh") return toBvh(texts, loss);
   if (!isLog && extension == ".lcmlog" && texts.avatar.empty()) {
     return Error{ErrorCode::Empty, "--avatar", -1, -1,
                  "expected the avatar file that the clip moves"};
@@ -133,11 +131,16 @@ Told convert(const ConvertTexts& texts) {
 }
 
 ExitCode runTexts(const ConvertTexts& texts) {
-  const auto told = convert(texts);
+  LogLoss loss;
+  const auto told = convert(texts, loss);
+  for (const std::string& line : loss.lines()) printError(texts.input + ": " + line);
+  if (!loss.any() && loss.counts().hasCheckSums && !loss.counts().isClosed) {
+    printNote(texts.input + ": " + formatOf(loss.counts()));
+  }
   if (!told.ok()) return failed(told.error());
   const std::string text = texts.output + ": " + told.value() + "\n";
   isStandardOutput(texts.output) ? printAside(text) : printOut(text);
-  return ExitCode::Done;
+  return loss.any() ? ExitCode::CheckSaysNo : ExitCode::Done;
 }
 
 constexpr char kConvertExamples[] = R"(Examples:

@@ -50,30 +50,32 @@ Result<Done> addPose(PoseMessage& pose, Recording& recording) {
   return Done{};
 }
 
-Result<Recording> readRecording(const LogToBvhRequest& request, const ChannelNames& channels) {
-  auto log = EventLogReader::open(request.logPath);
-  if (!log.ok()) return log.error();
-  Recording recording;
-  LogEvent event;
-  for (;;) {
-    const auto more = log.value().next(event);
-    if (!more.ok()) return more.error();
-    if (!more.value()) break;
-    if (event.channel == channels.skeleton) {
-      SkeletonMessage message;
-      if (decode(event.payload, message) != Reject::None || message.avatar != request.avatar) {
-        continue;
-      }
+Result<Done> addEvent(const LogEvent& event, const LogToBvhRequest& request,
+                      const ChannelNames& channels, Recording& recording) {
+  if (event.channel == channels.skeleton) {
+    SkeletonMessage message;
+    if (decode(event.payload, message) == Reject::None && message.avatar == request.avatar) {
       recording.skeletons.emplace(message.hash, std::move(message.skeleton));
-    } else if (event.channel == channels.pose) {
-      PoseMessage message;
-      if (decode(event.payload, message) != Reject::None || message.avatar != request.avatar) {
-        continue;
-      }
-      const auto added = addPose(message, recording);
-      if (!added.ok()) return added.error();
+    }
+  } else if (event.channel == channels.pose) {
+    PoseMessage message;
+    if (decode(event.payload, message) == Reject::None && message.avatar == request.avatar) {
+      return addPose(message, recording);
     }
   }
+  return Done{};
+}
+
+Result<Recording> readRecording(const LogToBvhRequest& request, const ChannelNames& channels,
+                                LogLoss& loss) {
+  Recording recording;
+  const auto read = readEvents(request.logPath, loss,
+                               [&](const LogEvent& event, const EventLogReader&) -> Result<bool> {
+                                 const auto added = addEvent(event, request, channels, recording);
+                                 if (!added.ok()) return added.error();
+                                 return true;
+                               });
+  if (!read.ok()) return read.error();
   if (recording.poses.empty()) {
     return refusal(ErrorCode::Empty,
                    fmt::format("holds no pose of avatar {} that can be read", request.avatar));
@@ -148,10 +150,10 @@ std::vector<std::string> notesOn(const Recording& recording) {
   return notes;
 }
 
-Result<BvhOfLog> convert(const LogToBvhRequest& request) {
+Result<BvhOfLog> convert(const LogToBvhRequest& request, LogLoss& loss) {
   const auto channels = channelNames(request.suffix);
   if (!channels.ok()) return channels.error();
-  auto read = readRecording(request, channels.value());
+  auto read = readRecording(request, channels.value(), loss);
   if (!read.ok()) return read.error();
   const Recording& recording = read.value();
   const auto raw = recording.skeletons.find(recording.poses.front().skeletonHash);
@@ -182,8 +184,8 @@ Result<BvhOfLog> convert(const LogToBvhRequest& request) {
 
 }  // namespace
 
-Result<BvhOfLog> logToBvh(const LogToBvhRequest& request) {
-  auto bvh = convert(request);
+Result<BvhOfLog> logToBvh(const LogToBvhRequest& request, LogLoss& loss) {
+  auto bvh = convert(request, loss);
   if (!bvh.ok()) return inFile(bvh.error(), request.logPath);
   return bvh;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "articulated/result.h"
+#include "tools/log/log_loss.h"
 
 namespace foretouch::tools {
 
@@ -24,7 +25,8 @@ struct BvhOfLog {
 };
 
 /// Errors name the log: no pose or no skeleton of the avatar, more than one session or skeleton, a
-/// pose that does not say where a joint is. Memory: the log's poses.
-[[nodiscard]] Result<BvhOfLog> logToBvh(const LogToBvhRequest& request);
+/// pose that does not say where a joint is. What of a damaged log is lost goes to `loss`, whether
+/// or not the rest makes a file. Memory: the log's poses.
+[[nodiscard]] Result<BvhOfLog> logToBvh(const LogToBvhRequest& request, LogLoss& loss);
 
 }  // namespace foretouch::tools

@@ -40,12 +40,32 @@ TEST(DoubtsAbout, AsksForTheUnitOfAvatarsAndScenesOfUnlikelySize) {
   for (const auto& [side, isLikely] :
        {std::pair(0.4, false), std::pair(1.7, true), std::pair(170.0, false)}) {
     avatar.extent = {0.1, side, 0.1};
+    avatar.stature = 1.7;  // of a person
     EXPECT_EQ(doubtsAbout(avatar).empty(), isLikely) << side;
   }
   for (const auto& [side, isLikely] :
        {std::pair(0.4, false), std::pair(1500.0, true), std::pair(6000.0, false)}) {
     scene.boxMax = {0.0, 0.0, side};
     EXPECT_EQ(doubtsAbout(scene).empty(), isLikely) << side;
+  }
+}
+
+TEST(DoubtsAbout, JudgesPeopleByTheirStatureInAnyPose) {
+  AvatarAudit crouching;
+  crouching.extent = {0.6, 0.9, 0.7};
+  for (const auto& [stature, isLikely] : {std::pair(0.64, false), std::pair(0.9, true),
+                                          std::pair(1.8, true), std::pair(2.7, false)}) {
+    crouching.stature = stature;
+    EXPECT_EQ(doubtsAbout(crouching).empty(), isLikely) << stature;
+  }
+}
+
+TEST(DoubtsAbout, LetsRobotsBeOfAnySizeInMetres) {
+  AvatarAudit robot;
+  for (const auto& [side, isLikely] : {std::pair(0.004, false), std::pair(0.46, true),
+                                       std::pair(12.0, true), std::pair(460.0, false)}) {
+    robot.extent = {0.01, side, 0.01};
+    EXPECT_EQ(doubtsAbout(robot).empty(), isLikely) << side;
   }
 }
 

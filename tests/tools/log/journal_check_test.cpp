@@ -1,6 +1,8 @@
 #include "tools/log/journal_check.h"
 
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -77,6 +79,79 @@ TEST(JournalCheck, SaysWhichOptionDiffers) {
   EXPECT_EQ(c.first(),
             "avatar 1, session 9, pose 1 is answered differently: the tolerance is "
             "0.002 in the log, 0.001 here");
+}
+
+/// Both in contact, link 1 first.
+ContactsMessage touching() {
+  ContactsMessage message = answer(7);
+  message.verdicts = {Verdict::Contact, Verdict::Contact, Verdict::Clear};
+  for (const LinkId link : {1, 0}) {
+    AnsweredContact answered;
+    answered.linkName = link == 0 ? "Hips" : "Arm";
+    answered.objectName = "wall";
+    answered.contact.link = link;
+    answered.contact.verdict = Verdict::Contact;
+    answered.contact.toi = answered.contact.freeUntil = 0.5 - 0.1 * link;
+    answered.contact.separation = 0.0003;
+    answered.contact.triangle = 12;
+    message.contacts.push_back(answered);
+  }
+  return message;
+}
+
+TEST(JournalCheck, NamesTheFieldAndBothValues) {
+  const std::string lead = "avatar 1, session 9, pose 7 is answered differently: ";
+  const std::string where = ", in the step from 6000 to 7000 us";
+  const auto first = [&](const std::function<void(ContactsMessage&)>& change) {
+    Check c;
+    ContactsMessage recorded = touching();
+    change(recorded);
+    c.recorded(recorded);
+    c.replayed(touching());
+    return c.first();
+  };
+  EXPECT_EQ(first([](ContactsMessage& m) { m.lost = 2; }),
+            lead + "the number of lost poses is 2 in the log, 0 here" + where);
+  EXPECT_EQ(first([](ContactsMessage& m) { m.contacts[1].contact.separation = 0.0004; }),
+            lead + "the separation of 'Hips' is 0.0004 in the log, 0.0003 here" + where);
+  EXPECT_EQ(first([](ContactsMessage& m) { m.contacts[0].contact.p_WScene.y() = -0.0; }),
+            lead + "the point of 'Arm' is [0, -0, 0] in the log, [0, 0, 0] here" + where);
+  EXPECT_EQ(first([](ContactsMessage& m) {
+              m.verdicts[0] = Verdict::Clear;
+              m.contacts.pop_back();
+            }),
+            lead + "the verdict of 'Hips' is clear in the log, contact here" + where);
+  EXPECT_EQ(first([](ContactsMessage& m) { std::swap(m.contacts[0], m.contacts[1]); }),
+            lead + "the link of contact 0 is 'Hips' in the log, 'Arm' here" + where);
+  EXPECT_EQ(first([](ContactsMessage& m) {
+              m.contacts[0].contact.triangle = 13;
+              m.contacts[0].objectName = std::string(5000, 'x');
+            }),
+            lead + "the triangle of 'Arm' is 13 in the log, 12 here" + where);
+}
+
+// Whatever differs, it is told in few words.
+TEST(JournalCheck, IsBriefAboutLargeAnswers) {
+  ContactsMessage recorded = answer(7), replayed = recorded;
+  for (LinkId link = 0; link < 200; ++link) {
+    AnsweredContact answered;
+    answered.linkName = "a rather long name of link " + std::to_string(link);
+    answered.objectName = std::string(200, 'o');
+    answered.contact.link = link;
+    answered.contact.verdict = Verdict::Contact;
+    answered.contact.freeUntil = answered.contact.toi = 1.0 / 3.0;
+    recorded.contacts.push_back(answered);
+    answered.contact.p_WLink = {1.0 / 3.0, -1.0 / 7.0, 1e-300 / 3.0};
+    replayed.contacts.push_back(answered);
+  }
+  recorded.verdicts = replayed.verdicts = std::vector<Verdict>(200, Verdict::Contact);
+  Check c;
+  c.recorded(recorded);
+  c.replayed(replayed);
+  EXPECT_NE(c.first().find("the point on the link of 'a rather long name of link 0' is [0, 0, 0]"),
+            std::string::npos)
+      << c.first();
+  EXPECT_LT(c.first().size(), 400u) << c.first();
 }
 
 TEST(JournalCheck, NamesWhatOneSideLacks) {

@@ -166,5 +166,39 @@ TEST(LogProgram, RecoverLeavesNothingHalfDone) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"own.lcmlog"}));
 }
 
+TEST(LogProgram, ConvertSaysWhatADamagedLogHasLost) {
+  const TempFolder folder;
+  const std::string out = folder / "events.jsonl";
+  const auto linesIn = [&] {
+    const std::string text = contentOf(out);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  Ended ended = runForetouch({"log", "convert", damagedLog(folder), "-o", out});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_EQ(linesIn(), 17);
+  for (const char* part :
+       {": bad block\n", "events 9 to 11 are missing: between stamps 1080000 and 1120000 us\n",
+        "damaged: 17 events were read; lost: 1 bad block, 3 events, 387 bytes\n"}) {
+    EXPECT_NE(ended.err.find("damaged.lcmlog: "), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find(part), std::string::npos) << part << "\n" << ended.err;
+  }
+
+  const std::string log = contentOf(writeLog(folder));
+  const std::size_t tail = log.find(std::string(100, '\x07'));
+  ended = runForetouch(
+      {"log", "convert", folder.write("cut.lcmlog", log.substr(0, tail + 150)), "-o", out});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_EQ(linesIn(), 6);
+  EXPECT_NE(ended.err.find("nothing is read after event 5, stamp 1050000 us"), std::string::npos)
+      << ended.err;
+
+  // Cut behind a block: as of a writer that was stopped, or is writing still.
+  ended = runForetouch(
+      {"log", "convert", folder.write("open.lcmlog", log.substr(0, tail - 29 - 129)), "-o", out});
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_EQ(linesIn(), 6);
+  EXPECT_NE(ended.err.find("not closed"), std::string::npos) << ended.err;
+}
+
 }  // namespace
 }  // namespace foretouch::test

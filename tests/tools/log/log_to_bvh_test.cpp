@@ -149,10 +149,12 @@ class LogOfChain {
 TEST(LogToBvh, WritesAFrameAPose) {
   const test::TempFolder folder;
   const LogOfChain chain(folder / "a.lcmlog");
-  const auto bvh = logToBvh({folder / "a.lcmlog", "", 1});
+  LogLoss loss;
+  const auto bvh = logToBvh({folder / "a.lcmlog", "", 1}, loss);
   ASSERT_TRUE(bvh.ok()) << describe(bvh.error());
   EXPECT_EQ(bvh.value().frames, LogOfChain::kPoses);
   EXPECT_TRUE(bvh.value().notes.empty());
+  EXPECT_FALSE(loss.any());
   const Clip clip = parseBvh(bvh.value().text, "a.bvh").value();
   EXPECT_NEAR(clip.frameTimeS, 0.02, 1e-12);
   ASSERT_EQ(clip.frames.size(), 8u);
@@ -166,7 +168,8 @@ TEST(LogToBvh, SaysWhatABvhFileDoesNotHold) {
     if (i >= 4) pose.sequence += 3, pose.utimeUs += 60'000;
     if (i == 6) pose.sequence = 1;
   });
-  const auto bvh = logToBvh({folder / "lost.lcmlog", "", 1});
+  LogLoss loss;
+  const auto bvh = logToBvh({folder / "lost.lcmlog", "", 1}, loss);
   ASSERT_TRUE(bvh.ok()) << describe(bvh.error());
   std::string notes;
   for (const std::string& note : bvh.value().notes) notes += note + "\n";
@@ -183,7 +186,8 @@ TEST(LogToBvh, RefusesWhatIsNoClip) {
                            bool hasSkeleton = true) {
     const std::string path = folder / (std::to_string(number++) + ".lcmlog");
     const LogOfChain chain(path, change, hasSkeleton);
-    const auto bvh = logToBvh({path, "", 1});
+    LogLoss loss;
+    const auto bvh = logToBvh({path, "", 1}, loss);
     return bvh.ok() ? "none" : describe(bvh.error());
   };
   EXPECT_NE(errorOf([](int i, PoseMessage& pose) {

@@ -148,6 +148,8 @@ TEST(ReplayOfALog, ComparesWithTheJournal) {
   EXPECT_EQ(differs.exitCode, 1);
   EXPECT_TRUE(holds(differs.out, "59 of 60 verdicts")) << differs.out;
   EXPECT_TRUE(holds(differs.out, "pose 17 is answered differently")) << differs.out;
+  EXPECT_TRUE(holds(differs.out, "the number of lost poses is 1 in the log, 0 here, in the step "))
+      << differs.out;
 
   const std::string less = world.journal(
       "less.lcmlog", [](const ContactsMessage& answer) { return answer.sequenceTo != 23; });
@@ -282,6 +284,20 @@ TEST(LogConvert, WritesALineAnEvent) {
   int poses = 0;
   for (const std::string& line : lines) poses += static_cast<int>(json::parse(line).count("pose"));
   EXPECT_EQ(poses, 60);
+}
+
+TEST(LogConvert, WritesTheClipThatADamagedLogStillHolds) {
+  const LoggedWorld world;
+  const std::string bytes = contentOf(world.log);
+  const std::string cut =
+      world.folder.write("cut.lcmlog", bytes.substr(0, bytes.size() - bytes.size() / 3));
+  const std::string bvh = world.folder / "cut.bvh";
+  const Ended ended = runForetouch({"log", "convert", cut, "--output", bvh});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_TRUE(holds(ended.out, "frames of avatar 1, in metres")) << ended.out;
+  EXPECT_TRUE(holds(ended.err, "cut.lcmlog: nothing is read after event ")) << ended.err;
+  EXPECT_TRUE(holds(ended.err, "events were read; lost: ")) << ended.err;
+  EXPECT_EQ(contentOf(bvh).rfind("HIERARCHY", 0), 0u);
 }
 
 TEST(LogConvert, RefusesByNameWhatItCannotDo) {

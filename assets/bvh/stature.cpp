@@ -1,0 +1,25 @@
+#include "assets/bvh/stature.h"
+
+#include <vector>
+
+#include "assets/bvh/bvh_roles.h"
+
+namespace foretouch {
+
+std::optional<double> statureOf(const Skeleton& skeleton) {
+  const std::vector<internal::BodyRole> roles = internal::bodyRoles(skeleton);
+  std::vector<internal::RoleBone> bones;
+  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+    const JointId parent = skeleton.parent(joint);
+    if (parent == kNoParent) continue;
+    bones.push_back({roles[static_cast<std::size_t>(parent)],
+                     roles[static_cast<std::size_t>(joint)], false,
+                     skeleton.restOffset(joint).norm()});
+  }
+  const internal::Legs legs = internal::legsOf(bones);
+  // A skeleton has no End Sites: where a shin ends without a foot, its length is not known.
+  if (legs.knees == 0 || legs.ankles != legs.knees || !(legs.length > 0.0)) return std::nullopt;
+  return legs.length / internal::kLegPerStature;
+}
+
+}  // namespace foretouch

@@ -1,0 +1,62 @@
+#include "assets/import/file_damage.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <exception>
+#include <filesystem>
+#include <string_view>
+
+#include "assets/import/glb_damage.h"
+#include "assets/import/xml_damage.h"
+#include "assets/text_file.h"
+
+namespace foretouch::internal {
+namespace {
+
+std::string extensionOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+/// Of the formats that assimp reads, those that are XML.
+bool isXml(const std::string& extension) {
+  constexpr std::array<std::string_view, 6> kExtensions{".dae", ".x3d",     ".amf",
+                                                        ".irr", ".irrmesh", ".xml"};
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+std::string damageOfXmlFile(const std::string& path) {
+  constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
+  const auto text = readWholeFile(path, kMaxBytes);
+  return text.ok() ? damageOfXml(text.value()) : "";
+}
+
+}  // namespace
+
+std::optional<std::string> damageOf(const std::string& path) {
+  try {
+    const std::string extension = extensionOf(path);
+    std::string damage;
+    if (extension == ".glb") damage = damageOfGlb(path);
+    if (extension == ".gltf") damage = damageOfGltf(path);
+    if (isXml(extension)) damage = damageOfXmlFile(path);
+    if (!damage.empty()) return damage;
+  } catch (const std::exception&) {
+    // Out of memory, say: the reader's own reason has to do.
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> hopelessDamageOf(const std::string& path) {
+  try {
+    if (extensionOf(path) == ".glb" && isGlbWithoutItsJson(path)) return damageOf(path);
+  } catch (const std::exception&) {
+    // Not readable: for the reader to say.
+  }
+  return std::nullopt;
+}
+
+}  // namespace foretouch::internal

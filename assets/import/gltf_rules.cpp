@@ -1,0 +1,284 @@
+#include "assets/import/gltf_rules.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "assets/import/gltf_extents.h"
+#include "articulated/quoted.h"
+
+namespace foretouch::internal {
+namespace {
+
+using nlohmann::json;
+
+enum class Kind : std::uint8_t {
+  Object,
+  List,
+  Text,
+  Count,    ///< A whole number, 0 or above.
+  Number3,  ///< A list of that many numbers.
+  Number4,
+  Number16,
+  Index,       ///< The number of an element of `target`, a list at the root.
+  LocalIndex,  ///< The same, of a list of the animation at hand.
+  ComponentType,
+  ElementType,
+  AnimatedPath,
+};
+
+struct Rule {
+  /// Keys from the root on; * stands for every element of a list, or every value of an object.
+  std::string_view path;
+  Kind kind;
+  bool isRequired = false;
+  std::string_view target = {};
+};
+
+// Readers stumble over what is here. Colours and images are in so far as numbers lead to them.
+constexpr Rule kRules[] = {
+    {"asset", Kind::Object, true},
+    {"asset/version", Kind::Text, true},
+    {"scenes", Kind::List},
+    {"nodes", Kind::List},
+    {"meshes", Kind::List},
+    {"skins", Kind::List},
+    {"animations", Kind::List},
+    {"accessors", Kind::List},
+    {"bufferViews", Kind::List},
+    {"buffers", Kind::List},
+    {"scene", Kind::Index, false, "scenes"},
+    {"scenes/*", Kind::Object},
+    {"scenes/*/nodes", Kind::List},
+    {"scenes/*/nodes/*", Kind::Index, false, "nodes"},
+    {"nodes/*", Kind::Object},
+    {"nodes/*/children", Kind::List},
+    {"nodes/*/children/*", Kind::Index, false, "nodes"},
+    {"nodes/*/mesh", Kind::Index, false, "meshes"},
+    {"nodes/*/skin", Kind::Index, false, "skins"},
+    {"nodes/*/camera", Kind::Index, false, "cameras"},
+    {"nodes/*/matrix", Kind::Number16},
+    {"nodes/*/translation", Kind::Number3},
+    {"nodes/*/rotation", Kind::Number4},
+    {"nodes/*/scale", Kind::Number3},
+    {"meshes/*", Kind::Object},
+    {"meshes/*/primitives", Kind::List, true},
+    {"meshes/*/primitives/*", Kind::Object},
+    {"meshes/*/primitives/*/attributes", Kind::Object, true},
+    {"meshes/*/primitives/*/attributes/*", Kind::Index, false, "accessors"},
+    {"meshes/*/primitives/*/indices", Kind::Index, false, "accessors"},
+    {"meshes/*/primitives/*/material", Kind::Index, false, "materials"},
+    {"meshes/*/primitives/*/mode", Kind::Count},
+    {"meshes/*/primitives/*/targets/*/*", Kind::Index, false, "accessors"},
+    {"skins/*", Kind::Object},
+    {"skins/*/joints", Kind::List, true},
+    {"skins/*/joints/*", Kind::Index, false, "nodes"},
+    {"skins/*/skeleton", Kind::Index, false, "nodes"},
+    {"skins/*/inverseBindMatrices", Kind::Index, false, "accessors"},
+    {"animations/*", Kind::Object},
+    {"animations/*/samplers", Kind::List, true},
+    {"animations/*/samplers/*", Kind::Object},
+    {"animations/*/samplers/*/input", Kind::Index, true, "accessors"},
+    {"animations/*/samplers/*/output", Kind::Index, true, "accessors"},
+    {"animations/*/channels", Kind::List, true},
+    {"animations/*/channels/*", Kind::Object},
+    {"animations/*/channels/*/sampler", Kind::LocalIndex, true, "samplers"},
+    {"animations/*/channels/*/target", Kind::Object, true},
+    {"animations/*/channels/*/target/node", Kind::Index, false, "nodes"},
+    {"animations/*/channels/*/target/path", Kind::AnimatedPath, true},
+    {"accessors/*", Kind::Object},
+    {"accessors/*/bufferView", Kind::Index, false, "bufferViews"},
+    {"accessors/*/byteOffset", Kind::Count},
+    {"accessors/*/componentType", Kind::ComponentType, true},
+    {"accessors/*/count", Kind::Count, true},
+    {"accessors/*/type", Kind::ElementType, true},
+    {"accessors/*/sparse/count", Kind::Count, true},
+    {"accessors/*/sparse/indices/bufferView", Kind::Index, true, "bufferViews"},
+    {"accessors/*/sparse/values/bufferView", Kind::Index, true, "bufferViews"},
+    {"bufferViews/*", Kind::Object},
+    {"bufferViews/*/buffer", Kind::Index, true, "buffers"},
+    {"bufferViews/*/byteOffset", Kind::Count},
+    {"bufferViews/*/byteLength", Kind::Count, true},
+    {"bufferViews/*/byteStride", Kind::Count},
+    {"buffers/*", Kind::Object},
+    {"buffers/*/byteLength", Kind::Count, true},
+    {"buffers/*/uri", Kind::Text},
+    {"images/*/bufferView", Kind::Index, false, "bufferViews"},
+    {"textures/*/source", Kind::Index, false, "images"},
+    {"textures/*/sampler", Kind::Index, false, "samplers"},
+    {"materials/*", Kind::Object},
+    {"materials/*/pbrMetallicRoughness/baseColorTexture/index", Kind::Index, true, "textures"},
+    {"materials/*/pbrMetallicRoughness/metallicRoughnessTexture/index", Kind::Index, true,
+     "textures"},
+    {"materials/*/normalTexture/index", Kind::Index, true, "textures"},
+    {"materials/*/occlusionTexture/index", Kind::Index, true, "textures"},
+    {"materials/*/emissiveTexture/index", Kind::Index, true, "textures"},
+};
+
+/// A value, or where one is missing, with the path of keys that leads there.
+struct Visited {
+  std::string place;
+  const json* value;      ///< Null where the key is missing.
+  const json* animation;  ///< Around it, if there is one.
+};
+
+std::string keyed(const std::string& place, std::string_view key) {
+  const bool isPlain = std::all_of(key.begin(), key.end(), [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  const std::string shown = isPlain && key.size() <= 48 ? std::string(key) : inQuotes(key);
+  return place.empty() ? shown : place + "." + shown;
+}
+
+/// Every value that `path` leads to from `at` on.
+template <typename Take>
+void visit(const Visited& at, std::string_view path, const Take& take) {
+  const std::size_t slash = path.find('/');
+  const std::string_view key = path.substr(0, slash);
+  const bool isLast = slash == std::string_view::npos;
+  const auto go = [&](const Visited& next) {
+    if (isLast) {
+      take(next);
+    } else if (next.value != nullptr) {
+      visit(next, path.substr(slash + 1), take);
+    }
+  };
+  if (key == "*" && at.value->is_array()) {
+    for (std::size_t i = 0; i < at.value->size(); ++i) {
+      const json& element = (*at.value)[i];
+      const bool isAnimation = at.place == "animations";
+      go({at.place + "[" + std::to_string(i) + "]", &element,
+          isAnimation ? &element : at.animation});
+    }
+  } else if (key == "*" && at.value->is_object()) {
+    for (const auto& [name, element] : at.value->items()) {
+      go({keyed(at.place, name), &element, at.animation});
+    }
+  } else if (key != "*" && at.value->is_object()) {
+    const auto found = at.value->find(std::string(key));
+    go({keyed(at.place, key), found == at.value->end() ? nullptr : &*found, at.animation});
+  }
+}
+
+std::string shown(const json& value) {
+  if (value.is_object()) return "an object";
+  if (value.is_array()) return "a list of " + std::to_string(value.size());
+  if (value.is_string()) return inQuotes(value.get_ref<const std::string&>());
+  return value.dump();
+}
+
+constexpr char kComponentTypes[] = "one of 5120, 5121, 5122, 5123, 5125, 5126";
+constexpr char kElementTypes[] = "one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4";
+constexpr char kAnimatedPaths[] = "one of translation, rotation, scale, weights";
+
+bool isAnimatedPath(const json& value) {
+  return value == "translation" || value == "rotation" || value == "scale" || value == "weights";
+}
+
+bool isNumbers(const json& value, std::size_t count) {
+  return value.is_array() && value.size() == count &&
+         std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); });
+}
+
+std::size_t sizeOf(const json& document, std::string_view list) {
+  const auto found = document.find(std::string(list));
+  return found != document.end() && found->is_array() ? found->size() : 0;
+}
+
+std::string numberOf(std::size_t size, std::string_view list) {
+  return "the number of one of the " + std::to_string(size) + " " + std::string(list);
+}
+
+/// What is expected where `value` is not it; empty where it is.
+std::string unmet(const Rule& rule, const Visited& visited, const json& document) {
+  const json& value = *visited.value;
+  const auto unless = [](bool isMet, const std::string& text) { return isMet ? "" : text; };
+  switch (rule.kind) {
+    case Kind::Object: return unless(value.is_object(), "an object");
+    case Kind::List: return unless(value.is_array(), "a list");
+    case Kind::Text: return unless(value.is_string(), "a text");
+    case Kind::Count: return unless(value.is_number_unsigned(), "a whole number, 0 or above");
+    case Kind::Number3: return unless(isNumbers(value, 3), "a list of 3 numbers");
+    case Kind::Number4: return unless(isNumbers(value, 4), "a list of 4 numbers");
+    case Kind::Number16: return unless(isNumbers(value, 16), "a list of 16 numbers");
+    case Kind::ElementType: return unless(elementShape(value).rows > 0, kElementTypes);
+    case Kind::AnimatedPath: return unless(isAnimatedPath(value), kAnimatedPaths);
+    case Kind::ComponentType: return unless(componentBytes(value) > 0, kComponentTypes);
+    case Kind::Index:
+    case Kind::LocalIndex: break;
+  }
+  const json& holder = rule.kind == Kind::Index ? document : *visited.animation;
+  const std::size_t size = sizeOf(holder, rule.target);
+  const bool isIn = value.is_number_unsigned() && value.get<std::uint64_t>() < size;
+  return unless(isIn, numberOf(size, rule.target));
+}
+
+void checkRule(const Rule& rule, const json& document, Faults& faults) {
+  visit({"", &document, nullptr}, rule.path, [&](const Visited& visited) {
+    if (faults.isFull()) return;
+    if (visited.value == nullptr) {
+      if (rule.isRequired) faults.add(visited.place, "expected this key, found none");
+      return;
+    }
+    const std::string expected = unmet(rule, visited, document);
+    if (!expected.empty()) {
+      faults.add(visited.place, "expected " + expected + ", found " + shown(*visited.value));
+    }
+  });
+}
+
+/// Every node has at most one parent here: a walk upwards ends at a root or comes back.
+void checkCircles(const std::vector<std::int64_t>& parent, Faults& faults) {
+  std::vector<std::int64_t> walkOf(parent.size(), -1);
+  for (std::size_t i = 0; i < parent.size(); ++i) {
+    const auto walk = static_cast<std::int64_t>(i);
+    std::int64_t at = walk;
+    while (at >= 0 && walkOf[static_cast<std::size_t>(at)] < 0) {
+      walkOf[static_cast<std::size_t>(at)] = walk;
+      at = parent[static_cast<std::size_t>(at)];
+    }
+    if (at < 0 || walkOf[static_cast<std::size_t>(at)] != walk) continue;
+    faults.add("nodes[" + std::to_string(at) + "]", "expected a tree, found its own ancestor");
+    return;
+  }
+}
+
+void checkTrees(const json& document, Faults& faults) {
+  const auto nodes = document.find("nodes");
+  if (nodes == document.end()) return;
+  std::vector<std::int64_t> parent(nodes->size(), -1);
+  for (std::size_t i = 0; i < nodes->size(); ++i) {
+    const auto children = (*nodes)[i].find("children");
+    if (children == (*nodes)[i].end()) continue;
+    for (std::size_t k = 0; k < children->size(); ++k) {
+      const auto child = (*children)[k].get<std::size_t>();
+      if (parent[child] >= 0 || child == i) {
+        faults.add("nodes[" + std::to_string(i) + "].children[" + std::to_string(k) + "]",
+                   "expected a node that is no other's child, found " + std::to_string(child) +
+                       (child == i ? ", itself"
+                                   : ", a child of nodes[" + std::to_string(parent[child]) + "]"));
+        return;
+      }
+      parent[child] = static_cast<std::int64_t>(i);
+    }
+  }
+  checkCircles(parent, faults);
+}
+
+}  // namespace
+
+void checkRules(const json& document, Faults& faults) {
+  if (!document.is_object()) {
+    faults.add("the JSON", "expected an object, found " + shown(document));
+    return;
+  }
+  for (const Rule& rule : kRules) {
+    if (faults.isFull()) return;
+    checkRule(rule, document, faults);
+  }
+  if (faults.text().empty()) checkTrees(document, faults);
+}
+
+}  // namespace foretouch::internal

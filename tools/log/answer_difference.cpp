@@ -1,0 +1,102 @@
+#include "tools/log/answer_difference.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "articulated/quoted.h"
+#include "assets/json_writer.h"
+#include "middleware/exact/feature.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// What a person calls it, and its value. Values of the same text are the same, bit for bit.
+struct Field {
+  std::string name, value;
+};
+using Fields = std::vector<Field>;
+using LinkNames = std::map<LinkId, std::string>;
+
+std::string textOf(const Eigen::Vector3d& v) {
+  return fmt::format("[{}, {}, {}]", numberText(v.x()), numberText(v.y()), numberText(v.z()));
+}
+
+Fields optionsOf(const ContactsMessage& message) {
+  return {{"tolerance", numberText(message.tolerance)},
+          {"fidelity", toString(message.fidelity)},
+          {"work budget", std::to_string(message.workBudget)},
+          {"skeleton hash", std::to_string(message.skeletonHash)},
+          {"kind", toString(message.kind)},
+          {"number of links", std::to_string(message.verdicts.size())}};
+}
+
+void addContact(const AnsweredContact& answered, Fields& fields) {
+  const LinkContact& contact = answered.contact;
+  const std::string of = " of " + inQuotes(answered.linkName);
+  fields.push_back({"reason" + of, toString(answered.reason)});
+  fields.push_back({"toi" + of, numberText(contact.freeUntil)});
+  fields.push_back({"separation" + of, numberText(contact.separation)});
+  fields.push_back({"penetration" + of, numberText(contact.penetration)});
+  fields.push_back({"triangle" + of, std::to_string(contact.triangle)});
+  fields.push_back({"object" + of, inQuotes(answered.objectName)});
+  fields.push_back({"point" + of, textOf(contact.p_WScene)});
+  fields.push_back({"point on the link" + of, textOf(contact.p_WLink)});
+  fields.push_back({"normal" + of, textOf(contact.nhat_SL_W)});
+  fields.push_back({"triangle of the link" + of, std::to_string(contact.linkTriangle)});
+  fields.push_back({"feature of the link" + of, toString(contact.linkFeature)});
+  fields.push_back({"feature of the scene" + of, toString(contact.sceneFeature)});
+}
+
+/// All that is not an option. Verdicts come before what contacts say, so that the lists of contacts
+/// are of the same links where their fields are compared.
+Fields answerOf(const ContactsMessage& message, const LinkNames& names) {
+  Fields fields{{"sequence that it begins with", std::to_string(message.sequenceFrom)},
+                {"utime that it begins with", std::to_string(message.utimeFromUs)},
+                {"utime that it ends with", std::to_string(message.utimeToUs)},
+                {"number of lost poses", std::to_string(message.lost)}};
+  for (std::size_t i = 0; i < message.verdicts.size(); ++i) {
+    const auto name = names.find(static_cast<LinkId>(i));
+    fields.push_back(
+        {"verdict of " + (name == names.end() ? fmt::format("link {}", i) : inQuotes(name->second)),
+         toString(message.verdicts[i])});
+  }
+  for (std::size_t i = 0; i < message.contacts.size(); ++i) {
+    fields.push_back(
+        {fmt::format("link of contact {}", i), inQuotes(message.contacts[i].linkName)});
+  }
+  for (const AnsweredContact& answered : message.contacts) addContact(answered, fields);
+  return fields;
+}
+
+/// Both have the same fields up to the first that differs.
+std::string differenceIn(const Fields& recorded, const Fields& replayed) {
+  for (std::size_t i = 0; i < std::min(recorded.size(), replayed.size()); ++i) {
+    if (recorded[i].value == replayed[i].value) continue;
+    return fmt::format("the {} is {} in the log, {} here", recorded[i].name, recorded[i].value,
+                       replayed[i].value);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string firstDifference(const ContactsMessage& recorded, const ContactsMessage& replayed) {
+  const std::string options = differenceIn(optionsOf(recorded), optionsOf(replayed));
+  if (!options.empty()) return options;
+  LinkNames names;
+  for (const ContactsMessage* message : {&recorded, &replayed}) {
+    for (const AnsweredContact& answered : message->contacts) {
+      names.emplace(answered.contact.link, answered.linkName);
+    }
+  }
+  const std::string difference = differenceIn(answerOf(recorded, names), answerOf(replayed, names));
+  return fmt::format("{}, in the step from {} to {} us",
+                     difference.empty() ? "their bytes alone differ" : difference,
+                     replayed.utimeFromUs, replayed.utimeToUs);
+}
+
+}  // namespace foretouch::tools
