@@ -337,7 +337,7 @@ std::string readFile(const std::string& name) {
 TEST(ServeProgram, ShipsAConfigurationThatIsLegal) {
   const auto config = tools::parseServeConfig(readFile("service.toml"), "service.toml");
   ASSERT_TRUE(config.ok()) << describe(config.error());
-  EXPECT_EQ(config.value().workers, 2);
+  EXPECT_EQ(config.value().service.workers, 2);
 }
 
 TEST(ServeProgram, ShipsAUnitThatSystemdAccepts) {
