@@ -145,6 +145,7 @@ class Extents {
     const std::uint64_t held = numberAt(view, "byteLength", 0);
     const std::uint64_t offset = numberAt(accessor, "byteOffset", 0);
     const std::uint64_t count = numberAt(accessor, "count", 0);
+    const std::uint64_t place = numberAt(view, "byteOffset", 0) + offset;
     if (count == 0) {
       faults_.add(placed("accessors", i, "count"), "expected 1 or above, found 0");
     } else if (offset > held || element > held - offset ||
@@ -154,6 +155,10 @@ class Extents {
                                               std::to_string(count) + " of them, " +
                                               bytesText(stride) + " apart, from byte " +
                                               std::to_string(offset) + " on");
+    } else if (place % component != 0) {
+      faults_.add(placed("accessors", i), "expected to begin at a multiple of " +
+                                              bytesText(component) + " of the buffer, found byte " +
+                                              std::to_string(place));
     }
   }
 

@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "assets/import/gltf_extents.h"
 #include "articulated/quoted.h"
+#include "assets/import/gltf_extents.h"
 
 namespace foretouch::internal {
 namespace {
@@ -24,6 +24,7 @@ enum class Kind : std::uint8_t {
   Number16,
   Index,       ///< The number of an element of `target`, a list at the root.
   LocalIndex,  ///< The same, of a list of the animation at hand.
+  Mode,
   ComponentType,
   ElementType,
   AnimatedPath,
@@ -70,7 +71,7 @@ constexpr Rule kRules[] = {
     {"meshes/*/primitives/*/attributes/*", Kind::Index, false, "accessors"},
     {"meshes/*/primitives/*/indices", Kind::Index, false, "accessors"},
     {"meshes/*/primitives/*/material", Kind::Index, false, "materials"},
-    {"meshes/*/primitives/*/mode", Kind::Count},
+    {"meshes/*/primitives/*/mode", Kind::Mode},
     {"meshes/*/primitives/*/targets/*/*", Kind::Index, false, "accessors"},
     {"skins/*", Kind::Object},
     {"skins/*/joints", Kind::List, true},
@@ -173,6 +174,10 @@ constexpr char kComponentTypes[] = "one of 5120, 5121, 5122, 5123, 5125, 5126";
 constexpr char kElementTypes[] = "one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4";
 constexpr char kAnimatedPaths[] = "one of translation, rotation, scale, weights";
 
+bool isMode(const json& value) {
+  return value.is_number_unsigned() && value.get<std::uint64_t>() <= 6;
+}
+
 bool isAnimatedPath(const json& value) {
   return value == "translation" || value == "rotation" || value == "scale" || value == "weights";
 }
@@ -205,6 +210,7 @@ std::string unmet(const Rule& rule, const Visited& visited, const json& document
     case Kind::Number16: return unless(isNumbers(value, 16), "a list of 16 numbers");
     case Kind::ElementType: return unless(elementShape(value).rows > 0, kElementTypes);
     case Kind::AnimatedPath: return unless(isAnimatedPath(value), kAnimatedPaths);
+    case Kind::Mode: return unless(isMode(value), "a whole number from 0 to 6");
     case Kind::ComponentType: return unless(componentBytes(value) > 0, kComponentTypes);
     case Kind::Index:
     case Kind::LocalIndex: break;

@@ -166,6 +166,8 @@ TEST_F(FileDamage, OfADocumentNamesTheKey) {
             "found accessors[0] of type VEC2");
   EXPECT_EQ(damage("\"meshes\"", "\"mesh\u00e9s\""),
             "nodes[1].mesh: expected the number of one of the 0 meshes, found 0");
+  EXPECT_EQ(damage(R"("indices":1)", R"("indices":1,"mode":9)"),
+            "meshes[0].primitives[0].mode: expected a whole number from 0 to 6, found 9");
   EXPECT_EQ(damage("POSITION", "POSITIOM"),
             "meshes[0].primitives[0].attributes.POSITION: expected this key, found none");
   EXPECT_EQ(damage(R"("count":3,"type":"SCALAR")", R"("count":2,"type":"SCALAR")"),
@@ -190,6 +192,9 @@ TEST_F(FileDamage, OfExtentsNamesWhatDoesNotFit) {
   EXPECT_EQ(damage(R"("byteOffset":36)", R"("byteOffset":40)"),
             "bufferViews[1]: expected bytes within the 44 bytes of buffers[0], found 6 bytes from "
             "byte 40 on");
+  EXPECT_EQ(
+      damage(R"("byteOffset":36)", R"("byteOffset":35)"),
+      "accessors[1]: expected to begin at a multiple of 2 bytes of the buffer, found byte 35");
   EXPECT_EQ(damage(R"("byteLength":44)", R"("byteLength":45)"),
             "buffers[0].byteLength: expected at most the 44 bytes of the file's binary chunk, "
             "found 45");

@@ -214,7 +214,7 @@ TEST(IncludeArrows, JsonIsParsedInFewRooms) {
       rooms.insert(folder + ("/" + roomOf(include.file.lexically_relative(root).string())));
     }
   }
-  EXPECT_EQ(rooms, (std::set<std::string>{"assets/avatar", "assets/mesh", "tools/glb",
+  EXPECT_EQ(rooms, (std::set<std::string>{"assets/avatar", "assets/import", "assets/mesh", "tools/glb",
                                           "tools/inputs", "tools/sweep"}));
 }
 

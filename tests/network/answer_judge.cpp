@@ -130,6 +130,8 @@ void AnswerJudge::judgeClear(LinkId link, const ContactsMessage& answer,
   if (body_.capsules[static_cast<std::size_t>(link)].empty()) return;
   LinkContact clear;
   clear.link = link;
+  clear.verdict = Verdict::Clear;
+  clear.toi = clear.freeUntil = 1.0;
   for (const oracle::Motion& step : truth) {
     record(judgement(clear, answer.tolerance, step), link, answer);
   }
