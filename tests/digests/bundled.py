@@ -131,10 +131,11 @@ def log_cases():
     for name, change in (("flipped", flipped), ("cut", cut)):
         yield Case(f"log/{name}",
                    [foretouch(SENT), damaged("torn.lcmlog", change),
-                    foretouch("log convert torn.lcmlog --output torn.jsonl"),
+                    foretouch("log convert torn.lcmlog --output torn.jsonl", "converted", None),
                     foretouch("log check --json torn.lcmlog", "check.json", 1),
                     foretouch("log recover torn.lcmlog --keep-tail --output whole.lcmlog")],
-                   {"torn.jsonl": normalise.plain, "check.json": normalise.log_info,
+                   {"torn.jsonl": normalise.plain, "converted": normalise.figures,
+                    "check.json": normalise.log_info,
                     "whole.lcmlog": normalise.event_log})
     for file in ("lcm_joint_test.lcmlog", "lcmcore_testlog.lcm"):
         log = "{data}/lcm/logs/" + file

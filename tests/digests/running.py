@@ -6,7 +6,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-PATIENCE_S = 300
+PATIENCE_S = 1200  # of a machine that has much else to do
 
 
 class Failed(Exception):
