@@ -24,6 +24,7 @@ enum class Kind : std::uint8_t {
   Number16,
   Index,       ///< The number of an element of `target`, a list at the root.
   LocalIndex,  ///< The same, of a list of the animation at hand.
+  Version,
   Mode,
   ComponentType,
   ElementType,
@@ -41,7 +42,7 @@ struct Rule {
 // Readers stumble over what is here. Colours and images are in so far as numbers lead to them.
 constexpr Rule kRules[] = {
     {"asset", Kind::Object, true},
-    {"asset/version", Kind::Text, true},
+    {"asset/version", Kind::Version, true},
     {"scenes", Kind::List},
     {"nodes", Kind::List},
     {"meshes", Kind::List},
@@ -174,6 +175,10 @@ constexpr char kComponentTypes[] = "one of 5120, 5121, 5122, 5123, 5125, 5126";
 constexpr char kElementTypes[] = "one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4";
 constexpr char kAnimatedPaths[] = "one of translation, rotation, scale, weights";
 
+bool isVersion2(const json& value) {
+  return value.is_string() && value.get_ref<const std::string&>().rfind("2.", 0) == 0;
+}
+
 bool isMode(const json& value) {
   return value.is_number_unsigned() && value.get<std::uint64_t>() <= 6;
 }
@@ -210,6 +215,7 @@ std::string unmet(const Rule& rule, const Visited& visited, const json& document
     case Kind::Number16: return unless(isNumbers(value, 16), "a list of 16 numbers");
     case Kind::ElementType: return unless(elementShape(value).rows > 0, kElementTypes);
     case Kind::AnimatedPath: return unless(isAnimatedPath(value), kAnimatedPaths);
+    case Kind::Version: return unless(isVersion2(value), "the text 2.0");
     case Kind::Mode: return unless(isMode(value), "a whole number from 0 to 6");
     case Kind::ComponentType: return unless(componentBytes(value) > 0, kComponentTypes);
     case Kind::Index:

@@ -176,7 +176,8 @@ class XmlCheck {
     const std::size_t begin = at_;
     const std::string_view key = name();
     if (key.empty() || !isApart) {
-      return fail(begin, "expected " + std::string(isApart ? "an attribute, /> or >" : "a blank") +
+      const bool isNone = isApart || begin == text_.size();
+      return fail(begin, std::string("expected ") + (isNone ? "an attribute, /> or >" : "a blank") +
                              in + ", found " + found(begin));
     }
     skipBlanks();
