@@ -296,12 +296,16 @@ struct TriangleKernel {
     // Of long features that are near, the difference of the closest points is a noisy direction.
     const V extent = hn::Max(hn::Max(d00, d11), squaredAxis);
     const V noise = hn::Mul(hn::Set(d, kNoisyDistance), extent);
-    if (!hn::AllTrue(d, hn::Gt(best.squared, hn::Mul(noise, noise)))) {
+    const auto isSteady = hn::Gt(best.squared, hn::Mul(noise, noise));
+    if (!hn::AllTrue(d, isSteady)) {
       const auto away = hn::Ge(dot(best.normal, best.w), hn::Zero(d));
       const Point<V> negative = scaled(hn::Set(d, -1.0f), best.normal);
       const Plane<V> other =
           planeAlong(direction(select(away, best.normal, negative)), a, b, v, reach);
-      const auto better = hn::Gt(hn::Min(other.gapA, other.gapB), hn::Min(plane.gapA, plane.gapB));
+      const auto wider = hn::Gt(hn::Min(other.gapA, other.gapB), hn::Min(plane.gapA, plane.gapB));
+      // In lanes that ask for it alone: what a pair is told must not depend on its neighbours,
+      // which another culler orders otherwise.
+      const auto better = hn::AndNot(isSteady, wider);
       plane = {hn::IfThenElse(better, other.gapA, plane.gapA),
                hn::IfThenElse(better, other.gapB, plane.gapB),
                hn::IfThenElse(better, other.speedA, plane.speedA),

@@ -195,6 +195,42 @@ TEST_P(LanePairs, NeverPassAContactAndHandOverOnlyWhatIsNear) {
   EXPECT_LT(worstLeft, 1e-3);
 }
 
+struct Handed {
+  float time = 1.0F, gap = 0.0F;  // of a pair that was not handed over: none
+};
+
+std::vector<Handed> handedOf(const Outcome& outcome, std::size_t count) {
+  std::vector<Handed> handed(count);
+  for (std::size_t i = 0; i < outcome.handed.count; ++i) {
+    handed[static_cast<std::size_t>(outcome.handed.key[i])] = {outcome.handed.time[i],
+                                                               outcome.handed.gap[i]};
+  }
+  return handed;
+}
+
+// Which pairs share a vector depends on what culled them.
+TEST_P(LanePairs, TellEachPairTheSameWhateverItsNeighbours) {
+  LaneTolerances tolerances = kTolerances;
+  tolerances.contact = -1.0F;  // nothing is dropped
+  std::size_t handedOver = 0;
+  for (std::uint64_t draw = 0; draw < 300; ++draw) {
+    Random random(3000 + draw);
+    const double radius = random.magnitude(1e-3, 0.1);
+    const LssPolynomials motion = randomMotion(random, radius);
+    std::vector<Vertices> triangles(static_cast<std::size_t>(2 + random.below(30)));
+    for (Vertices& t : triangles) t = randomTriangle(random);
+    const Outcome outcome = advance(motion, radius, triangles, tolerances);
+    const std::vector<Handed> together = handedOf(outcome, triangles.size());
+    handedOver += outcome.handed.count;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const Handed alone = handedOf(advance(motion, radius, {triangles[i]}, tolerances), 1).front();
+      ASSERT_EQ(together[i].time, alone.time) << draw << ' ' << i;
+      ASSERT_EQ(together[i].gap, alone.gap) << draw << ' ' << i;
+    }
+  }
+  EXPECT_GT(handedOver, 300U);
+}
+
 TEST_P(LanePairs, CallNothingACertainContactThatIsNone) {
   int found = 0;
   for (std::uint64_t draw = 0; draw < 800; ++draw) {
