@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "middleware/query/link_query.h"
 #include "network/wire/codec.h"
 #include "tests/support/judged_answer.h"
 
@@ -128,10 +129,7 @@ void AnswerJudge::judgeLinks(const HandedPose& pose, const ContactsMessage& answ
 void AnswerJudge::judgeClear(LinkId link, const ContactsMessage& answer,
                              const std::vector<oracle::Motion>& truth) {
   if (body_.capsules[static_cast<std::size_t>(link)].empty()) return;
-  LinkContact clear;
-  clear.link = link;
-  clear.verdict = Verdict::Clear;
-  clear.toi = clear.freeUntil = 1.0;
+  const LinkContact clear = internal::clearContact(link);
   for (const oracle::Motion& step : truth) {
     record(judgement(clear, answer.tolerance, step), link, answer);
   }
