@@ -125,7 +125,7 @@ TEST(JournalCheck, NamesTheFieldAndBothValues) {
             lead + "the link of contact 0 is 'Hips' in the log, 'Arm' here" + where);
   EXPECT_EQ(first([](ContactsMessage& m) {
               m.contacts[0].contact.triangle = 13;
-              m.contacts[0].objectName = std::string(5000, 'x');
+              m.contacts[0].objectName = std::string(200, 'x');
             }),
             lead + "the triangle of 'Arm' is 13 in the log, 12 here" + where);
 }

@@ -183,7 +183,7 @@ TEST(LogProgram, ConvertSaysWhatADamagedLogHasLost) {
     EXPECT_NE(ended.err.find(part), std::string::npos) << part << "\n" << ended.err;
   }
 
-  const std::string log = contentOf(writeLog(folder));
+  const std::string log = contentOf(writeLog(folder, "sound.lcmlog"));
   const std::size_t tail = log.find(std::string(100, '\x07'));
   ended = runForetouch(
       {"log", "convert", folder.write("cut.lcmlog", log.substr(0, tail + 150)), "-o", out});
