@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/house/markdown.h"
+#include "tests/house/documents.h"
 #include "tests/house/source_files.h"
 #include "tests/support/temp_folder.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 TEST(Figures, OfTheDocumentsAreThoseOfTheirMeasurements) {
   Measurements measurements(std::string(FORETOUCH_SOURCE_DIR) + "/docs/measurements");
-  for (const auto& document : markdownFiles()) {
+  for (const auto& document : house::documentsBelow(FORETOUCH_SOURCE_DIR)) {
     for (const std::string& complaint : measurements.complaintsAbout(house::contentOf(document))) {
       ADD_FAILURE() << document.string() << ": " << complaint;
     }

@@ -7,12 +7,6 @@
 namespace foretouch::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-bool isElsewhere(const std::string& folder) {
-  return folder.front() == '.' || folder == "build" || folder == "out" || folder == "node_modules";
-}
-
 std::string_view withoutIndentation(std::string_view line) {
   return line.substr(std::min(line.find_first_not_of(' '), line.size()));
 }
@@ -54,20 +48,6 @@ class Exemptions {
 };
 
 }  // namespace
-
-std::vector<fs::path> markdownFiles() {
-  std::vector<fs::path> found;
-  auto at = fs::recursive_directory_iterator(FORETOUCH_SOURCE_DIR);
-  for (; at != fs::recursive_directory_iterator(); ++at) {
-    if (at->is_directory() && isElsewhere(at->path().filename().string())) {
-      at.disable_recursion_pending();
-    } else if (at->path().extension() == ".md") {
-      found.push_back(at->path());
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 std::size_t columnsOf(std::string_view line) {
   return static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {

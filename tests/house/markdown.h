@@ -1,15 +1,11 @@
-// tests/house/markdown.h: the documents of the house, and their lines as Markdown reads them.
+// tests/house/markdown.h: the lines of documents, as Markdown reads them.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace foretouch::test {
-
-/// Every Markdown file of the sources; not what is built or installed beside them.
-std::vector<std::filesystem::path> markdownFiles();
 
 /// Columns that a line of UTF-8 takes: its code points.
 std::size_t columnsOf(std::string_view line);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/house/documents.h"
 #include "tests/house/source_files.h"
 
 namespace foretouch::test {
@@ -24,7 +25,7 @@ bool isWritten(const std::filesystem::path& document) {
 
 TEST(Markdown, LinesHaveAtMostAHundredColumns) {
   int documents = 0, written = 0;
-  for (const auto& document : markdownFiles()) {
+  for (const auto& document : house::documentsBelow(FORETOUCH_SOURCE_DIR)) {
     ++documents;
     const std::string text = house::contentOf(document);
     if (isWritten(document)) {
