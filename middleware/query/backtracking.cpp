@@ -161,7 +161,10 @@ class Backtracker {
   /// it: the verdict stands, and of its contacts the best one that was seen.
   void lookNearestFirst(double t) {
     for (Candidate& candidate : heap_) {
-      candidate.nearest = std::max(candidate.nearest, leastGap(query_, candidate, states_.at(t)));
+      // What lanes proved is hardly below the truth; boxes are asked where they said nothing.
+      if (candidate.nearest == -kInfinity) {
+        candidate.nearest = leastGap(query_, candidate, states_.at(t));
+      }
     }
     std::make_heap(heap_.begin(), heap_.end(), Farther{});
     while (!heap_.empty() && heap_.front().nearest <= reach()) {

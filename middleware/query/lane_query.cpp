@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "lss/assert.h"
@@ -121,7 +122,7 @@ bool LaneQuery::answerSlab(StepContacts& step) {
     if (contact.verdict == Verdict::Clear) continue;
     isTouched = true;
     step.links[static_cast<std::size_t>(link)] = contact;
-    lanes_.isAsked[static_cast<std::size_t>(link)] = 0;
+    leaveOut(link);
     if (options_.scope == Scope::FirstOfAvatar) {
       limit = std::min(limit, lanesTimeOf(contact.freeUntil));
     }
@@ -184,7 +185,7 @@ bool LaneQuery::answerSlabWithin(StepContacts& step) {
     lanes_.freeUntil[i] = end_;
     if (contact.verdict == Verdict::Clear) continue;
     step.links[i] = contact;
-    lanes_.isAsked[i] = 0;
+    leaveOut(link);
   }
   return true;
 }
@@ -213,7 +214,7 @@ void LaneQuery::leaveAfterFirst(double first, StepContacts& step) const {
 void LaneQuery::leaveClear(StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = static_cast<std::size_t>(link);
-    if (lanes_.isAsked[i] != 0) step.links[i] = clearContact(link);
+    if (lanes_.isAsked[i] != 0) answerClear(step.links[i]);
   }
 }
 
@@ -223,8 +224,11 @@ void LaneQuery::leaveUndone(StepContacts& step) const {
     const auto i = static_cast<std::size_t>(link);
     if (lanes_.isAsked[i] == 0) continue;
     const double free = lanes_.freeUntil[i];
-    step.links[i] = free >= 1.0 ? clearContact(link)
-                                : undecidedContact(link, free, UndecidedReason::WorkBudget);
+    if (free >= 1.0) {
+      answerClear(step.links[i]);
+    } else {
+      step.links[i] = undecidedContact(link, free, UndecidedReason::WorkBudget);
+    }
   }
 }
 
@@ -237,10 +241,15 @@ void LaneQuery::findWhoIsAsked(StepContacts& step) {
   lanes_.isAsked.assign(static_cast<std::size_t>(body_.numLinks()), 1);
   for (const IgnoredPair& pair : body_.ignored()) {
     if (pair.object == IgnoredPair::kEveryObject) {
-      lanes_.isAsked[static_cast<std::size_t>(pair.link)] = 0;
-      step.links[static_cast<std::size_t>(pair.link)] = clearContact(pair.link);
+      leaveOut(pair.link);
+      answerClear(step.links[static_cast<std::size_t>(pair.link)]);
     }
   }
+}
+
+void LaneQuery::leaveOut(LinkId link) {
+  lanes_.isAsked[static_cast<std::size_t>(link)] = 0;
+  areAllAsked_ = false;
 }
 
 bool LaneQuery::collectHits(QueryCounters& counters) {
@@ -255,7 +264,7 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
   } else {
     sweptBoxes(table, motion_, lanes_.nodes, lanes_.margins, lanes_.boxes);
   }
-  for (std::int32_t lss = 0; lss < table.size(); ++lss) {
+  for (std::int32_t lss = 0; !areAllAsked_ && lss < table.size(); ++lss) {
     if (lanes_.isAsked[static_cast<std::size_t>(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
   }
   lanes_.hits.clear();
@@ -448,10 +457,15 @@ bool LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counter
 }
 
 /// Brings those that are open from early on to the front: what is found there ends the others.
+/// Where all are taken at once there is no order.
 void LaneQuery::sortClusters() {
   HandedOver& clusters = lanes_.clusters;
   const std::size_t count = clusters.count;
   lanes_.order.resize(count);
+  if (count <= kPartsAtOnce) {
+    std::iota(lanes_.order.begin(), lanes_.order.end(), 0U);
+    return;
+  }
   std::array<std::uint32_t, kTimeBins + 1> first{};
   const auto binOf = [&](std::size_t i) {
     const float share = 0.5F * (clusters.time[i] + 1.0F);

@@ -34,6 +34,7 @@ class LaneQuery {
  private:
   void useTolerance(double tolerance);
   void findWhoIsAsked(StepContacts& step);
+  void leaveOut(LinkId link);
   /// Of all LSS in the slab at hand; false if there are none.
   [[nodiscard]] bool collectHits(QueryCounters& counters);
   void collectByCuller(QueryCounters& counters);
@@ -76,6 +77,7 @@ class LaneQuery {
   WorkMeter meter_;
   double begin_ = 0.0, end_ = 1.0;  // of the slab at hand
   bool hasNodes_ = false;
+  bool areAllAsked_ = true;  // links, in the slab at hand
 };
 
 /// The avatar's table, kept in the scratch while queries ask for the same avatar.

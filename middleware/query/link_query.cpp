@@ -39,8 +39,7 @@ void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links) {
 LinkContact clearContact(LinkId link) {
   LinkContact contact;
   contact.link = link;
-  contact.verdict = Verdict::Clear;
-  contact.freeUntil = contact.toi = 1.0;
+  answerClear(contact);
   return contact;
 }
 

@@ -46,7 +46,13 @@ struct Candidate {
 /// Says of every link that no query has answered it.
 void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links);
 
-/// Proven: no contact in all that was asked for. The one place that writes Clear.
+/// Proven: no contact in all that was asked for. The one place that writes Clear, to a link that
+/// nobody has answered.
+inline void answerClear(LinkContact& unanswered) {
+  unanswered.verdict = Verdict::Clear;
+  unanswered.freeUntil = unanswered.toi = 1.0;
+}
+/// The same as a record of its own.
 [[nodiscard]] LinkContact clearContact(LinkId link);
 
 /// What backtrack() needs to know of one link; all references outlive the call.

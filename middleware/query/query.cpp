@@ -103,9 +103,9 @@ Result<const internal::TriangleCuller*> cullerOf(const Scene& scene, Culler whic
 }
 
 /// Skins change shape, and the walk numbers its boxes.
-bool inLanes(const Avatar& avatar, const QueryOptions& options) {
-  return avatar.numLss() <= internal::BoxLanes::kMaxBoxes &&
-         options.backtracking == Backtracking::Lanes && options.fidelity != Fidelity::Skinned;
+bool inLanes(const Avatar& avatar, const QueryOptions& options, internal::LaneScratch& lanes) {
+  return options.backtracking == Backtracking::Lanes && options.fidelity != Fidelity::Skinned &&
+         internal::tableOf(avatar, lanes).size() <= internal::BoxLanes::kMaxBoxes;
 }
 
 /// At link or exact fidelity, by whichever way the options ask for.
@@ -117,10 +117,10 @@ void linkQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& sce
   if (options.descent == Descent::ByNeed && options.fidelity != Fidelity::Skinned &&
       internal::nothingInReach(internal::tableOf(avatar, scratch.lanes), motion, scene,
                                internal::tolerancesOf(options).largest, step.counters)) {
-    for (LinkContact& contact : step.links) contact = internal::clearContact(contact.link);
+    for (LinkContact& contact : step.links) internal::answerClear(contact);
     return;
   }
-  if (!inLanes(avatar, options)) {
+  if (!inLanes(avatar, options, scratch.lanes)) {
     internal::scalarQuery(body, motion, scene, options, culler, meter, scratch, step);
     return;
   }
