@@ -213,7 +213,7 @@ TEST_P(LanePairs, TellEachPairTheSameWhateverItsNeighbours) {
   LaneTolerances tolerances = kTolerances;
   tolerances.contact = -1.0F;  // nothing is dropped
   std::size_t handedOver = 0;
-  for (std::uint64_t draw = 0; draw < 300; ++draw) {
+  for (std::uint64_t draw = 0; draw < 1500; ++draw) {
     Random random(3000 + draw);
     const double radius = random.magnitude(1e-3, 0.1);
     const LssPolynomials motion = randomMotion(random, radius);
