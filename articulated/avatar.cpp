@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "articulated/quoted.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -30,19 +31,19 @@ std::optional<Error> lssProblem(const Lss& lss) {
 std::optional<Error> meshProblem(const MeshReference& mesh) {
   const auto isText = [](const std::string& text) { return text.empty() || !nameProblem(text); };
   if (mesh.file.empty() && !mesh.node.empty()) {
-    return Error{ErrorCode::Empty, "", -1, -1, "names a mesh node but no mesh file"};
+    return Error::of(ErrorCode::Empty, "names a mesh node but no mesh file");
   }
   if (isText(mesh.file) && isText(mesh.node)) return std::nullopt;
-  return Error{ErrorCode::Syntax, "", -1, -1,
-               "has a mesh file or node that is not at most " + std::to_string(kMaxNameBytes) +
-                   " bytes of UTF-8 without control characters"};
+  return Error::of(ErrorCode::Syntax, "has a mesh file or node that is not at most " +
+                                          std::to_string(kMaxNameBytes) +
+                                          " bytes of UTF-8 without control characters");
 }
 
 std::optional<Error> linkProblem(const std::vector<Lss>& lss, const MeshReference* mesh) {
   if (lss.size() > kMaxLssPerLink) {
-    return Error{ErrorCode::LimitExceeded, "", -1, -1,
-                 "has " + std::to_string(lss.size()) + " LSS; expected at most " +
-                     std::to_string(kMaxLssPerLink)};
+    return Error::of(ErrorCode::LimitExceeded, "has " + std::to_string(lss.size()) +
+                                                   " LSS; expected at most " +
+                                                   std::to_string(kMaxLssPerLink));
   }
   for (std::size_t i = 0; i < lss.size(); ++i) {
     if (auto problem = lssProblem(lss[i])) {
@@ -57,13 +58,13 @@ std::optional<Error> linkProblem(const std::vector<Lss>& lss, const MeshReferenc
 
 Result<Avatar> Avatar::build(Skeleton skeleton, std::vector<std::vector<Lss>> lssPerLink,
                              std::vector<MeshReference> meshes) {
-  const auto n = static_cast<std::size_t>(skeleton.numJoints());
-  if (n == 0) return Error{ErrorCode::Empty, "", -1, -1, "expected at least one joint"};
+  const auto n = countOf(skeleton.numJoints());
+  if (n == 0) return Error::of(ErrorCode::Empty, "expected at least one joint");
   if (lssPerLink.size() != n || (!meshes.empty() && meshes.size() != n)) {
-    return Error{ErrorCode::Mismatch, "", -1, -1,
-                 "an avatar has LSS lists for " + std::to_string(lssPerLink.size()) +
-                     " links and meshes for " + std::to_string(meshes.size()) + "; expected " +
-                     std::to_string(n) + " (or no meshes)"};
+    return Error::of(ErrorCode::Mismatch,
+                     "an avatar has LSS lists for " + std::to_string(lssPerLink.size()) +
+                         " links and meshes for " + std::to_string(meshes.size()) + "; expected " +
+                         std::to_string(n) + " (or no meshes)");
   }
   bool any = false;
   for (std::size_t i = 0; i < n; ++i) {
@@ -75,7 +76,7 @@ Result<Avatar> Avatar::build(Skeleton skeleton, std::vector<std::vector<Lss>> ls
     }
     any = any || !lssPerLink[i].empty();
   }
-  if (!any) return Error{ErrorCode::Empty, "", -1, -1, "expected an LSS on at least one link"};
+  if (!any) return Error::of(ErrorCode::Empty, "expected an LSS on at least one link");
   static std::atomic<std::uint64_t> identities{0};
   Avatar avatar(std::move(skeleton));
   avatar.identity_ = ++identities;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "articulated/skeleton.h"
+#include "lss/index.h"
 #include "lss/lss.h"
 
 namespace foretouch {
@@ -32,12 +33,8 @@ class Avatar {
 
   [[nodiscard]] const Skeleton& skeleton() const { return skeleton_; }
   [[nodiscard]] std::int32_t numLinks() const { return skeleton_.numJoints(); }
-  [[nodiscard]] const std::vector<Lss>& lss(LinkId link) const {
-    return lss_[static_cast<std::size_t>(link)];
-  }
-  [[nodiscard]] const MeshReference& mesh(LinkId link) const {
-    return meshes_[static_cast<std::size_t>(link)];
-  }
+  [[nodiscard]] const std::vector<Lss>& lss(LinkId link) const { return lss_[slotOf(link)]; }
+  [[nodiscard]] const MeshReference& mesh(LinkId link) const { return meshes_[slotOf(link)]; }
   [[nodiscard]] std::int32_t numLss() const;
   /// The same for this avatar and its copies, another for every other avatar of the process: tells
   /// what was derived from an avatar whether it still fits.

@@ -6,6 +6,7 @@
 
 #include "articulated/joint_arcs.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -253,7 +254,7 @@ double ChainNodes::time(int k) {
                                                         0.8117449009293668,
                                                         0.9504844339512095,
                                                         1.0};
-  return kTimes[static_cast<std::size_t>(k)];
+  return kTimes[slotOf(k)];
 }
 
 void ChainNodes::setInstants(double begin, double end) {

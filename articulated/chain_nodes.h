@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "articulated/motion.h"
+#include "lss/index.h"
 
 namespace foretouch {
 
@@ -48,9 +49,7 @@ class ChainNodes {
   /// The instants of the frames, as doubles: within 2^-52 of begin + (end-begin)*time(k); the first
   /// and the last are begin and end.
   [[nodiscard]] double instant(int k) const { return instants_[k]; }
-  [[nodiscard]] const LinkNodes& link(LinkId link) const {
-    return nodes_[static_cast<std::size_t>(link)];
-  }
+  [[nodiscard]] const LinkNodes& link(LinkId link) const { return nodes_[slotOf(link)]; }
 
   /// Of every link.
   [[nodiscard]] const NodeBounds& bounds() const { return bounds_; }

@@ -5,6 +5,7 @@
 
 #include "articulated/joint_arcs.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -121,12 +122,12 @@ LinkState chainState(const ChainMotion& motion, LinkId link, double t, const Joi
 template <typename JointOf>
 void chainStates(const ChainMotion& motion, double t, std::vector<LinkState>& states,
                  const JointOf& jointOf) {
-  states.resize(static_cast<std::size_t>(motion.numLinks()));
+  states.resize(countOf(motion.numLinks()));
   const LinkState world;
   for (LinkId j = 0; j < motion.numLinks(); ++j) {
     const JointId parent = motion.parent(j);
-    states[static_cast<std::size_t>(j)] = composed(
-        parent == kNoParent ? world : states[static_cast<std::size_t>(parent)], jointOf(j), t);
+    states[slotOf(j)] =
+        composed(parent == kNoParent ? world : states[slotOf(parent)], jointOf(j), t);
   }
 }
 
@@ -137,7 +138,7 @@ ChainMotion::ChainMotion(const Skeleton& skeleton, const Pose& from, const Pose&
 }
 
 void ChainMotion::assign(const Skeleton& skeleton, const Pose& from, const Pose& to) {
-  const auto n = static_cast<std::size_t>(skeleton.numJoints());
+  const auto n = countOf(skeleton.numJoints());
   FORETOUCH_ASSERT(from.rotations.size() == n && from.translations.size() == n &&
                    to.rotations.size() == n && to.translations.size() == n);
   parents_ = skeleton.parents();
@@ -157,8 +158,8 @@ void ChainMotion::assign(const Skeleton& skeleton, const Pose& from, const Pose&
   ChainSums largest;
   double largestVersine = 0.0;
   for (std::size_t j = 0; j < n; ++j) {
-    sums[j] = parents[j] == kNoParent ? rootSums(arcs, j)
-                                      : sumsOf(sums[static_cast<std::size_t>(parents[j])], arcs, j);
+    sums[j] =
+        parents[j] == kNoParent ? rootSums(arcs, j) : sumsOf(sums[slotOf(parents[j])], arcs, j);
     largest = larger(largest, sums[j]);
     largestVersine = std::max(largestVersine, versines[j]);
   }
@@ -167,7 +168,7 @@ void ChainMotion::assign(const Skeleton& skeleton, const Pose& from, const Pose&
 }
 
 JointArc ChainMotion::arc(LinkId link) const {
-  const auto j = static_cast<std::size_t>(link), stride = sums_.size();
+  const auto j = slotOf(link), stride = sums_.size();
   const auto copy = [&](std::size_t column, std::size_t count, double* to) {
     for (std::size_t i = 0; i < count; ++i) to[i] = arcs_[(column + i) * stride + j];
   };
@@ -192,20 +193,20 @@ void ChainMotion::statesAt(double t, std::vector<LinkState>& states) const {
 }
 
 ChainMotion::JointBounds ChainMotion::jointBounds(LinkId link) const {
-  const auto j = static_cast<std::size_t>(link), stride = sums_.size();
+  const auto j = slotOf(link), stride = sums_.size();
   return {arcs_[JointColumns::kTurn * stride + j], arcs_[JointColumns::kLength * stride + j],
           arcs_[JointColumns::kDriftLength * stride + j]};
 }
 
 void MotionEvaluator::reset(const ChainMotion& motion) {
   motion_ = &motion;
-  const auto n = static_cast<std::size_t>(motion.numLinks());
+  const auto n = countOf(motion.numLinks());
   if (joints_.size() < n) joints_.resize(n);
   isKnown_.assign(n, 0);
 }
 
 const MotionEvaluator::JointMotion& MotionEvaluator::joint(JointId joint) {
-  const auto j = static_cast<std::size_t>(joint);
+  const auto j = slotOf(joint);
   if (isKnown_[j] == 0) {
     joints_[j] = jointMotion(motion_->arc(joint));
     isKnown_[j] = 1;

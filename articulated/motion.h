@@ -15,6 +15,7 @@
 
 #include "articulated/pose.h"
 #include "articulated/skeleton.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch {
@@ -140,17 +141,13 @@ class ChainMotion {
 
   [[nodiscard]] MotionBounds bounds(LinkId link) const { return sums(link).bounds(); }
   /// What bounds() is made of.
-  [[nodiscard]] const ChainSums& sums(LinkId link) const {
-    return sums_[static_cast<std::size_t>(link)];
-  }
+  [[nodiscard]] const ChainSums& sums(LinkId link) const { return sums_[slotOf(link)]; }
   /// The largest angularSpeed, eighthDerivative, armReach and depth of all links' sums, each by
   /// itself; nothing else.
   [[nodiscard]] const ChainSums& largestSums() const { return largest_; }
   /// Of the joint that the link moves with.
   [[nodiscard]] JointArc arc(LinkId link) const;
-  [[nodiscard]] JointId parent(LinkId link) const {
-    return parents_[static_cast<std::size_t>(link)];
-  }
+  [[nodiscard]] JointId parent(LinkId link) const { return parents_[slotOf(link)]; }
   /// Bounds on what the joint that the link moves with does in its parent's frame over t in [0,1]:
   /// its turn (rad), the length of its arm and of its drift (m). What the sums are made of.
   struct JointBounds {

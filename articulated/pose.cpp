@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "articulated/quoted.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -21,7 +22,7 @@ Error poseError(ErrorCode code, const Skeleton& skeleton, JointId joint, const s
 
 Pose restPose(const Skeleton& skeleton) {
   Pose pose;
-  const auto n = static_cast<std::size_t>(skeleton.numJoints());
+  const auto n = countOf(skeleton.numJoints());
   pose.rotations.reserve(n);
   pose.translations.reserve(n);
   for (JointId j = 0; j < skeleton.numJoints(); ++j) {
@@ -32,16 +33,17 @@ Pose restPose(const Skeleton& skeleton) {
 }
 
 Result<Pose> validatedPose(const Skeleton& skeleton, Pose pose) {
-  const auto n = static_cast<std::size_t>(skeleton.numJoints());
+  const auto n = countOf(skeleton.numJoints());
   if (pose.rotations.size() != n || pose.translations.size() != n) {
-    return Error{ErrorCode::Mismatch, "", -1, -1,
-                 "a pose has " + std::to_string(pose.rotations.size()) + " rotations and " +
-                     std::to_string(pose.translations.size()) +
-                     " translations; expected one of each for " + std::to_string(n) + " joints"};
+    return Error::of(ErrorCode::Mismatch, "a pose has " + std::to_string(pose.rotations.size()) +
+                                              " rotations and " +
+                                              std::to_string(pose.translations.size()) +
+                                              " translations; expected one of each for " +
+                                              std::to_string(n) + " joints");
   }
   for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-    Quaternion& rotation = pose.rotations[static_cast<std::size_t>(j)];
-    const Eigen::Vector3d& translation = pose.translations[static_cast<std::size_t>(j)];
+    Quaternion& rotation = pose.rotations[slotOf(j)];
+    const Eigen::Vector3d& translation = pose.translations[slotOf(j)];
     if (!rotation.coeffs().allFinite() || !translation.allFinite()) {
       return poseError(ErrorCode::NonFinite, skeleton, j,
                        "has a rotation or translation that is not finite");

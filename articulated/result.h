@@ -38,6 +38,21 @@ struct Error {
   std::int64_t index =
       -1;  ///< 0-based index of the joint, link, frame or triangle; -1 where there is none.
   std::string message;  ///< What was found and what was expected, one sentence, no trailing dot.
+
+  [[nodiscard]] static Error of(ErrorCode code, std::string message) {
+    return {code, "", -1, -1, std::move(message)};
+  }
+  /// `place`: a file's path, or the option or argument that is wrong.
+  [[nodiscard]] static Error in(std::string place, ErrorCode code, std::string message) {
+    return {code, std::move(place), -1, -1, std::move(message)};
+  }
+  [[nodiscard]] static Error inLine(std::string file, std::int64_t line, ErrorCode code,
+                                    std::string message) {
+    return {code, std::move(file), line, -1, std::move(message)};
+  }
+  [[nodiscard]] static Error at(std::int64_t index, ErrorCode code, std::string message) {
+    return {code, "", -1, index, std::move(message)};
+  }
 };
 
 /// The code as a stable word, e.g. "file-not-found".

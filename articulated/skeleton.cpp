@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "articulated/quoted.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch {
@@ -30,9 +31,9 @@ std::string title(const RawSkeleton& raw, std::size_t joint) {
 }
 
 std::optional<Error> hierarchyError(const RawSkeleton& raw) {
-  if (raw.joints.empty()) return Error{ErrorCode::Empty, "", -1, -1, "expected at least one joint"};
-  if (raw.joints.size() > static_cast<std::size_t>(kMaxJoints)) {
-    return jointError(ErrorCode::LimitExceeded, static_cast<std::size_t>(kMaxJoints),
+  if (raw.joints.empty()) return Error::of(ErrorCode::Empty, "expected at least one joint");
+  if (raw.joints.size() > countOf(kMaxJoints)) {
+    return jointError(ErrorCode::LimitExceeded, countOf(kMaxJoints),
                       "expected at most " + std::to_string(kMaxJoints) + " joints, found " +
                           std::to_string(raw.joints.size()));
   }
@@ -40,13 +41,13 @@ std::optional<Error> hierarchyError(const RawSkeleton& raw) {
   for (std::size_t i = 0; i < raw.joints.size(); ++i) {
     const JointId parent = raw.joints[i].parent;
     if (parent == kNoParent) continue;
-    if (parent < 0 || static_cast<std::size_t>(parent) >= i) {
+    if (parent < 0 || slotOf(parent) >= i) {
       return jointError(ErrorCode::BadHierarchy, i,
                         title(raw, i) + " has parent " + std::to_string(parent) +
                             "; expected the index of an earlier joint, or " +
                             std::to_string(kNoParent));
     }
-    depth[i] = depth[static_cast<std::size_t>(parent)] + 1;
+    depth[i] = depth[slotOf(parent)] + 1;
     if (depth[i] > kMaxChainDepth) {
       return jointError(ErrorCode::LimitExceeded, i,
                         title(raw, i) + " lies deeper than " + std::to_string(kMaxChainDepth) +

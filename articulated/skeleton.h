@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "articulated/result.h"
+#include "lss/index.h"
 
 namespace foretouch {
 
@@ -79,7 +80,7 @@ class Skeleton {
  private:
   [[nodiscard]] const RawJoint& at(JointId joint) const {
     FORETOUCH_ASSERT(joint >= 0 && joint < numJoints());
-    return joints_[static_cast<std::size_t>(joint)];
+    return joints_[slotOf(joint)];
   }
   std::vector<RawJoint> joints_;
   std::vector<JointId> parents_;

@@ -12,6 +12,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "lss/index.h"
+
 namespace foretouch {
 namespace {
 
@@ -55,11 +57,11 @@ Result<std::string> readAll(int descriptor, const std::string& path, std::size_t
                        std::string("reading failed: ") + std::strerror(errno));
     }
     if (got == 0) return text;
-    if (static_cast<std::size_t>(got) > limitBytes - text.size()) {
+    if (countOf(got) > limitBytes - text.size()) {
       return fileError(ErrorCode::LimitExceeded, path,
                        "expected at most " + std::to_string(limitBytes) + " bytes, found more");
     }
-    text.append(chunk, 0, static_cast<std::size_t>(got));
+    text.append(chunk, 0, countOf(got));
   }
 }
 
@@ -179,7 +181,7 @@ void PendingFile::flush() {
   while (!rest.empty() && failure_ == 0) {
     const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
     if (written >= 0) {
-      rest.remove_prefix(static_cast<std::size_t>(written));
+      rest.remove_prefix(countOf(written));
     } else if (errno != EINTR) {
       failure_ = errno;
     }

@@ -6,7 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "articulated/try.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 
 namespace foretouch::tools {
 namespace {
@@ -46,14 +48,14 @@ Draft draftOf(const Avatar& base) {
 JointId leastLeaf(const Draft& draft) {
   std::vector<bool> hasChild(draft.lss.size(), false);
   for (const RawJoint& joint : draft.skeleton.joints) {
-    if (joint.parent != kNoParent) hasChild[static_cast<std::size_t>(joint.parent)] = true;
+    if (joint.parent != kNoParent) hasChild[slotOf(joint.parent)] = true;
   }
   JointId least = kNoParent;
   double leastVolume = 0.0;
   for (JointId j = 0; j < draft.size(); ++j) {
-    if (hasChild[static_cast<std::size_t>(j)]) continue;
+    if (hasChild[slotOf(j)]) continue;
     double held = 0.0;
-    for (const Lss& lss : draft.lss[static_cast<std::size_t>(j)]) held += volume(lss);
+    for (const Lss& lss : draft.lss[slotOf(j)]) held += volume(lss);
     if (least == kNoParent || held <= leastVolume) {
       least = j;
       leastVolume = held;
@@ -101,10 +103,9 @@ std::vector<JointId> joints(const Draft& draft, const std::string& word) {
   std::vector<JointId> found;
   const auto& all = draft.skeleton.joints;
   for (JointId j = 0; j < draft.size(); ++j) {
-    const RawJoint& joint = all[static_cast<std::size_t>(j)];
-    const bool below = joint.parent != kNoParent &&
-                       mentions(all[static_cast<std::size_t>(joint.parent)].name, word);
-    if (mentions(joint.name, word) && !below && !draft.lss[static_cast<std::size_t>(j)].empty()) {
+    const RawJoint& joint = all[slotOf(j)];
+    const bool below = joint.parent != kNoParent && mentions(all[slotOf(joint.parent)].name, word);
+    if (mentions(joint.name, word) && !below && !draft.lss[slotOf(j)].empty()) {
       found.push_back(j);
     }
   }
@@ -124,7 +125,7 @@ void addDigits(Draft& draft, const std::vector<JointId>& hosts, int jointsADigit
   for (int level = 0; level < jointsADigit; ++level) {
     for (std::size_t i = 0; i < tips.size() && draft.size() < links; ++i) {
       const JointId host = hosts[i / kDigits];
-      const Lss palm = draft.lss[static_cast<std::size_t>(host)].front();
+      const Lss palm = draft.lss[slotOf(host)].front();
       const Eigen::Vector3d axis = palm.b - palm.a;
       const Eigen::Vector3d along =
           axis.norm() > 0.0 ? axis.normalized() : Eigen::Vector3d::UnitX().eval();
@@ -166,11 +167,9 @@ Result<BenchBody> bodyWithLinks(const Avatar& base, int links) {
     addDigits(draft, joints(draft, "toe"), 1, kToeLength, links);
     addStrands(draft, links);
   }
-  auto skeleton = Skeleton::build(draft.skeleton);
-  if (!skeleton.ok()) return skeleton.error();
-  auto avatar = Avatar::build(std::move(skeleton).value(), std::move(draft.lss));
-  if (!avatar.ok()) return avatar.error();
-  return BenchBody{std::move(avatar).value(), std::move(draft.baseJoint), std::move(draft.swing)};
+  FORETOUCH_TRY(auto skeleton, Skeleton::build(draft.skeleton));
+  FORETOUCH_TRY(auto avatar, Avatar::build(std::move(skeleton), std::move(draft.lss)));
+  return BenchBody{std::move(avatar), std::move(draft.baseJoint), std::move(draft.swing)};
 }
 
 Pose poseOfBody(const BenchBody& body, const Pose& base, double timeS) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "bench/machine.h"
 #include "bench/timing.h"
 #include "tools/progress.h"
@@ -53,8 +54,7 @@ Result<std::vector<StepContacts>> touchesOf(const Avatar& avatar,
   query.backtracking = Backtracking::Scalar;
   std::vector<StepContacts> touches;
   for (const StepPoses& poses : steps) {
-    const auto answered = answerStep(avatar, poses, scene, query, memory);
-    if (!answered.ok()) return answered.error();
+    FORETOUCH_CHECK(answerStep(avatar, poses, scene, query, memory));
     touches.push_back(memory.contacts);
   }
   return touches;
@@ -132,25 +132,20 @@ std::int64_t unsoundLinks(const StepContacts& answer, const StepContacts& touch)
 }
 
 Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request) {
-  const auto inputs = loadBenchInputs(request.options.files);
-  if (!inputs.ok()) return inputs.error();
-  const auto scene = refinedScene(inputs.value(), request.triangles);
-  if (!scene.ok()) return scene.error();
-  const auto body = bodyOf(inputs.value(), request.links);
-  if (!body.ok()) return body.error();
-  const auto query = queryFor(inputs.value(), body.value(), request.options);
+  FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.options.files));
+  FORETOUCH_TRY(const auto scene, refinedScene(inputs, request.triangles));
+  FORETOUCH_TRY(const auto body, bodyOf(inputs, request.links));
+  const auto query = queryFor(inputs, body, request.options);
   if (!query.ok()) return query.error();
-  const auto workload = chooseSteps(inputs.value(), body.value(), request.options.workload);
-  if (!workload.ok()) return workload.error();
-  const auto steps = posesOf(inputs.value(), body.value(), workload.value());
+  FORETOUCH_TRY(const auto workload, chooseSteps(inputs, body, request.options.workload));
+  const auto steps = posesOf(inputs, body, workload);
   if (!steps.ok()) return steps.error();
   if (steps.value().empty()) {
-    return Error{ErrorCode::Empty, "bench deadline", -1, -1, "no steps were found"};
+    return Error::in("bench deadline", ErrorCode::Empty, "no steps were found");
   }
-  const Avatar& avatar = body.value().avatar;
+  const Avatar& avatar = body.avatar;
   StepMemory memory;
-  const auto touches = touchesOf(avatar, steps.value(), scene.value(), query.value(), memory);
-  if (!touches.ok()) return touches.error();
+  FORETOUCH_TRY(const auto touches, touchesOf(avatar, steps.value(), scene, query.value(), memory));
 
   std::vector<Limit> limits = limitsOf(request, query.value());
   const auto numSteps = static_cast<std::int64_t>(steps.value().size());
@@ -160,12 +155,11 @@ Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request) {
     for (std::size_t i = 0; i < steps.value().size(); ++i) {
       for (Limit& limit : limits) {
         const Clock::time_point start = Clock::now();
-        const auto answered =
-            answerStep(avatar, steps.value()[i], scene.value(), limit.query, memory);
+        const auto answered = answerStep(avatar, steps.value()[i], scene, limit.query, memory);
         const std::chrono::duration<double, std::micro> took = Clock::now() - start;
         if (!answered.ok()) return answered.error();
         limit.timesUs.push_back(took.count());
-        count(memory.contacts, touches.value()[i], limit);
+        count(memory.contacts, touches[i], limit);
       }
     }
     progress.advanceTo(pass + 1);
@@ -178,8 +172,8 @@ Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request) {
   report.command = request.options.command;
   report.date = dateNow();
   report.machine = machineFacts();
-  report.workload = workloadFacts(inputs.value(), scene.value(), avatar, query.value());
-  report.workload.emplace_back("steps", describe(workload.value()));
+  report.workload = workloadFacts(inputs, scene, avatar, query.value());
+  report.workload.emplace_back("steps", describe(workload));
   report.workload.emplace_back("tolerance", fmt::format("{:g} m", request.tolerance));
   BenchTable table = deadlineTable();
   for (Limit& limit : limits) {

@@ -6,7 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "bench/deadline.h"
+#include "lss/index.h"
 #include "tools/arguments.h"
 #include "tools/settling.h"
 
@@ -33,23 +35,19 @@ Result<DeadlineRequest> settledDeadline(const DeadlineTexts& texts) {
   settle.into(request.workBudgets, parseCounts("--work", texts.work, kMaxWork));
   settle.into(asks, parseCount("--asks", texts.asks, kMaxAsks));
   if (settle.error()) return *settle.error();
-  request.triangles = static_cast<std::size_t>(triangles);
+  request.triangles = countOf(triangles);
   request.asks = asks;
   return request;
 }
 
 ExitCode run(const DeadlineTexts& texts) {
-  const auto request = settledDeadline(texts);
-  if (!request.ok()) return failed(request.error());
-  const auto bench = measureDeadlines(request.value());
-  if (!bench.ok()) return failed(bench.error());
-  const BenchReport& report = bench.value().report;
-  const auto written = writeReport(report, texts.json, report.tables.front(), texts.csv);
-  if (!written.ok()) return failed(written.error());
+  FORETOUCH_TRY_OR(failed, const auto request, settledDeadline(texts));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureDeadlines(request));
+  const BenchReport& report = bench.report;
+  FORETOUCH_CHECK_OR(failed, writeReport(report, texts.json, report.tables.front(), texts.csv));
   printOut(reportText(report));
-  if (bench.value().unsound == 0) return ExitCode::Done;
-  printError(
-      fmt::format("{} links were said to be free beyond their touch", bench.value().unsound));
+  if (bench.unsound == 0) return ExitCode::Done;
+  printError(fmt::format("{} links were said to be free beyond their touch", bench.unsound));
   return ExitCode::CheckSaysNo;
 }
 
@@ -65,7 +63,7 @@ void addBenchDeadlineCommand(CLI::App& bench, ExitCode& exit) {
   option("--deadlines", texts->deadlines, "US,...", "By the clock, microseconds");
   option("--work", texts->work, "N,...", "By work: evaluations in lanes");
   option("--asks", texts->asks, "N", "Queries of each");
-  option("--rate", texts->rate, "HZ", "Poses a second");
+  option("--rate", texts->rate, "HZ", "Poses per second");
   option("--tolerance", texts->tolerance, "M", "Tolerance (m)");
   option("--links", texts->links, "N|own", "Links: fewer are cut off, more are grown");
   option("--triangles", texts->triangles, "N|own", "Triangles that the scene is divided into");

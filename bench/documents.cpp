@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 
 namespace foretouch::tools {
@@ -59,9 +60,8 @@ rays (`rtcOccluded1`) along the links' ways, in the same scene and process.
 }  // namespace
 
 Result<BenchReport> readReport(const std::string& path) {
-  const auto text = readWholeFile(path, kMaxReportBytes);
-  if (!text.ok()) return text.error();
-  return parseReport(text.value(), path);
+  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxReportBytes));
+  return parseReport(text, path);
 }
 
 std::string performanceDocument(const std::vector<BenchReport>& reports) {
@@ -82,15 +82,15 @@ Result<std::int64_t> callgrindInstructions(const std::string& text, const std::s
     const auto read = std::from_chars(from, text.data() + text.size(), instructions);
     if (read.ec == std::errc() && instructions > 0) return instructions;
   }
-  return Error{ErrorCode::Syntax, name, -1, -1,
-               "expected callgrind's 'totals:' with the instructions of at least one step"};
+  return Error::in(name, ErrorCode::Syntax,
+                   "expected callgrind's 'totals:' with the instructions of at least one step");
 }
 
 Result<BenchReport> instructionReport(const BenchReport& latency, std::int64_t instructions) {
   const BenchTable* const counters = tableNamed(latency, "counters");
   const BenchTable* const times = tableNamed(latency, "latency");
   if (counters == nullptr || counters->rows.empty() || times == nullptr || times->rows.empty()) {
-    return Error{ErrorCode::Mismatch, "", -1, -1, "expected the file of bench latency --json"};
+    return Error::of(ErrorCode::Mismatch, "expected the file of bench latency --json");
   }
   double steps = 0.0;
   for (std::size_t c = 0; c < times->columns.size(); ++c) {

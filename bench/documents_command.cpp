@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "bench/documents.h"
 
@@ -16,18 +17,16 @@ namespace {
 constexpr std::size_t kMaxCallgrindBytes = std::size_t{1} << 30;
 
 Result<Done> writeText(const std::string& path, const std::string& text) {
-  auto file = PendingFile::create(path);
-  if (!file.ok()) return inFile(file.error(), path);
-  file.value().write(text);
-  return file.value().commit();
+  FORETOUCH_TRY(auto file, PendingFile::create(path));
+  file.write(text);
+  return file.commit();
 }
 
 ExitCode runReport(const std::vector<std::string>& files, const std::string& output) {
   std::vector<BenchReport> reports;
   for (const std::string& path : files) {
-    auto report = readReport(path);
-    if (!report.ok()) return failed(inFile(report.error(), path));
-    reports.push_back(std::move(report).value());
+    FORETOUCH_TRY_OR(failed, auto report, readReport(path));
+    reports.push_back(std::move(report));
   }
   const std::string text = performanceDocument(reports);
   if (output.empty()) {
@@ -44,29 +43,23 @@ struct InstructionTexts {
 };
 
 Result<BenchReport> countedNow(const InstructionTexts& texts) {
-  const auto profile = readWholeFile(texts.callgrind, kMaxCallgrindBytes);
-  if (!profile.ok()) return inFile(profile.error(), texts.callgrind);
-  const auto instructions = callgrindInstructions(profile.value(), texts.callgrind);
-  if (!instructions.ok()) return instructions.error();
-  const auto latency = readReport(texts.latency);
-  if (!latency.ok()) return inFile(latency.error(), texts.latency);
-  auto now = instructionReport(latency.value(), instructions.value());
+  FORETOUCH_TRY(const auto profile, readWholeFile(texts.callgrind, kMaxCallgrindBytes));
+  FORETOUCH_TRY(const auto instructions, callgrindInstructions(profile, texts.callgrind));
+  FORETOUCH_TRY(const auto latency, readReport(texts.latency));
+  auto now = instructionReport(latency, instructions);
   if (!now.ok()) return inFile(now.error(), texts.latency);
   return now;
 }
 
 ExitCode runInstructions(const InstructionTexts& texts) {
-  const auto now = countedNow(texts);
-  if (!now.ok()) return failed(now.error());
+  FORETOUCH_TRY_OR(failed, const auto now, countedNow(texts));
   if (texts.record) {
-    const auto written = writeText(texts.recorded, reportJson(now.value()));
-    if (!written.ok()) return failed(inFile(written.error(), texts.recorded));
-    printOut(reportText(now.value()));
+    FORETOUCH_CHECK_OR(failed, writeText(texts.recorded, reportJson(now)));
+    printOut(reportText(now));
     return ExitCode::Done;
   }
-  const auto recorded = readReport(texts.recorded);
-  if (!recorded.ok()) return failed(inFile(recorded.error(), texts.recorded));
-  printOut(tableText(movedTable(recorded.value(), now.value())));
+  FORETOUCH_TRY_OR(failed, const auto recorded, readReport(texts.recorded));
+  printOut(tableText(movedTable(recorded, now)));
   return ExitCode::Done;
 }
 

@@ -16,6 +16,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "lss/index.h"
 #include "network/service/clock.h"
 
 namespace foretouch::tools {
@@ -71,7 +72,7 @@ class Viewer {
   [[nodiscard]] bool readSome(int flags) {
     std::array<char, 65536> bytes;
     const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), flags);
-    if (got > 0) held_.append(bytes.data(), static_cast<std::size_t>(got));
+    if (got > 0) held_.append(bytes.data(), countOf(got));
     return got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
   }
 
@@ -157,7 +158,7 @@ Result<EventReaders> EventReaders::start(int count, std::uint16_t port, double p
   for (int i = 0; i < count; ++i) {
     impl->viewers.emplace_back();
     if (impl->viewers.back().enters(port)) continue;
-    return Error{ErrorCode::DeviceFailed, "foretouch serve", i, -1, "does not let a viewer in"};
+    return Error::inLine("foretouch serve", i, ErrorCode::DeviceFailed, "does not let a viewer in");
   }
   impl->thread = std::thread([&readers = *impl] { readers.run(); });
   return EventReaders(std::move(impl));

@@ -10,6 +10,7 @@
 
 #include "bench/extremes/float_mode.h"
 #include "bench/machine.h"
+#include "lss/index.h"
 #include "tools/progress.h"
 
 namespace foretouch::tools {
@@ -55,7 +56,7 @@ std::int64_t seedOf(const Worst& worst) {
 }
 
 std::vector<BenchCell> rowOf(const std::string& name, const Tally& t) {
-  const auto of = [&](Fault fault) { return t.faults[static_cast<std::size_t>(fault)]; };
+  const auto of = [&](Fault fault) { return t.faults[slotOf(fault)]; };
   const std::int64_t faulty = of(Fault::Malformed) + of(Fault::Accepted) + of(Fault::Overworked) +
                               of(Fault::Loose) + of(Fault::Needless);
   return {name,
@@ -166,8 +167,8 @@ Result<ExtremesBench> measureExtremes(const ExtremesRequest& request) {
     const bool isOne = std::any_of(families().begin(), families().end(),
                                    [&](const Family& family) { return family.name == name; });
     if (!isOne) {
-      return Error{ErrorCode::UnknownName, "--only", -1, -1,
-                   "expected a family that --list shows, found '" + name + "'"};
+      return Error::in("--only", ErrorCode::UnknownName,
+                       "expected a family that --list shows, found '" + name + "'");
     }
   }
   return Campaign(request).run(chosen);

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "bench/extremes.h"
 #include "bench/extremes/case_json.h"
@@ -42,10 +43,9 @@ Result<ExtremesRequest> settledExtremes(const ExtremesTexts& texts) {
 
 Result<Done> writeDump(const std::string& path, const std::vector<extremes::ExtremeCase>& cases) {
   if (path.empty()) return Done{};
-  auto file = PendingFile::create(path);
-  if (!file.ok()) return file.error();
-  file.value().write(extremes::casesJson(cases));
-  return file.value().commit();
+  FORETOUCH_TRY(auto file, PendingFile::create(path));
+  file.write(extremes::casesJson(cases));
+  return file.commit();
 }
 
 ExitCode run(const ExtremesTexts& texts) {
@@ -53,17 +53,13 @@ ExitCode run(const ExtremesTexts& texts) {
     printOut(familiesText());
     return ExitCode::Done;
   }
-  const auto request = settledExtremes(texts);
-  if (!request.ok()) return failed(request.error());
-  const auto bench = measureExtremes(request.value());
-  if (!bench.ok()) return failed(bench.error());
-  const BenchReport& report = bench.value().report;
-  const auto written = writeReport(report, texts.json, report.tables.front(), texts.csv);
-  if (!written.ok()) return failed(written.error());
-  const auto dumped = writeDump(texts.dump, bench.value().worst);
-  if (!dumped.ok()) return failed(dumped.error());
+  FORETOUCH_TRY_OR(failed, const auto request, settledExtremes(texts));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureExtremes(request));
+  const BenchReport& report = bench.report;
+  FORETOUCH_CHECK_OR(failed, writeReport(report, texts.json, report.tables.front(), texts.csv));
+  FORETOUCH_CHECK_OR(failed, writeDump(texts.dump, bench.worst));
   printOut(reportText(report));
-  if (bench.value().isSound) return ExitCode::Done;
+  if (bench.isSound) return ExitCode::Done;
   printError("answers are unsound or faulty: see the notes below the table");
   return ExitCode::CheckSaysNo;
 }

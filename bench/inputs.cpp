@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/bvh/bvh_avatar.h"
+#include "lss/index.h"
 #include "tools/console.h"
 #include "tools/inputs/example_folder.h"
 #include "tools/inputs/joint_map.h"
@@ -14,12 +16,11 @@ namespace {
 
 Result<Done> fillInBundled(BenchFiles& files) {
   if (!files.scenePath.empty() && !files.motionPath.empty()) return Done{};
-  const auto folder = exampleFolder();
-  if (!folder.ok()) return folder.error();
-  if (files.scenePath.empty()) files.scenePath = folder.value() + "/room.obj";
+  FORETOUCH_TRY(const auto folder, exampleFolder());
+  if (files.scenePath.empty()) files.scenePath = folder + "/room.obj";
   if (files.motionPath.empty()) {
-    files.motionPath = folder.value() + "/dancer.bvh";
-    if (files.avatarPath.empty()) files.avatarPath = folder.value() + "/dancer.avatar.json";
+    files.motionPath = folder + "/dancer.bvh";
+    if (files.avatarPath.empty()) files.avatarPath = folder + "/dancer.avatar.json";
   }
   return Done{};
 }
@@ -33,40 +34,31 @@ Result<Avatar> loadAvatar(const BenchFiles& files, const Clip& clip) {
 }  // namespace
 
 Result<BenchInputs> loadBenchInputs(BenchFiles files) {
-  const auto bundled = fillInBundled(files);
-  if (!bundled.ok()) return bundled.error();
+  FORETOUCH_CHECK(fillInBundled(files));
   MotionRequest request;
   request.path = files.motionPath;
   request.scale = files.motionScale;
   request.up = files.motionUp;
-  auto motion = readMotion(request);
-  if (!motion.ok()) return motion.error();
-  Clip& clip = motion.value().clip;
-  auto avatar = loadAvatar(files, clip);
-  if (!avatar.ok()) return avatar.error();
-  auto match =
-      matchWithMap(avatar.value().skeleton(), clip.skeleton, files.mapPath, files.motionPath);
+  FORETOUCH_TRY(auto motion, readMotion(request));
+  Clip& clip = motion.clip;
+  FORETOUCH_TRY(auto avatar, loadAvatar(files, clip));
+  auto match = matchWithMap(avatar.skeleton(), clip.skeleton, files.mapPath, files.motionPath);
   if (!match.ok()) return match.error();
   SceneImportOptions import;
   import.scale = files.sceneScale;
   import.up = files.sceneUp;
-  auto imported = importScene(files.scenePath, import);
-  if (!imported.ok()) return inFile(imported.error(), files.scenePath);
-  auto scene = Scene::build(imported.value().scene);
-  if (!scene.ok()) return inFile(scene.error(), files.scenePath);
-  return BenchInputs{std::move(files),         std::move(imported.value().scene),
-                     std::move(scene).value(), std::move(avatar).value(),
-                     std::move(clip),          std::move(match).value(),
-                     motion.value().isUpright};
+  FORETOUCH_TRY(auto imported, importScene(files.scenePath, import));
+  FORETOUCH_TRY(auto scene, inFile(Scene::build(imported.scene), files.scenePath));
+  return BenchInputs{std::move(files),  std::move(imported.scene), std::move(scene),
+                     std::move(avatar), std::move(clip),           std::move(match).value(),
+                     motion.isUpright};
 }
 
 Pose placedPose(const BenchInputs& inputs, const Placement& placement, std::int64_t frame) {
   const Skeleton& skeleton = inputs.avatar.skeleton();
   Placement turned = placement;
   turned.motionUpZ = inputs.files.motionUp == UpAxis::Z && !inputs.isUpright;
-  return placed(skeleton,
-                poseOfAvatar(skeleton, inputs.clip, inputs.match, static_cast<std::size_t>(frame)),
-                turned);
+  return placed(skeleton, poseOfAvatar(skeleton, inputs.clip, inputs.match, slotOf(frame)), turned);
 }
 
 }  // namespace foretouch::tools

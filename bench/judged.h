@@ -8,6 +8,7 @@
 #include "articulated/skeleton.h"
 #include "judge/motion.h"
 #include "judge/vector.h"
+#include "lss/index.h"
 #include "lss/triangle.h"
 
 namespace foretouch::tools {
@@ -35,7 +36,7 @@ inline std::vector<oracle::Joint> plainJoints(const Skeleton& skeleton, const Po
                                               const Pose& to) {
   std::vector<oracle::Joint> joints;
   for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-    const auto i = static_cast<std::size_t>(j);
+    const auto i = slotOf(j);
     joints.push_back({skeleton.parent(j), plain(from.rotations[i]), plain(to.rotations[i]),
                       plain(from.translations[i]), plain(to.translations[i])});
   }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "bench/machine.h"
 #include "middleware/counter_fields.h"
 
@@ -233,33 +234,24 @@ BenchReport startedReport(const LatencyRequest& request, const BenchInputs& inpu
 }  // namespace
 
 Result<MeasuredBench> measureLatency(const LatencyRequest& request) {
-  const auto inputs = loadBenchInputs(request.options.files);
-  if (!inputs.ok()) return inputs.error();
-  const auto scene = refinedScene(inputs.value(), request.triangles);
-  if (!scene.ok()) return scene.error();
-  const auto body = bodyOf(inputs.value(), request.links);
-  if (!body.ok()) return body.error();
-  const auto query = queryFor(inputs.value(), body.value(), request.options);
-  if (!query.ok()) return query.error();
+  FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.options.files));
+  FORETOUCH_TRY(const auto scene, refinedScene(inputs, request.triangles));
+  FORETOUCH_TRY(const auto body, bodyOf(inputs, request.links));
+  FORETOUCH_TRY(const auto query, queryFor(inputs, body, request.options));
 
-  MeasuredBench bench{
-      startedReport(request, inputs.value(), scene.value(), body.value().avatar, query.value()),
-      rawTable()};
+  MeasuredBench bench{startedReport(request, inputs, scene, body.avatar, query), rawTable()};
   BenchReport& report = bench.report;
-  const std::vector<BenchCase> cases = casesOf(request, query.value());
+  const std::vector<BenchCase> cases = casesOf(request, query);
   double overheadUs = 0.0;
   for (const double rateHz : request.ratesHz) {
     WorkloadRequest wanted = request.options.workload;
     wanted.rateHz = rateHz;
-    const auto workload = chooseSteps(inputs.value(), body.value(), wanted);
-    if (!workload.ok()) return workload.error();
-    const auto steps = posesOf(inputs.value(), body.value(), workload.value());
-    if (!steps.ok()) return steps.error();
-    const auto timing =
-        timeSteps(body.value().avatar, steps.value(), scene.value(), cases, request.options.timing);
+    FORETOUCH_TRY(const auto workload, chooseSteps(inputs, body, wanted));
+    FORETOUCH_TRY(const auto steps, posesOf(inputs, body, workload));
+    const auto timing = timeSteps(body.avatar, steps, scene, cases, request.options.timing);
     if (!timing.ok()) return timing.error();
-    const RateTimes at{rateHz, workload.value(), cases, timing.value()};
-    report.workload.emplace_back(fmt::format("at {:g} Hz", rateHz), describe(workload.value()));
+    const RateTimes at{rateHz, workload, cases, timing.value()};
+    report.workload.emplace_back(fmt::format("at {:g} Hz", rateHz), describe(workload));
     addLatencyRows(at, report.tables[0]);
     addRatioRows(at, report.tables[1]);
     addCounterRows(at, report.tables[2]);

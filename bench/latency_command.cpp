@@ -5,7 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "articulated/try.h"
 #include "bench/latency.h"
+#include "lss/index.h"
 #include "tools/arguments.h"
 #include "tools/settling.h"
 
@@ -28,7 +30,7 @@ Result<LatencyRequest> settledLatency(const LatencyTexts& texts) {
   settle.into(request.links, parseOwnOrCount("--links", texts.links, kMaxBenchLinks));
   int triangles = 0;
   settle.into(triangles, parseOwnOrCount("--triangles", texts.triangles, kMaxBenchTriangles));
-  request.triangles = static_cast<std::size_t>(triangles);
+  request.triangles = countOf(triangles);
   request.options.timing.coldMb = 0;
   if (texts.coldMb != "0") {
     settle.into(request.options.timing.coldMb, parseCount("--cold-mb", texts.coldMb, kMaxColdMb));
@@ -38,13 +40,10 @@ Result<LatencyRequest> settledLatency(const LatencyTexts& texts) {
 }
 
 ExitCode run(const LatencyTexts& texts) {
-  const auto request = settledLatency(texts);
-  if (!request.ok()) return failed(request.error());
-  const auto bench = measureLatency(request.value());
-  if (!bench.ok()) return failed(bench.error());
-  const auto written = writeReport(bench.value().report, texts.json, bench.value().raw, texts.csv);
-  if (!written.ok()) return failed(written.error());
-  printOut(reportText(bench.value().report));
+  FORETOUCH_TRY_OR(failed, const auto request, settledLatency(texts));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureLatency(request));
+  FORETOUCH_CHECK_OR(failed, writeReport(bench.report, texts.json, bench.raw, texts.csv));
+  printOut(reportText(bench.report));
   return ExitCode::Done;
 }
 

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "bench/generated_queries.h"
 #include "bench/leaf.h"
@@ -75,27 +76,23 @@ Result<Done> check(const LeafTexts& texts) {
 }
 
 Result<Done> writeJson(const std::string& path, const LeafBench& bench) {
-  auto file = PendingFile::create(path);
-  if (!file.ok()) return file.error();
-  file.value().write(leafJson(bench));
-  return file.value().commit();
+  FORETOUCH_TRY(auto file, PendingFile::create(path));
+  file.write(leafJson(bench));
+  return file.commit();
 }
 
 ExitCode run(const LeafTexts& texts) {
-  const auto checked = check(texts);
-  if (!checked.ok()) return failed(checked.error());
+  FORETOUCH_CHECK_OR(failed, check(texts));
   LeafBench bench;
   bench.repeat = static_cast<int>(texts.repeat);
   bench.seed = texts.seed;
   bench.generated = static_cast<std::size_t>(texts.generated);
   bench.overheadUs = clockOverheadUs();
-  const auto sets = readQuerySets(texts.folders);
-  if (!sets.ok()) return failed(sets.error());
-  for (const QuerySet& set : sets.value()) bench.sets.push_back(timed(set, bench.repeat, true));
+  FORETOUCH_TRY_OR(failed, const auto sets, readQuerySets(texts.folders));
+  for (const QuerySet& set : sets) bench.sets.push_back(timed(set, bench.repeat, true));
   if (bench.generated > 0) addGenerated(bench);
   if (!texts.json.empty()) {
-    const auto written = writeJson(texts.json, bench);
-    if (!written.ok()) return failed(inFile(written.error(), texts.json));
+    FORETOUCH_CHECK_OR(failed, writeJson(texts.json, bench));
   }
   printOut(leafTable(bench));
   const std::size_t wrong = wrongAnswers(bench);

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
 #include "tools/inputs/replay_inputs.h"
@@ -48,8 +49,8 @@ class Stages {
     const auto now = Clock::now();
     const auto peak = statusMiB("VmHWM"), resident = statusMiB("VmRSS");
     if (!peak || !resident) {
-      return Error{ErrorCode::FileUnreadable, "/proc/self/status", -1, -1,
-                   "expected lines VmHWM and VmRSS"};
+      return Error::in("/proc/self/status", ErrorCode::FileUnreadable,
+                       "expected lines VmHWM and VmRSS");
     }
     const std::chrono::duration<double, std::milli> elapsed = now - begin_;
     bench_.stages.push_back({name, elapsed.count(), *peak, *resident, heapMiB()});
@@ -84,7 +85,7 @@ Result<MemoryBench> measureMemory(const MemoryRequest& request) {
   done = stages.end("scene");
   if (!done.ok()) return done.error();
   const auto avatar = readAvatarFile(request.avatarPath);
-  if (!avatar.ok()) return inFile(avatar.error(), request.avatarPath);
+  if (!avatar.ok()) return avatar.error();
   bench.links = avatar.value().numLinks();
   const auto query = queryOptionsFor(request, request.avatarPath, avatar.value(), scene.value());
   if (!query.ok()) return query.error();
@@ -95,8 +96,7 @@ Result<MemoryBench> measureMemory(const MemoryRequest& request) {
   const ChainMotion still(avatar.value().skeleton(), rest, rest);
   QueryScratch scratch;
   for (const char* const name : {"first query", "second query"}) {
-    const auto answer = firstContacts(avatar.value(), still, scene.value(), query.value(), scratch);
-    if (!answer.ok()) return answer.error();
+    FORETOUCH_CHECK(firstContacts(avatar.value(), still, scene.value(), query.value(), scratch));
     done = stages.end(name);
     if (!done.ok()) return done.error();
   }

@@ -4,20 +4,19 @@
 #include <string>
 #include <utility>
 
+#include "articulated/try.h"
 #include "bench/memory.h"
-#include "tools/settings/command_line.h"
 #include "tools/inputs/policy_rules.h"
+#include "tools/settings/command_line.h"
 #include "tools/settings/words.h"
 
 namespace foretouch::tools {
 namespace {
 
 ExitCode run(MemoryRequest request) {
-  const auto read = readPolicies(request);
-  if (!read.ok()) return failed(read.error());
-  const auto bench = measureMemory(request);
-  if (!bench.ok()) return failed(bench.error());
-  printOut(memoryTable(bench.value()));
+  FORETOUCH_CHECK_OR(failed, readPolicies(request));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureMemory(request));
+  printOut(memoryTable(bench));
   return ExitCode::Done;
 }
 

@@ -7,11 +7,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/mesh/link_mesh.h"
 #include "assets/text_file.h"
 #include "bench/machine.h"
 #include "bench/scene.h"
 #include "bench/surface.h"
+#include "lss/index.h"
 #include "tools/arguments.h"
 #include "tools/console.h"
 #include "tools/settling.h"
@@ -23,9 +25,8 @@ template <typename Value, typename Parse>
 Result<std::vector<Value>> parseEach(const std::string& text, const Parse& parse) {
   std::vector<Value> values;
   for (const std::string& part : splitAtCommas(text)) {
-    const Result<Value> value = parse(part);
-    if (!value.ok()) return value.error();
-    values.push_back(value.value());
+    FORETOUCH_TRY(const auto value, parse(part));
+    values.push_back(value);
   }
   return values;
 }
@@ -60,13 +61,14 @@ void settleWorkload(const BenchTexts& texts, Settling& settle, WorkloadRequest& 
   if (texts.choice == "mix") {
     workload.choice = StepChoice::Mix;
   } else if (texts.choice != "busy") {
-    settle.require(Result<Done>(Error{ErrorCode::OutOfRange, "--choice", -1, -1,
-                                      "expected busy or mix, found " + inQuotes(texts.choice)}));
+    settle.require(
+        Result<Done>(Error::in("--choice", ErrorCode::OutOfRange,
+                               "expected busy or mix, found " + inQuotes(texts.choice))));
   }
   settle.into(workload.mostPlacements, parseCount("--places", texts.places, kMaxBenchSteps));
   settle.into(workload.floorY, parseNumber("--floor", texts.floor));
   settle.into(workload.liftM, parseNumber("--lift", texts.lift));
-  workload.steps = static_cast<std::size_t>(steps);
+  workload.steps = countOf(steps);
   workload.seed = static_cast<std::uint64_t>(seed);
   if (texts.place.empty()) return;
   Placement place;
@@ -106,8 +108,8 @@ Result<std::vector<Simd>> parseSimds(const std::string& option, const std::strin
     }
     std::string names;
     for (const Simd one : supported) names += std::string(toString(one)) + ", ";
-    return Error{ErrorCode::UnknownName, option, -1, -1,
-                 "expected " + names + "all or widest, found " + inQuotes(part)};
+    return Error::in(option, ErrorCode::UnknownName,
+                     "expected " + names + "all or widest, found " + inQuotes(part));
   });
 }
 
@@ -132,16 +134,16 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts) {
   option("--lift", texts.lift, "M", "The clip's lowest point stays so far (m) above the floor");
   option("--steps", texts.steps, "N", "Steps, if so many are found");
   option("--seed", texts.seed, "N", "Of the places, and of the choice among their steps");
-  option("--repeat", texts.repeat, "N", "Times that each step is asked");
+  option("--repeat", texts.repeat, "N", "How often to ask each step");
   option("--processor", texts.processor, "N", "Keep to this processor");
   option("--fidelity", texts.fidelity, "RUNG",
          "What touches: ellipsoid, avatar, limb, link or exact");
   option("--descent", texts.descent, "straight|by-need",
-         "Whether a query first asks if anything is within the avatar's reach");
+         "Whether a query first checks if anything is within the avatar's reach");
   option("--surface-triangles", texts.surfaceTriangles, "N",
          "Of an avatar without meshes, at exact fidelity: the skins of its LSS");
   option("--json", texts.json, "FILE", "Also write the figures to a file");
-  option("--csv", texts.csv, "FILE", "Also write a line a step to a file");
+  option("--csv", texts.csv, "FILE", "Also write one line per step to a file");
 }
 
 Result<BenchOptions> settled(const BenchTexts& texts) {
@@ -167,13 +169,13 @@ Result<BenchOptions> settled(const BenchTexts& texts) {
   options.command = ownCommandLine();
   if (settle.error()) return *settle.error();
   if (options.fidelity == Fidelity::Skinned) {
-    return Error{ErrorCode::OutOfRange, "--fidelity", -1, -1,
-                 "expected ellipsoid, avatar, limb, link or exact"};
+    return Error::in("--fidelity", ErrorCode::OutOfRange,
+                     "expected ellipsoid, avatar, limb, link or exact");
   }
   if (options.processor && !pinToProcessor(*options.processor)) {
-    return Error{
-        ErrorCode::OutOfRange, "--processor", -1, -1,
-        "expected a processor that this process may use, found " + inQuotes(texts.processor)};
+    return Error::in(
+        "--processor", ErrorCode::OutOfRange,
+        "expected a processor that this process may use, found " + inQuotes(texts.processor));
   }
   return options;
 }
@@ -186,16 +188,13 @@ Result<QueryOptions> queryFor(const BenchInputs& inputs, const BenchBody& body,
   if (query.fidelity != Fidelity::Exact) return query;
   std::vector<std::vector<Triangle>> triangles;
   if (body.avatar.numLinks() == inputs.avatar.numLinks() && hasMeshes(inputs.avatar)) {
-    auto meshes = loadLinkMeshes(inputs.avatar, inputs.files.avatarPath);
-    if (!meshes.ok()) return inFile(meshes.error(), inputs.files.avatarPath);
-    triangles = std::move(meshes).value();
+    FORETOUCH_TRY(triangles, loadLinkMeshes(inputs.avatar, inputs.files.avatarPath));
   } else {
     triangles = lssSkins(body.avatar, options.surfaceTriangles);
   }
-  auto surface = AvatarSurface::build(body.avatar, std::move(triangles));
-  if (!surface.ok()) return surface.error();
-  surface.value().prepare();  // the first steps' latencies are the query's
-  query.surface = std::move(surface).value();
+  FORETOUCH_TRY(auto surface, AvatarSurface::build(body.avatar, std::move(triangles)));
+  surface.prepare();  // the first steps' latencies are the query's
+  query.surface = std::move(surface);
   return query;
 }
 

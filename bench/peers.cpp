@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "bench/judged.h"
 #include "bench/peers/foretouch_solvers.h"
 #ifdef FORETOUCH_HAS_PEERS
@@ -113,12 +114,10 @@ Result<std::vector<ComparedSet>> comparePeers(
   std::vector<ComparedSet> compared;
   std::int64_t done = 0;
   for (const MotionSetKind& kind : plan.sets) {
-    auto motions = drawnSet(kind, reference, plan.motions, plan.seed);
-    if (!motions.ok()) return motions.error();
-    ComparedSet set{std::move(motions).value(), {}, {}};
-    auto solvers = foretouchSolvers(scene, set.motions.lss_L);
-    if (!solvers.ok()) return solvers.error();
-    SweepSolvers all = std::move(solvers).value();
+    FORETOUCH_TRY(auto motions, drawnSet(kind, reference, plan.motions, plan.seed));
+    ComparedSet set{std::move(motions), {}, {}};
+    FORETOUCH_TRY(auto solvers, foretouchSolvers(scene, set.motions.lss_L));
+    SweepSolvers all = std::move(solvers);
 #ifdef FORETOUCH_HAS_PEERS
     for (auto& solver : peers.solvers(set.motions.lss_L)) all.push_back(std::move(solver));
 #endif

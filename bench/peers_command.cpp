@@ -9,12 +9,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/import/scene_import.h"
 #include "assets/text_file.h"
 #include "bench/machine.h"
 #include "bench/peers.h"
 #include "bench/report.h"
 #include "bench/scene.h"
+#include "lss/index.h"
 #include "tools/arguments.h"
 #include "tools/inputs/example_folder.h"
 #include "tools/progress.h"
@@ -63,50 +65,38 @@ Result<std::vector<MotionSetKind>> setsNamed(const std::vector<std::string>& nam
 }
 
 Result<Done> parseScene(const PeersTexts& texts, PeersRequest& request) {
-  const auto scale = parsePositive("--scene-scale", texts.sceneScale);
-  if (!scale.ok()) return scale.error();
-  const auto up = parseUpAxis("--up", texts.up);
-  if (!up.ok()) return up.error();
-  const auto triangles = parseCount("--triangles", texts.triangles, kMostTriangles);
-  if (!triangles.ok()) return triangles.error();
-  request.import.scale = scale.value();
-  request.import.up = up.value();
-  request.triangles = static_cast<std::size_t>(triangles.value());
+  FORETOUCH_TRY(const auto scale, parsePositive("--scene-scale", texts.sceneScale));
+  FORETOUCH_TRY(const auto up, parseUpAxis("--up", texts.up));
+  FORETOUCH_TRY(const auto triangles, parseCount("--triangles", texts.triangles, kMostTriangles));
+  request.import.scale = scale;
+  request.import.up = up;
+  request.triangles = countOf(triangles);
   request.scenePath = texts.scene;
   if (!texts.scene.empty()) return Done{};
-  const auto folder = exampleFolder();
-  if (!folder.ok()) return folder.error();
-  request.scenePath = folder.value() + "/room.obj";
+  FORETOUCH_TRY(const auto folder, exampleFolder());
+  request.scenePath = folder + "/room.obj";
   return Done{};
 }
 
 Result<PeersRequest> parse(const PeersTexts& texts) {
   PeersRequest request;
   for (const std::string& output : {texts.json, texts.csv}) {
-    const auto distinct = checkIsNoInput(output, {texts.scene});
-    if (!distinct.ok()) return distinct.error();
+    FORETOUCH_CHECK(checkIsNoInput(output, {texts.scene}));
   }
-  auto sets = setsNamed(texts.sets);
-  if (!sets.ok()) return sets.error();
-  const auto motions = parseCount("--motions", texts.motions, kMostMotions);
-  if (!motions.ok()) return motions.error();
+  FORETOUCH_TRY(auto sets, setsNamed(texts.sets));
+  FORETOUCH_TRY(const auto motions, parseCount("--motions", texts.motions, kMostMotions));
   const auto rounds = parseCount("--rounds", texts.rounds, kMostRounds);
   if (!rounds.ok()) return rounds.error();
-  const auto peerRounds = parseCount("--peer-rounds", texts.peerRounds, kMostRounds);
-  if (!peerRounds.ok()) return peerRounds.error();
-  const auto scene = parseScene(texts, request);
-  if (!scene.ok()) return scene.error();
-  request.plan = {std::move(sets).value(),
-                  static_cast<std::size_t>(motions.value()),
-                  texts.seed,
-                  {rounds.value(), peerRounds.value()}};
+  FORETOUCH_TRY(const auto peerRounds, parseCount("--peer-rounds", texts.peerRounds, kMostRounds));
+  FORETOUCH_CHECK(parseScene(texts, request));
+  request.plan = {
+      std::move(sets), static_cast<std::size_t>(motions), texts.seed, {rounds.value(), peerRounds}};
   return request;
 }
 
 Result<Scene> loadScene(const PeersRequest& request) {
-  auto imported = importScene(request.scenePath, request.import);
-  if (!imported.ok()) return inFile(imported.error(), request.scenePath);
-  auto scene = Scene::build(subdivided(std::move(imported.value().scene), request.triangles));
+  FORETOUCH_TRY(auto imported, importScene(request.scenePath, request.import));
+  auto scene = Scene::build(subdivided(std::move(imported.scene), request.triangles));
   if (!scene.ok()) return inFile(scene.error(), request.scenePath);
   return scene;
 }
@@ -140,21 +130,18 @@ ExitCode run(const PeersTexts& texts) {
         "libbullet-dev and build again with -DFORETOUCH_PEERS=ON");
     return ExitCode::BadInput;
   }
-  const auto request = parse(texts);
-  if (!request.ok()) return failed(request.error());
-  const auto scene = loadScene(request.value());
-  if (!scene.ok()) return failed(scene.error());
+  FORETOUCH_TRY_OR(failed, const auto request, parse(texts));
+  FORETOUCH_TRY_OR(failed, const auto scene, loadScene(request));
   std::unique_ptr<ProgressBar> bar;
-  const auto sets =
-      comparePeers(scene.value(), request.value().plan, [&](std::int64_t done, std::int64_t total) {
-        if (!bar) bar = std::make_unique<ProgressBar>("peers", total);
-        bar->advanceTo(done);
-      });
+  const auto sets = comparePeers(scene, request.plan, [&](std::int64_t done, std::int64_t total) {
+    if (!bar) bar = std::make_unique<ProgressBar>("peers", total);
+    bar->advanceTo(done);
+  });
   bar.reset();
-  if (!sets.ok()) return failed(inFile(sets.error(), request.value().scenePath));
-  const BenchReport report = reportOf(request.value(), scene.value(), sets.value());
-  const auto written = writeReport(report, texts.json, rawPeerTable(sets.value()), texts.csv);
-  if (!written.ok()) return failed(written.error());
+  if (!sets.ok()) return failed(inFile(sets.error(), request.scenePath));
+  const BenchReport report = reportOf(request, scene, sets.value());
+  FORETOUCH_CHECK_OR(failed,
+                     writeReport(report, texts.json, rawPeerTable(sets.value()), texts.csv));
   printOut(reportText(report));
   const std::size_t broken = brokenPromises(sets.value());
   if (broken == 0) return ExitCode::Done;

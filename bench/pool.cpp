@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "articulated/try.h"
+#include "lss/index.h"
 #include "middleware/query/query_pool.h"
 
 namespace foretouch::tools {
@@ -19,8 +21,7 @@ std::vector<StepTask> tasksAt(int instant, int avatars, const Avatar& avatar,
   std::vector<StepTask> tasks;
   tasks.reserve(static_cast<std::size_t>(avatars));
   for (std::int64_t which = 0; which < avatars; ++which) {
-    const StepPoses& poses =
-        steps[static_cast<std::size_t>((instant + count * which / avatars) % count)];
+    const StepPoses& poses = steps[slotOf((instant + count * which / avatars) % count)];
     tasks.push_back({&avatar, &poses.from, &poses.to, &query});
   }
   return tasks;
@@ -31,14 +32,13 @@ std::vector<StepTask> tasksAt(int instant, int avatars, const Avatar& avatar,
 Result<CrowdTimes> timeCrowd(const Avatar& avatar, const std::vector<StepPoses>& steps,
                              const Scene& scene, const QueryOptions& query, int avatars,
                              int instants, int threads) {
-  auto pool = QueryPool::start(threads);
-  if (!pool.ok()) return pool.error();
+  FORETOUCH_TRY(auto pool, QueryPool::start(threads));
   CrowdTimes times;
   std::vector<StepContacts> answers;
   for (int instant = 0; instant < instants; ++instant) {
     const std::vector<StepTask> tasks = tasksAt(instant, avatars, avatar, steps, query);
     const Clock::time_point start = Clock::now();
-    const auto done = pool.value().answer(scene, tasks, answers);
+    const auto done = pool.answer(scene, tasks, answers);
     const double seconds = secondsSince(start);
     if (!done.ok()) return done.error();
     times.wallS += seconds;

@@ -13,14 +13,16 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "articulated/try.h"
+
 namespace foretouch::tools {
 namespace {
 
 constexpr char kLoopback[] = "lo";
 
 Error refused(const std::string& step) {
-  return Error{ErrorCode::DeviceFailed, "private network", -1, -1,
-               "the system refused " + step + ": " + std::strerror(errno)};
+  return Error::in("private network", ErrorCode::DeviceFailed,
+                   "the system refused " + step + ": " + std::strerror(errno));
 }
 
 bool write(const char* path, const std::string& text) {
@@ -70,8 +72,7 @@ Result<Done> setUpLoopback(int socket) {
 }  // namespace
 
 Result<Done> enterPrivateNetwork() {
-  const auto entered = enterNamespaces();
-  if (!entered.ok()) return entered.error();
+  FORETOUCH_CHECK(enterNamespaces());
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (socket < 0) return refused("a socket");
   const auto done = setUpLoopback(socket);

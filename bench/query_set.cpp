@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 
 namespace foretouch::tools {
@@ -193,29 +194,26 @@ Result<std::vector<LabelledQuery>> parseQueries(std::string_view text, const std
     if (rows % kRows == 0) queries.push_back(query);
   }
   if (rows % kRows == 0) return queries;
-  error.message = fmt::format("expected 8 rows a query, found {} at the end", rows % kRows);
+  error.message = fmt::format("expected 8 rows per query, found {} at the end", rows % kRows);
   return error;
 }
 
 Result<std::vector<QuerySet>> readQuerySets(const std::vector<std::string>& folders) {
   std::vector<Source> all;
   for (const std::string& folder : folders) {
-    auto sources = sourcesUnder(folder);
-    if (!sources.ok()) return sources.error();
-    all.insert(all.end(), sources.value().begin(), sources.value().end());
+    FORETOUCH_TRY(auto sources, sourcesUnder(folder));
+    all.insert(all.end(), sources.begin(), sources.end());
   }
   std::sort(all.begin(), all.end(),
             [](const Source& a, const Source& b) { return a.path < b.path; });
   std::map<std::pair<std::string, QueryKind>, QuerySet> sets;
   for (const Source& source : all) {
-    const auto text = readWholeFile(source.path, kMaxQueryFileBytes);
-    if (!text.ok()) return text.error();
-    auto queries = parseQueries(text.value(), source.path);
-    if (!queries.ok()) return queries.error();
+    FORETOUCH_TRY(const auto text, readWholeFile(source.path, kMaxQueryFileBytes));
+    FORETOUCH_TRY(auto queries, parseQueries(text, source.path));
     QuerySet& set = sets[{source.set, source.kind}];
     set.name = source.set;
     set.kind = source.kind;
-    set.queries.insert(set.queries.end(), queries.value().begin(), queries.value().end());
+    set.queries.insert(set.queries.end(), queries.begin(), queries.end());
   }
   std::vector<QuerySet> result;
   for (auto& [key, set] : sets) result.push_back(std::move(set));

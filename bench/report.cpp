@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "lss/assert.h"
 #include "tools/console.h"
@@ -72,11 +73,9 @@ std::string factsText(const std::vector<BenchFact>& facts) {
 
 Result<Done> writeFile(const std::string& path, const std::string& text) {
   if (path.empty()) return Done{};
-  auto file = PendingFile::create(path);
-  if (!file.ok()) return inFile(file.error(), path);
-  file.value().write(text);
-  const auto written = file.value().commit();
-  if (!written.ok()) return inFile(written.error(), path);
+  FORETOUCH_TRY(auto file, PendingFile::create(path));
+  file.write(text);
+  FORETOUCH_CHECK(file.commit());
   return Done{};
 }
 
@@ -149,8 +148,7 @@ std::string reportMarkdown(const BenchReport& report) {
 
 Result<Done> writeReport(const BenchReport& report, const std::string& jsonPath,
                          const BenchTable& raw, const std::string& csvPath) {
-  const auto json = writeFile(jsonPath, reportJson(report));
-  if (!json.ok()) return json.error();
+  FORETOUCH_CHECK(writeFile(jsonPath, reportJson(report)));
   return writeFile(csvPath, csvPath.empty() ? std::string() : tableCsv(raw));
 }
 

@@ -97,8 +97,7 @@ Result<BenchReport> parseReport(const std::string& text, const std::string& name
   try {
     const Json json = Json::parse(text);
     if (json.at("format") != kFormat || json.at("version") != kVersion) {
-      return Error{ErrorCode::Mismatch, name, -1, -1,
-                   "expected format 'foretouch-bench' version 1"};
+      return Error::in(name, ErrorCode::Mismatch, "expected format 'foretouch-bench' version 1");
     }
     BenchReport report;
     report.kind = json.at("kind").get<std::string>();
@@ -111,8 +110,8 @@ Result<BenchReport> parseReport(const std::string& text, const std::string& name
     report.notes = json.at("notes").get<std::vector<std::string>>();
     return report;
   } catch (const nlohmann::json::exception& e) {
-    return Error{ErrorCode::Syntax, name, -1, -1,
-                 std::string("expected a benchmark's JSON: ") + e.what()};
+    return Error::in(name, ErrorCode::Syntax,
+                     std::string("expected a benchmark's JSON: ") + e.what());
   }
 }
 

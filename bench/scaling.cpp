@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "bench/machine.h"
 #include "bench/pool.h"
+#include "lss/index.h"
 #include "middleware/counter_fields.h"
 
 namespace foretouch::tools {
@@ -114,20 +116,14 @@ class ScalingBench {
 Result<Done> ScalingBench::prepare(const Point& point) {
   if (sceneTriangles_ != point.triangles) {
     scene_ = inputs_.scene;  // never two refined scenes in memory
-    auto scene = refinedScene(inputs_, point.triangles);
-    if (!scene.ok()) return scene.error();
-    scene_ = std::move(scene).value();
+    FORETOUCH_TRY(scene_, refinedScene(inputs_, point.triangles));
     sceneTriangles_ = point.triangles;
   }
   const bool newBody = bodyLinks_ != point.links;
   if (newBody) {
-    auto body = bodyOf(inputs_, point.links);
-    if (!body.ok()) return body.error();
-    body_ = std::move(body).value();
+    FORETOUCH_TRY(body_, bodyOf(inputs_, point.links));
     bodyLinks_ = point.links;
-    auto query = queryFor(inputs_, *body_, request_.options);
-    if (!query.ok()) return query.error();
-    query_ = std::move(query).value();
+    FORETOUCH_TRY(query_, queryFor(inputs_, *body_, request_.options));
   }
   const bool newSteps = !workload_ || workload_->request.rateHz != point.rateHz;
   if (newSteps) {
@@ -135,14 +131,10 @@ Result<Done> ScalingBench::prepare(const Point& point) {
     wanted.rateHz = point.rateHz;
     const auto base = bodyOf(inputs_, request_.links);  // the same steps for every body
     if (!base.ok()) return base.error();
-    auto workload = chooseSteps(inputs_, base.value(), wanted);
-    if (!workload.ok()) return workload.error();
-    workload_ = std::move(workload).value();
+    FORETOUCH_TRY(workload_, chooseSteps(inputs_, base.value(), wanted));
   }
   if (!newBody && !newSteps) return Done{};
-  auto steps = posesOf(inputs_, *body_, *workload_);
-  if (!steps.ok()) return steps.error();
-  steps_ = std::move(steps).value();
+  FORETOUCH_TRY(steps_, posesOf(inputs_, *body_, *workload_));
   return Done{};
 }
 
@@ -185,17 +177,16 @@ void ScalingBench::addRow(const Point& point, const Timing& timing, double baseM
 
 /// The mean of the row's steps.
 Result<double> ScalingBench::row(const Point& point, double baseMeanUs) {
-  const auto prepared = prepare(point);
-  if (!prepared.ok()) return prepared.error();
+  FORETOUCH_CHECK(prepare(point));
   BenchCase way;
   way.query = query_;
   way.query.tolerance = point.tolerance;
   way.simd = supportedSimd().back();
-  const auto timing = timeSteps(body_->avatar, steps_, scene_, {way}, request_.options.timing);
-  if (!timing.ok()) return timing.error();
-  addRow(point, timing.value(), baseMeanUs);
+  FORETOUCH_TRY(const auto timing,
+                timeSteps(body_->avatar, steps_, scene_, {way}, request_.options.timing));
+  addRow(point, timing, baseMeanUs);
   double sum = 0.0;
-  for (const TimedStep& step : timing.value().cases.front().steps) sum += step.warmUs;
+  for (const TimedStep& step : timing.cases.front().steps) sum += step.warmUs;
   return sum / static_cast<double>(steps_.size());
 }
 
@@ -205,15 +196,13 @@ Result<Done> ScalingBench::axis(const char* name, const std::vector<Value>& valu
   if (values.empty()) return Done{};
   Point base = basePoint(name);
   base.value = baseValue;
-  const auto baseMeanUs = row(base, 0.0);
-  if (!baseMeanUs.ok()) return baseMeanUs.error();
+  FORETOUCH_TRY(const auto baseMeanUs, row(base, 0.0));
   for (const Value value : values) {
     if (static_cast<double>(value) == baseValue) continue;
     Point point = basePoint(name);
     point.value = static_cast<double>(value);
     set(point, value);
-    const auto done = row(point, baseMeanUs.value());
-    if (!done.ok()) return done.error();
+    FORETOUCH_CHECK(row(point, baseMeanUs));
   }
   return Done{};
 }
@@ -223,30 +212,28 @@ Result<CrowdTimes> ScalingBench::quickestCrowd(int avatars, int threads,
   const int instants = std::max(1, (request_.crowdSteps + avatars - 1) / avatars);
   std::optional<CrowdTimes> quickest;
   for (int repeat = 0; repeat < request_.crowdRepeats; ++repeat) {
-    auto times = timeCrowd(body_->avatar, steps_, scene_, query, avatars, instants, threads);
-    if (!times.ok()) return times.error();
-    if (!quickest || times.value().wallS < quickest->wallS) quickest = std::move(times).value();
+    FORETOUCH_TRY(auto times,
+                  timeCrowd(body_->avatar, steps_, scene_, query, avatars, instants, threads));
+    if (!quickest || times.wallS < quickest->wallS) quickest = std::move(times);
   }
   return *quickest;
 }
 
 Result<Done> ScalingBench::crowd() {
   if (request_.avatarsAxis.empty() || request_.threadsAxis.empty()) return Done{};
-  const auto prepared = prepare(basePoint("crowd"));
-  if (!prepared.ok()) return prepared.error();
+  FORETOUCH_CHECK(prepare(basePoint("crowd")));
   QueryOptions query = query_;
   query.tolerance = request_.tolerance;
   BenchTable table = crowdTable();
   for (const int avatars : request_.avatarsAxis) {
     double oneThread = std::numeric_limits<double>::quiet_NaN();
     for (const int threads : request_.threadsAxis) {
-      const auto times = quickestCrowd(avatars, threads, query);
-      if (!times.ok()) return times.error();
-      const double perS = static_cast<double>(times.value().steps) / times.value().wallS;
+      FORETOUCH_TRY(const auto times, quickestCrowd(avatars, threads, query));
+      const double perS = static_cast<double>(times.steps) / times.wallS;
       if (threads == 1) oneThread = perS;
-      const Percentiles p = percentilesOf(times.value().instantUs);
-      table.rows.push_back({std::int64_t{avatars}, std::int64_t{threads}, times.value().steps,
-                            times.value().contacts, perS, perS / oneThread, p.p50, p.p99});
+      const Percentiles p = percentilesOf(times.instantUs);
+      table.rows.push_back({std::int64_t{avatars}, std::int64_t{threads}, times.steps,
+                            times.contacts, perS, perS / oneThread, p.p50, p.p99});
     }
   }
   bench_.report.tables.push_back(std::move(table));
@@ -254,7 +241,7 @@ Result<Done> ScalingBench::crowd() {
 }
 
 Result<MeasuredBench> ScalingBench::run() {
-  const auto setTriangles = [](Point& p, int n) { p.triangles = static_cast<std::size_t>(n); };
+  const auto setTriangles = [](Point& p, int n) { p.triangles = countOf(n); };
   const double baseTriangles =
       static_cast<double>(std::max(request_.triangles, inputs_.raw.triangles.size()));
   const double baseLinks = request_.links == 0 ? inputs_.avatar.numLinks() : request_.links;
@@ -273,8 +260,7 @@ Result<MeasuredBench> ScalingBench::run() {
   report.command = request_.options.command;
   report.date = dateNow();
   report.machine = machineFacts();
-  const auto prepared = prepare(basePoint("base"));
-  if (!prepared.ok()) return prepared.error();
+  FORETOUCH_CHECK(prepare(basePoint("base")));
   report.workload = workloadFacts(inputs_, scene_, body_->avatar, query_);
   report.workload.emplace_back(fmt::format("at {:g} Hz", request_.rateHz), describe(*workload_));
   report.notes = {
@@ -300,9 +286,8 @@ Result<MeasuredBench> ScalingBench::run() {
 }  // namespace
 
 Result<MeasuredBench> measureScaling(const ScalingRequest& request) {
-  const auto inputs = loadBenchInputs(request.options.files);
-  if (!inputs.ok()) return inputs.error();
-  return ScalingBench(request, inputs.value()).run();
+  FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.options.files));
+  return ScalingBench(request, inputs).run();
 }
 
 }  // namespace foretouch::tools

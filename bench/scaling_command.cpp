@@ -5,7 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "articulated/try.h"
 #include "bench/scaling.h"
+#include "lss/index.h"
 #include "tools/arguments.h"
 #include "tools/settling.h"
 
@@ -52,7 +54,7 @@ Result<ScalingRequest> settledScaling(ScalingTexts texts) {
   int triangles = 0;
   settle.into(triangles,
               parseOwnOrCount("--base-triangles", texts.baseTriangles, kMaxBenchTriangles));
-  request.triangles = static_cast<std::size_t>(triangles);
+  request.triangles = countOf(triangles);
   settle.into(request.links, parseOwnOrCount("--base-links", texts.baseLinks, kMaxBenchLinks));
   settle.into(request.rateHz, parsePositive("--base-rate", texts.baseRate));
   settle.into(request.tolerance, parseTolerance("--base-tolerance", texts.baseTolerance));
@@ -78,13 +80,10 @@ Result<ScalingRequest> settledScaling(ScalingTexts texts) {
 }
 
 ExitCode run(const ScalingTexts& texts) {
-  const auto request = settledScaling(texts);
-  if (!request.ok()) return failed(request.error());
-  const auto bench = measureScaling(request.value());
-  if (!bench.ok()) return failed(bench.error());
-  const auto written = writeReport(bench.value().report, texts.json, bench.value().raw, texts.csv);
-  if (!written.ok()) return failed(written.error());
-  printOut(reportText(bench.value().report));
+  FORETOUCH_TRY_OR(failed, const auto request, settledScaling(texts));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureScaling(request));
+  FORETOUCH_CHECK_OR(failed, writeReport(bench.report, texts.json, bench.raw, texts.csv));
+  printOut(reportText(bench.report));
   return ExitCode::Done;
 }
 

@@ -3,6 +3,8 @@
 #include <queue>
 #include <utility>
 
+#include "lss/index.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -23,8 +25,7 @@ struct LongestEdge {
 LongestEdge longestEdge(const Triangle& t, std::size_t index) {
   LongestEdge longest{-1.0, index, 0};
   for (int corner = 0; corner < 3; ++corner) {
-    const Eigen::Vector3d edge = t.vertices[static_cast<std::size_t>((corner + 1) % 3)] -
-                                 t.vertices[static_cast<std::size_t>(corner)];
+    const Eigen::Vector3d edge = t.vertices[slotOf((corner + 1) % 3)] - t.vertices[slotOf(corner)];
     if (edge.squaredNorm() > longest.squaredLength) {
       longest.squaredLength = edge.squaredNorm();
       longest.corner = corner;
@@ -50,7 +51,7 @@ RawScene subdivided(RawScene scene, std::size_t count) {
     if (!(edge.squaredLength > kShortestHalved * kShortestHalved)) break;
     queue.pop();
     const Triangle whole = scene.triangles[edge.triangle];
-    const auto from = static_cast<std::size_t>(edge.corner), to = (from + 1) % 3;
+    const auto from = slotOf(edge.corner), to = (from + 1) % 3;
     const Eigen::Vector3d middle = 0.5 * whole.vertices[from] + 0.5 * whole.vertices[to];
     Triangle half = whole;
     scene.triangles[edge.triangle].vertices[to] = middle;

@@ -17,7 +17,7 @@ namespace {
 constexpr char kReady[] = "ready";
 
 Error failure(const std::string& what) {
-  return Error{ErrorCode::DeviceFailed, "foretouch serve", -1, -1, what};
+  return Error::in("foretouch serve", ErrorCode::DeviceFailed, what);
 }
 
 /// Reads the child's output up to the line that says that it is ready.

@@ -10,9 +10,11 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "bench/machine.h"
 #include "bench/service_process.h"
 #include "bench/timing.h"
+#include "lss/index.h"
 #include "network/wire/reject.h"
 #include "tools/stream/clip_sender.h"
 
@@ -149,33 +151,29 @@ Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place) {
       everyFrame, options);
   LoadTrack track;
   track.skeleton = sender.skeleton(0);
-  track.poses.resize(static_cast<std::size_t>(sender.numPoses()));
+  track.poses.resize(countOf(sender.numPoses()));
   for (std::int64_t pose = 0; pose < sender.numPoses(); ++pose) {
-    const auto filled = sender.fill(pose, 0, track.poses[static_cast<std::size_t>(pose)]);
-    if (!filled.ok()) return filled.error();
+    FORETOUCH_CHECK(sender.fill(pose, 0, track.poses[slotOf(pose)]));
   }
   return track;
 }
 
 Result<StreamBench> measureStream(const StreamRequest& request) {
-  const auto inputs = loadBenchInputs(request.files);
-  if (!inputs.ok()) return inputs.error();
-  const auto track = loadTrack(inputs.value(), request.place);
-  if (!track.ok()) return track.error();
+  FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.files));
+  FORETOUCH_TRY(const auto track, loadTrack(inputs, request.place));
   StreamBench bench;
   BenchTable table = streamTable();
   for (const StreamCrowd& crowd : request.crowds) {
     LoadRequest load;
     load.senders = sendersOf({crowd});
     load.durationS = request.durationS;
-    auto service = ServiceProcess::start(serviceArguments(inputs.value().files, load.senders.size(),
-                                                          request.workers, std::string()));
-    if (!service.ok()) return service.error();
-    const auto outcome = runLoad(track.value(), load);
-    if (!outcome.ok()) return outcome.error();
-    service.value().stop();
-    table.rows.push_back(streamRow(crowd, outcome.value()));
-    bench.lost += outcome.value().unanswered;
+    FORETOUCH_TRY(auto service,
+                  ServiceProcess::start(serviceArguments(inputs.files, load.senders.size(),
+                                                         request.workers, std::string())));
+    FORETOUCH_TRY(const auto outcome, runLoad(track, load));
+    service.stop();
+    table.rows.push_back(streamRow(crowd, outcome));
+    bench.lost += outcome.unanswered;
   }
   BenchReport& report = bench.report;
   report.kind = "stream";
@@ -183,7 +181,7 @@ Result<StreamBench> measureStream(const StreamRequest& request) {
   report.command = request.command;
   report.date = dateNow();
   report.machine = machineFacts();
-  report.workload = streamFacts(inputs.value(), request.workers);
+  report.workload = streamFacts(inputs, request.workers);
   report.tables.push_back(std::move(table));
   report.notes = {
       "Senders and the receiver of verdicts are one process, the service another, in a network "
@@ -214,19 +212,17 @@ double slopeOf(const std::vector<double>& times, const std::vector<double>& valu
 }
 
 Result<SoakOutcome> soakStream(const SoakRequest& request) {
-  const auto inputs = loadBenchInputs(request.files);
-  if (!inputs.ok()) return inputs.error();
-  const auto track = loadTrack(inputs.value(), request.place);
-  if (!track.ok()) return track.error();
+  FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.files));
+  FORETOUCH_TRY(const auto track, loadTrack(inputs, request.place));
   LoadRequest load;
   load.senders = sendersOf(request.crowds);
   load.durationS = 60.0 * request.minutes;
   load.garbageShare = request.garbageShare;
-  auto service = ServiceProcess::start(serviceArguments(inputs.value().files, load.senders.size(),
-                                                        request.workers, request.logPath));
+  auto service = ServiceProcess::start(
+      serviceArguments(inputs.files, load.senders.size(), request.workers, request.logPath));
   if (!service.ok()) return service.error();
   Watch watch(service.value());
-  const auto ran = runLoad(track.value(), load, [&] { watch.sample(); });
+  const auto ran = runLoad(track, load, [&] { watch.sample(); });
   if (!ran.ok()) return ran.error();
   const LoadOutcome& outcome = ran.value();
 
@@ -281,7 +277,7 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   soak.report.command = request.command;
   soak.report.date = dateNow();
   soak.report.machine = machineFacts();
-  soak.report.workload = streamFacts(inputs.value(), request.workers);
+  soak.report.workload = streamFacts(inputs, request.workers);
   soak.report.tables.push_back(std::move(table));
   return soak;
 }

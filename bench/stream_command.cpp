@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "bench/machine.h"
 #include "bench/private_network.h"
 #include "bench/stream.h"
@@ -36,13 +37,10 @@ ExitCode runStream(const StreamTexts& texts) {
   settle.into(request.place, parsePlacement("--place", texts.place));
   if (settle.error()) return failed(*settle.error());
   request.command = ownCommandLine();
-  const auto entered = enterPrivateNetwork();
-  if (!entered.ok()) return failed(entered.error());
-  const auto bench = measureStream(request);
-  if (!bench.ok()) return failed(bench.error());
-  const BenchReport& report = bench.value().report;
-  const auto written = writeReport(report, texts.json, report.tables.front(), texts.csv);
-  if (!written.ok()) return failed(written.error());
+  FORETOUCH_CHECK_OR(failed, enterPrivateNetwork());
+  FORETOUCH_TRY_OR(failed, const auto bench, measureStream(request));
+  const BenchReport& report = bench.report;
+  FORETOUCH_CHECK_OR(failed, writeReport(report, texts.json, report.tables.front(), texts.csv));
   printOut(reportText(report));
   return ExitCode::Done;
 }
@@ -62,18 +60,14 @@ ExitCode runSoak(const StreamTexts& texts) {
   if (settle.error()) return failed(*settle.error());
   request.logPath = texts.log;
   request.command = ownCommandLine();
-  const auto entered = enterPrivateNetwork();
-  if (!entered.ok()) return failed(entered.error());
-  const auto soak = soakStream(request);
-  if (!soak.ok()) return failed(soak.error());
-  const BenchReport& report = soak.value().report;
-  const auto written = writeReport(report, texts.json, report.tables.front(), texts.csv);
-  if (!written.ok()) return failed(written.error());
+  FORETOUCH_CHECK_OR(failed, enterPrivateNetwork());
+  FORETOUCH_TRY_OR(failed, const auto soak, soakStream(request));
+  const BenchReport& report = soak.report;
+  FORETOUCH_CHECK_OR(failed, writeReport(report, texts.json, report.tables.front(), texts.csv));
   printOut(reportText(report));
-  const bool isSound =
-      soak.value().lost == 0 && soak.value().filesConstant &&
-      (soak.value().slopeMbPerHour < kMostMbPerHour || soak.value().grownMb < kNoGrowthMb) &&
-      soak.value().exitCode == 0;
+  const bool isSound = soak.lost == 0 && soak.filesConstant &&
+                       (soak.slopeMbPerHour < kMostMbPerHour || soak.grownMb < kNoGrowthMb) &&
+                       soak.exitCode == 0;
   if (isSound) return ExitCode::Done;
   printError("the service lost poses, grew, or did not end well: see the table");
   return ExitCode::CheckSaysNo;
@@ -88,18 +82,16 @@ Result<std::vector<StreamCrowd>> parseCrowds(const std::string& option, const st
     const std::string word = text.substr(start, end - start);
     const std::size_t cross = word.find('x');
     if (cross == std::string::npos) {
-      return Error{ErrorCode::Syntax, option, -1, -1,
-                   "expected AVATARSxHZ,... as in 10x90,1x1000, found '" + word + "'"};
+      return Error::in(option, ErrorCode::Syntax,
+                       "expected AVATARSxHZ,... as in 10x90,1x1000, found '" + word + "'");
     }
-    const auto avatars = parseCount(option, word.substr(0, cross), kMaxAvatars);
-    if (!avatars.ok()) return avatars.error();
-    const auto rate = parsePositive(option, word.substr(cross + 1));
-    if (!rate.ok()) return rate.error();
-    if (rate.value() > kMaxRateHz) {
-      return Error{ErrorCode::OutOfRange, option, -1, -1,
-                   fmt::format("expected at most {} poses a second", kMaxRateHz)};
+    FORETOUCH_TRY(const auto avatars, parseCount(option, word.substr(0, cross), kMaxAvatars));
+    FORETOUCH_TRY(const auto rate, parsePositive(option, word.substr(cross + 1)));
+    if (rate > kMaxRateHz) {
+      return Error::in(option, ErrorCode::OutOfRange,
+                       fmt::format("expected at most {} poses per second", kMaxRateHz));
     }
-    crowds.push_back({avatars.value(), rate.value()});
+    crowds.push_back({avatars, rate});
     start = end + 1;
   }
   return crowds;
@@ -115,7 +107,8 @@ void addBenchStreamCommands(CLI::App& bench, ExitCode& exit) {
                             const char* help) {
       command.add_option(name, text, help)->type_name(type)->capture_default_str();
     };
-    option("--crowds", texts.crowds, "NxHZ,...", "So many avatars, each so many poses a second");
+    option("--crowds", texts.crowds, "NxHZ,...",
+           "How many avatars, and how many poses per second each sends");
     option("--workers", texts.workers, "N", "Threads of the service that answer");
     option("--place", texts.place, "X,Y,Z[,YAW]", "Where the bundled dancer stands in the room");
     option("--json", texts.json, "FILE", "Also write the figures to a file");

@@ -14,6 +14,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "articulated/try.h"
+#include "lss/index.h"
 #include "network/service/clock.h"
 #include "network/wire/codec.h"
 #include "network/wire/udpm_datagram.h"
@@ -55,7 +57,7 @@ class SendTimes {
     return static_cast<std::int64_t>(times_[sender].size());
   }
   [[nodiscard]] std::atomic<std::int64_t>& at(std::size_t sender, std::int64_t sequence) {
-    return times_[sender][static_cast<std::size_t>(sequence)];
+    return times_[sender][slotOf(sequence)];
   }
 
  private:
@@ -200,7 +202,7 @@ class Senders {
   [[nodiscard]] const PoseMessage& poseAt(std::int64_t sequence) const {
     const auto last = static_cast<std::int64_t>(track_.poses.size()) - 1;
     const std::int64_t place = sequence % (2 * last);
-    return track_.poses[static_cast<std::size_t>(place <= last ? place : 2 * last - place)];
+    return track_.poses[slotOf(place <= last ? place : 2 * last - place)];
   }
 
   void sendPose(std::size_t s, std::int64_t dueNs) {
@@ -304,14 +306,12 @@ void waitForTheLast(const Answers& answers, std::int64_t sent) {
 
 Result<LoadOutcome> runLoad(const LoadTrack& track, const LoadRequest& request,
                             const std::function<void()>& everySecond) {
-  auto receiver = openUdpmReceiver(request.url, {kContactsChannel, kStatusChannel});
-  if (!receiver.ok()) return receiver.error();
-  auto publisher = openUdpmPublisher(request.url);
-  if (!publisher.ok()) return publisher.error();
+  FORETOUCH_TRY(auto receiver, openUdpmReceiver(request.url, {kContactsChannel, kStatusChannel}));
+  FORETOUCH_TRY(auto publisher, openUdpmPublisher(request.url));
   LoadOutcome outcome;
   SendTimes times(request);
-  Answers answers(request, *receiver.value(), times);
-  Senders senders(track, request, *publisher.value(), times, outcome);
+  Answers answers(request, *receiver, times);
+  Senders senders(track, request, *publisher, times, outcome);
   answers.session = senders.session();
   std::thread listening([&] { answers.receiveUntilStopped(); });
   senders.sendSkeletons();
@@ -325,7 +325,7 @@ Result<LoadOutcome> runLoad(const LoadTrack& track, const LoadRequest& request,
   outcome.gaps = answers.gaps;
   outcome.status = std::move(answers.status);
   outcome.unanswered = outcome.sent - static_cast<std::int64_t>(outcome.answers.size());
-  outcome.ownDrops = static_cast<std::int64_t>(receiver.value()->counts().kernelDrops);
+  outcome.ownDrops = static_cast<std::int64_t>(receiver->counts().kernelDrops);
   return outcome;
 }
 

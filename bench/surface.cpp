@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lss/index.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -90,10 +92,10 @@ std::vector<std::vector<Triangle>> lssSkins(const Avatar& avatar, std::size_t co
     const double middle = 0.5 * (fine + coarse);
     (trianglesOf(avatar, middle) > count ? fine : coarse) = middle;
   }
-  std::vector<std::vector<Triangle>> skins(static_cast<std::size_t>(avatar.numLinks()));
+  std::vector<std::vector<Triangle>> skins(countOf(avatar.numLinks()));
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     for (const Lss& lss : avatar.lss(link)) {
-      addSkin(lss, divisionOf(lss, coarse), skins[static_cast<std::size_t>(link)]);
+      addSkin(lss, divisionOf(lss, coarse), skins[slotOf(link)]);
     }
   }
   return skins;

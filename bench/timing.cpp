@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "articulated/motion.h"
+#include "articulated/try.h"
 #include "bench/leaf_timing.h"
 #include "lss/assert.h"
 #include "tools/progress.h"
@@ -103,11 +104,10 @@ Result<Done> timeWarm(StepClock& clock, const StepPoses& poses, const BenchCase&
   TimedStep step;
   StepContacts answer;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    const auto us = clock.ask(poses, way, answer);
-    if (!us.ok()) return us.error();
-    if (repeat == 0) step.firstUs = us.value();
-    step.warmUs = repeat == 0 ? us.value() : std::min(step.warmUs, us.value());
-    times.everyUs.push_back(us.value());
+    FORETOUCH_TRY(const auto us, clock.ask(poses, way, answer));
+    if (repeat == 0) step.firstUs = us;
+    step.warmUs = repeat == 0 ? us : std::min(step.warmUs, us);
+    times.everyUs.push_back(us);
   }
   record(answer, step);
   times.steps.push_back(step);
@@ -119,9 +119,8 @@ Result<Done> timeRays(const StepClock& clock, const Avatar& avatar, const StepPo
   const auto rays = raysAlong(ChainMotion(avatar.skeleton(), poses.from, poses.to));
   double least = std::numeric_limits<double>::infinity();
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    const auto us = clock.castRays(rays);
-    if (!us.ok()) return us.error();
-    least = std::min(least, us.value());
+    FORETOUCH_TRY(const auto us, clock.castRays(rays));
+    least = std::min(least, us);
   }
   raySetUs.push_back(least);
   return Done{};
@@ -134,10 +133,9 @@ Result<Done> timeCold(StepClock& clock, const std::vector<StepPoses>& steps, con
   for (int pass = 0; pass < options.coldPasses; ++pass) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
       flood.run();
-      const auto us = clock.ask(steps[i], way, answer);
-      if (!us.ok()) return us.error();
+      FORETOUCH_TRY(const auto us, clock.ask(steps[i], way, answer));
       double& coldUs = times.steps[i].coldUs;
-      coldUs = pass == 0 ? us.value() : std::min(coldUs, us.value());
+      coldUs = pass == 0 ? us : std::min(coldUs, us);
     }
   }
   return Done{};
@@ -179,23 +177,19 @@ Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& ste
   timing.cases.resize(cases.size());
   timing.overheadUs = clock.overheadUs();
   // The first set builds the scene's ray structures.
-  const auto first = clock.castRays(
-      raysAlong(ChainMotion(avatar.skeleton(), steps.front().from, steps.front().to)));
-  if (!first.ok()) return first.error();
+  FORETOUCH_CHECK(clock.castRays(
+      raysAlong(ChainMotion(avatar.skeleton(), steps.front().from, steps.front().to))));
   ProgressBar progress("steps", static_cast<std::int64_t>(steps.size()));
   for (std::size_t i = 0; i < steps.size(); ++i) {
     for (std::size_t c = 0; c < cases.size(); ++c) {
-      const auto done = timeWarm(clock, steps[i], cases[c], options.repeats, timing.cases[c]);
-      if (!done.ok()) return done.error();
+      FORETOUCH_CHECK(timeWarm(clock, steps[i], cases[c], options.repeats, timing.cases[c]));
     }
-    const auto rays = timeRays(clock, avatar, steps[i], options.repeats, timing.raySetUs);
-    if (!rays.ok()) return rays.error();
+    FORETOUCH_CHECK(timeRays(clock, avatar, steps[i], options.repeats, timing.raySetUs));
     progress.advanceTo(static_cast<std::int64_t>(i) + 1);
   }
   for (std::size_t c = 0; c < cases.size(); ++c) {
     if (!cases[c].cold || options.coldMb == 0) continue;
-    const auto done = timeCold(clock, steps, cases[c], options, timing.cases[c]);
-    if (!done.ok()) return done.error();
+    FORETOUCH_CHECK(timeCold(clock, steps, cases[c], options, timing.cases[c]));
   }
   return timing;
 }

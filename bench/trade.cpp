@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "bench/machine.h"
 #include "bench/options.h"
 #include "bench/trade/dominance.h"
@@ -77,25 +78,22 @@ class WorldBench {
         world_(inputs.avatar, inputs.scene) {}
 
   Result<Done> run(MeasuredTrade& bench, JudgedTruth& judged) {
-    const auto places = findPlaces();
-    if (!places.ok()) return places.error();
+    FORETOUCH_TRY(const auto places, findPlaces());
     bool isJudged = false;
     for (const double rateHz : request_.ratesHz) {
-      auto run = runAt(rateHz, places.value());
-      if (!run.ok()) return run.error();
-      if (run.value().windows.empty()) {
+      FORETOUCH_TRY(auto run, runAt(rateHz, places));
+      if (run.windows.empty()) {
         noteOnce(
             fmt::format("{} holds no steps at {:g} Hz.", nameOf(inputs_.files.motionPath), rateHz),
             bench.report);
         continue;
       }
-      if (!isJudged) run.value().judged = request_.judged;
+      if (!isJudged) run.judged = request_.judged;
       isJudged = true;
       auto contenders = contendersFor(world_, request_.tolerances, surface_);
-      auto result = runTrade(world_, surface_, run.value(), contenders);
-      if (!result.ok()) return result.error();
-      judged.add(result.value().judged);
-      for (TradeRow& row : result.value().rows) bench.rows.push_back(std::move(row));
+      FORETOUCH_TRY(auto result, runTrade(world_, surface_, run, contenders));
+      judged.add(result.judged);
+      for (TradeRow& row : result.rows) bench.rows.push_back(std::move(row));
     }
     return Done{};
   }
@@ -106,24 +104,23 @@ class WorldBench {
     WorkloadRequest wanted = request_.workload;
     const double clipHz = 1.0 / inputs_.clip.frameTimeS;
     wanted.rateHz = std::min(request_.baseRateHz, clipHz);
-    const auto workload = chooseSteps(inputs_, body_, wanted);
-    if (!workload.ok()) return workload.error();
+    FORETOUCH_TRY(const auto workload, chooseSteps(inputs_, body_, wanted));
     std::vector<TradePlace> places;
     std::optional<Placement> last;
-    for (const StepPick& pick : workload.value().picks) {
+    for (const StepPick& pick : workload.picks) {
       const bool isKnown =
           last && last->origin == pick.placement.origin && last->yawDeg == pick.placement.yawDeg;
       if (isKnown || pick.kind != StepClass::Contact) continue;
       if (places.size() == static_cast<std::size_t>(request_.places)) break;
       last = pick.placement;
       const double frame =
-          static_cast<double>(pick.frame) + 0.5 * static_cast<double>(workload.value().stride);
+          static_cast<double>(pick.frame) + 0.5 * static_cast<double>(workload.stride);
       places.push_back({pick.placement, frame * inputs_.clip.frameTimeS});
     }
     if (!places.empty()) return places;
-    return Error{ErrorCode::Empty, inputs_.files.motionPath, -1, -1,
-                 "touches nothing at any place that was tried in " +
-                     nameOf(inputs_.files.scenePath) + "; expected one with a contact"};
+    return Error::in(inputs_.files.motionPath, ErrorCode::Empty,
+                     "touches nothing at any place that was tried in " +
+                         nameOf(inputs_.files.scenePath) + "; expected one with a contact");
   }
 
   Result<TradeRun> runAt(double rateHz, const std::vector<TradePlace>& places) {
@@ -136,9 +133,8 @@ class WorldBench {
     if (!steps.ok()) return run;  // a rate that the clip does not have
     run.stepMs = 1e3 * static_cast<double>(steps.value().stride) * inputs_.clip.frameTimeS;
     for (const TradePlace& place : places) {
-      auto window = windowAt(place, steps.value().stride);
-      if (!window.ok()) return window.error();
-      if (!window.value().empty()) run.windows.push_back(std::move(window).value());
+      FORETOUCH_TRY(auto window, windowAt(place, steps.value().stride));
+      if (!window.empty()) run.windows.push_back(std::move(window));
     }
     return run;
   }
@@ -152,10 +148,9 @@ class WorldBench {
     const std::int64_t first = std::clamp<std::int64_t>(middle - span / 2, 0, lastFrame - span);
     TradeWindow window;
     for (std::int64_t frame = first; frame + stride <= first + span; frame += stride) {
-      auto from = poseAt(place, frame), to = poseAt(place, frame + stride);
-      if (!from.ok()) return from.error();
-      if (!to.ok()) return to.error();
-      window.push_back({std::move(from).value(), std::move(to).value()});
+      FORETOUCH_TRY(auto from, poseAt(place, frame));
+      FORETOUCH_TRY(auto to, poseAt(place, frame + stride));
+      window.push_back({std::move(from), std::move(to)});
     }
     return window;
   }
@@ -173,23 +168,18 @@ class WorldBench {
 
 Result<Done> measureWorld(const TradeRequest& request, const BenchFiles& files,
                           MeasuredTrade& bench, JudgedTruth& judged) {
-  const auto inputs = loadBenchInputs(files);
-  if (!inputs.ok()) return inputs.error();
-  auto body = bodyOf(inputs.value(), 0);
-  if (!body.ok()) return body.error();
+  FORETOUCH_TRY(const auto inputs, loadBenchInputs(files));
+  FORETOUCH_TRY(auto body, bodyOf(inputs, 0));
   BenchOptions options;
   options.fidelity = Fidelity::Exact;
   options.surfaceTriangles = request.surfaceTriangles;
-  auto query = queryFor(inputs.value(), body.value(), options);
-  if (!query.ok()) return query.error();
-  for (auto& fact :
-       workloadFacts(inputs.value(), inputs.value().scene, inputs.value().avatar, query.value())) {
+  FORETOUCH_TRY(auto query, queryFor(inputs, body, options));
+  for (auto& fact : workloadFacts(inputs, inputs.scene, inputs.avatar, query)) {
     const bool isKnown = std::find(bench.report.workload.begin(), bench.report.workload.end(),
                                    fact) != bench.report.workload.end();
     if (!isKnown && fact.first != "fidelity") bench.report.workload.push_back(std::move(fact));
   }
-  WorldBench world(request, inputs.value(), std::move(body).value(),
-                   std::move(query).value().surface);
+  WorldBench world(request, inputs, std::move(body), std::move(query).surface);
   return world.run(bench, judged);
 }
 
@@ -234,11 +224,10 @@ Result<MeasuredTrade> measureTrade(const TradeRequest& request) {
   report.machine = machineFacts();
   JudgedTruth judged;
   for (const BenchFiles& files : request.worlds) {
-    const auto done = measureWorld(request, files, bench, judged);
-    if (!done.ok()) return done.error();
+    FORETOUCH_CHECK(measureWorld(request, files, bench, judged));
   }
   if (bench.rows.empty()) {
-    return Error{ErrorCode::Empty, "--rate", -1, -1, "expected a rate that a clip has"};
+    return Error::in("--rate", ErrorCode::Empty, "expected a rate that a clip has");
   }
   markFrontier(bench.rows);
   report.tables = tablesForPeople(bench.rows, bench.baseTolerance, bench.baseRateHz);

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "bench/machine.h"
 #include "bench/options.h"
@@ -47,7 +48,7 @@ Result<std::vector<std::string>> parseFiles(const std::string& option, const std
   std::vector<std::string> files =
       names.empty() ? std::vector<std::string>{""} : splitAtCommas(names);
   if (names.empty() || std::find(files.begin(), files.end(), "") == files.end()) return files;
-  return Error{ErrorCode::Empty, option, -1, -1, "expected a file between every two commas"};
+  return Error::in(option, ErrorCode::Empty, "expected a file between every two commas");
 }
 
 /// One value for all of `count` files, or one each.
@@ -56,25 +57,23 @@ Result<std::vector<T>> oneEach(const std::string& option, std::vector<T> values,
                                std::size_t count) {
   if (values.size() == 1) values.resize(count, values.front());
   if (values.size() == count) return values;
-  return Error{ErrorCode::Mismatch, option, -1, -1,
-               fmt::format("expected one value, or one for each of {} files, found {}", count,
-                           values.size())};
+  return Error::in(option, ErrorCode::Mismatch,
+                   fmt::format("expected one value, or one for each of {} files, found {}", count,
+                               values.size()));
 }
 
 Result<std::vector<double>> parseScales(const std::string& option, const std::string& text,
                                         std::size_t count) {
-  auto scales = parsePositives(option, text);
-  if (!scales.ok()) return scales.error();
-  return oneEach(option, std::move(scales).value(), count);
+  FORETOUCH_TRY(auto scales, parsePositives(option, text));
+  return oneEach(option, std::move(scales), count);
 }
 
 Result<std::vector<UpAxis>> parseUpAxes(const std::string& option, const std::string& text,
                                         std::size_t count) {
   std::vector<UpAxis> axes;
   for (const std::string& word : splitAtCommas(text)) {
-    const auto axis = parseUpAxis(option, word);
-    if (!axis.ok()) return axis.error();
-    axes.push_back(axis.value());
+    FORETOUCH_TRY(const auto axis, parseUpAxis(option, word));
+    axes.push_back(axis);
   }
   return oneEach(option, std::move(axes), count);
 }
@@ -114,9 +113,9 @@ void settleWorlds(const TradeTexts& texts, Settling& settle, TradeRequest& reque
 Result<Done> checkTolerances(const std::vector<double>& tolerances) {
   for (const double tolerance : tolerances) {
     if (tolerance >= kTruthTolerance) continue;
-    return Error{ErrorCode::OutOfRange, "--tolerance", -1, -1,
-                 fmt::format("expected {:g} m or more, where the truth is known, found {:g}",
-                             kTruthTolerance, tolerance)};
+    return Error::in("--tolerance", ErrorCode::OutOfRange,
+                     fmt::format("expected {:g} m or more, where the truth is known, found {:g}",
+                                 kTruthTolerance, tolerance));
   }
   return Done{};
 }
@@ -155,10 +154,9 @@ Result<TradeRequest> settledTrade(TradeTexts texts) {
 }
 
 Result<Done> writeText(const std::string& path, const std::string& text) {
-  auto file = PendingFile::create(path);
-  if (!file.ok()) return inFile(file.error(), path);
-  file.value().write(text);
-  const auto written = file.value().commit();
+  FORETOUCH_TRY(auto file, PendingFile::create(path));
+  file.write(text);
+  const auto written = file.commit();
   return written.ok() ? written : inFile(written.error(), path);
 }
 
@@ -183,30 +181,25 @@ Result<Done> checkOutputs(const TradeTexts& texts, const TradeRequest& request) 
     inputs.push_back(files.motionPath);
   }
   for (const std::string& output : {texts.json, texts.csv, texts.html, texts.markdown}) {
-    const auto checked = checkIsNoInput(output, inputs);
-    if (!checked.ok()) return checked.error();
+    FORETOUCH_CHECK(checkIsNoInput(output, inputs));
   }
   return Done{};
 }
 
 ExitCode run(const TradeTexts& texts) {
-  const auto request = settledTrade(texts);
-  if (!request.ok()) return failed(request.error());
-  const auto checked = checkOutputs(texts, request.value());
-  if (!checked.ok()) return failed(checked.error());
+  FORETOUCH_TRY_OR(failed, const auto request, settledTrade(texts));
+  FORETOUCH_CHECK_OR(failed, checkOutputs(texts, request));
   if (texts.processor != "any") {
     const auto processor = parseNumber("--processor", texts.processor);
     if (!processor.ok() || !pinToProcessor(static_cast<int>(processor.value()))) {
-      return failed(Error{
-          ErrorCode::OutOfRange, "--processor", -1, -1,
-          "expected a processor that this process may use, found " + inQuotes(texts.processor)});
+      return failed(Error::in(
+          "--processor", ErrorCode::OutOfRange,
+          "expected a processor that this process may use, found " + inQuotes(texts.processor)));
     }
   }
-  const auto bench = measureTrade(request.value());
-  if (!bench.ok()) return failed(bench.error());
-  const auto written = writeAll(texts, bench.value());
-  if (!written.ok()) return failed(written.error());
-  printOut(reportText(bench.value().report));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureTrade(request));
+  FORETOUCH_CHECK_OR(failed, writeAll(texts, bench));
+  printOut(reportText(bench.report));
   return ExitCode::Done;
 }
 
@@ -238,7 +231,7 @@ void addBenchTradeCommand(CLI::App& bench, ExitCode& exit) {
   option("--places", texts->places, "N", "Places with contacts in each scene");
   option("--passes", texts->passes, "N", "Of every strategy; a step's least time counts");
   option("--judged", texts->judged, "N",
-         "Links a scene and clip that a judge of other code is asked about");
+         "Links per scene and clip that an independent judge checks");
   option("--floor", texts->floor, "Y", "Height (m) of the scene's floor");
   option("--lift", texts->lift, "M", "The clip's lowest point stays so far (m) above the floor");
   option("--seed", texts->seed, "N", "Of the places");
@@ -246,7 +239,7 @@ void addBenchTradeCommand(CLI::App& bench, ExitCode& exit) {
   option("--surface-triangles", texts->surfaceTriangles, "N",
          "Of an avatar without meshes, at exact fidelity: the skins of its LSS");
   option("--json", texts->json, "FILE", "Also write the figures to a file");
-  option("--csv", texts->csv, "FILE", "Also write a line a setting to a file");
+  option("--csv", texts->csv, "FILE", "Also write one line per setting to a file");
   option("--html", texts->html, "FILE", "Also write a page with plots, which needs nothing else");
   option("--markdown", texts->markdown, "FILE", "Also write the tables as Markdown");
   command->add_flag("--quick", texts->quick, "Few values and steps: a trial of seconds");

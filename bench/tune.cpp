@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/mesh/link_mesh.h"
 #include "bench/machine.h"
 #include "bench/options.h"
@@ -42,12 +43,11 @@ Result<std::optional<AvatarSurface>> surfaceOf(const BenchInputs& inputs) {
     hasMesh = hasMesh || !inputs.avatar.mesh(link).file.empty();
   }
   if (!hasMesh) return std::optional<AvatarSurface>();
-  auto meshes = loadLinkMeshes(inputs.avatar, inputs.files.avatarPath);
-  if (!meshes.ok()) return inFile(meshes.error(), inputs.files.avatarPath);
-  auto surface = AvatarSurface::build(inputs.avatar, std::move(meshes).value());
-  if (!surface.ok()) return inFile(surface.error(), inputs.files.avatarPath);
-  surface.value().prepare();
-  return std::optional<AvatarSurface>(std::move(surface).value());
+  FORETOUCH_TRY(auto meshes, loadLinkMeshes(inputs.avatar, inputs.files.avatarPath));
+  FORETOUCH_TRY(auto surface, inFile(AvatarSurface::build(inputs.avatar, std::move(meshes)),
+                                     inputs.files.avatarPath));
+  surface.prepare();
+  return std::optional<AvatarSurface>(std::move(surface));
 }
 
 class Tuner {
@@ -59,16 +59,15 @@ class Tuner {
         world_(inputs.avatar, inputs.scene) {}
 
   Result<TunedRate> at(double rateHz) {
-    const auto steps = selectSteps(inputs_.clip.frames.size(), inputs_.clip.frameTimeS, rateHz);
-    if (!steps.ok()) return inFile(steps.error(), inputs_.files.motionPath);
-    auto run = runOf(rateHz, steps.value());
-    if (!run.ok()) return run.error();
+    FORETOUCH_TRY(const auto steps,
+                  inFile(selectSteps(inputs_.clip.frames.size(), inputs_.clip.frameTimeS, rateHz),
+                         inputs_.files.motionPath));
+    FORETOUCH_TRY(auto run, runOf(rateHz, steps));
     TunedRate rate;
     rate.rateHz = rateHz;
     std::vector<TradeContender> contenders = contendersFor(rate.settings);
-    auto result = runTrade(world_, surface_, run.value(), contenders);
-    if (!result.ok()) return result.error();
-    std::vector<TradeRow>& rows = result.value().rows;
+    FORETOUCH_TRY(auto result, runTrade(world_, surface_, run, contenders));
+    std::vector<TradeRow>& rows = result.rows;
     for (std::size_t i = 0; i < rate.settings.size(); ++i) {
       rate.settings[i].rateHz = rateHz;
       rate.settings[i].row = rows[i];
@@ -173,8 +172,8 @@ Result<std::vector<double>> ratesOf(const TuneRequest& request, const BenchInput
     }
   }
   if (!rates.empty()) return rates;
-  return Error{ErrorCode::Empty, inputs.files.motionPath, -1, -1,
-               "holds no step at 5 to 60 Hz; expected two frames or more, or a rate by --rate"};
+  return Error::in(inputs.files.motionPath, ErrorCode::Empty,
+                   "holds no step at 5 to 60 Hz; expected two frames or more, or a rate by --rate");
 }
 
 }  // namespace
@@ -219,29 +218,25 @@ std::string recommendationText(const TunedRate& rate, double budgetUs) {
 }
 
 Result<Tuned> tune(const TuneRequest& request) {
-  const auto inputs = loadBenchInputs(request.files);
-  if (!inputs.ok()) return inputs.error();
-  const auto rates = ratesOf(request, inputs.value());
-  if (!rates.ok()) return rates.error();
-  auto surface = surfaceOf(inputs.value());
-  if (!surface.ok()) return surface.error();
-  const bool hasSurface = surface.value().has_value();
-  Tuner tuner(request, inputs.value(), std::move(surface).value());
+  FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.files));
+  FORETOUCH_TRY(const auto rates, ratesOf(request, inputs));
+  FORETOUCH_TRY(auto surface, surfaceOf(inputs));
+  const bool hasSurface = surface.has_value();
+  Tuner tuner(request, inputs, std::move(surface));
   Tuned tuned;
   BenchReport& report = tuned.report;
-  for (const double rateHz : rates.value()) {
-    auto rate = tuner.at(rateHz);
-    if (!rate.ok()) return rate.error();
-    report.tables.push_back(tableOf(rate.value(), request.budgetUs));
-    report.notes.push_back(recommendationText(rate.value(), request.budgetUs));
-    tuned.rates.push_back(std::move(rate).value());
+  for (const double rateHz : rates) {
+    FORETOUCH_TRY(auto rate, tuner.at(rateHz));
+    report.tables.push_back(tableOf(rate, request.budgetUs));
+    report.notes.push_back(recommendationText(rate, request.budgetUs));
+    tuned.rates.push_back(std::move(rate));
   }
   report.kind = "tune";
   report.title = fmt::format("Settings for {:g} us a step", request.budgetUs);
   report.command = request.command;
   report.date = dateNow();
   report.machine = machineFacts();
-  report.workload = workloadFacts(inputs.value(), inputs.value().scene, inputs.value().avatar, {});
+  report.workload = workloadFacts(inputs, inputs.scene, inputs.avatar, {});
   report.workload.pop_back();  // the fidelity: all are tried
   report.notes.push_back(
       hasSurface ? "False: links reported though their LSS never come within the tolerance."

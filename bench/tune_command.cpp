@@ -6,9 +6,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "articulated/try.h"
 #include "bench/machine.h"
 #include "bench/options.h"
 #include "bench/tune.h"
+#include "lss/index.h"
 #include "tools/arguments.h"
 #include "tools/settling.h"
 
@@ -49,20 +51,17 @@ Result<TuneRequest> settledTune(const TuneTexts& texts) {
   const auto output =
       checkIsNoInput(texts.json, {texts.scene, texts.motion, texts.avatar, texts.map});
   if (!output.ok()) return output.error();
-  request.steps = static_cast<std::size_t>(steps);
+  request.steps = countOf(steps);
   request.command = ownCommandLine();
   return request;
 }
 
 ExitCode run(const TuneTexts& texts) {
-  const auto request = settledTune(texts);
-  if (!request.ok()) return failed(request.error());
-  const auto tuned = tune(request.value());
-  if (!tuned.ok()) return failed(tuned.error());
+  FORETOUCH_TRY_OR(failed, const auto request, settledTune(texts));
+  FORETOUCH_TRY_OR(failed, const auto tuned, tune(request));
   const BenchTable none;
-  const auto written = writeReport(tuned.value().report, texts.json, none, "");
-  if (!written.ok()) return failed(written.error());
-  printOut(reportText(tuned.value().report));
+  FORETOUCH_CHECK_OR(failed, writeReport(tuned.report, texts.json, none, ""));
+  printOut(reportText(tuned.report));
   return ExitCode::Done;
 }
 
@@ -77,7 +76,8 @@ Examples:
 void addTuneCommand(CLI::App& program, ExitCode& exit) {
   const auto texts = std::make_shared<TuneTexts>();
   CLI::App* const command = program.add_subcommand(
-      "tune", "Find the settings that suit a scene, an avatar and a clip within a time a step");
+      "tune",
+      "Find the settings for a scene, an avatar and a clip that keep each step within a time");
   const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
     command->add_option(name, text, help)->type_name(type)->capture_default_str();
   };
@@ -90,8 +90,8 @@ void addTuneCommand(CLI::App& program, ExitCode& exit) {
   option("--scene-scale", texts->sceneScale, "S", "Metres per unit of the scene");
   option("--up", texts->up, "y|z", "Which axis of the scene points up");
   option("--place", texts->place, "X,Y,Z[,YAW]", "Where the clip stands, as for replay");
-  option("--budget-us", texts->budgetUs, "US", "Microseconds a step, at the 99th percentile");
-  option("--rate", texts->rate, "HZ", "Poses a second; several are tried if not given");
+  option("--budget-us", texts->budgetUs, "US", "Microseconds per step, at the 99th percentile");
+  option("--rate", texts->rate, "HZ", "Poses per second; by default tries several");
   option("--steps", texts->steps, "N", "Steps tried at each rate at most");
   option("--passes", texts->passes, "N", "Over all steps; a step's least time counts");
   option("--json", texts->json, "FILE", "Also write the figures to a file");

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "bench/event_readers.h"
 #include "bench/machine.h"
 #include "bench/service_process.h"
@@ -55,15 +56,13 @@ Result<Done> runOnce(const ViewRequest& request, const LoadTrack& track, Row& ro
   std::vector<std::string> arguments =
       serviceArguments(request.files, load.senders.size(), request.workers, std::string());
   if (row.viewers) arguments.push_back(fmt::format("--view=127.0.0.1:{}", kPort));
-  auto service = ServiceProcess::start(arguments);
-  if (!service.ok()) return service.error();
+  FORETOUCH_TRY(auto service, ServiceProcess::start(arguments));
   auto readers =
       EventReaders::start(row.viewers.value_or(0), kPort, kUsPerS / request.crowd.rateHz);
   if (!readers.ok()) return readers.error();
-  const auto outcome = runLoad(track, load);
-  if (!outcome.ok()) return outcome.error();
-  add(outcome.value(), readers.value().stop(), row);
-  service.value().stop();
+  FORETOUCH_TRY(const auto outcome, runLoad(track, load));
+  add(outcome, readers.value().stop(), row);
+  service.stop();
   return Done{};
 }
 
@@ -120,18 +119,15 @@ std::vector<BenchCell> cellsOf(Row row, double secondsInAll) {
 }  // namespace
 
 Result<StreamBench> measureView(const ViewRequest& given) {
-  const auto inputs = loadBenchInputs(given.files);
-  if (!inputs.ok()) return inputs.error();
-  const auto track = loadTrack(inputs.value(), given.place);
-  if (!track.ok()) return track.error();
+  FORETOUCH_TRY(const auto inputs, loadBenchInputs(given.files));
+  FORETOUCH_TRY(const auto track, loadTrack(inputs, given.place));
   ViewRequest request = given;
-  request.files = inputs.value().files;
+  request.files = inputs.files;
   std::vector<Row> rows(1);
   for (const int viewers : request.viewers) rows.emplace_back().viewers = viewers;
   for (int repeat = 0; repeat < request.repeats; ++repeat) {
     for (Row& row : rows) {
-      const auto run = runOnce(request, track.value(), row);
-      if (!run.ok()) return run.error();
+      FORETOUCH_CHECK(runOnce(request, track, row));
     }
   }
   StreamBench bench;
@@ -146,7 +142,7 @@ Result<StreamBench> measureView(const ViewRequest& given) {
   report.command = request.command;
   report.date = dateNow();
   report.machine = machineFacts();
-  report.workload = streamFacts(inputs.value(), request.workers);
+  report.workload = streamFacts(inputs, request.workers);
   report.workload.emplace_back("senders", fmt::format("{} at {} poses a second",
                                                       request.crowd.avatars, request.crowd.rateHz));
   report.tables.push_back(std::move(table));

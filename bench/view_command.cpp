@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "articulated/try.h"
 #include "bench/machine.h"
 #include "bench/options.h"
 #include "bench/private_network.h"
@@ -40,13 +41,10 @@ ExitCode runView(const ViewTexts& texts) {
   request.viewers = {0};
   request.viewers.insert(request.viewers.end(), viewers.begin(), viewers.end());
   request.command = ownCommandLine();
-  const auto entered = enterPrivateNetwork();
-  if (!entered.ok()) return failed(entered.error());
-  const auto bench = measureView(request);
-  if (!bench.ok()) return failed(bench.error());
-  const BenchReport& report = bench.value().report;
-  const auto written = writeReport(report, texts.json, report.tables.front(), texts.csv);
-  if (!written.ok()) return failed(written.error());
+  FORETOUCH_CHECK_OR(failed, enterPrivateNetwork());
+  FORETOUCH_TRY_OR(failed, const auto bench, measureView(request));
+  const BenchReport& report = bench.report;
+  FORETOUCH_CHECK_OR(failed, writeReport(report, texts.json, report.tables.front(), texts.csv));
   printOut(reportText(report));
   return ExitCode::Done;
 }

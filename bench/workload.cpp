@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "articulated/motion.h"
+#include "articulated/try.h"
+#include "lss/index.h"
 #include "middleware/query/query.h"
 #include "tools/console.h"
 #include "tools/inputs/step_selection.h"
@@ -55,10 +57,10 @@ class Classifier {
 
   Result<StepClass> classOf(const Pose& from, const Pose& to) {
     const ChainMotion motion(body_.avatar.skeleton(), from, to);
-    const auto contacts = firstContacts(body_.avatar, motion, inputs_.scene, options_, scratch_);
-    if (!contacts.ok()) return contacts.error();
+    FORETOUCH_TRY(const auto contacts,
+                  firstContacts(body_.avatar, motion, inputs_.scene, options_, scratch_));
     StepClass kind = StepClass::Far;
-    for (const LinkContact& contact : contacts.value().links) {
+    for (const LinkContact& contact : contacts.links) {
       if (contact.verdict == Verdict::StartsInContact) return StepClass::Start;
       if (contact.verdict == Verdict::Contact) kind = StepClass::Contact;
     }
@@ -95,7 +97,7 @@ Eigen::Vector3d holdOf(const BenchInputs& inputs) {
     low = low.cwiseMin(states[0].p_WL);
     high = high.cwiseMax(states[0].p_WL);
     for (LinkId link = 0; link < inputs.avatar.numLinks(); ++link) {
-      const LinkState& state = states[static_cast<std::size_t>(link)];
+      const LinkState& state = states[slotOf(link)];
       for (const Lss& lss : inputs.avatar.lss(link)) {
         const double y = std::min(state.pointAt(lss.a).y(), state.pointAt(lss.b).y());
         lowest = std::min(lowest, y - lss.radius);
@@ -128,7 +130,7 @@ struct FoundStep {
 
 /// How many of each class make up the mix; fewer in all where a class runs short.
 void fillMix(Workload& workload) {
-  const auto found = [&](StepClass kind) { return workload.found[static_cast<std::size_t>(kind)]; };
+  const auto found = [&](StepClass kind) { return workload.found[slotOf(kind)]; };
   const std::int64_t contacts = found(StepClass::Contact), near = found(StepClass::Near),
                      far = found(StepClass::Far);
   const auto share = [](double part, std::int64_t of) {
@@ -140,15 +142,15 @@ void fillMix(Workload& workload) {
   const std::int64_t free = total - std::min(contacts, share(kBusyContact, total));
   std::int64_t takeNear = std::min(near, share(kBusyNear, total));
   takeNear = std::min(near, std::max(takeNear, free - far));  // where there are too few far ones
-  workload.chosen[static_cast<std::size_t>(StepClass::Contact)] = total - free;
-  workload.chosen[static_cast<std::size_t>(StepClass::Near)] = takeNear;
-  workload.chosen[static_cast<std::size_t>(StepClass::Far)] = std::min(far, free - takeNear);
+  workload.chosen[slotOf(StepClass::Contact)] = total - free;
+  workload.chosen[slotOf(StepClass::Near)] = takeNear;
+  workload.chosen[slotOf(StepClass::Far)] = std::min(far, free - takeNear);
 }
 
 bool isComplete(const Workload& workload) {
   const auto steps = static_cast<double>(workload.request.steps);
   const auto found = [&](StepClass kind) {
-    return static_cast<double>(workload.found[static_cast<std::size_t>(kind)]);
+    return static_cast<double>(workload.found[slotOf(kind)]);
   };
   return found(StepClass::Contact) >= kBusyContact * steps &&
          found(StepClass::Near) >= kBusyNear * steps &&
@@ -163,7 +165,7 @@ void takeMix(Workload& workload, std::vector<FoundStep> found) {
   std::copy(std::begin(workload.chosen), std::end(workload.chosen), left);
   std::vector<FoundStep> taken;
   for (const FoundStep& step : found) {
-    if (left[static_cast<std::size_t>(step.pick.kind)]-- > 0) taken.push_back(step);
+    if (left[slotOf(step.pick.kind)]-- > 0) taken.push_back(step);
   }
   // As a stream would bring them: place by place, in the clip's order.
   std::sort(taken.begin(), taken.end(),
@@ -180,10 +182,9 @@ Result<bool> addSteps(const Placement& placement, std::int64_t ofAll, std::int64
     const auto from = classifier.poseAt(placement, frame);
     const auto to = classifier.poseAt(placement, frame + workload.stride);
     if (!from.ok() || !to.ok()) return false;
-    const auto kind = classifier.classOf(from.value(), to.value());
-    if (!kind.ok()) return kind.error();
-    ++workload.found[static_cast<std::size_t>(kind.value())];
-    found.push_back({placement, frame, kind.value()});
+    FORETOUCH_TRY(const auto kind, classifier.classOf(from.value(), to.value()));
+    ++workload.found[slotOf(kind)];
+    found.push_back({placement, frame, kind});
   }
   return true;
 }
@@ -194,7 +195,7 @@ Result<Done> takeAll(std::int64_t steps, Classifier& classifier, Workload& workl
       addSteps(*workload.request.place, taken, taken, classifier, workload, workload.picks);
   if (!added.ok()) return added.error();
   if (!added.value()) {
-    return Error{ErrorCode::OutOfRange, "--place", -1, -1, "expected poses within 1e7 m"};
+    return Error::in("--place", ErrorCode::OutOfRange, "expected poses within 1e7 m");
   }
   workload.placements = 1;
   std::copy(std::begin(workload.found), std::end(workload.found), workload.chosen);
@@ -229,7 +230,7 @@ void take(const Place& place, Workload& workload) {
   ++workload.taken;
   for (const StepPick& pick : place.steps) {
     if (pick.kind == StepClass::Start || workload.picks.size() >= workload.request.steps) continue;
-    ++workload.chosen[static_cast<std::size_t>(pick.kind)];
+    ++workload.chosen[slotOf(pick.kind)];
     workload.picks.push_back(pick);
   }
 }
@@ -282,10 +283,10 @@ Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Classifier& c
     takeNearlyBusy(std::move(others), workload);
   }
   if (!workload.picks.empty()) return Done{};
-  return Error{ErrorCode::Empty, inputs.files.scenePath, -1, -1,
-               fmt::format("no steps with and without a contact were found at {} places; are "
-                           "--scale, --floor and --lift right?",
-                           workload.placements)};
+  return Error::in(inputs.files.scenePath, ErrorCode::Empty,
+                   fmt::format("no steps with and without a contact were found at {} places; are "
+                               "--scale, --floor and --lift right?",
+                               workload.placements));
 }
 
 }  // namespace
@@ -304,9 +305,8 @@ Result<Workload> chooseSteps(const BenchInputs& inputs, const BenchBody& body,
   workload.stride = selection.value().stride;
   const std::int64_t steps = selection.value().count;
   Classifier classifier(inputs, body);
-  const auto done = request.place ? takeAll(steps, classifier, workload)
-                                  : search(inputs, steps, classifier, workload);
-  if (!done.ok()) return done.error();
+  FORETOUCH_CHECK(request.place ? takeAll(steps, classifier, workload)
+                                : search(inputs, steps, classifier, workload));
   return workload;
 }
 
@@ -315,7 +315,7 @@ std::string describe(const Workload& workload) {
   std::int64_t all = 0;
   for (const std::int64_t found : workload.found) all += found;
   const auto share = [&](StepClass kind) {
-    return 100.0 * static_cast<double>(workload.chosen[static_cast<std::size_t>(kind)]) / count;
+    return 100.0 * static_cast<double>(workload.chosen[slotOf(kind)]) / count;
   };
   std::string text = fmt::format(
       "{} steps: {:.1f} % with a contact, {:.1f} % within {:g} mm of something, {:.1f} % farther",
@@ -353,11 +353,9 @@ Result<std::vector<StepPoses>> posesOf(const BenchInputs& inputs, const BenchBod
   };
   std::vector<StepPoses> poses;
   for (const StepPick& pick : workload.picks) {
-    auto from = poseAt(pick, pick.frame);
-    if (!from.ok()) return from.error();
-    auto to = poseAt(pick, pick.frame + workload.stride);
-    if (!to.ok()) return to.error();
-    poses.push_back({std::move(from).value(), std::move(to).value()});
+    FORETOUCH_TRY(auto from, poseAt(pick, pick.frame));
+    FORETOUCH_TRY(auto to, poseAt(pick, pick.frame + workload.stride));
+    poses.push_back({std::move(from), std::move(to)});
   }
   return poses;
 }

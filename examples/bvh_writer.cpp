@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "lss/index.h"
+
 namespace foretouch::examples {
 namespace {
 
@@ -48,7 +50,7 @@ class HierarchyText {
       openJoint(joint, open.size());
       open.push_back(joint);
       if (joint + 1 == skeleton_.numJoints() || skeleton_.parent(joint + 1) != joint) {
-        endSite(tips_[static_cast<std::size_t>(joint)], open.size());
+        endSite(tips_[slotOf(joint)], open.size());
       }
     }
     while (!open.empty()) {
@@ -96,7 +98,7 @@ std::string bvhText(const Skeleton& skeleton, const std::vector<Vector3d>& tips,
   std::string text = HierarchyText(skeleton, tips)();
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "MOTION\nFrames: {}\nFrame Time: {:.10f}\n", frames.size(), frameTimeS);
-  std::vector<Angles> previous(static_cast<std::size_t>(skeleton.numJoints()), Angles{});
+  std::vector<Angles> previous(countOf(skeleton.numJoints()), Angles{});
   for (const Pose& pose : frames) {
     const Vector3d& p = pose.translations.front();
     fmt::format_to(out, "{:.5f} {:.5f} {:.5f}", rounded(p.x(), 1e5), rounded(p.y(), 1e5),

@@ -7,6 +7,7 @@
 
 #include "examples/circle.h"
 #include "examples/fixed_random.h"
+#include "lss/index.h"
 
 namespace foretouch::examples {
 namespace {
@@ -102,7 +103,7 @@ void addPlant(MeshBuilder& mesh, const Isometry3d& frame) {
     }
     mesh.tube(line, 0.004, 8);
     for (int i = 0; i < 6; ++i) {
-      const Vector3d root = line[static_cast<std::size_t>(3 + i)];
+      const Vector3d root = line[slotOf(3 + i)];
       addLeaf(mesh, root,
               {random.uniform(0.25, 0.42), random.uniform(0.035, 0.06), random.uniform(0.15, 0.35),
                heading + random.uniform(-1.4, 1.4)});

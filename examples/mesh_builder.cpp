@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "examples/circle.h"
+#include "lss/index.h"
 
 namespace foretouch::examples {
 namespace {
@@ -95,7 +96,7 @@ void MeshBuilder::cushion(const Vector3d& center, const Vector3d& half, double e
 void MeshBuilder::revolve(const Vector3d& base, const Profile& profile, int sides) {
   const int rows = static_cast<int>(profile.size()) - 1;
   surface(rows, sides, true, [&](double u, double v) -> Vector3d {
-    const Eigen::Vector2d& p = profile[static_cast<std::size_t>(std::lround(u * rows))];
+    const Eigen::Vector2d& p = profile[slotOf(std::lround(u * rows))];
     const double around = 2.0 * kPi * v;
     return base + Vector3d(p.x() * std::cos(around), p.y(), p.x() * std::sin(around));
   });
@@ -106,7 +107,7 @@ void MeshBuilder::tube(const std::vector<Vector3d>& line, double radius, int sid
   const int rows = static_cast<int>(line.size()) + 1;  // the first and last rings close the ends
   surface(rows, sides, true, [&](double u, double v) -> Vector3d {
     const auto row = std::lround(u * rows);
-    const std::size_t k = row == 0 ? 0 : row == rows ? last : static_cast<std::size_t>(row) - 1;
+    const std::size_t k = row == 0 ? 0 : row == rows ? last : slotOf(row) - 1;
     const Vector3d along = (line[k == last ? k : k + 1] - line[k == 0 ? 0 : k - 1]).normalized();
     // No line here runs along (1,2,3), so this cross product never vanishes.
     const Vector3d side = along.cross(Vector3d(1.0, 2.0, 3.0)).normalized();

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "examples/dancer_body.h"
+#include "lss/index.h"
 
 namespace foretouch::examples {
 namespace {
@@ -59,7 +60,7 @@ class PoseInProgress {
   [[nodiscard]] const Pose& pose() const { return pose_; }
 
  private:
-  static std::size_t at(JointId joint) { return static_cast<std::size_t>(joint); }
+  static std::size_t at(JointId joint) { return slotOf(joint); }
 
   const Skeleton& skeleton_;
   Pose pose_;

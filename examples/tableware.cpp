@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "lss/index.h"
+
 namespace foretouch::examples {
 namespace {
 
@@ -93,7 +95,7 @@ void addVase(MeshBuilder& mesh, const std::string& name, const Eigen::Isometry3d
     profile.emplace_back(height * belly, height * up);
   }
   for (int i = kRings; i >= 2; --i) {  // the inner wall, 3 mm in
-    profile.emplace_back(profile[static_cast<std::size_t>(i) + 1].x() - 0.003, height * i / kRings);
+    profile.emplace_back(profile[slotOf(i) + 1].x() - 0.003, height * i / kRings);
   }
   mesh.begin(name, frame);
   mesh.revolve(Vector3d::Zero(), profile, 32);

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch {
@@ -78,7 +79,7 @@ std::vector<Vector3d> principalAxes(const Points& points, const Vector3d& mean) 
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   std::vector<Vector3d> axes = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   if (solver.info() == Eigen::Success) {
-    for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)] = solver.eigenvectors().col(i);
+    for (int i = 0; i < 3; ++i) axes[slotOf(i)] = solver.eigenvectors().col(i);
   }
   return axes;
 }

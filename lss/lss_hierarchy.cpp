@@ -4,6 +4,7 @@
 
 #include "lss/assert.h"
 #include "lss/fit.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -20,7 +21,7 @@ std::vector<Vector3d> cornersOf(const std::vector<Triangle>& triangles, const st
   std::vector<Vector3d> corners;
   corners.reserve(3 * static_cast<std::size_t>(last - first));
   for (const std::int32_t* id = first; id != last; ++id) {
-    const auto& vertices = triangles[static_cast<std::size_t>(*id)].vertices;
+    const auto& vertices = triangles[slotOf(*id)].vertices;
     corners.insert(corners.end(), vertices.begin(), vertices.end());
   }
   return corners;
@@ -29,9 +30,9 @@ std::vector<Vector3d> cornersOf(const std::vector<Triangle>& triangles, const st
 /// The axis along which the centroids spread the most.
 int widestAxis(const std::vector<Triangle>& triangles, const std::int32_t* first,
                const std::int32_t* last) {
-  Vector3d low = centroidSum(triangles[static_cast<std::size_t>(*first)]), high = low;
+  Vector3d low = centroidSum(triangles[slotOf(*first)]), high = low;
   for (const std::int32_t* id = first; id != last; ++id) {
-    const Vector3d center = centroidSum(triangles[static_cast<std::size_t>(*id)]);
+    const Vector3d center = centroidSum(triangles[slotOf(*id)]);
     low = low.cwiseMin(center);
     high = high.cwiseMax(center);
   }
@@ -60,13 +61,13 @@ HierarchyChild LssHierarchy::split(const std::vector<Triangle>& triangles, std::
   const int axis = widestAxis(triangles, first, last);
   std::int32_t* const middle = first + (last - first) / 2;
   std::nth_element(first, middle, last, [&](std::int32_t x, std::int32_t y) {
-    const double cx = centroidSum(triangles[static_cast<std::size_t>(x)])[axis];
-    const double cy = centroidSum(triangles[static_cast<std::size_t>(y)])[axis];
+    const double cx = centroidSum(triangles[slotOf(x)])[axis];
+    const double cy = centroidSum(triangles[slotOf(y)])[axis];
     return cx != cy ? cx < cy : x < y;
   });
   const HierarchyChild left = split(triangles, first, middle);
   const HierarchyChild right = split(triangles, middle, last);
-  nodes_[static_cast<std::size_t>(index)].children = {left, right};
+  nodes_[slotOf(index)].children = {left, right};
   return HierarchyChild::node(index);
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lss/index.h"
 #include "lss/lss.h"
 #include "lss/triangle.h"
 
@@ -43,9 +44,7 @@ class LssHierarchy {
   LssHierarchy(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& ids);
 
   [[nodiscard]] HierarchyChild root() const { return root_; }
-  [[nodiscard]] const Node& node(std::int32_t index) const {
-    return nodes_[static_cast<std::size_t>(index)];
-  }
+  [[nodiscard]] const Node& node(std::int32_t index) const { return nodes_[slotOf(index)]; }
   [[nodiscard]] std::size_t numNodes() const { return nodes_.size(); }
   [[nodiscard]] std::size_t bytes() const { return nodes_.capacity() * sizeof(Node); }
 

@@ -11,8 +11,12 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
+#include "lss/index.h"
+
 namespace foretouch::HWY_NAMESPACE {
-std::int64_t compiledTarget() { return HWY_TARGET; }
+std::int64_t compiledTarget() {
+  return HWY_TARGET;
+}
 }  // namespace foretouch::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -49,7 +53,9 @@ Simd simdOf(std::int64_t target) {
 
 }  // namespace
 
-const char* toString(Simd simd) { return kNames[static_cast<std::size_t>(simd)].second; }
+const char* toString(Simd simd) {
+  return kNames[slotOf(simd)].second;
+}
 
 std::optional<Simd> simdFromName(std::string_view name) {
   for (const auto& [simd, known] : kNames) {
@@ -68,7 +74,9 @@ std::vector<Simd> supportedSimd() {
   return found;
 }
 
-Simd activeSimd() { return simdOf(HWY_DYNAMIC_DISPATCH(compiledTarget)()); }
+Simd activeSimd() {
+  return simdOf(HWY_DYNAMIC_DISPATCH(compiledTarget)());
+}
 
 bool useSimd(std::optional<Simd> simd) {
   hwy::SetSupportedTargetsForTest(0);

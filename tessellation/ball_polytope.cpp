@@ -9,7 +9,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "articulated/try.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -66,8 +68,7 @@ UnitMesh unitMesh(int frequency) {
       key[2 * i] = corner;
       key[2 * i + 1] = weight;
       if (weight > 0) {
-        sum += std::sin(arc * weight / frequency) *
-               icosahedron.corners[static_cast<std::size_t>(corner)];
+        sum += std::sin(arc * weight / frequency) * icosahedron.corners[slotOf(corner)];
       }
     }
     const auto [place, isNew] = known.emplace(key, static_cast<std::int32_t>(mesh.corners.size()));
@@ -91,9 +92,7 @@ UnitMesh unitMesh(int frequency) {
 double inradiusOf(const UnitMesh& mesh) {
   double least = 1.0;
   for (const auto& facet : mesh.facets) {
-    const auto corner = [&](std::size_t i) {
-      return mesh.corners[static_cast<std::size_t>(facet[i])];
-    };
+    const auto corner = [&](std::size_t i) { return mesh.corners[slotOf(facet[i])]; };
     const Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
     least = std::min(least, normal.dot(corner(0)));
   }
@@ -121,21 +120,20 @@ void connect(BallPolytope& polytope) {
     edgeOf[{u, v}] = edge;
     edgeOf[{v, u}] = edge;
     polytope.edges.push_back({u, v, left, facetLeftOf.at({v, u})});
-    anyEdge[static_cast<std::size_t>(u)] = anyEdge[static_cast<std::size_t>(v)] = edge;
+    anyEdge[slotOf(u)] = anyEdge[slotOf(v)] = edge;
   }
   for (std::size_t corner = 0; corner < polytope.corners.size(); ++corner) {
     polytope.firstEdgeOf.push_back(static_cast<std::int32_t>(polytope.edgesAround.size()));
     const auto self = static_cast<std::int32_t>(corner);
-    const auto& start = polytope.edges[static_cast<std::size_t>(anyEdge[corner])];
+    const auto& start = polytope.edges[slotOf(anyEdge[corner])];
     std::int32_t other = start.u == self ? start.v : start.u;
     const std::int32_t first = other;
     do {
       polytope.edgesAround.push_back(edgeOf.at({self, other}));
       // The facet left of the edge out of the corner lies between it and the next edge.
-      const auto& facet =
-          polytope.facets[static_cast<std::size_t>(facetLeftOf.at({self, other}))].corners;
+      const auto& facet = polytope.facets[slotOf(facetLeftOf.at({self, other}))].corners;
       const auto place = std::find(facet.begin(), facet.end(), self) - facet.begin();
-      other = facet[static_cast<std::size_t>((place + 2) % 3)];
+      other = facet[slotOf((place + 2) % 3)];
     } while (other != first);
   }
   polytope.firstEdgeOf.push_back(static_cast<std::int32_t>(polytope.edgesAround.size()));
@@ -144,11 +142,11 @@ void connect(BallPolytope& polytope) {
 /// Exact: no corner of a neighbouring facet lies above a facet.
 bool isConvex(const BallPolytope& polytope) {
   for (const BallPolytope::Edge& edge : polytope.edges) {
-    const auto& left = polytope.facets[static_cast<std::size_t>(edge.left)];
-    const auto& right = polytope.facets[static_cast<std::size_t>(edge.right)].corners;
-    const LatticePoint origin = polytope.corners[static_cast<std::size_t>(edge.u)];
+    const auto& left = polytope.facets[slotOf(edge.left)];
+    const auto& right = polytope.facets[slotOf(edge.right)].corners;
+    const LatticePoint origin = polytope.corners[slotOf(edge.u)];
     for (const std::int32_t corner : right) {
-      const LatticePoint apart = polytope.corners[static_cast<std::size_t>(corner)] - origin;
+      const LatticePoint apart = polytope.corners[slotOf(corner)] - origin;
       if (exactDot(left.normal, apart) > 0) return false;
     }
   }
@@ -156,7 +154,7 @@ bool isConvex(const BallPolytope& polytope) {
 }
 
 Error tooFine(const char* what) {
-  return Error{ErrorCode::LimitExceeded, "", -1, -1, what};
+  return Error::of(ErrorCode::LimitExceeded, what);
 }
 
 /// The unit mesh with its corners at `radius`, rounded to the lattice.
@@ -171,9 +169,7 @@ Result<BallPolytope> scaledPolytope(const UnitMesh& mesh, double radius, int fre
   }
   polytope.inradius = polytope.circumradius;
   for (const auto& corners : mesh.facets) {
-    const auto at = [&](std::size_t i) {
-      return polytope.corners[static_cast<std::size_t>(corners[i])];
-    };
+    const auto at = [&](std::size_t i) { return polytope.corners[slotOf(corners[i])]; };
     const LatticePoint u = at(1) - at(0), v = at(2) - at(0);
     if (std::max(asVector(u).cwiseAbs().maxCoeff(), asVector(v).cwiseAbs().maxCoeff()) >=
         kMaxEdgeComponent) {
@@ -210,19 +206,17 @@ Result<std::pair<UnitMesh, int>> meshOfRatio(double ratio) {
 Result<BallPolytope> polytopeAround(double radius, double excess) {
   // Rounding moves a facet inward, and a corner outward, by at most kCornerRounding.
   const double grown = (radius + kCornerRounding) * kOutward;
-  const auto mesh = meshOfRatio((radius + excess - kCornerRounding) / grown);
-  if (!mesh.ok()) return mesh.error();
-  auto polytope = scaledPolytope(
-      mesh.value().first, grown / inradiusOf(mesh.value().first) * kOutward, mesh.value().second);
+  FORETOUCH_TRY(const auto mesh, meshOfRatio((radius + excess - kCornerRounding) / grown));
+  auto polytope =
+      scaledPolytope(mesh.first, grown / inradiusOf(mesh.first) * kOutward, mesh.second);
   if (polytope.ok()) FORETOUCH_ASSERT(polytope.value().inradius >= radius);
   return polytope;
 }
 
 Result<BallPolytope> polytopeWithin(double radius, double lack) {
   const double shrunk = (radius - kCornerRounding) * kInward;
-  const auto mesh = meshOfRatio(shrunk / (radius - lack + kCornerRounding));
-  if (!mesh.ok()) return mesh.error();
-  auto polytope = scaledPolytope(mesh.value().first, shrunk, mesh.value().second);
+  FORETOUCH_TRY(const auto mesh, meshOfRatio(shrunk / (radius - lack + kCornerRounding)));
+  auto polytope = scaledPolytope(mesh.first, shrunk, mesh.second);
   if (polytope.ok()) FORETOUCH_ASSERT(polytope.value().circumradius <= radius * kOutward);
   return polytope;
 }

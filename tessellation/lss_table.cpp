@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "articulated/chain_nodes.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch {
@@ -38,7 +39,7 @@ LssTable::Entry entryOf(const Lss& lss, LinkId link) {
 }  // namespace
 
 LssTable::LssTable(const Avatar& avatar) {
-  entries_.reserve(static_cast<std::size_t>(avatar.numLss()));
+  entries_.reserve(countOf(avatar.numLss()));
   for (LinkId link = 0; link < avatar.numLinks(); ++link) add(avatar.lss(link));
 }
 

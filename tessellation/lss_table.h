@@ -7,6 +7,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
+#include "lss/index.h"
 
 namespace foretouch {
 
@@ -27,18 +28,14 @@ class LssTable {
 
   [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(entries_.size()); }
   [[nodiscard]] const Entry* data() const { return entries_.data(); }
-  [[nodiscard]] const Entry& operator[](std::int32_t lss) const {
-    return entries_[static_cast<std::size_t>(lss)];
-  }
+  [[nodiscard]] const Entry& operator[](std::int32_t lss) const { return entries_[slotOf(lss)]; }
   /// The link's LSS are [first(link), first(link + 1)).
-  [[nodiscard]] std::int32_t first(LinkId link) const {
-    return first_[static_cast<std::size_t>(link)];
-  }
+  [[nodiscard]] std::int32_t first(LinkId link) const { return first_[slotOf(link)]; }
   [[nodiscard]] std::int32_t numLinks() const {
     return static_cast<std::int32_t>(first_.size()) - 1;
   }
   /// Largest rhoA or rhoB of the link's LSS; 0 where it has none.
-  [[nodiscard]] double rho(LinkId link) const { return rho_[static_cast<std::size_t>(link)]; }
+  [[nodiscard]] double rho(LinkId link) const { return rho_[slotOf(link)]; }
   /// Of all links.
   [[nodiscard]] double largestRho() const { return largestRho_; }
   [[nodiscard]] double largestRadius() const { return largestRadius_; }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lss/index.h"
+
 namespace foretouch::internal {
 namespace {
 
@@ -54,7 +56,7 @@ PolynomialMatrices computed() {
   for (int k = 0; k < kNodes; ++k) {
     const Coefficients basis = lagrange(k);
     for (int j = 0; j < kNodes; ++j) {
-      m.coefficients[k][j] = static_cast<double>(basis[static_cast<std::size_t>(j)]);
+      m.coefficients[k][j] = static_cast<double>(basis[slotOf(j)]);
     }
   }
   for (int j = 0; j < kNodes; ++j) {

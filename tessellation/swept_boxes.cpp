@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 #include "tessellation/point_rounding.h"
 
@@ -225,13 +226,13 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
                 const std::vector<double>& margins, SweptBoxes& boxes) {
   FORETOUCH_ASSERT(table.numLinks() == nodes.numLinks() && nodes.numLinks() == motion.numLinks());
-  FORETOUCH_ASSERT(margins.size() == static_cast<std::size_t>(table.numLinks()));
+  FORETOUCH_ASSERT(margins.size() == countOf(table.numLinks()));
   boxes.makeRoom(table.size());
   if (table.size() == 0) return;
   const Growth growth(motion, nodes, widestGap(nodes));
   double* const growths = boxes.growths_.data();
   for (std::int32_t i = 0; i < table.size(); ++i) {
-    const double margin = margins[static_cast<std::size_t>(table[i].link)];
+    const double margin = margins[slotOf(table[i].link)];
     growths[i] = growth.of(table[i], growth.wholeMargin(margin));
   }
   HWY_DYNAMIC_DISPATCH(boxesOf)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch {
@@ -137,8 +138,8 @@ void SweptSum::crossEdges(SumFaces& faces) {
     pathOf_[e] = static_cast<std::int32_t>(numPaths_++);
     crossed_.push_back(static_cast<std::int32_t>(e));
     for (const std::int32_t corner : {edge.u, edge.v}) {
-      if (isTouched_[static_cast<std::size_t>(corner)]) continue;
-      isTouched_[static_cast<std::size_t>(corner)] = true;
+      if (isTouched_[slotOf(corner)]) continue;
+      isTouched_[slotOf(corner)] = true;
       touched_.push_back(corner);
     }
   }
@@ -181,11 +182,11 @@ void SweptSum::fill(std::int32_t corner, SumFaces& faces) {
 void SweptSum::fillCorners(SumFaces& faces) {
   for (const std::int32_t corner : touched_) {
     walk_.clear();
-    const auto c = static_cast<std::size_t>(corner);
+    const auto c = slotOf(corner);
     for (std::int32_t k = polytope_->firstEdgeOf[c]; k < polytope_->firstEdgeOf[c + 1]; ++k) {
-      const auto e = static_cast<std::size_t>(polytope_->edgesAround[static_cast<std::size_t>(k)]);
+      const auto e = static_cast<std::size_t>(polytope_->edgesAround[slotOf(k)]);
       if (pathOf_[e] < 0) continue;
-      const Walk& path = paths_[static_cast<std::size_t>(pathOf_[e])];
+      const Walk& path = paths_[slotOf(pathOf_[e])];
       // Going round counter-clockwise, an edge that leaves the corner is crossed from right to
       // left.
       if (polytope_->edges[e].u == corner) {
@@ -198,7 +199,7 @@ void SweptSum::fillCorners(SumFaces& faces) {
     isTouched_[c] = false;
   }
   touched_.clear();
-  for (const std::int32_t e : crossed_) pathOf_[static_cast<std::size_t>(e)] = -1;
+  for (const std::int32_t e : crossed_) pathOf_[slotOf(e)] = -1;
   crossed_.clear();
 }
 

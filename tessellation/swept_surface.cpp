@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "articulated/quoted.h"
+#include "articulated/try.h"
 #include "lss/assert.h"
 #include "lss/rounding.h"
 #include "tessellation/sheet_bound.h"
@@ -42,7 +43,7 @@ double spacingFor(double error) {
 }
 
 Error problem(ErrorCode code, std::string message) {
-  return Error{code, "", -1, -1, std::move(message)};
+  return Error::of(code, std::move(message));
 }
 
 /// Lengths of one surface, in metres.
@@ -111,9 +112,7 @@ class SweptSurfaceBuilder::Parts {
       vanishes_ = true;
       return Done{};
     }
-    auto polytope = polytopeFor(lss_, options_, budget_);
-    if (!polytope.ok()) return polytope.error();
-    polytope_ = std::move(polytope).value();
+    FORETOUCH_TRY(polytope_, polytopeFor(lss_, options_, budget_));
     if (certified(lss_, options_, budget_, polytope_, budget_.sheet) > options_.error) {
       return problem(ErrorCode::OutOfRange,
                      tooSmall(options_.error, "a radius of " + inDigits(lss_.radius) + " m"));
@@ -190,9 +189,8 @@ Result<Done> SweptSurfaceBuilder::Parts::addUntil(const ChainMotion& motion, Lin
   const double sheetSpacings = budget_.sheet / budget_.spacing;
   std::vector<double> ends{endT};
   while (!ends.empty()) {
-    auto next = instantAt(motion, link, ends.back());
-    if (!next.ok()) return next.error();
-    const AxisEnds& end = next.value().ends;
+    FORETOUCH_TRY(auto next, instantAt(motion, link, ends.back()));
+    const AxisEnds& end = next.ends;
     const double extent = std::max({(end.a - last_.ends.a).norm(), (end.b - last_.ends.b).norm(),
                                     (end.b - end.a).norm(), (end.b - last_.ends.a).norm(),
                                     (end.a - last_.ends.b).norm()});
@@ -202,7 +200,7 @@ Result<Done> SweptSurfaceBuilder::Parts::addUntil(const ChainMotion& motion, Lin
       return tooFarOut();
     }
     worstSheet_ = std::max(worstSheet_, sheet);
-    last_ = next.value();
+    last_ = next;
     const double share = (last_.t - span.beginT) / (span.endT - span.beginT);
     chain_->add(last_.lattice, span.beginS + share * (span.endS - span.beginS));
     ++pieces_;
@@ -232,10 +230,9 @@ Result<Done> SweptSurfaceBuilder::Parts::add(const ChainMotion& motion, LinkId l
                    "an error of " + inDigits(options_.error) + " m takes more than " +
                        inDigits(kMaxPiecesPerSpan) + " pieces of one step");
   }
-  auto first = instantAt(motion, link, span.beginT);
-  if (!first.ok()) return first.error();
+  FORETOUCH_TRY(auto first, instantAt(motion, link, span.beginT));
   if (!chain_) {
-    last_ = first.value();
+    last_ = first;
     chain_ = std::make_unique<SweptChain>(polytope_, last_.lattice, span.beginS);
   }
   // A chain goes on from where it is: within the same rounding of the same true place.
@@ -244,8 +241,7 @@ Result<Done> SweptSurfaceBuilder::Parts::add(const ChainMotion& motion, LinkId l
   for (std::int64_t i = 1; i <= count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count);
     const double endT = i == count ? span.endT : span.beginT + share * length;
-    const auto done = addUntil(motion, link, span, endT);
-    if (!done.ok()) return done.error();
+    FORETOUCH_CHECK(addUntil(motion, link, span, endT));
   }
   return Done{};
 }
@@ -288,8 +284,7 @@ Result<SweptSurfaceBuilder> SweptSurfaceBuilder::create(const Lss& lss_L,
                    "expected an error from 1e-12 to 1e6 m, found " + inDigits(options.error));
   }
   auto parts = std::make_unique<Parts>(lss_L, options);
-  const auto ready = parts->prepare();
-  if (!ready.ok()) return ready.error();
+  FORETOUCH_CHECK(parts->prepare());
   return SweptSurfaceBuilder(std::move(parts));
 }
 

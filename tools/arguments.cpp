@@ -4,7 +4,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 
 namespace foretouch::tools {
 namespace {
@@ -65,9 +67,8 @@ Result<int> parseThreads(const std::string& option, const std::string& text) {
 }
 
 Result<std::size_t> parseReportTriangles(const std::string& option, const std::string& text) {
-  const auto count = parseCount(option, text, kMostReportTriangles);
-  if (!count.ok()) return count.error();
-  return static_cast<std::size_t>(count.value());
+  FORETOUCH_TRY(const auto count, parseCount(option, text, kMostReportTriangles));
+  return countOf(count);
 }
 
 Result<Placement> parsePlacement(const std::string& option, const std::string& text) {
@@ -124,8 +125,8 @@ Result<Done> checkIsNoInput(const std::string& output, const std::vector<std::st
   for (const std::string& input : inputs) {
     std::error_code missing;
     if (!input.empty() && std::filesystem::equivalent(output, input, missing)) {
-      return Error{ErrorCode::FileUnwritable, output, -1, -1,
-                   "is an input as well; expected another file to write"};
+      return Error::in(output, ErrorCode::FileUnwritable,
+                       "is an input as well; expected another file to write");
     }
   }
   return Done{};

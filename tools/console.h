@@ -30,5 +30,10 @@ void printOut(const std::string& text);
 
 /// The error with `file` as its place where it names none.
 [[nodiscard]] Error inFile(Error error, const std::string& file);
+template <typename T>
+[[nodiscard]] Result<T> inFile(Result<T> result, const std::string& file) {
+  if (result.ok()) return result;
+  return inFile(result.error(), file);
+}
 
 }  // namespace foretouch::tools

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
@@ -12,15 +13,13 @@
 namespace foretouch::tools {
 
 Result<Done> checkOutput(const std::string& output, const std::vector<std::string>& inputs) {
-  const auto separate = checkIsNoInput(output, inputs);
-  if (!separate.ok()) return separate.error();
+  FORETOUCH_CHECK(checkIsNoInput(output, inputs));
   // Opening a pipe and closing it again would tell its reader that there is nothing more to come.
   std::error_code absent;
   const std::filesystem::file_status status = std::filesystem::status(output, absent);
   if (std::filesystem::is_other(status)) return Done{};
   const InterruptGuard guard;  // the trial file must not stay behind
-  const auto trial = PendingFile::create(output);
-  if (!trial.ok()) return trial.error();
+  FORETOUCH_CHECK(PendingFile::create(output));
   return Done{};
 }
 
@@ -33,8 +32,8 @@ Result<Done> checkOutputs(const std::string& output, const std::string& report,
   const bool areOne = fs::equivalent(output, report, absent) ||
                       fs::weakly_canonical(output, absent) == fs::weakly_canonical(report, absent);
   if (areOne) {
-    return Error{ErrorCode::FileUnwritable, report, -1, -1,
-                 "is to hold the results as well; expected another file for the report"};
+    return Error::in(report, ErrorCode::FileUnwritable,
+                     "is to hold the results as well; expected another file for the report");
   }
   return checkOutput(report, inputs);
 }

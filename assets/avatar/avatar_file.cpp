@@ -13,7 +13,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -248,7 +250,7 @@ bool AvatarSax::enter(Place next) {
 bool AvatarSax::start_object(std::size_t) {
   if (place() == Place::Outside) return enter(Place::File);
   if (place() == Place::Links) {
-    if (raw_.joints.size() == static_cast<std::size_t>(kMaxJoints)) {
+    if (raw_.joints.size() == countOf(kMaxJoints)) {
       return fail(ErrorCode::LimitExceeded, fmt::format("expected at most {} links", kMaxJoints));
     }
     raw_.joints.emplace_back();
@@ -276,7 +278,7 @@ bool AvatarSax::key(string_t& key) {
     if (key != kFields[i].key) continue;
     const unsigned bit = 1u << i;
     if ((seen_.back() & bit) != 0) {
-      return fail(ErrorCode::DuplicateName, "the key " + inQuotes(key) + " stands twice");
+      return fail(ErrorCode::DuplicateName, "the key " + inQuotes(key) + " appears twice");
     }
     seen_.back() |= bit;
     field_ = &kFields[i];
@@ -351,8 +353,8 @@ bool AvatarSax::parse_error(std::size_t, const std::string& token, const json::e
 
 Error AvatarSax::located(Error error) const {
   error.file = file_;
-  if (error.index >= 0 && static_cast<std::size_t>(error.index) < lines_.size()) {
-    error.line = lines_[static_cast<std::size_t>(error.index)];
+  if (error.index >= 0 && slotOf(error.index) < lines_.size()) {
+    error.line = lines_[slotOf(error.index)];
   }
   return error;
 }
@@ -369,29 +371,27 @@ Result<Avatar> AvatarSax::build() {
 
 Result<Avatar> parseAvatar(std::string_view json, const std::string& name) {
   if (json.size() > kMaxAvatarFileBytes) {
-    return Error{ErrorCode::LimitExceeded, name, -1, -1,
-                 fmt::format("expected at most {} bytes", kMaxAvatarFileBytes)};
+    return Error::in(name, ErrorCode::LimitExceeded,
+                     fmt::format("expected at most {} bytes", kMaxAvatarFileBytes));
   }
   try {
     AvatarSax sax(json, name);
     if (!nlohmann::json::sax_parse(sax.begin(), sax.end(), &sax)) return sax.error();
     return sax.build();
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::LimitExceeded, name, -1, -1, "does not fit into memory"};
+    return Error::in(name, ErrorCode::LimitExceeded, "does not fit into memory");
   }
 }
 
 Result<Avatar> readAvatarFile(const std::string& path) {
-  const auto text = readWholeFile(path, kMaxAvatarFileBytes);
-  if (!text.ok()) return text.error();
-  return parseAvatar(text.value(), path);
+  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxAvatarFileBytes));
+  return parseAvatar(text, path);
 }
 
 Result<Done> writeAvatarFile(const Avatar& avatar, const std::string& path) {
-  auto file = PendingFile::create(path);
-  if (!file.ok()) return file.error();
-  file.value().write(formatAvatar(avatar));
-  return file.value().commit();
+  FORETOUCH_TRY(auto file, PendingFile::create(path));
+  file.write(formatAvatar(avatar));
+  return file.commit();
 }
 
 }  // namespace foretouch

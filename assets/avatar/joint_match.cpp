@@ -4,7 +4,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -20,14 +22,13 @@ JointIndex indexOf(const Skeleton& skeleton) {
 Result<Done> checkMap(const JointNameMap& names, const JointIndex& avatar, const JointIndex& clip) {
   for (const auto& [avatarName, clipName] : names) {
     if (avatar.count(avatarName) == 0) {
-      return Error{
-          ErrorCode::UnknownName, "", -1, -1,
-          "the joint map names " + inQuotes(avatarName) + ", which no avatar joint is called"};
+      return Error::of(ErrorCode::UnknownName, "the joint map names " + inQuotes(avatarName) +
+                                                   ", which no avatar joint is called");
     }
     if (clip.count(clipName) == 0) {
-      return Error{ErrorCode::UnknownName, "", -1, -1,
-                   "the joint map gives " + inQuotes(avatarName) + " the clip joint " +
-                       inQuotes(clipName) + ", which the clip does not have"};
+      return Error::of(ErrorCode::UnknownName, "the joint map gives " + inQuotes(avatarName) +
+                                                   " the clip joint " + inQuotes(clipName) +
+                                                   ", which the clip does not have");
     }
   }
   return Done{};
@@ -38,11 +39,10 @@ Result<Done> checkMap(const JointNameMap& names, const JointIndex& avatar, const
 Result<JointMatch> matchJoints(const Skeleton& avatar, const Skeleton& clip,
                                const JointNameMap& names) {
   const JointIndex clipIndex = indexOf(clip);
-  const auto checked = checkMap(names, indexOf(avatar), clipIndex);
-  if (!checked.ok()) return checked.error();
+  FORETOUCH_CHECK(checkMap(names, indexOf(avatar), clipIndex));
 
   JointMatch match;
-  std::vector<bool> drives(static_cast<std::size_t>(clip.numJoints()), false);
+  std::vector<bool> drives(countOf(clip.numJoints()), false);
   bool any = false;
   for (JointId j = 0; j < avatar.numJoints(); ++j) {
     const auto mapped = names.find(avatar.name(j));
@@ -52,24 +52,24 @@ Result<JointMatch> matchJoints(const Skeleton& avatar, const Skeleton& clip,
     if (source == kNoParent) {
       match.unmatchedAvatar.push_back(avatar.name(j));
     } else {
-      drives[static_cast<std::size_t>(source)] = true;
+      drives[slotOf(source)] = true;
       any = true;
     }
   }
   for (JointId j = 0; j < clip.numJoints(); ++j) {
-    if (!drives[static_cast<std::size_t>(j)]) match.unmatchedClip.push_back(clip.name(j));
+    if (!drives[slotOf(j)]) match.unmatchedClip.push_back(clip.name(j));
   }
   if (any) return match;
-  return Error{ErrorCode::Mismatch, "", -1, -1,
-               "no joint of the avatar (first: " + inQuotes(avatar.name(0)) +
-                   ") has the name of a joint of the clip (first: " + inQuotes(clip.name(0)) +
-                   "); expected common names, or a joint map"};
+  return Error::of(ErrorCode::Mismatch,
+                   "no joint of the avatar (first: " + inQuotes(avatar.name(0)) +
+                       ") has the name of a joint of the clip (first: " + inQuotes(clip.name(0)) +
+                       "); expected common names, or a joint map");
 }
 
 Pose poseOfAvatar(const Skeleton& avatar, const Clip& clip, const JointMatch& match,
                   std::size_t frame) {
   FORETOUCH_ASSERT(frame < clip.frames.size());
-  FORETOUCH_ASSERT(match.clipJointOf.size() == static_cast<std::size_t>(avatar.numJoints()));
+  FORETOUCH_ASSERT(match.clipJointOf.size() == countOf(avatar.numJoints()));
   const Pose& source = clip.frames[frame];
   Pose pose = restPose(avatar);
   for (std::size_t j = 0; j < match.clipJointOf.size(); ++j) {
@@ -89,8 +89,8 @@ Pose placed(const Skeleton& skeleton, Pose pose, const Placement& placement) {
   const Quaternion upright(half, -half, 0.0, 0.0);  // a quarter turn about X takes +Z to +Y
   for (JointId j = 0; j < skeleton.numJoints(); ++j) {
     if (skeleton.parent(j) != kNoParent) continue;
-    Quaternion& rotation = pose.rotations[static_cast<std::size_t>(j)];
-    Eigen::Vector3d& position = pose.translations[static_cast<std::size_t>(j)];
+    Quaternion& rotation = pose.rotations[slotOf(j)];
+    Eigen::Vector3d& position = pose.translations[slotOf(j)];
     if (placement.motionUpZ) {
       rotation = upright * rotation;
       position = Eigen::Vector3d(position.x(), position.z(), -position.y());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assets/bvh/bvh_roles.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -65,7 +66,7 @@ class BodyBuilder {
   [[nodiscard]] std::size_t size() const { return roles_.size(); }
   [[nodiscard]] std::size_t parentOf(std::size_t joint) const {  // size(): a root
     const JointId parent = clip_.skeleton.parent(static_cast<JointId>(joint));
-    return parent == kNoParent ? size() : static_cast<std::size_t>(parent);
+    return parent == kNoParent ? size() : slotOf(parent);
   }
 
   const Clip& clip_;
@@ -265,21 +266,20 @@ std::vector<std::vector<Lss>> BodyBuilder::lssPerLink() const {
 
 Result<Avatar> avatarFromClip(const Clip& clip, const BvhAvatarOptions& options) {
   if (!(options.radiusScale > 0.0) || !std::isfinite(options.radiusScale)) {
-    return Error{
-        ErrorCode::OutOfRange, "", -1, -1,
-        "expected a radius scale above 0 and finite, found " + std::to_string(options.radiusScale)};
+    return Error::of(ErrorCode::OutOfRange, "expected a radius scale above 0 and finite, found " +
+                                                std::to_string(options.radiusScale));
   }
-  const auto n = static_cast<std::size_t>(clip.skeleton.numJoints());
+  const auto n = countOf(clip.skeleton.numJoints());
   if (clip.endSites.size() != n || clip.hasTranslation.size() != n) {
-    return Error{ErrorCode::Mismatch, "", -1, -1,
-                 "expected a clip with End Sites and channel flags for each of its " +
-                     std::to_string(n) + " joints"};
+    return Error::of(ErrorCode::Mismatch,
+                     "expected a clip with End Sites and channel flags for each of its " +
+                         std::to_string(n) + " joints");
   }
   auto lss = BodyBuilder(clip, options.radiusScale).lssPerLink();
   const bool any = std::any_of(lss.begin(), lss.end(), [](const auto& l) { return !l.empty(); });
   if (!any) {
-    return Error{ErrorCode::Empty, "", -1, -1,
-                 "the skeleton has no bones: expected an OFFSET that is not zero below a root"};
+    return Error::of(ErrorCode::Empty,
+                     "the skeleton has no bones: expected an OFFSET that is not zero below a root");
   }
   return Avatar::build(clip.skeleton, std::move(lss));
 }

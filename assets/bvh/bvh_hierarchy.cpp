@@ -10,7 +10,9 @@
 #include <unordered_set>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 namespace {
@@ -63,7 +65,7 @@ std::optional<BvhChannel> channelOf(std::string_view word) {
   constexpr std::array<std::string_view, 6> kNames = {"xposition", "yposition", "zposition",
                                                       "xrotation", "yrotation", "zrotation"};
   for (int i = 0; i < 6; ++i) {
-    if (isKeyword(word, kNames[static_cast<std::size_t>(i)])) return BvhChannel{i >= 3, i % 3};
+    if (isKeyword(word, kNames[slotOf(i)])) return BvhChannel{i >= 3, i % 3};
   }
   return std::nullopt;
 }
@@ -139,7 +141,7 @@ HierarchyReader::Outcome HierarchyReader::openJoint(const BvhWord& name) {
     return bvhError(ErrorCode::LimitExceeded, name.line,
                     "expected a name of at most " + std::to_string(kMaxNameBytes) + " bytes");
   }
-  if (hierarchy_.skeleton.joints.size() == static_cast<std::size_t>(kMaxJoints)) {
+  if (hierarchy_.skeleton.joints.size() == countOf(kMaxJoints)) {
     return bvhError(ErrorCode::LimitExceeded, name.line,
                     "expected at most " + std::to_string(kMaxJoints) + " joints");
   }
@@ -166,8 +168,8 @@ HierarchyReader::Outcome HierarchyReader::openEndSite(std::int64_t line) {
   block.joint = open_.back().joint;
   block.isEndSite = true;
   block.line = line;
-  auto& sites = hierarchy_.endSites[static_cast<std::size_t>(block.joint)];
-  if (sites.size() == static_cast<std::size_t>(kMaxJoints)) {
+  auto& sites = hierarchy_.endSites[slotOf(block.joint)];
+  if (sites.size() == countOf(kMaxJoints)) {
     return bvhError(ErrorCode::LimitExceeded, line,
                     "expected at most " + std::to_string(kMaxJoints) + " End Sites of one joint");
   }
@@ -190,15 +192,14 @@ HierarchyReader::Outcome HierarchyReader::readOffset(const BvhWord& word) {
   block.hasOffset = true;
   Eigen::Vector3d offset;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto number = nextNumber(scanner_, "a number of the OFFSET");
-    if (!number.ok()) return number.error();
-    offset[axis] = number.value() * scale_;
+    FORETOUCH_TRY(const auto number, nextNumber(scanner_, "a number of the OFFSET"));
+    offset[axis] = number * scale_;
     if (!(std::abs(offset[axis]) <= kMaxCoordinate)) {
       return bvhError(ErrorCode::OutOfRange, word.line,
                       "expected an OFFSET of at most 1e7 m; is the scale right?");
     }
   }
-  const auto joint = static_cast<std::size_t>(block.joint);
+  const auto joint = slotOf(block.joint);
   if (block.isEndSite) {
     hierarchy_.endSites[joint].back() = offset;
   } else {
@@ -224,7 +225,7 @@ HierarchyReader::Outcome HierarchyReader::readChannels(const BvhWord& word) {
     return bvhExpected(block.isEndSite ? "no channels in an End Site" : "0 to 6 channels",
                        countWord);
   }
-  auto& channels = hierarchy_.channels[static_cast<std::size_t>(block.joint)];
+  auto& channels = hierarchy_.channels[slotOf(block.joint)];
   for (int i = 0; i < static_cast<int>(count.value); ++i) {
     const BvhWord name = scanner_.next();
     const auto channel = channelOf(name.text);
@@ -234,7 +235,7 @@ HierarchyReader::Outcome HierarchyReader::readChannels(const BvhWord& word) {
     };
     if (std::any_of(channels.begin(), channels.end(), same)) {
       return bvhError(ErrorCode::DuplicateName, name.line,
-                      "the channel " + inQuotes(name.text) + " stands twice on one joint");
+                      "the channel " + inQuotes(name.text) + " appears twice on one joint");
     }
     channels.push_back(*channel);
   }

@@ -10,9 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "articulated/try.h"
 #include "assets/bvh/bvh_hierarchy.h"
 #include "assets/bvh/bvh_text.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -80,14 +82,10 @@ Result<MotionHeader> readMotionHeader(BvhScanner& scanner, std::size_t valuesPer
         isKeyword(word.text, "frametime") || isKeyword(word.text, "frame_time") ||
         (isKeyword(word.text, "frame") && isKeyword(scanner.peek(kSeparate).text, "time"));
     if (isKeyword(word.text, "frames") && !frames) {
-      const auto count = frameCount(scanner, valuesPerFrame);
-      if (!count.ok()) return count.error();
-      frames = count.value();
+      FORETOUCH_TRY(frames, frameCount(scanner, valuesPerFrame));
     } else if (isTime && !timeS) {
       if (isKeyword(word.text, "frame")) static_cast<void>(scanner.next(kSeparate));
-      const auto time = frameTime(scanner);
-      if (!time.ok()) return time.error();
-      timeS = time.value();
+      FORETOUCH_TRY(timeS, frameTime(scanner));
     } else {
       return bvhExpected(frames ? "Frame Time" : timeS ? "Frames" : "Frames or Frame Time", word);
     }
@@ -207,7 +205,7 @@ Result<Clip> emptyClip(const BvhHierarchy& hierarchy) {
   auto skeleton = Skeleton::build(hierarchy.skeleton);
   if (!skeleton.ok()) {
     Error error = skeleton.error();
-    if (error.index >= 0) error.line = hierarchy.lines[static_cast<std::size_t>(error.index)];
+    if (error.index >= 0) error.line = hierarchy.lines[slotOf(error.index)];
     return error;
   }
   Clip clip;
@@ -226,28 +224,26 @@ Result<Clip> readClip(std::string_view text, double scale) {
   if (auto error = internal::binaryContent(text)) return *std::move(error);
   BvhScanner scanner(text);
   ClipNotes notes;
-  const auto hierarchy = internal::readBvhHierarchy(scanner, scale, notes);
-  if (!hierarchy.ok()) return hierarchy.error();
-  auto result = emptyClip(hierarchy.value());
+  FORETOUCH_TRY(const auto hierarchy, internal::readBvhHierarchy(scanner, scale, notes));
+  auto result = emptyClip(hierarchy);
   if (!result.ok()) return result;
   Clip& clip = result.value();
-  const std::size_t channels = hierarchy.value().numChannels;
+  const std::size_t channels = hierarchy.numChannels;
   if (channels == 0) {
     return bvhError(ErrorCode::Empty, scanner.peek().line, "no joint has channels, nothing moves");
   }
   const std::size_t valuesPerFrame = std::max(channels, 3 * clip.endSites.size());
-  const auto header = readMotionHeader(scanner, valuesPerFrame);
-  if (!header.ok()) return header.error();
-  clip.frameTimeS = header.value().frameTimeS;
+  FORETOUCH_TRY(const auto header, readMotionHeader(scanner, valuesPerFrame));
+  clip.frameTimeS = header.frameTimeS;
 
-  MotionReader motion(scanner, hierarchy.value(), scale, clip);
+  MotionReader motion(scanner, hierarchy, scale, clip);
   if (auto error = motion.read(kMaxBvhValues / valuesPerFrame, notes)) return *std::move(error);
   if (clip.frames.empty()) {
     return bvhExpected("a row of " + std::to_string(channels) + " numbers", scanner.peek());
   }
-  if (clip.frames.size() != header.value().declaredFrames) {
-    notes.add("the file declares " + std::to_string(header.value().declaredFrames) +
-              " frames and holds " + std::to_string(clip.frames.size()) + "; these are used");
+  if (clip.frames.size() != header.declaredFrames) {
+    notes.add("the file declares " + std::to_string(header.declaredFrames) + " frames and holds " +
+              std::to_string(clip.frames.size()) + "; these are used");
   }
   clip.notes = notes.take();
   return result;
@@ -257,12 +253,12 @@ Result<Clip> readClip(std::string_view text, double scale) {
 
 Result<Clip> parseBvh(std::string_view text, const std::string& name, const BvhOptions& options) {
   if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
-    return Error{ErrorCode::OutOfRange, name, -1, -1,
-                 "expected a scale above 0 and finite, found " + std::to_string(options.scale)};
+    return Error::in(name, ErrorCode::OutOfRange,
+                     "expected a scale above 0 and finite, found " + std::to_string(options.scale));
   }
   if (text.size() > kMaxBvhFileBytes) {
-    return Error{ErrorCode::LimitExceeded, name, -1, -1,
-                 "expected at most " + std::to_string(kMaxBvhFileBytes) + " bytes"};
+    return Error::in(name, ErrorCode::LimitExceeded,
+                     "expected at most " + std::to_string(kMaxBvhFileBytes) + " bytes");
   }
   try {
     auto clip = readClip(text, options.scale);
@@ -271,14 +267,13 @@ Result<Clip> parseBvh(std::string_view text, const std::string& name, const BvhO
     error.file = name;
     return error;
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::LimitExceeded, name, -1, -1, "does not fit into memory"};
+    return Error::in(name, ErrorCode::LimitExceeded, "does not fit into memory");
   }
 }
 
 Result<Clip> readBvhFile(const std::string& path, const BvhOptions& options) {
-  const auto text = readWholeFile(path, kMaxBvhFileBytes);
-  if (!text.ok()) return text.error();
-  return parseBvh(text.value(), path, options);
+  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxBvhFileBytes));
+  return parseBvh(text, path, options);
 }
 
 }  // namespace foretouch

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "lss/index.h"
+
 namespace foretouch::internal {
 namespace {
 
@@ -66,7 +68,7 @@ BodyRole roleOfName(std::string_view name) {
 }  // namespace
 
 std::vector<BodyRole> bodyRoles(const Skeleton& skeleton) {
-  const auto n = static_cast<std::size_t>(skeleton.numJoints());
+  const auto n = countOf(skeleton.numJoints());
   std::vector<BodyRole> named(n);
   std::vector<int> children(n, 0);
   for (std::size_t j = 0; j < n; ++j) named[j] = roleOfName(skeleton.name(static_cast<JointId>(j)));

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "assets/bvh/bvh_roles.h"
+#include "lss/index.h"
 
 namespace foretouch {
 
@@ -12,9 +13,8 @@ std::optional<double> statureOf(const Skeleton& skeleton) {
   for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
     const JointId parent = skeleton.parent(joint);
     if (parent == kNoParent) continue;
-    bones.push_back({roles[static_cast<std::size_t>(parent)],
-                     roles[static_cast<std::size_t>(joint)], false,
-                     skeleton.restOffset(joint).norm()});
+    bones.push_back(
+        {roles[slotOf(parent)], roles[slotOf(joint)], false, skeleton.restOffset(joint).norm()});
   }
   const internal::Legs legs = internal::legsOf(bones);
   // A skeleton has no End Sites: where a shin ends without a foot, its length is not known.

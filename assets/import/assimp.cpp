@@ -8,6 +8,7 @@
 #include <assimp/importerdesc.h>
 
 #include "assets/import/file_damage.h"
+#include "lss/index.h"
 #include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
@@ -42,8 +43,7 @@ void addFace(const aiMesh& mesh, const aiFace& face, MeshTriangles& out) {
 /// applied by its reader, the other formats are metres or say nothing.
 double metresPerUnit(const Assimp::Importer& importer, const aiScene& scene) {
   const int index = importer.GetPropertyInteger("importerIndex", -1);
-  const aiImporterDesc* reader =
-      index < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(index));
+  const aiImporterDesc* reader = index < 0 ? nullptr : importer.GetImporterInfo(slotOf(index));
   const bool isFbx = reader != nullptr && reader->mFileExtensions != nullptr &&
                      std::string_view(reader->mFileExtensions) == "fbx";
   float centimetres = 0.0F;

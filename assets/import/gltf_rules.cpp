@@ -8,6 +8,7 @@
 
 #include "articulated/quoted.h"
 #include "assets/import/gltf_extents.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 namespace {
@@ -247,11 +248,11 @@ void checkCircles(const std::vector<std::int64_t>& parent, Faults& faults) {
   for (std::size_t i = 0; i < parent.size(); ++i) {
     const auto walk = static_cast<std::int64_t>(i);
     std::int64_t at = walk;
-    while (at >= 0 && walkOf[static_cast<std::size_t>(at)] < 0) {
-      walkOf[static_cast<std::size_t>(at)] = walk;
-      at = parent[static_cast<std::size_t>(at)];
+    while (at >= 0 && walkOf[slotOf(at)] < 0) {
+      walkOf[slotOf(at)] = walk;
+      at = parent[slotOf(at)];
     }
-    if (at < 0 || walkOf[static_cast<std::size_t>(at)] != walk) continue;
+    if (at < 0 || walkOf[slotOf(at)] != walk) continue;
     faults.add("nodes[" + std::to_string(at) + "]", "expected a tree, found its own ancestor");
     return;
   }

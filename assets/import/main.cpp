@@ -17,6 +17,7 @@
 #include "assets/import/model_stream.h"
 #include "assets/import/scene.h"
 #include "assets/import/text.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 namespace {
@@ -26,7 +27,7 @@ bool writeAll(int fd, std::string_view bytes) {
     const ssize_t count = write(fd, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(count));
+    bytes.remove_prefix(countOf(count));
   }
   return true;
 }

@@ -170,7 +170,7 @@ class AssimpModel {
     ModelAnimation animation;
     animation.name = textOf(from.mName);
     const bool stated = from.mTicksPerSecond > 0.0 && std::isfinite(from.mTicksPerSecond);
-    if (!stated) builder_.note("an animation states no rate: read as 25 ticks a second");
+    if (!stated) builder_.note("an animation states no rate: read as 25 ticks per second");
     const double rate = stated ? from.mTicksPerSecond : kDefaultTicksPerSecond;
     const double durationS = from.mDuration / rate;
     animation.durationS = std::isfinite(durationS) ? durationS : 0.0;

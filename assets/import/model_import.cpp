@@ -8,6 +8,7 @@
 
 #include "assets/import/model_stream.h"
 #include "assets/import/run.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -57,7 +58,7 @@ void turnRoots(Model& model) {
   }
   for (ModelAnimation& animation : model.animations) {
     for (ModelTrack& track : animation.tracks) {
-      if (model.nodes[static_cast<std::size_t>(track.node)].parent >= 0) continue;
+      if (model.nodes[slotOf(track.node)].parent >= 0) continue;
       for (auto& key : track.positions) key.value = turn * key.value;
       for (auto& key : track.rotations) key.value = rotation * key.value;
     }

@@ -4,6 +4,7 @@
 #include "assets/import/model_records.h"
 #include "assets/import/model_stream.h"
 #include "assets/import/text.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 namespace {
@@ -43,7 +44,7 @@ bool ModelReader::isWhole(std::uint64_t count) const {
 }
 
 bool ModelReader::isNode(std::int32_t node) const {
-  return node >= 0 && static_cast<std::size_t>(node) < model_.nodes.size();
+  return node >= 0 && slotOf(node) < model_.nodes.size();
 }
 
 void ModelReader::checkSize() {
@@ -137,9 +138,8 @@ void ModelReader::parseTriangles(std::string_view payload) {
   parseAll<TriangleRecord>(payload, left_.triangles, [this](const TriangleRecord& triangle) {
     ModelMesh& mesh = model_.meshes.back();
     mesh.triangles.push_back(triangle);
-    return std::all_of(triangle.begin(), triangle.end(), [&](std::int32_t i) {
-      return i >= 0 && static_cast<std::size_t>(i) < mesh.vertices.size();
-    });
+    return std::all_of(triangle.begin(), triangle.end(),
+                       [&](std::int32_t i) { return i >= 0 && slotOf(i) < mesh.vertices.size(); });
   });
 }
 
@@ -167,7 +167,7 @@ void ModelReader::parseBone(std::string_view payload) {
 void ModelReader::parseWeights(std::string_view payload) {
   parseAll<WeightRecord>(payload, left_.weights, [this](const WeightRecord& r) {
     ModelMesh& mesh = model_.meshes.back();
-    const bool inRange = r.vertex >= 0 && static_cast<std::size_t>(r.vertex) < mesh.vertices.size();
+    const bool inRange = r.vertex >= 0 && slotOf(r.vertex) < mesh.vertices.size();
     mesh.bones.back().weights.push_back(
         {inRange ? static_cast<std::int32_t>(r.vertex) : 0, r.weight});
     return inRange;

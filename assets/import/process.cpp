@@ -17,6 +17,8 @@
 
 #include <climits>
 
+#include "lss/index.h"
+
 namespace foretouch::internal {
 namespace {
 
@@ -325,7 +327,7 @@ class Streams {
   /// What is there, possibly nothing; closes the stream at its end.
   std::string_view readSome(Descriptor& stream) {
     const ssize_t count = read(stream.get(), buffer_.data(), buffer_.size());
-    if (count > 0) return {buffer_.data(), static_cast<std::size_t>(count)};
+    if (count > 0) return {buffer_.data(), countOf(count)};
     if (count == 0 || (errno != EINTR && errno != EAGAIN)) stream.close();
     return {};
   }

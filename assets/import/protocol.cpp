@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "assets/import/text.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 namespace {
@@ -117,7 +118,7 @@ void ImportReader::makeRoomFor(std::size_t triangles) {
   RawScene& scene = scene_.scene;
   const std::size_t needed = scene.triangles.size() + triangles;
   if (needed <= scene.triangles.capacity()) return;
-  const std::size_t room = std::min(static_cast<std::size_t>(totals_.triangles), 2 * needed);
+  const std::size_t room = std::min(countOf(totals_.triangles), 2 * needed);
   scene.triangles.reserve(room);
   scene.objectOf.reserve(room);
 }

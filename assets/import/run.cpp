@@ -13,6 +13,7 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "articulated/try.h"
 #include "assets/import/process.h"
 #include "assets/import/text.h"
 
@@ -72,14 +73,14 @@ std::optional<Error> badPath(const std::string& path) {
   }
   if (!S_ISREG(status.st_mode)) {
     return importError(path, ErrorCode::FileUnreadable,
-                       "expected a model file, found what is no regular file");
+                       "expected a model file, found something that is not a regular file");
   }
   if (status.st_size == 0) {
     return importError(path, ErrorCode::Empty, "expected a model, found an empty file");
   }
   if (std::filesystem::path(path).extension().string().size() < 2) {
     return importError(path, ErrorCode::UnknownName,
-                       "expected an extension that tells the format, such as .obj, .glb or .ply");
+                       "expected an extension that names the format, such as .obj, .glb or .ply");
   }
   return std::nullopt;
 }
@@ -193,20 +194,19 @@ Error failureOfRun(const std::string& path, const std::string& importer,
 }  // namespace
 
 Error importError(const std::string& path, ErrorCode code, std::string message) {
-  return Error{code, path, -1, -1, std::move(message)};
+  return Error::in(path, code, std::move(message));
 }
 
 std::optional<Error> runImporter(const std::string& path, const SceneImportOptions& options,
                                  const std::vector<std::string>& arguments, FrameReader& reader) {
   if (auto error = badOption(path, options)) return error;
   if (auto error = badPath(path)) return error;
-  const auto importer = findImporter(path, options);
-  if (!importer.ok()) return importer.error();
+  FORETOUCH_TRY(const auto importer, findImporter(path, options));
   const ProcessEnd end = runLimited(
-      importer.value(), arguments, {options.memoryLimitBytes, options.timeLimitS},
+      importer, arguments, {options.memoryLimitBytes, options.timeLimitS},
       [&](std::string_view bytes) { return reader.feed(bytes) == FrameReader::State::Reading; });
   if (reader.state() == FrameReader::State::Complete) return std::nullopt;
-  return failureOfRun(path, importer.value(), options, reader, end);
+  return failureOfRun(path, importer, options, reader, end);
 }
 
 }  // namespace foretouch::internal

@@ -8,6 +8,7 @@
 
 #include "assets/import/assimp.h"
 #include "assets/import/text.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 namespace {
@@ -59,8 +60,7 @@ void placeAll(PlacedMeshes& model, double metresPerUnit) {
   Affine toMetres;
   toMetres.linear *= metresPerUnit;
   for (const VisitedNode& visited : nodes) {
-    const Affine& parent =
-        visited.parent < 0 ? toMetres : toWorld[static_cast<std::size_t>(visited.parent)];
+    const Affine& parent = visited.parent < 0 ? toMetres : toWorld[slotOf(visited.parent)];
     toWorld.push_back(parent * transformOf(visited.node->mTransformation));
     for (unsigned i = 0; i < visited.node->mNumMeshes; ++i) {
       addPlacement(model, *visited.node, visited.node->mMeshes[i], toWorld.back());

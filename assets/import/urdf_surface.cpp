@@ -7,6 +7,7 @@
 #include "articulated/avatar.h"
 #include "assets/import/assimp.h"
 #include "assets/import/text.h"
+#include "lss/index.h"
 #include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
@@ -33,8 +34,7 @@ FlatMesh flatten(const AssimpFile& file) {
   Affine toMetres;
   toMetres.linear *= file.metresPerUnit;
   for (const VisitedNode& visited : nodes) {
-    const Affine& parent =
-        visited.parent < 0 ? toMetres : toFile[static_cast<std::size_t>(visited.parent)];
+    const Affine& parent = visited.parent < 0 ? toMetres : toFile[slotOf(visited.parent)];
     toFile.push_back(parent * transformOf(visited.node->mTransformation));
     for (unsigned i = 0; i < visited.node->mNumMeshes; ++i) {
       checkMeshIndex(*file.scene, visited.node->mMeshes[i]);
@@ -146,7 +146,7 @@ bool UrdfSurface::addShape(const Shape& shape, const std::string& link, std::int
 
 void UrdfSurface::addRound(const Shape& shape, double halfLength, double radius,
                            std::int32_t node) {
-  std::vector<Lss>& lss = builder_.model.nodes[static_cast<std::size_t>(node)].lss;
+  std::vector<Lss>& lss = builder_.model.nodes[slotOf(node)].lss;
   if (lss.size() == kMaxLssPerLink) {
     throw Failure{ImportFailure::TooLarge, "more than " + std::to_string(kMaxLssPerLink) +
                                                " spheres and capsules on a link"};

@@ -11,10 +11,12 @@
 #include <system_error>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/import/model_stream.h"
 #include "assets/import/text.h"
 #include "assets/mesh/link_mesh_skinned.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 #include "lss/single.h"
 
 namespace foretouch {
@@ -63,11 +65,11 @@ bool areRigid(const Model& model, const std::vector<std::int32_t>& nodes) {
   std::vector<bool> rigid;
   rigid.reserve(model.nodes.size());
   for (const ModelNode& node : model.nodes) {
-    rigid.push_back((node.parent < 0 || rigid[static_cast<std::size_t>(node.parent)]) &&
+    rigid.push_back((node.parent < 0 || rigid[slotOf(node.parent)]) &&
                     isRigid(node.toParent.linear));
   }
   return std::all_of(nodes.begin(), nodes.end(),
-                     [&](std::int32_t node) { return rigid[static_cast<std::size_t>(node)]; });
+                     [&](std::int32_t node) { return rigid[slotOf(node)]; });
 }
 
 /// Are all vertices at these nodes floats? Those that have no place are passed over.
@@ -89,9 +91,7 @@ Surfaces ownTriangles(const Model& model, const std::vector<std::int32_t>& nodes
     const auto wanted = ofNode.find(mesh.node);
     if (wanted == ofNode.end()) continue;
     for (const auto& t : mesh.triangles) {
-      const auto corner = [&](std::size_t k) {
-        return mesh.vertices[static_cast<std::size_t>(t[k])];
-      };
+      const auto corner = [&](std::size_t k) { return mesh.vertices[slotOf(t[k])]; };
       wanted->second.push_back({{corner(0), corner(1), corner(2)}});
     }
   }
@@ -123,9 +123,8 @@ Result<Surfaces> surfacesIn(const Model& model, const Avatar& avatar, const std:
   if (hasBones(model)) return internal::surfacesOfLinks(model, names, path);
   std::vector<std::int32_t> nodes;
   for (std::size_t i = 0; i < links.size(); ++i) {
-    const auto node = nodeNamed(model, names[i], path, links[i]);
-    if (!node.ok()) return node.error();
-    nodes.push_back(node.value());
+    FORETOUCH_TRY(const auto node, nodeNamed(model, names[i], path, links[i]));
+    nodes.push_back(node);
   }
   if (!areRigid(model, nodes) || !areFloats(model, nodes)) {
     return internal::surfacesOfLinks(model, names, path);
@@ -137,16 +136,14 @@ Result<Surfaces> surfacesIn(const Model& model, const Avatar& avatar, const std:
 Result<Done> loadFile(const Avatar& avatar, const std::string& path,
                       const std::vector<LinkId>& links, const ModelImportOptions& options,
                       Surfaces& surfaces) {
-  const auto model = importModel(path, options);
-  if (!model.ok()) return model.error();
-  auto found = surfacesIn(model.value(), avatar, path, links);
-  if (!found.ok()) return found.error();
+  FORETOUCH_TRY(const auto model, importModel(path, options));
+  FORETOUCH_TRY(auto found, surfacesIn(model, avatar, path, links));
   for (std::size_t i = 0; i < links.size(); ++i) {
-    std::vector<Triangle>& surface = found.value()[i];
+    std::vector<Triangle>& surface = found[i];
     if (auto error = badSurface(surface, avatar.mesh(links[i]).node, path, links[i])) {
       return *error;
     }
-    surfaces[static_cast<std::size_t>(links[i])] = std::move(surface);
+    surfaces[slotOf(links[i])] = std::move(surface);
   }
   return Done{};
 }
@@ -159,10 +156,9 @@ Result<Surfaces> loadChecked(const Avatar& avatar, const std::string& avatarPath
     const std::string& file = avatar.mesh(link).file;
     if (!file.empty()) linksOfFile[(folder / file).string()].push_back(link);
   }
-  Surfaces surfaces(static_cast<std::size_t>(avatar.numLinks()));
+  Surfaces surfaces(countOf(avatar.numLinks()));
   for (const auto& [path, links] : linksOfFile) {
-    const auto loaded = loadFile(avatar, path, links, options, surfaces);
-    if (!loaded.ok()) return loaded.error();
+    FORETOUCH_CHECK(loadFile(avatar, path, links, options, surfaces));
   }
   return Result<Surfaces>(std::move(surfaces));
 }
@@ -171,7 +167,7 @@ Result<Surfaces> loadChecked(const Avatar& avatar, const std::string& avatarPath
 
 Result<Surfaces> loadLinkMeshes(const Avatar& avatar, const std::string& avatarPath,
                                 const ModelImportOptions& options) {
-  std::vector<LinkId> all(static_cast<std::size_t>(avatar.numLinks()));
+  std::vector<LinkId> all(countOf(avatar.numLinks()));
   std::iota(all.begin(), all.end(), 0);
   return loadLinkMeshes(avatar, avatarPath, all, options);
 }

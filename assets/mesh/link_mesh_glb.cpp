@@ -11,9 +11,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "articulated/try.h"
 #include "assets/import/text.h"
 #include "assets/mesh/link_mesh.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 #include "lss/single.h"
 
 namespace foretouch {
@@ -64,7 +66,7 @@ std::optional<Error> badName(const Skeleton& skeleton, const std::string& path) 
 
 std::optional<Error> badInput(const Skeleton& skeleton, const Surfaces& triangles,
                               const std::string& path) {
-  if (triangles.size() != static_cast<std::size_t>(skeleton.numJoints())) {
+  if (triangles.size() != countOf(skeleton.numJoints())) {
     return glbError(ErrorCode::Mismatch, path, -1,
                     "expected triangles for " + std::to_string(skeleton.numJoints()) +
                         " links, found " + std::to_string(triangles.size()));
@@ -148,7 +150,7 @@ json describeFile(const Skeleton& skeleton, const Surfaces& triangles) {
   std::vector<JointId> roots;
   std::size_t bytes = 0;
   for (JointId link = 0; link < skeleton.numJoints(); ++link) {
-    const auto& surface = triangles[static_cast<std::size_t>(link)];
+    const auto& surface = triangles[slotOf(link)];
     json node = nodeOf(skeleton, link);
     if (!surface.empty()) {
       node["mesh"] = root["meshes"].size();
@@ -160,7 +162,7 @@ json describeFile(const Skeleton& skeleton, const Surfaces& triangles) {
     if (parent == kNoParent) {
       roots.push_back(link);
     } else {
-      root["nodes"][static_cast<std::size_t>(parent)]["children"].push_back(link);
+      root["nodes"][slotOf(parent)]["children"].push_back(link);
     }
   }
   addRoot(root, skeleton, roots);
@@ -206,16 +208,15 @@ Result<Done> writeChecked(const Skeleton& skeleton, const Surfaces& triangles,
   std::string text = root.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const auto binaryBytes = root["buffers"][0]["byteLength"].get<std::uint32_t>();
-  auto file = PendingFile::create(path);
-  if (!file.ok()) return file.error();
+  FORETOUCH_TRY(auto file, PendingFile::create(path));
   const auto textBytes = static_cast<std::uint32_t>(text.size());
   constexpr std::uint32_t kHeadBytes = 12, kChunkHeadBytes = 8;
-  file.value().write(
+  file.write(
       words({kGlbMagic, kGlbVersion, kHeadBytes + 2 * kChunkHeadBytes + textBytes + binaryBytes}));
-  file.value().write(words({textBytes, kJsonChunk}) + text);
-  file.value().write(words({binaryBytes, kBinaryChunk}));
-  writeBinary(triangles, file.value());
-  return file.value().commit();
+  file.write(words({textBytes, kJsonChunk}) + text);
+  file.write(words({binaryBytes, kBinaryChunk}));
+  writeBinary(triangles, file);
+  return file.commit();
 }
 
 }  // namespace

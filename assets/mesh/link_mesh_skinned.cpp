@@ -2,6 +2,7 @@
 
 #include "assets/model/model_avatar.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 
@@ -18,10 +19,10 @@ Result<std::vector<std::vector<Triangle>>> surfacesOfLinks(const Model& model,
   for (const std::string& name : names) {
     const auto link = made.value().avatar.skeleton().find(name);
     if (!link.has_value()) {
-      return Error{ErrorCode::UnknownName, path, -1, -1,
-                   "no link of the model is named " + inQuotes(name)};
+      return Error::in(path, ErrorCode::UnknownName,
+                       "no link of the model is named " + inQuotes(name));
     }
-    surfaces.push_back(made.value().surface[static_cast<std::size_t>(*link)]);
+    surfaces.push_back(made.value().surface[slotOf(*link)]);
   }
   return surfaces;
 }

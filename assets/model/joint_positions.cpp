@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "articulated/try.h"
 #include "assets/model/joint_table.h"
 #include "assets/model/model_clip.h"
 #include "assets/model/model_frames.h"
@@ -46,11 +47,11 @@ Result<std::vector<Drive>> findDrives(const Model& model, const JointTable& tabl
   for (const std::string& name : table.joints) {
     auto found = joints.find(name);
     if (found == joints.end() && (found = nodes.find(name)) == nodes.end()) {
-      return Error{ErrorCode::UnknownName, "", -1, -1, "the robot has no joint " + inQuotes(name)};
+      return Error::of(ErrorCode::UnknownName, "the robot has no joint " + inQuotes(name));
     }
     if (isDriven[slotOf(found->second)]) {
-      return Error{ErrorCode::DuplicateName, "", -1, -1,
-                   "column " + inQuotes(name) + " moves a joint that an earlier column moves"};
+      return Error::of(ErrorCode::DuplicateName,
+                       "column " + inQuotes(name) + " moves a joint that an earlier column moves");
     }
     isDriven[slotOf(found->second)] = true;
     drives.push_back({found->second, 0.0});
@@ -105,11 +106,10 @@ std::vector<std::string> notesOn(const Model& model, const JointTable& table,
 }
 
 Result<Clip> clipOf(const Model& model, const JointTable& table, std::vector<Drive> drives) {
-  auto collector = internal::FrameCollector::create(model, table.rows.size());
-  if (!collector.ok()) return collector.error();
+  FORETOUCH_TRY(auto collector, internal::FrameCollector::create(model, table.rows.size()));
   for (const Drive& drive : drives) {
     const ModelNode& node = model.nodes[slotOf(drive.node)];
-    if (isMovable(node)) collector.value().moves(drive.node, turns(node));
+    if (isMovable(node)) collector.moves(drive.node, turns(node));
   }
   std::vector<Affine> frames = internal::restFrames(model);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -119,13 +119,13 @@ Result<Clip> clipOf(const Model& model, const JointTable& table, std::vector<Dri
       checkLimits(node, table.rows[row][i], drives[i]);
       frames[slotOf(drives[i].node)] = movedFrame(node, table.rows[row][i]);
     }
-    const auto added = collector.value().add(frames);
+    const auto added = collector.add(frames);
     if (added.ok()) continue;
     Error error = added.error();
     error.line = table.lines[row];
     return error;
   }
-  return collector.value().take(table.frameTimeS, notesOn(model, table, drives));
+  return collector.take(table.frameTimeS, notesOn(model, table, drives));
 }
 
 }  // namespace

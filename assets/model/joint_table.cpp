@@ -10,6 +10,7 @@
 #include "assets/bvh/bvh_reader.h"
 #include "assets/bvh/bvh_text.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 namespace {
@@ -30,7 +31,7 @@ std::string_view unquoted(std::string_view cell) {
   return isQuoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
 }
 
-constexpr std::size_t kMaxCells = static_cast<std::size_t>(kMaxJoints) + 1;
+constexpr std::size_t kMaxCells = countOf(kMaxJoints) + 1;
 
 /// No more of them than say that there are too many.
 std::vector<std::string_view> cellsOf(std::string_view line) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/SVD>
 
+#include "articulated/try.h"
 #include "assets/model/model_links.h"
 #include "assets/model/model_ownership.h"
 #include "assets/model/model_surface.h"
@@ -77,9 +78,9 @@ Result<Done> checkOptions(const ModelAvatarOptions& options) {
   const bool isCount =
       options.maxLssPerLink >= 1 && slotOf(options.maxLssPerLink) <= kMaxLssPerLink;
   if (isCount) return Done{};
-  return Error{ErrorCode::OutOfRange, "", -1, -1,
-               "expected 1 to " + std::to_string(kMaxLssPerLink) + " LSS a link, found " +
-                   std::to_string(options.maxLssPerLink)};
+  return Error::of(ErrorCode::OutOfRange, "expected 1 to " + std::to_string(kMaxLssPerLink) +
+                                              " LSS per link, found " +
+                                              std::to_string(options.maxLssPerLink));
 }
 
 }  // namespace
@@ -89,10 +90,9 @@ Result<ModelAvatar> avatarFromModel(const Model& model, const ModelAvatarOptions
     if (!checked.ok()) return checked.error();
   }
   const internal::ModelOwnership ownership = internal::ownershipOf(model);
-  auto links = internal::modelLinks(model, ownership);
-  if (!links.ok()) return links.error();
-  internal::ModelSurface surface = internal::surfaceOf(model, links.value(), ownership);
-  ModelAvatarReport report = reportOn(model, links.value(), ownership, surface);
+  FORETOUCH_TRY(auto links, internal::modelLinks(model, ownership));
+  internal::ModelSurface surface = internal::surfaceOf(model, links, ownership);
+  ModelAvatarReport report = reportOn(model, links, ownership, surface);
 
   std::vector<std::vector<Lss>> lss;
   std::vector<MeshReference> meshes;
@@ -103,24 +103,22 @@ Result<ModelAvatar> avatarFromModel(const Model& model, const ModelAvatarOptions
     const CoverMeasure measure = measureCover(fitted, triangles);
     report.hullVolume += measure.hullVolume;
     report.excessVolume += std::max(0.0, measure.lssVolume - measure.hullVolume);
-    lss.push_back(
-        statedLss(model.nodes[slotOf(links.value().nodeOfLink[link])], links.value().shape[link]));
+    lss.push_back(statedLss(model.nodes[slotOf(links.nodeOfLink[link])], links.shape[link]));
     lss.back().insert(lss.back().end(), fitted.begin(), fitted.end());
     any = any || !lss.back().empty();
     const bool isReferred = !options.meshFile.empty() && !triangles.empty();
-    meshes.push_back(isReferred ? MeshReference{options.meshFile, links.value().skeleton.name(
-                                                                      static_cast<LinkId>(link))}
-                                : MeshReference{});
+    meshes.push_back(
+        isReferred ? MeshReference{options.meshFile, links.skeleton.name(static_cast<LinkId>(link))}
+                   : MeshReference{});
   }
   if (!any) {
-    return Error{ErrorCode::Empty, "", -1, -1,
-                 "the model has no surface; expected a node that carries triangles, spheres or "
-                 "capsules"};
+    return Error::of(ErrorCode::Empty,
+                     "the model has no surface; expected a node that carries triangles, spheres or "
+                     "capsules");
   }
-  auto avatar = Avatar::build(links.value().skeleton, std::move(lss), std::move(meshes));
-  if (!avatar.ok()) return avatar.error();
-  return ModelAvatar{std::move(avatar).value(), std::move(surface.triangles),
-                     std::move(surface.skin), links.value().nodeOfLink, std::move(report)};
+  FORETOUCH_TRY(auto avatar, Avatar::build(links.skeleton, std::move(lss), std::move(meshes)));
+  return ModelAvatar{std::move(avatar), std::move(surface.triangles), std::move(surface.skin),
+                     links.nodeOfLink, std::move(report)};
 }
 
 }  // namespace foretouch

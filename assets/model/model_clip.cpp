@@ -5,11 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/model/model_frames.h"
 #include "assets/model/model_tracks.h"
 #include "assets/model/pose_frames.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -19,7 +21,7 @@ constexpr double kWholeFrame = 1e-6;
 
 Result<const ModelAnimation*> findAnimation(const Model& model, const std::string& wanted) {
   if (model.animations.empty()) {
-    return Error{ErrorCode::Empty, "", -1, -1, "the model holds no animation"};
+    return Error::of(ErrorCode::Empty, "the model holds no animation");
   }
   if (wanted.empty()) return &model.animations.front();
   std::vector<std::string> names;
@@ -30,9 +32,9 @@ Result<const ModelAnimation*> findAnimation(const Model& model, const std::strin
   for (std::size_t i = 0; i < model.animations.size(); ++i) {
     if (std::to_string(i) == wanted) return &model.animations[i];
   }
-  return Error{ErrorCode::UnknownName, "", -1, -1,
-               "no animation is called " + inQuotes(wanted) + "; expected a number from 0 to " +
-                   std::to_string(names.size() - 1) + ", or one of " + internal::listed(names)};
+  return Error::of(ErrorCode::UnknownName,
+                   "no animation is called " + inQuotes(wanted) + "; expected a number from 0 to " +
+                       std::to_string(names.size() - 1) + ", or one of " + internal::listed(names));
 }
 
 std::vector<internal::SampledTrack> sampledTracks(const Model& model,
@@ -40,7 +42,7 @@ std::vector<internal::SampledTrack> sampledTracks(const Model& model,
   std::vector<internal::SampledTrack> tracks;
   for (const ModelTrack& track : animation.tracks) {
     if (track.node < 0) continue;
-    tracks.emplace_back(track, model.nodes[static_cast<std::size_t>(track.node)].toParent);
+    tracks.emplace_back(track, model.nodes[slotOf(track.node)].toParent);
   }
   return tracks;
 }
@@ -52,7 +54,7 @@ std::vector<std::string> notesOn(const Model& model,
   for (const internal::SampledTrack& track : tracks) {
     leftOut += track.leftOut();
     if (track.scalesAnew()) {
-      scaled.push_back(model.nodes[static_cast<std::size_t>(track.node())].name);
+      scaled.push_back(model.nodes[slotOf(track.node())].name);
     }
   }
   if (leftOut > 0) {
@@ -70,44 +72,39 @@ std::vector<std::string> notesOn(const Model& model,
 Result<std::size_t> countFrames(const ModelAnimation& animation,
                                 const std::vector<internal::SampledTrack>& tracks, double rateHz) {
   if (!(rateHz >= 1.0 / kMaxFrameTimeS && rateHz <= 1.0 / kMinFrameTimeS)) {
-    return Error{ErrorCode::OutOfRange, "", -1, -1,
-                 "expected a frame time of 1e-6 to 3600 s, found a rate of " +
-                     std::to_string(rateHz) + " Hz"};
+    return Error::of(ErrorCode::OutOfRange,
+                     "expected a frame time of 1e-6 to 3600 s, found a rate of " +
+                         std::to_string(rateHz) + " Hz");
   }
   double endS = std::isfinite(animation.durationS) ? std::max(0.0, animation.durationS) : 0.0;
   for (const internal::SampledTrack& track : tracks) endS = std::max(endS, track.lastKeyS());
   const double steps = std::ceil(endS * rateHz - kWholeFrame);
   if (steps < static_cast<double>(kMaxBvhValues)) return static_cast<std::size_t>(steps) + 1;
-  return Error{ErrorCode::LimitExceeded, "", -1, -1,
-               "animation " + inQuotes(animation.name) + " lasts " + std::to_string(endS) +
-                   " s; at " + std::to_string(rateHz) +
-                   " Hz that is more frames than a clip may have"};
+  return Error::of(ErrorCode::LimitExceeded, "animation " + inQuotes(animation.name) + " lasts " +
+                                                 std::to_string(endS) + " s; at " +
+                                                 std::to_string(rateHz) +
+                                                 " Hz that is more frames than a clip may have");
 }
 
 }  // namespace
 
 Result<Clip> clipFromModel(const Model& model, const ModelClipOptions& options) {
-  const auto checked = internal::checkModel(model);
-  if (!checked.ok()) return checked.error();
-  const auto animation = findAnimation(model, options.animation);
-  if (!animation.ok()) return animation.error();
-  const auto tracks = sampledTracks(model, *animation.value());
-  const auto count = countFrames(*animation.value(), tracks, options.rateHz);
-  if (!count.ok()) return count.error();
-  auto collector = internal::FrameCollector::create(model, count.value());
-  if (!collector.ok()) return collector.error();
+  FORETOUCH_CHECK(internal::checkModel(model));
+  FORETOUCH_TRY(const auto animation, findAnimation(model, options.animation));
+  const auto tracks = sampledTracks(model, *animation);
+  FORETOUCH_TRY(const auto count, countFrames(*animation, tracks, options.rateHz));
+  FORETOUCH_TRY(auto collector, internal::FrameCollector::create(model, count));
 
-  for (const auto& track : tracks) collector.value().moves(track.node(), track.turns());
+  for (const auto& track : tracks) collector.moves(track.node(), track.turns());
   std::vector<Affine> frames = internal::restFrames(model);
-  for (std::size_t i = 0; i < count.value(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const double timeS = static_cast<double>(i) / options.rateHz;
     for (const auto& track : tracks) {
-      frames[static_cast<std::size_t>(track.node())] = track.at(timeS);
+      frames[slotOf(track.node())] = track.at(timeS);
     }
-    const auto added = collector.value().add(frames);
-    if (!added.ok()) return added.error();
+    FORETOUCH_CHECK(collector.add(frames));
   }
-  return collector.value().take(1.0 / options.rateHz, notesOn(model, tracks));
+  return collector.take(1.0 / options.rateHz, notesOn(model, tracks));
 }
 
 }  // namespace foretouch

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include "lss/index.h"
+
 namespace foretouch::internal {
 
 /// U V^T of the singular value decomposition; where that reflects, the direction of the smallest
@@ -19,7 +21,7 @@ std::vector<Affine> worldFrames(const Model& model, const std::vector<Affine>& t
   std::vector<Affine> frames(model.nodes.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const std::int32_t parent = model.nodes[i].parent;
-    frames[i] = parent < 0 ? toParent[i] : frames[static_cast<std::size_t>(parent)] * toParent[i];
+    frames[i] = parent < 0 ? toParent[i] : frames[slotOf(parent)] * toParent[i];
   }
   return frames;
 }

@@ -9,6 +9,7 @@
 
 #include <Eigen/LU>
 
+#include "articulated/try.h"
 #include "assets/model/model_frames.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
@@ -159,7 +160,7 @@ std::vector<LinkId> linksAbove(const Model& model, const std::vector<LinkId>& li
     const std::int32_t parent = model.nodes[i].parent;
     if (parent < 0) continue;
     above[i] = linkOfNode[slotOf(parent)] != kNoParent ? linkOfNode[slotOf(parent)]
-                                                        : above[slotOf(parent)];
+                                                       : above[slotOf(parent)];
   }
   return above;
 }
@@ -188,14 +189,14 @@ void noteShapes(ModelLinks& links, const std::vector<std::string>& names) {
 
 std::optional<Error> countError(std::size_t links) {
   if (links == 0) {
-    return Error{ErrorCode::Empty, "", -1, -1,
-                 "the model has no node that carries or moves anything; expected bones, meshes, "
-                 "joints or an animation"};
+    return Error::of(
+        ErrorCode::Empty,
+        "the model has no node that carries or moves anything; expected bones, meshes, "
+        "joints or an animation");
   }
   if (links > slotOf(kMaxJoints)) {
-    return Error{ErrorCode::LimitExceeded, "", -1, -1,
-                 "expected at most " + std::to_string(kMaxJoints) + " links, found " +
-                     std::to_string(links)};
+    return Error::of(ErrorCode::LimitExceeded, "expected at most " + std::to_string(kMaxJoints) +
+                                                   " links, found " + std::to_string(links));
   }
   return std::nullopt;
 }
@@ -242,14 +243,14 @@ Result<Done> checkModel(const Model& model) {
     for (const ModelBone& bone : mesh.bones)
       isSound = isSound && bone.node >= -1 && bone.node < count;
     if (isSound) continue;
-    return Error{ErrorCode::OutOfRange, "", -1, -1,
-                 "mesh " + inQuotes(mesh.name) + " refers to a node or vertex that is not there"};
+    return Error::of(ErrorCode::OutOfRange, "mesh " + inQuotes(mesh.name) +
+                                                " refers to a node or vertex that is not there");
   }
   for (const ModelAnimation& animation : model.animations) {
     for (const ModelTrack& track : animation.tracks) {
       if (track.node < count) continue;
-      return Error{ErrorCode::OutOfRange, "", -1, -1,
-                   "animation " + inQuotes(animation.name) + " moves a node that is not there"};
+      return Error::of(ErrorCode::OutOfRange,
+                       "animation " + inQuotes(animation.name) + " moves a node that is not there");
     }
   }
   return Done{};
@@ -294,9 +295,7 @@ Result<ModelLinks> modelLinks(const Model& model, const ModelOwnership& ownershi
   }
   naming.addNotes(links.notes);
   noteShapes(links, names);
-  auto skeleton = Skeleton::build(raw);
-  if (!skeleton.ok()) return skeleton.error();
-  links.skeleton = std::move(skeleton).value();
+  FORETOUCH_TRY(links.skeleton, Skeleton::build(raw));
   return links;
 }
 

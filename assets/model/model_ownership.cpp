@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lss/index.h"
+
 namespace foretouch::internal {
 namespace {
 
@@ -43,11 +45,11 @@ void collectWeights(const ModelMesh& mesh, std::vector<Influences>& influences,
       continue;
     }
     for (const ModelBone::Weight& w : bone.weights) {
-      const bool isVertex = w.vertex >= 0 && static_cast<std::size_t>(w.vertex) < influences.size();
+      const bool isVertex = w.vertex >= 0 && slotOf(w.vertex) < influences.size();
       if (!isVertex || !std::isfinite(w.weight) || w.weight < 0.0) {
         ++all.badWeights;
       } else if (w.weight > 0.0) {
-        influences[static_cast<std::size_t>(w.vertex)].push_back({bone.node, w.weight});
+        influences[slotOf(w.vertex)].push_back({bone.node, w.weight});
       }
     }
   }
@@ -63,7 +65,7 @@ Owner ownerOf(const std::array<std::int32_t, 3>& triangle,
               const std::vector<Influences>& influences) {
   Influences sums;  // short: a vertex follows a few nodes
   for (const std::int32_t vertex : triangle) {
-    for (const NodeInfluence& i : influences[static_cast<std::size_t>(vertex)]) {
+    for (const NodeInfluence& i : influences[slotOf(vertex)]) {
       const auto same = std::find_if(sums.begin(), sums.end(),
                                      [&](const NodeInfluence& s) { return s.node == i.node; });
       if (same == sums.end()) {
@@ -92,10 +94,9 @@ MeshOwnership skinOwnership(const ModelMesh& mesh, ModelOwnership& all) {
   for (const auto& triangle : mesh.triangles) {
     const Owner owner = ownerOf(triangle, result.influences);
     result.ownerOfTriangle.push_back(owner.node);
-    const bool isLoose = std::any_of(triangle.begin(), triangle.end(), [&](std::int32_t v) {
-      return !hasWeights[static_cast<std::size_t>(v)];
-    });
-    if (isLoose) all.carries[static_cast<std::size_t>(mesh.node)] = true;
+    const bool isLoose = std::any_of(triangle.begin(), triangle.end(),
+                                     [&](std::int32_t v) { return !hasWeights[slotOf(v)]; });
+    if (isLoose) all.carries[slotOf(mesh.node)] = true;
     if (isLoose && owner.node == mesh.node) ++all.unweighted;
     if (owner.nodes > 1) ++all.shared;
   }
@@ -114,7 +115,7 @@ ModelOwnership ownershipOf(const Model& model) {
       all.meshes.push_back(skinOwnership(mesh, all));
     }
     for (const std::int32_t node : all.meshes.back().ownerOfTriangle) {
-      all.carries[static_cast<std::size_t>(node)] = true;
+      all.carries[slotOf(node)] = true;
     }
   }
   return all;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/bvh/bvh_text.h"
 #include "assets/model/model_ownership.h"
@@ -29,18 +30,16 @@ FrameCollector::FrameCollector(const Model& model, ModelLinks links)
       worstShear_(links_.nodeOfLink.size(), 0.0) {}
 
 Result<FrameCollector> FrameCollector::create(const Model& model, std::size_t frames) {
-  const auto checked = checkModel(model);
-  if (!checked.ok()) return checked.error();
-  auto links = modelLinks(model, ownershipOf(model));
-  if (!links.ok()) return links.error();
+  FORETOUCH_CHECK(checkModel(model));
+  FORETOUCH_TRY(auto links, modelLinks(model, ownershipOf(model)));
   const std::size_t most = kMaxBvhValues / 3 / std::max<std::size_t>(model.nodes.size(), 1);
   if (frames > most) {
-    return Error{ErrorCode::LimitExceeded, "", -1, -1,
-                 "expected at most " + std::to_string(most) + " frames of " +
-                     std::to_string(model.nodes.size()) + " nodes, found " +
-                     std::to_string(frames)};
+    return Error::of(ErrorCode::LimitExceeded, "expected at most " + std::to_string(most) +
+                                                   " frames of " +
+                                                   std::to_string(model.nodes.size()) +
+                                                   " nodes, found " + std::to_string(frames));
   }
-  return FrameCollector(model, std::move(links).value());
+  return FrameCollector(model, std::move(links));
 }
 
 /// A pivot turns its link about a point elsewhere, which shifts it too; take() sees whether it

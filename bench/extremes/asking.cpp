@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "bench/extremes/float_mode.h"
 #include "bench/judged.h"
 #include "lss/simd.h"
@@ -36,22 +37,15 @@ struct Prepared {
 };
 
 Result<Prepared> prepare(const ExtremeCase& extreme) {
-  auto skeleton = Skeleton::build(extreme.skeleton);
-  if (!skeleton.ok()) return skeleton.error();
-  auto avatar = Avatar::build(skeleton.value(), extreme.lss);
-  if (!avatar.ok()) return avatar.error();
-  auto from = validatedPose(skeleton.value(), extreme.from);
-  if (!from.ok()) return from.error();
-  auto to = validatedPose(skeleton.value(), extreme.to);
-  if (!to.ok()) return to.error();
-  auto scene = Scene::build(extreme.scene);
-  if (!scene.ok()) return scene.error();
-  Prepared prepared{std::move(avatar).value(), std::move(from).value(), std::move(to).value(),
-                    std::move(scene).value(), std::nullopt};
+  FORETOUCH_TRY(auto skeleton, Skeleton::build(extreme.skeleton));
+  FORETOUCH_TRY(auto avatar, Avatar::build(skeleton, extreme.lss));
+  FORETOUCH_TRY(auto from, validatedPose(skeleton, extreme.from));
+  FORETOUCH_TRY(auto to, validatedPose(skeleton, extreme.to));
+  FORETOUCH_TRY(auto scene, Scene::build(extreme.scene));
+  Prepared prepared{std::move(avatar), std::move(from), std::move(to), std::move(scene),
+                    std::nullopt};
   if (extreme.surface.empty()) return prepared;
-  auto surface = AvatarSurface::build(prepared.avatar, extreme.surface);
-  if (!surface.ok()) return surface.error();
-  prepared.surface = std::move(surface).value();
+  FORETOUCH_TRY(prepared.surface, AvatarSurface::build(prepared.avatar, extreme.surface));
   return prepared;
 }
 

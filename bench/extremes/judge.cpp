@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "lss/index.h"
+
 namespace foretouch::tools::extremes {
 namespace {
 
@@ -67,7 +69,7 @@ class Judge {
   }
 
   void report(Fault fault, const std::string& what) {
-    ++tally_.faults[static_cast<std::size_t>(fault)];
+    ++tally_.faults[slotOf(fault)];
     if (findings_.size() < kMostFindings) {
       findings_.push_back(
           {fault, fmt::format("{} seed {} ({}): {}: {}", extreme_.family, extreme_.seed,
@@ -116,7 +118,7 @@ class Judge {
     std::vector<double> until(answers.front()->step.links.size(), 0.0);
     for (const Answer* answer : answers) {
       for (const LinkContact& contact : answer->step.links) {
-        double& last = until[static_cast<std::size_t>(contact.link)];
+        double& last = until[slotOf(contact.link)];
         last = std::max(last, std::isfinite(contact.freeUntil) ? contact.freeUntil : 1.0);
       }
     }
@@ -124,7 +126,7 @@ class Judge {
     separations_.clear();
     for (const Answer* answer : answers) {
       for (const LinkContact& contact : answer->step.links) {
-        soundness(*answer, contact, proofs[static_cast<std::size_t>(contact.link)]);
+        soundness(*answer, contact, proofs[slotOf(contact.link)]);
         tightness(*answer, contact, truth);
       }
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "middleware/query/query.h"
 
 namespace foretouch::tools {
@@ -47,19 +48,17 @@ class ForetouchSolver : public SweepSolver {
 Result<Avatar> avatarOf(const Lss& lss_L) {
   RawSkeleton raw;
   raw.joints.push_back({"link", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()});
-  auto skeleton = Skeleton::build(raw);
-  if (!skeleton.ok()) return skeleton.error();
-  return Avatar::build(std::move(skeleton).value(), {{lss_L}});
+  FORETOUCH_TRY(auto skeleton, Skeleton::build(raw));
+  return Avatar::build(std::move(skeleton), {{lss_L}});
 }
 
 }  // namespace
 
 Result<SweepSolvers> foretouchSolvers(const Scene& scene, const Lss& lss_L) {
-  const auto avatar = avatarOf(lss_L);
-  if (!avatar.ok()) return avatar.error();
+  FORETOUCH_TRY(const auto avatar, avatarOf(lss_L));
   SweepSolvers solvers;
   for (const double tolerance : kForetouchTolerances) {
-    solvers.push_back(std::make_unique<ForetouchSolver>(scene, avatar.value(), tolerance));
+    solvers.push_back(std::make_unique<ForetouchSolver>(scene, avatar, tolerance));
   }
   return solvers;
 }

@@ -7,6 +7,7 @@
 
 #include "articulated/skeleton.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/segment_triangle.h"
 
 namespace foretouch::tools {
@@ -119,14 +120,14 @@ void NearestTree::split(std::size_t node, std::size_t begin, std::size_t end, in
 
 std::size_t NearestTree::partition(std::size_t begin, std::size_t end, int depth) {
   const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-  Eigen::Vector3d low = middles_[static_cast<std::size_t>(order_[begin])], high = low;
+  Eigen::Vector3d low = middles_[slotOf(order_[begin])], high = low;
   for (std::size_t i = begin; i < end; ++i) {
-    low = low.cwiseMin(middles_[static_cast<std::size_t>(order_[i])]);
-    high = high.cwiseMax(middles_[static_cast<std::size_t>(order_[i])]);
+    low = low.cwiseMin(middles_[slotOf(order_[i])]);
+    high = high.cwiseMax(middles_[slotOf(order_[i])]);
   }
   Eigen::Index axis = 0;
   const double width = (high - low).maxCoeff(&axis);
-  const auto placeOf = [&](TriangleId id) { return middles_[static_cast<std::size_t>(id)][axis]; };
+  const auto placeOf = [&](TriangleId id) { return middles_[slotOf(id)][axis]; };
   const auto binOf = [&](TriangleId id) {
     const double bin = static_cast<double>(kBins) * (placeOf(id) - low[axis]) / width;
     return std::min(kBins - 1, static_cast<std::size_t>(std::max(0.0, bin)));
@@ -152,7 +153,7 @@ double NearestTree::distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                              double enough, TradeWork& work) const {
   const Eigen::Vector3d low = a.cwiseMin(b), high = a.cwiseMax(b);
   const auto gapOf = [&](std::int32_t node) {
-    const Box& box = nodes_[static_cast<std::size_t>(node)].box;
+    const Box& box = nodes_[slotOf(node)].box;
     return squaredGap(low, high, box.low, box.high);
   };
   std::array<std::pair<double, std::int32_t>, kMostPending> pending;
@@ -163,11 +164,11 @@ double NearestTree::distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
     const auto [gap, index] = pending[--size];
     if (gap >= best * best) continue;
     ++work.nodes;
-    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    const Node& node = nodes_[slotOf(index)];
     if (node.count > 0) {
       for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
         ++work.pairs;
-        const Triangle& triangle = scene_.triangle(order_[static_cast<std::size_t>(i)]);
+        const Triangle& triangle = scene_.triangle(order_[slotOf(i)]);
         best = std::min(best, closestPoints(a, b, triangle).distance);
       }
       if (best <= enough) return best;

@@ -6,8 +6,10 @@
 #include <map>
 #include <utility>
 
+#include "articulated/try.h"
 #include "bench/leaf_timing.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "tools/progress.h"
 
 namespace foretouch::tools {
@@ -41,8 +43,7 @@ class Runner {
   }
 
   Result<TradeRunResult> run() {
-    const auto told = tellTruths();
-    if (!told.ok()) return told.error();
+    FORETOUCH_CHECK(tellTruths());
     timeAll();
     TradeRunResult result;
     for (std::size_t c = 0; c < contenders_.size(); ++c) result.rows.push_back(rowOf(c));
@@ -59,19 +60,15 @@ class Runner {
 
   Result<Done> tellTruths() {
     for (const StepPoses* const step : steps_) {
-      auto truth = teller_.truthOf(*step);
-      if (!truth.ok()) return truth.error();
-      truths_.link.push_back(std::move(truth).value());
+      FORETOUCH_TRY(auto truth, teller_.truthOf(*step));
+      truths_.link.push_back(std::move(truth));
       if (!exactTeller_) continue;
-      auto exact = exactTeller_->truthOf(*step);
-      if (!exact.ok()) return exact.error();
-      truths_.exact.push_back(std::move(exact).value());
+      FORETOUCH_TRY(auto exact, exactTeller_->truthOf(*step));
+      truths_.exact.push_back(std::move(exact));
     }
-    const auto near = tellWithin(kNearForJudge);
-    if (!near.ok()) return near.error();
+    FORETOUCH_CHECK(tellWithin(kNearForJudge));
     for (const TradeContender& contender : contenders_) {
-      const auto within = tellWithin(contender.tolerance);
-      if (!within.ok()) return within.error();
+      FORETOUCH_CHECK(tellWithin(contender.tolerance));
     }
     return Done{};
   }
@@ -80,9 +77,8 @@ class Runner {
     if (truths_.within.count(distance) != 0) return Done{};
     std::vector<std::vector<bool>>& all = truths_.within[distance];
     for (const StepPoses* const step : steps_) {
-      auto within = teller_.comesWithin(*step, distance);
-      if (!within.ok()) return within.error();
-      all.push_back(std::move(within).value());
+      FORETOUCH_TRY(auto within, teller_.comesWithin(*step, distance));
+      all.push_back(std::move(within));
     }
     return Done{};
   }
@@ -160,11 +156,11 @@ class Runner {
     std::vector<Asked> touching, near;
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       for (LinkId link = 0; link < world_.avatar.numLinks(); ++link) {
-        const LinkTruth& truth = truths_.link[i][static_cast<std::size_t>(link)];
+        const LinkTruth& truth = truths_.link[i][slotOf(link)];
         if (truth.starts) continue;
         if (truth.touches) {
           touching.push_back({i, link});
-        } else if (truths_.within[kNearForJudge][i][static_cast<std::size_t>(link)]) {
+        } else if (truths_.within[kNearForJudge][i][slotOf(link)]) {
           near.push_back({i, link});
         }
       }
@@ -176,7 +172,7 @@ class Runner {
       for (std::size_t k = 0; k < count; ++k) {
         const Asked& asked = all[k * all.size() / count];
         judged.add(judge(world_, *steps_[asked.step], asked.link,
-                         truths_.link[asked.step][static_cast<std::size_t>(asked.link)]));
+                         truths_.link[asked.step][slotOf(asked.link)]));
       }
     }
     return judged;

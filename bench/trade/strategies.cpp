@@ -10,6 +10,7 @@
 
 #include "bench/trade/link_sweep.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 
 namespace foretouch::tools {
 namespace {
@@ -23,11 +24,11 @@ class LssByLss : public Strategy {
   void solve(const TradeStep& step, std::vector<LinkTouch>& touches, TradeWork& work) override {
     motion_.assign(world_.avatar.skeleton(), step.from, step.to);
     evaluator_.reset(motion_);
-    touches.assign(static_cast<std::size_t>(world_.avatar.numLinks()), {});
+    touches.assign(countOf(world_.avatar.numLinks()), {});
     begin(step);
     std::size_t index = 0;
     for (LinkId link = 0; link < world_.avatar.numLinks(); ++link) {
-      LinkTouch& touch = touches[static_cast<std::size_t>(link)];
+      LinkTouch& touch = touches[slotOf(link)];
       for (const Lss& lss : world_.avatar.lss(link)) {
         LinkSweep sweep(link, lss, evaluator_, world_.tree, work);
         const double toi = firstContact(index++, sweep, touch.toi);
@@ -64,13 +65,13 @@ class Sampling : public Strategy {
   void solve(const TradeStep& step, std::vector<LinkTouch>& touches, TradeWork& work) override {
     motion_.assign(world_.avatar.skeleton(), step.from, step.to);
     evaluator_.reset(motion_);
-    touches.assign(static_cast<std::size_t>(world_.avatar.numLinks()), {});
+    touches.assign(countOf(world_.avatar.numLinks()), {});
     for (int i = 0; i <= instants_; ++i) {
       const double t = static_cast<double>(i) / instants_;
       evaluator_.statesAt(t, states_);
       work.states += states_.size();
       for (LinkId link = 0; link < world_.avatar.numLinks(); ++link) {
-        LinkTouch& touch = touches[static_cast<std::size_t>(link)];
+        LinkTouch& touch = touches[slotOf(link)];
         if (!touch.touches && isNear(link, work)) touch = {true, t};
       }
     }
@@ -78,7 +79,7 @@ class Sampling : public Strategy {
 
  private:
   [[nodiscard]] bool isNear(LinkId link, TradeWork& work) const {
-    const LinkState& state = states_[static_cast<std::size_t>(link)];
+    const LinkState& state = states_[slotOf(link)];
     const std::vector<Lss>& all = world_.avatar.lss(link);
     return std::any_of(all.begin(), all.end(), [&](const Lss& lss) {
       const double reach = lss.radius + tolerance_;
@@ -156,7 +157,7 @@ class Certificates : public LssByLss {
  public:
   Certificates(const TradeWorld& world, double tolerance)
       : LssByLss("carried certificates", TradePromise::Accurate, world, tolerance),
-        margins_(static_cast<std::size_t>(world.avatar.numLss()), 0.0) {}
+        margins_(countOf(world.avatar.numLss()), 0.0) {}
 
  private:
   /// How far things are looked for: farther costs more, and is asked again less often.
@@ -190,9 +191,9 @@ class VoxelSweep : public Strategy {
   void solve(const TradeStep& step, std::vector<LinkTouch>& touches, TradeWork& work) override {
     motion_.assign(world_.avatar.skeleton(), step.from, step.to);
     evaluator_.reset(motion_);
-    touches.assign(static_cast<std::size_t>(world_.avatar.numLinks()), {});
+    touches.assign(countOf(world_.avatar.numLinks()), {});
     for (LinkId link = 0; link < world_.avatar.numLinks(); ++link) {
-      LinkTouch& touch = touches[static_cast<std::size_t>(link)];
+      LinkTouch& touch = touches[slotOf(link)];
       for (const Lss& lss : world_.avatar.lss(link)) sweep(link, lss, touch, work);
     }
   }

@@ -4,9 +4,11 @@
 #include <limits>
 #include <utility>
 
+#include "articulated/try.h"
 #include "bench/judged.h"
 #include "judge/first_touch.h"
 #include "judge/hull_oracle.h"
+#include "lss/index.h"
 
 namespace foretouch::tools {
 namespace {
@@ -34,7 +36,7 @@ oracle::HullWorld worldOf(const TradeWorld& world, const StepPoses& step, LinkId
   around.add(plain(low - grown));
   around.add(plain(high + grown));
   std::vector<int> near;
-  const auto all = static_cast<std::size_t>(world.judged.numTriangles());
+  const auto all = countOf(world.judged.numTriangles());
   world.judged.collect(around, all, near);
   for (const int id : near) result.triangles.push_back(world.judged.triangle(id));
   return result;
@@ -74,12 +76,11 @@ Result<std::vector<LinkTruth>> TruthTeller::truthOf(const StepPoses& step) {
   if (!own.ok()) return own.error();
   // A surface cannot be thinned: there, what is within the finest tolerance counts as touching, and
   // nothing is called late.
-  const auto sure = options_.surface ? own : ask(thinner_, step);
-  if (!sure.ok()) return sure.error();
+  FORETOUCH_TRY(const auto sure, options_.surface ? own : ask(thinner_, step));
   std::vector<LinkTruth> truths;
   for (std::size_t i = 0; i < own.value().links.size(); ++i) {
     const LinkContact& first = own.value().links[i];
-    const LinkContact& last = sure.value().links[i];
+    const LinkContact& last = sure.links[i];
     LinkTruth truth;
     truth.starts = first.verdict == Verdict::StartsInContact;
     truth.touches = touchesAtAll(last) || truth.starts;
@@ -101,10 +102,10 @@ Result<std::vector<bool>> TruthTeller::comesWithin(const StepPoses& step, double
   options.fidelity = Fidelity::Link;  // a surface lies within its LSS
   options.surface.reset();
   const ChainMotion motion(thicker_->skeleton(), step.from, step.to);
-  const auto contacts = firstContacts(*thicker_, motion, world_.scene, options, scratch_);
-  if (!contacts.ok()) return contacts.error();
+  FORETOUCH_TRY(const auto contacts,
+                firstContacts(*thicker_, motion, world_.scene, options, scratch_));
   std::vector<bool> within;
-  for (const LinkContact& contact : contacts.value().links) {
+  for (const LinkContact& contact : contacts.links) {
     within.push_back(contact.verdict != Verdict::Clear);
   }
   return within;
@@ -136,9 +137,9 @@ JudgedTruth judge(const TradeWorld& world, const StepPoses& step, LinkId link,
   JudgedTruth judged;
   judged.links = 1;
   const oracle::HullOracle judge(worldOf(world, step, link));
-  std::vector<double> until(static_cast<std::size_t>(world.avatar.numLinks()), 0.0);
-  until[static_cast<std::size_t>(link)] = truth.freeUntil;
-  const auto proof = judge.proveFree(until)[static_cast<std::size_t>(link)];
+  std::vector<double> until(countOf(world.avatar.numLinks()), 0.0);
+  until[slotOf(link)] = truth.freeUntil;
+  const auto proof = judge.proveFree(until)[slotOf(link)];
   judged.free += proof.freedom == oracle::Freedom::Proven ? 1 : 0;
   judged.open += proof.freedom == oracle::Freedom::Open ? 1 : 0;
   judged.wrong += proof.freedom == oracle::Freedom::Touches ? 1 : 0;

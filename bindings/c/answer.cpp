@@ -6,6 +6,7 @@
 
 #include "bindings/c/handles.h"
 #include "bindings/c/sized_struct.h"
+#include "lss/index.h"
 
 namespace foretouch::c {
 namespace {
@@ -106,7 +107,7 @@ ft_status ft_query_contacts(const ft_query* query, ft_contact* contacts, size_t 
     if (const auto s = checkedStep(query); s != FT_OK) return s;
     const auto& reported = query->step.reported;
     const auto at = [&](std::size_t i) -> const LinkContact& {
-      return query->step.answer.links[static_cast<std::size_t>(reported[i])];
+      return query->step.answer.links[slotOf(reported[i])];
     };
     return writeContacts(query->scene, reported.size(), at, contacts, capacity, required);
   });
@@ -117,7 +118,7 @@ ft_status ft_motion_transforms(ft_query* query, double t, ft_transform* transfor
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedStep(query); s != FT_OK) return s;
     if (const auto s = checkedTime(t); s != FT_OK) return s;
-    const auto links = static_cast<std::size_t>(query->step.motion.numLinks());
+    const auto links = countOf(query->step.motion.numLinks());
     const Room room = roomFor(links, transforms, capacity, required, "transforms");
     if (room.status != FT_OK || room.isAsking) return room.status;
     query->step.motion.statesAt(t, query->states);

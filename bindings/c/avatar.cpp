@@ -4,11 +4,13 @@
 #include <string_view>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/mesh/link_mesh.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/import_options.h"
 #include "bindings/c/sized_struct.h"
+#include "lss/index.h"
 
 namespace foretouch::c {
 
@@ -34,7 +36,7 @@ namespace {
 ft_status checkedArrays(const ft_avatar_arrays& arrays) {
   if (const auto s = zero(arrays.reserved, "reserved"); s != FT_OK) return s;
   const std::size_t joints = arrays.joint_count;
-  constexpr auto kMost = static_cast<std::size_t>(kMaxJoints);
+  constexpr auto kMost = countOf(kMaxJoints);
   for (const auto& [array, name] : {std::pair<const void*, const char*>{arrays.names, "names"},
                                     {arrays.parents, "parents"},
                                     {arrays.offsets, "offsets"}}) {
@@ -78,8 +80,8 @@ template <typename Element>
 std::vector<Element>* listOf(const std::int32_t* links, std::size_t i, const char* name,
                              std::vector<std::vector<Element>>& lists) {
   const std::int32_t link = links[i];
-  if (link >= 0 && static_cast<std::size_t>(link) < lists.size()) {
-    return &lists[static_cast<std::size_t>(link)];
+  if (link >= 0 && slotOf(link) < lists.size()) {
+    return &lists[slotOf(link)];
   }
   failure(FT_ERROR_OUT_OF_RANGE, static_cast<std::int64_t>(i),
           "%s: element %zu names link %d; expected 0 to %zu", name, i, link, lists.size() - 1);
@@ -110,9 +112,8 @@ ft_status readSurface(const ft_avatar_arrays& arrays, AvatarParts& parts) {
           Eigen::Map<const Eigen::Vector3d>(arrays.triangles[i].vertices + 3 * corner);
     }
   }
-  auto surface = AvatarSurface::build(parts.avatar, std::move(perLink));
-  if (!surface.ok()) return failure(surface.error());
-  parts.surface = std::move(surface).value();
+  FORETOUCH_TRY_OR(failure, auto surface, AvatarSurface::build(parts.avatar, std::move(perLink)));
+  parts.surface = std::move(surface);
   return FT_OK;
 }
 
@@ -125,11 +126,9 @@ ft_status makeAvatar(AvatarParts parts, ft_avatar** avatar) {
 ft_status loadMeshes(const std::string& path, const ft_import_options* meshes, AvatarParts& parts) {
   ModelImportOptions options;
   if (const auto s = readImportOptions(meshes, options.import); s != FT_OK) return s;
-  auto triangles = loadLinkMeshes(parts.avatar, path, options);
-  if (!triangles.ok()) return failure(triangles.error());
-  auto surface = AvatarSurface::build(parts.avatar, std::move(triangles).value());
-  if (!surface.ok()) return failure(surface.error());
-  parts.surface = std::move(surface).value();
+  FORETOUCH_TRY_OR(failure, auto triangles, loadLinkMeshes(parts.avatar, path, options));
+  FORETOUCH_TRY_OR(failure, auto surface, AvatarSurface::build(parts.avatar, std::move(triangles)));
+  parts.surface = std::move(surface);
   return FT_OK;
 }
 
@@ -159,13 +158,11 @@ ft_status ft_avatar_create(const ft_avatar_arrays* arrays, ft_avatar** avatar) {
     if (const auto s = checkedArrays(known); s != FT_OK) return s;
     RawSkeleton raw;
     if (const auto s = readSkeleton(known, raw); s != FT_OK) return s;
-    auto skeleton = Skeleton::build(raw);
-    if (!skeleton.ok()) return failure(skeleton.error());
+    FORETOUCH_TRY_OR(failure, auto skeleton, Skeleton::build(raw));
     std::vector<std::vector<Lss>> lss;
     if (const auto s = readLss(known, lss); s != FT_OK) return s;
-    auto built = Avatar::build(std::move(skeleton).value(), std::move(lss));
-    if (!built.ok()) return failure(built.error());
-    AvatarParts parts{std::move(built).value(), std::nullopt};
+    FORETOUCH_TRY_OR(failure, auto built, Avatar::build(std::move(skeleton), std::move(lss)));
+    AvatarParts parts{std::move(built), std::nullopt};
     if (const auto s = readSurface(known, parts); s != FT_OK) return s;
     return makeAvatar(std::move(parts), avatar);
   });
@@ -176,9 +173,8 @@ ft_status ft_avatar_create_from_file(const char* path, const ft_import_options* 
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = cleared(avatar); s != FT_OK) return s;
     if (const auto s = needed(path, "path"); s != FT_OK) return s;
-    auto read = readAvatarFile(path);
-    if (!read.ok()) return failure(read.error());
-    AvatarParts parts{std::move(read).value(), std::nullopt};
+    FORETOUCH_TRY_OR(failure, auto read, readAvatarFile(path));
+    AvatarParts parts{std::move(read), std::nullopt};
     if (meshes != nullptr) {
       if (const auto s = loadMeshes(path, meshes, parts); s != FT_OK) return s;
     }
@@ -193,9 +189,8 @@ ft_status ft_avatar_create_from_text(const char* text, size_t length, const char
     if (const auto s = needed(text, "text"); s != FT_OK) return s;
     if (const auto s = needed(name, "name"); s != FT_OK) return s;
     if (const auto s = withinLimit(length, kMaxAvatarFileBytes, "bytes"); s != FT_OK) return s;
-    auto read = parseAvatar(std::string_view(text, length), name);
-    if (!read.ok()) return failure(read.error());
-    return makeAvatar({std::move(read).value(), std::nullopt}, avatar);
+    FORETOUCH_TRY_OR(failure, auto read, parseAvatar(std::string_view(text, length), name));
+    return makeAvatar({std::move(read), std::nullopt}, avatar);
   });
 }
 
@@ -203,7 +198,7 @@ ft_status ft_avatar_joint_count(const ft_avatar* avatar, size_t* count) {
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = needed(count, "count"); s != FT_OK) return s;
     if (const auto s = checked(avatar); s != FT_OK) return s;
-    *count = static_cast<std::size_t>(avatar->parts->avatar.numLinks());
+    *count = countOf(avatar->parts->avatar.numLinks());
     return FT_OK;
   });
 }
@@ -235,7 +230,7 @@ ft_status ft_avatar_find_joint(const ft_avatar* avatar, const char* name, int32_
     const auto found = avatar->parts->avatar.skeleton().find(name);
     if (!found) {
       return failure(FT_ERROR_UNKNOWN_NAME, kNoIndex,
-                     "name: expected that of a joint of the avatar, found '%.64s'", name);
+                     "name: expected the name of a joint of the avatar, found '%.64s'", name);
     }
     *joint = *found;
     return FT_OK;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/import_options.h"
@@ -63,16 +64,15 @@ ft_status ft_clip_create_from_file(const char* path, const ft_avatar* avatar,
     if (const auto s = checked(avatar); s != FT_OK) return s;
     ClipReading reading;
     if (const auto s = readClipOptions(options, reading); s != FT_OK) return s;
-    auto read = readBvhFile(path, reading.bvh);
-    if (!read.ok()) return failure(read.error());
-    auto match = matchJoints(avatar->parts->avatar.skeleton(), read.value().skeleton);
+    FORETOUCH_TRY_OR(failure, auto read, readBvhFile(path, reading.bvh));
+    auto match = matchJoints(avatar->parts->avatar.skeleton(), read.skeleton);
     if (!match.ok()) {
       Error error = match.error();
       error.file = path;
       return failure(error);
     }
-    *clip = new ft_clip{ft_clip::kMark, avatar->parts, std::move(read).value(),
-                        std::move(match).value(), reading.placement};
+    *clip = new ft_clip{ft_clip::kMark, avatar->parts, std::move(read), std::move(match).value(),
+                        reading.placement};
     return FT_OK;
   });
 }
@@ -100,11 +100,12 @@ ft_status ft_clip_pose(const ft_clip* clip, size_t frame, double* rotations, dou
                      frames - 1, frame);
     }
     const Skeleton& skeleton = clip->avatar->avatar.skeleton();
-    auto pose = validatedPose(
-        skeleton,
-        placed(skeleton, poseOfAvatar(skeleton, clip->clip, clip->match, frame), clip->placement));
-    if (!pose.ok()) return failure(pose.error());
-    return writePose(pose.value(), rotations, translations, capacity, required);
+    FORETOUCH_TRY_OR(
+        failure, auto pose,
+        validatedPose(skeleton,
+                      placed(skeleton, poseOfAvatar(skeleton, clip->clip, clip->match, frame),
+                             clip->placement)));
+    return writePose(pose, rotations, translations, capacity, required);
   });
 }
 

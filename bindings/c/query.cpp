@@ -5,6 +5,7 @@
 #include "bindings/c/handles.h"
 #include "bindings/c/query_options.h"
 #include "bindings/c/sized_struct.h"
+#include "lss/index.h"
 
 namespace foretouch::c {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skeleton, Pose& pose) {
   ft_pose known{};
   if (const auto s = readStruct(given, name, known); s != FT_OK) return s;
-  const auto joints = static_cast<std::size_t>(skeleton.numJoints());
+  const auto joints = countOf(skeleton.numJoints());
   if (known.joint_count != joints) {
     return failure(FT_ERROR_MISMATCH, kNoIndex,
                    "%s: expected the %zu joints of the avatar, found %u", name, joints,
@@ -91,7 +92,7 @@ ft_status ft_query_create(const ft_scene* scene, const ft_avatar* avatar,
     if (const auto s = checked(scene); s != FT_OK) return s;
     if (const auto s = checked(avatar); s != FT_OK) return s;
     auto made = std::make_unique<ft_query>(scene->scene, avatar->parts);
-    const auto links = static_cast<std::size_t>(avatar->parts->avatar.numLinks());
+    const auto links = countOf(avatar->parts->avatar.numLinks());
     made->step.reported.reserve(links);
     made->next.reported.reserve(links);
     if (const auto s = takeOptions(options, *made); s != FT_OK) return s;
@@ -117,7 +118,7 @@ ft_status ft_query_step(ft_query* query, const ft_pose* from, const ft_pose* to)
       query->from = query->last;
     } else {
       return failure(FT_ERROR_NO_STEP, kNoIndex,
-                     "from: expected a pose, as no step has ended where this one begins");
+                     "from: expected a pose, because no earlier step ends where this one begins");
     }
     if (const auto s = readPose(to, "to", skeleton, query->to); s != FT_OK) return s;
     if (const auto s = answerNext(*query, query->options); s != FT_OK) return s;

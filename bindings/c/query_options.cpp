@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lss/index.h"
+
 namespace foretouch::c {
 namespace {
 
@@ -33,7 +35,7 @@ ft_status readIgnored(const ft_query_options& given, QueryOptions& options) {
 }
 
 ft_status readPolicies(const ft_query_options& given, QueryOptions& options) {
-  constexpr auto kMost = static_cast<std::size_t>(kMaxJoints);
+  constexpr auto kMost = countOf(kMaxJoints);
   const auto s = neededArray(given.policies, given.policy_count, kMost, "policies");
   if (s != FT_OK) return s;
   options.linkPolicies.resize(given.policy_count);

@@ -2,9 +2,11 @@
 #include <string>
 #include <utility>
 
+#include "articulated/try.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/import_options.h"
 #include "bindings/c/sized_struct.h"
+#include "lss/index.h"
 
 namespace foretouch::c {
 namespace {
@@ -22,7 +24,7 @@ ft_status checkedArrays(const ft_scene_arrays& arrays) {
   }
   if (arrays.indices == nullptr && arrays.vertex_count != 3 * arrays.triangle_count) {
     return failure(FT_ERROR_MISMATCH, kNoIndex,
-                   "vertex_count: expected three a triangle, %zu, where there are no indices, "
+                   "vertex_count: expected three per triangle (%zu) when there are no indices, "
                    "found %zu",
                    3 * arrays.triangle_count, arrays.vertex_count);
   }
@@ -112,9 +114,8 @@ ft_status ft_scene_create_from_file(const char* path, const ft_import_options* o
     if (const auto s = needed(path, "path"); s != FT_OK) return s;
     SceneImportOptions known;
     if (const auto s = readImportOptions(options, known); s != FT_OK) return s;
-    auto imported = importScene(path, known);
-    if (!imported.ok()) return failure(imported.error());
-    return makeScene(std::move(imported).value().scene, path, scene);
+    FORETOUCH_TRY_OR(failure, auto imported, importScene(path, known));
+    return makeScene(std::move(imported).scene, path, scene);
   });
 }
 
@@ -140,11 +141,11 @@ ft_status ft_scene_object_name(const ft_scene* scene, int32_t object, const char
     *name = nullptr;
     if (const auto s = checked(scene); s != FT_OK) return s;
     const auto& names = scene->scene.objectNames();
-    if (object < 0 || static_cast<std::size_t>(object) >= names.size()) {
+    if (object < 0 || slotOf(object) >= names.size()) {
       return failure(FT_ERROR_OUT_OF_RANGE, object, "object: expected 0 to %zu, found %d",
                      names.size() - 1, object);
     }
-    *name = names[static_cast<std::size_t>(object)].c_str();
+    *name = names[slotOf(object)].c_str();
     return FT_OK;
   });
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "lss/index.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
 
@@ -20,7 +21,7 @@ struct Answers {
   std::vector<LinkContact> contacts;    ///< Step after step, every link of it in order.
   std::vector<QueryCounters> counters;  ///< One a step.
 
-  [[nodiscard]] std::size_t links() const { return static_cast<std::size_t>(avatar->numLinks()); }
+  [[nodiscard]] std::size_t links() const { return countOf(avatar->numLinks()); }
 };
 using SharedAnswers = std::shared_ptr<const Answers>;
 

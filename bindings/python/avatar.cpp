@@ -137,9 +137,9 @@ void bindAvatar(py::module_& module) {
       .def_static("load", &loadAvatar, py::arg("path"), "An avatar file (docs/formats.md).")
       .def_static("from_arrays", &fromArrays, py::arg("names"), py::arg("parents"),
                   py::arg("offsets"), py::arg("rotations"), py::arg("lss"),
-                  "names: one a link, unique; parents (n,): an earlier link, -1 for a root;\n"
+                  "names: one per link, unique; parents (n,): an earlier link, -1 for a root;\n"
                   "offsets (n, 3) and rotations (n, 4), or None: the rest pose, in the parent's\n"
-                  "frame; lss: a list a link of (a, b, radius), in the link's frame.")
+                  "frame; lss: per link, a list of (a, b, radius), in the link's frame.")
       .def_static("from_bvh", &fromBvh, py::arg("path"), py::arg("scale") = 1.0, py::kw_only(),
                   py::arg("radius_scale") = 1.0,
                   "The skeleton of a BVH file, with one LSS a bone. scale: metres per unit.")
@@ -158,7 +158,7 @@ void bindAvatar(py::module_& module) {
       .def_property_readonly("num_lss", &Avatar::numLss)
       .def_property_readonly("names", &nameList)
       .def_property_readonly("parents", &parentArray, "A copy, (n,); -1 for roots.")
-      .def_property_readonly("lss", &lssList, "A list a link of Lss.")
+      .def_property_readonly("lss", &lssList, "Per link, a list of Lss.")
       .def("__len__", &Avatar::numLinks)
       .def("__repr__", &representAvatar);
 }

@@ -150,7 +150,7 @@ Steps many(Query& query, const py::object& poses, const py::object& ends,
   const std::vector<Pose> to = posesFrom(skeleton, ends, "ends");
   if (to.size() != from.size() || from.empty()) {
     refuse(ErrorCode::Mismatch, "ends",
-           "expected one a pose, and at least one; found " + std::to_string(to.size()) + " for " +
+           "expected one per pose, and at least one; found " + std::to_string(to.size()) + " for " +
                std::to_string(from.size()) + " poses");
   }
   return query.firstContactsMany(from.data(), to.data(), from.size(), count);
@@ -161,8 +161,8 @@ Steps many(Query& query, const py::object& poses, const py::object& ends,
 void bindQuery(py::module_& module) {
   const QueryOptions usual;
   py::class_<Query>(module, "Query",
-                    "A question that is asked again and again: avatar, scene and options, checked\n"
-                    "once, and memory that is kept. Any number of threads may ask one at once.")
+                    "A question to ask again and again: avatar, scene and options, checked\n"
+                    "once, with memory that it keeps. Any number of threads may ask one at once.")
       .def(py::init(&createQuery), py::arg("avatar").none(false), py::arg("scene").none(false),
            py::kw_only(), py::arg("tolerance") = usual.tolerance, py::arg("fidelity") = "link",
            py::arg("policies") = py::none(), py::arg("ignore") = py::tuple(),

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "bindings/python/surface.h"
+#include "lss/index.h"
 
 namespace foretouch::python {
 namespace {
@@ -83,12 +84,11 @@ void applyPolicy(py::handle given, const std::string& what, LinkPolicy& policy) 
 std::vector<LinkPolicy> policiesFrom(const py::object& given, const Avatar& avatar,
                                      const QueryOptions& options) {
   if (given.is_none()) return {};
-  std::vector<LinkPolicy> policies(static_cast<std::size_t>(avatar.numLinks()),
+  std::vector<LinkPolicy> policies(countOf(avatar.numLinks()),
                                    {options.tolerance, options.fidelity});
   for (const auto& [link, policy] : mapping(given, "policies")) {
     const LinkId id = linkOf(avatar, link, "policies");
-    applyPolicy(policy, "policies['" + avatar.skeleton().name(id) + "']",
-                policies[static_cast<std::size_t>(id)]);
+    applyPolicy(policy, "policies['" + avatar.skeleton().name(id) + "']", policies[slotOf(id)]);
   }
   return policies;
 }

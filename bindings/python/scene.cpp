@@ -149,7 +149,7 @@ void bindScene(py::module_& module) {
   const SceneImportOptions usual;
   py::class_<Scene, SharedScene>(
       module, "Scene",
-      "Static triangles, ready to be asked. Immutable; any number of threads may use one.\n"
+      "Static triangles, ready for queries. Immutable; any number of threads may use one.\n"
       "Metres, +Y up. A triangle's id is its place in the arrays or in the file.")
       .def_static(
           "from_arrays", &fromArrays, py::arg("vertices"), py::arg("triangles"),

@@ -70,7 +70,7 @@ void bindSurface(py::module_& module) {
                   "The meshes that the avatar file at avatar_path refers to.")
       .def_static("from_triangles", &fromTriangles, py::arg("avatar").none(false),
                   py::arg("triangles"),
-                  "triangles: one a link, (m, 3, 3) in the link's frame, or None. Each triangle\n"
+                  "triangles: one per link, (m, 3, 3) in the link's frame, or None. Each triangle\n"
                   "must lie in one of its link's LSS.")
       .def_property_readonly("avatar", [](const Surface& surface) { return surface.avatar; })
       .def_property_readonly(

@@ -1,5 +1,6 @@
 #include "middleware/ladder/limbs.h"
 
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch::internal {
@@ -7,12 +8,12 @@ namespace {
 
 /// Per link: does it or anything below it have LSS?
 std::vector<std::uint8_t> linksThatCount(const Avatar& avatar) {
-  std::vector<std::uint8_t> counts(static_cast<std::size_t>(avatar.numLinks()), 0);
+  std::vector<std::uint8_t> counts(countOf(avatar.numLinks()), 0);
   for (LinkId link = avatar.numLinks() - 1; link >= 0; --link) {
-    auto& mine = counts[static_cast<std::size_t>(link)];
+    auto& mine = counts[slotOf(link)];
     if (!avatar.lss(link).empty()) mine = 1;
     const JointId parent = avatar.skeleton().parent(link);
-    if (mine != 0 && parent != kNoParent) counts[static_cast<std::size_t>(parent)] = 1;
+    if (mine != 0 && parent != kNoParent) counts[slotOf(parent)] = 1;
   }
   return counts;
 }
@@ -21,8 +22,8 @@ std::vector<int> childrenThatCount(const Avatar& avatar, const std::vector<std::
   std::vector<int> children(counts.size(), 0);
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     const JointId parent = avatar.skeleton().parent(link);
-    if (counts[static_cast<std::size_t>(link)] != 0 && parent != kNoParent) {
-      ++children[static_cast<std::size_t>(parent)];
+    if (counts[slotOf(link)] != 0 && parent != kNoParent) {
+      ++children[slotOf(parent)];
     }
   }
   return children;
@@ -44,33 +45,31 @@ Limbs::Limbs(const Avatar& avatar) {
   std::vector<std::int32_t> limbOf(counts.size(), -1);
   isCarrier_.assign(counts.size(), 0);
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    const auto i = static_cast<std::size_t>(link);
+    const auto i = slotOf(link);
     const JointId parent = avatar.skeleton().parent(link);
     if (parent == kNoParent) isCarrier_[i] = 1;
     if (counts[i] == 0) continue;
-    const bool begins = parent == kNoParent || children[static_cast<std::size_t>(parent)] > 1;
+    const bool begins = parent == kNoParent || children[slotOf(parent)] > 1;
     if (parent == kNoParent) trees_.push_back({link, {}, {}});
     if (begins) {
       isCarrier_[i] = 1;
       limbOf[i] = static_cast<std::int32_t>(limbs_.size());
       limbs_.emplace_back();
       limbs_.back().carrier = link;
-      limbs_.back().tree =
-          parent == kNoParent
-              ? static_cast<std::int32_t>(trees_.size()) - 1
-              : limbs_[static_cast<std::size_t>(limbOf[static_cast<std::size_t>(parent)])].tree;
+      limbs_.back().tree = parent == kNoParent ? static_cast<std::int32_t>(trees_.size()) - 1
+                                               : limbs_[slotOf(limbOf[slotOf(parent)])].tree;
     } else {
-      limbOf[i] = limbOf[static_cast<std::size_t>(parent)];
+      limbOf[i] = limbOf[slotOf(parent)];
     }
     if (avatar.lss(link).empty()) continue;
-    Limb& limb = limbs_[static_cast<std::size_t>(limbOf[i])];
+    Limb& limb = limbs_[slotOf(limbOf[i])];
     limb.links.push_back(link);
     addPoints(avatar, link, limb.points);
-    trees_[static_cast<std::size_t>(limb.tree)].links.push_back(link);
+    trees_[slotOf(limb.tree)].links.push_back(link);
   }
   for (std::size_t i = 0; i < limbs_.size(); ++i) {
     if (limbs_[i].links.empty()) continue;  // bare links between two branchings
-    trees_[static_cast<std::size_t>(limbs_[i].tree)].limbs.push_back(static_cast<std::int32_t>(i));
+    trees_[slotOf(limbs_[i].tree)].limbs.push_back(static_cast<std::int32_t>(i));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 
@@ -45,9 +46,7 @@ class Limbs {
   [[nodiscard]] const std::vector<Limb>& limbs() const { return limbs_; }
   [[nodiscard]] const std::vector<LimbTree>& trees() const { return trees_; }
   /// True for a limb's first link and for roots.
-  [[nodiscard]] bool isCarrier(LinkId link) const {
-    return isCarrier_[static_cast<std::size_t>(link)] != 0;
-  }
+  [[nodiscard]] bool isCarrier(LinkId link) const { return isCarrier_[slotOf(link)] != 0; }
 
  private:
   std::vector<Limb> limbs_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch::internal {
@@ -145,18 +146,18 @@ RungVolumes::RelativeSums RungVolumes::RelativeSums::with(
 }
 
 void RungVolumes::boundRelativeMotion(const ChainMotion& motion, bool withTrees) {
-  const auto count = static_cast<std::size_t>(motion.numLinks());
+  const auto count = countOf(motion.numLinks());
   toLimb_.resize(count);
   if (withTrees) toRoot_.resize(count);
   for (LinkId link = 0; link < motion.numLinks(); ++link) {
-    const auto i = static_cast<std::size_t>(link);
+    const auto i = slotOf(link);
     const JointId parent = motion.parent(link);
     if (parent == kNoParent) {
       toLimb_[i] = RelativeSums();
       if (withTrees) toRoot_[i] = RelativeSums();
       continue;
     }
-    const auto above = static_cast<std::size_t>(parent);
+    const auto above = slotOf(parent);
     const ChainMotion::JointBounds joint = motion.jointBounds(link);
     toLimb_[i] = limbs_.isCarrier(link) ? RelativeSums() : toLimb_[above].with(joint);
     if (withTrees) toRoot_[i] = toRoot_[above].with(joint);
@@ -189,7 +190,7 @@ Lss RungVolumes::volumeOf(const Avatar& avatar, const ChainNodes& nodes, const L
   }
   balls_.clear();
   for (const AxisPoint& point : limb.points) {
-    addBall(nodes, limb.carrier, point, toLimb_[static_cast<std::size_t>(point.link)]);
+    addBall(nodes, limb.carrier, point, toLimb_[slotOf(point.link)]);
   }
   return volumeAround(balls_);
 }
@@ -201,12 +202,12 @@ Lss RungVolumes::volumeOf(const ChainNodes& nodes, const LimbTree& tree) {
   }
   balls_.clear();
   for (const std::int32_t limb : tree.limbs) {
-    const LinkId carrier = limbs_.limbs()[static_cast<std::size_t>(limb)].carrier;
-    const Lss& volume = limbVolumes_[static_cast<std::size_t>(limb)];
+    const LinkId carrier = limbs_.limbs()[slotOf(limb)].carrier;
+    const Lss& volume = limbVolumes_[slotOf(limb)];
     for (const Vector3d& end : {volume.a, volume.b}) {
       const AxisPoint point{
           carrier, {end.x(), end.y(), end.z()}, end.norm() * kInflation, volume.radius};
-      addBall(nodes, tree.root, point, toRoot_[static_cast<std::size_t>(carrier)]);
+      addBall(nodes, tree.root, point, toRoot_[slotOf(carrier)]);
     }
   }
   return volumeAround(balls_);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "lss/index.h"
 #include "middleware/query_options.h"
 
 namespace foretouch::internal {
@@ -23,7 +24,7 @@ class Body {
     return volumes_ != nullptr ? static_cast<std::int32_t>(volumes_->size()) : avatar_->numLinks();
   }
   [[nodiscard]] const std::vector<Lss>& lss(LinkId link) const {
-    return volumes_ != nullptr ? (*volumes_)[static_cast<std::size_t>(link)] : avatar_->lss(link);
+    return volumes_ != nullptr ? (*volumes_)[slotOf(link)] : avatar_->lss(link);
   }
   [[nodiscard]] const std::vector<IgnoredPair>& ignored() const { return *ignored_; }
 

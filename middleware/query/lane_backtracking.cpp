@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch::internal {
@@ -74,7 +75,7 @@ class LaneBacktracker {
   }
 
   [[nodiscard]] const Candidate& candidateOf(const PartPair& pair) const {
-    return candidates_[static_cast<std::size_t>(pair.candidate)];
+    return candidates_[slotOf(pair.candidate)];
   }
   /// The LSS bounds no triangle: it is the surface, and its pairs are for doubles.
   [[nodiscard]] bool isBare(const PartPair& pair) const {
@@ -122,7 +123,7 @@ class LaneBacktracker {
 
   /// From an LSS, which was given up as a whole, into its hierarchy.
   void enter(PartPair pair) {
-    Candidate& candidate = candidates_[static_cast<std::size_t>(pair.candidate)];
+    Candidate& candidate = candidates_[slotOf(pair.candidate)];
     if (candidate.laneTriangle < 0) {
       candidate.laneTriangle = scratch_.lanes.add(query_.scene.triangle(candidate.triangle));
     }

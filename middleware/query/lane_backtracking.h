@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "lss/index.h"
 #include "middleware/query/link_query.h"
 #include "middleware/query/part_lanes.h"
 
@@ -49,7 +50,7 @@ class TimeBuckets {
   PartPair pop() {
     const auto bucket = static_cast<std::size_t>(__builtin_ctzll(occupied_));
     const std::int32_t index = first_[bucket];
-    Entry& entry = entries_[static_cast<std::size_t>(index)];
+    Entry& entry = entries_[slotOf(index)];
     if (entry.next == kNone) occupied_ &= occupied_ - 1;
     first_[bucket] = entry.next;
     entry.next = free_;
@@ -71,8 +72,8 @@ class TimeBuckets {
       return static_cast<std::int32_t>(entries_.size()) - 1;
     }
     const std::int32_t index = free_;
-    free_ = entries_[static_cast<std::size_t>(index)].next;
-    entries_[static_cast<std::size_t>(index)] = entry;
+    free_ = entries_[slotOf(index)].next;
+    entries_[slotOf(index)] = entry;
     return index;
   }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/query/lane_backtracking.h"
@@ -121,7 +122,7 @@ bool LaneQuery::answerSlab(StepContacts& step) {
     const LinkContact contact = answer(link, limit, step.counters);
     if (contact.verdict == Verdict::Clear) continue;
     isTouched = true;
-    step.links[static_cast<std::size_t>(link)] = contact;
+    step.links[slotOf(link)] = contact;
     leaveOut(link);
     if (options_.scope == Scope::FirstOfAvatar) {
       limit = std::min(limit, lanesTimeOf(contact.freeUntil));
@@ -135,7 +136,7 @@ bool LaneQuery::answerSlab(StepContacts& step) {
 /// less.
 void LaneQuery::runWithin(StepContacts& step, int slabs) {
   const int finest = slabs << kMostHalvings;
-  lanes_.freeUntil.assign(static_cast<std::size_t>(body_.numLinks()), 0.0);
+  lanes_.freeUntil.assign(countOf(body_.numLinks()), 0.0);
   int slab = 0, count = slabs;
   while (slab < count) {
     begin_ = static_cast<double>(slab) / count;
@@ -164,19 +165,19 @@ void LaneQuery::runWithin(StepContacts& step, int slabs) {
 bool LaneQuery::answerSlabWithin(StepContacts& step) {
   const bool isNear = collectHits(step.counters);
   const auto isOpen = [&](LinkId link) {
-    const auto i = static_cast<std::size_t>(link);
+    const auto i = slotOf(link);
     return lanes_.isAsked[i] != 0 && lanes_.freeUntil[i] < end_;
   };
   const auto isLinkNear = [&](LinkId link) {
-    return isNear && lanes_.first[static_cast<std::size_t>(table_.first(link))] !=
-                         lanes_.first[static_cast<std::size_t>(table_.first(link + 1))];
+    return isNear &&
+           lanes_.first[slotOf(table_.first(link))] != lanes_.first[slotOf(table_.first(link + 1))];
   };
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
-    if (isOpen(link) && !isLinkNear(link)) lanes_.freeUntil[static_cast<std::size_t>(link)] = end_;
+    if (isOpen(link) && !isLinkNear(link)) lanes_.freeUntil[slotOf(link)] = end_;
   }
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     if (!isOpen(link)) continue;
-    const auto i = static_cast<std::size_t>(link);
+    const auto i = slotOf(link);
     const LinkContact contact = answer(link, kEnd, step.counters);
     if (contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::WorkBudget) {
       lanes_.freeUntil[i] = std::max(lanes_.freeUntil[i], contact.freeUntil);
@@ -194,7 +195,7 @@ bool LaneQuery::answerSlabWithin(StepContacts& step) {
 std::optional<double> LaneQuery::firstOf(const StepContacts& step) const {
   std::optional<double> first;
   for (const LinkContact& contact : step.links) {
-    if (lanes_.isAsked[static_cast<std::size_t>(contact.link)] != 0) continue;
+    if (lanes_.isAsked[slotOf(contact.link)] != 0) continue;
     if (contact.verdict == Verdict::Clear) continue;  // ignored
     first = std::min(first.value_or(contact.freeUntil), contact.freeUntil);
   }
@@ -204,7 +205,7 @@ std::optional<double> LaneQuery::firstOf(const StepContacts& step) const {
 /// All links have been looked at until then at least.
 void LaneQuery::leaveAfterFirst(double first, StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
-    const auto i = static_cast<std::size_t>(link);
+    const auto i = slotOf(link);
     if (lanes_.isAsked[i] == 0) continue;
     step.links[i] = undecidedContact(link, first, UndecidedReason::AfterFirst);
   }
@@ -213,7 +214,7 @@ void LaneQuery::leaveAfterFirst(double first, StepContacts& step) const {
 /// The whole step has been looked at: links that are asked for to the end touch nothing.
 void LaneQuery::leaveClear(StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
-    const auto i = static_cast<std::size_t>(link);
+    const auto i = slotOf(link);
     if (lanes_.isAsked[i] != 0) answerClear(step.links[i]);
   }
 }
@@ -221,7 +222,7 @@ void LaneQuery::leaveClear(StepContacts& step) const {
 /// What is not answered is free as far as it is proven.
 void LaneQuery::leaveUndone(StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
-    const auto i = static_cast<std::size_t>(link);
+    const auto i = slotOf(link);
     if (lanes_.isAsked[i] == 0) continue;
     const double free = lanes_.freeUntil[i];
     if (free >= 1.0) {
@@ -238,17 +239,17 @@ LinkContact LaneQuery::undone(LinkId link) const {
 
 /// Links that are ignored altogether are answered at once: of theirs nothing is a contact.
 void LaneQuery::findWhoIsAsked(StepContacts& step) {
-  lanes_.isAsked.assign(static_cast<std::size_t>(body_.numLinks()), 1);
+  lanes_.isAsked.assign(countOf(body_.numLinks()), 1);
   for (const IgnoredPair& pair : body_.ignored()) {
     if (pair.object == IgnoredPair::kEveryObject) {
       leaveOut(pair.link);
-      answerClear(step.links[static_cast<std::size_t>(pair.link)]);
+      answerClear(step.links[slotOf(pair.link)]);
     }
   }
 }
 
 void LaneQuery::leaveOut(LinkId link) {
-  lanes_.isAsked[static_cast<std::size_t>(link)] = 0;
+  lanes_.isAsked[slotOf(link)] = 0;
   areAllAsked_ = false;
 }
 
@@ -265,7 +266,7 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
     sweptBoxes(table, motion_, lanes_.nodes, lanes_.margins, lanes_.boxes);
   }
   for (std::int32_t lss = 0; !areAllAsked_ && lss < table.size(); ++lss) {
-    if (lanes_.isAsked[static_cast<std::size_t>(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
+    if (lanes_.isAsked[slotOf(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
   }
   lanes_.hits.clear();
   if (options_.culler == Culler::FlatBvh) {
@@ -429,8 +430,8 @@ void LaneQuery::prepareScalar(LinkId link) {
 /// The LSS's pairs through the slab; what lanes leave is in `handed`. False where the work was
 /// spent before all were through.
 bool LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
-  const auto begin = lanes_.first[static_cast<std::size_t>(lss)];
-  const auto end = lanes_.first[static_cast<std::size_t>(lss) + 1];
+  const auto begin = lanes_.first[slotOf(lss)];
+  const auto end = lanes_.first[slotOf(lss) + 1];
   if (begin == end) return true;
   if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
   const LssTable::Entry& entry = table_[lss];

@@ -1,10 +1,12 @@
 #include "middleware/query/link_options.h"
 
+#include "lss/index.h"
+
 namespace foretouch::internal {
 
 const LinkSurface* surfaceOf(const QueryOptions& options, LinkId link) {
   if (fidelityOf(options, link) != Fidelity::Exact) return nullptr;
-  return options.surface->parts().links[static_cast<std::size_t>(link)].get();
+  return options.surface->parts().links[slotOf(link)].get();
 }
 
 const SkinParts* skinOf(const QueryOptions& options, LinkId link) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "lss/index.h"
 #include "middleware/query_options.h"
 #include "middleware/surface/link_surface.h"
 #include "middleware/surface/skin_parts.h"
@@ -17,14 +18,12 @@ namespace foretouch::internal {
 
 /// What the link is asked with.
 [[nodiscard]] inline double toleranceOf(const QueryOptions& options, LinkId link) {
-  return options.linkPolicies.empty()
-             ? options.tolerance
-             : options.linkPolicies[static_cast<std::size_t>(link)].tolerance;
+  return options.linkPolicies.empty() ? options.tolerance
+                                      : options.linkPolicies[slotOf(link)].tolerance;
 }
 [[nodiscard]] inline Fidelity fidelityOf(const QueryOptions& options, LinkId link) {
-  return options.linkPolicies.empty()
-             ? options.fidelity
-             : options.linkPolicies[static_cast<std::size_t>(link)].fidelity;
+  return options.linkPolicies.empty() ? options.fidelity
+                                      : options.linkPolicies[slotOf(link)].fidelity;
 }
 struct ToleranceRange {
   double least, largest;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 #include "lss/separation.h"
 #include "lss/triangle_separation.h"
@@ -85,7 +86,7 @@ double PairState::gapLower() const {
 
 const Lss& LinkParts::lssOf(std::int32_t lssIndex, Part part) const {
   FORETOUCH_ASSERT(!part.isTriangle());
-  const auto index = static_cast<std::size_t>(lssIndex);
+  const auto index = slotOf(lssIndex);
   return part.isWhole() ? lss[index] : surface->hierarchy(lssIndex).node(part.index()).lss;
 }
 
@@ -97,9 +98,9 @@ MovingTriangle LinkParts::movingTriangle(std::int32_t index, const PosedLink& po
       moving.triangle.vertices[i].setZero();
       moving.velocity[i].setZero();
       const std::int32_t vertex = skin->triangle(link, index)[i];
-      for (const SkinInfluence& influence : skin->skin.vertices[static_cast<std::size_t>(vertex)]) {
-        addInfluence(influence, posed.all[static_cast<std::size_t>(influence.link)],
-                     motion.bounds(influence.link), i, moving);
+      for (const SkinInfluence& influence : skin->skin.vertices[slotOf(vertex)]) {
+        addInfluence(influence, posed.all[slotOf(influence.link)], motion.bounds(influence.link), i,
+                     moving);
       }
     }
     return moving;
@@ -120,7 +121,7 @@ MovingTriangle LinkParts::movingTriangle(std::int32_t index, const PosedLink& po
 PairState LinkParts::pair(std::int32_t lssIndex, Part part, const PosedLink& posed,
                           const Triangle& triangle) const {
   if (part.isTriangle()) return pairOfTriangle(movingTriangle(part.index(), posed), triangle);
-  const auto index = static_cast<std::size_t>(lssIndex);
+  const auto index = slotOf(lssIndex);
   if (part.isWhole()) return pairOfLss(lss[index], axisBounds[index], posed.state, triangle);
   const Lss& node = lssOf(lssIndex, part);
   return pairOfLss(node, foretouch::axisBounds(node, motion.bounds(link)), posed.state, triangle);

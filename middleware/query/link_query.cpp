@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "lss/index.h"
 #include "lss/rounding.h"
 #include "middleware/exact/chain_piece.h"
 #include "middleware/exact/feature.h"
@@ -30,9 +31,9 @@ Vector3d contactNormal(const PairState& pair) {
 
 void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links) {
   links.clear();  // so that no old answer is left where there is no room for a new one
-  links.resize(static_cast<std::size_t>(numLinks));
+  links.resize(countOf(numLinks));
   for (LinkId link = 0; link < numLinks; ++link) {
-    links[static_cast<std::size_t>(link)].link = link;
+    links[slotOf(link)].link = link;
   }
 }
 

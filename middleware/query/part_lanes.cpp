@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch::internal {
@@ -51,7 +52,7 @@ std::int32_t PartLanes::add(const Triangle& triangle_W) {
 
 void PartLanes::put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u,
                     float floor) {
-  const SceneTriangle& scene = triangles_[static_cast<std::size_t>(triangle)];
+  const SceneTriangle& scene = triangles_[slotOf(triangle)];
   for (int i = 0; i < 3; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       parts_.point[i][axis][lane] = part.point[i][axis];

@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "articulated/try.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
 #include "middleware/query/link_options.h"
@@ -31,13 +33,13 @@ Result<Done> checkedPolicies(const Avatar& avatar, const QueryOptions& options) 
     return fidelity == Fidelity::Link || fidelity == Fidelity::Exact;
   };
   if (!isOfLinks(options.fidelity)) {
-    return Error{ErrorCode::Mismatch, "linkPolicies", -1, -1,
-                 std::string("expected none at fidelity ") + toString(options.fidelity) +
-                     ": only at link and exact fidelity has each link a surface of its own"};
+    return Error::in("linkPolicies", ErrorCode::Mismatch,
+                     std::string("expected none at fidelity ") + toString(options.fidelity) +
+                         ": only at link and exact fidelity has each link a surface of its own");
   }
-  if (options.linkPolicies.size() != static_cast<std::size_t>(avatar.numLinks())) {
-    return Error{ErrorCode::Mismatch, "linkPolicies", -1, -1,
-                 "expected none or one a link of the avatar"};
+  if (options.linkPolicies.size() != countOf(avatar.numLinks())) {
+    return Error::in("linkPolicies", ErrorCode::Mismatch,
+                     "expected none, or one per link of the avatar");
   }
   LinkId link = 0;
   for (const LinkPolicy& policy : options.linkPolicies) {
@@ -66,21 +68,22 @@ Result<Done> checked(const Avatar& avatar, const ChainMotion& motion, const Scen
   auto policies = checkedPolicies(avatar, options);
   if (!policies.ok()) return policies;
   if (!(options.deadlineUs >= 0.0)) {
-    return Error{ErrorCode::OutOfRange, "deadline", -1, -1, "expected microseconds, at least 0"};
+    return Error::in("deadline", ErrorCode::OutOfRange, "expected microseconds, at least 0");
   }
   if (motion.numLinks() != avatar.numLinks()) {
-    return Error{ErrorCode::Mismatch, "motion", -1, -1,
-                 "expected a motion of this avatar's skeleton, found another number of joints"};
+    return Error::in(
+        "motion", ErrorCode::Mismatch,
+        "expected a motion of this avatar's skeleton, found one with a different number of joints");
   }
   if (isAnyExact(options) &&
       (!options.surface || options.surface->numLinks() != avatar.numLinks())) {
-    return Error{ErrorCode::Mismatch, "fidelity", -1, -1,
-                 "expected the surface of this avatar, which exact fidelity needs"};
+    return Error::in("fidelity", ErrorCode::Mismatch,
+                     "expected the surface of this avatar, which exact fidelity needs");
   }
   if (options.fidelity == Fidelity::Skinned &&
       (!options.skin || options.skin->numLinks() != avatar.numLinks())) {
-    return Error{ErrorCode::Mismatch, "fidelity", -1, -1,
-                 "expected the skin of this avatar, which skinned fidelity needs"};
+    return Error::in("fidelity", ErrorCode::Mismatch,
+                     "expected the skin of this avatar, which skinned fidelity needs");
   }
   const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
   for (const IgnoredPair& pair : options.ignored) {
@@ -97,9 +100,8 @@ Result<const internal::TriangleCuller*> cullerOf(const Scene& scene, Culler whic
   if (which == Culler::FlatBvh) {
     return static_cast<const internal::TriangleCuller*>(&scene.parts().bvh);
   }
-  const auto built = scene.parts().pointQueryCuller();
-  if (!built.ok()) return built.error();
-  return static_cast<const internal::TriangleCuller*>(built.value());
+  FORETOUCH_TRY(const auto built, scene.parts().pointQueryCuller());
+  return static_cast<const internal::TriangleCuller*>(built);
 }
 
 /// Skins change shape, and the walk numbers its boxes.
@@ -161,10 +163,9 @@ Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion, cons
   internal::leaveUnanswered(avatar.numLinks(), step.links);
   auto check = checked(avatar, motion, scene, options);
   if (!check.ok()) return check;
-  const auto culler = cullerOf(scene, options.culler);
-  if (!culler.ok()) return culler.error();
+  FORETOUCH_TRY(const auto culler, cullerOf(scene, options.culler));
   const auto ask = internal::isRung(options.fidelity) ? internal::rungQuery : linkQuery;
-  ask(avatar, motion, scene, options, *culler.value(), meter, scratch.parts(), step);
+  ask(avatar, motion, scene, options, *culler, meter, scratch.parts(), step);
   FORETOUCH_ASSERT(isAnswered(step));
   if (options.scope == Scope::FirstOfAvatar) keepFirst(step);
   return Done{};
@@ -174,8 +175,7 @@ Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& moti
                                    const Scene& scene, const QueryOptions& options,
                                    QueryScratch& scratch) {
   StepContacts step;
-  const auto done = firstContacts(avatar, motion, scene, options, scratch, step);
-  if (!done.ok()) return done.error();
+  FORETOUCH_CHECK(firstContacts(avatar, motion, scene, options, scratch, step));
   return step;
 }
 

@@ -66,8 +66,8 @@ struct Work {
     } catch (const std::exception& failure) {
       internal::leaveUnanswered(task.avatar->numLinks(), worker.answer.links);
       worker.answer.counters = {};
-      worker.failures.push_back({i, Error{ErrorCode::DeviceFailed, "query", -1, -1,
-                                          std::string("broken off: ") + failure.what()}});
+      worker.failures.push_back({i, Error::in("query", ErrorCode::DeviceFailed,
+                                              std::string("broken off: ") + failure.what())});
     }
   }
 };
@@ -140,8 +140,8 @@ QueryPool& QueryPool::operator=(QueryPool&&) noexcept = default;
 
 Result<QueryPool> QueryPool::start(int threads) {
   if (threads < 1 || threads > kMaxPoolThreads) {
-    return Error{ErrorCode::OutOfRange, "threads", -1, -1,
-                 "expected a number from 1 to " + std::to_string(kMaxPoolThreads)};
+    return Error::in("threads", ErrorCode::OutOfRange,
+                     "expected a number from 1 to " + std::to_string(kMaxPoolThreads));
   }
   auto impl = std::make_unique<Impl>();
   impl->workers.resize(static_cast<std::size_t>(threads));
@@ -151,8 +151,8 @@ Result<QueryPool> QueryPool::start(int threads) {
       impl->threads.emplace_back([pool = impl.get(), i] { pool->run(i); });
     }
   } catch (const std::system_error& failure) {
-    return Error{ErrorCode::DeviceFailed, "threads", -1, -1,
-                 std::string("the system gives no more threads: ") + failure.what()};
+    return Error::in("threads", ErrorCode::DeviceFailed,
+                     std::string("the system gives no more threads: ") + failure.what());
   }
   return QueryPool(std::move(impl));
 }

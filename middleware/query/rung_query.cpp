@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/segment_triangle.h"
 #include "middleware/ladder/rungs.h"
 #include "middleware/query/body.h"
@@ -83,17 +84,15 @@ class RungQuery {
  private:
   [[nodiscard]] bool byLimb() const { return options_.fidelity == Fidelity::Limb; }
   [[nodiscard]] const Limbs& limbs() const { return rungs_.volumes.limbs(); }
-  [[nodiscard]] bool isAsked(LinkId link) const {
-    return rungs_.isAsked[static_cast<std::size_t>(link)] != 0;
-  }
+  [[nodiscard]] bool isAsked(LinkId link) const { return rungs_.isAsked[slotOf(link)] != 0; }
 
   /// Which links are asked for at all, and which objects no link of a group asks for.
   void findIgnored() {
-    rungs_.isAsked.assign(static_cast<std::size_t>(avatar_.numLinks()), 1);
+    rungs_.isAsked.assign(countOf(avatar_.numLinks()), 1);
     rungs_.ignored.clear();
     for (const IgnoredPair& pair : options_.ignored) {
       if (pair.object == IgnoredPair::kEveryObject) {
-        rungs_.isAsked[static_cast<std::size_t>(pair.link)] = 0;
+        rungs_.isAsked[slotOf(pair.link)] = 0;
       }
     }
     for (std::size_t group = 0; group < numGroups(); ++group) {
@@ -123,11 +122,11 @@ class RungQuery {
   }
 
   void askLss(const TriangleCuller& culler, StepContacts& step) {
-    rungs_.perLink.resize(static_cast<std::size_t>(avatar_.numLinks()));
+    rungs_.perLink.resize(countOf(avatar_.numLinks()));
     for (std::vector<Lss>& lss : rungs_.perLink) lss.clear();
     for (std::size_t group = 0; group < numGroups(); ++group) {
       if (linksOf(group).empty()) continue;
-      rungs_.perLink[static_cast<std::size_t>(carrierOf(group))].push_back(volumeOf(group));
+      rungs_.perLink[slotOf(carrierOf(group))].push_back(volumeOf(group));
     }
     const Body body(rungs_.perLink, rungs_.ignored);
     leaveUnanswered(avatar_.numLinks(), rungs_.carriers.links);
@@ -143,7 +142,7 @@ class RungQuery {
     step.counters = rungs_.carriers.counters;
     rungs_.answers.clear();
     for (std::size_t group = 0; group < numGroups(); ++group) {
-      rungs_.answers.push_back(rungs_.carriers.links[static_cast<std::size_t>(carrierOf(group))]);
+      rungs_.answers.push_back(rungs_.carriers.links[slotOf(carrierOf(group))]);
     }
   }
 
@@ -169,7 +168,7 @@ class RungQuery {
     for (std::size_t group = 0; group < numGroups(); ++group) {
       for (const LinkId link : linksOf(group)) {
         if (!isAsked(link)) continue;
-        LinkContact& contact = step.links[static_cast<std::size_t>(link)];
+        LinkContact& contact = step.links[slotOf(link)];
         contact = rungs_.answers[group];
         contact.link = link;
       }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lss/index.h"
 #include "middleware/query/backtracking.h"
 #include "middleware/query/link_options.h"
 #include "middleware/query/scratch_parts.h"
@@ -42,7 +43,7 @@ class StepQuery {
       // Equal shares, so that the last links have theirs; what one leaves is the others'.
       const auto others = static_cast<std::uint64_t>(body_.numLinks() - link);
       meter_.beginPart(step.counters, meter_.left(step.counters) / others);
-      step.links[static_cast<std::size_t>(link)] = firstContactOf(link, step.counters);
+      step.links[slotOf(link)] = firstContactOf(link, step.counters);
     }
   }
 
@@ -57,10 +58,9 @@ class StepQuery {
     const double wanted = std::ceil(travel / kPieceTravel);
     pieces_.count = static_cast<int>(std::min<double>(kMaxPiecesUsed, std::max(1.0, wanted)));
     // Never fewer, which would give their memory back.
-    scratch_.nodes.resize(
-        std::max(scratch_.nodes.size(), static_cast<std::size_t>(pieces_.count) + 1));
+    scratch_.nodes.resize(std::max(scratch_.nodes.size(), countOf(pieces_.count) + 1));
     for (int k = 0; k <= pieces_.count; ++k) {
-      scratch_.evaluator.statesAt(pieces_.timeOf(k), scratch_.nodes[static_cast<std::size_t>(k)]);
+      scratch_.evaluator.statesAt(pieces_.timeOf(k), scratch_.nodes[slotOf(k)]);
     }
   }
 
@@ -177,7 +177,7 @@ class StepQuery {
   }
 
   [[nodiscard]] const LinkState& nodeState(int k, LinkId link) const {
-    return scratch_.nodes[static_cast<std::size_t>(k)][static_cast<std::size_t>(link)];
+    return scratch_.nodes[slotOf(k)][slotOf(link)];
   }
 
   /// The candidates among the triangles found, by `count` boxes an LSS. This double-precision test

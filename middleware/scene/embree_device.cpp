@@ -20,9 +20,8 @@ constexpr const char* kConfiguration = nullptr;
 Result<EmbreeDevice> newEmbreeDevice() {
   EmbreeDevice device(rtcNewDevice(kConfiguration));
   if (device == nullptr) {
-    return Error{
-        ErrorCode::DeviceFailed, "", -1, -1,
-        "Embree could not be started, error " + std::to_string(rtcGetDeviceError(nullptr))};
+    return Error::of(ErrorCode::DeviceFailed, "Embree could not be started, error " +
+                                                  std::to_string(rtcGetDeviceError(nullptr)));
   }
   return device;
 }
@@ -30,8 +29,8 @@ Result<EmbreeDevice> newEmbreeDevice() {
 Result<Done> embreeStatus(RTCDevice device, const char* what) {
   const RTCError status = rtcGetDeviceError(device);
   if (status == RTC_ERROR_NONE) return Done{};
-  return Error{ErrorCode::DeviceFailed, "", -1, -1,
-               std::string("Embree failed while ") + what + ", error " + std::to_string(status)};
+  return Error::of(ErrorCode::DeviceFailed, std::string("Embree failed while ") + what +
+                                                ", error " + std::to_string(status));
 }
 
 }  // namespace foretouch::internal

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch::internal {

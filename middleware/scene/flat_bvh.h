@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "articulated/result.h"
+#include "lss/index.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/flat_bvh_lanes.h"
 

@@ -8,7 +8,9 @@
 
 #include <embree3/rtcore.h>
 
+#include "articulated/try.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 #include "middleware/scene/embree_device.h"
 #include "middleware/scene/flat_bvh.h"
@@ -78,7 +80,7 @@ std::vector<RTCBuildPrimitive> primitivesOf(const std::vector<Triangle>& triangl
                                             const Vector3d& origin) {
   std::vector<RTCBuildPrimitive> primitives(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const Aabb box = boxOf(triangles[static_cast<std::size_t>(ids[i])]);
+    const Aabb box = boxOf(triangles[slotOf(ids[i])]);
     const Vector3d lower = box.min - origin;
     const Vector3d upper = box.max - origin;
     primitives[i] = {floatBelow(lower.x()), floatBelow(lower.y()),
@@ -140,7 +142,7 @@ class FlatBvhBuilder {
 
   void setOrigin(const Vector3d& origin) {
     Aabb scene;
-    for (const TriangleId id : ids_) scene.add(boxOf(triangles_[static_cast<std::size_t>(id)]));
+    for (const TriangleId id : ids_) scene.add(boxOf(triangles_[slotOf(id)]));
     bvh_.origin_ = origin;
     bvh_.vertexRounding_ = vertexRoundingOf(scene, origin);
   }
@@ -156,8 +158,8 @@ class FlatBvhBuilder {
       const Pending next = pending_.back();
       pending_.pop_back();
       if (next.depth > kMaxBvhDepth) {
-        return Error{ErrorCode::LimitExceeded, "", -1, -1,
-                     "expected a tree of at most " + std::to_string(kMaxBvhDepth) + " levels"};
+        return Error::of(ErrorCode::LimitExceeded,
+                         "expected a tree of at most " + std::to_string(kMaxBvhDepth) + " levels");
       }
       for (unsigned i = 0; i < next.node->numChildren; ++i) {
         setChild(next.index, i, next.node->bounds[i], *next.node->children[i], next.depth + 1);
@@ -207,7 +209,7 @@ class FlatBvhBuilder {
     BvhLeaf leaf;
     for (unsigned i = 0; i < kBvhWidth; ++i) {
       const TriangleId id = ids_[built.primitives[std::min(i, built.size - 1)]];
-      const Triangle& triangle = triangles_[static_cast<std::size_t>(id)];
+      const Triangle& triangle = triangles_[slotOf(id)];
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const Vector3d local = triangle.vertices[corner] - bvh_.origin_;
         for (int axis = 0; axis < 3; ++axis) {
@@ -271,23 +273,19 @@ class FlatBvhBuilder {
 Result<FlatBvh> FlatBvh::build(const std::vector<Triangle>& triangles,
                                const std::vector<TriangleId>& ids, const Vector3d& origin) {
   FORETOUCH_ASSERT(!ids.empty());
-  auto device = newEmbreeDevice();
-  if (!device.ok()) return device.error();
-  const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> tree(
-      rtcNewBVH(device.value().get()));
+  FORETOUCH_TRY(auto device, newEmbreeDevice());
+  const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> tree(rtcNewBVH(device.get()));
   std::vector<RTCBuildPrimitive> primitives = primitivesOf(triangles, ids, origin);
   const RTCBuildArguments arguments = argumentsOf(tree.get(), primitives);
   const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
-  const auto status = embreeStatus(device.value().get(), "building the scene's tree");
-  if (!status.ok()) return status.error();
-  if (root == nullptr) return Error{ErrorCode::DeviceFailed, "", -1, -1, "Embree built no tree"};
+  FORETOUCH_CHECK(embreeStatus(device.get(), "building the scene's tree"));
+  if (root == nullptr) return Error::of(ErrorCode::DeviceFailed, "Embree built no tree");
   const RTCBounds rootBounds = boundsOf(primitives);
   primitives = {};  // the flat arrays take its room
   FlatBvh bvh;
   FlatBvhBuilder builder(bvh, triangles, ids);
   builder.setOrigin(origin);
-  const auto flattened = builder.flatten(*root, rootBounds);
-  if (!flattened.ok()) return flattened.error();
+  FORETOUCH_CHECK(builder.flatten(*root, rootBounds));
   return Result<FlatBvh>(std::move(bvh));
 }
 

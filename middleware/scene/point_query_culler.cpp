@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "articulated/try.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch::internal {
@@ -32,10 +34,9 @@ Result<std::unique_ptr<PointQueryCuller>> PointQueryCuller::build(
     const std::vector<Triangle>& triangles, const std::vector<TriangleId>& ids,
     const Eigen::Vector3d& origin) {
   FORETOUCH_ASSERT(!ids.empty());
-  auto device = newEmbreeDevice();
-  if (!device.ok()) return device.error();
+  FORETOUCH_TRY(auto device, newEmbreeDevice());
   auto culler = std::make_unique<PointQueryCuller>();
-  culler->device_ = std::move(device).value();
+  culler->device_ = std::move(device);
   culler->idOf_ = ids;
   culler->origin_ = origin;
   RTCGeometry geometry = rtcNewGeometry(culler->device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -45,8 +46,7 @@ Result<std::unique_ptr<PointQueryCuller>> PointQueryCuller::build(
       geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), ids.size()));
   if (vertices != nullptr && indices != nullptr) {
     for (std::size_t i = 0; i < 3 * ids.size(); ++i) {
-      const Eigen::Vector3d local =
-          triangles[static_cast<std::size_t>(ids[i / 3])].vertices[i % 3] - origin;
+      const Eigen::Vector3d local = triangles[slotOf(ids[i / 3])].vertices[i % 3] - origin;
       culler->extent_ = std::max(culler->extent_, local.cwiseAbs().maxCoeff());
       for (int axis = 0; axis < 3; ++axis) vertices[3 * i + axis] = static_cast<float>(local[axis]);
       indices[i] = static_cast<unsigned>(i);
@@ -57,8 +57,7 @@ Result<std::unique_ptr<PointQueryCuller>> PointQueryCuller::build(
     rtcCommitScene(culler->scene_.get());
   }
   rtcReleaseGeometry(geometry);
-  const auto status = embreeStatus(culler->device_.get(), "building the reference scene");
-  if (!status.ok()) return status.error();
+  FORETOUCH_CHECK(embreeStatus(culler->device_.get(), "building the reference scene"));
   return culler;
 }
 

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "articulated/skeleton.h"
+#include "articulated/try.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch {
@@ -20,25 +22,25 @@ bool lexicographicallyLess(const Vector3d& p, const Vector3d& q) {
 
 Result<Done> checked(const RawScene& raw) {
   if (raw.triangles.size() > kMaxTriangles) {
-    return Error{ErrorCode::LimitExceeded, "", -1, -1,
-                 "expected at most " + std::to_string(kMaxTriangles) + " triangles, found " +
-                     std::to_string(raw.triangles.size())};
+    return Error::of(ErrorCode::LimitExceeded, "expected at most " + std::to_string(kMaxTriangles) +
+                                                   " triangles, found " +
+                                                   std::to_string(raw.triangles.size()));
   }
   if (raw.objectOf.size() != raw.triangles.size()) {
-    return Error{ErrorCode::Mismatch, "", -1, -1, "expected one object index a triangle"};
+    return Error::of(ErrorCode::Mismatch, "expected one object index per triangle");
   }
   for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
     const auto index = static_cast<std::int64_t>(i);
     if (raw.objectOf[i] < 0 ||
         static_cast<std::size_t>(raw.objectOf[i]) >= raw.objectNames.size()) {
-      return Error{ErrorCode::OutOfRange, "", -1, index,
-                   "triangle " + std::to_string(i) + ": expected an object index below " +
-                       std::to_string(raw.objectNames.size())};
+      return Error::at(index, ErrorCode::OutOfRange,
+                       "triangle " + std::to_string(i) + ": expected an object index below " +
+                           std::to_string(raw.objectNames.size()));
     }
     for (const Vector3d& vertex : raw.triangles[i].vertices) {
       if (vertex.allFinite() && vertex.cwiseAbs().maxCoeff() > kMaxCoordinate) {
-        return Error{ErrorCode::OutOfRange, "", -1, index,
-                     "triangle " + std::to_string(i) + ": expected coordinates within 1e7 m"};
+        return Error::at(index, ErrorCode::OutOfRange,
+                         "triangle " + std::to_string(i) + ": expected coordinates within 1e7 m");
       }
     }
   }
@@ -69,12 +71,11 @@ std::vector<TriangleId> inOrderOfGeometry(const std::vector<Triangle>& triangles
   std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
   keyed.reserve(ids.size());
   for (const TriangleId id : ids) {
-    keyed.emplace_back(hashOf(triangles[static_cast<std::size_t>(id)]), id);
+    keyed.emplace_back(hashOf(triangles[slotOf(id)]), id);
   }
   std::sort(keyed.begin(), keyed.end(), [&](const auto& x, const auto& y) {
     if (x.first != y.first) return x.first < y.first;
-    const auto &v = triangles[static_cast<std::size_t>(x.second)].vertices,
-               &w = triangles[static_cast<std::size_t>(y.second)].vertices;
+    const auto &v = triangles[slotOf(x.second)].vertices, &w = triangles[slotOf(y.second)].vertices;
     if (v != w) {
       return std::lexicographical_compare(v.begin(), v.end(), w.begin(), w.end(),
                                           lexicographicallyLess);
@@ -90,12 +91,11 @@ std::vector<TriangleId> inOrderOfGeometry(const std::vector<Triangle>& triangles
 }  // namespace
 
 Result<Scene> Scene::build(RawScene raw) {
-  const auto check = checked(raw);
-  if (!check.ok()) return check.error();
+  FORETOUCH_CHECK(checked(raw));
   auto parts = std::make_shared<internal::SceneParts>();
   parts->audit = auditScene(raw);
   if (parts->audit.triangles == 0) {
-    return Error{ErrorCode::Empty, "", -1, -1, "expected at least one finite triangle, found none"};
+    return Error::of(ErrorCode::Empty, "expected at least one finite triangle, found none");
   }
   parts->triangles = std::move(raw.triangles);
   parts->objectOf = std::move(raw.objectOf);
@@ -107,10 +107,11 @@ Result<Scene> Scene::build(RawScene raw) {
     std::sort(triangle.vertices.begin(), triangle.vertices.end(), lexicographicallyLess);
     parts->finiteIds.push_back(static_cast<TriangleId>(i));
   }
-  auto bvh = internal::FlatBvh::build(
-      parts->triangles, inOrderOfGeometry(parts->triangles, parts->finiteIds), parts->origin);
-  if (!bvh.ok()) return bvh.error();
-  parts->bvh = std::move(bvh).value();
+  FORETOUCH_TRY(
+      auto bvh,
+      internal::FlatBvh::build(
+          parts->triangles, inOrderOfGeometry(parts->triangles, parts->finiteIds), parts->origin));
+  parts->bvh = std::move(bvh);
   return Scene(std::move(parts));
 }
 
@@ -119,13 +120,13 @@ std::size_t Scene::numTriangles() const {
 }
 
 const Triangle& Scene::triangle(TriangleId id) const {
-  FORETOUCH_ASSERT(id >= 0 && static_cast<std::size_t>(id) < parts_->triangles.size());
-  return parts_->triangles[static_cast<std::size_t>(id)];
+  FORETOUCH_ASSERT(id >= 0 && slotOf(id) < parts_->triangles.size());
+  return parts_->triangles[slotOf(id)];
 }
 
 ObjectId Scene::object(TriangleId id) const {
-  FORETOUCH_ASSERT(id >= 0 && static_cast<std::size_t>(id) < parts_->objectOf.size());
-  return parts_->objectOf[static_cast<std::size_t>(id)];
+  FORETOUCH_ASSERT(id >= 0 && slotOf(id) < parts_->objectOf.size());
+  return parts_->objectOf[slotOf(id)];
 }
 
 const std::vector<std::string>& Scene::objectNames() const {
@@ -139,9 +140,7 @@ const SceneAudit& Scene::audit() const {
 Result<const internal::PointQueryCuller*> internal::SceneParts::pointQueryCuller() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (pointQueryCuller_ == nullptr) {
-    auto built = PointQueryCuller::build(triangles, finiteIds, origin);
-    if (!built.ok()) return built.error();
-    pointQueryCuller_ = std::move(built).value();
+    FORETOUCH_TRY(pointQueryCuller_, PointQueryCuller::build(triangles, finiteIds, origin));
   }
   return static_cast<const PointQueryCuller*>(pointQueryCuller_.get());
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lss/index.h"
 #include "lss/rounding.h"
 #include "middleware/scene/raw_scene.h"
 
@@ -141,7 +142,7 @@ std::size_t countDuplicates(const std::vector<Triangle>& triangles) {
     sameHash.clear();
     std::size_t last = first;
     for (; last < hashes.size() && hashes[last].first == hashes[first].first; ++last) {
-      sameHash.push_back(pointsOf(triangles[static_cast<std::size_t>(hashes[last].second)]));
+      sameHash.push_back(pointsOf(triangles[slotOf(hashes[last].second)]));
     }
     duplicates += duplicatesIn(sameHash);
     first = last;

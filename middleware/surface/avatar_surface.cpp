@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "articulated/quoted.h"
+#include "articulated/try.h"
 #include "lss/assert.h"
 #include "lss/fit.h"
+#include "lss/index.h"
 #include "middleware/surface/link_surface.h"
 
 namespace foretouch {
@@ -20,9 +22,9 @@ using internal::LinkSurface;
 constexpr double kContainmentSlack = 1e-10;
 
 Error linkError(const Avatar& avatar, LinkId link, ErrorCode code, const std::string& what) {
-  return Error{
-      code, "", -1, link,
-      "link " + std::to_string(link) + " " + inQuotes(avatar.skeleton().name(link)) + ": " + what};
+  return Error::at(
+      link, code,
+      "link " + std::to_string(link) + " " + inQuotes(avatar.skeleton().name(link)) + ": " + what);
 }
 
 /// Which LSS of the link contains each triangle.
@@ -109,21 +111,20 @@ void LinkSurface::prepareLanes() const {
 const LssHierarchy& LinkSurface::hierarchy(std::int32_t lss) const {
   FORETOUCH_ASSERT(hasTriangles(lss));
   prepare();
-  return *hierarchies_[static_cast<std::size_t>(lss)];
+  return *hierarchies_[slotOf(lss)];
 }
 
 Result<AvatarSurface> AvatarSurface::build(const Avatar& avatar,
                                            std::vector<std::vector<Triangle>> trianglesPerLink) {
-  if (trianglesPerLink.size() != static_cast<std::size_t>(avatar.numLinks())) {
-    return Error{ErrorCode::Mismatch, "", -1, -1,
-                 "expected triangles for " + std::to_string(avatar.numLinks()) + " links, found " +
-                     std::to_string(trianglesPerLink.size())};
+  if (trianglesPerLink.size() != countOf(avatar.numLinks())) {
+    return Error::of(ErrorCode::Mismatch, "expected triangles for " +
+                                              std::to_string(avatar.numLinks()) + " links, found " +
+                                              std::to_string(trianglesPerLink.size()));
   }
   auto parts = std::make_shared<internal::SurfaceParts>();
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    std::vector<Triangle>& triangles = trianglesPerLink[static_cast<std::size_t>(link)];
-    auto idsOfLss = assigned(avatar, link, triangles);
-    if (!idsOfLss.ok()) return idsOfLss.error();
+    std::vector<Triangle>& triangles = trianglesPerLink[slotOf(link)];
+    FORETOUCH_TRY(auto idsOfLss, assigned(avatar, link, triangles));
     parts->numTriangles += triangles.size();
     if (parts->numTriangles > kMaxSurfaceTriangles) {
       return linkError(avatar, link, ErrorCode::LimitExceeded,
@@ -131,7 +132,7 @@ Result<AvatarSurface> AvatarSurface::build(const Avatar& avatar,
                            " triangles on all links together");
     }
     parts->links.push_back(
-        std::make_unique<LinkSurface>(std::move(triangles), std::move(idsOfLss).value()));
+        std::make_unique<LinkSurface>(std::move(triangles), std::move(idsOfLss)));
   }
   return AvatarSurface(std::move(parts));
 }
@@ -141,7 +142,7 @@ std::int32_t AvatarSurface::numLinks() const {
 }
 
 const std::vector<Triangle>& AvatarSurface::triangles(LinkId link) const {
-  return parts_->links[static_cast<std::size_t>(link)]->triangles();
+  return parts_->links[slotOf(link)]->triangles();
 }
 
 void AvatarSurface::prepare() const {

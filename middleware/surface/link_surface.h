@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "lss/index.h"
 #include "lss/lss_hierarchy.h"
 #include "lss/triangle.h"
 #include "middleware/lanes/frame_lanes.h"
@@ -39,23 +40,20 @@ class LinkSurface {
       : triangles_(std::move(triangles)), idsOfLss_(std::move(idsOfLss)) {}
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
-  [[nodiscard]] const Triangle& triangle(std::int32_t id) const {
-    return triangles_[static_cast<std::size_t>(id)];
-  }
+  [[nodiscard]] const Triangle& triangle(std::int32_t id) const { return triangles_[slotOf(id)]; }
   /// False: the LSS bounds no triangle and is itself the surface.
   [[nodiscard]] bool hasTriangles(std::int32_t lss) const {
-    return !idsOfLss_[static_cast<std::size_t>(lss)].empty();
+    return !idsOfLss_[slotOf(lss)].empty();
   }
   /// Built on first use, once, whichever thread comes first. Precondition: hasTriangles(lss).
   [[nodiscard]] const LssHierarchy& hierarchy(std::int32_t lss) const;
   void prepare() const;
   /// That hierarchy as lanes take it. Precondition of all three: prepare() was called.
   [[nodiscard]] HierarchyChild root(std::int32_t lss) const {
-    return hierarchies_[static_cast<std::size_t>(lss)]->root();
+    return hierarchies_[slotOf(lss)]->root();
   }
   [[nodiscard]] const LanePart& lanePart(std::int32_t lss, HierarchyChild part) const {
-    return part.isTriangle() ? laneTriangles_[static_cast<std::size_t>(part.index())]
-                             : laneNode(lss, part).part;
+    return part.isTriangle() ? laneTriangles_[slotOf(part.index())] : laneNode(lss, part).part;
   }
   [[nodiscard]] const PartsBelow& below(std::int32_t lss, HierarchyChild node) const {
     return laneNode(lss, node).below;
@@ -70,7 +68,7 @@ class LinkSurface {
 
   void prepareLanes() const;
   [[nodiscard]] const LaneNode& laneNode(std::int32_t lss, HierarchyChild node) const {
-    return laneNodes_[static_cast<std::size_t>(lss)][static_cast<std::size_t>(node.index())];
+    return laneNodes_[slotOf(lss)][slotOf(node.index())];
   }
   std::vector<Triangle> triangles_;
   std::vector<std::vector<std::int32_t>> idsOfLss_;

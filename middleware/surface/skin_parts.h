@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "articulated/skin.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 
@@ -14,12 +15,12 @@ struct SkinParts {
   std::vector<std::int32_t> firstOfLink;  // one more than links: link l has [l, l+1)
 
   [[nodiscard]] std::int32_t numTriangles(LinkId link) const {
-    const auto l = static_cast<std::size_t>(link);
+    const auto l = slotOf(link);
     return firstOfLink[l + 1] - firstOfLink[l];
   }
   [[nodiscard]] const std::array<std::int32_t, 3>& triangle(LinkId link, std::int32_t index) const {
-    const std::int32_t first = firstOfLink[static_cast<std::size_t>(link)];
-    return skin.triangles[static_cast<std::size_t>(first + index)];
+    const std::int32_t first = firstOfLink[slotOf(link)];
+    return skin.triangles[slotOf(first + index)];
   }
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "lss/index.h"
 #include "middleware/surface/avatar_surface.h"
 #include "middleware/surface/skin_parts.h"
 
@@ -17,8 +18,8 @@ namespace {
 constexpr double kWeightSumError = 1e-9;
 
 Error skinError(ErrorCode code, const char* what, std::size_t index, const std::string& problem) {
-  return Error{code, "", -1, static_cast<std::int64_t>(index),
-               "skin " + std::string(what) + " " + std::to_string(index) + ": " + problem};
+  return Error::at(static_cast<std::int64_t>(index), code,
+                   "skin " + std::string(what) + " " + std::to_string(index) + ": " + problem);
 }
 
 std::optional<Error> vertexProblem(const Avatar& avatar, const std::vector<SkinInfluence>& vertex,
@@ -45,8 +46,9 @@ std::optional<Error> vertexProblem(const Avatar& avatar, const std::vector<SkinI
 
 std::optional<Error> problemOf(const Avatar& avatar, const Skin& skin) {
   if (skin.triangles.empty() || skin.triangles.size() > kMaxSurfaceTriangles) {
-    return Error{ErrorCode::LimitExceeded, "", -1, -1,
-                 "expected 1 to " + std::to_string(kMaxSurfaceTriangles) + " triangles of a skin"};
+    return Error::of(
+        ErrorCode::LimitExceeded,
+        "expected 1 to " + std::to_string(kMaxSurfaceTriangles) + " triangles of a skin");
   }
   for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
     if (auto problem = vertexProblem(avatar, skin.vertices[i], i)) return problem;
@@ -75,10 +77,9 @@ Result<SkinnedSurface> SkinnedSurface::build(const Avatar& avatar, Skin skin,
     if (total > skin.triangles.size()) break;
     parts->firstOfLink.push_back(static_cast<std::int32_t>(total));
   }
-  if (trianglesOfLink.size() != static_cast<std::size_t>(avatar.numLinks()) ||
-      total != skin.triangles.size()) {
-    return Error{ErrorCode::Mismatch, "", -1, -1,
-                 "expected every link's number of triangles, together those of the skin"};
+  if (trianglesOfLink.size() != countOf(avatar.numLinks()) || total != skin.triangles.size()) {
+    return Error::of(ErrorCode::Mismatch,
+                     "expected every link's number of triangles, together those of the skin");
   }
   parts->skin = std::move(skin);
   return SkinnedSurface(std::move(parts));
@@ -96,7 +97,7 @@ std::vector<LinkId> SkinnedSurface::linksMoving(LinkId link) const {
   std::set<LinkId> links;
   for (std::int32_t i = 0; i < parts_->numTriangles(link); ++i) {
     for (const std::int32_t vertex : parts_->triangle(link, i)) {
-      for (const auto& influence : parts_->skin.vertices[static_cast<std::size_t>(vertex)]) {
+      for (const auto& influence : parts_->skin.vertices[slotOf(vertex)]) {
         links.insert(influence.link);
       }
     }

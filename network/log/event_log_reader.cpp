@@ -1,6 +1,7 @@
 #include <optional>
 #include <utility>
 
+#include "articulated/try.h"
 #include "network/log/event_log_blocks.h"
 #include "network/log/event_log_reader_access.h"
 
@@ -109,9 +110,8 @@ Result<EventLogReader> EventLogReaderAccess::open(std::unique_ptr<LogBytes> byte
 
 Result<EventLogReader> EventLogReader::open(const std::string& path,
                                             const LogReadOptions& options) {
-  auto bytes = openLogFile(path);
-  if (!bytes.ok()) return bytes.error();
-  return EventLogReaderAccess::open(std::move(bytes).value(), path, options);
+  FORETOUCH_TRY(auto bytes, openLogFile(path));
+  return EventLogReaderAccess::open(std::move(bytes), path, options);
 }
 
 Result<bool> EventLogReader::next(LogEvent& event) {

@@ -8,6 +8,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "lss/index.h"
+
 namespace foretouch {
 namespace {
 
@@ -35,7 +37,7 @@ class FileBytes : public LogBytes {
       if (got == 0) return failed("became shorter while it was read");
       bytes += got;
       offset += static_cast<std::uint64_t>(got);
-      count -= static_cast<std::size_t>(got);
+      count -= countOf(got);
     }
     return Done{};
   }

@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "lss/index.h"
 #include "network/log/event_log_format.h"
 
 namespace foretouch {
@@ -120,7 +121,7 @@ Result<Done> EventLogWriter::Impl::writeAll(const Bytes& bytes) {
         ::pwrite(file, bytes.data() + done, bytes.size() - done, static_cast<off_t>(good + done));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return unwritable("cannot be written");
-    done += static_cast<std::size_t>(count);
+    done += countOf(count);
   }
   if (options.syncBlocks && ::fdatasync(file) != 0) return unwritable("cannot be synced");
   return Done{};

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "lss/index.h"
 #include "network/wire/loopback.h"
 
 namespace foretouch::internal {
@@ -66,7 +67,7 @@ class BoundedStream final : public httplib::Stream {
     if (held_ == buffer_.size() || !waitFor(POLLIN, readUntil_)) return false;
     const ssize_t got = ::recv(socket_, buffer_.data() + held_, buffer_.size() - held_, 0);
     if (got <= 0) return false;
-    held_ += static_cast<std::size_t>(got);
+    held_ += countOf(got);
     return true;
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "articulated/try.h"
 #include "network/log/event_log.h"
 #include "network/service/thread_beat.h"
 
@@ -60,9 +61,8 @@ struct EventList {
 }  // namespace
 
 Result<std::unique_ptr<JournalSink>> createLogSink(const std::string& path) {
-  auto writer = EventLogWriter::create(path);
-  if (!writer.ok()) return writer.error();
-  return std::unique_ptr<JournalSink>(std::make_unique<LogSink>(std::move(writer).value()));
+  FORETOUCH_TRY(auto writer, EventLogWriter::create(path));
+  return std::unique_ptr<JournalSink>(std::make_unique<LogSink>(std::move(writer)));
 }
 
 struct Journal::Impl {
@@ -149,8 +149,8 @@ Result<Journal> Journal::start(std::unique_ptr<JournalSink> sink, const JournalO
   try {
     impl->thread = std::thread([&journal = *impl] { journal.run(); });
   } catch (const std::system_error& e) {
-    return Error{ErrorCode::LimitExceeded, "", -1, -1,
-                 std::string("expected a thread for the log, the system gives none: ") + e.what()};
+    return Error::of(ErrorCode::LimitExceeded,
+                     std::string("cannot start the thread that writes the log: ") + e.what());
   }
   return Journal(std::move(impl));
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lss/index.h"
+
 namespace foretouch {
 namespace {
 
@@ -47,7 +49,7 @@ void LatencyHistogram::record(double us) {
   const double counted = static_cast<double>(ns) / kNsPerUs;
   sumUs_ += counted;
   const auto bound = std::lower_bound(kBoundsUs.begin(), kBoundsUs.end(), counted);
-  if (bound != kBoundsUs.end()) ++within_[static_cast<std::size_t>(bound - kBoundsUs.begin())];
+  if (bound != kBoundsUs.end()) ++within_[slotOf(bound - kBoundsUs.begin())];
 }
 
 void LatencyHistogram::clear() {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "articulated/try.h"
 #include "network/service/bounded_http.h"
 
 namespace foretouch {
@@ -35,8 +36,7 @@ Result<MetricsServer> MetricsServer::start(const std::string& host, std::uint16_
                                            Pages pages) {
   auto impl = std::make_unique<Impl>();
   addPages(impl->server, std::move(pages));
-  const auto started = impl->server.start("metrics", host, port);
-  if (!started.ok()) return started.error();
+  FORETOUCH_CHECK(impl->server.start("metrics", host, port));
   return MetricsServer(std::move(impl));
 }
 

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "lss/index.h"
+
 namespace foretouch {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr double kSecondsPerUs = 1e-6;
 std::string number(double value) {
   char text[32];
   const int length = std::snprintf(text, sizeof text, "%.12g", value);
-  return {text, static_cast<std::size_t>(length)};
+  return {text, countOf(length)};
 }
 
 /// A label's value: backslash, quote and line break are escaped.

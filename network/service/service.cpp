@@ -50,7 +50,7 @@ struct Channels {
 std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
                                const ServiceOptions& options) {
   const auto refused = [](ErrorCode code, const std::string& message) {
-    return Error{code, "", -1, -1, message};
+    return Error::of(code, message);
   };
   if (avatars.empty()) return refused(ErrorCode::Empty, "expected at least one avatar");
   if (options.workers < 1 || options.workers > kMaxServiceWorkers) {
@@ -361,8 +361,8 @@ struct Service::Impl {
         });
       }
     } catch (const std::system_error& e) {
-      return Error{ErrorCode::LimitExceeded, "", -1, -1,
-                   std::string("expected more threads than the system gives: ") + e.what()};
+      return Error::of(ErrorCode::LimitExceeded,
+                       std::string("expected more threads than the system gives: ") + e.what());
     }
     return Done{};
   }
@@ -403,7 +403,7 @@ Result<Service> Service::start(std::vector<StreamSolver> avatars, ServiceParts p
   const std::size_t numAvatars = avatars.size();
   auto impl = std::make_unique<Impl>(std::move(avatars), std::move(parts), options);
   if (impl->indexOf.size() != numAvatars) {
-    return Error{ErrorCode::DuplicateName, "", -1, -1, "expected avatars of different ids"};
+    return Error::of(ErrorCode::DuplicateName, "expected avatars of different ids");
   }
   const auto started = impl->start();
   if (!started.ok()) {

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "lss/index.h"
+
 namespace foretouch {
 
 std::uint64_t ServiceCounts::rejected() const {
@@ -17,7 +19,7 @@ void ServiceCounter::receivedPose(std::int64_t utimeUs) {
 
 void ServiceCounter::rejectedPose(Reject reason) {
   const std::lock_guard lock(mutex_);
-  ++counts_.rejects[static_cast<std::size_t>(reason)];
+  ++counts_.rejects[slotOf(reason)];
   --counts_.waiting;
 }
 
@@ -38,7 +40,7 @@ void ServiceCounter::receivedSkeleton() {
 
 void ServiceCounter::rejectedSkeleton(Reject reason) {
   const std::lock_guard lock(mutex_);
-  ++counts_.skeletonRejects[static_cast<std::size_t>(reason)];
+  ++counts_.skeletonRejects[slotOf(reason)];
 }
 
 void ServiceCounter::lostPoses(std::uint64_t lost, std::uint64_t gaps) {

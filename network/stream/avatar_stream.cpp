@@ -5,7 +5,9 @@
 #include <tuple>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/avatar/joint_match.h"
+#include "lss/index.h"
 #include "network/stream/pose_assembly.h"
 #include "network/stream/stream_timeline.h"
 
@@ -16,15 +18,15 @@ constexpr int kFewestConfirmations = 1;
 
 Result<Done> checked(const StreamPolicy& policy) {
   if (policy.maxStepUs < 1 || policy.maxStepUs > kMostStepUs) {
-    return Error{ErrorCode::OutOfRange, "maxStepUs", -1, -1,
-                 "expected 1 to " + std::to_string(kMostStepUs) + " microseconds, found " +
-                     std::to_string(policy.maxStepUs)};
+    return Error::in("maxStepUs", ErrorCode::OutOfRange,
+                     "expected 1 to " + std::to_string(kMostStepUs) + " microseconds, found " +
+                         std::to_string(policy.maxStepUs));
   }
   if (policy.confirmations < kFewestConfirmations || policy.confirmations > kMostConfirmations) {
-    return Error{ErrorCode::OutOfRange, "confirmations", -1, -1,
-                 "expected " + std::to_string(kFewestConfirmations) + " to " +
-                     std::to_string(kMostConfirmations) + " poses, found " +
-                     std::to_string(policy.confirmations)};
+    return Error::in("confirmations", ErrorCode::OutOfRange,
+                     "expected " + std::to_string(kFewestConfirmations) + " to " +
+                         std::to_string(kMostConfirmations) + " poses, found " +
+                         std::to_string(policy.confirmations));
   }
   return Done{};
 }
@@ -36,7 +38,7 @@ Reject rejectOf(const Error& error, const RawSkeleton& raw) {
     case ErrorCode::BadHierarchy: return Reject::BadHierarchy;
     case ErrorCode::LimitExceeded: return Reject::Limit;
     case ErrorCode::OutOfRange: {  // of a rotation, or of an offset
-      const auto& joint = raw.joints[static_cast<std::size_t>(error.index)];
+      const auto& joint = raw.joints[slotOf(error.index)];
       return joint.offset.cwiseAbs().maxCoeff() > kMaxCoordinate ? Reject::OutOfRange
                                                                  : Reject::NonUnit;
     }
@@ -110,14 +112,13 @@ AvatarStream& AvatarStream::operator=(AvatarStream&&) noexcept = default;
 AvatarStream::~AvatarStream() = default;
 
 Result<AvatarStream> AvatarStream::make(const Avatar& avatar, const StreamPolicy& policy) {
-  const auto check = checked(policy);
-  if (!check.ok()) return check.error();
+  FORETOUCH_CHECK(checked(policy));
   return AvatarStream(std::make_unique<Impl>(avatar, policy));
 }
 
 Reject AvatarStream::take(const SkeletonMessage& message) {
   const Reject reject = impl_->takeSkeleton(message);
-  if (reject != Reject::None) ++counts_.rejects[static_cast<std::size_t>(reject)];
+  if (reject != Reject::None) ++counts_.rejects[slotOf(reject)];
   return reject;
 }
 
@@ -150,7 +151,7 @@ Reject AvatarStream::take(const PoseMessage& message, StreamStep& step) {
   ++counts_.poses;
   const Reject reject = impl_->takePose(message, step);
   if (reject != Reject::None) {
-    ++counts_.rejects[static_cast<std::size_t>(reject)];
+    ++counts_.rejects[slotOf(reject)];
     return reject;
   }
   ++counts_.accepted;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 namespace {
@@ -13,8 +14,8 @@ constexpr std::uint8_t kKnownFlags = kJointValid | kJointTracked | kJointInferre
 
 /// Where `places` has the joint; null for one that the skeleton does not have.
 std::int32_t* placeOf(std::vector<std::int32_t>& places, std::int32_t joint) {
-  if (joint < 0 || static_cast<std::size_t>(joint) >= places.size()) return nullptr;
-  return &places[static_cast<std::size_t>(joint)];
+  if (joint < 0 || slotOf(joint) >= places.size()) return nullptr;
+  return &places[slotOf(joint)];
 }
 
 }  // namespace
@@ -27,7 +28,7 @@ void findUnknownLinks(const Skeleton& skeleton, const std::vector<UndecidedReaso
     UndecidedReason reason = to[link] != UndecidedReason::None ? to[link] : from[link];
     const JointId parent = skeleton.parents()[link];
     if (reason == UndecidedReason::None && parent != kNoParent) {
-      reason = reasons[static_cast<std::size_t>(parent)];
+      reason = reasons[slotOf(parent)];
     }
     reasons[link] = reason;
   }
@@ -74,9 +75,9 @@ Reject PoseAssembly::checkTranslations(const PoseMessage& message) {
     std::int32_t* const place = placeOf(translated_, given.joint);
     if (place == nullptr || *place != kNowhere) return Reject::BadIndex;
     *place = static_cast<std::int32_t>(i);
-    const std::int32_t listed = listed_[static_cast<std::size_t>(given.joint)];
+    const std::int32_t listed = listed_[slotOf(given.joint)];
     if (listed == kNowhere) return Reject::BadIndex;
-    if ((message.joints[static_cast<std::size_t>(listed)].flags & kJointValid) == 0) continue;
+    if ((message.joints[slotOf(listed)].flags & kJointValid) == 0) continue;
     if (!given.translation.allFinite()) return Reject::NonFinite;
     if (given.translation.cwiseAbs().maxCoeff() > kMaxCoordinate) return Reject::OutOfRange;
   }
@@ -102,7 +103,7 @@ void PoseAssembly::assembleJoint(std::size_t joint, const PoseMessage& message) 
   const auto sender = static_cast<std::size_t>(senderJointOf_[joint]);
   reason = reasonOf(sender, message);
   if (reason != UndecidedReason::None) return;
-  const auto& listed = message.joints[static_cast<std::size_t>(listed_[sender])];
+  const auto& listed = message.joints[slotOf(listed_[sender])];
   const auto unit = unitQuaternion(listed.rotation);
   FORETOUCH_ASSERT(unit.has_value());
   later_.pose.rotations[joint] = *unit;
@@ -110,8 +111,7 @@ void PoseAssembly::assembleJoint(std::size_t joint, const PoseMessage& message) 
     later_.pose.translations[joint] = avatar_.restOffset(static_cast<JointId>(joint));
     return;
   }
-  later_.pose.translations[joint] =
-      message.translations[static_cast<std::size_t>(translated_[sender])].translation;
+  later_.pose.translations[joint] = message.translations[slotOf(translated_[sender])].translation;
   if (isTranslated_[sender] == 0 && earlier_.reasons[joint] == UndecidedReason::None) {
     earlier_.reasons[joint] = UndecidedReason::MissingJoint;
   }
@@ -120,7 +120,7 @@ void PoseAssembly::assembleJoint(std::size_t joint, const PoseMessage& message) 
 
 UndecidedReason PoseAssembly::reasonOf(std::size_t sender, const PoseMessage& message) const {
   if (listed_[sender] == kNowhere) return UndecidedReason::MissingJoint;
-  const std::uint8_t flags = message.joints[static_cast<std::size_t>(listed_[sender])].flags;
+  const std::uint8_t flags = message.joints[slotOf(listed_[sender])].flags;
   if ((flags & kJointValid) == 0) return UndecidedReason::InvalidJoint;
   if ((flags & (kJointTracked | kJointInferred)) == 0) return UndecidedReason::StaleJoint;
   const bool lacksTranslation = translated_[sender] == kNowhere && isTranslated_[sender] != 0;

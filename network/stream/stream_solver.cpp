@@ -3,7 +3,9 @@
 #include <chrono>
 #include <limits>
 
+#include "articulated/try.h"
 #include "lss/assert.h"
+#include "lss/index.h"
 
 namespace foretouch {
 namespace {
@@ -30,25 +32,23 @@ StreamSolver::StreamSolver(std::int32_t id, const Avatar& avatar, const Scene& s
 Result<StreamSolver> StreamSolver::make(std::int32_t id, const Avatar& avatar, const Scene& scene,
                                         const QueryOptions& options, const StreamPolicy& policy) {
   if (options.scope != Scope::EveryLink) {
-    return Error{ErrorCode::OutOfRange, "scope", -1, -1,
-                 "expected the scope 'links': of a stream every link is answered"};
+    return Error::in("scope", ErrorCode::OutOfRange,
+                     "expected the scope 'links': of a stream every link is answered");
   }
   if (options.fidelity != Fidelity::Link && options.fidelity != Fidelity::Exact &&
       options.fidelity != Fidelity::Skinned) {
-    return Error{ErrorCode::OutOfRange, "fidelity", -1, -1,
-                 "expected link, exact or skinned: one joint that is not known would be in the "
-                 "volume of many links"};
+    return Error::in("fidelity", ErrorCode::OutOfRange,
+                     "expected link, exact or skinned: one joint that is not known would be in the "
+                     "volume of many links");
   }
   if (options.deadlineUs < std::numeric_limits<double>::infinity()) {
-    return Error{ErrorCode::OutOfRange, "deadline", -1, -1,
-                 "expected a work budget instead: no clock decides what a stream is answered"};
+    return Error::in("deadline", ErrorCode::OutOfRange,
+                     "expected a work budget instead: no clock decides what a stream is answered");
   }
-  auto stream = AvatarStream::make(avatar, policy);
-  if (!stream.ok()) return stream.error();
-  StreamSolver solver(id, avatar, scene, options, std::move(stream).value());
+  FORETOUCH_TRY(auto stream, AvatarStream::make(avatar, policy));
+  StreamSolver solver(id, avatar, scene, options, std::move(stream));
   const Pose rest = restPose(avatar.skeleton());
-  const auto tried = solver.query(rest, rest);
-  if (!tried.ok()) return tried.error();
+  FORETOUCH_CHECK(solver.query(rest, rest));
   return solver;
 }
 
@@ -104,7 +104,7 @@ void StreamSolver::fill(const StreamStep& step, ContactsMessage& answer) {
   listReported(contacts_.links.data(), contacts_.links.size(), reported_);
   answer.contacts.resize(reported_.size());
   for (std::size_t i = 0; i < reported_.size(); ++i) {
-    list(contacts_.links[static_cast<std::size_t>(reported_[i])], answer.contacts[i]);
+    list(contacts_.links[slotOf(reported_[i])], answer.contacts[i]);
   }
 }
 
@@ -118,10 +118,10 @@ UndecidedReason StreamSolver::notClaimed(const LinkContact& found, const StreamS
 
 UndecidedReason StreamSolver::unknownOf(LinkId link, const StreamStep& step) const {
   const std::vector<UndecidedReason>& unknown = *step.unknown;
-  const UndecidedReason own = unknown[static_cast<std::size_t>(link)];
+  const UndecidedReason own = unknown[slotOf(link)];
   if (own != UndecidedReason::None || movedBy_.empty()) return own;
-  for (const LinkId moving : movedBy_[static_cast<std::size_t>(link)]) {
-    const UndecidedReason reason = unknown[static_cast<std::size_t>(moving)];
+  for (const LinkId moving : movedBy_[slotOf(link)]) {
+    const UndecidedReason reason = unknown[slotOf(moving)];
     if (reason != UndecidedReason::None) return reason;
   }
   return UndecidedReason::None;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "articulated/try.h"
 #include "network/service/bounded_http.h"
 #include "network/wire/loopback.h"
 
@@ -112,14 +113,14 @@ ViewServer::~ViewServer() = default;
 Result<ViewServer> ViewServer::start(const std::string& host, std::uint16_t port, Pages pages,
                                      const AudienceOptions& options) {
   if (!isLoopback(host)) {
-    return Error{ErrorCode::OutOfRange, "", -1, -1,
-                 "cannot serve the view on " + host +
-                     ": expected localhost or a numeric address of this machine alone; to watch "
-                     "from another one, use a tunnel: ssh -L"};
+    return Error::of(
+        ErrorCode::OutOfRange,
+        "cannot serve the view on " + host +
+            ": expected localhost or a numeric address of this machine alone; to watch "
+            "from another one, use a tunnel: ssh -L");
   }
-  auto audience = Audience::start(std::move(pages.events), options);
-  if (!audience.ok()) return audience.error();
-  auto impl = std::make_unique<Impl>(std::move(audience).value());
+  FORETOUCH_TRY(auto audience, Audience::start(std::move(pages.events), options));
+  auto impl = std::make_unique<Impl>(std::move(audience));
   internal::BoundedHttp& server = impl->server;
   server.set_default_headers(safetyHeaders());
   server.set_pre_routing_handler(checked);
@@ -130,8 +131,7 @@ Result<ViewServer> ViewServer::start(const std::string& host, std::uint16_t port
     std::optional<Audience::Seat> seat = std::exchange(seatInHand, std::nullopt);
     return seat && isAnswered && seat->take(socket);
   };
-  const auto started = server.start("the view", host, port);
-  if (!started.ok()) return started.error();
+  FORETOUCH_CHECK(server.start("the view", host, port));
   return ViewServer(std::move(impl));
 }
 

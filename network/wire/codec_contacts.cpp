@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
 
@@ -148,7 +149,7 @@ Reject readContacts(contacts_t& wire, ContactsMessage& message) {
   for (std::size_t i = 0; i < numContacts; ++i) {
     const std::int32_t link = wire.links[i];
     if (link < 0 || link >= wire.num_links) return Reject::BadIndex;
-    const auto place = static_cast<std::size_t>(link);
+    const auto place = slotOf(link);
     if (listed[place] || message.verdicts[place] == Verdict::Clear) return Reject::BadIndex;
     listed.set(place);
     reject = readContact(wire, i, message.verdicts[place], message.contacts[i]);

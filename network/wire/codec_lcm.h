@@ -8,6 +8,7 @@
 #include <initializer_list>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/payload_check.h"
 #include "network/wire/reject.h"
@@ -44,7 +45,7 @@ template <typename LcmType>
 void toBytes(PayloadType type, const LcmType& wire, Bytes& payload) {
   payload.resize(static_cast<std::size_t>(wire.getEncodedSize()));
   const int written = wire.encode(payload.data(), 0, static_cast<int>(payload.size()));
-  payload.resize(written > 0 ? static_cast<std::size_t>(written) : 0);
+  payload.resize(written > 0 ? countOf(written) : 0);
   FORETOUCH_ASSERT(checkPayload(type, payload) == Reject::None);
   static_cast<void>(type);
 }

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <foretouch/pose_t.hpp>
 
+#include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
 
@@ -11,12 +12,12 @@ namespace {
 constexpr int kKnownFlags = kJointValid | kJointTracked | kJointInferred;
 
 /// Joints of a message, by index.
-using JointSet = std::bitset<static_cast<std::size_t>(kMaxJoints)>;
+using JointSet = std::bitset<countOf(kMaxJoints)>;
 
 /// False where no skeleton has this joint, or where it is in `joints` already.
 bool insert(std::int32_t joint, JointSet& joints) {
-  if (joint < 0 || joint >= kMaxJoints || joints[static_cast<std::size_t>(joint)]) return false;
-  joints.set(static_cast<std::size_t>(joint));
+  if (joint < 0 || joint >= kMaxJoints || joints[slotOf(joint)]) return false;
+  joints.set(slotOf(joint));
   return true;
 }
 
@@ -48,7 +49,7 @@ Reject readJoints(const pose_t& wire, PoseMessage& message, JointSet& listed, Jo
     if (!insert(joint.joint, listed)) return Reject::BadIndex;
     if ((joint.flags & ~kKnownFlags) != 0) return Reject::OutOfRange;
     if ((joint.flags & kJointValid) == 0) continue;
-    valid.set(static_cast<std::size_t>(joint.joint));
+    valid.set(slotOf(joint.joint));
     const Reject reject = readRotation(wire, i, joint.rotation);
     if (reject != Reject::None) return reject;
   }
@@ -64,8 +65,8 @@ Reject readTranslations(const pose_t& wire, PoseMessage& message, const JointSet
     joint.joint = wire.translated_joints[i];
     joint.translation.setZero();
     if (!insert(joint.joint, translated)) return Reject::BadIndex;
-    if (!listed[static_cast<std::size_t>(joint.joint)]) return Reject::BadIndex;
-    if (!valid[static_cast<std::size_t>(joint.joint)]) continue;
+    if (!listed[slotOf(joint.joint)]) return Reject::BadIndex;
+    if (!valid[slotOf(joint.joint)]) continue;
     joint.translation = {wire.translation_x[i], wire.translation_y[i], wire.translation_z[i]};
     if (!joint.translation.allFinite()) return Reject::NonFinite;
     if (joint.translation.cwiseAbs().maxCoeff() > kMaxCoordinate) return Reject::OutOfRange;

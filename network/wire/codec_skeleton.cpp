@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
 
@@ -35,12 +36,12 @@ Reject checkParents(const RawSkeleton& skeleton) {
   const auto numJoints = static_cast<JointId>(skeleton.joints.size());
   std::vector<std::int32_t> depth(skeleton.joints.size(), 1);
   for (JointId j = 0; j < numJoints; ++j) {
-    const JointId parent = skeleton.joints[static_cast<std::size_t>(j)].parent;
+    const JointId parent = skeleton.joints[slotOf(j)].parent;
     if (parent == kNoParent) continue;
     if (parent < 0 || parent >= numJoints) return Reject::BadIndex;
     if (parent >= j) return Reject::BadHierarchy;
-    std::int32_t& own = depth[static_cast<std::size_t>(j)];
-    own = depth[static_cast<std::size_t>(parent)] + 1;
+    std::int32_t& own = depth[slotOf(j)];
+    own = depth[slotOf(parent)] + 1;
     if (own > kMaxChainDepth) return Reject::Limit;
   }
   return Reject::None;

@@ -9,6 +9,8 @@
 #include <sys/select.h>
 #include <utility>
 
+#include "articulated/try.h"
+#include "lss/index.h"
 #include "network/wire/messages.h"
 #include "network/wire/udpm_socket.h"
 #include "network/wire/wire.h"
@@ -51,7 +53,7 @@ class LcmReceiver : public Receiver {
     const int fd = lcm_get_fileno(lcm_.get());
     for (int i = 0; i < kBatch && waitReadable(fd, i == 0 ? timeoutMs : 0); ++i) {
       if (lcm_handle(lcm_.get()) != 0) {
-        return Error{ErrorCode::FileUnreadable, url_, -1, -1, "liblcm gave up receiving"};
+        return Error::in(url_, ErrorCode::FileUnreadable, "liblcm gave up receiving");
       }
     }
     return Done{};
@@ -67,7 +69,7 @@ class LcmReceiver : public Receiver {
   /// Called from C: nothing may be thrown through it.
   void take(const lcm_recv_buf_t& buffer, const char* channel) noexcept {
     if (buffer.data_size > kMaxMessageBytes) {
-      ++counts_.faults[static_cast<std::size_t>(DatagramFault::TooLarge)];
+      ++counts_.faults[slotOf(DatagramFault::TooLarge)];
       return;
     }
     const auto* payload = static_cast<const std::uint8_t*>(buffer.data);
@@ -87,27 +89,27 @@ Result<std::unique_ptr<Receiver>> openLcmReceiver(const std::string& url,
                                                   const std::vector<std::string>& channels) {
   for (const std::string& channel : channels) {
     if (isLegalChannel(channel)) continue;
-    return Error{ErrorCode::OutOfRange, "", -1, -1,
-                 "channel: expected 1 to 63 bytes of printable ASCII, found '" + channel + "'"};
+    return Error::of(ErrorCode::OutOfRange,
+                     "channel: expected 1 to 63 bytes of printable ASCII, found '" + channel + "'");
   }
   // liblcm reads freed memory for its message where there is no route: ask before it does.
   const auto udpm = parseUdpmUrl(url);
   if (udpm.ok()) {
-    const auto listener = openListeningSocket(udpm.value());
-    if (!listener.ok()) return listener.error();
-    if (listener.value().get() > kMaxDescriptor) {
-      return Error{ErrorCode::LimitExceeded, url, -1, -1,
-                   "liblcm works below descriptor 1024 only, and so many files are open; expected "
-                   "fewer, or our own reader"};
+    FORETOUCH_TRY(const auto listener, openListeningSocket(udpm.value()));
+    if (listener.get() > kMaxDescriptor) {
+      return Error::in(
+          url, ErrorCode::LimitExceeded,
+          "liblcm works below descriptor 1024 only, and so many files are open; expected "
+          "fewer, or our own reader");
     }
   }
   lcm_t* lcm = lcm_create(url.c_str());
   if (lcm == nullptr) {
-    return Error{ErrorCode::FileUnreadable, url, -1, -1, "liblcm does not take this URL"};
+    return Error::in(url, ErrorCode::FileUnreadable, "liblcm does not take this URL");
   }
   auto receiver = std::make_unique<LcmReceiver>(url, lcm);
   if (!receiver->subscribe(channels)) {
-    return Error{ErrorCode::FileUnreadable, url, -1, -1, "liblcm cannot listen here"};
+    return Error::in(url, ErrorCode::FileUnreadable, "liblcm cannot listen here");
   }
   return std::unique_ptr<Receiver>(std::move(receiver));
 }

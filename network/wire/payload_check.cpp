@@ -6,6 +6,8 @@
 #include <foretouch/skeleton_t.hpp>
 #include <foretouch/status_t.hpp>
 
+#include "lss/index.h"
+
 namespace foretouch {
 namespace {
 
@@ -115,7 +117,7 @@ constexpr Field kStatusFields[] = {
 Reject checkText(Cursor& cursor, std::size_t limit) {
   std::int32_t length = 0;  // with its NUL
   if (!cursor.read(length) || length < 1) return Reject::Length;
-  const auto bytes = static_cast<std::size_t>(length);
+  const auto bytes = countOf(length);
   if (bytes - 1 > limit) return Reject::Limit;
   const std::uint8_t* const first = cursor.at();
   if (!cursor.skip(bytes)) return Reject::Length;

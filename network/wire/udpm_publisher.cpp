@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <utility>
 
+#include "articulated/try.h"
 #include "network/wire/messages.h"
 #include "network/wire/udpm_socket.h"
 #include "network/wire/wire.h"
@@ -47,9 +48,8 @@ class UdpmPublisher : public Publisher {
 }  // namespace
 
 Result<std::unique_ptr<Publisher>> openUdpmPublisher(const UdpmUrl& url) {
-  auto socket = openSendingSocket(url);
-  if (!socket.ok()) return socket.error();
-  return std::unique_ptr<Publisher>(new UdpmPublisher(url, std::move(socket.value())));
+  FORETOUCH_TRY(auto socket, openSendingSocket(url));
+  return std::unique_ptr<Publisher>(new UdpmPublisher(url, std::move(socket)));
 }
 
 }  // namespace foretouch

@@ -30,6 +30,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lss/index.h"
 #include "network/wire/udpm_datagram.h"
 #include "network/wire/wire.h"
 
@@ -100,7 +101,7 @@ class UdpmReassembler {
 
   static bool isSame(const Key& a, const Key& b);
   [[nodiscard]] bool isWanted(std::string_view channel) const;
-  void count(DatagramFault fault) { ++counts_.faults[static_cast<std::size_t>(fault)]; }
+  void count(DatagramFault fault) { ++counts_.faults[slotOf(fault)]; }
   void takeFragment(const Key& key, const UdpmDatagram& datagram, std::int64_t utimeUs,
                     std::vector<WireMessage>& messages);
   [[nodiscard]] const Finished* findFinished(const Key& key, std::int64_t utimeUs) const;

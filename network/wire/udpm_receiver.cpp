@@ -8,6 +8,8 @@
 #include <sys/socket.h>
 #include <utility>
 
+#include "articulated/try.h"
+#include "lss/index.h"
 #include "network/wire/messages.h"
 #include "network/wire/udpm_reassembly.h"
 #include "network/wire/udpm_socket.h"
@@ -141,7 +143,7 @@ class UdpmReceiver : public Receiver {
       return socketError(url_, "cannot receive", errno);
     }
     std::int64_t now = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    for (std::size_t i = 0; i < countOf(count); ++i) {
       std::int64_t utimeUs = 0;
       std::uint32_t drops = lastDrops_;
       batch_.readNotes(i, utimeUs, drops);
@@ -176,12 +178,11 @@ Result<std::unique_ptr<Receiver>> openUdpmReceiver(const UdpmUrl& url,
                                                    const std::vector<std::string>& channels) {
   for (const std::string& channel : channels) {
     if (isLegalChannel(channel)) continue;
-    return Error{ErrorCode::OutOfRange, "", -1, -1,
-                 "channel: expected 1 to 63 bytes of printable ASCII, found '" + channel + "'"};
+    return Error::of(ErrorCode::OutOfRange,
+                     "channel: expected 1 to 63 bytes of printable ASCII, found '" + channel + "'");
   }
-  auto socket = openListeningSocket(url);
-  if (!socket.ok()) return socket.error();
-  return std::unique_ptr<Receiver>(new UdpmReceiver(url, std::move(socket.value()), channels));
+  FORETOUCH_TRY(auto socket, openListeningSocket(url));
+  return std::unique_ptr<Receiver>(new UdpmReceiver(url, std::move(socket), channels));
 }
 
 }  // namespace foretouch

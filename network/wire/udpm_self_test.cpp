@@ -70,9 +70,10 @@ Result<Done> testMulticast(const UdpmUrl& url) {
     return socketError(url, "cannot send to the group", errno);
   }
   if (comesBack(listening, sent)) return Done{};
-  return Error{ErrorCode::FileUnreadable, toString(url), -1, -1,
-               "a datagram sent to the group did not come back; expected it within a second: is "
-               "multicast on (ip link set lo multicast on), and let through by the firewall?"};
+  return Error::in(
+      toString(url), ErrorCode::FileUnreadable,
+      "a datagram sent to the group did not come back; expected it within a second: is multicast "
+      "on (ip link set lo multicast on), and does the firewall let it through?");
 }
 
 }  // namespace foretouch

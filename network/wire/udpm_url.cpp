@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "articulated/try.h"
 #include "network/wire/wire.h"
 
 namespace foretouch {
@@ -82,8 +83,7 @@ Result<UdpmUrl> parseUdpmUrl(const std::string& url) {
                    "port: expected 1 to 65535, found '" + std::string(place) + "'");
   }
   while (!rest.empty()) {
-    const auto read = readOption(url, upTo('&', rest), parsed);
-    if (!read.ok()) return read.error();
+    FORETOUCH_CHECK(readOption(url, upTo('&', rest), parsed));
   }
   return parsed;
 }

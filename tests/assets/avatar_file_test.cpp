@@ -82,7 +82,7 @@ TEST(ParseAvatar, RefusesUnknownAndRepeatedAndMissingKeys) {
   expectRefusal("\"radius\"", "\"r\"", ErrorCode::UnknownName, 6, 1, "a, b, radius");
   expectRefusal("\"node\"", "\"nod\"", ErrorCode::UnknownName, 7, 1, "file, node");
   expectRefusal("\"version\": 1", "\"version\": 1, \"version\": 1", ErrorCode::DuplicateName, 1, -1,
-                "'version' stands twice");
+                "'version' appears twice");
   expectRefusal("\"radius\": 0.045", "\"radius\": 1, \"radius\": 1", ErrorCode::DuplicateName, 6, 1,
                 "twice");
   expectRefusal("\"version\": 1,", "", ErrorCode::Syntax, 8, -1, "'version' is missing");

@@ -65,7 +65,7 @@ TEST(CQueryErrors, OfQueryOptions) {
         a.options.policy_count = 2;
         a.options.policies = policies;
       },
-      FT_ERROR_MISMATCH, {"one a link"});
+      FT_ERROR_MISMATCH, {"one per link"});
   refuse<Asking>(
       [&](Asking& a) {
         a.options.policy_count = kNegative;

@@ -120,7 +120,7 @@ Result<SweepClip> loadClip(const std::string& path) {
   if (!unscaled) return unscaled.error();
   const double extent = restExtent(unscaled.value());
   if (unscaled.value().frames.size() < 2 || !(extent > 0.0)) {
-    return Error{ErrorCode::Empty, path, -1, -1, "fewer than two frames, or no extent"};
+    return Error::in(path, ErrorCode::Empty, "fewer than two frames, or no extent");
   }
   BvhOptions options;
   options.scale = kPersonM / extent;
@@ -152,7 +152,7 @@ Result<SweepScene> loadScene(const std::string& name, const std::string& dataFol
   const auto* known = std::find_if(std::begin(kScenes), std::end(kScenes),
                                    [&](const KnownScene& k) { return name == k.name; });
   if (known == std::end(kScenes)) {
-    return Error{ErrorCode::UnknownName, name, -1, -1, "not a scene of the sweep"};
+    return Error::in(name, ErrorCode::UnknownName, "not a scene of the sweep");
   }
   SceneImportOptions options;
   options.up = known->up;
@@ -162,7 +162,7 @@ Result<SweepScene> loadScene(const std::string& name, const std::string& dataFol
   auto scene = Scene::build(std::move(imported.value().scene));
   if (!scene) return scene.error();
   if (scene.value().audit().droppedNonFinite > 0) {
-    return Error{ErrorCode::NonFinite, name, -1, -1, "the oracle needs finite triangles"};
+    return Error::in(name, ErrorCode::NonFinite, "the oracle needs finite triangles");
   }
   return SweepScene{name, std::move(scene).value(), oracle::Scene(std::move(triangles))};
 }

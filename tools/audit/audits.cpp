@@ -10,6 +10,7 @@
 #include "articulated/motion.h"
 #include "articulated/quoted.h"
 #include "assets/bvh/stature.h"
+#include "lss/index.h"
 #include "tools/inputs/played_clip.h"
 
 namespace foretouch::tools {
@@ -54,7 +55,7 @@ AvatarAudit auditAvatar(const Avatar& avatar, const Pose& pose) {
     if (avatar.lss(link).empty()) audit.linksWithoutLss.push_back(avatar.skeleton().name(link));
     for (const Lss& lss : avatar.lss(link)) {
       for (const Vector3d& end : {lss.a, lss.b}) {
-        const Vector3d p_W = states[static_cast<std::size_t>(link)].pointAt(end);
+        const Vector3d p_W = states[slotOf(link)].pointAt(end);
         lower = lower.cwiseMin((p_W.array() - lss.radius).matrix());
         upper = upper.cwiseMax((p_W.array() + lss.radius).matrix());
       }
@@ -122,7 +123,7 @@ std::string largestObjects(const Scene& scene) {
   const std::size_t n = scene.objectNames().size();
   std::vector<std::size_t> triangles(n, 0);
   for (std::size_t id = 0; id < scene.numTriangles(); ++id) {
-    ++triangles[static_cast<std::size_t>(scene.object(static_cast<TriangleId>(id)))];
+    ++triangles[slotOf(scene.object(static_cast<TriangleId>(id)))];
   }
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/avatar/joint_match.h"
 #include "assets/mesh/link_mesh.h"
@@ -26,12 +27,11 @@ struct Findings {
 };
 
 Result<Clip> readClip(const ClipRequest& asked) {
-  auto motion = readMotion(motionRequestOf(asked));
-  if (!motion.ok()) return motion.error();
-  for (const std::string& note : motion.value().clip.notes) {
+  FORETOUCH_TRY(auto motion, readMotion(motionRequestOf(asked)));
+  for (const std::string& note : motion.clip.notes) {
     printNote(asked.motionPath + ": " + note);
   }
-  return std::move(motion).value().clip;
+  return std::move(motion).clip;
 }
 
 /// How the clip's joints and the avatar's go together, in words; `pose` becomes the first frame's,
@@ -63,9 +63,8 @@ Result<std::string> matchOf(const ClipRequest& asked, const Avatar& avatar, cons
 /// The match with the clip; `pose` becomes the first frame's, where there is a match.
 Result<Done> checkMotion(const ClipRequest& asked, const Avatar& avatar, Pose& pose,
                          Findings& findings) {
-  const auto clip = readClip(asked);
-  if (!clip.ok()) return clip.error();
-  const auto match = matchOf(asked, avatar, clip.value(), pose, findings.doubts);
+  FORETOUCH_TRY(const auto clip, readClip(asked));
+  const auto match = matchOf(asked, avatar, clip, pose, findings.doubts);
   if (match.ok()) {
     findings.text += match.value();
   } else if (match.error().code == ErrorCode::Mismatch) {
@@ -82,27 +81,23 @@ Result<Done> checkMeshes(const ClipRequest& asked, const Avatar& avatar, Finding
     any = any || !avatar.mesh(link).file.empty();
   }
   if (!any) return Done{};
-  const auto meshes = loadLinkMeshes(avatar, asked.avatarPath);
-  if (!meshes.ok()) return inFile(meshes.error(), asked.avatarPath);
-  const SurfaceAudit audit = auditSurface(avatar, meshes.value());
+  FORETOUCH_TRY(const auto meshes, loadLinkMeshes(avatar, asked.avatarPath));
+  const SurfaceAudit audit = auditSurface(avatar, meshes);
   findings.text += describe(audit);
   for (const std::string& doubt : doubtsAbout(audit)) findings.doubts.push_back(doubt);
   return Done{};
 }
 
 ExitCode check(const ClipRequest& asked) {
-  const auto read = readAvatarFile(asked.avatarPath);
-  if (!read.ok()) return failed(inFile(read.error(), asked.avatarPath));
-  const Avatar& avatar = read.value();
+  FORETOUCH_TRY_OR(failed, const auto read, readAvatarFile(asked.avatarPath));
+  const Avatar& avatar = read;
   Pose pose = restPose(avatar.skeleton());
   Findings findings;
   const bool hasMotion = !asked.motionPath.empty();
   if (hasMotion) {
-    const auto done = checkMotion(asked, avatar, pose, findings);
-    if (!done.ok()) return failed(done.error());
+    FORETOUCH_CHECK_OR(failed, checkMotion(asked, avatar, pose, findings));
   }
-  const auto done = checkMeshes(asked, avatar, findings);
-  if (!done.ok()) return failed(done.error());
+  FORETOUCH_CHECK_OR(failed, checkMeshes(asked, avatar, findings));
   const AvatarAudit audit = auditAvatar(avatar, pose);
   printOut(asked.avatarPath + "\n" + describe(audit, hasMotion ? "first frame" : "rest pose") +
            findings.text);

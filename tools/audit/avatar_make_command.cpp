@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
@@ -48,16 +49,13 @@ void tell(const Avatar& avatar, const std::string& output, const std::string& mo
 }
 
 ExitCode makeFromBvh(const AskedOfClip& asked) {
-  const auto separate = checkIsNoInput(asked.output, {asked.clip});
-  if (!separate.ok()) return failed(separate.error());
-  const auto clip = readBvhFile(asked.clip, asked.reading);
-  if (!clip.ok()) return failed(inFile(clip.error(), asked.clip));
-  for (const std::string& note : clip.value().notes) printNote(asked.clip + ": " + note);
-  const auto avatar = avatarFromClip(clip.value(), asked.making);
-  if (!avatar.ok()) return failed(inFile(avatar.error(), asked.clip));
-  const auto written = writeAvatarFile(avatar.value(), asked.output);
-  if (!written.ok()) return failed(inFile(written.error(), asked.output));
-  tell(avatar.value(), asked.output, "");
+  FORETOUCH_CHECK_OR(failed, checkIsNoInput(asked.output, {asked.clip}));
+  FORETOUCH_TRY_OR(failed, const auto clip, readBvhFile(asked.clip, asked.reading));
+  for (const std::string& note : clip.notes) printNote(asked.clip + ": " + note);
+  FORETOUCH_TRY_OR(failed, const auto avatar,
+                   inFile(avatarFromClip(clip, asked.making), asked.clip));
+  FORETOUCH_CHECK_OR(failed, writeAvatarFile(avatar, asked.output));
+  tell(avatar, asked.output, "");
   return ExitCode::Done;
 }
 
@@ -87,17 +85,12 @@ std::filesystem::path meshPathOf(const std::string& output) {
 
 /// The mesh first: an avatar file never refers to one that is not there yet.
 Result<Done> writeBoth(const ModelAvatar& made, const std::string& output) {
-  {
-    const auto trial = PendingFile::create(output);
-    if (!trial.ok()) return inFile(trial.error(), output);
-  }
+  FORETOUCH_CHECK(PendingFile::create(output));
   if (made.report.triangles > 0) {
     const std::string path = meshPathOf(output).string();
-    const auto written = writeLinkMeshes(made.avatar.skeleton(), made.surface, path);
-    if (!written.ok()) return inFile(written.error(), path);
+    FORETOUCH_CHECK(writeLinkMeshes(made.avatar.skeleton(), made.surface, path));
   }
-  const auto written = writeAvatarFile(made.avatar, output);
-  if (!written.ok()) return inFile(written.error(), output);
+  FORETOUCH_CHECK(writeAvatarFile(made.avatar, output));
   return Done{};
 }
 
@@ -105,21 +98,18 @@ ExitCode makeFromModel(AskedOfModel asked) {
   asked.reading.urdfSurface = asked.visual ? UrdfSurface::Visual : UrdfSurface::Collision;
   asked.making.meshFile = meshPathOf(asked.output).filename().string();
   for (const std::string& output : {asked.output, meshPathOf(asked.output).string()}) {
-    const auto separate = checkIsNoInput(output, {asked.model});
-    if (!separate.ok()) return failed(separate.error());
+    FORETOUCH_CHECK_OR(failed, checkIsNoInput(output, {asked.model}));
   }
-  const auto model = importModel(asked.model, asked.reading);
-  if (!model.ok()) return failed(inFile(model.error(), asked.model));
-  for (const std::string& note : model.value().notes) printNote(asked.model + ": " + note);
-  const auto made = avatarFromModel(model.value(), asked.making);
-  if (!made.ok()) return failed(inFile(made.error(), asked.model));
-  for (const std::string& note : made.value().report.notes) printNote(asked.model + ": " + note);
-  const auto written = writeBoth(made.value(), asked.output);
-  if (!written.ok()) return failed(written.error());
+  FORETOUCH_TRY_OR(failed, const auto model, importModel(asked.model, asked.reading));
+  for (const std::string& note : model.notes) printNote(asked.model + ": " + note);
+  FORETOUCH_TRY_OR(failed, const auto made,
+                   inFile(avatarFromModel(model, asked.making), asked.model));
+  for (const std::string& note : made.report.notes) printNote(asked.model + ": " + note);
+  FORETOUCH_CHECK_OR(failed, writeBoth(made, asked.output));
 
   std::size_t read = 0;
-  for (const ModelMesh& mesh : model.value().meshes) read += mesh.triangles.size();
-  tell(made.value().avatar, asked.output, describe(made.value(), read), asked.isRobot);
+  for (const ModelMesh& mesh : model.meshes) read += mesh.triangles.size();
+  tell(made.avatar, asked.output, describe(made, read), asked.isRobot);
   return ExitCode::Done;
 }
 
@@ -178,7 +168,7 @@ Command avatarUrdfCommand() {
   Settings settings;
   settings.path("robot", "ROBOT", asked->model, "URDF file").required();
   addModelSettings(settings, *asked, "Metres per unit of the robot");
-  settings.flag("--visual", asked->visual, "Take what is seen for what touches");
+  settings.flag("--visual", asked->visual, "Use the visual meshes as the collision surface");
   settings.list("--package", "DIR", asked->reading.packagePaths,
                 "Where package://NAME/ is; may be repeated");
   Command command{

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/import/scene_import.h"
 #include "middleware/scene/scene.h"
 #include "tools/audit/audits.h"
@@ -24,16 +25,15 @@ std::string describe(const SceneImportReport& report) {
 }
 
 ExitCode check(const WorldRequest& asked) {
-  auto imported = importScene(asked.scenePath, asked.sceneImport);
-  if (!imported.ok()) return failed(inFile(imported.error(), asked.scenePath));
-  const SceneImportReport report = imported.value().report;
+  FORETOUCH_TRY_OR(failed, auto imported, importScene(asked.scenePath, asked.sceneImport));
+  const SceneImportReport report = imported.report;
   // Built, not only measured: a scene that passes here is one that a replay takes.
-  const auto scene = Scene::build(std::move(imported.value().scene));
-  if (!scene.ok()) return failed(inFile(scene.error(), asked.scenePath));
+  FORETOUCH_TRY_OR(failed, const auto scene,
+                   inFile(Scene::build(std::move(imported.scene)), asked.scenePath));
 
-  const SceneAudit& audit = scene.value().audit();
+  const SceneAudit& audit = scene.audit();
   printOut(asked.scenePath + "\n" + tools::describe(audit) + describe(report) + "\n" +
-           largestObjects(scene.value()));
+           largestObjects(scene));
   const std::vector<std::string> doubts = doubtsAbout(audit);
   for (const std::string& doubt : doubts) printError(asked.scenePath + ": " + doubt);
   return doubts.empty() ? ExitCode::Done : ExitCode::CheckSaysNo;

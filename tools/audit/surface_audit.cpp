@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "assets/text_file.h"
+#include "lss/index.h"
 #include "lss/lss_cover.h"
 #include "tools/audit/audits.h"
 #include "tools/inputs/played_clip.h"
@@ -20,7 +21,7 @@ std::string countAndNames(const std::vector<std::string>& names) {
 SurfaceAudit auditSurface(const Avatar& avatar, const std::vector<std::vector<Triangle>>& meshes) {
   SurfaceAudit audit;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    const auto& triangles = meshes[static_cast<std::size_t>(link)];
+    const auto& triangles = meshes[slotOf(link)];
     const std::string& name = avatar.skeleton().name(link);
     if (triangles.empty()) continue;
     audit.triangles += triangles.size();

@@ -39,8 +39,7 @@ void addCommands(CLI::App& program, ExitCode& exit) {
 
 int runForetouch(int argc, const char* const* argv) noexcept {
   return runProgram(
-      {"foretouch",
-       "Continuous collision detection of avatars: what is touched between two poses.",
+      {"foretouch", "Continuous collision detection of avatars: what they touch between two poses.",
        "Start with: foretouch demo"},
       addCommands, argc, argv);
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/audit/audits.h"
 #include "tools/commands/replay_command.h"
@@ -48,12 +49,11 @@ std::string defaultReport(const std::string& output) {
 }
 
 ExitCode runDemo(const std::string& output, const std::string& report) {
-  const auto folder = exampleFolder();
-  if (!folder.ok()) return failed(folder.error());
+  FORETOUCH_TRY_OR(failed, const auto folder, exampleFolder());
   ReplayJob job;
-  job.request.scenePath = folder.value() + "/room.obj";
-  job.request.avatarPath = folder.value() + "/dancer.avatar.json";
-  job.request.motionPath = folder.value() + "/dancer.bvh";
+  job.request.scenePath = folder + "/room.obj";
+  job.request.avatarPath = folder + "/dancer.avatar.json";
+  job.request.motionPath = folder + "/dancer.bvh";
   job.request.rateHz = kDemoRateHz;
   job.outputPath = output;
   job.report.path = report.empty() ? defaultReport(output) : report;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/commands/replay_log_command.h"
@@ -68,7 +69,7 @@ void addComparisonSettings(Settings& settings, ReplayOptions& options) {
       .flag("--compare-link", options.compareLink,
             "With --fidelity exact: also count the LSS contacts that the meshes refute")
       .ofClips();
-  settings.flag("--rays", options.rays, "Also time 16 occlusion rays a step, as a yardstick")
+  settings.flag("--rays", options.rays, "Also time 16 occlusion rays per step, as a yardstick")
       .ofClips();
 }
 
@@ -109,37 +110,40 @@ Result<Done> checkTogether(const ReplayJob& job) {
       fidelity == Fidelity::Limb || fidelity == Fidelity::Avatar || fidelity == Fidelity::Ellipsoid;
   const bool compares = job.options.compareRigid || job.options.compareLink;
   if (isAboveLinks && compares) {
-    return Error{ErrorCode::OutOfRange, "--fidelity", -1, -1,
-                 "expected link, exact or skinned with --compare-rigid or --compare-link: above "
-                 "them links have no surface of their own to compare"};
+    return Error::in(
+        "--fidelity", ErrorCode::OutOfRange,
+        "expected link, exact or skinned with --compare-rigid or --compare-link: above "
+        "them links have no surface of their own to compare");
   }
   if (request.budgetUs == 0) return Done{};
   if (compares) {
-    return Error{ErrorCode::Mismatch, "--budget-us", -1, -1,
-                 "expected none with --compare-rigid or --compare-link: what is undecided has "
-                 "nothing to compare"};
+    return Error::in("--budget-us", ErrorCode::Mismatch,
+                     "expected none with --compare-rigid or --compare-link: what is undecided has "
+                     "nothing to compare");
   }
   if (request.query.culler != Culler::FlatBvh) {
-    return Error{ErrorCode::Mismatch, "--budget-us", -1, -1,
-                 "expected none with --culler point-query: cullers do different work, and would "
-                 "leave different links undecided"};
+    return Error::in(
+        "--budget-us", ErrorCode::Mismatch,
+        "expected none with --culler point-query: cullers do different work, and would "
+        "leave different links undecided");
   }
   return Done{};
 }
 
-/// Of the options that make no sense with this kind of motion, one that was given all the same.
+/// Refuses an option that this kind of motion cannot honour.
 Result<Done> checkOptions(const Settings& settings, const AskedReplay& asked, bool isLog) {
   const std::string& motion = asked.job.request.motionPath;
   for (const Setting& setting : settings) {
     if (!setting.isGiven || !(isLog ? setting.isOfClips : setting.isOfLogs)) continue;
-    return Error{ErrorCode::Mismatch, setting.option, -1, -1,
-                 std::string("makes no sense with ") + (isLog ? "an event log" : "a clip") +
-                     " as --motion; expected none, found one with " + inQuotes(motion)};
+    return Error::in(setting.option, ErrorCode::Mismatch,
+                     std::string("applies to ") + (isLog ? "clips" : "event logs") +
+                         " only, but --motion is the " + (isLog ? "event log " : "clip ") +
+                         inQuotes(motion));
   }
   if (!isLog && asked.avatars.size() > 1) {
-    return Error{ErrorCode::Mismatch, "--avatar", -1, -1,
-                 "expected one avatar for a clip, found " + std::to_string(asked.avatars.size()) +
-                     "; an event log may have several"};
+    return Error::in("--avatar", ErrorCode::Mismatch,
+                     "expected one avatar for a clip, found " +
+                         std::to_string(asked.avatars.size()) + "; an event log may have several");
   }
   return Done{};
 }
@@ -164,13 +168,11 @@ ExitCode runClip(const AskedReplay& asked) {
 }
 
 ExitCode runLog(const AskedReplay& asked) {
-  auto avatars = parseNumberedAvatars("--avatar", asked.avatars);
-  if (!avatars.ok()) return failed(avatars.error());
+  FORETOUCH_TRY_OR(failed, auto avatars, parseNumberedAvatars("--avatar", asked.avatars));
   const ReplayRequest& given = asked.job.request;
-  const LogReplayJob job{
-      {given.motionPath, given, std::move(avatars).value(), asked.stream, asked.suffix},
-      asked.job.outputPath,
-      asked.job.report};
+  const LogReplayJob job{{given.motionPath, given, std::move(avatars), asked.stream, asked.suffix},
+                         asked.job.outputPath,
+                         asked.job.report};
   const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
   const auto replayed = runLogReplay(job, [&](const std::string& text) {
     outIsTaken ? printAside(text) : printOut(text + placesOf(job.outputPath, job.report.path));
@@ -181,12 +183,9 @@ ExitCode runLog(const AskedReplay& asked) {
 
 ExitCode run(const Settings& settings, AskedReplay& asked) {
   const bool isLog = isEventLog(asked.job.request.motionPath);
-  const auto fitting = checkOptions(settings, asked, isLog);
-  if (!fitting.ok()) return failed(fitting.error());
-  const auto read = readPolicies(asked.job.request);
-  if (!read.ok()) return failed(read.error());
-  const auto together = checkTogether(asked.job);
-  if (!together.ok()) return failed(together.error());
+  FORETOUCH_CHECK_OR(failed, checkOptions(settings, asked, isLog));
+  FORETOUCH_CHECK_OR(failed, readPolicies(asked.job.request));
+  FORETOUCH_CHECK_OR(failed, checkTogether(asked.job));
   return isLog ? runLog(asked) : runClip(asked);
 }
 
@@ -209,9 +208,8 @@ verdicts as well, exit code 1 says that those found now are others.)";
 /// Nothing where none is asked for.
 Result<Done> writeGlb(const ReplayGlb& glb, const std::string& path) {
   if (path.empty()) return Done{};
-  const auto notes = glb.write();
-  if (!notes.ok()) return notes.error();
-  for (const std::string& note : notes.value()) printNote(path + ": " + note);
+  FORETOUCH_TRY(const auto notes, glb.write());
+  for (const std::string& note : notes) printNote(path + ": " + note);
   return Done{};
 }
 
@@ -228,22 +226,20 @@ Result<Done> runReplay(const ReplayJob& job,
                       page == job.glb.path ? job.report.path : ""});
     if (!checked.ok()) return checked.error();
   }
-  const auto inputs = loadReplayInputs(request);
-  if (!inputs.ok()) return inputs.error();
-  for (const std::string& remark : remarksOn(inputs.value())) printNote(remark);
+  FORETOUCH_TRY(const auto inputs, loadReplayInputs(request));
+  for (const std::string& remark : remarksOn(inputs)) printNote(remark);
 
-  ReplaySummary summary(inputs.value());
+  ReplaySummary summary(inputs);
   std::optional<ReplayReport> report;
-  if (!job.report.path.empty()) report.emplace(inputs.value(), job.report);
-  ReplayGlb glb(inputs.value(), job.glb);
+  if (!job.report.path.empty()) report.emplace(inputs, job.report);
+  ReplayGlb glb(inputs, job.glb);
   {
     const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
-    auto file = PendingFile::create(job.outputPath);
-    if (!file.ok()) return file.error();
-    file.value().write(headerLine(inputs.value()));
-    ProgressBar progress("replay", inputs.value().steps.count);
-    const auto done = replay(inputs.value(), job.options, [&](const ReplayedStep& step) {
-      file.value().write(step.line);
+    FORETOUCH_TRY(auto file, PendingFile::create(job.outputPath));
+    file.write(headerLine(inputs));
+    ProgressBar progress("replay", inputs.steps.count);
+    const auto done = replay(inputs, job.options, [&](const ReplayedStep& step) {
+      file.write(step.line);
       summary.add(step);
       if (report) report->add(step);
       glb.add(step.answer);
@@ -252,10 +248,8 @@ Result<Done> runReplay(const ReplayJob& job,
     });
     if (!done.ok()) return done.error();
     if (!guard.requested()) {
-      const auto written = file.value().commit();
-      if (!written.ok()) return written.error();
-      const auto shown = writeGlb(glb, job.glb.path);
-      if (!shown.ok()) return shown.error();
+      FORETOUCH_CHECK(file.commit());
+      FORETOUCH_CHECK(writeGlb(glb, job.glb.path));
     }
     if (report && !guard.requested()) {
       const auto reported = writeReport(job.report.path, guard, [&](const ReportProgress& watch) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/interrupt.h"
 #include "tools/log/replay_log_summary.h"
@@ -21,21 +22,18 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
   inputPaths.push_back(job.request.world.policyPath);
   for (const NumberedAvatar& avatar : job.request.avatars) inputPaths.push_back(avatar.path);
   inputPaths.push_back(job.request.world.skinPath);
-  const auto checked = checkOutputs(job.outputPath, job.report.path, inputPaths);
-  if (!checked.ok()) return checked.error();
-  const auto inputs = loadLogReplayInputs(job.request);
-  if (!inputs.ok()) return inputs.error();
+  FORETOUCH_CHECK(checkOutputs(job.outputPath, job.report.path, inputPaths));
+  FORETOUCH_TRY(const auto inputs, loadLogReplayInputs(job.request));
 
-  LogReplaySummary summary(inputs.value());
+  LogReplaySummary summary(inputs);
   std::optional<LogReport> report;
-  if (!job.report.path.empty()) report.emplace(inputs.value(), job.report);
+  if (!job.report.path.empty()) report.emplace(inputs, job.report);
   const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
-  auto file = PendingFile::create(job.outputPath);
-  if (!file.ok()) return file.error();
-  file.value().write(logHeaderLine(inputs.value()));
+  FORETOUCH_TRY(auto file, PendingFile::create(job.outputPath));
+  file.write(logHeaderLine(inputs));
   ProgressBar progress("replay", 100);
-  auto replayed = replayLog(inputs.value(), [&](const AnsweredPose& answered) {
-    file.value().write(contactsLine(answered.answer, Stamps::Without));
+  auto replayed = replayLog(inputs, [&](const AnsweredPose& answered) {
+    file.write(contactsLine(answered.answer, Stamps::Without));
     summary.add(answered.answer, answered.avatar);
     if (report) report->add(answered);
     if (answered.logBytes > 0) {
@@ -45,8 +43,7 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
     return !guard.requested();
   });
   if (!replayed.ok() || guard.requested()) return replayed;
-  const auto written = file.value().commit();
-  if (!written.ok()) return written.error();
+  FORETOUCH_CHECK(file.commit());
   if (report) {
     const auto reported = writeReport(job.report.path, guard,
                                       [&](const ReportProgress& watch) -> Result<ViewDocument> {

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "network/service/metrics_server.h"
 #include "network/service/metrics_text.h"
 #include "network/service/service.h"
@@ -34,18 +35,16 @@ constexpr milliseconds kLookEvery{500};
 
 /// Tries the network before it is relied on, and opens it.
 Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
-  const auto url = parseUdpmUrl(config.url);
-  if (!url.ok()) return inFile(url.error(), "--url");
-  const auto tried = testMulticast(url.value());
-  if (!tried.ok()) return inFile(tried.error(), config.url);
+  FORETOUCH_TRY(const auto url, inFile(parseUdpmUrl(config.url), "--url"));
+  FORETOUCH_CHECK(testMulticast(url));
   const std::vector<std::string> channels = receivedChannels(config.service.suffix);
-  auto receiver = config.receiver == ReceiverKind::Own ? openUdpmReceiver(url.value(), channels)
-                                                       : openLcmReceiver(config.url, channels);
-  if (!receiver.ok()) return inFile(receiver.error(), config.url);
-  auto publisher = openUdpmPublisher(url.value());
-  if (!publisher.ok()) return inFile(publisher.error(), config.url);
-  parts.receiver = std::move(receiver).value();
-  parts.publisher = std::move(publisher).value();
+  FORETOUCH_TRY(auto receiver,
+                inFile(config.receiver == ReceiverKind::Own ? openUdpmReceiver(url, channels)
+                                                            : openLcmReceiver(config.url, channels),
+                       config.url));
+  FORETOUCH_TRY(auto publisher, inFile(openUdpmPublisher(url), config.url));
+  parts.receiver = std::move(receiver);
+  parts.publisher = std::move(publisher);
   return Done{};
 }
 
@@ -67,27 +66,25 @@ std::string logPathIn(const std::string& given) {
 
 Result<Done> openLog(const ServeConfig& config, ServiceParts& parts) {
   if (config.log.empty()) return Done{};
-  auto sink = createLogSink(config.log);
-  if (!sink.ok()) return inFile(sink.error(), config.log);
-  parts.journal = std::move(sink).value();
+  FORETOUCH_TRY(parts.journal, createLogSink(config.log));
   return Done{};
 }
 
 Result<std::optional<MetricsServer>> openHttp(const ServeConfig& config, const Service& service) {
   if (config.http.empty()) return std::optional<MetricsServer>();
-  const auto address = parseHttpAddress("--http", config.http);
-  if (!address.ok()) return address.error();
+  FORETOUCH_TRY(const auto address, parseHttpAddress("--http", config.http));
   MetricsServer::Pages pages;
   pages.metrics = [&service] {
     return metricsText(service.facts(), service.counts(), service.times());
   };
   pages.health = [&service] { return service.health(); };
-  auto server = MetricsServer::start(address.value().host, address.value().port, std::move(pages));
-  if (!server.ok()) return inFile(server.error(), "--http");
-  if (!isLoopback(address.value().host)) {
+  FORETOUCH_TRY(
+      auto server,
+      inFile(MetricsServer::start(address.host, address.port, std::move(pages)), "--http"));
+  if (!isLoopback(address.host)) {
     printNote("--http: whoever reaches " + config.http + " can read the metrics");
   }
-  return std::optional<MetricsServer>(std::move(server).value());
+  return std::optional<MetricsServer>(std::move(server));
 }
 
 std::string describe(const ServeConfig& config, const ServedWorld& world) {
@@ -167,9 +164,8 @@ void addConfigSetting(Settings& settings, ServeConfig& config) {
   settings.parsed(
       "--config", "FILE",
       [&config](const std::string& path) -> Result<Done> {
-        auto read = path.empty() ? Result<ServeConfig>(ServeConfig()) : readServeConfig(path);
-        if (!read.ok()) return read.error();
-        config = std::move(read).value();
+        FORETOUCH_TRY(config,
+                      path.empty() ? Result<ServeConfig>(ServeConfig()) : readServeConfig(path));
         return Done{};
       },
       [] { return std::string(); },
@@ -191,46 +187,40 @@ answered first. docs/streaming.md has the whole story.)";
 Result<Done> serve(const ServeConfig& given) {
   ServeConfig config = given;
   config.log = logPathIn(given.log);
-  auto world = loadServedWorld(config);
-  if (!world.ok()) return world.error();
-  for (const std::string& remark : world.value().remarks) printNote(remark);
+  FORETOUCH_TRY(auto world, loadServedWorld(config));
+  for (const std::string& remark : world.remarks) printNote(remark);
   ServiceParts parts;
-  const auto wire = openWire(config, parts);
-  if (!wire.ok()) return wire.error();
-  const auto log = openLog(config, parts);
-  if (!log.ok()) return log.error();
+  FORETOUCH_CHECK(openWire(config, parts));
+  FORETOUCH_CHECK(openLog(config, parts));
 
-  std::optional<ServeView> view = prepareView(config, world.value());
-  ViewFeed feed(world.value().avatars.size());
+  std::optional<ServeView> view = prepareView(config, world);
+  ViewFeed feed(world.avatars.size());
   if (view) parts.observer = &feed;
 
   ServiceOptions options = config.service;
   options.build = "foretouch " FORETOUCH_VERSION " " FORETOUCH_BUILD_TYPE;
   options.scene = config.world.scenePath;
-  const std::string line = describe(config, world.value());
+  const std::string line = describe(config, world);
   StopSignal stop;
-  auto service = Service::start(std::move(world.value().avatars), std::move(parts), options);
-  if (!service.ok()) return service.error();
-  auto http = openHttp(config, service.value());
-  if (!http.ok()) return http.error();
-  auto watched = openView(config, std::move(view), service.value(), feed);
-  if (!watched.ok()) return watched.error();
+  FORETOUCH_TRY(auto service, Service::start(std::move(world.avatars), std::move(parts), options));
+  FORETOUCH_TRY(auto http, openHttp(config, service));
+  FORETOUCH_TRY(auto watched, openView(config, std::move(view), service, feed));
 
   printOut(line + "\nready\n");
   if (!outputArrived()) {
-    return Error{ErrorCode::FileUnwritable, "standard output", -1, -1, "cannot be written"};
+    return Error::in("standard output", ErrorCode::FileUnwritable, "cannot be written");
   }
   const ServiceManager manager;
   manager.ready(line);
   JournalWatch journal(config.log);
-  waitForEnd(service.value(), manager, stop, journal);
+  waitForEnd(service, manager, stop, journal);
   manager.stopping();
-  service.value().stop();
-  http.value().reset();
-  watched.value().reset();
-  journal.look(service.value());
-  printOut(summaryOf(service.value().counts()));
-  if (const auto failure = service.value().failure()) return inFile(*failure, config.url);
+  service.stop();
+  http.reset();
+  watched.reset();
+  journal.look(service);
+  printOut(summaryOf(service.counts()));
+  if (const auto failure = service.failure()) return inFile(*failure, config.url);
   return Done{};
 }
 
@@ -239,7 +229,7 @@ Command serveCommand() {
   Settings settings;
   addConfigSetting(settings, *config);
   addServeSettings(settings, *config);
-  Command command{"serve", "Answer poses that come over LCM, until told to stop", kServeExamples,
+  Command command{"serve", "Answer poses that arrive over LCM, until stopped", kServeExamples,
                   std::move(settings)};
   command.run = [config](const Settings& given) { return run(given, *config); };
   return command;

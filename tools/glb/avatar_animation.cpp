@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 
 namespace foretouch::tools {
 namespace {
@@ -80,7 +81,7 @@ struct TranslationKeys {
 
 TranslationKeys translationKeys(const std::vector<Pose>& poses, JointId joint,
                                 const Vector3d& origin) {
-  const auto index = static_cast<std::size_t>(joint);
+  const auto index = slotOf(joint);
   TranslationKeys keys;
   for (const Pose& pose : poses) {
     keys.areConstant =
@@ -106,7 +107,7 @@ json nodeOf(const Skeleton& skeleton, JointId joint, const Quaternion& rotation,
 RotationKeys rotationKeys(const std::vector<Pose>& poses, JointId joint) {
   // Beyond a third of a turn; up to there floats are far from the other arc.
   constexpr double kLeastDot = 0.5;
-  const auto index = static_cast<std::size_t>(joint);
+  const auto index = slotOf(joint);
   RotationKeys keys;
   keys.areConstant = true;
   bool isNegative = false;
@@ -141,10 +142,10 @@ Result<Done> checkTimes(const std::vector<double>& timesS) {
   const auto late = std::adjacent_find(times.begin(), times.end(),
                                        [](float earlier, float later) { return later <= earlier; });
   if (late == times.end()) return Done{};
-  return Error{
-      ErrorCode::OutOfRange, "--glb", -1, -1,
+  return Error::in(
+      "--glb", ErrorCode::OutOfRange,
       fmt::format("times in a GLB are floats, which do not tell the poses after {} s apart",
-                  *late)};
+                  *late));
 }
 
 std::size_t addAvatar(const AvatarTrack& track, const std::vector<std::size_t>& meshes,
@@ -159,7 +160,7 @@ std::size_t addAvatar(const AvatarTrack& track, const std::vector<std::size_t>& 
     const Vector3d shift = isRoot ? origin : Vector3d(Vector3d::Zero());
     const RotationKeys rotations = rotationKeys(track.poses, joint);
     const TranslationKeys translations = translationKeys(track.poses, joint, shift);
-    const auto index = static_cast<std::size_t>(joint);
+    const auto index = slotOf(joint);
     const std::size_t node = document.add(
         "nodes", nodeOf(skeleton, joint, rotations.values.front(),
                         track.poses.front().translations[index] - shift, meshes[index]));

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include "assets/json_writer.h"
+#include "lss/index.h"
 #include "tools/contact_json.h"
 
 namespace foretouch::tools {
 namespace {
 
 const std::string& objectOf(const LinkContact& contact, const Scene& scene) {
-  return scene.objectNames()[static_cast<std::size_t>(scene.object(contact.triangle))];
+  return scene.objectNames()[slotOf(scene.object(contact.triangle))];
 }
 
 }  // namespace

@@ -58,9 +58,9 @@ Result<std::string> GltfDocument::glbHead() const {
   text.resize((text.size() + kAlignment - 1) / kAlignment * kAlignment, ' ');
   const std::size_t total = kHeadBytes + 2 * kChunkHeadBytes + text.size() + binaryBytes_;
   if (total > kMostBytes) {
-    return Error{ErrorCode::LimitExceeded, "", -1, -1,
-                 "a GLB file holds at most 4 GiB, and this one would take " +
-                     std::to_string(total) + " bytes"};
+    return Error::of(ErrorCode::LimitExceeded,
+                     "a GLB file holds at most 4 GiB, and this one would take " +
+                         std::to_string(total) + " bytes");
   }
   std::string head;
   for (const std::size_t word : {std::size_t{kGlbMagic}, std::size_t{kGlbVersion}, total,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "assets/mesh/link_mesh.h"
+#include "lss/index.h"
 #include "tools/glb/replay_scene.h"
 
 namespace foretouch::tools {
@@ -41,7 +42,7 @@ std::vector<std::vector<Triangle>> trianglesOfLinks(const ReplayInputs& inputs,
   auto loaded = loadLinkMeshes(avatar, inputs.request.avatarPath);
   if (loaded.ok()) return std::move(loaded).value();
   notes.push_back("the meshes of links are left out: " + describe(loaded.error()));
-  return std::vector<std::vector<Triangle>>(static_cast<std::size_t>(avatar.numLinks()));
+  return std::vector<std::vector<Triangle>>(countOf(avatar.numLinks()));
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ std::vector<std::size_t> addLinkMeshes(const Stage& stage, GlbContent& content,
   std::vector<std::size_t> meshes;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     std::vector<MeshPart> parts;
-    const auto& surface = triangles[static_cast<std::size_t>(link)];
+    const auto& surface = triangles[slotOf(link)];
     const bool hasMesh = !surface.empty() && budget.take(surface.size());
     meshesLeftOut += !surface.empty() && !hasMesh ? 1 : 0;
     if (hasMesh) parts.push_back({meshOf(surface), materials[kMesh]});

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "tools/console.h"
 #include "tools/glb/contact_extras.h"
 #include "tools/glb/replay_scene.h"
@@ -56,9 +57,8 @@ void ReplayGlb::add(const StepAnswer& answer) {
 }
 
 Result<std::vector<std::string>> ReplayGlb::write() const {
-  const auto staged = stageOf(inputs_);
-  if (!staged.ok()) return inFile(staged.error(), request_.path);
-  const Stage& stage = staged.value();
+  FORETOUCH_TRY(const auto staged, inFile(stageOf(inputs_), request_.path));
+  const Stage& stage = staged;
   std::vector<ReportedContact> shown = contacts_;
   shown.insert(shown.end(), startsInContact_.begin(), startsInContact_.end());
 
@@ -85,13 +85,10 @@ Result<std::vector<std::string>> ReplayGlb::write() const {
   addScene(stage, shown, addGroup(document, world, "scene"), content, budget, notes);
   animation.finish(document);
 
-  const auto head = content.head();
-  if (!head.ok()) return inFile(head.error(), request_.path);
-  auto file = PendingFile::create(request_.path);
-  if (!file.ok()) return file.error();
-  content.write(file.value(), head.value());
-  const auto written = file.value().commit();
-  if (!written.ok()) return written.error();
+  FORETOUCH_TRY(const auto head, inFile(content.head(), request_.path));
+  FORETOUCH_TRY(auto file, PendingFile::create(request_.path));
+  content.write(file, head);
+  FORETOUCH_CHECK(file.commit());
   return notes;
 }
 

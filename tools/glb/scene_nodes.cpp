@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lss/index.h"
 #include "tools/glb/replay_scene.h"
 #include "tools/glb/scene_selection.h"
 
@@ -54,7 +55,7 @@ void addScene(const Stage& stage, const std::vector<ReportedContact>& contacts, 
   const std::size_t material = content.addMaterial({"scene", {0.72, 0.70, 0.66, 1.0}});
   for (const auto& [object, triangles] : byObject(scene, ids)) {
     const std::string name =
-        object == kOthers ? "other objects" : scene.objectNames()[static_cast<std::size_t>(object)];
+        object == kOthers ? "other objects" : scene.objectNames()[slotOf(object)];
     const std::size_t mesh = content.addMesh(name, {{meshOf(triangles, stage.origin), material}});
     const std::size_t node = content.document().add("nodes", {{"name", name}, {"mesh", mesh}});
     content.document().at("nodes", parent)["children"].push_back(node);

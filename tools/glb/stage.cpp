@@ -2,6 +2,8 @@
 #include <cmath>
 #include <utility>
 
+#include "articulated/try.h"
+#include "lss/index.h"
 #include "tessellation/swept_lss.h"
 #include "tools/glb/replay_scene.h"
 
@@ -19,8 +21,8 @@ Vector3d originFor(const Stage& stage) {
   for (const Pose& pose : stage.poses) {
     for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
       if (skeleton.parent(joint) != kNoParent) continue;
-      low = low.cwiseMin(pose.translations[static_cast<std::size_t>(joint)]);
-      high = high.cwiseMax(pose.translations[static_cast<std::size_t>(joint)]);
+      low = low.cwiseMin(pose.translations[slotOf(joint)]);
+      high = high.cwiseMax(pose.translations[slotOf(joint)]);
     }
   }
   if (low.cwiseAbs().maxCoeff() <= kNear && high.cwiseAbs().maxCoeff() <= kNear) {
@@ -50,13 +52,11 @@ double extentOf(const Stage& stage) {
 Result<Stage> stageOf(const ReplayInputs& inputs) {
   Stage stage{inputs, {}, {}};
   for (std::int64_t step = 0; step <= inputs.steps.count; ++step) {
-    auto pose = poseAtFrame(inputs, step * inputs.steps.stride);
-    if (!pose.ok()) return pose.error();
-    stage.poses.push_back(std::move(pose).value());
+    FORETOUCH_TRY(auto pose, poseAtFrame(inputs, step * inputs.steps.stride));
+    stage.poses.push_back(std::move(pose));
     stage.timesS.push_back(inputs.timeOfStep(step));
   }
-  const auto checked = checkTimes(stage.timesS);
-  if (!checked.ok()) return checked.error();
+  FORETOUCH_CHECK(checkTimes(stage.timesS));
   stage.origin = originFor(stage);
   stage.extent = extentOf(stage);
   return stage;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "lss/index.h"
 #include "tools/console.h"
 
 namespace foretouch::tools {
@@ -13,7 +14,7 @@ Result<Pose> poseAtFrame(const PlacedClip& placed, std::int64_t frame) {
   const Skeleton& skeleton = placed.avatar.skeleton();
   Placement placement = placed.placement;
   placement.motionUpZ = placement.motionUpZ && !placed.isUpright;
-  Pose pose = poseOfAvatar(skeleton, placed.clip, placed.match, static_cast<std::size_t>(frame));
+  Pose pose = poseOfAvatar(skeleton, placed.clip, placed.match, slotOf(frame));
   auto valid = validatedPose(skeleton, foretouch::placed(skeleton, std::move(pose), placement));
   if (valid.ok()) return valid;
   Error error = inFile(valid.error(), placed.path);

@@ -16,9 +16,9 @@ Result<std::string> exampleFolder() {
     folder = program.parent_path().parent_path() / "share" / "foretouch" / "examples";
   }
   if (fs::is_regular_file(folder / "room.obj", failure)) return folder.string();
-  return Error{ErrorCode::FileNotFound, folder.string(), -1, -1,
-               "holds no room.obj; expected the bundled example there, or its folder in the "
-               "environment variable FORETOUCH_EXAMPLES"};
+  return Error::in(folder.string(), ErrorCode::FileNotFound,
+                   "holds no room.obj; expected the bundled example there, or its folder in the "
+                   "environment variable FORETOUCH_EXAMPLES");
 }
 
 }  // namespace foretouch::tools

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/inputs/name_pattern.h"
 #include "tools/settings/near_names.h"
@@ -104,9 +105,8 @@ Result<std::vector<IgnoredPair>> parseIgnoredPairs(const std::vector<std::string
     for (bool more = true; more;) {
       const std::size_t comma = rest.find(',');
       more = comma != std::string_view::npos;
-      const auto reading = reader.read(rest.substr(0, comma));
-      if (!reading.ok()) return reading.error();
-      if (const auto added = addPairs(reading.value(), pairs); !added.ok()) return added.error();
+      FORETOUCH_TRY(const auto reading, reader.read(rest.substr(0, comma)));
+      FORETOUCH_CHECK(addPairs(reading, pairs));
       if (more) rest.remove_prefix(comma + 1);
     }
   }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/console.h"
 
@@ -40,7 +41,7 @@ class JointMapSax final : public nlohmann::json_sax<json> {
   bool key(string_t& key) override {
     key_ = key;
     if (names_.count(key) == 0) return true;
-    return fail(ErrorCode::DuplicateName, -1, "the joint " + inQuotes(key) + " stands twice");
+    return fail(ErrorCode::DuplicateName, -1, "the joint " + inQuotes(key) + " appears twice");
   }
   bool string(string_t& text) override {
     if (!open_) return unexpected("a text");
@@ -63,7 +64,7 @@ class JointMapSax final : public nlohmann::json_sax<json> {
     return fail(ErrorCode::Syntax, -1, expectation() + ", found " + found + where);
   }
   bool fail(ErrorCode code, std::int64_t line, const std::string& message) {
-    error_ = Error{code, file_, line, -1, message};
+    error_ = Error::inLine(file_, line, code, message);
     return false;
   }
 
@@ -84,18 +85,15 @@ Result<JointNameMap> parseJointMap(std::string_view json, const std::string& nam
 }
 
 Result<JointNameMap> readJointMapFile(const std::string& path) {
-  const auto text = readWholeFile(path, kMaxJointMapBytes);
-  if (!text.ok()) return text.error();
-  return parseJointMap(text.value(), path);
+  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxJointMapBytes));
+  return parseJointMap(text, path);
 }
 
 Result<JointMatch> matchWithMap(const Skeleton& avatar, const Skeleton& clip,
                                 const std::string& mapPath, const std::string& motionPath) {
   JointNameMap names;
   if (!mapPath.empty()) {
-    auto read = readJointMapFile(mapPath);
-    if (!read.ok()) return read.error();
-    names = std::move(read).value();
+    FORETOUCH_TRY(names, readJointMapFile(mapPath));
   }
   auto match = matchJoints(avatar, clip, names);
   if (match.ok()) return match;

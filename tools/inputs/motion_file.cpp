@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/import/model_import.h"
 #include "assets/model/model_clip.h"
@@ -30,18 +31,18 @@ Kind kindOf(const std::string& path) {
 
 Result<Done> checkOptions(const MotionRequest& request, Kind kind) {
   if (kind != Kind::Model && !request.animation.empty()) {
-    return Error{ErrorCode::Mismatch, "--animation", -1, -1,
-                 "expected a model (.glb, .gltf, .fbx, .dae, .x) as --motion, found " +
-                     inQuotes(request.path)};
+    return Error::in("--animation", ErrorCode::Mismatch,
+                     "expected a model (.glb, .gltf, .fbx, .dae, .x) as --motion, found " +
+                         inQuotes(request.path));
   }
   if (kind != Kind::Table && !request.robot.empty()) {
-    return Error{
-        ErrorCode::Mismatch, "--robot", -1, -1,
-        "expected a table of joint positions (.csv) as --motion, found " + inQuotes(request.path)};
+    return Error::in(
+        "--robot", ErrorCode::Mismatch,
+        "expected a table of joint positions (.csv) as --motion, found " + inQuotes(request.path));
   }
   if (kind == Kind::Table && request.robot.empty()) {
-    return Error{ErrorCode::Mismatch, request.path, -1, -1,
-                 "joint positions are about a robot: expected its URDF (--robot FILE)"};
+    return Error::in(request.path, ErrorCode::Mismatch,
+                     "joint positions are about a robot: expected its URDF (--robot FILE)");
   }
   return Done{};
 }
@@ -50,25 +51,21 @@ Result<Motion> readModel(const MotionRequest& request) {
   ModelImportOptions options;
   options.import.scale = request.scale;
   options.import.up = request.up;
-  const auto model = importModel(request.path, options);
-  if (!model.ok()) return inFile(model.error(), request.path);
-  auto clip = clipFromModel(model.value(), {request.animation, request.rateHz});
-  if (!clip.ok()) return inFile(clip.error(), request.path);
-  return Motion{std::move(clip).value(), true};
+  FORETOUCH_TRY(const auto model, importModel(request.path, options));
+  FORETOUCH_TRY(auto clip,
+                inFile(clipFromModel(model, {request.animation, request.rateHz}), request.path));
+  return Motion{std::move(clip), true};
 }
 
 Result<Motion> readTable(const MotionRequest& request) {
-  const auto text = readWholeFile(request.path, kMaxJointTableBytes);
-  if (!text.ok()) return inFile(text.error(), request.path);
+  FORETOUCH_TRY(const auto text, readWholeFile(request.path, kMaxJointTableBytes));
   ModelImportOptions options;
   options.import.scale = request.scale;
   options.import.up = UpAxis::Z;  // as `avatar urdf` reads it
   options.packagePaths = request.packagePaths;
-  const auto robot = importModel(request.robot, options);
-  if (!robot.ok()) return inFile(robot.error(), request.robot);
-  auto clip = clipFromJointPositions(robot.value(), text.value(), request.path);
-  if (!clip.ok()) return inFile(clip.error(), request.path);
-  return Motion{std::move(clip).value(), true};
+  FORETOUCH_TRY(const auto robot, importModel(request.robot, options));
+  FORETOUCH_TRY(auto clip, inFile(clipFromJointPositions(robot, text, request.path), request.path));
+  return Motion{std::move(clip), true};
 }
 
 }  // namespace
@@ -87,13 +84,11 @@ MotionRequest motionRequestOf(const ClipRequest& request) {
 
 Result<Motion> readMotion(const MotionRequest& request) {
   const Kind kind = kindOf(request.path);
-  const auto checked = checkOptions(request, kind);
-  if (!checked.ok()) return checked.error();
+  FORETOUCH_CHECK(checkOptions(request, kind));
   if (kind == Kind::Model) return readModel(request);
   if (kind == Kind::Table) return readTable(request);
-  auto clip = readBvhFile(request.path, BvhOptions{request.scale});
-  if (!clip.ok()) return inFile(clip.error(), request.path);
-  return Motion{std::move(clip).value(), false};
+  FORETOUCH_TRY(auto clip, readBvhFile(request.path, BvhOptions{request.scale}));
+  return Motion{std::move(clip), false};
 }
 
 }  // namespace foretouch::tools

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 #include "tools/console.h"
 #include "tools/inputs/joint_map.h"
 
@@ -20,7 +22,7 @@ double sizeOfClipToAvatar(const Skeleton& avatar, const Clip& clip, const JointM
   double ofAvatar = 0.0;
   double ofClip = 0.0;
   for (JointId joint = 0; joint < avatar.numJoints(); ++joint) {
-    const JointId source = match.clipJointOf[static_cast<std::size_t>(joint)];
+    const JointId source = match.clipJointOf[slotOf(joint)];
     if (source == kNoParent || avatar.parent(joint) == kNoParent) continue;
     ofAvatar += avatar.restOffset(joint).norm();
     ofClip += clip.skeleton.restOffset(source).norm();
@@ -31,18 +33,16 @@ double sizeOfClipToAvatar(const Skeleton& avatar, const Clip& clip, const JointM
 }  // namespace
 
 Result<PlayedClip> loadPlayedClip(const ClipRequest& request) {
-  auto avatar = readAvatarFile(request.avatarPath);
-  if (!avatar.ok()) return inFile(avatar.error(), request.avatarPath);
-  auto read = readMotion(motionRequestOf(request));
-  if (!read.ok()) return read.error();
-  Clip& clip = read.value().clip;
-  auto match =
-      matchWithMap(avatar.value().skeleton(), clip.skeleton, request.mapPath, request.motionPath);
+  FORETOUCH_TRY(auto avatar, readAvatarFile(request.avatarPath));
+  FORETOUCH_TRY(auto read, readMotion(motionRequestOf(request)));
+  Clip& clip = read.clip;
+  auto match = matchWithMap(avatar.skeleton(), clip.skeleton, request.mapPath, request.motionPath);
   if (!match.ok()) return match.error();
-  const auto steps = selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz);
-  if (!steps.ok()) return inFile(steps.error(), request.motionPath);
-  return PlayedClip{std::move(avatar).value(), std::move(clip), std::move(match).value(),
-                    steps.value(), read.value().isUpright};
+  FORETOUCH_TRY(
+      const auto steps,
+      inFile(selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz), request.motionPath));
+  return PlayedClip{std::move(avatar), std::move(clip), std::move(match).value(), steps,
+                    read.isUpright};
 }
 
 std::vector<std::string> remarksOnClip(const Avatar& avatar, const Clip& clip,

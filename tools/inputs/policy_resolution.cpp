@@ -3,7 +3,9 @@
 #include <limits>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 #include "tools/inputs/ignored_pairs.h"
 #include "tools/inputs/name_pattern.h"
 #include "tools/inputs/policy_rules.h"
@@ -36,7 +38,7 @@ Result<std::vector<std::int32_t>> found(const PolicyRule& rule, const char* key,
                      std::string(key) + ": " + inQuotes(pattern) + " is no " + what +
                          didYouMean(pattern, names));
     }
-    for (const std::int32_t number : numbers) isFound[static_cast<std::size_t>(number)] = 1;
+    for (const std::int32_t number : numbers) isFound[slotOf(number)] = 1;
   }
   std::vector<std::int32_t> all;
   for (std::size_t i = 0; i < isFound.size(); ++i) {
@@ -61,11 +63,11 @@ class PolicyResolver {
       if (pair.object == IgnoredPair::kEveryObject) {
         std::fill(isIgnored_.begin(), isIgnored_.end(), 1);
       } else {
-        isIgnored_[static_cast<std::size_t>(pair.object)] = 1;
+        isIgnored_[slotOf(pair.object)] = 1;
       }
     }
     for (const FoundRule& found : rules_) {
-      if (found.isOfLink[static_cast<std::size_t>(link)] != 0) take(found);
+      if (found.isOfLink[slotOf(link)] != 0) take(found);
     }
   }
 
@@ -94,7 +96,7 @@ class PolicyResolver {
   void take(const FoundRule& found) {
     if (found.rule->fidelity) fidelity_ = *found.rule->fidelity;
     for (const std::int32_t object : found.objects) {
-      const auto i = static_cast<std::size_t>(object);
+      const auto i = slotOf(object);
       if (found.rule->tolerance) tolerances_[i] = *found.rule->tolerance;
       if (found.rule->ignore) isIgnored_[i] = *found.rule->ignore ? 1 : 0;
     }
@@ -117,13 +119,12 @@ Result<std::vector<FoundRule>> foundRules(const std::vector<PolicyRule>& rules,
   }
   std::vector<FoundRule> result;
   for (const PolicyRule& rule : rules) {
-    const auto links = found(rule, "links", "link of the avatar", rule.links, linkNames);
-    if (!links.ok()) return links.error();
-    auto objects = found(rule, "objects", "object of the scene", rule.objects, objectNames);
-    if (!objects.ok()) return objects.error();
-    FoundRule next{&rule, std::vector<std::uint8_t>(linkNames.size(), 0),
-                   std::move(objects).value()};
-    for (const LinkId link : links.value()) next.isOfLink[static_cast<std::size_t>(link)] = 1;
+    FORETOUCH_TRY(const auto links,
+                  found(rule, "links", "link of the avatar", rule.links, linkNames));
+    FORETOUCH_TRY(auto objects,
+                  found(rule, "objects", "object of the scene", rule.objects, objectNames));
+    FoundRule next{&rule, std::vector<std::uint8_t>(linkNames.size(), 0), std::move(objects)};
+    for (const LinkId link : links) next.isOfLink[slotOf(link)] = 1;
     result.push_back(std::move(next));
   }
   return result;
@@ -167,9 +168,8 @@ Result<Done> applyPolicies(const std::vector<PolicyRule>& rules, const Skeleton&
                        toString(options.fidelity) +
                        ": only at link and exact has each link a surface of its own");
   }
-  const auto found = foundRules(rules, skeleton, objectNames);
-  if (!found.ok()) return found.error();
-  PolicyResolver resolver(found.value(), objectNames.size(), options);
+  FORETOUCH_TRY(const auto found, foundRules(rules, skeleton, objectNames));
+  PolicyResolver resolver(found, objectNames.size(), options);
   std::vector<LinkPolicy> policies;
   std::vector<IgnoredPair> ignored;
   std::vector<std::uint8_t> isAsked;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "articulated/try.h"
 #include "tools/inputs/policy_section.h"
 #include "tools/settings/toml_section.h"
 
@@ -52,7 +53,7 @@ void readPolicies(const TomlSection& root, TomlReading& reading, std::vector<Pol
   if (node == nullptr || (node->is_array() && node->as_array()->empty())) return;
   if (!node->is_array_of_tables()) {
     return reading.fail(ErrorCode::Syntax, lineOf(*node),
-                        "policy: expected tables, each below a line [[policy]]");
+                        "policy: expected tables, each under a line [[policy]]");
   }
   if (node->as_array()->size() > kMaxPolicyRules) {
     return reading.fail(ErrorCode::LimitExceeded, lineOf(*node),
@@ -64,10 +65,9 @@ void readPolicies(const TomlSection& root, TomlReading& reading, std::vector<Pol
 }
 
 Result<std::vector<PolicyRule>> parsePolicyFile(std::string_view text, const std::string& file) {
-  const auto parsed = parseToml(text, file);
-  if (!parsed.ok()) return parsed.error();
+  FORETOUCH_TRY(const auto parsed, parseToml(text, file));
   TomlReading reading{file, std::nullopt};
-  TomlSection root(reading, parsed.value(), "the file");
+  TomlSection root(reading, parsed, "the file");
   root.allowOnly({"policy"});
   std::vector<PolicyRule> rules;
   readPolicies(root, reading, rules);
@@ -77,16 +77,13 @@ Result<std::vector<PolicyRule>> parsePolicyFile(std::string_view text, const std
 }
 
 Result<std::vector<PolicyRule>> readPolicyFile(const std::string& path) {
-  const auto text = readWholeFile(path, kMaxTomlBytes);
-  if (!text.ok()) return text.error();
-  return parsePolicyFile(text.value(), path);
+  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxTomlBytes));
+  return parsePolicyFile(text, path);
 }
 
 Result<Done> readPolicies(WorldRequest& request) {
   if (request.policyPath.empty()) return Done{};
-  auto rules = readPolicyFile(request.policyPath);
-  if (!rules.ok()) return rules.error();
-  request.policies = std::move(rules).value();
+  FORETOUCH_TRY(request.policies, readPolicyFile(request.policyPath));
   return Done{};
 }
 

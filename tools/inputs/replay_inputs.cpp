@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/import/scene_import.h"
 #include "assets/mesh/link_mesh.h"
+#include "lss/index.h"
 #include "middleware/query/work_budget.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
@@ -33,35 +35,30 @@ void giveBackFreeMemory() {
 Result<Done> loadSurface(const WorldRequest& request, const std::string& avatarPath,
                          const Avatar& avatar, QueryOptions& query) {
   if (query.fidelity == Fidelity::Skinned) {
-    auto skin = loadSkin(request.skinPath, request.skinImport, avatar);
-    if (!skin.ok()) return skin.error();
-    query.skin = std::move(skin).value();
+    FORETOUCH_TRY(query.skin, loadSkin(request.skinPath, request.skinImport, avatar));
     return Done{};
   }
   if (query.fidelity != Fidelity::Exact) return Done{};
   std::vector<LinkId> exact;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     if (query.linkPolicies.empty() ||
-        query.linkPolicies[static_cast<std::size_t>(link)].fidelity == Fidelity::Exact) {
+        query.linkPolicies[slotOf(link)].fidelity == Fidelity::Exact) {
       exact.push_back(link);
     }
   }
-  auto meshes = loadLinkMeshes(avatar, avatarPath, exact);
-  if (!meshes.ok()) return inFile(meshes.error(), avatarPath);
-  auto surface = AvatarSurface::build(avatar, std::move(meshes).value());
-  if (!surface.ok()) return inFile(surface.error(), avatarPath);
+  FORETOUCH_TRY(auto meshes, loadLinkMeshes(avatar, avatarPath, exact));
+  FORETOUCH_TRY(auto surface, inFile(AvatarSurface::build(avatar, std::move(meshes)), avatarPath));
   // The first steps' latencies are the query's, unless policies ask for little to be there.
-  if (query.linkPolicies.empty()) surface.value().prepare();
-  query.surface = std::move(surface).value();
+  if (query.linkPolicies.empty()) surface.prepare();
+  query.surface = std::move(surface);
   return Done{};
 }
 
 }  // namespace
 
 Result<Scene> loadScene(const WorldRequest& request) {
-  auto imported = importScene(request.scenePath, request.sceneImport);
-  if (!imported.ok()) return inFile(imported.error(), request.scenePath);
-  auto scene = Scene::build(std::move(imported.value().scene));
+  FORETOUCH_TRY(auto imported, importScene(request.scenePath, request.sceneImport));
+  auto scene = Scene::build(std::move(imported.scene));
   if (!scene.ok()) return inFile(scene.error(), request.scenePath);
   giveBackFreeMemory();
   return scene;
@@ -71,28 +68,23 @@ Result<QueryOptions> queryOptionsFor(const WorldRequest& request, const std::str
                                      const Avatar& avatar, const Scene& scene) {
   QueryOptions query = request.query;
   if (request.budgetUs > 0) query.workBudget = workBudget(static_cast<double>(request.budgetUs));
-  auto ignored = parseIgnoredPairs(request.ignore, avatar.skeleton(), scene.objectNames());
-  if (!ignored.ok()) return ignored.error();
-  query.ignored = std::move(ignored).value();
+  FORETOUCH_TRY(query.ignored,
+                parseIgnoredPairs(request.ignore, avatar.skeleton(), scene.objectNames()));
   const auto applied =
       applyPolicies(request.policies, avatar.skeleton(), scene.objectNames(), query);
   if (!applied.ok()) return applied.error();
-  const auto surface = loadSurface(request, avatarPath, avatar, query);
-  if (!surface.ok()) return surface.error();
+  FORETOUCH_CHECK(loadSurface(request, avatarPath, avatar, query));
   return query;
 }
 
 Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
-  auto played = loadPlayedClip(request);
-  if (!played.ok()) return played.error();
-  auto& [avatar, clip, match, steps, isUpright] = played.value();
-  auto scene = loadScene(request);
-  if (!scene.ok()) return scene.error();
-  auto query = queryOptionsFor(request, request.avatarPath, avatar, scene.value());
-  if (!query.ok()) return query.error();
-  return ReplayInputs{
-      request, std::move(scene).value(), std::move(avatar), std::move(clip), std::move(match),
-      steps,   std::move(query).value(), isUpright};
+  FORETOUCH_TRY(auto played, loadPlayedClip(request));
+  auto& [avatar, clip, match, steps, isUpright] = played;
+  FORETOUCH_TRY(auto scene, loadScene(request));
+  FORETOUCH_TRY(auto query, queryOptionsFor(request, request.avatarPath, avatar, scene));
+  return ReplayInputs{request,          std::move(scene), std::move(avatar),
+                      std::move(clip),  std::move(match), steps,
+                      std::move(query), isUpright};
 }
 
 std::vector<std::string> remarksOn(const ReplayInputs& inputs) {

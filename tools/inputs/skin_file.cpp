@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "articulated/try.h"
 #include "assets/import/model_import.h"
 #include "assets/model/model_avatar.h"
 #include "assets/text_file.h"
@@ -42,18 +43,16 @@ std::optional<std::string> difference(const Skeleton& avatar, const Skeleton& mo
 Result<SkinnedSurface> loadSkin(const std::string& path, const SceneImportOptions& import,
                                 const Avatar& avatar) {
   if (path.empty()) {
-    return Error{ErrorCode::Empty, "--skin", -1, -1,
-                 "expected the model whose skin is the surface, which skinned fidelity needs"};
+    return Error::in("--skin", ErrorCode::Empty,
+                     "expected the model whose skin is the surface, which skinned fidelity needs");
   }
   ModelImportOptions options;
   options.import = import;
-  const auto model = importModel(path, options);
-  if (!model.ok()) return inFile(model.error(), path);
-  auto made = avatarFromModel(model.value());
-  if (!made.ok()) return inFile(made.error(), path);
-  ModelAvatar& body = made.value();
+  FORETOUCH_TRY(const auto model, importModel(path, options));
+  FORETOUCH_TRY(auto made, inFile(avatarFromModel(model), path));
+  ModelAvatar& body = made;
   if (const auto problem = difference(avatar.skeleton(), body.avatar.skeleton())) {
-    return Error{ErrorCode::Mismatch, path, -1, -1, *problem};
+    return Error::in(path, ErrorCode::Mismatch, *problem);
   }
   std::vector<std::size_t> trianglesOfLink;
   for (const auto& triangles : body.surface) trianglesOfLink.push_back(triangles.size());

@@ -13,23 +13,24 @@ Result<StepSelection> selectSteps(std::size_t frames, double frameTimeS,
                                   std::optional<double> rateHz) {
   FORETOUCH_ASSERT(frameTimeS > 0.0 && (!rateHz || *rateHz > 0.0));
   if (frames < 2) {
-    return Error{ErrorCode::Empty, "", -1, -1,
-                 fmt::format("expected at least 2 frames to move between, found {}", frames)};
+    return Error::of(ErrorCode::Empty,
+                     fmt::format("expected at least 2 frames to move between, found {}", frames));
   }
   const double clipRateHz = 1.0 / frameTimeS;
   if (rateHz && *rateHz > clipRateHz * (1.0 + kRateSlack)) {
-    return Error{ErrorCode::OutOfRange, "", -1, -1,
-                 fmt::format("expected a --rate of at most the clip's own {:.6g} Hz, found {:.6g}",
-                             clipRateHz, *rateHz)};
+    return Error::of(
+        ErrorCode::OutOfRange,
+        fmt::format("expected a --rate of at most the clip's own {:.6g} Hz, found {:.6g}",
+                    clipRateHz, *rateHz));
   }
   const auto intervals = static_cast<std::int64_t>(frames) - 1;
   // Compared as doubles before the cast: a tiny rate's stride does not fit an integer.
   const double wanted = rateHz ? std::round(1.0 / (*rateHz * frameTimeS)) : 1.0;
   if (wanted > static_cast<double>(intervals)) {
-    return Error{
-        ErrorCode::OutOfRange, "", -1, -1,
+    return Error::of(
+        ErrorCode::OutOfRange,
         fmt::format("lasts {:.6g} s, less than one step of {:.6g} s at --rate {:.6g}",
-                    static_cast<double>(intervals) * frameTimeS, wanted * frameTimeS, *rateHz)};
+                    static_cast<double>(intervals) * frameTimeS, wanted * frameTimeS, *rateHz));
   }
   StepSelection steps;
   steps.stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(wanted));

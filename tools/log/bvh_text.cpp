@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 
 namespace foretouch::tools {
 namespace {
@@ -33,11 +35,11 @@ std::array<double, 3> zxyDegrees(const Quaternion& rotation) {
 
 /// Children of every joint, and last the roots.
 std::vector<std::vector<JointId>> childrenOf(const Skeleton& skeleton) {
-  std::vector<std::vector<JointId>> children(static_cast<std::size_t>(skeleton.numJoints()) + 1);
+  std::vector<std::vector<JointId>> children(countOf(skeleton.numJoints()) + 1);
   for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
     const JointId parent = skeleton.parent(joint);
     const JointId place = parent == kNoParent ? skeleton.numJoints() : parent;
-    children[static_cast<std::size_t>(place)].push_back(joint);
+    children[slotOf(place)].push_back(joint);
   }
   return children;
 }
@@ -53,7 +55,7 @@ class Hierarchy {
       open.emplace_back(root, 0);
       while (!open.empty()) {
         auto& [joint, written] = open.back();
-        const std::vector<JointId>& children = children_[static_cast<std::size_t>(joint)];
+        const std::vector<JointId>& children = children_[slotOf(joint)];
         if (written < children.size()) {
           const JointId child = children[written++];
           begin(child, open.size());
@@ -70,7 +72,7 @@ class Hierarchy {
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] const std::vector<JointId>& order() const { return order_; }
   [[nodiscard]] bool hasPosition(JointId joint) const {
-    return skeleton_.parent(joint) == kNoParent || hasTranslation_[static_cast<std::size_t>(joint)];
+    return skeleton_.parent(joint) == kNoParent || hasTranslation_[slotOf(joint)];
   }
 
  private:
@@ -109,7 +111,7 @@ void appendFrame(const Hierarchy& hierarchy, const Pose& pose, std::string& text
     separator = " ";
   };
   for (const JointId joint : hierarchy.order()) {
-    const auto j = static_cast<std::size_t>(joint);
+    const auto j = slotOf(joint);
     if (hierarchy.hasPosition(joint)) {
       for (int axis = 0; axis < 3; ++axis) append(pose.translations[j][axis]);
     }
@@ -141,7 +143,7 @@ Result<Done> checkReadsBack(const std::string& text, const Skeleton& skeleton,
     if (found >= clip.skeleton.numJoints() || clip.skeleton.name(found) != skeleton.name(joint)) {
       return cannotHold(skeleton, joint, "name");
     }
-    const auto j = static_cast<std::size_t>(joint);
+    const auto j = slotOf(joint);
     for (std::size_t frame = 0; frame < poses.size() && frame < clip.frames.size(); ++frame) {
       const Pose& before = poses[frame];
       const Pose& after = clip.frames[frame];
@@ -154,7 +156,7 @@ Result<Done> checkReadsBack(const std::string& text, const Skeleton& skeleton,
     }
   }
   if (clip.frames.size() == poses.size()) return Done{};
-  return Error{ErrorCode::Mismatch, "", -1, -1, "the BVH file does not read back as written"};
+  return Error::of(ErrorCode::Mismatch, "the BVH file does not read back as written");
 }
 
 }  // namespace
@@ -165,8 +167,7 @@ Result<std::string> bvhText(const Skeleton& skeleton, const std::vector<bool>& h
   std::string text = hierarchy.text();
   text += fmt::format("MOTION\nFrames: {}\nFrame Time: {}\n", poses.size(), frameTimeS);
   for (const Pose& pose : poses) appendFrame(hierarchy, pose, text);
-  const auto checked = checkReadsBack(text, skeleton, hierarchy, poses);
-  if (!checked.ok()) return checked.error();
+  FORETOUCH_CHECK(checkReadsBack(text, skeleton, hierarchy, poses));
   return text;
 }
 

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "network/log/event_log.h"
 #include "tools/arguments.h"
@@ -46,88 +47,75 @@ std::string extensionOf(const std::string& path) {
 using Told = Result<std::string>;
 
 Told toJsonLines(const Conversion& asked, LogLoss& loss) {
-  const auto channels = channelNames(asked.suffix);
-  if (!channels.ok()) return channels.error();
+  FORETOUCH_TRY(const auto channels, channelNames(asked.suffix));
   const InterruptGuard guard;
-  auto file = PendingFile::create(asked.output);
-  if (!file.ok()) return file.error();
+  FORETOUCH_TRY(auto file, PendingFile::create(asked.output));
   ProgressBar progress("convert", 100);
   std::int64_t events = 0;
   const auto write = [&](const LogEvent& event, const EventLogReader& log) -> Result<bool> {
-    file.value().write(eventLine(event, channels.value()));
+    file.write(eventLine(event, channels));
     ++events;
     if (log.size() > 0) {
       progress.advanceTo(static_cast<std::int64_t>(100 * log.position() / log.size()));
     }
     return !guard.requested();
   };
-  const auto read = readEvents(asked.input, loss, write);
-  if (!read.ok()) return read.error();
+  FORETOUCH_CHECK(readEvents(asked.input, loss, write));
   if (guard.requested()) return std::string();
-  const auto written = file.value().commit();
-  if (!written.ok()) return written.error();
+  FORETOUCH_CHECK(file.commit());
   return fmt::format("{} events", events);
 }
 
 Told toBvh(const Conversion& asked, LogLoss& loss) {
   LogToBvhRequest request{asked.input, asked.suffix, 1};
   if (!asked.avatar.empty()) {
-    const auto id = parseAvatarId("--avatar", asked.avatar);
-    if (!id.ok()) return id.error();
-    request.avatar = id.value();
+    FORETOUCH_TRY(request.avatar, parseAvatarId("--avatar", asked.avatar));
   }
-  const auto bvh = logToBvh(request, loss);
-  if (!bvh.ok()) return bvh.error();
-  for (const std::string& note : bvh.value().notes) printNote(asked.input + ": " + note);
+  FORETOUCH_TRY(const auto bvh, logToBvh(request, loss));
+  for (const std::string& note : bvh.notes) printNote(asked.input + ": " + note);
   const InterruptGuard guard;
-  auto file = PendingFile::create(asked.output);
-  if (!file.ok()) return file.error();
-  file.value().write(bvh.value().text);
-  const auto written = file.value().commit();
-  if (!written.ok()) return written.error();
-  return fmt::format("{} frames of avatar {}, in metres", bvh.value().frames, request.avatar);
+  FORETOUCH_TRY(auto file, PendingFile::create(asked.output));
+  file.write(bvh.text);
+  FORETOUCH_CHECK(file.commit());
+  return fmt::format("{} frames of avatar {}, in metres", bvh.frames, request.avatar);
 }
 
 Told toLog(const Conversion& asked) {
-  const auto avatars = parseNumberedAvatars("--avatar", {asked.avatar});
-  if (!avatars.ok()) return avatars.error();
-  const auto channels = channelNames(asked.suffix);
-  if (!channels.ok()) return channels.error();
+  FORETOUCH_TRY(const auto avatars, parseNumberedAvatars("--avatar", {asked.avatar}));
+  FORETOUCH_TRY(const auto channels, channelNames(asked.suffix));
   ClipRequest request;
-  request.avatarPath = avatars.value().front().path;
+  request.avatarPath = avatars.front().path;
   request.motionPath = asked.input;
   PublishOptions options;
-  options.channels = channels.value();
-  options.sender.avatar = avatars.value().front().id;
+  options.channels = channels;
+  options.sender.avatar = avatars.front().id;
   options.sender.source = "foretouch log convert";
   options.sender.startUtimeUs = utimeNow();
-  const auto report = publishToLog(request, options, asked.output);
-  if (!report.ok()) return report.error();
-  return fmt::format("{} poses and {} skeletons of avatar {}", report.value().poses,
-                     report.value().skeletons, options.sender.avatar);
+  FORETOUCH_TRY(const auto report, publishToLog(request, options, asked.output));
+  return fmt::format("{} poses and {} skeletons of avatar {}", report.poses, report.skeletons,
+                     options.sender.avatar);
 }
 
 Told convert(const Conversion& asked, LogLoss& loss) {
   const std::string extension = extensionOf(asked.output);
   const bool isLog = isEventLog(asked.input);
-  const auto separate = checkIsNoInput(asked.output, {asked.input});
-  if (!separate.ok()) return separate.error();
+  FORETOUCH_CHECK(checkIsNoInput(asked.output, {asked.input}));
   if (isLog && extension == ".jsonl" && !asked.avatar.empty()) {
-    return Error{ErrorCode::Mismatch, "--avatar", -1, -1,
-                 "makes no sense with lines of JSON, which hold every avatar; expected none"};
+    return Error::in(
+        "--avatar", ErrorCode::Mismatch,
+        "chooses one avatar, but lines of JSON hold every avatar; expected no such option");
   }
   if (isLog && extension == ".jsonl") return toJsonLines(asked, loss);
   if (isLog && extension == ".bvh") return toBvh(asked, loss);
   if (!isLog && extension == ".lcmlog" && asked.avatar.empty()) {
-    return Error{ErrorCode::Empty, "--avatar", -1, -1,
-                 "expected the avatar file that the clip moves"};
+    return Error::in("--avatar", ErrorCode::Empty, "expected the avatar file that the clip moves");
   }
   if (!isLog && extension == ".lcmlog") return toLog(asked);
-  return Error{ErrorCode::Mismatch, "--output", -1, -1,
-               isLog
-                   ? "expected a file that ends in .bvh or .jsonl, found " + inQuotes(asked.output)
-                   : "expected a file that ends in .lcmlog, as " + inQuotes(asked.input) +
-                         " is no event log, found " + inQuotes(asked.output)};
+  return Error::in(
+      "--output", ErrorCode::Mismatch,
+      isLog ? "expected a file that ends in .bvh or .jsonl, found " + inQuotes(asked.output)
+            : "expected a file that ends in .lcmlog, as " + inQuotes(asked.input) +
+                  " is no event log, found " + inQuotes(asked.output));
 }
 
 ExitCode run(const Conversion& asked) {

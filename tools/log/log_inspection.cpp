@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "tools/progress.h"
 
@@ -112,16 +113,14 @@ Result<LogInspection> inspectLog(const std::string& path) {
       ++inspection.unlistedFindings;
     }
   };
-  auto opened = EventLogReader::open(path, options);
-  if (!opened.ok()) return opened.error();
-  EventLogReader reader = std::move(opened).value();
+  FORETOUCH_TRY(auto opened, EventLogReader::open(path, options));
+  EventLogReader reader = std::move(opened);
   inspection.bytes = reader.size();
   ProgressBar bar("log", static_cast<std::int64_t>(reader.size()));
   std::int64_t lastUs = 0;
   for (LogEvent event;;) {
-    const auto more = reader.next(event);
-    if (!more.ok()) return more.error();
-    if (!more.value()) break;
+    FORETOUCH_TRY(const auto more, reader.next(event));
+    if (!more) break;
     bar.advanceTo(static_cast<std::int64_t>(reader.position()));
     const auto known = inspection.channels.find(event.channel);
     const bool isListed =

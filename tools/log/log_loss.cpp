@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "network/log/event_log_format.h"
 #include "tools/console.h"
 #include "tools/log/log_inspection.h"
@@ -91,19 +92,16 @@ std::vector<std::string> LogLoss::lines() const {
 Result<LogCounts> readEvents(const std::string& path, LogLoss& loss, const EventSink& sink) {
   LogReadOptions options;
   options.onFinding = [&loss](const LogFinding& finding) { loss.found(finding); };
-  auto log = EventLogReader::open(path, options);
-  if (!log.ok()) return inFile(log.error(), path);
+  FORETOUCH_TRY(auto log, EventLogReader::open(path, options));
   for (LogEvent event;;) {
-    const auto more = log.value().next(event);
-    if (!more.ok()) return inFile(more.error(), path);
-    if (!more.value()) break;
-    loss.read(event, log.value().counts());
-    const auto wanted = sink(event, log.value());
-    if (!wanted.ok()) return inFile(wanted.error(), path);
-    if (!wanted.value()) return log.value().counts();
+    FORETOUCH_TRY(const auto more, log.next(event));
+    if (!more) break;
+    loss.read(event, log.counts());
+    FORETOUCH_TRY(const auto wanted, inFile(sink(event, log), path));
+    if (!wanted) return log.counts();
   }
-  loss.ended(log.value().counts());
-  return log.value().counts();
+  loss.ended(log.counts());
+  return log.counts();
 }
 
 }  // namespace foretouch::tools

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "tools/log/log_inspection.h"
 #include "tools/progress.h"
 
@@ -23,15 +24,12 @@ struct Recovery {
 Result<LogCounts> copyEvents(EventLogReader& reader, EventLogWriter& writer) {
   ProgressBar bar("recover", static_cast<std::int64_t>(reader.size()));
   for (LogEvent event;;) {
-    const auto more = reader.next(event);
-    if (!more.ok()) return more.error();
-    if (!more.value()) break;
-    const auto written = writer.write(event.utimeUs, event.channel, event.payload);
-    if (!written.ok()) return written.error();
+    FORETOUCH_TRY(const auto more, reader.next(event));
+    if (!more) break;
+    FORETOUCH_CHECK(writer.write(event.utimeUs, event.channel, event.payload));
     bar.advanceTo(static_cast<std::int64_t>(reader.position()));
   }
-  const auto closed = writer.close();
-  if (!closed.ok()) return closed.error();
+  FORETOUCH_CHECK(writer.close());
   return reader.counts();
 }
 
@@ -57,11 +55,9 @@ ExitCode recover(const Recovery& asked) {
   options.onFinding = [&](const LogFinding& finding) {
     if (++findings <= kMaxListedFindings) printNote(asked.log + ": " + describe(finding));
   };
-  auto reader = EventLogReader::open(asked.log, options);
-  if (!reader.ok()) return failed(inFile(reader.error(), asked.log));
-  auto writer = EventLogWriter::create(asked.output);
-  if (!writer.ok()) return failed(inFile(writer.error(), asked.output));
-  const auto counts = copyEvents(reader.value(), writer.value());
+  FORETOUCH_TRY_OR(failed, auto reader, EventLogReader::open(asked.log, options));
+  FORETOUCH_TRY_OR(failed, auto writer, EventLogWriter::create(asked.output));
+  const auto counts = copyEvents(reader, writer);
   if (!counts.ok()) {
     std::error_code ignored;
     std::filesystem::remove(asked.output, ignored);

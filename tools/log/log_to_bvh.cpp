@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 
 #include "articulated/pose.h"
+#include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 #include "network/log/event_log.h"
 #include "network/wire/codec.h"
 #include "tools/console.h"
@@ -71,8 +73,7 @@ Result<Recording> readRecording(const LogToBvhRequest& request, const ChannelNam
   Recording recording;
   const auto read = readEvents(request.logPath, loss,
                                [&](const LogEvent& event, const EventLogReader&) -> Result<bool> {
-                                 const auto added = addEvent(event, request, channels, recording);
-                                 if (!added.ok()) return added.error();
+                                 FORETOUCH_CHECK(addEvent(event, request, channels, recording));
                                  return true;
                                });
   if (!read.ok()) return read.error();
@@ -89,7 +90,7 @@ Result<Pose> poseOf(const PoseMessage& message, const Skeleton& skeleton,
   std::vector<bool> isKnown(pose.rotations.size(), false);
   const auto placeOf = [&](std::int32_t joint) -> std::optional<std::size_t> {
     if (joint < 0 || joint >= skeleton.numJoints()) return std::nullopt;
-    return static_cast<std::size_t>(joint);
+    return slotOf(joint);
   };
   for (const PoseJoint& joint : message.joints) {
     const auto j = placeOf(joint.joint);
@@ -151,34 +152,28 @@ std::vector<std::string> notesOn(const Recording& recording) {
 }
 
 Result<BvhOfLog> convert(const LogToBvhRequest& request, LogLoss& loss) {
-  const auto channels = channelNames(request.suffix);
-  if (!channels.ok()) return channels.error();
-  auto read = readRecording(request, channels.value(), loss);
-  if (!read.ok()) return read.error();
-  const Recording& recording = read.value();
+  FORETOUCH_TRY(const auto channels, channelNames(request.suffix));
+  FORETOUCH_TRY(auto read, readRecording(request, channels, loss));
+  const Recording& recording = read;
   const auto raw = recording.skeletons.find(recording.poses.front().skeletonHash);
   if (raw == recording.skeletons.end()) {
     return refusal(ErrorCode::Empty, fmt::format("holds poses of avatar {}, but not the skeleton "
                                                  "that they are about",
                                                  request.avatar));
   }
-  const auto skeleton = Skeleton::build(raw->second);
-  if (!skeleton.ok()) return skeleton.error();
-  std::vector<bool> hasTranslation(static_cast<std::size_t>(skeleton.value().numJoints()), false);
+  FORETOUCH_TRY(const auto skeleton, Skeleton::build(raw->second));
+  std::vector<bool> hasTranslation(countOf(skeleton.numJoints()), false);
   std::vector<Pose> poses;
   for (const PoseMessage& message : recording.poses) {
-    auto pose = poseOf(message, skeleton.value(), hasTranslation);
-    if (!pose.ok()) return pose.error();
-    poses.push_back(std::move(pose).value());
+    FORETOUCH_TRY(auto pose, poseOf(message, skeleton, hasTranslation));
+    poses.push_back(std::move(pose));
   }
   BvhOfLog bvh;
   bvh.notes = notesOn(recording);
   bvh.frames = static_cast<std::int64_t>(poses.size());
   const double frameTimeS =
       std::clamp(spacingS(recording.poses, bvh.notes), kMinFrameTimeS, kMaxFrameTimeS);
-  auto text = bvhText(skeleton.value(), hasTranslation, poses, frameTimeS);
-  if (!text.ok()) return text.error();
-  bvh.text = std::move(text).value();
+  FORETOUCH_TRY(bvh.text, bvhText(skeleton, hasTranslation, poses, frameTimeS));
   return bvh;
 }
 

@@ -12,7 +12,9 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
+#include "lss/index.h"
 #include "tools/console.h"
 #include "tools/replay/results_writer.h"
 #include "tools/settings/stream_settings.h"
@@ -28,25 +30,24 @@ Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
   std::vector<StreamSolver> solvers;
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {
     const std::string& path = inputs.request.avatars[i].path;
-    auto options = queryOptionsFor(inputs.request.world, path, inputs.avatars[i], inputs.scene);
-    if (!options.ok()) return options.error();
-    auto solver = StreamSolver::make(inputs.request.avatars[i].id, inputs.avatars[i], inputs.scene,
-                                     options.value(), inputs.request.policy);
-    if (!solver.ok()) return inFile(solver.error(), path);
-    solvers.push_back(std::move(solver).value());
+    FORETOUCH_TRY(auto options,
+                  queryOptionsFor(inputs.request.world, path, inputs.avatars[i], inputs.scene));
+    FORETOUCH_TRY(auto solver,
+                  inFile(StreamSolver::make(inputs.request.avatars[i].id, inputs.avatars[i],
+                                            inputs.scene, options, inputs.request.policy),
+                         path));
+    solvers.push_back(std::move(solver));
   }
   return solvers;
 }
 
 /// Does the log hold any answer? Answers of the replay wait for theirs only where it does.
 Result<bool> holdsAnswers(const std::string& path, const std::string& channel) {
-  auto log = EventLogReader::open(path);
-  if (!log.ok()) return inFile(log.error(), path);
+  FORETOUCH_TRY(auto log, EventLogReader::open(path));
   LogEvent event;
   for (;;) {
-    const auto more = log.value().next(event);
-    if (!more.ok()) return inFile(more.error(), path);
-    if (!more.value()) return false;
+    FORETOUCH_TRY(const auto more, log.next(event));
+    if (!more) return false;
     if (event.channel == channel) return true;
   }
 }
@@ -83,7 +84,7 @@ class LogReplay {
   }
 
  private:
-  void reject(Reject reason) { ++report_.rejects[static_cast<std::size_t>(reason)]; }
+  void reject(Reject reason) { ++report_.rejects[slotOf(reason)]; }
 
   StreamSolver* solverOf(std::int32_t avatar) {
     const auto found = indexOf_.find(avatar);
@@ -161,43 +162,35 @@ bool isEventLog(const std::string& path) {
 }
 
 Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request) {
-  auto channels = channelNames(request.suffix);
-  if (!channels.ok()) return channels.error();
+  FORETOUCH_TRY(auto channels, channelNames(request.suffix));
   std::vector<Avatar> avatars;
   for (const NumberedAvatar& numbered : request.avatars) {
-    auto avatar = readAvatarFile(numbered.path);
-    if (!avatar.ok()) return inFile(avatar.error(), numbered.path);
-    avatars.push_back(std::move(avatar).value());
+    FORETOUCH_TRY(auto avatar, readAvatarFile(numbered.path));
+    avatars.push_back(std::move(avatar));
   }
-  auto scene = loadScene(request.world);
-  if (!scene.ok()) return scene.error();
-  return LogReplayInputs{request, std::move(channels).value(), std::move(scene).value(),
-                         std::move(avatars)};
+  FORETOUCH_TRY(auto scene, loadScene(request.world));
+  return LogReplayInputs{request, std::move(channels), std::move(scene), std::move(avatars)};
 }
 
 Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSink& sink) {
   const std::string& path = inputs.request.logPath;
-  auto solvers = solversFor(inputs);
-  if (!solvers.ok()) return solvers.error();
-  const auto compares = holdsAnswers(path, inputs.channels.contacts);
-  if (!compares.ok()) return compares.error();
-  auto log = EventLogReader::open(path);
-  if (!log.ok()) return inFile(log.error(), path);
-  LogReplay replay(inputs, std::move(solvers).value(), compares.value());
+  FORETOUCH_TRY(auto solvers, solversFor(inputs));
+  FORETOUCH_TRY(const auto compares, holdsAnswers(path, inputs.channels.contacts));
+  FORETOUCH_TRY(auto log, EventLogReader::open(path));
+  LogReplay replay(inputs, std::move(solvers), compares);
   LogEvent event;
   for (;;) {
-    const auto more = log.value().next(event);
-    if (!more.ok()) return inFile(more.error(), path);
-    if (!more.value()) break;
+    FORETOUCH_TRY(const auto more, log.next(event));
+    if (!more) break;
     const auto avatar = replay.take(event);
     if (!avatar) continue;
     const StreamSolver& solver = replay.solver(*avatar);
-    if (!sink({replay.answer(), *avatar, solver.lastStep(), solver.options(),
-               log.value().position(), log.value().size()})) {
+    if (!sink({replay.answer(), *avatar, solver.lastStep(), solver.options(), log.position(),
+               log.size()})) {
       break;
     }
   }
-  return replay.finish(log.value().counts());
+  return replay.finish(log.counts());
 }
 
 std::string logHeaderLine(const LogReplayInputs& inputs) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "lss/index.h"
 #include "network/wire/reject.h"
 #include "tools/replay/summary.h"
 
@@ -32,7 +33,7 @@ std::string damage(const LogCounts& log) {
 
 LogReplaySummary::LogReplaySummary(const LogReplayInputs& inputs) : inputs_(inputs) {
   for (const Avatar& avatar : inputs.avatars) {
-    ofLink_.emplace_back(static_cast<std::size_t>(avatar.numLinks()));
+    ofLink_.emplace_back(countOf(avatar.numLinks()));
   }
 }
 
@@ -41,9 +42,8 @@ void LogReplaySummary::add(const ContactsMessage& answer, std::size_t avatar) {
   for (const AnsweredContact& answered : answer.contacts) {
     const Verdict verdict = answered.contact.verdict;
     touches = touches || verdict != Verdict::Undecided;
-    if (verdict == Verdict::Undecided)
-      ++reasons_[static_cast<std::size_t>(answered.contact.reason)];
-    const auto link = static_cast<std::size_t>(answered.contact.link);
+    if (verdict == Verdict::Undecided) ++reasons_[slotOf(answered.contact.reason)];
+    const auto link = slotOf(answered.contact.link);
     for (Counts* counts : {&total_, &ofLink_[avatar][link]}) {
       counts->contacts += verdict == Verdict::Contact ? 1 : 0;
       counts->startsInContact += verdict == Verdict::StartsInContact ? 1 : 0;

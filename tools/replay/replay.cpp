@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "articulated/try.h"
 #include "lss/assert.h"
 #include "tools/replay/step_solver.h"
 
@@ -100,8 +101,8 @@ class Workers {
       }
     } catch (const std::exception& e) {
       if (threads_.empty()) {
-        return Error{ErrorCode::LimitExceeded, "--threads", -1, -1,
-                     std::string("no thread could be started: ") + e.what()};
+        return Error::in("--threads", ErrorCode::LimitExceeded,
+                         std::string("no thread could be started: ") + e.what());
       }
     }
     return Done{};
@@ -127,9 +128,9 @@ Chunk solveChunk(StepSolver& solver, std::int64_t first, std::int64_t end) {
     }
   } catch (const std::exception& e) {
     chunk.error =
-        Error{ErrorCode::LimitExceeded, "", -1, -1,
-              "step " + std::to_string(first + static_cast<std::int64_t>(chunk.steps.size())) +
-                  " could not be answered: " + e.what()};
+        Error::of(ErrorCode::LimitExceeded,
+                  "step " + std::to_string(first + static_cast<std::int64_t>(chunk.steps.size())) +
+                      " could not be answered: " + e.what());
   }
   return chunk;
 }
@@ -141,9 +142,8 @@ Result<Done> replay(const ReplayInputs& inputs, const ReplayOptions& options,
   FORETOUCH_ASSERT(options.threads >= 1);
   std::optional<RigidComparison> rigid;
   if (options.compareRigid) {
-    auto built = RigidComparison::build(inputs.avatar);
-    if (!built.ok()) return built.error();
-    rigid.emplace(std::move(built).value());
+    FORETOUCH_TRY(auto built, RigidComparison::build(inputs.avatar));
+    rigid.emplace(std::move(built));
   }
   const StepFormat format(inputs.avatar, inputs.scene);
   const StepExtras extras{rigid ? &*rigid : nullptr, options.compareLink, options.rays};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lss/index.h"
 #include "tools/contact_json.h"
 #include "tools/settings/clip_settings.h"
 #include "tools/settings/world_settings.h"
@@ -81,9 +82,9 @@ std::string StepFormat::line(const StepAnswer& answer) const {
 void StepFormat::write(const LinkContact& contact, const StepAnswer& answer,
                        JsonWriter& out) const {
   ContactWords words;
-  words.link = links_[static_cast<std::size_t>(contact.link)];
+  words.link = links_[slotOf(contact.link)];
   if (contact.verdict != Verdict::Undecided) {
-    words.object = objects_[static_cast<std::size_t>(scene_.object(contact.triangle))];
+    words.object = objects_[slotOf(scene_.object(contact.triangle))];
     words.timeS = timeOf(contact, answer.t0S, answer.t1S);
   }
   out.beginObject();

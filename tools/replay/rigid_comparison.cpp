@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "articulated/try.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -78,26 +80,21 @@ Result<RigidComparison> RigidComparison::build(const Avatar& avatar) {
     raw.joints.push_back(std::move(joint));
     lss.push_back(avatar.lss(link));
   }
-  auto skeleton = Skeleton::build(raw);
-  if (!skeleton.ok()) return skeleton.error();
-  auto forest = Avatar::build(std::move(skeleton).value(), std::move(lss));
-  if (!forest.ok()) return forest.error();
-  return RigidComparison(std::move(forest).value());
+  FORETOUCH_TRY(auto skeleton, Skeleton::build(raw));
+  FORETOUCH_TRY(auto forest, Avatar::build(std::move(skeleton), std::move(lss)));
+  return RigidComparison(std::move(forest));
 }
 
 Result<RigidCounts> RigidComparison::compare(const ChainMotion& motion, const StepContacts& truth,
                                              const Scene& scene, const QueryOptions& options,
                                              QueryScratch& scratch) const {
-  const auto from = worldPose(forest_.skeleton(), motion, 0.0);
-  if (!from.ok()) return from.error();
-  const auto to = worldPose(forest_.skeleton(), motion, 1.0);
-  if (!to.ok()) return to.error();
-  const ChainMotion straight(forest_.skeleton(), from.value(), to.value());
-  const auto rigid = firstContacts(forest_, straight, scene, options, scratch);
-  if (!rigid.ok()) return rigid.error();
+  FORETOUCH_TRY(const auto from, worldPose(forest_.skeleton(), motion, 0.0));
+  FORETOUCH_TRY(const auto to, worldPose(forest_.skeleton(), motion, 1.0));
+  const ChainMotion straight(forest_.skeleton(), from, to);
+  FORETOUCH_TRY(const auto rigid, firstContacts(forest_, straight, scene, options, scratch));
   RigidCounts counts;
   for (std::size_t i = 0; i < truth.links.size(); ++i) {
-    counts.add(compareLink(motion, truth.links[i], rigid.value().links[i]));
+    counts.add(compareLink(motion, truth.links[i], rigid.links[i]));
   }
   return counts;
 }

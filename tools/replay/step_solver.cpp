@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "articulated/try.h"
+#include "lss/index.h"
 #include "tools/console.h"
 #include "tools/replay/ray_set.h"
 
@@ -21,13 +23,11 @@ double microsecondsSince(Clock::time_point start) {
 }  // namespace
 
 Result<ReplayedStep> StepSolver::solve(std::int64_t step) {
-  const auto from = poseAt(step * inputs_.steps.stride);
-  if (!from.ok()) return from.error();
-  const auto to = poseAt((step + 1) * inputs_.steps.stride);
-  if (!to.ok()) return to.error();
+  FORETOUCH_TRY(const auto from, poseAt(step * inputs_.steps.stride));
+  FORETOUCH_TRY(const auto to, poseAt((step + 1) * inputs_.steps.stride));
 
   const Clock::time_point start = Clock::now();
-  const ChainMotion motion(inputs_.avatar.skeleton(), from.value(), to.value());
+  const ChainMotion motion(inputs_.avatar.skeleton(), from, to);
   const auto contacts =
       firstContacts(inputs_.avatar, motion, inputs_.scene, inputs_.query, scratch_);
   const double latencyUs = microsecondsSince(start);
@@ -36,8 +36,8 @@ Result<ReplayedStep> StepSolver::solve(std::int64_t step) {
   ReplayedStep replayed;
   replayed.answer = recorded(step, contacts.value(), latencyUs);
   replayed.answer.missedByPoses = missedByPoses(motion, replayed.answer.contacts);
-  const auto added = addExtras(motion, contacts.value(), replayed);
-  if (!added.ok()) return inFile(added.error(), inputs_.request.motionPath);
+  FORETOUCH_CHECK(
+      inFile(addExtras(motion, contacts.value(), replayed), inputs_.request.motionPath));
   replayed.line = format_.line(replayed.answer);
   return replayed;
 }
@@ -45,9 +45,7 @@ Result<ReplayedStep> StepSolver::solve(std::int64_t step) {
 /// The later pose of one step is the earlier one of the next: it is kept.
 Result<Pose> StepSolver::poseAt(std::int64_t frame) {
   if (frame != frame_) {
-    auto pose = poseAtFrame(inputs_, frame);
-    if (!pose.ok()) return pose.error();
-    pose_ = std::move(pose).value();
+    FORETOUCH_TRY(pose_, poseAtFrame(inputs_, frame));
     frame_ = frame;
   }
   return pose_;
@@ -60,7 +58,7 @@ StepAnswer StepSolver::recorded(std::int64_t step, const StepContacts& contacts,
   answer.t0S = inputs_.timeOfStep(step);
   answer.t1S = inputs_.timeOfStep(step + 1);
   for (const LinkId link : reported(contacts)) {
-    answer.contacts.push_back(contacts.links[static_cast<std::size_t>(link)]);
+    answer.contacts.push_back(contacts.links[slotOf(link)]);
   }
   answer.counters = contacts.counters;
   answer.latencyUs = std::round(10.0 * latencyUs) / 10.0;
@@ -99,8 +97,7 @@ Result<Done> StepSolver::addExtras(const ChainMotion& motion, const StepContacts
   if (extras_.rays) {
     const std::array<RaySegment, kRaysPerSet> rays = raysAlong(motion);
     const Clock::time_point start = Clock::now();
-    const auto hits = castRaySet(inputs_.scene, rays);
-    if (!hits.ok()) return hits.error();
+    FORETOUCH_CHECK(castRaySet(inputs_.scene, rays));
     replayed.raySetUs = microsecondsSince(start);
   }
   return Done{};

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "lss/index.h"
 #include "middleware/scene/ray_yardstick.h"
 
 namespace foretouch::tools {
@@ -35,11 +36,11 @@ double percentile(std::vector<float>& values, double share) {
   const auto at =
       static_cast<std::ptrdiff_t>(std::clamp(rank, 0.0, static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + at, values.end());
-  return static_cast<double>(values[static_cast<std::size_t>(at)]);
+  return static_cast<double>(values[slotOf(at)]);
 }
 
 ReplaySummary::ReplaySummary(const ReplayInputs& inputs)
-    : inputs_(inputs), ofLink_(static_cast<std::size_t>(inputs.avatar.numLinks())) {}
+    : inputs_(inputs), ofLink_(countOf(inputs.avatar.numLinks())) {}
 
 void ReplaySummary::add(const ReplayedStep& step) {
   const StepAnswer& answer = step.answer;
@@ -52,7 +53,7 @@ void ReplaySummary::add(const ReplayedStep& step) {
         std::count(answer.missedByPoses.begin(), answer.missedByPoses.end(), contact.link) > 0;
     if (!missed) continue;
     ++total_.missedByPoses;
-    ++ofLink_[static_cast<std::size_t>(contact.link)].missedByPoses;
+    ++ofLink_[slotOf(contact.link)].missedByPoses;
     const bool isFirstOfStep = contact.link == answer.missedByPoses.front();
     if (isFirstOfStep && firstMissed_.size() < kKeptMissed) {
       firstMissed_.push_back(
@@ -80,7 +81,7 @@ void ReplaySummary::add(const ReplayedStep& step) {
 }
 
 void ReplaySummary::count(const LinkContact& contact) {
-  for (Counts* counts : {&total_, &ofLink_[static_cast<std::size_t>(contact.link)]}) {
+  for (Counts* counts : {&total_, &ofLink_[slotOf(contact.link)]}) {
     counts->contacts += contact.verdict == Verdict::Contact ? 1 : 0;
     counts->startsInContact += contact.verdict == Verdict::StartsInContact ? 1 : 0;
     counts->undecided += contact.verdict == Verdict::Undecided ? 1 : 0;
@@ -130,18 +131,17 @@ std::string ReplaySummary::byLink() const {
   constexpr std::size_t kMaxRows = 40;
   std::vector<LinkId> order;
   for (LinkId link = 0; link < inputs_.avatar.numLinks(); ++link) {
-    const Counts& c = ofLink_[static_cast<std::size_t>(link)];
+    const Counts& c = ofLink_[slotOf(link)];
     if (c.contacts + c.startsInContact + c.undecided > 0) order.push_back(link);
   }
   if (order.empty()) return "";
   std::stable_sort(order.begin(), order.end(), [&](LinkId a, LinkId b) {
-    return ofLink_[static_cast<std::size_t>(a)].contacts >
-           ofLink_[static_cast<std::size_t>(b)].contacts;
+    return ofLink_[slotOf(a)].contacts > ofLink_[slotOf(b)].contacts;
   });
   std::string text = fmt::format("\n{:<32}{:>10}{:>18}{:>19}{:>11}\n", "link", "contacts",
                                  "missed by poses", "starts in contact", "undecided");
   for (std::size_t i = 0; i < std::min(order.size(), kMaxRows); ++i) {
-    const Counts& c = ofLink_[static_cast<std::size_t>(order[i])];
+    const Counts& c = ofLink_[slotOf(order[i])];
     text +=
         fmt::format("{:<32}{:>10}{:>18}{:>19}{:>11}\n", inputs_.avatar.skeleton().name(order[i]),
                     c.contacts, c.missedByPoses, c.startsInContact, c.undecided);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "lss/index.h"
 #include "tools/report/indexed_mesh.h"
 
 namespace foretouch::tools {
@@ -136,7 +137,7 @@ ReportedContact contactView(const LinkContact& contact, const Scene& scene, std:
   view.contact = contact;
   if (contact.verdict != Verdict::Undecided) {
     view.timeS = timeOf(contact, t0S, t1S);
-    view.object = scene.objectNames()[static_cast<std::size_t>(scene.object(contact.triangle))];
+    view.object = scene.objectNames()[slotOf(scene.object(contact.triangle))];
   }
   return view;
 }

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/bvh/bvh_avatar.h"
 #include "assets/mesh/link_mesh.h"
@@ -42,30 +43,25 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
 Result<PlayedClip> loadClipAlone(const ClipRequest& request) {
-  auto read = readMotion(motionRequestOf(request));
-  if (!read.ok()) return read.error();
-  Clip& clip = read.value().clip;
-  auto avatar = avatarFromClip(clip);
-  if (!avatar.ok()) return inFile(avatar.error(), request.motionPath);
-  auto match = matchJoints(avatar.value().skeleton(), clip.skeleton);
-  if (!match.ok()) return inFile(match.error(), request.motionPath);
-  const auto steps = selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz);
-  if (!steps.ok()) return inFile(steps.error(), request.motionPath);
-  return PlayedClip{std::move(avatar).value(), std::move(clip), std::move(match).value(),
-                    steps.value(), read.value().isUpright};
+  FORETOUCH_TRY(auto read, readMotion(motionRequestOf(request)));
+  Clip& clip = read.clip;
+  FORETOUCH_TRY(auto avatar, inFile(avatarFromClip(clip), request.motionPath));
+  FORETOUCH_TRY(auto match,
+                inFile(matchJoints(avatar.skeleton(), clip.skeleton), request.motionPath));
+  FORETOUCH_TRY(
+      const auto steps,
+      inFile(selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz), request.motionPath));
+  return PlayedClip{std::move(avatar), std::move(clip), std::move(match), steps, read.isUpright};
 }
 
 Result<Done> loadBody(Inspected& inspected) {
   const ReplayRequest& request = inspected.request;
   if (!request.motionPath.empty()) {
     inspected.isMadeUp = request.avatarPath.empty();
-    auto played = inspected.isMadeUp ? loadClipAlone(request) : loadPlayedClip(request);
-    if (!played.ok()) return played.error();
-    inspected.played = std::move(played).value();
+    FORETOUCH_TRY(inspected.played,
+                  inspected.isMadeUp ? loadClipAlone(request) : loadPlayedClip(request));
   } else if (!request.avatarPath.empty()) {
-    auto avatar = readAvatarFile(request.avatarPath);
-    if (!avatar.ok()) return inFile(avatar.error(), request.avatarPath);
-    inspected.avatar = std::move(avatar).value();
+    FORETOUCH_TRY(inspected.avatar, readAvatarFile(request.avatarPath));
   }
   return Done{};
 }
@@ -107,13 +103,12 @@ Result<Done> addTrack(const Inspected& inspected, const ReportOptions& options, 
   const std::int64_t poses =
       std::min(wanted, static_cast<std::int64_t>(track.capacity(options.maxRotations)));
   for (std::int64_t i = 0; i < poses && progress(i, poses); ++i) {
-    const auto pose = poseAt(inspected, i);
-    if (!pose.ok()) return pose.error();
+    FORETOUCH_TRY(const auto pose, poseAt(inspected, i));
     const double timeS = inspected.played
                              ? static_cast<double>(i * inspected.played->steps.stride) *
                                    inspected.played->clip.frameTimeS
                              : 0.0;
-    track.addPose(timeS, pose.value());
+    track.addPose(timeS, pose);
     if (i > 0) track.addStep(static_cast<std::uint32_t>(i - 1), static_cast<std::uint32_t>(i));
   }
   if (poses < wanted) {
@@ -207,12 +202,9 @@ Result<std::shared_ptr<const Inspected>> inspect(const ReplayRequest& request) {
                    !request.motionPath.empty());
   auto inspected = std::make_shared<Inspected>();
   inspected->request = request;
-  const auto loaded = loadBody(*inspected);
-  if (!loaded.ok()) return loaded.error();
+  FORETOUCH_CHECK(loadBody(*inspected));
   if (!request.scenePath.empty()) {
-    auto scene = loadScene(request);
-    if (!scene.ok()) return scene.error();
-    inspected->scene = std::move(scene).value();
+    FORETOUCH_TRY(inspected->scene, loadScene(request));
   }
   loadMeshes(*inspected);
   return std::shared_ptr<const Inspected>(std::move(inspected));
@@ -232,8 +224,7 @@ Result<ViewDocument> documentOf(const Inspected& inspected, const ReportOptions&
     std::optional<TouchQuestion> question;
     if (inspected.scene) question.emplace(TouchQuestion{*inspected.scene, query});
     TrackBuilder track(*body, question ? &*question : nullptr);
-    const auto added = addTrack(inspected, options, track, document.notes, progress);
-    if (!added.ok()) return added.error();
+    FORETOUCH_CHECK(addTrack(inspected, options, track, document.notes, progress));
     action = track.box();
     ViewAvatar avatar;
     avatar.name = fileName(inspected.isMadeUp ? request.motionPath : request.avatarPath);

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
+
 namespace foretouch::tools {
 
 ReplayReport::ReplayReport(const ReplayInputs& inputs, const ReportOptions& options)
@@ -32,9 +34,8 @@ Result<Done> ReplayReport::addTrack(const ReportProgress& progress) {
   const auto steps = static_cast<std::int64_t>(latenciesUs_.size());
   for (std::int64_t pose = 0; pose <= steps; ++pose) {
     if (!progress(pose, steps)) return Done{};
-    const auto read = poseAtFrame(inputs_, pose * inputs_.steps.stride);
-    if (!read.ok()) return read.error();
-    track_.addPose(inputs_.timeOfStep(pose), read.value());
+    FORETOUCH_TRY(const auto read, poseAtFrame(inputs_, pose * inputs_.steps.stride));
+    track_.addPose(inputs_.timeOfStep(pose), read);
   }
   for (std::int64_t step = 0; step < steps; ++step) {
     const auto from = static_cast<std::uint32_t>(step);
@@ -79,8 +80,7 @@ std::vector<ViewRow> ReplayReport::rowsOf(const ReplaySummary& summary) {
 
 Result<ViewDocument> ReplayReport::document(const ReplaySummary& summary,
                                             const ReportProgress& progress) {
-  const auto added = addTrack(progress);
-  if (!added.ok()) return added.error();
+  FORETOUCH_CHECK(addTrack(progress));
   const ReplayRequest& request = inputs_.request;
   ViewDocument document;
   document.kind = ViewKind::Replay;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "lss/index.h"
 #include "tools/report/indexed_mesh.h"
 
 namespace foretouch::tools {
@@ -97,7 +98,7 @@ std::vector<Part> partsOf(const Scene& scene, const Choice& choice,
   std::vector<Part> parts;
   for (const std::string& name : scene.objectNames()) parts.push_back({name, {}, {}});
   for (const TriangleId id : choice.ids) {
-    Part& part = parts[static_cast<std::size_t>(scene.object(id))];
+    Part& part = parts[slotOf(scene.object(id))];
     part.ids.push_back(id);
     if (contains(contacted, id)) part.fixed.push_back(id);
   }

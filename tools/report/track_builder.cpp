@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lss/assert.h"
+#include "lss/index.h"
 
 namespace foretouch::tools {
 namespace {
@@ -30,7 +31,7 @@ TrackBuilder::TrackBuilder(const Avatar& avatar, const TouchQuestion* question)
 }
 
 std::size_t TrackBuilder::capacity(std::size_t numbers) const {
-  return numbers / (4 * static_cast<std::size_t>(avatar_.numLinks()));
+  return numbers / (4 * countOf(avatar_.numLinks()));
 }
 
 void TrackBuilder::addPose(double timeS, const Pose& pose) {
@@ -48,7 +49,7 @@ void TrackBuilder::addPose(double timeS, const Pose& pose) {
 void TrackBuilder::addTranslations(const Pose& pose) {
   const std::size_t before = track_.poses();
   for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
-    const auto index = static_cast<std::size_t>(link);
+    const auto index = slotOf(link);
     const Eigen::Vector3d& translation = pose.translations[index];
     if (before == 0) {
       append(translation, track_.offsets);
@@ -69,7 +70,7 @@ void TrackBuilder::addTranslations(const Pose& pose) {
 void TrackBuilder::growBox(const ChainMotion& motion) {
   motion.statesAt(0.0, states_);
   for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
-    const LinkState& state = states_[static_cast<std::size_t>(link)];
+    const LinkState& state = states_[slotOf(link)];
     for (const Lss& lss : avatar_.lss(link)) {
       const Eigen::Vector3d reach = Eigen::Vector3d::Constant(lss.radius);
       for (const Eigen::Vector3d& end : {state.pointAt(lss.a), state.pointAt(lss.b)}) {
@@ -122,8 +123,7 @@ Pose poseOf(const ViewTrack& track, std::size_t pose) {
   }
   const std::size_t moving = track.moving.size();
   for (std::size_t i = 0; i < moving; ++i) {
-    made.translations[static_cast<std::size_t>(track.moving[i])] =
-        vectorAt(track.values, pose * moving + i);
+    made.translations[slotOf(track.moving[i])] = vectorAt(track.values, pose * moving + i);
   }
   return made;
 }

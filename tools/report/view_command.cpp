@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
@@ -48,7 +49,7 @@ FileRole roleOf(const std::string& path) {
 }
 
 Error fileError(const std::string& path, std::string message) {
-  return Error{ErrorCode::Mismatch, path, -1, -1, std::move(message)};
+  return Error::in(path, ErrorCode::Mismatch, std::move(message));
 }
 
 /// Gives files without an option the one that their names speak of.
@@ -68,7 +69,7 @@ Result<Done> assignFiles(const std::vector<std::string>& files, ReplayRequest& r
                          "before it");
     }
     if (!place->empty()) {
-      return fileError(file, "is one too many; expected at most one of its kind, found " +
+      return fileError(file, "is a second one of its kind; expected at most one, found " +
                                  inQuotes(*place) + " as well");
     }
     *place = file;
@@ -81,7 +82,7 @@ Result<Done> check(ViewJob& job) {
   const auto assigned = assignFiles(job.files, request);
   if (!assigned.ok()) return assigned;
   if (request.scenePath.empty() && request.avatarPath.empty() && request.motionPath.empty()) {
-    return Error{ErrorCode::Empty, "view", -1, -1, "expected a scene, an avatar or a motion"};
+    return Error::in("view", ErrorCode::Empty, "expected a scene, an avatar or a motion");
   }
   if (isEventLog(request.motionPath)) {
     return fileError(request.motionPath,
@@ -96,23 +97,20 @@ Result<Done> view(const ViewJob& job, std::vector<std::string>& notes) {
       checkOutput(job.report.path, {request.scenePath, request.avatarPath, request.motionPath,
                                     request.robotPath, request.mapPath});
   if (!checked.ok()) return checked;
-  const auto inspected = inspect(request);
-  if (!inspected.ok()) return inspected.error();
+  FORETOUCH_TRY(const auto inspected, inspect(request));
   const InterruptGuard guard;
   return writeReport(job.report.path, guard,
                      [&](const ReportProgress& progress) -> Result<ViewDocument> {
-                       auto document = documentOf(*inspected.value(), job.report, progress);
+                       auto document = documentOf(*inspected, job.report, progress);
                        if (document.ok()) notes = document.value().notes;
                        return document;
                      });
 }
 
 ExitCode run(ViewJob job) {
-  const auto checked = check(job);
-  if (!checked.ok()) return failed(checked.error());
+  FORETOUCH_CHECK_OR(failed, check(job));
   std::vector<std::string> notes;
-  const auto done = view(job, notes);
-  if (!done.ok()) return failed(done.error());
+  FORETOUCH_CHECK_OR(failed, view(job, notes));
   for (const std::string& note : notes) printNote(note);
   if (!isStandardOutput(job.report.path)) printOut("report: " + job.report.path + "\n");
   return ExitCode::Done;
@@ -142,7 +140,7 @@ Command viewCommand() {
       "--report-triangles", "N", job->report.maxTriangles, 1, kMostReportTriangles,
       "Of a heavier scene the report shows what is near the avatar, or a simplified form");
   addRateSetting(settings, job->request,
-                 "Poses a second to show of the clip; animations: 30 if all");
+                 "Poses per second to show of the clip; animations: 30 if all");
   addClipSettings(settings, job->request);
   Command command{"view",
                   "Look at a scene, an avatar or a clip before a run: units, axes, placement",

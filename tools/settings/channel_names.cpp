@@ -17,10 +17,10 @@ Result<ChannelNames> channelNames(const std::string& suffix) {
   const std::size_t longest = std::max(
       {names.skeleton.size(), names.pose.size(), names.contacts.size(), names.status.size()});
   if (isPrintable && longest <= kMaxChannelBytes) return names;
-  return Error{ErrorCode::OutOfRange, "--suffix", -1, -1,
-               "expected printable ASCII without spaces, at most " +
-                   std::to_string(kMaxChannelBytes - (longest - suffix.size())) +
-                   " bytes of it, found " + inQuotes(suffix)};
+  return Error::in("--suffix", ErrorCode::OutOfRange,
+                   "expected printable ASCII without spaces, at most " +
+                       std::to_string(kMaxChannelBytes - (longest - suffix.size())) +
+                       " bytes of it, found " + inQuotes(suffix));
 }
 
 std::string urlOrDefault(const std::string& given) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "tools/arguments.h"
 #include "tools/settings/world_settings.h"
@@ -15,10 +16,9 @@ void addPlaceSetting(Settings& settings, Placement& place) {
   Setting& setting = settings.parsed(
       "--place", "X,Y,Z[,YAW]",
       [&place](const std::string& text) -> Result<Done> {
-        const auto parsed = parsePlacement("", text);
-        if (!parsed.ok()) return parsed.error();
-        place.origin = parsed.value().origin;
-        place.yawDeg = parsed.value().yawDeg;
+        FORETOUCH_TRY(const auto parsed, parsePlacement("", text));
+        place.origin = parsed.origin;
+        place.yawDeg = parsed.yawDeg;
         return Done{};
       },
       [&place] {

@@ -34,10 +34,9 @@ Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* 
 Setting& addAvatarSetting(Settings& settings, ClipRequest& request);
 
 /// --rate; `help` says what is done with the poses that are kept.
-Setting& addRateSetting(Settings& settings, ClipRequest& request,
-                        const char* help =
-                            "Poses a second to use of the clip; animations: 30 if "
-                            "all");
+Setting& addRateSetting(
+    Settings& settings, ClipRequest& request,
+    const char* help = "Poses per second to take from the clip; animations: 30 if all");
 
 /// How the motion is read, and matched with the avatar: --scale, --motion-up, --animation, --robot,
 /// --map and --package. `request` outlives the settings.

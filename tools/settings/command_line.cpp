@@ -7,6 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "articulated/try.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -58,8 +60,7 @@ Result<Done> take(const Typed& typed) {
 
 ExitCode runSubcommand(const Subcommand& subcommand) {
   for (const Typed& typed : subcommand.typed) {
-    const auto taken = take(typed);
-    if (!taken.ok()) return failed(taken.error());
+    FORETOUCH_CHECK_OR(failed, take(typed));
   }
   return subcommand.command.run(subcommand.command.settings);
 }

@@ -10,10 +10,10 @@ namespace foretouch::tools {
 Result<HttpAddress> parseViewAddress(const std::string& option, const std::string& text) {
   auto address = parseHttpAddress(option, text);
   if (!address.ok() || isLoopback(address.value().host)) return address;
-  return Error{
-      ErrorCode::OutOfRange, option, -1, -1,
+  return Error::in(
+      option, ErrorCode::OutOfRange,
       "expected localhost or an address of this machine alone (from others: ssh -L), found " +
-          inQuotes(text)};
+          inQuotes(text));
 }
 
 Result<HttpAddress> parseHttpAddress(const std::string& option, const std::string& text) {
@@ -33,8 +33,8 @@ Result<HttpAddress> parseHttpAddress(const std::string& option, const std::strin
       return address;
     }
   }
-  return Error{ErrorCode::OutOfRange, option, -1, -1,
-               "expected a host and a port, such as 127.0.0.1:9464, found " + inQuotes(text)};
+  return Error::in(option, ErrorCode::OutOfRange,
+                   "expected a host and a port, such as 127.0.0.1:9464, found " + inQuotes(text));
 }
 
 }  // namespace foretouch::tools

@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 
 namespace foretouch::tools {
@@ -15,9 +16,9 @@ Result<Whole> parseWhole(const std::string& option, const std::string& text, Who
   const char* const end = text.data() + text.size();
   const auto [rest, problem] = std::from_chars(text.data(), end, number);
   if (problem == std::errc() && rest == end && number >= 0 && number <= most) return number;
-  return Error{
-      ErrorCode::OutOfRange, option, -1, -1,
-      "expected a whole number from 0 to " + std::to_string(most) + ", found " + inQuotes(text)};
+  return Error::in(
+      option, ErrorCode::OutOfRange,
+      "expected a whole number from 0 to " + std::to_string(most) + ", found " + inQuotes(text));
 }
 
 }  // namespace
@@ -39,15 +40,13 @@ Result<std::vector<NumberedAvatar>> parseNumberedAvatars(const std::string& opti
     const bool isNumbered = digits != 0 && digits != std::string::npos && text[digits] == '=';
     NumberedAvatar avatar{1, isNumbered ? text.substr(digits + 1) : text};
     if (isNumbered) {
-      const auto id = parseAvatarId(option, text.substr(0, digits));
-      if (!id.ok()) return id.error();
-      avatar.id = id.value();
+      FORETOUCH_TRY(avatar.id, parseAvatarId(option, text.substr(0, digits)));
     }
     if (!ids.insert(avatar.id).second) {
-      return Error{ErrorCode::DuplicateName, option, -1, -1,
-                   "avatar " + std::to_string(avatar.id) +
-                       " is given twice (one without a number "
-                       "is 1); expected ID=FILE with a number of its own each"};
+      return Error::in(option, ErrorCode::DuplicateName,
+                       "avatar " + std::to_string(avatar.id) +
+                           " is used twice (an avatar without an ID has 1); expected ID=FILE with "
+                           "a different ID for each");
     }
     avatars.push_back(std::move(avatar));
   }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/settings/stream_settings.h"
 
@@ -15,8 +16,7 @@ Setting& addAddress(Settings& settings, const char* option, const char* value, s
   return settings.parsed(
       option, value,
       [&place, parse](const std::string& text) -> Result<Done> {
-        const auto address = text.empty() ? Result<HttpAddress>(HttpAddress()) : parse("", text);
-        if (!address.ok()) return address.error();
+        FORETOUCH_CHECK(text.empty() ? Result<HttpAddress>(HttpAddress()) : parse("", text));
         place = text;
         return Done{};
       },
@@ -28,9 +28,9 @@ Result<Done> takeAvatars(const std::vector<std::string>& texts,
   auto avatars = parseNumberedAvatars("--avatar", texts);
   if (!avatars.ok()) return avatars.error();
   if (avatars.value().size() > kMaxServeAvatars) {
-    return Error{ErrorCode::OutOfRange, "--avatar", -1, -1,
-                 "expected at most " + std::to_string(kMaxServeAvatars) + " avatars, found " +
-                     inQuotes(std::to_string(texts.size()))};
+    return Error::in("--avatar", ErrorCode::OutOfRange,
+                     "expected at most " + std::to_string(kMaxServeAvatars) + " avatars, found " +
+                         inQuotes(std::to_string(texts.size())));
   }
   place = std::move(avatars).value();
   return Done{};
@@ -38,38 +38,41 @@ Result<Done> takeAvatars(const std::vector<std::string>& texts,
 
 void addNetworkSettings(Settings& settings, ServeConfig& config) {
   settings
-      .text("--url", "URL", config.url,
-            "Where from and to; LCM_DEFAULT_URL, else this machine alone, if not given")
+      .text(
+          "--url", "URL", config.url,
+          "Network to receive from and send to; by default LCM_DEFAULT_URL, else this machine only")
       .notEmpty()
       .inConfig("service", "url")
       .inReport("address");
   addSuffixSetting(settings, config.service.suffix);
   settings
-      .word<ReceiverKind>("--receiver", "own|liblcm", config.receiver,
-                          {{"own", ReceiverKind::Own}, {"liblcm", ReceiverKind::Liblcm}},
-                          "Whose reader takes datagrams in; liblcm only for networks that are "
-                          "trusted")
+      .word<ReceiverKind>(
+          "--receiver", "own|liblcm", config.receiver,
+          {{"own", ReceiverKind::Own}, {"liblcm", ReceiverKind::Liblcm}},
+          "Whose receiver reads datagrams; use liblcm only on networks that you trust")
       .inConfig("service", "receiver");
 }
 
 void addServiceSettings(Settings& settings, ServeConfig& config) {
   settings
-      .whole("--workers", "N", config.service.workers, 1, kMaxServeWorkers, "Threads that answer")
+      .whole("--workers", "N", config.service.workers, 1, kMaxServeWorkers,
+             "Threads that answer poses")
       .inConfig("service", "workers")
       .inReport("workers");
   settings
       .whole("--queue", "N", config.service.queue, 1, kMaxServiceQueue,
-             "Poses that an avatar may have waiting; the oldest then makes way")
+             "Poses per avatar that may wait; beyond that the service drops the oldest")
       .inConfig("service", "queue");
   settings
       .path("--log", "FILE|DIR", config.log,
-            "Record what is taken and answered: a new event log, or a folder for one a run")
+            "Record accepted poses and their answers: a new event log, or a folder that gets one "
+            "per run")
       .inConfig("service", "log");
   addAddress(settings, "--http", "ADDRESS:PORT", config.http, parseHttpAddress,
-             "Serve /metrics and /healthz there")
+             "Address at which to serve /metrics and /healthz")
       .inConfig("service", "http");
   addAddress(settings, "--view", "[ADDRESS:PORT]", config.view, parseViewAddress,
-             "Let a browser on this machine watch the stream there")
+             "Address at which a browser on this machine can watch the stream")
       .inConfig("service", "view")
       .valueIfNone = kDefaultView;
 }
@@ -80,7 +83,7 @@ void addServeSettings(Settings& settings, ServeConfig& config) {
   addSceneSettings(settings, config.world);
   Setting& avatars = settings.parsed(
       "--avatar", "[ID=]FILE", {}, [] { return std::string(); },
-      "Avatar file, and what messages call the avatar (1 if not given); may be repeated");
+      "Avatar file, and its ID in messages (1 if not given); may be repeated");
   avatars.kind = ValueKind::List;
   avatars.take = [&config](const GivenValue& given) {
     return takeAvatars(given.texts, config.avatars);

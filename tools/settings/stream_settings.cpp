@@ -15,7 +15,7 @@ constexpr NumberRange kStepRange{1.0 / kUsPerS, static_cast<double>(kMostStepUs)
 /// In microseconds, as the policy has it; in seconds, as people write it.
 void addMaxStep(Settings& settings, std::int64_t& maxStepUs) {
   Setting& setting = settings.parsed("--max-step", "S", {}, {},
-                                     "A pose captured this much after the last one is refused");
+                                     "Refuse a pose captured later than this after the last one");
   setting.kind = ValueKind::Number;
   setting.legal = kStepRange.inWords();
   setting.take = [&maxStepUs](const GivenValue& given) -> Result<Done> {
@@ -44,7 +44,7 @@ Setting& addSuffixSetting(Settings& settings, std::string& suffix) {
             suffix = text;
             return Done{};
           },
-          [&suffix] { return suffix; }, "Ending of the channels' names")
+          [&suffix] { return suffix; }, "Suffix of the channel names")
       .inConfig("service", "suffix")
       .inHeader("suffix")
       .inReport("suffix");
@@ -54,12 +54,12 @@ void addStreamSettings(Settings& settings, StreamPolicy& policy) {
   addMaxStep(settings, policy.maxStepUs);
   settings
       .whole("--confirmations", "N", policy.confirmations, 1, kMostConfirmations,
-             "Poses in a row that make a timeline that was not expected")
+             "Poses in a row that confirm an unexpected new timeline")
       .inConfig("stream", "confirmations")
       .inHeader("confirmations");
   settings
       .flag("--unmatched-at-rest", policy.unmatchedAtRest,
-            "Joints that the sender does not have keep their rest values and are known",
+            "Joints that the sender does not have count as known, at their rest values",
             {"undecided", "rest"})
       .inConfig("stream", "unmatched")
       .inHeader("unmatched_at_rest");

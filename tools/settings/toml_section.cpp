@@ -43,8 +43,8 @@ std::optional<Error> dotsError(std::string_view text, const std::string& file) {
   std::size_t dots = 0;
   for (const char c : text) {
     if (c == '.' && ++dots > kMaxDotsALine) {
-      return Error{ErrorCode::LimitExceeded, file, line, -1,
-                   "expected at most " + std::to_string(kMaxDotsALine) + " dots in a line"};
+      return Error::inLine(file, line, ErrorCode::LimitExceeded,
+                           "expected at most " + std::to_string(kMaxDotsALine) + " dots in a line");
     }
     if (c != '\n') continue;
     ++line;
@@ -57,14 +57,13 @@ std::optional<Error> dotsError(std::string_view text, const std::string& file) {
 
 Result<toml::table> parseToml(std::string_view text, const std::string& file) {
   if (text.size() > kMaxTomlBytes) {
-    return Error{ErrorCode::LimitExceeded, file, -1, -1, "is larger than 1 MiB"};
+    return Error::in(file, ErrorCode::LimitExceeded, "is larger than 1 MiB");
   }
   if (const auto error = dotsError(text, file)) return *error;
   toml::parse_result parsed = toml::parse(text);
   if (!parsed) {
-    return Error{ErrorCode::Syntax, file,
-                 static_cast<std::int64_t>(parsed.error().source().begin.line), -1,
-                 "broken TOML: " + plain(parsed.error().description())};
+    return Error::inLine(file, static_cast<std::int64_t>(parsed.error().source().begin.line),
+                         ErrorCode::Syntax, "broken TOML: " + plain(parsed.error().description()));
   }
   return std::move(parsed).table();
 }

@@ -15,6 +15,7 @@
 
 #include "articulated/result.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 #include "tools/settings/setting.h"
 
 // An exception per broken file is one too many, and what the format needs is two values deep.
@@ -55,7 +56,7 @@ struct TomlReading {
   std::optional<Error> error;
 
   void fail(ErrorCode code, std::int64_t line, std::string message) {
-    if (!error) error = Error{code, file, line, -1, std::move(message)};
+    if (!error) error = Error::inLine(file, line, code, std::move(message));
   }
 };
 
@@ -92,7 +93,7 @@ class TomlSection {
     const std::string& found = node->as_string()->get();
     const auto place = std::find(words.begin(), words.end(), found);
     if (place == words.end()) return outOfRange(key, orList(words), inQuotes(found), *node);
-    value = values[static_cast<std::size_t>(place - words.begin())];
+    value = values[slotOf(place - words.begin())];
   }
 
   void truth(const char* key, std::optional<bool>& value);

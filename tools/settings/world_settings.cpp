@@ -23,7 +23,7 @@ void addSkinSettings(Settings& settings, WorldRequest& request) {
   const auto isNamed = [&request] { return isSkinned(request) && !isExactAnywhere(request); };
   settings
       .path("--skin", "BODY", request.skinPath,
-            "Skinned fidelity: the model that the avatar was made of")
+            "Skinned fidelity: the model from which the avatar was made")
       .inHeader("skin")
       .inReport("skin")
       .namedIf(isNamed)
@@ -74,28 +74,28 @@ void addQuerySettings(Settings& settings, WorldRequest& request) {
       .inReport("tolerance");
   settings
       .word("--fidelity", "RUNG", request.query.fidelity, fidelityWords(),
-            "What touches: one ellipsoid, one LSS (avatar), one a limb, the links' LSS (link), "
+            "What touches: one ellipsoid, one LSS (avatar), one per limb, the links' LSS (link), "
             "their meshes (exact), or a skin (skinned)")
       .inConfig("query", "fidelity")
       .inHeader("fidelity")
       .inReport("fidelity");
-  settings.list("--ignore", "PAIRS", request.ignore, "Contacts not asked for; may be repeated")
+  settings.list("--ignore", "PAIRS", request.ignore, "Contacts to ignore; may be repeated")
       .inConfig("query", "ignore")
       .inHeader("ignore")
       .inReport("ignored");
-  Setting& budget = settings
-                        .whole("--budget-us", "US", request.budgetUs, 0, kMostBudgetUs,
-                               "What a step may cost, as an amount of work; links beyond it are "
-                               "undecided; 0: no limit")
-                        .inConfig("service", "budget_us")
-                        .inHeader("budget_us")
-                        .inReport("budget")
-                        .namedIf([&request] { return request.budgetUs > 0; });
+  Setting& budget =
+      settings
+          .whole("--budget-us", "US", request.budgetUs, 0, kMostBudgetUs,
+                 "Work that one step may cost; links beyond it are undecided; 0: no limit")
+          .inConfig("service", "budget_us")
+          .inHeader("budget_us")
+          .inReport("budget")
+          .namedIf([&request] { return request.budgetUs > 0; });
   budget.shown = [&request] {
     return request.budgetUs > 0 ? std::to_string(request.budgetUs) : "";
   };
   budget.told = [&request] {
-    return request.budgetUs > 0 ? fmt::format("{} us a step, as work", request.budgetUs) : "";
+    return request.budgetUs > 0 ? fmt::format("{} us per step, as work", request.budgetUs) : "";
   };
 }
 
@@ -103,13 +103,13 @@ void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
   addSkinSettings(settings, request);
   settings
       .word("--leaves", "advancement|cubics", request.query.leafMethod, leafMethodWords(),
-            "Exact fidelity's way with pairs of triangles; both keep the promise")
+            "How exact fidelity tests pairs of triangles; both keep the promise")
       .inHeader("leaves")
       .namedIf([&request] { return isExactAnywhere(request); });
   const auto isNarrow = [&request] { return request.query.scope != QueryOptions().scope; };
   settings
       .word("--scope", "links|avatar", request.query.scope, scopeWords(),
-            "Every link's first contact, or only the first of all")
+            "First contact of every link, or only of the whole avatar")
       .ofClips()
       .inHeader("scope")
       .inReport("scope")
@@ -118,7 +118,7 @@ void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
     return isNarrow() ? toString(request.query.scope) : "";
   };
   settings.word("--culler", "flat|point-query", request.query.culler, cullerWords(),
-                "Way to cull; both find the same");
+                "How to cull; both give the same answers");
   settings
       .path("--policy", "FILE", request.policyPath,
             "Tolerance, fidelity and what to ignore, link by link: [[policy]] tables "

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <utility>
 
+#include "articulated/try.h"
 #include "network/service/clock.h"
 
 namespace foretouch::tools {
@@ -59,10 +60,9 @@ class Run {
       if (!pace_.waitUntil(nextSkeletonUs_)) return false;
       const std::int64_t now = pace_.utimeUs();
       encode(sender.skeleton(now), payload_);
-      const auto taken = sink_(options_.channels.skeleton, payload_, now);
-      if (!taken.ok()) return taken.error();
+      FORETOUCH_TRY(const auto taken, sink_(options_.channels.skeleton, payload_, now));
       ++report_.skeletons;
-      report_.failures += taken.value() ? 0 : 1;
+      report_.failures += taken ? 0 : 1;
     }
     return true;
   }
@@ -71,13 +71,11 @@ class Run {
     const auto lateUs = pace_.waitUntil(dueUs);
     if (!lateUs) return false;
     const std::int64_t now = pace_.utimeUs();
-    const auto filled = sender.fill(pose, now, message_);
-    if (!filled.ok()) return filled.error();
+    FORETOUCH_CHECK(sender.fill(pose, now, message_));
     encode(message_, payload_);
-    const auto taken = sink_(options_.channels.pose, payload_, now);
-    if (!taken.ok()) return taken.error();
+    FORETOUCH_TRY(const auto taken, sink_(options_.channels.pose, payload_, now));
     ++report_.poses;
-    report_.failures += taken.value() ? 0 : 1;
+    report_.failures += taken ? 0 : 1;
     if (options_.speed > 0.0) {
       report_.late += *lateUs > PublishReport::kLateUs ? 1 : 0;
       report_.mostLateUs = std::max(report_.mostLateUs, *lateUs);
@@ -127,9 +125,8 @@ Result<PublishReport> publishClip(const PlacedClip& placed, const StepSelection&
   SenderOptions session = options.sender;
   do {
     const ClipSender sender(placed, steps, session);
-    const auto sent = run.send(sender);
-    if (!sent.ok()) return sent.error();
-    if (!sent.value()) break;
+    FORETOUCH_TRY(const auto sent, run.send(sender));
+    if (!sent) break;
     session.startUtimeUs = sender.utimeOf(sender.numPoses());
   } while (options.loop);
   return run.report();

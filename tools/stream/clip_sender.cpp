@@ -4,12 +4,15 @@
 #include <cmath>
 #include <cstddef>
 
+#include "articulated/try.h"
+#include "lss/index.h"
+
 namespace foretouch::tools {
 namespace {
 
 RawSkeleton rawOf(const Skeleton& skeleton) {
   RawSkeleton raw;
-  raw.joints.reserve(static_cast<std::size_t>(skeleton.numJoints()));
+  raw.joints.reserve(countOf(skeleton.numJoints()));
   for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
     raw.joints.push_back({skeleton.name(joint), skeleton.parent(joint), skeleton.restOffset(joint),
                           skeleton.restRotation(joint)});
@@ -50,8 +53,7 @@ SkeletonMessage ClipSender::skeleton(std::int64_t sendUtimeUs) const {
 
 Result<Done> ClipSender::fill(std::int64_t pose, std::int64_t sendUtimeUs,
                               PoseMessage& message) const {
-  const auto valid = poseAtFrame(placed_, pose * steps_.stride);
-  if (!valid.ok()) return valid.error();
+  FORETOUCH_TRY(const auto valid, poseAtFrame(placed_, pose * steps_.stride));
   message.avatar = options_.avatar;
   message.session = options_.startUtimeUs;
   message.sequence = pose;
@@ -62,16 +64,16 @@ Result<Done> ClipSender::fill(std::int64_t pose, std::int64_t sendUtimeUs,
   message.translations.clear();
   const Skeleton& skeleton = placed_.avatar.skeleton();
   for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
-    const auto j = static_cast<std::size_t>(joint);
+    const auto j = slotOf(joint);
     const JointId source = placed_.match.clipJointOf[j];
     const auto s = static_cast<std::size_t>(source);
     const bool isTurned = source != kNoParent && placed_.clip.hasRotation[s];
     const bool isMoved = source != kNoParent && placed_.clip.hasTranslation[s];
     const int how = isTurned || isMoved ? kJointTracked : kJointInferred;
     message.joints.push_back(
-        {joint, static_cast<std::uint8_t>(kJointValid | how), valid.value().rotations[j]});
+        {joint, static_cast<std::uint8_t>(kJointValid | how), valid.rotations[j]});
     if (isMoved || skeleton.parent(joint) == kNoParent) {
-      message.translations.push_back({joint, valid.value().translations[j]});
+      message.translations.push_back({joint, valid.translations[j]});
     }
   }
   return Done{};

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "network/wire/codec.h"
 #include "network/wire/wire.h"
 #include "tools/settings/channel_names.h"
@@ -38,8 +39,7 @@ struct ListenJob {
 Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
   const auto url = parseUdpmUrl(job.url);
   if (!url.ok()) return inFile(url.error(), "--url");
-  const auto route = testMulticast(url.value());
-  if (!route.ok()) return inFile(route.error(), "--url");
+  FORETOUCH_CHECK(testMulticast(url.value()));
   std::vector<std::string> channels{job.channels.contacts};
   if (job.status) channels.push_back(job.channels.status);
   auto receiver = openUdpmReceiver(url.value(), channels);
@@ -102,18 +102,16 @@ Result<ExitCode> listen(const ListenJob& job) {
   constexpr int kWaitMs = 50;  // how late a signal or the end of silence is noticed at most
   StopSignal stop;
   bool isStopped = false;
-  const auto receiver = receiverFor(job);
-  if (!receiver.ok()) return receiver.error();
+  FORETOUCH_TRY(const auto receiver, receiverFor(job));
   Listener listener(job);
   std::vector<WireMessage> messages;
   while (!listener.isDone() && !listener.isSilent() && listener.isHeard() && !isStopped) {
     messages.clear();
-    const auto received = receiver.value()->receive(messages, kWaitMs);
-    if (!received.ok()) return inFile(received.error(), "--url");
+    FORETOUCH_CHECK(inFile(receiver->receive(messages, kWaitMs), "--url"));
     for (const WireMessage& message : messages) listener.take(message);
     isStopped = stop.wait(std::chrono::milliseconds(0));
   }
-  const std::uint64_t drops = receiver.value()->counts().kernelDrops;
+  const std::uint64_t drops = receiver->counts().kernelDrops;
   if (listener.rejected() > 1) {
     printNote(fmt::format("{} messages could not be read", listener.rejected()));
   }
@@ -125,9 +123,7 @@ Result<ExitCode> listen(const ListenJob& job) {
 }
 
 ExitCode run(ListenJob job) {
-  const auto channels = channelNames(job.suffix);
-  if (!channels.ok()) return failed(channels.error());
-  job.channels = channels.value();
+  FORETOUCH_TRY_OR(failed, job.channels, channelNames(job.suffix));
   job.url = urlOrDefault(job.url);
   const auto ended = listen(job);
   return ended.ok() ? ended.value() : failed(ended.error());
@@ -146,7 +142,8 @@ verdicts did not come.)";
 Command listenCommand() {
   const auto job = std::make_shared<ListenJob>();
   Settings settings;
-  settings.text("--url", "URL", job->url, "Where from; LCM_DEFAULT_URL, else this machine");
+  settings.text("--url", "URL", job->url,
+                "Network to listen to; by default LCM_DEFAULT_URL, else this machine only");
   addSuffixSetting(settings, job->suffix);
   settings.flag("--json", job->json, "Lines of JSON instead of text");
   settings.flag("--status", job->status, "The service's heartbeats as well");
@@ -156,7 +153,7 @@ Command listenCommand() {
       .shown = [] { return std::string(); };
   settings.number("--timeout", "S", job->timeoutS, kAboveZero, "",
                   "End after so many seconds without a verdict");
-  Command command{"listen", "Print the verdicts that a service sends, as they come",
+  Command command{"listen", "Print the verdicts that a service sends, as they arrive",
                   kListenExamples, std::move(settings)};
   command.run = [job](const Settings&) { return run(*job); };
   return command;

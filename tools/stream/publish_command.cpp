@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "network/log/event_log.h"
 #include "network/service/clock.h"
@@ -33,12 +34,12 @@ struct PublishJob {
 /// What belongs to live sending makes no sense with a log, and the other way round.
 Result<Done> checkTogether(const PublishJob& job) {
   const auto refuse = [](const char* option, const char* why) {
-    return Error{ErrorCode::Mismatch, option, -1, -1, why};
+    return Error::in(option, ErrorCode::Mismatch, why);
   };
-  constexpr char kNotWithLog[] = "is about sending to a network; expected none with --output";
+  constexpr char kNotWithLog[] = "applies to sending over a network, not to --output";
   if (job.outputPath.empty()) {
     if (!job.startUtimeUs) return Done{};
-    return refuse("--start", "is about a log; expected --output as well");
+    return refuse("--start", "applies to a log only; add --output");
   }
   if (job.options.loop) return refuse("--loop", kNotWithLog);
   if (job.options.speed != PublishOptions().speed) return refuse("--speed", kNotWithLog);
@@ -48,9 +49,7 @@ Result<Done> checkTogether(const PublishJob& job) {
 
 /// What follows from the options together.
 Result<Done> settle(PublishJob& job) {
-  const auto channels = channelNames(job.suffix);
-  if (!channels.ok()) return channels.error();
-  job.options.channels = channels.value();
+  FORETOUCH_TRY(job.options.channels, channelNames(job.suffix));
   job.url = urlOrDefault(job.url);
   job.options.sender.startUtimeUs = job.startUtimeUs.value_or(utimeNow());
   std::string& source = job.options.sender.source;
@@ -76,21 +75,18 @@ Result<PlayedClip> loadWithRemarks(const ClipRequest& request) {
 }
 
 Result<PublishReport> publishLive(const PublishJob& job) {
-  const auto played = loadWithRemarks(job.request);
-  if (!played.ok()) return played.error();
+  FORETOUCH_TRY(const auto played, loadWithRemarks(job.request));
   const auto url = parseUdpmUrl(job.url);
   if (!url.ok()) return inFile(url.error(), "--url");
-  const auto route = testMulticast(url.value());
-  if (!route.ok()) return inFile(route.error(), "--url");
-  const auto publisher = openUdpmPublisher(url.value());
-  if (!publisher.ok()) return inFile(publisher.error(), "--url");
+  FORETOUCH_CHECK(testMulticast(url.value()));
+  FORETOUCH_TRY(const auto publisher, inFile(openUdpmPublisher(url.value()), "--url"));
   StopSignal stop;
   LivePace pace([&stop] { return stop.wait(std::chrono::milliseconds(0)); });
   PublishOptions options = job.options;
   options.sender.startUtimeUs = pace.utimeUs();
-  auto sent = publishClip(placedIn(played.value(), job.request), played.value().steps, options,
-                          pace, [&](const std::string& channel, ByteView payload, std::int64_t) {
-                            return Result<bool>(publisher.value()->publish(channel, payload));
+  auto sent = publishClip(placedIn(played, job.request), played.steps, options, pace,
+                          [&](const std::string& channel, ByteView payload, std::int64_t) {
+                            return Result<bool>(publisher->publish(channel, payload));
                           });
   if (sent.ok() && sent.value().late > 0) {
     printNote(fmt::format("{} of {} poses were sent more than {} ms late, the latest by {:.1f} ms",
@@ -98,16 +94,14 @@ Result<PublishReport> publishLive(const PublishJob& job) {
                           static_cast<double>(sent.value().mostLateUs) / 1000.0));
   }
   if (sent.ok() && sent.value().failures > 0) {
-    printNote(fmt::format("{} messages were not taken by the system", sent.value().failures));
+    printNote(fmt::format("the system refused to send {} messages", sent.value().failures));
   }
   return sent;
 }
 
 ExitCode run(PublishJob job) {
-  const auto together = checkTogether(job);
-  if (!together.ok()) return failed(together.error());
-  const auto settled = settle(job);
-  if (!settled.ok()) return failed(settled.error());
+  FORETOUCH_CHECK_OR(failed, checkTogether(job));
+  FORETOUCH_CHECK_OR(failed, settle(job));
   const bool isLog = !job.outputPath.empty();
   const auto report =
       isLog ? publishToLog(job.request, job.options, job.outputPath) : publishLive(job);
@@ -128,21 +122,20 @@ A service (foretouch serve) that knows the avatar answers as foretouch replay do
 
 void addSendingSettings(Settings& settings, PublishJob& job) {
   settings.whole("--id", "N", job.options.sender.avatar, 0,
-                 std::numeric_limits<std::int32_t>::max(), "What the service calls the avatar");
+                 std::numeric_limits<std::int32_t>::max(), "ID of the avatar in messages");
   addRateSetting(settings, job.request);
-  settings.number("--speed", "S", job.options.speed, kZeroOrAbove,
-                  "Times the clip's own; 0: as fast as the system takes them, which may lose some");
-  settings.flag("--loop", job.options.loop, "Over and over, each time as a new session");
+  settings.number(
+      "--speed", "S", job.options.speed, kZeroOrAbove,
+      "Factor on the clip's own speed; 0: as fast as the system accepts, which may lose poses");
+  settings.flag("--loop", job.options.loop, "Repeat the clip for ever, each time as a new session");
   settings.text("--url", "URL", job.url,
-                "Where to; LCM_DEFAULT_URL, else this machine, if not given");
+                "Network to send to; by default LCM_DEFAULT_URL, else this machine only");
   addSuffixSetting(settings, job.suffix);
   settings.path("--output", "LOG", job.outputPath, "Write a new event log instead of sending");
   settings.parsed(
       "--start", "US",
       [&job](const std::string& text) -> Result<Done> {
-        const auto utimeUs = parseUtime("--start", text);
-        if (!utimeUs.ok()) return utimeUs.error();
-        job.startUtimeUs = utimeUs.value();
+        FORETOUCH_TRY(job.startUtimeUs, parseUtime("--start", text));
         return Done{};
       },
       [] { return std::string(); },
@@ -157,19 +150,16 @@ std::int64_t utimeNow() {
 
 Result<PublishReport> publishToLog(const ClipRequest& request, const PublishOptions& options,
                                    const std::string& logPath) {
-  const auto played = loadWithRemarks(request);
-  if (!played.ok()) return played.error();
-  auto log = EventLogWriter::create(logPath);
-  if (!log.ok()) return inFile(log.error(), logPath);
+  FORETOUCH_TRY(const auto played, loadWithRemarks(request));
+  FORETOUCH_TRY(auto log, EventLogWriter::create(logPath));
   RecordedPace pace(options.sender.startUtimeUs);
   auto sent = publishClip(
-      placedIn(played.value(), request), played.value().steps, options, pace,
+      placedIn(played, request), played.steps, options, pace,
       [&](const std::string& channel, ByteView payload, std::int64_t utimeUs) -> Result<bool> {
-        const auto written = log.value().write(utimeUs, channel, payload);
-        if (!written.ok()) return inFile(written.error(), logPath);
+        FORETOUCH_CHECK(log.write(utimeUs, channel, payload));
         return true;
       });
-  const auto closed = log.value().close();
+  const auto closed = log.close();
   if (sent.ok() && !closed.ok()) return inFile(closed.error(), logPath);
   return sent;
 }

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/inputs/policy_section.h"
 #include "tools/settings/toml_section.h"
@@ -42,7 +43,7 @@ void readAvatars(TomlSection root, TomlReading& reading, ServeConfig& config) {
   }
   if (!node->is_array_of_tables()) {
     return reading.fail(ErrorCode::Syntax, lineOf(*node),
-                        "avatar: expected tables, each below a line [[avatar]]");
+                        "avatar: expected tables, each under a line [[avatar]]");
   }
   if (node->as_array()->size() > kMaxServeAvatars) {
     return reading.fail(ErrorCode::LimitExceeded, lineOf(*node),
@@ -62,7 +63,7 @@ void readAvatars(TomlSection root, TomlReading& reading, ServeConfig& config) {
     if (!ids.insert(avatar.id).second) {
       reading.fail(ErrorCode::DuplicateName, section.line(),
                    "[[avatar]]: the id " + std::to_string(avatar.id) +
-                       " stands twice (it is 1 where none is given)");
+                       " is used twice (an avatar without an id has 1)");
     }
     config.avatars.push_back(std::move(avatar));
   }
@@ -71,11 +72,10 @@ void readAvatars(TomlSection root, TomlReading& reading, ServeConfig& config) {
 }  // namespace
 
 Result<ServeConfig> parseServeConfig(std::string_view text, const std::string& file) {
-  const auto parsed = parseToml(text, file);
-  if (!parsed.ok()) return parsed.error();
+  FORETOUCH_TRY(const auto parsed, parseToml(text, file));
   TomlReading reading{file, std::nullopt};
   ServeConfig config;
-  TomlSection root(reading, parsed.value(), "the file");
+  TomlSection root(reading, parsed, "the file");
   root.allowOnly({"service", "scene", "query", "policy", "stream", "avatar"});
   Settings settings;
   addServeSettings(settings, config);
@@ -92,9 +92,8 @@ Result<ServeConfig> parseServeConfig(std::string_view text, const std::string& f
 }
 
 Result<ServeConfig> readServeConfig(const std::string& path) {
-  const auto text = readWholeFile(path, kMaxServeConfigBytes);
-  if (!text.ok()) return text.error();
-  return parseServeConfig(text.value(), path);
+  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxServeConfigBytes));
+  return parseServeConfig(text, path);
 }
 
 }  // namespace foretouch::tools

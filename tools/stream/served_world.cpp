@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
 #include "tools/inputs/replay_inputs.h"
@@ -11,11 +12,9 @@ namespace {
 
 Result<StreamSolver> loadAvatar(const ServeConfig& config, const NumberedAvatar& served,
                                 const Scene& scene) {
-  const auto avatar = readAvatarFile(served.path);
-  if (!avatar.ok()) return inFile(avatar.error(), served.path);
-  auto query = queryOptionsFor(config.world, served.path, avatar.value(), scene);
-  if (!query.ok()) return query.error();
-  auto solver = StreamSolver::make(served.id, avatar.value(), scene, query.value(), config.stream);
+  FORETOUCH_TRY(const auto avatar, readAvatarFile(served.path));
+  FORETOUCH_TRY(auto query, queryOptionsFor(config.world, served.path, avatar, scene));
+  auto solver = StreamSolver::make(served.id, avatar, scene, query, config.stream);
   if (!solver.ok()) return inFile(solver.error(), served.path);
   return solver;
 }
@@ -23,18 +22,16 @@ Result<StreamSolver> loadAvatar(const ServeConfig& config, const NumberedAvatar&
 }  // namespace
 
 Result<ServedWorld> loadServedWorld(const ServeConfig& config) {
-  const auto scene = loadScene(config.world);
-  if (!scene.ok()) return scene.error();
-  ServedWorld world{scene.value(), {}, 0, {}};
-  world.numTriangles = scene.value().numTriangles();
-  if (const std::size_t dropped = scene.value().audit().droppedNonFinite; dropped > 0) {
+  FORETOUCH_TRY(const auto scene, loadScene(config.world));
+  ServedWorld world{scene, {}, 0, {}};
+  world.numTriangles = scene.numTriangles();
+  if (const std::size_t dropped = scene.audit().droppedNonFinite; dropped > 0) {
     world.remarks.push_back(config.world.scenePath + ": " + std::to_string(dropped) +
                             " triangles with a vertex that is not finite were left out");
   }
   for (const NumberedAvatar& served : config.avatars) {
-    auto solver = loadAvatar(config, served, scene.value());
-    if (!solver.ok()) return solver.error();
-    world.avatars.push_back(std::move(solver).value());
+    FORETOUCH_TRY(auto solver, loadAvatar(config, served, scene));
+    world.avatars.push_back(std::move(solver));
   }
   return world;
 }

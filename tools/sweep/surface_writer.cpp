@@ -35,8 +35,8 @@ class Output {
 };
 
 Error tooLarge(const char* format) {
-  return Error{ErrorCode::LimitExceeded, "--output", -1, -1,
-               std::string("too many triangles for a ") + format + " file"};
+  return Error::in("--output", ErrorCode::LimitExceeded,
+                   std::string("too many triangles for a ") + format + " file");
 }
 
 std::string titleOf(const Sweep& sweep, SurfaceSide side) {
@@ -195,8 +195,8 @@ Result<MeshFormat> meshFormatOf(const std::string& path) {
   if (extension == ".obj") return MeshFormat::Obj;
   if (extension == ".ply") return MeshFormat::Ply;
   if (extension == ".glb") return MeshFormat::Glb;
-  return Error{ErrorCode::OutOfRange, "--output", -1, -1,
-               "expected a name that ends in .obj, .ply or .glb, found " + inQuotes(path)};
+  return Error::in("--output", ErrorCode::OutOfRange,
+                   "expected a name that ends in .obj, .ply or .glb, found " + inQuotes(path));
 }
 
 Result<std::size_t> writeSurfaces(const Sweep& sweep, SurfaceSide side, MeshFormat format,

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 #include "tessellation/swept_lss.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
@@ -20,16 +22,16 @@ namespace {
 using Eigen::Vector3d;
 
 Error optionError(const char* option, ErrorCode code, std::string message) {
-  return Error{code, option, -1, -1, std::move(message)};
+  return Error::in(option, code, std::move(message));
 }
 
 Result<std::vector<LinkId>> linksOf(const std::vector<std::string>& names, const Avatar& avatar) {
   const Skeleton& skeleton = avatar.skeleton();
-  std::vector<bool> isChosen(static_cast<std::size_t>(avatar.numLinks()), false);
+  std::vector<bool> isChosen(countOf(avatar.numLinks()), false);
   for (const std::string& name : names) {
     if (name == "all") {
       for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-        isChosen[static_cast<std::size_t>(link)] = !avatar.lss(link).empty();
+        isChosen[slotOf(link)] = !avatar.lss(link).empty();
       }
       continue;
     }
@@ -44,11 +46,11 @@ Result<std::vector<LinkId>> linksOf(const std::vector<std::string>& names, const
       return optionError("--links", ErrorCode::Empty,
                          "the link " + inQuotes(name) + " has no LSS, and so sweeps nothing");
     }
-    isChosen[static_cast<std::size_t>(*link)] = true;
+    isChosen[slotOf(*link)] = true;
   }
   std::vector<LinkId> links;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    if (isChosen[static_cast<std::size_t>(link)]) links.push_back(link);
+    if (isChosen[slotOf(link)]) links.push_back(link);
   }
   if (links.empty()) return optionError("--links", ErrorCode::Empty, "expected the name of a link");
   return links;
@@ -82,11 +84,9 @@ Result<Pose> poseAt(const SweepInputs& inputs, std::int64_t step) {
 }
 
 Result<ChainMotion> motionOf(const SweepInputs& inputs, std::int64_t step) {
-  const auto from = poseAt(inputs, step);
-  if (!from.ok()) return from.error();
-  const auto to = poseAt(inputs, step + 1);
-  if (!to.ok()) return to.error();
-  return ChainMotion(inputs.avatar.skeleton(), from.value(), to.value());
+  FORETOUCH_TRY(const auto from, poseAt(inputs, step));
+  FORETOUCH_TRY(const auto to, poseAt(inputs, step + 1));
+  return ChainMotion(inputs.avatar.skeleton(), from, to);
 }
 
 /// One LSS's surface in the making.
@@ -100,9 +100,9 @@ Result<std::vector<Work>> workFor(const SweepInputs& inputs) {
   std::vector<Work> works;
   for (const LinkId link : inputs.links) {
     for (const Lss& lss : inputs.avatar.lss(link)) {
-      auto builder = SweptSurfaceBuilder::create(lss, inputs.request.surface);
-      if (!builder.ok()) return inFile(builder.error(), "--error");
-      works.push_back({link, &lss, std::move(builder).value()});
+      FORETOUCH_TRY(auto builder,
+                    inFile(SweptSurfaceBuilder::create(lss, inputs.request.surface), "--error"));
+      works.push_back({link, &lss, std::move(builder)});
     }
   }
   return works;
@@ -130,11 +130,10 @@ SweptSpan spanOf(const SweepInputs& inputs, std::int64_t step) {
 Result<Done> addStep(const SweepInputs& inputs, std::int64_t step, std::vector<Work>& works) {
   const SweptSpan span = spanOf(inputs, step);
   if (!(span.beginT < span.endT)) return Done{};
-  const auto motion = motionOf(inputs, step);
-  if (!motion.ok()) return motion.error();
+  FORETOUCH_TRY(const auto motion, motionOf(inputs, step));
   std::size_t triangles = 0;
   for (Work& work : works) {
-    const auto added = work.builder.add(motion.value(), work.link, span);
+    const auto added = work.builder.add(motion, work.link, span);
     if (!added.ok()) {
       if (added.error().code == ErrorCode::LimitExceeded &&
           work.builder.triangles() > inputs.request.surface.maxTriangles) {
@@ -234,44 +233,38 @@ Result<Done> finishOne(const SweepInputs& inputs, Work& work, Sweep& sweep) {
 }  // namespace
 
 Result<SweepInputs> loadSweepInputs(const SweepRequest& request) {
-  auto played = loadPlayedClip(request);
-  if (!played.ok()) return played.error();
-  auto& [avatar, clip, match, steps, isUpright] = played.value();
-  auto links = linksOf(request.links, avatar);
-  if (!links.ok()) return links.error();
-  SweepInputs inputs{request, std::move(avatar), std::move(clip),         std::move(match),
-                     steps,   isUpright,         std::move(links).value()};
-  const auto spanned = setSpan(inputs);
-  if (!spanned.ok()) return spanned.error();
+  FORETOUCH_TRY(auto played, loadPlayedClip(request));
+  auto& [avatar, clip, match, steps, isUpright] = played;
+  FORETOUCH_TRY(auto links, linksOf(request.links, avatar));
+  SweepInputs inputs{request, std::move(avatar), std::move(clip), std::move(match),
+                     steps,   isUpright,         std::move(links)};
+  FORETOUCH_CHECK(setSpan(inputs));
   return inputs;
 }
 
 Result<Sweep> sweepOf(const SweepInputs& inputs,
                       const std::function<bool(std::int64_t, std::int64_t)>& progress) {
-  auto works = workFor(inputs);
-  if (!works.ok()) return works.error();
+  FORETOUCH_TRY(auto works, workFor(inputs));
   const double length = stepLengthS(inputs);
   const auto first = static_cast<std::int64_t>(std::floor(inputs.fromS / length));
   const std::int64_t end =
       std::min(inputs.steps.count, static_cast<std::int64_t>(std::ceil(inputs.toS / length)));
   const std::int64_t total =
-      std::max<std::int64_t>(0, end - first) + static_cast<std::int64_t>(works.value().size());
+      std::max<std::int64_t>(0, end - first) + static_cast<std::int64_t>(works.size());
   Sweep sweep;
   std::int64_t done = 0;
   for (std::int64_t step = std::min(first, end - 1); step < end; ++step) {
-    const auto added = addStep(inputs, step, works.value());
-    if (!added.ok()) return added.error();
+    FORETOUCH_CHECK(addStep(inputs, step, works));
     if (!progress(++done, total)) return sweep;
   }
-  for (Work& work : works.value()) {
-    const auto finished = finishOne(inputs, work, sweep);
-    if (!finished.ok()) return finished.error();
+  for (Work& work : works) {
+    FORETOUCH_CHECK(finishOne(inputs, work, sweep));
     if (!progress(++done, total)) return sweep;
   }
   if (sweep.links.empty()) {
     return optionError("--error", ErrorCode::Empty,
-                       "every LSS is too thin for an inner surface with this error; an LSS needs a "
-                       "radius of 1.2 times the error");
+                       "every LSS is too thin for an inner surface with this error; its radius "
+                       "must be at least 1.2 times the error");
   }
   return sweep;
 }

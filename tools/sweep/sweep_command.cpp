@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
 #include "tools/arguments.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/interrupt.h"
@@ -50,9 +51,7 @@ Result<Done> settle(SweepJob& job) {
   SweepRequest& request = job.request;
   request.links = job.links.empty() ? std::vector<std::string>{"all"} : namesIn(job.links);
   request.surface.side = job.inner ? SurfaceSide::Inner : SurfaceSide::Outer;
-  const auto format = meshFormatOf(job.output);
-  if (!format.ok()) return format.error();
-  job.format = format.value();
+  FORETOUCH_TRY(job.format, meshFormatOf(job.output));
   const bool isGlb = job.format == MeshFormat::Glb;
   request.surface.bits = isGlb ? CoordinateBits::Single : CoordinateBits::Double;
   return checkIsNoInput(
@@ -99,17 +98,15 @@ std::string report(const SweepInputs& inputs, const Sweep& sweep, std::size_t by
 }
 
 Result<Done> runSweep(const SweepJob& job) {
-  const auto inputs = loadSweepInputs(job.request);
-  if (!inputs.ok()) return inputs.error();
-  remarkOn(inputs.value());
+  FORETOUCH_TRY(const auto inputs, loadSweepInputs(job.request));
+  remarkOn(inputs);
   const auto begin = std::chrono::steady_clock::now();
   std::string text;
   {
     const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
-    auto file = PendingFile::create(job.output);
-    if (!file.ok()) return file.error();
+    FORETOUCH_TRY(auto file, PendingFile::create(job.output));
     std::optional<ProgressBar> progress;  // how much there is to do is known after the first step
-    auto sweep = sweepOf(inputs.value(), [&](std::int64_t done, std::int64_t total) {
+    auto sweep = sweepOf(inputs, [&](std::int64_t done, std::int64_t total) {
       if (!progress) progress.emplace("sweep", total);
       progress->advanceTo(done);
       return !guard.requested();
@@ -118,12 +115,10 @@ Result<Done> runSweep(const SweepJob& job) {
     const double tookS =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (!guard.requested()) {
-      const auto bytes =
-          writeSurfaces(sweep.value(), job.request.surface.side, job.format, file.value());
+      const auto bytes = writeSurfaces(sweep.value(), job.request.surface.side, job.format, file);
       if (!bytes.ok()) return bytes.error();
-      const auto written = file.value().commit();
-      if (!written.ok()) return written.error();
-      text = report(inputs.value(), sweep.value(), bytes.value(), tookS);
+      FORETOUCH_CHECK(file.commit());
+      text = report(inputs, sweep.value(), bytes.value(), tookS);
     }
   }
   printOut(text);
@@ -131,8 +126,7 @@ Result<Done> runSweep(const SweepJob& job) {
 }
 
 ExitCode run(SweepJob job) {
-  const auto settled = settle(job);
-  if (!settled.ok()) return failed(settled.error());
+  FORETOUCH_CHECK_OR(failed, settle(job));
   const auto done = runSweep(job);
   return done.ok() ? ExitCode::Done : failed(done.error());
 }
@@ -158,9 +152,9 @@ Command sweepCommand() {
   settings.list("--links", "NAMES", job->links,
                 "Links' names, separated by commas, or all (if not given)");
   settings.number("--from", "S", request.fromS, kAnyNumber, "",
-                  "Seconds in the clip; its begin if not given");
+                  "Start, in seconds of the clip; its first pose if not given");
   settings.number("--to", "S", request.toS, kAnyNumber, "",
-                  "Seconds in the clip; its end if not given");
+                  "End, in seconds of the clip; its last pose if not given");
   addRateSetting(settings, request);
   settings.number("--error", "M", request.surface.error, kToleranceRange,
                   "Largest distance (m) between surface and swept volume");

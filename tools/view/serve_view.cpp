@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "articulated/try.h"
 #include "tools/console.h"
 #include "tools/report/viewer_page.h"
 #include "tools/view/live_document.h"
@@ -25,17 +26,16 @@ std::optional<ServeView> prepareView(const ServeConfig& config, const ServedWorl
 Result<std::optional<ViewServer>> openView(const ServeConfig& config, std::optional<ServeView> view,
                                            const Service& service, ViewFeed& feed) {
   if (!view) return std::optional<ViewServer>();
-  const auto address = parseViewAddress("--view", config.view);
-  if (!address.ok()) return address.error();
+  FORETOUCH_TRY(const auto address, parseViewAddress("--view", config.view));
   view->world.startUtimeUs = service.facts().startUtimeUs;
   ViewServer::Pages pages;
   pages.page = std::move(view->page);
   pages.document = std::move(view->document);
   pages.events = std::make_unique<LiveEvents>(feed, std::move(view->world),
                                               [&service] { return service.status(); });
-  auto server = ViewServer::start(address.value().host, address.value().port, std::move(pages));
-  if (!server.ok()) return inFile(server.error(), "--view");
-  return std::optional<ViewServer>(std::move(server).value());
+  FORETOUCH_TRY(auto server,
+                inFile(ViewServer::start(address.host, address.port, std::move(pages)), "--view"));
+  return std::optional<ViewServer>(std::move(server));
 }
 
 }  // namespace foretouch::tools

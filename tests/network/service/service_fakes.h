@@ -80,7 +80,7 @@ class Inbox {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, std::chrono::milliseconds(timeoutMs),
                       [&] { return !messages_.empty() || isDead_; });
-    if (isDead_) return Error{ErrorCode::DeviceFailed, "", -1, -1, "the socket is gone"};
+    if (isDead_) return Error::of(ErrorCode::DeviceFailed, "the socket is gone");
     for (std::size_t i = 0; i < kAtOnce && !messages_.empty(); ++i) {
       messages.push_back(std::move(messages_.front()));
       messages_.pop_front();
@@ -169,7 +169,7 @@ class Book {
 
   Result<Done> write(std::int64_t utimeUs, const std::string& channel, ByteView payload) {
     gate.pass();
-    if (isFull) return Error{ErrorCode::FileUnwritable, "", -1, -1, "No space left on device"};
+    if (isFull) return Error::of(ErrorCode::FileUnwritable, "No space left on device");
     const std::lock_guard lock(mutex_);
     events_.push_back({utimeUs, channel, Bytes(payload.data, payload.data + payload.size)});
     return Done{};

@@ -161,7 +161,7 @@ TEST(ServeProgram, RefusesBadOptionsByName) {
       {{"--http", "9464"}, "--http: expected a host and a port"},
       {{"--view", "9465"}, "--view: expected a host and a port"},
       {{"--view=0.0.0.0:9465"}, "--view: expected localhost or an address of this machine"},
-      {{"--avatar", "3=" + world.folder / "man.json"}, "--avatar: avatar 3 is given twice"},
+      {{"--avatar", "3=" + world.folder / "man.json"}, "--avatar: avatar 3 is used twice"},
       {{"--suffix", "a b"}, "--suffix: expected printable ASCII"},
       {{"--suffix", std::string(64, 'x')}, "--suffix: expected"},
       {{"--fidelity", "skinned"}, "--fidelity: expected link or exact"},

@@ -28,7 +28,7 @@ TEST(ParseJointMap, RefusesAnythingElseNamingTheFile) {
 TEST(ParseJointMap, RefusesRepeatedKeys) {
   const auto map = parseJointMap(R"({"a": "b", "a": "c"})", "map.json");
   ASSERT_FALSE(map.ok());
-  EXPECT_EQ(map.error().message, "the joint 'a' stands twice");
+  EXPECT_EQ(map.error().message, "the joint 'a' appears twice");
 }
 
 TEST(ParseJointMap, SaysTheLineOfBrokenText) {

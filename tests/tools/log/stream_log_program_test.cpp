@@ -190,7 +190,8 @@ TEST(ReplayOfALog, RefusesByNameWhatMakesNoSense) {
   for (const auto& options : ofClips) {
     const Ended ended = world.replayLog(world.log, options);
     EXPECT_EQ(ended.exitCode, 2);
-    EXPECT_TRUE(holds(ended.err, "foretouch: " + options[0] + ": makes no sense with an event log"))
+    EXPECT_TRUE(holds(ended.err, "foretouch: " + options[0] +
+                                     ": applies to clips only, but --motion is the event log"))
         << ended.err;
   }
   const std::vector<std::vector<std::string>> ofLogs = {
@@ -200,7 +201,8 @@ TEST(ReplayOfALog, RefusesByNameWhatMakesNoSense) {
     options.insert(options.end(), {"--output", world.folder / "x.jsonl"});
     const Ended ended = runForetouch(world.replay(options));
     EXPECT_EQ(ended.exitCode, 2);
-    EXPECT_TRUE(holds(ended.err, "foretouch: " + name + ": makes no sense with a clip"))
+    EXPECT_TRUE(holds(
+        ended.err, "foretouch: " + name + ": applies to event logs only, but --motion is the clip"))
         << ended.err;
   }
   EXPECT_EQ(runForetouch(world.replay({"--avatar", world.folder / "man.json", "--output",

@@ -186,7 +186,7 @@ TEST(PublishClip, EndsWithTheErrorOfItsSink) {
   const auto report =
       publishClip(small.placed(), {1, 5}, options, pace,
                   [](const std::string&, ByteView, std::int64_t) -> Result<bool> {
-                    return Error{ErrorCode::FileUnwritable, "x.lcmlog", -1, -1, "no space"};
+                    return Error::in("x.lcmlog", ErrorCode::FileUnwritable, "no space");
                   });
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.error().file, "x.lcmlog");

@@ -257,7 +257,7 @@ TEST(ServeConfig, WhatIsMissingIsNamed) {
 
 TEST(ServeConfig, RepeatedIdsAreRefused) {
   EXPECT_TRUE(has(errorOf(kSmallest + "[[avatar]]\nfile = \"b\"\n"),
-                  ":5: [[avatar]]: the id 1 stands twice"));
+                  ":5: [[avatar]]: the id 1 is used twice"));
   EXPECT_EQ(errorOf(kSmallest + "[[avatar]]\nid = 2\nfile = \"a.avatar.json\"\n"), "accepted");
 }
 
