@@ -8,7 +8,7 @@ namespace foretouch::c {
 
 [[nodiscard]] ft_import_options defaultImportOptions();
 
-/// NULL stands for the defaults.
+/// NULL: the defaults.
 [[nodiscard]] ft_status readImportOptions(const ft_import_options* given,
                                           SceneImportOptions& options);
 
