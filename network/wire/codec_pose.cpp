@@ -13,7 +13,7 @@ constexpr int kKnownFlags = kJointValid | kJointTracked | kJointInferred;
 /// Joints of a message, by index.
 using JointSet = std::bitset<static_cast<std::size_t>(kMaxJoints)>;
 
-/// False where no skeleton has this joint, or where it is in `joints` already.
+/// False if no skeleton can have this joint, or if it is in `joints` already.
 bool insert(std::int32_t joint, JointSet& joints) {
   if (joint < 0 || joint >= kMaxJoints || joints[static_cast<std::size_t>(joint)]) return false;
   joints.set(static_cast<std::size_t>(joint));
@@ -109,7 +109,7 @@ void writeTranslations(const PoseMessage& message, pose_t& wire) {
   }
 }
 
-/// Its memory is kept: a stream has a hundred poses a second.
+/// Keeps its memory: a stream has a hundred poses per second.
 pose_t& scratch() {
   static thread_local pose_t wire;
   return wire;
