@@ -27,7 +27,7 @@ ExitCode check(const WorldRequest& asked) {
   auto imported = importScene(asked.scenePath, asked.sceneImport);
   if (!imported.ok()) return failed(inFile(imported.error(), asked.scenePath));
   const SceneImportReport report = imported.value().report;
-  // Built, not only measured: a scene that passes here is one that a replay takes.
+  // Builds the scene, not only measures it: a replay accepts every scene that passes here.
   const auto scene = Scene::build(std::move(imported.value().scene));
   if (!scene.ok()) return failed(inFile(scene.error(), asked.scenePath));
 

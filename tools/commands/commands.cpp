@@ -17,7 +17,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Benchmarks left this program: whoever still asks it for them is told where they are.
+/// The benchmarks moved to another program: tells users where.
 Command movedCommand(const std::string& name, const std::string& now) {
   Command moved;
   moved.name = name;
@@ -39,8 +39,7 @@ void addCommands(CLI::App& program, ExitCode& exit) {
 
 int runForetouch(int argc, const char* const* argv) noexcept {
   return runProgram(
-      {"foretouch",
-       "Continuous collision detection of avatars: what is touched between two poses.",
+      {"foretouch", "Continuous collision detection of avatars: what is touched between two poses.",
        "Start with: foretouch demo"},
       addCommands, argc, argv);
 }

@@ -29,7 +29,7 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
   LogReplaySummary summary(inputs.value());
   std::optional<LogReport> report;
   if (!job.report.path.empty()) report.emplace(inputs.value(), job.report);
-  const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
+  const InterruptGuard guard;  // built first, destroyed last: removes the file before the signal
   auto file = PendingFile::create(job.outputPath);
   if (!file.ok()) return file.error();
   file.value().write(logHeaderLine(inputs.value()));
