@@ -13,8 +13,8 @@ namespace foretouch::internal {
 /// refuse a file.
 [[nodiscard]] std::optional<std::string> damageOf(const std::string& path);
 
-/// The same, to be asked before a reader is: of damage that no reader could put up with, and on
-/// which assimp would spend much memory first.
+/// The same, before a reader runs: only damage that no reader could tolerate, and on which assimp
+/// would first spend much memory.
 [[nodiscard]] std::optional<std::string> hopelessDamageOf(const std::string& path);
 
 }  // namespace foretouch::internal

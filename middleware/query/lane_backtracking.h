@@ -83,7 +83,7 @@ class TimeBuckets {
   std::vector<Entry> entries_;
 };
 
-/// What the descents of one thread's queries reuse.
+/// Reusable memory for the descents of one thread's queries.
 struct PartScratch {
   PartLanes lanes;
   TimeBuckets lss, triangles;

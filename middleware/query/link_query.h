@@ -55,7 +55,7 @@ inline void answerClear(LinkContact& unanswered) {
 /// A new record with that answer.
 [[nodiscard]] LinkContact clearContact(LinkId link);
 
-/// What backtrack() needs to know of one link; all references outlive the call.
+/// The input of backtrack() for one link; all references outlive the call.
 struct LinkQuery {
   LinkParts parts;
   const Scene& scene;
