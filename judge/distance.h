@@ -1,8 +1,8 @@
 // judge/distance.h: the oracle's own distance of a segment and a triangle. The least over all pairs
 // of features whose closest points lie inside both: end point and face, segment and edge, end point
-// and edge, vertex and segment; zero where the segment pierces the face. It clamps nothing and uses
-// no signs of areas: the triangle gets an orthonormal frame along its longest edge, so slivers lose
-// no digits (coordinates in it err by rounding times the distance, not times the triangle's length
+// and edge, vertex and segment; zero if the segment pierces the face. It clamps nothing and uses no
+// signs of areas: the triangle gets an orthonormal frame along its longest edge, so slivers lose no
+// digits (coordinates in it err by rounding times the distance, not times the triangle's length
 // over its height). If rounding excludes a feature, its closest point lies within rounding of a
 // neighbouring feature, which then counts.
 #pragma once

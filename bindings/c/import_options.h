@@ -1,4 +1,4 @@
-// bindings/c/import_options.h: options of the child process that reads models, and where it is.
+// bindings/c/import_options.h: options of the child process that reads models, and its place.
 #pragma once
 
 #include "assets/import/scene_import.h"

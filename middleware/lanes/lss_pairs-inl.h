@@ -23,7 +23,7 @@ constexpr float kUnitShrinkOfFloat = 1.0f - 8.0f * kUnitRoundoffOfFloat;
 constexpr float kStepShrinkOfFloat = 1.0f - 16.0f * kUnitRoundoffOfFloat;
 /// Past the rounding of time + step, both at most 2: half a unit in the last place of 2, doubled.
 constexpr float kTimeRounding = 0x1p-22f;
-/// Keeps divisors away from zero where a feature has no extent; they only propose.
+/// Keeps divisors away from zero if a feature has no extent; they only propose.
 constexpr float kTiny = 1e-30f;
 /// A distance of closest points below this share of the squared extent (a length; extents are of
 /// the order of metres) has so noisy a direction that the kernel also tries the features' own

@@ -70,7 +70,7 @@ struct LinkQuery {
   [[nodiscard]] bool isSurface(std::int32_t lss, Part part) const {
     return !isExact() || part.isTriangle() || !parts.surface->hasTriangles(lss);
   }
-  /// The two parts below one that is not the surface itself (one, twice, where the LSS bounds a
+  /// The two parts below one that is not the surface itself (one, twice, if the LSS contains a
   /// single triangle).
   [[nodiscard]] std::array<Part, 2> below(std::int32_t lss, Part part) const;
 };
