@@ -4,9 +4,10 @@
 //
 // A span [m-h, m+h] is proven for a hull and a triangle if, for the unit normal n of their nearest
 // points at m, every point e of the hull keeps
-//   n.(e(m) - y) - radius - h |n.e'(m)| - h^2/2 A_e > 0 for all y of the triangle, with A_e a bound
-// on |e''|. Tries spans in long double first, with a guard of kGuard * (depth + 4) of its roundoffs
-// of the extents; repeats those within the guard, or without a proof, in fifty digits.
+//   n.(e(m) - y) - radius - h |n.e'(m)| - h^2/2 A_e > 0   for all y of the triangle,
+// with A_e a bound on |e''|. Tries spans in long double first, with a guard of
+// kGuard * (depth + 4) of its roundoffs of the extents; repeats those within the guard, or without
+// a proof, in fifty digits.
 #pragma once
 
 #include <cstdint>

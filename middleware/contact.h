@@ -45,8 +45,9 @@ inline constexpr std::uint8_t kNumUndecidedReasons = 9;
 [[nodiscard]] const char* toString(UndecidedReason reason);
 
 /// The first contact of one link on one motion. Starts as Undecided, free until 0, which claims
-/// nothing; only a finished proof writes Clear. Sound: toi and freeUntil never exceed the true time
-/// of first contact, rounding included. Tight: for Contact, the separation at toi is <= tolerance.
+/// nothing; only a finished proof writes Clear.
+/// Sound: toi and freeUntil never exceed the true time of first contact, rounding included.
+/// Tight: for Contact, the separation at toi is <= tolerance.
 /// The witness points, normal and triangle are those of the pair with the lowest toi; at equal toi,
 /// of the smaller separation, then the lexicographically smaller witness point and normal, then the
 /// lowest triangle. (At exact fidelity and t = 0: of the scene's triangles that the link touches,

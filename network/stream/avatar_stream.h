@@ -16,9 +16,9 @@
 //   - a pose of a later session,
 //   - the last of StreamPolicy::confirmations poses in a row that continue one another but not the
 //     timeline (a clock that was set, a sender without sessions that was restarted): one odd stamp
-//     changes nothing, and we follow a stream that really jumped after a few poses. None of the
-//     last 256 answered poses is answered again, whatever begins. docs/streaming.md, "What is
-//     accepted", has the whole table.
+//     changes nothing, and we follow a stream that really jumped after a few poses.
+// None of the last 256 answered poses is answered again, whatever begins.
+// docs/streaming.md, "What is accepted", has the whole table.
 #pragma once
 
 #include <cstdint>

@@ -29,11 +29,11 @@ class StreamSolver {
   [[nodiscard]] Reject take(const SkeletonMessage& message);
   /// None if it accepted the pose and filled `answer` (measures queryUs; does not touch the stamps
   /// of receiving and sending). A link is
-  ///   Undecided, freeUntil 0, if the step marks it as unknown, whatever the query found; at
-  ///   skinned fidelity also if a link that moves its triangles is unknown; Undecided (Gap),
-  ///   freeUntil 0, if the query found it clear or undecided across a gap; else as the query found
-  ///   it. A contact across a gap is one of the in-between motion of the two poses that arrived; it
-  ///   does not claim that nothing was touched before.
+  ///   - Undecided, freeUntil 0, if the step marks it as unknown, whatever the query found; at
+  ///     skinned fidelity also if a link that moves its triangles is unknown;
+  ///   - Undecided (Gap), freeUntil 0, if the query found it clear or undecided across a gap;
+  ///   - else as the query found it. A contact across a gap is one of the in-between motion of the
+  ///     two poses that arrived; it does not claim that nothing was touched before.
   [[nodiscard]] Reject take(const PoseMessage& message, ContactsMessage& answer);
 
   [[nodiscard]] std::int32_t id() const { return id_; }

@@ -1,6 +1,7 @@
 // network/watch/view_server.h: a page that shows what a service does, for browsers of this machine:
-//   GET / the page GET /view.json the data that it shows, as of the start of the service GET
-//   /events everything from now on, as server-sent events
+//   GET /           the page
+//   GET /view.json  the data that it shows, as of the start of the service
+//   GET /events     everything from now on, as server-sent events
 //
 // Read-only, and only for this machine: it listens on a loopback address, and answers 403 to
 // requests under another host name (DNS rebinding) or from another site's page. There is no

@@ -8,7 +8,6 @@
 //   - The last kMaxFinished messages that came to an end (delivered, refused, or on an unwanted
 //     channel), so that their late and repeated fragments do not count as new messages.
 //   - Channel names are only compared, never stored.
-//
 //   - The last kMaxKnownSenders senders of which a message was delivered.
 //
 // Without room, this drops an unfinished message of the sender (address and port) that has most of
