@@ -15,7 +15,7 @@ namespace foretouch {
 /// At most this many LSS on one link.
 inline constexpr std::size_t kMaxLssPerLink = 4096;
 
-/// Where a link's triangles are kept. Not loaded by link fidelity.
+/// The place of a link's triangles. Link fidelity does not load them.
 struct MeshReference {
   std::string file;  ///< Relative to the avatar file, or absolute; empty: the link has no mesh.
   std::string node;  ///< The node of that file that holds the link's triangles.
@@ -26,7 +26,7 @@ struct MeshReference {
 class Avatar {
  public:
   /// Checks counts, finiteness, radii >= 0 and |coordinates| <= kMaxCoordinate; at least one link
-  /// must have an LSS. Error::index is the offending link. `meshes` may be empty (none) or one a
+  /// must have an LSS. Error::index is the offending link. `meshes` is empty (none) or has one per
   /// link.
   static Result<Avatar> build(Skeleton skeleton, std::vector<std::vector<Lss>> lssPerLink,
                               std::vector<MeshReference> meshes = {});
@@ -36,8 +36,8 @@ class Avatar {
   [[nodiscard]] const std::vector<Lss>& lss(LinkId link) const { return lss_[slotOf(link)]; }
   [[nodiscard]] const MeshReference& mesh(LinkId link) const { return meshes_[slotOf(link)]; }
   [[nodiscard]] std::int32_t numLss() const;
-  /// The same for this avatar and its copies, another for every other avatar of the process: tells
-  /// what was derived from an avatar whether it still fits.
+  /// Equal for this avatar and its copies, different for every other avatar of the process. Data
+  /// derived from an avatar uses it to tell whether it still fits.
   [[nodiscard]] std::uint64_t identity() const { return identity_; }
 
  private:

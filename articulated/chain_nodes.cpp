@@ -30,7 +30,7 @@ HWY_INLINE Vector arcAt(Lanes d, internal::JointColumns arcs, int joint, int col
   return hn::Set(d, arcs.numbers[column * arcs.stride + joint]);
 }
 
-/// The joint's rotation in its parent's frame, slerp's weights of both ends being given.
+/// The joint's rotation in its parent's frame, from slerp's weights of both ends.
 HWY_INLINE Quaternions turned(Lanes d, internal::JointColumns arcs, int joint, Vector from,
                               Vector to) {
   using internal::JointColumns;
@@ -114,11 +114,11 @@ HWY_INLINE void storePosition(Lanes d, internal::JointColumns arcs, int joint, V
   }
 }
 
-/// Joints whose series are summed side by side: one alone would wait for its own sums.
+/// Joints whose series we sum side by side: one alone would wait for its own sums.
 constexpr int kJointsAbreast = 4;
 
 /// The polynomials in `versines` whose coefficients for these lanes are in `rows`, one row of all
-/// nodes a power.
+/// nodes per power.
 HWY_INLINE void weights(Lanes d, const double* rows, int terms, const Vector* versines,
                         Vector* sums) {
   const Vector last = hn::Load(d, rows + (terms - 1) * kNodes);
@@ -129,8 +129,8 @@ HWY_INLINE void weights(Lanes d, const double* rows, int terms, const Vector* ve
   }
 }
 
-/// Leaves slerp's weights of `from` and `to` in q[0] and q[1] of all links. The series of `from` is
-/// that of `to` backwards where the instants are those of [0,1]: `fromRows` is null.
+/// Leaves slerp's weights of `from` and `to` in q[0] and q[1] of all links. If the instants are
+/// those of [0,1], the series of `from` is that of `to` backwards: `fromRows` is null.
 void weighJoints(internal::JointColumns arcs, const double* fromRows, const double* toRows,
                  int terms, LinkNodes* links) {
   const Lanes d;
@@ -191,10 +191,11 @@ namespace {
 
 HWY_EXPORT(evaluateLinks);
 
-/// What the weights' series may leave out: far below what floats lose, and each bit takes time.
+/// Bound on the rest of the weights' series: far below the rounding of floats, and each bit takes
+/// time.
 constexpr double kLeftOut = 0x1p-44;
 
-// Derived in articulated/chain_nodes.md; tests/articulated/chain_nodes_test.cpp holds them.
+// Derived in articulated/chain_nodes.md; tests/articulated/chain_nodes_test.cpp checks them.
 constexpr double kQuaternion =
     96.0 * kUnitRoundoff +
     2.0 * kLeftOut;  ///< One joint's quaternion and its product with the parent's.
@@ -214,7 +215,7 @@ std::array<double, kMaxTerms + 1> versinesByTerms() {
   constexpr double kRoundedDown = 1.0 - 1e-9;
   std::array<double, kMaxTerms + 1> versines{};
   double coefficient = kFirst;
-  // What follows the first term left out is at most as much again.
+  // The terms after the first omitted one are together at most as large.
   for (std::size_t n = 1; n <= kMaxTerms; ++n) {
     const auto power = static_cast<double>(n);
     versines[n] = kRoundedDown * std::pow(0.5 * kLeftOut / coefficient, 1.0 / power);

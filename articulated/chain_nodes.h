@@ -1,6 +1,6 @@
 // articulated/chain_nodes.h: the frames of all links of a moving chain at eight instants at once,
 // in the processor's lanes and without trigonometry. The instants are the Chebyshev-Lobatto points
-// of a span of t, so that polynomials through them are near the best of their degree
+// of a span of t, so that polynomials through them are close to the best of their degree
 // (tessellation/lss_polynomials.h). Rounding: articulated/chain_nodes.md.
 #pragma once
 
@@ -15,31 +15,30 @@
 
 namespace foretouch {
 
-/// Instants a span: both ends and six between.
+/// Instants per span: both ends and six between.
 inline constexpr int kNodes = 8;
 
-/// One link's frame at the nodes: rotations to W and origins in W relative to the origin that
-/// ChainNodes::evaluate() was given (m). Unit quaternions w, x, y, z and matrices, row after row,
-/// of the same rotations, both to rounding.
+/// One link's frame at the nodes: rotations to W and origins in W relative to the origin given to
+/// ChainNodes::evaluate() (m). Unit quaternions w, x, y, z and matrices, row after row, of the same
+/// rotations, both to rounding.
 struct alignas(64) LinkNodes {
   double q[4][kNodes];
   double R[9][kNodes];
   double p[3][kNodes];
 };
 
-/// What holds of frames at the instants: bounds on |computed - true| of `p` (m) and of `R`
-/// (spectral norm), and on |p| (m). "True" is the motion as motion.h defines it for the poses as
-/// given.
+/// Bounds on the frames at the instants: on |computed - true| of `p` (m) and of `R` (spectral
+/// norm), and on |p| (m). "True" is the motion that motion.h defines for the given poses.
 struct NodeBounds {
   double positionRounding = 0.0, rotationRounding = 0.0, reach = 0.0;
 };
 
-/// Frames of every link of a motion at the nodes of a span. Memory is kept between calls; for one
+/// Frames of every link of a motion at the nodes of a span. Keeps its memory between calls; for one
 /// thread.
 class ChainNodes {
  public:
-  /// Frames at the nodes of [begin, end], 0 <= begin < end <= 1; positions are relative to `origin`
-  /// (in W), which is subtracted in double. O(links).
+  /// Frames at the nodes of [begin, end], 0 <= begin < end <= 1; subtracts `origin` (in W) from
+  /// positions, in double. O(links).
   void evaluate(const ChainMotion& motion, double begin, double end, const Eigen::Vector3d& origin);
 
   [[nodiscard]] std::int32_t numLinks() const { return numLinks_; }
@@ -51,10 +50,9 @@ class ChainNodes {
   [[nodiscard]] double instant(int k) const { return instants_[k]; }
   [[nodiscard]] const LinkNodes& link(LinkId link) const { return nodes_[slotOf(link)]; }
 
-  /// Of every link.
+  /// For every link.
   [[nodiscard]] const NodeBounds& bounds() const { return bounds_; }
-  /// Of one link: at present the same, as closer ones would take longer to compute than anyone
-  /// gains by them.
+  /// For one link: at present the same. Closer bounds would cost more than they gain.
 
   /// (1 - cos(k pi/7))/2, the k-th Chebyshev-Lobatto point of [0,1], rounded.
   [[nodiscard]] static double time(int k);

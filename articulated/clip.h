@@ -17,14 +17,14 @@ struct Clip {
   Skeleton skeleton;         ///< Rest offsets are the file's OFFSETs times the scale.
   double frameTimeS = 0.0;   ///< Seconds between frames, finite and > 0.
   std::vector<Pose> frames;  ///< Validated poses, in the joints' order of `skeleton`.
-  /// Per joint: does the file give it a translation that moves (position channels)?
+  /// Per joint: does the file animate its translation (position channels)?
   std::vector<bool> hasTranslation;
   /// Per joint: does the file give it rotation channels? One without keeps its rest rotation.
   std::vector<bool> hasRotation;
   /// Per joint: the End Site offsets below it (metres, in the joint's frame); usually none or one.
   std::vector<std::vector<Eigen::Vector3d>> endSites;
-  /// What the reader tolerated, one sentence each, for the user to see (renamed duplicates, a wrong
-  /// frame count, ...). At most kMaxClipNotes; the last one then says how many were left out.
+  /// Faults that the reader tolerated, one sentence each, for the user (renamed duplicates, a wrong
+  /// frame count, ...). At most kMaxClipNotes; if there were more, the last one says how many.
   std::vector<std::string> notes;
 
   [[nodiscard]] double durationS() const {

@@ -23,7 +23,7 @@ constexpr double kNormSquareError = 16.0 * kUnitRoundoff;
 constexpr double kArcExcess = 0.0556;
 /// The angle from the chord, and the computed rate (rad).
 constexpr double kChordRate = 128.0 * kUnitRoundoff;
-/// Roots are taken in float and rounded up: 2^-24 of the root for its own rounding, half as much
+/// Takes roots in float and rounds them up: 2^-24 of the root for its own rounding, half as much
 /// for its argument's, and next to nothing for the few operations in double around it.
 constexpr double kRootInflation = 1.0 + 0x1p-23;
 /// Arguments below the least normal float (1.2e-38) may become zero: their roots are below this.
@@ -38,7 +38,7 @@ struct Vectors {
 };
 
 // Products and sums are rounded one by one, never fused: the sign of a dot product is part of the
-// motion's definition, and every width is to see the same arcs.
+// motion's definition, and every width must find the same arcs.
 
 /// Summed in the order w, x, y, z, as motion.h has it.
 HWY_INLINE Vector dot(const Quaternions& a, const Quaternions& b) {
@@ -49,8 +49,8 @@ HWY_INLINE Vector dot(const Quaternions& a, const Quaternions& b) {
 HWY_INLINE Vector squareOf(const Vectors& v) {
   return hn::Add(hn::Add(hn::Mul(v.x, v.x), hn::Mul(v.y, v.y)), hn::Mul(v.z, v.z));
 }
-/// At least the root, and hardly more: what it is used for are bounds, and roots of doubles take
-/// four times as long. Arguments are at most 3e38.
+/// At least the root, and hardly more: good enough for bounds, and roots of doubles take four times
+/// as long. Arguments are at most 3e38.
 HWY_INLINE Vector rootAbove(Lanes d, Vector square) {
   const hn::Rebind<float, Lanes> floats;
   const Vector root = hn::PromoteTo(d, hn::Sqrt(hn::DemoteTo(floats, square)));
@@ -106,7 +106,7 @@ HWY_INLINE void turns(Lanes d, const StepPoses& poses, int at, JointColumns arcs
   const Quaternions from = loadQuaternions(d, poses.rotations[0] + 4 * at);
   Quaternions to = loadQuaternions(d, poses.rotations[1] + 4 * at);
   const Vector zero = hn::Zero(d), one = hn::Set(d, 1.0);
-  // The quaternions as given decide, before any rounding of a norm has a say.
+  // The quaternions as given decide, before a norm rounds.
   const Vector sign = hn::IfThenElse(hn::Lt(dot(from, to), zero), hn::Neg(one), one);
   const Quaternions start = unit(d, from);
   to = scaled(unit(d, to), sign);
@@ -142,7 +142,7 @@ HWY_INLINE void shifts(Lanes d, const StepPoses& poses, int at, JointColumns arc
   store(d, driftLength, arcs, JointColumns::kDriftLength, at);
 }
 
-/// Joints that do not fill a vector, the last one repeated.
+/// Joints that do not fill a vector; repeats the last one.
 void computeFewArcs(const StepPoses& poses, int joints, JointColumns arcs) {
   const Lanes d;
   double numbers[2][kMostLanes * 4], places[2][kMostLanes * 3];
@@ -179,7 +179,7 @@ void arcsInLanes(const StepPoses& poses, int joints, JointColumns arcs) {
     return;
   }
   for (int first = 0; first < joints; first += lanes) {
-    // The last vector takes joints again that the one before it had.
+    // The last vector repeats joints of the one before it.
     const int at = first + lanes <= joints ? first : joints - lanes;
     turns(d, poses, at, arcs);
     shifts(d, poses, at, arcs);

@@ -1,5 +1,5 @@
-// articulated/joint_arcs.h: what every joint of a step does in its parent's frame, many joints at a
-// time in the processor's lanes. Formulas and rounding: articulated/motion_bounds.md 2. Not
+// articulated/joint_arcs.h: the motion of every joint of a step in its parent's frame, many joints
+// at a time in the processor's lanes. Formulas and rounding: articulated/motion_bounds.md 2. Not
 // installed.
 #pragma once
 
@@ -18,7 +18,7 @@ struct JointColumns {
   double* numbers;
   int stride;
 
-  /// Columns, by what they hold (JointArc); quaternions w, x, y, z take four, vectors three.
+  /// Columns by content (JointArc); quaternions w, x, y, z take four, vectors three.
   enum Column : int {
     kFrom = 0,
     kTo = 4,

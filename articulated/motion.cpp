@@ -32,7 +32,7 @@ Vector3d rotationVector(const Quaternion& from, const Quaternion& to) {
   return (angle / sine) * v;
 }
 
-/// The recurrences of articulated/motion_bounds.md 2 for joint `j`, whose parent's sums are given.
+/// The recurrences of articulated/motion_bounds.md 2 for joint `j`, from its parent's sums.
 ChainSums sumsOf(const ChainSums& parent, const JointColumns& arcs, std::size_t j) {
   const auto at = [&](JointColumns::Column column) {
     return arcs.numbers[static_cast<std::size_t>(column * arcs.stride) + j];
@@ -56,14 +56,14 @@ ChainSums sumsOf(const ChainSums& parent, const JointColumns& arcs, std::size_t 
   return sums;
 }
 
-/// A root's arm is the world's to it.
+/// A root's arm is from the world's origin to the root.
 ChainSums rootSums(const JointColumns& arcs, std::size_t j) {
   ChainSums sums = sumsOf(ChainSums(), arcs, j);
   std::swap(sums.armReach, sums.rootReach);
   return sums;
 }
 
-/// What ChainMotion::largestSums() holds.
+/// The fields of ChainMotion::largestSums().
 ChainSums larger(const ChainSums& a, const ChainSums& b) {
   ChainSums sums;
   sums.angularSpeed = std::max(a.angularSpeed, b.angularSpeed);
@@ -151,7 +151,7 @@ void ChainMotion::assign(const Skeleton& skeleton, const Pose& from, const Pose&
   computeArcs({{from.rotations[0].coeffs().data(), to.rotations[0].coeffs().data()},
                {from.translations[0].data(), to.translations[0].data()}},
               arcs.stride, arcs);
-  // Local: members would be written and read again for every joint.
+  // Local: members would be stored and reloaded for every joint.
   const JointId* const parents = parents_.data();
   ChainSums* const sums = sums_.data();
   const double* const versines = arcs_.data() + n * JointColumns::kVersine;

@@ -20,8 +20,8 @@
 
 namespace foretouch {
 
-/// Pose and velocity of one link at one t, in the world W. What rounding may have done to it is
-/// bounded by MotionBounds::originRounding and MotionBounds::rotationRounding.
+/// Pose and velocity of one link at one t, in the world W. MotionBounds::originRounding and
+/// MotionBounds::rotationRounding bound its rounding.
 struct LinkState {
   Eigen::Matrix3d R_WL = Eigen::Matrix3d::Identity();  ///< Rotation L to W.
   Eigen::Vector3d p_WL = Eigen::Vector3d::Zero();      ///< Origin of L in W.
@@ -47,7 +47,7 @@ struct MotionBounds {
   double speed = 0.0;         ///< Of the link's origin.
   double acceleration = 0.0;  ///< Of the link's origin.
   double reach = 0.0;         ///< Of the link's origin from the world's.
-  /// On |d^8/dt^8| of the link's origin: what interpolation through eight instants may be off by
+  /// On |d^8/dt^8| of the link's origin: bounds the error of interpolation through eight instants
   /// (tessellation/lss_polynomials.md).
   double eighthDerivative = 0.0;
   /// Bounds on |computed - true| of LinkState's p_WL (m), R_WL (spectral norm), v_WL and w_WL.
@@ -79,8 +79,8 @@ struct MotionBounds {
   static constexpr double kPointRounding = 16.0 * kUnitRoundoff;
 };
 
-/// What the bounds of a link are made of: sums along its chain, as they are computed, without what
-/// rounding may take off them (motion_bounds.md 2). One cache line.
+/// The sums along a link's chain that its bounds are made of, as computed: rounding may have
+/// lowered them (motion_bounds.md 2). One cache line.
 struct ChainSums {
   double angularSpeed = 0.0, angularAcceleration = 0.0, speed = 0.0, acceleration = 0.0;
   double eighthDerivative = 0.0;
@@ -88,23 +88,21 @@ struct ChainSums {
   double rootReach = 0.0;  ///< Of the root's origin from the world's (m).
   double depth = 0.0;      ///< Joints of the chain, the root and the link's own included.
 
-  /// Rounded up, with the bounds on rounding that follow (motion_bounds.md 3). O(1).
+  /// Rounded up, with the bounds on rounding that follow from them (motion_bounds.md 3). O(1).
   [[nodiscard]] MotionBounds bounds() const;
-  /// As bounds().angularSpeed and so on, for those who need no more.
+  /// As bounds().accelerationAt(rho), for callers that need nothing else.
   [[nodiscard]] double accelerationAt(double rho) const {
     return kChainInflation *
            (acceleration + (angularAcceleration + angularSpeed * angularSpeed) * rho);
   }
 
-  /// Covers what rounding may have taken off sums along kMaxChainDepth joints, and off what is made
-  /// of them.
+  /// Covers the rounding of sums along kMaxChainDepth joints, and of the values made from them.
   static constexpr double kChainInflation = 1.0 + 2e-12;
 };
 
-/// What one joint does in its parent's frame (roots: in W), as the poses say it: slerp on the arc
-/// from `from` to `to`, whose dot product is not negative as given, and from `translation` by
-/// `drift` within the unit of t. Quaternions w, x, y, z, unit within 12 u (motion_bounds.md
-/// 2).
+/// One joint's motion in its parent's frame (roots: in W), from the poses: slerp on the arc from
+/// `from` to `to`, whose dot product as stored is not negative, and from `translation` by `drift`
+/// per unit of t. Quaternions w, x, y, z, unit within 12 u (motion_bounds.md 2).
 struct JointArc {
   double from[4], to[4];
   double translation[3], drift[3];
@@ -117,8 +115,8 @@ struct JointArc {
 
 /// The in-between motion of one skeleton from one validated pose to another. Constant between calls
 /// of assign(); evaluation is const, thread-safe and allocates nothing. Building costs O(joints)
-/// and no trigonometry; a state O(depth of the link), trigonometry included: whoever asks for many
-/// states of one motion keeps a MotionEvaluator.
+/// and no trigonometry; a state O(depth of the link), trigonometry included. For many states of one
+/// motion use a MotionEvaluator.
 class ChainMotion {
  public:
   /// No links, until assign().
@@ -126,7 +124,7 @@ class ChainMotion {
   /// As assign().
   ChainMotion(const Skeleton& skeleton, const Pose& from, const Pose& to);
 
-  /// Becomes the motion from `from` to `to`; allocates only where there are more joints than ever
+  /// Becomes the motion from `from` to `to`; allocates only if there are more joints than ever
   /// before. Precondition: both poses were made for `skeleton` by validatedPose() or restPose()
   /// (asserted).
   void assign(const Skeleton& skeleton, const Pose& from, const Pose& to);
@@ -140,21 +138,21 @@ class ChainMotion {
   void statesAt(double t, std::vector<LinkState>& states) const;
 
   [[nodiscard]] MotionBounds bounds(LinkId link) const { return sums(link).bounds(); }
-  /// What bounds() is made of.
+  /// The sums that bounds() is made of.
   [[nodiscard]] const ChainSums& sums(LinkId link) const { return sums_[slotOf(link)]; }
   /// The largest angularSpeed, eighthDerivative, armReach and depth of all links' sums, each by
-  /// itself; nothing else.
+  /// itself; the other fields mean nothing.
   [[nodiscard]] const ChainSums& largestSums() const { return largest_; }
   /// Of the joint that the link moves with.
   [[nodiscard]] JointArc arc(LinkId link) const;
   [[nodiscard]] JointId parent(LinkId link) const { return parents_[slotOf(link)]; }
-  /// Bounds on what the joint that the link moves with does in its parent's frame over t in [0,1]:
-  /// its turn (rad), the length of its arm and of its drift (m). What the sums are made of.
+  /// Bounds on the link's joint in its parent's frame over t in [0,1]: its turn (rad), the length
+  /// of its arm and of its drift (m). The sums are made of these.
   struct JointBounds {
     double turn, length, driftLength;
   };
   [[nodiscard]] JointBounds jointBounds(LinkId link) const;
-  /// Of all joints' arcs; 0 where there are none.
+  /// Of all joints' arcs; 0 if there are none.
   [[nodiscard]] double largestVersine() const { return largestVersine_; }
 
  private:
@@ -167,14 +165,14 @@ class ChainMotion {
   double largestVersine_ = 0.0;
 };
 
-/// States of one motion after another, bit for bit those of ChainMotion, with the trigonometry that
-/// does not depend on t done once a joint and motion. For one thread; memory is kept.
+/// States of one motion after another, bit for bit those of ChainMotion, but does the trigonometry
+/// that does not depend on t once per joint and motion. For one thread; keeps its memory.
 class MotionEvaluator {
  public:
   MotionEvaluator() = default;
   explicit MotionEvaluator(const ChainMotion& motion) { reset(motion); }
 
-  /// From now on of `motion`, which must outlive the last state asked for and not be assigned to.
+  /// Evaluates `motion` from now on, which must outlive the last call and must not be assigned to.
   void reset(const ChainMotion& motion);
   /// Precondition: reset() was called.
   [[nodiscard]] const ChainMotion& motion() const { return *motion_; }

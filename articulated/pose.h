@@ -1,4 +1,4 @@
-// articulated/pose.h: where every joint is at one instant.
+// articulated/pose.h: the place of every joint at one instant.
 #pragma once
 
 #include <Eigen/Core>

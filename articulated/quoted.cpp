@@ -7,8 +7,8 @@
 namespace foretouch {
 namespace {
 
-/// Length of the well-formed UTF-8 sequence at the start of `text` (not empty); 0 where there is
-/// none. The ranges of second bytes are those of the Unicode Standard, table 3-7.
+/// Length of the well-formed UTF-8 sequence at the start of `text` (not empty); 0 if there is none.
+/// The ranges of second bytes are those of the Unicode Standard, table 3-7.
 std::size_t utf8SequenceLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);

@@ -9,8 +9,8 @@ namespace foretouch {
 /// True for well-formed UTF-8: no overlong forms, no surrogates, nothing above U+10FFFF.
 [[nodiscard]] bool isUtf8(std::string_view text);
 
-/// A word of an untrusted file for a message: in single quotes, control characters and what is not
-/// UTF-8 as \xNN, cut after 48 bytes. Keeps control sequences out of terminals.
+/// A word of an untrusted file for a message: in single quotes, control characters and bytes that
+/// are not UTF-8 as \xNN, cut after 48 bytes. Keeps control sequences out of terminals.
 [[nodiscard]] std::string inQuotes(std::string_view text);
 
 /// A number with at most `digits` significant digits (1 to 17), as "%g" writes it, whatever the

@@ -1,6 +1,5 @@
-// articulated/result.h: how bad input is reported. An Error names the file, the place in it and
-// what was expected; the outcome of geometry is never an Error but a Verdict
-// (middleware/query/query.h).
+// articulated/result.h: errors of bad input. An Error names the file, the place in it and the
+// expectation. The outcome of geometry is never an Error but a Verdict (middleware/contact.h).
 #pragma once
 
 #include <cstdint>
@@ -18,12 +17,12 @@ enum class ErrorCode : std::uint8_t {
   FileUnwritable,  ///< Results could not be written or renamed into place.
   Syntax,          ///< The text breaks the format's grammar.
   LimitExceeded,   ///< Larger, deeper or longer than the stated limit.
-  NonFinite,       ///< NaN or infinity where a number is needed.
+  NonFinite,       ///< NaN or infinity instead of a number.
   OutOfRange,      ///< A finite number outside its legal range.
   UnknownName,     ///< A name that matches nothing.
   DuplicateName,   ///< A name that must be unique is not.
   BadHierarchy,    ///< A cycle, a parent after its child, no root.
-  Empty,           ///< Nothing of what is needed: no joints, no frames, no triangles.
+  Empty,           ///< Something required is missing: no joints, no frames, no triangles.
   Mismatch,        ///< Two inputs do not fit each other.
   ImportFailed,    ///< The importer refused the file.
   ImportCrashed,   ///< The importer process died or ran into its limits.
@@ -34,9 +33,9 @@ enum class ErrorCode : std::uint8_t {
 struct Error {
   ErrorCode code = ErrorCode::Syntax;
   std::string file;  ///< The file's path, or the option or argument; empty for values in memory.
-  std::int64_t line = -1;  ///< 1-based line of a text file; -1 where there is none.
+  std::int64_t line = -1;  ///< 1-based line of a text file; -1 if there is none.
   std::int64_t index =
-      -1;  ///< 0-based index of the joint, link, frame or triangle; -1 where there is none.
+      -1;  ///< 0-based index of the joint, link, frame or triangle; -1 if there is none.
   std::string message;  ///< What was found and what was expected, one sentence, no trailing dot.
 
   [[nodiscard]] static Error of(ErrorCode code, std::string message) {
@@ -61,8 +60,7 @@ struct Error {
 /// One line for a person: "clip.bvh:12: expected CHANNELS, found 'OFFSET'".
 [[nodiscard]] std::string describe(const Error& error);
 
-/// A value, or the Error that kept it from being made. `value()` of a failed Result is a bug
-/// (asserted).
+/// A value, or the Error that prevented it. `value()` of a failed Result is a bug (asserted).
 template <typename T>
 class [[nodiscard]] Result {
  public:

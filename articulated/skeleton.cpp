@@ -14,7 +14,7 @@ namespace {
 
 // A quaternion divided by its computed norm has |q|^2 within 12 unit roundoffs of 1 (4 for the sum
 // of squares, halved by the root, 1 for the root, 1 for the division; twice that in the square; 4
-// for the check itself). Above that sum, 16 leaves room; what is closer is left as it is.
+// for the check itself). Above that sum, 16 leaves room; a closer one stays as it is.
 constexpr double kUnitNormSquareError = 16.0 * kUnitRoundoff;
 
 Error jointError(ErrorCode code, std::size_t joint, std::string message) {
@@ -25,7 +25,7 @@ Error jointError(ErrorCode code, std::size_t joint, std::string message) {
   return error;
 }
 
-/// How joints are called in messages: by index and name.
+/// A joint's name in messages: index and name.
 std::string title(const RawSkeleton& raw, std::size_t joint) {
   return "joint " + std::to_string(joint) + " " + inQuotes(raw.joints[joint].name);
 }
@@ -112,7 +112,7 @@ std::optional<std::string> nameProblem(std::string_view name) {
   unsigned char before = 0;
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
-    // U+0080 to U+009F, in UTF-8 c2 80 to c2 9f, drive terminals as well as the ASCII ones do.
+    // U+0080 to U+009F, in UTF-8 c2 80 to c2 9f, control terminals just like the ASCII ones.
     if (byte < 0x20 || byte == 0x7f || (before == 0xc2 && byte < 0xa0)) {
       return "holds a control character";
     }

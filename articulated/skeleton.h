@@ -27,18 +27,18 @@ using JointId = std::int32_t;
 using LinkId = JointId;
 inline constexpr JointId kNoParent = -1;
 
-/// Upper limits of what a skeleton may be; larger ones are refused, from any source.
+/// Upper limits of a skeleton; larger ones are errors, from any source.
 inline constexpr std::int32_t kMaxJoints = 4096;
 inline constexpr std::int32_t kMaxChainDepth = 256;
 /// Largest magnitude (m) of an offset, a translation or a scene coordinate. Doubles resolve 2 nm
 /// there.
 inline constexpr double kMaxCoordinate = 1e7;
-/// A quaternion's norm may be off by this much (files round to six digits); it is renormalised.
+/// A quaternion's norm may be off by this much (files round to six digits); we renormalise it.
 inline constexpr double kMaxQuaternionNormError = 1e-3;
 /// Longest name of a joint, in bytes.
 inline constexpr std::size_t kMaxNameBytes = 1024;
 
-/// What an author or a file says of a joint, unchecked.
+/// A joint as an author or a file gives it, unchecked.
 struct RawJoint {
   std::string name;
   JointId parent =
@@ -51,13 +51,13 @@ struct RawSkeleton {
   std::vector<RawJoint> joints;
 };
 
-/// The unit quaternion that `q` stands for; nothing where its norm is off by more than
-/// kMaxQuaternionNormError or not finite. Applied twice it changes nothing: a quaternion that is
-/// already unit up to rounding is returned bit for bit, so that files survive being rewritten.
+/// `q` normalised; nothing if its norm is off by more than kMaxQuaternionNormError or not finite.
+/// Idempotent: returns a quaternion that is already unit up to rounding bit for bit, so that files
+/// survive rewriting.
 [[nodiscard]] std::optional<Quaternion> unitQuaternion(const Quaternion& q);
 
-/// What keeps `name` from being the name of a joint, as the end of a sentence ("is empty"); nothing
-/// where it is legal: 1 to kMaxNameBytes bytes of UTF-8 without control characters.
+/// Why `name` cannot be the name of a joint, as the end of a sentence ("is empty"); nothing if it
+/// is legal: 1 to kMaxNameBytes bytes of UTF-8 without control characters.
 [[nodiscard]] std::optional<std::string> nameProblem(std::string_view name);
 
 /// A validated, immutable skeleton: at least one joint, parents before children, unique legal names
@@ -70,7 +70,7 @@ class Skeleton {
   [[nodiscard]] std::int32_t numJoints() const { return static_cast<std::int32_t>(joints_.size()); }
   [[nodiscard]] const std::string& name(JointId joint) const { return at(joint).name; }
   [[nodiscard]] JointId parent(JointId joint) const { return at(joint).parent; }
-  /// Of all joints, in order: what every step reads lies side by side.
+  /// Of all joints, in order: contiguous, because every step reads them.
   [[nodiscard]] const std::vector<JointId>& parents() const { return parents_; }
   [[nodiscard]] const Eigen::Vector3d& restOffset(JointId joint) const { return at(joint).offset; }
   [[nodiscard]] const Quaternion& restRotation(JointId joint) const { return at(joint).rotation; }

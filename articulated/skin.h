@@ -1,4 +1,4 @@
-// articulated/skin.h: a surface whose vertices follow the blend of several links. Metres.
+// articulated/skin.h: a surface whose vertices follow a blend of several links. Metres.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace foretouch {
 
-/// A vertex that follows the blend of several links: the sum of weight * (link's pose applied to
-/// p_L), the weights summing to one.
+/// One link's share of a vertex, which is at the sum of weight * (link's pose applied to p_L), the
+/// weights summing to one.
 struct SkinInfluence {
   LinkId link = 0;
   double weight = 0.0;                            ///< > 0

@@ -11,8 +11,8 @@
 namespace foretouch {
 namespace {
 
-/// How many bytes at the start of `text` (not empty) are one character, or what is left of one that
-/// is damaged.
+/// How many bytes at the start of `text` (not empty) are one character, or the remains of a damaged
+/// one.
 struct Sequence {
   std::size_t bytes = 1;
   bool isCharacter = false;

@@ -1,5 +1,5 @@
-// assets/json_writer.h: JSON text, piece by piece: what is written as JSON, beside large documents
-// that are built as a whole (glTF), is written by this.
+// assets/json_writer.h: JSON text, piece by piece. The project writes all its JSON with this,
+// except large documents that it builds as a whole (glTF).
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@ namespace foretouch {
 /// The shortest text that reads back as the same double. `value` is finite (asserted).
 [[nodiscard]] std::string numberText(double value);
 
-/// Where the text goes: in a page no "<" is written as it is, so that nothing in it can end the
-/// element that holds the text.
+/// The text's destination. In a page, every "<" is escaped, so that no text can end the element
+/// that holds it.
 enum class JsonPlace : std::uint8_t { File, Page };
 
-/// `text` as a JSON string with its quotes; what is not UTF-8 becomes U+FFFD.
+/// `text` as a JSON string with its quotes; invalid UTF-8 becomes U+FFFD.
 [[nodiscard]] std::string jsonString(std::string_view text, JsonPlace place = JsonPlace::File);
 
-/// Puts the commas. Everything is appended to the text that was given, which its owner may take
-/// away between two calls. Without braces around them, fields are a list to be put into an object
-/// with rawItems(). Whoever writes keeps brackets in pairs: nothing is checked.
+/// Adds the commas. Appends to the given text, which its owner may empty between two calls. Fields
+/// without braces form a list for rawItems() of an object. The caller must balance brackets: there
+/// is no check.
 class JsonWriter {
  public:
   /// `text` outlives it.
@@ -51,13 +51,13 @@ class JsonWriter {
   void value(const Eigen::Vector3d& vector);
   void value(const std::vector<std::string>& texts);
   void null() { raw("null"); }
-  /// With so many digits behind the point.
+  /// With `digits` digits after the decimal point.
   void fixed(double value, int digits);
 
-  /// JSON already: one value.
+  /// One value that is already JSON.
   void raw(std::string_view json);
-  /// JSON already: values of an array, or fields of an object, with commas between them; none where
-  /// it is empty.
+  /// Values of an array, or fields of an object, already JSON and separated by commas; may be
+  /// empty.
   void rawItems(std::string_view json) {
     if (!json.empty()) raw(json);
   }
@@ -71,7 +71,7 @@ class JsonWriter {
     key(name);
     raw(json);
   }
-  /// An array of what `write` writes for each.
+  /// An array with the value that `write` writes for each item.
   template <typename List, typename Write>
   void list(std::string_view name, const List& items, const Write& write) {
     key(name);
@@ -87,7 +87,7 @@ class JsonWriter {
 
   std::string& text_;
   JsonPlace place_;
-  bool isFirst_ = true;  // in its array or object, or right behind its key
+  bool isFirst_ = true;  // in its array or object, or right after its key
 };
 
 }  // namespace foretouch

@@ -27,7 +27,7 @@ Error fileError(ErrorCode code, const std::string& path, std::string message) {
   return error;
 }
 
-/// Closes on every way out; PendingFile needs the result of close() and so keeps its own.
+/// Closes on every path; PendingFile needs the result of close(), so it has its own.
 class Descriptor {
  public:
   explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
@@ -42,8 +42,8 @@ class Descriptor {
   int descriptor_;
 };
 
-/// Reads to the end or until `limitBytes` are passed: files in /proc state a size of zero, and
-/// others may grow meanwhile.
+/// Reads to the end or past `limitBytes`: files in /proc state a size of zero, and others may grow
+/// meanwhile.
 Result<std::string> readAll(int descriptor, const std::string& path, std::size_t sizeHint,
                             std::size_t limitBytes) {
   std::string text;
@@ -65,7 +65,7 @@ Result<std::string> readAll(int descriptor, const std::string& path, std::size_t
   }
 }
 
-/// The file behind symbolic links; the path itself where nothing is there yet.
+/// The file behind symbolic links; the path itself if nothing is there yet.
 std::string resolved(const std::string& path) {
   const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
                                                          &std::free);
@@ -77,11 +77,11 @@ struct Opened {
   int descriptor = -1;
 };
 
-/// O_EXCL: a file or link that somebody planted under the name is never written through. The number
-/// makes the name unique within this process, the process id among processes.
+/// O_EXCL: never writes through a file or link planted under the name. The number makes the name
+/// unique within this process, the process id among processes.
 Opened openTemporary(const std::string& target, mode_t mode) {
   static std::atomic<std::uint64_t> counter{0};
-  constexpr int kAttempts = 64;  // leftovers of earlier processes with our id are the only obstacle
+  constexpr int kAttempts = 64;  // only leftovers of earlier processes with our id collide
   Opened opened;
   for (int i = 0; i < kAttempts; ++i) {
     opened.temporary =
@@ -93,8 +93,8 @@ Opened openTemporary(const std::string& target, mode_t mode) {
   return opened;
 }
 
-/// The rename is only on the disk once the folder is; not every file system can do this, and the
-/// file is complete either way, so a failure is no error.
+/// The rename is on the disk only once the folder is. Not every file system can do this, and the
+/// file is complete either way, so a failure is not an error.
 void syncFolderOf(const std::string& target) {
   const std::size_t slash = target.find_last_of('/');
   const std::string folder = slash == std::string::npos ? "." : target.substr(0, slash + 1);
@@ -160,7 +160,7 @@ Result<PendingFile> PendingFile::create(const std::string& path) {
   } else {
     opened = openTemporary(target, exists ? status.st_mode & 0777 : 0666);
   }
-  // open() took the umask off the mode; a file that is replaced keeps the mode it had.
+  // open() applied the umask to the mode; a replaced file keeps its mode.
   if (opened.descriptor >= 0 && exists && !opened.temporary.empty()) {
     static_cast<void>(::fchmod(opened.descriptor, status.st_mode & 0777));
   }

@@ -1,4 +1,4 @@
-// assets/text_file.h: whole files in, whole files out.
+// assets/text_file.h: reads and writes whole files.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,10 @@ namespace foretouch {
 /// larger.
 [[nodiscard]] Result<std::string> readWholeFile(const std::string& path, std::size_t limitBytes);
 
-/// A file that appears under its name only once it is complete: written to a temporary file in the
-/// same folder, flushed, and renamed by commit(). Dropped without commit(), it leaves nothing
-/// behind. A symbolic link is followed and the file behind it replaced, keeping its permissions.
-/// What is no regular file (a pipe, /dev/stdout) is written to directly, as there is nothing to
-/// rename over.
+/// A file that appears under its name only once it is complete: goes to a temporary file in the
+/// same folder; commit() flushes and renames it. Without commit() it leaves nothing behind. Follows
+/// a symbolic link and replaces the file behind it, keeping its permissions. Writes directly to
+/// anything but a regular file (a pipe, /dev/stdout), because there is nothing to rename over.
 class PendingFile {
  public:
   static Result<PendingFile> create(const std::string& path);
@@ -25,7 +24,7 @@ class PendingFile {
   PendingFile& operator=(PendingFile&&) = delete;
   ~PendingFile();
 
-  /// Appends; a failure is remembered and reported by commit().
+  /// Appends; commit() reports a failure.
   void write(const std::string& text);
   [[nodiscard]] Result<Done> commit();
 
@@ -33,11 +32,11 @@ class PendingFile {
   PendingFile(std::string path, std::string target, std::string temporary, int descriptor);
   void flush();
   void discard() noexcept;
-  std::string path_;       ///< As the caller named it: for errors.
+  std::string path_;       ///< As the caller gave it: for errors.
   std::string target_;     ///< With symbolic links resolved.
-  std::string temporary_;  ///< Empty where the target is written to directly.
+  std::string temporary_;  ///< Empty if writing directly to the target.
   int descriptor_ = -1;
-  int failure_ = 0;  ///< The first errno, 0 while all is well.
+  int failure_ = 0;  ///< The first errno, 0 if none.
   std::string buffer_;
 };
 

@@ -21,7 +21,7 @@ constexpr double kStrandLength = 0.1, kStrandRadius = 0.01, kRingRadius = 0.2, k
 constexpr double kDigitSwing = 0.5, kStrandSwing = 0.15;  // radians
 constexpr double kSwingsPerS = 1.3;
 
-/// A body while it grows or shrinks.
+/// A body under construction.
 struct Draft {
   RawSkeleton skeleton;
   std::vector<std::vector<Lss>> lss;
@@ -98,7 +98,7 @@ bool mentions(const std::string& name, const std::string& word) {
   return lower.find(word) != std::string::npos;
 }
 
-/// Joints named so whose parents are not.
+/// Joints with `word` in their names, whose parents do not have it.
 std::vector<JointId> joints(const Draft& draft, const std::string& word) {
   std::vector<JointId> found;
   const auto& all = draft.skeleton.joints;

@@ -1,4 +1,4 @@
-// bench/body.h: one avatar with fewer or more links, for measuring what links cost.
+// bench/body.h: one avatar with fewer or more links, to measure the cost of links.
 #pragma once
 
 #include <vector>
@@ -18,18 +18,18 @@ struct AddedSwing {
   double phase = 0.0;      ///< Radians.
 };
 
-/// An avatar made of another, and how to pose it.
+/// An avatar made from another, with the data to pose it.
 struct BenchBody {
   Avatar avatar;
   std::vector<JointId> baseJoint;  ///< Per joint the one of the base avatar; kNoParent if added.
   std::vector<AddedSwing> swing;   ///< Per joint; of added ones.
 };
 
-/// The avatar with `links` links (1 to kMaxBenchLinks). Fewer: the leaf with the least volume is
-/// dropped again and again (thumbs, fingers, toes, hands, ...). More: five fingers of three joints
-/// on each hand, then five toes on each foot, then strands of four joints hanging about the first
-/// root, all moving on their own. Hands and toes are told by their names. Error where what is left
-/// has no LSS.
+/// The avatar with `links` links (1 to kMaxBenchLinks). Fewer: drops the leaf with the least
+/// volume, repeatedly (thumbs, fingers, toes, hands, ...). More: five fingers of three joints on
+/// each hand, then five toes on each foot, then strands of four joints hanging about the first
+/// root, all moving on their own. Finds hands and toes by their names. Error if the rest has no
+/// LSS.
 [[nodiscard]] Result<BenchBody> bodyWithLinks(const Avatar& base, int links);
 
 /// The body in a pose of the base avatar; added joints as they are at `timeS`.

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// One limit, and what came of it.
+/// One limit, and its results.
 struct Limit {
   std::string name;
   double deadlineUs = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
-// bench/deadline.h: `foretouch-bench deadline`: queries that may cost only so much: how much
-// of the answer is there in time, by how much they overrun, and that what they claim is true.
+// bench/deadline.h: `foretouch-bench deadline`: queries with a limited cost: how much of the answer
+// is ready in time, how far they overrun, and whether their claims are true.
 #pragma once
 
 #include <cstdint>
@@ -26,17 +26,17 @@ struct DeadlineBench {
   std::int64_t unsound = 0;  ///< Answers that claimed to be free beyond the touch.
 };
 
-/// Every answer is held against the same step's touch: the scalar form at kTouchTolerance. One
+/// Compares every answer with the same step's touch: the scalar form at kTouchTolerance. One
 /// thread.
 [[nodiscard]] Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request);
 
-/// Metres: what counts as touching when an answer is judged.
+/// Metres: counts as touching in judging an answer.
 inline constexpr double kTouchTolerance = 1e-7;
-/// Of the step: how much later than at kTouchTolerance a touch may be without being told apart.
+/// Of the step: a touch this much later than at kTouchTolerance counts as the same.
 inline constexpr double kTouchTime = 1e-6;
 
-/// What of `answer` is not true where the links touch as `touch` says: links that are said to be
-/// free beyond it.
+/// The false claims of `answer` against `touch`: the number of links claimed free beyond their
+/// touch.
 [[nodiscard]] std::int64_t unsoundLinks(const StepContacts& answer, const StepContacts& touch);
 
 }  // namespace foretouch::tools

@@ -9,7 +9,7 @@ class App;
 
 namespace foretouch::tools {
 
-/// Adds the subcommand to `foretouch bench`; what it ends with goes to `exit`.
+/// Adds the subcommand to `foretouch bench`; its exit code goes to `exit`.
 void addBenchDeadlineCommand(CLI::App& bench, ExitCode& exit);
 
 }  // namespace foretouch::tools

@@ -1,5 +1,5 @@
-// bench/documents.h: documents made from benchmark files: docs/performance.md, and what has
-// moved since the recorded instruction counts.
+// bench/documents.h: documents made from benchmark files: docs/performance.md, and the changes
+// since the recorded instruction counts.
 #pragma once
 
 #include <string>
@@ -14,20 +14,20 @@ inline constexpr std::size_t kMaxReportBytes = std::size_t{64} << 20;
 
 [[nodiscard]] Result<BenchReport> readReport(const std::string& path);
 
-/// docs/performance.md: a section a report, in the order given.
+/// docs/performance.md: one section per report, in the given order.
 [[nodiscard]] std::string performanceDocument(const std::vector<BenchReport>& reports);
 
-/// The "totals" or "summary" line of a callgrind file: instructions of what it collected.
+/// The "totals" or "summary" line of a callgrind file: the instructions collected.
 [[nodiscard]] Result<std::int64_t> callgrindInstructions(const std::string& text,
                                                          const std::string& name);
 
-/// A report with one table, "quantities": instructions a step, and the mean counters of the first
-/// case of a latency report. Error where `latency` holds no such table.
+/// A report with one table, "quantities": instructions per step, and the mean counters of the first
+/// case of a latency report. Error if `latency` has no such table.
 [[nodiscard]] Result<BenchReport> instructionReport(const BenchReport& latency,
                                                     std::int64_t instructions);
 
-/// Each quantity before and now, and by how many percent it moved. Quantities that only one side
-/// has are shown with a gap.
+/// Each quantity before and now, and its change in percent. Shows quantities that only one side has
+/// with a gap.
 [[nodiscard]] BenchTable movedTable(const BenchReport& recorded, const BenchReport& now);
 
 }  // namespace foretouch::tools

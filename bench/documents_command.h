@@ -9,7 +9,7 @@ class App;
 
 namespace foretouch::tools {
 
-/// Adds both subcommands; what they end with goes to `exit`, which must outlive `bench`.
+/// Adds both subcommands; their exit code goes to `exit`, which must outlive `bench`.
 void addBenchDocumentCommands(CLI::App& bench, ExitCode& exit);
 
 }  // namespace foretouch::tools

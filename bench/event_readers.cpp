@@ -27,7 +27,7 @@ constexpr std::string_view kAccepted = "HTTP/1.1 200";
 constexpr std::string_view kEnd = "\n\n", kHeadersEnd = "\r\n\r\n";
 constexpr int kPollMs = 50;
 
-/// The number right after `name`; 0 where there is none.
+/// The number right after `name`; 0 if there is none.
 std::int64_t numberAfter(std::string_view text, std::string_view name) {
   const std::size_t at = text.find(name);
   std::int64_t value = 0;
@@ -48,7 +48,7 @@ class Viewer {
   }
   [[nodiscard]] int socket() const { return socket_; }
 
-  /// Asks, and reads the headers of the answer.
+  /// Sends the request, and reads the headers of the answer.
   [[nodiscard]] bool enters(std::uint16_t port) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -68,7 +68,7 @@ class Viewer {
     return isAccepted;
   }
 
-  /// False where the connection has ended.
+  /// False if the connection has ended.
   [[nodiscard]] bool readSome(int flags) {
     std::array<char, 65536> bytes;
     const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), flags);
@@ -76,7 +76,7 @@ class Viewer {
     return got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
   }
 
-  /// Hands over each whole event.
+  /// Passes each whole event to `take`.
   template <typename Take>
   void takeEvents(const Take& take) {
     std::size_t begin = 0;
@@ -117,7 +117,7 @@ struct EventReaders::Impl {
         if (polled[i].fd < 0 || polled[i].revents == 0) continue;
         if (!viewers[i].readSome(MSG_DONTWAIT)) {
           ++read.ended;
-          polled[i].fd = -1;  // poll passes over it
+          polled[i].fd = -1;  // poll() ignores it
         }
         const std::int64_t nowUs = systemClock().utimeUs();
         viewers[i].takeEvents([&](std::string_view event) { take(event, nowUs); });

@@ -1,5 +1,5 @@
-// bench/event_readers.h: those who watch a service, as a benchmark has them: connections that
-// read all that comes and note when it came.
+// bench/event_readers.h: a benchmark's viewers of a service: connections that read every event and
+// note its time of arrival.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace foretouch::tools {
 
-/// What viewers saw. Delays run from when a pose was due to be sent (its capture time) until the
-/// whole event had been read from the viewer's socket; microseconds.
+/// The viewers' records. Delays run from a pose's due time (its capture time) until the viewer has
+/// read the whole event from its socket; microseconds.
 struct ReadEvents {
   std::vector<double> stepDelaysUs;     ///< Of each event of a step, by its newest pose.
   std::vector<double> contactDelaysUs;  ///< Of each contact, by the pose that ends its own step.
@@ -22,14 +22,14 @@ struct ReadEvents {
 
 class EventReaders {
  public:
-  /// `count` viewers of the service on this machine's `port`, read by one thread from here on.
-  /// `periodUs` lies between two poses of an avatar. Errors: a viewer that is not let in.
+  /// `count` viewers of the service on this machine's `port`, which one thread reads from now on.
+  /// `periodUs`: time between two poses of an avatar. Errors: the service refuses a viewer.
   static Result<EventReaders> start(int count, std::uint16_t port, double periodUs);
   EventReaders(EventReaders&&) noexcept;
   EventReaders& operator=(EventReaders&&) = delete;
   ~EventReaders();
 
-  /// Reads no more.
+  /// Stops reading.
   [[nodiscard]] ReadEvents stop();
 
  private:

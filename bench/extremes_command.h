@@ -9,7 +9,7 @@ class App;
 
 namespace foretouch::tools {
 
-/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `bench`.
+/// Adds the subcommand; its exit code goes to `exit`, which must outlive `bench`.
 void addBenchExtremesCommand(CLI::App& bench, ExitCode& exit);
 
 }  // namespace foretouch::tools

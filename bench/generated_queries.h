@@ -1,5 +1,5 @@
-// bench/generated_queries.h: leaf queries made up from a seed, for timing where no query set
-// is at hand. Unlabelled: nothing is judged by them.
+// bench/generated_queries.h: leaf queries generated from a seed, for timing without a query set.
+// Unlabelled: they judge nothing.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace foretouch::tools {
 
-/// Half of the queries are built around a meeting at a random instant, half are random: points in a
-/// box of 1 m, moving up to 1 m. The same on every machine.
+/// Half of the queries have a meeting at a random instant, half are random: points in a box of 1 m,
+/// moving up to 1 m. The same on every machine.
 [[nodiscard]] std::vector<LabelledQuery> generatedQueries(QueryKind kind, std::size_t count,
                                                           std::uint64_t seed);
 

@@ -1,4 +1,4 @@
-// bench/inputs.h: the scene, avatar and clip of a benchmark, as they come from their files.
+// bench/inputs.h: the scene, avatar and clip of a benchmark, from their files.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ namespace foretouch::tools {
 struct BenchFiles {
   std::string scenePath;   ///< Empty: the bundled room.
   std::string motionPath;  ///< Empty: the bundled clip.
-  std::string avatarPath;  ///< Empty: the bundled avatar for the bundled clip, else made of the
-                           ///< clip by avatarFromClip().
+  std::string avatarPath;  ///< Empty: the bundled avatar for the bundled clip, else
+                           ///< avatarFromClip() of the clip.
   std::string mapPath;
   double sceneScale = 1.0, motionScale = 1.0;  ///< Metres per unit.
   UpAxis sceneUp = UpAxis::Y, motionUp = UpAxis::Y;
@@ -35,7 +35,7 @@ struct BenchInputs {
 /// Errors name the file.
 [[nodiscard]] Result<BenchInputs> loadBenchInputs(BenchFiles files);
 
-/// The avatar in the pose of a frame, where the placement puts it, not validated.
+/// The avatar's placed pose at a frame, not validated.
 [[nodiscard]] Pose placedPose(const BenchInputs& inputs, const Placement& placement,
                               std::int64_t frame);
 

@@ -1,4 +1,4 @@
-// bench/judged.h: what the product holds, in the judge's plain words.
+// bench/judged.h: converts the product's types to the judge's plain ones.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ inline std::vector<oracle::Joint> plainJoints(const Skeleton& skeleton, const Po
   return joints;
 }
 
-/// Of a product's scene, without the triangles that are not finite, which nothing touches.
+/// The triangles of a product's scene, without those that are not finite, which nothing touches.
 template <typename Scene>
 std::vector<Triangle> finiteTriangles(const Scene& scene) {
   std::vector<Triangle> triangles;

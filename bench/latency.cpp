@@ -12,7 +12,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// What was measured at one rate.
+/// The measurements at one rate.
 struct RateTimes {
   double rateHz;
   const Workload& workload;
@@ -113,7 +113,7 @@ std::vector<BenchCell> meanCounts(const CaseTimes& times) {
   return counts;
 }
 
-/// Widths that count alike at one tolerance share a row.
+/// Widths with equal counts at one tolerance share a row.
 void addCounterRows(const RateTimes& at, BenchTable& table) {
   constexpr std::size_t kSimd = 2, kCounts = 3;  // columns
   const auto first = static_cast<std::ptrdiff_t>(table.rows.size());

@@ -1,4 +1,4 @@
-// bench/latency.h: `foretouch-bench latency`: what a step takes.
+// bench/latency.h: `foretouch-bench latency`: the time of a step.
 #pragma once
 
 #include <vector>
@@ -18,11 +18,11 @@ struct LatencyRequest {
 
 struct MeasuredBench {
   BenchReport report;
-  BenchTable raw;  ///< A line a step.
+  BenchTable raw;  ///< One line per step.
 };
 
-/// Tables: "latency" (percentiles), "ratios" (between rows of it, where there are several),
-/// "counters" (means a step).
+/// Tables: "latency" (percentiles), "ratios" (between its rows, if there are several), "counters"
+/// (means per step).
 [[nodiscard]] Result<MeasuredBench> measureLatency(const LatencyRequest& request);
 
 }  // namespace foretouch::tools

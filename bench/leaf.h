@@ -1,5 +1,5 @@
-// bench/leaf.h: `foretouch-bench leaf` in words and in JSON. What does not depend on the
-// machine comes first: counts, wrong answers, the stages that decided; then times.
+// bench/leaf.h: `foretouch-bench leaf` in words and in JSON. Machine-independent results come
+// first: counts, wrong answers, the stages that decided; then times.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace foretouch::tools {
 struct LeafBench {
   std::vector<TimedSet> sets;
   int repeat = 1;
-  double overheadUs = 0.0;  ///< Already taken off every time.
+  double overheadUs = 0.0;  ///< Already subtracted from every time.
   std::uint64_t seed = 0;   ///< Of generated queries.
   std::size_t generated = 0;
 };
 
-/// Every set apart, then the sets named erleben-* together ("handcrafted"), then all that are
-/// labelled.
+/// Every set separately, then the sets named erleben-* together ("handcrafted"), then all labelled
+/// ones.
 [[nodiscard]] std::vector<LeafGroup> leafGroups(const LeafBench& bench);
 [[nodiscard]] std::string leafTable(const LeafBench& bench);
 /// One object: "repeat", "clock_overhead_us", "seed", "generated", "groups".

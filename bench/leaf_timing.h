@@ -1,5 +1,4 @@
-// bench/leaf_timing.h: how long leaf queries take, what they answered and which stage
-// decided.
+// bench/leaf_timing.h: the times of leaf queries, their answers and the stages that decided.
 #pragma once
 
 #include <array>
@@ -16,7 +15,7 @@ namespace foretouch::tools {
 
 inline constexpr std::size_t kLeafStages = 2;
 
-/// One query: the least time of all passes, less what reading the clock costs.
+/// One query: the least time of all passes, less the cost of reading the clock.
 struct TimedLeaf {
   double us = 0.0;
   LeafStage stage = LeafStage::Filter;
@@ -29,15 +28,15 @@ struct TimedSet {
   std::vector<TimedLeaf> leaves;
 };
 
-/// Asks every query once a pass, `repeat` passes, so that no query is timed right after itself: a
-/// predictor that has just seen it would flatter it. `repeat` >= 1.
+/// Runs every query once per pass, in `repeat` passes, so that no query runs right after itself: a
+/// branch predictor that has just seen it would make it faster. `repeat` >= 1.
 [[nodiscard]] std::vector<TimedLeaf> timeLeaves(std::size_t count, int repeat,
                                                 const std::function<LeafAnswer(std::size_t)>& ask);
 
 /// Microseconds between two readings of the clock with nothing in between, the least of many.
 [[nodiscard]] double clockOverheadUs();
 
-/// Mean, median, 99th percentile (nearest rank) and greatest; zeros where there are none.
+/// Mean, median, 99th percentile (nearest rank) and greatest; zeros if there are none.
 struct TimeFigures {
   double meanUs = 0.0, medianUs = 0.0, p99Us = 0.0, maxUs = 0.0;
 };
@@ -54,10 +53,10 @@ struct LeafGroup {
   std::array<double, kLeafStages> decidedMeanUs{};  ///< Their mean time.
 };
 
-/// Two groups a set, positives first; empty groups are left out.
+/// Two groups per set, positives first, without empty groups.
 [[nodiscard]] std::vector<LeafGroup> groupsOf(const TimedSet& set);
 
-/// All leaves of the sets for which `take` says yes, kinds kept apart and then together.
+/// All leaves of the sets for which `take` is true, by kind and then together.
 [[nodiscard]] std::vector<TimedSet> joined(const std::vector<TimedSet>& sets,
                                            const std::string& name,
                                            const std::function<bool(const TimedSet&)>& take);

@@ -1,4 +1,4 @@
-// bench/machine.h: what a measurement was taken on.
+// bench/machine.h: the machine of a measurement.
 #pragma once
 
 #include <string>
@@ -14,14 +14,14 @@ namespace foretouch::tools {
 /// Now, UTC, "2026-01-31 12:00".
 [[nodiscard]] std::string dateNow();
 
-/// The words of a command line, quoted as a shell would need them, the program as "foretouch" and
-/// files by their names: where they lie is no reader's business.
+/// The words of a command line, quoted for a shell, the program as "foretouch" and files by their
+/// names, without their folders, which do not concern readers.
 [[nodiscard]] std::string commandLine(const std::vector<std::string>& arguments);
 
 /// This process' own command line.
 [[nodiscard]] std::string ownCommandLine();
 
-/// Keeps the calling thread on one processor; false where the system refuses.
+/// Keeps the calling thread on one processor; false if the system refuses.
 [[nodiscard]] bool pinToProcessor(int processor);
 
 }  // namespace foretouch::tools

@@ -20,7 +20,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Of /proc/self/status, in MiB; nothing where there is no such line.
+/// Of /proc/self/status, in MiB; nothing if there is no such line.
 std::optional<double> statusMiB(const std::string& key) {
   constexpr double kKiBAMiB = 1024.0;
   std::ifstream status("/proc/self/status");

@@ -1,5 +1,5 @@
-// bench/memory.h: what a scene and an avatar cost before the first answer: time and memory,
-// stage by stage.
+// bench/memory.h: the time and memory of a scene and an avatar before the first answer, stage by
+// stage.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,19 @@
 
 namespace foretouch::tools {
 
-/// What is loaded: a scene, and an avatar in it.
+/// A scene to load, and an avatar in it.
 struct MemoryRequest : WorldRequest {
   std::string avatarPath;
 };
 
-/// After a stage: what it took, and this process's memory as the system counts it (the import child
-/// not included).
+/// A stage's duration, and this process's memory after it, as the system counts it (without the
+/// import child).
 struct MemoryStage {
   std::string name;
   double ms = 0.0;
   double peakMiB = 0.0;      ///< VmHWM: since the process began.
-  double residentMiB = 0.0;  ///< VmRSS: with what is free again but kept for later.
-  double heapMiB = 0.0;      ///< Of it, asked for and not given back (glibc's count; else 0).
+  double residentMiB = 0.0;  ///< VmRSS: including freed memory kept for later.
+  double heapMiB = 0.0;      ///< Of it, allocated and not freed (glibc's count; else 0).
 };
 
 struct MemoryBench {
@@ -34,12 +34,11 @@ struct MemoryBench {
   std::int32_t links = 0;
 };
 
-/// Loads what the request names, as a replay does, and asks about the rest pose twice. Errors name
-/// the file or option; where the system does not tell a process its memory, the error is about
-/// that.
+/// Loads the request's files, as a replay does, and queries the rest pose twice. Errors name the
+/// file or option, or say that the system does not report a process's memory.
 [[nodiscard]] Result<MemoryBench> measureMemory(const MemoryRequest& request);
 
-/// One row a stage.
+/// One row per stage.
 [[nodiscard]] std::string memoryTable(const MemoryBench& bench);
 
 }  // namespace foretouch::tools

@@ -47,7 +47,7 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts);
 /// Errors name the option.
 [[nodiscard]] Result<BenchOptions> settled(const BenchTexts& texts);
 
-/// Values between commas, each by its own rule; at least one.
+/// Comma-separated values, each by its own rule; at least one.
 [[nodiscard]] Result<std::vector<double>> parsePositives(const std::string& option,
                                                          const std::string& text);
 [[nodiscard]] Result<std::vector<double>> parseTolerances(const std::string& option,
@@ -57,18 +57,18 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts);
 /// A whole number from 1 to `most`, or 0 for the word "own".
 [[nodiscard]] Result<int> parseOwnOrCount(const std::string& option, const std::string& text,
                                           int most);
-/// Names of lss/simd.h, "all" (widest first) or "widest". Refuses what this processor lacks.
+/// Names of lss/simd.h, "all" (widest first) or "widest". Refuses those that this processor lacks.
 [[nodiscard]] Result<std::vector<Simd>> parseSimds(const std::string& option,
                                                    const std::string& text);
 
-/// What a body's query needs for the fidelity: at exact fidelity its triangles, from the avatar
-/// file where the body is that avatar and it has some, else the skins of its LSS.
+/// The options of a body's query for the fidelity: at exact fidelity with its triangles, from the
+/// avatar file if the body is that avatar and it has some, else the skins of its LSS.
 [[nodiscard]] Result<QueryOptions> queryFor(const BenchInputs& inputs, const BenchBody& body,
                                             const BenchOptions& options);
 
-/// The inputs' scene, refined to `triangles` where it has fewer; 0: as it is.
+/// The inputs' scene, refined to `triangles` if it has fewer; 0: unchanged.
 [[nodiscard]] Result<Scene> refinedScene(const BenchInputs& inputs, std::size_t triangles);
-/// The inputs' avatar with so many links; 0: its own.
+/// The inputs' avatar with `links` links; 0: its own.
 [[nodiscard]] Result<BenchBody> bodyOf(const BenchInputs& inputs, int links);
 
 /// Scene, avatar, clip and surface, in words.

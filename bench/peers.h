@@ -1,5 +1,5 @@
-// bench/peers.h: Foretouch beside its peers on made-up motions in one scene: what is
-// measured, and how it reads.
+// bench/peers.h: compares Foretouch with its peers on generated motions in one scene, and formats
+// the results.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ namespace foretouch::tools {
 
 /// Whether FCL and Bullet are built in (CMake option FORETOUCH_PEERS).
 [[nodiscard]] bool hasPeers();
-/// "FCL 0.7.0 and Bullet 3.24 (double precision)"; empty where they are not built in.
+/// "FCL 0.7.0 and Bullet 3.24 (double precision)"; empty if they are not built in.
 [[nodiscard]] std::string builtInPeers();
 
 struct PeersPlan {
   std::vector<MotionSetKind> sets;
-  std::size_t motions = 1'000;  ///< A set.
+  std::size_t motions = 1'000;  ///< Per set.
   std::uint64_t seed = 1;
   RoundCounts rounds;
 };
@@ -30,24 +30,25 @@ struct PeersPlan {
 struct ComparedSet {
   MotionSet motions;
   std::vector<SolverRun> runs;
-  std::vector<Judgement> judgements;  ///< One a run.
+  std::vector<Judgement> judgements;  ///< One per run.
 };
 
-/// Draws the sets and runs every solver on them. `progress` is told how many rounds of solvers are
-/// done, of how many. Errors: a scene that the motions do not fit.
+/// Draws the sets and runs every solver on them. `progress` gets the number of finished rounds of
+/// solvers, and of all. Errors: a scene that the motions do not fit.
 [[nodiscard]] Result<std::vector<ComparedSet>> comparePeers(
     const Scene& scene, const PeersPlan& plan,
     const std::function<void(std::int64_t done, std::int64_t total)>& progress);
 
-/// A table a set, and a table of how many times faster Foretouch is than the fastest sound peer.
+/// One table per set, and one with the factor by which Foretouch is faster than the fastest sound
+/// peer.
 [[nodiscard]] std::vector<BenchTable> peerTables(const std::vector<ComparedSet>& sets);
-/// A row a motion and solver.
+/// One row per motion and solver.
 [[nodiscard]] BenchTable rawPeerTable(const std::vector<ComparedSet>& sets);
-/// How the columns are to be read.
+/// How to read the columns.
 [[nodiscard]] std::vector<std::string> peerNotes(const std::vector<ComparedSet>& sets);
 
-/// Contacts that Foretouch missed or reported late, all sets and tolerances together: its promise
-/// is that there are none.
+/// Contacts that Foretouch missed or reported late, over all sets and tolerances: it promises that
+/// there are none.
 [[nodiscard]] std::size_t brokenPromises(const std::vector<ComparedSet>& sets);
 
 }  // namespace foretouch::tools

@@ -9,7 +9,7 @@ class App;
 
 namespace foretouch::tools {
 
-/// Adds the subcommand to `bench`; what it ends with goes to `exit`, which must outlive it.
+/// Adds the subcommand to `bench`; its exit code goes to `exit`, which must outlive it.
 void addBenchPeersCommand(CLI::App& bench, ExitCode& exit);
 
 }  // namespace foretouch::tools

@@ -1,4 +1,4 @@
-// bench/pool.h: many avatars in one scene, answered by several threads.
+// bench/pool.h: many avatars in one scene, on several threads.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace foretouch::tools {
 
-/// What a crowd of avatars took.
+/// The times of a crowd of avatars.
 struct CrowdTimes {
   double wallS = 0.0;
   std::int64_t steps = 0;
   std::int64_t contacts = 0;      ///< Links; does not depend on the threads.
-  std::vector<double> instantUs;  ///< Of all avatars' steps together, an instant each.
+  std::vector<double> instantUs;  ///< Of all avatars' steps together, one per instant.
 };
 
 /// Instant by instant, every avatar takes one step, and a QueryPool answers them all: avatar a

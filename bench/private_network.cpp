@@ -33,7 +33,7 @@ bool write(const char* path, const std::string& text) {
   return done;
 }
 
-/// The new user namespace knows the caller as root, so that it may set up its own network.
+/// The caller is root in the new user namespace, so that it may set up its own network.
 Result<Done> enterNamespaces() {
   if (::unshare(CLONE_NEWNET) == 0) return Done{};
   const std::string user = std::to_string(::geteuid()), group = std::to_string(::getegid());

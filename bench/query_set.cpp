@@ -64,7 +64,7 @@ std::string_view withoutSpaces(std::string_view word) {
   return word.substr(first, word.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// The row, or what is wrong with it.
+/// The row, or its fault.
 Result<Row> parseRow(std::string_view line) {
   std::array<std::string_view, kColumns> words;
   std::size_t count = 0;
@@ -100,7 +100,7 @@ Result<Row> parseRow(std::string_view line) {
   return row;
 }
 
-/// Puts the row in its place; false where its label is not that of the query's other rows.
+/// Puts the row in its place; false if its label differs from that of the query's other rows.
 bool add(const Row& row, std::size_t place, LabelledQuery& query) {
   LinearPoint& point = query.points[place % 4];
   (place < 4 ? point.from : point.to) = row.point;

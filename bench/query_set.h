@@ -1,7 +1,7 @@
-// bench/query_set.h: labelled leaf queries from CSV files, in the manner of the query sets
-// published with [Wang21]: 8 rows a query (4 points at t = 0, then at t = 1), 7 integers a row (x,
-// y and z as numerator and denominator, then 0 or 1: do they meet). Folders named vertex-face and
-// edge-edge tell the kind; the folder around them names the set.
+// bench/query_set.h: labelled leaf queries from CSV files, in the format of the query sets
+// published with [Wang21]: 8 rows per query (4 points at t = 0, then at t = 1), 7 integers per row
+// (x, y and z as numerator and denominator, then 0 or 1: do they meet). Folders named vertex-face
+// and edge-edge tell the kind; the folder around them names the set.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct QuerySet {
   std::vector<LabelledQuery> queries;
 };
 
-/// Larger files and deeper folders than any known set needs are refused.
+/// Limits on files and folders, above the needs of any known set.
 inline constexpr std::size_t kMaxQueryFileBytes = std::size_t{1} << 28;
 inline constexpr std::size_t kMaxQueryFiles = 10'000;
 inline constexpr int kMaxQueryDepth = 4;
@@ -41,8 +41,8 @@ inline constexpr int kMaxQueryDepth = 4;
 [[nodiscard]] Result<std::vector<LabelledQuery>> parseQueries(std::string_view text,
                                                               const std::string& file);
 
-/// All sets under the folders, in order of name, the files of one set and kind joined. Errors: a
-/// folder that is absent or holds no queries, or a bad file.
+/// All sets under the folders, in order of name, with the files of one set and kind joined. Errors:
+/// a folder that is missing or has no queries, or a bad file.
 [[nodiscard]] Result<std::vector<QuerySet>> readQuerySets(const std::vector<std::string>& folders);
 
 }  // namespace foretouch::tools

@@ -1,6 +1,6 @@
-// bench/report.h: what every benchmark hands over: tables with what they were measured on,
-// and the same content as a table on the terminal, as JSON and as CSV. A benchmark fills a
-// BenchReport and chooses its own tables and columns.
+// bench/report.h: the result of every benchmark: tables with the machine of the measurement, for
+// the terminal, as JSON and as CSV. A benchmark fills a BenchReport and chooses its own tables and
+// columns.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ using BenchCell = std::variant<std::int64_t, double, std::string>;
 
 struct BenchColumn {
   std::string key;    ///< Of the JSON and the CSV: lower_case, with its unit ("p50_us").
-  std::string title;  ///< Of tables for people.
+  std::string title;  ///< In tables for people.
   int decimals = 2;   ///< Of measured numbers in tables for people; -1: six digits in all. Files
                       ///< keep all digits.
 };
@@ -40,19 +40,19 @@ struct BenchReport {
   std::string date;     ///< UTC, "2026-01-31 12:00".
   std::vector<BenchFact> machine, workload;
   std::vector<BenchTable> tables;
-  std::vector<std::string> notes;  ///< What a reader of the tables must know; sentences.
+  std::vector<std::string> notes;  ///< Notes for readers of the tables; sentences.
 };
 
 /// Aligned columns under their titles.
 [[nodiscard]] std::string tableText(const BenchTable& table);
 /// Facts, tables and notes, for a terminal.
 [[nodiscard]] std::string reportText(const BenchReport& report);
-/// A line of keys, then a line a row; words are quoted where they must be.
+/// A line of keys, then one line per row; quotes words if needed.
 [[nodiscard]] std::string tableCsv(const BenchTable& table);
 
 /// One object, format "foretouch-bench" version 1; numbers that are not finite become null.
 [[nodiscard]] std::string reportJson(const BenchReport& report);
-/// The inverse; `name` stands for the file in errors. Null becomes NaN.
+/// The inverse; errors name `name` as the file. Null becomes NaN.
 [[nodiscard]] Result<BenchReport> parseReport(const std::string& json, const std::string& name);
 
 /// A section of Markdown, headed by the title.

@@ -65,7 +65,7 @@ BenchTable rawTable() {
           {}};
 }
 
-/// What one row is measured on.
+/// The parameters of one row.
 struct Point {
   const char* axis;
   double value;
@@ -89,7 +89,7 @@ class ScalingBench {
   [[nodiscard]] Point basePoint(const char* axis) const {
     return {axis, 0.0, request_.triangles, request_.links, request_.rateHz, request_.tolerance};
   }
-  /// The base anew, then a row a value: the machine may have drifted since the last axis.
+  /// The base again, then one row per value: the machine may have drifted since the last axis.
   template <typename Value, typename Set>
   [[nodiscard]] Result<Done> axis(const char* name, const std::vector<Value>& values,
                                   double baseValue, const Set& set);
@@ -103,7 +103,7 @@ class ScalingBench {
   const ScalingRequest& request_;
   const BenchInputs& inputs_;
   MeasuredBench bench_;
-  // What the last row was measured on, kept where the next one is on the same.
+  // The last row's scene and body, kept if the next row uses the same.
   Scene scene_;
   std::size_t sceneTriangles_ = 0;
   std::optional<BenchBody> body_;

@@ -1,4 +1,4 @@
-// bench/scaling.h: `foretouch-bench scaling`: how the cost of a step grows with everything.
+// bench/scaling.h: `foretouch-bench scaling`: how the cost of a step grows with each parameter.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,7 @@
 
 namespace foretouch::tools {
 
-/// One axis is varied at a time, the others stay as the base says. An empty list leaves its axis
-/// out.
+/// Varies one axis at a time; the others keep the base's value. An empty list omits its axis.
 struct ScalingRequest {
   BenchOptions options;
   std::size_t triangles = 300'000;  ///< Of the base; 0: the scene's own.
@@ -23,7 +22,7 @@ struct ScalingRequest {
   int crowdRepeats = 3;                       ///< The quickest counts.
 };
 
-/// Tables: "scaling", and "crowd" where there are avatars and threads.
+/// Tables: "scaling", and "crowd" if there are avatars and threads.
 [[nodiscard]] Result<MeasuredBench> measureScaling(const ScalingRequest& request);
 
 }  // namespace foretouch::tools

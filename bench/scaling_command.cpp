@@ -20,7 +20,7 @@ struct ScalingTexts : BenchTexts {
   bool quick = false;
 };
 
-/// "none" leaves an axis out, nothing takes the usual values.
+/// "none" omits an axis; an empty text means the usual values.
 template <typename Values>
 void settleAxis(Settling& settle, Values& values, const std::string& text,
                 const Result<Values>& parsed) {
@@ -31,7 +31,7 @@ void settleAxis(Settling& settle, Values& values, const std::string& text,
   }
 }
 
-/// The usual lists, short ones where it must be quick.
+/// The usual lists, or short ones for a quick run.
 void fillIn(ScalingTexts& texts) {
   const auto usual = [&](std::string& text, const char* full, const char* quick) {
     if (text.empty()) text = texts.quick ? quick : full;

@@ -8,14 +8,14 @@
 namespace foretouch::tools {
 namespace {
 
-/// Shorter edges (m) are not halved: that many triangles would be finer than any scan.
+/// Does not halve shorter edges (m): that would be finer than any scan.
 constexpr double kShortestHalved = 1e-6;
 
 struct LongestEdge {
   double squaredLength;
   std::size_t triangle;
   int corner;  ///< The edge goes from this corner to the next.
-  /// Of equally long edges the first triangle's comes first.
+  /// Of equally long edges, the first triangle's comes first.
   bool operator<(const LongestEdge& other) const {
     return squaredLength != other.squaredLength ? squaredLength < other.squaredLength
                                                 : triangle > other.triangle;

@@ -20,7 +20,7 @@ Error failure(const std::string& what) {
   return Error::in("foretouch serve", ErrorCode::DeviceFailed, what);
 }
 
-/// Reads the child's output up to the line that says that it is ready.
+/// Reads the child's output up to its "ready" line.
 bool waitUntilReady(int output) {
   std::string line;
   char c = 0;

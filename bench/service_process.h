@@ -1,5 +1,5 @@
-// bench/service_process.h: `foretouch serve` as a process of its own, started, watched and
-// stopped: for measurements and trials of the stream.
+// bench/service_process.h: starts, watches and stops `foretouch serve` as a separate process: for
+// measurements and trials of the stream.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@ namespace foretouch::tools {
 class ServiceProcess {
  public:
   /// This program as `serve` with `arguments`; returns once it says that it is ready. Errors: it
-  /// ended before, with what it said on stderr left to the terminal.
+  /// ended before; the terminal has its stderr.
   static Result<ServiceProcess> start(const std::vector<std::string>& arguments);
   ServiceProcess(ServiceProcess&& other) noexcept;
   ServiceProcess& operator=(ServiceProcess&&) = delete;
-  ~ServiceProcess();  ///< Kills what is still there.
+  ~ServiceProcess();  ///< Kills the process if it still runs.
 
-  /// Resident memory in bytes, and open file descriptors; -1 where it is gone.
+  /// Resident memory in bytes, and open file descriptors; -1 if it is gone.
   [[nodiscard]] std::int64_t residentBytes() const;
   [[nodiscard]] std::int64_t openFiles() const;
-  /// SIGTERM; the exit code, -1 where a signal ended it.
+  /// SIGTERM; the exit code, -1 if a signal ended it.
   int stop();
 
  private:

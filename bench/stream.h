@@ -1,5 +1,5 @@
-// bench/stream.h: the stream measured: senders in this process, `foretouch serve` as another
-// one, real multicast in a private network; and the same for hours, watched for what grows.
+// bench/stream.h: measures the stream: senders in this process, `foretouch serve` in another, real
+// multicast in a private network; and the same for hours, watching for growth.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace foretouch::tools {
 
-/// So many senders, each with so many poses a second.
+/// A number of senders, each with a number of poses per second.
 struct StreamCrowd {
   int avatars = 1;
   double rateHz = 90.0;
@@ -21,7 +21,7 @@ struct StreamCrowd {
 struct StreamRequest {
   BenchFiles files;
   Placement place;
-  std::string floor;  ///< Object that contacts are not asked for; empty: none.
+  std::string floor;  ///< Object whose contacts to ignore; empty: none.
   std::vector<StreamCrowd> crowds;
   double durationS = 10.0;  ///< Of each crowd.
   int workers = 1;
@@ -30,14 +30,14 @@ struct StreamRequest {
 
 /// Numbered from 1.
 [[nodiscard]] std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds);
-/// Of `foretouch serve`, for so many senders. `logPath` may be empty.
+/// For `foretouch serve` with these senders. `logPath` may be empty.
 [[nodiscard]] std::vector<std::string> serviceArguments(const BenchFiles& files,
                                                         std::size_t avatars, int workers,
                                                         const std::string& logPath);
-/// What the figures depend on.
+/// The facts that the figures depend on.
 [[nodiscard]] std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers);
 
-/// The clip as its senders send it, a pose a frame.
+/// The clip as its senders send it, one pose per frame.
 [[nodiscard]] Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place);
 
 struct StreamBench {
@@ -53,7 +53,7 @@ struct SoakRequest {
   Placement place;
   std::vector<StreamCrowd> crowds;  ///< All at once.
   double minutes = 2.0;
-  double warmUpShare = 0.25;   ///< Of the time: before memory is watched.
+  double warmUpShare = 0.25;   ///< Of the time: before watching memory.
   double garbageShare = 0.01;  ///< Datagrams of garbage per pose.
   int workers = 1;
   std::string logPath;  ///< The service's journal; empty: none.

@@ -19,8 +19,8 @@ namespace {
 
 constexpr int kMaxAvatars = 1000, kMaxWorkers = 64;
 constexpr double kMaxRateHz = 100'000.0;
-/// What a service may grow by. Below the second one it is single pages, of which minutes make a
-/// steep slope.
+/// Allowed growth of a service. Below the second one, growth is single pages, which give a steep
+/// slope over minutes.
 constexpr double kMostMbPerHour = 1.0, kNoGrowthMb = 0.25;
 
 struct StreamTexts {

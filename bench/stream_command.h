@@ -18,7 +18,7 @@ namespace foretouch::tools {
 [[nodiscard]] Result<std::vector<StreamCrowd>> parseCrowds(const std::string& option,
                                                            const std::string& text);
 
-/// Adds the subcommands to `foretouch bench`; what they end with goes to `exit`.
+/// Adds the subcommands to `foretouch bench`; their exit code goes to `exit`.
 void addBenchStreamCommands(CLI::App& bench, ExitCode& exit);
 
 }  // namespace foretouch::tools

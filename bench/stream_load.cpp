@@ -64,7 +64,7 @@ class SendTimes {
   std::vector<std::vector<std::atomic<std::int64_t>>> times_;
 };
 
-/// Datagrams that a service must bear: noise, cut and lying copies of a valid one.
+/// Datagrams that a service must survive: noise, and cut or false copies of a valid one.
 class Garbage {
  public:
   Garbage(const UdpmUrl& url, const Bytes& validPayload, std::uint64_t seed)
@@ -99,7 +99,7 @@ class Garbage {
       case 1:  // cut
         bytes.resize(1 + below(bytes.size() - 1));
         return bytes;
-      case 2: {  // counts and lengths that lie; stamps and quaternions are left as they are
+      case 2: {  // false counts and lengths; stamps and quaternions unchanged
         const std::size_t place = 8 + below(60);
         bytes[std::min(place, bytes.size() - 1)] ^= static_cast<std::uint8_t>(0x80 | below(128));
         bytes.pop_back();  // so that it can never be a valid pose
@@ -129,7 +129,7 @@ class Senders {
     startUtimeUs_ = utimeUs();
     for (std::size_t s = 0; s < request.senders.size(); ++s) {
       const double period = static_cast<double>(kNsPerS) / request.senders[s].rateHz;
-      // Spread over a period, as independent senders are.
+      // Spread over a period, like independent senders.
       const double phase =
           period * static_cast<double>(s) / static_cast<double>(request.senders.size());
       schedule_.push_back({period, phase, 0});
@@ -317,7 +317,7 @@ Result<LoadOutcome> runLoad(const LoadTrack& track, const LoadRequest& request,
   senders.sendSkeletons();
   senders.run(everySecond);
   waitForTheLast(answers, outcome.sent);
-  std::this_thread::sleep_for(kStatusPeriod);  // for the status that tells of all of it
+  std::this_thread::sleep_for(kStatusPeriod);  // for the status that includes everything
   answers.stop();
   listening.join();
   outcome.answers = std::move(answers.answers);

@@ -1,5 +1,5 @@
-// bench/stream_load.h: senders of poses beside a running service, and what they get back:
-// every answer is matched with its pose by session and sequence, on one clock.
+// bench/stream_load.h: senders of poses beside a running service, and the answers: matches every
+// answer with its pose by session and sequence, on one clock.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct LoadSender {
   double rateHz = 0.0;
 };
 
-/// What every sender sends, over and over: forth and back, so that the motion never jumps.
+/// The poses that every sender repeats: forth and back, so that the motion never jumps.
 struct LoadTrack {
   SkeletonMessage skeleton;
   std::vector<PoseMessage> poses;  ///< At least two; sequence and stamps are filled in.
@@ -28,24 +28,23 @@ struct LoadRequest {
   UdpmUrl url;
   std::vector<LoadSender> senders;
   double durationS = 10.0;
-  double garbageShare = 0.0;  ///< Datagrams that are no messages, or wrong ones, per pose.
+  double garbageShare = 0.0;  ///< Invalid datagrams, or wrong messages, per pose.
   std::uint64_t seed = 1;     ///< Of the garbage.
 };
 
 struct LoadAnswer {
-  float roundTripUs =
-      0.0F;  ///< From before the pose is handed to the system to its answer's receipt.
-  float serviceUs = 0.0F;   ///< As the service says: from receiving the pose to sending the answer.
-  float queryUs = 0.0F;     ///< Of that, the query alone.
-  std::int32_t sender = 0;  ///< Index in LoadRequest::senders.
+  float roundTripUs = 0.0F;  ///< From before the system gets the pose to the receipt of its answer.
+  float serviceUs = 0.0F;    ///< By the service: from receiving the pose to sending the answer.
+  float queryUs = 0.0F;      ///< Of that, the query alone.
+  std::int32_t sender = 0;   ///< Index in LoadRequest::senders.
 };
 
 struct LoadOutcome {
   std::int64_t sent = 0, garbage = 0;
   std::int64_t sendFailures = 0;  ///< Poses that the system did not take.
   std::int64_t lateSends = 0;     ///< Poses sent more than a period after they were due.
-  std::int64_t unanswered = 0;    ///< Poses without an answer: lost on one of the two ways.
-  std::int64_t repeated = 0;      ///< Answers to what had been answered.
+  std::int64_t unanswered = 0;    ///< Poses without an answer: lost in either direction.
+  std::int64_t repeated = 0;      ///< Repeated answers.
   std::int64_t gaps = 0;          ///< Answers marked AcrossGap.
   std::int64_t ownDrops = 0;      ///< Datagrams that the system dropped before this side read them.
   StatusMessage status;           ///< The service's last one.
@@ -53,7 +52,7 @@ struct LoadOutcome {
 };
 
 /// Sends from the calling thread for `durationS` and receives in another; waits for the last
-/// answers up to a second. `everySecond` is called about once a second while it runs.
+/// answers up to a second. Calls `everySecond` about once a second while it runs.
 [[nodiscard]] Result<LoadOutcome> runLoad(const LoadTrack& track, const LoadRequest& request,
                                           const std::function<void()>& everySecond = {});
 

@@ -9,7 +9,7 @@ namespace foretouch::tools {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Vertices are pulled in by this share of the radius, so that rounding leaves them inside.
+/// Shrinks the radius of vertices by this share, so that rounding leaves them inside.
 constexpr double kInside = 1.0 - 1e-12;
 constexpr int kLeastAround = 6, kLeastRings = 2;
 

@@ -9,8 +9,8 @@
 
 namespace foretouch::tools {
 
-/// Per link, in its frame, triangles with their vertices on its LSS' surfaces: as fine as they get
-/// with at most `count` of them in all, or as coarse as an LSS can be drawn.
+/// Per link, in its frame, triangles with their vertices on its LSS' surfaces: as fine as possible
+/// with at most `count` of them in all, or as coarse as an LSS can be.
 [[nodiscard]] std::vector<std::vector<Triangle>> lssSkins(const Avatar& avatar, std::size_t count);
 
 }  // namespace foretouch::tools

@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Puts the processor's own choice of instructions back at the end.
+/// Restores the processor's own choice of instructions at the end.
 class SimdChoice {
  public:
   SimdChoice() = default;
@@ -34,7 +34,7 @@ class SimdChoice {
   Simd current_ = Simd::Other;
 };
 
-/// Memory that is written and read to push everything else out of the caches.
+/// Memory to write and read, to push everything else out of the caches.
 class CacheFlood {
  public:
   explicit CacheFlood(int megabytes) : words_(static_cast<std::size_t>(megabytes) << 17) {}
@@ -47,7 +47,7 @@ class CacheFlood {
 
  private:
   std::vector<std::uint64_t> words_;
-  volatile std::uint64_t kept_ = 0;  // or the compiler would leave the loops out
+  volatile std::uint64_t kept_ = 0;  // else the compiler would remove the loops
 };
 
 /// One pass of one case over one step, timed.
@@ -56,7 +56,7 @@ class StepClock {
   StepClock(const Avatar& avatar, const Scene& scene)
       : avatar_(avatar), scene_(scene), overheadUs_(clockOverheadUs()) {}
 
-  /// Microseconds of a step; what was answered goes to `answer`.
+  /// Microseconds of a step; fills `answer`.
   Result<double> ask(const StepPoses& poses, const BenchCase& way, StepContacts& answer) {
     simd_.take(way.simd);
     const Clock::time_point start = Clock::now();

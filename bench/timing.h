@@ -1,5 +1,5 @@
-// bench/timing.h: how long steps take: from two validated poses to their contacts, building
-// the motion included.
+// bench/timing.h: the times of steps: from two validated poses to their contacts, including
+// building the motion.
 #pragma once
 
 #include <cstdint>
@@ -20,26 +20,26 @@ struct Percentiles {
   double mean = 0.0, p50 = 0.0, p90 = 0.0, p99 = 0.0, max = 0.0;
 };
 [[nodiscard]] Percentiles percentilesOf(std::vector<double> values);
-/// The value that this share of them does not exceed; 0 where there are none.
+/// The value that this share of them does not exceed; 0 if there are none.
 [[nodiscard]] double valueAtRank(const std::vector<double>& ascending, double share);
 
-/// One way to ask.
+/// One kind of query.
 struct BenchCase {
   std::string name;
   QueryOptions query;
   Simd simd = Simd::Scalar;
-  bool cold = false;  ///< Also ask with the caches emptied.
+  bool cold = false;  ///< Also run with empty caches.
 };
 
 struct TimingOptions {
-  int repeats = 9;     ///< Of each step, one after another.
+  int repeats = 9;     ///< Of each step, in a row.
   int coldPasses = 3;  ///< Over all steps; a step's least time counts.
   int coldMb = 16;     ///< Streamed through the caches before each cold step.
 };
 
 struct TimedStep {
   double warmUs = 0.0;   ///< The least of all repeats.
-  double firstUs = 0.0;  ///< The first of them: other steps were asked before.
+  double firstUs = 0.0;  ///< The first of them, after other steps.
   double coldUs = std::numeric_limits<double>::quiet_NaN();
   QueryCounters counters;
   int contacts = 0, starts = 0, undecided = 0;  ///< Links.
@@ -53,22 +53,22 @@ struct CaseTimes {
 struct Timing {
   std::vector<CaseTimes> cases;
   std::vector<double> raySetUs;  ///< Per step the least of all repeats.
-  double overheadUs = 0.0;       ///< Of the clock; taken off every time.
+  double overheadUs = 0.0;       ///< Of the clock; subtracted from every time.
 };
 
-/// What one thread keeps from step to step.
+/// One thread's memory from step to step.
 struct StepMemory {
   ChainMotion motion;
   QueryScratch scratch;
   StepContacts contacts;  ///< Of the last step.
 };
 
-/// Answers one step. Its own function, so that a profiler can count what it alone costs.
+/// Answers one step. A separate function, so that a profiler can count its cost alone.
 [[nodiscard]] Result<Done> answerStep(const Avatar& avatar, const StepPoses& poses,
                                       const Scene& scene, const QueryOptions& query,
                                       StepMemory& memory);
 
-/// Every case and the ray-set take their turns at each step, so that drift of the machine hits all
+/// Alternates all cases and the ray set at each step, so that drift of the machine affects all
 /// alike. One thread.
 [[nodiscard]] Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& steps,
                                        const Scene& scene, const std::vector<BenchCase>& cases,

@@ -29,7 +29,7 @@ void noteOnce(std::string note, BenchReport& report) {
   if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
 }
 
-/// Where a clip stands, and around which frame it is looked at.
+/// A clip's placement, and the frame around which to measure.
 struct TradePlace {
   Placement placement;
   double middleS = 0.0;
@@ -99,7 +99,7 @@ class WorldBench {
   }
 
  private:
-  /// Where the workload of `bench latency` finds contacts, one step of each place.
+  /// The places at which the workload of `bench latency` finds contacts, one step of each.
   Result<std::vector<TradePlace>> findPlaces() {
     WorkloadRequest wanted = request_.workload;
     const double clipHz = 1.0 / inputs_.clip.frameTimeS;

@@ -1,5 +1,5 @@
-// bench/trade.h: `foretouch-bench trade`: what speed costs in accuracy, and accuracy in
-// speed, over strategies, tolerances, rates, clips and scenes.
+// bench/trade.h: `foretouch-bench trade`: the trade-off between speed and accuracy, over
+// strategies, tolerances, rates, clips and scenes.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@
 namespace foretouch::tools {
 
 struct TradeRequest {
-  std::vector<BenchFiles> worlds;  ///< A scene and a clip each.
+  std::vector<BenchFiles> worlds;  ///< Each a scene and a clip.
   std::vector<double> tolerances;  ///< Metres.
-  std::vector<double> ratesHz;     ///< Those that a clip does not have are left out of it.
-  double baseTolerance = 1e-3;     ///< While the rate is looked at; one of the tolerances.
-  double baseRateHz = 5.0;         ///< While the tolerance is looked at; one of the rates.
+  std::vector<double> ratesHz;     ///< Skips those that a clip does not have.
+  double baseTolerance = 1e-3;     ///< While varying the rate; one of the tolerances.
+  double baseRateHz = 5.0;         ///< While varying the tolerance; one of the rates.
   double seconds = 4.0;            ///< Of the clip, at each place.
   int places = 3;                  ///< In each scene.
   int passes = 3;
-  int judged = 40;  ///< Links a world.
+  int judged = 40;  ///< Links per world.
   std::size_t surfaceTriangles = 20'000;
   WorkloadRequest workload;  ///< Seed, floor and lift count.
   std::string command;       ///< As typed in.

@@ -31,7 +31,7 @@ struct TradeTexts {
   bool quick = false;
 };
 
-/// Short lists where it must be quick.
+/// Short lists for a quick run.
 void fillIn(TradeTexts& texts) {
   const auto usual = [&](std::string& text, const char* full, const char* quick) {
     if (text.empty()) text = texts.quick ? quick : full;
@@ -43,7 +43,7 @@ void fillIn(TradeTexts& texts) {
   usual(texts.passes, "3", "2");
 }
 
-/// The files between commas; nothing given: the bundled one.
+/// The comma-separated files; by default the bundled one.
 Result<std::vector<std::string>> parseFiles(const std::string& option, const std::string& names) {
   std::vector<std::string> files =
       names.empty() ? std::vector<std::string>{""} : splitAtCommas(names);
@@ -51,7 +51,7 @@ Result<std::vector<std::string>> parseFiles(const std::string& option, const std
   return Error::in(option, ErrorCode::Empty, "expected a file between every two commas");
 }
 
-/// One value for all of `count` files, or one each.
+/// One value for all of `count` files, or one per file.
 template <typename T>
 Result<std::vector<T>> oneEach(const std::string& option, std::vector<T> values,
                                std::size_t count) {
@@ -78,7 +78,7 @@ Result<std::vector<UpAxis>> parseUpAxes(const std::string& option, const std::st
   return oneEach(option, std::move(axes), count);
 }
 
-/// That of `values` which is nearest to `wanted` by ratio.
+/// The one of `values` nearest to `wanted` by ratio.
 double nearestOf(const std::vector<double>& values, double wanted) {
   return *std::min_element(values.begin(), values.end(), [&](double x, double y) {
     return std::max(x / wanted, wanted / x) < std::max(y / wanted, wanted / y);

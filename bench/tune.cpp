@@ -24,7 +24,7 @@ namespace {
 constexpr Fidelity kRungs[] = {Fidelity::Ellipsoid, Fidelity::Avatar, Fidelity::Limb,
                                Fidelity::Link, Fidelity::Exact};
 
-/// Percentiles that differ by less than this factor are told apart by the machine's load.
+/// Differences of percentiles below this factor may come from the machine's load.
 constexpr double kAsQuick = 1.25;
 
 int fineness(Fidelity fidelity) {
@@ -36,7 +36,7 @@ bool missedNothing(const TunedSetting& setting) {
   return setting.row.score.missed == 0 && setting.row.score.late == 0;
 }
 
-/// The surface of the avatar's meshes; none where it has none.
+/// The surface of the avatar's meshes; none if it has none.
 Result<std::optional<AvatarSurface>> surfaceOf(const BenchInputs& inputs) {
   bool hasMesh = false;
   for (LinkId link = 0; link < inputs.avatar.numLinks(); ++link) {
@@ -78,7 +78,7 @@ class Tuner {
   }
 
  private:
-  /// One a setting, and last the poses alone.
+  /// One per setting, and last the poses alone.
   std::vector<TradeContender> contendersFor(std::vector<TunedSetting>& settings) {
     std::vector<TradeContender> contenders;
     for (const Fidelity fidelity : kRungs) {
@@ -237,7 +237,7 @@ Result<Tuned> tune(const TuneRequest& request) {
   report.date = dateNow();
   report.machine = machineFacts();
   report.workload = workloadFacts(inputs, inputs.scene, inputs.avatar, {});
-  report.workload.pop_back();  // the fidelity: all are tried
+  report.workload.pop_back();  // the fidelity: tries all
   report.notes.push_back(
       hasSurface ? "False: links reported though their LSS never come within the tolerance."
                  : "False: links reported though their LSS never come within the tolerance. The "

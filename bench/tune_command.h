@@ -9,7 +9,7 @@ class App;
 
 namespace foretouch::tools {
 
-/// Adds the subcommand; what it ends with goes to `exit`, which must outlive `program`.
+/// Adds the subcommand; its exit code goes to `exit`, which must outlive `program`.
 void addTuneCommand(CLI::App& program, ExitCode& exit);
 
 }  // namespace foretouch::tools

@@ -15,11 +15,11 @@
 namespace foretouch::tools {
 namespace {
 
-/// In a network of its own, where it is free.
+/// In a private network, where it is free.
 constexpr std::uint16_t kPort = 9465;
 constexpr double kUsPerS = 1e6, kUsPerMs = 1e3, kBytesPerKb = 1024.0;
 
-/// What one row has gathered over all its runs.
+/// One row's results over all its runs.
 struct Row {
   std::optional<int> viewers;  ///< None: the service has no view.
   std::vector<double> addedUs, roundTripUs, stepDelaysUs, contactDelaysUs;

@@ -1,5 +1,5 @@
-// bench/view.h: what it costs a service to be watched: the stream of bench/stream.h
-// with so many viewers reading, and when they see what was sent.
+// bench/view.h: the cost of viewers for a service: the stream of bench/stream.h with a number of
+// viewers reading, and their delays.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct ViewRequest {
   StreamCrowd crowd;
   std::vector<int> viewers;  ///< Of each row; 0: nobody looks.
   double durationS = 10.0;   ///< Of each run.
-  int repeats = 3;           ///< All rows in turn, so often.
+  int repeats = 3;           ///< Of all rows, in turn.
   int workers = 1;
   std::string command;  ///< As typed in.
 };

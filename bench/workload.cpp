@@ -41,7 +41,7 @@ Avatar grownBy(const Avatar& avatar, double margin) {
   return Avatar::build(avatar.skeleton(), std::move(lss)).value();  // as legal as before
 }
 
-/// Tells what kind of step a step is.
+/// Classifies steps.
 class Classifier {
  public:
   Classifier(const BenchInputs& inputs, const BenchBody& body)
@@ -86,7 +86,7 @@ class Classifier {
 };
 
 /// Lowest point of any LSS of the whole avatar over all frames, and the middle of the first link's
-/// way: where a placement holds the clip.
+/// path: the point by which a placement holds the clip.
 Eigen::Vector3d holdOf(const BenchInputs& inputs) {
   double lowest = std::numeric_limits<double>::infinity();
   Eigen::Vector3d low = Eigen::Vector3d::Constant(lowest), high = -low;
@@ -107,7 +107,7 @@ Eigen::Vector3d holdOf(const BenchInputs& inputs) {
   return {0.5 * (low.x() + high.x()), lowest, 0.5 * (low.z() + high.z())};
 }
 
-/// A place drawn in the scene's box, where the clip's middle is to stand.
+/// A place drawn in the scene's box, for the clip's middle.
 Placement drawnPlace(const BenchInputs& inputs, const WorkloadRequest& request,
                      const Eigen::Vector3d& hold, Random& random) {
   const SceneAudit& box = inputs.scene.audit();
@@ -124,11 +124,11 @@ Placement drawnPlace(const BenchInputs& inputs, const WorkloadRequest& request,
 
 struct FoundStep {
   StepPick pick;
-  std::uint64_t lot = 0;  ///< Drawn when it is found: of each class those with the least are taken.
+  std::uint64_t lot = 0;  ///< Drawn on finding it: takes those of each class with the least lots.
   std::size_t order = 0;
 };
 
-/// How many of each class make up the mix; fewer in all where a class runs short.
+/// How many of each class make up the mix; fewer in total if a class runs short.
 void fillMix(Workload& workload) {
   const auto found = [&](StepClass kind) { return workload.found[slotOf(kind)]; };
   const std::int64_t contacts = found(StepClass::Contact), near = found(StepClass::Near),
@@ -141,7 +141,7 @@ void fillMix(Workload& workload) {
   total = std::min(total, share(1.0 / (1.0 - kBusyContact), near + far));
   const std::int64_t free = total - std::min(contacts, share(kBusyContact, total));
   std::int64_t takeNear = std::min(near, share(kBusyNear, total));
-  takeNear = std::min(near, std::max(takeNear, free - far));  // where there are too few far ones
+  takeNear = std::min(near, std::max(takeNear, free - far));  // if there are too few far ones
   workload.chosen[slotOf(StepClass::Contact)] = total - free;
   workload.chosen[slotOf(StepClass::Near)] = takeNear;
   workload.chosen[slotOf(StepClass::Far)] = std::min(far, free - takeNear);
@@ -167,14 +167,14 @@ void takeMix(Workload& workload, std::vector<FoundStep> found) {
   for (const FoundStep& step : found) {
     if (left[slotOf(step.pick.kind)]-- > 0) taken.push_back(step);
   }
-  // As a stream would bring them: place by place, in the clip's order.
+  // Like a stream: place by place, in the clip's order.
   std::sort(taken.begin(), taken.end(),
             [](const FoundStep& a, const FoundStep& b) { return a.order < b.order; });
   for (const FoundStep& step : taken) workload.picks.push_back(step.pick);
 }
 
-/// So many steps at one placement, spread over all that the clip has. False where a pose lies
-/// farther out than coordinates may.
+/// Adds `steps` steps at one placement, spread over all of the clip. False if a pose lies beyond
+/// the limit of coordinates.
 Result<bool> addSteps(const Placement& placement, std::int64_t ofAll, std::int64_t steps,
                       Classifier& classifier, Workload& workload, std::vector<StepPick>& found) {
   for (std::int64_t i = 0; i < steps; ++i) {
@@ -235,7 +235,7 @@ void take(const Place& place, Workload& workload) {
   }
 }
 
-/// Where a scene and a rate have too few busy places: the nearest to busy of the others.
+/// If a scene and a rate have too few busy places, takes the nearest to busy of the others.
 void takeNearlyBusy(std::vector<Place> others, Workload& workload) {
   std::sort(others.begin(), others.end(),
             [](const Place& a, const Place& b) { return a.offBusy() < b.offBusy(); });

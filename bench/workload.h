@@ -1,6 +1,6 @@
-// bench/workload.h: which steps a benchmark asks for: a clip at many places of a scene, and
-// there either all steps of the places that are busy, or of all places a fixed mix of steps with a
-// contact, steps near to things and steps far from all.
+// bench/workload.h: the steps of a benchmark: a clip at many places of a scene, and there either
+// all steps of busy places, or a fixed mix, from all places, of steps with a contact, steps near
+// things and steps far from all.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 namespace foretouch::tools {
 
 enum class StepChoice : std::uint8_t {
-  BusyPlaces,  ///< As they come, where about one step in five has a contact.
-  Mix,         ///< Drawn, so that hardly a step is easy.
+  BusyPlaces,  ///< All steps of places where about one step in five has a contact.
+  Mix,         ///< Selected so that hardly a step is easy.
 };
 /// "busy", "mix".
 [[nodiscard]] const char* toString(StepChoice choice);
@@ -24,7 +24,7 @@ enum class StepChoice : std::uint8_t {
 struct WorkloadRequest {
   StepChoice choice = StepChoice::BusyPlaces;
   double rateHz = 5.0;
-  std::size_t steps = 500;  ///< Wanted; there may be fewer.
+  std::size_t steps = 500;  ///< Requested; there may be fewer.
   std::uint64_t seed = 1;
   int mostPlacements = 1000;
   double floorY = 0.0;             ///< Height (m) of the scene's floor.
@@ -32,25 +32,25 @@ struct WorkloadRequest {
   std::optional<Placement> place;  ///< Given: every step of the clip at this one place, no choice.
 };
 
-/// A place is busy where of the steps that do not start in contact so many have one, and where not
-/// more than kMostStarts of all start in contact (a body that stands in furniture).
+/// A place is busy if this share of the steps that do not start in contact has one, and at most
+/// kMostStarts of all start in contact (a body that stands in furniture).
 inline constexpr double kLeastBusy = 0.12, kMostBusy = 0.28, kMostStarts = 0.2;
-/// Where busy places have fewer steps than this, those that come nearest to being busy make them
-/// up.
+/// If busy places have fewer steps than this, the places nearest to busy supply the rest.
 inline constexpr std::size_t kLeastSteps = 100;
 
-/// Shares of the mix: what is asked of a step is either easy (far), or nearly a contact, or
-/// one. Steps that start in contact are left out of it.
+/// Shares of the mix: a step is easy (far), nearly a contact, or a contact. Excludes steps that
+/// start in contact.
 inline constexpr double kBusyContact = 0.20, kBusyNear = 0.65;
 /// A step is near if a link with its radii grown by this (m) touches at one of kNearInstants
-/// instants. A fixed rule, so that it is the same step whatever the query's bounds are.
+/// instants. A fixed rule, so that the steps do not depend on the query's bounds.
 inline constexpr double kNearM = 0.03;
 inline constexpr int kNearInstants = 5;
-/// Of a long clip only so many steps a place, spread over it: or one place would make up the mix.
+/// Limit on the steps of a long clip per place, spread over it: otherwise one place would fill the
+/// mix.
 inline constexpr std::int64_t kMostStepsAPlace = 40;
-/// Places tried even where the mix is complete with fewer.
+/// Places tried even if fewer complete the mix.
 inline constexpr int kLeastPlaces = 20;
-/// Contacts are those at this tolerance (m).
+/// Contacts count at this tolerance (m).
 inline constexpr double kWorkloadTolerance = 1e-3;
 
 enum class StepClass : std::uint8_t { Start, Contact, Near, Far };
@@ -67,13 +67,14 @@ struct Workload {
   std::int64_t stride = 1;
   std::vector<StepPick> picks;
   int placements = 0;                      ///< Tried.
-  int taken = 0;                           ///< Busy ones that were taken.
+  int taken = 0;                           ///< Busy ones selected.
   std::int64_t found[kStepClasses] = {};   ///< Steps at those places, by class.
   std::int64_t chosen[kStepClasses] = {};  ///< Steps of the workload, by class.
 };
 
-/// Steps of `body`, which is made of the inputs' avatar. Deterministic: the same request gives the
-/// same steps, and the same places whatever the rate. Errors: a rate that the clip does not have.
+/// Steps of `body`, which is made from the inputs' avatar. Deterministic: the same request gives
+/// the same steps, and the same places whatever the rate. Errors: a rate that the clip does not
+/// have.
 [[nodiscard]] Result<Workload> chooseSteps(const BenchInputs& inputs, const BenchBody& body,
                                            const WorkloadRequest& request);
 
@@ -84,7 +85,7 @@ struct StepPoses {
   Pose from, to;
 };
 
-/// The chosen steps' validated poses for a body made of the inputs' avatar.
+/// The chosen steps' validated poses for a body made from the inputs' avatar.
 [[nodiscard]] Result<std::vector<StepPoses>> posesOf(const BenchInputs& inputs,
                                                      const BenchBody& body,
                                                      const Workload& workload);

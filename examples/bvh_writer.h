@@ -9,8 +9,8 @@
 
 namespace foretouch::examples {
 
-/// Rest rotations must be identities and joints in depth-first order, as BVH writes them. The root
-/// gets position channels; every joint Z X Y rotations, in degrees without jumps of a turn between
+/// Rest rotations must be identities and joints in depth-first order, as in BVH. The root gets
+/// position channels; every joint Z X Y rotations, in degrees without jumps of a turn between
 /// frames. Positions to 10 micrometres, angles to 1e-4 degrees. A joint without children gets an
 /// End Site of its own (metres, in its frame) from `tips`.
 [[nodiscard]] std::string bvhText(const Skeleton& skeleton,

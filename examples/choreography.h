@@ -1,4 +1,4 @@
-// examples/choreography.h: what the person does, as keyframes in the room's frame.
+// examples/choreography.h: the person's movements, as keyframes in the room's frame.
 #pragma once
 
 #include "examples/posture.h"
@@ -6,8 +6,8 @@
 
 namespace foretouch::examples {
 
-/// Comes in through the string curtain, sweeps an arm along the railing, spins beside the floor
-/// lamp, kicks and reaches about the table, and leaves as it came.
+/// Enters through the string curtain, sweeps an arm along the railing, spins beside the floor lamp,
+/// kicks and reaches about the table, and leaves the same way.
 class Choreography {
  public:
   static constexpr double kDurationS = 13.6;

@@ -41,7 +41,7 @@ enum Joint : std::int32_t {
   kNumDancerJoints
 };
 
-/// The avatar: an LSS a link, two side by side for the links of the trunk.
+/// The avatar: one LSS per link, two side by side for the links of the trunk.
 [[nodiscard]] Result<Avatar> dancerAvatar();
 
 }  // namespace foretouch::examples

@@ -19,8 +19,8 @@ struct MeshObject {
   std::vector<std::array<std::size_t, 3>> triangles;  ///< Indices into `vertices`.
 };
 
-/// The frame of something that stands at (x, y, z), turned by yawDeg about +Y: its +Z axis then
-/// points along (sin yaw, 0, cos yaw).
+/// The frame of an object that stands at (x, y, z), turned by yawDeg about +Y: its +Z axis points
+/// along (sin yaw, 0, cos yaw).
 [[nodiscard]] Eigen::Isometry3d standingAt(double x, double y, double z, double yawDeg = 0.0);
 
 /// Half width across and height of a surface of revolution, metres.
@@ -28,11 +28,11 @@ using Profile = std::vector<Eigen::Vector2d>;
 
 class MeshBuilder {
  public:
-  /// What follows belongs to the object `name` and is placed by `frame`.
+  /// Begins the object `name`, placed by `frame`.
   void begin(std::string name, const Eigen::Isometry3d& frame = Eigen::Isometry3d::Identity());
 
-  /// The surface u, v in [0,1]^2 -> point, as 2*rows*columns triangles; those without area, as at
-  /// the pole of a sphere, are left out. `closedV`: v = 1 is v = 0 again.
+  /// The surface u, v in [0,1]^2 -> point, as 2*rows*columns triangles; omits those without area,
+  /// as at the pole of a sphere. `closedV`: v = 1 is v = 0 again.
   void surface(int rows, int columns, bool closedV,
                const std::function<Eigen::Vector3d(double u, double v)>& point);
 

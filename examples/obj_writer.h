@@ -1,4 +1,4 @@
-// examples/obj_writer.h: a scene as a Wavefront OBJ file, an `o` line an object.
+// examples/obj_writer.h: a scene as a Wavefront OBJ file, one `o` line per object.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// examples/posture.h: from what a choreographer says of a moment (where hips, feet and hands are)
-// to the rotation of every joint.
+// examples/posture.h: from a choreographer's posture (places of hips, feet and hands) to the
+// rotation of every joint.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +16,8 @@ struct Posture {
     double yaw = 0.0, pitch = 0.0;                   ///< Pitch > 0: the heel is up.
   };
   struct Hand {
-    /// The wrist, seen from the middle between the shoulders in the chest's frame: to its own side,
-    /// up, forward.
+    /// The wrist, relative to the middle between the shoulders in the chest's frame: to its own
+    /// side, up, forward.
     Eigen::Vector3d wrist = Eigen::Vector3d::Zero();
     double grip = 0.0;  ///< 0: flat, 1: a fist.
   };
@@ -29,7 +29,7 @@ struct Posture {
   Hand leftHand, rightHand;
 };
 
-/// Limbs are solved in closed form (two bones and a target); one out of reach is pointed at.
+/// Solves limbs in closed form (two bones and a target); they point at a target out of reach.
 [[nodiscard]] Pose poseOf(const Skeleton& dancer, const Posture& posture);
 
 }  // namespace foretouch::examples

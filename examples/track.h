@@ -5,12 +5,12 @@
 
 namespace foretouch::examples {
 
-/// A cubic between any two keys, monotone there: it never overshoots, so what two equal keys hold
-/// stays where it is. Slopes as in Fritsch and Carlson (SIAM J. Numer. Anal. 17(2), 1980), by the
-/// harmonic mean.
+/// A cubic between any two keys, monotone there: it never overshoots, so a value stays constant
+/// between two equal keys. Slopes as in Fritsch and Carlson (SIAM J. Numer. Anal. 17(2), 1980), by
+/// the harmonic mean.
 class Track {
  public:
-  /// Keys come in order of time. One at the time of the last key takes its place.
+  /// Keys come in order of time. One at the time of the last key replaces it.
   void key(double timeS, double value);
 
   /// Before the first and after the last key: their values. At least one key.

@@ -1,5 +1,4 @@
-// judge/capsule_prover.cpp: subdivision with two certificates, in double where that is
-// enough.
+// judge/capsule_prover.cpp: subdivision with two certificates, in double if that is enough.
 #include "judge/capsule_prover.h"
 
 #include "judge/certificate.h"
@@ -7,9 +6,10 @@
 namespace foretouch::oracle {
 namespace {
 
-/// A first span may meet very many triangles; cutting it is cheaper than looking at them all.
+/// A first span may meet very many triangles; cutting it is cheaper than examining them all.
 constexpr std::size_t kMostCandidates = 256;
-/// Spans shorter than this keep all their candidates: what they meet no longer shrinks with them.
+/// Spans shorter than this keep all their candidates: the candidates no longer shrink with the
+/// span.
 constexpr Real kCrowdedSpan = 0x1p-8L;
 
 }  // namespace
@@ -109,7 +109,8 @@ bool CapsuleProver::proveSpan(Real from, Real to, const std::vector<int>* inheri
       return true;
     }
     if (outcome_.touching) return false;
-    std::swap(candidates[0], candidates[i]);  // what refuses the whole likely refuses the halves
+    std::swap(candidates[0], candidates[i]);  // a triangle that resists in the whole likely resists
+                                              // in the halves
     if (to - from < kShortestSpan) {
       ++outcome_.grazing;
       outcome_.freeUntil = to;
@@ -123,7 +124,7 @@ bool CapsuleProver::proveSpan(Real from, Real to, const std::vector<int>* inheri
 SpanOutcome CapsuleProver::prove(Real from, Real to) {
   outcome_ = SpanOutcome{};
   outcome_.freeUntil = from;
-  // Middles never reach the ends: these two instants are looked at on their own.
+  // Middles never reach the ends: examines these two instants separately.
   constexpr double kNear = 1e-9;  // any positive number: only contact matters here
   const Real atStart = separationAt(from, kNear), atEnd = separationAt(to, kNear);
   if (touches(atStart)) {

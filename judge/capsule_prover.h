@@ -19,8 +19,9 @@ struct Capsule {
   double radius = 0.0;
 };
 
-/// Cuts a span in halves until each is proved: at its middle the distance exceeds all the way that
-/// the axis can go in half the span, or a plane between axis and triangle stays uncrossed.
+/// Halves a span until each part is proved: at its middle the distance exceeds the farthest that
+/// the axis can move in half the span, or the axis cannot cross a plane between it and the
+/// triangle.
 class CapsuleProver final : public MovingSurface {
  public:
   CapsuleProver(const Scene& scene, const Motion& motion, int link, const Capsule& capsule);
@@ -33,7 +34,7 @@ class CapsuleProver final : public MovingSurface {
   [[nodiscard]] int numPieces() const override { return 1; }
   [[nodiscard]] Real scale() const override { return scale_; }
 
-  /// Looks at spans after which a proof is given up; SpanOutcome then is neither free nor touching.
+  /// Looks at spans after which a proof stops; SpanOutcome is then neither free nor touching.
   static constexpr std::uint64_t kMostLooks = 400'000;
 
  private:
@@ -46,8 +47,8 @@ class CapsuleProver final : public MovingSurface {
   [[nodiscard]] Look lookAt(Real from, Real to) const;
   [[nodiscard]] std::array<Vec3r, 2> axisAt(Real t) const;
   [[nodiscard]] Real pairSeparation(const std::array<Vec3r, 2>& axis, int triangle) const;
-  /// Beyond doubt: inside by more than the guard, or the axis itself is pierced (all that there is
-  /// to see of a capsule without radius).
+  /// Beyond doubt: inside by more than the guard, or the axis itself is pierced (the only sign for
+  /// a capsule without radius).
   [[nodiscard]] bool touches(Real separation) const {
     return separation < -guard_ || separation <= -static_cast<Real>(capsule_.radius);
   }

@@ -1,4 +1,4 @@
-// judge/certificate.cpp: double where that is enough, long double where it is not.
+// judge/certificate.cpp: double if that is enough, else long double.
 #include "judge/certificate.h"
 
 namespace foretouch::oracle {
@@ -42,7 +42,7 @@ HullCheck checkHull(const HullLook& look, Real radius, Real guard, const Triangl
   const Corners<Real> exact = cornersOf<Real>(triangle, look.reference);
   const Certificate<Real> fine = certify(look.exact, exact);
   separation = fine.distance - radius;
-  // A pierced hull is all that there is to see of one without radius.
+  // Without radius, a pierced hull is the only sign.
   if (separation < -guard || separation <= -radius) return HullCheck::Touching;
   return fine.least - radius > -guard ? HullCheck::Free : HullCheck::Open;
 }

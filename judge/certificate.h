@@ -1,5 +1,5 @@
-// judge/certificate.h: what one look at a moving segment or triangle and a triangle
-// at rest proves about the span of time around it.
+// judge/certificate.h: one look at a moving segment or triangle and a triangle at rest, and what it
+// proves for the span of time around it.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace foretouch::oracle {
 
-/// The hull of `count` points, and what they may do within the half span.
+/// The hull of `count` points, and bounds on their motion within the half span.
 template <typename S>
 struct HullView {
   std::size_t count = 2;  ///< 2 or 3.
   Corners<S> points, velocity;
   std::array<S, 3> bend{};  ///< acceleration * halfSpan^2 / 2
-  S stray = 0;              ///< How far any of the points can get from here.
+  S stray = 0;              ///< How far any of the points can move.
   S halfSpan = 0;
 };
 
@@ -76,8 +76,8 @@ S clearanceAlongFeatures(const HullView<S>& hull, const Corners<S>& corners) {
 /// Below this share of the size, the difference of the closest points is too noisy a direction.
 inline constexpr double kNoisyDirection = 1e-6;
 
-/// The plane across the direction of the closest points is nearly the best there is; where they are
-/// too close for that, the planes of the features are.
+/// The plane normal to the direction of the closest points is nearly the best one; if they are too
+/// close, the planes of the features are.
 template <typename S>
 Certificate<S> certify(const HullView<S>& hull, const Corners<S>& corners) {
   const Closest<S> closest = closestPoints(hull, corners);

@@ -71,7 +71,7 @@ template <typename S>
 struct Face {
   Vec3<S> origin, first, second, normal;
   S length = 0, height = 0, apex = 0;  // apex: the third vertex's place along the first axis
-  bool flat = true;                    // no area: its edges say all
+  bool flat = true;                    // no area: its edges are the whole triangle
 
   explicit Face(const Corners<S>& v) {
     int longest = 0;
@@ -99,7 +99,7 @@ struct Face {
     flat = false;
   }
   [[nodiscard]] S elevation(const Vec3<S>& p) const { return dot(p - origin, normal); }
-  /// The foot of p on the plane where it lies inside the triangle.
+  /// The foot of p on the plane, if it lies inside the triangle.
   [[nodiscard]] std::optional<Vec3<S>> foot(const Vec3<S>& p) const {
     const Vec3<S> r = p - origin;
     const S x = dot(r, first);

@@ -1,11 +1,10 @@
-// judge/distance.h: the oracle's own distance of a segment and a triangle.
-// The least over all pairs of features whose closest points lie inside both: end point and face,
-// segment and edge, end point and edge, vertex and segment; zero where the segment pierces the
-// face. Nothing is clamped and nothing is told from signs of areas: the triangle gets an
-// orthonormal frame along its longest edge, so slivers lose no digits (coordinates in it err by
-// rounding times the distance, not times the triangle's length over its height). A feature that
-// rounding leaves out is one whose closest point lies within rounding of a neighbouring feature,
-// which is then counted.
+// judge/distance.h: the oracle's own distance of a segment and a triangle. The least over all pairs
+// of features whose closest points lie inside both: end point and face, segment and edge, end point
+// and edge, vertex and segment; zero if the segment pierces the face. It clamps nothing and uses no
+// signs of areas: the triangle gets an orthonormal frame along its longest edge, so slivers lose no
+// digits (coordinates in it err by rounding times the distance, not times the triangle's length
+// over its height). If rounding excludes a feature, its closest point lies within rounding of a
+// neighbouring feature, which then counts.
 #pragma once
 
 #include <array>
@@ -25,7 +24,7 @@ struct Closest {
 template <typename S>
 Closest<S> closestPoints(const Vec3<S>& a, const Vec3<S>& b, const Corners<S>& v);
 
-/// The same of two triangles; `onSegment` lies on the first. Where they meet, the distance is zero.
+/// The same for two triangles; `onSegment` lies on the first. If they meet, the distance is zero.
 template <typename S>
 Closest<S> closestPoints(const Corners<S>& one, const Corners<S>& other);
 

@@ -9,7 +9,7 @@
 namespace foretouch::oracle {
 namespace {
 
-/// Metres. Computed distances within kilometres of the origin err by less (2e-13 a coordinate).
+/// Metres. Computed distances within kilometres of the origin err by less (2e-13 per coordinate).
 constexpr double kRoundingAllowance = 1e-11;
 
 }  // namespace
@@ -34,7 +34,8 @@ FirstTouch firstTouch(const Scene& scene, const MovingAxis& axis) {
     if (separation <= kTouchSeparation) return {TouchOutcome::Touch, t};
     if (separation >= axis.speed * (1.0 - t)) return {TouchOutcome::Free, 1.0};
     t += separation / axis.speed;
-    // What was nearest cannot be farther now than this; twice the step leaves room for rounding.
+    // The nearest triangle cannot be farther now than this; twice the step leaves room for
+    // rounding.
     bound = distance + 2.0 * separation;
   }
   return {TouchOutcome::Uncertain, t};

@@ -11,12 +11,11 @@
 
 namespace foretouch::oracle {
 
-/// The distance (m) of the segment ab from the triangles, or `bound` where that is less: none
-/// farther is looked for. Zero where the segment meets one. Errs by a few roundings of the
-/// coordinates.
+/// The distance (m) of the segment ab from the triangles, or `bound` if that is less: looks no
+/// farther. Zero if the segment meets one. Errs by a few roundings of the coordinates.
 [[nodiscard]] double distanceTo(const Scene& scene, const Vec3d& a, const Vec3d& b, double bound);
 
-/// An axis on its way.
+/// A moving axis.
 struct MovingAxis {
   std::function<std::array<Vec3d, 2>(double t)> at;  ///< Its ends; t in [0,1].
   double speed = 0.0;  ///< No point of it is ever faster (m per unit of t).
@@ -26,7 +25,7 @@ struct MovingAxis {
 enum class TouchOutcome : std::uint8_t {
   Free,       ///< Proven: the separation is positive at every t.
   Touch,      ///< At t the separation is at most kTouchSeparation, before t it is positive.
-  Uncertain,  ///< kTouchSteps evaluations did not tell: the motion grazes something.
+  Uncertain,  ///< kTouchSteps evaluations did not decide: the motion grazes something.
 };
 
 struct FirstTouch {
@@ -34,13 +33,13 @@ struct FirstTouch {
   double t = 1.0;
 };
 
-/// Metres: a million times finer than the finest difference that is judged by it.
+/// Metres: a million times finer than the finest difference that it judges.
 inline constexpr double kTouchSeparation = 1e-9;
-/// Evaluations of the distance; motions that need more are replaced by others.
+/// Evaluations of the distance; callers replace motions that need more.
 inline constexpr int kTouchSteps = 20'000;
 
 /// Conservative advancement [Mirtich96]: no point of the axis can come nearer faster than its
-/// speed. The separation is taken to be less than computed by more than rounding can do.
+/// speed. Reduces the computed separation by more than rounding can change it.
 [[nodiscard]] FirstTouch firstTouch(const Scene& scene, const MovingAxis& axis);
 
 }  // namespace foretouch::oracle

@@ -1,5 +1,4 @@
-// judge/hull_oracle.cpp: spans halved, in long double where that is enough, in fifty digits where
-// not.
+// judge/hull_oracle.cpp: halves spans, in long double if that is enough, else in fifty digits.
 #include "judge/hull_oracle.h"
 
 #include <algorithm>
@@ -14,12 +13,12 @@ namespace foretouch::oracle {
 namespace {
 
 constexpr Real kGuard = 256.0L;
-/// From this depth of halving on, fifty digits are asked whatever long double says.
+/// From this depth of halving on, uses fifty digits whatever long double says.
 constexpr int kPatience = 20;
-/// Spans are not halved more often than this.
+/// Halves spans no more often than this.
 constexpr int kMostHalvings = 220;
 constexpr std::int64_t kMostQuick = 4'000'000, kMostPrecise = 60'000;
-/// Fifty digits of the extents, less what the formulas lose.
+/// Fifty digits of the extents, less the formulas' rounding.
 const Precise kTouching("1e-40");
 constexpr double kNoHull = 1e300;
 
@@ -28,7 +27,7 @@ S rho(const Vec3<S>& p) {
   return norm(p) * (S(1) + S(1e-12));
 }
 
-/// A hull where its link is at one instant.
+/// A hull at one instant.
 template <typename S>
 struct Placed {
   Corners<S> at, velocity;
@@ -149,7 +148,7 @@ Precise HullOracle::separationAt(int link, double t) const {
   if (all.empty()) return separation;
   std::vector<MovingFrame<Precise>> frames;
   precise_.framesAt(t, frames);
-  // Generous where long double loses digits that the guard does not know of.
+  // Generous: long double may lose digits that the guard does not include.
   const Real reach = least + 1e-9L * static_cast<Real>(extent(link));
   for (const Near& near : all) {
     const Hull& hull = world_.hulls[near.hull];
@@ -203,7 +202,7 @@ class HullProver {
     proof.touchesAt = t;
   }
 
-  /// Nothing is left to ask of the link from `begin` on.
+  /// No open question about the link from `begin` on.
   [[nodiscard]] bool isSettled(std::size_t link, Real begin) const {
     return static_cast<Real>(until_[link]) <= begin ||
            (proofs_[link].freedom == Freedom::Touches &&
@@ -272,7 +271,7 @@ class HullProver {
   std::vector<FreedomProof> proofs_;
   std::vector<MovingFrame<Real>> frames_;
   std::vector<MovingFrame<Precise>> preciseFrames_;
-  bool hasFrames_ = false, hasPreciseFrames_ = false;  // of the span in hand
+  bool hasFrames_ = false, hasPreciseFrames_ = false;  // of the current span
   std::int64_t quick_ = 0, precisely_ = 0;
 };
 

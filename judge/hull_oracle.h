@@ -1,13 +1,13 @@
-// judge/hull_oracle.h: what truly happens between two poses, for inputs at the edge of what doubles
-// can say: motion by its definition, distances in fifty digits, and a proof of freedom by spans of
-// [0,1] over which a plane stays uncrossed.
+// judge/hull_oracle.h: the truth between two poses, for inputs at the limit of doubles: motion by
+// its definition, distances in fifty digits, and a proof of freedom by spans of [0,1] in which no
+// point crosses a plane.
 //
-// A span [m-h, m+h] is proven for a hull and a triangle where, for the unit normal n of their
-// nearest points at m, every point e of the hull keeps
+// A span [m-h, m+h] is proven for a hull and a triangle if, for the unit normal n of their nearest
+// points at m, every point e of the hull keeps
 //   n.(e(m) - y) - radius - h |n.e'(m)| - h^2/2 A_e > 0   for all y of the triangle,
-// with A_e a bound on |e''|. Spans are tried in long double first, with a guard of
-// kGuard * (depth + 4) of its roundoffs of the extents; what is within it, and what resists, is
-// asked again in fifty digits.
+// with A_e a bound on |e''|. Tries spans in long double first, with a guard of
+// kGuard * (depth + 4) of its roundoffs of the extents; repeats those within the guard, or without
+// a proof, in fifty digits.
 #pragma once
 
 #include <cstdint>
@@ -37,18 +37,18 @@ struct HullWorld {
 enum class Freedom : std::uint8_t {
   Proven,   ///< Separation > 0 on all of it.
   Touches,  ///< At `touchesAt`, which is in it, the separation is <= 0 to forty digits.
-  Open,     ///< Neither was shown within the budget.
+  Open,     ///< No proof of either within the budget.
 };
 
 struct FreedomProof {
   Freedom freedom = Freedom::Proven;
   double touchesAt = 1.0;
-  /// The least separation (m) met at the instants looked at; infinity where none was.
+  /// The least separation (m) at the instants it looked at; infinity if none.
   double least = 0.0;
 };
 
-/// Whether `t` lies after the instant at which what falls from `high` to `low` (not above radius)
-/// comes down to `radius`: t (high - low) > high - radius, with no rounding at all.
+/// Whether `t` lies after the instant at which a fall from `high` to `low` (not above radius)
+/// reaches `radius`: t (high - low) > high - radius, without rounding.
 [[nodiscard]] bool isAfterFall(double t, double high, double low, double radius);
 
 class HullOracle {
@@ -59,12 +59,12 @@ class HullOracle {
   /// radius. Infinite (1e300) for a link without hulls.
   [[nodiscard]] Precise separationAt(int link, double t) const;
 
-  /// One per link: is it free on [0, until[link]]? 0: nothing is asked.
+  /// One per link: is it free on [0, until[link]]? 0: not requested.
   [[nodiscard]] std::vector<FreedomProof> proveFree(const std::vector<double>& until) const;
 
-  /// Largest magnitude (m), at least kLeastExtent, of what the link's separations are made of: the
-  /// scene's coordinates, and how far the link reaches from the world's origin and moves in the
-  /// step, radius included.
+  /// Largest magnitude (m), at least kLeastExtent, in the link's separations: the scene's
+  /// coordinates, and how far the link reaches from the world's origin and moves in the step,
+  /// radius included.
   [[nodiscard]] double extent(int link) const { return extents_[static_cast<std::size_t>(link)]; }
   [[nodiscard]] int depth(int link) const { return quick_.bounds(link).depth; }
 

@@ -1,4 +1,4 @@
-// judge/judge.cpp: each verdict held against what was proved.
+// judge/judge.cpp: compares each verdict with the proof.
 #include "judge/judge.h"
 
 #include <utility>
@@ -146,7 +146,7 @@ Judgement Judge::judge(const Answer& answer, double tolerance) {
     case Verdict::Contact: main = judgeContact(answer, tolerance); break;
     case Verdict::StartsInContact: main = judgeStart(answer); break;
     case Verdict::Undecided:
-      // Free on [0, 0) is no claim.
+      // Free on [0, 0) claims nothing.
       if (answer.freeUntil > 0) main = judgeFree(answer.freeUntil, Finding::Late);
       break;
   }
@@ -155,7 +155,7 @@ Judgement Judge::judge(const Answer& answer, double tolerance) {
   return main;
 }
 
-// Halving: the earlier half is proved first, so each round leaves at most half of what was left.
+// Halving: proves the earlier half first, so each round leaves at most half of the rest.
 std::optional<Bracket> Judge::firstContact() {
   constexpr Real kResolution = 1e-9L;
   std::optional<Bracket> first;
@@ -172,7 +172,7 @@ std::optional<Bracket> Judge::firstContact() {
       } else if (half.free) {
         bracket.low = middle;
       } else {
-        break;  // the looks ran out
+        break;  // out of looks
       }
     }
     if (!first || bracket.high < first->high) first = bracket;

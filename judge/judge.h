@@ -1,5 +1,4 @@
-// judge/judge.h: says whether an answer about one link and one step keeps the
-// promise.
+// judge/judge.h: decides whether an answer about one link and one step keeps the promise.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@ namespace foretouch::oracle {
 
 enum class Verdict { Clear, Contact, StartsInContact, Undecided };
 
-/// What was answered, in the oracle's own words.
+/// The answer, in the oracle's own types.
 struct Answer {
   Verdict verdict = Verdict::Clear;
   double toi = 1.0, freeUntil = 1.0;
@@ -29,23 +28,24 @@ enum class Finding {
   Missed,        ///< Clear, but there is contact.
   Late,          ///< Contact before toi, or before freeUntil.
   Early,         ///< At toi the scene is farther than the tolerance.
-  WrongStart,    ///< StartsInContact, but at t = 0 nothing is touched.
+  WrongStart,    ///< StartsInContact, but nothing touches at t = 0.
   Inconsistent,  ///< Times, separation, points or normal contradict the verdict or each other.
-  Unproved,      ///< The oracle gave up; not the answer's fault, but nothing is shown either.
+  Unproved,      ///< The oracle ran out of budget: it shows neither right nor wrong.
 };
 const char* toString(Finding finding);
 const char* toString(Verdict verdict);
 
 struct Judgement {
   Finding finding = Finding::Ok;
-  Real time = 0, separation = 0;  ///< Where the promise breaks, and the true separation there.
+  Real time = 0, separation = 0;  ///< The time at which the promise breaks, and the true separation
+                                  ///< then.
   std::string what;               ///< For Inconsistent: which part.
   std::uint64_t grazing = 0, looks = 0;
 };
 
-/// How much an answer's start and its witness points may be off, as a share of the scale: the
-/// product decides these with doubles and a stated rounding of about 1e-13 m at body scale. Neither
-/// toi, nor the separation there, nor any claim of freedom gets such an allowance (kSoundGuard).
+/// Allowed error of an answer's start and its witness points, as a share of the scale: the product
+/// computes these in doubles with a stated rounding of about 1e-13 m at body scale. Neither toi,
+/// nor the separation there, nor any claim of freedom gets this allowance (kSoundGuard).
 inline constexpr Real kWitnessGuard = 1e-12L;
 
 struct Bracket {

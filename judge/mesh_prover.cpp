@@ -10,7 +10,7 @@ namespace {
 
 /// A part may come near very many triangles; halving is cheaper than listing them all.
 constexpr std::size_t kMostCandidates = 256;
-/// Spans shorter than this list them nevertheless.
+/// Spans shorter than this list them anyway.
 constexpr Real kCrowdedSpan = 0x1p-8L;
 
 }  // namespace
@@ -114,7 +114,7 @@ void MeshProver::examine(int piece, Real middle, Real half, Candidates& candidat
 
 bool MeshProver::proveHalves(const Part& part, Real from, Real to, const Candidates* candidates) {
   if (!proveSpan(part.left, from, to, candidates)) {
-    outcome_.freeUntil = from;  // the other half was not looked at
+    outcome_.freeUntil = from;  // the other half is unexamined
     return false;
   }
   return proveSpan(part.right, from, to, candidates);
@@ -154,7 +154,7 @@ bool MeshProver::proveSpan(int index, Real from, Real to, const Candidates* inhe
   return proveSpan(index, from, middle, handed) && proveSpan(index, middle, to, handed);
 }
 
-// Middles never reach the ends: these two instants are looked at on their own.
+// Middles never reach the ends: examines these two instants separately.
 SpanOutcome MeshProver::prove(Real from, Real to) {
   outcome_ = SpanOutcome{};
   outcome_.freeUntil = from;
@@ -207,7 +207,7 @@ Real MeshProver::separationAt(Real t, double within) const {
   return least;
 }
 
-/// Parts whose ball is no nearer than what is known are passed over.
+/// Skips parts whose ball is no nearer than the known least.
 void MeshProver::nearest(int index, Real t, Real& least) const {
   const Part& part = parts_[static_cast<std::size_t>(index)];
   const Vec3d center =
@@ -223,7 +223,7 @@ void MeshProver::nearest(int index, Real t, Real& least) const {
       reach = std::min(reach, static_cast<double>(least) + part.radius + slack);
     } else {
       near = true;
-      reach = -1;  // one is enough to look closer
+      reach = -1;  // one is enough for a closer look
     }
   });
   if (!near) return;

@@ -1,5 +1,5 @@
-// judge/mesh_prover.h: proves a span of the motion of a link whose surface is a set of
-// triangles free of the scene, or finds an instant of contact in it.
+// judge/mesh_prover.h: proves a span of a link's motion free of the scene, or finds an instant of
+// contact in it. The link's surface is a set of triangles.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@
 
 namespace foretouch::oracle {
 
-/// Whole parts of the link are first tried as balls: a part that no triangle of the scene comes
-/// near needs one look. Where one does, the part is halved if it is larger than its way in the
-/// span, else the span is; single triangles are decided by certificates as capsules are
-/// (capsule_prover.h). Keeps references: scene and motion outlive it.
+/// Tries whole parts of the link as balls first: a part without scene triangles near it needs one
+/// look. Otherwise halves the part if it is larger than its path in the span, else the span;
+/// certificates decide single triangles as they do capsules (capsule_prover.h). Keeps references:
+/// scene and motion outlive it.
 class MeshProver final : public MovingSurface {
  public:
   /// `mesh` in the link's frame; may be empty.
@@ -28,7 +28,7 @@ class MeshProver final : public MovingSurface {
   [[nodiscard]] int numPieces() const override { return static_cast<int>(mesh_.size()); }
   [[nodiscard]] Real scale() const override { return scale_; }
 
-  /// Looks after which a proof is given up; SpanOutcome then is neither free nor touching.
+  /// Looks after which a proof stops; SpanOutcome is then neither free nor touching.
   static constexpr std::uint64_t kMostLooks = 4'000'000;
 
  private:
@@ -44,7 +44,7 @@ class MeshProver final : public MovingSurface {
   int addPart(int first, int last);
   bool proveSpan(int part, Real from, Real to, const Candidates* inherited);
   bool proveHalves(const Part& part, Real from, Real to, const Candidates* candidates);
-  /// False, with `candidates` unfinished, where there are too many to list.
+  /// False, with `candidates` unfinished, if there are too many.
   bool gather(const MovingPoint& center, double around, bool all, const Candidates* inherited,
               Candidates& candidates) const;
   void examine(int piece, Real middle, Real half, Candidates& candidates);

@@ -1,8 +1,7 @@
 // judge/motion.h: the judge's own in-between motion, by its definition: every joint turns at
 // constant rate about a fixed axis on the shorter arc and shifts linearly, a link's motion is the
-// composition. Points are carried from the link up to the root, one joint at a time, together with
-// bounds on how fast they can move; or all frames from the roots down. In long double, and in fifty
-// digits.
+// composition. Carries points from the link up to the root, joint by joint, together with bounds on
+// their speed; or all frames from the roots down. In long double, and in fifty digits.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +15,14 @@
 
 namespace foretouch::oracle {
 
-/// A joint's parent-relative pose at both ends, as the doubles the product was given. Rotations
-/// (w, x, y, z) need not be unit.
+/// A joint's parent-relative pose at both ends, in the same doubles as the product's input.
+/// Rotations (w, x, y, z) need not be unit.
 struct Joint {
   int parent = -1;  ///< Before this joint; -1: the world.
   std::array<double, 4> fromRotation{1, 0, 0, 0}, toRotation{1, 0, 0, 0};
   Vec3d fromTranslation, toTranslation;
-  /// Is the dot product of the rotations below zero, as the doubles of whoever asks compute it
-  /// (denormals flushed, say)? Part of the motion's definition: it chooses the arc.
+  /// Is the dot product of the rotations below zero, as the caller's doubles compute it (perhaps
+  /// with denormals flushed)? Part of the motion's definition: it chooses the arc.
   std::optional<bool> isFlipped = std::nullopt;
 
   /// isFlipped; else by that product in double, summed in the order w, x, y, z, zero counting as
@@ -54,12 +53,12 @@ struct MovingFrame {
   [[nodiscard]] Vec3<S> velocityAt(const Vec3<S>& x) const { return v + cross(w, x - p); }
 };
 
-/// Of a link's origin, at every t in [0,1]; a little rounded up.
+/// Of a link's origin, at every t in [0,1]; rounded up a little.
 template <typename S>
 struct MotionBounds {
   S angularSpeed = 0, angularAcceleration = 0, speed = 0, acceleration = 0, reach = 0;
   int depth = 0;
-  /// The same of a point at distance `rho` from the origin.
+  /// The same for a point at distance `rho` from the origin.
   [[nodiscard]] S speedAt(const S& rho) const { return speed + angularSpeed * rho; }
   [[nodiscard]] S accelerationAt(const S& rho) const {
     return acceleration + (angularAcceleration + angularSpeed * angularSpeed) * rho;
@@ -71,7 +70,7 @@ template <typename S>
 class MotionOf {
  public:
   MotionOf() = default;
-  /// Roots are taken from `origin`.
+  /// Roots are relative to `origin`.
   explicit MotionOf(const std::vector<Joint>& joints, const Vec3d& origin = {});
 
   [[nodiscard]] int numLinks() const { return static_cast<int>(turns_.size()); }
@@ -87,7 +86,7 @@ class MotionOf {
     return moving;
   }
 
-  /// All links' frames at `t`; `frames` is resized.
+  /// All links' frames at `t`; resizes `frames`.
   void framesAt(const S& t, std::vector<MovingFrame<S>>& frames) const;
 
   [[nodiscard]] const MotionBounds<S>& bounds(int link) const {
@@ -95,7 +94,7 @@ class MotionOf {
   }
 
   /// The largest distance from the origin that a point at distance `rho` from the link's origin, or
-  /// any joint above it, can have: what rounding is proportional to.
+  /// any joint above it, can have. Rounding is proportional to it.
   [[nodiscard]] S reach(int link, S rho) const;
 
  private:

@@ -1,7 +1,7 @@
-// judge/plain_distance.h: the nearest points of a segment or a triangle and a triangle, by the
-// formulas of textbooks (cross products and clamped feet), in digits enough that their cancellation
-// does not matter. What distance.h is held against, which has to be careful in few digits; and the
-// tests' yardstick for rounding. Slow on purpose.
+// judge/plain_distance.h: the nearest points of a segment or a triangle and a triangle, by textbook
+// formulas (cross products and clamped feet), in enough digits that their cancellation does not
+// matter. The reference for distance.h, which must be careful in few digits, and the tests'
+// yardstick for rounding. Slow on purpose.
 #pragma once
 
 #include "judge/precise.h"
@@ -9,8 +9,8 @@
 
 namespace foretouch::oracle {
 
-/// The nearest points found so far, of two sets. Every pair offered lies in the sets, so `square`
-/// never is below the true least but for rounding.
+/// The nearest points found so far, of two sets. Every offered pair lies in the sets, so `square`
+/// is never below the true least except by rounding.
 template <typename S>
 struct Nearest {
   Vec3<S> onOne, onOther;

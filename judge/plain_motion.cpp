@@ -4,7 +4,7 @@
 namespace foretouch::oracle {
 namespace {
 
-/// Unit inputs are not needed; the arc is the joint's.
+/// Inputs need not be unit; the arc is the joint's.
 PreciseQuaternion slerp(const Joint& joint, const Precise& t) {
   const auto p = unit(quaternionOf<Precise>(joint.fromRotation));
   auto q = unit(quaternionOf<Precise>(joint.toRotation));

@@ -1,6 +1,6 @@
-// judge/plain_motion.h: the in-between motion as textbooks tell it, in fifty digits: quaternions by
-// slerp's sine weights, frames from the roots down. What motion.h is held against, which turns by
-// axis and angle; and the tests' yardstick for rounding. Slow on purpose.
+// judge/plain_motion.h: the in-between motion by textbook formulas, in fifty digits: quaternions by
+// slerp's sine weights, frames from the roots down. The reference for motion.h, which turns by axis
+// and angle, and the tests' yardstick for rounding. Slow on purpose.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ struct PreciseFrame {
   PreciseQuaternion rotation;
   Precise3 origin;
   [[nodiscard]] Precise3 at(const Precise3& p_L) const { return origin + rotate(rotation, p_L); }
-  /// Of anybody's vector in the frame.
+  /// For any vector type.
   template <typename Other>
   [[nodiscard]] Precise3 at(const Other& p_L) const {
     return at(Precise3(p_L));

@@ -1,4 +1,4 @@
-// judge/precise.cpp: the one source that sees Boost's floating point.
+// judge/precise.cpp: the only source that includes Boost's floating point.
 #include "judge/precise.h"
 
 #include <new>
@@ -16,7 +16,7 @@ using Number = mp::number<mp::cpp_bin_float<kBits, mp::digit_base_2>, mp::et_off
 
 }  // namespace
 
-/// Numbers of fixed size need no destruction, so that copying is all that there is to do.
+/// Numbers of fixed size need no destruction, so copying suffices.
 template <unsigned kBits>
 struct Digits<kBits>::Access {
   using N = Number<kBits>;

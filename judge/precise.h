@@ -1,6 +1,6 @@
 // judge/precise.h: floating point of many digits, the yardstick for rounding. The arithmetic is
-// Boost's, behind functions that one source defines: its headers cost a compiler seconds in every
-// source that sees them.
+// Boost's, behind functions that one source defines, because its headers cost seconds of compile
+// time in every source that includes them.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace foretouch::oracle {
 
-/// Of `kBits` bits of mantissa. Doubles, long doubles and integers become such numbers exactly.
+/// Numbers with `kBits` bits of mantissa. Doubles, long doubles and integers convert exactly.
 template <unsigned kBits>
 class Digits {
  public:
@@ -34,7 +34,7 @@ class Digits {
   Digits& operator*=(const Digits& other);
   Digits& operator/=(const Digits& other);
   Digits operator-() const { return Digits() -= *this; }
-  /// Below, at or above zero, as *this is to `other`.
+  /// Negative, zero or positive, as *this is below, at or above `other`.
   [[nodiscard]] int compare(const Digits& other) const;
   [[nodiscard]] Digits squareRoot() const;
   [[nodiscard]] Digits sine() const;
@@ -73,7 +73,7 @@ class Digits {
 using Precise = Digits<168>;      ///< Fifty digits.
 using VeryPrecise = Digits<334>;  ///< A hundred.
 /// Sums, differences and products of two differences of doubles without any rounding: doubles are
-/// multiples of 2^-1074 below 2^1024. Has no functions but +, -, *, / and comparisons.
+/// multiples of 2^-1074 below 2^1024. Supports only +, -, *, / and comparisons.
 using Exact = Digits<4400>;
 
 }  // namespace foretouch::oracle

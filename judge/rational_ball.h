@@ -1,5 +1,5 @@
-// judge/rational_ball.h: a number known to lie within `radius` of `center`. Every operation
-// adds its own rounding, so signs that a ball is sure of are true.
+// judge/rational_ball.h: a number known to lie within `radius` of `center`. Every operation adds
+// its own rounding, so any sign that a ball decides is true.
 #pragma once
 
 #include <cmath>
@@ -17,9 +17,9 @@ struct Ball {
   [[nodiscard]] bool isNegative() const { return center < -radius; }
 };
 
-/// A rounding is at most 2^-64 of the result (x86-64's long double); twice that also covers what
-/// the radius loses to its own few roundings where the operands' radii are zero, and the growth the
-/// rest.
+/// A rounding is at most 2^-64 of the result (x86-64's long double); twice that also covers the
+/// radius's own few roundings when the operands' radii are zero; kBallGrowth covers the other
+/// cases.
 inline constexpr long double kBallRounding = 0x1p-63L, kBallGrowth = 1 + 0x1p-60L;
 
 inline Ball operator+(const Ball& a, const Ball& b) {

@@ -1,7 +1,6 @@
-// judge/rational_form.h: polynomials in t on [0,1] as forms sum c_i (1-t)^(n-i) t^i. A
-// point that moves from A to B has the coefficients (A, B) as they stand, products are
-// convolutions, and the values at t = 0 and t = 1 are the first and the last coefficient: nothing
-// is ever divided.
+// judge/rational_form.h: polynomials in t on [0,1] as forms sum c_i (1-t)^(n-i) t^i. A point that
+// moves from A to B has the coefficients (A, B), products are convolutions, and the values at t = 0
+// and t = 1 are the first and the last coefficient: there is no division.
 #pragma once
 
 #include <array>

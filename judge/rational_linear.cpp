@@ -1,4 +1,4 @@
-// judge/rational_linear.cpp: every instant at which contact can begin, each asked exactly.
+// judge/rational_linear.cpp: every instant at which contact can begin, each decided exactly.
 #include "judge/rational_linear.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace foretouch::oracle {
 namespace {
 
-/// Coefficients of a form, all that are formally there.
+/// All formal coefficients of a form.
 using Coefficients = std::vector<Integer>;
 
 template <std::size_t N>
@@ -66,7 +66,7 @@ std::vector<Segment> segmentsOf(const std::vector<OnSegment<Integer>>& all) {
   return {all.begin(), all.end()};
 }
 
-/// `segments` are asked for only where the area vanishes or everything stays coplanar.
+/// `segments` matter only if the area vanishes or everything stays coplanar.
 Question planarQuestion(const PlanarMeeting<Integer>& m,
                         const std::function<std::vector<Segment>()>& segments) {
   Question q;
@@ -112,7 +112,7 @@ Question questionOf(LinearKind kind, const std::array<Moving<Integer>, 4>& p) {
     case LinearKind::VertexVertex: break;
   }
   Question q = segmentQuestion({p[0], p[1], p[1]});
-  q.gates = {q.others[0]};  // the squared distance; the cross products vanish always
+  q.gates = {q.others[0]};  // the squared distance; the cross products always vanish
   return q;
 }
 

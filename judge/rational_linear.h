@@ -1,8 +1,7 @@
-// judge/rational_linear.h: do two features whose points move along straight lines meet on
-// [0,1], and when first? The truth, in rational arithmetic; where a filter of certified balls can
-// tell as well, by that. Shares no code with the product, nor its formulation: here the features
-// are parametrised (barycentric coordinates of the coplanar instant), and signs at roots are Tarski
-// queries.
+// judge/rational_linear.h: do two features whose points move along straight lines meet on [0,1],
+// and when first? The truth, in rational arithmetic, or by a filter of certified balls if that can
+// decide. Shares neither code nor formulation with the product: it parametrises the features
+// (barycentric coordinates of the coplanar instant), and finds signs at roots by Tarski queries.
 //
 // Vertex p, face f0 f1 f2: w = p - f0, e1, e2 its edges, n = e1 x e2. Where w.n = 0 and n != 0 the
 // barycentric coordinates are U/n.n, V/n.n, 1 - (U+V)/n.n with U = (w x e2).n, V = (e1 x w).n.
@@ -35,7 +34,7 @@ struct LinearQuery {
   std::array<Path, 4> points;
 };
 
-/// The first contact, where there is one, lies in [low, high]; high - low <= kTruthWidth.
+/// The first contact, if there is one, lies in [low, high]; high - low <= kTruthWidth.
 struct LinearTruth {
   bool hits = false;
   double low = 1.0, high = 1.0;
@@ -45,9 +44,9 @@ inline constexpr double kTruthWidth = 0x1p-40;
 
 /// Filter first, then rationals.
 LinearTruth linearTruth(const LinearQuery& query);
-/// Rationals alone; high - low <= 2^-60, or one double where that is the instant itself.
+/// Rationals alone; high - low <= 2^-60, or low == high if that double is the instant itself.
 LinearTruth linearTruthByRationals(const LinearQuery& query);
-/// The filter alone: nothing where it cannot tell.
+/// The filter alone: nothing if it cannot decide.
 std::optional<LinearTruth> linearTruthByBalls(const LinearQuery& query);
 
 }  // namespace foretouch::oracle

@@ -1,6 +1,6 @@
-// judge/rational_linear_quick.cpp: the filter: [0,1] is halved, earlier half first, until
-// every part is shown free by the signs of Bernstein coefficients, or to hold a contact by a change
-// of sign. In balls, so that what it says is true; what it cannot tell goes to the rationals.
+// judge/rational_linear_quick.cpp: the filter: halves [0,1], earlier half first, until the signs of
+// Bernstein coefficients show every part free, or a change of sign shows a contact. In balls, so
+// that its answers are true; the rationals decide the rest.
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -12,7 +12,7 @@
 namespace foretouch::oracle {
 namespace {
 
-/// A polynomial by its Bernstein coefficients on the span in hand: its values there lie between the
+/// A polynomial by its Bernstein coefficients on the current span: its values there lie between the
 /// least and the greatest of them.
 struct Bernstein {
   std::array<Ball, 5> c;
@@ -46,7 +46,7 @@ struct Bernstein {
   }
 };
 
-/// What has to vanish and what has to be >= 0 for contact.
+/// Conditions for contact: some polynomials vanish, others are >= 0.
 struct Span {
   double low = 0.0, high = 1.0;
   std::vector<Bernstein> zero, inside;
@@ -116,7 +116,7 @@ std::array<Moving<Ball>, 4> ballsOf(const LinearQuery& query) {
   return moving;
 }
 
-/// How many points belong to the first feature, and how many there are.
+/// The number of points of the first feature, and of all.
 std::pair<std::size_t, std::size_t> pointsOf(LinearKind kind) {
   switch (kind) {
     case LinearKind::VertexFace: return {1, 4};
@@ -168,7 +168,7 @@ Span spanOf(const LinearQuery& query) {
 
 // A strict sign change of the coplanarity together with strict signs inside means n.n > 0 and
 // contact; one negative sign means n.n > 0 and no contact. With two or more polynomials that must
-// vanish at once, contact is not shown by changes of sign.
+// vanish at once, changes of sign do not show contact.
 std::optional<LinearTruth> linearTruthByBalls(const LinearQuery& query) {
   if (staysApart(query)) return LinearTruth{};
   Span span = spanOf(query);

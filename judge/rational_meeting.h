@@ -1,5 +1,5 @@
-// judge/rational_meeting.h: the polynomials of a linear query, in any arithmetic.
-// rational_linear.h says what they are.
+// judge/rational_meeting.h: the polynomials of a linear query, in any arithmetic. Derived in
+// rational_linear.h.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ struct OnSegment {
       : across(cross(p - a, b - a)), along(dot(p - a, p - b)) {}
 };
 
-/// Two features that span a plane where `area` is not zero: they meet there if `coplanar` is zero
-/// and every one of `inside` is >= 0. Where `area` is zero, the segments below decide.
+/// Two features that span a plane whenever `area` is not zero: they then meet if `coplanar` is zero
+/// and every one of `inside` is >= 0. When `area` is zero, the segments below decide.
 template <typename S>
 struct PlanarMeeting {
   Form<S, 3> coplanar;
@@ -61,7 +61,7 @@ PlanarMeeting<S> edgeMeetsEdge(const std::array<Moving<S>, 4>& p) {
   return m;
 }
 
-/// Parallel or point-like edges meet only where an end of one lies on the other.
+/// Parallel or point-like edges meet only if an end of one lies on the other.
 template <typename S>
 std::vector<OnSegment<S>> edgeSegments(const std::array<Moving<S>, 4>& p) {
   return {{p[0], p[2], p[3]}, {p[1], p[2], p[3]}, {p[2], p[0], p[1]}, {p[3], p[0], p[1]}};

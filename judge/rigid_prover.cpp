@@ -32,7 +32,7 @@ template <typename S>
 Placement<S> placementAt(const RigidPair& pair, const S& t, const S& half) {
   using std::sqrt;
   Placement<S> p;
-  // Differences of the given doubles first: far from the origin they lose nothing.
+  // Subtracts the given doubles first, which loses nothing far from the origin.
   p.drift = pair.x1.as<S>() - pair.x0.as<S>();
   p.place = pair.x0.as<S>() - pair.fixed[0].as<S>() + t * p.drift;
   const Quaternion<S> q0 = quaternionOf<S>(pair.q0), q1 = quaternionOf<S>(pair.q1);
@@ -44,7 +44,7 @@ Placement<S> placementAt(const RigidPair& pair, const S& t, const S& half) {
   p.rate = (2 / p.norm2) * (p.q.w * dv - dq.w * v + cross(v, dv));
   const S speed = norm(dq), length = sqrt(p.norm2);
   const S shortest = length - half * speed;
-  if (!(shortest > S(0.01) * length)) {  // too long a span to say anything
+  if (!(shortest > S(0.01) * length)) {  // too long a span to decide anything
     p.rateMost = p.rateChange = S(1e30);
     return p;
   }
@@ -131,7 +131,7 @@ bool RigidProver::proveSpan(const Wide& from, const Wide& to, double level) {
   return proveSpan(from, middle, level) && proveSpan(middle, to, level);
 }
 
-// Middles never reach the ends: these two instants are looked at on their own.
+// Middles never reach the ends: examines these two instants separately.
 RigidSpan RigidProver::prove(double from, double to, double level) {
   outcome_ = RigidSpan{};
   const Wide first(from), last(to);

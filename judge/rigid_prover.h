@@ -1,7 +1,7 @@
-// judge/rigid_prover.h: a triangle of a body whose position and unnormalised quaternion are
-// linear in t, against a triangle at rest: is the separation above a level all through a span? By
-// certified subdivision: double, long double, then thirty-four digits, each only for what the one
-// before cannot tell. Shares no code with the product.
+// judge/rigid_prover.h: a triangle of a body whose position and unnormalised quaternion are linear
+// in t, against a triangle at rest: is the separation above a level throughout a span? By certified
+// subdivision: double, long double, then thirty-four digits, each only for the spans that the one
+// before cannot decide. Shares no code with the product.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct RigidSpan {
   bool free = false;               ///< Separation > level - kRigidGuard * size proved throughout.
   std::optional<double> touching;  ///< Near an instant with separation <= level; then not free.
   Wide separation = 0;             ///< There.
-  std::uint64_t grazing = 0;       ///< Spans that are shorter than kShortestRigidSpan, let pass.
+  std::uint64_t grazing = 0;       ///< Spans shorter than kShortestRigidSpan, ignored.
   std::uint64_t looks = 0, wideLooks = 0;
 };
 
@@ -39,8 +39,8 @@ class RigidProver {
  public:
   explicit RigidProver(const RigidPair& pair);
 
-  /// Proves the span free of separations up to `level`, both ends included, or finds one.
-  /// Neither: the looks ran out.
+  /// Proves the span free of separations up to `level`, both ends included, or finds one. Neither:
+  /// it ran out of looks.
   [[nodiscard]] RigidSpan prove(double from, double to, double level);
   [[nodiscard]] Wide separationAt(double t) const;
 

@@ -29,7 +29,7 @@ class Scene {
     return triangles_[static_cast<std::size_t>(id)];
   }
   [[nodiscard]] int numTriangles() const { return static_cast<int>(triangles_.size()); }
-  /// Around all of them; empty where there are none.
+  /// Around all of them; empty if there are none.
   [[nodiscard]] const Box& box() const { return nodes_.front().box; }
   /// A ball around the triangle: its center and a radius that is not too small.
   struct Ball {
@@ -39,12 +39,12 @@ class Scene {
   [[nodiscard]] const Ball& ballOf(int id) const { return balls_[static_cast<std::size_t>(id)]; }
   [[nodiscard]] const Box& boxOf(int id) const { return boxes_[static_cast<std::size_t>(id)]; }
 
-  /// Appends every triangle whose box meets `box`. False, with `found` unfinished, once more than
-  /// `limit` were found.
+  /// Appends every triangle whose box meets `box`. False, with `found` unfinished, once there are
+  /// more than `limit`.
   bool collect(const Box& box, std::size_t limit, std::vector<int>& found) const;
 
   /// Calls visit(id) for every triangle whose box is less than `within` away from `box`; visit may
-  /// lower `within`, so that a search for the nearest shrinks as it goes.
+  /// lower `within` to shrink a search for the nearest.
   template <typename Visit>
   void visitNear(const Box& box, double& within, Visit&& visit) const {
     std::vector<int> stack{0};

@@ -1,7 +1,6 @@
-// judge/surface.h: the surface of a link in motion, as a judge sees it: something
-// that proves spans of its motion free of the scene. Made of pieces, each the points within
-// `radius` of a core: one segment (capsule_prover.h), or many triangles without radius
-// (mesh_prover.h).
+// judge/surface.h: a judge's interface to the surface of a moving link: it proves spans of the
+// motion free of the scene. Made of pieces, each the points within `radius` of a core: one segment
+// (capsule_prover.h), or many triangles without radius (mesh_prover.h).
 #pragma once
 
 #include <cstdint>
@@ -13,11 +12,11 @@
 namespace foretouch::oracle {
 
 /// Two numbers of the proof. Lengths in metres; `scale` is the larger of 1 m and the chain's reach.
-/// The oracle's own rounding is about 1e-18 * scale, so this guard still sees a product that is
+/// The oracle's own rounding is about 1e-18 * scale, so this guard still detects a product that is
 /// late by a few of its own last places.
 inline constexpr Real kSoundGuard = 1e-15L;
-/// Spans shorter than this that neither prove free nor show contact hold a separation within
-/// (speed * 1e-12) of zero: a touch within rounding, counted and let pass.
+/// Spans shorter than this that neither prove free nor show contact hold a separation within (speed
+/// * 1e-12) of zero: a touch within rounding, which we count and ignore.
 inline constexpr Real kShortestSpan = 0x1p-40L;
 
 struct SpanOutcome {
@@ -33,7 +32,7 @@ class MovingSurface {
   virtual ~MovingSurface() = default;
 
   [[nodiscard]] virtual SpanOutcome prove(Real from, Real to) = 0;
-  /// At one instant, the least over the scene; `within` if nothing is nearer than that.
+  /// At one instant, the least over the scene; `within` if nothing is nearer.
   [[nodiscard]] virtual Real separationAt(Real t, double within) const = 0;
   /// At one instant, of one piece and one triangle of the scene.
   [[nodiscard]] virtual Real separationFrom(int piece, int triangle, Real t) const = 0;
@@ -41,7 +40,7 @@ class MovingSurface {
   [[nodiscard]] virtual Real distanceToCore(int piece, const Vec3r& point, Real t) const = 0;
   [[nodiscard]] virtual Real radius() const = 0;
   [[nodiscard]] virtual int numPieces() const = 0;
-  /// The length that guards are multiplied with.
+  /// The length that multiplies the guards.
   [[nodiscard]] virtual Real scale() const = 0;
 };
 

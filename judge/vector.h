@@ -1,6 +1,6 @@
 // judge/vector.h: the judge's own vectors, over any number type: double for a quick look, long
-// double for the decision, thirty-four (wide.h) and fifty digits (precise.h) for what is left.
-// Plain numbers, so that nothing is shared with the product, not even its matrix library.
+// double for the decision, thirty-four (wide.h) and fifty digits (precise.h) for the remaining
+// cases. Plain numbers, so that it shares nothing with the product, not even its matrix library.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace foretouch::oracle {
 
-/// 64 bits of mantissa on x86-64: eleven more than what is judged.
+/// 64 bits of mantissa on x86-64: eleven more than the judged code has.
 using Real = long double;
 
 template <typename S>
@@ -20,7 +20,7 @@ struct Vec3 {
 
   Vec3() = default;
   Vec3(S anX, S aY, S aZ) : x(std::move(anX)), y(std::move(aY)), z(std::move(aZ)) {}
-  /// Of anybody's vector that has x(), y() and z().
+  /// From any vector type that has x(), y() and z().
   template <typename Other, typename = decltype(std::declval<const Other&>().z())>
   explicit Vec3(const Other& v) : x(v.x()), y(v.y()), z(v.z()) {}
 
@@ -33,7 +33,7 @@ struct Vec3 {
   bool operator==(const Vec3& o) const { return x == o.x && y == o.y && z == o.z; }
 };
 
-/// S, from which the compiler does not deduce: a factor may be any number that becomes an S.
+/// S, without template deduction: a factor may be any number that converts to S.
 template <typename S>
 struct Same {
   using Type = S;
@@ -64,7 +64,7 @@ S norm(const Vec3<S>& a) {
   using std::sqrt;
   return sqrt(dot(a, a));
 }
-/// The largest coordinate's magnitude: what rounding is proportional to.
+/// The largest coordinate's magnitude. Rounding is proportional to it.
 template <typename S>
 S extent(const Vec3<S>& a) {
   using std::abs;

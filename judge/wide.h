@@ -1,5 +1,5 @@
-// judge/wide.h: thirty-four digits, for what long double cannot tell: the compiler's 113 bits of
-// mantissa as a number type of its own, so that templates find its functions.
+// judge/wide.h: thirty-four digits, for cases that long double cannot decide: the compiler's 113
+// bits of mantissa in a class, so that templates find its functions.
 #pragma once
 
 #include <quadmath.h>

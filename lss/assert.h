@@ -1,6 +1,6 @@
-// lss/assert.h: checks for our own mistakes, on in Debug and RelWithDebInfo (FORETOUCH_CHECKS).
-// Bad input never reaches these: it is an Error (articulated/result.h). Geometry never reaches them
-// either: "cannot tell" is a verdict.
+// lss/assert.h: checks for our own mistakes, on in Debug and RelWithDebInfo (FORETOUCH_CHECKS). Bad
+// input never reaches these: it is an Error (articulated/result.h). Neither does geometry: "cannot
+// tell" is a verdict.
 #pragma once
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// lss/closest_features.h: the feature pairs that closest-point searches are made of: edge and edge,
-// point and face. Derivation and degenerate cases: lss/segment_triangle.md. Not installed.
+// lss/closest_features.h: the feature pairs of closest-point searches: edge and edge, point and
+// face. Derivation and degenerate cases: lss/segment_triangle.md. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 namespace foretouch::internal {
 
-/// Below this squared sine of the angle between two edges, the crossing point of the two lines
-/// is too noisy to trust alone and the four end points are tried as well. Doubling it costs time
-/// only.
+/// Below this squared sine of the angle between two edges, the crossing point of the two lines is
+/// too noisy to trust alone, so the search also tries the four end points. Doubling it costs only
+/// time.
 inline constexpr double kNearParallelSin2 = 1e-6;
 
 inline double clamp01(double x) {
@@ -50,8 +50,8 @@ struct Edge {
   }
 };
 
-/// Offers the closest points of two edges. Clamped line-line solution after [Ericson05] 5.1.9, with
-/// the end points tried as well where the two are nearly parallel (segment_triangle.md, section 3).
+/// Offers the closest points of two edges. Clamped line-line solution after [Ericson05] 5.1.9,
+/// which also tries the end points if the two are nearly parallel (segment_triangle.md, section 3).
 inline void offerEdges(const Edge& one, const Edge& other, Closest& best) {
   using Eigen::Vector3d;
   const double uv = one.u.dot(other.u);
@@ -86,7 +86,7 @@ struct Face {
   [[nodiscard]] bool hasArea() const { return nn > 0.0; }
   [[nodiscard]] double height(const Eigen::Vector3d& p) const { return normal.dot(p - v0); }
 
-  /// The projection of `p` along the normal; false where it falls outside. Precondition: hasArea().
+  /// The projection of `p` along the normal; false if it falls outside. Precondition: hasArea().
   [[nodiscard]] bool project(const Eigen::Vector3d& p, Eigen::Vector3d& onFace) const {
     const Eigen::Vector3d w = p - v0;
     const double beta = w.cross(e2).dot(normal) / nn;

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-/// Rounds the radius up past what axisDistance() may have lost: fewer than sixteen roundings, each
+/// Rounds the radius up past the error of axisDistance(): fewer than sixteen roundings, each
 /// relative to the lengths that it subtracts.
 constexpr double kDistanceRounding = 16.0 * kUnitRoundoff;
 
@@ -105,7 +105,7 @@ double axisDistance(const Lss& lss, const Vector3d& point) {
 }
 
 double sticksOut(const Lss& lss, const Triangle& triangle) {
-  double farthest = 0.0;  // both sets are convex: the corners tell
+  double farthest = 0.0;  // both sets are convex: the corners decide
   for (const Vector3d& v : triangle.vertices) farthest = std::max(farthest, axisDistance(lss, v));
   return farthest - lss.radius;
 }

@@ -23,7 +23,7 @@ enum class FitEffort : std::uint8_t {
 [[nodiscard]] Lss fitLss(const std::vector<Eigen::Vector3d>& points,
                          FitEffort effort = FitEffort::Thorough);
 
-/// Widens the LSS where it must be so that it contains the point, rounding included.
+/// Widens the LSS if needed so that it contains the point, rounding included.
 void growToContain(Lss& lss, const Eigen::Vector3d& point);
 
 /// Distance of a point to the LSS's axis, metres.

@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 using Face = std::array<std::size_t, 3>;  // counter-clockwise from outside
 
-/// Of the cloud's size, cubed: what is flatter counts as flat, as rounding alone could make it so.
+/// Of the cloud's size, cubed: a flatter one counts as flat, because rounding alone could make it
+/// so.
 constexpr double kFlat = 1e-13;
 
 constexpr int kDirectionPairs = 110;  // and the three axes
@@ -34,7 +35,7 @@ std::vector<Vector3d> spiralDirections() {
   return directions;
 }
 
-/// Six times the signed volume of a tetrahedron; positive where `p` sees the face from outside.
+/// Six times the signed volume of a tetrahedron; positive if `p` sees the face from outside.
 double sixVolumes(const Points& points, const Face& face, const Vector3d& p) {
   const Vector3d& a = points[face[0]];
   return (points[face[1]] - a).cross(points[face[2]] - a).dot(p - a);
@@ -53,7 +54,7 @@ std::size_t largestBy(const Points& points, const Measure& measure) {
   return best;
 }
 
-/// The faces of a first tetrahedron as large as a few sweeps find it.
+/// The faces of a first tetrahedron, as large as a few sweeps find.
 std::vector<Face> firstFaces(const Points& points) {
   const auto from = [&](std::size_t i) {
     return [&, i](const Vector3d& p) { return (p - points[i]).squaredNorm(); };
@@ -71,7 +72,7 @@ std::vector<Face> firstFaces(const Points& points) {
   return {base, {b, a, d}, {c, b, d}, {a, c, d}};
 }
 
-/// Puts a cone from `top` in place of the faces it sees; gives six times the volume that is added.
+/// Replaces the faces that `top` sees by a cone from it; returns six times the added volume.
 double addPoint(const Points& points, std::size_t top, double flat, std::vector<Face>& faces) {
   double added = 0.0;
   std::set<std::pair<std::size_t, std::size_t>> edges;

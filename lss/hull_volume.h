@@ -1,4 +1,4 @@
-// lss/hull_volume.h: the volume of a convex hull, from below. Cubic metres.
+// lss/hull_volume.h: a lower bound on the volume of a convex hull. Cubic metres.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 namespace foretouch {
 
 /// The points that lie farthest in some of a fixed set of directions (113 pairs over the sphere and
-/// the axes), each once; all points where they are no more than those directions. Their hull is
-/// that of all points but for what bulges between the directions. O(points).
+/// the axes), each once; all points if there are no more than those directions. Their hull misses
+/// only the bulges of the full hull between the directions. O(points).
 [[nodiscard]] std::vector<Eigen::Vector3d> extremePoints(
     const std::vector<Eigen::Vector3d>& points);
 
 /// A lower bound, but for rounding, on the volume of the points' convex hull: the hull of
-/// extremePoints(). For a finely meshed ball it is 4 % low, for a box exact. 0 where the points lie
-/// in a plane. For reports; no promise rests on it.
+/// extremePoints(). 4 % low for a finely meshed ball, exact for a box. 0 if the points lie in a
+/// plane. For reports; no promise rests on it.
 [[nodiscard]] double hullVolume(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace foretouch

@@ -21,14 +21,14 @@ using Eigen::Vector3d;
 /// A choice: a split that saves less makes a query's work grow more than its answers improve.
 constexpr double kWorthwhileSaving = 0.15;
 
-/// Where a part is cut, in order of its triangles' middles along an axis.
+/// Where to cut a part, in order of its triangles' middles along an axis.
 constexpr double kCuts[] = {0.25, 0.5, 0.75};
 
 bool lessByCoordinates(const Vector3d& p, const Vector3d& q) {
   return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
 }
 
-/// Triangles as indices into their distinct vertices: a mesh's vertices occur six times each.
+/// Triangles as indices into their distinct vertices: each vertex of a mesh occurs about six times.
 struct Indexed {
   std::vector<Vector3d> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -69,7 +69,7 @@ class Coverer {
   explicit Coverer(const Indexed& mesh) : mesh_(mesh), lastUse_(mesh.points.size(), 0) {}
 
   Part fitted(std::vector<std::uint32_t> triangles);
-  /// The best of a few ways to cut it in two; nothing where none is worthwhile.
+  /// The best of a few ways to cut it in two; nothing if none is worthwhile.
   std::optional<Split> bestSplit(const Part& part);
 
  private:
@@ -83,7 +83,7 @@ class Coverer {
                                                        std::vector<std::uint32_t> triangles) const;
 
   const Indexed& mesh_;
-  std::vector<std::uint32_t> lastUse_;  ///< Per point, the number of the part it was last put in.
+  std::vector<std::uint32_t> lastUse_;  ///< Per point, the number of the last part that got it.
   std::uint32_t use_ = 0;
 };
 
@@ -98,8 +98,7 @@ std::vector<Vector3d> Coverer::pointsOf(const std::vector<std::uint32_t>& triang
   return points;
 }
 
-/// Fitted to the extreme points, which fixes the axis all but for what lies between them, then
-/// widened to every point.
+/// Fitted to the extreme points, which nearly fixes the axis, then widened to every point.
 Part Coverer::fitted(std::vector<std::uint32_t> triangles) {
   const std::vector<Vector3d> points = pointsOf(triangles);
   Part part{std::move(triangles), fitLss(extremePoints(points))};
@@ -152,7 +151,7 @@ std::optional<Split> Coverer::bestSplit(const Part& part) {
   return best;
 }
 
-/// Of all LSS, the one that the triangle lies deepest in, and by how far it sticks out of it.
+/// The LSS that the triangle lies deepest in, and how far it sticks out of it.
 std::pair<std::size_t, double> deepestIn(const std::vector<Lss>& lss, const Triangle& triangle) {
   std::pair<std::size_t, double> deepest{0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < lss.size(); ++i) {

@@ -39,8 +39,8 @@ class LssHierarchy {
     std::array<HierarchyChild, 2> children;
   };
 
-  /// Over those of `triangles` that `ids` names (the tree's triangle indices are these ids), all
-  /// finite; at least one. O(n log n): median splits, so the depth is at most 1 + log2(n).
+  /// Over the `triangles` listed in `ids` (the tree's triangle indices are these ids), all finite;
+  /// at least one. O(n log n): median splits, so the depth is at most 1 + log2(n).
   LssHierarchy(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& ids);
 
   [[nodiscard]] HierarchyChild root() const { return root_; }

@@ -9,8 +9,8 @@
 namespace foretouch::internal {
 
 /// Largest s >= 0, rounded down, such that clearance + s*speed - acceleration*s^2/2 >= 0 on all of
-/// [0, s]; infinity where it never falls below. `clearance` > 0, `acceleration` >= 0; `speed` is
-/// the rate at which the clearance grows (negative: closing).
+/// [0, s]; infinity if it never falls below. `clearance` > 0, `acceleration` >= 0; `speed` is the
+/// rate at which the clearance grows (negative: closing).
 [[nodiscard]] inline double safeStep(double clearance, double speed, double acceleration) {
   // Rounds down past the rounding of the formula (some ten roundings of positive terms).
   constexpr double kStepShrink = 1.0 - 1e-12;

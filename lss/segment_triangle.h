@@ -17,17 +17,17 @@ struct ClosestPoints {
   /// onSegment - onTriangle, computed before the far origin is added back: far from the origin of
   /// the world it keeps the digits that the two points lose.
   Eigen::Vector3d difference = Eigen::Vector3d::Zero();
-  double distance = 0.0;  ///< |difference|; 0, up to rounding, where segment and triangle cross.
-  /// Normal of the features that face each other (triangle face, or edge x axis), not unit; zero
-  /// where a vertex is involved. Its direction stays accurate when the distance vanishes; its sign
-  /// is free.
+  double distance = 0.0;  ///< |difference|; 0, up to rounding, if segment and triangle cross.
+  /// Normal of the features that face each other (triangle face, or edge x axis), not unit; zero if
+  /// a vertex is involved. Its direction stays accurate when the distance vanishes; its sign is
+  /// arbitrary.
   Eigen::Vector3d featureNormal = Eigen::Vector3d::Zero();
 };
 
 /// Segment from `a` to `b`; zero length is legal. Triangles without area are legal: a segment, a
 /// point. All coordinates finite, below 1e100. The result does not depend on the order of the
-/// triangle's vertices as long as they come sorted (middleware/scene/scene.h), nor on coordinates
-/// far from the origin: everything is computed relative to the triangle's first vertex.
+/// triangle's vertices if they come sorted (middleware/scene/scene.h), nor on the distance from the
+/// origin: all arithmetic is relative to the triangle's first vertex.
 [[nodiscard]] ClosestPoints closestPoints(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                           const Triangle& triangle);
 

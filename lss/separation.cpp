@@ -43,7 +43,7 @@ Separation separation(const Vector3d& a, const Vector3d& b, const Triangle& tria
   Separation result;
   result.closest = closestPoints(a, b, triangle);
   result.upper = result.closest.distance + pair.slack;
-  // Without a direction the trivial bound stands: a distance is not below zero, and nhat = 0 proves
+  // Without a direction the trivial bound holds: a distance is not below zero, and nhat = 0 proves
   // it.
   result.clearanceA = result.clearanceB = -pair.slack;
   tryDirection(pair, result.closest.difference, result);

@@ -1,7 +1,6 @@
-// lss/separation.h: proven bounds on the distance of a segment and a triangle, rounding included.
-// A plane between two convex sets bounds their distance from below, a pair of points from above,
-// and neither needs the closest-point solver to be right: it only proposes. Proof:
-// docs/guarantees.md 3.
+// lss/separation.h: proven bounds on the distance of a segment and a triangle, rounding included. A
+// plane between two convex sets bounds their distance from below, a pair of points from above, and
+// neither relies on the closest-point solver, which only proposes. Proof: docs/guarantees.md 3.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,20 +12,20 @@
 namespace foretouch {
 
 /// Rounding of the plane's and the witnesses' arithmetic, relative to the sum of the extents
-/// involved (docs/guarantees.md 3.2). Doubling it loses accuracy near 1e-14 m a metre; halving it
-/// breaks the proof, not yet the measured worst case (tests/lss/separation_test.cpp).
+/// involved (docs/guarantees.md 3.2). Doubling it loses accuracy near 1e-14 m per metre; halving it
+/// breaks the proof, but not yet the measured worst case (tests/lss/separation_test.cpp).
 inline constexpr double kSeparationRounding = 16.0 * kUnitRoundoff;
 
 namespace internal {
-/// Where the closest points are nearer than this fraction of the pair's extent, their difference is
-/// a noisy direction and the features' own normal is tried as well.
+/// If the closest points are nearer than this fraction of the pair's extent, their difference is a
+/// noisy direction, and we also try the features' own normal.
 inline constexpr double kNoisyDirection = 1e-3;
 }  // namespace internal
 
-/// What is proven of one segment and one triangle at one instant. Distances in metres.
-/// For every point x of the segment a + s(b-a) and every point y of the triangle
-/// nhat.(x - y) >= (1-s)*clearanceA + s*clearanceB, with |nhat| <= 1; so the distance is at least
-/// min(clearanceA, clearanceB), and at most `upper`.
+/// The proof for one segment and one triangle at one instant. Distances in metres. For every point
+/// x of the segment a + s(b-a) and every point y of the triangle nhat.(x - y) >= (1-s)*clearanceA +
+/// s*clearanceB, with |nhat| <= 1; so the distance is at least min(clearanceA, clearanceB), and at
+/// most `upper`.
 struct Separation {
   Eigen::Vector3d nhat = Eigen::Vector3d::Zero();  ///< From the triangle towards the segment.
   double clearanceA = 0.0, clearanceB = 0.0;       ///< Rounded down.

@@ -1,6 +1,6 @@
-// lss/simd.h: which of the processor's vector instructions the lanes use. Every source with lanes
-// is compiled once for each of them (Google Highway), and the widest that the processor has is
-// taken when the program runs.
+// lss/simd.h: which of the processor's vector instructions the lanes use. The build compiles every
+// source with lanes once for each of them (Google Highway); at run time the program uses the widest
+// that the processor has.
 #pragma once
 
 #include <optional>
@@ -27,8 +27,8 @@ enum class Simd {
 [[nodiscard]] std::vector<Simd> supportedSimd();
 /// The one in use.
 [[nodiscard]] Simd activeSimd();
-/// From now on, in the whole process, uses `simd`, or the widest if empty; false, and nothing is
-/// changed, where the processor lacks it. For tests and measurements: not while a query runs.
+/// From now on the whole process uses `simd`, or the widest if empty; false, without a change, if
+/// the processor lacks it. For tests and measurements: not while a query runs.
 bool useSimd(std::optional<Simd> simd);
 
 }  // namespace foretouch

@@ -1,4 +1,4 @@
-// lss/single.h: doubles rounded to what a float holds, as files of floats keep them.
+// lss/single.h: doubles rounded to floats, for files that store floats.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,9 +7,9 @@ namespace foretouch {
 
 /// The nearest float, as a double; infinite above a float's range.
 ///
-/// Through memory: GCC 12 at -O3 drops the float between two doubles where it vectorises the
-/// conversions (a cast<float>().cast<double>() of vectors in a loop changed nothing), and results
-/// then depend on what the optimiser saw.
+/// Through memory: GCC 12 at -O3 drops the float between two doubles when it vectorises the
+/// conversions (a cast<float>().cast<double>() of vectors in a loop changed nothing), so that
+/// results depend on the optimiser.
 [[nodiscard]] inline double nearestFloat(double number) {
   const volatile float single = static_cast<float>(number);
   return static_cast<double>(single);

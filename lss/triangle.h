@@ -14,7 +14,7 @@ struct Triangle {
   std::array<Eigen::Vector3d, 3> vertices;
 };
 
-/// No NaN and no infinity in it.
+/// True if it has no NaN and no infinity.
 [[nodiscard]] inline bool isFinite(const Triangle& triangle) {
   return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
                      [](const Eigen::Vector3d& v) { return v.allFinite(); });

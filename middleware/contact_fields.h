@@ -1,6 +1,6 @@
-// middleware/contact_fields.h: the fields of a contact, in one list. What writes contacts as JSON
-// takes their names and order from here; the C struct, the Python class, the message on the wire,
-// the page's decoder and the tables in docs are held to it by tests.
+// middleware/contact_fields.h: the fields of a contact, in one list. Code that writes contacts as
+// JSON takes their names and order from here. Tests compare the C struct, the Python class, the
+// wire message, the page's decoder and the tables in docs with it.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace foretouch {
 
-/// Of which contacts a format says the field.
+/// For which contacts a format writes the field.
 enum class ContactFieldUse : std::uint8_t {
   Every,
   Undecided,
@@ -30,15 +30,15 @@ using ContactMember = std::variant<std::int32_t LinkContact::*, double LinkConta
 struct ContactField {
   const char* name;  ///< In JSON and in Python; in the page's code as camelCase.
   const char* inC;   ///< In ft_contact.
-  /// In contacts_t: of vectors what comes before _x, _y and _z; nothing where it has no such field.
+  /// In contacts_t. For vectors, the part before _x, _y and _z; empty if it has no such field.
   const char* onWire;
   ContactMember member;
   ContactFieldUse use;
-  const char* unit;  ///< "1" where it has none.
+  const char* unit;  ///< "1" if it has none.
   const char* meaning;
 };
 
-/// In the order in which JSON has them. `object` is the scene's word for the triangle.
+/// In the order of JSON. `object` is the name of the triangle's object in the scene.
 inline constexpr std::array<ContactField, 16> kContactFields{{
     {"link", "link", "links", &LinkContact::link, ContactFieldUse::Every, "1",
      "the link that is told of"},
@@ -73,7 +73,7 @@ inline constexpr std::array<ContactField, 16> kContactFields{{
      ContactFieldUse::Exact, "1", "the same of the scene's triangle"},
 }};
 
-/// Whether a format says a field of this use of `contact`.
+/// Whether a format writes a field of this use for `contact`.
 [[nodiscard]] constexpr bool isTold(ContactFieldUse use, const LinkContact& contact) {
   const bool isUndecided = contact.verdict == Verdict::Undecided;
   const bool isTouching = !isUndecided && contact.verdict != Verdict::Clear;

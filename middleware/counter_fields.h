@@ -1,4 +1,4 @@
-// middleware/counter_fields.h: the counters of a query by name, for whoever sums or prints them
+// middleware/counter_fields.h: the counters of a query by name, for code that sums or prints them
 // all.
 #pragma once
 

@@ -1,23 +1,24 @@
-// middleware/fidelity.h: how closely a query takes the avatar's surface.
+// middleware/fidelity.h: how closely a query follows the avatar's surface.
 #pragma once
 
 #include <cstdint>
 
 namespace foretouch {
 
-/// What a link's surface is: the rungs of the ladder, coarsest first Ellipsoid, Avatar, Limb, Link,
-/// Exact; Skinned is none of them. Above Link one volume stands for several links, which all get
-/// its verdict (middleware/ladder/rungs.h): each contains what stands for them one rung below, at
-/// every t, so what is clear at a rung is free of contact at those below, where nothing is touched
-/// before the time that a higher one reports. A link without LSS has no surface there.
+/// What counts as a link's surface. The rungs of the ladder, coarsest first: Ellipsoid, Avatar,
+/// Limb, Link, Exact; Skinned is not a rung. At the rungs above Link, one volume covers several
+/// links, and they share its verdict (middleware/ladder/rungs.h). Each volume contains those of the
+/// next finer rung at every t. So clear at one rung implies no contact at any finer rung, and a
+/// coarser rung never reports a contact later than a finer one. A link without LSS has no surface
+/// at those rungs.
 enum class Fidelity : std::uint8_t {
-  Link,   ///< Its LSS.
-  Exact,  ///< The triangles of its mesh, and LSS that bound none. A subset of Link's contacts, and
-          ///< never earlier.
-  Skinned,  ///< The triangles of a skin, whose vertices follow the blend of several links; of a
-            ///< link without any, its LSS.
+  Link,     ///< Its LSS.
+  Exact,    ///< The triangles of its mesh, and LSS that contain no triangle. A subset of Link's
+            ///< contacts, never earlier.
+  Skinned,  ///< The triangles of a skin, whose vertices follow a blend of several links; a link
+            ///< without triangles keeps its LSS.
   Limb,     ///< One LSS for all links of a chain between branchings (a finger, an arm to the hand).
-  Avatar,   ///< One LSS for all links; one for those below each root where there are several.
+  Avatar,   ///< One LSS for all links; with several roots, one LSS per root.
   Ellipsoid,  ///< An ellipsoid of revolution around that LSS, which moves on a straight line.
 };
 

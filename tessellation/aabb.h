@@ -12,7 +12,7 @@ namespace foretouch {
 
 struct Aabb {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  /// Empty until something is put in.
+  /// Empty until the first add().
   Eigen::Vector3d min = Eigen::Vector3d::Constant(kInfinity);
   Eigen::Vector3d max = Eigen::Vector3d::Constant(-kInfinity);
 
@@ -25,8 +25,8 @@ struct Aabb {
     max = max.cwiseMax(other.max);
   }
   /// Moves every face outward by at least `distance` (>= 0), rounding included: the difference
-  /// rounds by half a unit in the last place of at most |face| + distance, and four of these are
-  /// added.
+  /// rounds by half a unit in the last place of at most |face| + distance, and we add four of
+  /// these.
   void grow(double distance) {
     constexpr double kRounding = 4.0 * kUnitRoundoff;
     for (int i = 0; i < 3; ++i) {
@@ -38,7 +38,7 @@ struct Aabb {
   [[nodiscard]] bool overlaps(const Aabb& other) const {
     return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
   }
-  /// 0 where they overlap, else the distance of the nearest points, as rounded.
+  /// 0 if they overlap, else the distance of the nearest points, as rounded.
   [[nodiscard]] double distance(const Aabb& other) const {
     const Eigen::Vector3d apart = (other.min - max).cwiseMax(min - other.max).cwiseMax(0.0);
     return apart.norm();

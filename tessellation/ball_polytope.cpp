@@ -20,8 +20,7 @@ using Eigen::Vector3d;
 
 /// Covers the few roundings of a distance.
 constexpr double kOutward = 1.0 + 1e-14, kInward = 1.0 - 1e-14;
-/// A corner moves by at most half the diagonal of a lattice cell, 0.8661 spacings, as it is
-/// rounded.
+/// Rounding moves a corner by at most half the diagonal of a lattice cell, 0.8661 spacings.
 constexpr double kCornerRounding = 0.8661;
 constexpr double kMaxEdgeComponent = 0x1p30;
 

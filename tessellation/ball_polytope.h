@@ -38,11 +38,11 @@ struct BallPolytope {
   int frequency = 0;
 };
 
-/// Finer polytopes than this are refused: 20 million facets.
+/// Finer polytopes are errors: 20 million facets.
 inline constexpr int kMaxPolytopeFrequency = 1000;
 
 /// A polytope that contains the ball of `radius` and leaves it by at most `excess` (both in
-/// spacings, at least 4). Error where that takes more facets, or larger numbers, than there may be.
+/// spacings, at least 4). Error if that takes more facets, or larger numbers, than allowed.
 [[nodiscard]] Result<BallPolytope> polytopeAround(double radius, double excess);
 
 /// A polytope inside the ball of `radius` that leaves out at most a layer of `lack`.

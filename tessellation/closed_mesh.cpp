@@ -20,7 +20,7 @@ std::uint32_t nextSlot(std::uint32_t slot) {
   return slot % 3 == 2 ? slot - 2 : slot + 1;
 }
 
-/// Sets that grow together, the least number of each standing for it.
+/// Merging sets, each represented by its least number.
 class Merging {
  public:
   explicit Merging(std::uint32_t count) {
@@ -61,8 +61,8 @@ std::vector<HalfEdge> sortedHalfEdges(const std::vector<std::array<MeshKey, 3>>&
   return halves;
 }
 
-/// The other triangle's side at every side: along an edge that more than two share, the sides of
-/// one direction go with those of the other in their order.
+/// The other triangle's side at every side: along an edge that more than two share, pairs the sides
+/// of both directions in order.
 std::vector<std::uint32_t> partnersOf(const std::vector<HalfEdge>& halves) {
   std::vector<std::uint32_t> partner(halves.size());
   for (std::size_t begin = 0; begin < halves.size();) {
@@ -115,7 +115,7 @@ void cut(const std::array<std::uint32_t, 3>& corners, const std::array<std::uint
     ring[count++] = corners[i];
     if (halfWay[i] != none) ring[count++] = halfWay[i];
   }
-  // Begin at a vertex half way: no two of the others on one line with it then make a triangle.
+  // Begin at a vertex half way: then no triangle has it and two others on one line.
   const auto end = ring.begin() + static_cast<std::ptrdiff_t>(count);
   std::rotate(ring.begin(),
               std::find_if(ring.begin(), end,
@@ -165,7 +165,7 @@ void splitRepeatedSides(ClosedMesh& mesh, const std::vector<std::uint32_t>& part
 
 ClosedMesh closedMesh(const std::vector<std::array<MeshKey, 3>>& triangles) {
   const std::vector<std::uint32_t> partner = partnersOf(sortedHalfEdges(triangles));
-  // Triangles' corners are one vertex where they follow one another across shared sides.
+  // Corners of triangles joined across shared sides are one vertex.
   Merging corners(static_cast<std::uint32_t>(partner.size()));
   for (std::uint32_t slot = 0; slot < partner.size(); ++slot) {
     corners.merge(slot, nextSlot(partner[slot]));

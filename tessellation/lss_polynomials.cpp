@@ -25,7 +25,7 @@ struct FittedCurve {
   double speed = 0.0;         ///< Largest |control point| of the first derivative
   double acceleration = 0.0;  ///< and of the second.
 };
-/// Rows of coordinates: at the nodes, and what is made of them.
+/// Rows of coordinates at the nodes, and rows made from them.
 struct CurveRows {
   const double (*samples)[kNodes];
   float (*coefficients)[kCoefficients];
@@ -127,7 +127,7 @@ using internal::polynomialMatrices;
 /// Of a node's instant from the Chebyshev-Lobatto point of its span, in t.
 constexpr double kInstant = 0x1p-52;
 
-// Derived in tessellation/lss_polynomials.md 3 and 4; held by
+// Derived in tessellation/lss_polynomials.md 3 and 4; checked by
 // tests/tessellation/lss_polynomials_test.cpp.
 constexpr double kLebesgue = 2.5;    ///< Errors at the nodes grow by at most this in between.
 constexpr double kFitting = 4096.0;  ///< The coefficients' rounding in double, in u of weighted.

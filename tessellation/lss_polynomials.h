@@ -1,7 +1,7 @@
-// tessellation/lss_polynomials.h: what an LSS and a frame do over a span of a motion, as certified
-// polynomials: single precision for the lanes that use them, with every error (of interpolation, of
-// rounding, of evaluation) proved in tessellation/lss_polynomials.md and counted in. Metres.
-// Source: [Kim07] for the tessellated sweep of an LSS.
+// tessellation/lss_polynomials.h: the motion of an LSS and of a frame over a span, as certified
+// polynomials: single precision for the lanes that use them, with every error (of interpolation,
+// rounding and evaluation) proved in tessellation/lss_polynomials.md and included. Metres. Source:
+// [Kim07] for the tessellated sweep of an LSS.
 #pragma once
 
 #include "articulated/chain_nodes.h"
@@ -13,22 +13,22 @@ namespace foretouch {
 /// Coefficients of a polynomial through the values at kNodes instants.
 inline constexpr int kCoefficients = kNodes;
 
-/// One LSS over a span, by polynomials in u = 2(t - begin)/(end - begin) - 1 in [-1,1].
-/// Promise: for every float u in [-1,1], every point of the true LSS at the instant that u stands
-/// for is within `radius` of the segment from a(u) to b(u), these as evaluated in float by Horner's
-/// rule (fused or not), plus `origin` in exact arithmetic, plus the origin of the nodes.
-/// No stricter alignment than its members': GCC 12 gives the temporary of `x = f()` the stack's own
-/// 16 bytes whatever the type asks.
+/// One LSS over a span, by polynomials in u = 2(t - begin)/(end - begin) - 1 in [-1,1]. Promise:
+/// for every float u in [-1,1], every point of the true LSS at the instant of u is within `radius`
+/// of the segment from a(u) to b(u), both evaluated in float by Horner's rule (fused or not), plus
+/// `origin` in exact arithmetic, plus the origin of the nodes. No stricter alignment than its
+/// members': GCC 12 gives the temporary of `x = f()` the stack's own 16 bytes, whatever the type
+/// requires.
 struct LssPolynomials {
   float a[3][kCoefficients], b[3][kCoefficients];  ///< Ascending powers of u; relative to `origin`.
   double origin[3];      ///< Relative to the origin of the nodes; every coordinate is a float.
-  float radius;          ///< The LSS's, and all that is uncertain; rounded up.
+  float radius;          ///< The LSS's, plus all uncertainty; rounded up.
   float speedA, speedB;  ///< On |d/du| of the polynomials a, b on [-1,1]; rounded up.
   float accelerationA, accelerationB;  ///< On |d^2/du^2| of the polynomials; rounded up.
   float weighted;  ///< The larger sum over j of (2j+2) |j-th coefficient|; rounded up.
 };
 
-/// `nodes` were evaluated of `motion`. O(1).
+/// `nodes` are those of `motion`. O(1).
 [[nodiscard]] LssPolynomials polynomialsOf(const LssTable::Entry& entry, const ChainMotion& motion,
                                            const ChainNodes& nodes);
 

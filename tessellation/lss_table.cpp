@@ -72,7 +72,7 @@ double interpolationError(const MotionBounds& bounds, double rho, double span) {
 int slabsFor(const LssTable& table, const ChainMotion& motion, double wantedError) {
   constexpr int kMostSlabs = 16;
   constexpr double kHalving = 256.0;  // the eighth power of two
-  // Most steps are slow enough for a bound on all links at once.
+  // Most steps are slow enough that one bound on all links suffices.
   double derivative = motion.largestSums().bounds().eighthDerivativeAt(table.largestRho());
   if (derivative * errorPerDerivative(1.0) > wantedError) {
     derivative = 0.0;

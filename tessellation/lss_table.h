@@ -1,5 +1,5 @@
-// tessellation/lss_table.h: an avatar's LSS as one plain array, and into how many spans a motion
-// has to be cut for polynomials to follow them. Metres.
+// tessellation/lss_table.h: an avatar's LSS as one plain array, and the number of spans of a motion
+// that polynomials need to follow them. Metres.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace foretouch {
 
-/// All LSS of an avatar in link order, with what every step asks of them. Immutable.
+/// All LSS of an avatar in link order, with the values that every step needs. Immutable.
 class LssTable {
  public:
   struct Entry {
@@ -23,7 +23,7 @@ class LssTable {
 
   LssTable() = default;
   explicit LssTable(const Avatar& avatar);
-  /// Becomes the table of other LSS, one list a link. Memory is kept.
+  /// Becomes the table of other LSS, one list per link. Keeps its memory.
   void assign(const std::vector<std::vector<Lss>>& lssPerLink);
 
   [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(entries_.size()); }
@@ -34,7 +34,7 @@ class LssTable {
   [[nodiscard]] std::int32_t numLinks() const {
     return static_cast<std::int32_t>(first_.size()) - 1;
   }
-  /// Largest rhoA or rhoB of the link's LSS; 0 where it has none.
+  /// Largest rhoA or rhoB of the link's LSS; 0 if it has none.
   [[nodiscard]] double rho(LinkId link) const { return rho_[slotOf(link)]; }
   /// Of all links.
   [[nodiscard]] double largestRho() const { return largestRho_; }
@@ -55,7 +55,7 @@ class LssTable {
 [[nodiscard]] double interpolationError(const MotionBounds& bounds, double rho, double span);
 
 /// The least of 1, 2, 4, 8, 16 equal spans of [0,1] for which interpolationError() of every LSS is
-/// at most `wantedError` (m); 16 where none is. O(links).
+/// at most `wantedError` (m); 16 if none is. O(links).
 [[nodiscard]] int slabsFor(const LssTable& table, const ChainMotion& motion, double wantedError);
 
 }  // namespace foretouch

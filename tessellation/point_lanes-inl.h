@@ -1,5 +1,5 @@
-// tessellation/point_lanes-inl.h: a point of a link at the nodes of a span, in lanes. Included by
-// sources that Highway compiles once for each width, inside each of them.
+// tessellation/point_lanes-inl.h: a point of a link at the nodes of a span, in lanes. For inclusion
+// in sources that Highway compiles once per width.
 #if defined(FORETOUCH_TESSELLATION_POINT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FORETOUCH_TESSELLATION_POINT_LANES_INL_H_
 #undef FORETOUCH_TESSELLATION_POINT_LANES_INL_H_

@@ -7,9 +7,9 @@
 
 namespace foretouch::internal {
 
-/// Bound on |computed - true| at each node's instant, of a point taken relative to the origin of
-/// the nodes and to a shift no longer than reach + 2*rho: linear in its distance rho from its
-/// link's origin.
+/// Bound on |computed - true| at each node's instant, for a point relative to the origin of the
+/// nodes and to a shift no longer than reach + 2*rho: linear in its distance rho from its link's
+/// origin.
 struct PointRoundings {
   double atOrigin, perLength;
 };

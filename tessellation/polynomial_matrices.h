@@ -1,4 +1,4 @@
-// tessellation/polynomial_matrices.h: what leads from a curve's values at the eight
+// tessellation/polynomial_matrices.h: the matrices from a curve's values at the eight
 // Chebyshev-Lobatto points of [-1,1] to its coefficients, and from these to the control points that
 // bound its derivatives. Derived in tessellation/lss_polynomials.md 3.
 #pragma once
@@ -10,12 +10,12 @@ namespace foretouch::internal {
 struct alignas(64) PolynomialMatrices {
   double coefficients[kNodes][kNodes];  ///< [node][power of u].
   /// [power of u][control point] of the first and second derivative in Bernstein's form of degree 6
-  /// and 5 on [-1,1]; the columns left over are zero.
+  /// and 5 on [-1,1]; unused columns are zero.
   double first[kNodes][kNodes], second[kNodes][kNodes];
   double evaluation[kNodes];  ///< [power of u]: the roundings it meets, 2j + 2.
 };
 
-/// Computed when first asked for; nearest doubles but for a few roundings of long double.
+/// Computed on first use; nearest doubles but for a few roundings of long double.
 [[nodiscard]] const PolynomialMatrices& polynomialMatrices();
 
 }  // namespace foretouch::internal

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Shares p : s of the two ends' displacements that are tried.
+/// Number of tried shares p : s of the two ends' displacements.
 constexpr int kShares = 16;
 
 struct Sheet {
@@ -44,14 +44,14 @@ double hullLeavesSheetBy(const AxisEnds& begin, const AxisEnds& end) {
   const Sheet sheet{end.a - begin.a, end.b - begin.b, begin.b - begin.a, end.b - end.a};
   const double turned = (sheet.axisEnd - sheet.axisBegin).norm();
   const double length = std::min(sheet.axisBegin.norm(), sheet.axisEnd.norm());
-  // Half the axis at least is left: a shorter rest would magnify rounding.
+  // At least half the axis remains: a shorter rest would magnify rounding.
   const double shortestAxis = turned < length ? length - 0.5 * turned : 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= kShares; ++i) {
     const double p = static_cast<double>(i) / kShares;
     least = std::min(least, boundFor(sheet, p, 1.0 - p, shortestAxis));
   }
-  // The displacements' shares across the axis: exact where the sheet is flat.
+  // The displacements' shares normal to the axis: exact if the sheet is flat.
   const Vector3d axis = sheet.axisBegin + sheet.axisEnd;
   const double square = axis.squaredNorm();
   const Vector3d sum = sheet.pathA + sheet.pathB;

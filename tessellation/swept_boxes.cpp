@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace foretouch::HWY_NAMESPACE {
 
-/// `x` moved down so far that its nearest float is not above it (lss/rounding.h, padding).
+/// `x` lowered until its nearest float is not above it (lss/rounding.h, padding).
 HWY_INLINE NodeVector downward(NodeLanes d, NodeVector x) {
   const NodeVector slack = hn::MulAdd(hn::Abs(x), hn::Set(d, internal::kFloatPadding),
                                       hn::Set(d, internal::kFloatUnderflow));
@@ -28,8 +28,8 @@ HWY_INLINE NodeVector upward(NodeLanes d, NodeVector x) {
   return hn::Neg(downward(d, hn::Neg(x)));
 }
 
-/// What is left of one LSS when the lanes of a vector hold other nodes: least coordinates of both
-/// ends, and the negatives of the largest.
+/// One LSS's extents, with nodes in the lanes of a vector: least coordinates of both ends, and the
+/// negatives of the largest.
 struct Extents {
   alignas(64) double least[kNodes][kNodes], negated[kNodes][kNodes];
 };
@@ -82,7 +82,7 @@ HWY_INLINE NodeVector leastOfHalves(NodeLanes d, NodeVector a, NodeVector b) {
 }
 
 /// leastOf[i] = the least of the lanes of rows[i], eight rows folded together: a quarter of the
-/// shuffles that one row after another takes.
+/// shuffles of row by row.
 HWY_INLINE void leastOfRows(const double (*rows)[kNodes], double* leastOf) {
   const NodeLanes d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(NodeLanes()));

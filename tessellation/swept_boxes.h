@@ -12,8 +12,8 @@
 
 namespace foretouch {
 
-/// Boxes of floats, one lane an LSS in the table's order, as structure of arrays. Lanes from
-/// `count` to `capacity` are empty boxes (lower +inf, upper -inf). Memory is kept.
+/// Boxes of floats, one lane per LSS in the table's order, as structure of arrays. Lanes from
+/// `count` to `capacity` are empty boxes (lower +inf, upper -inf). Keeps its memory.
 struct SweptBoxes {
   static constexpr std::int32_t kPadding = 16;  ///< Capacity is a multiple of it.
   std::int32_t count = 0, capacity = 0;
@@ -23,7 +23,7 @@ struct SweptBoxes {
   SweptBoxes() = default;
   SweptBoxes(const SweptBoxes&) = delete;
   SweptBoxes& operator=(const SweptBoxes&) = delete;
-  /// All lanes empty boxes. Allocates only where there are more than ever before.
+  /// Makes all lanes empty boxes. Allocates only if there are more than ever before.
   void resize(std::int32_t newCount);
 
  private:
@@ -34,20 +34,20 @@ struct SweptBoxes {
                          SweptBoxes&);
   friend void sweptBoxes(const LssTable&, const ChainMotion&, const ChainNodes&,
                          const std::vector<double>&, SweptBoxes&);
-  /// As resize(), lanes left as they are.
+  /// As resize(), but leaves the lanes as they are.
   void makeRoom(std::int32_t newCount);
   /// Lanes from `first` on.
   void emptyFrom(std::int32_t first);
 
   std::vector<Block> storage_;
-  std::vector<double> growths_;  // one an LSS
+  std::vector<double> growths_;  // one per LSS
 };
 
 /// The float box of every LSS over the whole span of `nodes`, grown by `margin` (m), relative to
 /// the origin of the nodes, rounded outward. O(LSS).
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
                 double margin, SweptBoxes& boxes);
-/// The same where links' margins differ: `margins[link]` (m). As many as links (asserted).
+/// The same with a margin per link: `margins[link]` (m). As many as links (asserted).
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
                 const std::vector<double>& margins, SweptBoxes& boxes);
 

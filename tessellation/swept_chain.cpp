@@ -82,7 +82,7 @@ void SweptChain::add(const LatticeEnds& ends, double timeS) {
   const std::uint32_t b = ends.b == ends.a ? a : cornerAt(ends.b, beforeB);
   if (a == beforeA && b == beforeB) return;
 
-  // What this piece shares with the last one is taken away again, before the piece is added.
+  // Subtracts the part shared with the last piece before adding this one.
   std::vector<std::uint32_t> shared{std::min(beforeA, beforeB)};
   if (beforeA != beforeB) shared.push_back(std::max(beforeA, beforeB));
   std::vector<std::uint8_t> sharedCorner;

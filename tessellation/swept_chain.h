@@ -1,6 +1,6 @@
-// tessellation/swept_chain.h: the surface of a row of sums conv{corners} + polytope that follow one
-// another: all their boundaries less those of the sums that neighbours share. Exact.
-// Proof that this encloses the union: tessellation/swept_surface.md 2.
+// tessellation/swept_chain.h: the surface of a chain of consecutive sums conv{corners} + polytope:
+// all their boundaries less those of the sums that neighbours share. Exact. Proof that this
+// encloses the union: tessellation/swept_surface.md 2.
 #pragma once
 
 #include <algorithm>
@@ -24,14 +24,14 @@ class SweptChain {
   /// `polytope` must outlive the chain.
   SweptChain(const BallPolytope& polytope, const LatticeEnds& start, double timeS);
 
-  /// Adds the piece from the last instant to this one. Ends that stay apart by less than
-  /// kMaxLatticeDifference are the caller's to ensure.
+  /// Adds the piece from the last instant to this one. Precondition: the ends differ by less than
+  /// kMaxLatticeDifference.
   void add(const LatticeEnds& ends, double timeS);
 
-  /// Adds what is left at the last instant. Once.
+  /// Adds the remaining faces at the last instant. Call once.
   void close();
 
-  /// Faces less those that will cancel, about: what mesh() will hold, so far.
+  /// About the number of triangles of mesh() so far: faces less those that will cancel.
   [[nodiscard]] std::size_t triangles() const {
     return static_cast<std::size_t>(std::max<std::int64_t>(0, triangles_));
   }
@@ -43,13 +43,13 @@ class SweptChain {
   [[nodiscard]] double timeS(MeshKey key) const;
 
  private:
-  /// A corner of the axis' path; consecutive instants share one where the end stood still.
+  /// A corner of the axis' path; consecutive instants share one if the end stood still.
   struct PathCorner {
     LatticePoint place;
     double timeS = 0.0;
   };
   enum class Kind : std::uint8_t { Facet, Band, Side };
-  /// A face by what it is made of, in canonical order, and how often it counts.
+  /// A face by its parts, in canonical order, and its multiplicity.
   struct Face {
     std::array<std::uint32_t, 3> of{};
     std::uint32_t element = 0;  ///< The polytope's facet, edge or corner.
@@ -68,8 +68,7 @@ class SweptChain {
   std::vector<PathCorner> path_;
   std::uint32_t a_ = 0, b_ = 0;  ///< The last instant's corners.
   bool hasPiece_ = false;
-  /// Per facet: the corner that the last piece moved it to, and whether that is still to be
-  /// emitted.
+  /// Per facet: the corner that the last piece moved it to, and whether it is still to be emitted.
   std::vector<std::uint32_t> lastCorner_;
   std::vector<bool> isOpen_;
   std::vector<Face> emitted_;

@@ -1,7 +1,8 @@
-// tessellation/swept_lss.h: what an LSS covers while its link moves, as certified boxes of pieces.
-// Over a span of length h a point with |acceleration| <= A stays within A*h^2/8 of its chord, so
-// the swept LSS lies in the hull of its axis ends at both instants, grown by radius + A*h^2/8.
-// Derivation: docs/guarantees.md 4; [Kim07] tessellates the swept LSS likewise. Metres, world W.
+// tessellation/swept_lss.h: the space that an LSS covers while its link moves, as certified boxes
+// of pieces. Over a span of length h a point with |acceleration| <= A stays within A*h^2/8 of its
+// chord, so the swept LSS lies in the hull of its axis ends at both instants, grown by radius +
+// A*h^2/8. Derivation: docs/guarantees.md 4; [Kim07] tessellates the swept LSS likewise. Metres,
+// world W.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +22,7 @@ struct AxisEnds {
   return {state.pointAt(lss_L.a), state.pointAt(lss_L.b)};
 }
 
-/// What the motion's bounds say of the two ends of one LSS's axis, at every t in [0,1].
+/// Bounds on the two ends of one LSS's axis, at every t in [0,1].
 struct AxisBounds {
   double accelerationA = 0.0, accelerationB = 0.0;
   double speed = 0.0;  ///< The larger of the two ends'.
@@ -31,8 +32,8 @@ struct AxisBounds {
 
 [[nodiscard]] AxisBounds axisBounds(const Lss& lss_L, const MotionBounds& bounds);
 
-/// A box that contains the LSS at every t of a span, grown by `margin`; rounding is on the outer
-/// side. `begin` and `end` are the computed axis ends at both instants, `span` their distance in t.
+/// A box that contains the LSS at every t of a span, grown by `margin`; rounds outward. `begin` and
+/// `end` are the computed axis ends at both instants, `span` their distance in t.
 [[nodiscard]] Aabb sweptBox(const Lss& lss_L, const AxisBounds& bounds, const AxisEnds& begin,
                             const AxisEnds& end, double span, double margin);
 

@@ -16,7 +16,7 @@ constexpr double kDotRounding = 32.0 * kUnitRoundoff;
 
 using Walk = std::vector<std::uint8_t>;
 
-/// A closed walk without steps that are taken back at once.
+/// Removes steps that a closed walk takes back at once.
 void reduceWalk(Walk& walk) {
   Walk kept;
   for (const std::uint8_t corner : walk) {
@@ -123,7 +123,7 @@ void SweptSum::crossEdges(SumFaces& faces) {
         const WideInteger gain = heightOf(right, i) - heightOf(right, now);
         if (i == now || i == target || gain <= 0) continue;
         const WideInteger lag = heightOf(left, now) - heightOf(left, i);
-        // It overtakes at lag / (lag + gain); of two at once the one that is higher in the end.
+        // It overtakes at lag / (lag + gain); of two at once, the one that ends higher.
         const int order = signOfDifferenceOfProducts(lag, nextGain, nextLag, gain);
         if (order < 0 || (order == 0 && gain > nextGain)) {
           next = i;
@@ -177,8 +177,8 @@ void SweptSum::fill(std::int32_t corner, SumFaces& faces) {
   }
 }
 
-/// Around a corner of the polytope the labels make a closed walk; what it encloses are the sides
-/// that face that corner's normals.
+/// Around a corner of the polytope the labels make a closed walk, which encloses the sides that
+/// face that corner's normals.
 void SweptSum::fillCorners(SumFaces& faces) {
   for (const std::int32_t corner : touched_) {
     walk_.clear();

@@ -1,5 +1,5 @@
 // tessellation/swept_sum.h: the boundary of conv{corners} + polytope, face by face, for up to four
-// corners on the lattice. Exact; proof of what the faces are: tessellation/swept_surface.md 3.
+// corners on the lattice. Exact; proof: tessellation/swept_surface.md 3.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace foretouch {
 
-/// The faces of the sum that are no facets of the polytope moved to a corner. Numbers of corners
-/// are indices into the corners given.
+/// The faces of the sum other than facets of the polytope moved to a corner. Corner numbers are
+/// indices into the given corners.
 struct SumFaces {
   /// The polytope's edge carried from corner `left` to corner `right`: a parallelogram (v,left),
   /// (u,left), (u,right), (v,right), counter-clockwise seen from outside.
@@ -25,13 +25,13 @@ struct SumFaces {
   };
   std::vector<Band> bands;
   std::vector<Side> sides;
-  /// Per facet of the polytope, the corner that it is moved to: one that lies farthest along its
-  /// normal, of several the first.
+  /// Per facet of the polytope, the corner that it moves to: the farthest along its normal, of
+  /// several the first.
   std::vector<std::uint8_t> facetCorner;
 };
 
-/// Sums of one polytope with one set of corners after another; keeps its working memory. Time
-/// O(facets) a sum.
+/// Sums of one polytope with one set of corners after another; keeps its working memory. O(facets)
+/// per sum.
 class SweptSum {
  public:
   explicit SweptSum(const BallPolytope& polytope);

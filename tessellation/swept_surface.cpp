@@ -23,16 +23,16 @@ std::string tooSmall(double error, const std::string& what) {
 using Eigen::Vector3d;
 using internal::kInflation;
 
-// What the error is spent on. The chord's share counts twice: once for what the pieces are grown
-// by, once for how far their hulls may be from the path. The number of pieces goes with the inverse
-// of the sheet's share (both ends seldom move in one direction), that of a piece's facets with the
-// inverse root of theirs: their product is least at 2 : 1. What is left over is for rounding.
+// Shares of the error. The chord's share counts twice: once for the pieces' growth, once for the
+// distance of their hulls from the path. The number of pieces is proportional to the inverse of the
+// sheet's share (both ends seldom move in one direction), that of a piece's facets to the inverse
+// root of theirs: their product is least at 2 : 1. The rest is for rounding.
 constexpr double kChordShare = 0.1, kFacetShare = 0.27, kSheetShare = 0.46;
 constexpr double kPositionShare = 0.005;  // of the computed axis ends; counts twice
 constexpr double kSpacingsPerError = 128.0;
 /// Half the diagonal of a lattice cell, in spacings: how far rounding moves an end of the axis.
 constexpr double kLatticeRounding = 0.8661;
-/// More pieces of one motion than this are refused before they are made.
+/// More pieces per motion than this are an error, before any is made.
 constexpr double kMaxPiecesPerSpan = 1e8;
 
 /// The largest power of two that is at most the error / kSpacingsPerError.
@@ -49,7 +49,7 @@ Error problem(ErrorCode code, std::string message) {
 /// Lengths of one surface, in metres.
 struct Budget {
   double spacing = 0.0, chord = 0.0, sheet = 0.0, position = 0.0;
-  /// How far a corner of a piece may be from where the axis end truly is.
+  /// How far a corner of a piece may be from the true axis end.
   [[nodiscard]] double corner() const { return position + kLatticeRounding * spacing; }
 };
 
@@ -57,7 +57,7 @@ Budget budgetFor(double error) {
   return {spacingFor(error), kChordShare * error, kSheetShare * error, kPositionShare * error};
 }
 
-/// Around the LSS's ball: the piece holds the sweep. Within it: the sweep holds the piece.
+/// Around the LSS's ball: the piece contains the sweep. Within it: the sweep contains the piece.
 Result<BallPolytope> polytopeFor(const Lss& lss, const SweptSurfaceOptions& options,
                                  const Budget& budget) {
   const double facets = kFacetShare * options.error / budget.spacing;
@@ -70,13 +70,13 @@ Result<BallPolytope> polytopeFor(const Lss& lss, const SweptSurfaceOptions& opti
   return polytopeWithin(radius / budget.spacing, facets);
 }
 
-/// Thinner LSS have no inner surface: too little is left of the ball for a polytope in it.
+/// Thinner LSS have no inner surface: the ball has too little room for a polytope.
 bool vanishes(const Lss& lss, const SweptSurfaceOptions& options) {
   return options.side == SurfaceSide::Inner && lss.radius < 1.2 * options.error;
 }
 
-/// Cuts the span from `begin` to the last of `ends` into as many parts as make its sheet `excess`
-/// times flatter, were that linear; false where doubles hold none between.
+/// Cuts the span from `begin` to the last of `ends` into enough parts to make its sheet `excess`
+/// times flatter, if that were linear; false if doubles have none between.
 bool cutSpan(double begin, double excess, std::vector<double>& ends) {
   constexpr double kMostParts = 64.0;
   const double parts = std::ceil(std::clamp(1.02 * excess, 2.0, kMostParts));
@@ -128,7 +128,7 @@ class SweptSurfaceBuilder::Parts {
   struct Instant {
     double t = 0.0;
     LatticeEnds lattice;
-    AxisEnds ends;  ///< As on the lattice, in spacings.
+    AxisEnds ends;  ///< On the lattice, in spacings.
   };
   Result<Instant> instantAt(const ChainMotion& motion, LinkId link, double t) const;
   Result<Done> addUntil(const ChainMotion& motion, LinkId link, const SweptSpan& span, double endT);
@@ -183,7 +183,7 @@ Result<SweptSurfaceBuilder::Parts::Instant> SweptSurfaceBuilder::Parts::instantA
   return Instant{t, {a.value(), b.value()}, {asVector(a.value()), asVector(b.value())}};
 }
 
-/// Carries the chain on to `endT`, in as many pieces as the sheet asks for.
+/// Extends the chain to `endT`, in as many pieces as the sheet needs.
 Result<Done> SweptSurfaceBuilder::Parts::addUntil(const ChainMotion& motion, LinkId link,
                                                   const SweptSpan& span, double endT) {
   const double sheetSpacings = budget_.sheet / budget_.spacing;
@@ -235,7 +235,7 @@ Result<Done> SweptSurfaceBuilder::Parts::add(const ChainMotion& motion, LinkId l
     last_ = first;
     chain_ = std::make_unique<SweptChain>(polytope_, last_.lattice, span.beginS);
   }
-  // A chain goes on from where it is: within the same rounding of the same true place.
+  // A chain continues from its place: within the same rounding of the same true place.
   last_.t = span.beginT;
   const auto count = std::max<std::int64_t>(1, static_cast<std::int64_t>(wanted));
   for (std::int64_t i = 1; i <= count; ++i) {

@@ -13,10 +13,10 @@
 
 namespace foretouch::tools {
 
-/// Triangles that a report may be asked to show of a scene.
+/// Most scene triangles that a user may request in a report.
 inline constexpr int kMostReportTriangles = 10'000'000;
 
-/// More threads than this are refused: a slip of the finger, not a machine.
+/// Most threads: a larger number is a typing error.
 inline constexpr int kMaxThreads = 256;
 
 /// "a,,b" has three parts, the second of them empty.
@@ -32,7 +32,7 @@ inline constexpr int kMaxThreads = 256;
 [[nodiscard]] Result<int> parseCount(const std::string& option, const std::string& text, int most);
 /// The same, to kMaxThreads.
 [[nodiscard]] Result<int> parseThreads(const std::string& option, const std::string& text);
-/// What a report shows of a scene: a whole number of triangles from 1 to 10,000,000.
+/// Scene triangles in a report: a whole number from 1 to 10,000,000.
 [[nodiscard]] Result<std::size_t> parseReportTriangles(const std::string& option,
                                                        const std::string& text);
 /// "x,y,z" or "x,y,z,yaw": metres within kMaxCoordinate, and degrees.
@@ -47,7 +47,7 @@ inline constexpr int kMaxThreads = 256;
 [[nodiscard]] Result<Descent> parseDescent(const std::string& option, const std::string& text);
 [[nodiscard]] Result<Fidelity> parseFidelity(const std::string& option, const std::string& text);
 
-/// Refuses an output file that is one of the inputs. Empty paths are passed over.
+/// Refuses an output file that is one of the inputs. Skips empty paths.
 [[nodiscard]] Result<Done> checkIsNoInput(const std::string& output,
                                           const std::vector<std::string>& inputs);
 

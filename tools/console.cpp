@@ -5,7 +5,8 @@
 namespace foretouch::tools {
 namespace {
 
-/// File names and foreign text may hold line breaks and terminal sequences: one error is one line.
+/// File names and foreign text may contain line breaks and terminal sequences: one error is one
+/// line.
 std::string onOneLine(std::string text) {
   for (char& c : text) {
     const auto byte = static_cast<unsigned char>(c);

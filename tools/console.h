@@ -1,4 +1,4 @@
-// tools/console.h: what the program tells the shell, and how it tells a person what went wrong.
+// tools/console.h: exit codes for the shell, and messages for people.
 #pragma once
 
 #include <string>
@@ -9,26 +9,26 @@ namespace foretouch::tools {
 
 enum class ExitCode : int {
   Done = 0,
-  CheckSaysNo = 1,  ///< A check found its subject wanting, or part of a damaged input was lost.
-  BadInput = 2,     ///< Bad use, bad input, or output that cannot be written.
+  CheckSaysNo = 1,  ///< A check failed, or part of a damaged input was lost.
+  BadInput = 2,     ///< Bad use, bad input, or unwritable output.
 };
 
-/// One line on stderr, "foretouch: <file>:<line>: <what>"; control characters are replaced.
+/// One line on stderr, "foretouch: <file>:<line>: <what>"; replaces control characters.
 void printError(const std::string& text);
-/// The same for an Error; returns what the program ends with.
+/// The same for an Error; returns the program's exit code.
 ExitCode failed(const Error& error);
 
-/// A line on stderr for what is worth knowing and keeps nothing from being done.
+/// A line on stderr for remarks that stop nothing.
 void printNote(const std::string& text);
 
-/// Text on stderr as it is: what would go to stdout, where that is taken.
+/// Text on stderr, unchanged: for text that belongs on stdout when a file uses stdout.
 void printAside(const std::string& text);
 
-/// Text on stdout. Whether it arrived is asked once, by outputArrived().
+/// Text on stdout. Call outputArrived() once, to check that it arrived.
 void printOut(const std::string& text);
 [[nodiscard]] bool outputArrived();
 
-/// The error with `file` as its place where it names none.
+/// The error, with `file` as its place if it names none.
 [[nodiscard]] Error inFile(Error error, const std::string& file);
 template <typename T>
 [[nodiscard]] Result<T> inFile(Result<T> result, const std::string& file) {

@@ -11,15 +11,15 @@
 
 namespace foretouch::tools {
 
-/// What a contact itself does not say; JSON already.
+/// Fields that the contact itself lacks; JSON already.
 struct ContactWords {
-  std::string_view link;    ///< Its name, or its number.
-  std::string_view object;  ///< Not read where the link is undecided, nor are those that follow.
-  std::optional<double> timeS;          ///< When it is touched: in the clip,
+  std::string_view link;        ///< Its name, or its number.
+  std::string_view object;      ///< Not read if the link is undecided, nor are the next fields.
+  std::optional<double> timeS;  ///< Time of contact: in the clip,
   std::optional<std::int64_t> utimeUs;  ///< and on the clock.
 };
 
-/// The fields that kContactFields says it has, into an object that is open. `contact` is not clear.
+/// Writes the contact's fields by kContactFields into an open object. `contact` is not clear.
 void writeContact(const LinkContact& contact, const ContactWords& words, JsonWriter& out);
 
 }  // namespace foretouch::tools

@@ -1,4 +1,4 @@
-// tools/interrupt.h: lets a run that is told to stop clean up first.
+// tools/interrupt.h: lets an interrupted run clean up first.
 #pragma once
 
 #include <array>
@@ -6,10 +6,10 @@
 
 namespace foretouch::tools {
 
-/// While one lives, SIGINT, SIGTERM and SIGHUP are only noted. Its destructor puts back what was
-/// and delivers a noted signal: the program then ends by it, as the shell expects, with everything
-/// that was built after the guard already taken down. At most one at a time. Signals that the
-/// parent had the program ignore (nohup) stay ignored.
+/// While one lives, SIGINT, SIGTERM and SIGHUP are only noted. Its destructor restores the handlers
+/// and delivers a noted signal: the program then ends by it, as the shell expects, after every
+/// object built after the guard is destroyed. At most one at a time. Signals that the parent set to
+/// ignored (nohup) stay ignored.
 class InterruptGuard {
  public:
   InterruptGuard();

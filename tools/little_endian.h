@@ -1,5 +1,5 @@
-// tools/little_endian.h: numbers as the bytes of a binary file. Every format written here is
-// little-endian, and so is every machine that this is built for.
+// tools/little_endian.h: numbers as the bytes of a binary file. Every format here is little-endian,
+// and so is every supported machine.
 #pragma once
 
 #include <cstring>

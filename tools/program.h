@@ -13,15 +13,15 @@ namespace foretouch::tools {
 
 struct ProgramText {
   const char* name;
-  const char* purpose;  ///< What --help begins with.
-  const char* start;    ///< What it ends with.
+  const char* purpose;  ///< The beginning of --help.
+  const char* start;    ///< The end of --help.
 };
 
-/// Adds the program's commands; each leaves its exit code when it has run.
+/// Adds the program's commands; each sets `exit` when it has run.
 using AddCommands = std::function<void(CLI::App& program, ExitCode& exit)>;
 
-/// Parses the command line, runs the subcommand and returns the exit code: 0 done, 1 a check said
-/// no, 2 bad use or bad input. Throws nothing.
+/// Parses the command line, runs the subcommand and returns the exit code: 0 done, 1 a check
+/// failed, 2 bad use or bad input. Throws nothing.
 [[nodiscard]] int runProgram(const ProgramText& text, const AddCommands& addCommands, int argc,
                              const char* const* argv) noexcept;
 

@@ -1,4 +1,4 @@
-// tools/progress.h: a bar on stderr for long work, where a person is watching.
+// tools/progress.h: a progress bar on stderr for long work.
 #pragma once
 
 #include <chrono>
@@ -7,8 +7,8 @@
 
 namespace foretouch::tools {
 
-/// Draws only where stderr is a terminal, at most ten times a second, and clears its line when it
-/// goes. Not for several threads at once.
+/// Draws only if stderr is a terminal, at most ten times a second; its destructor clears the line.
+/// For one thread.
 class ProgressBar {
  public:
   ProgressBar(std::string label, std::int64_t total);

@@ -14,7 +14,7 @@ namespace foretouch::tools {
 
 Result<Done> checkOutput(const std::string& output, const std::vector<std::string>& inputs) {
   FORETOUCH_CHECK(checkIsNoInput(output, inputs));
-  // Opening a pipe and closing it again would tell its reader that there is nothing more to come.
+  // Opening a pipe and closing it again would signal its end to its reader.
   std::error_code absent;
   const std::filesystem::file_status status = std::filesystem::status(output, absent);
   if (std::filesystem::is_other(status)) return Done{};

@@ -1,4 +1,4 @@
-// tools/results_output.h: where a command's results go.
+// tools/results_output.h: the destination of a command's results.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace foretouch::tools {
 
-/// Refuses an output that is one of the inputs, and one that cannot be written, before any work.
+/// Refuses an output that is one of the inputs, or is not writable, before any work.
 [[nodiscard]] Result<Done> checkOutput(const std::string& output,
                                        const std::vector<std::string>& inputs);
 
-/// The same of two outputs, which must not be one file. An empty `report` is none.
+/// The same for two outputs, which must not be one file. An empty `report` means none.
 [[nodiscard]] Result<Done> checkOutputs(const std::string& output, const std::string& report,
                                         const std::vector<std::string>& inputs);
 
-/// Files that go to standard output leave it to them: the summary then goes to stderr.
+/// True: the file takes standard output, so the summary goes to stderr.
 [[nodiscard]] bool isStandardOutput(const std::string& path);
 
 }  // namespace foretouch::tools

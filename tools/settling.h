@@ -1,4 +1,4 @@
-// tools/settling.h: option values settled one after another, the first error kept.
+// tools/settling.h: stores parsed option values one by one and keeps the first error.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace foretouch::tools {
 
-/// Takes parsed values apart from errors, keeping the first error.
+/// Separates parsed values from errors; keeps the first error.
 class Settling {
  public:
   template <typename T>

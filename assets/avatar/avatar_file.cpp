@@ -28,7 +28,7 @@ constexpr double kFormatVersion = 1.0;
 /// Objects and arrays of the format; the parser is always in exactly one.
 enum class Place { Outside, File, Links, Link, LssList, LssEntry, Mesh, Numbers };
 
-/// What may stand behind a key.
+/// The value that may follow a key.
 enum class Kind { Format, Version, Links, Name, Parent, Three, Four, LssList, Mesh, Text, Radius };
 
 struct Field {
@@ -72,7 +72,7 @@ const char* expectation(Kind kind) {
   return "";
 }
 
-/// Reads on behalf of the JSON parser and leaves a mark of how far it came, for line numbers.
+/// Reads for the JSON parser and records its position, for line numbers.
 struct MarkingIterator {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -92,9 +92,8 @@ struct MarkingIterator {
   bool operator!=(const MarkingIterator& other) const { return at != other.at; }
 };
 
-/// Takes the parser's events and fills raw links as they come, so that memory is bounded by what
-/// the format allows and not by what the text holds. Ends the parse at the first thing out of
-/// place.
+/// Fills raw links from the parser's events as they come, so that the format bounds the memory, not
+/// the text. Ends the parse at the first event out of place.
 class AvatarSax final : public nlohmann::json_sax<json> {
  public:
   AvatarSax(std::string_view text, const std::string& file)
@@ -160,7 +159,7 @@ class AvatarSax final : public nlohmann::json_sax<json> {
 };
 
 // A number ends with the byte after it, which the parser has then already taken; every other token
-// ends with a byte that is no line break. So the last byte taken never counts.
+// ends with a byte that is not a line break. So the last byte taken never counts.
 std::int64_t AvatarSax::line() const {
   const char* last = mark_ == text_.data() ? mark_ : mark_ - 1;
   return 1 + std::count(text_.data(), last, '\n');
@@ -312,7 +311,7 @@ bool AvatarSax::start_array(std::size_t) {
   if (expects(Kind::LssList)) return enter(Place::LssList);
   if (!expects(Kind::Three) && !expects(Kind::Four)) return unexpected("an array");
   numbers_.clear();
-  places_.push_back(Place::Numbers);  // the field stays: it says where the numbers go
+  places_.push_back(Place::Numbers);  // the field stays: it selects the numbers' destination
   return true;
 }
 
@@ -343,7 +342,7 @@ bool AvatarSax::parse_error(std::size_t, const std::string& token, const json::e
     return fail(ErrorCode::NonFinite,
                 "the number " + inQuotes(tail) + " is too large for a double");
   }
-  // Of the library's text only the end is of use here, and free of what the file holds.
+  // Only the end of the library's text is useful here, and free of the file's content.
   const std::string_view what = e.what();
   const std::size_t expected = what.rfind("; expected ");
   return fail(ErrorCode::Syntax,

@@ -14,14 +14,14 @@ namespace foretouch {
 /// Avatar joint name -> clip joint name, for names that differ.
 using JointNameMap = std::map<std::string, std::string>;
 
-/// Matched by name only; what does not match is listed, never guessed.
+/// Matches by name only; lists joints without a match, never guesses.
 struct JointMatch {
-  std::vector<JointId> clipJointOf;  ///< Per avatar joint; kNoParent where the clip has none.
+  std::vector<JointId> clipJointOf;          ///< Per avatar joint; kNoParent if the clip has none.
   std::vector<std::string> unmatchedAvatar;  ///< Avatar joints that keep their rest values.
   std::vector<std::string> unmatchedClip;    ///< Clip joints that drive nothing.
 };
 
-/// Error where no joint matches at all, or where `names` mentions a joint that neither side has.
+/// Error if no joint matches at all, or if `names` mentions a joint that neither side has.
 [[nodiscard]] Result<JointMatch> matchJoints(const Skeleton& avatar, const Skeleton& clip,
                                              const JointNameMap& names = {});
 
@@ -30,10 +30,9 @@ struct JointMatch {
 [[nodiscard]] Pose poseOfAvatar(const Skeleton& avatar, const Clip& clip, const JointMatch& match,
                                 std::size_t frame);
 
-/// Where a clip stands in the scene: first Z-up to Y-up ((x,y,z) becomes (x,z,-y)) where asked,
-/// then the rotation by `yawDeg` about +Y, then the translation `origin` (metres). Applied to
-/// roots. `origin` may carry a pose beyond kMaxCoordinate: it takes validatedPose() again before
-/// use.
+/// The place of a clip in the scene: first Z-up to Y-up ((x,y,z) becomes (x,z,-y)) if `motionUpZ`,
+/// then the rotation by `yawDeg` about +Y, then the translation `origin` (metres). Applies to
+/// roots. `origin` may move a pose beyond kMaxCoordinate: call validatedPose() again before use.
 struct Placement {
   bool motionUpZ = false;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();

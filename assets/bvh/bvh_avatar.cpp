@@ -21,14 +21,14 @@ using internal::radiusPerStature;
 constexpr double kShortestBone = 1e-4;   // of stature; below it a bone has no direction to trust
 constexpr double kUnknownRadius = 0.15;  // of the bone's length
 constexpr double kSlenderness = 0.5;     // largest radius of a limb, of the limb's length
-constexpr double kTipSkin = 0.1;         // of the radius: how far flesh reaches past an End Site
-constexpr double kFlatRest = 0.1;        // a rest pose flatter than this is no posture
+constexpr double kTipSkin = 0.1;         // of the radius: how far flesh extends past an End Site
+constexpr double kFlatRest = 0.1;        // a rest pose flatter than this is not a posture
 constexpr double kLongestPath = 1.55;    // of stature: from the toes to the other side's fingers
 constexpr double kSphereAhead = 0.9;     // of the radius: a head's centre past its joint
 
 struct Bone {
   std::size_t joint = 0;
-  std::size_t child = 0;  ///< Meaningless where `isTip`.
+  std::size_t child = 0;  ///< Meaningless if `isTip`.
   bool isTip = false;
   Eigen::Vector3d toward = Eigen::Vector3d::Zero();
   double length = 0.0;
@@ -73,7 +73,8 @@ class BodyBuilder {
   double radiusScale_;
   std::vector<BodyRole> roles_;
   std::vector<Eigen::Vector3d> offsets_;  ///< Per joint, from its parent; zero for roots.
-  std::vector<Bone> bones_;               ///< What ends at a joint stands before what starts there.
+  std::vector<Bone> bones_;               ///< Bones that end at a joint come before those that
+                                          ///< start there.
   std::vector<bool> hasChild_;
   std::vector<double> runs_;  ///< Per joint: length of the limb (joints of one role) it is part of.
   double stature_ = 0.0;
@@ -87,7 +88,7 @@ BodyBuilder::BodyBuilder(const Clip& clip, double radiusScale)
   findRuns();
 }
 
-/// Where position channels move a joint and OFFSET says nothing, the first frame says where it is.
+/// If position channels move a joint and its OFFSET is zero, takes its place from the first frame.
 void BodyBuilder::findOffsets() {
   for (std::size_t j = 0; j < size(); ++j) {
     Eigen::Vector3d offset = clip_.skeleton.restOffset(static_cast<JointId>(j));
@@ -113,8 +114,8 @@ void BodyBuilder::findBones() {
   }
 }
 
-/// From the legs, whose share of stature varies little; else from the rest pose; else, where all
-/// bones lie along one axis at rest and there is no posture, from the longest path.
+/// From the legs, whose share of stature varies little; else from the rest pose; else, if all bones
+/// lie along one axis at rest and there is no posture, from the longest path.
 void BodyBuilder::findStature() {
   stature_ = legLength() / kLegPerStature;
   if (stature_ > 0.0) return;
@@ -122,7 +123,7 @@ void BodyBuilder::findStature() {
   stature_ = second >= kFlatRest * largest ? largest : longestPath() / kLongestPath;
 }
 
-/// Hip to ankle, the mean of all legs; 0 where names tell of none.
+/// Hip to ankle, the mean of all legs; 0 if the names show none.
 double BodyBuilder::legLength() const {
   std::vector<internal::RoleBone> bones;
   bones.reserve(bones_.size());
@@ -144,7 +145,7 @@ std::pair<double, double> BodyBuilder::restExtents() const {
   };
   for (std::size_t j = 0; j < size(); ++j) {
     const std::size_t parent = parentOf(j);
-    // What carries the body is no part of its height.
+    // A joint that carries the body is not part of its height.
     if (parent != size() && roles_[parent] != BodyRole::Root) {
       positions[j] = positions[parent] + offsets_[j];
     }
@@ -229,8 +230,8 @@ Lss BodyBuilder::lssOf(const Bone& bone) const {
   return lss;
 }
 
-/// Files often end at the wrist, the ankle or the base of the skull. There a sphere stands for what
-/// follows; heads and hands continue the bone before them, feet turn away from it.
+/// Files often end at the wrist, the ankle or the base of the skull. There a sphere replaces the
+/// missing part; heads and hands continue the bone before them, feet turn away from it.
 void BodyBuilder::addTerminalSphere(std::size_t joint, std::vector<Lss>& lss) const {
   const BodyRole role = roles_[joint];
   const std::size_t parent = parentOf(joint);

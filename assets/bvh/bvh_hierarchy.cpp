@@ -39,7 +39,7 @@ class HierarchyReader {
   Result<BvhHierarchy> read();
 
  private:
-  using Outcome = std::optional<Error>;  ///< Nothing: go on.
+  using Outcome = std::optional<Error>;  ///< Nothing: continue.
 
   Outcome readOutside(const BvhWord& word);
   Outcome readInside(const BvhWord& word);
@@ -110,7 +110,7 @@ HierarchyReader::Outcome HierarchyReader::readOutside(const BvhWord& word) {
     notes_.add("line " + std::to_string(word.line) + ": a root starts with JOINT instead of ROOT");
     return openJoint(scanner_.nextName());
   }
-  // A root may lack its keyword. The name then is what stands before the brace; a word without one
+  // A root may lack its keyword. Its name is then the word before the brace; a word without a brace
   // is something else.
   if (word.text.empty() || word.text == "{" || word.text == "}" || scanner_.peek().text != "{") {
     return bvhExpected("ROOT or MOTION", word);
@@ -213,7 +213,7 @@ HierarchyReader::Outcome HierarchyReader::readChannels(const BvhWord& word) {
   if (block.hasChannels) {
     return bvhError(ErrorCode::DuplicateName, word.line, "a second CHANNELS in one block");
   }
-  if (block.hasChild) {  // the order of the columns would be anybody's guess
+  if (block.hasChild) {  // the order of the columns would be unknown
     return bvhError(ErrorCode::Syntax, word.line, "expected CHANNELS before the first child JOINT");
   }
   block.hasChannels = true;
@@ -259,7 +259,7 @@ std::string HierarchyReader::legibleName(std::string_view raw, std::int64_t line
   for (const char c : raw) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20) {
-      name += ' ';  // a tab; other control characters were refused before
+      name += ' ';  // a tab: binaryContent() refuses other control characters
     } else if (byte < 0x80 || !isLatin1) {
       name += c;
     } else if (byte < 0xa0) {
@@ -276,7 +276,7 @@ std::string HierarchyReader::legibleName(std::string_view raw, std::int64_t line
 }
 
 /// The first joint of a name keeps it, later ones become name#2, name#3, ..., skipping names that
-/// the file has of its own.
+/// the file already has.
 void HierarchyReader::makeNamesUnique() {
   auto& joints = hierarchy_.skeleton.joints;
   std::unordered_set<std::string> taken;

@@ -115,7 +115,7 @@ class MotionReader {
         rest_(restPose(clip.skeleton)),
         row_(hierarchy.numChannels) {}
 
-  /// Frames are counted by values; where lines and frames disagree, that is noted.
+  /// Counts frames by values; notes if lines and frames disagree.
   std::optional<Error> read(std::size_t maxFrames, ClipNotes& notes);
 
  private:
@@ -128,7 +128,7 @@ class MotionReader {
   Clip& clip_;
   Pose rest_;
   std::vector<double> row_;
-  std::int64_t line_ = 0;          // of the value read last
+  std::int64_t line_ = 0;          // of the last value read
   std::int64_t lastFrameEnd_ = 0;  // line
   std::int64_t oddLine_ = 0;       // the first line that does not hold exactly one frame
 };

@@ -1,7 +1,7 @@
 // assets/bvh/bvh_reader.h: BVH mocap files, with the quirks found in the wild, in bounded memory.
-// BVH has no specification; docs/formats.md lists what is accepted, what is tolerated with a note
-// and what is refused. Rotation channels compose in file order (Z X Y means Rz*Rx*Ry); position
-// channels replace the joint's OFFSET; angles are degrees in the file.
+// BVH has no specification; docs/formats.md lists what the reader accepts, tolerates with a note,
+// and refuses. Rotation channels compose in file order (Z X Y means Rz*Rx*Ry); position channels
+// replace the joint's OFFSET; angles are degrees in the file.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ struct BvhOptions {
 };
 
 /// Reads and checks a BVH file. Iterative: no recursion on the file's nesting. A clip has at least
-/// one frame; callers that need motion ask for two.
+/// one frame; callers that need motion must check for two.
 [[nodiscard]] Result<Clip> readBvhFile(const std::string& path, const BvhOptions& options = {});
 
-/// The same for text in memory; `name` stands for the file in errors. Safe on hostile input.
+/// The same for text in memory; errors name `name` as the file. Safe on hostile input.
 [[nodiscard]] Result<Clip> parseBvh(std::string_view text, const std::string& name,
                                     const BvhOptions& options = {});
 

@@ -14,8 +14,8 @@ struct WordRole {
   BodyRole role;
 };
 
-// The first word that a name holds decides, so longer words stand before those they contain
-// ("forearm" before "arm") and fingers before the hand that their names mention.
+// The first word found in a name decides, so longer words come before those they contain ("forearm"
+// before "arm") and fingers before the hand that their names mention.
 constexpr std::array<WordRole, 52> kWords = {{
     {"spine", BodyRole::Torso},       {"armature", BodyRole::Root},
     {"fingerbase", BodyRole::Hand},   {"fingers", BodyRole::Hand},
@@ -82,8 +82,8 @@ std::vector<BodyRole> bodyRoles(const Skeleton& skeleton) {
     ++children[parent];
     aboveHips[parent] = aboveHips[parent] || named[j] == BodyRole::Pelvis;
     // Biovision calls joints by their articulation: there the shoulder moves the upper arm and the
-    // hip the thigh. Elsewhere a shoulder carries an arm, and hips carry legs. A root moves no
-    // thigh.
+    // hip the thigh. Elsewhere a shoulder carries an arm, and hips carry legs. A root does not move
+    // a thigh.
     if (named[parent] == BodyRole::Clavicle && named[j] == BodyRole::Forearm) {
       roles[parent] = BodyRole::UpperArm;
     }
@@ -119,8 +119,8 @@ Legs legsOf(const std::vector<RoleBone>& bones) {
 }
 
 // Girths in centimetres, divided by 2 pi and by the mean stature of 178.2: the means of 252 men,
-// [Penrose85] (docs/formats.md). The rest is not in that table and our choice; the reasons are
-// there.
+// [Penrose85] (docs/formats.md). The rest is not in that table but our choice, with reasons in
+// docs/formats.md.
 double radiusPerStature(BodyRole role) {
   constexpr double kPerGirth = 1.0 / (2.0 * 3.14159265358979323846 * 178.2);
   switch (role) {

@@ -1,4 +1,4 @@
-// assets/bvh/bvh_roles.h: which part of a body a joint's name stands for. Internal to bvh_avatar.
+// assets/bvh/bvh_roles.h: the part of a body that a joint's name means. Internal to bvh_avatar.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace foretouch::internal {
 /// The part of the body that moves with a joint, from it towards its children.
 enum class BodyRole {
   Unknown,
-  Root,  ///< Carries the body and is no part of it ("Root" above "Hips").
+  Root,  ///< Carries the body but is not part of it ("Root" above "Hips").
   Pelvis,
   Torso,
   Neck,
@@ -26,14 +26,14 @@ enum class BodyRole {
   Toe,
 };
 
-/// One role per joint, told from its name (in the schemes of MotionBuilder, Biovision, Mixamo,
-/// Bandai and MakeHuman, any case) and, where a word has two meanings, from its children's names.
+/// One role per joint, from its name (in the schemes of MotionBuilder, Biovision, Mixamo, Bandai
+/// and MakeHuman, any case) and, if a word has two meanings, from its children's names.
 [[nodiscard]] std::vector<BodyRole> bodyRoles(const Skeleton& skeleton);
 
 /// A bone by the roles of the joints at its ends.
 struct RoleBone {
   BodyRole role = BodyRole::Unknown;
-  BodyRole next = BodyRole::Unknown;  ///< Unknown where the bone is a tip.
+  BodyRole next = BodyRole::Unknown;  ///< Unknown if the bone is a tip.
   bool isTip = false;                 ///< It ends at no joint.
   double length = 0.0;
 };

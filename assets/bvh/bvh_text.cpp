@@ -27,7 +27,7 @@ bool isDigit(char c) {
 
 /// Of a well-formed decimal number that from_chars() found out of range: is it above the largest
 /// double (else below the smallest)? The sign of the decimal exponent of its first non-zero digit
-/// tells, as the range ends near 1e308 and 1e-324.
+/// decides, because the range ends near 1e308 and 1e-324.
 bool isAboveRange(std::string_view number) {
   constexpr int kCap = 1000000;  // more than any word of kMaxBvhToken bytes can balance
   const std::size_t e = number.find_first_of("eE");
@@ -172,7 +172,7 @@ void ClipNotes::add(std::string note) {
   if (notes_.size() + 1 < kMaxClipNotes) {
     notes_.push_back(std::move(note));
   } else {
-    ++left_;  // one place is kept for the sentence that says so
+    ++left_;  // one place is reserved for the sentence that says so
   }
 }
 

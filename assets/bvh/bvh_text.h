@@ -17,19 +17,19 @@ struct BvhWord {
   std::int64_t line = 0;
 };
 
-/// ASCII letters of either case are the same: files differ in how they write keywords.
+/// Ignores the case of ASCII letters: files differ in how they write keywords.
 [[nodiscard]] bool isKeyword(std::string_view word, std::string_view lowerCaseKeyword);
 
-/// An Error at a word, without the file, which the caller of the parser knows.
+/// An Error at a word, without the file; the parser's caller adds it.
 [[nodiscard]] Error bvhError(ErrorCode code, std::int64_t line, std::string message);
 /// "expected <what>, found <word>", also at the end of the file.
 [[nodiscard]] Error bvhExpected(const std::string& what, const BvhWord& found);
 
-/// What no BVH file holds: control characters (a binary file, UTF-16), words above kMaxBvhToken.
+/// Finds content that no BVH file has: control characters (a binary file, UTF-16), words above
+/// kMaxBvhToken.
 [[nodiscard]] std::optional<Error> binaryContent(std::string_view text);
 
-/// Cuts text into words. Lines end with LF, CR LF or CR alone; a brace is a word wherever it
-/// stands.
+/// Cuts text into words. Lines end with LF, CR LF or CR alone; a brace is always a word of its own.
 class BvhScanner {
  public:
   enum class Colon { PartOfWord, Separate };
@@ -49,8 +49,8 @@ class BvhScanner {
   std::int64_t line_ = 1;
 };
 
-/// A decimal number as files write it: "1", "+.5", "1e-3". Independent of the locale.
-/// `problem` is null where it is one, else what it is instead.
+/// A decimal number as files write it: "1", "+.5", "1e-3". Independent of the locale. `problem` is
+/// null if it is one, else says what it is instead.
 struct BvhNumber {
   double value = 0.0;
   const char* problem = nullptr;
@@ -58,7 +58,7 @@ struct BvhNumber {
 };
 [[nodiscard]] BvhNumber readBvhNumber(std::string_view word);
 
-/// The next word as a finite number; `what` says in errors what it should have been.
+/// The next word as a finite number; errors say that they expected `what`.
 [[nodiscard]] Result<double> nextNumber(BvhScanner& scanner, const char* what);
 
 /// Notes for the user, at most kMaxClipNotes of them.

@@ -17,7 +17,7 @@ std::optional<double> statureOf(const Skeleton& skeleton) {
         {roles[slotOf(parent)], roles[slotOf(joint)], false, skeleton.restOffset(joint).norm()});
   }
   const internal::Legs legs = internal::legsOf(bones);
-  // A skeleton has no End Sites: where a shin ends without a foot, its length is not known.
+  // A skeleton has no End Sites: if a shin ends without a foot, its length is unknown.
   if (legs.knees == 0 || legs.ankles != legs.knees || !(legs.length > 0.0)) return std::nullopt;
   return legs.length / internal::kLegPerStature;
 }

@@ -1,4 +1,4 @@
-// assets/bvh/stature.h: how tall a person is, told from a skeleton.
+// assets/bvh/stature.h: a person's height, from a skeleton.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 namespace foretouch {
 
 /// From the length of the legs, hip to ankle, at rest (metres); so it is the same in every pose.
-/// Nothing where the joints' names tell of no legs with knees and ankles: no person, or one whose
-/// joints have other names than docs/formats.md lists.
+/// Nothing if the joints' names show no legs with knees and ankles: not a person, or one with joint
+/// names that docs/formats.md does not list.
 [[nodiscard]] std::optional<double> statureOf(const Skeleton& skeleton);
 
 }  // namespace foretouch

@@ -39,8 +39,8 @@ void addFace(const aiMesh& mesh, const aiFace& face, MeshTriangles& out) {
   }
 }
 
-/// Metres per unit. FBX alone states its unit without applying it (in centimetres); Collada's is
-/// applied by its reader, the other formats are metres or say nothing.
+/// Metres per unit. Only FBX states its unit without applying it (in centimetres). Collada's reader
+/// applies its unit; the other formats are in metres or have no unit.
 double metresPerUnit(const Assimp::Importer& importer, const aiScene& scene) {
   const int index = importer.GetPropertyInteger("importerIndex", -1);
   const aiImporterDesc* reader = index < 0 ? nullptr : importer.GetImporterInfo(slotOf(index));
@@ -55,9 +55,9 @@ double metresPerUnit(const Assimp::Importer& importer, const aiScene& scene) {
 }
 
 void setUp(Assimp::Importer& importer, Animations animations) {
-  // Files with bones and no mesh get a mesh of bones otherwise, a surface that nobody drew.
+  // Otherwise files with bones and no mesh get a mesh of bones, a surface that nobody drew.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  // What is not read cannot break.
+  // Parts that we do not read cannot fail.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, animations == Animations::Read);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_TEXTURES, false);
 }
@@ -65,7 +65,7 @@ void setUp(Assimp::Importer& importer, Animations animations) {
 }  // namespace
 
 AssimpFile readWithAssimp(const std::string& path, Animations animations) {
-  // Never destroyed: assimp frees its tree by recursion, and a deep one that was read well must not
+  // Never destroyed: assimp frees its tree recursively, and a deep tree read without error must not
   // crash afterwards.
   Assimp::Importer& importer = *new Assimp::Importer;
   setUp(importer, animations);
@@ -77,9 +77,9 @@ AssimpFile readWithAssimp(const std::string& path, Animations animations) {
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr) {
     const std::string reason = importer.GetErrorString();
-    // assimp catches its own failed allocations and leaves their name.
+    // assimp catches its own failed allocations and reports their name.
     const bool outOfMemory = reason.find("bad_alloc") != std::string::npos;
-    const auto damage = damageOf(path);  // a count that lies may be what took the memory
+    const auto damage = damageOf(path);  // a false count may have taken the memory
     if (outOfMemory && !damage) throw Failure{ImportFailure::OutOfMemory, reason};
     throw Failure{ImportFailure::Refused, damage.value_or(reason)};
   }

@@ -1,5 +1,5 @@
-// assets/import/faults.h: what is wrong with a damaged file: where, what was expected, what was
-// found. In foretouch-import only. Not installed.
+// assets/import/faults.h: the faults of a damaged file: place, expectation, finding. In
+// foretouch-import only. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace foretouch::internal {
 
-/// The first few faults of a file, in the order of finding.
+/// The first few faults of a file, in the order found.
 class Faults {
  public:
   /// `place` is a byte, a line or a path of keys; both texts are safe to show.
@@ -20,7 +20,7 @@ class Faults {
   }
 
   [[nodiscard]] bool isFull() const { return count_ == kMost; }
-  /// In one sentence; empty where there are none.
+  /// In one sentence; empty if there are none.
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:

@@ -37,7 +37,7 @@ std::optional<std::string> damageOf(const std::string& path) {
     if (isXml(extension)) damage = damageOfXmlFile(path);
     if (!damage.empty()) return damage;
   } catch (const std::exception&) {
-    // Out of memory, say: the reader's own reason has to do.
+    // Out of memory, for example: the reader's own reason must do.
   }
   return std::nullopt;
 }
@@ -46,7 +46,7 @@ std::optional<std::string> hopelessDamageOf(const std::string& path) {
   try {
     if (lowerExtensionOf(path) == ".glb" && isGlbWithoutItsJson(path)) return damageOf(path);
   } catch (const std::exception&) {
-    // Not readable: for the reader to say.
+    // Not readable: the reader reports that.
   }
   return std::nullopt;
 }

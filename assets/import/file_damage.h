@@ -1,6 +1,6 @@
-// assets/import/file_damage.h: why a file was refused, told from the file itself. Where a
-// reader of assimp refuses a damaged file, others try theirs, and the last one's reason is what
-// assimp hands on ("No suitable reader found"). In foretouch-import only. Not installed.
+// assets/import/file_damage.h: finds in a refused file itself the reason for the refusal. When one
+// of assimp's readers refuses a damaged file, assimp tries the others, and reports the last one's
+// reason ("No suitable reader found"). In foretouch-import only. Not installed.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace foretouch::internal {
 
-/// What is wrong and where; nothing where no damage is found, or the format (.glb, .gltf, and those
-/// of XML) is not looked into. To be asked of refused files only: what a reader puts up with is no
-/// reason to refuse a file.
+/// The damage and its place; nothing if there is none, or if the format is not .glb, .gltf or one
+/// of those in XML. Call it for refused files only: damage that a reader tolerates is no reason to
+/// refuse a file.
 [[nodiscard]] std::optional<std::string> damageOf(const std::string& path);
 
-/// The same, to be asked before a reader is: of damage that no reader could put up with, and on
-/// which assimp would spend much memory first.
+/// The same, before a reader runs: only damage that no reader could tolerate, and on which assimp
+/// would first spend much memory.
 [[nodiscard]] std::optional<std::string> hopelessDamageOf(const std::string& path);
 
 }  // namespace foretouch::internal

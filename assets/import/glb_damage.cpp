@@ -23,13 +23,13 @@ namespace {
 
 using nlohmann::json;
 
-/// Parsed, a text takes about ten times its size: more is not looked into.
+/// A parsed text takes about ten times its size: does not examine larger ones.
 constexpr std::uint64_t kMaxJsonBytes = 64U << 20;
 
 constexpr std::uint64_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
-/// As four characters where they are some, else as numbers.
+/// As four characters if they are printable, else as numbers.
 std::string wordText(std::uint32_t word) {
   std::array<char, 4> bytes{};
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(word >> (8 * i));
@@ -40,7 +40,7 @@ std::string expected(const std::string& what, const std::string& found) {
   return "expected " + what + ", found " + found;
 }
 
-/// A chunk as its header tells it.
+/// A chunk, from its header.
 struct Chunk {
   std::uint64_t offset = 0;  ///< Of the header.
   std::uint32_t length = 0, type = 0;
@@ -60,7 +60,7 @@ class Glb {
            Chunk{kHeaderBytes, wordAt(kHeaderBytes), 0}.end() > size_;
   }
 
-  /// False where no JSON can be looked for.
+  /// False if it cannot look for JSON.
   bool checkContainer(Faults& faults) {
     if (size_ < kHeaderBytes + kChunkHeaderBytes) {
       faults.add(byteAt(0), expected("a header of 12 bytes and one of a chunk of 8 bytes",
@@ -83,7 +83,7 @@ class Glb {
     return true;
   }
 
-  /// What there is of the JSON chunk; nothing where it is too large.
+  /// The JSON chunk, as far as present; nothing if it is too large.
   std::optional<std::string> text() {
     const std::uint64_t count = std::min(json_.end(), size_) - json_.begin();
     if (count > kMaxJsonBytes) return std::nullopt;
@@ -95,7 +95,7 @@ class Glb {
 
   [[nodiscard]] std::uint64_t textBegin() const { return json_.begin(); }
 
-  /// The bytes of the second chunk; nothing where there is none.
+  /// The bytes of the second chunk; nothing if there is none.
   std::optional<std::uint64_t> binaryBytes(Faults& faults) {
     if (json_.end() >= size_) return std::nullopt;
     if (size_ - json_.end() < kChunkHeaderBytes) {
@@ -132,7 +132,7 @@ class Glb {
     return chunk;
   }
 
-  /// Little-endian; 0 where the file does not hold it.
+  /// Little-endian; 0 if the file is too short.
   std::uint32_t wordAt(std::uint64_t offset) {
     std::array<unsigned char, 4> bytes{};
     file_.seekg(static_cast<std::streamoff>(offset));
@@ -146,7 +146,7 @@ class Glb {
   Chunk json_;
 };
 
-/// Of the parser's text, what is free of the file's bytes: "unexpected ','; expected string
+/// The part of the parser's text that is free of the file's bytes: "unexpected ','; expected string
 /// literal".
 std::string reasonIn(std::string_view what) {
   const std::size_t begin = what.find(" - ");
@@ -175,12 +175,12 @@ std::string placeOf(std::string_view text, std::size_t at, std::uint64_t textBeg
   return "line " + std::to_string(line) + ", column " + std::to_string(1 + at - lineStart);
 }
 
-/// Nothing where it cannot be parsed, which is then among the faults.
+/// Nothing if it cannot be parsed, which it then adds to the faults.
 std::optional<json> parsed(const std::string& text, std::uint64_t textBegin, Faults& faults) {
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {
-    // It counts the bytes that it has taken, the one that it objects to among them.
+    // It counts the bytes taken, including the offending one.
     const std::size_t at = std::min(error.byte - std::min<std::size_t>(error.byte, 1), text.size());
     faults.add(placeOf(text, at, textBegin), reasonIn(error.what()) + ", near " + near(text, at));
   } catch (const json::exception& error) {
@@ -192,7 +192,7 @@ std::optional<json> parsed(const std::string& text, std::uint64_t textBegin, Fau
 
 void checkDocument(const json& document, const GltfSources& sources, Faults& faults) {
   checkRules(document, faults);
-  // The rest means something only where indices and counts do.
+  // The rest makes sense only if indices and counts do.
   if (!faults.text().empty()) return;
   checkExtents(document, sources, faults);
   checkUses(document, faults);

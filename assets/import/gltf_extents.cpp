@@ -46,7 +46,7 @@ std::string decodedUri(std::string_view uri) {
   return name;
 }
 
-/// How many bytes the digits of a data URI stand for; nothing where it is not in base64.
+/// The number of bytes in a data URI; nothing if it is not in base64.
 std::optional<std::uint64_t> dataBytes(std::string_view uri) {
   const std::size_t comma = uri.find(',');
   const std::string_view head = uri.substr(0, comma);

@@ -1,6 +1,6 @@
-// assets/import/gltf_extents.h: whether the parts of a glTF file lie where its JSON says that
-// they do: accessors in buffer views, these in buffers, and these in bytes that are there. Source:
-// Khronos, "glTF 2.0 Specification", "Binary Data Storage". In foretouch-import only.
+// assets/import/gltf_extents.h: whether the parts of a glTF file lie where its JSON says: accessors
+// in buffer views, these in buffers, and these in existing bytes. Source: Khronos, "glTF 2.0
+// Specification", "Binary Data Storage". In foretouch-import only.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@
 
 namespace foretouch::internal {
 
-/// Where the bytes of buffers come from.
+/// The source of the buffers' bytes.
 struct GltfSources {
   bool isBinary = false;                     ///< A GLB file.
   std::optional<std::uint64_t> binaryBytes;  ///< Of its second chunk.
   std::string folder;                        ///< Where side files are.
 };
 
-/// Of an accessor's "componentType"; 0 for none that there is.
+/// Of an accessor's "componentType"; 0 if it does not exist.
 [[nodiscard]] std::uint64_t componentBytes(const nlohmann::json& componentType);
 
 struct ElementShape {
   std::uint64_t rows = 0, columns = 0;
 };
-/// Of an accessor's "type"; 0 for none that there is.
+/// Of an accessor's "type"; 0 if it does not exist.
 [[nodiscard]] ElementShape elementShape(const nlohmann::json& type);
 
 /// Precondition: checkRules() found nothing. Faults are at paths of keys.

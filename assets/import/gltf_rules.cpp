@@ -24,7 +24,7 @@ enum class Kind : std::uint8_t {
   Number4,
   Number16,
   Index,       ///< The number of an element of `target`, a list at the root.
-  LocalIndex,  ///< The same, of a list of the animation at hand.
+  LocalIndex,  ///< The same, in a list of the current animation.
   Version,
   Mode,
   ComponentType,
@@ -33,14 +33,14 @@ enum class Kind : std::uint8_t {
 };
 
 struct Rule {
-  /// Keys from the root on; * stands for every element of a list, or every value of an object.
+  /// Keys from the root on; * matches every element of a list, or every value of an object.
   std::string_view path;
   Kind kind;
   bool isRequired = false;
   std::string_view target = {};
 };
 
-// Readers stumble over what is here. Colours and images are in so far as numbers lead to them.
+// Parts that readers depend on. Colours and images only as far as indices lead to them.
 constexpr Rule kRules[] = {
     {"asset", Kind::Object, true},
     {"asset/version", Kind::Version, true},
@@ -120,10 +120,10 @@ constexpr Rule kRules[] = {
     {"materials/*/emissiveTexture/index", Kind::Index, true, "textures"},
 };
 
-/// A value, or where one is missing, with the path of keys that leads there.
+/// A value, or a missing one, with the path of keys that leads there.
 struct Visited {
   std::string place;
-  const json* value;      ///< Null where the key is missing.
+  const json* value;      ///< Null if the key is missing.
   const json* animation;  ///< Around it, if there is one.
 };
 
@@ -202,7 +202,7 @@ std::string numberOf(std::size_t size, std::string_view list) {
   return "the number of one of the " + std::to_string(size) + " " + std::string(list);
 }
 
-/// What is expected where `value` is not it; empty where it is.
+/// The expectation, if `value` does not meet it; else empty.
 std::string unmet(const Rule& rule, const Visited& visited, const json& document) {
   const json& value = *visited.value;
   const auto unless = [](bool isMet, const std::string& text) { return isMet ? "" : text; };

@@ -1,6 +1,6 @@
-// assets/import/gltf_rules.h: what the JSON of a glTF file must hold for a reader to go on: the
-// keys that are required, their types, and numbers that name other things of the file. Source:
-// Khronos, "glTF 2.0 Specification", "Properties Reference". In foretouch-import only.
+// assets/import/gltf_rules.h: the rules that a glTF file's JSON must meet before a reader
+// continues: required keys, their types, and indices of other parts of the file. Source: Khronos,
+// "glTF 2.0 Specification", "Properties Reference". In foretouch-import only.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -16,7 +16,7 @@ bool begins(std::string_view text, std::string_view with) {
   return text.substr(0, with.size()) == with;
 }
 
-/// Empty where any type will do.
+/// Empty if any type will do.
 std::string_view typeOfAttribute(std::string_view name) {
   if (name == "POSITION" || name == "NORMAL") return "VEC3";
   if (name == "TANGENT" || begins(name, "JOINTS_") || begins(name, "WEIGHTS_")) return "VEC4";
@@ -67,7 +67,7 @@ class Uses {
     }
   }
 
-  /// Points and lines need fewer, and are no surface either.
+  /// Points and lines need fewer, and have no surface.
   void checkCorners(const json& part, const std::string& place) {
     constexpr std::uint64_t kTriangles = 4;
     const bool isIndexed = part.contains("indices");

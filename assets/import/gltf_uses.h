@@ -1,5 +1,5 @@
-// assets/import/gltf_uses.h: whether the accessors of a glTF file are of the type that their
-// users need: positions three numbers, inverse bind matrices sixteen. Source: Khronos, "glTF 2.0
+// assets/import/gltf_uses.h: whether the accessors of a glTF file have the type that their users
+// need: three numbers for positions, sixteen for inverse bind matrices. Source: Khronos, "glTF 2.0
 // Specification", "Meshes", "Skins", "Animations". In foretouch-import only. Not installed.
 #pragma once
 

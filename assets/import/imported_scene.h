@@ -1,4 +1,4 @@
-// assets/import/imported_scene.h: what a scene is imported with, and what comes of it.
+// assets/import/imported_scene.h: the options and the result of importing a scene.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,23 @@ namespace foretouch {
 enum class UpAxis : std::uint8_t { Y, Z };
 
 struct SceneImportOptions {
-  double scale = 1.0;     ///< Metres per unit of what assimp hands over. Finite, > 0.
+  double scale = 1.0;     ///< Metres per unit of assimp's output. Finite, > 0.
   UpAxis up = UpAxis::Y;  ///< Z: turned in, (x,y,z) becomes (x,z,-y). Scale and turn commute.
   std::size_t memoryLimitBytes = std::size_t{8} << 30;  ///< Address space of the child.
   double timeLimitS = 300.0;                            ///< Wall and CPU time of the child.
   std::string importer;  ///< Path of foretouch-import; empty: $FORETOUCH_IMPORTER, else beside the
-                         ///< running program, else where it was installed.
+                         ///< running program, else at its installation path.
 };
 
-/// What the file held besides triangles.
+/// The file's content besides triangles.
 struct SceneImportReport {
   std::size_t nodes = 0;          ///< Nodes of the file's tree.
   std::size_t meshInstances = 0;  ///< Placements of meshes by nodes.
   std::size_t uniqueMeshes = 0;
-  std::size_t skippedPrimitives = 0;  ///< Points and lines, once a placement: they have no surface.
-  std::size_t skippedFaces = 0;       ///< Faces with vertex indices out of range, once a placement.
+  std::size_t skippedPrimitives = 0;  ///< Points and lines, once per placement: they have no
+                                      ///< surface.
+  std::size_t skippedFaces = 0;       ///< Faces with vertex indices out of range, once per
+                                      ///< placement.
 };
 
 struct ImportedScene {

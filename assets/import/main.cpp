@@ -1,4 +1,4 @@
-// foretouch-import: reads a model file and writes what it holds to standard output: its triangles
+// foretouch-import: reads a model file and writes its content to standard output: its triangles
 // (assets/import/protocol.h), or with --model its nodes, meshes, bones and animations
 // (assets/import/model_stream.h). A helper of the library, run as a child under limits that its
 // parent sets; the only program that links assimp and urdfdom.
@@ -41,7 +41,7 @@ bool sendModel(const ModelQuestion& question, ModelWriter& writer) {
 /// The exit status.
 template <typename Writer, typename Send>
 int answer(Send send) {
-  // Standard output is kept for the stream; what the libraries print goes to stderr.
+  // Reserves standard output for the stream; the libraries' output goes to stderr.
   const int output = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   if (output < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
     std::perror("foretouch-import: standard output");
@@ -60,7 +60,7 @@ int answer(Send send) {
   return 1;
 }
 
-/// Nothing where the arguments are no question about a model.
+/// Nothing if the arguments do not ask for a model.
 std::optional<ModelQuestion> modelQuestion(int argc, char** argv) {
   if (argc < 3 || std::string_view(argv[1]) != "--model") return std::nullopt;
   ModelQuestion question;

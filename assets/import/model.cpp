@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// assimp leaves 0 where a format states no rate; 25 is the rate its own tools then use.
+// assimp leaves 0 if a format states no rate; its own tools then use 25.
 constexpr double kDefaultTicksPerSecond = 25.0;
 
 std::string textOf(const aiString& text) {
@@ -81,8 +81,8 @@ class AssimpModel {
     if (named.hasMesh && !hasMesh) named = {index, false, named.count};
   }
 
-  /// -1 where there is none. assimp refers to nodes by name alone; exporters name a mesh like the
-  /// bone that it belongs to, so a node without a mesh is the likelier one.
+  /// -1 if there is none. assimp refers to nodes by name alone; exporters name a mesh like the bone
+  /// that it belongs to, so a node without a mesh is more likely.
   std::int32_t nodeNamed(const std::string& name, const char* what) {
     const auto found = nodesOfName_.find(name);
     if (found == nodesOfName_.end()) {

@@ -1,5 +1,5 @@
-// assets/import/model.h: a model as assimp or a URDF tells it, and what both keep count of
-// while they build it. In foretouch-import only. Not installed.
+// assets/import/model.h: a model from assimp or a URDF, and the counts that both keep while they
+// build it. In foretouch-import only. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,19 @@
 
 namespace foretouch::internal {
 
-/// What the parent asks for beside the file.
+/// The parent's request.
 struct ModelQuestion {
   std::string path;
   bool visual = false;  ///< Of a URDF: its visual description rather than its collision one.
   std::vector<std::string> packagePaths;
 };
 
-/// A model in the making that stays within the limits: each part is counted before it is added.
+/// A model under construction, within the limits: count each part before you add it.
 class ModelBuilder {
  public:
-  /// Throws Failure (assets/import/assimp.h) where the limits do not allow `more`.
+  /// Throws Failure (assets/import/assimp.h) if the limits do not allow `more`.
   void count(const ModelSize& more);
-  /// Keeps the first few distinct notes; the last one says how many were left out.
+  /// Keeps the first few distinct notes; the last one says how many others there were.
   void note(const std::string& text);
   [[nodiscard]] Model take();
 
@@ -34,7 +34,7 @@ class ModelBuilder {
   std::uint64_t notesLeftOut_ = 0;
 };
 
-/// Metres, the file's unit applied to lengths. Throw Failure.
+/// Metres: converts lengths from the file's unit. Throw Failure.
 [[nodiscard]] Model readModel(const ModelQuestion& question);
 [[nodiscard]] Model readUrdf(const ModelQuestion& question);
 

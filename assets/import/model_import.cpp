@@ -26,7 +26,7 @@ std::vector<std::string> argumentsFor(const std::string& path, const ModelImport
   return arguments;
 }
 
-/// Every length; frames and scales of nodes stay as they are.
+/// Scales every length; frames and scales of nodes stay as they are.
 void scaleLengths(Model& model, double scale) {
   for (ModelNode& node : model.nodes) {
     node.toParent.translation *= scale;

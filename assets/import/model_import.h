@@ -1,6 +1,6 @@
 // assets/import/model_import.h: rigged models from files: every format with bones or nodes that
-// assimp reads, and URDF. Read in the same child process, under the same limits, as scenes
-// (assets/import/scene_import.h); what it hands back is checked like any other untrusted data.
+// assimp reads, and URDF. Reads them in the same child process, under the same limits, as scenes
+// (assets/import/scene_import.h), and checks its output like any other untrusted data.
 #pragma once
 
 #include <string>
@@ -18,12 +18,12 @@ enum class UrdfSurface : std::uint8_t { Collision, Visual };
 struct ModelImportOptions {
   SceneImportOptions import;  ///< scale, up, limits and the importer's place, as for scenes.
   UrdfSurface urdfSurface = UrdfSurface::Collision;
-  /// Folders in which package://NAME/... is looked for, as FOLDER/NAME/... and FOLDER/...; the
-  /// URDF's own folder and its parents are tried after them.
+  /// Folders to search for package://NAME/..., as FOLDER/NAME/... and FOLDER/...; after them the
+  /// URDF's own folder and its parents.
   std::vector<std::string> packagePaths;
 };
 
-/// The model, in metres and +Y up (the turn and the scale are applied to roots' transforms and to
+/// The model, in metres and +Y up (the turn and the scale apply to roots' transforms and to
 /// lengths, so that the frames of nodes are free of them). Never throws, never crashes with the
 /// file, never leaves a child process behind.
 [[nodiscard]] Result<Model> importModel(const std::string& path,

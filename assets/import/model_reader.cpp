@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// No single count can make a sum of them wrap around.
+// Low enough that no sum of counts wraps around.
 constexpr std::uint64_t kSaneCount = std::uint64_t{1} << 32;
 
 bool isFinite(const Affine& affine) {
@@ -126,7 +126,7 @@ void ModelReader::parseMesh(std::string_view payload) {
 }
 
 void ModelReader::parseVertices(std::string_view payload) {
-  // Nothing is left before the first mesh, so there is one where anything is.
+  // Before the first mesh `left_` is empty, so if anything is left there is a mesh.
   parseAll<VectorRecord>(payload, left_.vertices, [this](const VectorRecord& r) {
     model_.meshes.back().vertices.emplace_back(r[0], r[1], r[2]);
     return true;

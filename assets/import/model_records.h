@@ -1,4 +1,4 @@
-// assets/import/model_records.h: how the numbers of a model lie in its stream's frames
+// assets/import/model_records.h: the layout of a model's numbers in its stream's frames
 // (assets/import/model_stream.h). No record has padding. Not installed.
 #pragma once
 

@@ -1,10 +1,10 @@
-// assets/import/model_stream.h: the stream in which foretouch-import hands a model to its
-// parent. Not installed.
+// assets/import/model_stream.h: the stream in which foretouch-import sends a model to its parent.
+// Not installed.
 //
-// In the frames of assets/import/stream.h: nodes, parents first; then each mesh, its vertices,
-// its triangles and its bones, each bone with its weights; then each animation, its tracks, each
-// with its keys; then notes. What holds others states their number first; the trailer counts the
-// frames.
+// In the frames of assets/import/stream.h: nodes, parents first; then each mesh, its vertices, its
+// triangles and its bones, each bone with its weights; then each animation, its tracks, each with
+// its keys; then notes. Every container states the number of its parts first; the trailer counts
+// the frames.
 #pragma once
 
 #include <cstdint>
@@ -18,26 +18,25 @@
 namespace foretouch::internal {
 
 inline constexpr std::size_t kMaxModelNodes = 65536;
-inline constexpr std::size_t kMaxModelNameBytes = kMaxNameBytes;  // one, as handed on
+inline constexpr std::size_t kMaxModelNameBytes = kMaxNameBytes;  // each, as sent
 inline constexpr std::size_t kMaxModelNotes = 64;
 inline constexpr std::size_t kMaxModelNoteBytes = 512;
 
-/// How much of everything a model holds.
+/// The sizes of a model's parts.
 struct ModelSize {
   std::uint64_t nodes = 0, lss = 0, meshes = 0, vertices = 0, triangles = 0, bones = 0, weights = 0;
   std::uint64_t animations = 0, tracks = 0, keys = 0, nameBytes = 0, notes = 0;
 
-  /// What there is more of than the limits allow, such as "more than 65536 nodes"; empty where
-  /// all is within them.
+  /// The part that exceeds its limit, such as "more than 65536 nodes"; empty if none does.
   [[nodiscard]] std::string excess() const;
 };
 
-/// The child's end. Names are handed on as they are: the parent cleans them.
+/// The child's end. Sends names unchanged: the parent cleans them.
 class ModelWriter : public FrameWriter {
  public:
   using FrameWriter::FrameWriter;
 
-  /// Precondition: the model is within the limits. False where any byte could not be handed over.
+  /// Precondition: the model is within the limits. False if any byte could not be sent.
   bool write(const Model& model);
 
  private:
@@ -52,14 +51,14 @@ class ModelWriter : public FrameWriter {
 };
 
 /// The parent's end. Complete: take() the model, in which parents come before children, indices are
-/// in range, frames and LSS are finite, names and notes are readable. Memory grows with the bytes
-/// received, whatever the counts promise.
+/// in range, frames and LSS are finite, names and notes are readable. Memory grows with the
+/// received bytes, whatever the counts promise.
 class ModelReader : public FrameReader {
  public:
   [[nodiscard]] Model take() { return std::move(model_); }
 
  private:
-  /// What was promised and has not arrived.
+  /// The promised parts that have not arrived.
   struct Left {
     std::uint64_t vertices = 0, triangles = 0, bones = 0, weights = 0;
     std::uint64_t tracks = 0, positions = 0, scales = 0, rotations = 0;
@@ -84,8 +83,8 @@ class ModelReader : public FrameReader {
   void parseRotations(std::string_view payload);
   void parseNote(std::string_view payload);
 
-  /// Hands each record to `take`, which returns false for one that cannot be; breaks off then, and
-  /// where there are more than are left.
+  /// Passes each record to `take`, which returns false for an impossible one; breaks off then, and
+  /// if there are more records than `left`.
   template <typename Record, typename Take>
   void parseAll(std::string_view payload, std::uint64_t& left, Take take);
   /// The name at the end of a record, counted.

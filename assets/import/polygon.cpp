@@ -10,8 +10,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// The vector area, which is right for concave polygons and a fair mean where the corners share no
-/// plane. Taken from a corner and not from the origin: far from it, products would eat the digits.
+/// The vector area, which is right for concave polygons and a fair mean if the corners share no
+/// plane. Relative to a corner, not to the origin: far from it, products would lose the digits.
 Vector3d meanNormal(const std::vector<Vector3d>& corners) {
   Vector3d normal = Vector3d::Zero();
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
@@ -20,8 +20,8 @@ Vector3d meanNormal(const std::vector<Vector3d>& corners) {
   return normal;
 }
 
-/// The corners along the axis that the normal is nearest to, counter-clockwise; empty where there
-/// is no normal.
+/// The corners along the axis that the normal is nearest to, counter-clockwise; empty if there is
+/// no normal.
 std::vector<Vector2d> flattened(const std::vector<Vector3d>& corners) {
   const Vector3d normal = meanNormal(corners);
   Eigen::Index drop = 0;
@@ -38,7 +38,7 @@ double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// A polygon that loses one corner after another.
+/// A polygon that loses corner after corner.
 class Clipper {
  public:
   explicit Clipper(std::vector<Vector2d> corners) : corners_(std::move(corners)) {

@@ -28,9 +28,9 @@ using Clock = std::chrono::steady_clock;
 constexpr rlim_t kMaxOpenFiles = 64;
 constexpr std::size_t kReadBytes = std::size_t{64} << 10;  // a pipe's capacity by default
 constexpr std::size_t kErrorOutputBytes = 4096;
-// How long a process whose output has ended may take to end itself, so that we learn how.
+// How long a process may live after its output ended, so that we learn how it ends.
 constexpr std::chrono::milliseconds kGrace{2000};
-// How often a silent process is looked after: its output may be held open by one that it left.
+// How often we check a silent process: a process that it left behind may hold its output open.
 constexpr std::chrono::milliseconds kCheckInterval{100};
 constexpr int kExecFailed = 127;
 
@@ -54,8 +54,8 @@ class Descriptor {
   int fd_ = -1;
 };
 
-/// A host may have closed its standard streams; what it opens next gets their numbers, and the
-/// child is going to overwrite those. So everything meant for the child is moved above them.
+/// A host may have closed its standard streams; then the next descriptors get their numbers, and
+/// the child will overwrite those. So this moves every descriptor for the child above them.
 Descriptor aboveStandardStreams(int fd) {
   Descriptor original(fd);
   if (fd < 0 || fd > STDERR_FILENO) return original;
@@ -75,7 +75,7 @@ struct Pipe {
   }
 };
 
-/// What leads to the child. `exec` carries the errno of a failed start, or closes on success.
+/// Pipes to the child. `exec` carries the errno of a failed start, or closes on success.
 struct Channels {
   Pipe output, errors, exec;
   Descriptor nullInput;
@@ -93,7 +93,7 @@ struct Channels {
 };
 
 /// Everything the child needs, made before fork: after it only async-signal-safe calls are allowed,
-/// as another thread may hold the allocator's lock for ever.
+/// because another thread may hold the allocator's lock for ever.
 struct ChildPlan {
   const char* program;
   char* const* arguments;
@@ -112,14 +112,16 @@ bool limitTo(decltype(RLIMIT_CPU) resource, rlim_t soft, rlim_t hard) {
 bool setLimits(const ChildPlan& plan) {
   return limitTo(RLIMIT_CORE, 0, 0) && (kUnderSanitizer || limitTo(RLIMIT_FSIZE, 0, 0)) &&
          limitTo(RLIMIT_NOFILE, kMaxOpenFiles, kMaxOpenFiles) &&
-         // SIGXCPU at the soft limit tells a timeout from other deaths; a second later, SIGKILL.
+         // SIGXCPU at the soft limit distinguishes a timeout from other deaths; a second later,
+         // SIGKILL.
          limitTo(RLIMIT_CPU, plan.cpuSeconds, plan.cpuSeconds + 1) &&
          prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
-         // Last: while we are a copy of a large parent, no page can be added any more.
+         // Last: from here on, as a copy of a large parent, we may get no more pages.
          (kUnderSanitizer || limitTo(RLIMIT_AS, plan.addressSpaceBytes, plan.addressSpaceBytes));
 }
 
-/// Handlers of the host must not run in the child, and what it ignores or blocks must work there.
+/// The host's handlers must not run in the child, and signals that it ignores or blocks must work
+/// there.
 void resetSignals() {
   struct sigaction standard {};
   standard.sa_handler = SIG_DFL;
@@ -131,27 +133,27 @@ void resetSignals() {
 
 [[noreturn]] void reportAndExit(int exec) {
   const int error = errno;
-  // Nothing is left to be done where even this fails: the parent then sees the status alone.
+  // If even this fails, the parent sees only the status.
   const ssize_t written = write(exec, &error, sizeof error);
   _exit(written == sizeof error ? kExecFailed : kExecFailed - 1);
 }
 
 [[noreturn]] void becomeImporter(const ChildPlan& plan) {
   resetSignals();
-  setpgid(0, 0);  // so that what it starts can be killed with it
+  setpgid(0, 0);  // so that its children can be killed with it
   prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
-  if (getppid() != plan.parent) _exit(kExecFailed);  // it died before the line above
+  if (getppid() != plan.parent) _exit(kExecFailed);  // the parent died before the line above
   const bool ready = dup2(plan.nullInput, STDIN_FILENO) >= 0 &&
                      dup2(plan.output, STDOUT_FILENO) >= 0 && dup2(plan.errors, STDERR_FILENO) >= 0;
-  // Descriptors that the host forgot to mark would otherwise be open to a model file's exploit. Old
-  // kernels lack the call; the host's marks then have to do.
+  // Otherwise a model file's exploit could use descriptors that the host forgot to mark. Old
+  // kernels lack the call; then the host's marks must do.
   close_range(STDERR_FILENO + 1, UINT_MAX, CLOSE_RANGE_CLOEXEC);
   if (!ready || !setLimits(plan)) reportAndExit(plan.exec);
   execve(plan.program, plan.arguments, environ);
   reportAndExit(plan.exec);
 }
 
-/// A child that is killed and collected at the latest when this goes out of scope.
+/// A child, killed and collected at the latest by the destructor.
 class Child {
  public:
   explicit Child(pid_t pid) : pid_(pid) {}
@@ -159,8 +161,8 @@ class Child {
   Child& operator=(const Child&) = delete;
   ~Child() { kill(); }
 
-  /// Collects the child if it ended by itself before `deadline`; sleeps in short naps, as waiting
-  /// for one child with a timeout needs SIGCHLD, which belongs to the host.
+  /// Collects the child if it ended by itself before `deadline`; sleeps in short naps, because
+  /// waiting for one child with a timeout needs SIGCHLD, which belongs to the host.
   bool endsBefore(Clock::time_point deadline) {
     while (!collect(WNOHANG)) {
       if (Clock::now() >= deadline) return false;
@@ -170,10 +172,10 @@ class Child {
     return true;
   }
 
-  /// Kills what is left of it and of the processes it started, and collects it.
+  /// Kills it and the processes it started, and collects it.
   void kill() {
     if (collected_) return;
-    if (look(WNOHANG).ours) {  // else the number may be a stranger's by now
+    if (look(WNOHANG).ours) {  // else the number may belong to another process by now
       ::kill(-pid_, SIGKILL);
       ::kill(pid_, SIGKILL);  // it may not have its group yet
     }
@@ -190,8 +192,8 @@ class Child {
     bool ours, ended;
   };
 
-  /// Looks without collecting: as long as the child is a zombie its group's number is its own, and
-  /// processes it left behind can be killed without hitting strangers.
+  /// Looks without collecting: while the child is a zombie, its group's number is its own, so we
+  /// can kill processes it left behind without hitting others.
   [[nodiscard]] Look look(int options) const {
     siginfo_t info{};
     int result = 0;
@@ -221,7 +223,7 @@ class Child {
 };
 
 /// Forks with every signal blocked, so that no handler of the host runs in the child. -1 with errno
-/// set where that failed.
+/// set if that fails.
 pid_t start(const std::string& program, std::vector<std::string> arguments,
             const ProcessLimits& limits, const Channels& channels) {
   arguments.insert(arguments.begin(), program);  // a copy: execve() wants them writable
@@ -253,8 +255,8 @@ int millisecondsUntil(Clock::time_point deadline, std::chrono::milliseconds atMo
   return static_cast<int>(std::clamp(left, std::chrono::milliseconds(0), atMost).count());
 }
 
-/// The errno of a start that failed; 0 where the program runs. The pipe closes at exec, but only
-/// when no other fork of the host holds a copy of it: hence the deadline and the look at the child.
+/// The errno of a failed start; 0 if the program runs. The pipe closes at exec, but only if no
+/// other fork of the host has a copy of it: hence the deadline and the check of the child.
 int startError(const Descriptor& exec, const Child& child, Clock::time_point deadline) {
   for (;;) {
     pollfd fd{exec.get(), POLLIN, 0};
@@ -293,9 +295,9 @@ class Streams {
   ReadEnd run(const Child& child, Clock::time_point deadline,
               const std::function<bool(std::string_view)>& take) {
     while (Clock::now() < deadline) {
-      // A closed stream is -1, which poll() passes over.
+      // A closed stream is -1, which poll() ignores.
       std::array<pollfd, 2> fds{{{output_.get(), POLLIN, 0}, {errors_.get(), POLLIN, 0}}};
-      const bool ended = child.hasEnded();  // asked first: what it wrote is in the pipe by then
+      const bool ended = child.hasEnded();  // first: its output is in the pipe by then
       const int ready = poll(fds.data(), fds.size(), millisecondsUntil(deadline, kCheckInterval));
       if (ready == 0 && ended) return ReadEnd::Closed;
       if (ready <= 0) continue;  // a timeout, or EINTR
@@ -308,7 +310,7 @@ class Streams {
     return ReadEnd::Deadline;
   }
 
-  /// What the ended process still left in the pipe, at most the pipe's capacity.
+  /// Reads the ended process's last output, at most the pipe's capacity.
   void drainErrors() {
     for (std::size_t drained = 0; errors_.isOpen() && drained < 16 * kReadBytes;) {
       const std::size_t count = readErrors();
@@ -324,7 +326,7 @@ class Streams {
     return bytes.size();
   }
 
-  /// What is there, possibly nothing; closes the stream at its end.
+  /// Reads the available bytes, possibly none; closes the stream at its end.
   std::string_view readSome(Descriptor& stream) {
     const ssize_t count = read(stream.get(), buffer_.data(), buffer_.size());
     if (count > 0) return {buffer_.data(), countOf(count)};

@@ -1,4 +1,4 @@
-// assets/import/process.h: one untrusted program run to its end, under limits. Not installed.
+// assets/import/process.h: runs one untrusted program to its end, under limits. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace foretouch::internal {
 
 /// The sanitizers' runtimes reserve terabytes of address space, write files as they start, and turn
-/// deaths by signal into exits: under them, address space and file size go unlimited.
+/// deaths by signal into exits: under them, we do not limit address space and file size.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kUnderSanitizer = true;
 #elif defined(__has_feature)
@@ -32,22 +32,22 @@ struct ProcessLimits {
 /// How the process ended.
 struct ProcessEnd {
   enum class Kind : std::uint8_t {
-    NotStarted,  ///< `code` is the errno of what failed.
+    NotStarted,  ///< `code` is the errno of the failed call.
     Exited,      ///< `code` is the exit status.
     Signalled,   ///< `code` is the signal that it died of by itself.
-    TimedOut,    ///< Killed by us: the wall time was over, or it died of its CPU limit.
-    Stopped,     ///< Killed by us: `take` had enough, or it closed its output and lived on.
-    Lost,        ///< Somebody else collected its status (a host that ignores SIGCHLD).
+    TimedOut,    ///< Killed by us: wall time ran out; or it died of its CPU limit.
+    Stopped,     ///< Killed by us: `take` returned false, or it closed its output and did not exit.
+    Lost,        ///< Other code collected its status (a host that ignores SIGCHLD).
   };
   Kind kind = Kind::NotStarted;
   int code = 0;
-  std::string errorOutput;  ///< The last bytes it wrote to stderr, as they came.
+  std::string errorOutput;  ///< The last bytes it wrote to stderr, unchanged.
 };
 
-/// Runs `program` with `arguments`, handing its standard output to `take` until that returns false.
-/// The limits are set between fork and exec, so they hold whatever the program is and before its
-/// first instruction. When this returns, or throws what `take` threw, the process and those it
-/// started are dead and collected, and every descriptor is closed. May be called from several
+/// Runs `program` with `arguments` and passes its standard output to `take` until that returns
+/// false. Sets the limits between fork and exec, so they hold for any program from its first
+/// instruction. When this returns, or throws an exception of `take`, the process and its
+/// descendants are dead and collected, and every descriptor is closed. May be called from several
 /// threads.
 [[nodiscard]] ProcessEnd runLimited(const std::string& program,
                                     const std::vector<std::string>& arguments,

@@ -113,7 +113,7 @@ void ImportReader::parseTriangles(std::string_view payload) {
 }
 
 /// Doubles like a vector would, but never past the promised total: a full scene ends up without
-/// slack, and a lying total reserves at most twice what was really received.
+/// slack, and a false total reserves at most twice the bytes received.
 void ImportReader::makeRoomFor(std::size_t triangles) {
   RawScene& scene = scene_.scene;
   const std::size_t needed = scene.triangles.size() + triangles;

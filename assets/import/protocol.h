@@ -1,5 +1,5 @@
-// assets/import/protocol.h: the stream in which foretouch-import hands a scene to its parent.
-// Not installed.
+// assets/import/protocol.h: the stream in which foretouch-import sends a scene to its parent. Not
+// installed.
 //
 // In the frames of assets/import/stream.h: totals first; then each object (its triangle count
 // and name) followed by its triangles; the trailer counts the triangles.
@@ -19,7 +19,7 @@
 namespace foretouch::internal {
 
 inline constexpr std::size_t kMaxImportObjects = std::size_t{1} << 20;
-inline constexpr std::size_t kMaxObjectNameBytes = 256;  // one, as handed on
+inline constexpr std::size_t kMaxObjectNameBytes = 256;  // each, as sent
 
 struct ImportTotals {
   std::uint64_t triangles = 0, objects = 0;
@@ -27,8 +27,8 @@ struct ImportTotals {
   std::uint64_t skippedPrimitives = 0, skippedFaces = 0;
 };
 
-/// The child's end. Calls in the order totals, (object, triangle...)..., finish; or fail at any
-/// place before finish.
+/// The child's end. Call in the order totals, (object, triangle...)..., finish; or fail at any time
+/// before finish.
 class ImportWriter : public FrameWriter {
  public:
   using FrameWriter::FrameWriter;
@@ -36,7 +36,7 @@ class ImportWriter : public FrameWriter {
   void totals(const ImportTotals& totals);
   void object(std::string_view name, std::uint64_t triangles);
   void triangle(const std::array<Eigen::Vector3d, 3>& vertices);
-  /// False where any byte could not be handed over.
+  /// False if any byte could not be sent.
   bool finish();
 
  private:
@@ -46,7 +46,7 @@ class ImportWriter : public FrameWriter {
   std::string pending_;  // triangles of the frame being filled
 };
 
-/// The parent's end. Complete: take() the scene. Memory grows with the bytes received, whatever the
+/// The parent's end. Complete: take() the scene. Memory grows with the received bytes, whatever the
 /// totals promise.
 class ImportReader : public FrameReader {
  public:

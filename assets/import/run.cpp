@@ -53,7 +53,7 @@ std::optional<Error> badOption(const std::string& path, const SceneImportOptions
   return std::nullopt;
 }
 
-/// What can be told without a reader: the importer is not started for such a path.
+/// Errors that need no reader: does not start the importer for such a path.
 std::optional<Error> badPath(const std::string& path) {
   if (path.empty() || path.find('\0') != std::string::npos) {
     return importError(path.c_str(), ErrorCode::FileNotFound, "expected the path of a model file");
@@ -91,8 +91,8 @@ bool isProgram(const std::string& path) {
          access(path.c_str(), X_OK) == 0;
 }
 
-/// Where the importer may be, the first that exists counts. A place that the user names is the only
-/// one: another program than the one asked for must not run instead.
+/// Possible places of the importer; the first that exists counts. A place that the user names is
+/// the only one: no other program must run instead.
 std::vector<std::string> importerPlaces(const SceneImportOptions& options) {
   if (!options.importer.empty()) return {options.importer};
   const char* named = std::getenv("FORETOUCH_IMPORTER");
@@ -120,7 +120,8 @@ Result<std::string> findImporter(const std::string& path, const SceneImportOptio
                          "; the environment variable FORETOUCH_IMPORTER may name it");
 }
 
-/// The last line that is not empty, in brackets: assertions and loaders say there why they died.
+/// The last line that is not empty, in brackets: assertions and loaders explain there why they
+/// ended.
 std::string lastWords(const std::string& errorOutput) {
   std::string_view rest = errorOutput;
   while (!rest.empty()) {

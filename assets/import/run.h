@@ -1,5 +1,5 @@
-// assets/import/run.h: a question put to foretouch-import, from options to answer or error:
-// what importing a scene and importing a model have in common. Not installed.
+// assets/import/run.h: runs foretouch-import, from options to answer or error: shared by the import
+// of scenes and of models. Not installed.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 
 namespace foretouch::internal {
 
-/// An error about the file that is being imported.
+/// An error about the imported file.
 [[nodiscard]] Error importError(const std::string& path, ErrorCode code, std::string message);
 
 /// Checks the options and that `path` is a file with an extension, finds the importer, and runs it
-/// with `arguments` (which name the path too), feeding `reader`. Nothing where the answer is
-/// complete. May throw std::bad_alloc and std::system_error.
+/// with `arguments` (which name the path too), feeding `reader`. Nothing if the answer is complete.
+/// May throw std::bad_alloc and std::system_error.
 [[nodiscard]] std::optional<Error> runImporter(const std::string& path,
                                                const SceneImportOptions& options,
                                                const std::vector<std::string>& arguments,

@@ -13,7 +13,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// A mesh where a node puts it.
+/// A mesh placed by a node.
 struct Placement {
   unsigned mesh;
   const aiString* name;
@@ -52,7 +52,7 @@ void addPlacement(PlacedMeshes& model, const aiNode& node, unsigned mesh, const 
 }
 
 void placeAll(PlacedMeshes& model, double metresPerUnit) {
-  // A scene's tree is bounded by the memory limit alone: its nodes are not handed on.
+  // Only the memory limit bounds a scene's tree: its nodes are not sent.
   const auto nodes = nodesOf(*model.scene, std::numeric_limits<std::int32_t>::max());
   model.totals.nodes = nodes.size();
   std::vector<Affine> toWorld;

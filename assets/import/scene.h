@@ -8,7 +8,7 @@
 
 namespace foretouch::internal {
 
-/// Throws Failure (assets/import/assimp.h). False where the parent is gone.
+/// Throws Failure (assets/import/assimp.h). False if the parent is gone.
 [[nodiscard]] bool sendScene(const std::string& path, ImportWriter& writer);
 
 }  // namespace foretouch::internal

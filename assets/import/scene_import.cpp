@@ -13,8 +13,7 @@ namespace {
 
 using internal::importError;
 
-/// Many formats name nothing; a contact had better say more than "". The file's name then has to
-/// do.
+/// Many formats have no names; a contact should say more than "", so this uses the file's name.
 void nameTheNameless(RawScene& scene, const std::string& path) {
   const std::string stem = internal::readableText(std::filesystem::path(path).stem().string(),
                                                   internal::kMaxObjectNameBytes);

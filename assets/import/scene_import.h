@@ -1,7 +1,7 @@
 // assets/import/scene_import.h: scenes from model files: every mesh format that assimp reads, with
-// node transforms and instances applied. assimp is not trusted with untrusted files (it aborts or
+// node transforms and instances applied. We do not trust assimp with untrusted files (it aborts or
 // crashes on some), so it runs in a child process, `foretouch-import`, under limits of memory, time
-// and files; what the child hands back is checked like any other untrusted data.
+// and files, and we check the child's output like any other untrusted data.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@
 
 namespace foretouch {
 
-/// One object a mesh instance that has triangles, named after its node (its mesh where the node has
-/// no name, the file where neither has). Names are UTF-8 without control characters. Triangles in
-/// the order of the file: nodes depth first, parents before children. A face of n corners gives n -
-/// 2 triangles. Skins, morphs and animations are not applied. Vertices that are not finite are
-/// handed on: Scene::build() drops and counts their triangles. Never throws, never crashes with the
-/// file, never leaves a child process behind.
+/// One object per mesh instance that has triangles, named after its node (its mesh if the node has
+/// no name, the file if neither has). Names are UTF-8 without control characters. Triangles in the
+/// order of the file: nodes depth first, parents before children. A face of n corners gives n - 2
+/// triangles. Does not apply skins, morphs and animations. Keeps vertices that are not finite:
+/// Scene::build() drops and counts their triangles. Never throws, never crashes with the file,
+/// never leaves a child process behind.
 [[nodiscard]] Result<ImportedScene> importScene(const std::string& path,
                                                 const SceneImportOptions& options = {});
 

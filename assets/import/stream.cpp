@@ -23,8 +23,8 @@ struct Trailer {
 
 constexpr std::uint64_t kChecksumSeed = 0xCBF29CE484222325;
 
-/// Eight bytes a step, as 700 MB of triangles pass through here for ten million of them. The
-/// multiplier is odd, so each step is a bijection of the state: a single changed word always shows.
+/// Eight bytes per step: ten million triangles are 700 MB. The multiplier is odd, so each step is a
+/// bijection of the state: a single changed word always shows.
 std::uint64_t addToChecksum(std::uint64_t sum, std::string_view bytes) {
   const auto add = [&sum](std::uint64_t word) {
     sum = (sum ^ word) * 0x9E3779B97F4A7C15;
@@ -79,7 +79,7 @@ bool FrameWriter::fail(ImportFailure failure, std::string_view text) {
 
 FrameReader::State FrameReader::feed(std::string_view bytes) {
   if (state_ != State::Reading) return state_;
-  // Whole frames are parsed where they lie; only an incomplete one is kept.
+  // Parses whole frames in place; keeps only an incomplete one.
   const bool continues = !pending_.empty();
   if (continues) {
     pending_ += bytes;
@@ -99,7 +99,7 @@ FrameReader::State FrameReader::feed(std::string_view bytes) {
   return state_;
 }
 
-/// Parses the first frame; returns its size, 0 where it is not yet complete.
+/// Parses the first frame; returns its size, 0 if it is not yet complete.
 std::size_t FrameReader::parseOne(std::string_view bytes) {
   if (!greeted_) return parseGreeting(bytes);
   if (bytes.size() < sizeof(FrameHead)) return 0;
@@ -124,7 +124,7 @@ std::size_t FrameReader::parseOne(std::string_view bytes) {
 
 std::size_t FrameReader::parseGreeting(std::string_view bytes) {
   const Greeting expected;
-  // Judged by what is there: garbage shorter than a greeting is garbage all the same.
+  // Judges the bytes present: garbage shorter than a greeting is still garbage.
   const std::size_t present = std::min(bytes.size(), sizeof expected);
   if (bytes.substr(0, present) != bytesOf(expected).substr(0, present)) {
     breakOff("it does not open with the greeting of this version");

@@ -1,11 +1,11 @@
-// assets/import/stream.h: the frames in which foretouch-import answers its parent, whatever it
-// was asked for. Not installed.
+// assets/import/stream.h: the frames in which foretouch-import answers its parent, for scenes and
+// models. Not installed.
 //
 // A greeting (magic, version, byte order), then frames: type and payload size as 32-bit numbers,
 // then the payload. Last a trailer with a count and a checksum of everything before it. Or, at any
 // place before the trailer, a failure with its text. Native byte order: both ends are processes of
-// one machine. The checksum finds a stream that something else wrote into; that the readers trust
-// nothing they are told guards against the rest.
+// one machine. The checksum detects a stream that something else wrote into. Against everything
+// else, the readers trust nothing in the stream.
 #pragma once
 
 #include <cstddef>
@@ -26,11 +26,12 @@ enum class ImportFailure : std::uint32_t {
   None,
   Refused,        ///< The file breaks its format's rules.
   UnknownFormat,  ///< No reader for the file's extension.
-  TooLarge,       ///< More of something than the limits.
+  TooLarge,       ///< Exceeds a limit.
   OutOfMemory,
 };
 
-/// Types below belong to scenes (import_protocol.cpp), from 16 to models (import_model_stream.h).
+/// Types below 16 belong to scenes (assets/import/protocol.cpp), the others to models
+/// (assets/import/model_records.h).
 inline constexpr std::uint32_t kTrailerFrame = 4, kFailureFrame = 5;
 
 template <typename T>
@@ -48,10 +49,10 @@ T valueIn(std::string_view bytes) {
   return value;
 }
 
-/// The child's end, less what the frames mean.
+/// The child's end, without the meaning of the frames.
 class FrameWriter {
  public:
-  /// Takes bytes away; false where that failed for good.
+  /// Takes bytes; false if that failed for good.
   using Sink = std::function<bool(std::string_view)>;
   explicit FrameWriter(Sink sink);
 
@@ -59,7 +60,7 @@ class FrameWriter {
 
  protected:
   void frame(std::uint32_t type, std::string_view payload);
-  /// False where any byte could not be handed over.
+  /// False if any byte could not be sent.
   bool end(std::uint64_t count);
 
  private:
@@ -69,10 +70,10 @@ class FrameWriter {
   Sink sink_;
   bool intact_ = true;
   std::uint64_t checksum_;
-  std::string outgoing_;  // frames on their way: many are small
+  std::string outgoing_;  // buffered frames: many are small
 };
 
-/// The parent's end: a parser that is fed as bytes arrive and believes none of them.
+/// The parent's end: an incremental parser that trusts no byte.
 class FrameReader {
  public:
   enum class State : std::uint8_t {
@@ -83,7 +84,7 @@ class FrameReader {
   };
   virtual ~FrameReader() = default;
 
-  /// After anything but Reading, further bytes are ignored.
+  /// Ignores bytes after any state but Reading.
   State feed(std::string_view bytes);
 
   [[nodiscard]] State state() const { return state_; }
@@ -95,7 +96,7 @@ class FrameReader {
  protected:
   /// Any frame but a failure and the trailer.
   virtual void parseFrame(std::uint32_t type, std::string_view payload) = 0;
-  /// Has everything that was promised arrived, `count` of it?
+  /// Has everything promised arrived, `count` of it?
   [[nodiscard]] virtual bool isWhole(std::uint64_t count) const = 0;
   void breakOff(std::string reason);
 
@@ -110,7 +111,7 @@ class FrameReader {
   std::uint64_t checksum_ = 0;
   ImportFailure failure_ = ImportFailure::None;
   std::string failureText_, broken_;
-  std::string pending_;  // the incomplete frame at the end of what was fed
+  std::string pending_;  // the incomplete frame at the end
 };
 
 }  // namespace foretouch::internal

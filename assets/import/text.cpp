@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 constexpr std::size_t kLongestSequence = 4;
 
-/// The well-formed UTF-8 sequence at the start of `text`; empty where there is none.
+/// The well-formed UTF-8 sequence at the start of `text`; empty if there is none.
 std::string_view firstCharacter(std::string_view text) {
   for (std::size_t length = 1; length <= kLongestSequence && length <= text.size(); ++length) {
     if (isUtf8(text.substr(0, length))) return text.substr(0, length);

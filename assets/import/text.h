@@ -1,5 +1,5 @@
-// assets/import/text.h: text out of model files and of the importer, made safe to show.
-// Not installed.
+// assets/import/text.h: makes text from model files and from the importer safe to show. Not
+// installed.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 namespace foretouch::internal {
 
 /// Well-formed UTF-8 of at most `limitBytes`, cut between characters. Control characters (C0, DEL,
-/// C1) become spaces, so that no text of a file can drive a terminal; what is not UTF-8 becomes
-/// U+FFFD; spaces at both ends are dropped.
+/// C1) become spaces, so that no text of a file can control a terminal; invalid UTF-8 becomes
+/// U+FFFD; drops spaces at both ends.
 [[nodiscard]] std::string readableText(std::string_view text, std::size_t limitBytes);
 
 /// A name of the file for a message: readable, at most 120 bytes of it, in single quotes.

@@ -26,8 +26,8 @@ constexpr std::size_t kMaxUrdfBytes = std::size_t{16} << 20;
   throw Failure{ImportFailure::Refused, text};
 }
 
-/// urdfdom says what is wrong in its log alone, and of some errors nowhere else: a link whose
-/// shapes it could not read is handed on without them. The first error is the nearest to the cause.
+/// urdfdom reports errors only in its log, some of them nowhere else: it returns a link without the
+/// shapes that it could not read. The first error is the nearest to the cause.
 class FirstError : public console_bridge::OutputHandler {
  public:
   FirstError() { console_bridge::useOutputHandler(this); }
@@ -41,8 +41,8 @@ class FirstError : public console_bridge::OutputHandler {
   std::string text_;
 };
 
-/// "line 7: " before a reason that puts a word in brackets or quotes, where that word stands on one
-/// line of the file only: urdfdom knows no lines.
+/// Puts "line 7: " before a reason that has a word in brackets or quotes, if that word is on only
+/// one line of the file: urdfdom reports no lines.
 std::string withLine(const std::string& reason, const std::string& text) {
   for (std::size_t open = reason.find_first_of("['"); open != std::string::npos;
        open = reason.find_first_of("['", open + 1)) {
@@ -90,7 +90,7 @@ class RobotTree {
   RobotTree(const urdf::ModelInterface& robot, UrdfSurface& surface, ModelBuilder& builder)
       : robot_(robot), surface_(surface), builder_(builder) {}
 
-  /// Depth first from the root, on a stack of our own.
+  /// Depth first from the root, on an explicit stack.
   void add() {
     struct Pending {
       const urdf::Link* link;

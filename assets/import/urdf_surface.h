@@ -32,7 +32,7 @@ struct FlatMesh {
 /// radius.
 [[nodiscard]] FlatMesh cylinderAround(double radius, double length);
 
-/// Rotation and translation; throws where a number is not finite or beyond kMaxCoordinate.
+/// Rotation and translation; throws if a number is not finite or beyond kMaxCoordinate.
 [[nodiscard]] Affine affineOf(const urdf::Pose& pose, const std::string& owner);
 
 class UrdfSurface {
@@ -40,9 +40,9 @@ class UrdfSurface {
   UrdfSurface(const ModelQuestion& question, const UrdfText& text, ModelBuilder& builder)
       : question_(question), text_(text), builder_(builder) {}
 
-  /// Adds the link's shapes of the kind that was asked for to node `node` of the builder's model.
-  /// Where there are none, or none can be read, those of the other kind, with a note: a link
-  /// without a surface is a contact that is missed.
+  /// Adds the link's shapes of the requested kind to node `node` of the builder's model. If there
+  /// are none, or none is readable, adds those of the other kind, with a note: a link without a
+  /// surface means missed contacts.
   void add(const urdf::Link& link, std::int32_t node);
 
  private:
@@ -54,20 +54,20 @@ class UrdfSurface {
   };
 
   [[nodiscard]] std::vector<Shape> shapesOf(const urdf::Link& link, UrdfShapeKind kind) const;
-  /// How many of the shapes are there now.
+  /// Returns how many of the shapes it added.
   int addAll(const std::vector<Shape>& shapes, const std::string& link, std::int32_t node);
   bool addShape(const Shape& shape, const std::string& link, std::int32_t node);
   void addRound(const Shape& shape, double halfLength, double radius, std::int32_t node);
   void addMesh(const Shape& shape, const FlatMesh& mesh, const Eigen::Vector3d& scale,
                std::int32_t node);
-  /// Null, with a note, where the file is missing or cannot be read.
+  /// Null, with a note, if the file is missing or unreadable.
   const FlatMesh* meshOf(const std::string& reference, const std::string& link);
   [[nodiscard]] std::string find(const std::string& reference) const;
 
   const ModelQuestion& question_;
   const UrdfText& text_;
   ModelBuilder& builder_;
-  std::map<std::string, std::optional<FlatMesh>> meshes_;  // by path: files are shared by links
+  std::map<std::string, std::optional<FlatMesh>> meshes_;  // by path: links share files
 };
 
 }  // namespace foretouch::internal

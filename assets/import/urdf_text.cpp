@@ -15,7 +15,7 @@ std::string attributeOf(const TiXmlElement& element, const char* name) {
   return value == nullptr ? "" : value;
 }
 
-/// The element without its children, under a name of our choice.
+/// The element without its children, with the name `name`.
 std::unique_ptr<TiXmlElement> bare(const TiXmlElement& from, const char* name) {
   auto copy = std::make_unique<TiXmlElement>(name);
   for (const auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {
@@ -84,7 +84,7 @@ class Reducer {
   UrdfText& out_;
 };
 
-/// TinyXML tells of an element that nothing closes without a line.
+/// TinyXML reports an unclosed element without a line.
 std::string whyMalformed(const std::string& text, const TiXmlDocument& document) {
   const std::string damage = damageOfXml(text);
   if (!damage.empty()) return damage;
@@ -113,7 +113,7 @@ UrdfText readUrdfText(const std::string& text) {
   const TiXmlElement* from = document.FirstChildElement("robot");
   if (from == nullptr) throw Failure{ImportFailure::Refused, withoutRobot(document)};
   TiXmlElement robot("robot");
-  robot.SetAttribute("name", "robot");  // urdfdom refuses robots without a name, which there are
+  robot.SetAttribute("name", "robot");  // urdfdom refuses robots without a name, which exist
   UrdfText out;
   Reducer reducer(out);
   for (const auto* e = from->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {

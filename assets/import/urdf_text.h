@@ -1,5 +1,5 @@
-// assets/import/urdf_text.h: a URDF's text reduced to what a surface needs, in the dialect that
-// urdfdom reads. In foretouch-import only. Not installed.
+// assets/import/urdf_text.h: reduces a URDF's text to the parts that a surface needs, in the
+// dialect that urdfdom reads. In foretouch-import only. Not installed.
 #pragma once
 
 #include <set>
@@ -17,15 +17,15 @@ using UrdfShapeKey = std::tuple<std::string, UrdfShapeKind, std::size_t>;
 
 struct UrdfText {
   std::string xml;
-  /// urdfdom knows no capsules: they stand in `xml` as the cylinders between their round ends.
+  /// urdfdom has no capsules: `xml` has the cylinders between their round ends instead.
   std::set<UrdfShapeKey> capsules;
   std::vector<std::string> notes;
 };
 
-/// Keeps links with their shapes and joints with their frames, axes, limits and mimics. What else
-/// is in such files (masses, materials, transmissions) would only be further reasons to refuse
-/// them. Joints get the limits, and limits the effort and velocity, without which urdfdom refuses
-/// them. Throws Failure (assets/import/assimp.h) where `text` is no XML with a <robot>.
+/// Keeps links with their shapes and joints with their frames, axes, limits and mimics. Drops the
+/// rest (masses, materials, transmissions), which could only cause further refusals. Adds limits to
+/// joints, and effort and velocity to limits, because urdfdom requires them. Throws Failure
+/// (assets/import/assimp.h) if `text` is not XML with a <robot>.
 [[nodiscard]] UrdfText readUrdfText(const std::string& text);
 
 }  // namespace foretouch::internal

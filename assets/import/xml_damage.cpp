@@ -23,7 +23,7 @@ bool isNameStart(char c) {
   return isNameCharacter(c) && c != '-' && c != '.' && !(c >= '0' && c <= '9');
 }
 
-/// Reads from front to back and stops at the first thing out of place.
+/// Reads from front to back and stops at the first fault.
 class XmlCheck {
  public:
   explicit XmlCheck(std::string_view text) : text_(text) {}
@@ -65,7 +65,7 @@ class XmlCheck {
     damage_ = "line " + std::to_string(lineOf(offset)) + ": " + what;
   }
 
-  /// What stands at `offset`, in words.
+  /// The text at `offset`, in words.
   [[nodiscard]] std::string found(std::size_t offset) const {
     return offset < text_.size() ? inQuotes(text_.substr(offset, 1)) : "the end";
   }
@@ -114,7 +114,7 @@ class XmlCheck {
     }
   }
 
-  /// Up to the > that closes it; what it declares stands in brackets.
+  /// Up to the > that closes it; its declarations are in brackets.
   void documentType() {
     int depth = 0;
     for (std::size_t i = at_; i < text_.size(); ++i) {

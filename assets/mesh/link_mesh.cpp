@@ -24,7 +24,7 @@ namespace {
 
 using Surfaces = std::vector<std::vector<Triangle>>;
 
-// A frame whose axes are unit and at right angles up to this is taken as rigid: files hold floats.
+// A frame whose axes are unit and at right angles up to this counts as rigid: files hold floats.
 constexpr double kRigidSlack = 1e-5;
 
 Error meshError(ErrorCode code, const std::string& file, LinkId link, std::string message) {
@@ -72,7 +72,7 @@ bool areRigid(const Model& model, const std::vector<std::int32_t>& nodes) {
                      [&](std::int32_t node) { return rigid[slotOf(node)]; });
 }
 
-/// Are all vertices at these nodes floats? Those that have no place are passed over.
+/// Are all vertices at these nodes floats? Skips those that are not finite.
 bool areFloats(const Model& model, const std::vector<std::int32_t>& nodes) {
   const std::set<std::int32_t> wanted(nodes.begin(), nodes.end());
   return std::all_of(model.meshes.begin(), model.meshes.end(), [&](const ModelMesh& mesh) {
@@ -100,7 +100,7 @@ Surfaces ownTriangles(const Model& model, const std::vector<std::int32_t>& nodes
   return surfaces;
 }
 
-/// A promised surface that is not there, or has no place, would be a contact that is missed.
+/// A promised surface that is missing or not finite would mean missed contacts.
 std::optional<Error> badSurface(const std::vector<Triangle>& surface, const std::string& node,
                                 const std::string& file, LinkId link) {
   if (surface.empty()) {
@@ -114,8 +114,8 @@ std::optional<Error> badSurface(const std::vector<Triangle>& surface, const std:
   return std::nullopt;
 }
 
-/// Bones, frames that scale or mirror, and vertices that are to be rounded need avatarFromModel()'s
-/// rule: an avatar's LSS contain what it made of them, to the last bit.
+/// Bones, frames that scale or mirror, and vertices that need rounding require avatarFromModel()'s
+/// rule: an avatar's LSS contain its result, to the last bit.
 Result<Surfaces> surfacesIn(const Model& model, const Avatar& avatar, const std::string& path,
                             const std::vector<LinkId>& links) {
   std::vector<std::string> names;

@@ -14,24 +14,24 @@
 
 namespace foretouch {
 
-/// Per link, in its frame; links without a mesh get none. `avatarPath`: relative files are looked
-/// for beside it. Each file is imported once, in the import child. Where its frames scale or its
-/// vertices are no floats, avatarFromModel()'s rule decides for unskinned meshes too. Error where a
-/// file cannot be read, a node is not there or there twice, or it has no triangles or one that is
-/// not finite: Error::index is the link.
+/// Per link, in its frame; links without a mesh get none. Relative files are relative to the folder
+/// of `avatarPath`. Imports each file once, in the import child. If its frames scale or its
+/// vertices are not floats, avatarFromModel()'s rule decides for unskinned meshes too. Error if a
+/// file is unreadable, a node is missing or there twice, or it has no triangles or one that is not
+/// finite: Error::index is the link.
 [[nodiscard]] Result<std::vector<std::vector<Triangle>>> loadLinkMeshes(
     const Avatar& avatar, const std::string& avatarPath, const ModelImportOptions& options = {});
 
-/// The same of these links alone: the others get none, and files that only they refer to are not
+/// The same for these links only: the others get none, and files that only those refer to are not
 /// read.
 [[nodiscard]] Result<std::vector<std::vector<Triangle>>> loadLinkMeshes(
     const Avatar& avatar, const std::string& avatarPath, const std::vector<LinkId>& links,
     const ModelImportOptions& options = {});
 
-/// Writes per-link triangles as a GLB that loadLinkMeshes() reads back bit for bit: a node a link,
-/// placed by the skeleton's rest pose so that a viewer shows the body, its mesh in the link's
-/// frame. Precondition: coordinates are floats (avatarFromModel() rounds), as glTF holds no
-/// doubles.
+/// Writes per-link triangles as a GLB that loadLinkMeshes() reads back bit for bit: one node per
+/// link, placed by the skeleton's rest pose so that a viewer shows the body, with its mesh in the
+/// link's frame. Precondition: coordinates are floats (avatarFromModel() rounds), because glTF has
+/// no doubles.
 [[nodiscard]] Result<Done> writeLinkMeshes(const Skeleton& skeleton,
                                            const std::vector<std::vector<Triangle>>& triangles,
                                            const std::string& path);

@@ -44,7 +44,7 @@ bool holdsFloats(const Triangle& triangle) {
                      [](const Vector3d& v) { return nearestFloat(v) == v; });
 }
 
-/// Nodes are found again by name, so the names must survive the reader and stay apart.
+/// The reader finds nodes by name, so the names must survive it and stay distinct.
 std::optional<Error> badName(const Skeleton& skeleton, const std::string& path) {
   std::set<std::string> seen;
   for (JointId link = 0; link < skeleton.numJoints(); ++link) {
@@ -128,8 +128,8 @@ void addMesh(json& root, const std::string& name, const std::vector<Triangle>& t
                                {"max", arrayOf(high)}});
 }
 
-/// A file of several roots gets one above them from the reader, under a name that a link may have;
-/// so it gets one from us.
+/// The reader adds a root above several roots, with a name that a link may have; so we add one
+/// ourselves.
 void addRoot(json& root, const Skeleton& skeleton, const std::vector<JointId>& roots) {
   if (roots.size() == 1) {
     root["scenes"] = json::array({{{"nodes", roots}}});
@@ -172,7 +172,7 @@ json describeFile(const Skeleton& skeleton, const Surfaces& triangles) {
   return root;
 }
 
-// The format is little-endian; so is every machine that this is built for (x86-64, ARM64).
+// The format is little-endian; so is every supported machine (x86-64, ARM64).
 std::string words(std::initializer_list<std::uint32_t> numbers) {
   std::string bytes;
   for (const std::uint32_t number : numbers) {

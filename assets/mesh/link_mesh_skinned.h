@@ -10,9 +10,9 @@
 
 namespace foretouch::internal {
 
-/// For each of `names` the triangles of that link of the model's avatar. Links are named like their
-/// nodes; where nodes share a name, as avatarFromModel() tells them apart. Error, naming `path`,
-/// where the model makes no avatar or has no such link.
+/// For each of `names` the triangles of that link of the model's avatar. Links have the names of
+/// their nodes; if nodes share a name, those that avatarFromModel() gives them. Error, naming
+/// `path`, if the model makes no avatar or has no such link.
 [[nodiscard]] Result<std::vector<std::vector<Triangle>>> surfacesOfLinks(
     const Model& model, const std::vector<std::string>& names, const std::string& path);
 

@@ -21,7 +21,7 @@ namespace {
 
 using internal::JointTable;
 
-/// Radians or metres: what printing six digits may add to a limit.
+/// Radians or metres: the most that printing six digits may add to a limit.
 constexpr double kLimitTolerance = 1e-5;
 
 bool turns(const ModelNode& node) {
@@ -34,7 +34,7 @@ struct Drive {
   double worstExcess = 0.0;  ///< Past a limit, radians or metres.
 };
 
-/// By joint name; a name that no joint has may be a node's.
+/// By joint name; a name without a joint may be a node's.
 Result<std::vector<Drive>> findDrives(const Model& model, const JointTable& table) {
   std::unordered_map<std::string, std::int32_t> joints, nodes;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {

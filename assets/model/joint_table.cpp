@@ -33,7 +33,7 @@ std::string_view unquoted(std::string_view cell) {
 
 constexpr std::size_t kMaxCells = countOf(kMaxJoints) + 1;
 
-/// No more of them than say that there are too many.
+/// Stops at enough cells to show that there are too many.
 std::vector<std::string_view> cellsOf(std::string_view line) {
   std::vector<std::string_view> cells;
   for (;;) {
@@ -44,7 +44,7 @@ std::vector<std::string_view> cellsOf(std::string_view line) {
   }
 }
 
-/// Hands out lines that say something.
+/// Returns the lines with content.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {
@@ -119,7 +119,7 @@ std::optional<Error> readRow(std::string_view line, std::int64_t number, JointTa
   return std::nullopt;
 }
 
-/// Sets the frame time, where the rows have one.
+/// Sets the frame time, if the rows have one.
 std::optional<Error> findSpacing(const std::vector<double>& times, JointTable& table) {
   if (times.size() < 2) {
     return bvhError(ErrorCode::Empty, -1,

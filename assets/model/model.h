@@ -1,6 +1,6 @@
-// assets/model/model.h: a rigged model as a file tells it (glTF, FBX, Collada, URDF ...): nodes,
-// meshes, skins, joints and animations. Unjudged: what it means as an avatar is decided by
-// assets/model/model_avatar.h. Metres, radians, seconds; the file's unit has been applied.
+// assets/model/model.h: a rigged model as read from a file (glTF, FBX, Collada, URDF ...): nodes,
+// meshes, skins, joints and animations. Uninterpreted: assets/model/model_avatar.h decides what it
+// means as an avatar. Metres, radians, seconds, converted from the file's unit.
 #pragma once
 
 #include <array>
@@ -36,26 +36,26 @@ struct ModelNode {
   std::int32_t parent = -1;  ///< Index of an earlier node; -1: a root.
   Affine toParent;           ///< At rest. May scale, shear or mirror: files do.
   std::vector<Lss>
-      lss;  ///< Spheres and capsules that the file states as such, in the node's frame.
+      lss;  ///< Spheres and capsules that the file declares as such, in the node's frame.
   ModelJointType joint = ModelJointType::Free;
   std::string jointName;  ///< URDF names joints apart from links; else empty.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of the joint, in the node's frame, unit.
   double lowerLimit = 0.0, upperLimit = 0.0;        ///< Radians or metres; equal: none stated.
 };
 
-/// How much a bone moves which vertices of a mesh.
+/// The vertices of a mesh that a bone moves, with their weights.
 struct ModelBone {
-  std::int32_t node = -1;  ///< -1: the file names a node that it does not hold (`name` tells).
+  std::int32_t node = -1;  ///< -1: the file does not contain the node (called `name`).
   std::string name;
   Affine meshToBone;  ///< At bind time: from mesh space into the bone's frame.
   struct Weight {
     std::int32_t vertex;
-    double weight;  ///< As the file states it: may be zero, negative or NaN.
+    double weight;  ///< As in the file: may be zero, negative or NaN.
   };
   std::vector<Weight> weights;
 };
 
-/// A mesh where a node puts it; a mesh that n nodes place appears n times.
+/// A mesh as placed by a node; a mesh that n nodes place appears n times.
 struct ModelMesh {
   std::string name;
   std::int32_t node = -1;                              ///< Whose frame the vertices are in.
@@ -89,8 +89,8 @@ struct Model {
   std::vector<ModelNode> nodes;  ///< Parents before children.
   std::vector<ModelMesh> meshes;
   std::vector<ModelAnimation> animations;
-  /// What the reader met and passed over, one sentence each (a missing mesh file, faces with
-  /// indices out of range, points and lines, ...). Bounded in number.
+  /// Faults that the reader skipped, one sentence each (a missing mesh file, faces with indices out
+  /// of range, points and lines, ...). Bounded in number.
   std::vector<std::string> notes;
 };
 

@@ -19,12 +19,12 @@ namespace {
 
 using internal::ModelLinks;
 
-/// Of 1: rounding of a chain of frames without scale stays below it, and such frames leave what the
-/// file states as it is.
+/// Of 1: rounding of a chain of frames without scale stays below it, and such frames leave the
+/// file's values unchanged.
 constexpr double kNoScale = 1e-9;
 
-/// The node's own LSS in the link's frame. What scales unevenly makes no LSS of an LSS: the largest
-/// scale makes one that contains it.
+/// The node's own LSS in the link's frame. An uneven scale does not turn an LSS into an LSS: the
+/// largest scale makes one that contains it.
 std::vector<Lss> statedLss(const ModelNode& node, const Eigen::Matrix3d& shape) {
   if ((shape - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kNoScale) return node.lss;
   const double largest = Eigen::JacobiSVD<Eigen::Matrix3d>(shape).singularValues()[0];

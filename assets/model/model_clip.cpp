@@ -16,7 +16,7 @@
 namespace foretouch {
 namespace {
 
-/// Of a frame: a duration that is a whole number of frames but for rounding gets no frame more.
+/// Of a frame: a duration that is a whole number of frames up to rounding gets no extra frame.
 constexpr double kWholeFrame = 1e-6;
 
 Result<const ModelAnimation*> findAnimation(const Model& model, const std::string& wanted) {

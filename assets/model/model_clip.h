@@ -12,18 +12,18 @@ namespace foretouch {
 
 struct ModelClipOptions {
   std::string animation;  ///< By name; empty: the first. Also its number, counted from 0.
-  double rateHz = 30.0;   ///< Frames a second that the animation is sampled at.
+  double rateHz = 30.0;   ///< Samples of the animation per second.
 };
 
-/// The animation sampled at a fixed rate, on a skeleton whose joints are those that
-/// avatarFromModel() makes of the same model (names, order, frames), so that it drives that avatar
-/// as it is. Error where the model has no animation of that name.
+/// The animation sampled at a fixed rate, on a skeleton with the joints that avatarFromModel()
+/// makes of the same model (names, order, frames), so that it drives that avatar directly. Error if
+/// the model has no animation of that name.
 [[nodiscard]] Result<Clip> clipFromModel(const Model& model, const ModelClipOptions& options = {});
 
 /// Joint positions as a clip of the robot `model` (a URDF's). CSV text: a header `time` (seconds)
-/// and joint names, then a row an instant, equally spaced; radians or metres. Joints that are not
-/// named stay at zero; positions outside a joint's limits are noted. `name` stands for the file in
-/// errors. Safe on hostile text.
+/// and joint names, then one row per instant, equally spaced; radians or metres. Joints that the
+/// table does not name stay at zero; notes positions outside a joint's limits. Errors name `name`
+/// as the file. Safe on hostile text.
 [[nodiscard]] Result<Clip> clipFromJointPositions(const Model& model, std::string_view csv,
                                                   const std::string& name);
 

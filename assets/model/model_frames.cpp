@@ -7,8 +7,8 @@
 
 namespace foretouch::internal {
 
-/// U V^T of the singular value decomposition; where that reflects, the direction of the smallest
-/// singular value is turned round.
+/// U V^T of the singular value decomposition; if that reflects, negates the direction of the
+/// smallest singular value.
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& m) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d u = svd.matrixU();

@@ -19,9 +19,9 @@ namespace {
 
 constexpr char kPivotMark[] = "_$AssimpFbx$_";
 constexpr char kNameless[] = "unnamed";
-/// Of 1: what single precision makes of a frame without scale stays below it.
+/// Of 1: above the single-precision rounding of a frame without scale.
 constexpr double kNoticeableScale = 1e-4;
-/// No unit is that far from metres; products of what is below stay finite.
+/// No unit is that far from metres; products of smaller values stay finite.
 constexpr double kLargestScale = 1e9;
 
 Error nodeError(ErrorCode code, const Model& model, std::size_t node, const std::string& what) {
@@ -76,7 +76,7 @@ void LinkFinder::findMoved() {
   }
 }
 
-/// From below upwards: a pivot of X serves what the child that leads to X serves.
+/// Bottom up: a pivot of X serves the same node as the child that leads to X.
 void LinkFinder::findServed() {
   served_.resize(size_);
   for (std::size_t i = 0; i < size_; ++i) served_[i] = static_cast<std::int32_t>(i);
@@ -103,7 +103,7 @@ std::vector<bool> LinkFinder::links() {
   const std::vector<bool> isNeeded = isLink;
   for (std::size_t i = size_; i-- > 0;) {
     const std::int32_t parent = model_.nodes[i].parent;
-    // Through pivots too, links or not: what is above them counts.
+    // Through pivots too, links or not: the nodes above them count.
     if (parent < 0 || !isLink[i]) continue;
     isLink[slotOf(parent)] = true;
   }
@@ -113,8 +113,8 @@ std::vector<bool> LinkFinder::links() {
   return isLink;
 }
 
-/// The first link of a name keeps it, later ones become name#2, name#3, ..., passing over names
-/// that the model has of its own.
+/// The first link of a name keeps it, later ones become name#2, name#3, ..., skipping names that
+/// the model already has.
 class LinkNames {
  public:
   explicit LinkNames(const Model& model) {
@@ -153,7 +153,7 @@ class LinkNames {
   std::size_t nameless_ = 0;
 };
 
-/// The nearest link above a node; kNoParent where there is none.
+/// The nearest link above a node; kNoParent if there is none.
 std::vector<LinkId> linksAbove(const Model& model, const std::vector<LinkId>& linkOfNode) {
   std::vector<LinkId> above(model.nodes.size(), kNoParent);
   for (std::size_t i = 0; i < above.size(); ++i) {
@@ -206,7 +206,7 @@ struct RigidFrame {
   Eigen::Vector3d position;
 };
 
-/// The frame in its parent's (in the world where there is none).
+/// The frame in its parent's (in the world if there is none).
 RawJoint relative(const RigidFrame& frame, const RigidFrame* parent) {
   RawJoint joint;
   joint.offset = frame.position;
@@ -307,7 +307,7 @@ Pose poseOfFrames(const Model& model, const ModelLinks& links, const std::vector
   for (std::size_t link = 0; link < links.nodeOfLink.size(); ++link) {
     const Affine& frame = world[slotOf(links.nodeOfLink[link])];
     const Eigen::Matrix3d& shape = links.shape[link];
-    // The R for which |frame - R shape| is least; at rest, the one that the shape was taken with.
+    // The R for which |frame - R shape| is least; at rest, the R that defined the shape.
     frames.push_back({nearestRotation(frame.linear * shape.transpose()), frame.translation});
     const double off = (frame.linear - frames.back().rotation * shape).norm();
     worstShear[link] = std::max(worstShear[link], off / std::max(shape.norm(), 1e-300));

@@ -10,8 +10,8 @@ namespace {
 
 using Influences = std::vector<NodeInfluence>;
 
-/// Sorted by node, one entry a node, weights summing to one. Scaled by the largest first, as sums
-/// of what files state may overflow.
+/// Sorted by node, one entry per node, weights summing to one. Scales by the largest first, because
+/// sums of the file's values may overflow.
 void normalise(Influences& influences) {
   double largest = 0.0;
   for (const NodeInfluence& i : influences) largest = std::max(largest, i.weight);
@@ -55,7 +55,7 @@ void collectWeights(const ModelMesh& mesh, std::vector<Influences>& influences,
   }
 }
 
-/// Who owns a triangle, and how many nodes move it.
+/// The owner of a triangle, and how many nodes move it.
 struct Owner {
   std::int32_t node = 0;
   std::size_t nodes = 0;

@@ -1,4 +1,4 @@
-// assets/model/model_ownership.h: which node of a model moves which triangle, told from the skins'
+// assets/model/model_ownership.h: which node of a model moves which triangle, from the skins'
 // weights. Internal to model_avatar and model_clip.
 #pragma once
 
@@ -18,8 +18,8 @@ struct NodeInfluence {
 
 /// Of one ModelMesh. A mesh without bones has no influences: all of it moves with its node.
 struct MeshOwnership {
-  /// Per vertex, ascending by node, weights summing to one; one without usable weights follows the
-  /// mesh's own node.
+  /// Per vertex, ascending by node, weights summing to one; a vertex without usable weights follows
+  /// the mesh's own node.
   std::vector<std::vector<NodeInfluence>> influences;
   std::vector<std::int32_t> ownerOfTriangle;  ///< Per triangle, a node.
 };
@@ -30,7 +30,8 @@ struct ModelOwnership {
   std::size_t badWeights = 0;  ///< NaN, infinite, negative, or of no vertex of the mesh.
   std::size_t unweighted = 0;  ///< Triangles of skins given to the mesh's own node.
   std::size_t shared = 0;      ///< Triangles whose vertices follow more than one node.
-  std::size_t unknownBoneWeights = 0;  ///< Weights of bones that the file names but does not hold.
+  std::size_t unknownBoneWeights = 0;     ///< Weights of bones that the file names but does not
+                                          ///< contain.
   std::vector<std::string> unknownBones;  ///< Their names.
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// As a GLB will hold it; nothing where it is not finite or too far out.
+/// In a GLB's precision; nothing if it is not finite or too far out.
 std::optional<Vector3d> asFloat(const Vector3d& p) {
   if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kMaxCoordinate) return std::nullopt;
   return nearestFloat(p);
@@ -62,7 +62,7 @@ class SurfaceBuilder {
   std::vector<std::int32_t> skinVertices_;             ///< Of this mesh's vertices.
 };
 
-/// For bones from bind time; of a bone that is listed twice, the first counts.
+/// For bones from bind time; if a bone is listed twice, the first counts.
 void SurfaceBuilder::findPlacings(const ModelMesh& mesh) {
   placings_.clear();
   for (const ModelBone& bone : mesh.bones) {

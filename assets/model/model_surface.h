@@ -19,8 +19,8 @@ struct ModelSurface {
   std::size_t dropped = 0;  ///< A vertex was not finite or beyond kMaxCoordinate.
 };
 
-/// A vertex of a skin is placed in a link by the bone's meshToBone, so by where it was when it was
-/// bound; any other by the node's frame. The frames' shape goes into the vertices.
+/// A skin's vertex is placed in a link by the bone's meshToBone, that is by its place at bind time;
+/// any other by the node's frame. The frames' shape goes into the vertices.
 [[nodiscard]] ModelSurface surfaceOf(const Model& model, const ModelLinks& links,
                                      const ModelOwnership& ownership);
 

@@ -59,7 +59,7 @@ void SampledTrack::clean(Keys& keys) {
   if (!keys.empty()) lastKeyS_ = std::max(lastKeyS_, keys.back().timeS);
 }
 
-/// A matrix that mirrors does not say which of its axes the file turned round; the keys do.
+/// A matrix that mirrors does not show which of its axes the file mirrored; the keys do.
 void SampledTrack::findScale() {
   scale_ = nearestRotation(rest_.linear).transpose() * rest_.linear;
   if (track_.scales.empty()) return;

@@ -9,11 +9,11 @@
 
 namespace foretouch::internal {
 
-/// One node's keys, in order of time and finite, ready to be sampled.
+/// One node's keys, finite and in order of time, ready to sample.
 class SampledTrack {
  public:
-  /// `rest`: the node's frame at rest in its parent's. Keys that are not finite, and rotations of
-  /// no length, are left out and counted.
+  /// `rest`: the node's frame at rest in its parent's. Drops and counts keys that are not finite,
+  /// and rotations of zero length.
   SampledTrack(const ModelTrack& track, const Affine& rest);
 
   /// The node's frame in its parent's: between keys linear, rotations on the shorter arc at

@@ -12,11 +12,11 @@
 namespace foretouch::internal {
 namespace {
 
-/// Metres, and of the offset. Keys in single precision repeat a rest offset no better than that; a
-/// translation that only repeats it must not overrule the offset of an avatar of other build.
+/// Metres, and of the offset. Keys in single precision repeat a rest offset no more exactly; a
+/// translation that only repeats it must not override the offset of an avatar of other build.
 constexpr double kSameOffset = 1e-6;
 
-/// Of the shape: what single precision loses in keys that keep it rigid stays below it.
+/// Of the shape: above the single-precision rounding of keys that keep it rigid.
 constexpr double kNoticeableShear = 1e-3;
 
 }  // namespace
@@ -42,7 +42,7 @@ Result<FrameCollector> FrameCollector::create(const Model& model, std::size_t fr
   return FrameCollector(model, std::move(links));
 }
 
-/// A pivot turns its link about a point elsewhere, which shifts it too; take() sees whether it
+/// A pivot turns its link about a point elsewhere, which shifts it too; take() checks whether it
 /// does.
 void FrameCollector::moves(std::int32_t node, bool turns) {
   const LinkId link = links_.servedLink[slotOf(node)];

@@ -1,4 +1,4 @@
-// assets/model/pose_frames.h: clip frames from moving nodes, one instant after another. Internal to
+// assets/model/pose_frames.h: clip frames from moving nodes, instant by instant. Internal to
 // model_clip.
 #pragma once
 
@@ -16,18 +16,18 @@ namespace foretouch::internal {
 /// Collects the frames of a clip of a model's links.
 class FrameCollector {
  public:
-  /// Error where the model makes no links, or where `frames` of it would take more memory than the
+  /// Error if the model makes no links, or if `frames` of it would take more memory than the
   /// largest clip may.
   static Result<FrameCollector> create(const Model& model, std::size_t frames);
 
   [[nodiscard]] const ModelLinks& links() const { return links_; }
-  /// What moves the node moves the link that it serves.
+  /// Marks that the node moves, and with it the link that it serves.
   void moves(std::int32_t node, bool turns);
 
-  /// Error where the pose is none (validatedPose()), naming the frame.
+  /// Error, naming the frame, if the pose is not valid (validatedPose()).
   [[nodiscard]] Result<Done> add(const std::vector<Affine>& toParent);
 
-  /// The clip, with what the user should know. Frames are `frameTimeS` apart.
+  /// The clip, with `notes` for the user. Frames are `frameTimeS` apart.
   [[nodiscard]] Clip take(double frameTimeS, std::vector<std::string> notes);
 
  private:

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// In the order w, x, y, z, as the motion's definition has it, and in the thread's own mode:
-/// volatile keeps the compiler from knowing better.
+/// volatile prevents the compiler from evaluating it itself.
 bool isBelowZero(const std::array<double, 4>& a, const std::array<double, 4>& b) {
   volatile double sum = a[0] * b[0];
   for (std::size_t i = 1; i < 4; ++i) {
@@ -28,7 +28,7 @@ bool isBelowZero(const std::array<double, 4>& a, const std::array<double, 4>& b)
   return sum < 0.0;
 }
 
-/// Everything of a case that the product makes of it.
+/// The product's objects made from a case.
 struct Prepared {
   Avatar avatar;
   Pose from, to;
@@ -53,7 +53,7 @@ bool isBefore(const Vector3d& p, const Vector3d& q) {
   return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
 }
 
-/// Each triangle once, however its corners are ordered.
+/// Each triangle once, whatever the order of its corners.
 std::vector<oracle::Triangle> distinctOf(const std::vector<Triangle>& triangles) {
   std::vector<oracle::Triangle> distinct;
   std::set<std::array<double, 9>> seen;

@@ -1,6 +1,6 @@
-// bench/extremes/asking.h: one case put to the product in every way there is: both
-// backtrackings, every width of vectors, both cullers, each fidelity that the case has, denormals
-// kept and flushed.
+// bench/extremes/asking.h: runs one case through the product in every way: both backtrackings,
+// every width of vectors, both cullers, each fidelity that the case has, denormals kept and
+// flushed.
 #pragma once
 
 #include <optional>
@@ -22,18 +22,18 @@ struct Answer {
   StepContacts step;
 };
 
-/// What became of one case.
+/// The results of one case.
 struct Asked {
-  std::optional<Error> refusal;  ///< The first, where there was one; then there are no answers.
-  bool isRefusedAlike = true;    ///< By both ways with denormals.
+  std::optional<Error> refusal;  ///< The first, if any; then there are no answers.
+  bool isRefusedAlike = true;    ///< With denormals kept and flushed.
   std::vector<Answer> answers;
-  /// The truth's input, as the product holds it: validated poses, and the sign of each joint's dot
+  /// The oracle's input, as the product holds it: validated poses, and the sign of each joint's dot
   /// product as doubles compute it. By isFlushed; the hulls are link fidelity's.
   oracle::HullWorld world[2];
 };
 
-/// Denormals kept, and flushed where the processor can. Leaves the widest vectors in use; not for
-/// several threads at once, as the width is the process's.
+/// With denormals kept, and flushed if the processor can. Leaves the widest vectors in use; for one
+/// thread at a time, because the width is the process's.
 [[nodiscard]] Asked ask(const ExtremeCase& extreme);
 
 /// The hulls of the case's surface at that fidelity.

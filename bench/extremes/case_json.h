@@ -1,4 +1,4 @@
-// bench/extremes/case_json.h: one case in full, for whoever wants to look at it elsewhere.
+// bench/extremes/case_json.h: complete cases, to examine elsewhere.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace foretouch::tools::extremes {
 
 /// Format "foretouch-extremes" version 1: all numbers to the last digit, "nan", "inf" and "-inf" as
-/// words. A scene of more than a thousand triangles keeps its different ones.
+/// words. A scene of more than a thousand triangles keeps only distinct ones.
 [[nodiscard]] std::string casesJson(const std::vector<ExtremeCase>& cases);
 
 }  // namespace foretouch::tools::extremes

@@ -66,7 +66,7 @@ ExtremeCase rigged(Draw& draw, const RigShape& shape) {
 
 namespace {
 
-/// The frame of the link at `t`; rest rotations play no part in it.
+/// The frame of the link at `t`; rest rotations do not matter.
 LinkState stateOf(const ExtremeCase& extreme, LinkId link, double t) {
   const auto skeleton = Skeleton::build(extreme.skeleton);
   const auto from = validatedPose(skeleton.value(), extreme.from);

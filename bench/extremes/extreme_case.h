@@ -1,5 +1,5 @@
-// bench/extremes/extreme_case.h: one step to be asked, as a user would hand it in: unchecked.
-// And the pieces that families make such steps of.
+// bench/extremes/extreme_case.h: one step, as a user would pass it in: unchecked. And the pieces
+// from which families make such steps.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ struct ExtremeCase {
   RawScene scene;
   double tolerance = 1e-3;
   std::vector<std::vector<Triangle>> surface;  ///< Per link; empty: link fidelity alone.
-  bool isLegal = true;                         ///< Else it must be refused.
-  std::optional<Fall> fall;  ///< Of the last link, where it is that and ends at the plane or below.
+  bool isLegal = true;                         ///< Otherwise the product must refuse it.
+  std::optional<Fall> fall;  ///< Of the last link, if it is a fall that ends at the plane or below.
 
   /// Into the scene, as object 0.
   void add(const Triangle& triangle);
@@ -62,31 +62,31 @@ class Draw {
 
 [[nodiscard]] Quaternion aboutAxis(const Eigen::Vector3d& unitAxis, double angle);
 
-/// What a chain of limbs is like.
+/// The shape of a chain of limbs.
 struct RigShape {
   int joints = 2;
   double reach = 0.5;  ///< Of a limb (m).
   double radius = 0.05;
   double turn = 0.8;                                 ///< Of a joint in the step, at most (rad).
   double travel = 0.5;                               ///< Of the root, at most (m).
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Of the root's ways.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Of the root's paths.
 };
-/// A case with such a chain, one LSS a limb, and no scene yet.
+/// A case with such a chain, one LSS per limb, and no scene yet.
 [[nodiscard]] ExtremeCase rigged(Draw& draw, const RigShape& shape);
 
-/// How triangles lie about the motion.
+/// How triangles lie around the motion.
 struct AimShape {
   int count = 6;
   double size = 0.3;                    ///< Edges (m).
   double gapLow = 1e-4, gapHigh = 0.2;  ///< From an LSS at some instant (m), log-uniform.
-  double inside = 0.2;                  ///< Share of triangles that are pushed into it instead.
+  double inside = 0.2;                  ///< Share of triangles pushed into it instead.
 };
-/// Adds triangles that some limb comes near to at some instant.
+/// Adds triangles near some limb at some instant.
 void aim(Draw& draw, ExtremeCase& extreme, const AimShape& shape);
-/// The corner that aim() puts such a triangle at. Poses are taken as they are.
+/// The corner at which aim() puts such a triangle. Uses the poses unchecked.
 [[nodiscard]] Eigen::Vector3d aimed(Draw& draw, const ExtremeCase& extreme, const AimShape& shape);
 
-/// Gives every limb triangles of its own, all inside its LSS; `thin` of them slivers.
+/// Gives every limb its own triangles, all inside its LSS; slivers if `thin`.
 void cover(Draw& draw, ExtremeCase& extreme, bool thin);
 
 /// One joint that goes from one place to another without turning, and one ball or rod on it.

@@ -16,7 +16,7 @@ const std::vector<Family>& families() {
 
 ExtremeCase makeCase(const Family& family, std::uint64_t seed, const ExtremeSizes& sizes) {
   const Member& member = family.members[seed % family.members.size()];
-  // Neighbouring seeds are neighbouring members: the name keeps two families' draws apart.
+  // Neighbouring seeds are neighbouring members: the name makes two families' draws differ.
   std::uint64_t mixed = seed * 0x9e3779b97f4a7c15u;
   for (const char c : family.name) mixed = (mixed ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   Draw draw(mixed);

@@ -1,5 +1,5 @@
-// bench/extremes/families.h: the extremes that are tried, each with random members and
-// hand-made worst ones. A case is its family, its seed and the sizes below, and nothing else.
+// bench/extremes/families.h: the families of extremes, each with random members and hand-made worst
+// ones. Family, seed and the sizes below determine a case.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace foretouch::tools::extremes {
 
-/// Of the members that are large; smaller ones for quick trials.
+/// Sizes of the large members; smaller ones for quick trials.
 struct ExtremeSizes {
   std::size_t coincident = 100'000;  ///< Triangles in one place.
   int chain = 128;                   ///< Links in a row.
@@ -27,7 +27,7 @@ struct Family {
   std::string name;
   std::string about;  ///< For people: what is extreme in it.
   std::vector<Member> members;
-  int share = 1;  ///< Of the cases asked for, one in so many: a case costs so much more.
+  int share = 1;  ///< Runs one in so many of the requested cases: a case costs so much more.
 };
 
 /// In the order of docs/extremes.md.
@@ -37,7 +37,7 @@ struct Family {
                                    const ExtremeSizes& sizes);
 
 namespace internal {
-// By what is extreme: where things are, what shape they have, how they move, what is no input.
+// By kind of extreme: places, shapes, motions, illegal input.
 void addPlaces(std::vector<Family>& families);
 void addShapes(std::vector<Family>& families);
 void addMotions(std::vector<Family>& families);

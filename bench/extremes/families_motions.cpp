@@ -1,4 +1,4 @@
-// How things move: half turns, quaternions of any norm and sign, no motion and too much of it,
+// Extreme motions: half turns, quaternions of any norm and sign, no motion and too much of it,
 // grazing, touching exactly at the step's ends, parallel and coplanar motions, long chains.
 #include <algorithm>
 #include <cmath>
@@ -143,8 +143,7 @@ Family travels() {
   return family;
 }
 
-/// By how much a graze misses or hits, and where it is thought to lie: at the surface or at the
-/// tolerance.
+/// The gap by which a graze misses or hits: at the surface or at the tolerance.
 double grazingGap(Draw& draw, double tolerance) {
   const double off = draw.sign() * draw.pick({0.0, 1e-12, 1e-13, 1e-15, 1e-16, 1e-10});
   return off + draw.pick({0.0, 0.0, 1.0, 0.25}) * tolerance;
@@ -199,7 +198,7 @@ Family grazing() {
   return family;
 }
 
-/// A ball or a level rod falls from `high` to `low` above the floor, the instant known exactly.
+/// A ball or a level rod falls from `high` to `low` above the floor; the instant is known exactly.
 ExtremeCase falling(Draw& draw, double radius, double high, double low) {
   const Vector3d b =
       draw.chance(0.5) ? Vector3d(Vector3d::Zero()) : Vector3d(draw.uniform(0.1, 1.0), 0, 0);

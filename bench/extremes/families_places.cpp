@@ -1,4 +1,4 @@
-// Where things are and how large: far from the origin, scaled, at tolerances of every size.
+// Extreme places and sizes: far from the origin, scaled, at tolerances of every size.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using Sizes = ExtremeSizes;
 
-/// Room for a body and what lies around it, within the largest coordinate.
+/// Leaves room for a body and its surroundings within the largest coordinate.
 constexpr double kFarthest = kMaxCoordinate - 4.0;
 
 ExtremeCase at(Draw& draw, const Vector3d& origin, double tolerance) {

@@ -1,5 +1,5 @@
-// What is no input: NaN, infinities, numbers beyond the limits, each in every place where one can
-// be put. All must be refused, naming the place; but a scene drops triangles that are not finite.
+// Illegal input: NaN, infinities, numbers beyond the limits, each in every possible place. The
+// product must refuse all, naming the place; but a scene drops triangles that are not finite.
 #include <cmath>
 #include <limits>
 

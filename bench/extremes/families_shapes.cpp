@@ -1,5 +1,5 @@
-// What shape things have: slivers, no area, radii and segments of nothing, denormals, many
-// triangles in one place.
+// Extreme shapes: slivers, no area, zero radii and segments, denormals, many triangles in one
+// place.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -176,7 +176,7 @@ ExtremeCase speckled(Draw& draw) {
   return extreme;
 }
 
-/// Half a turn whose arc a dot product next to zero decides.
+/// A half turn whose arc a dot product next to zero decides.
 ExtremeCase tinyDotProduct(Draw& draw) {
   ExtremeCase extreme = sliding({Vector3d::Zero(), Vector3d(0.5, 0, 0), 0.02}, Vector3d::Zero(),
                                 Vector3d(0, draw.uniform(-0.01, 0.01), 0));

@@ -1,13 +1,13 @@
-// bench/extremes/float_mode.h: whether this thread's vectors flush denormals to zero, as game
-// engines and audio programs set it (x86: FTZ and DAZ of MXCSR).
+// bench/extremes/float_mode.h: whether this thread's vectors flush denormals to zero, as in game
+// engines and audio programs (x86: FTZ and DAZ of MXCSR).
 #pragma once
 
 namespace foretouch::tools::extremes {
 
-/// This processor has such a mode.
+/// True if this processor has such a mode.
 [[nodiscard]] bool canFlushDenormals();
 
-/// While it lives, denormals are flushed (results and operands) in this thread, or are not.
+/// While it lives, this thread flushes denormals (results and operands), or keeps them.
 class FloatMode {
  public:
   explicit FloatMode(bool flushes);

@@ -14,9 +14,9 @@ namespace foretouch::tools::extremes {
 namespace {
 
 constexpr double kUlp = 0x1p-52;
-/// Of the extent: what fifty digits tell from touching.
+/// Of the extent: the least gap that fifty digits distinguish from touching.
 constexpr double kTouchingShare = 1e-40;
-/// A contact's normal is a unit vector to so much.
+/// Tolerance of a contact's normal as a unit vector.
 constexpr double kUnitSlack = 1e-9;
 constexpr std::size_t kMostFindings = 12;
 
@@ -24,7 +24,7 @@ bool isBit(const oracle::HullWorld& a, const oracle::HullWorld& b) {
   return a.joints == b.joints && a.triangles == b.triangles;
 }
 
-/// What is impossible in the answer as it stands; empty: nothing.
+/// An impossible value in the answer; empty: none.
 std::string malformation(const LinkContact& c, double tolerance, Scope scope) {
   const bool isTouch = c.verdict == Verdict::Contact || c.verdict == Verdict::StartsInContact;
   for (const double number :
@@ -85,7 +85,7 @@ class Judge {
                        toString(contact.verdict), contact.freeUntil);
   }
 
-  /// What needs no oracle.
+  /// The checks that need no oracle.
   void lookAt(const Answer& answer) {
     ++tally_.queries;
     const auto work = workOf(answer.step.counters);
@@ -202,7 +202,7 @@ class Judge {
   const ExtremeCase& extreme_;
   const Asked& asked_;
   Tally& tally_;
-  std::map<std::pair<LinkId, double>, double> separations_;  // of the oracle at hand
+  std::map<std::pair<LinkId, double>, double> separations_;  // of the current oracle
 };
 
 }  // namespace

@@ -15,10 +15,10 @@ namespace foretouch::tools {
 namespace {
 
 /// Bullet clips the turn of one cast at 45 degrees (ANGULAR_MOTION_THRESHOLD): a motion that turns
-/// further has to be cut, or ends in another pose than it was told.
+/// further must be cut, or it ends in a wrong pose.
 constexpr double kMostTurnOfCast = 0.78;
-/// convexSweepTest() gathers triangles by the box of the last pose's rotation; finer pieces make up
-/// for that.
+/// convexSweepTest() collects triangles by the box of the last pose's rotation; finer pieces
+/// compensate for that.
 constexpr double kFineTurnOfCast = 0.1;
 
 btVector3 toBullet(const Eigen::Vector3d& v) {
@@ -32,7 +32,7 @@ btTransform toBullet(const RigidPose& pose) {
 
 }  // namespace
 
-/// Members in the order in which they need one another.
+/// Members in the order of their dependencies.
 struct BulletScene::Impl {
   Impl() = default;
   Impl(const Impl&) = delete;
@@ -54,8 +54,8 @@ namespace {
 
 using SharedScene = std::shared_ptr<BulletScene::Impl>;
 
-/// A capsule anywhere in the link's frame: Bullet turns a shape about its origin, which has to be
-/// the pivot. The margin is the radius, so that its GJK works on the bare axis.
+/// A capsule anywhere in the link's frame: Bullet turns a shape about its origin, which must be the
+/// pivot. The margin is the radius, so that its GJK works on the bare axis.
 class BulletCapsule {
  public:
   explicit BulletCapsule(const Lss& lss_L)
@@ -72,7 +72,7 @@ class BulletCapsule {
   btMultiSphereShape shape_;
 };
 
-/// A motion cut into equal pieces, cast one after another until one hits.
+/// A motion cut into equal pieces, cast one by one until one hits.
 class BulletSolver : public SweepSolver {
  public:
   /// `mostTurn` (radians) of one cast; zero: the whole motion is one.
@@ -122,7 +122,7 @@ class BulletSweepTest : public BulletSolver {
   }
 };
 
-/// Casts the capsule against every triangle it is given and keeps the earliest hit.
+/// Casts the capsule against every given triangle and keeps the earliest hit.
 class TriangleCast : public btTriangleCallback {
  public:
   TriangleCast(const btConvexShape& shape, const btTransform& from, const btTransform& to)

@@ -17,8 +17,8 @@ class BulletScene {
   explicit BulletScene(const std::vector<Triangle>& triangles);
   ~BulletScene();
 
-  /// btCollisionWorld::convexSweepTest(), and btContinuousConvexCollision of each triangle that the
-  /// sweep's box meets: each over the whole motion, and in pieces that turn little enough for
+  /// btCollisionWorld::convexSweepTest(), and btContinuousConvexCollision with each triangle that
+  /// the sweep's box meets: each over the whole motion, and in pieces that turn little enough for
   /// Bullet.
   [[nodiscard]] SweepSolvers solvers(const Lss& lss_L) const;
 

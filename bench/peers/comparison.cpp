@@ -27,7 +27,7 @@ double threadClockOverheadUs() {
   return least;
 }
 
-/// By nearest rank; zero where there are none.
+/// By nearest rank; zero if there are none.
 double atShare(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());

@@ -1,5 +1,5 @@
-// bench/peers/comparison.h: solvers on a set of motions: their answers judged by the truth,
-// and their time. Microseconds of the thread's CPU time.
+// bench/peers/comparison.h: solvers on a set of motions: their answers compared with the truth, and
+// their times. Microseconds of the thread's CPU time.
 #pragma once
 
 #include <functional>
@@ -13,27 +13,27 @@
 
 namespace foretouch::tools {
 
-/// A solver's answers and times, one a motion of the set.
+/// A solver's answers and times, one per motion of the set.
 struct SolverRun {
   std::string name;
   bool isPeer = false;
   std::vector<SweepAnswer> answers;
-  std::vector<double> us;  ///< The median of the rounds, less what reading the clock costs.
+  std::vector<double> us;  ///< The median of the rounds, less the cost of reading the clock.
 };
 
 struct RoundCounts {
   int own = 3, peers = 1;  ///< At least 1 each.
 };
 
-/// Every solver on every motion, round by round and solver after solver, so that a drift of the
-/// machine meets all of them; peers sit out the rounds beyond theirs. `tick` is called after each
+/// Runs every solver on every motion, round by round and solver by solver, so that a drift of the
+/// machine affects all of them; peers skip the rounds beyond theirs. Calls `tick` after each
 /// solver's round.
 [[nodiscard]] std::vector<SolverRun> runSolvers(const MotionSet& set, const SweepSolvers& solvers,
                                                 const RoundCounts& rounds,
                                                 const std::function<void()>& tick);
 
-/// A run judged by the truth. Errors of the time of impact are in units of t, of motions on which
-/// solver and truth agree that there is a contact.
+/// A run compared with the truth. Errors of the time of impact are in units of t, for motions on
+/// which solver and truth agree that there is a contact.
 struct Judgement {
   std::size_t contacts = 0;    ///< In truth.
   std::size_t missed = 0;      ///< Contacts that the solver does not report,
@@ -46,13 +46,13 @@ struct Judgement {
       0.0;  ///< The most motion after a contact at which it was reported (m); 0: never.
   TimeFigures time;
 
-  /// Misses nothing and is never late: what a user who needs contacts can take.
+  /// Misses nothing and is never late: usable by anybody who needs contacts.
   [[nodiscard]] bool isSound() const { return missed == 0 && late == 0; }
 };
 
 [[nodiscard]] Judgement judged(const MotionSet& set, const SolverRun& run);
 
-/// The index of the sound peer with the least mean time; nothing where no peer is sound.
+/// The index of the sound peer with the least mean time; nothing if no peer is sound.
 [[nodiscard]] std::optional<std::size_t> fastestSoundPeer(const std::vector<SolverRun>& runs,
                                                           const std::vector<Judgement>& judgements);
 

@@ -25,10 +25,10 @@ struct FclScene::Impl {
 
 namespace {
 
-/// Evaluations of the distance; reached by nothing that stays in metres.
+/// Evaluations of the distance; no motion of a few metres reaches it.
 constexpr int kMostAdvancements = 100'000;
 
-/// Metres by which FCL's distances may be off: its solvers stop at 1e-6.
+/// Metres: the error of FCL's distances; its solvers stop at 1e-6.
 constexpr double kDistanceSlack = 1e-5;
 
 /// FCL's capsule lies along z around its frame's origin: that frame C in the link's frame L.
@@ -67,12 +67,12 @@ class FclSolver : public SweepSolver {
   FclCapsule capsule_;
 };
 
-/// A way to ask for distances.
+/// A kind of distance query.
 struct FclDistance {
   const char* name;
   fcl::GJKSolverType solver;
-  /// What was nearest before bounds the search: it cannot be farther now than it was, plus the
-  /// motion since. The same answers, sooner.
+  /// The previous nearest distance plus the motion since then bounds the search. The same answers,
+  /// sooner.
   bool isBounded;
 };
 constexpr FclDistance kPlainDistance = {"libccd", fcl::GST_LIBCCD, false};
@@ -80,7 +80,7 @@ constexpr FclDistance kBoundedDistance = {"libccd, bounded", fcl::GST_LIBCCD, tr
 constexpr FclDistance kOwnBoundedDistance = {"own GJK, bounded", fcl::GST_INDEP, true};
 
 /// Conservative advancement around fcl::distance(), as a user would write it. The speed bound is
-/// the tightest of one number a motion: that of the axis, not of the surface.
+/// the tightest single number per motion: that of the axis, not of the surface.
 class FclAdvancement : public FclSolver {
  public:
   FclAdvancement(std::shared_ptr<const FclScene::Impl> scene, const Lss& lss_L,
@@ -114,7 +114,7 @@ class FclAdvancement : public FclSolver {
   double tolerance_;
 };
 
-/// fcl::continuousCollide() with its default method: poses tested one after another.
+/// fcl::continuousCollide() with its default method: tests poses one by one.
 class FclContinuous : public FclSolver {
  public:
   FclContinuous(std::shared_ptr<const FclScene::Impl> scene, const Lss& lss_L, int samples)
@@ -141,7 +141,7 @@ class FclContinuous : public FclSolver {
   fcl::ContinuousCollisionRequestd request_;
 };
 
-/// Sub-step-and-test, what most programs do: fcl::collide() at so many poses after the first.
+/// Sub-step-and-test, like most programs: fcl::collide() at a number of poses after the first.
 class FclSubsteps : public FclSolver {
  public:
   FclSubsteps(std::shared_ptr<const FclScene::Impl> scene, const Lss& lss_L, int samples)

@@ -1,7 +1,7 @@
-// bench/peers/fcl_solvers.h: the Flexible Collision Library [Pan12] on rigid sweeps, the ways
-// in which it finds these contacts. Its own conservative advancement of a shape and a mesh is not
-// among them: it takes seconds a motion, misses what it is asked for, and overflows the stack the
-// other way round.
+// bench/peers/fcl_solvers.h: the Flexible Collision Library [Pan12] on rigid sweeps, in the ways in
+// which it finds these contacts. They do not include its own conservative advancement of a shape
+// and a mesh, which takes seconds per motion, misses contacts, and overflows the stack with the
+// arguments swapped.
 #pragma once
 
 #include <memory>

@@ -7,12 +7,12 @@
 
 namespace foretouch::tools {
 
-/// The tolerances (m) at which Foretouch is asked.
+/// The tolerances (m) of Foretouch's solvers.
 inline constexpr double kForetouchTolerances[] = {1e-3, 1e-4, 1e-6};
 
-/// One solver a tolerance. A sweep is a step of a skeleton of one joint at the pivot; its
-/// ChainMotion is built anew for every query, as on a live stream. An undecided verdict counts as
-/// contact at the end of what is proven free.
+/// One solver per tolerance. A sweep is a step of a skeleton of one joint at the pivot; it rebuilds
+/// its ChainMotion for every query, as on a live stream. An undecided verdict counts as contact at
+/// its freeUntil.
 [[nodiscard]] Result<SweepSolvers> foretouchSolvers(const Scene& scene, const Lss& lss_L);
 
 }  // namespace foretouch::tools

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A scene that grants no motion of a kind in so many draws a motion grants none.
+/// If so many draws per motion give no motion of a kind, the scene has none.
 constexpr std::size_t kDrawsPerMotion = 2'000;
 
 Vector3d direction(PortableRandom& random) {

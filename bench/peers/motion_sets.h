@@ -1,4 +1,4 @@
-// bench/peers/motion_sets.h: made-up motions of one LSS in a scene, half of them colliding.
+// bench/peers/motion_sets.h: generated motions of one LSS in a scene, half of them colliding.
 // Metres.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace foretouch::tools {
 
-/// What a set's motions are drawn from.
+/// The parameters of a set's motions.
 struct MotionSetKind {
   const char* name;
   const char* description;
@@ -29,7 +29,7 @@ inline constexpr double kAxisLength = 0.3;
 inline constexpr double kPivotBefore = 0.1, kPivotBeside = 0.05;
 /// Motions start at least this far from the scene, so that no solver's tolerance decides them.
 inline constexpr double kStartClearance = 1e-3;
-/// What counts as deep, near or late (m).
+/// Threshold of deep, near and late (m).
 inline constexpr double kJudgedDistance = 1e-3;
 
 /// A forearm between two samples at 30 Hz; the same without turning; the same of a finger's width.
@@ -38,7 +38,7 @@ inline constexpr std::array<MotionSetKind, 3> kMotionSets = {
      {"S2", "the same, moved without turning", 0.06, 0.0, 0.5},
      {"S5", "a finger, moved and turned as in S1", 0.01, kQuarterTurn, 0.5}}};
 
-/// What is true of a motion.
+/// The truth about a motion.
 struct SweepTruth {
   bool touches = false;
   double toi = 1.0;       ///< First contact, to within oracle::kTouchSeparation of separation.
@@ -50,23 +50,23 @@ struct MotionSet {
   std::string name, description;
   Lss lss_L;  ///< Of every sweep.
   std::vector<RigidSweep> sweeps;
-  std::vector<SweepTruth> truths;  ///< One a sweep.
-  std::size_t uncertain = 0;  ///< Motions drawn and left out, as the truth of them stayed unknown.
+  std::vector<SweepTruth> truths;  ///< One per sweep.
+  std::size_t uncertain = 0;  ///< Motions drawn and discarded, because their truth stayed unknown.
 };
 
-/// The first touch of the sweep's LSS with `radius` (m) in place of its own.
+/// The first touch of the sweep's LSS with `radius` (m) instead of its own.
 [[nodiscard]] oracle::FirstTouch firstTouch(const oracle::Scene& scene, const RigidSweep& sweep,
                                             double radius);
 
 /// `count` motions: floor(count / 2) colliding and the rest free, in the order drawn. The pivot's
 /// travel has a uniform direction and length, the turn a uniform axis and angle, the LSS starts
 /// anywhere in the scene's box and turned in any way, at least kStartClearance from the scene.
-/// Errors: a scene in which so many of either kind cannot be found. The same on every machine, as
-/// far as its sines are.
+/// Errors: a scene without enough motions of either kind. The same on every machine with the same
+/// sines.
 [[nodiscard]] Result<MotionSet> drawnSet(const MotionSetKind& kind, const oracle::Scene& scene,
                                          std::size_t count, std::uint64_t seed);
 
-/// The truth of one motion; nothing where it stays uncertain.
+/// The truth of one motion; nothing if it stays uncertain.
 [[nodiscard]] std::optional<SweepTruth> truthOf(const oracle::Scene& scene,
                                                 const RigidSweep& sweep);
 

@@ -1,6 +1,6 @@
-// bench/peers/peer_solvers.h: the peers, FCL and Bullet, on rigid sweeps. The one door to
-// them: no header but their own sources' shows a type of theirs, and the program is built without
-// them where they are not installed (CMake option FORETOUCH_PEERS).
+// bench/peers/peer_solvers.h: the peers, FCL and Bullet, on rigid sweeps. The only interface to
+// them: no other header shows one of their types, and the program builds without them if they are
+// not installed (CMake option FORETOUCH_PEERS).
 #pragma once
 
 #include <memory>

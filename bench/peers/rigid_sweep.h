@@ -1,11 +1,11 @@
-// bench/peers/rigid_sweep.h: the motion that every solver of `bench peers` is asked about:
-// one LSS on one rigid link, between two poses. Metres in the world W, radians, t in [0,1].
+// bench/peers/rigid_sweep.h: the motion that every solver of `bench peers` solves: one LSS on one
+// rigid link, between two poses. Metres in the world W, radians, t in [0,1].
 //
 // The link's frame L has its origin at a pivot. The pivot moves on a straight line and the link
-// turns about it at a constant rate about an axis fixed in W. This one motion can be told to every
-// solver exactly: to Foretouch as a skeleton of one joint at the pivot (articulated/motion.h), to
-// FCL as an InterpMotion with the pivot as its reference point, to Bullet as a shape whose origin
-// is the pivot.
+// turns about it at a constant rate about an axis fixed in W. Every solver can represent this
+// motion exactly: Foretouch as a skeleton of one joint at the pivot (articulated/motion.h), FCL as
+// an InterpMotion with the pivot as its reference point, Bullet as a shape whose origin is the
+// pivot.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,14 +33,14 @@ struct RigidPose {
 struct AxisInWorld {
   Eigen::Vector3d a, b;
 };
-/// Where the LSS's axis is at t.
+/// The LSS's axis at t.
 [[nodiscard]] AxisInWorld axisAt(const RigidSweep& sweep, double t);
 
 /// No point of the axis is ever faster than this (m per unit of t).
 [[nodiscard]] double fastestAxisPoint(const RigidSweep& sweep);
 
-/// How far the LSS is displaced from its place at t0 when at t1 (m): the farthest of its points.
-/// The displacement is affine along the axis, so that one of its ends is the farthest.
+/// Displacement of the LSS from t0 to t1 (m): that of its farthest point. The displacement is
+/// affine along the axis, so that one of its ends is the farthest.
 [[nodiscard]] double displacement(const RigidSweep& sweep, double t0, double t1);
 
 }  // namespace foretouch::tools

@@ -1,4 +1,4 @@
-// bench/peers/sweep_solver.h: what `bench peers` asks of Foretouch and of every peer.
+// bench/peers/sweep_solver.h: the interface of `bench peers` to Foretouch and every peer.
 #pragma once
 
 #include <memory>
@@ -12,11 +12,11 @@ namespace foretouch::tools {
 
 struct SweepAnswer {
   bool touches = false;
-  double toi = 1.0;  ///< Normalised; valid where it touches.
+  double toi = 1.0;  ///< Normalised; valid if it touches.
 };
 
-/// One solver with one setting, in one scene, for one LSS in its link's frame. All that a user
-/// would prepare once is prepared when it is made; solve() is what is timed.
+/// One solver with one setting, in one scene, for one LSS in its link's frame. The constructor
+/// prepares everything that a user would prepare once; only solve() is timed.
 class SweepSolver {
  public:
   SweepSolver(std::string name, bool isPeer) : name_(std::move(name)), isPeer_(isPeer) {}

@@ -1,5 +1,5 @@
-// bench/trade/dominance.h: by how much Foretouch is ahead of the strategies of others that
-// missed nothing, or by how much it is not.
+// bench/trade/dominance.h: how far Foretouch is ahead of other strategies that missed nothing, or
+// behind them.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@ namespace foretouch::tools {
 inline constexpr char kForetouchStrategy[] = "Foretouch";
 /// True for the default, the other rungs and the scalar form.
 [[nodiscard]] bool isForetouch(const TradeRow& row);
-/// Nothing was missed, and nothing found late.
+/// Missed nothing, and found nothing late.
 [[nodiscard]] bool isSafe(const TradeRow& row);
 /// Both are of the same scene, clip and rate.
 [[nodiscard]] bool isSameRun(const TradeRow& x, const TradeRow& y);
 
 struct TradeDominance {
-  /// Settings of others that were safe, where there was a contact to find.
+  /// Safe settings of others, in runs with a contact to find.
   std::int64_t rivals = 0;
-  /// Of them: some setting of Foretouch, safe as well, was both quicker and closer to touching.
+  /// Of them: some setting of Foretouch, also safe, was both quicker and closer to touching.
   std::int64_t beaten = 0;
-  /// A rival's mean time by Foretouch's with the same tolerance in the same run, of the rivals that
-  /// promise contacts within the tolerance.
+  /// A rival's mean time divided by Foretouch's with the same tolerance in the same run, for the
+  /// rivals that promise contacts within the tolerance.
   std::vector<double> factors;  ///< Ascending.
 };
 

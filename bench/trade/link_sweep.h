@@ -1,5 +1,5 @@
-// bench/trade/link_sweep.h: one LSS on its way between two poses, as the strategies that look
-// things up in a NearestTree see it.
+// bench/trade/link_sweep.h: one LSS moving between two poses, for the strategies that use a
+// NearestTree.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ class LinkSweep {
   /// at most h times this.
   [[nodiscard]] double speed() const { return speed_; }
 
-  /// Separation (m) of the LSS' surface and the scene at `t`, or `cap` where it is more; below zero
-  /// where they overlap. Stops early, once one not above `enough` is found.
+  /// Separation (m) of the LSS' surface and the scene at `t`, or `cap` if it is more; below zero if
+  /// they overlap. Stops early, once one not above `enough` is found.
   [[nodiscard]] double separation(double t, double cap, double enough) {
     ++work_.states;
     const LinkState state = evaluator_.stateAt(link_, t);

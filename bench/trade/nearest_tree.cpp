@@ -14,7 +14,7 @@ namespace foretouch::tools {
 namespace {
 
 constexpr std::size_t kLeaf = 4;
-/// One pending sibling a level: kDeepest, and the 24 halvings that 50 million triangles take.
+/// One pending sibling per level: kDeepest, and the 24 halvings that 50 million triangles need.
 constexpr std::size_t kMostPending = 64;
 
 /// Squared distance of two boxes.
@@ -28,7 +28,7 @@ Eigen::Vector3d middleOf(const Triangle& t) {
 }
 
 constexpr std::size_t kBins = 16;
-/// From this depth on halves are of equal size, so that kMostPending is never reached.
+/// From this depth on halves have equal size, so that no search reaches kMostPending.
 constexpr int kDeepest = 32;
 
 /// Triangles whose middles lie in one slice.
@@ -49,7 +49,7 @@ struct Bin {
     high = high.cwiseMax(other.high);
     count += other.count;
   }
-  /// What a visit is expected to cost: surface times triangles.
+  /// The expected cost of a visit: surface times triangles.
   [[nodiscard]] double cost() const {
     if (count == 0.0) return 0.0;
     const Eigen::Vector3d size = high - low;
@@ -57,7 +57,7 @@ struct Bin {
   }
 };
 
-/// The first bin of the second half, where both halves together cost the least.
+/// The first bin of the second half at the least total cost of both halves.
 std::size_t cheapestCut(const std::array<Bin, kBins>& bins) {
   std::array<double, kBins> above{};
   Bin sum;
@@ -177,7 +177,7 @@ double NearestTree::distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
     const std::pair<double, std::int32_t> one{gapOf(node.first), node.first};
     const std::pair<double, std::int32_t> other{gapOf(node.first + 1), node.first + 1};
     FORETOUCH_ASSERT(size + 2 <= kMostPending);
-    pending[size++] = std::max(one, other);  // the nearer one is looked at first
+    pending[size++] = std::max(one, other);  // visits the nearer one first
     pending[size++] = std::min(one, other);
   }
   return best;

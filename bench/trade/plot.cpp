@@ -26,7 +26,7 @@ class Scale {
     low_ = std::min(low_, value);
     high_ = std::max(high_, value);
   }
-  /// Room around what was seen; a logarithmic axis ends at decades or halves of them.
+  /// Margin around the values; a logarithmic axis ends at decades or halves of them.
   void settle() {
     if (!(low_ <= high_)) low_ = high_ = 1.0;
     if (axis_.isLog) {
@@ -178,8 +178,8 @@ class Drawing {
     }
   }
 
-  /// Beside one of its points where there is room, the last first (or the first, as the line says),
-  /// on the right rather than on the left; else right of the plot.
+  /// Names a line beside one of its points with room, preferring the last (or the first, by
+  /// isNamedAtStart), and the right side to the left; else right of the plot.
   void name(const PlotLine& line) {
     std::vector<PlotPoint> points = shown(line);
     if (line.name.empty() || points.empty()) return;

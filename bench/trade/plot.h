@@ -1,5 +1,5 @@
-// bench/trade/plot.h: plots as SVG, for pages that need nothing else. Lines over logarithmic
-// or plain axes, each named where it is drawn.
+// bench/trade/plot.h: plots as SVG, for pages that need nothing else. Lines over logarithmic or
+// plain axes, each with its name beside it.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace foretouch::tools {
 struct PlotPoint {
   double x = 0.0, y = 0.0;
   bool isHollow = false;  ///< Drawn as a ring.
-  std::string note;       ///< Shown when pointed at.
+  std::string note;       ///< Shown on hover.
 };
 
 struct PlotLine {
@@ -30,16 +30,16 @@ struct PlotAxis {
 
 struct Plot {
   std::string title;     ///< What it shows, in a sentence.
-  std::string subtitle;  ///< What it was measured on, and how to read it.
+  std::string subtitle;  ///< The machine, and how to read it.
   PlotAxis x, y;
   std::vector<PlotLine> lines;
 };
 
-/// Words made safe for HTML.
+/// Text escaped for HTML.
 [[nodiscard]] std::string inHtml(const std::string& text);
 
-/// A figure element with heading and SVG. What is not finite, or not above zero on a logarithmic
-/// axis, is left out.
+/// A figure element with heading and SVG. Omits values that are not finite, or not above zero on a
+/// logarithmic axis.
 [[nodiscard]] std::string plotFigure(const Plot& plot);
 
 }  // namespace foretouch::tools

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Nearer than this (m) a link is worth the judge's while.
+/// The judge examines only links nearer than this (m).
 constexpr double kNearForJudge = 0.1;
 
 /// Of all steps of all windows, in order.
@@ -53,8 +53,8 @@ class Runner {
 
  private:
   struct Record {
-    std::vector<double> leastUs;                  // a step
-    std::vector<std::vector<LinkTouch>> touches;  // a step
+    std::vector<double> leastUs;                  // per step
+    std::vector<std::vector<LinkTouch>> touches;  // per step
     TradeWork work;
   };
 
@@ -140,7 +140,7 @@ class Runner {
                  percentilesOf(records_[c].leastUs),
                  records_[c].work,
                  false};
-    if (contender.isExact) {  // distances are told of LSS
+    if (contender.isExact) {  // the distances are those of LSS
       row.score.distanceErrorMean = row.score.distanceErrorMax =
           std::numeric_limits<double>::quiet_NaN();
     }

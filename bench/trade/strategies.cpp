@@ -15,7 +15,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Builds the motion, then asks for every LSS of every link by itself.
+/// Builds the motion, then solves every LSS of every link separately.
 class LssByLss : public Strategy {
  public:
   LssByLss(std::string name, TradePromise promise, const TradeWorld& world, double tolerance)
@@ -109,7 +109,7 @@ class Subdivision : public LssByLss {
     return inSpan(sweep, 0.0, atBegin, until, clearance(sweep, until));
   }
 
-  /// More than the whole way is as good as any.
+  /// A clearance beyond the whole path needs no exact value.
   [[nodiscard]] double clearance(LinkSweep& sweep, double t) const {
     return std::max(0.0, sweep.separation(t, sweep.speed() + tolerance(), 0.0));
   }
@@ -160,7 +160,7 @@ class Certificates : public LssByLss {
         margins_(countOf(world.avatar.numLss()), 0.0) {}
 
  private:
-  /// How far things are looked for: farther costs more, and is asked again less often.
+  /// How far to search: farther costs more, but lasts longer.
   static constexpr double kLookM = 0.5;
 
   void begin(const TradeStep& step) override {
@@ -176,11 +176,11 @@ class Certificates : public LssByLss {
       margin -= sweep.speed();
       return kNever;
     }
-    margin = 0.0;  // nothing is known of the step's end
+    margin = 0.0;  // the clearance at the step's end is unknown
     return advance(sweep, 0.0, until, tolerance());
   }
 
-  std::vector<double> margins_;  // one an LSS: clearance known at the step's beginning (m)
+  std::vector<double> margins_;  // one per LSS: clearance known at the step's beginning (m)
 };
 
 class VoxelSweep : public Strategy {

@@ -1,6 +1,6 @@
-// bench/trade/strategies.h: the strategies that `bench trade` measures, each short and by its
-// source. All model a link by its LSS, and none is in the product's way of a query. Those that are
-// not Foretouch's compute in plain doubles: they keep their promise but for rounding, which only
+// bench/trade/strategies.h: the strategies that `bench trade` measures, each short and after its
+// source. All model a link by its LSS, and none is part of the product's queries. All but
+// Foretouch's compute in plain doubles: they keep their promise except for rounding, which only
 // Foretouch proves.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace foretouch::tools {
 
-/// Scene and avatar, with what strategies look things up in, and what judges them.
+/// Scene and avatar, with the strategies' search structures and the judge's scene.
 struct TradeWorld {
   TradeWorld(const Avatar& anAvatar, const Scene& aScene)
       : avatar(anAvatar),
@@ -33,21 +33,21 @@ struct TradeWorld {
 };
 
 /// At `instants` + 1 instants, both poses among them, is anything within the tolerance? 1: the
-/// poses alone, as an engine without CCD does.
+/// poses alone, like an engine without CCD.
 [[nodiscard]] std::unique_ptr<Strategy> sampling(const TradeWorld& world, int instants,
                                                  double tolerance);
-/// [Schwarzer05]: a span is free where the farthest that the link can move in it is less than its
-/// clearances at both ends together; else it is halved.
+/// [Schwarzer05]: a span is free if the farthest that the link can move in it is less than the sum
+/// of its clearances at both ends; else it halves the span.
 [[nodiscard]] std::unique_ptr<Strategy> subdivision(const TradeWorld& world, double tolerance);
 /// [Mirtich96] without a direction: steps of clearance over the largest speed.
 [[nodiscard]] std::unique_ptr<Strategy> advancement(const TradeWorld& world, double tolerance);
-/// Certificates carried from step to step: a link stays unasked while it has moved less than its
-/// last known clearance ([Mirtich96]'s collision heap, in terms of motion); else as advancement().
+/// Certificates carried from step to step: skips a link while it has moved less than its last known
+/// clearance ([Mirtich96]'s collision heap, in terms of motion); else as advancement().
 [[nodiscard]] std::unique_ptr<Strategy> certificates(const TradeWorld& world, double tolerance);
-/// The link swept through a grid of occupied cells, sampled finely enough that it moves by at most
-/// half a cell between instants, everything grown by what that may hide.
+/// Sweeps the link through a grid of occupied cells, at samples so fine that it moves by at most
+/// half a cell between instants, with everything grown by the possible error.
 [[nodiscard]] std::unique_ptr<Strategy> voxelSweep(const TradeWorld& world);
-/// Ours, as `options` say. The name is given; what is promised follows from the options.
+/// Ours, with `options`, which determine its promise; the name is given.
 [[nodiscard]] std::unique_ptr<Strategy> foretouchQuery(const TradeWorld& world,
                                                        const QueryOptions& options,
                                                        const std::string& name);

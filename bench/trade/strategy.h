@@ -1,5 +1,6 @@
-// bench/trade/strategy.h: what `bench trade` asks of every way to find what a moving avatar
-// touches, Foretouch's and the others'. t is normalised: 0 at the earlier pose, 1 at the later.
+// bench/trade/strategy.h: the interface of `bench trade` to every strategy, Foretouch's and
+// others', that finds the contacts of a moving avatar. t is normalised: 0 at the earlier pose, 1 at
+// the later.
 #pragma once
 
 #include <memory>
@@ -16,23 +17,23 @@ namespace foretouch::tools {
 struct TradeStep {
   const Pose& from;
   const Pose& to;
-  bool continues = false;  ///< `from` is the `to` of the step asked before.
+  bool continues = false;  ///< `from` is the `to` of the previous step.
 };
 
 struct LinkTouch {
   bool touches = false;
-  double toi = 1.0;  ///< Where it touches: when, as the strategy has it.
+  double toi = 1.0;  ///< If it touches: the time, by the strategy.
 };
 
-/// What a strategy promises of every link.
+/// A strategy's promise for every link.
 enum class TradePromise : std::uint8_t {
-  Nothing,   ///< Contacts may be missed or late.
-  Sound,     ///< None is missed, none is late.
+  Nothing,   ///< May miss contacts or report them late.
+  Sound,     ///< Misses none, and reports none late.
   Accurate,  ///< Sound, and no farther than the tolerance from touching when reported.
 };
 
-/// One strategy with one setting, in one scene, for one avatar. All that a user would prepare once
-/// is prepared when it is made; solve() is what is timed. For one thread.
+/// One strategy with one setting, in one scene, for one avatar. The constructor prepares everything
+/// that a user would prepare once; only solve() is timed. For one thread.
 class Strategy {
  public:
   Strategy(std::string name, TradePromise promise) : name_(std::move(name)), promise_(promise) {}
@@ -43,7 +44,7 @@ class Strategy {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] TradePromise promise() const { return promise_; }
 
-  /// `touches` gets one entry a link of the avatar, in order.
+  /// `touches` gets one entry per link of the avatar, in order.
   virtual void solve(const TradeStep& step, std::vector<LinkTouch>& touches, TradeWork& work) = 0;
 
  private:

@@ -20,7 +20,7 @@ constexpr const char* kOurs = kForetouchStrategy;
 constexpr char kPlain[] = "plain advancement";
 constexpr char kPosesOnly[] = "poses only";
 
-/// What lies closer to touching than this (m) is drawn there.
+/// Draws points closer to touching than this (m) here.
 constexpr double kLeastError = 1e-9;
 
 /// Those of one scene and clip.
@@ -55,7 +55,7 @@ Rows only(const Rows& rows, const IsWanted& isWanted) {
   return some;
 }
 
-/// A line a strategy, its points as `place` puts them.
+/// One line per strategy, with points by `place`.
 template <typename Place>
 std::vector<PlotLine> linesOf(const Rows& rows, const Place& place) {
   std::vector<PlotLine> lines;
@@ -78,7 +78,7 @@ std::string whereText(const TradeRow& row) {
   return fmt::format("{} in {}", row.clip, row.scene);
 }
 
-/// The rows' fastest of a strategy; none where it has no row.
+/// The fastest row of a strategy; none if it has no row.
 const TradeRow* find(const Rows& rows, const std::string& strategy, double tolerance) {
   for (const TradeRow* const row : rows) {
     if (row->strategy == strategy && row->tolerance == tolerance) return row;
@@ -97,7 +97,7 @@ const TradeRow* quickest(const Rows& rows, double error) {
   return best;
 }
 
-/// What the best of other strategies takes instead; empty where there is none.
+/// The time of the best other strategy; empty if there is none.
 std::string leadText(const Rows& rows, const TradeRow& winner, double error) {
   const TradeRow* const rival =
       quickest(only(rows, [](const TradeRow& row) { return !isForetouch(row); }), error);

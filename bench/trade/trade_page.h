@@ -1,5 +1,5 @@
-// bench/trade/trade_page.h: what `bench trade` measured, as one HTML page that needs nothing
-// else: no network, no library, no script.
+// bench/trade/trade_page.h: the results of `bench trade` as one self-contained HTML page: no
+// network, no library, no script.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace foretouch::tools {
 
-/// Three plots for each scene and clip, whose titles say what they show, and the tables.
+/// Three plots for each scene and clip, titled with what they show, and the tables.
 [[nodiscard]] std::string tradePage(const MeasuredTrade& bench);
 
 }  // namespace foretouch::tools

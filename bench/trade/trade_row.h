@@ -1,5 +1,5 @@
-// bench/trade/trade_row.h: what was measured of one strategy with one setting, and which
-// settings nothing beats.
+// bench/trade/trade_row.h: the measurements of one strategy with one setting, and the settings that
+// nothing beats.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace foretouch::tools {
 
-/// Links of all steps, and how far what was reported is from the truth. Links that start in contact
-/// are counted by themselves: everybody finds those.
+/// Links of all steps, and how far the reports are from the truth. Counts links that start in
+/// contact separately: every strategy finds those.
 struct TradeScore {
   std::int64_t steps = 0;
   std::int64_t contacts = 0;  ///< Links that touch after t = 0, beyond doubt.
@@ -22,8 +22,8 @@ struct TradeScore {
   std::int64_t falseOnes = 0;  ///< Reported, but never nearer than the tolerance.
   std::int64_t late = 0;       ///< Reported, but beyond doubt after it had touched.
   double lateMaxMs = 0.0;
-  double toiErrorMeanMs = 0.0, toiErrorMaxMs = 0.0;  ///< Of contacts that were found.
-  /// From touching, at the reported instant, of all that was reported but starts (m).
+  double toiErrorMeanMs = 0.0, toiErrorMaxMs = 0.0;  ///< Of found contacts.
+  /// From touching, at the reported instant, of all reports but starts (m).
   double distanceErrorMean = 0.0, distanceErrorMax = 0.0;
 };
 
@@ -31,7 +31,7 @@ struct TradeScore {
 class TradeScorer {
  public:
   explicit TradeScorer(double stepMs) : stepMs_(stepMs) {}
-  /// One step: what was reported, the truth, and who comes nearer than the tolerance.
+  /// Adds one step: the reports, the truth, and which links come nearer than the tolerance.
   void add(const StepPoses& step, const std::vector<LinkTouch>& touches,
            const std::vector<LinkTruth>& truths, const std::vector<bool>& within,
            TruthTeller& teller);
@@ -55,22 +55,22 @@ struct TradeRow {
   bool onFrontier = false;  ///< Of its scene, clip and rate.
 };
 
-/// Some of the rows; whoever holds them holds the rows as well.
+/// Pointers to some of the rows, which must outlive them.
 using TradeRows = std::vector<const TradeRow*>;
-/// The names of their strategies, each once, in the order in which they come.
+/// The names of their strategies, each once, in order of appearance.
 [[nodiscard]] std::vector<std::string> strategiesOf(const TradeRows& rows);
 
-/// One choice: what it costs, how wrong it is, and whether it may be taken at all.
+/// One choice: its cost, its error, and whether it is safe.
 struct TradeChoice {
   double cost = 0.0, error = 0.0;
   bool isSafe = true;
 };
-/// Which of the choices nothing beats: safe, and no other safe one is better in one and not worse
-/// in the other. Of equal ones the first. O(n^2).
+/// The choices that nothing beats: safe, and no other safe one is better in one and not worse in
+/// the other. Of equal ones the first. O(n^2).
 [[nodiscard]] std::vector<bool> frontierOf(const std::vector<TradeChoice>& choices);
 
-/// Marks the rows that are on the frontier of their scene, clip and rate: mean microseconds against
-/// the mean distance from touching, of those that missed nothing and were never late.
+/// Marks the rows on the frontier of their scene, clip and rate: mean microseconds against the mean
+/// distance from touching, among those that missed nothing and were never late.
 void markFrontier(std::vector<TradeRow>& rows);
 
 }  // namespace foretouch::tools

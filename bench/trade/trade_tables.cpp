@@ -154,7 +154,7 @@ BenchTable missTable(const std::vector<TradeRow>& rows, double tolerance) {
     table.columns.push_back({fmt::format("at_{:g}_hz", rate), fmt::format("{:g} Hz", rate), 0});
   }
   for (const std::string& name : strategiesOf(wanted)) {
-    std::map<double, std::pair<std::int64_t, std::int64_t>> missedOf;  // a rate: missed, contacts
+    std::map<double, std::pair<std::int64_t, std::int64_t>> missedOf;  // per rate: missed, contacts
     std::int64_t missed = 0;
     for (const TradeRow* const row : wanted) {
       if (row->strategy != name) continue;

@@ -1,5 +1,5 @@
-// bench/trade/trade_tables.h: what was measured, as tables: all of it for files, and what a
-// person asks for.
+// bench/trade/trade_tables.h: the measurements as tables: all of them for files, and a selection
+// for people.
 #pragma once
 
 #include <string>
@@ -14,9 +14,8 @@ namespace foretouch::tools {
 [[nodiscard]] BenchTable tradeTable(const std::vector<TradeRow>& rows, const std::string& name,
                                     const std::string& title);
 
-/// By how much Foretouch leads in each scene and clip; every strategy, all scenes and clips
-/// together; what is missed at each rate; the frontiers. At this tolerance and this rate, but for
-/// what is looked at.
+/// Foretouch's lead in each scene and clip; every strategy over all scenes and clips; misses at
+/// each rate; the frontiers. At this tolerance and this rate, except for the varied one.
 [[nodiscard]] std::vector<BenchTable> tablesForPeople(const std::vector<TradeRow>& rows,
                                                       double tolerance, double rateHz);
 

@@ -74,8 +74,8 @@ Result<StepContacts> TruthTeller::ask(const Avatar& avatar, const StepPoses& ste
 Result<std::vector<LinkTruth>> TruthTeller::truthOf(const StepPoses& step) {
   const auto own = ask(world_.avatar, step);
   if (!own.ok()) return own.error();
-  // A surface cannot be thinned: there, what is within the finest tolerance counts as touching, and
-  // nothing is called late.
+  // A surface cannot be thinned: so anything within the finest tolerance counts as touching, and
+  // nothing counts as late.
   FORETOUCH_TRY(const auto sure, options_.surface ? own : ask(thinner_, step));
   std::vector<LinkTruth> truths;
   for (std::size_t i = 0; i < own.value().links.size(); ++i) {

@@ -1,7 +1,7 @@
-// bench/trade/truth.h: what truly happens to every link in a step, and the tools to tell it:
-// the product's plain scalar form at a tolerance finer than any that is measured, on bodies a
-// little thinner and a little thicker, so that what is said of a strategy is said on the safe side;
-// and, for a sample of links, a judge that shares no code with it (judge/hull_oracle.h).
+// bench/trade/truth.h: the truth about every link in a step. It comes from the product's plain
+// scalar form at a tolerance finer than any measured one, on bodies a little thinner and a little
+// thicker, so that verdicts on a strategy err on the safe side; and, for a sample of links, from a
+// judge that shares no code with it (judge/hull_oracle.h).
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 
 namespace foretouch::tools {
 
-/// Of the truth (m). Tolerances that are measured should not be finer.
+/// Of the truth (m). Measured tolerances should not be finer.
 inline constexpr double kTruthTolerance = 1e-7;
 
-/// What is known for certain of one link in one step.
+/// Certain facts about one link in one step.
 struct LinkTruth {
   bool starts = false;     ///< In contact at t = 0.
-  bool touches = false;    ///< It touches, beyond doubt.
+  bool touches = false;    ///< It certainly touches.
   double freeUntil = 1.0;  ///< It does not touch before.
-  double touchesBy = 1.0;  ///< Where it touches: by then it has.
+  double touchesBy = 1.0;  ///< If it touches: it has by then.
   bool operator==(const LinkTruth& o) const {
     return starts == o.starts && touches == o.touches && freeUntil == o.freeUntil &&
            touchesBy == o.touchesBy;
@@ -33,18 +33,18 @@ struct LinkTruth {
 /// The avatar with its radii changed by `by` (m), none below zero.
 [[nodiscard]] Avatar withRadiiChanged(const Avatar& avatar, double by);
 
-/// Tells the truth of an avatar in a scene. For one thread; not timed.
+/// Computes the truth for an avatar in a scene. For one thread; not timed.
 class TruthTeller {
  public:
-  /// `surface`: of exact fidelity; none: the links' LSS.
+  /// `surface`: for exact fidelity; none: the links' LSS.
   TruthTeller(const TradeWorld& world, const std::optional<AvatarSurface>& surface);
 
-  /// One a link.
+  /// One per link.
   [[nodiscard]] Result<std::vector<LinkTruth>> truthOf(const StepPoses& step);
-  /// Per link: does it come nearer than `distance` (m) at any time? What is nearer by less than
+  /// Per link: does it come nearer than `distance` (m) at any time? A link nearer by less than
   /// kTruthTolerance may count.
   [[nodiscard]] Result<std::vector<bool>> comesWithin(const StepPoses& step, double distance);
-  /// Separation (m) of the link's LSS and the scene at `t`; not more than kFarM. Below zero by how
+  /// Separation (m) of the link's LSS and the scene at `t`; not more than kFarM. Below zero: how
   /// deep the scene is within a radius.
   [[nodiscard]] double separationAt(const StepPoses& step, LinkId link, double t);
 
@@ -61,12 +61,13 @@ class TruthTeller {
   QueryScratch scratch_;
 };
 
-/// What the judge said of a sample of links.
+/// The judge's results for a sample of links.
 struct JudgedTruth {
-  std::int64_t links = 0;     ///< Asked.
-  std::int64_t free = 0;      ///< Proven free as long as the truth says.
-  std::int64_t touching = 0;  ///< Shown to touch by when the truth says (of those that do).
-  std::int64_t contacts = 0;  ///< Of the links, those that the truth says touch.
+  std::int64_t links = 0;     ///< Examined.
+  std::int64_t free = 0;      ///< Proven free for as long as the truth states.
+  std::int64_t touching = 0;  ///< Shown to touch by the time that the truth states (of those that
+                              ///< do).
+  std::int64_t contacts = 0;  ///< Links that touch by the truth.
   std::int64_t open = 0;      ///< Not decided within the judge's budget.
   std::int64_t wrong = 0;     ///< The judge disagrees.
   void add(const JudgedTruth& other);

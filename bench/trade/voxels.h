@@ -13,7 +13,7 @@ namespace foretouch::tools {
 
 class VoxelGrid {
  public:
-  /// Cells of kCellM, larger where the scene's box would need more than kMostCells.
+  /// Cells of kCellM, larger if the scene's box would need more than kMostCells.
   explicit VoxelGrid(const Scene& scene);
 
   [[nodiscard]] double cell() const { return cell_; }

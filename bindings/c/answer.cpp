@@ -1,4 +1,4 @@
-// bindings/c/answer.cpp: what a query's last step found.
+// bindings/c/answer.cpp: the answer of a query's last step.
 #include <cstring>
 #include <vector>
 
@@ -55,7 +55,7 @@ ft_contact contactOf(const LinkContact& contact, const Scene& scene) {
   return c;
 }
 
-/// Of `count` contacts, the one that `at(i)` gives is the i-th.
+/// Writes `count` contacts; `at(i)` returns the i-th.
 template <typename At>
 ft_status writeContacts(const Scene& scene, std::size_t count, const At& at, ft_contact* contacts,
                         std::size_t capacity, std::size_t* required) {

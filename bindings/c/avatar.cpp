@@ -75,7 +75,7 @@ ft_status readSkeleton(const ft_avatar_arrays& arrays, RawSkeleton& raw) {
   return FT_OK;
 }
 
-/// The list of the link that element `i` of `links` names; null after a failure.
+/// The list of the link given by element `i` of `links`; null after a failure.
 template <typename Element>
 std::vector<Element>* listOf(const std::int32_t* links, std::size_t i, const char* name,
                              std::vector<std::vector<Element>>& lists) {

@@ -24,7 +24,7 @@ constexpr Axes kAxes[] = {
 };
 static_assert(FT_AXES_Y_UP_RIGHT == 0 && FT_AXES_Y_UP_LEFT == 1 && FT_AXES_Z_UP_LEFT == 2);
 
-/// What is no float becomes an infinity: a cast would be undefined.
+/// A value beyond floats becomes an infinity: a cast would be undefined.
 float toFloat(double value) {
   constexpr double kLargest = std::numeric_limits<float>::max();
   if (std::abs(value) > kLargest) {

@@ -19,7 +19,7 @@ ft_clip_options defaultClipOptions() {
   return options;
 }
 
-/// How a clip is read and where it stands.
+/// How to read a clip, and its placement.
 struct ClipReading {
   BvhOptions bvh;
   Placement placement;

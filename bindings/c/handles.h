@@ -1,5 +1,5 @@
-// bindings/c/handles.h: what stands behind the opaque handles. Each begins with the mark of its
-// kind, so that one handed over in the place of another is refused and not believed.
+// bindings/c/handles.h: the structs behind the opaque handles. Each begins with the mark of its
+// kind, so that every function refuses a handle of another kind.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +60,7 @@ struct ft_clip {
   foretouch::Placement placement;
 };
 
-/// One thread's. A step is worked out beside the last one and takes its place once it is done.
+/// For one thread. Computes a step beside the last one, which it replaces once done.
 struct ft_query {
   static constexpr auto kMark = foretouch::c::Mark::Query;
   static constexpr const char* kName = "query";
@@ -79,7 +79,7 @@ struct ft_query {
   foretouch::QueryOptions options;
   foretouch::QueryScratch scratch;
   bool isScratchSuspect = false;  // an exception left it half written
-  foretouch::Pose from, to;       // of the step that is being asked
+  foretouch::Pose from, to;       // of the current step
   foretouch::Pose last;           // where the last step ended
   bool hasLast = false;
   Step step, next;
@@ -99,7 +99,7 @@ template <typename Handle>
                  Handle::kName);
 }
 
-/// Where a new handle is to be written.
+/// Checks the place for a new handle and clears it.
 template <typename Handle>
 [[nodiscard]] ft_status cleared(Handle** handle) {
   if (const ft_status status = needed(handle, Handle::kName); status != FT_OK) return status;
@@ -115,7 +115,7 @@ void destroy(const char* function, Handle* handle) noexcept {
   delete handle;
 }
 
-/// Writes a validated pose to arrays of C; either may be NULL.
+/// Writes a validated pose to C arrays; either may be NULL.
 [[nodiscard]] ft_status writePose(const Pose& pose, double* rotations, double* translations,
                                   std::size_t capacity, std::size_t* required);
 

@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Engines keep plugins in folders of their own: the importer may be beside this library, or where
-/// an installation has it. Empty where it is not: then the places of SceneImportOptions count.
+/// Engines keep plugins in folders of their own: the importer may be beside this library, or in an
+/// installation's place. Empty if it is not: then the places of SceneImportOptions count.
 std::string importerNearLibrary() {
   Dl_info library{};
   if (dladdr(reinterpret_cast<const void*>(&ft_version), &library) == 0) return "";

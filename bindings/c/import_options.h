@@ -1,4 +1,4 @@
-// bindings/c/import_options.h: options of the child process that reads models, and where it is.
+// bindings/c/import_options.h: options of the child process that reads models, and its place.
 #pragma once
 
 #include "assets/import/scene_import.h"
@@ -8,7 +8,7 @@ namespace foretouch::c {
 
 [[nodiscard]] ft_import_options defaultImportOptions();
 
-/// NULL stands for the defaults.
+/// NULL: the defaults.
 [[nodiscard]] ft_status readImportOptions(const ft_import_options* given,
                                           SceneImportOptions& options);
 

@@ -10,7 +10,7 @@
 namespace foretouch::c {
 namespace {
 
-/// Reads and checks a pose. `pose` is reused: nothing is allocated once it has grown.
+/// Reads and checks a pose. Reuses `pose`: allocates nothing once it has grown.
 ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skeleton, Pose& pose) {
   ft_pose known{};
   if (const auto s = readStruct(given, name, known); s != FT_OK) return s;
@@ -57,8 +57,8 @@ ft_status answerNext(ft_query& query, const QueryOptions& options) {
   return FT_OK;
 }
 
-/// Bad options are refused now and not at the first step: the rest pose is asked with them, without
-/// any work allowed.
+/// Refuses bad options now, not at the first step: queries the rest pose with them and a work
+/// budget of 0.
 ft_status takeOptions(const ft_query_options* given, ft_query& query) {
   QueryOptions options;
   if (const auto s = readQueryOptions(given, *query.avatar, options); s != FT_OK) return s;

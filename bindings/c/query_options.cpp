@@ -8,7 +8,7 @@
 namespace foretouch::c {
 namespace {
 
-/// Of a body of a hundred links and a scene of a thousand objects, more than all pairs there are.
+/// More than all pairs of a body of a hundred links and a scene of a thousand objects.
 constexpr std::size_t kMaxIgnoredPairs = std::size_t{1} << 20;
 
 ft_status readFidelity(std::int32_t given, std::int64_t link, Fidelity& fidelity) {

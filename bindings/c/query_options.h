@@ -8,7 +8,7 @@ namespace foretouch::c {
 
 [[nodiscard]] ft_query_options defaultQueryOptions();
 
-/// Checks what can be told without a query; NULL stands for the defaults.
+/// Checks everything that needs no query; NULL: the defaults.
 [[nodiscard]] ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& avatar,
                                          QueryOptions& options);
 

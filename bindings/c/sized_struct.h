@@ -1,5 +1,5 @@
-// bindings/c/sized_struct.h: structs that begin with their size, across versions: what an older
-// program leaves out has its default, what a newer one adds must be zero.
+// bindings/c/sized_struct.h: structs that begin with their size, across versions: fields that an
+// older program lacks have their default; fields that a newer one adds must be zero.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace foretouch::c {
 
 static_assert(sizeof(void*) == 8, "a size in words of eight bytes never cuts a field in two");
 
-/// No struct will ever be larger; a size that is was never set.
+/// No struct will ever be larger; a larger size means that nobody set it.
 inline constexpr std::size_t kMaxStructSize = 4096;
 
 namespace internal {
@@ -27,19 +27,19 @@ namespace internal {
 /// The size that the struct `given` says it has.
 [[nodiscard]] ft_status readSize(const void* given, const char* name, std::size_t& size);
 
-/// Overwrites of `known`, which has the defaults, what `given` holds.
+/// Overwrites the fields of `known`, which has the defaults, that `given` holds.
 template <typename Struct>
 [[nodiscard]] ft_status readStruct(const Struct* given, const char* name, Struct& known) {
   return internal::read(given, name, &known, sizeof(Struct));
 }
 
-/// Fills what `given` has room for, its own size left alone; zeroes what is unknown here.
+/// Fills the fields that `given` has room for, except its size; zeroes fields unknown here.
 template <typename Struct>
 [[nodiscard]] ft_status writeStruct(Struct* given, const char* name, const Struct& known) {
   return internal::write(given, name, &known, sizeof(Struct));
 }
 
-/// What a struct's ft_*_init() does.
+/// The body of a struct's ft_*_init().
 template <typename Struct>
 ft_status initStruct(const char* function, Struct* given, std::size_t size, const char* name,
                      const Struct& defaults) noexcept {

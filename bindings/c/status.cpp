@@ -20,7 +20,7 @@ struct LastError {
 };
 thread_local LastError last{"", kNoIndex, {}};
 
-/// Ends the text where a character ends that was cut in two.
+/// Ends the text before a character that was cut in two.
 void endBetweenCharacters(char* text) {
   std::size_t end = std::strlen(text);
   if (end + 1 < kMessageBytes) return;

@@ -1,5 +1,5 @@
-// bindings/c/status.h: how a C function says what was wrong: a status, and a message that waits for
-// ft_last_error(). Nothing here allocates but the text of an Error.
+// bindings/c/status.h: how a C function reports an error: a status, and a message for
+// ft_last_error(). Only the text of an Error allocates.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,17 @@
 
 namespace foretouch::c {
 
-/// Longest message, its end included; longer ones are cut between characters.
+/// Longest message, with its terminating zero; cuts longer ones between characters.
 inline constexpr std::size_t kMessageBytes = 1024;
 
-/// Remembers the message for this thread, behind the name of the C function that is being called,
-/// and gives `status`. `index`: of the joint, link, frame or triangle at fault; kNoIndex: none.
+/// Stores the message for this thread, prefixed with the current C function's name, and returns
+/// `status`. `index`: of the joint, link, frame or triangle at fault; kNoIndex: none.
 inline constexpr std::int64_t kNoIndex = -1;
 [[gnu::format(printf, 3, 4)]] ft_status failure(ft_status status, std::int64_t index,
                                                 const char* format, ...) noexcept;
-/// The same of the library's own errors. May throw std::bad_alloc.
+/// The same for the library's own errors. May throw std::bad_alloc.
 ft_status failure(const Error& error);
-/// The same of the exception that is being handled.
+/// The same for the current exception, in a catch block.
 ft_status failureOfException() noexcept;
 
 /// From here on messages begin with `function`, which lives for ever.
@@ -28,7 +28,7 @@ void enter(const char* function) noexcept;
 
 [[nodiscard]] ft_status statusOf(ErrorCode code);
 
-/// Runs what a C function does. No exception leaves it.
+/// Runs the body of a C function. No exception leaves it.
 template <typename Body>
 ft_status guarded(const char* function, const Body& body) noexcept {
   enter(function);
@@ -39,33 +39,33 @@ ft_status guarded(const char* function, const Body& body) noexcept {
   }
 }
 
-/// `name` stands for the pointer in the message.
+/// `name`: the pointer's name in the message.
 [[nodiscard]] inline ft_status needed(const void* pointer, const char* name) {
   if (pointer != nullptr) return FT_OK;
   return failure(FT_ERROR_NULL_ARGUMENT, kNoIndex, "expected `%s`, found NULL", name);
 }
 
-/// Counts from C may be negative numbers in disguise.
+/// Counts from C may be converted negative numbers.
 [[nodiscard]] inline ft_status withinLimit(std::size_t count, std::size_t limit, const char* name) {
   if (count <= limit) return FT_OK;
   return failure(FT_ERROR_LIMIT_EXCEEDED, kNoIndex, "expected at most %zu `%s`, found %zu", limit,
                  name, count);
 }
 
-/// An array that is read: NULL only where it is empty, and no longer than the limit.
+/// An input array: NULL only if empty, and no longer than the limit.
 [[nodiscard]] inline ft_status neededArray(const void* array, std::size_t count, std::size_t limit,
                                            const char* name) {
   if (const ft_status status = withinLimit(count, limit, name); status != FT_OK) return status;
   return count == 0 ? ft_status{FT_OK} : needed(array, name);
 }
 
-/// Fields that are kept for later.
+/// Reserved fields.
 [[nodiscard]] inline ft_status zero(std::uint32_t reserved, const char* name) {
   if (reserved == 0) return FT_OK;
   return failure(FT_ERROR_STRUCT_SIZE, kNoIndex, "%s: expected 0, found %u", name, reserved);
 }
 
-/// An array that is filled. FT_OK with `isAsking` set: only the count is wanted.
+/// An output array. FT_OK with `isAsking` set: the caller only wants the count.
 struct Room {
   ft_status status = FT_OK;
   bool isAsking = false;

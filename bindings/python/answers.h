@@ -1,5 +1,5 @@
-// bindings/python/answers.h: what queries answered, as Python sees it. Arrays are views of the
-// library's own contacts: they keep them alive, and nothing is copied.
+// bindings/python/answers.h: the answers of queries, as Python sees them. Arrays are views of the
+// library's own contacts, which they keep alive; nothing is copied.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@
 
 namespace foretouch::python {
 
-/// The contacts of one step or of many, never changed once they are here.
+/// The contacts of one step or of many, immutable.
 struct Answers {
   std::shared_ptr<const Avatar> avatar;  ///< For names.
   std::shared_ptr<const Scene> scene;
   std::vector<LinkContact> contacts;    ///< Step after step, every link of it in order.
-  std::vector<QueryCounters> counters;  ///< One a step.
+  std::vector<QueryCounters> counters;  ///< One per step.
 
   [[nodiscard]] std::size_t links() const { return countOf(avatar->numLinks()); }
 };
@@ -41,7 +41,7 @@ struct Contact {
   SharedAnswers answers;
   std::size_t place = 0;  ///< In Answers::contacts.
 };
-/// For a person, in angle brackets.
+/// Readable text, in angle brackets.
 [[nodiscard]] std::string textOf(const Contact& contact);
 
 }  // namespace foretouch::python

@@ -50,7 +50,7 @@ void checkShape(const py::array& array, const std::string& what, const Shape& ex
          "expected the shape " + shapeText(expected) + ", found " + shapeText(found));
 }
 
-/// "[3, 1]", of the element at this position in C order.
+/// "[3, 1]", for the element at this position in C order.
 std::string placeText(const py::array& array, py::ssize_t position) {
   std::string text;
   for (py::ssize_t axis = array.ndim(); axis-- > 0;) {

@@ -17,17 +17,17 @@
 
 namespace foretouch::python {
 
-/// Any extent, in a shape that is asked for.
+/// Any extent, in an expected shape.
 inline constexpr py::ssize_t kAny = -1;
 using Shape = std::vector<py::ssize_t>;
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
-/// Whatever numpy makes an array of: real numbers (no booleans, no objects), all finite, of this
-/// shape. An array that is C-contiguous and of doubles is not copied.
+/// Anything that numpy makes an array of: real numbers (no booleans, no objects), all finite, of
+/// this shape. Does not copy a C-contiguous array of doubles.
 [[nodiscard]] Numbers numbers(py::handle given, const std::string& what, const Shape& shape);
-/// The same of integers; floats are refused even where they are whole.
+/// The same for integers; refuses floats, even whole ones.
 [[nodiscard]] Integers integers(py::handle given, const std::string& what, const Shape& shape);
 
 [[nodiscard]] Eigen::Vector3d point(py::handle given, const std::string& what);
@@ -40,7 +40,7 @@ using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::force
 /// str, bytes or os.PathLike, as the system names files; no NUL in it.
 [[nodiscard]] std::string path(py::handle given, const std::string& what);
 [[nodiscard]] std::string text(py::handle given, const std::string& what);
-/// A list or tuple (of texts); a text alone is refused, as it would be read letter by letter.
+/// A list or tuple (of texts); refuses a single text, which Python would iterate letter by letter.
 [[nodiscard]] std::vector<py::object> items(py::handle given, const std::string& what);
 [[nodiscard]] std::vector<std::string> texts(py::handle given, const std::string& what);
 
@@ -54,7 +54,7 @@ using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::force
 [[noreturn]] void refuseName(const std::string& what, const char* kind, const std::string& name,
                              const std::vector<std::string>& known);
 
-/// The value that one of the words stands for.
+/// The value of the given word.
 template <typename Value, std::size_t kCount>
 Value oneOf(py::handle given, const std::string& what,
             const std::array<std::pair<const char*, Value>, kCount>& words) {

@@ -51,7 +51,7 @@ RawSkeleton skeletonFrom(const py::object& names, const py::object& parents,
   const Numbers offset = numbers(offsets, "offsets", {count, 3});
   RawSkeleton raw;
   for (py::ssize_t j = 0; j < count; ++j) {
-    // Beyond any index either way: the library's check of hierarchies says the rest.
+    // Beyond any index either way: the library's check of hierarchies reports it.
     const std::int64_t above = std::min<std::int64_t>(std::max<std::int64_t>(parent.at(j), -2),
                                                       kMaxJoints + std::int64_t{1});
     raw.joints.push_back({name[std::size_t(j)], static_cast<JointId>(above),

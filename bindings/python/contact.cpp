@@ -36,7 +36,7 @@ bool isTouching(const LinkContact& contact) {
   return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
 }
 
-/// A property that only a contact has; None for what is clear or undecided.
+/// A property that only a contact has; None for clear or undecided links.
 template <typename Read>
 auto ofTouch(const Read& read) {
   return [read](const Contact& contact) -> py::object {

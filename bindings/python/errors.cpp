@@ -9,7 +9,7 @@ namespace {
 PyObject* inputErrorType = nullptr;
 PyObject* resourceErrorType = nullptr;
 
-/// Whether the system or a file failed, rather than an argument or what a file holds.
+/// Whether the system or a file failed, rather than an argument or a file's content.
 bool isOfTheSystem(ErrorCode code) {
   switch (code) {
     case ErrorCode::FileNotFound:

@@ -25,7 +25,7 @@ class Failure : public std::exception {
   Error error_;
 };
 
-/// `what` is the argument that is refused; `message` says what was expected and found.
+/// `what`: the refused argument; `message`: what was expected and found.
 [[noreturn]] void refuse(ErrorCode code, const std::string& what, std::string message,
                          std::int64_t index = -1);
 
@@ -36,7 +36,7 @@ T valueOf(Result<T> result) {
   return std::move(result).value();
 }
 
-/// The same; an error that names no file is said to be of `what`.
+/// The same; an error without a file names `what` instead.
 template <typename T>
 T valueOf(Result<T> result, const std::string& what) {
   if (result.ok()) return std::move(result).value();
@@ -45,7 +45,7 @@ T valueOf(Result<T> result, const std::string& what) {
   throw Failure(std::move(error));
 }
 
-/// Untrusted bytes as a Python text: what is not UTF-8 as \xNN.
+/// Untrusted bytes as a Python text; bytes that are not UTF-8 become \xNN.
 [[nodiscard]] py::str readable(const std::string& bytes);
 
 }  // namespace foretouch::python

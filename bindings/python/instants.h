@@ -13,7 +13,7 @@ class Instants {
   explicit Instants(py::handle given);
 
   [[nodiscard]] const std::vector<double>& values() const { return values_; }
-  /// `rest` for one instant; for many, their number before it.
+  /// `rest` for one instant; for many, their number and then `rest`.
   [[nodiscard]] Shape shapeWith(Shape rest) const;
 
  private:

@@ -1,4 +1,4 @@
-// bindings/python/motion.h: a motion, and the avatar that it is one of.
+// bindings/python/motion.h: a motion and its avatar.
 #pragma once
 
 #include <memory>

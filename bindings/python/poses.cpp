@@ -5,7 +5,7 @@
 namespace foretouch::python {
 namespace {
 
-/// The two halves of what stands for a pose or for many.
+/// The two arrays of a pose, or of many.
 std::pair<py::object, py::object> halves(py::handle given, const std::string& what) {
   if (py::isinstance<py::tuple>(given) || py::isinstance<py::list>(given)) {
     const auto pair = py::reinterpret_borrow<py::sequence>(given);

@@ -1,6 +1,6 @@
 // bindings/python/poses.h: poses between numpy and the library. Rotations are (n, 4) in the order
 // w, x, y, z, translations (n, 3) in metres, both relative to the parent; stacks of poses have one
-// extent more in front.
+// more extent in front.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace foretouch::python {
 
 /// A foretouch.Pose, or any pair (rotations, translations). Checked against the skeleton; unit
-/// rotations come through bit for bit.
+/// rotations stay the same, bit for bit.
 [[nodiscard]] Pose poseFrom(const Skeleton& skeleton, py::handle given, const std::string& what);
 /// A foretouch.Poses, or any pair of stacks.
 [[nodiscard]] std::vector<Pose> posesFrom(const Skeleton& skeleton, py::handle given,

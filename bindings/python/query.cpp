@@ -13,7 +13,7 @@
 namespace foretouch::python {
 namespace {
 
-/// Steps between two looks at whether the user pressed Ctrl-C.
+/// Steps between checks for Ctrl-C.
 constexpr std::size_t kStepsAtOnce = 1024;
 
 /// A scratch that goes back to its shelf.
@@ -51,8 +51,8 @@ void ScratchShelf::putBack(std::unique_ptr<QueryScratch> scratch) {
 
 Query::Query(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene, QueryOptions options)
     : avatar_(std::move(avatar)), scene_(std::move(scene)), options_(std::move(options)) {
-  // Asked once with no work to spend, so that bad options are refused here and not at first use:
-  // touchesAt() and the pool take them as good.
+  // Runs once with a work budget of 0, to refuse bad options here and not at first use: touchesAt()
+  // and the pool do not check them.
   QueryOptions idle = options_;
   idle.workBudget = 0;
   const Pose rest = restPose(avatar_->skeleton());
@@ -60,7 +60,7 @@ Query::Query(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene, Query
   static_cast<void>(valueOf(foretouch::firstContacts(*avatar_, still, *scene_, idle)));
 }
 
-/// The library can tell a motion of another avatar by the number of its joints alone.
+/// The library detects a motion of another avatar only by its number of joints.
 void Query::checkMotion(const Motion& motion) const {
   if (motion.avatar->identity() == avatar_->identity()) return;
   refuse(ErrorCode::Mismatch, "motion", "expected a motion of this avatar");

@@ -1,5 +1,5 @@
-// bindings/python/query.h: a question that is asked again and again: avatar, scene and options,
-// looked up and checked once, and the memory that queries keep.
+// bindings/python/query.h: a reusable query: avatar, scene and options, looked up and checked once,
+// and scratch memory.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace foretouch::python {
 
-/// Scratch memory for as many threads as ask at once.
+/// Scratch memory for any number of concurrent calls.
 class ScratchShelf {
  public:
   [[nodiscard]] std::unique_ptr<QueryScratch> take();
@@ -27,11 +27,11 @@ class ScratchShelf {
   std::vector<std::unique_ptr<QueryScratch>> free_;
 };
 
-/// Any number of threads may ask one Query at once: each call takes a scratch of its own. The
-/// methods want the GIL and release it while they work.
+/// Any number of threads may use one Query at once: each call takes its own scratch. Callers hold
+/// the GIL; the methods release it while they work.
 class Query {
  public:
-  /// Throws where the library refuses the options.
+  /// Throws if the library refuses the options.
   Query(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene, QueryOptions options);
 
   [[nodiscard]] const std::shared_ptr<Avatar>& avatar() const { return avatar_; }

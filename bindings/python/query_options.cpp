@@ -80,7 +80,7 @@ void applyPolicy(py::handle given, const std::string& what, LinkPolicy& policy) 
   }
 }
 
-/// {link: {"tolerance": ..., "fidelity": ...}}; what a link leaves out is as for all links.
+/// {link: {"tolerance": ..., "fidelity": ...}}; a missing option is as for all links.
 std::vector<LinkPolicy> policiesFrom(const py::object& given, const Avatar& avatar,
                                      const QueryOptions& options) {
   if (given.is_none()) return {};
@@ -93,7 +93,7 @@ std::vector<LinkPolicy> policiesFrom(const py::object& given, const Avatar& avat
   return policies;
 }
 
-/// What was made for another avatar would be read out of bounds.
+/// A surface of another avatar would cause reads out of bounds.
 std::optional<AvatarSurface> surfaceFrom(const py::object& given, const Avatar& avatar) {
   if (given.is_none()) return std::nullopt;
   if (!py::isinstance<Surface>(given)) {

@@ -6,12 +6,12 @@
 
 namespace foretouch::python {
 
-/// As they were given, unchecked.
+/// As given, unchecked.
 struct GivenOptions {
   py::object tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface;
 };
 
-/// With names of links and objects looked up. What the library itself checks is left to it.
+/// Looks up the names of links and objects. The library itself checks the values.
 [[nodiscard]] QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar,
                                        const Scene& scene);
 

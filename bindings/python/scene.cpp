@@ -42,8 +42,8 @@ std::vector<Triangle> gathered(const Numbers& vertices, const Integers& corners)
   return triangles;
 }
 
-/// One object for all triangles, or one index each. Objects without names are numbered, as many as
-/// there are triangles at most.
+/// One object for all triangles, or one index each. Numbers objects without names, at most as many
+/// as there are triangles.
 void nameObjects(RawScene& raw, const py::object& objectOf, const py::object& objectNames) {
   if (!objectNames.is_none()) raw.objectNames = texts(objectNames, "object_names");
   raw.objectOf.assign(raw.triangles.size(), 0);

@@ -1,4 +1,4 @@
-// bindings/python/surface.h: an avatar's own triangles, and the avatar that they were made for.
+// bindings/python/surface.h: an avatar's own triangles, and that avatar.
 #pragma once
 
 #include <memory>

@@ -10,7 +10,7 @@
 namespace foretouch::python {
 namespace {
 
-/// Of all the LSS of one link together: what they enclose is the union, as no winding is negative.
+/// All the LSS of one link together: they enclose the union, because no winding is negative.
 struct Combined {
   std::vector<double> vertices, times;
   std::vector<std::uint32_t> triangles;
@@ -39,7 +39,7 @@ bool isSame(const Pose& x, const Pose& y) {
          std::equal(x.rotations.begin(), x.rotations.end(), y.rotations.begin(), isSameTurn);
 }
 
-/// Each of the same avatar, and from where the one before ended.
+/// Each must be of the same avatar, and begin where the one before ended.
 void checkChain(const std::vector<const Motion*>& motions) {
   if (motions.empty()) refuse(ErrorCode::Empty, "motions", "expected at least one motion");
   for (std::size_t i = 1; i < motions.size(); ++i) {

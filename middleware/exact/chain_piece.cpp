@@ -64,7 +64,7 @@ double freeUntilByCubics(MotionEvaluator& states, LinkId link, double t, double 
   double end = std::min(horizon, t + 0.95 * wanted);
   const LinkState begin = states.stateAt(link, t);
   for (int i = 0; i < kMostHalvings && end > t; ++i, end = t + 0.5 * (end - t)) {
-    // Turns of more than a right angle are no short pieces, whatever the band.
+    // A turn of more than a right angle is not a short piece, whatever the band.
     const ChainPiece piece = chainPiece(begin, states.stateAt(link, end), end - t, bounds, rho);
     if (piece.deviation > band || piece.motion.q0.dot(piece.motion.q1) < 0.8) continue;
     const RigidAnswer answer =

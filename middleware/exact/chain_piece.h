@@ -1,5 +1,5 @@
-// middleware/exact/chain_piece.h: a stretch of a chain's motion as a nlerp body, whose cubics
-// answer for it within a certified band. Not installed.
+// middleware/exact/chain_piece.h: a span of a chain's motion as a nlerp body, whose cubics bound it
+// within a certified band. Not installed.
 //
 // Over a span both motions have the same end poses; a point with |acceleration| <= A stays within
 // A*h^2/8 of its chord, so the two paths are apart by at most the sum of the two bounds
@@ -17,14 +17,13 @@ struct ChainPiece {
   double deviation = 0.0;  ///< Metres, rounded up: of points within `rho` of the link's origin.
 };
 
-/// The link from `begin` to `end`, two states of it `span` apart in t.
+/// The link from state `begin` to state `end`, `span` apart in t.
 [[nodiscard]] ChainPiece chainPiece(const LinkState& begin, const LinkState& end, double span,
                                     const MotionBounds& bounds, double rho);
 
 /// Up to which t a triangle of the link is proven to keep more than `floor` away from a triangle of
-/// the scene, from `t` on and not beyond `horizon`; `t` itself where nothing is proven. One piece,
-/// made so short that its deviation is at most `band`. `nhat_W` as rigidTrianglePairFromPlane() has
-/// it.
+/// the scene, from `t` on and not beyond `horizon`; `t` itself if nothing is proven. One piece,
+/// short enough that its deviation is at most `band`. `nhat_W` as in rigidTrianglePairFromPlane().
 [[nodiscard]] double freeUntilByCubics(MotionEvaluator& states, LinkId link, double t,
                                        double horizon, const Triangle& part_L,
                                        const Triangle& fixed_W, double floor, double band,

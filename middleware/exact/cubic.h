@@ -36,7 +36,7 @@ inline Cubic restrictTo(const Cubic& c, double from, double to) {
   return {p * aa0 + from * aa1, q * aa0 + to * aa1, p * bb0 + from * bb1, q * bb0 + to * bb1};
 }
 
-/// 1 or -1 where all coefficients are beyond `bound` on that side, else 0.
+/// 1 or -1 if all coefficients are beyond `bound` on that side, else 0.
 inline int strictSign(const Cubic& c, double bound) {
   if (c[0] > bound && c[1] > bound && c[2] > bound && c[3] > bound) return 1;
   return c[0] < -bound && c[1] < -bound && c[2] < -bound && c[3] < -bound ? -1 : 0;
@@ -50,8 +50,8 @@ inline bool hasOneRoot(const Cubic& c, double bound) {
   return sign * c[1] > bound || sign * c[2] < -bound;
 }
 
-/// Where a cubic whose ends have opposite signs vanishes, in [0,1]; a proposal, nothing is proved.
-/// At most kRootSteps steps of Newton inside a shrinking bracket.
+/// A root in [0,1] of a cubic whose ends have opposite signs; a proposal, not a proof. At most
+/// kRootSteps steps of Newton inside a shrinking bracket.
 inline constexpr int kRootSteps = 60;
 inline double rootOf(const Cubic& c) {
   double low = 0.0, high = 1.0, t = c[0] / (c[0] - c[3]);

@@ -1,6 +1,6 @@
-// middleware/exact/filter_corners.h: what the filter computes of a moving polygon in doubles, and
-// how far each result may be off. Not installed. Proof: middleware/exact/linear_query.md 3; held
-// against fifty digits by tests/middleware/exact/filter_rounding_test.cpp.
+// middleware/exact/filter_corners.h: the quantities of a moving polygon that the filter computes in
+// doubles, and how far each may be off. Not installed. Proof: middleware/exact/linear_query.md 3;
+// tests/middleware/exact/filter_rounding_test.cpp checks it with fifty digits.
 #pragma once
 
 #include <array>

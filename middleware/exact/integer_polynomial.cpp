@@ -11,13 +11,13 @@
 namespace foretouch::internal {
 namespace {
 
-/// Halvings after which a cluster of roots is suspected to be a multiple root. Cost only.
+/// Halvings after which we suspect a cluster of roots to be a multiple root. Cost only.
 constexpr int kClusterDepth = 8;
-/// More halvings than any two roots of polynomials with the admitted coefficients can need to come
-/// apart (linear_query.md 4): a loop that reaches it is a bug.
+/// More halvings than any two roots of polynomials with the admitted coefficients need to separate
+/// (linear_query.md 4): a loop that reaches it is a bug.
 constexpr int kSeparationDepth = 200000;
-/// Bits that a guess in doubles is trusted with, and guesses that are made before it is asked
-/// whether the sign is zero. Cost only.
+/// Bits for which we trust a guess in doubles, and guesses before we test whether the sign is zero.
+/// Cost only.
 constexpr int kNarrowingBits = 40;
 constexpr int kNarrowings = 2;
 
@@ -57,7 +57,7 @@ std::pair<Coefficients, Coefficients> halve(const Coefficients& b) {
   return {{b[0] << 3, a << 2, e << 1, g}, {g, f << 1, d << 2, b[3] << 3}};
 }
 
-/// Changes of sign, zeros left out: no fewer than the roots in the open span, and one means one.
+/// Changes of sign, without zeros: no fewer than the roots in the open span, and one means one.
 int variations(const Coefficients& b) {
   int changes = 0, last = 0;
   for (const Integer& value : b) {
@@ -141,8 +141,8 @@ void bisect(Root& root) {
                  : Dyadic{2 * root.low.numerator, root.low.log2 + 1};
 }
 
-/// Narrows the bracket by up to `bits` bits at once, at least by one: a guess in doubles, held
-/// against exact signs on both sides.
+/// Narrows the bracket by up to `bits` bits at once, at least by one: a guess in doubles, checked
+/// by exact signs on both sides.
 void narrow(Root& root, int bits) {
   const Coefficients b = bernstein(*root.of, root.low);
   if (b[0] == 0 || b[3] == 0) return bisect(root);  // another root at an end misleads the guess
@@ -192,7 +192,7 @@ Roots::Roots(const Polynomial& p) : p_(p) {
   }
 }
 
-/// Halves spans until each holds one root or none; false where more than `depth` would be needed.
+/// Halves spans until each holds one root or none; false if that needs more than `depth`.
 bool Roots::isolate(int depth) {
   struct Span {
     Coefficients b;

@@ -9,7 +9,7 @@
 
 namespace foretouch::internal {
 
-/// Unbounded; below 1024 bits, which is nearly always, it does not allocate.
+/// Unbounded. Below 1024 bits, nearly always, it does not allocate.
 using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<1024>,
                                               boost::multiprecision::et_off>;
 
@@ -28,8 +28,8 @@ struct Dyadic {
 };
 [[nodiscard]] int signAt(const Polynomial& p, const Dyadic& t);
 
-/// One root: of a polynomial whose only root in the open bracket (low, low + 2^-log2) it is, a
-/// simple one; or, where `isDyadic`, `low` itself.
+/// One root. Either a simple root, the polynomial's only one in the open bracket (low, low +
+/// 2^-log2); or, if `isDyadic`, `low` itself.
 struct Root {
   Dyadic low;
   bool isDyadic = false;

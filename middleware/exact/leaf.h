@@ -1,19 +1,19 @@
-// middleware/exact/leaf.h: what the exact leaf tests answer. Time t is normalised, [0,1].
+// middleware/exact/leaf.h: the answer of the exact leaf tests. Time t is normalised, [0,1].
 #pragma once
 
 #include <cstdint>
 
 namespace foretouch {
 
-/// The arithmetic that decided: each stage answers or hands on to the next.
+/// The arithmetic that decided: each stage answers or passes on to the next.
 enum class LeafStage : std::uint8_t {
   Filter,  ///< Doubles with a proved rounding bound.
   Exact,   ///< Integers.
 };
 [[nodiscard]] const char* toString(LeafStage stage);
 
-/// The answer of one query. Sound: where `hits`, the first contact lies in [toiLow, toiHigh]; where
-/// not, there is none on [0,1].
+/// The answer of one query. Sound: if `hits`, the first contact lies in [toiLow, toiHigh]; if not,
+/// there is none on [0,1].
 struct LeafAnswer {
   bool hits = false;
   double toiLow = 1.0;   ///< Proved free on [0, toiLow).

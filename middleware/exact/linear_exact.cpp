@@ -56,7 +56,7 @@ int lowestExponent(const MovingPolygon& polygon, int axis) {
   return lowest;
 }
 
-/// Each axis has its own power of two: no sign that is asked for depends on it.
+/// Each axis has its own power of two: no sign that we need depends on it.
 Corners cornersOf(const MovingPolygon& polygon) {
   Corners corners;
   corners.count = polygon.count;
@@ -122,7 +122,7 @@ class ExactQuery {
     return p;
   }
 
-  /// det(corner 0, corner 1, corner 2): zero where the origin is in the polygon's plane.
+  /// det(corner 0, corner 1, corner 2): zero when the origin is in the polygon's plane.
   Polynomial volumePolynomial() {
     Polynomial volume;
     const Corner& last = corners_.at[2];
@@ -136,7 +136,7 @@ class ExactQuery {
     return volume;
   }
 
-  /// Whether the polygon holds the origin at an instant at which it is in the polygon's plane.
+  /// Whether the polygon contains the origin at an instant when the origin is in its plane.
   template <class Time>
   bool inside(Time&& time) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -151,7 +151,7 @@ class ExactQuery {
     return insideOfLine(time);
   }
 
-  /// The same where all corners lie on one line through the origin.
+  /// The same when all corners lie on one line through the origin.
   template <class Time>
   bool insideOfLine(Time&& time) {
     for (int i = 0; i < corners_.count; ++i) {
@@ -177,7 +177,7 @@ class ExactQuery {
   }
 
   static StageAnswer bracketOf(const Root& root) {
-    // A dyadic root may need more bits than a double has: then it is bracketed by doubles.
+    // A dyadic root may need more bits than a double has: then doubles bracket it.
     const int bits = root.low.log2 > 52 ? root.low.log2 - 52 : 0;
     const Integer numerator = root.low.numerator >> bits;
     const int log2 = root.low.log2 - bits;
@@ -186,8 +186,8 @@ class ExactQuery {
     return {Decision::Yes, low, exact ? low : low + std::ldexp(1.0, -log2)};
   }
 
-  /// The origin never leaves the polygon's plane: contact begins where a side passes the origin,
-  /// or, where all corners stay on one line through it, where two corners come to opposite sides.
+  /// The origin never leaves the polygon's plane: contact begins when a side passes the origin, or,
+  /// if all corners stay on one line through it, when two corners come to opposite sides.
   void tryEdgesOfCoplanar() {
     best_ = {Decision::No};
     for (int axis = 0; axis < 3; ++axis) {

@@ -19,11 +19,11 @@ using Eigen::Vector3d;
 /// Absorbs underflow of products of two or three lengths of 1e-116 or more.
 constexpr double kFilterUnderflow = 1e-300;
 
-/// Spans looked at before the filter declines. Cost only: the exact stage takes over.
+/// Spans that the filter tries before it declines. Cost only: the exact stage takes over.
 constexpr int kFilterSpans = 24;
 constexpr int kFilterDepth = 12;
 /// Half widths of the bracket put around a root: the first leaves the sides of the polygon little
-/// room to change sign, the second is what the accuracy allows.
+/// room to change sign, the second is the most that the accuracy allows.
 constexpr std::array<double, 2> kHalfBrackets = {0x1p-44, 0.25 * kLeafTimeAccuracy};
 
 struct Span {
@@ -109,7 +109,7 @@ class Filter {
   }
 
   /// Is the origin, known to be in the polygon's plane at some instant of [low, high], inside it?
-  /// Decided where the sides' signs do not change in the bracket, seen along some axis.
+  /// Decides if, seen along some axis, the sides' signs do not change in the bracket.
   Decision originInside(double low, double high) const {
     for (int axis = 0; axis < 3; ++axis) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -126,7 +126,7 @@ class Filter {
     return Decision::CannotTell;
   }
 
-  /// Sign of component u x v of corner j x corner j+1 where it is strict all over [low, high].
+  /// Sign of component u x v of corner j x corner j+1 if it is strict throughout [low, high].
   int sideSign(int j, int u, int v, double low, double high, double bound) const {
     const Side side = sideOf(corners_, j, u, v);
     const double atLow = valueAt(side, low), atHigh = valueAt(side, high);

@@ -19,7 +19,7 @@
 
 namespace foretouch {
 
-// All coordinates finite, |coordinate| <= 1e100 and, where not zero, >= 1e-100 (asserted).
+// All coordinates finite, |coordinate| <= 1e100 and, if not zero, >= 1e-100 (asserted).
 [[nodiscard]] LeafAnswer vertexFace(const LinearPoint& vertex,
                                     const std::array<LinearPoint, 3>& face);
 [[nodiscard]] LeafAnswer edgeEdge(const std::array<LinearPoint, 2>& one,

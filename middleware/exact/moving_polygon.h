@@ -26,13 +26,13 @@ struct MovingPolygon {
                                       const std::array<LinearPoint, 2>& edge);
 [[nodiscard]] MovingPolygon polygonOf(const LinearPoint& one, const LinearPoint& other);
 
-/// When the origin first lies in the polygon, decided by one stage alone.
+/// When the origin first lies in the polygon, by one stage alone.
 enum class Decision { No, Yes, CannotTell };
 struct StageAnswer {
   Decision decision = Decision::CannotTell;
-  double toiLow = 1.0, toiHigh = 1.0;  ///< As LeafAnswer's, where `decision` is Yes.
+  double toiLow = 1.0, toiHigh = 1.0;  ///< As in LeafAnswer, if `decision` is Yes.
 };
-/// Doubles with a proved bound; may decline. At most kFilterSpans spans are looked at.
+/// Doubles with a proved bound; may decline. Looks at kFilterSpans spans at most.
 [[nodiscard]] StageAnswer filterStage(const MovingPolygon& polygon);
 /// Integers; never declines.
 [[nodiscard]] StageAnswer exactStage(const MovingPolygon& polygon);

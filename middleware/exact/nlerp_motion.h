@@ -17,10 +17,10 @@ struct NlerpMotion {
   Quaternion q0, q1;
 };
 
-/// The first instant at which the separation is no longer proved to exceed `band` (metres, >= 0).
-/// Sound: where not `hits`, separation > band on all of [0,1]; where `hits`, separation > band on
-/// [0, toiLow). Tight: at some instant of [toiLow, toiHigh] the separation is at most
-/// band + rigidBand(...).
+/// The first instant at which the proof that the separation exceeds `band` (metres, >= 0) ends.
+/// Sound: if not `hits`, separation > band on all of [0,1]; if `hits`, separation > band on [0,
+/// toiLow). Tight: at some instant of [toiLow, toiHigh] the separation is at most band +
+/// rigidBand(...).
 struct RigidAnswer {
   LeafAnswer leaf;               ///< `stage` is Filter.
   bool startsInContact = false;  ///< Separation <= band at t = 0, up to rigidBand().

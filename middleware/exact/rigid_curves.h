@@ -1,4 +1,4 @@
-// middleware/exact/rigid_curves.h: where a nlerp motion takes the vertices of a triangle,
+// middleware/exact/rigid_curves.h: the paths of a triangle's vertices under a nlerp motion,
 // multiplied by |q|^2: cubics in t. Derivation and rounding: middleware/exact/rigid_query.md. Not
 // installed.
 #pragma once
@@ -13,9 +13,9 @@
 
 namespace foretouch::internal {
 
-/// Rounding of everything that is computed from the curves, relative to RigidCurves::scale()
-/// (rigid_query.md 3); a test holds it against fifty digits. Doubling it doubles the near misses
-/// that are reported as contact; halving it breaks the proof.
+/// Rounding of every value computed from the curves, relative to RigidCurves::scale()
+/// (rigid_query.md 3); a test checks it with fifty digits. Doubling it doubles the distance of near
+/// misses reported as contact; halving it breaks the proof.
 inline constexpr double kRigidRounding = 128.0 * kUnitRoundoff;
 
 /// Positions are relative to the fixed triangle's first vertex, metres.

@@ -1,5 +1,5 @@
-// middleware/exact/rigid_plane.h: a rigid query that begins with a plane its caller knows already.
-// Not installed.
+// middleware/exact/rigid_plane.h: a rigid query that begins with a plane from its caller. Not
+// installed.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@
 namespace foretouch::internal {
 
 /// As rigidTrianglePair(), and with the same promise. `nhat_W`: from the fixed triangle towards the
-/// moving one, no longer than 1; where a plane across it keeps them apart for a while, the closest
-/// points are first looked for after that. Any direction will do, a poor one proves nothing.
+/// moving one, no longer than 1. If a plane normal to it separates them for a while, the query
+/// skips that while. Any direction is valid; a poor one proves nothing.
 [[nodiscard]] RigidAnswer rigidTrianglePairFromPlane(const NlerpMotion& motion,
                                                      const Triangle& moving_L,
                                                      const Triangle& fixed_W, double band,

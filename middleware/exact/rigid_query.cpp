@@ -1,6 +1,6 @@
 // From one instant that is proven free to the next: a plane that separates the triangles now, moved
-// along in a simple way, separates them until one of a few cubics vanishes. Why it is sound, how
-// fast it gets there and what ends it: middleware/exact/rigid_query.md.
+// in a simple way, separates them until one of a few cubics vanishes. Soundness, convergence and
+// termination: middleware/exact/rigid_query.md.
 #include "middleware/exact/rigid_query.h"
 
 #include <algorithm>
@@ -24,36 +24,35 @@ using internal::Cubic;
 using internal::kUnderflow;
 using internal::kUnitShrink;
 
-/// Rounds of planes before contact is reported although it is not proved: errs early. The most that
-/// a million awkward queries needed is between 200 and 400 (two slivers that slide past each
-/// other).
+/// Rounds of planes before it reports contact without proof: errs early. The most that a million
+/// awkward queries needed is between 200 and 400 (two slivers that slide past each other).
 constexpr int kMaxPlanes = 2000;
 /// Resolution of the instant up to which a plane is proved to separate.
 constexpr double kTimeResolution = 0x1p-50;
 constexpr int kMaxClips = 100;  // cost only: stopping early is sound
-/// Contact is reported where the separation is within this many times the position error: at one
-/// time the error, the planes could not tell.
+/// Reports contact if the separation is within this many times the position error; at one time the
+/// error, the planes could not decide.
 constexpr double kErrorsFromContact = 6.0;
 /// Below this share of the extent the difference of the closest points is a noisy direction.
 constexpr double kNoisyDifference = 1e-2;
 /// A closest point counts as on a vertex or an edge this near (share of the extent). Cost only: it
 /// chooses a plane to try.
 constexpr double kNearFeature = 1e-9;
-/// How far beyond what is proved a plane along two edges is tried, in multiples of it, and at
+/// How far beyond the proved time to try a plane along two edges, in multiples of that time, and at
 /// least.
 constexpr double kWindow = 32.0, kLeastWindow = 0x1p-20;
 constexpr double kTurnedShrink = 1.0 - 0x1p-46;  // turning by a quaternion errs by below 30 u
 /// rigidBand: kErrorsFromContact position errors, (8 + 1) extents by 1-norms, |q|^2 within a factor
-/// of 32 of its largest: 6 * 128 * 9 * 32 u < 2^18 u = 2^-35. Slivers need more: where both
-/// triangles are thinner than their distance is long, no plane that is tried separates them from
-/// about 1e-9 extents on (seen: 8e-10).
+/// of 32 of its largest: 6 * 128 * 9 * 32 u < 2^18 u = 2^-35. Slivers need more: if both triangles
+/// are thinner than their distance is long, no tried plane separates them within about 1e-9 extents
+/// (seen: 8e-10).
 constexpr double kRigidBand = 0x1p-28;
 
 /// Two triangles at one instant, relative to the fixed one's first vertex.
 struct Closest {
   Vector3d difference = Vector3d::Zero();  // from the fixed triangle to the moving one
   Vector3d onMoving = Vector3d::Zero(), onFixed = Vector3d::Zero();
-  Vector3d normal = Vector3d::Zero();  // of the features that face each other; free sign
+  Vector3d normal = Vector3d::Zero();  // of the features that face each other; arbitrary sign
   double distance = std::numeric_limits<double>::infinity();
 };
 
@@ -160,8 +159,8 @@ class Advancement {
     return hit(free, moving, closestOf(moving, fixed_), contactError(free));
   }
 
-  /// Up to which instant the plane across n (|n| <= 1), standing still, keeps the triangles more
-  /// than the band apart from `free` on.
+  /// Up to which instant a fixed plane normal to n (|n| <= 1) keeps the triangles more than the
+  /// band apart, from `free` on.
   double untilStill(double free, const Vector3d& n) const {
     const double top = topAlong(n) + band_;
     double until = 1.0;
@@ -202,8 +201,8 @@ class Advancement {
     return std::max({0.0, n.dot(fixed_.vertices[1]), n.dot(fixed_.vertices[2])});
   }
 
-  /// The direction with the widest gap: along the closest points' difference, and where that is
-  /// noisy along the normals of what faces each other.
+  /// The direction with the widest gap: along the closest points' difference and, if that is noisy,
+  /// along the normals of the features that face each other.
   Vector3d planeAt(const Triangle& moving, const Closest& closest) const {
     Vector3d best = Vector3d::Zero();
     double widest = -std::numeric_limits<double>::infinity();
@@ -226,7 +225,7 @@ class Advancement {
     return best;
   }
 
-  /// What is left of the difference across each edge: accurate where a vertex faces an edge.
+  /// The part of the difference normal to each edge: accurate when a vertex faces an edge.
   template <class Offer>
   void offerAcrossEdges(const Triangle& moving, const Vector3d& difference, Offer&& offer) const {
     for (const Triangle* triangle : {&moving, &fixed_}) {
@@ -265,8 +264,9 @@ class Advancement {
     return until;
   }
 
-  /// The plane has the normal e x R(t)d, along the fixed edge e and the moving edge d, where the
-  /// closest points are on two edges. Looked at not far beyond what the other planes proved.
+  /// The plane has the normal e x R(t)d, along the fixed edge e and the moving edge d, if the
+  /// closest points are on two edges. Tries it not far beyond the time that the other planes
+  /// proved.
   double untilAlongEdges(double free, const Triangle& moving, const Closest& closest,
                          double proved) const {
     const double accuracy = kNearFeature * (planeScale_ + closest.distance);

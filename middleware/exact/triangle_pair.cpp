@@ -6,7 +6,7 @@
 namespace foretouch {
 namespace {
 
-/// Where at both ends of the motion, hence throughout, all of one is beyond all of the other.
+/// Whether at both ends of the motion, hence throughout, all of one is beyond all of the other.
 bool separatedOnAnAxis(const std::array<LinearPoint, 3>& one,
                        const std::array<LinearPoint, 3>& other) {
   const auto beyond = [](const auto& a, const auto& b, int axis) {

@@ -1,5 +1,5 @@
 // middleware/ladder/limbs.h: how an avatar's links are grouped for the rungs above its links. A
-// limb is a maximal chain of links between branchings; a tree is all that hangs on one root. Not
+// limb is a maximal chain of links between branchings; a tree is a root and all links below it. Not
 // installed.
 #pragma once
 
@@ -20,8 +20,8 @@ struct AxisPoint {
   double radius;
 };
 
-/// Links whose LSS one volume stands for. The carrier is its first link, in whose frame the volume
-/// is fixed; it need not have LSS of its own.
+/// Links whose LSS one volume covers. The volume is fixed in the frame of the carrier, the limb's
+/// first link, which may have no LSS of its own.
 struct Limb {
   LinkId carrier = 0;
   std::int32_t tree = 0;
@@ -36,8 +36,8 @@ struct LimbTree {
   std::vector<LinkId> links;        ///< Those with LSS, ascending.
 };
 
-/// An avatar's links by limb and by tree. A link with nothing but bare links below it counts for
-/// nothing; a branching is a link of which two children or more count. Immutable.
+/// An avatar's links by limb and by tree. A link counts if it or a link below it has LSS; a
+/// branching is a link with two or more children that count. Immutable.
 class Limbs {
  public:
   Limbs() = default;

@@ -1,4 +1,4 @@
-// middleware/ladder/relative_points.h: where points of other links are in a carrier's frame at the
+// middleware/ladder/relative_points.h: positions of other links' points in a carrier's frame at the
 // nodes of a span, in the processor's lanes. Metres. Not installed.
 #pragma once
 
@@ -11,11 +11,11 @@ struct alignas(64) RelativePoint {
   double y[3][kNodes];
 };
 
-/// Of the point `p_L` of `link`. Rounding: middleware/ladder/rungs.md 3.
+/// Fills `point` for the point `p_L` of `link`. Rounding: middleware/ladder/rungs.md 3.
 void relativePoint(const LinkNodes& carrier, const LinkNodes& link, const double* p_L,
                    RelativePoint& point);
 
-/// A segment, as a, b - a and 1/|b - a|^2 (0 where that is infinite: then only a counts).
+/// A segment, as a, b - a and 1/|b - a|^2 (0 if that is infinite: then only a counts).
 struct AxisSegment {
   double a[3], u[3], inverse;
 };

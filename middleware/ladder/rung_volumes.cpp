@@ -18,7 +18,7 @@ constexpr double kRelativePointRounding = 32.0 * kUnitRoundoff,
                  kAxisDistanceRounding = 32.0 * kUnitRoundoff;
 /// Steps of the enclosing-circle iteration ([BadoiuClarkson03], as in lss/fit.cpp).
 constexpr int kCircleSteps = 3;
-/// The node whose places the axis is fitted to: next to the middle of the step.
+/// The node at which the axis is fitted: next to the middle of the step.
 constexpr int kMiddle = kNodes / 2;
 
 Vector3d placeOf(const CarriedBall& ball, int node) {
@@ -95,7 +95,7 @@ Lss axisAround(const std::vector<CarriedBall>& balls, int node) {
 
 namespace {
 
-/// The least radius that is proven to contain all balls at every t.
+/// The least radius that provably contains all balls at every t.
 double radiusAround(const std::vector<CarriedBall>& balls, const Lss& axis) {
   AxisSegment segment{};
   const Vector3d along = axis.b - axis.a;

@@ -1,6 +1,6 @@
-// middleware/ladder/rung_volumes.h: one step's volumes at the rungs above the links: an LSS a limb,
-// in the frame of the limb's first link, and an LSS a tree, in the root's frame, each around what
-// the rung below has, at every t in [0,1]. Proof: middleware/ladder/rungs.md. Metres. Not
+// middleware/ladder/rung_volumes.h: one step's volumes at the rungs above the links: one LSS per
+// limb, in the frame of the limb's first link, and one per tree, in the root's frame. Each contains
+// the volumes of the rung below at every t in [0,1]. Proof: middleware/ladder/rungs.md. Metres. Not
 // installed.
 #pragma once
 
@@ -22,25 +22,26 @@ namespace foretouch::internal {
 struct CarriedBall {
   RelativePoint path;  ///< Its centre at the nodes.
   double radius;
-  /// How far the centre can be from the chords of its path, rounding included, but for `perLength`
-  /// of its distance from the carrier's origin.
+  /// The centre is at most stray + perLength * (its distance from the carrier's origin) from the
+  /// chords of its path, rounding included.
   double stray, perLength;
 };
 
-/// Volumes of one step after another; memory is kept. For one thread.
+/// Volumes of one step after another; keeps its memory. For one thread.
 class RungVolumes {
  public:
-  /// Of the limbs, and of the trees where asked for. `nodes` are of `motion` over [0,1]. O(LSS).
+  /// Computes the limbs' volumes and, if `withTrees`, the trees'. `nodes` are of `motion` over
+  /// [0,1]. O(LSS).
   void evaluate(const Avatar& avatar, const ChainMotion& motion, const ChainNodes& nodes,
                 bool withTrees);
 
   [[nodiscard]] const Limbs& limbs() const { return limbs_; }
-  /// By the limb's number; of a limb without links, nothing.
+  /// By the limb's number; meaningless for a limb without links.
   [[nodiscard]] const Lss& limb(std::size_t limb) const { return limbVolumes_[limb]; }
   [[nodiscard]] const Lss& tree(std::size_t tree) const { return treeVolumes_[tree]; }
 
  private:
-  /// Bounds on a link's motion in its carrier's frame, as ChainSums has them for the world's.
+  /// Bounds on a link's motion in its carrier's frame, like ChainSums' in the world.
   struct RelativeSums {
     double angularSpeed = 0.0, angularAcceleration = 0.0, acceleration = 0.0;
     [[nodiscard]] RelativeSums with(const ChainMotion::JointBounds& joint) const;
@@ -60,12 +61,12 @@ class RungVolumes {
   Limbs limbs_;
   std::vector<RelativeSums> toLimb_, toRoot_;  // per link
   double chord_ = 0.0;                         // an eighth of the widest gap between nodes, squared
-  std::vector<CarriedBall> balls_;             // of the volume at hand
+  std::vector<CarriedBall> balls_;             // of the current volume
   std::vector<Lss> limbVolumes_, treeVolumes_;
 };
 
-/// The segment of an LSS around the balls where they are at `node`, not shorter than needed and not
-/// much longer; a proposal, without a radius.
+/// The axis of an LSS around the balls at `node`, not shorter than needed and not much longer; a
+/// proposal, without a radius.
 [[nodiscard]] Lss axisAround(const std::vector<CarriedBall>& balls, int node);
 
 }  // namespace foretouch::internal

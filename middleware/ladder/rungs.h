@@ -1,7 +1,7 @@
-// middleware/ladder/rungs.h: the volumes that stand for an avatar's links above link fidelity
-// (Fidelity::Limb, Avatar, Ellipsoid) on one step: what a query at that fidelity asks about, so
-// that its answers can be checked. Metres. Proof that each contains what is below it at every t in
-// [0,1]: middleware/ladder/rungs.md.
+// middleware/ladder/rungs.h: the volumes that cover an avatar's links above link fidelity
+// (Fidelity::Limb, Avatar, Ellipsoid) on one step. A query at that fidelity tests these volumes;
+// they are public so that you can check its answers. Metres. Proof that each contains those below
+// it at every t in [0,1]: middleware/ladder/rungs.md.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,7 @@ struct Spheroid {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();  ///< Of revolution; unit.
   double along = 0.0, across = 0.0;                 ///< Semi-axes, > 0.
 
-  /// S x: into the space where it is the unit ball.
+  /// S x: into the space where the spheroid is the unit ball.
   [[nodiscard]] Eigen::Vector3d toUnit(const Eigen::Vector3d& x) const {
     return x / across + ((1.0 / along - 1.0 / across) * axis.dot(x)) * axis;
   }
@@ -40,13 +40,13 @@ struct Spheroid {
 
 struct RungVolume {
   LinkId carrier = 0;         ///< In whose frame the LSS is fixed.
-  std::vector<LinkId> links;  ///< Those it stands for, ascending; all have LSS.
-  Lss lss;                    ///< Of Limb and Avatar; of Ellipsoid, that which it contains.
-  Spheroid spheroid;          ///< Of Ellipsoid.
+  std::vector<LinkId> links;  ///< Those it covers, ascending; all have LSS.
+  Lss lss;                    ///< For Limb and Avatar the volume; for Ellipsoid the LSS inside it.
+  Spheroid spheroid;          ///< For Ellipsoid.
 };
 
 /// In the order of their carriers. Precondition: `rung` is Limb, Avatar or Ellipsoid (asserted).
-/// The scene's origin rounds the volumes, nothing more. O(LSS).
+/// The scene's origin only affects how the volumes round. O(LSS).
 [[nodiscard]] std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& motion,
                                                   const Scene& scene, Fidelity rung);
 

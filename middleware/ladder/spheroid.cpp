@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr double kRootPointRounding = 32.0 * kUnitRoundoff, kSumRounding = 8.0 * kUnitRoundoff;
 /// Of toUnit() and of the ball's place, relative to the lengths over the shortest semi-axis.
 constexpr double kTransformRounding = 32.0 * kUnitRoundoff;
-/// An axis is at least this share of the other, and this long (m): what has no volume gets some.
+/// An axis is at least this share of the other, and this long (m): gives volume to flat bodies.
 constexpr double kLeastShare = 0x1p-10, kLeastAxis = 1e-6;
 constexpr int kMiddle = kNodes / 2;
 
@@ -102,7 +102,7 @@ Spheroid spheroidAround(const Lss& volume, LinkId root, const ChainMotion& motio
   spheroid.drift = Vector3d(arc.drift);
   const SemiAxes core = coreAround(places, offset, spheroid.axis);
 
-  // What the ends do besides being at the nodes' places (rungs.md 5).
+  // The ends' motion between the nodes' places (rungs.md 5).
   double widest = 0.0;
   for (int k = 0; k + 1 < kNodes; ++k) {
     widest = std::max(widest, nodes.instant(k + 1) - nodes.instant(k));
@@ -143,8 +143,8 @@ double SpheroidPair::leastAtStart() const {
 double SpheroidPair::leastOfAll() const {
   const Vector3d& corner = unit_.vertices[0];
   const double square = velocity_.squaredNorm();
-  // Of any instant the centre's place is on its way, whatever the quotient rounds to; the nearest
-  // one is off by a few roundings of the lengths.
+  // However the quotient rounds, the centre's place at that instant is on its path; the nearest one
+  // is off by a few roundings of the lengths.
   const double s =
       square > 0.0 ? std::min(1.0, std::max(0.0, corner.dot(velocity_) / square)) : 0.0;
   constexpr double kShrink = 1.0 - 1e-12;

@@ -1,7 +1,8 @@
 // middleware/ladder/spheroid.h: the ellipsoid rung. One ellipsoid of revolution around a tree's LSS
-// at every t of a step: it moves with the root's origin, on a straight line, and does not turn; how
-// the body turns meanwhile is in its size. As games move a character [Fauerby03], but around the
-// whole body and with a proof. Derivation: middleware/ladder/rungs.md 5. Metres. Not installed.
+// at every t of a step: it moves with the root's origin, on a straight line, and does not turn; it
+// is large enough for the body's turning. Games move characters this way [Fauerby03]; this one
+// holds the whole body, with a proof. Derivation: middleware/ladder/rungs.md 5. Metres. Not
+// installed.
 #pragma once
 
 #include <Eigen/Core>

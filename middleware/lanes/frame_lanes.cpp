@@ -19,8 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, kTrianglePairLanes>;
 using Lanes = hn::Vec<Floats>;
 
-/// Outweighs the roundings of a bound's own product and sums, of the points' coordinates, and what
-/// is of second order in the frame's bound.
+/// Outweighs the roundings of a bound's own product and sums, of the points' coordinates, and the
+/// second-order terms of the frame's bound.
 constexpr float kBoundInflation = 1.0F + 16.0F * kUnitRoundoffOfFloat;
 
 struct Value {
@@ -91,8 +91,8 @@ namespace {
 
 HWY_EXPORT(placeLanes);
 
-/// Of a velocity, relative to the sums of its terms' absolute values: 17.2 unit roundoffs are
-/// proved.
+/// Of a velocity, relative to the sums of its terms' absolute values: the proof needs 17.2 unit
+/// roundoffs.
 constexpr double kRateRounding = 20.0 * kUnitRoundoffOfFloat;
 
 /// Sum of k |c_k|, which bounds the derivative's terms on [-1,1].

@@ -1,6 +1,6 @@
 // middleware/lanes/frame_lanes.h: points of a moving link in float lanes, each lane at its own
-// instant, as proveSteps() takes them: places, velocities, and what bounds how they go on. Proof
-// with rounding: middleware/lanes/frame_lanes.md. Not installed.
+// instant, in the form of proveSteps(): places, velocities, and bounds on their further motion.
+// Proof with rounding: middleware/lanes/frame_lanes.md. Not installed.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace foretouch::internal {
 
-/// What underflow may lose of a place (m), or of a rate (m per u).
+/// Underflow may cost a place (m) or a rate (m per u) this much.
 inline constexpr double kFrameUnderflow = 0x1p-90;
 
-/// A link's frame over a span as the lanes take it. Metres; derivatives per unit of u.
+/// A link's frame over a span in the form for lanes. Metres; derivatives per unit of u.
 struct LaneFrame {
   float R[9][kCoefficients], p[3][kCoefficients];  ///< As in FramePolynomials.
   /// A point at distance rho from the link's origin is off by at most origin + turn*rho in place
@@ -30,25 +30,25 @@ struct LaneFrame {
 
 /// A convex part of a link: the hull of three points fixed in it, grown by `radius`.
 struct LanePart {
-  float point[3][3];  ///< [point][axis], rounded to nearest; of an LSS the second end twice.
-  float rho;          ///< No point, unrounded, is farther from the link's origin. Rounded up.
+  float point[3][3];  ///< [point][axis], rounded to nearest; for an LSS the second end twice.
+  float rho;          ///< No unrounded point is farther from the link's origin. Rounded up.
   float radius;       ///< Rounded up.
 };
 [[nodiscard]] LanePart lanePart(const Triangle& triangle_L);
 [[nodiscard]] LanePart lanePart(const Lss& lss_L);
 
-/// One part a lane, and when.
+/// One part per lane, and its instant.
 struct PartBlock {
   alignas(64) PairFloats u;            ///< In [-1,1].
   alignas(64) PairFloats point[3][3];  ///< As in LanePart.
   alignas(64) PairFloats rho;
-  alignas(64) PairFloats scenePad;  ///< What the scene's vertices in the lane are off, at least.
+  alignas(64) PairFloats scenePad;  ///< At least the error of the lane's scene vertices.
 };
 
 /// Places the first `count` lanes' parts, at most kTrianglePairLanes, relative to the polynomials'
-/// origin: fills all of `pairs` but `scene` and `floor`. Whatever proveSteps() then proves holds of
-/// the true link for as long as its steps stay in the span. Slots beyond `count` are read and
-/// written as far as whole vectors need it.
+/// origin: fills all of `pairs` but `scene` and `floor`. Whatever proveSteps() then proves holds
+/// for the true link while its steps stay in the span. Reads and writes slots beyond `count` up to
+/// a whole vector.
 void placeParts(const LaneFrame& frame, const PartBlock& parts, std::size_t count,
                 TrianglePairBlock& pairs);
 

@@ -1,6 +1,6 @@
-// middleware/lanes/lss_pairs-inl.h: the kernels of lss_pairs.cpp, compiled once for every width of
-// vectors. Nothing in here may be shared with other sources (no Eigen, no standard templates): a
-// function compiled for wide vectors must not be linked into code for all processors.
+// middleware/lanes/lss_pairs-inl.h: the kernels of lss_pairs.cpp, compiled once per vector width.
+// Nothing in here may be shared with other sources (no Eigen, no standard templates): a function
+// compiled for wide vectors must not be linked into code for all processors.
 #if defined(FORETOUCH_LANES_LSS_PAIRS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FORETOUCH_LANES_LSS_PAIRS_INL_H
 #undef FORETOUCH_LANES_LSS_PAIRS_INL_H
@@ -23,10 +23,11 @@ constexpr float kUnitShrinkOfFloat = 1.0f - 8.0f * kUnitRoundoffOfFloat;
 constexpr float kStepShrinkOfFloat = 1.0f - 16.0f * kUnitRoundoffOfFloat;
 /// Past the rounding of time + step, both at most 2: half a unit in the last place of 2, doubled.
 constexpr float kTimeRounding = 0x1p-22f;
-/// Keeps divisors away from zero where a feature has no extent; they only propose.
+/// Keeps divisors away from zero if a feature has no extent; they only propose.
 constexpr float kTiny = 1e-30f;
 /// A distance of closest points below this share of the squared extent (a length; extents are of
-/// the order of metres) has so noisy a direction that the features' own normal is tried as well.
+/// the order of metres) has so noisy a direction that the kernel also tries the features' own
+/// normal.
 constexpr float kNoisyDistance = 0.1f;
 
 template <class V>
@@ -99,9 +100,8 @@ HWY_INLINE Moving<V> endAt(const float (&c)[3][8], V u) {
   return end;
 }
 
-/// Brings the chosen lanes side by side, the first of them first. What hn::Compress does, with the
-/// way of the lanes found once for all rows, and without its tables, which GCC 12 copies to the
-/// stack for every call.
+/// Packs the chosen lanes, in order. Like hn::Compress, but finds the permutation once for all rows
+/// and needs no tables, which GCC 12 copies to the stack on every call.
 template <class D>
 class Chosen {
  public:
@@ -121,7 +121,7 @@ class Chosen {
   }
   [[nodiscard]] HWY_INLINE std::size_t count() const { return count_; }
 
-  /// A whole vector is written.
+  /// Writes a whole vector.
   template <class V, class T>
   HWY_INLINE void store(V lanes, T* to) const {
     const hn::DFromV<V> d;
@@ -139,11 +139,11 @@ class Chosen {
   std::int32_t from_[kLanes];
 };
 
-/// What one evaluation tells of a lane.
+/// One lane's result of one evaluation.
 template <class D>
 struct Advance {
   hn::Vec<D> gap;   // proven lower bound of the separation now
-  hn::Vec<D> next;  // proven apart by the floor until then
+  hn::Vec<D> next;  // proven to stay above the floor until then
   hn::Mask<D> handOver, inContact;
 };
 
@@ -185,7 +185,7 @@ struct EndSteps {
         safeStep(hn::Sub(plane.gapA, floor), hn::Sub(plane.speedA, slack), lss.accelerationA),
         safeStep(hn::Sub(plane.gapB, floor), hn::Sub(plane.speedB, slack), lss.accelerationB));
     const V next = hn::Sub(hn::Add(time, step), hn::Set(d, kTimeRounding));
-    // Written so that a lane that is not a number is handed over.
+    // Written so that a NaN lane is handed over.
     const auto goesOn =
         hn::And(hn::Gt(result.gap, hn::Set(d, tolerances.handOver)), hn::Gt(next, time));
     result.handOver = hn::Not(goesOn);
@@ -253,7 +253,7 @@ struct TriangleKernel {
     best.offer(hn::IfThenElse(inside, dot(w, w), hn::Set(d, 1e30f)), w, normal);
   }
 
-  /// The plane with direction n just above the triangle: what it proves of both ends.
+  /// The plane with direction n just above the triangle: what it proves about both ends.
   template <class V>
   HWY_INLINE Plane<V> planeAlong(const Point<V>& n, const Moving<V>& a, const Moving<V>& b,
                                  const Point<V> (&v)[3], V reach) const {
@@ -293,7 +293,7 @@ struct TriangleKernel {
     offerFace(sub(b.position, v[0]), e1, e2, d00, d01, d11, inverse, normal, best);
 
     Plane<V> plane = planeAlong(direction(best.w), a, b, v, reach);
-    // Of long features that are near, the difference of the closest points is a noisy direction.
+    // For long features that are near, the difference of the closest points is a noisy direction.
     const V extent = hn::Max(hn::Max(d00, d11), squaredAxis);
     const V noise = hn::Mul(hn::Set(d, kNoisyDistance), extent);
     const auto isSteady = hn::Gt(best.squared, hn::Mul(noise, noise));
@@ -303,8 +303,8 @@ struct TriangleKernel {
       const Plane<V> other =
           planeAlong(direction(select(away, best.normal, negative)), a, b, v, reach);
       const auto wider = hn::Gt(hn::Min(other.gapA, other.gapB), hn::Min(plane.gapA, plane.gapB));
-      // In lanes that ask for it alone: what a pair is told must not depend on its neighbours,
-      // which another culler orders otherwise.
+      // Only in lanes that need it: a pair's result must not depend on its neighbours, whose order
+      // depends on the culler.
       const auto better = hn::AndNot(isSteady, wider);
       plane = {hn::IfThenElse(better, other.gapA, plane.gapA),
                hn::IfThenElse(better, other.gapB, plane.gapB),
@@ -367,8 +367,8 @@ struct SphereKernel {
   }
 };
 
-/// Reads the pairs, steps each, and keeps in place those that go on. A round is one evaluation of
-/// every pair that is left.
+/// Reads the pairs, steps each, and keeps those that go on in place. A round is one evaluation of
+/// every remaining pair.
 template <class D, class Kernel>
 std::uint64_t advanceAll(D d, const Kernel& kernel, int maxRounds, const LaneRows& rows,
                          std::size_t count, float& best, const HandedRows& handed,
@@ -391,7 +391,7 @@ std::uint64_t advanceAll(D d, const Kernel& kernel, int maxRounds, const LaneRow
         const float earliest = hn::GetLane(times);
         if (earliest < best) best = earliest;
       }
-      // Through, or later than the first contact: nothing left to tell. Equal times stay.
+      // Done, or later than the first contact. Equal times stay.
       const auto over = hn::Or(hn::Gt(step.next, hn::Set(d, best)), hn::Ge(step.next, end));
       const auto left = hn::AndNot(over, valid);
       const auto hand = round == maxRounds ? left : hn::And(left, step.handOver);

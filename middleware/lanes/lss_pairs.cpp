@@ -17,7 +17,7 @@ struct LaneRows {
   float* time;
   std::int32_t* key;
 };
-/// Where what is handed over is appended.
+/// Where handed-over pairs go.
 struct HandedRows {
   std::int32_t* key;
   float* time;
@@ -63,7 +63,7 @@ HWY_BEFORE_NAMESPACE();
 namespace foretouch::internal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What is left after so many rounds goes to the scalar code, which is always right; ordinary pairs
+/// Pairs left after so many rounds go to the scalar code, which is always right; ordinary pairs
 /// need fewer than ten.
 constexpr int kMaxRounds = 48;
 
@@ -116,7 +116,7 @@ void gatherSpheres(const Cluster* clusters, const std::int32_t* which, std::size
   const hn::RebindToSigned<decltype(d)> di;
   const float* const base = clusters->centre;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    // What lies beyond the count reads the first cluster, and is ignored.
+    // Lanes beyond the count read the first cluster; their results are ignored.
     const auto valid = hn::FirstN(di, count - i);
     const auto index = hn::ShiftLeft<2>(hn::IfThenElseZero(valid, hn::LoadU(di, which + i)));
     auto largest = hn::Zero(d);
@@ -174,9 +174,9 @@ double extentOf(const float (&c)[3][8], float speed) {
   return std::sqrt(squared) + speed;
 }
 
-/// What the Horner scheme loses of the derivative, in roundoffs of `weighted`: a coefficient c_j
-/// takes j ways with at most 13 roundings each, for which 20 are counted, and the sum of
-/// (2j+2)|c_j| is more than twice that of j|c_j| (lss_pairs.md 3).
+/// The Horner scheme's error of the derivative, in roundoffs of `weighted`: a coefficient c_j takes
+/// j ways with at most 13 roundings each, for which 20 are counted, and the sum of (2j+2)|c_j| is
+/// more than twice that of j|c_j| (lss_pairs.md 3).
 constexpr double kDerivativeRounding = 20.0 / 2.0;
 
 }  // namespace
@@ -205,7 +205,7 @@ void PairLanes::reserve(std::size_t extra) {
   auto rows = hwy::AllocateAligned<float>(kRows * grown);
   auto keys = hwy::AllocateAligned<std::int32_t>(grown);
   if (rows == nullptr || keys == nullptr) throw std::bad_alloc();
-  // What pads a vector is read, and means nothing.
+  // Vectors read the padding, which means nothing.
   std::fill_n(rows.get(), kRows * grown, 0.0F);
   std::fill_n(keys.get(), grown, 0);
   for (std::size_t k = 0; k < kRows; ++k) std::copy_n(row(k), count_, rows.get() + k * grown);

@@ -1,8 +1,8 @@
 // middleware/lanes/lss_pairs.h: conservative advancement of one moving LSS against many triangles,
-// or against spheres around clusters of triangles, each pair in a float lane at its own time. What
-// lanes prove they prove with rounding included (lss_pairs.md); what they cannot decide is handed
-// over to the scalar code in doubles. Lengths in metres, times as the polynomials' u in [-1,1],
-// derivatives per unit of u. Not installed.
+// or against spheres around clusters of triangles, each pair in a float lane at its own time. Their
+// proofs include rounding (lss_pairs.md); pairs that lanes cannot decide go to the scalar code in
+// doubles. Lengths in metres, times as the polynomials' u in [-1,1], derivatives per unit of u. Not
+// installed.
 #pragma once
 
 #include <array>
@@ -19,32 +19,33 @@ namespace foretouch::internal {
 /// Floats in the widest vector used.
 inline constexpr std::size_t kMaxLanes = 16;
 
-/// One moving LSS as the kernels take it, relative to its polynomials' origin.
+/// One moving LSS in the kernels' form, relative to its polynomials' origin.
 struct LaneLss {
   float a[3][8], b[3][8];  ///< Coefficients of 1, u, .. u^7 of the axis ends.
-  float radius;            ///< The LSS's with all that is uncertain about the ends, rounded up.
-  float contactShift;      ///< Twice the sum of both radii, with it and without, rounded down.
+  float radius;            ///< The LSS's, plus all uncertainty of the ends, rounded up.
+  float contactShift;      ///< Twice the sum of both radii, with that uncertainty and without,
+                           ///< rounded down.
   float accelerationA, accelerationB;
-  float speedSlack;  ///< What rounding may do to a speed along a unit direction.
+  float speedSlack;  ///< The largest rounding error of a speed along a unit direction.
   float extent;      ///< |a(u)| and |b(u)| are at most this.
-  float reach;       ///< The radius, and the rounding of planes as far as the LSS has a part in it.
+  float reach;       ///< The radius plus the LSS's share of a plane's rounding.
 };
 /// `lssRadius`: of the LSS itself.
 [[nodiscard]] LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius);
 
-/// The separations (m) at which lanes change their mind; floor < handOver.
+/// The separations (m) at which lanes change course; floor < handOver.
 struct LaneTolerances {
   float floor;     ///< No step goes below this.
-  float handOver;  ///< Where no more than this is proven, the scalar code takes over.
-  float contact;   ///< Where no more than this is left for certain, the scalar code finds contact.
+  float handOver;  ///< If no more than this is proven, the scalar code takes over.
+  float contact;   ///< If the separation is provably at most this, the scalar code finds contact.
 };
 
-/// What the lanes leave, in no order: pairs proven apart (by the floor, after the first instant)
-/// before `time`, where the scalar code has to look. Rows are longer than `count`.
+/// The pairs that lanes leave, in no order: proven apart (by the floor, after the first instant)
+/// before `time`, from which the scalar code must look. Rows are longer than `count`.
 struct HandedOver {
   std::vector<std::int32_t> key;
   std::vector<float> time;
-  std::vector<float> gap;  ///< A lower bound of the separation at `time`, or 0 where none is known.
+  std::vector<float> gap;  ///< A lower bound of the separation at `time`, or 0 if none is known.
   std::size_t count = 0;
 };
 
@@ -62,7 +63,7 @@ struct FloatBox {
 struct LaneRows;
 struct HandedRows;
 
-/// Pairs of one LSS as structure of arrays; memory is kept.
+/// Pairs of one LSS as structure of arrays; keeps its memory.
 class PairLanes {
  public:
   [[nodiscard]] std::size_t count() const { return count_; }
@@ -77,12 +78,12 @@ class PairLanes {
   void setSpheres(const LaneLss& lss, const Cluster* clusters, const std::int32_t* which,
                   std::size_t count, const float* origin, float start);
 
-  /// Advances every pair until it is through (u = 1), handed over, or past `best`: the least time
-  /// known at which some pair is in contact for certain, lowered as such are found. Leaves no
-  /// pairs. Returns the number of evaluations.
+  /// Advances every pair until it is done (u = 1), handed over, or past `best`: the earliest time
+  /// known at which some pair is certainly in contact, which this call may lower. Leaves no pairs.
+  /// Returns the number of evaluations.
   std::uint64_t advanceTriangles(const LaneLss& lss, const LaneTolerances& tolerances, float& best,
                                  HandedOver& handed);
-  /// At most `rounds` steps of every pair; all that are then not through are handed over.
+  /// At most `rounds` steps of every pair; hands over all pairs that are then not done.
   std::uint64_t advanceSpheres(const LaneLss& lss, const LaneTolerances& tolerances, int rounds,
                                float best, HandedOver& handed);
 

@@ -1,5 +1,5 @@
-// The features of two triangles that are nearest only propose directions; a plane across each
-// proves (middleware/lanes/triangle_pairs.md).
+// The nearest features of two triangles only propose directions; the planes normal to them prove
+// (middleware/lanes/triangle_pairs.md).
 #include "middleware/lanes/triangle_pairs.h"
 
 #include "lss/rounding.h"
@@ -19,26 +19,26 @@ using Floats = hn::CappedTag<float, kTrianglePairLanes>;
 using Lanes = hn::Vec<Floats>;
 using LaneMask = hn::Mask<Floats>;
 
-/// Of the plane's arithmetic, relative to the extents: 6.02 unit roundoffs are proved. Halving it
-/// breaks the proof; doubling it costs 4e-7 of the extents.
+/// Of the plane's arithmetic, relative to the extents: the proof needs 6.02 unit roundoffs. Halving
+/// it breaks the proof; doubling it costs 4e-7 of the extents.
 constexpr float kPairPlaneRounding = 6.5F * kUnitRoundoffOfFloat;
-/// Of n.velocity, relative to the velocity: 4.02 unit roundoffs are proved.
+/// Of n.velocity, relative to the velocity: the proof needs 4.02 unit roundoffs.
 constexpr float kSpeedRounding = 4.5F * kUnitRoundoffOfFloat;
 /// Shrinks a direction whose normalisation errs by at most 4.51 unit roundoffs.
 constexpr float kPairUnitShrink = 1.0F - 5.0F * kUnitRoundoffOfFloat;
 /// Shrinks a step whose formula errs by at most 6.01 unit roundoffs.
 constexpr float kPairStepShrink = 1.0F - 8.0F * kUnitRoundoffOfFloat;
-/// Rounds a pad up past the roundings that it goes through.
+/// Rounds a pad up past its own roundings.
 constexpr float kPadInflation = 1.0F + 4.0F * kUnitRoundoffOfFloat;
-/// What underflow may lose, even where denormals are flushed to zero (m; m per t).
+/// Bound on underflow, even if denormals flush to zero (m; m per t).
 constexpr float kPairUnderflow = 0x1p-80F;
-/// A direction is used where the square of its length is between these: no square in it has lost
-/// anything, and none is infinite.
+/// Uses a direction only if the square of its length is between these: then no square in it has
+/// underflowed or overflowed.
 constexpr float kLeastSquare = 0x1p-90F, kMostSquare = 0x1p100F;
-/// Below these a clearance or an acceleration is not looked at, so that their product stays clear
-/// of underflow (m, m per squared t).
+/// Ignores smaller clearances and accelerations, so that their product stays clear of underflow (m,
+/// m per squared t).
 constexpr float kLeastClearance = 0x1p-60F, kLeastAcceleration = 0x1p-40F;
-/// Beyond this nothing is answered, so that no product is infinite.
+/// Answers nothing beyond this, so that no product is infinite.
 constexpr float kMost = 0x1p50F;
 /// Below this squared sine the lines along two edges have no trusted crossing.
 constexpr float kNearParallelSin2 = 0x1p-21F;
@@ -113,8 +113,8 @@ HWY_INLINE Edge edgeAlong(Floats d, const Vec3& along) {
   return {along, squared, hn::Div(hn::Set(d, 1.0F), hn::Max(squared, hn::Set(d, kNoLength)))};
 }
 
-/// Of the edges looked at so far, the nearest two: the difference of their closest points, and the
-/// directions that stand across what faces each other.
+/// The nearest two edges so far: the difference of their closest points, and the normals of the
+/// features that face each other.
 struct NearestEdges {
   Lanes squaredDistance;
   Vec3 difference;  // from the scene towards the link
@@ -137,8 +137,8 @@ HWY_INLINE void offerEdges(Floats d, const Edge& one, const Edge& other, const V
   const Vec3 difference = against(along(w, s, one.along), t, other.along);
   const Lanes squaredDistance = square(difference);
   const LaneMask nearer = hn::Lt(squaredDistance, nearest.squaredDistance);
-  // Where a point is inside its edge, the difference stands across that edge but for rounding,
-  // which would tilt the plane by the length of the edge.
+  // If a point is inside its edge, the difference is normal to that edge up to rounding, which
+  // would tilt the plane by the length of the edge.
   const LaneMask insideOne = isInside(d, s), insideOther = isInside(d, t);
   const Lanes tiltOther =
       hn::IfThenElseZero(insideOther, hn::Mul(dot(difference, other.along), other.inverseSquare));
@@ -183,7 +183,7 @@ struct Plane {
   Lanes gap;
 };
 
-/// Takes the plane across `direction`, whichever way round, where its gap is the widest so far.
+/// Takes the plane normal to `direction`, of either sign, if its gap is the widest so far.
 template <int kPoints>
 HWY_INLINE void tryDirection(Floats d, const Triangles<kPoints>& pair, const Vec3& direction,
                              Plane& best) {
@@ -238,7 +238,8 @@ HWY_INLINE Lanes rootOf(Floats d, Lanes clearance, Lanes speed, Lanes accelerati
   return hn::Mul(hn::Set(d, kPairStepShrink), step);
 }
 
-/// What is proven of how a block's vectors are off, and whether all in it is finite and in range.
+/// Proven bounds on the errors of a block's vectors, and whether all its values are finite and in
+/// range.
 struct Slack {
   Lanes position, velocity;
   LaneMask inRange;
@@ -248,7 +249,7 @@ template <int kPoints>
 HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t first,
                          const Triangles<kPoints>& pair, const Vec3 (&velocity)[kPoints]) {
   const Lanes scene[2] = {square(pair.scene[0]), square(pair.scene[1])};
-  // Sums, as the largest might hide what is not a number.
+  // Sums, because a maximum might hide a NaN.
   Lanes squares = hn::Add(scene[0], scene[1]);
   Lanes farthest = hn::Zero(d), fastestSquare = farthest;
   for (int i = 0; i < kPoints; ++i) {
@@ -274,7 +275,7 @@ HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t f
   return slack;
 }
 
-/// What the plane proves: the gap of each of the link's vertices, how fast it grows, and so for how
+/// The plane's proof: the gap of each of the link's vertices, how fast it grows, and so for how
 /// long all stay above `floor`.
 template <int kPoints>
 HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t first,

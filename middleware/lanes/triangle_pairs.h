@@ -1,7 +1,7 @@
-// middleware/lanes/triangle_pairs.h: many pairs of triangles at once, one a float lane, each at its
-// own instant: what is proven of their separation now, and for how long. The counterpart of
-// triangleSeparation() and stepFrom(), which answer what the floats leave open. Proof with
-// rounding: middleware/lanes/triangle_pairs.md. Not installed.
+// middleware/lanes/triangle_pairs.h: many pairs of triangles at once, one per float lane, each at
+// its own instant: a proven bound on their separation now, and for how long it holds. The
+// counterpart of triangleSeparation() and stepFrom(), which decide the pairs that floats leave
+// open. Proof with rounding: middleware/lanes/triangle_pairs.md. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -15,36 +15,35 @@ inline constexpr std::size_t kTrianglePairLanes = 16;
 using PairFloats = float[kTrianglePairLanes];
 
 /// Pairs of a moving triangle of a link and a triangle of the scene. Metres, relative to an origin
-/// of the caller's choice, one a pair: floats resolve 6e-8 of what is between it and the triangles.
-/// Velocities and accelerations are derivatives in t. Triangles without area are legal. A pair
-/// in which anything (coordinates: from the scene's first vertex) is beyond 2^50, infinite or not a
-/// number gets no step, nor does one with a negative pad, bound or floor.
+/// of the caller's choice, one per pair: floats resolve 6e-8 of the distance between it and the
+/// triangles. Velocities and accelerations are derivatives in t. Triangles without area are legal.
+/// A pair gets no step if any value (coordinates: relative to the scene's first vertex) is beyond
+/// 2^50, infinite or NaN, or if a pad, bound or floor is negative.
 struct TrianglePairBlock {
   alignas(64) PairFloats link[3][3];       ///< [vertex][axis]
   alignas(64) PairFloats velocity[3][3];   ///< [vertex][axis] of the link's triangle.
   alignas(64) PairFloats acceleration[3];  ///< Of each vertex: at most this long, from now on.
   alignas(64) PairFloats scene[3][3];      ///< [vertex][axis]
-  /// What the points may be off, at least: the largest of the link's three and the largest of the
-  /// scene's, added.
+  /// At least the points' error: the largest of the link's three plus the largest of the scene's.
   alignas(64) PairFloats positionPad;
-  alignas(64) PairFloats velocityPad;  ///< What each velocity may be off, at least.
+  alignas(64) PairFloats velocityPad;  ///< At least each velocity's error.
   alignas(64) PairFloats floor;        ///< Separation that a step keeps; at least 0.
 };
 
-/// What is proven of each pair. Both are 0 where nothing is.
+/// The proof for each pair. Both are 0 if nothing is proven.
 struct TrianglePairSteps {
   alignas(64) PairFloats lower;  ///< The true triangles are at least this far apart now.
-  /// And at least `floor` apart for this long from now, rounded down. 0 does not mean contact: that
-  /// is for doubles to say.
+  /// And at least `floor` apart for this long from now, rounded down. 0 does not mean contact: only
+  /// doubles decide that.
   alignas(64) PairFloats step;
 };
 
-/// Answers the first `count` pairs, at most kTrianglePairLanes; the other slots are read and
-/// written too, as far as whole vectors need it, and mean nothing.
+/// Answers the first `count` pairs, at most kTrianglePairLanes; also reads and writes slots beyond,
+/// up to a whole vector, which mean nothing.
 void proveSteps(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps);
 
-/// The same of pairs whose link triangle is a segment, from link[0] to link[1]; nothing is read of
-/// the third vertex. Looks at three pairs of edges, not nine.
+/// The same for pairs whose link triangle is a segment, from link[0] to link[1]; does not read the
+/// third vertex. Looks at three pairs of edges, not nine.
 void proveSegmentSteps(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps);
 
 }  // namespace foretouch::internal

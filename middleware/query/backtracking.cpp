@@ -80,8 +80,8 @@ class Backtracker {
     return kInfinity;
   }
 
-  /// Looks at the candidate (the heap's last, just popped) at its instant and moves it on, ends it,
-  /// puts the parts below in its place, or takes it as the link's contact.
+  /// Tests the candidate (the heap's last, just popped) at its instant, and advances it, ends it,
+  /// replaces it by the parts below, or takes it as the link's contact.
   void advance() {
     Candidate& candidate = heap_.back();
     const double t = candidate.freeUntil;
@@ -109,8 +109,8 @@ class Backtracker {
     }
   }
 
-  /// From an instant on, the two parts below take the place of the heap's last candidate; the plane
-  /// that was found for it moves them on where it can.
+  /// From an instant on, replaces the heap's last candidate by the two parts below; the plane found
+  /// for it advances them if it can.
   void descendFrom(const PairState& pair, double t) {
     descend(Later{}, [&](Candidate& part) {
       ++counters_.planeTests;
@@ -121,8 +121,8 @@ class Backtracker {
     });
   }
 
-  /// Puts the two parts below in the place of the heap's last candidate. `prepare` makes each ready
-  /// for the order that the heap is in.
+  /// Replaces the heap's last candidate by the two parts below. `prepare` readies each for the
+  /// heap's order.
   template <typename Order, typename Prepare>
   void descend(const Order& order, const Prepare& prepare) {
     const Candidate parent = heap_.back();
@@ -145,8 +145,8 @@ class Backtracker {
 
   [[nodiscard]] bool hasContact() const { return best_ && best_->verdict != Verdict::Undecided; }
 
-  /// Of the contacts at the very instant of the first one found, finds the one that is reported.
-  /// What is left in the heap is not earlier, and what is later does not matter.
+  /// Chooses the contact to report among those at the instant of the first one found. None left in
+  /// the heap is earlier, and later ones do not matter.
   void settleTies() {
     const double t = best_->toi;
     const auto tiesEnd = std::partition(heap_.begin(), heap_.end(),
@@ -155,13 +155,13 @@ class Backtracker {
     lookNearestFirst(t);
   }
 
-  /// Finds the contact at `t` that is reported, if there is one. A limb deep in furniture touches
-  /// thousands of triangles at once and the smallest separation wins, so the nearest boxes are
-  /// looked at first, until the boxes alone tell that no better one is left. A spent budget ends
-  /// it: the verdict stands, and of its contacts the best one that was seen.
+  /// Finds the contact to report at `t`, if there is one. A limb deep in furniture touches
+  /// thousands of triangles at once and the smallest separation wins, so this tests the nearest
+  /// boxes first, until the boxes alone show that no better one is left. A spent budget ends it:
+  /// the verdict stands, with the best contact seen.
   void lookNearestFirst(double t) {
     for (Candidate& candidate : heap_) {
-      // What lanes proved is hardly below the truth; boxes are asked where they said nothing.
+      // The lanes' bounds are hardly below the truth; use boxes only where lanes have none.
       if (candidate.nearest == -kInfinity) {
         candidate.nearest = leastGap(query_, candidate, states_.at(t));
       }
@@ -186,20 +186,20 @@ class Backtracker {
     }
   }
 
-  /// At t = 0 what was not looked at may go deeper than the contact that was found: whether the
-  /// link starts in contact is then open. Later, being free before it, nothing can.
+  /// At t = 0 an unseen pair may be deeper than the contact found, so whether the link starts in
+  /// contact is open. Later it cannot: the link was free before.
   void settleUnseen(double t) {
     if (t > 0.0 || !best_ || best_->verdict != Verdict::Contact) return;
     best_ = undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget);
   }
 
-  /// What is farther than this is no contact, or none that could be reported.
+  /// A pair farther than this is not a contact, or not one to report.
   [[nodiscard]] double reach() const {
     return hasContact() ? best_->separation - best_->penetration : query_.tolerance;
   }
 
   void giveUp(double t, UndecidedReason reason) {
-    if (best_) return;  // a contact at this very instant stands
+    if (best_) return;  // a contact at this instant stands
     best_ = undecidedContact(query_.parts.link, t, reason);
     horizon_ = t;
   }
@@ -207,7 +207,7 @@ class Backtracker {
   const LinkQuery& query_;
   std::vector<Candidate>& heap_;
   QueryCounters& counters_;
-  std::optional<LinkContact> best_;  // nothing: clear as far as has been looked
+  std::optional<LinkContact> best_;  // nothing: clear so far
   double horizon_ = kInfinity;       // nothing later than this can change the answer
   StateCache states_;
 };

@@ -1,6 +1,5 @@
 // middleware/query/backtracking.h: the first contact of one link, by conservative advancement on
-// the true curved motion. Scalar and plain: the reference that faster forms are held against. Not
-// installed.
+// the true curved motion. Scalar and plain: the reference for the faster forms. Not installed.
 //
 // At time t a plane with unit normal n separates LSS and triangle. It keeps doing so until an end e
 // of the axis has crossed it, and e approaches it by at most s*(-n.v_e) + A_e*s^2/2 within s. So no
@@ -16,10 +15,10 @@
 
 namespace foretouch::internal {
 
-/// The link's contact at t = 0, which ends the matter; nothing where none was found there (within
-/// the budget). `candidates`: all pairs whose boxes, grown by the tolerance, meet at t = 0. A limb
-/// inside furniture is answered by these few, whatever it sweeps afterwards. Consumes `candidates`
-/// (used as a heap).
+/// The link's contact at t = 0, which is its first; nothing if none was found there (within the
+/// budget). `candidates`: all pairs whose boxes, grown by the tolerance, meet at t = 0. These few
+/// pairs settle a limb inside furniture, whatever it sweeps afterwards. Consumes `candidates` (used
+/// as a heap).
 [[nodiscard]] std::optional<LinkContact> contactAtStart(const LinkQuery& query,
                                                         std::vector<Candidate>& candidates,
                                                         QueryCounters& counters);

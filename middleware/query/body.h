@@ -1,5 +1,5 @@
 // middleware/query/body.h: what a query moves through the scene: an avatar's own LSS, or LSS that
-// stand for several links of it and are carried by one (middleware/ladder/). Not installed.
+// each cover several links and move with one of them (middleware/ladder/). Not installed.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class Body {
  public:
   Body(const Avatar& avatar, const std::vector<IgnoredPair>& ignored)
       : avatar_(&avatar), ignored_(&ignored) {}
-  /// Volumes by the link that carries them, one list a link.
+  /// Volumes by the link that carries them: one list per link.
   Body(const std::vector<std::vector<Lss>>& volumes, const std::vector<IgnoredPair>& ignored)
       : volumes_(&volumes), ignored_(&ignored) {}
 

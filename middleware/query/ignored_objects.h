@@ -1,4 +1,4 @@
-// middleware/query/ignored_objects.h: the objects that a query passes over, link by link. Not
+// middleware/query/ignored_objects.h: the objects that a query ignores, link by link. Not
 // installed.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace foretouch::internal {
 
-/// The objects whose contacts with the link at hand are not asked for.
+/// The objects whose contacts with the current link the query ignores.
 class IgnoredObjects {
  public:
   /// True if the link is ignored altogether.

@@ -30,7 +30,7 @@ class LaneBacktracker {
     start();
     while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
       if (query_.meter.isPartSpent(counters_)) return leftUndone();
-      // Triangles first: a contact spares all that is later.
+      // Triangles first: a contact makes all later pairs unnecessary.
       const bool areTriangles =
           !scratch_.triangles.isEmpty() && !scratch_.lss.isBefore(scratch_.triangles);
       takeBatch(areTriangles ? scratch_.triangles : scratch_.lss);
@@ -59,8 +59,8 @@ class LaneBacktracker {
     }
   }
 
-  /// The pairs that are left say how far the link is free; a contact that none of them can come
-  /// before stands.
+  /// The remaining pairs bound how far the link is free; a contact that none of them can precede
+  /// stands.
   [[nodiscard]] LinkContact leftUndone() {
     double freeUntil = horizon_;
     for (TimeBuckets* buckets : {&scratch_.lss, &scratch_.triangles}) {
@@ -77,11 +77,11 @@ class LaneBacktracker {
   [[nodiscard]] const Candidate& candidateOf(const PartPair& pair) const {
     return candidates_[slotOf(pair.candidate)];
   }
-  /// The LSS bounds no triangle: it is the surface, and its pairs are for doubles.
+  /// The LSS contains no triangle: it is the surface, and its pairs go to doubles.
   [[nodiscard]] bool isBare(const PartPair& pair) const {
     return !surface_.hasTriangles(candidateOf(pair).lss);
   }
-  /// Fills the lanes with what is earliest.
+  /// Fills the lanes with the earliest pairs.
   void takeBatch(TimeBuckets& buckets) {
     count_ = 0;
     while (count_ < kTrianglePairLanes && !buckets.isEmpty()) {
@@ -103,7 +103,7 @@ class LaneBacktracker {
     }
   }
 
-  /// Moves a lane's pair on as far as is proven, or gives it up.
+  /// Advances a lane's pair as far as proven, or gives it up.
   void settle(std::size_t lane) {
     const PartPair& pair = batch_[lane];
     if (pair.freeUntil > horizon_) return;
@@ -121,7 +121,7 @@ class LaneBacktracker {
     push(pair);
   }
 
-  /// From an LSS, which was given up as a whole, into its hierarchy.
+  /// Descends from an LSS, which lanes gave up as a whole, into its hierarchy.
   void enter(PartPair pair) {
     Candidate& candidate = candidates_[slotOf(pair.candidate)];
     if (candidate.laneTriangle < 0) {
@@ -143,7 +143,7 @@ class LaneBacktracker {
     }
   }
 
-  /// In doubles: contact, or on.
+  /// Decides in doubles: contact, or advance.
   void look(const PartPair& pair) {
     const double t = pair.freeUntil;
     Candidate candidate = candidateOf(pair);
@@ -162,7 +162,7 @@ class LaneBacktracker {
     giveUp(t);
   }
 
-  /// The numbers cannot resolve the pair; a contact at this very instant stands.
+  /// The numbers cannot resolve the pair; a contact at this instant stands.
   void giveUp(double t) {
     if (t == horizon_) return;
     best_ = undecidedContact(query_.parts.link, t, UndecidedReason::Resolution);

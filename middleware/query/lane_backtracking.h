@@ -27,8 +27,8 @@ struct PartPair {
   bool isWhole = false;  // the LSS itself, whatever `part` says
 };
 
-/// Pairs by time, the earliest first up to 1/64 of the span: all that order decides is how much
-/// work is left over once there is a contact. Memory is kept.
+/// Pairs by time, the earliest first up to 1/64 of the span. The order only decides how much work a
+/// contact saves. Keeps its memory.
 class TimeBuckets {
  public:
   void reset(double begin, double end);
@@ -41,7 +41,7 @@ class TimeBuckets {
     occupied_ |= bit;
   }
   [[nodiscard]] bool isEmpty() const { return occupied_ == 0; }
-  /// Holds something in an earlier bucket than all of the other, whose span is the same.
+  /// Holds a pair in an earlier bucket than every pair of `other`, whose span is the same.
   [[nodiscard]] bool isBefore(const TimeBuckets& other) const {
     const std::uint64_t mine = occupied_ & (~occupied_ + 1);
     return occupied_ != 0 && (other.occupied_ & (2 * mine - 1)) == 0;
@@ -84,18 +84,18 @@ class TimeBuckets {
   std::vector<Entry> entries_;
 };
 
-/// What the descents of one thread's queries reuse.
+/// Reusable memory for the descents of one thread's queries.
 struct PartScratch {
   PartLanes lanes;
   TimeBuckets lss, triangles;
   std::vector<HierarchyChild> parts;        // a stack
-  std::vector<std::int32_t> linkTriangles;  // those that the stack left
+  std::vector<std::int32_t> linkTriangles;  // those the stack ended in
 };
 
-/// As backtrack(), for exact fidelity and for candidates in the span of `scratch.lanes`, which is
-/// told of their triangles as they are needed. Every pair's instants depend on that pair alone, so
-/// the contact reported depends on no order, unless the budget's part at hand is spent before all
-/// pairs are through.
+/// As backtrack(), for exact fidelity and for candidates in the span of `scratch.lanes`, to which
+/// it adds their triangles as needed. Every pair's instants depend on that pair alone, so the
+/// reported contact does not depend on order, unless the current part of the budget runs out before
+/// all pairs are done.
 [[nodiscard]] LinkContact backtrackInLanes(const LinkQuery& query,
                                            std::vector<Candidate>& candidates, PartScratch& scratch,
                                            QueryCounters& counters);

@@ -19,25 +19,25 @@
 namespace foretouch::internal {
 namespace {
 
-/// What lanes call certain, this share of the tolerance, must be so for the scalar code too, whose
+/// Lanes report certain contact within this share of the tolerance. The scalar code must agree; its
 /// rounding is far below the rest.
 constexpr double kCertainShare = 1.0 - 0x1p-10;
 /// No pair is certainly in contact.
 constexpr float kNeverCertain = -1.0F;
 /// Polynomials that are off by less than this share of the tolerance, or by this (m), decide almost
-/// as well as exact ones: it is in their radius, and more slabs cost more.
+/// as well as exact ones: their radius includes the error, and more slabs cost more.
 constexpr double kInterpolationShare = 1.0 / 64.0;
 constexpr double kLeastInterpolationError = 4e-6;
-/// Steps that clusters are given before their triangles are asked: where they are through after
-/// these, up to eight triangles need not be.
+/// Steps of a cluster before its triangles: if the cluster is done by then, up to eight triangles
+/// need no steps.
 constexpr int kClusterRounds = 6;
-/// Leaves whose triangles are advanced together. The first that touch spare the others most of
-/// their steps.
+/// Leaves whose triangles advance together. The first that touch save the others most of their
+/// steps.
 constexpr std::size_t kPartsAtOnce = 4;
-/// Equal parts of a slab by which clusters are brought in order of time.
+/// Equal parts of a slab by which we sort clusters by time.
 constexpr std::size_t kTimeBins = 32;
-/// Where work is limited: what a slab may cost before it is taken in halves, so that some of the
-/// motion is proven where the whole is too much; and how often it is halved.
+/// If work is limited: the cost of a slab before we halve it, so that some of the motion is proven
+/// if the whole is too much; and how often we halve it.
 constexpr std::uint64_t kSlabWork = 2048;
 constexpr int kMostHalvings = 6;
 constexpr float kBegin = -1.0F, kEnd = 1.0F;  // of u
@@ -111,10 +111,10 @@ void LaneQuery::run(StepContacts& step) {
   leaveClear(step);
 }
 
-/// All links in the slab at hand; true if one of them is not clear.
+/// Answers all links in the current slab; true if one of them is not clear.
 bool LaneQuery::answerSlab(StepContacts& step) {
   bool isTouched = false;
-  float limit = kEnd;  // nothing later than this is asked for
+  float limit = kEnd;  // nothing later than this matters
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto first = static_cast<std::size_t>(table_.first(link));
     const auto end = static_cast<std::size_t>(table_.first(link + 1));
@@ -131,9 +131,8 @@ bool LaneQuery::answerSlab(StepContacts& step) {
   return isTouched;
 }
 
-/// As run(), until the work is spent. Slabs that cost much are begun again as two halves: the order
-/// of the work does not depend on the budget, which only cuts it off, so more of it never proves
-/// less.
+/// As run(), until the work is spent. Restarts costly slabs as two halves. The order of the work
+/// does not depend on the budget, which only cuts it off, so more work never proves less.
 void LaneQuery::runWithin(StepContacts& step, int slabs) {
   const int finest = slabs << kMostHalvings;
   lanes_.freeUntil.assign(countOf(body_.numLinks()), 0.0);
@@ -160,8 +159,8 @@ void LaneQuery::runWithin(StepContacts& step, int slabs) {
   leaveClear(step);
 }
 
-/// The links that are asked in the slab at hand, each as far as it is not proven free; false where
-/// the work of the slab was spent before the last one was answered.
+/// Answers the open links in the current slab, each from where it is proven free; false if the
+/// slab's work was spent before the last one.
 bool LaneQuery::answerSlabWithin(StepContacts& step) {
   const bool isNear = collectHits(step.counters);
   const auto isOpen = [&](LinkId link) {
@@ -191,7 +190,7 @@ bool LaneQuery::answerSlabWithin(StepContacts& step) {
   return true;
 }
 
-/// When the first of the links that have been answered touches; nothing where none does.
+/// The earliest contact among the answered links; nothing if none touches.
 std::optional<double> LaneQuery::firstOf(const StepContacts& step) const {
   std::optional<double> first;
   for (const LinkContact& contact : step.links) {
@@ -202,7 +201,7 @@ std::optional<double> LaneQuery::firstOf(const StepContacts& step) const {
   return first;
 }
 
-/// All links have been looked at until then at least.
+/// Precondition: all links are known to be free until then at least.
 void LaneQuery::leaveAfterFirst(double first, StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = slotOf(link);
@@ -211,7 +210,7 @@ void LaneQuery::leaveAfterFirst(double first, StepContacts& step) const {
   }
 }
 
-/// The whole step has been looked at: links that are asked for to the end touch nothing.
+/// The whole step is done: links without an answer touch nothing.
 void LaneQuery::leaveClear(StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = slotOf(link);
@@ -219,7 +218,7 @@ void LaneQuery::leaveClear(StepContacts& step) const {
   }
 }
 
-/// What is not answered is free as far as it is proven.
+/// Links without an answer are free as far as proven.
 void LaneQuery::leaveUndone(StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = slotOf(link);
@@ -237,7 +236,7 @@ LinkContact LaneQuery::undone(LinkId link) const {
   return undecidedContact(link, begin_, UndecidedReason::WorkBudget);
 }
 
-/// Links that are ignored altogether are answered at once: of theirs nothing is a contact.
+/// Answers links that are ignored altogether at once: they have no contacts.
 void LaneQuery::findWhoIsAsked(StepContacts& step) {
   lanes_.isAsked.assign(countOf(body_.numLinks()), 1);
   for (const IgnoredPair& pair : body_.ignored()) {
@@ -285,7 +284,7 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
   return true;
 }
 
-/// What the reference culler finds, as hits of the tree's leaves.
+/// The reference culler's triangles, as hits of the tree's leaves.
 void LaneQuery::collectByCuller(QueryCounters& counters) {
   const Eigen::Vector3d& origin = scene_.parts().origin;
   for (std::int32_t lss = 0; lss < lanes_.boxes.count; ++lss) {
@@ -307,7 +306,7 @@ void LaneQuery::collectByCuller(QueryCounters& counters) {
   mergeHits();
 }
 
-/// One hit a leaf and LSS.
+/// One hit per leaf and LSS.
 void LaneQuery::mergeHits() {
   auto& hits = lanes_.hits;
   std::sort(hits.begin(), hits.end(), [](const LeafHit& x, const LeafHit& y) {
@@ -343,11 +342,11 @@ LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters)
   const LinkSurface* const surface = surfaceOf(options_, link);
   scratch_.ignored.collect(body_.ignored(), link);
   if (!lanes_.margins.empty()) useTolerance(toleranceOf(options_, link));
-  // What touches an LSS may yet miss the triangles in it.
+  // A triangle that touches an LSS may still miss the triangles in it.
   tolerances_.contact = surface == nullptr ? floatBelow(kCertainShare * tolerance_) : kNeverCertain;
   float best = limit;
   if (surface != nullptr && begin_ == 0.0) {
-    // A link inside furniture is answered by what it touches at once, whatever it sweeps
+    // The triangles that a link inside furniture touches at once settle it, whatever it sweeps
     // afterwards.
     best = kBegin;
     const LinkContact atStart = answerBefore(link, surface, best, counters);
@@ -359,16 +358,15 @@ LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters)
   if (isBelieved || (contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(best))) {
     return contact;
   }
-  // Lanes dropped what is later than a contact that the scalar code then did not find. Both being
-  // proved this does not happen; if it did, nothing may be missed.
+  // Lanes dropped pairs later than a contact that the scalar code then did not find. Both are
+  // proved, so this does not happen; if it did, we must still miss nothing.
   tolerances_.contact = kNeverCertain;
   best = limit;
   return answerBefore(link, surface, best, counters);
 }
 
-/// Asks for nothing later than `best`, which is lowered by contacts that are certain. At exact
-/// fidelity: where `best` is the step's beginning, whether there is contact then, else what comes
-/// after it.
+/// Looks for nothing later than `best`, and lowers it by certain contacts. At exact fidelity: if
+/// `best` is the step's beginning, tests for contact then, else looks after it.
 LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, float& best,
                                     QueryCounters& counters) {
   scratch_.candidates.clear();
@@ -427,8 +425,8 @@ void LaneQuery::prepareScalar(LinkId link) {
   }
 }
 
-/// The LSS's pairs through the slab; what lanes leave is in `handed`. False where the work was
-/// spent before all were through.
+/// Advances the LSS's pairs through the slab; `handed` gets those that lanes leave. False if the
+/// work was spent before all were done.
 bool LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
   const auto begin = lanes_.first[slotOf(lss)];
   const auto end = lanes_.first[slotOf(lss) + 1];
@@ -457,8 +455,8 @@ bool LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counter
   return true;
 }
 
-/// Brings those that are open from early on to the front: what is found there ends the others.
-/// Where all are taken at once there is no order.
+/// Sorts clusters by the earliest time still unproven, so that an early contact lets us skip the
+/// later ones. No order if one batch takes them all.
 void LaneQuery::sortClusters() {
   HandedOver& clusters = lanes_.clusters;
   const std::size_t count = clusters.count;
@@ -478,8 +476,8 @@ void LaneQuery::sortClusters() {
     lanes_.order[first[binOf(i)]++] = static_cast<std::uint32_t>(i);
 }
 
-/// The triangles of the next clusters that were not proven clear, from the time on that is open.
-/// Returns where to go on.
+/// Collects the triangles of the next clusters that are not proven clear, each from its first
+/// unproven time. Returns where to continue.
 std::size_t LaneQuery::collectParts(std::size_t begin, std::size_t done, float best) {
   lanes_.leafParts.clear();
   for (; done < lanes_.clusters.count && lanes_.leafParts.size() < kPartsAtOnce; ++done) {
@@ -524,8 +522,8 @@ float LaneQuery::lanesTimeOf(double t) const {
   return std::min(kEnd, floatAbove(2.0 * (t - begin_) / (end_ - begin_) - 1.0));
 }
 
-/// A slab's bounds are multiples of a power of two and u is a float, so nothing rounds but u + 1
-/// for the least u, which kTimeRounding of the lanes leaves room for.
+/// A slab's bounds are multiples of a power of two and u is a float, so only u + 1 rounds, for the
+/// least u; kTimeRounding of the lanes covers that.
 double LaneQuery::timeOf(float u) const {
   return begin_ + 0.5 * (static_cast<double>(u) + 1.0) * (end_ - begin_);
 }

@@ -19,23 +19,24 @@ namespace foretouch::internal {
 /// One query over all links of one step, at link or exact fidelity.
 class LaneQuery {
  public:
-  /// `table` is of the body's LSS; `meter` of the query, which began when it did.
+  /// `table` holds the body's LSS; `meter` started with the query.
   LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion, const Scene& scene,
             const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
             ScratchParts& scratch);
 
-  /// The scratch's nodes are those of this motion over [0,1], with the scene's origin.
+  /// Declares that the scratch's nodes are those of this motion over [0,1], with the scene's
+  /// origin.
   void keepNodes() { hasNodes_ = true; }
 
-  /// Answers every link of `step`; by Scope::FirstOfAvatar the first ones of all, and the others
-  /// AfterFirst.
+  /// Answers every link of `step`. With Scope::FirstOfAvatar: only the earliest contacts; all other
+  /// links are AfterFirst.
   void run(StepContacts& step);
 
  private:
   void useTolerance(double tolerance);
   void findWhoIsAsked(StepContacts& step);
   void leaveOut(LinkId link);
-  /// Of all LSS in the slab at hand; false if there are none.
+  /// Of all LSS in the current slab; false if there are none.
   [[nodiscard]] bool collectHits(QueryCounters& counters);
   void collectByCuller(QueryCounters& counters);
   void mergeHits();
@@ -72,12 +73,12 @@ class LaneQuery {
   LaneScratch& lanes_;
   const FlatBvh& bvh_;
   ToleranceRange range_;  // of all links
-  double tolerance_;      // of the link at hand
+  double tolerance_;      // of the current link
   LaneTolerances tolerances_;
   WorkMeter meter_;
-  double begin_ = 0.0, end_ = 1.0;  // of the slab at hand
+  double begin_ = 0.0, end_ = 1.0;  // of the current slab
   bool hasNodes_ = false;
-  bool areAllAsked_ = true;  // links, in the slab at hand
+  bool areAllAsked_ = true;  // links, in the current slab
 };
 
 /// The avatar's table, kept in the scratch while queries ask for the same avatar.

@@ -20,18 +20,18 @@ struct LaneScratch {
   ChainNodes nodes;
   SweptBoxes boxes;
   std::vector<LeafHit> hits;  // of all LSS, in the order of the walk
-  // The hits by LSS, `first` where those of an LSS begin.
+  // The hits by LSS; `first`: where those of an LSS begin.
   std::vector<std::uint32_t> first;
   std::vector<std::int32_t> leaf;  // padded by kMaxLanes
   std::vector<std::uint8_t> triangles;
   PairLanes pairs;
-  std::vector<LeafPart> leafParts;    // of the LSS at hand
+  std::vector<LeafPart> leafParts;    // of the current LSS
   std::vector<std::uint32_t> order;   // of the clusters, by time
-  HandedOver clusters, handed;        // of the LSS at hand
-  PartScratch parts;                  // of the link at hand, at exact fidelity
+  HandedOver clusters, handed;        // of the current LSS
+  PartScratch parts;                  // of the current link, at exact fidelity
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
-  std::vector<double> freeUntil;      // per link, where work is limited: how far it is proven free
-  std::vector<double> margins;        // per link, where tolerances differ
+  std::vector<double> freeUntil;      // per link, if work is limited: how far it is proven free
+  std::vector<double> margins;        // per link, if tolerances differ
 };
 
 }  // namespace foretouch::internal

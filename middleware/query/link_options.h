@@ -1,4 +1,4 @@
-// middleware/query/link_options.h: the options of a query as they hold for one link. Not installed.
+// middleware/query/link_options.h: the options of a query as they apply to one link. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace foretouch::internal {
          fidelity == Fidelity::Ellipsoid;
 }
 
-/// What the link is asked with.
+/// The link's own tolerance and fidelity.
 [[nodiscard]] inline double toleranceOf(const QueryOptions& options, LinkId link) {
   return options.linkPolicies.empty() ? options.tolerance
                                       : options.linkPolicies[slotOf(link)].tolerance;
@@ -39,9 +39,9 @@ struct ToleranceRange {
   return range;
 }
 
-/// The surface that the link has at exact fidelity; null at others.
+/// The link's surface at exact fidelity; null at others.
 [[nodiscard]] const LinkSurface* surfaceOf(const QueryOptions& options, LinkId link);
-/// The skin, at skinned fidelity; null at others, and of a link that owns none of it.
+/// The skin, at skinned fidelity; null at others, and for a link that owns none of its triangles.
 [[nodiscard]] const SkinParts* skinOf(const QueryOptions& options, LinkId link);
 
 }  // namespace foretouch::internal

@@ -20,7 +20,7 @@ PairState pairOfLss(const Lss& lss, const AxisBounds& bounds, const LinkState& s
                     const Triangle& triangle) {
   const AxisEnds ends = axisEnds(lss, state);
   const Separation axis = separation(ends.a, ends.b, triangle);
-  // The differences below round once each, by at most kUnitRoundoff of what is subtracted.
+  // The differences below round once each, by at most kUnitRoundoff of the subtracted values.
   const double radiusSlack = 4.0 * kUnitRoundoff * (lss.radius + std::abs(axis.upper));
   PairState pair;
   pair.points = 2;

@@ -1,6 +1,6 @@
 // middleware/query/link_pair.h: a convex part of a moving link (an LSS, or a triangle of its mesh)
-// against a triangle of the scene at one instant: what is proven of their separation, and how long
-// it lasts. Proof with rounding: docs/guarantees.md 5. Not installed.
+// against a triangle of the scene at one instant: a proven bound on their separation, and for how
+// long it holds. Proof with rounding: docs/guarantees.md 5. Not installed.
 #pragma once
 
 #include <array>
@@ -41,8 +41,8 @@ class Part {
   std::int32_t code_;
 };
 
-/// One part against one triangle of the scene, with everything rounding may have done on the safe
-/// side. The part is the hull of `points` points, grown by `radius`.
+/// One part against one triangle of the scene, with all rounding errors on the safe side. The part
+/// is the hull of `points` points, grown by `radius`.
 struct PairState {
   std::size_t points = 0;  // 2: an LSS's axis; 3: a triangle
   double radius = 0.0;
@@ -65,7 +65,7 @@ struct PosedLink {
   std::vector<LinkState> all;
 };
 
-/// A triangle of the link's surface at one instant, in W, and what bounds its vertices' motion.
+/// A triangle of the link's surface at one instant, in W, and bounds on its vertices' motion.
 struct MovingTriangle {
   Triangle triangle;
   std::array<Eigen::Vector3d, 3> velocity;
@@ -76,7 +76,7 @@ struct MovingTriangle {
 struct LinkParts {
   LinkId link;
   const std::vector<Lss>& lss;
-  const std::vector<AxisBounds>& axisBounds;  // one an LSS
+  const std::vector<AxisBounds>& axisBounds;  // one per LSS
   const ChainMotion& motion;
   const LinkSurface* surface = nullptr;  // exact fidelity; else null
   const SkinParts* skin = nullptr;       // skinned fidelity; else null
@@ -88,8 +88,8 @@ struct LinkParts {
   [[nodiscard]] PairState pair(std::int32_t lssIndex, Part part, const PosedLink& posed,
                                const Triangle& triangle) const;
   /// For how long the part stays at `floor` or more above the plane of another pair of the same
-  /// triangle at the same instant: a cheap proof, as a plane that separates an LSS often separates
-  /// what is in it. 0 where it proves nothing.
+  /// triangle at the same instant. A cheap proof: a plane that separates an LSS often separates the
+  /// parts inside it. 0 if it proves nothing.
   [[nodiscard]] double stepByPlane(std::int32_t lssIndex, Part part, const LinkState& state,
                                    const Triangle& triangle, const Eigen::Vector3d& nhat,
                                    double floor) const;
@@ -97,7 +97,7 @@ struct LinkParts {
   [[nodiscard]] Aabb boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const;
 };
 
-/// For how long the pair's separation stays at `floor` or above; 0 where that is not proven now.
+/// For how long the pair's separation stays at `floor` or above; 0 if that is not proven now.
 [[nodiscard]] double stepFrom(const PairState& pair, double floor);
 
 }  // namespace foretouch::internal

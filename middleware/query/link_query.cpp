@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Scene to link. Where part and triangle meet, their difference has no direction: then the
-/// normal of the features, then any unit vector.
+/// Scene to link. If part and triangle meet, their difference has no direction: then the normal of
+/// the features, then any unit vector.
 Vector3d contactNormal(const PairState& pair) {
   if (pair.nhat.squaredNorm() > 0.5) return pair.nhat.normalized();
   if (pair.distance > 0.0) return pair.difference.stableNormalized();
@@ -30,7 +30,7 @@ Vector3d contactNormal(const PairState& pair) {
 }  // namespace
 
 void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links) {
-  links.clear();  // so that no old answer is left where there is no room for a new one
+  links.clear();  // so that no old answer survives if there is no room for a new one
   links.resize(countOf(numLinks));
   for (LinkId link = 0; link < numLinks; ++link) {
     links[slotOf(link)].link = link;
@@ -96,8 +96,8 @@ LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const 
                       double t) {
   LinkContact contact;
   contact.link = query.parts.link;
-  // At t = 0 nothing before it proves the pair apart: of an LSS what cannot be proven apart counts
-  // as touching; triangles, where the computed vertices are, have an exact answer.
+  // At t = 0 no earlier proof keeps the pair apart: an LSS that we cannot prove apart counts as
+  // touching; for triangles, the computed vertices give an exact answer.
   const bool starts = t == 0.0 && pair.gapLower() <= 0.0 &&
                       (!candidate.part.isTriangle() ||
                        trianglesMeet(pair.hull, query.scene.triangle(candidate.triangle)));

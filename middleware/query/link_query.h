@@ -1,5 +1,5 @@
 // middleware/query/link_query.h: the question about one link: its pairs with the scene's triangles,
-// and what each of them tells at an instant. Not installed.
+// and what each pair proves at an instant. Not installed.
 #pragma once
 
 #include <array>
@@ -29,33 +29,33 @@ struct Pieces {
 inline constexpr int kMaxPieces = 32;
 
 /// One part of the link against one triangle, on the pieces in which their boxes meet. A query
-/// begins with whole LSS; at exact fidelity one that comes within the tolerance gives way to the
-/// two parts below it, from that instant on.
+/// begins with whole LSS. At exact fidelity, when one comes within the tolerance, the query
+/// replaces it by the two parts below it, from that instant on.
 struct Candidate {
   TriangleId triangle = -1;
   std::int32_t lss = -1;
   std::uint32_t pieces = 0;  // bit k: piece k
-  // At freeUntil the gap is not smaller, as boxes, lanes or separations tell.
+  // At freeUntil the gap is at least this, by boxes, lanes or separations.
   double nearest = -std::numeric_limits<double>::infinity();
   double freeUntil = 0.0;  // proven: separation > 0 on [0, freeUntil), >= floor there unless 0
-  double end = 1.0;        // not asked for from then on
+  double end = 1.0;        // the query does not look beyond
   Part part = Part::whole();
-  std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, where there are any
+  std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, if there are any
 };
 
-/// Says of every link that no query has answered it.
+/// Marks every link as answered by no query.
 void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links);
 
-/// Proven: no contact in all that was asked for. The one place that writes Clear, to a link that
-/// nobody has answered.
+/// Proven: no contact in the whole question. The one place that writes Clear, and only to a link
+/// without an answer.
 inline void answerClear(LinkContact& unanswered) {
   unanswered.verdict = Verdict::Clear;
   unanswered.freeUntil = unanswered.toi = 1.0;
 }
-/// The same as a record of its own.
+/// A new record with that answer.
 [[nodiscard]] LinkContact clearContact(LinkId link);
 
-/// What backtrack() needs to know of one link; all references outlive the call.
+/// The input of backtrack() for one link; all references outlive the call.
 struct LinkQuery {
   LinkParts parts;
   const Scene& scene;
@@ -66,17 +66,16 @@ struct LinkQuery {
   MotionEvaluator& evaluator;  // of parts.motion
 
   [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }
-  /// Nothing is below it: what it touches, the link touches.
+  /// Nothing is below it: whatever it touches, the link touches.
   [[nodiscard]] bool isSurface(std::int32_t lss, Part part) const {
     return !isExact() || part.isTriangle() || !parts.surface->hasTriangles(lss);
   }
-  /// The two parts below one that is not the surface itself (one, twice, where the LSS bounds a
+  /// The two parts below one that is not the surface itself (one, twice, if the LSS contains a
   /// single triangle).
   [[nodiscard]] std::array<Part, 2> below(std::int32_t lss, Part part) const;
 };
 
-/// The link's states at the instants that are asked for, the last one kept: neighbouring candidates
-/// ask for the same.
+/// The link's states by instant. Keeps the last one: neighbouring candidates need the same.
 class StateCache {
  public:
   StateCache(const LinkQuery& query, QueryCounters& counters)
@@ -101,9 +100,8 @@ class StateCache {
   double time_ = -1.0;
 };
 
-/// A lower bound on the separation that pair() would compute, by the boxes of part and triangle.
-/// Its slack, thousands of roundings of the coordinates, keeps it below whatever either side rounds
-/// to.
+/// A lower bound on the separation that pair() would compute, from the boxes of part and triangle.
+/// Its slack, thousands of roundings of the coordinates, keeps it below however either side rounds.
 [[nodiscard]] double leastGap(const LinkQuery& query, const Candidate& candidate,
                               const PosedLink& posed);
 
@@ -111,12 +109,12 @@ class StateCache {
 [[nodiscard]] PairState pairOf(const LinkQuery& query, const Candidate& candidate,
                                const PosedLink& posed, QueryCounters& counters);
 
-/// Up to which t the candidate's pair is proven apart, from `t` on, as `pair` tells of it there; at
-/// most 1, and `t` itself where nothing is proven.
+/// Up to which t, from `t` on, `pair` (the candidate's pair at `t`) proves the two apart; at most
+/// 1, and `t` itself if it proves nothing.
 [[nodiscard]] double provenFrom(const LinkQuery& query, const Candidate& candidate,
                                 const PairState& pair, double t, QueryCounters& counters);
 
-/// What is reported of a pair that is in contact at `t`.
+/// The report of a pair that is in contact at `t`.
 [[nodiscard]] LinkContact contactOf(const LinkQuery& query, const Candidate& candidate,
                                     const PairState& pair, double t);
 

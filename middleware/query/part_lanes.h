@@ -1,6 +1,6 @@
 // middleware/query/part_lanes.h: parts of one link against triangles of the scene, sixteen pairs at
-// a time, each at its own instant: fills the lanes (lanes/frame_lanes.h), has them proved
-// (lanes/triangle_pairs.h) and turns what they say back into t. Not installed.
+// a time, each at its own instant: fills the lanes (lanes/frame_lanes.h), runs the proofs
+// (lanes/triangle_pairs.h) and turns their results back into t. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@
 
 namespace foretouch::internal {
 
-/// One link over one span of t, whose length and bounds are multiples of 2^-20. Memory is kept; for
-/// one thread.
+/// One link over one span of t, whose length and bounds are multiples of 2^-20. Keeps its memory;
+/// for one thread.
 class PartLanes {
  public:
-  /// `nodesOrigin_W`: what the polynomials' origin is relative to. Forgets the scene's triangles.
+  /// The polynomials' origin is relative to `nodesOrigin_W`. Forgets the scene's triangles.
   void reset(const FramePolynomials& polynomials, const Eigen::Vector3d& nodesOrigin_W,
              double begin, double end);
 
@@ -46,8 +46,8 @@ class PartLanes {
   void proveTriangles(std::size_t count);
   void proveLss(std::size_t count);
 
-  /// Lower bound (m) on the separation of the lane's part and triangle; not above 0 where nothing
-  /// is proven.
+  /// Lower bound (m) on the separation of the lane's part and triangle; not above 0 if nothing is
+  /// proven.
   [[nodiscard]] double lower(std::size_t lane) const {
     return static_cast<double>(steps_.lower[lane]) - static_cast<double>(radius_[lane]);
   }
@@ -55,8 +55,8 @@ class PartLanes {
   [[nodiscard]] double freeUntil(std::size_t lane) const;
 
  private:
-  /// Instants that lanes begin at are this far apart in u: floats all over [-1,1], and so are their
-  /// distances from -1.
+  /// Lanes begin at instants this far apart in u. All of them on [-1,1] are floats, and so are
+  /// their distances from -1.
   static constexpr double kInstant = 0x1p-24;
   static float uOf(std::int32_t instant) { return static_cast<float>(instant * kInstant - 1.0); }
 

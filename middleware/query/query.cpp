@@ -26,7 +26,7 @@ Result<Done> checkedTolerance(double tolerance, LinkId link) {
   return Error{ErrorCode::OutOfRange, "tolerance", -1, link, "expected 1e-9 to 1e7 metres"};
 }
 
-/// One policy a link, each of a fidelity at which links are answered one by one.
+/// One policy per link, each with a fidelity that answers links one by one.
 Result<Done> checkedPolicies(const Avatar& avatar, const QueryOptions& options) {
   if (options.linkPolicies.empty()) return Done{};
   const auto isOfLinks = [](Fidelity fidelity) {
@@ -104,13 +104,13 @@ Result<const internal::TriangleCuller*> cullerOf(const Scene& scene, Culler whic
   return static_cast<const internal::TriangleCuller*>(built);
 }
 
-/// Skins change shape, and the walk numbers its boxes.
+/// Not for skins, which change shape, nor beyond the number of boxes of a walk.
 bool inLanes(const Avatar& avatar, const QueryOptions& options, internal::LaneScratch& lanes) {
   return options.backtracking == Backtracking::Lanes && options.fidelity != Fidelity::Skinned &&
          internal::tableOf(avatar, lanes).size() <= internal::BoxLanes::kMaxBoxes;
 }
 
-/// At link or exact fidelity, by whichever way the options ask for.
+/// At link, exact or skinned fidelity, by the way that the options choose.
 void linkQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                const QueryOptions& options, const internal::TriangleCuller& culler,
                const internal::WorkMeter& meter, internal::ScratchParts& scratch,
@@ -131,14 +131,14 @@ void linkQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& sce
       .run(step);
 }
 
-/// No link is as it was before anyone looked.
+/// Every link has an answer.
 [[maybe_unused]] bool isAnswered(const StepContacts& step) {
   return std::none_of(step.links.begin(), step.links.end(), [](const LinkContact& contact) {
     return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::None;
   });
 }
 
-/// Of links that touch nothing before the first contact of all nothing more is said.
+/// Links that touch nothing before the earliest contact of all become AfterFirst.
 void keepFirst(StepContacts& step) {
   double first = 1.0;
   bool isTouched = false;

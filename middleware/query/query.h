@@ -13,11 +13,11 @@
 
 namespace foretouch {
 
-/// The first contact of every link of `avatar` while it moves as `motion` says.
-/// Errors are bad options (tolerance, a policy or an ignored pair out of range) or a motion of
-/// another avatar. Geometry never produces one: see Verdict. The first form fills `step` and, once
-/// scratch and step have grown to what the scene asks for, allocates nothing. Where it fails, every
-/// link of `step` is Undecided, free until 0.
+/// The first contact of every link of `avatar` while it moves as `motion` says. Errors are bad
+/// options (tolerance, a policy or an ignored pair out of range) or a motion of another avatar.
+/// Geometry never produces one: see Verdict. The first form fills `step` and allocates nothing once
+/// scratch and step have grown to the scene's needs. If it fails, every link of `step` is
+/// Undecided, free until 0.
 [[nodiscard]] Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion,
                                          const Scene& scene, const QueryOptions& options,
                                          QueryScratch& scratch, StepContacts& step);
@@ -28,9 +28,8 @@ namespace foretouch {
                                                  const Scene& scene,
                                                  const QueryOptions& options = {});
 
-/// What a discrete check sees: does the link's surface touch a triangle at this one instant?
-/// Ignored pairs are passed over. Decided by the computed distance (no claim within rounding of
-/// zero).
+/// What a discrete check sees: does the link's surface touch a triangle at this one instant? It
+/// skips ignored pairs. The computed distance decides (no claim within rounding of zero).
 [[nodiscard]] bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
                              const Scene& scene, const QueryOptions& options,
                              QueryScratch& scratch);

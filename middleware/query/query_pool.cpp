@@ -17,15 +17,15 @@
 namespace foretouch {
 namespace {
 
-/// What one thread keeps between queries.
+/// One thread's memory between queries.
 struct alignas(128) Worker {
   QueryScratch scratch;
   ChainMotion motion;
-  // Written throughout a query, and then exchanged for the task's: answers side by side share cache
+  // Written throughout a query, and then swapped with the task's: adjacent answers share cache
   // lines.
   StepContacts answer;
   std::vector<FailedTask> failures;  // ascending, as a thread takes tasks
-  bool isSuspect = false;            // a query was broken off: what it kept may be half written
+  bool isSuspect = false;            // a query was broken off: its memory may be half written
 
   Result<Done> answerTo(const StepTask& task, const Scene& scene) {
     if (isSuspect) {
@@ -57,7 +57,7 @@ struct Work {
     }
   }
 
-  /// Whatever happens, the worker's answer is that to this task.
+  /// Whatever happens, the worker's answer belongs to this task.
   void take(Worker& worker, std::size_t i) {
     const StepTask& task = (*tasks)[i];
     try {
@@ -83,7 +83,7 @@ void waitBriefly(const Condition& isMet) {
   while (!isMet() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
 }
 
-/// The lock is taken to begin and to end a list, never for a task.
+/// Locks only to begin and to end a list, never for a task.
 struct QueryPool::Impl {
   std::vector<Worker> workers;  // the calling thread's first
   std::vector<std::thread> threads;
@@ -91,8 +91,8 @@ struct QueryPool::Impl {
   std::vector<FailedTask> failures;  // of the last list
   std::mutex mutex;
   std::condition_variable begins, ends;
-  std::atomic<std::uint64_t> list{0};   // how many lists have begun
-  std::atomic<std::size_t> working{0};  // threads that are not done with the list at hand
+  std::atomic<std::uint64_t> list{0};   // number of lists begun
+  std::atomic<std::size_t> working{0};  // threads not done with the current list
   bool isStopping = false;
 
   ~Impl() {

@@ -24,7 +24,7 @@ struct StepTask {
   const QueryOptions* options = nullptr;
 };
 
-/// A task that was not answered, by its place in the list, and why.
+/// A task without an answer, by its place in the list, and why.
 struct FailedTask {
   std::size_t task = 0;
   Error error;
@@ -35,7 +35,7 @@ inline constexpr int kMaxPoolThreads = 256;
 class QueryPool {
  public:
   /// `threads` in [1, kMaxPoolThreads], the calling one among them. Errors: a number out of range,
-  /// or threads that the system does not give.
+  /// or the system refuses the threads.
   static Result<QueryPool> start(int threads);
   ~QueryPool();
   QueryPool(QueryPool&&) noexcept;
@@ -43,9 +43,10 @@ class QueryPool {
 
   [[nodiscard]] int threads() const;
 
-  /// Answers all tasks and returns when the last one is done; `answers` is resized and reused. The
-  /// error is that of the first task that has one, failures() has them all. Every link of a task
-  /// that failed is Undecided, free until 0; the others are answered. Not for two threads at once.
+  /// Answers all tasks and returns when the last one is done; resizes and reuses `answers`. The
+  /// error is that of the first task that failed; failures() lists them all. Every link of a failed
+  /// task is Undecided, free until 0; the other tasks have their answers. Not for two threads at
+  /// once.
   Result<Done> answer(const Scene& scene, const std::vector<StepTask>& tasks,
                       std::vector<StepContacts>& answers);
   /// Of the last list, in its order.

@@ -9,7 +9,7 @@ namespace internal {
 struct ScratchParts;
 }
 
-/// Scratch memory that is kept between queries; one a thread.
+/// Scratch memory that queries reuse; one per thread.
 class QueryScratch {
  public:
   QueryScratch();

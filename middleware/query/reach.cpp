@@ -7,8 +7,8 @@ namespace foretouch::internal {
 
 bool nothingInReach(const LssTable& table, const ChainMotion& motion, const Scene& scene,
                     double tolerance, QueryCounters& counters) {
-  // Covers the rounding of these sums, and of the roots' ways: a box is tens of thousands of
-  // roundings wider than what is in it.
+  // Covers the rounding of these sums, and of the roots' paths: a box is tens of thousands of
+  // roundings wider than its content.
   constexpr double kReachInflation = 1.0 + 1e-11;
   Aabb box;
   for (LinkId link = 0; link < motion.numLinks(); ++link) {

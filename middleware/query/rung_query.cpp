@@ -16,7 +16,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// One query. A group is what one volume stands for: a limb, or a tree.
+/// One query. A group is the links of one volume: a limb, or a tree.
 class RungQuery {
  public:
   RungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
@@ -86,7 +86,7 @@ class RungQuery {
   [[nodiscard]] const Limbs& limbs() const { return rungs_.volumes.limbs(); }
   [[nodiscard]] bool isAsked(LinkId link) const { return rungs_.isAsked[slotOf(link)] != 0; }
 
-  /// Which links are asked for at all, and which objects no link of a group asks for.
+  /// Finds the links that are not ignored, and the objects that all links of a group ignore.
   void findIgnored() {
     rungs_.isAsked.assign(countOf(avatar_.numLinks()), 1);
     rungs_.ignored.clear();
@@ -158,8 +158,8 @@ class RungQuery {
     }
   }
 
-  /// Every link that is asked for gets its group's answer. Those that are not, and those that have
-  /// no LSS, which are in no group, touch nothing.
+  /// Gives every link that is not ignored its group's answer. Ignored links, and links without LSS,
+  /// which are in no group, touch nothing.
   void spread(StepContacts& step) const {
     for (LinkContact& contact : step.links) {
       if (isAsked(contact.link) && !avatar_.lss(contact.link).empty()) continue;

@@ -1,5 +1,5 @@
 // middleware/query/rung_query.h: a query above link fidelity: the step's volumes, their first
-// contacts, and those given to the links that they stand for. Not installed.
+// contacts, and the verdicts of the links they cover. Not installed.
 #pragma once
 
 #include "articulated/avatar.h"
@@ -13,13 +13,13 @@
 
 namespace foretouch::internal {
 
-/// Answers every link of `step`. The options have been checked, isRung(options.fidelity); `meter`
-/// is of the query, which began when it did.
+/// Answers every link of `step`. Preconditions: the options are valid, isRung(options.fidelity);
+/// `meter` started with the query.
 void rungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
                ScratchParts& scratch, StepContacts& step);
 
-/// Does the volume that stands for the link touch a triangle at `t`?
+/// Does the volume that covers the link touch a triangle at `t`?
 [[nodiscard]] bool rungTouchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link,
                                  double t, const Scene& scene, const QueryOptions& options,
                                  ScratchParts& scratch);

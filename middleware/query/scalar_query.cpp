@@ -14,7 +14,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Pieces are made so short that no link moves farther than this (m) in one, up to kMaxPiecesUsed.
+/// Pieces are short enough that no link moves farther than this (m) in one, up to kMaxPiecesUsed.
 /// Longer pieces mean more candidates that are not near, shorter ones more forward kinematics; only
 /// speed depends on it.
 constexpr double kPieceTravel = 0.08;
@@ -40,7 +40,7 @@ class StepQuery {
     cutIntoPieces();
     step.counters.states += static_cast<std::uint64_t>(body_.numLinks() * (pieces_.count + 1));
     for (LinkId link = 0; link < body_.numLinks(); ++link) {
-      // Equal shares, so that the last links have theirs; what one leaves is the others'.
+      // Equal shares, so that the last links have theirs; the others get what one leaves.
       const auto others = static_cast<std::uint64_t>(body_.numLinks() - link);
       meter_.beginPart(step.counters, meter_.left(step.counters) / others);
       step.links[slotOf(link)] = firstContactOf(link, step.counters);
@@ -115,7 +115,7 @@ class StepQuery {
     return !scratch_.found.empty();
   }
 
-  /// Pairs of the skin's triangles with the scene's, by `count` boxes a triangle of the skin.
+  /// Pairs of the skin's triangles with the scene's, by `count` boxes per triangle of the skin.
   void gatherSkin(const std::vector<Aabb>& boxes, int count, std::int32_t numTriangles,
                   QueryCounters& counters) {
     scratch_.candidates.clear();
@@ -180,7 +180,7 @@ class StepQuery {
     return scratch_.nodes[slotOf(k)][slotOf(link)];
   }
 
-  /// The candidates among the triangles found, by `count` boxes an LSS. This double-precision test
+  /// The candidates among the triangles found, by `count` boxes per LSS. This double-precision test
   /// makes every culler's answer the same.
   void gather(const std::vector<Aabb>& boxes, int count) {
     scratch_.candidates.clear();
@@ -204,8 +204,8 @@ class StepQuery {
   const TriangleCuller& culler_;
   ScratchParts& scratch_;
   WorkMeter meter_;
-  double tolerance_ = 0.0;  // of the link at hand
-  // Of the link at hand; null at other fidelities.
+  double tolerance_ = 0.0;  // of the current link
+  // Of the current link; null at other fidelities.
   const LinkSurface* surface_ = nullptr;
   const SkinParts* skin_ = nullptr;
   Pieces pieces_;

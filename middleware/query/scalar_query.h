@@ -1,5 +1,5 @@
 // middleware/query/scalar_query.h: a query the plain way, link by link, in doubles: the reference
-// that lane queries are held against, and the only way for skins. Not installed.
+// for lane queries, and the only way for skins. Not installed.
 #pragma once
 
 #include "articulated/avatar.h"
@@ -14,8 +14,8 @@
 
 namespace foretouch::internal {
 
-/// Answers every link of `step`. The options have been checked; `meter` is of the query, which
-/// began when it did.
+/// Answers every link of `step`. Preconditions: the options are valid; `meter` started with the
+/// query.
 void scalarQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
                  const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
                  ScratchParts& scratch, StepContacts& step);

@@ -1,4 +1,4 @@
-// middleware/query/scratch_parts.h: what stands behind a QueryScratch. Not installed.
+// middleware/query/scratch_parts.h: the contents of a QueryScratch. Not installed.
 #pragma once
 
 #include <vector>
@@ -11,28 +11,28 @@
 
 namespace foretouch::internal {
 
-/// What queries above link fidelity keep.
+/// Memory of queries above link fidelity.
 struct RungScratch {
   RungVolumes volumes;
   std::vector<std::vector<Lss>> perLink;  // the volumes by their carriers
   LssTable table;
   std::vector<IgnoredPair> ignored;   // of the volumes, by their carriers
   std::vector<std::uint8_t> isAsked;  // per link: not ignored altogether
-  StepContacts carriers;              // what they are answered for their volumes
+  StepContacts carriers;              // their answers, for their volumes
   std::vector<LinkContact> answers;   // of the volumes
 };
 
 /// Memory that one thread's queries reuse.
 struct ScratchParts {
   std::vector<std::vector<LinkState>> nodes;  // per piece boundary, per link
-  std::vector<AxisBounds> axisBounds;         // per LSS of the link at hand
-  std::vector<Aabb> startBoxes;               // per LSS of the link at hand, at t = 0
-  std::vector<Aabb> boxes;                    // per LSS of the link at hand, per piece
+  std::vector<AxisBounds> axisBounds;         // per LSS of the current link
+  std::vector<Aabb> startBoxes;               // per LSS of the current link, at t = 0
+  std::vector<Aabb> boxes;                    // per LSS of the current link, per piece
   std::vector<TriangleId> found;
   std::vector<Candidate> candidates;
   MotionEvaluator evaluator;
   LaneScratch lanes;
-  IgnoredObjects ignored;  // of the link at hand
+  IgnoredObjects ignored;  // of the current link
   RungScratch rungs;
 };
 

@@ -1,5 +1,5 @@
-// middleware/query/skin_sweep.h: what the triangles of a skinned surface cover between two poses.
-// Not installed.
+// middleware/query/skin_sweep.h: the space that the triangles of a skinned surface cover between
+// two poses. Not installed.
 #pragma once
 
 #include <vector>

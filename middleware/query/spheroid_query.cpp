@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 
 /// A computed semi-axis or distance may be off by a few roundings; boxes are grown by this share.
 constexpr double kBoxInflation = 1.0 + 1e-9;
-/// At t = 0 ever larger spheroids are searched, each this much of the whole: what is nearest to the
-/// centre decides, and a body in the middle of a room touches thousands.
+/// At t = 0 we search ever larger spheroids, each this share of the whole: the triangle nearest to
+/// the centre decides, and a body in the middle of a room touches thousands.
 constexpr double kStartShares[] = {0.125, 0.25, 0.5, 1.0};
 
-/// The links that the spheroid stands for get its answer, each with its own number.
+/// The links that the spheroid covers get its answer, each with its own number.
 constexpr LinkId kAnyLink = 0;
 
 class Sweep {
@@ -35,7 +35,7 @@ class Sweep {
       collect(boxAt(share, 0.0));
       double nearest = unitTolerance_;
       for (const TriangleId id : found_) lookAtStart(id, nearest);
-      // All that is nearer than `share` was in the box.
+      // Every triangle nearer than `share` was in the box.
       if (best_ && best_->verdict == Verdict::StartsInContact && nearest <= share - 1.0) {
         return *best_;
       }
@@ -73,13 +73,13 @@ class Sweep {
       box.min[i] -= half * kBoxInflation;
       box.max[i] += half * kBoxInflation;
     }
-    // The centre's own rounding, and what 1 - n^2 may have lost.
+    // The centre's own rounding, and that of 1 - n^2.
     box.grow(query_.tolerance + 1e-9 * s.longest() + 1e-15 * center.lpNorm<1>());
     return box;
   }
 
-  /// Lowers `nearest` to the proven upper bound of the triangle's distance at t = 0; one that
-  /// touches and is not farther away is kept.
+  /// Lowers `nearest` to the proven upper bound of the triangle's distance at t = 0; keeps one that
+  /// touches and is not farther away.
   void lookAtStart(TriangleId id, double& nearest) {
     const SpheroidPair pair(query_.spheroid, query_.scene.triangle(id));
     if (pair.leastAtStart() - 1.0 > nearest) return;
@@ -112,7 +112,7 @@ class Sweep {
     horizon_ = contact.toi;
   }
 
-  /// A contact at this very instant stands.
+  /// A contact at this instant stands.
   void giveUp(double t, UndecidedReason reason) {
     if (t >= horizon_) return;
     best_ = undecidedContact(kAnyLink, t, reason);
@@ -135,7 +135,7 @@ class Sweep {
     contact.toi = contact.freeUntil = t;
     contact.triangle = id;
     contact.lss = 0;
-    // A plane's normal goes by the transposed inverse, and S is symmetric.
+    // A plane's normal transforms by the transposed inverse, and S is symmetric.
     contact.nhat_SL_W = s.toUnit(nhat).normalized();
     contact.p_WScene = s.start + s.fromUnit(look.onTriangle);
     contact.p_WLink = s.start + s.fromUnit(center - nhat);

@@ -24,7 +24,7 @@ struct SpheroidQuery {
 };
 
 /// Every triangle's instants depend on that triangle and the spheroid alone, so the answer does not
-/// depend on the order in which `found` brings them. `found` is scratch.
+/// depend on their order in `found`, which is scratch.
 [[nodiscard]] LinkContact firstContactOf(const SpheroidQuery& query, std::vector<TriangleId>& found,
                                          QueryCounters& counters);
 

@@ -144,7 +144,8 @@ class StartSearch {
     }
   }
 
-  /// Doubles look at what lanes leave, in ascending order: the first that touches is the lowest.
+  /// Tests the triangles that lanes leave, in doubles and in ascending order: the first that
+  /// touches is the lowest.
   void searchInLanes(const Candidate& whole, std::optional<LinkContact>& touching) {
     refuteInLanes(whole);
     std::vector<std::int32_t>& left = scratch_->linkTriangles;

@@ -10,12 +10,12 @@
 namespace foretouch::internal {
 
 /// contactAtStart() for exact fidelity. A limb that stands in furniture cuts hundreds of triangles
-/// at once, all with separation 0, and looking at all of them would tell nobody anything: scene
-/// triangles are asked in the order of how deep they are in the link's LSS, and the first one that
-/// the mesh touches is reported, with the lowest of the link's triangles that touch it. Where none
-/// is touched, the contacts within the tolerance are compared as usual. Consumes `candidates`.
-/// With `lanes`, which know the candidates' triangles and whose span begins at 0, these refute what
-/// they can first: the same answer, sooner.
+/// at once, all with separation 0; testing them all would add nothing. So this tests the scene's
+/// triangles deepest in the link's LSS first and reports the first one that the mesh touches, with
+/// the lowest of the link's triangles that touch it. If the mesh touches none, it compares the
+/// contacts within the tolerance as usual. Consumes `candidates`. With `lanes`, which hold the
+/// candidates' triangles and whose span begins at 0, it first refutes pairs in lanes: the same
+/// answer, sooner.
 [[nodiscard]] std::optional<LinkContact> meshContactAtStart(const LinkQuery& query,
                                                             std::vector<Candidate>& candidates,
                                                             PartScratch* lanes,

@@ -21,8 +21,8 @@ bool touches(const Lss& lss, const LinkState& state, const Triangle& triangle) {
   return closestPoints(ends.a, ends.b, triangle).distance <= lss.radius;
 }
 
-/// Does any of the link's triangles under one LSS meet `triangle`? Decided exactly for the vertices
-/// as computed.
+/// Does any of the link's triangles under one LSS meet `triangle`? Exact for the vertices as
+/// computed.
 bool meshTouches(const internal::LinkSurface& surface, std::int32_t lss, const LinkState& state,
                  const Triangle& triangle) {
   const LssHierarchy& hierarchy = surface.hierarchy(lss);

@@ -1,13 +1,13 @@
-// middleware/query/work_budget.h: a wish for time as an amount of work. The wall clock decides no
-// verdict, so that a replay repeats it; what a query may spend is counted in evaluations in lanes.
+// middleware/query/work_budget.h: turns a time limit into an amount of work. A budget counts
+// evaluations in lanes, so the wall clock decides no verdict and a replay repeats every one.
 #pragma once
 
 #include <cstdint>
 
 namespace foretouch {
 
-/// One evaluation of a pair in lanes, or as much other work, in microseconds: about what it takes
-/// on a 2.x GHz server core. Elsewhere a budget takes more or less time, but the same work.
+/// Microseconds per evaluation of a pair in lanes, or as much other work: about its time on a 2.x
+/// GHz server core. On other machines a budget takes more or less time, but the same work.
 inline constexpr double kEvaluationUs = 0.01;
 
 /// QueryOptions::workBudget of a step that may take about `budgetUs`; at least 1.

@@ -11,8 +11,8 @@
 
 namespace foretouch::internal {
 
-/// Counts work in units of one evaluation of a pair in lanes, about ten nanoseconds; and, where a
-/// deadline is set, looks at the clock. Work is counted, not timed: the same query spends the same.
+/// Counts work in units of one evaluation of a pair in lanes, about ten nanoseconds, and reads the
+/// clock if there is a deadline. It counts work, not time: the same query spends the same.
 class WorkMeter {
  public:
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
@@ -31,21 +31,21 @@ class WorkMeter {
   [[nodiscard]] bool isSpent(const QueryCounters& counters) const {
     return isOver(counters, limit_);
   }
-  /// Of the part at hand, whose end is at most the whole's.
+  /// Of the current part, which ends no later than the whole.
   [[nodiscard]] bool isPartSpent(const QueryCounters& counters) const {
     return isOver(counters, local_);
   }
-  /// The part at hand may cost so much from now on.
+  /// Begins a part that may cost `work` from now on.
   void beginPart(const QueryCounters& counters, std::uint64_t work) {
     const std::uint64_t done = workOf(counters);
     local_ = work >= limit_ - std::min(done, limit_) ? limit_ : done + work;
   }
-  /// What is left of the whole; 0 once it is spent.
+  /// Work left of the whole; 0 once it is spent.
   [[nodiscard]] std::uint64_t left(const QueryCounters& counters) const {
     return limit_ - std::min(workOf(counters), limit_);
   }
 
-  /// Weights as measured, roughly: what matters is that nothing that costs much counts for nothing.
+  /// Weights as measured, roughly. It matters only that no costly work is free.
   [[nodiscard]] static std::uint64_t workOf(const QueryCounters& c) {
     constexpr std::uint64_t kState = 2, kPart = 4, kPlane = 10, kAdvancement = 40, kCubic = 40;
     return c.nodes + c.leaves + c.clusterSteps + c.laneSteps + kState * c.states +
@@ -55,7 +55,7 @@ class WorkMeter {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr double kLongestDeadlineUs = 1e12;  // beyond it is none, and no overflow
+  static constexpr double kLongestDeadlineUs = 1e12;  // beyond it there is none: no overflow
 
   [[nodiscard]] bool isOver(const QueryCounters& counters, std::uint64_t limit) const {
     if (limit != kUnlimited && workOf(counters) >= limit) return true;

@@ -10,9 +10,8 @@
 
 namespace foretouch::internal {
 
-/// Answers with a superset of the triangles whose double-precision boxes overlap the asked box.
-/// What is superfluous is dropped by the caller's own double test, so every culler leads to the
-/// same answer.
+/// Returns a superset of the triangles whose double-precision boxes overlap the given box. The
+/// caller's own double test drops the superfluous ones, so every culler leads to the same answer.
 class TriangleCuller {
  public:
   virtual ~TriangleCuller() = default;

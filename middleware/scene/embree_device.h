@@ -1,6 +1,6 @@
-// middleware/scene/embree_device.h: Embree's device, owned. Not installed.
-// Re-checked against Debian's Embree 3.13.5: the library never resets an error by itself, so every
-// use asks for it once after its calls.
+// middleware/scene/embree_device.h: Embree's device, owned. Not installed. Re-checked against
+// Debian's Embree 3.13.5: the library never resets an error by itself, so every use reads it once
+// after its calls.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDe
 /// A new device, or DeviceFailed.
 [[nodiscard]] Result<EmbreeDevice> newEmbreeDevice();
 
-/// The device's pending error as DeviceFailed saying what was being done, or success.
+/// The device's pending error as DeviceFailed, with `what` failed, or success.
 [[nodiscard]] Result<Done> embreeStatus(RTCDevice device, const char* what);
 
 }  // namespace foretouch::internal

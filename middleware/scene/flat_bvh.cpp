@@ -28,7 +28,7 @@ FloatBox localBox(const Aabb& box, const Eigen::Vector3d& origin) {
   return local;
 }
 
-/// One flag for each of eight boxes, without branches, so that the compiler can use its vectors.
+/// One flag per box of eight, without branches, so that the compiler can vectorise.
 struct Eight {
   std::uint8_t overlaps[kBvhWidth];
 };

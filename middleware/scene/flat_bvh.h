@@ -15,8 +15,8 @@
 namespace foretouch::internal {
 
 /// Boxes and vertices in float, relative to an origin that is subtracted in double. Subtraction and
-/// rounding are monotone, so boxes that overlap in the world overlap here: no slack is needed.
-/// About 65 bytes a triangle. The same tree for any number of threads.
+/// rounding are monotone, so boxes that overlap in the world overlap here, without slack. About 65
+/// bytes per triangle. The same tree for any number of threads.
 class FlatBvh final : public TriangleCuller {
  public:
   using Leaf = BvhLeaf;
@@ -33,14 +33,14 @@ class FlatBvh final : public TriangleCuller {
   void collect(const Aabb& box, std::vector<TriangleId>& ids,
                std::uint64_t& visited) const override;
 
-  /// Does any leaf's box, as the node above it has it, meet `box`? No: nor does any triangle's.
+  /// Does any leaf's box, as its parent stores it, meet `box`? If not, no triangle's box does.
   [[nodiscard]] bool meetsLeaf(const Aabb& box, std::uint64_t& visited) const;
 
-  /// Appends every (leaf, box) of which the leaf's box, as the node above it has it, meets the box
-  /// that was rounded outward: all leaves with a triangle whose true box meets it, each once a box.
-  /// No leaf is read: what does not fit the caches is read only where it is needed. The hits of a
-  /// box come in ascending order of leaves; the order depends on nothing but the tree and the
-  /// boxes. Adds to the counters: a node or a leaf counts once for every kBoxGroup boxes.
+  /// Appends every (leaf, box) for which the leaf's box, as its parent stores it, meets the box
+  /// that was rounded outward: all leaves with a triangle whose true box meets it, each once per
+  /// box. Reads no leaf, so memory beyond the caches is read only when needed. The hits of a box
+  /// come in ascending order of leaves; the order depends only on the tree and the boxes. Adds to
+  /// the counters: a node or a leaf counts once per kBoxGroup boxes.
   void collectWholeLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
                           std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const;
 
@@ -50,7 +50,7 @@ class FlatBvh final : public TriangleCuller {
   [[nodiscard]] std::uint32_t numNodes() const { return static_cast<std::uint32_t>(nodes_.size()); }
   [[nodiscard]] const BvhLeaf& leaf(std::uint32_t index) const { return leaves_[index]; }
   [[nodiscard]] const Cluster& cluster(std::uint32_t index) const { return clusters_[index]; }
-  /// All of them, a leaf each.
+  /// All of them, one per leaf.
   [[nodiscard]] const Cluster* clusters() const { return clusters_.data(); }
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
   /// Bound (m) on the distance of a leaf's vertex, taken back to the world without rounding, from
@@ -61,7 +61,7 @@ class FlatBvh final : public TriangleCuller {
     std::uint32_t leaf;
     int place;  ///< 0..7
   };
-  /// Where a triangle of the tree lies. The first call makes the table, 4 bytes a triangle; safe
+  /// Where a triangle of the tree lies. The first call builds the table, 4 bytes per triangle; safe
   /// from many threads.
   [[nodiscard]] Slot slotOf(TriangleId id) const;
 

@@ -20,12 +20,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Eight triangles in lanes cost what one costs, so a leaf is not split: with 6.5 triangles a leaf
-// instead of 2.8, a pose in 300k triangles costs half and the tree takes half the memory.
+// Eight triangles in lanes cost as much as one, so we do not split a leaf: with 6.5 triangles per
+// leaf instead of 2.8, a pose in 300k triangles costs half and the tree takes half the memory.
 constexpr unsigned kSahBlockSize = kBvhWidth;
 constexpr unsigned kMinLeafSize = kBvhWidth;
 
-/// The tree as Embree's callbacks make it; it lives in Embree's memory and dies with the RTCBVH.
+/// The tree that Embree's callbacks make, in Embree's memory; freed with the RTCBVH.
 struct BuildNode {
   unsigned numChildren;  // 0: a BuildLeaf
 };
@@ -110,7 +110,7 @@ RTCBuildArguments argumentsOf(RTCBVH tree, std::vector<RTCBuildPrimitive>& primi
   return arguments;
 }
 
-/// A root that is a leaf has no bounds of its own: those of all triangles.
+/// A root that is a leaf has no bounds of its own: returns those of all triangles.
 RTCBounds boundsOf(const std::vector<RTCBuildPrimitive>& primitives) {
   RTCBounds all{kFloatInfinity,  kFloatInfinity,  kFloatInfinity,  0,
                 -kFloatInfinity, -kFloatInfinity, -kFloatInfinity, 0};
@@ -241,7 +241,7 @@ class FlatBvhBuilder {
   }
 
   /// Approaches the least ball by steps of 1/(k+1) towards the farthest vertex, the core-set way of
-  /// [BadoiuClarkson03]; any centre is right, for the radius is taken last.
+  /// [BadoiuClarkson03]; any centre is right, because the radius comes last.
   [[nodiscard]] Cluster clusterOf(const BvhLeaf& leaf) const {
     constexpr int kSteps = 8;
     // Three differences, squares and a root in double: ten roundings at most.
@@ -281,7 +281,7 @@ Result<FlatBvh> FlatBvh::build(const std::vector<Triangle>& triangles,
   FORETOUCH_CHECK(embreeStatus(device.get(), "building the scene's tree"));
   if (root == nullptr) return Error::of(ErrorCode::DeviceFailed, "Embree built no tree");
   const RTCBounds rootBounds = boundsOf(primitives);
-  primitives = {};  // the flat arrays take its room
+  primitives = {};  // makes room for the flat arrays
   FlatBvh bvh;
   FlatBvhBuilder builder(bvh, triangles, ids);
   builder.setOrigin(origin);

@@ -13,9 +13,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using BoxTag = hn::CappedTag<float, 16>;           // boxes in lanes
 using ChildTag = hn::CappedTag<float, kBvhWidth>;  // children in lanes
 
-// Where more boxes than this for each vector of boxes are alive, a node is asked child by child
-// with boxes in lanes; else box by box with children in lanes. Both say the same: only speed
-// depends on it.
+// If more boxes than this per vector of boxes are alive, tests a node child by child with boxes in
+// lanes; else box by box with children in lanes. Both give the same result: only speed depends on
+// it.
 constexpr int kAliveForBoxLanes = HWY_TARGET == HWY_SCALAR ? 0 : 1;
 
 HWY_INLINE int lowestBit(std::uint64_t bits) {
@@ -86,7 +86,7 @@ HWY_INLINE void prefetch(const void* object, int bytes) {
   }
 }
 
-/// A child that is met by the `alive` boxes waits for its turn, and is fetched meanwhile.
+/// Queues a child that the `alive` boxes meet, and prefetches it.
 HWY_INLINE void push(BvhWalk& walk, std::uint32_t child, std::uint64_t alive) {
   if ((child & BvhNode::kLeafFlag) != 0) {
     walk.leaf[walk.leavesWaiting++] = {alive, child};
@@ -123,7 +123,7 @@ HWY_INLINE void visitWithChildLanes(BvhWalk& walk, const BvhNode& node, std::uin
   }
 }
 
-/// Visits the nodes that wait, depth first, until the leaves fill their room.
+/// Visits the waiting nodes, depth first, until the leaves fill their room.
 HWY_INLINE void visitNodes(BvhWalk& walk) {
   while (walk.nodesWaiting > 0 && walk.leavesWaiting + kBvhWidth <= BvhWalk::kLeafRoom) {
     const BvhWalk::Entry next = walk.waiting[--walk.nodesWaiting];
@@ -138,7 +138,7 @@ HWY_INLINE void visitNodes(BvhWalk& walk) {
   }
 }
 
-/// Makes hits of the leaves that wait until they fill their room.
+/// Turns the waiting leaves into hits, until these fill their room.
 HWY_INLINE void hitLeaves(BvhWalk& walk) {
   while (walk.leavesDone < walk.leavesWaiting && walk.hitCount + kBoxGroup <= BvhWalk::kHitRoom) {
     const BvhWalk::Entry entry = walk.leaf[walk.leavesDone++];
@@ -160,7 +160,7 @@ void continueWalkInLanes(BvhWalk& walk) {
   hitLeaves(walk);
 }
 
-/// Bounds of as many boxes as there are lanes, `missing` where there are fewer than that left.
+/// Bounds of as many boxes as there are lanes, `missing` in lanes without a box.
 template <class D>
 HWY_INLINE hn::VFromD<D> loadBounds(D d, const float* bounds, int left, float missing) {
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -184,8 +184,8 @@ HWY_INLINE hn::VFromD<D> endlessIfNaN(D d, hn::VFromD<D> bounds, float endless) 
 HWY_INLINE std::uint64_t copyAxis(BvhWalk& walk, const BoxLanes& boxes, int axis, int count) {
   const BoxTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  // Where loads must not reach beyond the boxes, the last vector begins early and takes boxes again
-  // that the one before it had.
+  // If loads must not reach beyond the boxes, the last vector begins early and repeats boxes of the
+  // one before it.
   const bool overlaps = HWY_MEM_OPS_MIGHT_FAULT && count >= lanes;
   if (overlaps) {
     const int last = (walk.vectorsOfBoxes - 1) * lanes;

@@ -1,5 +1,5 @@
-// middleware/scene/flat_bvh_lanes.h: what the flat tree is made of, and the walk of many boxes
-// through it in the processor's lanes. Plain arrays only: the walk is compiled once for every
+// middleware/scene/flat_bvh_lanes.h: the flat tree's nodes and leaves, and the walk of many boxes
+// through it in the processor's lanes. Plain arrays only: the build compiles the walk once per
 // vector width. Lengths in metres, in the frame of the world moved to the tree's origin. Not
 // installed.
 #pragma once
@@ -13,9 +13,9 @@ namespace foretouch::internal {
 
 /// Children of a node, and triangles of a leaf.
 inline constexpr int kBvhWidth = 8;
-/// Boxes that one walk takes along: one bit each.
+/// Boxes per walk: one bit each.
 inline constexpr int kBoxGroup = 64;
-/// Levels below the root; deeper trees are not built.
+/// Levels below the root; the builder makes no deeper tree.
 inline constexpr int kMaxBvhDepth = 48;
 inline constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
@@ -60,7 +60,7 @@ struct BoxLanes {
   static constexpr int kMaxBoxes = 1 << 16;
 };
 
-/// Bit i of `triangles`: the leaf has an i-th triangle, which is looked for in box `box`. Never 0.
+/// Bit i of `triangles`: the leaf has an i-th triangle, which box `box` may meet. Never 0.
 struct LeafHit {
   std::uint32_t leaf;
   std::uint16_t box;
@@ -68,8 +68,8 @@ struct LeafHit {
 };
 static_assert(sizeof(LeafHit) == 8);
 
-/// The walk of up to kBoxGroup boxes, interrupted whenever the room for its hits is used up. Lives
-/// on the caller's stack; only what is used of it is ever written.
+/// The walk of up to kBoxGroup boxes, which pauses whenever the room for its hits is full. Lives on
+/// the caller's stack; the walk writes only the part it uses.
 struct BvhWalk {
   /// Depth first, a node leaves at most seven others waiting on each level.
   static constexpr int kNodeRoom = (kBvhWidth - 1) * kMaxBvhDepth + kBvhWidth;
@@ -83,7 +83,7 @@ struct BvhWalk {
   };
 
   const BvhNode* nodes;
-  const Cluster* clusters;  ///< Of a leaf that is hit the first to be read, by whoever follows.
+  const Cluster* clusters;  ///< The caller reads a hit leaf's cluster first.
   int firstBox;             ///< Added to the boxes of the hits.
 
   // Copied from the caller's boxes, the rest empty; their union.
@@ -101,7 +101,7 @@ struct BvhWalk {
   [[nodiscard]] bool finished() const { return nodesWaiting == 0 && leavesDone == leavesWaiting; }
 };
 
-/// Takes `boxes.count` boxes from `first` on, at most kBoxGroup, to the root of the tree.
+/// Starts at the root with the boxes from `first` on, at most kBoxGroup of them.
 void beginWalk(BvhWalk& walk, const BoxLanes& boxes, int first);
 /// Replaces walk.hit[0..hitCount) by the next hits. Until finished().
 void continueWalk(BvhWalk& walk);

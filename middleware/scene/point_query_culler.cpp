@@ -11,7 +11,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Float has 24 bits: a vertex or the sphere's centre moves by at most 2^-24 of its coordinate an
+/// Float has 24 bits: a vertex or the sphere's centre moves by at most 2^-24 of its coordinate per
 /// axis, and the squared distance is off by a few 2^-23 of itself. Ten times that, on both.
 constexpr double kFloatSlack = 2e-6;
 

@@ -1,9 +1,9 @@
 // middleware/scene/point_query_culler.h: the reference culler: an RTCScene of triangles and
-// rtcPointQuery with the sphere around the asked box. The same scene answers rays. Not installed.
+// rtcPointQuery with the sphere around the given box. The same scene answers rays. Not installed.
 //
 // Constraints of Embree 3.13.5, checked against its documentation: rtcPointQuery visits whole
 // leaves, checks no arguments and compares squared float distances without outward rounding; vertex
-// buffers are float. So the sphere is inflated past all of that, and the caller filters in double.
+// buffers are float. So we inflate the sphere past all of that, and the caller filters in double.
 #pragma once
 
 #include <memory>
@@ -27,8 +27,8 @@ class PointQueryCuller final : public TriangleCuller {
   void collect(const Aabb& box, std::vector<TriangleId>& ids,
                std::uint64_t& visited) const override;
 
-  /// Does the segment from `from` to `to` (W) hit anything, as floats tell? A yardstick, not an
-  /// answer.
+  /// Does the segment from `from` to `to` (W) hit anything, in float arithmetic? A yardstick, not
+  /// an answer.
   [[nodiscard]] bool rayOccluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
  private:

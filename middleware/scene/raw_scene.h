@@ -1,5 +1,5 @@
-// middleware/scene/raw_scene.h: triangles on their way into a Scene, and what an audit says of
-// them. World W: metres, right-handed, +Y up.
+// middleware/scene/raw_scene.h: triangles on their way into a Scene, and an audit of them. World W:
+// metres, right-handed, +Y up.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,13 @@ struct RawScene {
   std::vector<std::string> objectNames;  ///< Need not be unique.
 };
 
-/// What a scene holds that a user may want to know of. Degenerate triangles are legal and kept: a
-/// triangle without area still is a segment or a point that can be touched.
+/// Facts about a scene that a user may want to know. Degenerate triangles are legal and kept: a
+/// triangle without area is still a segment or a point that a link can touch.
 struct SceneAudit {
   std::size_t triangles = 0;         ///< Kept.
   std::size_t droppedNonFinite = 0;  ///< Dropped: a vertex with NaN or infinity has no place.
-  std::size_t zeroArea = 0;          ///< Kept: the three vertices lie on a line, as doubles tell.
+  std::size_t zeroArea = 0;          ///< Kept: the three vertices lie on a line, as computed in
+                                     ///< double.
   std::size_t duplicates = 0;        ///< Kept: the same three points as an earlier triangle.
   Eigen::Vector3d boxMin = Eigen::Vector3d::Zero();
   Eigen::Vector3d boxMax = Eigen::Vector3d::Zero();

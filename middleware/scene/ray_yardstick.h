@@ -1,6 +1,5 @@
-// middleware/scene/ray_yardstick.h: what a ray costs in the same scene and process. Absolute times
-// drift on shared machines; "as many ray-sets" does not. A ray decides nothing here: Embree's rays
-// are float.
+// middleware/scene/ray_yardstick.h: the cost of a ray in the same scene and process. Absolute times
+// drift on shared machines; times in ray sets do not. Rays decide nothing here: Embree's are float.
 #pragma once
 
 #include <array>
@@ -12,7 +11,7 @@
 
 namespace foretouch {
 
-/// Rays a set holds.
+/// Rays per set.
 inline constexpr int kRaysPerSet = 16;
 
 struct RaySegment {

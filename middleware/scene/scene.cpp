@@ -47,7 +47,7 @@ Result<Done> checked(const RawScene& raw) {
   return Done{};
 }
 
-/// A number that says where a triangle lies and nothing else.
+/// A number that depends only on the triangle's place.
 std::uint64_t hashOf(const Triangle& triangle) {
   std::uint64_t hash = 0;
   for (const Vector3d& vertex : triangle.vertices) {
@@ -65,7 +65,7 @@ std::uint64_t hashOf(const Triangle& triangle) {
 }
 
 /// The ids in an order that depends on the triangles' vertices alone: the tree, and with it the
-/// steps that queries take, must not depend on the order in which triangles arrive.
+/// steps of queries, must not depend on the triangles' order of arrival.
 std::vector<TriangleId> inOrderOfGeometry(const std::vector<Triangle>& triangles,
                                           const std::vector<TriangleId>& ids) {
   std::vector<std::pair<std::uint64_t, TriangleId>> keyed;

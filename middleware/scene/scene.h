@@ -22,11 +22,11 @@ struct SceneParts;
 class Scene {
  public:
   /// Checks counts, object indices and |coordinate| <= kMaxCoordinate, drops triangles that are not
-  /// finite, builds the acceleration structures. Error where no triangle is left.
+  /// finite, builds the acceleration structures. Error if no triangle is left.
   static Result<Scene> build(RawScene raw);
 
   [[nodiscard]] std::size_t numTriangles() const;
-  /// The vertices in lexicographic order: what two triangles share they then evaluate alike, bit
+  /// The vertices in lexicographic order, so that two triangles evaluate what they share alike, bit
   /// for bit.
   [[nodiscard]] const Triangle& triangle(TriangleId id) const;
   [[nodiscard]] ObjectId object(TriangleId id) const;

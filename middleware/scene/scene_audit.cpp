@@ -1,4 +1,4 @@
-// auditScene(): what a scene holds, counted and measured.
+// auditScene(): counts and measures a scene.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,7 +43,7 @@ class ExactSum {
   [[nodiscard]] bool isZero() const { return size_ == 0; }
 
  private:
-  std::array<Wide, 18> parts_{};  // three a product, six products
+  std::array<Wide, 18> parts_{};  // three per product, six products
   std::size_t size_ = 0;
 };
 
@@ -70,9 +70,9 @@ void addProduct(ExactSum& sum, double x, double y, Wide sign) {
 bool onLine(double ax, double ay, double bx, double by, double cx, double cy) {
   const double left = (ax - cx) * (by - cy);
   const double right = (ay - cy) * (bx - cx);
-  // With u = 2^-53, each product is off by 3u + O(u^2) of itself (two differences, one product);
-  // 4u leaves room for the roundings of this comparison and, above 1e-280, for underflow. What
-  // overflows is not a number here or fails the comparison, and goes the exact way too.
+  // With u = 2^-53, each product is off by 3u + O(u^2) of itself (two differences, one product); 4u
+  // leaves room for the roundings of this comparison and, above 1e-280, for underflow. An overflow
+  // is NaN here or fails the comparison, and goes the exact way too.
   constexpr double kRounding = 4.0 * kUnitRoundoff;
   const double magnitude = std::abs(left) + std::abs(right);
   if (magnitude > 1e-280 && std::abs(left - right) > kRounding * magnitude) return false;
@@ -86,7 +86,7 @@ bool onLine(double ax, double ay, double bx, double by, double cx, double cy) {
   return determinant.isZero();
 }
 
-/// Three points lie on a line of space exactly where they do in all three coordinate planes.
+/// Three points in space lie on a line exactly if they do in all three coordinate planes.
 bool hasNoArea(const Triangle& triangle) {
   const auto& [a, b, c] = triangle.vertices;
   return onLine(a.x(), a.y(), b.x(), b.y(), c.x(), c.y()) &&
@@ -94,7 +94,7 @@ bool hasNoArea(const Triangle& triangle) {
          onLine(a.z(), a.x(), b.z(), b.x(), c.z(), c.x());
 }
 
-/// The three points without their order. Adding 0 makes -0 the 0 that it equals.
+/// The three points without their order. Adding 0 turns -0 into 0.
 using PointSet = std::array<std::array<double, 3>, 3>;
 PointSet pointsOf(const Triangle& triangle) {
   PointSet points;
@@ -119,7 +119,7 @@ std::uint64_t hashOf(const PointSet& points) {
   return hash;
 }
 
-/// Duplicates among triangles whose hashes are equal. That alone proves nothing: the points decide.
+/// Duplicates among triangles with equal hashes. Equal hashes prove nothing: the points decide.
 std::size_t duplicatesIn(std::vector<PointSet>& sameHash) {
   std::sort(sameHash.begin(), sameHash.end());
   std::size_t duplicates = 0;
@@ -127,7 +127,7 @@ std::size_t duplicatesIn(std::vector<PointSet>& sameHash) {
   return duplicates;
 }
 
-/// Sorts 16 bytes a triangle, and the points themselves only where hashes meet.
+/// Sorts 16 bytes per triangle, and the points themselves only where hashes are equal.
 std::size_t countDuplicates(const std::vector<Triangle>& triangles) {
   std::vector<std::pair<std::uint64_t, TriangleId>> hashes;
   hashes.reserve(triangles.size());
@@ -150,7 +150,7 @@ std::size_t countDuplicates(const std::vector<Triangle>& triangles) {
   return duplicates;
 }
 
-/// Boxes and edge lengths, one triangle after another.
+/// Boxes and edge lengths, triangle by triangle.
 void measure(const Triangle& triangle, SceneAudit& audit) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3d& vertex = triangle.vertices[k];

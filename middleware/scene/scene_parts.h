@@ -1,4 +1,4 @@
-// middleware/scene/scene_parts.h: what stands behind a Scene. Not installed.
+// middleware/scene/scene_parts.h: the contents of a Scene. Not installed.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 namespace foretouch::internal {
 
 struct SceneParts {
-  std::vector<Triangle> triangles;  // vertices sorted; dropped ones stay as they came
+  std::vector<Triangle> triangles;  // vertices sorted; dropped ones unchanged
   std::vector<ObjectId> objectOf;
   std::vector<std::string> objectNames;
   SceneAudit audit;
@@ -22,7 +22,7 @@ struct SceneParts {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   FlatBvh bvh;
 
-  /// The reference scene is built when it is first asked for: most programs never do.
+  /// Builds the reference scene on first use: most programs never need it.
   [[nodiscard]] Result<const PointQueryCuller*> pointQueryCuller() const;
 
  private:

@@ -1,4 +1,4 @@
-// middleware/scene/triangle_id.h: how a scene's triangles and objects are called.
+// middleware/scene/triangle_id.h: the numbers of a scene's triangles and objects.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ namespace {
 using internal::LinkSurface;
 
 /// How far (m) a triangle may lie outside its LSS. Below a quarter of the least tolerance, at which
-/// advancement stops, so that an LSS that is proven apart still proves its triangles apart.
+/// advancement stops, so that a proof for an LSS still holds for its triangles.
 constexpr double kContainmentSlack = 1e-10;
 
 Error linkError(const Avatar& avatar, LinkId link, ErrorCode code, const std::string& what) {

@@ -20,22 +20,21 @@ namespace internal {
 struct SurfaceParts;
 }
 
-/// Immutable, cheap to copy (shared), safe to query from many threads. A link's hierarchy is built
-/// when a query first needs it.
+/// Immutable, cheap to copy (shared), safe to query from many threads. The first query that needs a
+/// link's hierarchy builds it.
 class AvatarSurface {
  public:
-  /// `trianglesPerLink`: one list a link, in L, finite and within kMaxCoordinate. Every triangle
-  /// must lie in one of its link's LSS, up to rounding: exact contacts are looked for only where
-  /// LSS contacts are. An LSS that contains none of its link's triangles stands for itself: what
-  /// no mesh models must not go unseen. Error::index is the offending link.
+  /// `trianglesPerLink`: one list per link, in L, finite and within kMaxCoordinate. Every triangle
+  /// must lie in one of its link's LSS, up to rounding: a query looks for exact contacts only where
+  /// the LSS has contact. An LSS that contains none of its link's triangles is its own surface:
+  /// parts without a mesh must not be missed. Error::index is the offending link.
   static Result<AvatarSurface> build(const Avatar& avatar,
                                      std::vector<std::vector<Triangle>> trianglesPerLink);
 
   [[nodiscard]] std::int32_t numLinks() const;
   [[nodiscard]] const std::vector<Triangle>& triangles(LinkId link) const;
   [[nodiscard]] std::size_t numTriangles() const;
-  /// Builds every hierarchy that is not built yet, for those whose first query must not wait for
-  /// it.
+  /// Builds every missing hierarchy now, so that the first query need not wait for it.
   void prepare() const;
 
   /// For the query's own sources.

@@ -1,4 +1,4 @@
-// middleware/surface/link_surface.h: what stands behind an AvatarSurface. Not installed.
+// middleware/surface/link_surface.h: the contents of an AvatarSurface. Not installed.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@
 
 namespace foretouch::internal {
 
-/// What takes a node's place in lanes: the parts `kPartLevels` below it, and triangles that come
-/// before. More at once than a node's two children fill the lanes sooner, and cost nothing where
-/// one of those would be descended from.
+/// In lanes, the parts `kPartLevels` below a node replace it, or triangles met on the way. More
+/// than a node's two children fill the lanes sooner, and cost nothing if the descent would have
+/// passed through a child anyway.
 inline constexpr int kPartLevels = 2;
 class PartsBelow {
  public:
@@ -41,14 +41,14 @@ class LinkSurface {
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
   [[nodiscard]] const Triangle& triangle(std::int32_t id) const { return triangles_[slotOf(id)]; }
-  /// False: the LSS bounds no triangle and is itself the surface.
+  /// False: the LSS contains no triangle and is itself the surface.
   [[nodiscard]] bool hasTriangles(std::int32_t lss) const {
     return !idsOfLss_[slotOf(lss)].empty();
   }
-  /// Built on first use, once, whichever thread comes first. Precondition: hasTriangles(lss).
+  /// Built once, by the first thread that uses it. Precondition: hasTriangles(lss).
   [[nodiscard]] const LssHierarchy& hierarchy(std::int32_t lss) const;
   void prepare() const;
-  /// That hierarchy as lanes take it. Precondition of all three: prepare() was called.
+  /// That hierarchy in the form for lanes. Precondition of all three: prepare() was called.
   [[nodiscard]] HierarchyChild root(std::int32_t lss) const {
     return hierarchies_[slotOf(lss)]->root();
   }
@@ -79,7 +79,7 @@ class LinkSurface {
 };
 
 struct SurfaceParts {
-  std::vector<std::unique_ptr<LinkSurface>> links;  // one a link of the avatar
+  std::vector<std::unique_ptr<LinkSurface>> links;  // one per link of the avatar
   std::size_t numTriangles = 0;
 };
 

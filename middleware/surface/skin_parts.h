@@ -1,4 +1,4 @@
-// middleware/surface/skin_parts.h: what stands behind a SkinnedSurface. Not installed.
+// middleware/surface/skin_parts.h: the contents of a SkinnedSurface. Not installed.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // middleware/surface/skinned_surface.h: a surface whose vertices follow the blend of several links
 // (linear blend skinning): at t a vertex is at the sum of weight * (the link's pose at t applied to
-// the vertex at bind time). Metres. No hierarchy bounds it, as its triangles change shape: every
-// query sweeps the triangles of a link that is near anything.
+// the vertex at bind time). Metres. It has no hierarchy, because its triangles change shape: every
+// query sweeps all triangles of a link that is near anything.
 #pragma once
 
 #include <array>
@@ -23,16 +23,16 @@ struct SkinParts;
 /// Immutable, cheap to copy (shared), safe to query from many threads.
 class SkinnedSurface {
  public:
-  /// `trianglesOfLink`: how many of the skin's triangles, in order, are reported under each link
+  /// `trianglesOfLink`: how many of the skin's triangles, in order, each link reports
   /// (ModelAvatar::surface's sizes). Checks links, vertex indices, weights (> 0, summing to one
-  /// within 1e-9 a vertex) and coordinates. Error::index is the offending vertex or triangle.
+  /// within 1e-9 per vertex) and coordinates. Error::index is the offending vertex or triangle.
   static Result<SkinnedSurface> build(const Avatar& avatar, Skin skin,
                                       const std::vector<std::size_t>& trianglesOfLink);
 
   [[nodiscard]] std::int32_t numLinks() const;
   [[nodiscard]] std::size_t numTriangles() const;
-  /// The links that move the vertices of the link's triangles, ascending; none where it has no
-  /// triangle. Linear in these; meant for set-up.
+  /// The links that move the vertices of the link's triangles, ascending; none if it has no
+  /// triangle. Linear in the triangles; meant for set-up.
   [[nodiscard]] std::vector<LinkId> linksMoving(LinkId link) const;
 
   /// For the query's own sources.

@@ -33,7 +33,7 @@ bool CheckedBlocks::next(LogEvent& event) {
   }
   Frame frame;
   if (window_.frameAt(cursor_, frame) != FrameState::Whole || !window_.eventOf(frame, event)) {
-    return false;  // a failed read: both had been looked at before
+    return false;  // a failed read: both were read before
   }
   cursor_ = frame.end();
   return true;
@@ -75,7 +75,7 @@ bool CheckedBlocks::walk(BlockEvent& event, std::uint64_t& at) {
   return isFound;
 }
 
-/// The next block event of this log, wherever it is.
+/// The next block event of this log, anywhere.
 bool CheckedBlocks::scan(BlockEvent& event, std::uint64_t& at) {
   const std::uint64_t size = window_.size();
   for (at = window_.findMagic(next_, size); at < size; at = window_.findMagic(at + 1, size)) {
@@ -104,7 +104,7 @@ bool CheckedBlocks::verifies(const BlockEvent& event, std::uint64_t at) {
   return events == event.blockEvents;
 }
 
-/// Makes the event's block the one at hand if it is whole and in order; else passes it over.
+/// Makes the event's block the current one if it is whole and in order; else skips it.
 void CheckedBlocks::consider(const BlockEvent& event, std::uint64_t at) {
   const std::uint64_t first = at - std::min(event.blockBytes, at - next_);
   const bool isWhole = verifies(event, at);
@@ -141,8 +141,8 @@ void CheckedBlocks::advanceTo(std::uint64_t offset) {
   next_ = offset;
 }
 
-/// What follows the last block: events up to the first damage, unless a check sum that is damaged,
-/// too, stands behind them. Another log is not read from here on: behind damage, nothing tells it
+/// After the last block: events up to the first damage, unless a check sum that is also damaged
+/// follows them. Does not read another log from here on: behind damage, nothing distinguishes it
 /// from a log inside a payload.
 void CheckedBlocks::findTail() {
   isTail_ = true;
@@ -167,7 +167,7 @@ void CheckedBlocks::findTail() {
   if (events > 0) report(LogDamage::UncheckedTail, first, offset, events);
   counts_.isTruncated = state == FrameState::Torn;
   passOver(counts_.isTruncated ? LogDamage::Truncated : LogDamage::Skipped, offset, window_.size());
-  // From the last event's start on: its length may be what is damaged.
+  // From the last event's start on: its length may be the damage.
   for (std::uint64_t at = window_.findMagic(last, window_.size());
        offset < window_.size() && at < window_.size();
        at = window_.findMagic(at + 1, window_.size())) {

@@ -1,5 +1,5 @@
-// network/log/event_log_blocks.h: the events of a log with check sums, a block at a time; and those
-// of one without, as they are framed.
+// network/log/event_log_blocks.h: the events of a log with check sums, block by block; and those of
+// one without, by their framing.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,20 @@
 
 namespace foretouch {
 
-/// Gives out a block's events once its hash has been seen to be right, and no others.
+/// Returns a block's events once its hash has proved right, and no others.
 ///
-/// Blocks are found twice over. By framing, from the end of the last block on: what a sound log
-/// needs. Where that ends anywhere but at a block event whose block begins there, by searching the
-/// same bytes for the next intact block event of this log: a wrong length, garbage or a lost block
-/// event so costs its own block alone. The log's id is in every block event, so bytes of another
-/// log inside a payload are never taken for this one's.
+/// There are two ways to find a block. First by framing, from the end of the last block on, which
+/// is enough in a sound log. If that does not end at a block event whose block begins there, then
+/// by searching the same bytes for the next intact block event of this log. So a wrong length,
+/// garbage or a lost block event costs only its own block. The log's id is in every block event, so
+/// the reader never mistakes bytes of another log inside a payload for this one's.
 class CheckedBlocks {
  public:
   CheckedBlocks(LogWindow& window, LogCounts& counts, const LogReadOptions& options)
       : window_(window), counts_(counts), options_(options) {}
 
-  /// From `offset` on, where block `number` of this log is expected. Without an id nothing is
-  /// believed but a tail.
+  /// Starts at `offset`, where block `number` of this log should begin. Without an id it accepts
+  /// only a tail.
   void start(std::uint64_t offset, std::optional<std::uint64_t> logId, std::uint64_t number = 0);
 
   /// False at the end.
@@ -30,7 +30,7 @@ class CheckedBlocks {
   [[nodiscard]] std::uint64_t position() const;
 
  private:
-  /// The next block with events in it becomes the one at hand.
+  /// Moves to the next block with events in it.
   bool findBlock();
   bool walk(BlockEvent& event, std::uint64_t& at);
   bool scan(BlockEvent& event, std::uint64_t& at);
@@ -47,40 +47,41 @@ class CheckedBlocks {
   const LogReadOptions& options_;
   std::optional<std::uint64_t> logId_;
   std::uint64_t expected_ = 0;  ///< Number of the next block event.
-  std::uint64_t next_ = 0;      ///< Where the next block begins.
-  /// Bytes that may be framed beyond `next_`, in all: keeps a log that is made to be framed in vain
-  /// from being framed again and again.
+  std::uint64_t next_ = 0;      ///< Offset of the next block.
+  /// Total bytes that framing may still visit beyond `next_`: stops a crafted log from making it
+  /// scan the same bytes again and again.
   std::uint64_t walkCredit_ = 0;
   bool isTail_ = false;
-  std::uint64_t cursor_ = 0, end_ = 0;  ///< What is left of the block at hand, or of the tail.
+  std::uint64_t cursor_ = 0, end_ = 0;  ///< The rest of the current block, or of the tail.
 };
 
-/// An event of a log without check sums, and what was passed over to find it.
+/// An event of a log without check sums, and the damage skipped to find it.
 struct FoundFrame {
   Frame frame;
   bool isFound = false;
-  std::uint64_t impossible = 0;  ///< Headers that cannot be.
+  std::uint64_t impossible = 0;  ///< Headers with impossible lengths.
   bool isTorn = false;           ///< Not found; the log ends within an event.
 };
 
-/// The first event at or after `offset` that begins before `limit`. One that ends where no other
-/// begins is believed only if no event inside it does better: its length is what is damaged then.
+/// The first event at or after `offset` that begins before `limit`. An event whose end is not the
+/// start of another counts only if no event inside it fits better: otherwise its length is the
+/// damage.
 [[nodiscard]] FoundFrame findFrame(LogWindow& window, std::uint64_t offset, std::uint64_t limit);
 
-/// Where a log begins, and how it is to be read.
+/// The kind of a log, which decides how to read it.
 struct LogKind {
   bool isEmpty = false;  ///< Not a single event.
   bool hasCheckSums = false;
   std::optional<std::uint64_t> logId;
 };
 
-/// By the events that begin within kMaxBlockSpan of the first one: a log of ours has an intact
-/// block event among them, at its very start if nothing is damaged. A log behind events of another
-/// kind (two files, one after the other) does not count: it is met when they have been read.
+/// From the events that begin within kMaxBlockSpan of the first one: our logs have an intact block
+/// event among them, at the very start if undamaged. A log behind events of another kind (two
+/// files, one after the other) does not count; the reader meets it after them.
 [[nodiscard]] LogKind findKind(LogWindow& window);
 
-/// Where to start reading so as to meet every event at or after `utimeUs`, by the block events from
-/// the last one backwards; nothing where one of them is not intact or not in its place.
+/// Where to start reading to meet every event at or after `utimeUs`, by the block events from the
+/// last one backwards; nothing if one of them is not intact or not in its place.
 struct BlockPlace {
   std::uint64_t offset = 0, number = 0;
 };

@@ -28,7 +28,7 @@ void appendWord(Bytes& log, Word word) {
   }
 }
 
-/// Takes 64-bit words one after the other.
+/// Reads 64-bit words one by one.
 class WordReader {
  public:
   explicit WordReader(const std::uint8_t* bytes) : bytes_(bytes) {}

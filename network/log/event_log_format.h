@@ -1,6 +1,5 @@
-// network/log/event_log_format.h: the bytes of an LCM event log, and of the events that check a
-// block of it (docs/formats.md, "Event logs"). Pure: reads any bytes, allocates nothing but what it
-// appends.
+// network/log/event_log_format.h: the bytes of an LCM event log, and of the events that verify its
+// blocks (docs/formats.md, "Event logs"). Pure: reads any bytes; allocates only what it appends.
 #pragma once
 
 #include <cstddef>
@@ -37,14 +36,15 @@ void appendEvent(Bytes& log, const LogEvent& event);
 void appendEvent(Bytes& log, std::int64_t number, std::int64_t utimeUs, std::string_view channel,
                  ByteView payload);
 
-/// What an event on kLogBlockChannel says. Offsets are from the log's first byte.
+/// The content of an event on kLogBlockChannel. Offsets are from the log's first byte.
 struct BlockEvent {
   bool isLast = false;           ///< Its log was closed here.
-  std::uint64_t logId = 0;       ///< Drawn at random when the log was made; the seed of its hashes.
-  std::uint64_t number = 0;      ///< 0 opens the log and covers nothing; then one a block.
-  std::uint64_t offset = 0;      ///< Where this event begins.
-  std::uint64_t previous = 0;    ///< Where the last block event began; 0 in the opening one.
-  std::uint64_t blockBytes = 0;  ///< That come right before this event.
+  std::uint64_t logId = 0;       ///< Drawn at random when the log is created; the seed of its
+                                 ///< hashes.
+  std::uint64_t number = 0;      ///< 0 opens the log and covers nothing; then one per block.
+  std::uint64_t offset = 0;      ///< Offset of this event.
+  std::uint64_t previous = 0;    ///< Offset of the last block event; 0 in the opening one.
+  std::uint64_t blockBytes = 0;  ///< Right before this event.
   std::uint64_t blockEvents = 0;
   std::int64_t firstNumber = 0;  ///< Of the block's first event, or of the next one if it has none.
   std::int64_t utimeUs = 0;      ///< This event's own stamp: the last one of its block.
@@ -58,8 +58,8 @@ inline constexpr std::size_t kBlockPayloadBytes = 104;
 inline constexpr std::size_t kBlockEventBytes =
     kEventHeaderBytes + sizeof kLogBlockChannel - 1 + kBlockPayloadBytes;
 
-/// Largest block that is believed: one event of the largest size, or kMaxLogBlockBytes of small
-/// ones.
+/// Largest block that a reader accepts: one event of the largest size, or kMaxLogBlockBytes of
+/// small ones.
 inline constexpr std::size_t kMaxBlockSpan = kMaxEventBytes + kMaxLogBlockBytes;
 
 enum class BlockEventState : std::uint8_t {
@@ -68,7 +68,7 @@ enum class BlockEventState : std::uint8_t {
   Copied,   ///< Its payload in an event of another number or stamp: a recording of a replay.
   Damaged,  ///< Its own hash is wrong.
 };
-/// Of kBlockEventBytes of `bytes`.
+/// Reads kBlockEventBytes of `bytes`.
 [[nodiscard]] BlockEventState parseBlockEvent(const std::uint8_t* bytes, BlockEvent& event);
 void appendBlockEvent(Bytes& log, const BlockEvent& event);
 

@@ -66,7 +66,7 @@ struct EventLogReader::Impl {
     }
   }
 
-  /// Neither counts it as given out.
+  /// Does not count it as returned.
   bool read(LogEvent& event, bool& isUnchecked) {
     isUnchecked = !isChecked && nextUnchecked(event);
     return isUnchecked || (isChecked && blocks.next(event));
@@ -78,7 +78,7 @@ struct EventLogReader::Impl {
   LogKind kind;
   CheckedBlocks blocks;
   bool isChecked = false;
-  std::uint64_t position = 0;  ///< Of the events that are not checked.
+  std::uint64_t position = 0;  ///< In the events without check sums.
   struct Pending {
     LogEvent event;
     bool isUnchecked = false;

@@ -1,4 +1,4 @@
-// network/log/event_log_reader_access.h: a reader of bytes that are no file, for tests and fuzzing.
+// network/log/event_log_reader_access.h: a reader of bytes in memory, for tests and fuzzing.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 namespace foretouch {
 
 struct EventLogReaderAccess {
-  /// `name` stands for the path in errors.
+  /// Errors name `name` as the path.
   static Result<EventLogReader> open(std::unique_ptr<LogBytes> bytes, const std::string& name,
                                      const LogReadOptions& options = {});
 };

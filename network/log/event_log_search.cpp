@@ -87,7 +87,7 @@ bool peekBlockEvent(LogWindow& window, std::uint64_t offset, BlockEvent& event) 
          parseBlockEvent(bytes.data(), event) == BlockEventState::Intact;
 }
 
-/// The last block event of the log that stands where it says.
+/// The log's last block event that is where it says.
 bool findLastBlockEvent(LogWindow& window, std::uint64_t logId, BlockEvent& last) {
   const std::uint64_t size = window.size();
   const auto isIt = [&](std::uint64_t at, BlockEvent& event) {

@@ -13,10 +13,10 @@
 namespace foretouch {
 namespace {
 
-/// Bytes that are read at once where fewer are asked for.
+/// Bytes to read at once if fewer are needed.
 constexpr std::size_t kReadBytes = 256u << 10;
-/// What is behind is kept in the buffer up to this many bytes, so that a block's events are still
-/// there when its check sum comes.
+/// The buffer keeps up to this many bytes already passed, so that a block's events are still there
+/// when its check sum comes.
 constexpr std::uint64_t kKeptBytes = 1u << 20;
 
 class FileBytes : public LogBytes {

@@ -1,5 +1,5 @@
-// network/log/event_log_window.h: a window over the bytes of a log, wherever they are. Memory: one
-// buffer of at most kMaxBlockSpan and a little, whatever the log says.
+// network/log/event_log_window.h: a window over the bytes of a log. Memory: one buffer of little
+// more than kMaxBlockSpan, whatever the log contains.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace foretouch {
 
-/// Bytes that can be read from anywhere: a file's, or a test's own.
+/// Bytes with random access: a file's, or a test's own.
 class LogBytes {
  public:
   virtual ~LogBytes() = default;
@@ -32,15 +32,15 @@ struct Frame {
   [[nodiscard]] std::uint64_t end() const { return offset + header.eventBytes(); }
 };
 
-/// What stands at a place where an event may begin.
+/// What begins at an offset.
 enum class FrameState : std::uint8_t {
   Whole,       ///< An event that fits.
-  Torn,        ///< The end of the log comes first, and all that is there is as it should be.
+  Torn,        ///< The log ends first; the part that is there is sound.
   NoEvent,     ///< Other bytes.
-  Impossible,  ///< The magic, and a header that cannot be.
+  Impossible,  ///< The magic, and an impossible header.
 };
 
-/// A failed read ends every search as if nothing more was there; ask failure() afterwards.
+/// A failed read ends every search like the end of the log; check failure() afterwards.
 class LogWindow {
  public:
   explicit LogWindow(std::unique_ptr<LogBytes> bytes);
@@ -48,14 +48,14 @@ class LogWindow {
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
-  /// `count` bytes from `offset` on, valid until the next call of anything here; null where they
-  /// do not all exist. Those from `keepFrom` on are kept for later if they are few.
+  /// `count` bytes from `offset` on, valid until the next call on this object; null if they do not
+  /// all exist. Keeps those from `keepFrom` on for later if they are few.
   const std::uint8_t* view(std::uint64_t offset, std::size_t count, std::uint64_t keepFrom);
   const std::uint8_t* view(std::uint64_t offset, std::size_t count) {
     return view(offset, count, offset);
   }
 
-  /// Where the magic next begins in [from, to), with all of it in the log; `to` where it does not.
+  /// Offset of the next whole magic that begins in [from, to); `to` if there is none.
   std::uint64_t findMagic(std::uint64_t from, std::uint64_t to);
 
   FrameState frameAt(std::uint64_t offset, Frame& frame, std::uint64_t keepFrom);
@@ -64,11 +64,11 @@ class LogWindow {
   BlockEventState blockEventAt(std::uint64_t offset, BlockEvent& event) {
     return blockEventAt(offset, event, offset);
   }
-  /// Copies bytes from anywhere past the window, which stays as it is: for hops through a log.
+  /// Copies bytes from anywhere without moving the window: for hops through a log.
   bool peek(std::uint64_t offset, std::uint8_t* bytes, std::size_t count);
   /// Whether the frame is on kLogBlockChannel.
   bool isOnBlockChannel(const Frame& frame, std::uint64_t keepFrom);
-  /// The frame's event; false where reading failed.
+  /// The frame's event; false if reading failed.
   bool eventOf(const Frame& frame, LogEvent& event);
 
  private:
@@ -79,7 +79,7 @@ class LogWindow {
   std::optional<Error> failure_;
   Bytes buffer_;
   std::uint64_t bufferStart_ = 0;  ///< Offset of the buffer's first byte.
-  std::size_t buffered_ = 0;       ///< Bytes of the buffer that are the log's.
+  std::size_t buffered_ = 0;       ///< Valid bytes in the buffer.
 };
 
 }  // namespace foretouch

@@ -17,7 +17,7 @@ namespace {
 std::uint64_t drawLogId() {
   std::uint64_t id = 0;
   if (::getrandom(&id, sizeof id, GRND_NONBLOCK) == static_cast<ssize_t>(sizeof id)) return id;
-  // No entropy yet (an early boot): unlikely to repeat is enough, only a forger profits.
+  // No entropy yet (an early boot): unlikely to repeat is enough, only a forger would profit.
   timespec now{};
   ::clock_gettime(CLOCK_REALTIME, &now);
   const auto words = {static_cast<std::uint64_t>(now.tv_sec),
@@ -74,8 +74,8 @@ struct EventLogWriter::Impl {
   std::string path;
   int file;
   LogWriteOptions options;
-  std::uint64_t good = 0;   ///< Bytes of the file that are whole.
-  bool hasRemains = false;  ///< Bytes behind them of a write that failed, still to be cut off.
+  std::uint64_t good = 0;   ///< Bytes of the file that are sound.
+  bool hasRemains = false;  ///< Bytes of a failed write after them, still to cut off.
   Bytes block;              ///< Events that are not in the file yet.
   BlockEvent check;         ///< Of this block as it grows.
   std::int64_t firstUs = 0;
@@ -99,7 +99,7 @@ Result<Done> EventLogWriter::Impl::checkEvent(const std::string& channel, ByteVi
   return Done{};
 }
 
-/// All of the bytes at the end of the file, or none of them.
+/// Appends all of the bytes to the file, or none of them.
 Result<Done> EventLogWriter::Impl::append(const Bytes& bytes) {
   if (hasRemains && ::ftruncate(file, static_cast<off_t>(good)) != 0) {
     return unwritable("cannot be cut back to its last whole block");

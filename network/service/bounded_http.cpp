@@ -26,11 +26,11 @@ using std::chrono::milliseconds;
 constexpr std::size_t kThreads = 4;
 /// Accepted connections that wait for a thread.
 constexpr std::size_t kMaxWaiting = 16;
-/// A server that stops is noticed after this long.
+/// Notices a stop of the server after this long.
 constexpr int kPollMs = 50;
 
-/// One connection with a limit on time and on bytes: the library bounds a header's line, not how
-/// many there are, and the time between two bytes, not that of a request.
+/// One connection with a limit on time and on bytes: the library limits a header's line, not the
+/// number of headers, and the time between two bytes, not that of a request.
 class BoundedStream final : public httplib::Stream {
  public:
   BoundedStream(socket_t socket, const HttpBounds& bounds, const std::atomic<bool>& isStopping)
@@ -88,7 +88,7 @@ class BoundedStream final : public httplib::Stream {
   std::size_t next_ = 0, held_ = 0;
 };
 
-/// A few threads and a bounded list: where it is full, accepting waits.
+/// A few threads and a bounded list: while it is full, accepting waits.
 class BoundedTasks final : public httplib::TaskQueue {
  public:
   BoundedTasks() {
@@ -123,7 +123,7 @@ class BoundedTasks final : public httplib::TaskQueue {
         tasks_.pop_front();
         changed_.notify_all();
       }
-      task();  // each closes its connection, also where the server stops
+      task();  // each closes its connection, even if the server stops
     }
   }
   std::mutex mutex_;
@@ -141,7 +141,8 @@ Error cannotServe(const std::string& what, const std::string& host, std::uint16_
               std::to_string(port) + ": " + why};
 }
 
-/// What would cost more than it saves on this machine, or many times what the page has.
+/// Drops requests for features that cost more than they save on this machine, or many times the
+/// size of the page.
 void dropCostlyWishes(httplib::Request& request) {
   request.headers.erase("Accept-Encoding");
   request.headers.erase("Range");
@@ -199,7 +200,7 @@ Result<Done> BoundedHttp::start(const std::string& what, const std::string& host
   if (!isNumericAddress(host) && host != "localhost") {
     return cannotServe(what, host, port, "expected a numeric address or localhost");
   }
-  // By itself: a machine without /etc/hosts does not know the name.
+  // Resolved here: a machine without /etc/hosts does not know the name.
   const std::string address = host == "localhost" ? "127.0.0.1" : host;
   errno = 0;
   if (port == 0) {
@@ -216,14 +217,14 @@ Result<Done> BoundedHttp::start(const std::string& what, const std::string& host
       try {
         listen_after_bind();
       } catch (...) {
-        // The pages are gone; the service goes on.
+        // The pages are gone; the service continues.
       }
       hasEnded_ = true;
     });
   } catch (const std::system_error& e) {
     return cannotServe(what, host, port, e.what());
   }
-  // stop() passes over a server that does not run yet.
+  // stop() ignores a server that does not run yet.
   while (!is_running() && !hasEnded_) std::this_thread::sleep_for(milliseconds(1));
   return Done{};
 }

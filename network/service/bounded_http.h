@@ -1,6 +1,6 @@
-// network/service/bounded_http.h: cpp-httplib within bounds: a request has so many bytes and so
-// much time in all, one connection one request, a few threads, and a bounded number of connections
-// that wait for one. GET and HEAD alone. Not installed: it shows the library.
+// network/service/bounded_http.h: cpp-httplib within bounds: limits on a request's bytes and total
+// time, one request per connection, a few threads, and a bounded number of connections that wait
+// for one. GET and HEAD only. Not installed: it exposes cpp-httplib.
 #pragma once
 
 #include <atomic>
@@ -16,8 +16,8 @@
 namespace foretouch::internal {
 
 struct HttpBounds {
-  std::size_t requestBytes = 4096;  ///< Its headers and all.
-  int requestMs = 1000;             ///< From the first byte that is waited for to its last.
+  std::size_t requestBytes = 4096;  ///< Headers included.
+  int requestMs = 1000;             ///< From the wait for its first byte to its last byte.
   int responseMs = 0;               ///< More time, for the response.
 };
 
@@ -28,17 +28,16 @@ class BoundedHttp final : public httplib::Server {
   BoundedHttp& operator=(const BoundedHttp&) = delete;
   ~BoundedHttp() override;  ///< As end().
 
-  /// Called after each request, in the thread that answered it, and told whether it could be; true:
-  /// the socket has another owner now. Throws nothing. Set before start().
+  /// Called after each request, in the thread that answered it; `isAnswered`: whether that
+  /// succeeded. Returns true if it now owns the socket. Must not throw. Set before start().
   std::function<bool(socket_t, bool isAnswered)> takeOver;
 
-  /// Serves from here on. `host`: a numeric address or "localhost"; other names are refused, as it
-  /// would be their resolver who says which network is served. Port 0: one that is free. Errors
-  /// begin "cannot serve `what` on": such a name, an address that is not there, a port that is
-  /// taken.
+  /// Starts to serve. `host`: a numeric address or "localhost"; other names are errors, because
+  /// their resolver would decide which network we serve. Port 0: any free one. Errors begin "cannot
+  /// serve `what` on": such a name, an unknown address, a port in use.
   [[nodiscard]] Result<Done> start(const std::string& what, const std::string& host,
                                    std::uint16_t port);
-  /// Ends open connections.
+  /// Closes open connections.
   void end();
   [[nodiscard]] std::uint16_t port() const { return static_cast<std::uint16_t>(port_); }
 

@@ -33,7 +33,7 @@ struct Event {
   Bytes payload;
 };
 
-/// Events whose memory is used again.
+/// Events with reusable memory.
 struct EventList {
   std::vector<Event> events;
   std::size_t count = 0, bytes = 0;
@@ -54,7 +54,7 @@ struct EventList {
     count = bytes = 0;
   }
 
-  /// A flood is not to hold its memory for ever.
+  /// A flood must not hold its memory for ever.
   static constexpr std::size_t kKeptEvents = 1024, kKeptBytes = 64u << 10;
 };
 
@@ -106,7 +106,7 @@ struct Journal::Impl {
     isFlushed = true;
   }
 
-  /// Takes what waits; false once there is nothing left to come.
+  /// Takes the waiting events; false once no more will come.
   bool takeWaiting(std::chrono::steady_clock::time_point until) {
     std::unique_lock lock(mutex);
     changed.wait_until(lock, until, [&] { return waiting.count > 0 || isClosing; });

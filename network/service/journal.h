@@ -1,5 +1,6 @@
-// network/service/journal.h: a record of what a service took and said, written by a thread of its
-// own: a disk that stalls delays no answer. What it cannot take is counted, never dropped silently.
+// network/service/journal.h: a record of a service's input and output. A separate thread writes it,
+// so a slow disk delays no answer. Counts every event that it cannot write; never drops one
+// silently.
 #pragma once
 
 #include <chrono>
@@ -14,44 +15,43 @@
 
 namespace foretouch {
 
-/// Where events go: an event log, or whatever a test puts in its place. Used by one thread.
+/// The destination of events: an event log, or a test's own. Used by one thread.
 class JournalSink {
  public:
   virtual ~JournalSink() = default;
-  /// An error loses this event; the next one is tried again.
+  /// An error loses only this event.
   virtual Result<Done> write(std::int64_t utimeUs, const std::string& channel,
                              ByteView payload) = 0;
   virtual Result<Done> flush() = 0;
   virtual Result<Done> close() = 0;
 };
 
-/// A new event log (EventLogWriter); an existing file is refused.
+/// A new event log (EventLogWriter); an existing file is an error.
 [[nodiscard]] Result<std::unique_ptr<JournalSink>> createLogSink(const std::string& path);
 
 struct JournalOptions {
-  std::size_t maxEvents = 1u << 16;  ///< Waiting to be written.
-  std::size_t maxBytes = 64u << 20;  ///< The same, payloads together.
+  std::size_t maxEvents = 1u << 16;  ///< Waiting for the disk.
+  std::size_t maxBytes = 64u << 20;  ///< Waiting payloads, in total.
   std::chrono::milliseconds flushEvery{100};
 };
 
 class Journal {
  public:
-  /// `failed` is called once for each event, flush or close that failed, from any thread. Errors:
-  /// no thread to be had.
+  /// Calls `failed` once for each failed event, flush or close, from any thread. Errors: the system
+  /// gives no thread.
   static Result<Journal> start(std::unique_ptr<JournalSink> sink, const JournalOptions& options,
                                std::function<void()> failed);
   Journal(Journal&&) noexcept;
   Journal& operator=(Journal&&) noexcept;
   ~Journal();  ///< As close().
 
-  /// Never waits for the disk. What one thread adds is written in its order; what two threads add,
-  /// in the order in which they called.
+  /// Never waits for the disk. Writes events in the order of the calls, also across threads.
   void add(std::int64_t utimeUs, const std::string& channel, ByteView payload);
-  /// Writes all that waits, and closes the log.
+  /// Writes everything that waits, and closes the log.
   void close();
-  /// How long ago (ms) the writing thread last got on.
+  /// Milliseconds since the writing thread last made progress.
   [[nodiscard]] std::int64_t idleMs() const;
-  /// The last thing that failed, for a person; empty where nothing has.
+  /// The last failure, as text; empty if there was none.
   [[nodiscard]] std::string lastFailure() const;
 
  private:

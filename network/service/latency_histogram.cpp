@@ -26,7 +26,7 @@ int highestBit(std::uint64_t value) {
 
 }  // namespace
 
-// Below 2^kSubBits a bucket a nanosecond. From there on, the highest bit tells the octave and the
+// Below 2^kSubBits one bucket per nanosecond. Above, the highest bit selects the octave and the
 // kSubBits below it the bucket within it.
 std::size_t LatencyHistogram::bucketOf(std::uint64_t ns) {
   if (ns < (1u << kSubBits)) return static_cast<std::size_t>(ns);

@@ -11,8 +11,7 @@ MailRoom::MailRoom(std::size_t avatars, std::size_t poses, std::size_t handlers)
   ready_.reserve(avatars);
 }
 
-/// Senders repeat their skeleton every second. One that says what the last waiting one says changes
-/// nothing once that has been taken.
+/// Senders repeat their skeleton every second. A copy of the last waiting one would change nothing.
 bool MailRoom::isRepeated(const Box& box, const Mail& mail) {
   if (mail.kind != MailKind::Skeleton) return false;
   const auto last = std::find_if(box.mail.rbegin(), box.mail.rend(), [](const auto& waiting) {
@@ -23,7 +22,7 @@ bool MailRoom::isRepeated(const Box& box, const Mail& mail) {
          (*last)->skeleton.generation == mail.skeleton.generation;
 }
 
-/// True where the oldest mail of this kind had to go.
+/// True if it dropped the oldest mail of this kind.
 bool MailRoom::makeRoom(Box& box, MailKind kind) {
   const bool isPose = kind == MailKind::Pose;
   std::size_t& waiting = isPose ? box.poses : box.skeletons;
@@ -43,9 +42,9 @@ std::unique_ptr<Mail> MailRoom::emptyMail() {
   return mail;
 }
 
-/// For use again. Skeletons are rare and may be large: their memory is given back.
+/// Keeps mail for reuse. Skeletons are rare and may be large: frees their memory.
 void MailRoom::keep(std::unique_ptr<Mail> mail) {
-  constexpr std::size_t kKeptBytes = 256u << 10;  // a pose of all joints there may be
+  constexpr std::size_t kKeptBytes = 256u << 10;  // a pose of kMaxJoints joints
   if (mail->kind == MailKind::Skeleton) mail->skeleton = SkeletonMessage();
   if (mail->payload.capacity() > kKeptBytes) Bytes().swap(mail->payload);
   empty_.push_back(std::move(mail));
@@ -54,7 +53,7 @@ void MailRoom::keep(std::unique_ptr<Mail> mail) {
 void MailRoom::makeReady(std::size_t avatar) {
   boxes_[avatar].isReady = true;
   ready_.push_back(avatar);
-  // A leader takes what it posted itself.
+  // A leader takes the mail that it posted.
   if (!isLed_) changed_.notify_one();
 }
 
@@ -99,7 +98,7 @@ void MailRoom::endLead(bool isForGood) {
   const std::lock_guard lock(mutex_);
   isLed_ = false;
   isLeadOver_ = isLeadOver_ || isForGood;
-  // One to lead; the others where there is more than the caller takes itself.
+  // Wakes one to lead; the others if there is more mail than the caller takes.
   if (isForGood || ready_.size() > 1) {
     changed_.notify_all();
   } else {

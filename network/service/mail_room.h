@@ -1,11 +1,10 @@
-// network/service/mail_room.h: what waits to be answered: a bounded mailbox for each avatar. Any
-// number of threads take mail; an avatar's mail is handled by one thread at a time and in order, so
-// that its answers depend on its own messages alone.
+// network/service/mail_room.h: the messages that wait for an answer: a bounded mailbox per avatar.
+// Any number of threads take mail; one thread at a time handles an avatar's mail, in order, so that
+// its answers depend on its own messages alone.
 //
-// One of the threads at a time is the leader, who fetches mail from outside and posts it. A leader
-// that has posted something stops leading and takes it itself, while another thread becomes the
-// leader: what comes is answered by the thread that it woke. (The pattern is known as leader and
-// followers.)
+// One thread at a time is the leader, which fetches mail from outside and posts it. A leader that
+// has posted something stops leading and takes it itself, while another thread becomes the leader:
+// the thread that a message woke answers it. (The pattern is known as leader and followers.)
 #pragma once
 
 #include <chrono>
@@ -23,7 +22,7 @@ namespace foretouch {
 
 enum class MailKind : std::uint8_t { Skeleton, Pose };
 
-/// A message that was found sound. Its memory is used again and again.
+/// A valid message. Its memory is reused.
 struct Mail {
   MailKind kind = MailKind::Pose;
   SkeletonMessage skeleton;
@@ -33,38 +32,38 @@ struct Mail {
 };
 
 /// Different skeletons that wait for one avatar: more than a few mean that somebody floods. The
-/// oldest then makes way, as a pose would.
+/// oldest is then dropped, like a pose.
 inline constexpr std::size_t kMaxWaitingSkeletons = 8;
 
 class MailRoom {
  public:
-  /// At most `poses` (> 0) poses wait for each of `avatars`; the mail of at most `handlers` of them
-  /// is handled at a time. With one thread more than handlers there is always one to lead.
+  /// At most `poses` (> 0) poses wait for each of `avatars`; threads handle the mail of at most
+  /// `handlers` avatars at a time. With one thread more than handlers, one is always free to lead.
   MailRoom(std::size_t avatars, std::size_t poses, std::size_t handlers = SIZE_MAX);
 
   enum class Posted : std::uint8_t {
-    Kept,             ///< And nothing had to make way; also a skeleton that repeats one waiting.
-    DroppedPose,      ///< The oldest waiting pose made way.
-    DroppedSkeleton,  ///< The oldest waiting skeleton made way.
-    Closed,           ///< Nothing is taken any more.
+    Kept,             ///< Nothing was dropped; also a skeleton that repeats a waiting one.
+    DroppedPose,      ///< The oldest waiting pose was dropped.
+    DroppedSkeleton,  ///< The oldest waiting skeleton was dropped.
+    Closed,           ///< The room takes no more mail.
   };
-  /// Takes the mail's content in exchange for memory to be used for the next. Never waits for a
+  /// Takes the mail and leaves an empty one in `mail` for the next message. Never waits for a
   /// worker.
   Posted post(std::size_t avatar, std::unique_ptr<Mail>& mail);
 
   enum class Taken : std::uint8_t { Mail, Lead, Nothing, Closed };
-  /// The next mail of an avatar that nobody handles, in exchange for `mail`; waits up to `wait` for
-  /// one. The avatar is the caller's until finish(). Where there is none and no leader either, the
-  /// caller becomes it, until endLead(). Closed: there is no mail left and none to come.
+  /// Exchanges `mail` for the next mail of an avatar that nobody handles; waits up to `wait` for
+  /// one. The caller owns the avatar until finish(). If there is no such mail and no leader, the
+  /// caller becomes the leader until endLead(). Closed: no mail is left and none will come.
   Taken takeOrLead(std::size_t& avatar, std::unique_ptr<Mail>& mail,
                    std::chrono::milliseconds wait);
   void finish(std::size_t avatar);
-  /// `isForGood`: nobody leads from now on, as nothing more will come.
+  /// `isForGood`: nobody leads from now on, because nothing more will come.
   void endLead(bool isForGood);
-  /// Until a leader has ended for good.
+  /// Waits until a leader has ended for good.
   void waitForLastLead();
 
-  /// Takes no more mail; what waits is still given out.
+  /// Takes no more mail; still returns the waiting mail.
   void close();
 
  private:
@@ -89,7 +88,7 @@ class MailRoom {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Box> boxes_;
-  std::vector<std::size_t> ready_;  // avatars with mail that nobody handles, the longest first
+  std::vector<std::size_t> ready_;  // avatars with mail that nobody handles, longest waiting first
   std::vector<std::unique_ptr<Mail>> empty_;
   std::size_t handled_ = 0;
   bool isLed_ = false, isLeadOver_ = false;

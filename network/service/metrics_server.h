@@ -1,6 +1,6 @@
-// network/service/metrics_server.h: GET /metrics and GET /healthz over HTTP/1.1. A request has a
-// few kilobytes and a few seconds in all, one connection one request; connections beyond a bounded
-// number wait in the system's backlog. No TLS, no passwords: meant for this machine.
+// network/service/metrics_server.h: GET /metrics and GET /healthz over HTTP/1.1. A request may take
+// a few kilobytes and a few seconds in total, one request per connection; connections beyond a
+// bounded number wait in the system's backlog. No TLS, no passwords: meant for this machine.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,25 @@
 
 namespace foretouch {
 
-/// Of a request, its headers and all: no scraper needs more.
+/// Of a request, headers included: no scraper needs more.
 inline constexpr std::size_t kMaxRequestBytes = 4096;
 /// From the first byte to the last one of the response.
 inline constexpr int kRequestMs = 1000;
 
 class MetricsServer {
  public:
-  /// Where the pages come from; called from several threads.
+  /// Make the pages; called from several threads.
   struct Pages {
     std::function<std::string()> metrics;
-    std::function<ServiceHealth()> health;  ///< 200 where it is well, else 503.
+    std::function<ServiceHealth()> health;  ///< 200 if it is well, else 503.
   };
-  /// `host`: a numeric address or "localhost"; other names are refused, as it would be their
-  /// resolver who says which network is served. Port 0: one that is free. Errors: such a name, an
-  /// address that is not there, a port that is taken.
+  /// `host`: a numeric address or "localhost"; other names are errors, because their resolver would
+  /// decide which network we serve. Port 0: any free one. Errors: such a name, an unknown address,
+  /// a port in use.
   static Result<MetricsServer> start(const std::string& host, std::uint16_t port, Pages pages);
   MetricsServer(MetricsServer&&) noexcept;
   MetricsServer& operator=(MetricsServer&&) noexcept;
-  ~MetricsServer();  ///< Ends open connections.
+  ~MetricsServer();  ///< Closes open connections.
 
   [[nodiscard]] std::uint16_t port() const;
 

@@ -16,7 +16,7 @@ std::string number(double value) {
   return {text, countOf(length)};
 }
 
-/// A label's value: backslash, quote and line break are escaped.
+/// A label's value: escapes backslash, quote and line break.
 std::string quoted(std::string_view text) {
   std::string value = "\"";
   for (const char c : text) {

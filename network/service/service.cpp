@@ -20,19 +20,19 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A stop is noticed after this long.
+/// Notices a stop after this long.
 constexpr int kReceiveWaitMs = 100;
-/// Idle threads and the status show that they live this often.
+/// Idle threads and the status thread signal this often that they run.
 constexpr milliseconds kBeatEvery{500};
 
 struct ServedStream {
   StreamSolver solver;
   std::size_t index = 0;
-  std::uint64_t lost = 0, gaps = 0;  // of the solver's counts, those that have been added up
-  bool isBroken = false;             // an exception left its state unknown: it answers no more
+  std::uint64_t lost = 0, gaps = 0;  // the part of the solver's counts already added up
+  bool isBroken = false;             // an exception left its state unknown: it answers nothing more
 };
 
-/// What a thread uses again and again.
+/// One thread's reusable memory.
 struct Desk {
   ContactsMessage answer;
   Bytes payload;
@@ -117,25 +117,25 @@ struct Service::Impl {
   ServiceCounter counter;
   std::optional<Journal> journal;
 
-  mutable std::mutex mutex;  // of what follows
+  mutable std::mutex mutex;  // of the next members
   std::condition_variable stopsNow;
   bool isStatusOver = false;
   std::optional<Error> failure;
   AnswerTimes lastSecond;
 
   std::atomic<bool> isStopping{false};
-  ThreadBeat receiverBeat, statusBeat;  // of whoever receives; of the status
+  ThreadBeat receiverBeat, statusBeat;  // of the receiving thread; of the status thread
   std::vector<ThreadBeat> threadBeats;
   std::thread statusThread;
-  std::vector<std::thread> threads;  // that receive and answer, in turns
-  std::vector<WireMessage> arrived;  // of whoever receives
+  std::vector<std::thread> threads;  // receive and answer, in turns
+  std::vector<WireMessage> arrived;  // of the receiving thread
 
   void fail(Error error) {
     const std::lock_guard lock(mutex);
     if (!failure) failure = std::move(error);
   }
 
-  /// Runs `work`; what it throws becomes the service's failure.
+  /// Runs `work`; an exception becomes the service's failure.
   template <typename Work>
   bool guarded(const char* what, const Work& work) {
     try {
@@ -164,7 +164,7 @@ struct Service::Impl {
     }
   }
 
-  /// Receives until something has come, or nothing more will.
+  /// Receives until a message has come, or none will come any more.
   void lead(std::unique_ptr<Mail>& mail, ThreadBeat& beat) {
     bool isOver = false;
     const bool done = guarded("receiving", [&] {
@@ -177,9 +177,9 @@ struct Service::Impl {
     room.endLead(isOver || !done);
   }
 
-  /// True where nothing more is to be received.
+  /// True if nothing more will come.
   bool receive(std::unique_ptr<Mail>& mail) {
-    const bool isLast = isStopping.load();  // what the system holds already is still taken
+    const bool isLast = isStopping.load();  // still takes what the system holds already
     arrived.clear();
     const auto received = parts.receiver->receive(arrived, isLast ? 0 : kReceiveWaitMs);
     counter.wire(parts.receiver->counts());
@@ -273,7 +273,7 @@ struct Service::Impl {
     if (journal) journal->add(utimeUs, channel, payload);
   }
 
-  // Telling how it goes.
+  // Status.
 
   void tell() {
     auto next = std::chrono::steady_clock::now() + options.statusEvery;
@@ -353,10 +353,10 @@ struct Service::Impl {
     }
     try {
       statusThread = std::thread([this] { guarded("the status", [this] { tell(); }); });
-      // One more than there are to be workers: somebody always receives.
+      // One more than the workers: one always receives.
       for (ThreadBeat& beat : threadBeats) {
         threads.emplace_back([this, &beat] {
-          // Without one of the threads there might be nobody to lead: the service ends.
+          // Without this thread there might be no leader: the service ends.
           if (!guarded("a thread", [&] { serve(beat); })) room.endLead(true);
         });
       }

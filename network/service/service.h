@@ -1,14 +1,15 @@
-// network/service/service.h: the service: poses in, one answer for each that is accepted, for any
-// number of avatars on any number of threads.
+// network/service/service.h: the service: poses in, one answer per accepted pose, for any number of
+// avatars on any number of threads.
 //
-// One thread receives: it decodes, and puts what is sound into its avatar's mailbox, where a pose
-// too many makes the oldest one go. Workers take the mail, each avatar's in order, answer it and
-// publish. Another thread publishes the status. A journal, where there is one, is written by a
-// thread of its own. Nothing waits for a disk or for the network: an answer that the system does
-// not take is counted, not sent again. An observer, where there is one, is shown each step after
-// its answer went out, in the thread that answered it.
+// One thread at a time receives: it decodes messages and puts valid ones into their avatar's
+// mailbox; when the mailbox is full, the oldest pose is dropped. The other threads take the mail,
+// each avatar's in order, answer it and publish; the threads take turns at receiving
+// (network/service/mail_room.h). Another thread publishes the status. A separate thread writes the
+// journal, if there is one. Nothing waits for a disk or for the network: the service counts an
+// answer that the system does not take, and does not send it again. An observer, if there is one,
+// sees each step after its answer went out, in the thread that answered it.
 //
-// Whenever they are taken, counts satisfy: received = answered + rejected + waiting.
+// At every moment: received = answered + rejected + waiting.
 #pragma once
 
 #include <chrono>
@@ -35,21 +36,22 @@ inline constexpr std::size_t kMaxServiceQueue = 65536;
 
 struct ServiceOptions {
   int workers = 1;           ///< 1 to kMaxServiceWorkers.
-  std::size_t queue = 256;   ///< Poses that an avatar may have waiting; 1 to kMaxServiceQueue.
+  std::size_t queue = 256;   ///< Poses that may wait per avatar; 1 to kMaxServiceQueue.
   std::string suffix;        ///< Of all four channels.
   std::string build, scene;  ///< For the status.
   std::chrono::milliseconds statusEvery{1000};   ///< At least 1.
-  std::chrono::milliseconds stuckAfter{10'000};  ///< A thread that has not got on for this long.
+  std::chrono::milliseconds stuckAfter{10'000};  ///< A thread without progress for this long is
+                                                 ///< stuck.
   JournalOptions journal;
 };
 
-/// What surrounds a service.
+/// The environment of a service.
 struct ServiceParts {
-  std::unique_ptr<Receiver> receiver;  ///< Of the channels of receivedChannels().
+  std::unique_ptr<Receiver> receiver;  ///< On the channels of receivedChannels().
   std::unique_ptr<Publisher> publisher;
-  std::unique_ptr<JournalSink> journal;  ///< None: nothing is recorded.
+  std::unique_ptr<JournalSink> journal;  ///< None: records nothing.
   const Clock* clock = &systemClock();   ///< Outlives the service.
-  StepObserver* observer = nullptr;      ///< Outlives the service; none: nobody looks.
+  StepObserver* observer = nullptr;      ///< Outlives the service; may be none.
 };
 
 /// The channels that a service reads.
@@ -57,33 +59,33 @@ struct ServiceParts {
 
 struct ServiceHealth {
   bool isWell = true;
-  std::string text;  ///< "ok" and when the last pose came, or what is wrong; lines.
+  std::string text;  ///< "ok" and the time of the last pose, or what is wrong; lines.
 };
 
 class Service {
  public:
-  /// Runs from here on. Errors: no avatar, two of one id, options out of range, a suffix that makes
-  /// a channel's name too long, threads that the system does not give.
+  /// Starts the service. Errors: no avatar, two with one id, options out of range, a suffix that
+  /// makes a channel's name too long, or the system refuses the threads.
   static Result<Service> start(std::vector<StreamSolver> avatars, ServiceParts parts,
                                const ServiceOptions& options);
   Service(Service&&) noexcept;
   Service& operator=(Service&&) noexcept;
   ~Service();  ///< As stop().
 
-  /// Receives no more, answers and publishes all that waits, sends a last status and closes the
-  /// journal.
+  /// Stops receiving, answers and publishes everything that waits, sends a last status and closes
+  /// the journal.
   void stop();
 
-  /// As it is published; latencies are those of the last whole second.
+  /// As published; latencies are those of the last whole second.
   [[nodiscard]] StatusMessage status() const;
   [[nodiscard]] ServiceCounts counts() const;
   /// Of all answers since the start.
   [[nodiscard]] AnswerTimes times() const;
   [[nodiscard]] const ServiceFacts& facts() const;
   [[nodiscard]] ServiceHealth health() const;
-  /// What keeps the service from going on: its receiver is gone, or memory has run out.
+  /// Why the service cannot continue: its receiver is gone, or memory has run out.
   [[nodiscard]] std::optional<Error> failure() const;
-  /// The last thing that the journal could not do; empty where there is none.
+  /// The journal's last failure; empty if there was none.
   [[nodiscard]] std::string journalFailure() const;
 
  private:

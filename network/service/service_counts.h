@@ -1,5 +1,5 @@
-// network/service/service_counts.h: what a service has seen and done since it started, as plain
-// values, and the one place where its threads count it.
+// network/service/service_counts.h: a service's counts since it started, as plain values, and the
+// one place where its threads count.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace foretouch {
 
-/// What does not change while a service runs.
+/// Facts that do not change while a service runs.
 struct ServiceFacts {
   std::string build, scene;
   std::size_t numAvatars = 0;
@@ -21,12 +21,12 @@ struct ServiceFacts {
   std::int64_t startUtimeUs = 0;
 };
 
-/// One moment's counts: received == answered + rejected() + waiting, whenever they are taken.
+/// The counts at one moment; at every moment received == answered + rejected() + waiting.
 struct ServiceCounts {
-  std::uint64_t received = 0;  ///< Poses, whatever became of them.
-  std::uint64_t answered = 0;  ///< One contacts_t an accepted pose, also where sending it failed.
-  std::uint64_t waiting = 0;   ///< In the mailboxes, and those that are being answered.
-  std::uint64_t lost = 0;      ///< Poses that never came, by their sequence.
+  std::uint64_t received = 0;  ///< Poses, accepted or not.
+  std::uint64_t answered = 0;  ///< One contacts_t per accepted pose, even if sending it failed.
+  std::uint64_t waiting = 0;   ///< In the mailboxes, or in work.
+  std::uint64_t lost = 0;      ///< Poses that never came, by the gaps in sequence.
   std::uint64_t gaps = 0;      ///< Answers across a gap.
   std::uint64_t skeletons = 0;
   RejectCounts rejects{};          ///< Of poses.
@@ -38,10 +38,10 @@ struct ServiceCounts {
   [[nodiscard]] std::uint64_t rejected() const;
 };
 
-/// The answers of some span of time.
+/// Latencies of the answers in some span of time.
 struct AnswerTimes {
   LatencyHistogram latency;  ///< From receiving the pose to having sent its answer.
-  LatencyHistogram query;    ///< Of it, the query alone.
+  LatencyHistogram query;    ///< The query's part of it.
 };
 
 class ServiceCounter {

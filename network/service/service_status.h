@@ -1,4 +1,4 @@
-// network/service/service_status.h: a service's counts as the message that it publishes.
+// network/service/service_status.h: a service's counts as the message it publishes.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// network/service/thread_beat.h: when a thread last got on, so that others can tell that it does
-// not.
+// network/service/thread_beat.h: when a thread last made progress, so that others can tell that it
+// is stuck.
 #pragma once
 
 #include <atomic>

@@ -31,13 +31,13 @@ Result<Done> checked(const StreamPolicy& policy) {
   return Done{};
 }
 
-/// The word for what Skeleton::build() found wrong.
+/// The Reject for an error of Skeleton::build().
 Reject rejectOf(const Error& error, const RawSkeleton& raw) {
   switch (error.code) {
     case ErrorCode::NonFinite: return Reject::NonFinite;
     case ErrorCode::BadHierarchy: return Reject::BadHierarchy;
     case ErrorCode::LimitExceeded: return Reject::Limit;
-    case ErrorCode::OutOfRange: {  // of a rotation, or of an offset
+    case ErrorCode::OutOfRange: {  // a rotation or an offset
       const auto& joint = raw.joints[slotOf(error.index)];
       return joint.offset.cwiseAbs().maxCoeff() > kMaxCoordinate ? Reject::OutOfRange
                                                                  : Reject::NonUnit;
@@ -46,14 +46,14 @@ Reject rejectOf(const Error& error, const RawSkeleton& raw) {
   }
 }
 
-/// Which of a sender's skeletons: the order in which they are said.
+/// The order of a sender's skeletons.
 struct SkeletonStamp {
   std::int64_t session = 0;
   std::int32_t generation = 0;
   std::int64_t hash = 0;
 };
 
-/// Why `next` may not take the place of `inUse`, which has another hash.
+/// Why `next` may not replace `inUse`, which has another hash.
 Reject orderOf(const SkeletonStamp& inUse, const SkeletonStamp& next) {
   if (next.session != inUse.session) {
     return next.session < inUse.session ? Reject::OldSession : Reject::None;
@@ -61,8 +61,8 @@ Reject orderOf(const SkeletonStamp& inUse, const SkeletonStamp& next) {
   return next.generation <= inUse.generation ? Reject::OldGeneration : Reject::None;
 }
 
-/// A skeleton that is refused for its age, said again and again: its sender has been restarted, or
-/// its clock was set back.
+/// A skeleton refused for its age but sent again and again: its sender was restarted, or its clock
+/// was set back.
 class SkeletonRun {
  public:
   void clear() { count_ = 0; }

@@ -1,22 +1,23 @@
-// network/stream/avatar_stream.h: what one avatar's stream of messages means: which poses are
-// accepted, and which step each of them ends. A pure state machine: no clock, no socket, no thread.
-// Its decisions depend on the messages and their order alone, so that a recorded stream decides
-// alike.
+// network/stream/avatar_stream.h: the meaning of one avatar's stream of messages: which poses it
+// accepts, and which step each of them ends. A pure state machine: no clock, no socket, no thread.
+// Its decisions depend on the messages and their order alone, so that a recorded stream repeats
+// them.
 //
 // A timeline is a run of accepted poses of one session and one skeleton: sequence and capture time
 // both grow from each to the next. The first pose of a timeline ends no motion: its step is the
 // instant itself (StepKind::First). A sequence that skips is a gap: the step is marked AcrossGap,
-// and nothing is clear in it, since the poses between are not known. So is the step after a lower
-// sequence with a later capture time was refused: its sender may have been restarted.
+// and nothing is clear in it, since the poses between are unknown. So is the next step after the
+// stream refused a lower sequence with a later capture time: its sender may have been restarted.
 //
-// What does not continue the timeline is refused and counted. A new timeline begins with
+// The stream refuses and counts messages that do not continue the timeline. A new timeline begins
+// with
 //   - a skeleton of another hash (of a later session, or of the same session and a later
-//     generation; or one that is not, said StreamPolicy::confirmations times in a row),
+//     generation; or any other, sent StreamPolicy::confirmations times in a row),
 //   - a pose of a later session,
 //   - the last of StreamPolicy::confirmations poses in a row that continue one another but not the
 //     timeline (a clock that was set, a sender without sessions that was restarted): one odd stamp
-//     changes nothing, a stream that really jumped is followed after a few poses.
-// No pose of the last 256 that were answered is answered again, whatever begins.
+//     changes nothing, and we follow a stream that really jumped after a few poses.
+// None of the last 256 answered poses is answered again, whatever begins.
 // docs/streaming.md, "What is accepted", has the whole table.
 #pragma once
 
@@ -43,14 +44,14 @@ struct StreamStep {
   std::int64_t utimeFromUs = 0, utimeToUs = 0;
   std::int64_t skeletonHash = 0;
   std::int64_t lost = 0;  ///< Poses between the two; may be 0 AcrossGap (see above).
-  /// Per link: why it cannot be decided whatever a query says; None: the query decides. Gap is not
-  /// among them: it applies to all links by `kind`, where the link would be clear.
+  /// Per link: why it is undecided whatever the query finds; None: the query decides. Never Gap:
+  /// `kind` applies that to all links that would be clear.
   const std::vector<UndecidedReason>* unknown = nullptr;
 };
 
 struct StreamCounts {
-  std::uint64_t poses = 0;      ///< Taken, whatever became of them.
-  std::uint64_t accepted = 0;   ///< Each has a step.
+  std::uint64_t poses = 0;      ///< Received, accepted or not.
+  std::uint64_t accepted = 0;   ///< Each ends a step.
   std::uint64_t lost = 0;       ///< Poses between accepted ones of one timeline.
   std::uint64_t gaps = 0;       ///< Steps AcrossGap.
   std::uint64_t timelines = 0;  ///< Begun.
@@ -59,15 +60,15 @@ struct StreamCounts {
 
 class AvatarStream {
  public:
-  /// `avatar` is copied. Errors: a policy out of range (names the field).
+  /// Copies `avatar`. Errors: a policy out of range (names the field).
   static Result<AvatarStream> make(const Avatar& avatar, const StreamPolicy& policy);
   AvatarStream(AvatarStream&&) noexcept;
   AvatarStream& operator=(AvatarStream&&) noexcept;
   ~AvatarStream();
 
-  /// None where the skeleton is in use now (also where it was before).
+  /// None if the skeleton is now in use (or was already).
   [[nodiscard]] Reject take(const SkeletonMessage& message);
-  /// None where the pose is accepted; `step` is then what it ends. Allocates nothing.
+  /// None if it accepts the pose; `step` is then the step that it ends. Allocates nothing.
   [[nodiscard]] Reject take(const PoseMessage& message, StreamStep& step);
 
   [[nodiscard]] const StreamCounts& counts() const { return counts_; }

@@ -12,7 +12,7 @@ namespace {
 constexpr std::int32_t kNowhere = -1;
 constexpr std::uint8_t kKnownFlags = kJointValid | kJointTracked | kJointInferred;
 
-/// Where `places` has the joint; null for one that the skeleton does not have.
+/// The joint's entry in `places`; null if the skeleton does not have it.
 std::int32_t* placeOf(std::vector<std::int32_t>& places, std::int32_t joint) {
   if (joint < 0 || slotOf(joint) >= places.size()) return nullptr;
   return &places[slotOf(joint)];

@@ -1,5 +1,5 @@
-// network/stream/pose_assembly.h: from what a sender says of some joints of its skeleton to a pose
-// of all joints of the avatar, with what is known of each. Not installed.
+// network/stream/pose_assembly.h: turns a sender's values for some joints of its skeleton into a
+// pose of all joints of the avatar, and marks which are known. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -13,33 +13,32 @@
 
 namespace foretouch::internal {
 
-/// Why each link cannot be known in one of the two poses, or in both: the reason of the first joint
-/// that has one, going up from the link's own to its root; the later pose's where both have one.
-/// `reasons` is resized.
+/// Why each link is unknown in one of the two poses, or in both: the reason of the first joint that
+/// has one, going up from the link's own to its root; the later pose's if both have one. Resizes
+/// `reasons`.
 void findUnknownLinks(const Skeleton& skeleton, const std::vector<UndecidedReason>& from,
                       const std::vector<UndecidedReason>& to,
                       std::vector<UndecidedReason>& reasons);
 
-/// Keeps the two poses of a step. Allocates in use() alone.
+/// Keeps the two poses of a step. Allocates only in use().
 ///
-/// A joint is known where it is listed, valid, and tracked or inferred. One that is listed without
-/// a translation has its rest offset, unless the sender has said one of it before in this session
-/// or says one next: then the offset is one that was not sent. What is unknown keeps its last known
-/// value, the rest values before there was any: some value for a query to work with, which says
-/// nothing.
+/// A joint is known if it is listed, valid, and tracked or inferred. A joint listed without a
+/// translation has its rest offset, unless the sender has sent one for it before in this session or
+/// sends one next: then its offset is missing. An unknown joint keeps its last known value, or its
+/// rest values if there was none: a value for the query to work with, without meaning.
 class PoseAssembly {
  public:
   PoseAssembly(const Skeleton& avatar, bool unmatchedAtRest);
 
-  /// From now on `match` says which joint of a sender's `numSenderJoints` drives which; forgets all
+  /// From now on `match` maps a sender's `numSenderJoints` joints to the avatar's; forgets all
   /// poses.
   void use(const JointMatch& match, std::int32_t numSenderJoints);
 
-  /// Whether a message says something that can be used. Must be followed by assemble() of the same
-  /// message, or nothing. Precondition: use() was called.
+  /// Whether a message is usable. Next call assemble() with the same message, or nothing.
+  /// Precondition: use() was called.
   [[nodiscard]] Reject check(const PoseMessage& message);
-  /// The later pose becomes the earlier one, and `message`, which was just found good, the later.
-  /// `isSession`: what was sent before was another session's.
+  /// The later pose becomes the earlier one, and `message`, just checked, the later. `isSession`:
+  /// earlier messages were of another session.
   void assemble(const PoseMessage& message, bool isSession);
 
   struct Known {
@@ -59,7 +58,7 @@ class PoseAssembly {
   bool unmatchedAtRest_;
   std::vector<JointId> senderJointOf_;
   // Per joint of the sender: where the checked message has it, or kNowhere; whether this session
-  // has translated it.
+  // has sent a translation of it.
   std::vector<std::int32_t> listed_, translated_;
   std::vector<std::uint8_t> isTranslated_;
   Known earlier_, later_;

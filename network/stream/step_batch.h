@@ -1,5 +1,5 @@
-// network/stream/step_batch.h: answered steps of one avatar, put together for those who watch: the
-// newest in full, and of all of them every link that was not clear.
+// network/stream/step_batch.h: answered steps of one avatar, collected for viewers: the newest in
+// full, and from every step all links that were not clear.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace foretouch {
 
-/// Contacts that a batch holds; what comes beyond them is counted.
+/// Contacts in a batch; counts those beyond.
 inline constexpr std::size_t kMaxBatchContacts = 4096;
 
 /// A step of a batch, and where its contacts end in StepBatch::contacts().
@@ -28,12 +28,12 @@ struct WatchedStep {
   std::int64_t sequence = 0, lost = 0;
   std::int64_t utimeFromUs = 0, utimeToUs = 0;
   double queryUs = 0.0;
-  double addedUs = 0.0;  ///< From receiving the pose to handing over its answer, less the query.
+  double addedUs = 0.0;  ///< From receiving the pose to publishing its answer, less the query.
 };
 
 class StepBatch {
  public:
-  /// A step after those that are held.
+  /// Adds a step after the others.
   void add(const StreamStep& step, const ContactsMessage& answer);
   /// Keeps its memory.
   void clear();
@@ -41,7 +41,7 @@ class StepBatch {
   [[nodiscard]] std::uint64_t numSteps() const { return numSteps_; }
   /// Precondition: numSteps() > 0.
   [[nodiscard]] const WatchedStep& newest() const { return newest_; }
-  /// Links that are not clear, of all steps, in their order, a step's earliest first.
+  /// Links that are not clear, step by step, a step's earliest first.
   [[nodiscard]] const std::vector<LinkContact>& contacts() const { return contacts_; }
   /// The steps that have any of these, in order.
   [[nodiscard]] const std::vector<BatchedStep>& touchingSteps() const { return touchingSteps_; }

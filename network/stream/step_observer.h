@@ -1,5 +1,5 @@
-// network/stream/step_observer.h: the place of whoever looks at a service while it answers. The
-// service asks once a pose whether somebody does, and goes on.
+// network/stream/step_observer.h: a hook to watch a service while it answers. The service asks once
+// per pose whether anybody watches.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@ namespace foretouch {
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
-  /// Whether the next step of the service's avatar `avatar` (an index) is looked at. From any
-  /// thread; an atomic load.
+  /// Whether to observe the next step of the service's avatar `avatar` (an index). From any thread;
+  /// an atomic load.
   [[nodiscard]] virtual bool wants(std::size_t avatar) const noexcept = 0;
-  /// One thread at a time for an avatar, after its answer was sent. What is needed later must be
-  /// copied. Never waits: it holds up the avatar's next answer.
+  /// One thread at a time per avatar, after its answer was sent. Must copy what it needs later, and
+  /// must never wait: it delays the avatar's next answer.
   virtual void observe(std::size_t avatar, const StreamStep& step,
                        const ContactsMessage& answer) noexcept = 0;
 };

@@ -1,4 +1,4 @@
-// network/stream/stream_policy.h: how strictly a stream of poses is taken.
+// network/stream/stream_policy.h: how strict a stream of poses is.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@ inline constexpr std::int64_t kMostStepUs = 86'400'000'000;  ///< A day.
 inline constexpr int kMostConfirmations = 1000;
 
 struct StreamPolicy {
-  /// A pose captured longer than this after the last one is refused. 1 to kMostStepUs.
+  /// Refuses a pose captured longer than this after the last one. 1 to kMostStepUs.
   std::int64_t maxStepUs = 10'000'000;
-  /// Poses (or skeletons) in a row that make a timeline that was not expected. 1 to
-  /// kMostConfirmations; at 1 every odd stamp begins one.
+  /// Poses (or skeletons) in a row that begin an unexpected timeline. 1 to kMostConfirmations; at 1
+  /// every odd stamp begins one.
   int confirmations = 3;
-  /// Joints of the avatar that the sender's skeleton does not have keep their rest values and count
-  /// as known; otherwise the links below them are undecided.
+  /// True: joints that the sender's skeleton lacks keep their rest values and count as known.
+  /// False: the links below them are undecided.
   bool unmatchedAtRest = false;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// As contacts_t says it: 0 where there is none.
+/// As in contacts_t: 0 if there is none.
 std::int64_t budgetOf(const QueryOptions& options) {
   constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   return options.workBudget > kMost ? 0 : static_cast<std::int64_t>(options.workBudget);
@@ -65,7 +65,7 @@ Reject StreamSolver::take(const PoseMessage& message, ContactsMessage& answer) {
   const SteadyClock::time_point start = SteadyClock::now();
   const auto done = query(*step.from, *step.to);
   lastQueryUs_ = std::chrono::duration<double, std::micro>(SteadyClock::now() - start).count();
-  FORETOUCH_ASSERT(done.ok());  // make() has tried these options
+  FORETOUCH_ASSERT(done.ok());  // make() tried these options
   if (!done.ok()) {
     for (LinkContact& contact : contacts_.links) {
       contact = undecidedContact(contact.link, 0.0, UndecidedReason::Resolution);

@@ -1,6 +1,6 @@
-// network/stream/stream_solver.h: one avatar's stream answered: each accepted pose becomes one
-// ContactsMessage. Pure apart from the query: what the service, the replay of a log and the
-// simulator all run, so that they answer alike, byte for byte.
+// network/stream/stream_solver.h: answers one avatar's stream: each accepted pose becomes one
+// ContactsMessage. Pure apart from the query. The service, the replay of a log and the simulator
+// all run it, so their answers are equal, byte for byte.
 #pragma once
 
 #include <cstdint>
@@ -19,28 +19,28 @@ namespace foretouch {
 
 class StreamSolver {
  public:
-  /// `id` is what messages call the avatar. Errors: options that a query refuses, Scope other than
-  /// EveryLink (a link that cannot be known would hide behind another's contact), a rung above the
-  /// links (likewise), a deadline (no clock decides), a bad policy.
+  /// `id`: the avatar's number in messages. Errors: options that a query refuses, a Scope other
+  /// than EveryLink (another link's contact would hide an unknown link), a rung above the links
+  /// (likewise), a deadline (no clock decides), a bad policy.
   static Result<StreamSolver> make(std::int32_t id, const Avatar& avatar, const Scene& scene,
                                    const QueryOptions& options, const StreamPolicy& policy);
 
-  /// As AvatarStream; a message of another avatar is UnknownAvatar.
+  /// As AvatarStream; a message for another avatar is UnknownAvatar.
   [[nodiscard]] Reject take(const SkeletonMessage& message);
-  /// None where the pose was accepted and `answer` filled (its stamps of receiving and sending are
-  /// left as they are; queryUs is measured). A link is
-  ///   Undecided, freeUntil 0, where the step says that it is unknown, whatever the query found; at
-  ///   skinned fidelity also where a link that moves its triangles is;
-  ///   Undecided (Gap), freeUntil 0, where the query found it clear or undecided across a gap;
-  ///   else what the query found. A contact across a gap is one of the motion in between the two
-  ///   poses that arrived: that nothing was touched before it is not claimed.
+  /// None if it accepted the pose and filled `answer` (measures queryUs; does not touch the stamps
+  /// of receiving and sending). A link is
+  ///   - Undecided, freeUntil 0, if the step marks it as unknown, whatever the query found; at
+  ///     skinned fidelity also if a link that moves its triangles is unknown;
+  ///   - Undecided (Gap), freeUntil 0, if the query found it clear or undecided across a gap;
+  ///   - else as the query found it. A contact across a gap is one of the in-between motion of the
+  ///     two poses that arrived; it does not claim that nothing was touched before.
   [[nodiscard]] Reject take(const PoseMessage& message, ContactsMessage& answer);
 
   [[nodiscard]] std::int32_t id() const { return id_; }
   [[nodiscard]] const Avatar& avatar() const { return avatar_; }
   [[nodiscard]] const StreamCounts& counts() const { return stream_.counts(); }
   [[nodiscard]] const QueryOptions& options() const { return options_; }
-  /// That the last answered pose ended; valid until the next message is taken.
+  /// The step that the last answered pose ended; valid until the next take().
   [[nodiscard]] const StreamStep& lastStep() const { return lastStep_; }
   /// Of the last answered pose: the query alone, for measurements.
 
@@ -49,7 +49,8 @@ class StreamSolver {
                const QueryOptions& options, AvatarStream stream);
   [[nodiscard]] Result<Done> query(const Pose& from, const Pose& to);
   void fill(const StreamStep& step, ContactsMessage& answer);
-  /// Why nothing is claimed of the link, whatever the query found; None where what it found is.
+  /// Why we claim nothing about the link, whatever the query found; None: the query's answer
+  /// stands.
   [[nodiscard]] UndecidedReason notClaimed(const LinkContact& found, const StreamStep& step) const;
   [[nodiscard]] UndecidedReason unknownOf(LinkId link, const StreamStep& step) const;
   void list(const LinkContact& contact, AnsweredContact& listed) const;

@@ -53,7 +53,7 @@ Reject StreamTimeline::refusal(const PoseStamp& stamp) const {
   }
   if (stamp.sequence <= last_.sequence) return Reject::OutOfOrder;
   if (stamp.utimeUs <= last_.utimeUs) return Reject::StaleStamp;
-  // From a timeline that has ended no step is made, however long.
+  // A timeline that has ended begins no step, however long.
   return !isEnded_ && isTooLate(last_, stamp) ? Reject::FutureStamp : Reject::None;
 }
 
@@ -66,7 +66,7 @@ bool StreamTimeline::isTooLate(const PoseStamp& from, const PoseStamp& to) const
   return distance(from.utimeUs, to.utimeUs) > static_cast<std::uint64_t>(policy_.maxStepUs);
 }
 
-/// Counts the refused pose into the run; a copy of the run's last one says nothing new.
+/// Counts the refused pose into the run; a copy of the run's last one does not count.
 bool StreamTimeline::completesRun(const PoseStamp& stamp) {
   if (run_ > 0 && stamp == runLast_) return false;
   const bool continues = run_ > 0 && stamp.session == runLast_.session &&

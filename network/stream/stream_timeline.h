@@ -1,6 +1,6 @@
-// network/stream/stream_timeline.h: the order of one avatar's poses: which of them continue a
-// timeline, which begin one, which are refused. Integers alone; whatever they are, nothing
-// overflows. The table of rules is docs/streaming.md, "What is accepted". Not installed.
+// network/stream/stream_timeline.h: the order of one avatar's poses: which continue a timeline,
+// which begin one, which it refuses. Only integers; no value overflows. The table of rules is
+// docs/streaming.md, "What is accepted". Not installed.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace foretouch::internal {
 
-/// What orders a pose, and tells it from all others of its avatar.
+/// A pose's order and identity among those of its avatar.
 struct PoseStamp {
   std::int64_t session = 0, sequence = 0, utimeUs = 0;
 
@@ -22,25 +22,25 @@ struct PoseStamp {
   }
 };
 
-/// What became of a pose.
+/// The decision about a pose.
 struct PosePlace {
   Reject reject = Reject::None;
   StepKind kind = StepKind::First;
   std::int64_t lost = 0;   ///< At most the largest int64.
   PoseStamp from;          ///< The pose before; itself for First.
-  bool isSession = false;  ///< The first pose, or of another session than the one before.
+  bool isSession = false;  ///< The first pose, or the first of another session.
 };
 
 class StreamTimeline {
  public:
   explicit StreamTimeline(const StreamPolicy& policy) : policy_(policy) {}
 
-  /// Decides, and where the pose is accepted makes it the last one.
+  /// Decides; an accepted pose becomes the last one.
   [[nodiscard]] PosePlace place(const PoseStamp& stamp);
-  /// The next pose that is accepted ends no motion. What has been answered is still known.
+  /// The next accepted pose ends no motion. Still remembers the answered poses.
   void end() { isEnded_ = true; }
 
-  /// As many of the poses answered last are known one by one: none of them is answered again.
+  /// Remembers this many of the poses answered last, so that none is answered again.
   static constexpr std::size_t kAnsweredKept = 256;
 
  private:
@@ -53,7 +53,8 @@ class StreamTimeline {
   StreamPolicy policy_;
   PoseStamp last_;
   bool hasLast_ = false, isEnded_ = false;
-  /// A lower sequence came with a later capture: the sender was restarted, or counts no poses.
+  /// A lower sequence came with a later capture time: the sender was restarted, or does not count
+  /// poses.
   bool isContradicted_ = false;
   int run_ = 0;  // refused poses that continue one another, up to runLast_
   PoseStamp runLast_;

@@ -24,7 +24,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 using Time = SteadyClock::time_point;
 
-/// A browser comes back so soon (ms) after its connection ended.
+/// A browser reconnects this long (ms) after its connection ended.
 constexpr char kOpening[] = "retry: 1000\n\n";
 constexpr char kHeartbeat[] = ":\n\n";
 
@@ -47,9 +47,9 @@ struct Audience::Impl {
   std::vector<Descriptor> newcomers;  // not yet among the viewers
   std::thread thread;
 
-  // Of the thread alone.
+  // For the thread only.
   std::vector<ViewerConnection> viewers;
-  std::map<std::size_t, std::pair<ViewEvent, SharedText>> latest;  // by topic, what came last
+  std::map<std::size_t, std::pair<ViewEvent, SharedText>> latest;  // by topic, the last event
   std::vector<ViewEvent> events;
   std::vector<pollfd> polled;
   Time nextCollect, nextRest;
@@ -58,7 +58,7 @@ struct Audience::Impl {
 
   void wakeUp() const {
     const std::uint64_t one = 1;
-    // A counter that is full has told already.
+    // A full counter has already woken the thread.
     static_cast<void>(::write(wake.get(), &one, sizeof one) < 0);
   }
 
@@ -95,7 +95,7 @@ struct Audience::Impl {
     static_cast<void>(::read(wake.get(), &count, sizeof count) < 0);
   }
 
-  /// Newcomers hear at once how it stands: of every topic what came last.
+  /// Newcomers get the current state at once: the last event of every topic.
   void admit(Time now) {
     std::vector<Descriptor> sockets;
     {
@@ -174,7 +174,7 @@ Result<Audience> Audience::start(std::unique_ptr<EventSource> source,
       try {
         parts.run();
       } catch (...) {
-        parts.isStopping = true;  // nobody is shown anything any more; the service goes on
+        parts.isStopping = true;  // no viewer gets anything more; the service continues
       }
       parts.source->setViewers(0);
     });

@@ -1,6 +1,5 @@
-// network/watch/audience.h: those who watch: a bounded number of connections, served events by one
-// thread that waits for none of them. However many watch, and however slowly, nothing but that
-// thread has more to do.
+// network/watch/audience.h: the viewers: a bounded number of connections. One thread sends them
+// events and waits for none of them. More or slower viewers cost no other thread anything.
 #pragma once
 
 #include <chrono>
@@ -18,17 +17,17 @@ inline constexpr std::size_t kMaxViewers = 64;
 
 struct AudienceOptions {
   std::size_t maxViewers = kMaxViewers;
-  std::size_t maxBacklogBytes = kMaxBacklogBytes;  ///< Of each viewer.
-  std::chrono::milliseconds collectEvery{10};      ///< While somebody watches.
-  std::chrono::milliseconds restEvery{1000};       ///< While nobody does.
-  std::chrono::milliseconds heartbeatAfter{2000};  ///< Without anything to send: a comment line.
+  std::size_t maxBacklogBytes = kMaxBacklogBytes;  ///< Per viewer.
+  std::chrono::milliseconds collectEvery{10};      ///< While anybody watches.
+  std::chrono::milliseconds restEvery{1000};       ///< While nobody watches.
+  std::chrono::milliseconds heartbeatAfter{2000};  ///< Without events: sends a comment line.
   std::chrono::milliseconds stalledAfter{
-      10'000};  ///< A viewer that takes nothing for so long goes.
+      10'000};  ///< Drops a viewer that takes nothing for so long.
 };
 
 class Audience {
  public:
-  /// Runs from here on. Errors: a thread or a descriptor that the system does not give.
+  /// Starts its thread. Errors: the system refuses a thread or a descriptor.
   static Result<Audience> start(std::unique_ptr<EventSource> source,
                                 const AudienceOptions& options);
   Audience(Audience&&) noexcept;
@@ -39,14 +38,14 @@ class Audience {
   struct Impl;
 
  public:
-  /// A place among those who watch, kept while it lives.
+  /// A place in the audience, for as long as this object lives.
   class Seat {
    public:
     Seat(Seat&& other) noexcept;
     Seat& operator=(Seat&&) = delete;
     ~Seat();
-    /// The connection is the audience's from now on, and the place the connection's; false, and
-    /// nothing has changed, where memory has run out. Within the audience's life.
+    /// Gives the connection to the audience, and the seat to the connection; false, without a
+    /// change, if memory has run out. Only while the audience lives.
     [[nodiscard]] bool take(int socket) noexcept;
 
    private:
@@ -54,7 +53,7 @@ class Audience {
     explicit Seat(Impl* audience) : audience_(audience) {}
     Impl* audience_ = nullptr;
   };
-  /// None where all are taken. From any thread.
+  /// None if all are taken. From any thread.
   [[nodiscard]] std::optional<Seat> claimSeat();
   /// Seats that are taken.
   [[nodiscard]] std::size_t size() const;

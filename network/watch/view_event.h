@@ -1,6 +1,6 @@
-// network/watch/view_event.h: what those who watch are told, as server-sent events. A text is made
-// once and shared by all of them; a viewer who cannot keep up gets the newest one of each topic,
-// with the contacts of those that it replaces put before its own.
+// network/watch/view_event.h: the server-sent events for viewers. All viewers share one text per
+// event. A viewer that cannot keep up gets the newest event of each topic, preceded by the contacts
+// of the events it replaces.
 #pragma once
 
 #include <chrono>
@@ -16,36 +16,36 @@ using SharedText = std::shared_ptr<const std::string>;
 
 /// Contacts of one event: JSON values with commas between them.
 struct ContactTexts {
-  SharedText text;  ///< None where there is no contact.
+  SharedText text;  ///< None if there is no contact.
   std::size_t count = 0;
 };
 
 struct ViewEvent {
   std::size_t topic = 0;  ///< The newer of two events of a topic replaces the older one.
   std::string name;       ///< "step"
-  SharedText fields;      ///< Of a JSON object, with commas between them.
-  /// What these lack, where the event is of steps: contacts, how many steps it stands for (skipped
-  /// is one less), and how many contacts found no room.
-  std::uint64_t steps = 0;  ///< 0: the fields are all there is.
+  SharedText fields;      ///< Of a JSON object, separated by commas.
+  /// For an event about steps, further fields: contacts, the number of steps it covers (skipped is
+  /// one less), and the number of contacts without room.
+  std::uint64_t steps = 0;  ///< 0: no further fields.
   ContactTexts contacts;
   std::uint64_t numLeftOut = 0;
 };
 
-/// The event as it is sent: `event: NAME`, one line of data, an empty line. `earlier` go before its
-/// own contacts.
+/// The event's text: `event: NAME`, one line of data, an empty line. `earlier` go before its own
+/// contacts.
 [[nodiscard]] std::string sentText(const ViewEvent& event,
                                    const std::vector<ContactTexts>& earlier = {});
 
-/// Where events come from. Used by one thread.
+/// A source of events. Used by one thread.
 class EventSource {
  public:
   using Time = std::chrono::steady_clock::time_point;
   virtual ~EventSource() = default;
-  /// So many from now on.
+  /// The number of viewers from now on.
   virtual void setViewers(std::size_t count) = 0;
-  /// Appends what is new; called every few milliseconds while somebody watches.
+  /// Appends new events; called every few milliseconds while anybody watches.
   virtual void collect(Time now, std::vector<ViewEvent>& events) = 0;
-  /// Called about once a second while nobody does.
+  /// Called about once a second while nobody watches.
   virtual void rest() = 0;
 };
 

@@ -12,7 +12,7 @@ constexpr std::size_t kCacheLineBytes = 64;
 
 enum class Wish : std::uint8_t { None, One, All };
 
-/// A batch that several threads hand to one another: whoever has taken it owns it.
+/// A batch that threads pass to one another: the thread that took it owns it.
 class Handover {
  public:
   Handover() = default;
@@ -23,7 +23,7 @@ class Handover {
   [[nodiscard]] std::unique_ptr<StepBatch> take() {
     return std::unique_ptr<StepBatch>(place_.exchange(nullptr, std::memory_order_acq_rel));
   }
-  /// What was there goes.
+  /// Deletes the previous batch.
   void put(std::unique_ptr<StepBatch> batch) {
     delete place_.exchange(batch.release(), std::memory_order_acq_rel);
   }
@@ -36,17 +36,17 @@ class Handover {
 
 bool ShowPace::passes(std::int64_t nowUs) {
   if (nowUs < dueUs_) return false;
-  // On a grid, so that a stream of just this rate passes in spite of its jitter.
+  // On a grid, so that a stream of exactly this rate passes despite its jitter.
   dueUs_ = std::max(dueUs_ + kPeriodUs, nowUs);
   return true;
 }
 
 struct alignas(kCacheLineBytes) ViewFeed::Box {
   std::atomic<Wish> wish{Wish::None};
-  Handover full;   // steps in it; put there only by who answers
-  Handover empty;  // given back by who watches
+  Handover full;   // with steps; only answering threads put it
+  Handover empty;  // returned by the watching thread
   std::atomic<std::uint64_t> numFailed{0};
-  ShowPace pace;  // of who watches
+  ShowPace pace;  // of the watching thread
 };
 
 ViewFeed::ViewFeed(std::size_t numAvatars)
@@ -67,7 +67,7 @@ void ViewFeed::observe(std::size_t avatar, const StreamStep& step,
     std::unique_ptr<StepBatch> batch = box.full.take();
     if (!batch) batch = box.empty.take();
     if (!batch) batch = std::make_unique<StepBatch>();
-    if (isOnlyOne) batch->clear();  // a sample stands for itself
+    if (isOnlyOne) batch->clear();  // a sample replaces earlier ones
     batch->add(step, answer);
     box.full.put(std::move(batch));
   } catch (...) {
@@ -87,7 +87,7 @@ bool ViewFeed::take(std::size_t avatar, std::int64_t nowUs, StepBatch& batch) {
   Box& box = boxes_[avatar];
   if (box.full.isEmpty() || !box.pace.passes(nowUs)) return false;
   std::unique_ptr<StepBatch> taken = box.full.take();
-  if (!taken) return false;  // being added to at this moment
+  if (!taken) return false;  // an answering thread has it now
   std::swap(batch, *taken);
   taken->clear();
   box.empty.put(std::move(taken));

@@ -1,10 +1,10 @@
-// network/watch/view_feed.h: from the threads that answer to the one that shows it. Each avatar has
-// a box with one batch of steps in it, which passes from hand to hand: who answers takes it out,
-// adds a step and puts it back; who watches takes it away. Neither waits for the other, and no
-// contact is lost between them (but beyond kMaxBatchContacts, counted).
+// network/watch/view_feed.h: passes steps from the answering threads to the thread that shows them.
+// Each avatar has a box with one batch of steps. An answering thread takes the batch out, adds a
+// step and puts it back; the watching thread takes it away. Neither waits for the other, and no
+// contact is lost between them (except beyond kMaxBatchContacts, counted).
 //
 // While nobody watches a step costs one atomic load, and sample() asks for one step now and then,
-// so that there is something to show at once when somebody comes.
+// so that a new viewer sees something at once.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@
 
 namespace foretouch {
 
-/// An avatar's batches are given out at most so often on average.
+/// An avatar's batches per second, at most, on average.
 inline constexpr int kMaxShownStepsPerS = 30;
 
-/// Lets through kMaxShownStepsPerS a second on average, and two at once after a pause.
+/// Passes kMaxShownStepsPerS per second on average, and two at once after a pause.
 class ShowPace {
  public:
-  /// Whether one may pass at `nowUs`, which never goes back; it then has.
+  /// Whether one may pass at `nowUs`, which never goes back; true counts it as passed.
   [[nodiscard]] bool passes(std::int64_t nowUs);
 
  private:
@@ -36,21 +36,21 @@ class ViewFeed final : public StepObserver {
   ViewFeed& operator=(const ViewFeed&) = delete;
   ~ViewFeed() override;
 
-  // By those who answer.
+  // For the answering threads.
   [[nodiscard]] bool wants(std::size_t avatar) const noexcept override;
   void observe(std::size_t avatar, const StreamStep& step,
                const ContactsMessage& answer) noexcept override;
 
-  // By the one who watches.
+  // For the watching thread.
   [[nodiscard]] std::size_t numAvatars() const { return numAvatars_; }
-  /// From now on every step is wanted, or none.
+  /// From now on wants every step, or none.
   void watch(bool isWatched);
-  /// Of each avatar the next step is wanted. Only while nobody watches.
+  /// Wants each avatar's next step. Only while nobody watches.
   void sample();
-  /// What has been answered since the last take, in `batch`; false where nothing has, or where it
-  /// is not yet time (it is kept). `nowUs` is any clock that never goes back.
+  /// Moves the steps answered since the last take into `batch`; false if there are none, or if it
+  /// is too early (then it keeps them). `nowUs`: any clock that never goes back.
   [[nodiscard]] bool take(std::size_t avatar, std::int64_t nowUs, StepBatch& batch);
-  /// Steps that found no memory.
+  /// Steps lost for lack of memory.
   [[nodiscard]] std::uint64_t numFailed() const;
 
  private:

@@ -15,27 +15,28 @@ using httplib::Response;
 using Handled = httplib::Server::HandlerResponse;
 
 constexpr int kRequestMs = 2000;
-/// A document of megabytes, read by a browser that is busy.
+/// Enough for megabytes to a busy browser.
 constexpr int kResponseMs = 15'000;
 
 /// The seat of the viewer whose request this thread answers: the library's handlers do not know the
-/// connection, and each is answered by one thread.
+/// connection, and one thread handles each connection.
 thread_local std::optional<Audience::Seat> seatInHand;
 
-/// One of it, or none at all: two are somebody's trick.
+/// The header's value; nothing if it is missing or repeated: two are a trick.
 std::optional<std::string> onlyHeader(const Request& request, const char* name) {
   const std::size_t count = request.get_header_value_count(name);
   if (count > 1) return std::nullopt;
   return request.get_header_value(name);
 }
 
-/// Whether this machine's user asked, and not the page of a stranger in this user's browser.
+/// Whether the request is this machine's user's own, and not from another site's page in the user's
+/// browser.
 bool isOurs(const Request& request) {
   const auto host = onlyHeader(request, "Host");
   if (!host || !isLoopbackHost(*host)) return false;
   const auto origin = onlyHeader(request, "Origin");
   if (!origin || (request.has_header("Origin") && !isOwnOrigin(*origin, *host))) return false;
-  // Browsers say so also where they send no Origin. The page itself may be linked to.
+  // Browsers send this even without an Origin. Other sites may link to the page itself.
   const std::string site = request.get_header_value("Sec-Fetch-Site");
   return site.empty() || site == "same-origin" || site == "none" || request.path == "/";
 }

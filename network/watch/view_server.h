@@ -1,12 +1,12 @@
 // network/watch/view_server.h: a page that shows what a service does, for browsers of this machine:
 //   GET /           the page
-//   GET /view.json  what it shows, as it stands when the service starts
-//   GET /events     what happens from now on, as server-sent events
+//   GET /view.json  the data that it shows, as of the start of the service
+//   GET /events     everything from now on, as server-sent events
 //
-// Read only, and only by this machine: it listens on a loopback address, and answers 403 to
-// requests that found it by another name (DNS rebinding) or that the page of somebody else makes.
-// There is no password: whoever can run a program on this machine can watch. No header allows
-// another origin.
+// Read-only, and only for this machine: it listens on a loopback address, and answers 403 to
+// requests under another host name (DNS rebinding) or from another site's page. There is no
+// password: anybody who can run a program on this machine can watch. No header allows another
+// origin.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace foretouch {
 
-/// Of a request, its headers and all: of localhost, a browser may send cookies of other programs.
+/// Of a request, headers included: for localhost, a browser may send other programs' cookies.
 inline constexpr std::size_t kMaxViewRequestBytes = 16384;
 
 class ViewServer {
@@ -29,13 +29,13 @@ class ViewServer {
     std::string document;  ///< JSON.
     std::unique_ptr<EventSource> events;
   };
-  /// `host`: "localhost" or a numeric address of this machine; others are refused. Port 0: one that
-  /// is free. Errors: another host, an address that is not there, a port that is taken.
+  /// `host`: "localhost" or a numeric address of this machine; others are errors. Port 0: any free
+  /// one. Errors: another host, an unknown address, a port in use.
   static Result<ViewServer> start(const std::string& host, std::uint16_t port, Pages pages,
                                   const AudienceOptions& options = {});
   ViewServer(ViewServer&&) noexcept;
   ViewServer& operator=(ViewServer&&) noexcept;
-  ~ViewServer();  ///< Ends open connections.
+  ~ViewServer();  ///< Closes open connections.
 
   [[nodiscard]] std::uint16_t port() const;
   [[nodiscard]] std::size_t numViewers() const;

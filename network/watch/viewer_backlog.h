@@ -1,5 +1,5 @@
-// network/watch/viewer_backlog.h: what one viewer has still to be sent, in bounded memory however
-// slow it is: one event a topic, which newer ones of the topic join.
+// network/watch/viewer_backlog.h: the events still to send to one viewer, in bounded memory however
+// slow it is: one event per topic, which newer ones of the topic join.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,21 @@
 
 namespace foretouch {
 
-/// Bytes of contacts that wait for one viewer beside those of the newest events. The oldest of a
-/// topic beyond them go, and the viewer is told how many (contacts_left_out).
+/// Limit on the bytes of contacts that wait for one viewer, not counting those of the newest
+/// events. Beyond it the oldest of a topic are dropped, and the event tells the viewer how many
+/// (contacts_left_out).
 inline constexpr std::size_t kMaxBacklogBytes = std::size_t{1} << 20;
 
 class ViewerBacklog {
  public:
   explicit ViewerBacklog(std::size_t maxBytes = kMaxBacklogBytes) : maxBytes_(maxBytes) {}
 
-  /// `whole` is sentText(event): what is sent if nothing joins it.
+  /// `whole` is sentText(event): sent if nothing joins it.
   void add(const ViewEvent& event, const SharedText& whole);
-  /// What goes next, the topic first that has waited longest; none where nothing waits.
+  /// The next text, of the topic that has waited longest; none if nothing waits.
   [[nodiscard]] SharedText next();
   [[nodiscard]] bool isEmpty() const { return order_.empty(); }
-  /// Of contacts that wait beside those of the newest events.
+  /// Of waiting contacts, without those of the newest events.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:

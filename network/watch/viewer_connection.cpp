@@ -9,7 +9,8 @@
 namespace foretouch {
 namespace {
 
-/// What a slow viewer has not read yet is old: little of it is kept where it cannot be merged.
+/// A small buffer: text that a slow viewer has not read yet is old, and in this buffer it cannot be
+/// merged.
 constexpr int kSendBufferBytes = 128 << 10;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// network/watch/viewer_connection.h: one viewer's socket and what is still to be sent through it.
-// Waits for nothing.
+// network/watch/viewer_connection.h: one viewer's socket and the texts still to send through it.
+// Never waits.
 #pragma once
 
 #include <chrono>
@@ -18,19 +18,18 @@ class ViewerConnection {
   ViewerConnection(Descriptor socket, std::size_t maxBacklogBytes, Time now);
 
   void add(const ViewEvent& event, const SharedText& whole, Time now);
-  /// A text that goes out before all events.
+  /// Sends a text before all events.
   void say(SharedText text, Time now);
-  /// Sends what the system takes at once.
+  /// Sends as much as the system takes at once.
   void flush(Time now);
-  /// To be called where there is something to read: a viewer says nothing after its request but
-  /// that it goes.
+  /// Call when there is something to read: after its request a viewer sends nothing but its end.
   void hear();
-  /// It has gone, or has said something.
+  /// The viewer has gone, or has sent something.
   [[nodiscard]] bool isOver() const { return isOver_; }
 
   [[nodiscard]] int socket() const { return socket_.get(); }
   [[nodiscard]] bool isWaiting() const { return sending_ || !backlog_.isEmpty(); }
-  /// When it last took something, or was given something after it had taken all.
+  /// When it last took something, or got something new after it had taken all.
   [[nodiscard]] Time lastMoved() const { return lastMoved_; }
 
  private:

@@ -1,9 +1,9 @@
-// network/wire/codec.h: messages to bytes and back. Decoding trusts nothing: a bounded check of
-// every count and length comes before anything is allocated; then lcm-gen's own decoder reads what
-// has been found sound, and values are checked (finite, unit, in range). Pure: no clock, no socket.
+// network/wire/codec.h: messages to bytes and back. Decoding trusts nothing: it checks every count
+// and length, in bounded time, before it allocates anything; then lcm-gen's own decoder reads the
+// checked bytes, and we check the values (finite, unit, in range). Pure: no clock, no socket.
 //
-// encode() writes what any lcm-gen type of network/lcm decodes; decode accepts what any lcm-gen
-// sender encodes, and nothing after it.
+// Any lcm-gen type of network/lcm can decode the output of encode(); decode() accepts the output of
+// any lcm-gen sender, without bytes after it.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +28,8 @@ struct ByteView {
   ByteView(const Bytes& bytes) : data(bytes.data()), size(bytes.size()) {}  // NOLINT: implicit
 };
 
-/// Each fills `message` and returns Reject::None, or says why not; `message` then means nothing.
-/// Memory of `message` is reused.
+/// Each fills `message` and returns Reject::None, or returns the reason why not; `message` is then
+/// meaningless. Reuses the memory of `message`.
 [[nodiscard]] Reject decode(ByteView payload, SkeletonMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, PoseMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, ContactsMessage& message);
@@ -41,8 +41,8 @@ void encode(const PoseMessage& message, Bytes& payload);
 void encode(const ContactsMessage& message, Bytes& payload);
 void encode(const StatusMessage& message, Bytes& payload);
 
-/// The part of an encoded contacts_t that poses, scene and options decide: all but the two stamps
-/// and the query's time at its end (24 bytes). What a replay repeats, byte for byte.
+/// The part of an encoded contacts_t that depends only on poses, scene and options: all but the two
+/// stamps and the query's time at its end (24 bytes). A replay repeats it byte for byte.
 [[nodiscard]] ByteView verdictBytes(ByteView contactsPayload);
 
 }  // namespace foretouch

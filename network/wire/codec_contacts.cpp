@@ -71,7 +71,7 @@ Reject readVerdicts(const contacts_t& wire, std::vector<Verdict>& verdicts, std:
   return Reject::None;
 }
 
-/// +0.0: what is written in place of a number that means nothing.
+/// +0.0, which stands in for a number without meaning.
 bool isNothing(double number) {
   return number == 0.0 && !std::signbit(number);
 }
@@ -101,7 +101,7 @@ Reject checkNumbers(const LinkContact& contact) {
   return inside ? Reject::None : Reject::OutOfRange;
 }
 
-/// Where a link is undecided there is no contact to describe.
+/// An undecided link has no contact to describe.
 bool describesNothing(const contacts_t& wire, std::size_t i, const LinkContact& contact) {
   return isNothing(contact.separation) && isNothing(contact.penetration) &&
          isNothing(contact.p_WScene) && isNothing(contact.p_WLink) &&
@@ -138,7 +138,7 @@ Reject readContact(contacts_t& wire, std::size_t i, Verdict verdict, AnsweredCon
   return Reject::None;
 }
 
-/// Every link that is not clear is there once, and no other. Linear in links and contacts.
+/// Requires every link that is not clear once, and no other. Linear in links and contacts.
 Reject readContacts(contacts_t& wire, ContactsMessage& message) {
   std::size_t notClear = 0;
   Reject reject = readVerdicts(wire, message.verdicts, notClear);
@@ -193,7 +193,7 @@ void resizeContacts(std::size_t n, contacts_t& wire) {
 
 void writeContact(const AnsweredContact& answered, std::size_t i, contacts_t& wire) {
   const LinkContact& contact = answered.contact;
-  // What describes a contact is 0, -1 or "" where there is none.
+  // Without a contact, its fields are 0, -1 or "".
   const bool described = contact.verdict != Verdict::Undecided;
   const Eigen::Vector3d nothing = Eigen::Vector3d::Zero();
   const Eigen::Vector3d& point = described ? contact.p_WScene : nothing;
@@ -222,7 +222,7 @@ void writeContact(const AnsweredContact& answered, std::size_t i, contacts_t& wi
   wire.scene_features[i] = described ? static_cast<std::uint8_t>(contact.sceneFeature) : 0;
 }
 
-/// Its memory is kept: every pose has an answer.
+/// Keeps its memory: every pose has an answer.
 contacts_t& scratch() {
   static thread_local contacts_t wire;
   return wire;

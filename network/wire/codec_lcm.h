@@ -1,5 +1,5 @@
-// network/wire/codec_lcm.h: what the four codecs share: the way between bytes and a type made by
-// lcm-gen, and the ranges that numbers must keep. For sources of the codec alone.
+// network/wire/codec_lcm.h: shared by the four codecs: conversion between bytes and lcm-gen types,
+// and the legal ranges of numbers. For the codec's sources only.
 #pragma once
 
 #include <cmath>
@@ -32,7 +32,7 @@ inline bool allFinite(std::initializer_list<double> values) {
   return true;
 }
 
-/// Checked before lcm-gen's decoder sees a byte, or allocates for one.
+/// Checks all bytes before lcm-gen's decoder sees one or allocates anything.
 template <typename LcmType>
 [[nodiscard]] Reject fromBytes(PayloadType type, ByteView payload, LcmType& wire) {
   const Reject reject = checkPayload(type, payload);

@@ -14,7 +14,7 @@ constexpr int kKnownFlags = kJointValid | kJointTracked | kJointInferred;
 /// Joints of a message, by index.
 using JointSet = std::bitset<countOf(kMaxJoints)>;
 
-/// False where no skeleton has this joint, or where it is in `joints` already.
+/// False if no skeleton can have this joint, or if it is in `joints` already.
 bool insert(std::int32_t joint, JointSet& joints) {
   if (joint < 0 || joint >= kMaxJoints || joints[slotOf(joint)]) return false;
   joints.set(slotOf(joint));
@@ -110,7 +110,7 @@ void writeTranslations(const PoseMessage& message, pose_t& wire) {
   }
 }
 
-/// Its memory is kept: a stream has a hundred poses a second.
+/// Keeps its memory: a stream has a hundred poses per second.
 pose_t& scratch() {
   static thread_local pose_t wire;
   return wire;

@@ -13,13 +13,13 @@ namespace foretouch {
 namespace {
 
 Reject checkHead(const skeleton_t& wire) {
-  if (wire.num_joints < 1) return Reject::Limit;  // a skeleton without joints is none
+  if (wire.num_joints < 1) return Reject::Limit;  // a skeleton needs joints
   if (!inRange({wire.session, wire.send_utime, wire.generation})) return Reject::OutOfRange;
   if (!allFinite({wire.rate})) return Reject::NonFinite;
   return wire.rate >= 0.0 ? Reject::None : Reject::OutOfRange;
 }
 
-/// By sorting: names could be made to meet in a hash table.
+/// By sorting: crafted names could collide in a hash table.
 Reject checkNames(const RawSkeleton& skeleton) {
   std::vector<std::string_view> names;
   names.reserve(skeleton.joints.size());

@@ -1,6 +1,6 @@
-// liblcm behind Receiver. What it is known for (1.3.1): its select() aborts beyond 1024
-// descriptors, so we poll; it drops the newest where its queue is full, silently, so the queue is
-// long; it hands over payloads whose size underflowed.
+// liblcm behind Receiver. Its known faults (1.3.1): its select() aborts beyond 1024 descriptors, so
+// we poll; when its queue is full it silently drops the newest message, so the queue is long; it
+// delivers payloads whose size underflowed.
 #include <algorithm>
 #include <cctype>
 #include <lcm/lcm.h>
@@ -66,7 +66,7 @@ class LcmReceiver : public Receiver {
     static_cast<LcmReceiver*>(receiver)->take(*buffer, channel);
   }
 
-  /// Called from C: nothing may be thrown through it.
+  /// Called from C: must not throw.
   void take(const lcm_recv_buf_t& buffer, const char* channel) noexcept {
     if (buffer.data_size > kMaxMessageBytes) {
       ++counts_.faults[slotOf(DatagramFault::TooLarge)];
@@ -79,7 +79,7 @@ class LcmReceiver : public Receiver {
 
   const std::string url_;
   std::unique_ptr<lcm_t, void (*)(lcm_t*)> lcm_;
-  std::vector<WireMessage>* messages_ = nullptr;  ///< Of the call of receive() that runs.
+  std::vector<WireMessage>* messages_ = nullptr;  ///< Of the running call of receive().
   WireCounts counts_;
 };
 
@@ -92,7 +92,7 @@ Result<std::unique_ptr<Receiver>> openLcmReceiver(const std::string& url,
     return Error::of(ErrorCode::OutOfRange,
                      "channel: expected 1 to 63 bytes of printable ASCII, found '" + channel + "'");
   }
-  // liblcm reads freed memory for its message where there is no route: ask before it does.
+  // Without a route, liblcm reads freed memory for its message: check first.
   const auto udpm = parseUdpmUrl(url);
   if (udpm.ok()) {
     FORETOUCH_TRY(const auto listener, openListeningSocket(udpm.value()));

@@ -8,7 +8,7 @@
 namespace foretouch {
 namespace {
 
-/// The bytes that are hashed: integers and doubles little-endian, whatever the machine.
+/// The bytes to hash: integers and doubles little-endian on every machine.
 class HashedBytes {
  public:
   void add(std::uint64_t word) {

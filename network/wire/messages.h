@@ -1,5 +1,5 @@
-// network/wire/messages.h: what is said over the wire, as plain values. Units and frames are those
-// of network/lcm/*.lcm, which define the bytes: metres, unit quaternions (w, x, y, z), microseconds
+// network/wire/messages.h: the messages on the wire, as plain values. Units and frames are those of
+// network/lcm/*.lcm, which define the bytes: metres, unit quaternions (w, x, y, z), microseconds
 // since the Unix epoch; parent-relative poses (roots: in the world W).
 #pragma once
 
@@ -16,7 +16,7 @@ namespace foretouch {
 
 inline constexpr std::int16_t kMessageVersion = 1;
 
-/// Channels; an instance of its own may add a suffix to all four.
+/// Channels; a second instance may add a suffix to all four.
 inline constexpr char kSkeletonChannel[] = "FORETOUCH_SKELETON";
 inline constexpr char kPoseChannel[] = "FORETOUCH_POSE";
 inline constexpr char kContactsChannel[] = "FORETOUCH_CONTACTS";
@@ -24,10 +24,9 @@ inline constexpr char kStatusChannel[] = "FORETOUCH_STATUS";
 /// Of a whole channel name, suffix included, in bytes (LCM_MAX_CHANNEL_NAME_LENGTH).
 inline constexpr std::size_t kMaxChannelBytes = 63;
 
-/// Largest message that is read or written, in bytes: a skeleton of kMaxJoints joints with long
-/// names fits.
+/// Largest message, in bytes: a skeleton of kMaxJoints joints with long names fits.
 inline constexpr std::size_t kMaxMessageBytes = 4u << 20;
-/// Longest text in a message that is no joint's name, in bytes.
+/// Longest text in a message other than a joint's name, in bytes.
 inline constexpr std::size_t kMaxTextBytes = 4096;
 
 struct SkeletonMessage {
@@ -47,7 +46,7 @@ enum JointFlag : std::uint8_t { kJointValid = 1, kJointTracked = 2, kJointInferr
 struct PoseJoint {
   std::int32_t joint = 0;  ///< Index in the sender's skeleton.
   std::uint8_t flags = 0;
-  Quaternion rotation = Quaternion::Identity();  ///< Means nothing unless kJointValid.
+  Quaternion rotation = Quaternion::Identity();  ///< Meaningless unless kJointValid.
 };
 
 struct PoseTranslation {
@@ -66,9 +65,9 @@ struct PoseMessage {
   std::vector<PoseTranslation> translations;  ///< Of joints that are in `joints`.
 };
 
-/// What an answer is about.
+/// The kind of step that an answer covers.
 enum class StepKind : std::int8_t {
-  Consecutive = 0,  ///< From one pose to the next one that was sent.
+  Consecutive = 0,  ///< From one sent pose to the next.
   First = 1,        ///< The first pose of a timeline: an instant, not a motion.
   AcrossGap = 2,    ///< Poses between the two were lost: nothing is clear.
 };
@@ -113,8 +112,8 @@ struct StatusMessage {
   double queryP50Us = 0.0, queryP99Us = 0.0, queryMaxUs = 0.0;
 };
 
-/// Of names, parents and rest pose, as docs/formats.md says ("Skeleton hash"): XXH64 over the
-/// joints in order. Two skeletons with the same hash are taken to be the same.
+/// Of names, parents and rest pose, as defined in docs/formats.md ("Skeleton hash"): XXH64 over the
+/// joints in order. Two skeletons with the same hash count as the same.
 [[nodiscard]] std::int64_t skeletonHash(const RawSkeleton& skeleton);
 
 }  // namespace foretouch

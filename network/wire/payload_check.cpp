@@ -41,11 +41,11 @@ class Cursor {
   std::size_t left_;
 };
 
-/// One or more fields of a type, as they lie in its bytes.
+/// One or more fields of a type, in the order of its bytes.
 struct Field {
   enum class Kind : std::uint8_t {
     Fixed,  ///< `size` bytes.
-    Count,  ///< An int32 up to kMaxListed, which later lists are as long as.
+    Count,  ///< An int32 up to kMaxListed: the length of the next lists.
     List,   ///< `size` bytes, as often as the last count says.
     Text,   ///< At most `size` bytes and its NUL, after their number.
     Texts,  ///< As often as the last count says.
@@ -121,7 +121,7 @@ Reject checkText(Cursor& cursor, std::size_t limit) {
   if (bytes - 1 > limit) return Reject::Limit;
   const std::uint8_t* const first = cursor.at();
   if (!cursor.skip(bytes)) return Reject::Length;
-  // A NUL within would end the text early in other languages, and when it is written again.
+  // An inner NUL would end the text early in other languages, and in our encoder.
   return std::memchr(first, 0, bytes) == first + (bytes - 1) ? Reject::None : Reject::Length;
 }
 
@@ -133,7 +133,7 @@ Reject checkCount(Cursor& cursor, std::size_t& counted) {
   return Reject::None;
 }
 
-/// `counted` is what the last count before this field said.
+/// `counted`: the last count before this field.
 Reject checkField(const Field& field, Cursor& cursor, std::size_t& counted) {
   switch (field.kind) {
     case Field::Kind::Fixed: return cursor.skip(field.size) ? Reject::None : Reject::Length;

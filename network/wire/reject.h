@@ -1,5 +1,5 @@
-// network/wire/reject.h: why a message was not accepted. Every refusal is counted under one of
-// these words; none is fatal and none is answered.
+// network/wire/reject.h: why a message was not accepted. Every refusal counts under one of these
+// words; none is fatal, and none gets an answer.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace foretouch {
 
 enum class Reject : std::uint8_t {
   None,
-  // What the bytes are.
+  // About the bytes.
   Length,        ///< Shorter or longer than its own counts say, or a text without its end.
   Fingerprint,   ///< Of another type, or of another version of it.
   Version,       ///< The `version` field is not kMessageVersion.
@@ -22,27 +22,27 @@ enum class Reject : std::uint8_t {
   BadIndex,      ///< A joint or link that cannot exist, or one that is listed twice.
   BadHierarchy,  ///< A parent after its child.
   BadHash,       ///< A skeleton whose hash is not that of its content.
-  // What it is about.
-  UnknownAvatar,     ///< The service was not told of this avatar.
-  NoMatch,           ///< A skeleton of which no joint has the name of one of the avatar's.
+  // About the content.
+  UnknownAvatar,     ///< The service does not have this avatar.
+  NoMatch,           ///< A skeleton without any joint name of the avatar's.
   OldGeneration,     ///< A skeleton older than the one in use.
   UnknownSkeleton,   ///< A pose before any skeleton.
   SkeletonMismatch,  ///< A pose of another skeleton than the one in use.
-  // Where it stands in its stream.
+  // About its place in the stream.
   Duplicate,    ///< The same session, sequence and capture time again.
   OutOfOrder,   ///< Older than a pose that has been answered.
   StaleStamp,   ///< A later sequence with a capture time that is not later.
   FutureStamp,  ///< Captured longer than StreamPolicy::maxStepUs after the last pose.
-  OldSession,   ///< Of a sender that has been restarted since.
-  // What the service could not do.
-  Overrun,  ///< Older than others that were waiting when the queue was full.
+  OldSession,   ///< From a sender that has been restarted since.
+  // About the service.
+  Overrun,  ///< The oldest waiting pose when the queue was full.
 };
 inline constexpr std::size_t kNumRejects = static_cast<std::size_t>(Reject::Overrun) + 1;
 
 /// A stable word, as it appears in status_t and in metrics: "out-of-order"; "none".
 [[nodiscard]] const char* toString(Reject reject);
 
-/// How often each was given.
+/// The number of refusals for each reason.
 using RejectCounts = std::array<std::uint64_t, kNumRejects>;
 
 }  // namespace foretouch

@@ -15,14 +15,14 @@
 namespace foretouch {
 
 /// Channel, NUL and payload of the largest short datagram, and of a fragment: where liblcm cuts.
-/// What is received may have been cut smaller (1423 bytes on macOS).
+/// Received messages may be cut smaller (1423 bytes on macOS).
 inline constexpr std::size_t kMaxShortBytes = 65499;
 inline constexpr std::size_t kMaxFragmentBytes = 65487;
-/// Fragments of one message: more than kMaxMessageBytes makes in the smallest cuts that are used.
+/// Fragments of one message: more than kMaxMessageBytes needs in the smallest cuts in use.
 inline constexpr std::size_t kMaxFragments = 4096;
 inline constexpr std::size_t kMaxDatagramBytes = 65507;  ///< Of UDP over IPv4.
 
-/// Why a datagram is none of ours. Counted, never fatal.
+/// Why a datagram is not valid. Counted, never fatal.
 enum class DatagramFault : std::uint8_t {
   None,
   Short,       ///< Shorter than its header, or without the channel's end.
@@ -30,15 +30,15 @@ enum class DatagramFault : std::uint8_t {
   Channel,     ///< Empty, too long, or with bytes that are not printable ASCII.
   TooLarge,    ///< Announces a message beyond kMaxMessageBytes.
   Fragment,    ///< Number, offset or size that cannot be part of the message it announces.
-  Conflict,    ///< Disagrees with what other fragments of the same message said.
-  Repeated,    ///< A fragment that was there already.
-  Incomplete,  ///< A message whose missing fragments did not come before it had to make way.
+  Conflict,    ///< Disagrees with other fragments of the same message.
+  Repeated,    ///< A fragment that came before.
+  Incomplete,  ///< A message dropped before its missing fragments came.
 };
 inline constexpr std::size_t kNumDatagramFaults =
     static_cast<std::size_t>(DatagramFault::Incomplete) + 1;
 [[nodiscard]] const char* toString(DatagramFault fault);
 
-/// What a datagram says; views into it.
+/// The content of a datagram; views into it.
 struct UdpmDatagram {
   std::uint32_t sequence = 0;
   std::string_view channel;  ///< Empty in fragments other than the first.

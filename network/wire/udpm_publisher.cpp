@@ -20,7 +20,7 @@ class UdpmPublisher : public Publisher {
 
   bool publish(std::string_view channel, ByteView payload) override {
     if (!isLegalChannel(channel) || payload.size > kMaxMessageBytes) return false;
-    // The fragments of a message leave together: liblcm gives up a message when another one of the
+    // Sends the fragments of a message together: liblcm drops a message when another one of the
     // same sender begins.
     const std::lock_guard lock(mutex_);
     for (const Bytes& datagram : datagramsOf(channel, payload, sequence_++)) {

@@ -10,7 +10,7 @@
 namespace foretouch {
 namespace {
 
-// The largest message with its bookkeeping, some times over: makeWay() always finds another one.
+// The largest message with its bookkeeping fits several times: makeWay() always finds another one.
 static_assert(2 * (kMaxMessageBytes + kMaxFragments * 64) < kMaxPartialBytes);
 
 bool isSameSender(const UdpmSender& a, const UdpmSender& b) {
@@ -18,11 +18,11 @@ bool isSameSender(const UdpmSender& a, const UdpmSender& b) {
 }
 
 bool isRecent(std::int64_t thenUs, std::int64_t nowUs) {
-  // The clock may have been set back, too.
+  // The clock may also have been set back.
   return nowUs - thenUs <= kMaxFragmentPauseUs && thenUs - nowUs <= kMaxFragmentPauseUs;
 }
 
-/// Doubles, but never beyond what the message can become.
+/// Doubles, but never beyond the message's full size.
 template <typename T>
 void growFor(std::vector<T>& values, std::size_t needed, std::size_t most) {
   if (needed <= values.capacity()) return;
@@ -179,7 +179,7 @@ void UdpmReassembler::addPiece(Partial& partial, const UdpmDatagram& datagram) {
 std::optional<Bytes> UdpmReassembler::assembled(Partial& partial) {
   std::vector<const Piece*> inOrder(partial.fragments);
   for (const Piece& piece : partial.pieces) inOrder[piece.fragment] = &piece;
-  // Every fragment is there once; if each begins where the one before ends, every byte is, too.
+  // Every fragment is there once; if each begins where the one before ends, so is every byte.
   std::size_t end = 0;
   bool arrivedInOrder = true;
   for (const Piece* piece : inOrder) {

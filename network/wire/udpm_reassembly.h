@@ -1,23 +1,22 @@
 // network/wire/udpm_reassembly.h: whole messages from datagrams that arrive in any order, from any
 // number of senders, some of them hostile. Pure: no clock, no socket. Not installed.
 //
-// What bounds it, whatever arrives:
-//   - kMaxPartialMessages unfinished messages. A fragment is stored as it came, so a message costs
-//     at most twice what its fragments have brought (vectors double), never what it announces; all
-//     of them together at most kMaxPartialBytes between two calls of take().
-//   - The last kMaxFinished messages that came to an end (delivered, refused, or on a channel
-//     nobody asked for), so that their late and repeated fragments are not taken for new messages.
-//   - Names of channels are never kept, only compared.
-//
+// Bounds, whatever arrives:
+//   - kMaxPartialMessages unfinished messages. Fragments are stored as they came, so a message
+//     costs at most twice the bytes of its fragments (vectors double), never the size it announces;
+//     all of them together at most kMaxPartialBytes between two calls of take().
+//   - The last kMaxFinished messages that came to an end (delivered, refused, or on an unwanted
+//     channel), so that their late and repeated fragments do not count as new messages.
+//   - Channel names are only compared, never stored.
 //   - The last kMaxKnownSenders senders of which a message was delivered.
 //
-// Who makes way when there is no room: an unfinished message of the sender (address and port) that
-// has most of them; among equals one of a sender that is not known, then of the address that has
-// most, then the one that has waited longest for a fragment. So a flooding sender only ever pushes
-// out its own, and any number of senders who never complete a message do not push out those of one
-// who did. A sender's very first message, if it is a fragmented one, can be pushed out by others at
-// its address alone, if kMaxPartialMessages of them start a message between two consecutive
-// fragments of it; the next one will do. Short messages need no room.
+// Without room, this drops an unfinished message of the sender (address and port) that has most of
+// them; among equals, one of an unknown sender, then of the address that has most, then the one
+// that has waited longest for a fragment. So a flooding sender only pushes out its own messages,
+// and any number of senders that never complete a message cannot push out those of one that did.
+// Only other senders at the same address can push out a sender's very first message, if it is
+// fragmented and kMaxPartialMessages of them start a message between two consecutive fragments of
+// it; the next message then gets through. Short messages need no room.
 #pragma once
 
 #include <array>
@@ -50,7 +49,7 @@ struct UdpmSender {
 
 class UdpmReassembler {
  public:
-  /// Delivers messages on these channels alone.
+  /// Delivers messages on these channels only.
   explicit UdpmReassembler(const std::vector<std::string>& channels);
 
   /// Takes any bytes; appends at most one message, stamped as the datagram that completed it.
@@ -69,7 +68,7 @@ class UdpmReassembler {
     UdpmSender sender;
     std::uint32_t sequence = 0;
   };
-  /// One fragment; its payload stands at `at` in Partial::bytes, in order of arrival.
+  /// One fragment; its payload is at `at` in Partial::bytes, in order of arrival.
   struct Piece {
     std::uint32_t offset = 0, size = 0, at = 0;
     std::uint16_t fragment = 0;
@@ -91,7 +90,7 @@ class UdpmReassembler {
   struct Finished {
     Key key;
     std::int64_t utimeUs = 0;
-    DatagramFault fault = DatagramFault::None;  ///< What its further fragments are.
+    DatagramFault fault = DatagramFault::None;  ///< The fault of its further fragments.
   };
   struct KnownSender {
     UdpmSender sender;
@@ -114,7 +113,7 @@ class UdpmReassembler {
   void remember(const Key& key, DatagramFault fault, std::int64_t utimeUs);
   void deliver(const UdpmSender& sender, WireMessage message, std::vector<WireMessage>& messages);
   [[nodiscard]] bool isKnown(const UdpmSender& sender) const;
-  /// Drops one message, not `kept`, for the sake of one of the newcomer's.
+  /// Drops one message, not `kept`, to make room for one of the newcomer's.
   void makeWay(const UdpmSender& newcomer, const Partial* kept);
 
   std::set<std::string, std::less<>> channels_;

@@ -25,7 +25,7 @@ constexpr std::size_t kBatch = 64;
 constexpr std::size_t kSlotBytes = 65536 + 64;
 constexpr std::size_t kControlBytes =
     CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
-// After this long without a datagram the group is joined again, in case its interface went away.
+// After this long without a datagram, joins the group again, in case its interface went away.
 constexpr std::chrono::seconds kSilence{1};
 
 std::int64_t utimeOf(const timespec& time) {
@@ -43,7 +43,7 @@ class Batch {
  public:
   Batch() : bytes_(kBatch * kSlotBytes) {}
 
-  /// How many came; negative: errno says why none.
+  /// The number received; negative: an error in errno.
   int receive(int fd) {
     for (std::size_t i = 0; i < kBatch; ++i) {
       parts_[i] = {&bytes_[i * kSlotBytes], kSlotBytes};
@@ -64,7 +64,7 @@ class Batch {
   [[nodiscard]] UdpmSender sender(std::size_t i) const {
     return {senders_[i].sin_addr.s_addr, senders_[i].sin_port};
   }
-  /// The kernel's stamp, and its count of drops up to this datagram, each where it says so.
+  /// The kernel's stamp, and its count of drops up to this datagram, if present.
   void readNotes(std::size_t i, std::int64_t& utimeUs, std::uint32_t& drops) {
     msghdr& header = headers_[i].msg_hdr;
     for (cmsghdr* note = CMSG_FIRSTHDR(&header); note != nullptr;
@@ -91,7 +91,7 @@ class Batch {
   std::array<mmsghdr, kBatch> headers_{};
 };
 
-/// Errors of a socket that pass: of a link, of memory, of a route.
+/// Temporary errors of a socket: of a link, of memory, of a route.
 bool isPassing(int errorNumber) {
   switch (errorNumber) {
     case EAGAIN:
@@ -160,14 +160,14 @@ class UdpmReceiver : public Receiver {
     const SteadyClock::time_point now = SteadyClock::now();
     if (now - lastSign_ < kSilence) return;
     lastSign_ = now;
-    joinGroup(socket_.get(), url_);  // in vain while there is no route; tried again
+    joinGroup(socket_.get(), url_);  // fails while there is no route; tried again
   }
 
   const UdpmUrl url_;
   const Descriptor socket_;
   UdpmReassembler reassembler_;
   Batch batch_;
-  SteadyClock::time_point lastSign_;  ///< Of a datagram, or of joining for want of one.
+  SteadyClock::time_point lastSign_;  ///< Last datagram, or last attempt to join without one.
   std::uint64_t kernelDrops_ = 0;
   std::uint32_t lastDrops_ = 0;
 };

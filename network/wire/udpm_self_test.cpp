@@ -15,13 +15,13 @@ using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPatience{1000};
 
-/// The error under the URL that was asked about, not under our own port.
+/// The error with the given URL, not with our own port.
 Error of(const UdpmUrl& url, Error error) {
   error.file = toString(url);
   return error;
 }
 
-/// Something that no other datagram on this port says.
+/// A token that no other datagram on this port has.
 std::array<char, 16> token(const sockaddr_in& address) {
   std::array<char, 16> bytes{};
   const auto now = SteadyClock::now().time_since_epoch().count();

@@ -70,7 +70,7 @@ int joinGroup(int fd, const UdpmUrl& url) {
   };
   const int fault = join();
   if (fault != ENOBUFS) return fault;
-  // Full of memberships on interfaces that are no more.
+  // Full of memberships on interfaces that no longer exist.
   while (setsockopt(fd, IPPROTO_IP, IP_DROP_MEMBERSHIP, &membership, sizeof membership) == 0) {
   }
   return join();
@@ -89,7 +89,7 @@ Result<Descriptor> openListeningSocket(const UdpmUrl& url) {
             static_cast<int>(std::min(url.receiveBufferBytes, most)));
   switchOn(fd, SO_TIMESTAMPNS);
   switchOn(fd, SO_RXQ_OVFL);
-  // To the group, not to any address: what is sent to this machine alone is not for us.
+  // To the group, not to any address: datagrams to this machine alone are not for us.
   const sockaddr_in address = addressOf(url);
   if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     return socketError(url, "cannot listen", errno);

@@ -30,7 +30,7 @@ class Descriptor {
 [[nodiscard]] std::string toString(const UdpmUrl& url);
 [[nodiscard]] sockaddr_in addressOf(const UdpmUrl& url);
 
-/// What errno says, and what to type where a multicast route is missing.
+/// The text of errno, and the command to type if a multicast route is missing.
 [[nodiscard]] Error socketError(const UdpmUrl& url, const std::string& what, int errorNumber);
 
 /// Non-blocking. Bound to the group on `url.port` (0: any free one, not shared) and joined.
@@ -38,8 +38,8 @@ class Descriptor {
 /// Non-blocking, with the ttl set.
 [[nodiscard]] Result<Descriptor> openSendingSocket(const UdpmUrl& url);
 
-/// Joins the group on the interface that the route to it names now. Harmless where it is joined
-/// already; needed again where that interface went away. Returns errno, 0 for joined.
+/// Joins the group on the interface that the route to it names now. Harmless if already joined;
+/// needed again if that interface went away. Returns errno, 0 for joined.
 int joinGroup(int fd, const UdpmUrl& url);
 
 /// Waits until there is something to read. False: nothing within the time, or interrupted.

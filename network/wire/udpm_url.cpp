@@ -27,7 +27,7 @@ bool readNumber(std::string_view text, T least, T most, T& number) {
   return true;
 }
 
-/// Cuts off and returns what stands before `separator`, all of it if there is none.
+/// Cuts off and returns the part before `separator`, all of it if there is none.
 std::string_view upTo(char separator, std::string_view& rest) {
   const std::size_t at = rest.find(separator);
   const std::string_view head = rest.substr(0, at);

@@ -1,5 +1,5 @@
-// network/wire/wire.h: where messages come from and where they go: LCM's UDP multicast, by our own
-// bounded reader or by liblcm, or whatever a test puts in its place.
+// network/wire/wire.h: the source and destination of messages: LCM's UDP multicast, by our own
+// bounded reader or by liblcm, or a test's own.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace foretouch {
 struct WireMessage {
   std::string channel;
   Bytes payload;
-  std::int64_t receiveUtimeUs = 0;  ///< The kernel's stamp where there is one.
+  std::int64_t receiveUtimeUs = 0;  ///< The kernel's stamp if there is one.
 };
 
 /// "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=2097152", as LCM writes it.
@@ -27,7 +27,7 @@ struct UdpmUrl {
   std::string group = "239.255.76.67";
   std::uint16_t port = 7667;
   int ttl = 0;                                ///< 0: never leaves this machine.
-  std::size_t receiveBufferBytes = 4u << 20;  ///< Asked of the system, which may give less.
+  std::size_t receiveBufferBytes = 4u << 20;  ///< Requested from the system, which may give less.
 };
 inline constexpr char kDefaultUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 /// Errors name the part: another scheme, no multicast group, a port or ttl out of range, an option
@@ -36,7 +36,7 @@ inline constexpr char kDefaultUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 
 struct WireCounts {
   std::uint64_t datagrams = 0;
-  std::uint64_t messages = 0;       ///< Whole ones on a channel that was asked for.
+  std::uint64_t messages = 0;       ///< Whole ones on a wanted channel.
   std::uint64_t otherChannels = 0;  ///< Whole ones, or first fragments, on others.
   std::uint64_t kernelDrops = 0;    ///< Datagrams that the system dropped unread (SO_RXQ_OVFL).
   std::array<std::uint64_t, kNumDatagramFaults> faults{};
@@ -46,13 +46,13 @@ struct WireCounts {
 class Receiver {
  public:
   virtual ~Receiver() = default;
-  /// Appends what has arrived to `messages`, at most a bounded number; waits up to `timeoutMs`
-  /// where there is nothing. An error is final (the socket is gone); a link that is down is none.
+  /// Appends arrived messages to `messages`, at most a bounded number; if there are none, waits up
+  /// to `timeoutMs`. An error is final (the socket is gone); a link that is down is not an error.
   virtual Result<Done> receive(std::vector<WireMessage>& messages, int timeoutMs) = 0;
   [[nodiscard]] virtual WireCounts counts() const = 0;
 };
 
-/// Unfinished messages that are kept, and the bytes they may hold together, bookkeeping included.
+/// Limits on unfinished messages and on their bytes together, bookkeeping included.
 inline constexpr std::size_t kMaxPartialMessages = 16;
 inline constexpr std::size_t kMaxPartialBytes = 16u << 20;
 
@@ -61,23 +61,23 @@ inline constexpr std::size_t kMaxPartialBytes = 16u << 20;
 /// Errors: a channel that is not legal, no socket, no multicast route.
 [[nodiscard]] Result<std::unique_ptr<Receiver>> openUdpmReceiver(
     const UdpmUrl& url, const std::vector<std::string>& channels);
-/// The same by liblcm, whose receiving thread two crafted datagrams can crash: for networks that
-/// are trusted.
+/// The same by liblcm. Two crafted datagrams can crash its receiving thread: for trusted networks
+/// only.
 [[nodiscard]] Result<std::unique_ptr<Receiver>> openLcmReceiver(
     const std::string& url, const std::vector<std::string>& channels);
 
 class Publisher {
  public:
   virtual ~Publisher() = default;
-  /// Never waits. False where the system did not take all of it (no route, no buffer): counted by
-  /// the caller. Safe from several threads.
+  /// Never waits. False if the system did not take all of it (no route, no buffer); the caller
+  /// counts it. Safe from several threads.
   virtual bool publish(std::string_view channel, ByteView payload) = 0;
 };
 
 [[nodiscard]] Result<std::unique_ptr<Publisher>> openUdpmPublisher(const UdpmUrl& url);
 
 /// Sends one datagram to the group on a port of its own choice and waits for it, a second at most.
-/// An error says what is missing (a multicast route, usually) and what to type.
+/// An error names what is missing (a multicast route, usually) and the command to type.
 [[nodiscard]] Result<Done> testMulticast(const UdpmUrl& url);
 
 }  // namespace foretouch

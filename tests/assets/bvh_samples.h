@@ -1,11 +1,11 @@
-// tests/assets/bvh_samples.h: small BVH texts that tests bend one way or another.
+// tests/assets/bvh_samples.h: small BVH texts for tests to modify.
 #pragma once
 
 #include <string>
 
 namespace foretouch::test {
 
-/// Replaces the one place where `from` stands. A test whose edit no longer applies must fail.
+/// Replaces the only occurrence of `from`. A test whose edit no longer applies must fail.
 inline std::string edited(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   if (at == text.npos || text.find(from, at + 1) != text.npos)

@@ -1,4 +1,4 @@
-// tests/assets/import_files.h: model files and stand-in importers, made on the spot.
+// tests/assets/import_files.h: model files and fake importers, made by the test.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ std::string gltfWithNodes(const std::string& nodes, int copies = 1);
 
 std::string base64(std::string_view bytes);
 
-/// The vertices of triangle `i`, a row each, for comparing and printing.
+/// The vertices of triangle `i`, one per row, for comparing and printing.
 Eigen::Matrix3d cornersOf(const ImportedScene& imported, std::size_t i);
 Eigen::Matrix3d rows(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 

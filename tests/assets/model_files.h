@@ -1,4 +1,4 @@
-// tests/assets/model_files.h: rigged models made on the spot, and the options to read them.
+// tests/assets/model_files.h: rigged models made by the test, and the options to read them.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ ModelImportOptions withModelImporter();
 /// animations and notes.
 Model randomModel(std::uint64_t seed);
 
-/// Empty where both are the same, bit for bit; else the first part in which they differ.
+/// Empty if both are the same, bit for bit; else the first part in which they differ.
 std::string difference(const Model& a, const Model& b);
 
 /// A glTF of two bones ("hip", and "knee" 1 m above it) under a node "body", a triangle skinned to
@@ -25,7 +25,7 @@ std::string skinnedGltf();
 
 std::size_t trianglesOf(const Model& model);
 std::size_t bonesOf(const Model& model);
-/// Position of the only node of that name; fails the test where there is none or are several.
+/// Position of the only node of that name; fails the test if there is none, or several.
 std::int32_t nodeNamed(const Model& model, const std::string& name);
 /// From the node's frame to the world, at rest.
 Affine toWorld(const Model& model, std::int32_t node);

@@ -1,5 +1,5 @@
-// tests/assets/model_samples.h: models made in memory, and where they put things, worked out
-// with 4x4 matrices from the leaf up: nothing of it is shared with what is tested.
+// tests/assets/model_samples.h: models made in memory, and the places of their parts, computed with
+// 4x4 matrices from the leaf up: shares no code with the tested one.
 #pragma once
 
 #include <string>
@@ -32,7 +32,7 @@ inline Vector3d transformed(const Matrix4d& m, const Vector3d& p) {
   return (m * p.homogeneous()).head<3>();
 }
 
-/// The node's frame in the world, where `local` are the nodes' frames in their parents'.
+/// The node's frame in the world; `local`: the nodes' frames in their parents'.
 inline Matrix4d worldOf(const Model& model, const std::vector<Matrix4d>& local, std::int32_t node) {
   Matrix4d m = Matrix4d::Identity();
   for (std::int32_t n = node; n >= 0; n = model.nodes[at(n)].parent) m = local[at(n)] * m;
@@ -79,14 +79,14 @@ inline std::vector<Vector3d> oneTriangle() {
   return {{0, 0, 0}, {0.1, 0, 0}, {0, 0.2, 0}};
 }
 
-/// What the skeleton's frames are in a pose.
+/// The skeleton's frames in a pose.
 inline std::vector<LinkState> statesIn(const Skeleton& skeleton, const Pose& pose) {
   std::vector<LinkState> states;
   ChainMotion(skeleton, pose, pose).statesAt(0.0, states);
   return states;
 }
 
-/// How a node of a random model may be scaled.
+/// The scale of a random model's nodes.
 enum class RandomScale { None, Even, Mirrored, Uneven };
 
 inline Vector3d randomScale(Random& random, RandomScale kind) {

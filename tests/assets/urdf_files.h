@@ -1,4 +1,4 @@
-// tests/assets/urdf_files.h: URDF made on the spot, and a fixture that imports it.
+// tests/assets/urdf_files.h: URDF made by the test, and a fixture that imports it.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// tests/bindings/c_world.h: what the C++ API is asked with, as C sees it.
+// tests/bindings/c_world.h: the inputs of the C++ API in C's form.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ using AvatarHandle = std::unique_ptr<ft_avatar, Release>;
 using ClipHandle = std::unique_ptr<ft_clip, Release>;
 using QueryHandle = std::unique_ptr<ft_query, Release>;
 
-/// The arrays of ft_scene_arrays: a vertex of its own for every corner.
+/// The arrays of ft_scene_arrays: a separate vertex for every corner.
 struct SceneArrays {
   explicit SceneArrays(const RawScene& raw);
   [[nodiscard]] ft_scene_arrays view() const;
@@ -58,7 +58,7 @@ struct PoseArrays {
   std::vector<double> rotations, translations;
 };
 
-/// Fails the test where they cannot be made.
+/// Fails the test if they cannot be made.
 [[nodiscard]] SceneHandle makeScene(const RawScene& raw);
 [[nodiscard]] AvatarHandle makeAvatar(const Avatar& avatar,
                                       const std::vector<std::vector<Triangle>>& surface = {});
@@ -86,10 +86,10 @@ template <typename Struct>
   return made;
 }
 
-/// Expects the status, and that the message says where (the function) and all of `words`.
+/// Expects the status, and a message with the function's name and all of `words`.
 void expectRefused(ft_status got, ft_status expected, const std::vector<std::string>& words);
 
-/// What a change makes of legal arguments.
+/// Legal arguments after a change.
 template <typename Legal, typename Change>
 void refuse(const Change& change, ft_status status, const std::vector<std::string>& words) {
   Legal arguments;

@@ -1,5 +1,5 @@
-// tests/fuzz/config_inputs.h: what must hold of any text that comes as a service's configuration.
-// Broken promises abort.
+// tests/fuzz/config_inputs.h: invariants for any text as a service's configuration. A broken one
+// aborts.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace foretouch::fuzz {
 
-/// Errors name the file and a line of it; what is accepted is within the limits of serve_config.h.
-/// Returns whether it was accepted.
+/// Errors name the file and one of its lines; an accepted configuration is within the limits of
+/// serve_config.h. Returns whether it was accepted.
 bool feedConfig(const std::uint8_t* data, std::size_t size);
 
 }  // namespace foretouch::fuzz

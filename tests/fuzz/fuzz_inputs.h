@@ -1,4 +1,4 @@
-// tests/fuzz/fuzz_inputs.h: what must hold of any input, whatever it is. Broken promises abort.
+// tests/fuzz/fuzz_inputs.h: invariants for any input. A broken one aborts.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace foretouch::fuzz {
 /// avatar, if it has bones, those of avatar.h. Returns whether it was accepted.
 bool feedBvh(const std::uint8_t* data, std::size_t size);
 
-/// Reads the bytes as an avatar file. What is accepted must survive being written and read again.
+/// Reads the bytes as an avatar file. An accepted one must survive writing and reading.
 bool feedAvatar(const std::uint8_t* data, std::size_t size);
 
 }  // namespace foretouch::fuzz

@@ -1,5 +1,4 @@
-// tests/fuzz/message_inputs.h: what must hold of any bytes that come as a message. Broken promises
-// abort.
+// tests/fuzz/message_inputs.h: invariants for any bytes as a message. A broken one aborts.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +6,8 @@
 
 namespace foretouch::fuzz {
 
-/// Each decodes the bytes. What is accepted is written again as the same bytes (a pose whose joints
-/// are not all valid: as a message that is read as the same), and keeps what messages.h says.
+/// Each decodes the bytes. An accepted message encodes to the same bytes (a pose whose joints are
+/// not all valid: to a message that decodes to the same), and meets the rules of messages.h.
 /// Returns whether it was accepted.
 bool feedSkeletonMessage(const std::uint8_t* data, std::size_t size);
 bool feedPoseMessage(const std::uint8_t* data, std::size_t size);

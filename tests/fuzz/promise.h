@@ -1,4 +1,4 @@
-// tests/fuzz/promise.h: what must hold of any input.
+// tests/fuzz/promise.h: invariants for any input.
 #pragma once
 
 #include <cstdio>
@@ -6,7 +6,7 @@
 
 namespace foretouch::fuzz {
 
-/// Aborts where it does not hold. Not FORETOUCH_ASSERT: this must hold in every build type.
+/// Aborts if `condition` is false. Not FORETOUCH_ASSERT: this must hold in every build type.
 inline void require(bool condition, const char* promise) {
   if (condition) return;
   std::fprintf(stderr, "broken promise: %s\n", promise);

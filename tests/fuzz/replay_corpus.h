@@ -1,5 +1,5 @@
-// tests/fuzz/replay_corpus.h: every input of a folder of the corpus, with any compiler: seeds, and
-// what fuzzing once broke.
+// tests/fuzz/replay_corpus.h: runs every input of a corpus folder, with any compiler: seeds, and
+// inputs that once failed.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct CorpusCounts {
   int accepted = 0, refused = 0;
 };
 
-/// What else is made of an input.
+/// Further inputs made from one.
 enum class AlsoFeed : std::uint8_t { Nothing, LastByteMissing, EveryBeginning };
 
 inline CorpusCounts replayCorpus(const std::string& folder,

@@ -1,5 +1,5 @@
 // tests/house/cpp_tokens.h: the words and signs of C++ text, without comments, preprocessor lines
-// and what stands in quotes.
+// and quoted text.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// tests/house/defined_names.h: what a C++ file defines at the scope of a namespace, found in its
-// text. A linker sees a name that two sources define only where the compiler left it in both: an
+// tests/house/defined_names.h: finds the names that a C++ file defines at namespace scope, in its
+// text. A linker sees a name that two sources define only if the compiler left it in both: an
 // inlined function or a folded constant leaves no trace. The text always shows it.
 #pragma once
 
@@ -12,12 +12,12 @@ enum class NameKind { Function, Type, Variable };
 
 struct DefinedName {
   NameKind kind = NameKind::Variable;
-  std::string name;      ///< With its namespaces; a function with the types of its parameters.
+  std::string name;      ///< With its namespaces; a function with its parameter types.
   int line = 0;          ///< Counted from 1.
-  bool isLocal = false;  ///< In an anonymous namespace: another file may have one of its own.
+  bool isLocal = false;  ///< In an anonymous namespace: another file may have the same.
 };
 
-/// What `source` defines at namespace scope, in order. Members of classes are their class's.
+/// The definitions of `source` at namespace scope, in order. Excludes members of classes.
 [[nodiscard]] std::vector<DefinedName> definedNames(const std::string& source);
 
 }  // namespace foretouch::house

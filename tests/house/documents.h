@@ -1,4 +1,5 @@
-// tests/house/documents.h: the Markdown of the house, and what a formatter of code does to it.
+// tests/house/documents.h: the project's Markdown, and the marks that a code formatter leaves in
+// it.
 #pragma once
 
 #include <filesystem>
@@ -7,15 +8,15 @@
 
 namespace foretouch::house {
 
-/// Every .md that git tracks below `root`; where there is no git (a source package), every one that
-/// lies outside of hidden folders, build/ and out/. Sorted.
+/// Every .md that git tracks below `root`; without git (a source package), every one outside hidden
+/// folders, build/ and out/. Sorted.
 [[nodiscard]] std::vector<std::filesystem::path> documentsBelow(const std::filesystem::path& root);
 
-/// The same by looking into the folders.
+/// The same by walking the folders.
 [[nodiscard]] std::vector<std::filesystem::path> documentsOnDisk(const std::filesystem::path& root);
 
-/// Lines that no one writes but a formatter that takes text for code, each with its number and what
-/// is wrong with it. Fenced code is left alone, and so is what stands in code spans.
+/// Lines that only a formatter that mistakes text for code writes, each with its number and fault.
+/// Ignores fenced code and code spans.
 [[nodiscard]] std::vector<std::string> mangledLines(const std::string& markdown);
 
 }  // namespace foretouch::house

@@ -1,4 +1,4 @@
-// tests/house/markdown.h: the lines of documents, as Markdown reads them.
+// tests/house/markdown.h: the lines of Markdown documents.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ struct WideLine {
   std::size_t columns = 0;
 };
 
-/// Lines of more than `most` columns. Exempt, as they cannot be wrapped: rows of tables, lines that
-/// are one HTML tag or comment, lines that are one link, fences of program output (```text) and of
-/// lines of JSON (```jsonl), and what a program writes between comments NAME:begin and NAME:end.
+/// Lines of more than `most` columns. Exempt, because they cannot be wrapped: rows of tables, lines
+/// that are one HTML tag or comment, lines that are one link, fences of program output (```text)
+/// and of lines of JSON (```jsonl), and generated text between comments NAME:begin and NAME:end.
 std::vector<WideLine> wideLines(std::string_view text, std::size_t most);
 
 }  // namespace foretouch::test

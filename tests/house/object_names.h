@@ -1,5 +1,5 @@
-// tests/house/object_names.h: names that two objects define for the linker, of which it takes one
-// without a word or, where both are strong, whichever library comes first.
+// tests/house/object_names.h: names that two objects define for the linker, which silently takes
+// one or, if both are strong, that of the first library.
 #pragma once
 
 #include <set>
@@ -9,13 +9,13 @@
 namespace foretouch::house {
 
 struct Clash {
-  std::string name;               ///< As the linker has it, mangled.
+  std::string name;               ///< Mangled, as in the linker.
   std::set<std::string> objects;  ///< Of different sources, at least two.
 };
 
-/// Reads what `nm -A -g --defined-only` prints of object files. A name that several objects define
-/// weakly is one of a header's; one that is strong in any of them has a source of its own, and may
-/// be in no other. One source in two targets is one source.
+/// Reads the output of `nm -A -g --defined-only` for object files. A name that several objects
+/// define weakly comes from a header; one that is strong in any of them belongs to one source, and
+/// may be in no other. One source in two targets is one source.
 [[nodiscard]] std::vector<Clash> clashesIn(const std::string& namesOfObjects);
 
 }  // namespace foretouch::house

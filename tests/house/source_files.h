@@ -1,4 +1,4 @@
-// tests/house/source_files.h: the project's own files, as the tests of the house read them.
+// tests/house/source_files.h: reads the project's own files, for the house tests.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
-// tests/middleware/analytic_cases.h: motions whose first contact is known in closed form.
-// Each case is made in a frame of its own and then placed by a random rigid placement, up to 10 km
-// from the origin: the avatar's root carries the placement, the scene is placed in long double.
+// tests/middleware/analytic_cases.h: motions whose first contact is known in closed form. Makes
+// each case in its own frame and then places it by a random rigid placement, up to 10 km from the
+// origin: the avatar's root carries the placement, the scene is placed in long double.
 #pragma once
 
 #include <functional>
@@ -32,7 +32,7 @@ struct AnalyticCase {
 
   Quaternion placeRotation = Quaternion::Identity();
   Eigen::Vector3d placeTranslation = Eigen::Vector3d::Zero();
-  double guard = 1e-12;  ///< Metres by which placing in doubles may have moved anything.
+  double guard = 1e-12;  ///< Metres: the largest displacement by placing in doubles.
 
   void place(Random& random);
   [[nodiscard]] Avatar avatar() const;

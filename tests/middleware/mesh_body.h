@@ -37,7 +37,7 @@ inline std::vector<std::vector<Triangle>> meshWithin(const Avatar& avatar, Rando
   return meshes;
 }
 
-/// Every vertex of a random mesh, blended among its own link and two others.
+/// Every vertex of a random mesh, blended between its own link and two others.
 struct RandomSkin {
   Skin skin;
   std::vector<std::size_t> counts;

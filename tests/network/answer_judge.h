@@ -1,5 +1,5 @@
-// tests/network/answer_judge.h: holds the answers to one avatar's stream against what truly
-// happened. Shares no rule with the stream: it knows which true pose each message was made of.
+// tests/network/answer_judge.h: compares the answers to one avatar's stream with the truth. Shares
+// no rule with the stream: it knows the true pose behind each message.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 
 namespace foretouch::test {
 
-/// An accepted pose: as it was handed to the solver, and what it was made of.
+/// An accepted pose: as the solver got it, and its origin.
 struct HandedPose {
   PoseId id;
   bool isAltered = false;
   std::int64_t sequence = 0, utimeUs = 0;
 };
 
-/// What it is given outlives it.
+/// Its arguments must outlive it.
 class AnswerJudge {
  public:
   AnswerJudge(const SimulatedBody& body, const SimulatedScene& scene,
               const std::vector<SimulatedSender>& senders, SimulationRun& run)
       : body_(body), scene_(scene), senders_(senders), run_(run) {}
 
-  /// Called for each accepted pose, in order.
+  /// Call for each accepted pose, in order.
   void judge(const HandedPose& pose, const ContactsMessage& answer);
 
  private:

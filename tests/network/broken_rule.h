@@ -1,5 +1,5 @@
-// tests/network/broken_rule.h: a receiver with one rule broken: what it hears is changed so that a
-// correct solver does what a broken one would.
+// tests/network/broken_rule.h: a receiver with one rule broken: it changes messages so that a
+// correct solver acts like a broken one.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class BrokenRule {
  public:
   explicit BrokenRule(Mutation mutation) : mutation_(mutation) {}
 
-  /// As solver.take(), with `message` changed into what was taken. `numJoints`: of the sender's
+  /// As solver.take(), and changes `message` into the one taken. `numJoints`: of the sender's
   /// skeleton.
   [[nodiscard]] Reject take(StreamSolver& solver, const PoseId& id, std::int32_t numJoints,
                             PoseMessage& message, ContactsMessage& answer);
@@ -29,8 +29,8 @@ class BrokenRule {
 
   Mutation mutation_;
   bool hasLast_ = false;
-  std::int64_t saidSession_ = 0, saidSequence_ = 0;  // as it came
-  PoseMessage last_;                                 // as it was taken
+  std::int64_t saidSession_ = 0, saidSequence_ = 0;  // as received
+  PoseMessage last_;                                 // as taken
   std::set<PoseId> taken_;
 };
 

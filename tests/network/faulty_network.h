@@ -1,4 +1,4 @@
-// tests/network/faulty_network.h: what becomes of messages on their way.
+// tests/network/faulty_network.h: the faults of messages in transit.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,24 @@
 
 namespace foretouch::test {
 
-/// Chances, a message.
+/// Probabilities per message.
 struct NetworkFaults {
   double loss = 0.0;
   double burst = 0.0;  ///< That many in a row are lost.
   double duplicate = 0.0;
-  double delay = 0.0;  ///< By up to longestDelayUs; else by a millisecond at most.
+  double delay = 0.0;  ///< Up to longestDelayUs; otherwise a millisecond at most.
   std::int64_t longestDelayUs = 0;
   double corrupt = 0.0;   ///< Some bytes.
   double truncate = 0.0;  ///< Or made longer.
-  double foreign = 0.0;   ///< Something else comes as well.
+  double foreign = 0.0;   ///< A foreign message comes as well.
 };
 
 struct Delivery {
   std::int64_t timeUs = 0;
-  bool isSkeleton = false;  ///< On that channel.
+  bool isSkeleton = false;  ///< On the skeleton channel.
   Bytes payload;
-  PoseId id;               ///< Of a pose that was sent; of nobody's else.
-  bool isAltered = false;  ///< Not what was sent.
+  PoseId id;               ///< Of a sent pose; otherwise of none.
+  bool isAltered = false;  ///< Differs from the sent message.
 };
 
 /// In the order of arrival.

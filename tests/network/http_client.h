@@ -1,4 +1,5 @@
-// tests/network/http_client.h: HTTP as bytes: what a browser says, and what no browser would.
+// tests/network/http_client.h: HTTP as bytes: requests of browsers, and requests that no browser
+// would send.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +19,14 @@ namespace foretouch::test {
 /// One TCP connection to this machine.
 class Connection {
  public:
-  /// `receiveBytes`: what the system keeps of what is not read yet; 0: its own choice.
+  /// `receiveBytes`: the system's buffer for unread bytes; 0: its own choice.
   explicit Connection(std::uint16_t port, int receiveBytes = 0)
       : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const timeval patience{30, 0};  // only a test that fails waits for so long
+    const timeval patience{30, 0};  // only a failing test waits so long
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     if (receiveBytes > 0) {
@@ -49,7 +50,7 @@ class Connection {
     return true;
   }
   void sendNoMore() { ::shutdown(socket_, SHUT_WR); }
-  /// What comes next; empty where the connection has ended.
+  /// The next bytes; empty if the connection has ended.
   std::string receivedNext() {
     if (!held_.empty()) return std::exchange(held_, {});
     char buffer[4096];
@@ -86,7 +87,7 @@ class Connection {
  private:
   int socket_ = -1;
   bool isOpen_ = false;
-  std::string held_;  // read, and not given out yet
+  std::string held_;  // read, but not returned yet
 };
 
 inline std::string asked(std::uint16_t port, const std::string& request) {

@@ -1,5 +1,5 @@
-// tests/network/private_network.h: tests that really send. They run in a network namespace of their
-// own (in_namespace.sh) and are skipped anywhere else.
+// tests/network/private_network.h: tests that really send. They run in their own network namespace
+// (in_namespace.sh), and are skipped elsewhere.
 #pragma once
 
 #include <chrono>
@@ -31,10 +31,10 @@ class PrivateNetwork : public testing::Test {
 };
 
 using Clock = std::chrono::steady_clock;
-/// How long tests wait for what must come; no test takes that long unless it fails.
+/// How long tests wait for a required message; no test takes that long unless it fails.
 inline constexpr std::chrono::seconds kPatience{10};
 
-/// Receives until `isEnough`; false if it does not come about.
+/// Receives until `isEnough`; false if that does not happen.
 inline bool receiveUntil(Receiver& receiver, std::vector<WireMessage>& messages,
                          const std::function<bool()>& isEnough) {
   const auto deadline = Clock::now() + kPatience;
@@ -69,7 +69,7 @@ inline std::unique_ptr<Publisher> publisherTo(const UdpmUrl& url = {}) {
   return valueOf(openUdpmPublisher(url));
 }
 
-/// Sends raw bytes to the group, from a port of its own.
+/// Sends raw bytes to the group, from its own port.
 class RawSender {
  public:
   explicit RawSender(const UdpmUrl& url = {})

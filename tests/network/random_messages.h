@@ -8,8 +8,8 @@
 namespace foretouch::test {
 
 [[nodiscard]] SkeletonMessage randomSkeletonMessage(Random& random, int numJoints);
-/// Joints below `numJoints` in a random order, some left out. Values of joints that are not valid
-/// are what they are read as: the identity, zero.
+/// Joints below `numJoints` in a random order, some missing. Values of invalid joints are those
+/// that decoding gives: the identity, zero.
 [[nodiscard]] PoseMessage randomPoseMessage(Random& random, int numJoints);
 [[nodiscard]] ContactsMessage randomContactsMessage(Random& random, int numLinks);
 [[nodiscard]] StatusMessage randomStatusMessage(Random& random, int numReasons);

@@ -1,5 +1,5 @@
-// tests/network/sent_events.h: events with numbers for contacts, and what a viewer reads of them,
-// taken apart without the product's code.
+// tests/network/sent_events.h: events with numbers for contacts, and a viewer's text of them,
+// parsed without the product's code.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ inline std::int64_t numberAfter(const std::string& text, const std::string& name
   return at == std::string::npos ? 0 : std::atoll(text.c_str() + at + name.size());
 }
 
-/// The steps among whole events; what is cut off at the end is left out.
+/// The steps among whole events; ignores a cut-off one at the end.
 inline std::vector<SentEvent> sentEvents(const std::string& text) {
   std::vector<SentEvent> events;
   const std::string begin = "event: step\ndata: ";

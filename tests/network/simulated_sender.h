@@ -1,5 +1,5 @@
 // tests/network/simulated_sender.h: a sender of poses with its true motion, its clock, its tracking
-// and its mistakes; all that it sends in its life, drawn from a seed.
+// and its mistakes; everything that it sends, drawn from a seed.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@
 
 namespace foretouch::test {
 
-/// Chances, a pose or as it says.
+/// Probabilities, per pose unless stated otherwise.
 struct SenderFaults {
-  double unmatched = 0.0;                  ///< A joint that the sender's skeleton lacks.
-  double trackingLost = 0;                 ///< A joint, for some poses.
-  double fewJoints = 0.0;                  ///< A sender that never lists some of its joints.
-  double badContent = 0.0;                 ///< A pose that is against the rules.
-  double restart = 0.0, noSessions = 0.0;  ///< The latter: a sender.
+  double unmatched = 0.0;                  ///< Per joint: the sender's skeleton lacks it.
+  double trackingLost = 0;                 ///< Per joint, for some poses.
+  double fewJoints = 0.0;                  ///< Per sender: never lists some of its joints.
+  double badContent = 0.0;                 ///< A pose that breaks the rules.
+  double restart = 0.0, noSessions = 0.0;  ///< The latter: per sender.
   double clockJump = 0.0, oddStamp = 0.0, pause = 0.0;
-  double lateSkeleton = 0.0;  ///< A sender.
+  double lateSkeleton = 0.0;  ///< Per sender.
   double changedSkeleton = 0.0;
-  double stops = 0.0;  ///< A sender, for good.
+  double stops = 0.0;  ///< Per sender, for good.
 };
 
-/// Which of all true poses of a simulation.
+/// Identifies a true pose of a simulation.
 struct PoseId {
   int sender = -1, life = 0, index = 0;
 
@@ -43,10 +43,10 @@ struct SentMessage {
 };
 
 struct SimulatedSender {
-  std::int32_t avatar = 0;  ///< As messages call it.
+  std::int32_t avatar = 0;  ///< As in messages.
   bool hasSessions = true;
-  /// From start to restart: every pose of the body as it truly was, those that were never sent
-  /// among them. A step of the truth is one between neighbours.
+  /// From start to restart: every true pose of the body, including those never sent. A step of the
+  /// truth is between neighbours.
   std::vector<std::vector<Pose>> lives;
   std::vector<SentMessage> sent;
 };
@@ -55,7 +55,7 @@ struct SenderSetup {
   int sender = 0;
   std::int32_t avatar = 0;
   bool mayLackSessions = true;
-  bool unmatchedAtRest = false;  ///< The truth of joints that the sender lacks.
+  bool unmatchedAtRest = false;  ///< The truth about joints that the sender lacks.
 };
 
 [[nodiscard]] SimulatedSender randomSender(Random& random, const SimulatedBody& body,

@@ -1,5 +1,5 @@
-// tests/network/simulated_world.h: small random bodies and scenes, for the product and for the
-// oracle alike.
+// tests/network/simulated_world.h: small random bodies and scenes, for both the product and the
+// oracle.
 #pragma once
 
 #include <vector>
@@ -30,7 +30,7 @@ struct SimulatedScene {
 /// Three to twelve triangles around the world's origin.
 [[nodiscard]] SimulatedScene randomScene(Random& random);
 
-/// How a body's joints truly move from pose to pose: smoothly, or by leaps.
+/// The true motion of a body's joints from pose to pose: smooth, or in leaps.
 class TrueMotion {
  public:
   /// `moves`: per joint, whether it turns at all; `drifts`: whether its translation changes.
@@ -54,7 +54,7 @@ class TrueMotion {
   std::vector<Joint> joints_;
 };
 
-/// What the oracle says of the motion between two poses of a body.
+/// The oracle's motion between two poses of a body.
 [[nodiscard]] oracle::Motion oracleMotion(const Skeleton& skeleton, const Pose& from,
                                           const Pose& to);
 

@@ -1,4 +1,4 @@
-// tests/network/small_stream.h: an avatar of four joints and what a sender says of it.
+// tests/network/small_stream.h: an avatar of four joints and its sender's messages.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ inline SkeletonMessage skeletonMessage(const RawSkeleton& skeleton, std::int64_t
   return message;
 }
 
-/// Every joint at rest and tracked, and where the hips are.
+/// Every joint at rest and tracked, and the place of the hips.
 inline PoseMessage poseMessage(const RawSkeleton& skeleton, std::int64_t sequence,
                                std::int64_t utimeUs, std::int64_t session = 1) {
   PoseMessage message;

@@ -1,4 +1,4 @@
-// tests/network/stream_fixture.h: a stream of the small avatar, and short ways to talk to it.
+// tests/network/stream_fixture.h: a stream of the small avatar, and short helpers to talk to it.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class StreamFixture : public testing::Test {
   [[nodiscard]] UndecidedReason unknown(JointId link) const {
     return (*step_.unknown)[static_cast<std::size_t>(link)];
   }
-  /// The skeleton, and poses up to `n`, each accepted.
+  /// Sends the skeleton, and poses up to `n`, each accepted.
   void follow(std::int64_t n) {
     ASSERT_EQ(say(skeleton_), Reject::None);
     for (std::int64_t i = 0; i <= n; ++i) ASSERT_EQ(take(nthPose(i)), Reject::None);

@@ -1,5 +1,5 @@
-// tests/oracle/leaf_families.h: linear leaf queries by families, each after its own kind of
-// trouble.
+// tests/oracle/leaf_families.h: linear leaf queries by families, each with its own kind of
+// difficulty.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +15,13 @@ namespace foretouch::test {
 struct LinearFamily {
   std::string name;
   oracle::LinearQuery (*draw)(Random& random);
-  double leastHits, mostHits;  ///< The share of true hits that the family is meant to have.
+  double leastHits, mostHits;  ///< The intended share of true hits.
 };
 
 /// uniform, gaps, grazing, slivers, parallel, lattice, plane, far, scaled.
 const std::vector<LinearFamily>& linearFamilies();
 
-/// The query of a family: the same for the same seed and index, whatever else is drawn.
+/// The query of a family: depends only on seed and index.
 oracle::LinearQuery drawLinear(std::size_t family, std::uint64_t seed, std::uint64_t index);
 
 /// 8 rows of hexadecimal doubles, as C reads them: the points at t = 0, then at t = 1.

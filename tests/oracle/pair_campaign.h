@@ -1,6 +1,6 @@
-// tests/oracle/pair_campaign.h: two moving triangles, judged by what their features do: at t = 0
-// they meet if an edge of one, walked along from end to end, meets the other at rest; later first
-// contact is that of a vertex and a face or of two edges.
+// tests/oracle/pair_campaign.h: two moving triangles, judged by their features: at t = 0 they meet
+// if a point that walks along an edge of one meets the other at rest; later, the first contact is
+// that of a vertex and a face or of two edges.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// tests/oracle/rigid_campaign.h: a turning triangle against one at rest: families, and answers
-// judged.
+// tests/oracle/rigid_campaign.h: a turning triangle against one at rest: families, and a judge of
+// the answers.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct RigidQuery {
 struct RigidFamily {
   std::string name;
   RigidQuery (*draw)(Random& random);
-  double leastHits, mostHits;  ///< The share of true hits that the family is meant to have.
+  double leastHits, mostHits;  ///< The intended share of true hits.
 };
 
 /// uniform, gaps, turning, slivers, still, far, scaled.

@@ -1,5 +1,5 @@
-// tests/oracle/sweep.h: asks the product about many steps of a real clip in a real scene, and has
-// every answer judged by the oracle.
+// tests/oracle/sweep.h: runs the product on many steps of a real clip in a real scene; the oracle
+// judges every answer.
 #pragma once
 
 #include <array>
@@ -24,23 +24,23 @@ struct SweepOptions {
   Backtracking backtracking = Backtracking::Lanes;
   std::uint64_t workBudget = QueryOptions{}.workBudget;
   double deadlineUs = QueryOptions{}.deadlineUs;
-  /// Of clips without a surface: a rung above the links, whose volumes are judged instead.
+  /// For clips without a surface: a rung above the links; then judges its volumes instead.
   Fidelity fidelity = Fidelity::Link;
   std::optional<std::chrono::steady_clock::time_point> deadline;
-  /// Applied to every answer before it is judged: for controls that plant lies.
+  /// Applied to every answer before the judge: for controls that plant lies.
   std::function<void(LinkContact&)> tamper;
 };
 
 struct SweepTally {
   static constexpr std::size_t kFindings = 7, kVerdicts = 4;
-  std::uint64_t steps = 0, judged = 0;  ///< Judged: links with a surface, once a step.
+  std::uint64_t steps = 0, judged = 0;  ///< Judged: links with a surface, once per step.
   std::array<std::uint64_t, kVerdicts> verdicts{};
   std::array<std::uint64_t, kFindings> findings{};
   std::uint64_t failedQueries = 0;
   std::uint64_t grazing = 0, looks = 0;
   double querySeconds = 0.0, judgeSeconds = 0.0;  ///< Summed over threads.
   double slowestQueryS = 0.0, slowestJudgementS = 0.0;
-  std::vector<std::string> violations;  ///< All that replaying one needs; the first twenty.
+  std::vector<std::string> violations;  ///< Everything needed to replay one; the first twenty.
   bool outOfTime = false;
 
   void add(const SweepTally& other);
@@ -50,7 +50,7 @@ struct SweepTally {
   [[nodiscard]] std::uint64_t of(oracle::Finding f) const {
     return findings[static_cast<std::size_t>(f)];
   }
-  /// Broken promises. An unproved judgement is not one, but is shown beside them.
+  /// Broken promises. An unproved judgement is not one, but appears beside them.
   [[nodiscard]] std::uint64_t broken() const;
   /// One line of counts.
   [[nodiscard]] std::string summary() const;

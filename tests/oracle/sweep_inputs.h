@@ -23,10 +23,10 @@ struct SweepClip {
   Clip clip;
   Avatar avatar;
   std::vector<std::vector<oracle::Capsule>> capsules;  ///< Per link.
-  /// Of models: exact fidelity is asked for, and judged by the triangles of each link.
+  /// For models: queries use exact fidelity, judged by the triangles of each link.
   std::optional<AvatarSurface> surface;
   std::vector<std::vector<oracle::Triangle>> meshes;
-  // Of the clip as it is: where its middle frame stands, and its lowest joint over all frames.
+  // Of the unplaced clip: the place of its middle frame, and its lowest joint over all frames.
   Eigen::Vector3d standsAt = Eigen::Vector3d::Zero();
   double lowest = 0.0;
 
@@ -39,14 +39,13 @@ struct SweepClip {
 [[nodiscard]] int strideFor(const Clip& clip, double rateHz);
 
 /// Reads the clip (or a rigged model and its first animation, at 30 Hz) at the scale that makes the
-/// rest skeleton's largest extent 1.7 m.
-/// Error where it cannot be read or has fewer than two frames.
+/// rest skeleton's largest extent 1.7 m. Error if it is unreadable or has fewer than two frames.
 [[nodiscard]] Result<SweepClip> loadClip(const std::string& path);
 
 struct SweepScene {
   std::string name;
   Scene scene;
-  oracle::Scene oracle;  ///< The triangles as the importer handed them over, same numbering.
+  oracle::Scene oracle;  ///< The importer's triangles, same numbering.
 };
 
 /// The scenes that the sweep knows by name, with their files and up axes.
@@ -56,11 +55,12 @@ struct SweepScene {
 /// Every BVH file's path in data/mocap, sorted.
 [[nodiscard]] std::vector<std::string> clipPaths(const std::string& dataFolder);
 
-/// Where a clip is put: turned about +Y, then moved. Metres, radians.
+/// The placement of a clip: turned about +Y, then moved. Metres, radians.
 struct Placement {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double yaw = 0.0;
-  double contactRate = 0.0;  ///< Share of probed steps with a contact that does not start so.
+  double contactRate = 0.0;  ///< Share of probed steps with a contact that does not start in
+                             ///< contact.
 };
 [[nodiscard]] Pose placed(const Skeleton& skeleton, const Pose& pose, const Placement& placement);
 

@@ -1,20 +1,20 @@
-// tests/support/allocation_count.h: how often this program has called malloc or its kin, and
-// what it does where there is no memory. Its source is compiled into each program that asks, whose
-// allocator it then is.
+// tests/support/allocation_count.h: counts this program's calls of malloc and its kin, and
+// simulates lack of memory. Its source is compiled into each program that needs it, and replaces
+// that program's allocator.
 #pragma once
 
 #include <cstdint>
 
 namespace foretouch::test {
 
-/// False where the build has an allocator of its own (sanitizers): nothing is counted then.
+/// False if the build has its own allocator (sanitizers): then it counts nothing.
 [[nodiscard]] bool countsAllocations();
 /// Of all threads, since the start.
 [[nodiscard]] std::uint64_t numAllocations();
 
-/// One allocation of the program finds no memory: the one after so many more.
+/// Makes one allocation of the program fail: the one after `more` others.
 void failAllocationAfter(std::int64_t more);
-/// None does, from now on. True if one has been failed since it was asked for.
+/// From now on none fails. True if one has failed since failAllocationAfter().
 bool stopFailing();
 
 }  // namespace foretouch::test

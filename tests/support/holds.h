@@ -1,4 +1,4 @@
-// tests/support/holds.h: is a text somewhere in another one?
+// tests/support/holds.h: does a text contain another one?
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// tests/support/judged.h: what the product holds, in the judge's plain words.
+// tests/support/judged.h: converts the product's types to the judge's plain ones.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// tests/support/judged_answer.h: a link's answer, as the judge takes it.
+// tests/support/judged_answer.h: a link's answer in the judge's form.
 #pragma once
 
 #include "judge/judge.h"
@@ -17,7 +17,7 @@ inline oracle::Verdict plain(Verdict verdict) {
   return oracle::Verdict::Undecided;
 }
 
-/// Its piece is the LSS; of a link's own surface, the triangle.
+/// Its piece is the LSS; for a link's own surface, the triangle.
 inline oracle::Answer plain(const LinkContact& contact) {
   oracle::Answer answer;
   answer.verdict = plain(contact.verdict);

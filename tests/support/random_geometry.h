@@ -1,5 +1,5 @@
-// tests/support/random_geometry.h: random inputs with a fair share of the awkward ones. The seed is
-// the case's index, so a failing case replays alone.
+// tests/support/random_geometry.h: random inputs, many of them awkward. The seed is the case's
+// index, so a failing case replays alone.
 #pragma once
 
 #include <array>

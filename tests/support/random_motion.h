@@ -1,5 +1,5 @@
-// tests/support/random_motion.h: random chains and poses, for the product and for the fifty-digit
-// yardstick alike, with a share of half turns, tiny turns, flipped signs and far origins.
+// tests/support/random_motion.h: random chains and poses, for both the product and the fifty-digit
+// yardstick, with a share of half turns, tiny turns, flipped signs and far origins.
 #pragma once
 
 #include <vector>
@@ -18,8 +18,8 @@ struct RandomMotion {
   std::vector<oracle::Joint> precise;
 };
 
-/// A turn by an ordinary angle, or one of the awkward ones. Angles within 1e-9 of a half turn are
-/// left out: there rounding of the input chooses the arc, which is a test of its own.
+/// A turn by an ordinary angle, or one of the awkward ones. Excludes angles within 1e-9 of a half
+/// turn: there rounding of the input chooses the arc, which has its own test.
 inline double randomAngle(Random& random) {
   switch (random.below(10)) {
     case 0: return 0.0;

@@ -7,15 +7,15 @@
 namespace foretouch::test {
 
 /// The folder named by the environment variable FORETOUCH_DATA, else ../shared/data beside the
-/// project's root; nothing where that is not a folder.
+/// project's root; nothing if that is not a folder.
 std::optional<std::string> sharedDataFolder();
 
-/// A file in that folder; nothing where it is not there.
+/// A file in that folder; nothing if it is missing.
 std::optional<std::string> sharedData(const std::string& relativePath);
 
 }  // namespace foretouch::test
 
-/// Ends the test as skipped, by name, where `variable` (a std::optional<std::string>) is empty.
+/// Skips the test, by name, if `variable` (a std::optional<std::string>) is empty.
 #define FORETOUCH_REQUIRE_SHARED(variable, relativePath)             \
   const auto variable = ::foretouch::test::sharedData(relativePath); \
   if (!variable) GTEST_SKIP() << "shared data absent: " << (relativePath)

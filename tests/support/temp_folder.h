@@ -1,4 +1,4 @@
-// tests/support/temp_folder.h: a folder of a test's own, gone when the test is.
+// tests/support/temp_folder.h: a test's own folder, deleted after the test.
 #pragma once
 
 #include <filesystem>
@@ -30,7 +30,7 @@ class TempFolder {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::string operator/(const std::string& name) const { return path_ + "/" + name; }
 
-  /// Writes a file and gives its path.
+  /// Writes a file and returns its path.
   std::string write(const std::string& name, std::string_view content) const {
     const std::string path = *this / name;
     std::ofstream stream(path, std::ios::binary);
@@ -40,14 +40,14 @@ class TempFolder {
     return path;
   }
 
-  /// Writes an executable shell script and gives its path.
+  /// Writes an executable shell script and returns its path.
   std::string script(const std::string& name, const std::string& body) const {
     const std::string path = write(name, "#!/bin/sh\n" + body + "\n");
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     return path;
   }
 
-  /// The names of what is in it.
+  /// The names of its entries.
   [[nodiscard]] std::set<std::string> names() const {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path_)) {

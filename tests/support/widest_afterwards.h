@@ -1,4 +1,4 @@
-// tests/support/widest_afterwards.h: for tests that go through the vector widths.
+// tests/support/widest_afterwards.h: for tests of all vector widths.
 #pragma once
 
 #include <optional>

@@ -17,7 +17,7 @@ struct MovingBody {
         avatar(Avatar::build(motion.skeleton, randomLss(random, joints)).value()) {}
 
  private:
-  /// None to three a link, at least one in all; spheres and radius zero among them.
+  /// None to three per link, at least one in all; includes spheres and radius zero.
   static std::vector<std::vector<Lss>> randomLss(Random& random, int joints) {
     std::vector<std::vector<Lss>> lss(static_cast<std::size_t>(joints));
     for (std::size_t j = 0; j < lss.size(); ++j) {

@@ -1,6 +1,6 @@
-// tests/tessellation/surface_checks.h: what holds of a swept surface, by ways of its own: edges are
-// counted, what is inside is decided by exact crossings of a ray, and the true sweep is the
-// oracle's motion in long double.
+// tests/tessellation/surface_checks.h: independent checks of a swept surface: counts edges, decides
+// inside and outside by exact crossings of a ray, and takes the true sweep from the oracle's motion
+// in long double.
 #pragma once
 
 #include <algorithm>
@@ -71,9 +71,9 @@ inline double volumeOf(const SweptSurface& surface) {
   return static_cast<double>(six / 6.0L);
 }
 
-/// How often a surface winds around a point: the signed crossings of a ray along +z, decided in
-/// whole numbers. Points' x and y are shifted by less than a thousandth of the spacing, to where
-/// they lie over no edge.
+/// How often a surface winds around a point: the signed crossings of a ray along +z, in whole
+/// numbers. Shifts points' x and y by less than a thousandth of the spacing, so that they lie over
+/// no edge.
 class Winding {
  public:
   explicit Winding(const SweptSurface& surface) : unit_(surface.spacing / kFiner) {
@@ -97,11 +97,11 @@ class Winding {
       triangle.box = {x0, x1, y0, y1};
       triangles_.push_back(triangle);
     }
-    // Long triangles lie over many cells: coarser ones, until there are not too many places.
+    // Long triangles lie over many cells: coarser ones, until there are few enough places.
     while (!bucket()) cell_ *= 2.0;
   }
 
-  /// At `p`, whose coordinates are at least a spacing from where it matters.
+  /// At `p`, whose coordinates are at least a spacing from the surface.
   [[nodiscard]] int at(const Eigen::Vector3d& p) const {
     if (!(low_.array() <= p.array()).all() || !(p.array() <= high_.array()).all()) return 0;
     for (std::int64_t shift = 0;; ++shift) {
@@ -164,7 +164,7 @@ class Winding {
     }
     return true;
   }
-  /// +1 where the ray leaves through the triangle, -1 where it enters.
+  /// +1 if the ray leaves through the triangle, -1 if it enters.
   [[nodiscard]] int crossing(const Triangle& t, std::int64_t x, std::int64_t y, double z,
                              bool& isOverEdge) const {
     if (x < t.box[0] || x > t.box[1] || y < t.box[2] || y > t.box[3]) return 0;
@@ -226,7 +226,7 @@ class TrueSweep {
     return a + s * (b - a) + radius * random.direction();
   }
 
-  /// At least the distance of `p` from the swept volume, 0 where inside; close to it.
+  /// An upper bound, close, on the distance of `p` from the swept volume; 0 inside.
   [[nodiscard]] double distance(const Eigen::Vector3d& p, int steps = 64) const {
     double least = 1e300;
     for (const Part& part : parts_) {

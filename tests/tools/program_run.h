@@ -1,4 +1,4 @@
-// tests/tools/program_run.h: runs the built program as a user would, and catches what it says.
+// tests/tools/program_run.h: runs the built program as a user would, and captures its output.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace foretouch::test {
 
 struct Ended {
-  int exitCode = -1;  ///< -1 where a signal ended it.
+  int exitCode = -1;  ///< -1 if a signal ended it.
   int signal = 0;
   std::string out, err;
 };
@@ -18,8 +18,8 @@ struct Ended {
 /// The program, started; ended() waits for it.
 class ProgramRun {
  public:
-  /// `environment` entries ("NAME=value") are added to what the test has. `out` is where stdout
-  /// goes; empty: it is caught. `program`: another one than ours, looked for as a shell does.
+  /// Adds `environment` entries ("NAME=value") to the test's. `out`: the destination of stdout;
+  /// empty: captures it. `program`: another program, found like in a shell.
   explicit ProgramRun(const std::vector<std::string>& arguments,
                       const std::vector<std::string>& environment = {}, const std::string& out = "",
                       const std::string& program = "");
@@ -28,9 +28,9 @@ class ProgramRun {
   ~ProgramRun();
 
   void send(int signal) const;
-  /// What it has written to stdout so far.
+  /// Its stdout so far.
   [[nodiscard]] std::string outSoFar() const { return contentOf(out_); }
-  /// What it has written to stderr so far.
+  /// Its stderr so far.
   [[nodiscard]] std::string errSoFar() const { return contentOf(folder_ / "err"); }
   Ended ended();
 
@@ -42,7 +42,7 @@ class ProgramRun {
 
 Ended runForetouch(const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment = {});
-/// `foretouch-bench`, which lies beside it.
+/// `foretouch-bench`, beside it.
 Ended runBench(const std::vector<std::string>& arguments);
 
 }  // namespace foretouch::test

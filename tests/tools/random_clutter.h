@@ -1,4 +1,4 @@
-// tests/tools/random_clutter.h: triangles strewn in a box, as a scene that motions can run into.
+// tests/tools/random_clutter.h: triangles scattered in a box, as a scene for motions to hit.
 #pragma once
 
 #include <cstdint>

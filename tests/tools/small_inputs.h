@@ -36,7 +36,7 @@ inline tools::ReplayInputs smallInputs(const std::vector<double>& places,
           QueryOptions{}};
 }
 
-/// A line of results with its latency fields taken out.
+/// A line of results without its latency fields.
 inline std::string withoutLatency(std::string line) {
   const std::size_t field = line.find(",\"latency_us\":");
   if (field == std::string::npos) return line;

@@ -1,4 +1,4 @@
-// tests/tools/small_world.h: a scene, an avatar and a clip small enough to work out by hand.
+// tests/tools/small_world.h: a scene, an avatar and a clip small enough to compute by hand.
 #pragma once
 
 #include <string>
@@ -22,7 +22,8 @@ inline constexpr char kManAvatar[] =
 {"name":"Arm","parent":"Hips","offset":[0,0.3,0],"lss":[{"a":[0,0,0],"b":[0,0.5,0],"radius":0.05}]}
 ]})";
 
-/// A clip of that avatar: ten frames a second, the hips at the given places along x, nothing turns.
+/// A clip of that avatar: ten frames per second, the hips at the given places along x, nothing
+/// turns.
 inline std::string clipAlongX(const std::vector<double>& places, double frameTimeS = 0.1) {
   std::string text =
       "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0 0\n"
@@ -49,7 +50,7 @@ class SmallWorld {
     folder.write("clip.bvh", clipThroughWall());
   }
 
-  /// `replay` with files of these names in the folder, and what else is given.
+  /// `replay` with the folder's files, and further arguments.
   [[nodiscard]] std::vector<std::string> replay(const std::vector<std::string>& more = {},
                                                 const std::string& scene = "wall.obj",
                                                 const std::string& avatar = "man.json",

@@ -29,7 +29,7 @@ std::vector<std::string> sizeDoubt(double largestSide, double least, double most
                       largestSide, least, most, option)};
 }
 
-/// As importModel() turns the roots of a file whose Z axis points up.
+/// True if the roots are turned as importModel() turns those of a Z-up file.
 bool isTurnedFromZUp(const Skeleton& skeleton) {
   const double half = std::sqrt(0.5);
   const Quaternion turned(half, -half, 0.0, 0.0);

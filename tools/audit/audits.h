@@ -1,5 +1,4 @@
-// tools/audit/audits.h: what avatars and scenes hold, put into words, and what looks wrong about
-// it.
+// tools/audit/audits.h: describes the contents of avatars and scenes, and what looks wrong.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +14,13 @@
 
 namespace foretouch::tools {
 
-/// A person with arms spread or raised measures something in between; what does not was most likely
-/// read in another unit.
+/// A person with arms spread or raised is within these; otherwise the unit is most likely wrong.
 inline constexpr double kSmallestPerson = 0.5;
 inline constexpr double kLargestPerson = 3.0;
-/// Tighter, as it is the same in every pose: how tall people are who stand on their legs.
+/// Tighter, because stature is the same in every pose.
 inline constexpr double kSmallestStature = 0.8;
 inline constexpr double kLargestStature = 2.5;
-/// Robots, animals, things: from a gripper to a crane. The files of robots are in metres.
+/// Robots, animals, things: from a gripper to a crane. Robot files are in metres.
 inline constexpr double kSmallestThing = 0.05;
 inline constexpr double kLargestThing = 50.0;
 /// The same for the largest side of a scene's box: a table top, a city.
@@ -36,19 +34,19 @@ struct AvatarAudit {
   Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< Sides of the box around all LSS.
   double smallestRadius = 0.0, largestRadius = 0.0;
   double volume = 0.0;            ///< Of all LSS, overlaps counted as often as they occur.
-  std::optional<double> stature;  ///< Of a person, by the legs; nothing of all else.
+  std::optional<double> stature;  ///< Of a person, by the legs; nothing for everything else.
 };
 
-/// Measured in `pose`, a validated pose of the avatar's skeleton. A person is who has a
-/// statureOf(), but for robots, which may have legs and be of any size: an avatar whose root stands
-/// as `avatar urdf` puts it, turned from Z-up, counts as one.
+/// Measured in `pose`, a validated pose of the avatar's skeleton. An avatar with a statureOf() is a
+/// person, except robots, which may have legs and any size: an avatar whose root is turned from
+/// Z-up, as `avatar urdf` does, counts as a robot.
 [[nodiscard]] AvatarAudit auditAvatar(const Avatar& avatar, const Pose& pose);
 
-/// Aligned lines. `poseName` says where the extent was measured: "rest pose".
+/// Aligned lines. `poseName`: the pose of the measured extent, "rest pose".
 [[nodiscard]] std::string describe(const AvatarAudit& audit, const std::string& poseName);
 [[nodiscard]] std::string describe(const SceneAudit& audit);
 
-/// What a check says no to, one sentence each; empty where nothing looks wrong.
+/// The findings that fail a check, one sentence each; empty if nothing looks wrong.
 [[nodiscard]] std::vector<std::string> doubtsAbout(const AvatarAudit& audit);
 [[nodiscard]] std::vector<std::string> doubtsAbout(const SceneAudit& audit);
 

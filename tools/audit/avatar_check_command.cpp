@@ -20,7 +20,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// What is said on stdout, and what the check says no to.
+/// The text for stdout, and the findings that fail the check.
 struct Findings {
   std::string text;
   std::vector<std::string> doubts;
@@ -34,9 +34,9 @@ Result<Clip> readClip(const ClipRequest& asked) {
   return std::move(motion).clip;
 }
 
-/// How the clip's joints and the avatar's go together, in words; `pose` becomes the first frame's,
-/// and a clip that seems to be in another unit is among the doubts.
-/// An error of code Mismatch, where nothing matches, is what the check says no to.
+/// How the clip's joints match the avatar's, in words; `pose` becomes the first frame's, and a clip
+/// that seems to be in another unit adds a doubt. An error of code Mismatch, if nothing matches,
+/// fails the check.
 Result<std::string> matchOf(const ClipRequest& asked, const Avatar& avatar, const Clip& clip,
                             Pose& pose, std::vector<std::string>& doubts) {
   const auto match =
@@ -60,7 +60,7 @@ Result<std::string> matchOf(const ClipRequest& asked, const Avatar& avatar, cons
   return text;
 }
 
-/// The match with the clip; `pose` becomes the first frame's, where there is a match.
+/// The match with the clip; `pose` becomes the first frame's, if there is a match.
 Result<Done> checkMotion(const ClipRequest& asked, const Avatar& avatar, Pose& pose,
                          Findings& findings) {
   FORETOUCH_TRY(const auto clip, readClip(asked));

@@ -26,7 +26,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// All that the options say.
+/// The values of all options.
 struct AskedOfClip {
   std::string clip, output;
   BvhOptions reading;
@@ -39,7 +39,7 @@ struct AskedOfModel {
   bool visual = false, isRobot = false;
 };
 
-/// What was made, and what looks wrong about it.
+/// Describes the result, and what looks wrong about it.
 void tell(const Avatar& avatar, const std::string& output, const std::string& more,
           bool isRobot = false) {
   AvatarAudit audit = auditAvatar(avatar, restPose(avatar.skeleton()));
@@ -78,12 +78,12 @@ std::string describe(const ModelAvatar& made, std::size_t read) {
                                                             report.hullVolume)));
 }
 
-/// Where the links' triangles go: beside the avatar file, under its name.
+/// The file of the links' triangles: beside the avatar file, under its name.
 std::filesystem::path meshPathOf(const std::string& output) {
   return std::filesystem::path(output).replace_extension(".mesh.glb");
 }
 
-/// The mesh first: an avatar file never refers to one that is not there yet.
+/// The mesh first: an avatar file never refers to a missing one.
 Result<Done> writeBoth(const ModelAvatar& made, const std::string& output) {
   FORETOUCH_CHECK(PendingFile::create(output));
   if (made.report.triangles > 0) {
@@ -117,7 +117,7 @@ void addOutput(Settings& settings, std::string& output) {
   settings.path("-o,--output", "FILE", output, "Avatar file to write").required();
 }
 
-/// What both kinds of models ask for.
+/// Settings of both kinds of models.
 void addModelSettings(Settings& settings, AskedOfModel& asked, const char* scaleHelp) {
   addOutput(settings, asked.output);
   settings.number("--scale", "S", asked.reading.import.scale, kMetresPerUnit, scaleHelp);

@@ -27,7 +27,7 @@ std::string describe(const SceneImportReport& report) {
 ExitCode check(const WorldRequest& asked) {
   FORETOUCH_TRY_OR(failed, auto imported, importScene(asked.scenePath, asked.sceneImport));
   const SceneImportReport report = imported.report;
-  // Built, not only measured: a scene that passes here is one that a replay takes.
+  // Builds the scene, not only measures it: a replay accepts every scene that passes here.
   FORETOUCH_TRY_OR(failed, const auto scene,
                    inFile(Scene::build(std::move(imported.scene)), asked.scenePath));
 

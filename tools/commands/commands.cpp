@@ -17,7 +17,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Benchmarks left this program: whoever still asks it for them is told where they are.
+/// The benchmarks moved to another program: tells users where.
 Command movedCommand(const std::string& name, const std::string& now) {
   Command moved;
   moved.name = name;

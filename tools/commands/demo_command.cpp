@@ -38,7 +38,7 @@ std::string inWords(const ReplaySummary& summary) {
   return text;
 }
 
-/// Beside the results, where these lie somewhere.
+/// Beside the results, if they go to a file.
 std::string defaultReport(const std::string& output) {
   namespace fs = std::filesystem;
   std::error_code absent;

@@ -23,10 +23,10 @@
 namespace foretouch::tools {
 namespace {
 
-/// All that the options say.
+/// The values of all options.
 struct AskedReplay {
   ReplayJob job;
-  std::vector<std::string> avatars;  ///< Of a log numbered, as parseNumberedAvatars() reads them.
+  std::vector<std::string> avatars;  ///< For a log, numbered as parseNumberedAvatars() reads them.
   StreamPolicy stream;
   std::string suffix;
   int threads = 0;  ///< 0: one per processor.
@@ -73,7 +73,7 @@ void addComparisonSettings(Settings& settings, ReplayOptions& options) {
       .ofClips();
 }
 
-/// What only a clip has, and what only a log has.
+/// Settings of clips only, and of logs only.
 void addMotionSettings(Settings& settings, AskedReplay& asked) {
   addRateSetting(settings, asked.job.request).ofClips();
   addClipSettings(settings, asked.job.request);
@@ -130,7 +130,7 @@ Result<Done> checkTogether(const ReplayJob& job) {
   return Done{};
 }
 
-/// Refuses an option that this kind of motion cannot honour.
+/// Refuses a given option that makes no sense with this kind of motion.
 Result<Done> checkOptions(const Settings& settings, const AskedReplay& asked, bool isLog) {
   const std::string& motion = asked.job.request.motionPath;
   for (const Setting& setting : settings) {
@@ -148,7 +148,7 @@ Result<Done> checkOptions(const Settings& settings, const AskedReplay& asked, bo
   return Done{};
 }
 
-/// Where a run's files are, for its summary.
+/// The places of a run's files, for its summary.
 std::string placesOf(const std::string& output, const std::string& report) {
   return "\nresults: " + output + "\n" + (report.empty() ? "" : "report:  " + report + "\n");
 }
@@ -205,7 +205,7 @@ constexpr char kReplayExamples[] = R"(Examples:
 ending. The results file is described in docs/formats.md. Of an event log that holds a service's
 verdicts as well, exit code 1 says that those found now are others.)";
 
-/// Nothing where none is asked for.
+/// Nothing if there is no path.
 Result<Done> writeGlb(const ReplayGlb& glb, const std::string& path) {
   if (path.empty()) return Done{};
   FORETOUCH_TRY(const auto notes, glb.write());
@@ -234,7 +234,7 @@ Result<Done> runReplay(const ReplayJob& job,
   if (!job.report.path.empty()) report.emplace(inputs, job.report);
   ReplayGlb glb(inputs, job.glb);
   {
-    const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
+    const InterruptGuard guard;  // built first, destroyed last: removes the file before the signal
     FORETOUCH_TRY(auto file, PendingFile::create(job.outputPath));
     file.write(headerLine(inputs));
     ProgressBar progress("replay", inputs.steps.count);

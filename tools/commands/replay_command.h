@@ -15,7 +15,7 @@ namespace foretouch::tools {
 
 [[nodiscard]] Command replayCommand();
 
-/// A replay whose options are settled.
+/// A replay with checked options.
 struct ReplayJob {
   ReplayRequest request;
   ReplayOptions options;
@@ -25,8 +25,8 @@ struct ReplayJob {
 };
 
 /// Runs a job: remarks on stderr, results to the output file, the report to its own, and the
-/// summary to `tell`. Each file appears once it is complete, or not at all: not after an error, and
-/// not after a signal, which ends the program.
+/// summary to `tell`. Each file appears once it is complete; after an error or a signal, which ends
+/// the program, not at all.
 [[nodiscard]] Result<Done> runReplay(const ReplayJob& job,
                                      const std::function<void(const ReplaySummary&)>& tell);
 

@@ -28,7 +28,7 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
   LogReplaySummary summary(inputs);
   std::optional<LogReport> report;
   if (!job.report.path.empty()) report.emplace(inputs, job.report);
-  const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
+  const InterruptGuard guard;  // built first, destroyed last: removes the file before the signal
   FORETOUCH_TRY(auto file, PendingFile::create(job.outputPath));
   file.write(logHeaderLine(inputs));
   ProgressBar progress("replay", 100);

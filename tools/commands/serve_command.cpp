@@ -30,10 +30,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A failure of the service is noticed after this long.
+/// Notices a failure of the service after this long.
 constexpr milliseconds kLookEvery{500};
 
-/// Tries the network before it is relied on, and opens it.
+/// Tests the network before use, and opens it.
 Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   FORETOUCH_TRY(const auto url, inFile(parseUdpmUrl(config.url), "--url"));
   FORETOUCH_CHECK(testMulticast(url));
@@ -48,8 +48,7 @@ Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   return Done{};
 }
 
-/// A folder gets a file of its own for every run: a service that is started anew finds its last log
-/// in place, and overwrites nothing.
+/// In a folder, every run gets its own file: a restarted service overwrites nothing.
 std::string logPathIn(const std::string& given) {
   std::error_code none;
   if (!std::filesystem::is_directory(given, none)) return given;
@@ -102,7 +101,7 @@ std::string describe(const ServeConfig& config, const ServedWorld& world) {
   return text;
 }
 
-/// Says once when the log begins to miss events.
+/// Reports once when the log begins to miss events.
 class JournalWatch {
  public:
   explicit JournalWatch(std::string log) : log_(std::move(log)) {}
@@ -118,7 +117,7 @@ class JournalWatch {
   bool hasTold_ = false;
 };
 
-/// Until a signal comes or the service cannot go on.
+/// Waits until a signal comes or the service cannot continue.
 void waitForEnd(const Service& service, const ServiceManager& manager, StopSignal& stop,
                 JournalWatch& journal) {
   const milliseconds every = std::min(kLookEvery, manager.aliveEvery().value_or(kLookEvery));
@@ -136,8 +135,8 @@ std::string summaryOf(const ServiceCounts& counts) {
       counts.journalFailures);
 }
 
-/// A log at its size limit and a reader of our output that went away are errors of a write, not the
-/// end of the service.
+/// A log at its size limit, or a reader of our output that went away, fails a write but must not
+/// end the service.
 void surviveFailedWrites() {
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
@@ -145,7 +144,7 @@ void surviveFailedWrites() {
 
 ExitCode run(const Settings& settings, ServeConfig& config) {
   surviveFailedWrites();
-  // What the environment says stands behind what anybody wrote.
+  // A given URL takes precedence over the environment.
   const bool isOpen = !settings.isGiven("--url") && config.url == kDefaultUrl;
   config.url = urlOrDefault(isOpen ? std::string() : config.url);
   if (config.world.scenePath.empty()) {
@@ -159,7 +158,7 @@ ExitCode run(const Settings& settings, ServeConfig& config) {
   return served.ok() ? ExitCode::Done : failed(served.error());
 }
 
-/// First of all: options replace what the file says.
+/// First of all: options override the file.
 void addConfigSetting(Settings& settings, ServeConfig& config) {
   settings.parsed(
       "--config", "FILE",

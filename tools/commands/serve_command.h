@@ -9,9 +9,9 @@ namespace foretouch::tools {
 
 [[nodiscard]] Command serveCommand();
 
-/// Serves until SIGINT, SIGTERM or SIGHUP; then answers what waits. Says on stdout what it serves,
-/// and "ready" on a line of its own once poses are taken. The error is one of starting, or what
-/// kept the service from going on.
+/// Serves until SIGINT, SIGTERM or SIGHUP; then answers the waiting poses. Prints what it serves on
+/// stdout, and "ready" on a line of its own once it accepts poses. Errors: a failed start, or the
+/// failure that stopped the service.
 [[nodiscard]] Result<Done> serve(const ServeConfig& config);
 
 }  // namespace foretouch::tools

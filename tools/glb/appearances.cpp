@@ -7,7 +7,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// When a node comes, goes, or both; a float each, ascending.
+/// When a node appears, disappears, or both; one float each, ascending.
 struct Keys {
   std::vector<float> times;
   bool isThereFirst = false;
@@ -26,7 +26,7 @@ Keys keysOf(const Appearance& appearance, double endS) {
   return keys;
 }
 
-/// Scales that begin with one or the other and take turns.
+/// Alternating scales, beginning with one or the other.
 std::vector<float> scalesFor(std::size_t keys, bool isThereFirst) {
   std::vector<float> scales;
   for (std::size_t i = 0; i < keys; ++i) {
@@ -35,7 +35,7 @@ std::vector<float> scalesFor(std::size_t keys, bool isThereFirst) {
   return scales;
 }
 
-/// The accessors of scales, each added when it is first asked for.
+/// The accessors of scales, each added on first use.
 class Scales {
  public:
   explicit Scales(GlbContent& content) : content_(content) {}

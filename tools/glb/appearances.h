@@ -1,5 +1,5 @@
-// tools/glb/appearances.h: nodes that are there for a while only. glTF cannot hide a node over time
-// but by its scale, which is 0 while it is away (keys of STEP).
+// tools/glb/appearances.h: nodes that are visible only for a while. glTF can hide a node over time
+// only by its scale, which is 0 while it is hidden (keys of STEP).
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ struct Appearance {
   double fromS = 0.0, untilS = 0.0;
 };
 
-/// Animates the nodes' scales, which are set to what they are at 0 s. One that is there until
-/// `endS` or longer stays.
+/// Animates the nodes' scales, and sets them to their value at 0 s. A node visible until `endS` or
+/// longer stays.
 void addAppearances(const std::vector<Appearance>& appearances, double endS, GlbContent& content,
                     GlbAnimation& animation);
 

@@ -25,7 +25,7 @@ Quaternion negative(const Quaternion& q) {
   return {-q.w(), -q.x(), -q.y(), -q.z()};
 }
 
-/// Of unit quaternions whose dot product is not negative: where slerp is at the middle.
+/// Slerp's middle of unit quaternions whose dot product is not negative.
 Quaternion middleOf(const Quaternion& p, const Quaternion& q) {
   return Quaternion(p.coeffs() + q.coeffs()).normalized();
 }
@@ -57,7 +57,7 @@ std::vector<float> timesOf(const std::vector<double>& timesS, bool haveMiddles) 
   return times;
 }
 
-/// The accessors of key times, each added when it is first asked for.
+/// The accessors of key times, each added on first use.
 class KeyTimes {
  public:
   KeyTimes(const std::vector<double>& timesS, GlbContent& content)
@@ -114,7 +114,7 @@ RotationKeys rotationKeys(const std::vector<Pose>& poses, JointId joint) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Quaternion& next = poses[i].rotations[index];
     if (i > 0) {
-      // Of the poses as they are: negated ones would turn a zero into the other arc.
+      // Of the original poses: negated ones would turn a zero into the other arc.
       const double dot = dotOf(poses[i - 1].rotations[index], next);
       keys.haveMiddles = keys.haveMiddles || std::abs(dot) < kLeastDot;
       isNegative = isNegative != (dot < 0.0);

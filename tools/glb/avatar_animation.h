@@ -1,6 +1,6 @@
 // tools/glb/avatar_animation.h: the in-between motion (articulated/motion.h) as the keys of a glTF
 // animation. glTF's LINEAR is slerp on the shorter arc for rotations and linear for translations,
-// which is that motion; what has to be seen to is that floats leave the arc as it is.
+// which is that motion; the code must ensure that rounding to floats does not change the arc.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,19 @@
 
 namespace foretouch::tools {
 
-/// The rotation of one joint, each the negative of what the pose says where it takes that to make
-/// the dot product with the one before not negative.
+/// The rotations of one joint, each negated if needed so that its dot product with the one before
+/// is not negative.
 struct RotationKeys {
   std::vector<Quaternion> values;
-  /// A turn of a step is so near half a turn that floats could choose the other arc: between two
-  /// poses there is a key more, at the middle.
+  /// A step's turn is so near half a turn that floats could choose the other arc: there is an extra
+  /// key midway between two poses.
   bool haveMiddles = false;
   bool areConstant = false;
 };
 
 [[nodiscard]] RotationKeys rotationKeys(const std::vector<Pose>& poses, JointId joint);
 
-/// An animation in the making.
+/// An animation under construction.
 class GlbAnimation {
  public:
   explicit GlbAnimation(const char* name) : entry_{{"name", name}} {}
@@ -36,7 +36,7 @@ class GlbAnimation {
   /// `path` is glTF's ("rotation", ...), `input` and `output` are accessors.
   void add(std::size_t node, const char* path, std::size_t input, std::size_t output,
            const char* interpolation);
-  /// Adds it to the document where it moves anything.
+  /// Adds it to the document if it moves anything.
   void finish(GltfDocument& document);
 
  private:
@@ -44,19 +44,19 @@ class GlbAnimation {
   std::size_t samplers_ = 0;
 };
 
-/// Poses and when they are.
+/// Poses and their times.
 struct AvatarTrack {
   const Avatar& avatar;
   const std::vector<Pose>& poses;  ///< At least two.
-  std::vector<double> timesS;      ///< One a pose.
+  std::vector<double> timesS;      ///< One per pose.
 };
 
-/// Error where times are so close, or so late, that floats do not tell them apart.
+/// Error if times are so close, or so late, that floats do not tell them apart.
 [[nodiscard]] Result<Done> checkTimes(const std::vector<double>& timesS);
 
-/// Adds a node a link, named as it is, in the first pose; roots become children of `parent`, whose
-/// origin is at `origin` in the world, and the animation moves them. `meshes` has one a link:
-/// kNoMesh where there is none. Returns the first link's node; the others follow in order.
+/// Adds one node per link, with its name, in the first pose; roots become children of `parent`,
+/// whose origin is at `origin` in the world, and the animation moves them. `meshes` has one per
+/// link, kNoMesh for none. Returns the first link's node; the others follow in order.
 inline constexpr std::size_t kNoMesh = static_cast<std::size_t>(-1);
 std::size_t addAvatar(const AvatarTrack& track, const std::vector<std::size_t>& meshes,
                       std::size_t parent, const Eigen::Vector3d& origin, GlbContent& content,

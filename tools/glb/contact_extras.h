@@ -1,4 +1,4 @@
-// tools/glb/contact_extras.h: what a GLB says of a contact besides showing it.
+// tools/glb/contact_extras.h: the data of a contact in a GLB.
 #pragma once
 
 #include <string>

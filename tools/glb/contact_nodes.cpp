@@ -17,8 +17,8 @@ using nlohmann::json;
 constexpr GlbMaterial kRed{"contact", {0.80, 0.05, 0.03, 1.0}};
 constexpr GlbMaterial kAmber{"starts in contact", {0.90, 0.50, 0.02, 1.0}};
 
-/// For how long (s) a first contact stays to be seen. One from the start is there during its step,
-/// as the next one has its own.
+/// How long (s) a first contact stays visible. One from the start is visible during its step,
+/// because the next step has its own.
 constexpr double kHoldS = 1.0;
 
 double endOf(const ReportedContact& shown, const Stage& stage) {
@@ -39,8 +39,8 @@ json markerNode(const ReportedContact& shown, const Stage& stage, std::size_t me
           {"extras", contactExtras(shown, skeleton, scene)}};
 }
 
-/// What the link covers during the step; nothing where that takes more triangles than `most`, or
-/// an error larger than asked for.
+/// The link's sweep during the step; nothing if that takes more triangles than `most`, or a larger
+/// error than requested.
 struct SweptLink {
   std::vector<Triangle> triangles;
   double certifiedError = 0.0;

@@ -1,4 +1,4 @@
-// tools/glb/glb_content.h: a GLB in the making: its document and the bytes that go with it.
+// tools/glb/glb_content.h: a GLB under construction: its document and its bytes.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct GlbMaterial {
   std::array<double, 4> color{1.0, 1.0, 1.0, 1.0};  ///< Linear red, green, blue, and opacity.
 };
 
-/// Triangles and what they look like.
+/// Triangles and their look.
 struct MeshPart {
   GlbMesh mesh;
   std::size_t material = 0;
@@ -30,7 +30,7 @@ class GlbContent {
 
   [[nodiscard]] GltfDocument& document() { return document_; }
 
-  /// Both sides of its faces show, as triangles here have no sides.
+  /// Shows both sides of its faces, because our triangles are two-sided.
   std::size_t addMaterial(const GlbMaterial& material);
   /// Precondition: at least one part, each with a triangle.
   std::size_t addMesh(const std::string& name, const std::vector<MeshPart>& parts);

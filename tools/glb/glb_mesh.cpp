@@ -17,7 +17,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr int kSectors = 16;  ///< Around an axis.
 constexpr int kRings = 4;     ///< Of half a ball, from pole to equator.
 
-/// A circle of a surface of revolution: where it is along the axis, how wide, and how steep.
+/// A circle of a surface of revolution: its place along the axis, its width and its slope.
 struct Ring {
   double height = 0.0, radius = 0.0;
   double normalUp = 0.0, normalOut = 1.0;
@@ -38,7 +38,7 @@ Frame frameAlong(const Vector3d& origin, const Vector3d& up) {
   return frame;
 }
 
-/// Adds the surface that the rings, bottom to top, run through; what is inside is to their left.
+/// Adds the surface through the rings, bottom to top; the inside is to their left.
 void appendRings(const Frame& frame, const std::vector<Ring>& rings, GlbMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Ring& ring : rings) {

@@ -1,4 +1,4 @@
-// tools/glb/glb_mesh.h: triangles as a GLB holds them, in floats. Metres.
+// tools/glb/glb_mesh.h: triangles in a GLB's form, in floats. Metres.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@ namespace foretouch::tools {
 
 struct GlbMesh {
   std::vector<Eigen::Vector3f> positions;
-  std::vector<Eigen::Vector3f> normals;  ///< One a position, unit; or none: faces are flat then.
-  std::vector<std::uint32_t> indices;    ///< Three a triangle.
+  std::vector<Eigen::Vector3f> normals;  ///< One per position, unit; or none: flat faces.
+  std::vector<std::uint32_t> indices;    ///< Three per triangle.
 
   [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
 };
 
-/// The triangles less `origin`, rounded; vertices at one place become one. O(n log n).
+/// The triangles less `origin`, rounded; merges vertices at one place. O(n log n).
 [[nodiscard]] GlbMesh meshOf(const std::vector<Triangle>& triangles,
                              const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 /// Adds the LSS's surface, smooth; its vertices are on it to rounding.
 void appendLss(const Lss& lss, GlbMesh& mesh);
-/// How many triangles that adds.
+/// The number of triangles that this adds.
 [[nodiscard]] std::size_t trianglesOfLss();
 
 /// A ball about the origin and an arrow from it along +Y, `length` long.

@@ -1,4 +1,4 @@
-// tools/glb/gltf_document.h: glTF 2.0 in the making, and the GLB container around it (Khronos,
+// tools/glb/gltf_document.h: glTF 2.0 under construction, and the GLB container around it (Khronos,
 // "glTF 2.0 Specification": "Binary Data Storage" and "GLB File Format Specification").
 #pragma once
 
@@ -15,13 +15,13 @@
 
 namespace foretouch::tools {
 
-/// What a view's bytes are for: glTF's numbers. Animations and the like have none.
+/// The use of a view's bytes: glTF's numbers. Animations and the like have none.
 enum class ViewTarget : int { None = 0, Vertices = 34962, Indices = 34963 };
 
 /// glTF's numbers.
 enum class ComponentType : int { UnsignedInt = 5125, Float = 5126 };
 
-/// What a row of numbers in a view is.
+/// A row of numbers in a view.
 struct Accessor {
   std::size_t view = 0, byteOffset = 0, count = 0;
   const char* type = "SCALAR";  ///< "SCALAR", "VEC3" or "VEC4".
@@ -29,8 +29,8 @@ struct Accessor {
   nlohmann::json low, high;  ///< Arrays; null: not stated.
 };
 
-/// The JSON, and where what it speaks of lies in the one binary buffer. The bytes themselves are
-/// the caller's: view after view, in the order in which they were added.
+/// The JSON, and the places of its views in the one binary buffer. The caller keeps the bytes
+/// themselves: view after view, in the order added.
 class GltfDocument {
  public:
   explicit GltfDocument(const std::string& generator);
@@ -44,13 +44,13 @@ class GltfDocument {
   [[nodiscard]] nlohmann::json& at(const char* list, std::size_t index) {
     return root_[list][index];
   }
-  /// Makes a node one of those that the scene shows.
+  /// Adds a node to the scene.
   void show(std::size_t node) { root_["scenes"][0]["nodes"].push_back(node); }
 
   [[nodiscard]] std::size_t binaryBytes() const { return binaryBytes_; }
 
-  /// The GLB up to where the buffer's bytes begin, which end it. Error where the sizes of the
-  /// container, 32 bits wide, do not hold it.
+  /// The GLB up to the buffer's bytes, which come last. Error if it exceeds the container's 32-bit
+  /// sizes.
   [[nodiscard]] Result<std::string> glbHead() const;
 
  private:
@@ -61,7 +61,7 @@ class GltfDocument {
 /// As glTF writes a vector.
 [[nodiscard]] nlohmann::json gltfVector(const Eigen::Vector3d& v);
 
-/// Appends a number's bytes. Little-endian, as is every machine that this is built for.
+/// Appends a number's bytes. Little-endian, like every supported machine.
 void appendFloat(std::string& bytes, double value);
 void appendIndex(std::string& bytes, std::uint32_t index);
 

@@ -13,7 +13,7 @@ constexpr GlbMaterial kSolid{"LSS", {0.16, 0.36, 0.70, 1.0}};
 constexpr GlbMaterial kVeil{"LSS around a mesh", {0.16, 0.36, 0.70, 0.25}};
 constexpr GlbMaterial kMesh{"mesh of a link", {0.55, 0.58, 0.62, 1.0}};
 
-/// The materials of the document, each added when it is first asked for.
+/// The materials of the document, each added on first use.
 class Materials {
  public:
   explicit Materials(GlbContent& content) : content_(content) {}

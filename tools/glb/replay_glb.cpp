@@ -24,7 +24,7 @@ std::size_t addGroup(GltfDocument& document, std::size_t parent, const std::stri
   return node;
 }
 
-/// The node of the world W. Says with what the replay was run, as the results' first line does.
+/// The node of the world W. Has the settings of the replay, like the results' first line.
 std::size_t addWorld(const Stage& stage, std::int64_t undecided, GltfDocument& document) {
   json extras = json::parse(headerLine(stage.inputs));
   extras["undecided"] = undecided;

@@ -1,6 +1,6 @@
 // tools/glb/replay_glb.h: a replay as one animated GLB, for any viewer of glTF: the scene, the
-// avatar in its in-between motion, what it touches and when, and what touching links sweep
-// (docs/formats.md, "A replay as GLB").
+// avatar in its in-between motion, its contacts, and the sweeps of touching links (docs/formats.md,
+// "A replay as GLB").
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 namespace foretouch::tools {
 
 struct GlbRequest {
-  std::string path;                       ///< Empty: none is asked for.
+  std::string path;                       ///< Empty: none.
   std::size_t mostTriangles = 1'000'000;  ///< Of scene, avatar and swept surfaces together.
 };
 
@@ -30,8 +30,8 @@ class ReplayGlb {
   /// Steps in order.
   void add(const StepAnswer& answer);
 
-  /// Writes the file; returns what it leaves out, a sentence each. Errors: a file that cannot be
-  /// written, times that floats do not tell apart, more than a GLB can hold.
+  /// Writes the file; returns what it leaves out, one sentence each. Errors: an unwritable file,
+  /// times that floats do not tell apart, more than a GLB can hold.
   [[nodiscard]] Result<std::vector<std::string>> write() const;
 
  private:

@@ -1,4 +1,4 @@
-// tools/glb/replay_scene.h: the parts that a GLB of a replay is put together from.
+// tools/glb/replay_scene.h: the parts of a replay's GLB.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace foretouch::tools {
 
-/// What all parts need to know.
+/// Data for all parts.
 struct Stage {
   const ReplayInputs& inputs;
   std::vector<Pose> poses;
@@ -25,7 +25,7 @@ struct Stage {
   double extent = 1.0;  ///< Of the avatar in the first pose: the diagonal of its box (m).
 };
 
-/// Computes every pose; error where one is out of range or floats do not tell its time.
+/// Computes every pose; error if one is out of range or floats do not tell its time.
 [[nodiscard]] Result<Stage> stageOf(const ReplayInputs& inputs);
 
 /// Triangles that may still be added.
@@ -33,7 +33,7 @@ class TriangleBudget {
  public:
   explicit TriangleBudget(std::size_t most) : left_(most) {}
   [[nodiscard]] std::size_t left() const { return left_; }
-  /// False where there are not so many: nothing is taken then.
+  /// False, without taking any, if there are not so many.
   bool take(std::size_t triangles) {
     if (triangles > left_) return false;
     left_ -= triangles;
@@ -44,14 +44,14 @@ class TriangleBudget {
   std::size_t left_;
 };
 
-/// The mesh of every link (kNoMesh: it has none): its LSS, seen through where the link has a mesh
-/// as well. `notes` gets what is left out.
+/// The mesh of every link (kNoMesh: it has none): its LSS, transparent if the link also has a mesh.
+/// Notes omissions in `notes`.
 [[nodiscard]] std::vector<std::size_t> addLinkMeshes(const Stage& stage, GlbContent& content,
                                                      TriangleBudget& budget,
                                                      std::vector<std::string>& notes);
 
-/// A node below `parent` for every object of the scene, in triangles nearest to the avatar's way
-/// first; those of `contacts` are among them.
+/// A node below `parent` for every object of the scene, preferring triangles near the avatar's
+/// path; includes those of `contacts`.
 void addScene(const Stage& stage, const std::vector<ReportedContact>& contacts, std::size_t parent,
               GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes);
 
@@ -60,7 +60,7 @@ void addScene(const Stage& stage, const std::vector<ReportedContact>& contacts, 
                                                  const std::vector<ReportedContact>& contacts,
                                                  std::size_t parent, GlbContent& content);
 
-/// What each contact's link covers during its step, below `parent`.
+/// The sweep of each contact's link during its step, below `parent`.
 [[nodiscard]] std::vector<Appearance> addSweeps(const Stage& stage,
                                                 const std::vector<ReportedContact>& contacts,
                                                 std::size_t parent, GlbContent& content,

@@ -11,11 +11,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Nodes are costly to viewers: what is in objects beyond these is one node.
+/// Nodes are costly to viewers: all objects beyond these share one node.
 constexpr std::size_t kMostObjects = 5000;
 constexpr ObjectId kOthers = -1;
 
-/// Where the first root is, at times spread over the clip.
+/// Places of the first root, at times spread over the clip.
 std::vector<Vector3d> placesOn(const Stage& stage) {
   constexpr std::size_t kPlaces = 64;
   const std::size_t stride = 1 + (stage.poses.size() - 1) / kPlaces;

@@ -1,4 +1,4 @@
-// tools/glb/scene_selection.h: which triangles of a scene are shown where not all of them can be.
+// tools/glb/scene_selection.h: which triangles of a scene to show if there are too many.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 namespace foretouch::tools {
 
 /// At most `most` triangles, in ascending order: those whose box is nearest to one of `places`, of
-/// equally near ones the first. `always` are among them, as far as they fit. Triangles that were
-/// not finite in the file are passed over. Precondition: there is a place. O(triangles * places).
+/// equally near ones the first. Includes `always`, as far as they fit. Skips triangles that were
+/// not finite in the file. Precondition: at least one place. O(triangles * places).
 [[nodiscard]] std::vector<TriangleId> nearestTriangles(const Scene& scene,
                                                        const std::vector<Eigen::Vector3d>& places,
                                                        std::vector<TriangleId> always,

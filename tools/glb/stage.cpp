@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Floats resolve 4 micrometres up to here; beyond, positions are told from an origin near by.
+/// Floats resolve 4 micrometres up to here; beyond, positions are relative to a nearby origin.
 constexpr double kNear = 64.0;
 
 Vector3d originFor(const Stage& stage) {

@@ -11,7 +11,7 @@
 
 namespace foretouch::tools {
 
-/// A clip, whom it moves, and where. What it refers to must outlive it.
+/// A clip, its avatar, and its placement. The objects it refers to must outlive it.
 struct PlacedClip {
   const Avatar& avatar;
   const Clip& clip;
@@ -21,8 +21,8 @@ struct PlacedClip {
   const std::string& path;  ///< For errors.
 };
 
-/// The avatar in the pose of a frame, where the placement puts it. Error where that is farther out
-/// than coordinates may be. `frame` is within the clip.
+/// The avatar's placed pose at a frame. Error if it lies beyond the limit of coordinates. `frame`
+/// is within the clip.
 [[nodiscard]] Result<Pose> poseAtFrame(const PlacedClip& placed, std::int64_t frame);
 
 }  // namespace foretouch::tools

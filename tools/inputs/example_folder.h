@@ -1,4 +1,4 @@
-// tools/inputs/example_folder.h: where the bundled scene, clip and avatar lie.
+// tools/inputs/example_folder.h: the folder of the bundled scene, clip and avatar.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace foretouch::tools {
 
-/// $FORETOUCH_EXAMPLES, else share/foretouch/examples beside the program's folder: so in the build
-/// tree as after installation.
+/// $FORETOUCH_EXAMPLES, else share/foretouch/examples beside the program's folder, both in the
+/// build tree and after installation.
 [[nodiscard]] Result<std::string> exampleFolder();
 
 }  // namespace foretouch::tools

@@ -16,7 +16,7 @@ Error refusal(ErrorCode code, std::string message) {
   return {code, "--ignore", -1, -1, std::move(message)};
 }
 
-/// One way to understand a text: which links, and which objects of theirs.
+/// One way to read a text: its links, and their objects.
 struct Reading {
   std::vector<std::int32_t> links;
   std::vector<std::int32_t> objects;

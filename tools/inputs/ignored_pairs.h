@@ -10,13 +10,13 @@
 
 namespace foretouch::tools {
 
-/// All texts together may stand for at most this many pairs: a query looks through them all.
+/// Limit on the pairs of all texts together: a query searches them all.
 inline constexpr std::size_t kMaxIgnoredPairs = 100'000;
 
-/// Each text is a list of `link` or `link:object`, separated by commas. Names are exact
-/// or patterns (tools/inputs/name_pattern.h). Where names contain colons, the reading is
-/// taken that matches; two readings that match are refused, as are names that match nothing (with
-/// the nearest ones that exist). Sorted and without repetitions.
+/// Each text is a list of `link` or `link:object`, separated by commas. Names are exact or patterns
+/// (tools/inputs/name_pattern.h). If names contain colons, the reading that matches counts; errors:
+/// two readings that match, and names that match nothing (with the nearest existing ones). Sorted
+/// and without repetitions.
 [[nodiscard]] Result<std::vector<IgnoredPair>> parseIgnoredPairs(
     const std::vector<std::string>& texts, const Skeleton& skeleton,
     const std::vector<std::string>& objectNames);

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Ends the parse at the first thing out of place, so nesting never grows.
+/// Ends the parse at the first event out of place, so nesting never grows.
 class JointMapSax final : public nlohmann::json_sax<json> {
  public:
   JointMapSax(std::string_view text, const std::string& file) : text_(text), file_(file) {}

@@ -18,8 +18,8 @@ namespace {
 
 enum class Kind { Bvh, Model, Table };
 
-/// What is neither a table nor a model that may be animated counts as BVH, whose reader says best
-/// what else it is.
+/// Every file that is neither a table nor a model format with animations counts as BVH, whose
+/// reader gives the best error.
 Kind kindOf(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

@@ -1,5 +1,5 @@
-// tools/inputs/motion_file.h: clips from whatever file holds one: BVH, an animated model, or a
-// table of a robot's joint positions. The file's extension decides (docs/formats.md).
+// tools/inputs/motion_file.h: reads clips from BVH, an animated model, or a table of a robot's
+// joint positions. The file's extension decides (docs/formats.md).
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@ inline constexpr std::size_t kMaxJointTableBytes = std::size_t{256} << 20;
 struct MotionRequest {
   std::string path;
   double scale = 1.0;                     ///< Metres per unit of the file.
-  UpAxis up = UpAxis::Y;                  ///< Of the file. Tables of joint positions do not ask.
+  UpAxis up = UpAxis::Y;                  ///< Of the file. Tables of joint positions ignore it.
   std::string animation;                  ///< Of a model; empty: its first.
-  double rateHz = 30.0;                   ///< That a model's animation is sampled at.
+  double rateHz = 30.0;                   ///< Sampling rate of a model's animation.
   std::string robot;                      ///< The URDF whose joints a table is about.
-  std::vector<std::string> packagePaths;  ///< Where that URDF's packages are.
+  std::vector<std::string> packagePaths;  ///< Folders of that URDF's packages.
 };
 
 /// The motion of a command that plays a clip.
@@ -30,9 +30,8 @@ struct MotionRequest {
 
 struct Motion {
   Clip clip;
-  /// Z-up has been turned in. Models turn their roots as they are read, so that a joint that the
-  /// clip leaves at rest stands as the avatar of the same model does; BVH clips are turned by their
-  /// placement.
+  /// True: already turned from Z-up. The reader of models turns their roots, so that a joint that
+  /// the clip leaves at rest matches the avatar of the same model; the placement turns BVH clips.
   bool isUpright = false;
 };
 

@@ -1,4 +1,4 @@
-// tools/inputs/name_pattern.h: which names a word of --ignore or of a policy stands for.
+// tools/inputs/name_pattern.h: which names a word of --ignore or of a policy matches.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace foretouch::tools {
 
-/// A `*` at the pattern's end stands for any ending, one at its beginning for any beginning, `*`
-/// alone for every name; otherwise names are exact.
+/// A `*` at the pattern's end matches any ending, one at its beginning any beginning, `*` alone
+/// every name; otherwise names are exact.
 [[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
 
-/// The indices of the names that it stands for, ascending.
+/// The indices of the matching names, ascending.
 [[nodiscard]] std::vector<std::int32_t> matching(std::string_view pattern,
                                                  const std::vector<std::string>& names);
 

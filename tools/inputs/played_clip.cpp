@@ -16,8 +16,8 @@
 namespace foretouch::tools {
 namespace {
 
-/// Total length of the matched joints' offsets to matched parents, in the avatar and in the clip:
-/// the two differ by a wrong unit if by anything large.
+/// Total length of the matched joints' offsets to matched parents, in the avatar and in the clip: a
+/// large difference between the two means a wrong unit.
 double sizeOfClipToAvatar(const Skeleton& avatar, const Clip& clip, const JointMatch& match) {
   double ofAvatar = 0.0;
   double ofClip = 0.0;

@@ -1,5 +1,5 @@
-// tools/inputs/played_clip.h: a clip and the avatar that it moves, read and fitted to one another:
-// what every command that plays a clip begins with.
+// tools/inputs/played_clip.h: a clip and the avatar that it moves, read and matched: the first step
+// of every command that plays a clip.
 #pragma once
 
 #include <optional>
@@ -26,14 +26,14 @@ struct PlayedClip {
 /// Errors name the file or option.
 [[nodiscard]] Result<PlayedClip> loadPlayedClip(const ClipRequest& request);
 
-/// What the reader tolerated, what did not match and what looks like a wrong unit: one sentence
-/// each, bounded in number.
+/// Tolerated faults, joints without a match and signs of a wrong unit: one sentence each, bounded
+/// in number.
 [[nodiscard]] std::vector<std::string> remarksOnClip(const Avatar& avatar, const Clip& clip,
                                                      const JointMatch& match,
                                                      const std::string& avatarPath,
                                                      const std::string& motionPath);
 
-/// The last of them alone: bones of the clip that are twice as long as the avatar's, or half.
+/// Only the last of these: the clip's bones are twice as long as the avatar's, or half.
 [[nodiscard]] std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,
                                                       const JointMatch& match,
                                                       const std::string& motionPath);

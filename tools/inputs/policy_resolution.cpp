@@ -25,7 +25,7 @@ struct FoundRule {
   std::vector<std::int32_t> objects;  // ascending
 };
 
-/// All that the patterns stand for, ascending; every number where there are none.
+/// All indices that the patterns match, ascending; every index if there are no patterns.
 Result<std::vector<std::int32_t>> found(const PolicyRule& rule, const char* key, const char* what,
                                         const std::vector<std::string>& patterns,
                                         const std::vector<std::string>& names) {
@@ -74,14 +74,14 @@ class PolicyResolver {
   [[nodiscard]] bool ignoresAll() const {
     return std::all_of(isIgnored_.begin(), isIgnored_.end(), [](auto is) { return is != 0; });
   }
-  /// What the link ignores, as few pairs as will do.
+  /// The objects that the link ignores, in as few pairs as possible.
   void addIgnored(LinkId link, std::vector<IgnoredPair>& pairs) const {
     if (ignoresAll()) return pairs.push_back({link, IgnoredPair::kEveryObject});
     for (std::size_t i = 0; i < isIgnored_.size(); ++i) {
       if (isIgnored_[i] != 0) pairs.push_back({link, static_cast<ObjectId>(i)});
     }
   }
-  /// Of a link that ignores everything: the cheapest, which decides nothing.
+  /// For a link that ignores everything: the cheapest, which has no effect.
   [[nodiscard]] LinkPolicy policy() const {
     LinkPolicy policy{kMaxTolerance, Fidelity::Link};
     if (ignoresAll()) return policy;
@@ -104,7 +104,7 @@ class PolicyResolver {
 
   const std::vector<FoundRule>& rules_;
   const QueryOptions& base_;
-  // Of the link at hand.
+  // Of the current link.
   std::vector<double> tolerances_;       // by object
   std::vector<std::uint8_t> isIgnored_;  // by object
   Fidelity fidelity_ = Fidelity::Link;
@@ -130,7 +130,7 @@ Result<std::vector<FoundRule>> foundRules(const std::vector<PolicyRule>& rules,
   return result;
 }
 
-/// The options' own tolerance and fidelity become what holds of all links.
+/// The options' own tolerance and fidelity become bounds for all links.
 void setPolicies(std::vector<LinkPolicy> policies, const std::vector<std::uint8_t>& isAsked,
                  QueryOptions& options) {
   double largest = 0.0;
@@ -140,7 +140,7 @@ void setPolicies(std::vector<LinkPolicy> policies, const std::vector<std::uint8_
     largest = std::max(largest, policies[i].tolerance);
     isAnyExact = isAnyExact || policies[i].fidelity == Fidelity::Exact;
   }
-  if (largest == 0.0) return;  // nothing is asked for at all
+  if (largest == 0.0) return;  // every link is ignored
   for (std::size_t i = 0; i < policies.size(); ++i) {
     if (isAsked[i] == 0) policies[i].tolerance = largest;
   }

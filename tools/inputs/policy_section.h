@@ -8,7 +8,7 @@
 
 namespace foretouch::tools {
 
-/// None where there are none; errors go to `reading`.
+/// Reads none if there are none; errors go to `reading`.
 void readPolicies(const TomlSection& root, TomlReading& reading, std::vector<PolicyRule>& rules);
 
 }  // namespace foretouch::tools

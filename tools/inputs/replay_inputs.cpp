@@ -23,15 +23,14 @@
 namespace foretouch::tools {
 namespace {
 
-/// What building has freed the allocator keeps, as if more building were to come: a third of what a
-/// large scene leaves behind.
+/// The allocator keeps memory that building freed: a third of the total after a large scene.
 void giveBackFreeMemory() {
 #if defined(__GLIBC__)
   malloc_trim(0);
 #endif
 }
 
-/// The meshes that the avatar file refers to, where the fidelity asks for them.
+/// The meshes of the avatar file, if the fidelity needs them.
 Result<Done> loadSurface(const WorldRequest& request, const std::string& avatarPath,
                          const Avatar& avatar, QueryOptions& query) {
   if (query.fidelity == Fidelity::Skinned) {
@@ -48,7 +47,7 @@ Result<Done> loadSurface(const WorldRequest& request, const std::string& avatarP
   }
   FORETOUCH_TRY(auto meshes, loadLinkMeshes(avatar, avatarPath, exact));
   FORETOUCH_TRY(auto surface, inFile(AvatarSurface::build(avatar, std::move(meshes)), avatarPath));
-  // The first steps' latencies are the query's, unless policies ask for little to be there.
+  // So that the first steps' latencies are the query's alone, unless policies make few links exact.
   if (query.linkPolicies.empty()) surface.prepare();
   query.surface = std::move(surface);
   return Done{};

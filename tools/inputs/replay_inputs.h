@@ -1,5 +1,4 @@
-// tools/inputs/replay_inputs.h: what a replay is asked for, and the checked inputs it then works
-// on.
+// tools/inputs/replay_inputs.h: a replay's request, and the checked inputs made from it.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@
 
 namespace foretouch::tools {
 
-/// What is asked of a recorded clip: what is played, and the world that it is played in.
+/// A recorded clip to play, and the world to play it in.
 struct ReplayRequest : ClipRequest, WorldRequest {};
 
 struct ReplayInputs {
@@ -29,33 +28,33 @@ struct ReplayInputs {
   Clip clip;
   JointMatch match;
   StepSelection steps;
-  QueryOptions query;      ///< As asked, with what the avatar and the scene add to it.
-  bool isUpright = false;  ///< The clip was turned Y-up as it was read (Motion::isUpright).
+  QueryOptions query;      ///< As requested, completed from the avatar and the scene.
+  bool isUpright = false;  ///< The reader turned the clip Y-up (Motion::isUpright).
 
   [[nodiscard]] double timeOfStep(std::int64_t step) const {
     return static_cast<double>(step * steps.stride) * clip.frameTimeS;
   }
 };
 
-/// Reads, checks and fits the inputs to one another. Errors name the file or option.
+/// Reads, checks and matches the inputs. Errors name the file or option.
 [[nodiscard]] Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request);
 
-/// The scene that the request names, and nothing else of it.
+/// Loads only the request's scene.
 [[nodiscard]] Result<Scene> loadScene(const WorldRequest& request);
 
 /// The options of queries about the avatar, which was read from `avatarPath`, with the surface or
-/// skin that its fidelity asks for. Where policies ask for exact links, only these links' meshes
-/// are read, and what queries need of each is built when the first of them comes near anything.
+/// skin that its fidelity needs. If policies make only some links exact, reads only those links'
+/// meshes; the first query that brings a link near anything builds its hierarchy.
 [[nodiscard]] Result<QueryOptions> queryOptionsFor(const WorldRequest& request,
                                                    const std::string& avatarPath,
                                                    const Avatar& avatar, const Scene& scene);
 
-/// What the reader tolerated, what did not match and what looks like a wrong unit: one sentence
-/// each, bounded in number.
+/// Tolerated faults, joints without a match and signs of a wrong unit: one sentence each, bounded
+/// in number.
 [[nodiscard]] std::vector<std::string> remarksOn(const ReplayInputs& inputs);
 
-/// The avatar in the pose of a frame, where the placement puts it. Error where that is farther out
-/// than coordinates may be. `frame` is within the clip.
+/// The avatar's placed pose at a frame. Error if it lies beyond the limit of coordinates. `frame`
+/// is within the clip.
 [[nodiscard]] Result<Pose> poseAtFrame(const ReplayInputs& inputs, std::int64_t frame);
 
 }  // namespace foretouch::tools

@@ -1,5 +1,4 @@
-// tools/inputs/skin_file.h: the skin of a rigged model as the surface of the avatar that was made
-// of it.
+// tools/inputs/skin_file.h: the skin of a rigged model as the surface of the avatar made from it.
 #pragma once
 
 #include <string>

@@ -15,13 +15,13 @@ struct StepSelection {
   std::int64_t count = 0;  ///< Steps, at least 1.
 };
 
-/// A rate may exceed the clip's own by this share: people say 30 for 29.97, and a frame time that
-/// is printed with few digits is off by as little. Beyond it, poses would have to be invented.
+/// A rate may exceed the clip's own by this share: people say 30 for 29.97, and a frame time
+/// printed with few digits is off by about as much. Beyond it, we would have to invent poses.
 inline constexpr double kRateSlack = 0.01;
 
 /// stride = max(1, round(1 / (rate * frame time))); without a rate, every frame. Errors: a rate
-/// above the clip's own, and a clip that holds no whole step.
-/// Preconditions: frameTimeS and *rateHz are finite and greater than 0 (asserted).
+/// above the clip's own, and a clip without a whole step. Preconditions: frameTimeS and *rateHz are
+/// finite and greater than 0 (asserted).
 [[nodiscard]] Result<StepSelection> selectSteps(std::size_t frames, double frameTimeS,
                                                 std::optional<double> rateHz);
 

@@ -14,7 +14,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// What a person calls it, and its value. Values of the same text are the same, bit for bit.
+/// Its name for people, and its value. Values with equal text are equal, bit for bit.
 struct Field {
   std::string name, value;
 };
@@ -51,8 +51,8 @@ void addContact(const AnsweredContact& answered, Fields& fields) {
   fields.push_back({"feature of the scene" + of, toString(contact.sceneFeature)});
 }
 
-/// All that is not an option. Verdicts come before what contacts say, so that the lists of contacts
-/// are of the same links where their fields are compared.
+/// All fields that are not options. Verdicts come before contacts, so that the lists of contacts
+/// have the same links when their fields are compared.
 Fields answerOf(const ContactsMessage& message, const LinkNames& names) {
   Fields fields{{"sequence that it begins with", std::to_string(message.sequenceFrom)},
                 {"utime that it begins with", std::to_string(message.utimeFromUs)},

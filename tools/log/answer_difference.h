@@ -8,8 +8,8 @@
 namespace foretouch::tools {
 
 /// "the separation of 'LeftHand' is 0.00031 in the log, 0.0003 here, in the step from
-/// 1700000001366667 to 1700000001400000 us". The options under which they were given first: where
-/// one of them differs, it is that, and not the verdicts alone, and the step is of no matter.
+/// 1700000001366667 to 1700000001400000 us". Compares the options of the answers first: if one of
+/// them differs, reports that instead of a verdict, without the step.
 [[nodiscard]] std::string firstDifference(const ContactsMessage& recorded,
                                           const ContactsMessage& replayed);
 

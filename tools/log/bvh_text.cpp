@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
-/// Degrees a, b, c with R = Rz(a) Rx(b) Ry(c). Each is taken of what the ones before leave, so that
-/// all three together are right also where b is near a quarter turn and a by itself is anything.
+/// Degrees a, b, c with R = Rz(a) Rx(b) Ry(c). Computes each from the remainder of the ones before,
+/// so that all three together are right even if b is near a quarter turn and a alone is arbitrary.
 std::array<double, 3> zxyDegrees(const Quaternion& rotation) {
   const Eigen::Matrix3d R = rotation.toRotationMatrix();
   const double a = std::atan2(-R(0, 1), R(1, 1));
@@ -131,7 +131,7 @@ Error cannotHold(const Skeleton& skeleton, JointId joint, const char* what) {
               inQuotes(skeleton.name(joint))};
 }
 
-/// The promise of the header, kept by reading.
+/// Checks the header's promise by reading the text.
 Result<Done> checkReadsBack(const std::string& text, const Skeleton& skeleton,
                             const Hierarchy& hierarchy, const std::vector<Pose>& poses) {
   const auto read = parseBvh(text, "");

@@ -1,5 +1,5 @@
-// tools/log/journal_check.h: are the answers of a replay those that a log recorded, byte for
-// byte?
+// tools/log/journal_check.h: are the answers of a replay equal to those that a log recorded, byte
+// for byte?
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,20 @@
 
 namespace foretouch::tools {
 
-/// Compares verdictBytes() by avatar, session and sequence; of several answers to one sequence (a
-/// sender that does not say its sessions), in their order. Keeps what has no counterpart yet.
+/// Compares verdictBytes() by avatar, session and sequence; several answers to one sequence (a
+/// sender without sessions) in their order. Keeps answers without a counterpart so far.
 class JournalCheck {
  public:
-  /// An answer that the log holds. `message` is what `payload` holds.
+  /// Adds an answer from the log. `message` is the decoded `payload`.
   void addRecorded(const ContactsMessage& message, ByteView payload);
-  /// An answer that the replay gives.
+  /// Adds an answer of the replay.
   void addReplayed(const ContactsMessage& message, ByteView payload);
 
-  /// The log was cut off: of each avatar, answers of the replay after the last recorded one are not
-  /// missing there, but beyond its end. To be called once all have been added.
+  /// The log was cut off: each avatar's replayed answers after its last recorded one are not
+  /// missing, but beyond the log's end. Call after all answers are added.
   void endIsOpen();
 
-  /// False while the log has given no answer: there is nothing to compare with.
+  /// False if the log has no answer to compare with.
   [[nodiscard]] bool hasRecord() const { return recorded_ > 0; }
   [[nodiscard]] std::int64_t recorded() const { return recorded_; }
   [[nodiscard]] std::int64_t equal() const { return equal_; }
@@ -37,7 +37,7 @@ class JournalCheck {
   [[nodiscard]] bool isEqual() const {
     return !first_ && recordedOnly_.empty() && replayedOnly_.empty();
   }
-  /// What is wrong first, in the order of the log, as a sentence; nothing where isEqual().
+  /// The first difference, in the order of the log, as a sentence; nothing if isEqual().
   [[nodiscard]] std::optional<std::string> firstDifference() const;
 
  private:

@@ -31,7 +31,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// All that the options say.
+/// The values of all options.
 struct Conversion {
   std::string input, output, avatar, suffix;
 };
@@ -43,7 +43,7 @@ std::string extensionOf(const std::string& path) {
   return extension;
 }
 
-/// What was written, for a person.
+/// A description of the output, for people.
 using Told = Result<std::string>;
 
 Told toJsonLines(const Conversion& asked, LogLoss& loss) {

@@ -12,7 +12,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// All that the options say.
+/// The values of all options.
 struct AskedLogs {
   std::vector<std::string> logs;
   bool json = false;

@@ -90,7 +90,7 @@ void ChannelFacts::add(std::int64_t utimeUs, std::size_t bytes) {
 }
 
 double ChannelFacts::durationS() const {
-  // As doubles: stamps may be as far apart as they like.
+  // As doubles: stamps may be any distance apart.
   return (static_cast<double>(latestUs) - static_cast<double>(earliestUs)) / kUsPerS;
 }
 

@@ -1,5 +1,4 @@
-// tools/log/log_inspection.h: all that can be said about an event log without knowing what its
-// messages mean.
+// tools/log/log_inspection.h: facts about an event log that do not depend on its messages' meaning.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +16,12 @@ struct ChannelFacts {
   std::int64_t earliestUs = 0, latestUs = 0;
 
   void add(std::int64_t utimeUs, std::size_t bytes);
-  /// Events a second; 0 where all have the same stamp.
+  /// Events per second; 0 if all have the same stamp.
   [[nodiscard]] double rateHz() const;
   [[nodiscard]] double durationS() const;
 };
 
-/// Channels and findings that are listed; what is beyond is counted.
+/// Limits on the lists of channels and findings; counts those beyond.
 inline constexpr std::size_t kMaxListedChannels = 1000;
 inline constexpr std::size_t kMaxListedFindings = 1000;
 
@@ -47,7 +46,7 @@ struct LogInspection {
 [[nodiscard]] std::string formatOf(const LogCounts& counts);
 /// One line: "bytes 120 to 4,096: bad block (3,976 bytes)".
 [[nodiscard]] std::string describe(const LogFinding& finding);
-/// For people, several lines.
+/// Readable text, several lines.
 [[nodiscard]] std::string describe(const LogInspection& inspection);
 /// One line of JSON (docs/formats.md, "Event logs").
 [[nodiscard]] std::string jsonLine(const LogInspection& inspection);

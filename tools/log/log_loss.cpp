@@ -39,7 +39,7 @@ void LogLoss::tell(std::string line) {
 void LogLoss::found(const LogFinding& finding) {
   ++findings_;
   isDamagedSince_ = true;
-  // Bytes between blocks are told of by another finding where they are there.
+  // If there are bytes between blocks, another finding reports them.
   if (finding.damage != LogDamage::MissingBlocks) bytesSince_ += finding.bytes;
   if (finding.damage == LogDamage::UncheckedTail) {
     missingEvents_ += finding.count;
@@ -52,7 +52,7 @@ void LogLoss::read(const LogEvent& event, const LogCounts& counts) {
   const std::int64_t next = lastNumber_ + 1;
   if (isDamagedSince_ && next >= 0 && event.number > next) {
     const auto missing = static_cast<std::uint64_t>(event.number - next);
-    // Without check sums a number may be damaged, too: that many events must fit into the bytes.
+    // Without check sums a number may also be damaged: that many events must fit into the bytes.
     if (counts.hasCheckSums || missing <= bytesSince_ / kEventHeaderBytes) {
       missingEvents_ += missing;
       tell(gapLine(static_cast<std::uint64_t>(next), missing, lastUs_, event.utimeUs));

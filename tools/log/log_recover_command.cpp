@@ -14,13 +14,13 @@
 namespace foretouch::tools {
 namespace {
 
-/// All that the options say.
+/// The values of all options.
 struct Recovery {
   std::string log, output;
   bool keepTail = false;
 };
 
-/// What can be trusted of the one, into the other.
+/// Copies the trustworthy events of the one into the other.
 Result<LogCounts> copyEvents(EventLogReader& reader, EventLogWriter& writer) {
   ProgressBar bar("recover", static_cast<std::int64_t>(reader.size()));
   for (LogEvent event;;) {

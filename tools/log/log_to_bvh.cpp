@@ -27,7 +27,7 @@ Error refusal(ErrorCode code, std::string message) {
   return {code, "", -1, -1, std::move(message)};
 }
 
-/// What the log holds of one avatar.
+/// The log's data of one avatar.
 struct Recording {
   std::map<std::int64_t, RawSkeleton> skeletons;  ///< By hash.
   std::vector<PoseMessage> poses;                 ///< Of one session and hash, sequence growing.
@@ -115,7 +115,7 @@ Result<Pose> poseOf(const PoseMessage& message, const Skeleton& skeleton,
   return validatedPose(skeleton, std::move(pose));
 }
 
-/// Seconds between frames: the mean where all are equally far apart, else the most usual.
+/// Seconds between frames: the mean if all are equally far apart, else the most frequent.
 double spacingS(const std::vector<PoseMessage>& poses, std::vector<std::string>& notes) {
   constexpr double kUsPerS = 1e6, kRoundingUs = 1.0;
   if (poses.size() < 2) return 1.0;

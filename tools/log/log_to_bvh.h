@@ -19,14 +19,14 @@ struct LogToBvhRequest {
 struct BvhOfLog {
   std::string text;
   std::int64_t frames = 0;
-  /// What the file does not say, one sentence each: poses that were lost, times that are not
-  /// equally spaced, poses that came late or twice.
+  /// Facts missing in the file, one sentence each: lost poses, times that are not equally spaced,
+  /// poses that came late or twice.
   std::vector<std::string> notes;
 };
 
 /// Errors name the log: no pose or no skeleton of the avatar, more than one session or skeleton, a
-/// pose that does not say where a joint is. What of a damaged log is lost goes to `loss`, whether
-/// or not the rest makes a file. Memory: the log's poses.
+/// pose without some joint. Records the losses of a damaged log in `loss`, whether or not the rest
+/// makes a file. Memory: the log's poses.
 [[nodiscard]] Result<BvhOfLog> logToBvh(const LogToBvhRequest& request, LogLoss& loss);
 
 }  // namespace foretouch::tools

@@ -23,7 +23,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Other avatars are counted one by one up to this many.
+/// Counts up to this many other avatars one by one.
 constexpr std::size_t kMaxOthers = 1024;
 
 Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
@@ -41,7 +41,7 @@ Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
   return solvers;
 }
 
-/// Does the log hold any answer? Answers of the replay wait for theirs only where it does.
+/// Does the log have any answer? Only then do answers of the replay wait for theirs.
 Result<bool> holdsAnswers(const std::string& path, const std::string& channel) {
   FORETOUCH_TRY(auto log, EventLogReader::open(path));
   LogEvent event;
@@ -52,7 +52,7 @@ Result<bool> holdsAnswers(const std::string& path, const std::string& channel) {
   }
 }
 
-/// One replay: the events of a log, one after another.
+/// One replay: the events of a log, one by one.
 class LogReplay {
  public:
   LogReplay(const LogReplayInputs& inputs, std::vector<StreamSolver> solvers, bool compares)
@@ -152,7 +152,7 @@ bool isEventLog(const std::string& path) {
   if (extension == ".lcmlog") return true;
   std::error_code problem;
   if (!std::filesystem::is_regular_file(path, problem))
-    return false;  // no pipe loses its first bytes
+    return false;  // do not consume a pipe's first bytes
   constexpr std::array<unsigned char, 4> kMagic{0xED, 0xA1, 0xDA, 0x01};
   std::array<unsigned char, kMagic.size()> first{};
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
@@ -210,7 +210,7 @@ std::string logHeaderLine(const LogReplayInputs& inputs) {
                     {"suffix", "tolerance", "fidelity", "policy", "leaves", "skin", "skin_scale",
                      "skin_up", "scene_scale", "up", "ignore"},
                     out);
-  writeHeaderField(settings, "budget_us", out);  // also where there is none
+  writeHeaderField(settings, "budget_us", out);  // also if there is none
   writeHeaderFields(settings, {"max_step", "confirmations", "unmatched_at_rest"}, out);
   out.key("avatars");
   out.beginArray();

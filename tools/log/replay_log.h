@@ -1,5 +1,5 @@
-// tools/log/replay_log.h: the poses that an event log holds, answered as a service answers them,
-// and compared with the answers that the log holds.
+// tools/log/replay_log.h: answers the poses of an event log as a service does, and compares the
+// answers with those in the log.
 #pragma once
 
 #include <cstdint>
@@ -41,41 +41,40 @@ struct LogReplayInputs {
   std::vector<Avatar> avatars;  ///< In the order of the request.
 };
 
-/// Reads, checks and fits the inputs to one another, all but the log's content. Errors name the
-/// file or option.
+/// Reads, checks and matches the inputs, except the log's content. Errors name the file or option.
 [[nodiscard]] Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request);
 
 struct LogReplayReport {
   LogCounts log;
-  std::int64_t poses = 0, skeletons = 0;  ///< Of the avatars that are replayed, or unreadable.
+  std::int64_t poses = 0, skeletons = 0;  ///< Of the replayed avatars, or unreadable.
   std::int64_t answers = 0;
   std::int64_t lost = 0, gaps = 0, timelines = 0;  ///< As StreamCounts, of all avatars together.
-  RejectCounts rejects{};  ///< Of poses and skeletons, also of those that cannot be read.
-  /// Avatars that the log has poses of, and that are not replayed; how many poses.
+  RejectCounts rejects{};  ///< Of poses and skeletons, unreadable ones included.
+  /// Avatars with poses in the log that are not replayed; how many poses.
   std::map<std::int32_t, std::int64_t> others;
-  std::int64_t unreadableAnswers = 0;  ///< That the log holds: nothing can be equal to them.
+  std::int64_t unreadableAnswers = 0;  ///< In the log: nothing can be equal to them.
   JournalCheck journal;
 
-  /// Nothing that the log says is contradicted.
+  /// The replay contradicts nothing in the log.
   [[nodiscard]] bool agrees() const {
     return unreadableAnswers == 0 && (!journal.hasRecord() || journal.isEqual());
   }
 };
 
-/// A pose of the log and its answer, as long as the sink has them.
+/// A pose of the log and its answer; valid only during the sink's call.
 struct AnsweredPose {
   const ContactsMessage& answer;
   std::size_t avatar;                     ///< Its index in the request.
-  const StreamStep& step;                 ///< That the pose ended.
-  const QueryOptions& query;              ///< That was asked.
-  std::uint64_t positionBytes, logBytes;  ///< How far the log has been read.
+  const StreamStep& step;                 ///< The step that the pose ended.
+  const QueryOptions& query;              ///< The options of the query.
+  std::uint64_t positionBytes, logBytes;  ///< Bytes of the log read so far, of all.
 };
 
 /// Takes the answers in the order of the log; false ends the replay early.
 using AnswerSink = std::function<bool(const AnsweredPose& answered)>;
 
 /// Answers every pose that a service with the same options would answer, as fast as possible and in
-/// this thread. The receiving and sending stamps of answers are 0.
+/// this thread. The answers' stamps of receiving and sending are 0.
 [[nodiscard]] Result<LogReplayReport> replayLog(const LogReplayInputs& inputs,
                                                 const AnswerSink& sink);
 

@@ -15,7 +15,7 @@ std::string row(const std::string& what, std::int64_t number, const std::string&
   return fmt::format("{:<22}{:>10}{}{}\n", what, number, remark.empty() ? "" : "   ", remark);
 }
 
-/// What the reader of the log had to pass over.
+/// The damage that the reader of the log skipped.
 std::string damage(const LogCounts& log) {
   std::string text;
   const auto note = [&text](std::uint64_t number, const char* what) {

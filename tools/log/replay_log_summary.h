@@ -1,4 +1,4 @@
-// tools/log/replay_log_summary.h: what a person reads at the end of the replay of a log.
+// tools/log/replay_log_summary.h: the summary at the end of the replay of a log, for people.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace foretouch::tools {
 
-/// Collects answers and puts them into words. Keeps a float an answer and a few numbers a link.
+/// Collects answers and summarises them. Keeps one float per answer and a few numbers per link.
 class LogReplaySummary {
  public:
   /// `inputs` must outlive it.
@@ -23,15 +23,15 @@ class LogReplaySummary {
 
   [[nodiscard]] std::string text(const LogReplayReport& report) const;
 
-  /// "N of N verdicts equal the journal's, byte for byte", and what differs first; empty where the
-  /// log holds no verdicts.
+  /// "N of N verdicts equal the journal's, byte for byte", and the first difference; empty if the
+  /// log has no verdicts.
   [[nodiscard]] static std::string comparison(const LogReplayReport& report);
 
   struct Counts {
     std::int64_t contacts = 0, startsInContact = 0, undecided = 0;
   };
   [[nodiscard]] const Counts& total() const { return total_; }
-  /// The time at or below which this share of the queries was answered.
+  /// The time within which this share of the queries was answered.
   [[nodiscard]] double queryUs(double share) const;
 
  private:

@@ -1,5 +1,5 @@
-// tools/replay/fidelity_comparison.h: what the links' LSS alone would have answered where the
-// answer is that of their meshes: how many contacts exactness refutes.
+// tools/replay/fidelity_comparison.h: compares the answer of the links' meshes with that of their
+// LSS alone: how many contacts exactness refutes.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,20 @@
 
 namespace foretouch::tools {
 
-/// Counts of links over one step or many: those whose LSS touch (contact, or from the start).
+/// Counts of links over one step or many: whose LSS touch (contact, or from the start).
 struct FidelityCounts {
   std::int64_t lssContacts = 0;
-  std::int64_t refuted = 0;  ///< Of these, the mesh is clear.
-  std::int64_t later = 0;    ///< The mesh touches later.
-  std::int64_t broken = 0;  ///< The mesh touches where the LSS do not, or earlier: never, or a bug.
-  std::int64_t undecided = 0;  ///< Of either: not compared.
-  double lssUs = 0.0;          ///< What the LSS' answer cost.
+  std::int64_t refuted = 0;    ///< Of these, the mesh is clear.
+  std::int64_t later = 0;      ///< The mesh touches later.
+  std::int64_t broken = 0;     ///< The mesh touches and the LSS do not, or earlier: always 0, or a
+                               ///< bug.
+  std::int64_t undecided = 0;  ///< By either: not compared.
+  double lssUs = 0.0;          ///< Cost of the LSS' answer.
 
   void add(const FidelityCounts& other);
 };
 
-/// Compares `exact`, the answer to `motion` by `options`, with that of link fidelity.
+/// Compares `exact`, the answer to `motion` with `options`, with that of link fidelity.
 [[nodiscard]] Result<FidelityCounts> compareWithLink(const Avatar& avatar,
                                                      const ChainMotion& motion,
                                                      const StepContacts& exact, const Scene& scene,

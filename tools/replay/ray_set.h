@@ -1,4 +1,4 @@
-// tools/replay/ray_set.h: the rays that latencies are compared with.
+// tools/replay/ray_set.h: the rays that latencies are compared to.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace foretouch::tools {
 
-/// The way of one link's origin each, from pose to pose: what a ray cast between the poses would
-/// look along. Links repeat where there are fewer than rays, and the first are taken of more.
+/// Each is the way of one link's origin from pose to pose, the line of a ray cast between the
+/// poses. Repeats links if there are fewer than rays; takes the first ones if there are more.
 [[nodiscard]] std::array<RaySegment, kRaysPerSet> raysAlong(const ChainMotion& motion);
 
 }  // namespace foretouch::tools

@@ -15,10 +15,9 @@
 namespace foretouch::tools {
 namespace {
 
-/// Steps are handed around by the chunk, so that a step of a few microseconds is not spent on
-/// locks.
+/// Threads exchange steps in chunks, so that locks do not dominate steps of a few microseconds.
 constexpr std::int64_t kMaxChunkSteps = 32;
-/// Chunks per thread that may wait to be taken: enough to ride out one slow chunk, small in memory.
+/// Chunks per thread that may wait: enough to bridge one slow chunk, small in memory.
 constexpr std::int64_t kChunksAhead = 4;
 
 struct Chunk {
@@ -26,8 +25,8 @@ struct Chunk {
   std::optional<Error> error;  ///< Of the step after `steps`.
 };
 
-/// Where workers fetch the numbers of chunks and leave their answers, and where the answers are
-/// taken in order. Workers wait once they are a window ahead of the taker.
+/// Workers fetch the numbers of chunks here and leave their answers; the consumer takes the answers
+/// in order. Workers wait once they are a window ahead of it.
 class Exchange {
  public:
   Exchange(std::int64_t chunks, std::int64_t window)
@@ -76,7 +75,7 @@ class Exchange {
   std::vector<std::optional<Chunk>> slots_;
 };
 
-/// The threads of one replay; gone when it goes, whatever the way out.
+/// The threads of one replay; the destructor joins them.
 class Workers {
  public:
   explicit Workers(Exchange& exchange) : exchange_(exchange) {}
@@ -87,7 +86,7 @@ class Workers {
     for (std::thread& thread : threads_) thread.join();
   }
 
-  /// Fewer threads than asked for still give the same answers; none at all is an error.
+  /// Fewer threads than requested still give the same answers; none at all is an error.
   Result<Done> start(std::vector<StepSolver>& solvers,
                      const std::function<Chunk(StepSolver&, std::int64_t)>& work) {
     try {
@@ -151,8 +150,8 @@ Result<Done> replay(const ReplayInputs& inputs, const ReplayOptions& options,
   for (int i = 0; i < options.threads; ++i) {
     solvers.emplace_back(inputs, format, extras);
   }
-  // What is built at the first query (the reference culler) belongs to no step's latency. An error
-  // here is met again, and reported, at step 0.
+  // The first query builds the reference culler, which must not count in any step's latency. An
+  // error here recurs, and is reported, at step 0.
   static_cast<void>(solvers.front().solve(0));
 
   const std::int64_t steps = inputs.steps.count;

@@ -15,24 +15,24 @@
 
 namespace foretouch::tools {
 
-/// What one step is answered with.
+/// The answer to one step.
 struct StepAnswer {
   std::int64_t step = 0;
   double t0S = 0.0, t1S = 0.0;        ///< Seconds from the clip's first frame.
-  std::vector<LinkContact> contacts;  ///< Of the links that reported() gives, in its order.
+  std::vector<LinkContact> contacts;  ///< Of the links of reported(), in its order.
   std::vector<LinkId> missedByPoses;  ///< Links in contact that touch nothing at either pose.
   QueryCounters counters;
   double latencyUs = 0.0;
 };
 
-// Of first lines, those of a log's results included. Each writes fields into an object that is
-// open, but for beginResults(), which opens it.
+// For first lines, also of a log's results. Each writes fields into an open object; beginResults()
+// opens it.
 void beginResults(JsonWriter& out);
 /// Without the folders.
 void writeFileName(const char* name, const std::string& path, JsonWriter& out);
 void writeLinkNames(const Avatar& avatar, JsonWriter& out);
 
-/// The first line. Names neither threads nor culler: they do not change what follows.
+/// The first line. Names neither threads nor culler: they do not change the results.
 [[nodiscard]] std::string headerLine(const ReplayInputs& inputs);
 
 /// Formats steps. Const calls from several threads are fine.

@@ -20,8 +20,8 @@ Result<Pose> worldPose(const Skeleton& forest, const ChainMotion& motion, double
   return validatedPose(forest, std::move(pose));
 }
 
-/// Length of the way that the point of the link at `p_W` at time `from` goes on the true motion
-/// between two times. By chords: for telling a millimetre from more, sixteen are ample.
+/// Length of the path, between two times of the true motion, of the link's point that is at `p_W`
+/// at time `from`. By chords: to tell a millimetre from more, sixteen are ample.
 double travelled(const ChainMotion& motion, LinkId link, const Vector3d& p_W, double from,
                  double to) {
   constexpr int kChords = 16;

@@ -1,5 +1,5 @@
-// tools/replay/rigid_comparison.h: what the usual model of motion would have answered: each link
-// told only its own two end poses in the world, moving on a straight line while it turns.
+// tools/replay/rigid_comparison.h: the answer of the usual model of motion: each link moves alone
+// between its two end poses in the world, on a straight line while it turns.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,27 @@
 
 namespace foretouch::tools {
 
-/// Counts of links over one step or many. Of the contacts that the articulated motion makes, those
-/// in agreement are neither missed, early nor late.
+/// Counts of links over one step or many. Contacts of the articulated motion on which both agree
+/// are neither missed, early nor late.
 struct RigidCounts {
   std::int64_t contacts = 0;       ///< First contacts of the articulated motion.
-  std::int64_t missed = 0;         ///< Of these, the rigid model says clear.
+  std::int64_t missed = 0;         ///< Of these, clear by the rigid model.
   std::int64_t late = 0;           ///< Reported after more than kNoticeable of further true motion.
   std::int64_t early = 0;          ///< Reported before it by as much.
-  std::int64_t falseContacts = 0;  ///< The true motion is clear, the rigid model says contact.
-  std::int64_t undecided = 0;      ///< Of either model: not compared.
+  std::int64_t falseContacts = 0;  ///< The true motion is clear, the rigid model reports contact.
+  std::int64_t undecided = 0;      ///< By either model: not compared.
 
   void add(const RigidCounts& other);
 };
 
-/// Times of contact are told apart by how far (m) the touching point of the link travels along the
+/// Times of contact differ if the link's touching point travels farther than this (m) along the
 /// true motion between them.
 inline constexpr double kNoticeable = 1e-3;
 
-/// Answers steps of one avatar by the rigid model. One a thread.
+/// Answers steps of one avatar by the rigid model. One per thread.
 class RigidComparison {
  public:
-  /// The avatar, as a forest of roots. Fails only where that cannot be built.
+  /// Builds the avatar as a forest of roots. Fails only if that is impossible.
   static Result<RigidComparison> build(const Avatar& avatar);
 
   /// Compares `truth`, the answer to `motion`, with the rigid model's answer to the same step.

@@ -42,7 +42,7 @@ Result<ReplayedStep> StepSolver::solve(std::int64_t step) {
   return replayed;
 }
 
-/// The later pose of one step is the earlier one of the next: it is kept.
+/// Keeps the last pose: the later pose of one step is the earlier one of the next.
 Result<Pose> StepSolver::poseAt(std::int64_t frame) {
   if (frame != frame_) {
     FORETOUCH_TRY(pose_, poseAtFrame(inputs_, frame));

@@ -24,14 +24,14 @@ struct ReplayedStep {
   std::optional<double> raySetUs;
 };
 
-/// What is done beside the query, for comparison.
+/// Extra work beside the query, for comparison.
 struct StepExtras {
   const RigidComparison* rigid = nullptr;  ///< Null: no comparison.
   bool link = false;                       ///< Also answer at link fidelity.
   bool rays = false;  ///< Also time a set of rays (middleware/scene/ray_yardstick.h).
 };
 
-/// Answers single steps, in any order; one a thread. What it is given must outlive it.
+/// Answers single steps, in any order; one per thread. Its arguments must outlive it.
 class StepSolver {
  public:
   StepSolver(const ReplayInputs& inputs, const StepFormat& format, const StepExtras& extras)

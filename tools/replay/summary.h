@@ -1,4 +1,4 @@
-// tools/replay/summary.h: what a person reads at the end of a replay.
+// tools/replay/summary.h: the summary at the end of a replay, for people.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace foretouch::tools {
 
-/// The value below or at which `share` (in [0,1]) of the values lie, by nearest rank; 0 where there
+/// The value at or below which `share` (in [0,1]) of the values lie, by nearest rank; 0 if there
 /// are none. Reorders `values`.
 [[nodiscard]] double percentile(std::vector<float>& values, double share);
 
-/// Collects steps and puts them into words. Keeps a float a step and a few numbers a link.
+/// Collects steps and summarises them. Keeps one float per step and a few numbers per link.
 class ReplaySummary {
  public:
   /// `inputs` must outlive it.
@@ -25,11 +25,11 @@ class ReplaySummary {
 
   void add(const ReplayedStep& step);
 
-  /// `threads` shared the machine while latencies were taken.
+  /// `threads` shared the machine during the measurements.
   [[nodiscard]] std::string text(int threads) const;
 
-  /// Contacts that a check of the poses misses: the earliest of a step, of the first kKeptMissed
-  /// steps that have one.
+  /// Contacts that a check of the poses misses: the earliest of each of the first kKeptMissed steps
+  /// that have one.
   [[nodiscard]] const std::vector<ReportedContact>& firstMissed() const { return firstMissed_; }
   static constexpr std::size_t kKeptMissed = 5;
 
@@ -40,9 +40,9 @@ class ReplaySummary {
   [[nodiscard]] const Counts& total() const { return total_; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   [[nodiscard]] std::int64_t stepsWithContact() const { return stepsWithContact_; }
-  /// Nothing where replays were not compared with it.
+  /// Nothing if the replay was not compared with it.
   [[nodiscard]] const std::optional<RigidCounts>& rigidCounts() const { return rigid_; }
-  /// The latency at or below which this share of the steps was answered.
+  /// The latency within which this share of the steps was answered.
   [[nodiscard]] double latencyUs(double share) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace foretouch::tools {
 
-/// Appends the padded base64 text of `size` bytes. Texts of pieces may be joined where every piece
+/// Appends the padded base64 text of `size` bytes. You may join the texts of pieces if every piece
 /// but the last has a multiple of three bytes.
 void appendBase64(const unsigned char* bytes, std::size_t size, std::string& text);
 

@@ -1,5 +1,4 @@
-// tools/report/document_parts.h: what the documents of clips, of logs and of inspections have in
-// common.
+// tools/report/document_parts.h: shared by the documents of clips, logs and inspections.
 #pragma once
 
 #include <cstddef>
@@ -27,29 +26,29 @@ struct ReportOptions {
 /// The name of a file without its folders.
 [[nodiscard]] std::string fileName(const std::string& path);
 
-/// Rows of the table, in this order; those without a value are left out.
+/// Rows of the table, in this order, without those that have no value.
 [[nodiscard]] std::vector<ViewRow> rowsOf(const Settings& settings,
                                           std::initializer_list<const char*> names);
-/// How the scene was read, and what was asked of it.
+/// The settings of the scene's import, and of the query.
 [[nodiscard]] std::vector<ViewRow> sceneSettings(WorldRequest request);
 [[nodiscard]] std::vector<ViewRow> querySettings(WorldRequest request);
-/// How the clip was read, and where it stands.
+/// The settings of the clip's import, and its placement.
 [[nodiscard]] std::vector<ViewRow> clipSettings(ClipRequest request);
 
-/// The triangles of links, in their frames, simplified where they are too many: says so in `notes`.
+/// The triangles of links, in their frames, simplified if there are too many: says so in `notes`.
 [[nodiscard]] std::vector<ViewLinkMesh> linkMeshes(
     const std::vector<std::vector<Triangle>>& trianglesOfLinks, std::vector<std::string>& notes);
 [[nodiscard]] std::vector<std::vector<Triangle>> trianglesOf(const AvatarSurface& surface);
 
-/// What the page cannot show of how links were asked.
+/// Notes what the page cannot show at this fidelity.
 void noteFidelity(Fidelity fidelity, std::vector<std::string>& notes);
 
-/// Sets the document's scene, all that its contacts touch included. `action`: around all that
-/// moves; may be empty.
+/// Sets the document's scene, with every triangle that its contacts touch. `action`: around
+/// everything that moves; may be empty.
 void addScene(const Scene& scene, const std::string& path, std::size_t maxTriangles,
               Eigen::AlignedBox3d action, ViewDocument& document);
 
-/// A contact as results have it. `contact` is not clear.
+/// A contact in the form of results. `contact` is not clear.
 [[nodiscard]] ReportedContact contactView(const LinkContact& contact, const Scene& scene,
                                           std::int64_t step, double t0S, double t1S);
 

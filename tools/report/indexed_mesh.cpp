@@ -69,8 +69,8 @@ std::vector<Neighbours> neighboursOf(const Indices& indices) {
   return neighbours;
 }
 
-/// Turns triangles round so that neighbours agree, as far as they can: scenes do not say which side
-/// is out, and the simplifier takes an edge whose triangles disagree for a rim.
+/// Flips triangles so that neighbours agree, as far as possible: scenes do not say which side is
+/// out, and the simplifier treats an edge whose triangles disagree as a border.
 void orient(Indices& indices) {
   const std::vector<Neighbours> neighbours = neighboursOf(indices);
   std::vector<std::uint8_t> isReached(neighbours.size(), 0), isTurned(neighbours.size(), 0);
@@ -95,7 +95,7 @@ void orient(Indices& indices) {
   }
 }
 
-/// Meshes of more triangles are clustered right away: edges would take gigabytes.
+/// Clusters larger meshes right away: edges would take gigabytes.
 constexpr std::size_t kMostByEdges = 5'000'000;
 
 }  // namespace
@@ -134,7 +134,7 @@ Simplified Simplifier::downTo(std::size_t target) const {
   // An error of 1 is the size of the mesh: the target alone decides.
   constexpr float kAnyError = 1.0f;
   Simplified made = hasEdges() ? collapsed(target, kAnyError) : Simplified{mesh_.indices, 0.0};
-  // Edges are collapsed in bunches: a little more than the target is as good as it.
+  // Edges collapse in bunches: a little more than the target is good enough.
   if (made.triangles() <= target + target / 20) return made;
   float error = 0.0f;
   std::vector<std::uint32_t> kept(made.indices.size());

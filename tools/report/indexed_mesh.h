@@ -1,5 +1,4 @@
-// tools/report/indexed_mesh.h: triangles with corners of their own as an indexed mesh, and as fewer
-// triangles. Metres.
+// tools/report/indexed_mesh.h: separate triangles as an indexed mesh, and simplified. Metres.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +9,11 @@
 
 namespace foretouch::tools {
 
-/// x, y, z a corner, three corners a triangle.
+/// x, y, z per corner, three corners per triangle.
 using Corners = std::vector<float>;
 
-/// Equal corners become one vertex, zeros of either sign being equal; triangles keep their order.
+/// Merges equal corners into one vertex (zeros of either sign are equal); triangles keep their
+/// order.
 [[nodiscard]] ViewMesh indexed(Corners corners);
 
 /// Fewer triangles over some of a mesh's vertices.
@@ -24,9 +24,9 @@ struct Simplified {
   [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
 };
 
-/// Makes one mesh simpler, more than once if need be: by collapsing edges [Garland97] and, where
-/// triangles from anywhere have too little topology for that, by merging vertices that share a cell
-/// of a grid; both as meshoptimizer has them. Time and memory: O(n log n), O(n).
+/// Simplifies one mesh, any number of times: by collapsing edges [Garland97] and, if loose
+/// triangles have too little topology for that, by merging vertices in one cell of a grid; both by
+/// meshoptimizer. Time and memory: O(n log n), O(n).
 class Simplifier {
  public:
   explicit Simplifier(const Corners& corners);

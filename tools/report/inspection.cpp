@@ -27,9 +27,9 @@ struct Inspected {
   ReplayRequest request;
   std::optional<Scene> scene;
   std::optional<Avatar> avatar;
-  std::optional<PlayedClip> played;  ///< Its avatar is the one above, where a file names it.
+  std::optional<PlayedClip> played;  ///< Its avatar is the one above, if a file names one.
   bool isMadeUp = false;             ///< The avatar is made of the clip.
-  std::vector<std::vector<Triangle>> triangles;  ///< Of links, where the avatar names meshes.
+  std::vector<std::vector<Triangle>> triangles;  ///< Of links, if the avatar names meshes.
   std::vector<std::string> notes;
 
   [[nodiscard]] const Avatar* body() const {
@@ -66,7 +66,7 @@ Result<Done> loadBody(Inspected& inspected) {
   return Done{};
 }
 
-/// Meshes that cannot be read do not keep the rest from being looked at.
+/// Unreadable meshes do not prevent the rest of the inspection.
 void loadMeshes(Inspected& inspected) {
   const Avatar* const body = inspected.body();
   if (body == nullptr || inspected.request.avatarPath.empty()) return;
@@ -165,7 +165,7 @@ void addAvatarRows(const Inspected& inspected, const AlignedBox3d& action, ViewD
   }
 }
 
-/// Where the action is with regard to the scene: what a wrong unit or placement shows in.
+/// The place of the action relative to the scene, which reveals a wrong unit or placement.
 void notePlacement(const SceneAudit& audit, const AlignedBox3d& action,
                    std::vector<std::string>& notes) {
   const AlignedBox3d scene(audit.boxMin, audit.boxMax);

@@ -1,5 +1,5 @@
-// tools/report/inspection.h: a scene, an avatar and a clip, or any of them, as a view document:
-// what somebody looks at before a run, to see whether units, axes and placement are right.
+// tools/report/inspection.h: a scene, an avatar and a clip, or any of them, as a view document: for
+// a look before a run, to see whether units, axes and placement are right.
 #pragma once
 
 #include <memory>
@@ -12,15 +12,14 @@
 
 namespace foretouch::tools {
 
-/// What is looked at, read and fitted to one another.
+/// The inspected inputs, read and matched.
 struct Inspected;
 
-/// Paths that are empty are of nothing that is looked at; at least one is not (asserted). A clip
-/// without an avatar is shown on the one that avatarFromClip() makes of it. Errors name the file or
-/// option.
+/// Skips empty paths; at least one is not empty (asserted). Shows a clip without an avatar on the
+/// one that avatarFromClip() makes of it. Errors name the file or option.
 [[nodiscard]] Result<std::shared_ptr<const Inspected>> inspect(const ReplayRequest& request);
 
-/// Measured sizes as its summary, what looks wrong as its notes. `inspected` must outlive it.
+/// Its summary has the measured sizes, its notes what looks wrong. `inspected` must outlive it.
 [[nodiscard]] Result<ViewDocument> documentOf(const Inspected& inspected,
                                               const ReportOptions& options,
                                               const ReportProgress& progress);

@@ -10,7 +10,7 @@ namespace foretouch::tools {
 namespace {
 
 constexpr double kUsPerS = 1e6;
-/// Between a timeline and one that had to be moved behind it.
+/// Between a timeline and one moved behind it.
 constexpr double kPauseS = 1.0;
 
 std::vector<ViewRow> rowsOf(const LogReplayReport& report, const LogReplaySummary& summary) {
@@ -54,7 +54,7 @@ LogReport::Player& LogReport::playerOf(const AnsweredPose& answered) {
   return *player;
 }
 
-/// Each avatar has its share, so that one does not take what the others need.
+/// Each avatar has its share, so that one cannot take all room.
 bool LogReport::hasRoom(const Player& player) const {
   return player.leftOut == 0 &&
          player.track.poses() < player.track.capacity(options_.maxRotations / players_.size()) &&
@@ -85,7 +85,8 @@ void LogReport::addStep(const AnsweredPose& answered, Player& player) {
       player.acrossGaps += found.contact.verdict == Verdict::Contact ? 1 : 0;
     }
   }
-  // What a timeline's first pose touches, the step that begins there starts in contact with.
+  // The step that begins at a timeline's first pose shows that pose's touches as starting in
+  // contact.
   if (answered.step.kind != StepKind::Consecutive) return;
   const auto to = static_cast<std::uint32_t>(player.track.poses() - 1);
   const std::uint32_t from = to - 1;

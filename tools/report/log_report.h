@@ -16,25 +16,24 @@
 
 namespace foretouch::tools {
 
-/// Collects answered poses in bounded memory. Only motions between poses that follow one another
-/// are steps of the document: what happened across a gap is not known, and not drawn. Time is 0 at
-/// the first pose of all; a timeline that begins before the one before has ended is moved behind
-/// it.
+/// Collects answered poses in bounded memory. Only motions between consecutive poses are steps of
+/// the document: the motion across a gap is unknown, and not drawn. Time is 0 at the first pose of
+/// all; a timeline that begins before the previous one has ended moves behind it.
 class LogReport {
  public:
   /// `inputs` must outlive it and the document.
   LogReport(const LogReplayInputs& inputs, const ReportOptions& options);
 
-  /// In the order of the log. Once an avatar has no room, its poses are counted and not kept.
+  /// Call in the order of the log. Once an avatar has no room, only counts its poses.
   void add(const AnsweredPose& answered);
 
-  /// To be called once. `progress` may end it early: the document is then of no use.
+  /// Call once. `progress` may end it early: the document is then unusable.
   [[nodiscard]] ViewDocument document(const LogReplayReport& report,
                                       const LogReplaySummary& summary,
                                       const ReportProgress& progress);
 
  private:
-  /// What is known of one avatar so far.
+  /// One avatar's data so far.
   struct Player {
     QueryOptions query;
     TouchQuestion question;

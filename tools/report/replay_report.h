@@ -15,17 +15,17 @@
 
 namespace foretouch::tools {
 
-/// Collects steps, in bounded memory, and makes the document of them once they are over, so that no
-/// step's latency is the report's.
+/// Collects steps, in bounded memory, and makes the document after the last one, so that the report
+/// adds to no step's latency.
 class ReplayReport {
  public:
   /// `inputs` must outlive it and the document.
   ReplayReport(const ReplayInputs& inputs, const ReportOptions& options);
 
-  /// In order. Once there is no room, steps are counted and not kept.
+  /// Call in order. Once there is no room, only counts steps.
   void add(const ReplayedStep& step);
 
-  /// To be called once. `progress` may end it early: the document is then of no use.
+  /// Call once. `progress` may end it early: the document is then unusable.
   [[nodiscard]] Result<ViewDocument> document(const ReplaySummary& summary,
                                               const ReportProgress& progress);
 
@@ -40,7 +40,7 @@ class ReplayReport {
   TrackBuilder track_;
   std::int64_t mostSteps_;
   bool isFull_ = false;
-  std::vector<double> latenciesUs_;  // one a step that is kept
+  std::vector<double> latenciesUs_;  // one per kept step
   std::vector<ReportedContact> contacts_;
 };
 

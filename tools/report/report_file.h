@@ -1,5 +1,5 @@
-// tools/report/report_file.h: a document worked out and written as a report, while a person may be
-// watching or may have had enough.
+// tools/report/report_file.h: makes a document and writes it as a report, with progress, and
+// interruptible.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,11 @@
 
 namespace foretouch::tools {
 
-/// Makes a document, saying how far it is.
+/// Makes a document and reports progress.
 using DocumentMaker = std::function<Result<ViewDocument>(const ReportProgress& progress)>;
 
-/// Writes what `make` makes to `path`, a page that needs no network and no file beside it. It
-/// appears once it is complete, or not at all: not where `guard` was told to stop.
+/// Writes the document of `make` to `path`, as a page that needs no network and no other file. It
+/// appears once it is complete, or not at all: not if `guard` was interrupted.
 [[nodiscard]] Result<Done> writeReport(const std::string& path, const InterruptGuard& guard,
                                        const DocumentMaker& make);
 

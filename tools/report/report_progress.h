@@ -1,4 +1,4 @@
-// tools/report/report_progress.h: long work that can be watched and ended.
+// tools/report/report_progress.h: long work with progress and early end.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace foretouch::tools {
 
-/// Told how much is done; false ends the work.
+/// Gets the amount done; returns false to end the work.
 using ReportProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
 }  // namespace foretouch::tools

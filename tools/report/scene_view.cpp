@@ -16,7 +16,7 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-/// How far around the action triangles are within reach (m): the first that leaves few enough.
+/// Reaches (m) around the action: takes the first that leaves few enough triangles.
 constexpr std::array kReachesM = {4.0, 2.0, 1.0};
 
 /// Triangles of one object, some of which must stay as they are.
@@ -58,7 +58,7 @@ AlignedBox3d grown(const AlignedBox3d& box, double byM) {
   return {box.min() - Vector3d::Constant(byM), box.max() + Vector3d::Constant(byM)};
 }
 
-/// What is shown of a scene before any of it is simplified.
+/// The part of a scene to show, before simplification.
 struct Choice {
   std::vector<TriangleId> ids;
   double reachM = 0.0;  ///< 0: all of it.
@@ -69,8 +69,8 @@ Choice allOf(const Scene& scene, const std::vector<TriangleId>& contacted) {
   return {within(scene, AlignedBox3d(audit.boxMin, audit.boxMax), contacted), 0.0};
 }
 
-/// What is near the action, the widest reach that is light enough, else the widest of all; all of
-/// it where nothing is near.
+/// The part near the action, with the widest reach that is light enough, else the widest of all;
+/// the whole scene if nothing is near.
 Choice nearAction(const Scene& scene, const SceneRequest& request,
                   const std::vector<TriangleId>& contacted) {
   if (request.action.isEmpty()) return allOf(scene, contacted);
@@ -86,7 +86,7 @@ Choice nearAction(const Scene& scene, const SceneRequest& request,
   return widest.ids.empty() ? allOf(scene, contacted) : widest;
 }
 
-/// Near the action where there is any, but not farther from the scene than need be.
+/// Near the action, if any, but no farther from the scene than necessary.
 Vector3d originOf(const SceneAudit& audit, const AlignedBox3d& action) {
   const AlignedBox3d box(audit.boxMin, audit.boxMax);
   if (action.isEmpty()) return box.center();
@@ -108,14 +108,14 @@ std::vector<Part> partsOf(const Scene& scene, const Choice& choice,
   return parts;
 }
 
-/// Objects of at most this many triangles lose too much by being simplified.
+/// Objects of at most this many triangles lose too much by simplification.
 constexpr std::size_t kSmallObject = 64;
 
 bool isSmall(const Part& part) {
   return part.ids.size() <= kSmallObject;
 }
 
-/// Where there are so many small objects that they cannot be spared, they become one: true.
+/// Merges small objects into one, and returns true, if there are too many to leave unsimplified.
 bool poolCrumbs(std::vector<Part>& parts, std::size_t mostTriangles) {
   std::size_t triangles = 0, objects = 0;
   for (const Part& part : parts) {
@@ -143,7 +143,7 @@ void append(const Scene& scene, TriangleId id, const Vector3d& origin, Corners& 
   }
 }
 
-/// The triangles of what is shown, part by part.
+/// The shown triangles, part by part.
 class Gathering {
  public:
   Gathering(const Scene& scene, ViewScene& view) : scene_(scene), view_(view) {}
@@ -157,7 +157,7 @@ class Gathering {
     close();
   }
 
-  /// `made` stands for those of the part that need not stay.
+  /// `made` replaces the part's triangles that need not stay.
   void addSimplified(const Part& part, const Simplifier& simplifier, const Simplified& made) {
     open(part);
     simplifier.append(made, corners_);
@@ -187,8 +187,8 @@ Simplifier simplifierOf(const Scene& scene, const Part& part, const Vector3d& or
   return Simplifier(corners);
 }
 
-/// All objects with the same error, the least that leaves at most `most` triangles; where none
-/// does, each with the same share of its triangles.
+/// All objects with the same error, the least that leaves at most `most` triangles; if none does,
+/// each with the same share of its triangles.
 std::vector<Simplified> simplifiedTo(const std::vector<Simplifier>& simplifiers, std::size_t most,
                                      double sizeM) {
   // From a millionth of the scene to a sixteenth, each 1.41 times the one before.
@@ -217,7 +217,7 @@ std::vector<Simplified> simplifiedTo(const std::vector<Simplifier>& simplifiers,
   return best;
 }
 
-/// Adds all parts in at most about `most` triangles; what details may be hidden by that (m).
+/// Adds all parts in at most about `most` triangles; returns the size of hidden details (m).
 double addSimplified(const Scene& scene, const std::vector<Part>& parts, std::size_t most,
                      const Vector3d& origin, Gathering& gathering) {
   std::size_t spared = 0;
@@ -261,7 +261,7 @@ void noteSimplifying(const ViewScene& view, const Choice& choice, double errorM,
       view.name, view.trianglesInFile, part, view.mesh.triangles(), errorM));
 }
 
-/// Of a scene's view what no choice changes.
+/// The parts of a scene's view that no choice changes.
 ViewScene emptyView(const Scene& scene, const SceneRequest& request) {
   ViewScene view;
   view.name = request.name;

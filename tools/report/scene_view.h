@@ -1,6 +1,6 @@
-// tools/report/scene_view.h: a scene as a browser can show it: all of it where that is light
-// enough, else all of it simplified as long as that hides next to nothing, else what is near the
-// action, simplified where it must be. Metres, world W.
+// tools/report/scene_view.h: a scene that a browser can show: all of it if it is light enough, else
+// all of it simplified if that hides next to nothing, else the part near the action, simplified if
+// needed. Metres, world W.
 #pragma once
 
 #include <cstddef>
@@ -20,16 +20,15 @@ inline constexpr std::size_t kMostTimesTooHeavy = 8;
 struct SceneRequest {
   std::string name;
   std::size_t maxTriangles = kDefaultViewTriangles;
-  Eigen::AlignedBox3d action;         ///< Around all that moves; empty: nothing does.
-  std::vector<TriangleId> contacted;  ///< Always shown as they are; any order, repetitions too.
-  /// Details this small (m) are rather hidden than anything left out.
+  Eigen::AlignedBox3d action;         ///< Around everything that moves; empty: nothing does.
+  std::vector<TriangleId> contacted;  ///< Always shown unchanged; any order, repetitions too.
+  /// Prefers hiding details this small (m) to omitting triangles.
   double harmlessM = 2e-3;
 };
 
-/// Adds a sentence to `notes` for what was left out or simplified. At most maxTriangles and those
-/// contacted are shown. Time: O(n log n), n the triangles of the scene;
-/// memory: O(those within reach), or O(n) where all of it is simplified, which is tried up to
-/// kMostTimesTooHeavy times maxTriangles.
+/// Adds a sentence to `notes` if it omits or simplifies. Shows at most maxTriangles and those
+/// contacted. Time: O(n log n), n the triangles of the scene; memory: O(those within reach), or
+/// O(n) to simplify all of it, which it tries up to kMostTimesTooHeavy times maxTriangles.
 [[nodiscard]] ViewScene viewOf(const Scene& scene, const SceneRequest& request,
                                std::vector<std::string>& notes);
 

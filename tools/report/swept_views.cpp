@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A contact whose link's sweep is to be shown.
+/// A contact whose link's sweep to show.
 struct Wanted {
   std::size_t avatar = 0;
   const ReportedContact* contact = nullptr;
@@ -52,8 +52,8 @@ ChainMotion motionOf(const ViewAvatar& avatar, std::uint32_t step) {
                      poseOf(track, track.stepTo[step]));
 }
 
-/// Vertices lie on a lattice, and so do their differences, which then fit floats exactly; false
-/// where the surface is too large for that.
+/// Vertices lie on a lattice, and so do their differences, which then fit floats exactly; false if
+/// the surface is too large for that.
 bool append(const SweptSurface& surface, ViewSwept& swept) {
   if (swept.mesh.positions.empty()) swept.origin = surface.vertices.front();
   const auto first = static_cast<std::uint32_t>(swept.mesh.vertices());
@@ -69,7 +69,7 @@ bool append(const SweptSurface& surface, ViewSwept& swept) {
   return true;
 }
 
-/// Nothing where a surface would need more than `maxTriangles` or cannot be built at that error.
+/// Nothing if a surface would need more than `maxTriangles` or is impossible at that error.
 std::optional<ViewSwept> sweptBy(const ViewAvatar& avatar, const ReportedContact& contact,
                                  const SweptRequest& request, std::size_t maxTriangles) {
   const LinkId link = contact.contact.link;

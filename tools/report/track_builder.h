@@ -1,4 +1,4 @@
-// tools/report/track_builder.h: an avatar's poses, one after another, as the track of a view.
+// tools/report/track_builder.h: an avatar's poses, one by one, as the track of a view.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace foretouch::tools {
 
-/// Where links are touched at poses is asked of `scene` with `query`.
+/// The scene and options for testing which links touch at each pose.
 struct TouchQuestion {
   const Scene& scene;
   const QueryOptions& query;
@@ -26,15 +26,15 @@ struct TouchQuestion {
 
 class TrackBuilder {
  public:
-  /// `avatar`, and what `question` refers to, must outlive it; null: nothing is asked.
+  /// `avatar`, and the objects of `question`, must outlive it; null: tests nothing.
   TrackBuilder(const Avatar& avatar, const TouchQuestion* question);
 
-  /// Poses of this avatar whose rotations are at most `numbers` numbers.
+  /// Number of this avatar's poses whose rotations fit in `numbers` numbers.
   [[nodiscard]] std::size_t capacity(std::size_t numbers) const;
 
-  /// `timeS` is later than that of the pose before. Cost: a query of one instant a link.
+  /// `timeS` is later than that of the pose before. Cost: one instant query per link.
   void addPose(double timeS, const Pose& pose);
-  /// Both indices are of poses that were added. All steps have a latency, or none has.
+  /// Both indices are of added poses. All steps have a latency, or none has.
   void addStep(std::uint32_t from, std::uint32_t to, std::optional<double> latencyUs = {});
 
   [[nodiscard]] std::size_t poses() const { return track_.poses(); }
@@ -42,12 +42,12 @@ class TrackBuilder {
   /// Precondition: there is a pose.
   [[nodiscard]] double lastTimeS() const { return track_.poseTimesS.back(); }
   [[nodiscard]] std::size_t steps() const { return track_.stepFrom.size(); }
-  /// Does the link touch anything at this pose? False where nothing is asked.
+  /// Does the link touch anything at this pose? False without a question.
   [[nodiscard]] bool touches(std::size_t pose, LinkId link) const;
   /// Around all LSS at all poses.
   [[nodiscard]] const Eigen::AlignedBox3d& box() const { return box_; }
 
-  /// The builder is then of no further use.
+  /// The builder is unusable afterwards.
   [[nodiscard]] ViewTrack finish();
 
  private:
@@ -62,10 +62,10 @@ class TrackBuilder {
   std::vector<LinkState> states_;
   Eigen::AlignedBox3d box_;
   ViewTrack track_;
-  std::map<LinkId, std::vector<double>> moving_;  // x, y, z a pose
+  std::map<LinkId, std::vector<double>> moving_;  // x, y, z per pose
 };
 
-/// A pose of the track, bit for bit as it was added.
+/// A pose of the track, bit for bit as added.
 [[nodiscard]] Pose poseOf(const ViewTrack& track, std::size_t pose);
 
 }  // namespace foretouch::tools

@@ -21,9 +21,9 @@
 namespace foretouch::tools {
 namespace {
 
-/// All that the options say.
+/// The values of all options.
 struct ViewJob {
-  std::vector<std::string> files;  ///< Whose names say what they are.
+  std::vector<std::string> files;  ///< Their names tell their role.
   ReplayRequest request;
   ReportOptions report;
 };
@@ -52,7 +52,7 @@ Error fileError(const std::string& path, std::string message) {
   return Error::in(path, ErrorCode::Mismatch, std::move(message));
 }
 
-/// Gives files without an option the one that their names speak of.
+/// Assigns files without an option by their names.
 Result<Done> assignFiles(const std::vector<std::string>& files, ReplayRequest& request) {
   for (const std::string& file : files) {
     std::string* place = nullptr;

@@ -1,4 +1,4 @@
-// tools/report/view_command.h: `foretouch view`: inputs looked at before a run.
+// tools/report/view_command.h: `foretouch view`: shows inputs before a run.
 #pragma once
 
 #include "tools/settings/command_line.h"

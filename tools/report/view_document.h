@@ -1,4 +1,4 @@
-// tools/report/view_document.h: what the page of a report shows, as plain values: the document of
+// tools/report/view_document.h: the content of a report's page, as plain values: the document of
 // docs/formats.md, "View documents". Metres and seconds in the world W; texts are untrusted.
 #pragma once
 
@@ -17,12 +17,12 @@ namespace foretouch::tools {
 
 enum class ViewKind : std::uint8_t { Replay, Log, Inspection, Live };
 
-/// A line of a table that people read.
+/// A row of a table for people.
 struct ViewRow {
   std::string name, value, note;  ///< `note` may be empty.
 };
 
-/// Indexed triangles: x, y, z a vertex, three indices a triangle.
+/// Indexed triangles: x, y, z per vertex, three indices per triangle.
 struct ViewMesh {
   std::vector<float> positions;
   std::vector<std::uint32_t> indices;
@@ -38,8 +38,8 @@ struct ViewObject {
 
 enum class SceneReduction : std::uint8_t {
   None,
-  Clipped,     ///< Triangles far from all action were left out.
-  Simplified,  ///< Triangles were made that the scene does not have.
+  Clipped,     ///< Omits triangles far from all action.
+  Simplified,  ///< Has triangles that the scene does not have.
 };
 
 /// World = origin + position: floats suffice near the origin, however far out that is.
@@ -47,7 +47,7 @@ struct ViewScene {
   std::string name;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   ViewMesh mesh;                           ///< Grouped by object, in the scene's order within one.
-  std::vector<std::uint32_t> triangleIds;  ///< Per triangle; empty where Simplified.
+  std::vector<std::uint32_t> triangleIds;  ///< Per triangle; empty if Simplified.
   std::vector<ViewObject> objects;
   std::size_t trianglesInFile = 0;
   SceneReduction reduction = SceneReduction::None;
@@ -60,24 +60,25 @@ struct ViewLinkMesh {
   ViewMesh mesh;  ///< In the link's frame.
 };
 
-/// Poses of an avatar, and which of them are joined by a motion that was answered.
+/// Poses of an avatar, and which pairs of them have an answered motion.
 struct ViewTrack {
   std::vector<double> poseTimesS;  ///< Increasing.
-  std::vector<double> rotations;   ///< w, x, y, z a link and pose, bit for bit those of the poses.
-  std::vector<double> offsets;     ///< x, y, z a link: its translation where it never moves.
-  std::vector<LinkId> moving;      ///< Links whose translation is not the same in every pose.
-  std::vector<double> values;      ///< x, y, z of each of these and pose.
+  std::vector<double> rotations;   ///< w, x, y, z per link and pose, bit for bit those of the
+                                   ///< poses.
+  std::vector<double> offsets;     ///< x, y, z per link: its translation if it never moves.
+  std::vector<LinkId> moving;      ///< Links whose translation changes.
+  std::vector<double> values;      ///< x, y, z per moving link and pose.
   std::vector<std::uint32_t> stepFrom, stepTo;  ///< Indices of poses.
-  std::vector<double> latencyUs;                ///< One a step; empty where nothing was asked.
-  /// What a check of pose i alone sees touching: touching[touchingFirst[i]] up to
-  /// touching[touchingFirst[i + 1]]. Empty where nobody asked.
+  std::vector<double> latencyUs;                ///< One per step; empty if nothing was asked.
+  /// Links that touch in a check of pose i alone: touching[touchingFirst[i]] up to
+  /// touching[touchingFirst[i + 1]]. Empty if not checked.
   std::vector<std::uint32_t> touchingFirst;
   std::vector<std::uint16_t> touching;
 
   [[nodiscard]] std::size_t poses() const { return poseTimesS.size(); }
 };
 
-/// A certified outer surface of what one link sweeps in one step.
+/// A certified outer surface of one link's sweep in one step.
 struct ViewSwept {
   std::uint32_t step = 0;
   LinkId link = 0;
@@ -101,7 +102,7 @@ struct ViewDocument {
   std::string title;
   std::vector<ViewRow> settings, summary;
   std::vector<std::string> notes;  ///< Sentences.
-  std::optional<ViewScene> scene;  ///< Nothing where an avatar is looked at by itself.
+  std::optional<ViewScene> scene;  ///< Nothing if the document shows only an avatar.
   std::vector<ViewAvatar> avatars;
 };
 

@@ -46,7 +46,7 @@ constexpr const char* nameOf(std::uint16_t) {
   return "u16";
 }
 
-/// Hands the text on by the piece.
+/// Passes the text on in pieces.
 class Writer : public JsonWriter {
  public:
   Writer(const TextSink& sink, std::string& text)
@@ -77,7 +77,7 @@ class Writer : public JsonWriter {
   }
 
  private:
-  /// A multiple of three, as appendBase64() wants pieces to be.
+  /// A multiple of three, as appendBase64() requires.
   static constexpr std::size_t kPieceBytes = 3 << 14;
 
   const TextSink& sink_;
@@ -184,7 +184,7 @@ void writeTrack(Writer& out, const ViewTrack& track) {
   out.endObject();
 }
 
-/// The fields of a results file, with the step before them and what the poses show after them.
+/// The fields of a results file, with the step before them and the touches at the poses after them.
 void write(const ReportedContact& found, Writer& out) {
   const std::string link = std::to_string(found.contact.link);
   const std::string object = jsonString(found.object, JsonPlace::Page);

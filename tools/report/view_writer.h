@@ -11,8 +11,8 @@ namespace foretouch::tools {
 /// Takes the text piece by piece.
 using TextSink = std::function<void(const std::string& piece)>;
 
-/// Pure: the same document gives the same bytes. No "<" is in the text, so that nothing in it can
-/// end the element of a page that holds it. Memory: O(1) beside the document.
+/// Pure: the same document gives the same bytes. The text has no "<", so that nothing in it can end
+/// the page's element that holds it. Memory: O(1) beside the document.
 void writeView(const ViewDocument& document, const TextSink& sink);
 
 }  // namespace foretouch::tools

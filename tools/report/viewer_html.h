@@ -1,4 +1,4 @@
-// tools/report/viewer_html.h: viewer/dist/viewer.html, made part of the program when it is built.
+// tools/report/viewer_html.h: viewer/dist/viewer.html, built into the program.
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@ std::string_view viewerPage() {
 PageParts viewerPageParts() {
   const std::string_view page = viewerPage();
   const std::size_t opening = page.find(kOpening);
-  FORETOUCH_ASSERT(opening != std::string_view::npos);  // a test holds the page to it
+  FORETOUCH_ASSERT(opening != std::string_view::npos);  // a test checks the page
   const std::size_t begin = opening + kOpening.size();
   return {page.substr(0, begin), page.substr(page.find(kClosing, begin))};
 }

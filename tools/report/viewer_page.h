@@ -1,11 +1,11 @@
-// tools/report/viewer_page.h: the page that shows view documents, as the program carries it.
+// tools/report/viewer_page.h: the page that shows view documents, from inside the program.
 #pragma once
 
 #include <string_view>
 
 namespace foretouch::tools {
 
-/// The whole page, without a document in it.
+/// The whole page, without a document.
 [[nodiscard]] std::string_view viewerPage();
 
 /// The page around a document: a report is before + document + after.

@@ -15,8 +15,8 @@ struct ChannelNames {
 /// Errors name --suffix: a name beyond kMaxChannelBytes, bytes that are not printable ASCII.
 [[nodiscard]] Result<ChannelNames> channelNames(const std::string& suffix);
 
-/// What was given; else what the environment variable LCM_DEFAULT_URL says, as with every LCM
-/// program; else kDefaultUrl.
+/// `given`; else the environment variable LCM_DEFAULT_URL, as in every LCM program; else
+/// kDefaultUrl.
 [[nodiscard]] std::string urlOrDefault(const std::string& given);
 
 }  // namespace foretouch::tools

@@ -1,5 +1,5 @@
-// tools/settings/clip_settings.h: which clip is played, how it is read, and where it stands: for
-// every command that plays one.
+// tools/settings/clip_settings.h: the clip to play, how to read it, and its placement: for every
+// command that plays one.
 #pragma once
 
 #include <optional>
@@ -11,37 +11,37 @@
 
 namespace foretouch::tools {
 
-/// Each setting legal by itself. Paths can be opened as they are.
+/// Each setting is legal by itself. Paths are ready to open.
 struct ClipRequest {
   std::string avatarPath, motionPath;
-  std::string mapPath;                    ///< Empty: joints are matched by name alone.
+  std::string mapPath;                    ///< Empty: matches joints by name alone.
   std::optional<double> rateHz;           ///< Empty: every frame.
   double motionScale = 1.0;               ///< Metres per unit of the clip.
-  std::string animation;                  ///< Of a motion that is a model.
-  std::string robotPath;                  ///< Of a motion that is a table of joint positions.
-  std::vector<std::string> packagePaths;  ///< Where that robot's packages are.
+  std::string animation;                  ///< For a motion that is a model.
+  std::string robotPath;                  ///< For a motion that is a table of joint positions.
+  std::vector<std::string> packagePaths;  ///< Folders of that robot's packages.
   Placement placement;
 };
 
 inline constexpr char kClipHelp[] =
     "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)";
 
-/// The motion itself; `option`: how it is given.
+/// The motion itself; `option`: its option.
 Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* option,
                           const char* value, const char* help = kClipHelp);
 
-/// --avatar, where there is one.
+/// --avatar.
 Setting& addAvatarSetting(Settings& settings, ClipRequest& request);
 
-/// --rate; `help` says what is done with the poses that are kept.
+/// --rate; `help` says what the command does with the selected poses.
 Setting& addRateSetting(
     Settings& settings, ClipRequest& request,
     const char* help = "Poses per second to take from the clip; animations: 30 if all");
 
-/// How the motion is read, and matched with the avatar: --scale, --motion-up, --animation, --robot,
+/// How to read the motion and match it with the avatar: --scale, --motion-up, --animation, --robot,
 /// --map and --package. `request` outlives the settings.
 void addClipReadingSettings(Settings& settings, ClipRequest& request);
-/// The same, and where it stands: --place.
+/// The same, and its placement: --place.
 void addClipSettings(Settings& settings, ClipRequest& request);
 
 }  // namespace foretouch::tools

@@ -12,7 +12,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// A setting, and what the command line has of it.
+/// A setting, and its text on the command line.
 struct Typed {
   Setting* setting = nullptr;
   CLI::Option* option = nullptr;
@@ -20,13 +20,13 @@ struct Typed {
   std::vector<std::string> texts;
 };
 
-/// All that a command needs once the command line is read.
+/// A command's data after parsing.
 struct Subcommand {
   Command command;
   std::deque<Typed> typed;
 };
 
-/// Help shows no default where nothing is given by default.
+/// Help shows no default if there is none.
 void addSetting(CLI::App& app, Typed& typed) {
   const Setting& setting = *typed.setting;
   if (setting.kind == ValueKind::Flag) {
@@ -65,7 +65,7 @@ ExitCode runSubcommand(const Subcommand& subcommand) {
   return subcommand.command.run(subcommand.command.settings);
 }
 
-/// Only those who still ask for it hear of it.
+/// Hidden from help: only users who still name it see the text.
 void addGone(CLI::App& program, const Command& command, ExitCode& exit) {
   CLI::App* const gone = program.add_subcommand(command.name)->group("")->allow_extras();
   gone->set_help_flag();

@@ -1,5 +1,5 @@
-// tools/settings/command_line.h: commands as data. What reads the command line into them is the only source
-// of `foretouch` that knows the library which does it.
+// tools/settings/command_line.h: commands as data. Only the source that reads the command line into
+// them depends on the parsing library.
 #pragma once
 
 #include <functional>
@@ -18,17 +18,17 @@ namespace foretouch::tools {
 /// A subcommand: of the program, or of another one.
 struct Command {
   std::string name, purpose;
-  std::string examples = {};  ///< What its help ends with.
+  std::string examples = {};  ///< The end of its help.
   Settings settings = {};
-  /// Called once the settings hold what was given, all of it legal. `settings` are these.
+  /// Called once the settings hold the given values, all legal. `settings` are these.
   std::function<ExitCode(const Settings& settings)> run = {};
-  std::vector<Command> commands = {};  ///< Of which one is to be named, where there are any.
-  /// Not empty: the command is gone, and whoever names it is told this.
+  std::vector<Command> commands = {};  ///< Subcommands; the user must name one if there are any.
+  /// Not empty: the command is gone, and naming it prints this text.
   std::string isGone = {};
 };
 
-/// Adds a command to a program; what it ends with goes to `exit`, which must outlive `program`. The
-/// first value that is not legal ends it, with an error that names the option.
+/// Adds a command to a program. Its exit code goes to `exit`, which must outlive `program`. The
+/// first illegal value ends it, with an error that names the option.
 void addCommand(CLI::App& program, Command command, ExitCode& exit);
 
 }  // namespace foretouch::tools

@@ -18,7 +18,7 @@ int lower(char c) {
   return std::tolower(static_cast<unsigned char>(c));
 }
 
-/// Levenshtein distance, letter case apart. Precondition: `b` is at most kMaxCompared long.
+/// Levenshtein distance, ignoring case. Precondition: `b` is at most kMaxCompared long.
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::array<std::size_t, kMaxCompared + 1> row{};
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;

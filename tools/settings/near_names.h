@@ -1,4 +1,4 @@
-// tools/settings/near_names.h: which existing names a misspelt one may have meant.
+// tools/settings/near_names.h: existing names near to a misspelt one.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 namespace foretouch::tools {
 
 /// "; did you mean 'LeftHand', 'LeftFoot'?", with at most three names, nearest first, within an
-/// edit distance of one and a quarter of the word's length, letter case apart; empty where none is
-/// that near. Names longer than 64 bytes are not compared, so a hostile list costs little.
+/// edit distance of one and a quarter of the word's length, ignoring case; empty if none is that
+/// near. Skips names longer than 64 bytes, so a hostile list costs little.
 [[nodiscard]] std::string didYouMean(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace foretouch::tools

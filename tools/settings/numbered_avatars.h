@@ -1,4 +1,4 @@
-// tools/settings/numbered_avatars.h: avatars by the numbers that messages call them, as typed in.
+// tools/settings/numbered_avatars.h: avatars by their numbers in messages, as typed in.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct NumberedAvatar {
 /// A whole number of microseconds since the Unix epoch, from 0 to 2^53.
 [[nodiscard]] Result<std::int64_t> parseUtime(const std::string& option, const std::string& text);
 
-/// "FILE" or "ID=FILE", of several each with an ID of its own; one without is 1. A file whose name
-/// begins with a number and an equals sign is written ./5=file.
+/// "FILE" or "ID=FILE"; several need one ID each; a single one without ID is 1. Write ./5=file for
+/// a file whose name begins with a number and an equals sign.
 [[nodiscard]] Result<std::vector<NumberedAvatar>> parseNumberedAvatars(
     const std::string& option, const std::vector<std::string>& texts);
 

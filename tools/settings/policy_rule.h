@@ -1,5 +1,5 @@
-// tools/settings/policy_rule.h: one [[policy]] table: what links are asked with where they differ,
-// and which objects are passed over.
+// tools/settings/policy_rule.h: one [[policy]] table: tolerance and fidelity per link, and objects
+// to ignore.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,18 @@ namespace foretouch::tools {
 
 inline constexpr std::size_t kMaxPolicyRules = 256;
 
-/// One table. What it leaves out stays as it was.
+/// One table. Missing keys change nothing.
 struct PolicyRule {
-  std::string file;                  ///< Where it stands, for errors.
+  std::string file;                  ///< Its file, for errors.
   std::int64_t line = -1;            ///< 1-based.
   std::vector<std::string> links;    ///< Patterns (tools/inputs/name_pattern.h); none: every link.
-  std::vector<std::string> objects;  ///< The same of the scene's objects; none: every object.
+  std::vector<std::string> objects;  ///< The same for the scene's objects; none: every object.
   std::optional<double> tolerance;   ///< Metres, kMinTolerance to kMaxTolerance.
-  std::optional<Fidelity> fidelity;  ///< Link or Exact; only where no objects are named.
-  std::optional<bool> ignore;        ///< False: asked for again.
+  std::optional<Fidelity> fidelity;  ///< Link or Exact; only without objects.
+  std::optional<bool> ignore;        ///< False: no longer ignored.
 };
 
-/// A list of the rules, each as it was given.
+/// A list of the rules, each as given.
 [[nodiscard]] std::string policiesJson(const std::vector<PolicyRule>& rules);
 
 }  // namespace foretouch::tools

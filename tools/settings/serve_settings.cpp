@@ -9,7 +9,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// No address at all, or what `parse` takes.
+/// No address at all, or one that `parse` accepts.
 Setting& addAddress(Settings& settings, const char* option, const char* value, std::string& place,
                     Result<HttpAddress> (*parse)(const std::string&, const std::string&),
                     const char* help) {

@@ -1,4 +1,4 @@
-// tools/settings/serve_settings.h: all that a service can be asked for.
+// tools/settings/serve_settings.h: all settings of a service.
 #pragma once
 
 #include <cstddef>
@@ -18,23 +18,22 @@ namespace foretouch::tools {
 inline constexpr int kMaxServeWorkers = 64;
 inline constexpr std::size_t kMaxServeAvatars = 4096;
 
-/// Where `--view` without a value serves.
+/// The address of `--view` without a value.
 inline constexpr char kDefaultView[] = "127.0.0.1:9465";
 
 enum class ReceiverKind : std::uint8_t {
   Own,     ///< Our bounded reader: for any network.
-  Liblcm,  ///< For networks that are trusted.
+  Liblcm,  ///< For trusted networks.
 };
 
-/// Each setting legal by itself. Paths can be opened as they are; an empty one is of nothing that
-/// is asked for.
+/// Each setting is legal by itself. Paths are ready to open; an empty one means: not requested.
 struct ServeConfig {
-  std::string url = kDefaultUrl;  ///< Not empty; what else it must be, the wire says.
+  std::string url = kDefaultUrl;  ///< Not empty; the wire checks the rest.
   ReceiverKind receiver = ReceiverKind::Own;
   ServiceOptions service;  ///< Workers (to kMaxServeWorkers), queue and suffix.
-  std::string log;         ///< Where events are recorded.
-  std::string http;        ///< "127.0.0.1:9464": where metrics are served.
-  std::string view;        ///< kDefaultView: where the stream can be watched.
+  std::string log;         ///< The file that records events.
+  std::string http;        ///< "127.0.0.1:9464": the address of the metrics.
+  std::string view;        ///< kDefaultView: the address of the live view.
   WorldRequest world;      ///< Fidelity: link or exact.
   StreamPolicy stream;
   std::vector<NumberedAvatar> avatars;  ///< At least one; ids differ.
@@ -43,8 +42,8 @@ struct ServeConfig {
 /// The table of `foretouch serve`, without its --config. `config` outlives the settings.
 void addServeSettings(Settings& settings, ServeConfig& config);
 
-/// The same for people: rows of a Markdown table of a configuration's keys, each with its default,
-/// what is legal, and what it is for. docs/formats.md holds them.
+/// The same for people: rows of a Markdown table of a configuration's keys, each with default,
+/// legal values and purpose. docs/formats.md holds them.
 [[nodiscard]] std::string configTable();
 
 /// "127.0.0.1:9464" or "localhost:9464" or "[::1]:9464": a host and a port of 1 to 65535.
@@ -52,10 +51,10 @@ struct HttpAddress {
   std::string host;
   std::uint16_t port = 0;
 };
-/// `option` is what errors call it.
+/// Errors name `option`.
 [[nodiscard]] Result<HttpAddress> parseHttpAddress(const std::string& option,
                                                    const std::string& text);
-/// The same of this machine alone.
+/// The same, for addresses of this machine only.
 [[nodiscard]] Result<HttpAddress> parseViewAddress(const std::string& option,
                                                    const std::string& text);
 

@@ -15,12 +15,12 @@
 
 namespace foretouch::tools {
 
-/// The numbers from `least` to `most`, both legal but for a `least` of 0.
+/// The numbers from `least` to `most`, both legal except a `least` of 0.
 struct NumberRange {
   double least, most;
   const char* unit = "";   ///< "metres"; empty: none.
   const char* sign = "";   ///< "m", behind a value in reports.
-  bool takesZero = false;  ///< A `least` of 0 is legal, too.
+  bool takesZero = false;  ///< A `least` of 0 is legal too.
 
   [[nodiscard]] bool contains(double number) const {
     return number <= most && (number > least || (number == least && (least > 0.0 || takesZero)));
@@ -28,11 +28,11 @@ struct NumberRange {
   [[nodiscard]] std::string inWords() const;
 };
 
-/// A word, and what it stands for.
+/// Words and their values.
 template <typename Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
-/// Settings in the order in which help lists them. References to them stay good.
+/// Settings in the order of help. References to them stay valid.
 class Settings {
  public:
   Settings() = default;
@@ -43,8 +43,8 @@ class Settings {
 
   Setting& number(const char* option, const char* value, double& place, NumberRange range,
                   const char* help);
-  /// `none` is the word for no number at all; empty: there is no such word, and the option is not
-  /// given.
+  /// `none`: the word for no number; empty: there is no such word, and no number means that the
+  /// option is not given.
   Setting& number(const char* option, const char* value, std::optional<double>& place,
                   NumberRange range, const char* none, const char* help);
   template <typename Whole>
@@ -74,19 +74,19 @@ class Settings {
         },
         help);
   }
-  /// A flag, and what it is called in a configuration where it is off and where it is on.
+  /// A flag, and its words in a configuration for off and on.
   Setting& flag(const char* option, bool& place, const char* help,
                 std::vector<std::string> words = {});
   Setting& text(const char* option, const char* value, std::string& place, const char* help);
   Setting& path(const char* option, const char* value, std::string& place, const char* help);
   Setting& list(const char* option, const char* value, std::vector<std::string>& place,
                 const char* help);
-  /// A text with a rule of its own: `take` fills the place, `shown` says what is in it.
+  /// A text with a rule of its own: `take` fills the place, `shown` returns its content.
   Setting& parsed(const char* option, const char* value,
                   std::function<Result<Done>(const std::string&)> take,
                   std::function<std::string()> shown, const char* help);
 
-  /// The setting of an option, a header's field, a report's row. Precondition: it is there.
+  /// The setting of an option, a header's field, a report's row. Precondition: it exists.
   [[nodiscard]] Setting& of(const std::string& option);
   /// Whether the command line has it.
   [[nodiscard]] bool isGiven(const std::string& option) const;
@@ -109,10 +109,10 @@ class Settings {
   std::deque<Setting> all_;
 };
 
-/// Of a first line: each field with its value, in this order; those that are not named left out.
+/// For a first line: each field with its value, in this order, without those not named.
 void writeHeaderFields(const Settings& settings, std::initializer_list<const char*> fields,
                        JsonWriter& out);
-/// The same of one, named or not.
+/// The same for one, named or not.
 void writeHeaderField(const Settings& settings, const char* field, JsonWriter& out);
 
 }  // namespace foretouch::tools

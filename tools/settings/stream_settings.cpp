@@ -12,7 +12,7 @@ constexpr double kUsPerS = 1e6;
 constexpr NumberRange kStepRange{1.0 / kUsPerS, static_cast<double>(kMostStepUs) / kUsPerS,
                                  "seconds", "s"};
 
-/// In microseconds, as the policy has it; in seconds, as people write it.
+/// Microseconds in the policy; seconds for people.
 void addMaxStep(Settings& settings, std::int64_t& maxStepUs) {
   Setting& setting = settings.parsed("--max-step", "S", {}, {},
                                      "Refuse a pose captured later than this after the last one");

@@ -1,4 +1,4 @@
-// tools/settings/stream_settings.h: how a stream of poses is taken, live or from its log.
+// tools/settings/stream_settings.h: how to treat a stream of poses, live or from its log.
 #pragma once
 
 #include <string>

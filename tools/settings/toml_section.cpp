@@ -8,8 +8,8 @@
 namespace foretouch::tools {
 namespace {
 
-// toml++ sets no limit to a.b.c.d..., each of which is a table inside the last, and takes tables
-// apart by recursion: kMaxDotsALine x TOML_MAX_NESTED_VALUES of them fit on any stack.
+// toml++ does not limit a.b.c.d..., each a table inside the last, and destroys tables recursively:
+// kMaxDotsALine x TOML_MAX_NESTED_VALUES of them fit on any stack.
 constexpr std::size_t kMaxDotsALine = 256;
 
 /// No control characters, in the widest sense: the text goes to terminals and the system.
@@ -18,7 +18,7 @@ bool isPlain(std::string_view text) {
   return isUtf8(text) && std::none_of(text.begin(), text.end(), isControl);
 }
 
-/// What toml++ says, without what a terminal could take for an instruction.
+/// The message of toml++, without terminal control characters.
 std::string plain(std::string_view text) {
   std::string result;
   for (const char c : text) result += c >= 0x20 && c < 0x7f ? c : '?';
@@ -37,7 +37,7 @@ const char* nameOf(toml::node_type type) {
   }
 }
 
-/// The bound that toml++ does not keep: see kMaxDotsALine.
+/// The bound that toml++ lacks: see kMaxDotsALine.
 std::optional<Error> dotsError(std::string_view text, const std::string& file) {
   std::int64_t line = 1;
   std::size_t dots = 0;

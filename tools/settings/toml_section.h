@@ -1,5 +1,5 @@
-// tools/settings/toml_section.h: tables of TOML read key by key, with errors that name the line.
-// Not for what stands outside configuration: it brings toml++ along.
+// tools/settings/toml_section.h: reads tables of TOML key by key, with errors that name the line.
+// Only for configuration: it includes toml++.
 #pragma once
 
 #include <algorithm>
@@ -18,13 +18,13 @@
 #include "lss/index.h"
 #include "tools/settings/setting.h"
 
-// An exception per broken file is one too many, and what the format needs is two values deep.
+// Broken files must not throw, and our format nests two values deep.
 #define TOML_EXCEPTIONS 0
 #define TOML_MAX_NESTED_VALUES 8
 #define TOML_ENABLE_FORMATTERS 0
-// toml++ 3.3 asserts, or promises to the optimiser, what broken files do not keep ("[[!" is one),
-// just before it tests the same and reports it; and of some letters it promises that nobody asks
-// whether they are spaces.
+// toml++ 3.3 asserts, or promises to the optimiser, conditions that broken files violate ("[[!" is
+// one), just before it tests and reports them. It also promises that nobody asks whether some
+// letters are spaces.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_ASSERT_ASSUME
 #define TOML_ASSERT_ASSUME(condition) static_assert(true)
@@ -39,7 +39,7 @@ namespace foretouch::tools {
 
 inline constexpr std::size_t kMaxTomlBytes = std::size_t{1} << 20;
 
-/// `file` is what errors call it. Never throws; nesting is bounded.
+/// Errors name `file`. Never throws; bounds the nesting.
 [[nodiscard]] Result<toml::table> parseToml(std::string_view text, const std::string& file);
 
 [[nodiscard]] std::int64_t lineOf(const toml::node& node);
@@ -50,7 +50,7 @@ inline constexpr std::size_t kMaxTomlBytes = std::size_t{1} << 20;
 /// "a", "b" or "c".
 [[nodiscard]] std::string orList(const std::vector<std::string>& words);
 
-/// What is common to all sections of one file: the first error ends the reading.
+/// Shared by all sections of one file: the first error ends the reading.
 struct TomlReading {
   std::string file;
   std::optional<Error> error;
@@ -60,7 +60,7 @@ struct TomlReading {
   }
 };
 
-/// One table and its keys. Each reader leaves its value alone where the key is not there.
+/// One table and its keys. Each reader leaves its value alone if the key is missing.
 class TomlSection {
  public:
   TomlSection(TomlReading& reading, const toml::table& table, std::string title)
@@ -69,21 +69,21 @@ class TomlSection {
   [[nodiscard]] std::int64_t line() const { return lineOf(table_); }
   [[nodiscard]] const toml::node* find(const char* key) const { return table_.get(key); }
 
-  /// Refuses the first key of the file that is none of these.
+  /// Refuses the first key of the file that is not one of these.
   void allowOnly(const std::vector<std::string>& keys);
 
   /// The table `key` in this one, or an empty one.
   TomlSection table(const char* key);
 
-  /// Puts what stands at the setting's key in the setting's place. `pathOf` makes of a path what
-  /// can be opened.
+  /// Stores the value of the setting's key in the setting's place. `pathOf` turns a path into one
+  /// that is ready to open.
   void read(Setting& setting, const std::function<std::string(const std::string&)>& pathOf);
 
   void text(const char* key, std::string& value, bool mayBeEmpty = true);
 
   void texts(const char* key, std::vector<std::string>& values);
 
-  /// One of `words`, each standing for one of `values`.
+  /// One of `words`, with the matching one of `values`.
   template <typename Value>
   void word(const char* key, const std::vector<std::string>& words,
             const std::vector<Value>& values, Value& value) {
@@ -112,7 +112,7 @@ class TomlSection {
     value = static_cast<Integer>(found);
   }
 
-  /// `legal` says whether a finite number is; `expected` says it to people.
+  /// `legal` decides whether a finite number is legal; `expected` says it to people.
   template <typename Legal>
   void number(const char* key, const char* expected, Legal legal, double& value) {
     const toml::node* const node = find(key);

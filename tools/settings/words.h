@@ -1,4 +1,4 @@
-// tools/settings/words.h: what the values of settings are called, wherever they are typed or told.
+// tools/settings/words.h: the names of settings' values, for input and output.
 #pragma once
 
 #include "assets/import/imported_scene.h"

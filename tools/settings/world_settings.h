@@ -1,5 +1,4 @@
-// tools/settings/world_settings.h: what a replay and a service have in common: a scene, and what is
-// asked of whoever moves in it.
+// tools/settings/world_settings.h: shared by replay and service: a scene, and the query in it.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@
 
 namespace foretouch::tools {
 
-/// One minute a step: whoever waits longer has no stream.
+/// One minute per step: slower is not a stream.
 inline constexpr std::int64_t kMostBudgetUs = 60'000'000;
 
 inline constexpr NumberRange kAboveZero{0.0, std::numeric_limits<double>::max()};
@@ -24,29 +23,30 @@ inline constexpr NumberRange kZeroOrAbove{0.0, std::numeric_limits<double>::max(
 inline constexpr NumberRange kMetresPerUnit{0.0, std::numeric_limits<double>::max(), "", "m"};
 inline constexpr NumberRange kToleranceRange{kMinTolerance, kMaxTolerance, "metres", "m"};
 
-/// A scene and a question, each setting legal by itself. Paths can be opened as they are; an empty
-/// one is of nothing that is asked for.
+/// A scene and a query; each setting is legal by itself. Paths are ready to open; an empty one
+/// means: not requested.
 struct WorldRequest {
   std::string scenePath;
   SceneImportOptions sceneImport;
-  /// As asked: what hangs on an avatar's names, surface or policies is added by queryOptionsFor().
+  /// As requested; queryOptionsFor() adds the parts that depend on an avatar's names, surface or
+  /// policies.
   QueryOptions query;
-  std::int64_t budgetUs = 0;        ///< What a step may take, made its workBudget; 0: no limit.
+  std::int64_t budgetUs = 0;        ///< Time per step, converted to workBudget; 0: no limit.
   std::vector<std::string> ignore;  ///< For parseIgnoredPairs() (tools/inputs/ignored_pairs.h).
   std::string policyPath;
-  std::vector<PolicyRule> policies;  ///< Of that file, or of a configuration; later ones win.
-  std::string skinPath;              ///< The model whose skin touches, at skinned fidelity.
+  std::vector<PolicyRule> policies;  ///< From that file, or from a configuration; later ones win.
+  std::string skinPath;              ///< The model whose skin is the surface, at skinned fidelity.
   SceneImportOptions skinImport;
 };
 
 // Each adds its part of the table; `request` outlives the settings.
 
-/// --scene, --scene-scale and --up: the scene, and how its file is read.
+/// --scene, --scene-scale and --up: the scene, and how to read its file.
 void addSceneSettings(Settings& settings, WorldRequest& request);
-/// What services can be asked, too: --tolerance, --fidelity, --ignore, --budget-us.
+/// The ones that services have too: --tolerance, --fidelity, --ignore, --budget-us.
 void addQuerySettings(Settings& settings, WorldRequest& request);
-/// The rest: --scope, --leaves, --skin and how it is read, --culler, --policy (whose file is not
-/// read here).
+/// The rest: --scope, --leaves, --skin and how to read it, --culler, --policy (does not read its
+/// file).
 void addReplayQuerySettings(Settings& settings, WorldRequest& request);
 
 }  // namespace foretouch::tools

@@ -7,7 +7,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Memory is bounded whatever arrives: beyond this many avatars, those known are forgotten.
+/// Bounds the memory: beyond this many avatars, forgets the known ones.
 constexpr std::size_t kMaxAvatars = 4096;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// tools/stream/answer_tracker.h: which answers of a stream did not arrive, by what those that did
-// say.
+// tools/stream/answer_tracker.h: finds the answers of a stream that did not arrive, from those that
+// did.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace foretouch::tools {
 
-/// A service answers each pose that it accepts and says in each answer which pose it answered
-/// before: what is missing in between was lost on the way to the listener. The first answer of a
-/// timeline names none before it, so one that is lost right before it is not seen.
+/// A service answers each pose that it accepts, and each answer names the pose answered before: a
+/// missing answer in between was lost on the way to the listener. The first answer of a timeline
+/// names no pose before it, so it does not reveal one lost right before it.
 class AnswerTracker {
  public:
-  /// A sentence for people where answers are missing before this one.
+  /// A sentence for people if answers are missing before this one.
   [[nodiscard]] std::optional<std::string> take(const ContactsMessage& message);
 
-  /// How often answers were missing: at least one each time.
+  /// How often at least one answer was missing.
   [[nodiscard]] std::int64_t gaps() const { return gaps_; }
 
  private:

@@ -23,7 +23,7 @@ std::int64_t monotonicNs() {
   return static_cast<std::int64_t>(now.tv_sec) * kNsPerS + now.tv_nsec;
 }
 
-/// One sender's way through a clip.
+/// One sender's run through a clip.
 class Run {
  public:
   Run(const PublishOptions& options, Pace& pace, const MessageSink& sink)
@@ -31,9 +31,9 @@ class Run {
     report_.session = options.sender.startUtimeUs;
   }
 
-  /// False where it was told to stop.
+  /// False if it was stopped.
   Result<bool> send(const ClipSender& sender) {
-    // Whoever hears of a session hears of its skeleton first.
+    // A session's skeleton goes before its poses.
     nextSkeletonUs_ = elapsedOf(sender.utimeOf(0));
     for (std::int64_t pose = 0; pose < sender.numPoses(); ++pose) {
       const std::int64_t dueUs = elapsedOf(sender.utimeOf(pose));
@@ -48,7 +48,7 @@ class Run {
   [[nodiscard]] const PublishReport& report() const { return report_; }
 
  private:
-  /// Of the pace's time, since the first pose of all.
+  /// Time of the pace, since the first pose of all.
   [[nodiscard]] std::int64_t elapsedOf(std::int64_t utimeUs) const {
     if (options_.speed <= 0.0) return 0;
     const auto clipUs = static_cast<double>(utimeUs - options_.sender.startUtimeUs);

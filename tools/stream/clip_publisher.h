@@ -1,5 +1,5 @@
-// tools/stream/clip_publisher.h: a clip sent as a live sender sends: on time, with its skeleton
-// every second.
+// tools/stream/clip_publisher.h: sends a clip like a live sender: on time, with its skeleton every
+// second.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace foretouch::tools {
 
-/// How time passes for a sender.
+/// A sender's time.
 class Pace {
  public:
   virtual ~Pace() = default;
-  /// Waits until this long after the start. By how much it was missed (us, >= 0), or nothing where
-  /// the sender is told to stop.
+  /// Waits until this long after the start. Returns how late it is (us, >= 0), or nothing if the
+  /// sender must stop.
   virtual std::optional<std::int64_t> waitUntil(std::int64_t elapsedUs) = 0;
   /// Since the Unix epoch, now.
   [[nodiscard]] virtual std::int64_t utimeUs() const = 0;
@@ -28,7 +28,7 @@ class Pace {
 /// The machine's time, by absolute deadlines of its monotonic clock, so that waits do not add up.
 class LivePace : public Pace {
  public:
-  /// `isStopped` is asked at least after every wait, also one that a signal cut short.
+  /// Calls `isStopped` at least after every wait, even if a signal cut it short.
   explicit LivePace(std::function<bool()> isStopped);
   std::optional<std::int64_t> waitUntil(std::int64_t elapsedUs) override;
   [[nodiscard]] std::int64_t utimeUs() const override;
@@ -38,7 +38,7 @@ class LivePace : public Pace {
   std::int64_t startNs_;
 };
 
-/// Time that passes by being waited for: nothing is ever late.
+/// Time that passes only in waits: nothing is ever late.
 class RecordedPace : public Pace {
  public:
   explicit RecordedPace(std::int64_t startUtimeUs) : startUs_(startUtimeUs) {}
@@ -50,27 +50,27 @@ class RecordedPace : public Pace {
 };
 
 struct PublishOptions {
-  double speed = 1.0;  ///< Of the clip's time to the pace's; 0: without waiting.
-  bool loop = false;   ///< From the start again, as a new session, until told to stop.
+  double speed = 1.0;  ///< Clip time per time of the pace; 0: without waiting.
+  bool loop = false;   ///< Repeats from the start, as a new session, until stopped.
   ChannelNames channels;
   SenderOptions sender;
 };
 
 struct PublishReport {
   std::int64_t session = 0;     ///< The first one.
-  std::int64_t poses = 0;       ///< Sent, or at least tried.
+  std::int64_t poses = 0;       ///< Sent, or tried.
   std::int64_t skeletons = 0;   ///< The same.
-  std::int64_t failures = 0;    ///< Messages that the sink did not take.
+  std::int64_t failures = 0;    ///< Messages that the sink lost.
   std::int64_t late = 0;        ///< Poses sent more than kLateUs after their time.
   std::int64_t mostLateUs = 0;  ///< Of all poses.
   static constexpr std::int64_t kLateUs = 1000;
 };
 
-/// Takes a message at a time of the pace; false where it was lost. An error ends the sending.
+/// Takes a message at a time of the pace; false if it was lost. An error ends the sending.
 using MessageSink =
     std::function<Result<bool>(const std::string& channel, ByteView payload, std::int64_t utimeUs)>;
 
-/// Sends the clip once, or over and over. `placed` as for ClipSender.
+/// Sends the clip once, or in a loop. `placed` as for ClipSender.
 [[nodiscard]] Result<PublishReport> publishClip(const PlacedClip& placed,
                                                 const StepSelection& steps,
                                                 const PublishOptions& options, Pace& pace,

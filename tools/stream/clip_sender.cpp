@@ -39,8 +39,8 @@ ClipSender::ClipSender(const PlacedClip& placed, const StepSelection& steps,
 
 std::int64_t ClipSender::utimeOf(std::int64_t pose) const {
   constexpr double kUsPerS = 1e6;
-  // Frames are at least a microsecond apart. The whole microsecond is taken out before rounding,
-  // which then cannot make two stamps equal: what is left to round does not decrease.
+  // Frames are at least a microsecond apart. Subtracts the whole microsecond before rounding, which
+  // then cannot make two stamps equal: the rest does not decrease.
   const double beyondOneUs = std::max(0.0, stepLengthS(placed_, steps_) * kUsPerS - 1.0);
   return options_.startUtimeUs + pose + std::llround(static_cast<double>(pose) * beyondOneUs);
 }

@@ -18,13 +18,13 @@ struct SenderOptions {
   std::string source;             ///< SkeletonMessage::source.
 };
 
-/// Sends the avatar's skeleton and, for each pose that a replay of the same clip takes, that pose,
-/// bit for bit: a service answers as a replay does. Joints that the clip turns are marked as
-/// tracked, the others, which keep their rest values, as inferred. Translations are sent of roots
-/// and of joints that the clip moves.
+/// Sends the avatar's skeleton and the poses of a replay of the same clip, bit for bit, so that a
+/// service answers as a replay does. Marks joints that the clip turns as tracked, and the others,
+/// which keep their rest values, as inferred. Sends translations of roots and of joints that the
+/// clip moves.
 class ClipSender {
  public:
-  /// What `placed` refers to must outlive the sender.
+  /// The objects of `placed` must outlive the sender.
   ClipSender(const PlacedClip& placed, const StepSelection& steps, const SenderOptions& options);
 
   /// One more than there are steps.

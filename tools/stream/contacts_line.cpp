@@ -72,7 +72,8 @@ std::int64_t utimeOf(const ContactsMessage& message, double toi) {
 std::int64_t utimeOf(std::int64_t fromUs, std::int64_t toUs, double toi) {
   const auto span = static_cast<double>(toUs - fromUs);
   const double product = toi * span;
-  // The product may have been rounded up to a whole number; what it lacks is known exactly.
+  // The product may have been rounded up to a whole number; the fused multiply-add gives the error
+  // exactly.
   const double whole = std::floor(product);
   const bool isRoundedUp = whole == product && std::fma(toi, span, -product) < 0.0;
   return fromUs + static_cast<std::int64_t>(whole) - (isRoundedUp ? 1 : 0);

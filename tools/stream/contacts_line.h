@@ -11,8 +11,8 @@
 
 namespace foretouch::tools {
 
-/// Whether a line says when a pose came, how long its query took and when its answer went, which no
-/// two runs agree on.
+/// Whether a line has the arrival of the pose, the query's duration and the time of the answer,
+/// which differ between runs.
 enum class Stamps { With, Without };
 
 /// An answer and a heartbeat as one object each.
@@ -20,7 +20,7 @@ void writeContacts(const ContactsMessage& message, Stamps stamps, JsonWriter& ou
 void writeStatus(const StatusMessage& message, JsonWriter& out);
 
 /// writeContacts() and a line break. The objects of its `contacts` are those of a results file,
-/// with "utime" in the place of "time".
+/// with "utime" instead of "time".
 [[nodiscard]] std::string contactsLine(const ContactsMessage& message, Stamps stamps);
 
 /// The same for people: "avatar 1, pose 42: LeftHand touches 'table' at 41 % of 33.3 ms".

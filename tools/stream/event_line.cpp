@@ -18,7 +18,7 @@ void writeRotation(const Quaternion& q, JsonWriter& out) {
   out.endArray();
 }
 
-/// Beyond what a JSON number holds everywhere.
+/// Beyond the range of JSON numbers in some readers.
 std::string hashText(std::int64_t hash) {
   return fmt::format("{:016x}", static_cast<std::uint64_t>(hash));
 }

@@ -9,8 +9,8 @@
 
 namespace foretouch::tools {
 
-/// One object and a line break: number, time and channel, and the message where it is one of ours;
-/// else how many bytes it has, and why it was refused if the channel is ours.
+/// One object and a line break: number, time and channel, and the message if it is one of ours;
+/// else its size in bytes, and the reason for its refusal if the channel is ours.
 [[nodiscard]] std::string eventLine(const LogEvent& event, const ChannelNames& channels);
 
 }  // namespace foretouch::tools

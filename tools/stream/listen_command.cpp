@@ -27,13 +27,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// All that the options say.
+/// The values of all options.
 struct ListenJob {
   std::string url, suffix;
-  ChannelNames channels;  ///< Of the suffix.
+  ChannelNames channels;  ///< With the suffix.
   bool json = false, status = false;
-  int count = 0;                   ///< Of verdicts; then it ends. 0: it does not.
-  std::optional<double> timeoutS;  ///< Without a verdict; then it ends.
+  int count = 0;                   ///< Ends after so many verdicts; 0: never.
+  std::optional<double> timeoutS;  ///< Ends after so long without a verdict.
 };
 
 Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
@@ -47,7 +47,7 @@ Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
   return receiver;
 }
 
-/// Prints what arrives, a line at a time.
+/// Prints messages as they arrive, line by line.
 class Listener {
  public:
   explicit Listener(const ListenJob& job) : job_(job) {}
@@ -72,7 +72,7 @@ class Listener {
     const std::chrono::duration<double> silence = Clock::now() - heardAt_;
     return job_.timeoutS && silence.count() >= *job_.timeoutS;
   }
-  /// Somebody reads what is printed.
+  /// False once nobody reads the output.
   [[nodiscard]] bool isHeard() const { return isHeard_; }
   [[nodiscard]] std::int64_t verdicts() const { return verdicts_; }
   [[nodiscard]] std::int64_t rejected() const { return rejected_; }
@@ -99,7 +99,7 @@ class Listener {
 };
 
 Result<ExitCode> listen(const ListenJob& job) {
-  constexpr int kWaitMs = 50;  // how late a signal or the end of silence is noticed at most
+  constexpr int kWaitMs = 50;  // longest delay in noticing a signal or a timeout
   StopSignal stop;
   bool isStopped = false;
   FORETOUCH_TRY(const auto receiver, receiverFor(job));

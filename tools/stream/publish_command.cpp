@@ -23,7 +23,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// All that the options say.
+/// The values of all options.
 struct PublishJob {
   ClipRequest request;
   PublishOptions options;
@@ -31,7 +31,7 @@ struct PublishJob {
   std::optional<std::int64_t> startUtimeUs;  ///< Of a log's first pose.
 };
 
-/// What belongs to live sending makes no sense with a log, and the other way round.
+/// Options of live sending make no sense with a log, and vice versa.
 Result<Done> checkTogether(const PublishJob& job) {
   const auto refuse = [](const char* option, const char* why) {
     return Error::in(option, ErrorCode::Mismatch, why);
@@ -47,7 +47,7 @@ Result<Done> checkTogether(const PublishJob& job) {
   return Done{};
 }
 
-/// What follows from the options together.
+/// Derives the rest of the job from the options.
 Result<Done> settle(PublishJob& job) {
   FORETOUCH_TRY(job.options.channels, channelNames(job.suffix));
   job.url = urlOrDefault(job.url);

@@ -19,8 +19,8 @@ namespace foretouch::tools {
 /// Microseconds since the Unix epoch, now.
 [[nodiscard]] std::int64_t utimeNow();
 
-/// Writes what publishing the clip sends, stamped as if every message had arrived the instant it
-/// was due, into a new event log.
+/// Writes the messages of publishing the clip into a new event log, stamped as if every message had
+/// arrived the instant it was due.
 [[nodiscard]] Result<PublishReport> publishToLog(const ClipRequest& request,
                                                  const PublishOptions& options,
                                                  const std::string& logPath);

@@ -16,7 +16,7 @@ namespace {
 
 static_assert(kMaxServeConfigBytes == kMaxTomlBytes);
 
-/// A path of the file `from`, which counts from that file's folder.
+/// A path in the file `from`, relative to that file's folder.
 std::string resolved(const std::string& path, const std::string& from) {
   if (path.empty()) return path;
   return (std::filesystem::path(from).parent_path() / path).string();

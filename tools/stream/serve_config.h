@@ -1,5 +1,5 @@
-// tools/stream/serve_config.h: what `foretouch serve --config` reads: one TOML file that says all
-// of what a service does. docs/formats.md, "Service configuration", has its keys.
+// tools/stream/serve_config.h: the file of `foretouch serve --config`: one TOML file that
+// configures a service. docs/formats.md, "Service configuration", has its keys.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace foretouch::tools {
 
 inline constexpr std::size_t kMaxServeConfigBytes = std::size_t{1} << 20;
 
-/// `file` is the path that `text` came from: for errors, and for relative paths, which count from
-/// its folder. Errors name the line: broken TOML, unknown or repeated keys (with the nearest legal
-/// one), wrong types, values out of range, what is missing. Never throws; nesting is bounded.
+/// `file`: the path of `text`, for errors, and for relative paths, which are relative to its
+/// folder. Errors name the line: broken TOML, unknown or repeated keys (with the nearest legal
+/// one), wrong types, values out of range, missing keys. Never throws; bounds the nesting.
 [[nodiscard]] Result<ServeConfig> parseServeConfig(std::string_view text, const std::string& file);
 
-/// The same of a file of at most kMaxServeConfigBytes.
+/// The same for a file of at most kMaxServeConfigBytes.
 [[nodiscard]] Result<ServeConfig> readServeConfig(const std::string& path);
 
 }  // namespace foretouch::tools

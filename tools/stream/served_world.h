@@ -1,5 +1,4 @@
-// tools/stream/served_world.h: what a service answers about, loaded: the scene, and a solver an
-// avatar.
+// tools/stream/served_world.h: a service's loaded world: the scene, and one solver per avatar.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +16,10 @@ struct ServedWorld {
   Scene scene;
   std::vector<StreamSolver> avatars;
   std::size_t numTriangles = 0;
-  std::vector<std::string> remarks;  ///< What was tolerated: one sentence each.
+  std::vector<std::string> remarks;  ///< Tolerated faults: one sentence each.
 };
 
-/// Reads and checks all that the configuration names. Errors name the file or option.
+/// Reads and checks all files of the configuration. Errors name the file or option.
 [[nodiscard]] Result<ServedWorld> loadServedWorld(const ServeConfig& config);
 
 }  // namespace foretouch::tools

@@ -1,5 +1,5 @@
-// tools/stream/service_manager.h: what systemd asks of a service that says how it is (sd_notify(3),
-// Type=notify, WatchdogSec=), without its library: a datagram to the socket in $NOTIFY_SOCKET.
+// tools/stream/service_manager.h: systemd's notifications (sd_notify(3), Type=notify,
+// WatchdogSec=), without its library: a datagram to the socket in $NOTIFY_SOCKET.
 #pragma once
 
 #include <chrono>
@@ -10,13 +10,13 @@ namespace foretouch::tools {
 
 class ServiceManager {
  public:
-  /// Reads the environment. Where nobody asks, nothing is sent.
+  /// Reads the environment. Sends nothing if systemd does not ask.
   ServiceManager();
 
   void ready(const std::string& status) const { tell("READY=1\nSTATUS=" + status); }
   void alive() const { tell("WATCHDOG=1"); }
   void stopping() const { tell("STOPPING=1"); }
-  /// How often alive() is expected at least: half of what was set. Empty: not at all.
+  /// Longest time between calls of alive(): half of systemd's limit. Empty: none needed.
   [[nodiscard]] std::optional<std::chrono::milliseconds> aliveEvery() const { return aliveEvery_; }
 
  private:

@@ -16,7 +16,7 @@ static_assert(std::atomic<int>::is_always_lock_free, "written by a signal's hand
 extern "C" void foretouchNoteStop(int) {
   const int before = errno;
   const char note = 1;
-  // A pipe that is full has told already.
+  // A full pipe has already woken wait().
   if (::write(noteTo, &note, 1) < 0) errno = before;
   errno = before;
 }
@@ -32,7 +32,7 @@ StopSignal::StopSignal() {
   sigemptyset(&note.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     sigaction(kSignals[i], nullptr, &before_[i]);
-    // Without a pipe the program ends as if none of this were here.
+    // Without a pipe, signals end the program as usual.
     if (before_[i].sa_handler != SIG_IGN && pipe_[1] >= 0) sigaction(kSignals[i], &note, nullptr);
   }
 }

@@ -1,4 +1,4 @@
-// tools/stream/stop_signal.h: lets a program that runs until it is told to stop end in order.
+// tools/stream/stop_signal.h: lets a program that runs until a signal end in order.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 namespace foretouch::tools {
 
 /// While one lives, the first SIGINT, SIGTERM or SIGHUP ends wait() instead of the program, in
-/// whatever thread it arrives. Once wait() has told of it, a second one ends the program at once:
-/// stopping in order cannot hang it. At most one at a time. Signals that the parent had the program
-/// ignore (nohup) stay ignored.
+/// whatever thread it arrives. Once wait() has returned true, a second one ends the program at
+/// once, so that an orderly stop cannot hang it. At most one at a time. Signals that the parent set
+/// to ignored (nohup) stay ignored.
 class StopSignal {
  public:
   StopSignal();
@@ -18,7 +18,7 @@ class StopSignal {
   StopSignal& operator=(const StopSignal&) = delete;
   ~StopSignal();
 
-  /// Whether one has come; waits up to `most` for it.
+  /// Whether a signal has come; waits up to `most` for one.
   [[nodiscard]] bool wait(std::chrono::milliseconds most);
 
  private:

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
-/// Counts what goes through it.
+/// Counts the bytes written.
 class Output {
  public:
   explicit Output(PendingFile& file) : file_(&file) {}
@@ -104,7 +104,7 @@ Result<Done> writePly(const Sweep& sweep, SurfaceSide side, Output& out) {
   return Done{};
 }
 
-// Attributes of one's own begin with an underscore and may not be unsigned int (glTF 2.0,
+// Application-specific attributes begin with an underscore and may not be unsigned int (glTF 2.0,
 // "Meshes").
 constexpr std::size_t kVertexBytes = 5 * sizeof(float), kTriangleBytes = 3 * sizeof(std::uint32_t);
 
@@ -121,8 +121,8 @@ Counts countsOf(const LinkSurface& link) {
   return counts;
 }
 
-/// One link's node, mesh, views and accessors: of vertices, one after the other as position, time
-/// and link, and of triangles.
+/// One link's node, mesh, views and accessors: for vertices, interleaved as position, time and
+/// link, and for triangles.
 void addLink(GltfDocument& document, const LinkSurface& link) {
   const Counts counts = countsOf(link);
   Vector3d low = link.parts[0].vertices[0], high = low;

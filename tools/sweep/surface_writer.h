@@ -14,11 +14,11 @@ namespace foretouch::tools {
 
 enum class MeshFormat : std::uint8_t { Obj, Ply, Glb };
 
-/// By the path's extension, letter case apart; error for any other than these three.
+/// By the path's extension, ignoring case; error for any other than these three.
 [[nodiscard]] Result<MeshFormat> meshFormatOf(const std::string& path);
 
 /// Precondition: at least one link. For GLB, coordinates are floats (CoordinateBits::Single). Error
-/// where the format's numbers are too small for so many vertices or bytes. Returns bytes written.
+/// if the format's numbers are too small for so many vertices or bytes. Returns bytes written.
 [[nodiscard]] Result<std::size_t> writeSurfaces(const Sweep& sweep, SurfaceSide side,
                                                 MeshFormat format, PendingFile& file);
 

@@ -60,12 +60,12 @@ double stepLengthS(const SweepInputs& inputs) {
   return static_cast<double>(inputs.steps.stride) * inputs.clip.frameTimeS;
 }
 
-/// Puts [from, to] into the steps' times.
+/// Sets [from, to], within the steps' times.
 Result<Done> setSpan(SweepInputs& inputs) {
   const double lastS = static_cast<double>(inputs.steps.count) * stepLengthS(inputs);
   inputs.fromS = inputs.request.fromS.value_or(0.0);
   inputs.toS = inputs.request.toS.value_or(lastS);
-  // A frame time that is printed with few digits makes the end of a clip a matter of rounding.
+  // A frame time printed with few digits makes the end of a clip uncertain by rounding.
   constexpr double kSlack = 1e-9;
   if (inputs.toS > lastS && inputs.toS <= lastS * (1.0 + kSlack)) inputs.toS = lastS;
   if (!(inputs.fromS >= 0.0 && inputs.fromS < inputs.toS && inputs.toS <= lastS)) {
@@ -89,7 +89,7 @@ Result<ChainMotion> motionOf(const SweepInputs& inputs, std::int64_t step) {
   return ChainMotion(inputs.avatar.skeleton(), from, to);
 }
 
-/// One LSS's surface in the making.
+/// One LSS's surface under construction.
 struct Work {
   LinkId link = 0;
   const Lss* lss = nullptr;
@@ -115,7 +115,7 @@ Error tooMany(std::size_t most) {
                                  most));
 }
 
-/// The part of the step that is swept.
+/// The swept part of the step.
 SweptSpan spanOf(const SweepInputs& inputs, std::int64_t step) {
   const double length = stepLengthS(inputs);
   const double beginS = static_cast<double>(step) * length;
@@ -188,7 +188,7 @@ void sampleSurface(const SweepInputs& inputs, const Work& work, const SweptSurfa
         inputs.steps.count - 1);
     if (step != madeFor) {
       auto made = motionOf(inputs, step);
-      if (!made.ok()) return;  // its poses were good while it was swept
+      if (!made.ok()) return;  // its poses were valid during the sweep
       motion.emplace(std::move(made).value());
       madeFor = step;
     }

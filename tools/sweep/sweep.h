@@ -36,28 +36,28 @@ struct SweepInputs {
   double fromS = 0.0, toS = 0.0;
 };
 
-/// Reads, checks and fits the inputs to one another. Errors name the file or option.
+/// Reads, checks and matches the inputs. Errors name the file or option.
 [[nodiscard]] Result<SweepInputs> loadSweepInputs(const SweepRequest& request);
 
 struct LinkSurface {
   LinkId link = 0;
   std::string name;
-  std::vector<SweptSurface> parts;  ///< One an LSS; those that vanish are left out.
+  std::vector<SweptSurface> parts;  ///< One per LSS, without those that vanish.
 };
 
 struct Sweep {
   std::vector<LinkSurface> links;
   double certifiedError = 0.0;
   /// Outer side: the largest distance from the true sweep of vertices and of points on triangles,
-  /// spread over the surface. No bound, but what the bound is to be compared with.
+  /// spread over the surface. Not a bound, but for comparison with the bound.
   double sampledError = 0.0;
   std::size_t samples = 0;
   std::size_t pieces = 0, vertices = 0, triangles = 0;
-  std::size_t vanished = 0;  ///< LSS that are too thin for an inner surface.
+  std::size_t vanished = 0;  ///< LSS too thin for an inner surface.
 };
 
-/// Calls `progress(done, total)` after each step; it answers false to stop, and the sweep is then
-/// of no use. Time: O(pieces); one thread.
+/// Calls `progress(done, total)` after each step; false stops, and the sweep is then unusable.
+/// Time: O(pieces); one thread.
 [[nodiscard]] Result<Sweep> sweepOf(
     const SweepInputs& inputs, const std::function<bool(std::int64_t, std::int64_t)>& progress);
 

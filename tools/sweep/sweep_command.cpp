@@ -23,10 +23,10 @@ namespace foretouch::tools {
 namespace {
 
 constexpr int kMostTriangles = 1'000'000'000;
-/// A file of these is a gigabyte; whoever wants more says so.
+/// A file of these is a gigabyte; an option allows more.
 constexpr std::size_t kUsualTriangles = 20'000'000;
 
-/// Names, given apart or with commas.
+/// Names, given separately or with commas.
 std::vector<std::string> namesIn(const std::vector<std::string>& texts) {
   std::vector<std::string> names;
   for (const std::string& text : texts) {
@@ -37,7 +37,7 @@ std::vector<std::string> namesIn(const std::vector<std::string>& texts) {
   return names;
 }
 
-/// All that the options say.
+/// The values of all options.
 struct SweepJob {
   SweepRequest request;
   std::vector<std::string> links;  ///< As given; none: all.
@@ -46,7 +46,7 @@ struct SweepJob {
   bool inner = false;
 };
 
-/// What follows from the options together.
+/// Derives the rest of the job from the options.
 Result<Done> settle(SweepJob& job) {
   SweepRequest& request = job.request;
   request.links = job.links.empty() ? std::vector<std::string>{"all"} : namesIn(job.links);
@@ -103,9 +103,9 @@ Result<Done> runSweep(const SweepJob& job) {
   const auto begin = std::chrono::steady_clock::now();
   std::string text;
   {
-    const InterruptGuard guard;  // first built, last gone: the file goes before the signal comes
+    const InterruptGuard guard;  // built first, destroyed last: removes the file before the signal
     FORETOUCH_TRY(auto file, PendingFile::create(job.output));
-    std::optional<ProgressBar> progress;  // how much there is to do is known after the first step
+    std::optional<ProgressBar> progress;  // the total is known after the first step
     auto sweep = sweepOf(inputs, [&](std::int64_t done, std::int64_t total) {
       if (!progress) progress.emplace("sweep", total);
       progress->advanceTo(done);

@@ -47,7 +47,7 @@ std::string liveDocument(const ServeConfig& config, const ServedWorld& world) {
   for (std::size_t i = 0; i < world.avatars.size(); ++i) {
     document.avatars.push_back(viewOf(config.avatars[i], world.avatars[i], document.notes));
   }
-  // Where avatars will go is not known: all of the scene.
+  // The avatars' paths are unknown: all of the scene.
   addScene(world.scene, config.world.scenePath, kDefaultViewTriangles, Eigen::AlignedBox3d(),
            document);
   std::string text;

@@ -1,5 +1,5 @@
-// tools/view/live_document.h: what a page shows of a service before anything has happened: its
-// settings, its scene and its avatars.
+// tools/view/live_document.h: the page of a service before the first event: its settings, its scene
+// and its avatars.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace foretouch::tools {
 
-/// A view document of kind "live" (docs/formats.md, "View documents"). Scenes beyond
-/// kDefaultViewTriangles are simplified, which takes its time.
+/// A view document of kind "live" (docs/formats.md, "View documents"). Simplifies scenes beyond
+/// kDefaultViewTriangles, which takes time.
 [[nodiscard]] std::string liveDocument(const ServeConfig& config, const ServedWorld& world);
 
 }  // namespace foretouch::tools

@@ -14,12 +14,12 @@ namespace {
 constexpr std::size_t kStatusTopic = 0;
 constexpr std::chrono::seconds kStatusEvery{1};
 constexpr double kSecondsPerUs = 1e-6;
-/// Poses are for the eye: so many to a metre, or to the length of a quaternion. At the end of a
-/// chain of a hundred links that is a micrometre.
+/// Poses are for the eye: steps per metre, or per unit of a quaternion. At the end of a chain of a
+/// hundred links that is a micrometre.
 constexpr double kPoseUnits = 1e8;
 
 void writeRounded(double value, JsonWriter& out) {
-  // Adding zero makes -0 the 0 that is shorter.
+  // Adding zero turns -0 into 0, which is shorter.
   out.value(std::round(value * kPoseUnits) / kPoseUnits + 0.0);
 }
 
@@ -141,7 +141,7 @@ void LiveEvents::write(const LinkContact& contact, const BatchedStep& step, Json
 }
 
 double LiveEvents::secondsOf(std::int64_t utimeUs) const {
-  // Whatever a sender's clock says: no difference of integers, which might not fit.
+  // In doubles: for a wrong sender's clock, a difference of integers might overflow.
   const double us = static_cast<double>(utimeUs) - static_cast<double>(world_.startUtimeUs);
   return us * kSecondsPerUs;
 }

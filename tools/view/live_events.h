@@ -1,5 +1,5 @@
-// tools/view/live_events.h: what a service answers, as the events that a page shows
-// (docs/formats.md, "Live events"): steps from the feed, and how the service does once a second.
+// tools/view/live_events.h: a service's answers as the events that a page shows (docs/formats.md,
+// "Live events"): steps from the feed, and once a second the status.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@
 
 namespace foretouch::tools {
 
-/// What events say of the world, which does not change.
+/// The constant part of the world for events.
 struct LiveWorld {
   std::vector<std::int32_t> avatarIds;   ///< In the feed's order.
   std::vector<std::string> objectNames;  ///< Of the scene.
@@ -27,7 +27,7 @@ struct LiveWorld {
 
 class LiveEvents final : public EventSource {
  public:
-  /// `feed` outlives this; `status` is asked in the thread that collects.
+  /// `feed` outlives this; the collecting thread calls `status`.
   LiveEvents(ViewFeed& feed, LiveWorld world, std::function<StatusMessage()> status);
 
   void setViewers(std::size_t count) override;

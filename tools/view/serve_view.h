@@ -1,4 +1,4 @@
-// tools/view/serve_view.h: `foretouch serve --view`: a service watched in a browser.
+// tools/view/serve_view.h: `foretouch serve --view`: shows a service in a browser.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@
 
 namespace foretouch::tools {
 
-/// What is shown, gathered before a service takes the world's avatars.
+/// The page's data, collected before a service takes the world's avatars.
 struct ServeView {
   std::string page, document;
   LiveWorld world;
 };
 
-/// None where nobody asked for it.
+/// None if not requested.
 [[nodiscard]] std::optional<ServeView> prepareView(const ServeConfig& config,
                                                    const ServedWorld& world);
 

@@ -1,4 +1,4 @@
-"""Where the bundled example lies."""
+"""The place of the bundled example."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from foretouch._foretouch import ResourceError
 
 
 def example_folder() -> Path:
-    """The folder of room.obj, dancer.bvh and dancer.avatar.json: $FORETOUCH_EXAMPLES, or where the
-    installation (or build tree) that this package belongs to has it."""
+    """The folder of room.obj, dancer.bvh and dancer.avatar.json: $FORETOUCH_EXAMPLES, or its place
+    in this package's installation or build tree."""
     named = os.environ.get("FORETOUCH_EXAMPLES")
     # This file is PREFIX/lib/python3/dist-packages/foretouch/_examples.py.
     prefix = (Path(__file__).resolve().parent / "../../../..").resolve()

@@ -1,5 +1,5 @@
 """The compiled half of the package, as type checkers see it. tests/bindings/python/test_stubs.py
-holds it against the module, name by name; `./run python-types` by mypy's stubtest."""
+compares it with the module, name by name; `./run python-types` does so with mypy's stubtest."""
 
 import enum
 import os

@@ -1,4 +1,4 @@
-"""Queries for those who ask once: each of these makes a Query and asks it."""
+"""Single queries: each function makes a Query and runs it once."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def first_contacts(
     scope: str = "links",
     surface: Optional[Surface] = None,
 ) -> Step:
-    """What every link meets first in one motion. The options are Query's, which is faster where
-    more than one motion is asked about."""
+    """The first contact of every link in one motion. The options are those of Query, which is
+    faster for more than one motion."""
     query = Query(
         avatar,
         scene,
@@ -59,8 +59,8 @@ def first_contacts_many(
     scope: str = "links",
     surface: Optional[Surface] = None,
 ) -> Steps:
-    """What every link meets first on the way from each pose to the next (or to the one at the same
-    place in `ends`), by several threads."""
+    """The first contact of every link on the way from each pose to the next (or to the one at the
+    same place in `ends`), on several threads."""
     query = Query(
         avatar,
         scene,

@@ -1,4 +1,4 @@
-"""Plain data that goes into queries and comes out of them."""
+"""Plain data: the inputs and answers of queries."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Pose(NamedTuple):
 
 
 class Poses(Sequence[Pose]):
-    """Many poses of one avatar, as two arrays. A slice of it is one again, without a copy."""
+    """Many poses of one avatar, as two arrays. A slice is again a Poses, without a copy."""
 
     def __init__(self, rotations: npt.ArrayLike, translations: npt.ArrayLike) -> None:
         self.rotations: Doubles = np.asarray(rotations, dtype=np.float64)
@@ -74,7 +74,7 @@ class JointMatch(NamedTuple):
     """Which joint of a clip drives which joint of an avatar."""
 
     clip_joint_of: list[int]
-    """A joint of the avatar each; -1 where the clip has none."""
+    """Per joint of the avatar, the clip's joint; -1 if the clip has none."""
     unmatched_avatar: list[str]
     """They keep their rest values."""
     unmatched_clip: list[str]
@@ -82,7 +82,7 @@ class JointMatch(NamedTuple):
 
 
 class SceneAudit(NamedTuple):
-    """What a scene holds that its user may want to know of. Metres."""
+    """Facts about a scene that its user may want to know. Metres."""
 
     triangles: int
     dropped_non_finite: int
@@ -95,24 +95,24 @@ class SceneAudit(NamedTuple):
 
 
 class SweptSurface(NamedTuple):
-    """A closed surface around (or within) what a link sweeps. Metres, world frame.
+    """A closed surface around (or within) the volume that a link sweeps. Metres, world frame.
 
-    It may pass through itself: what it encloses are the points that it winds around at least once.
-    An inner surface of LSS that are too thin for its error is empty."""
+    It may pass through itself: it encloses the points that it winds around at least once. An inner
+    surface of LSS that are too thin for its error is empty."""
 
     vertices: Doubles
     """(v, 3)"""
     triangles: npt.NDArray[np.uint32]
     """(m, 3), counter-clockwise seen from outside."""
     certified_error: float
-    """No point enclosed is further from the swept volume (inner: the other way round)."""
+    """No enclosed point is further from the swept volume (inner: the other way round)."""
     times: Doubles
-    """(v,): when the link is there, the number of the motion plus t."""
+    """(v,): when the link is there: the motion's number plus t."""
     pieces: int
 
 
 class Policy(TypedDict, total=False):
-    """What one link is asked with. What it leaves out is as for all links."""
+    """One link's own options. A missing one is as for all links."""
 
     tolerance: float
     fidelity: str
@@ -121,7 +121,7 @@ class Policy(TypedDict, total=False):
 LinkLike = Union[str, int]
 """A link's name or index."""
 IgnoredLike = Union[LinkLike, tuple[LinkLike, Union[str, int]]]
-"""A link, or a link and an object (its name or index), whose contacts are not asked for."""
+"""A link, or a link and an object (its name or index), whose contacts the query ignores."""
 PoseLike = Union[Pose, tuple[npt.ArrayLike, npt.ArrayLike]]
 """Rotations (n, 4) and translations (n, 3)."""
 PosesLike = Union[Poses, tuple[npt.ArrayLike, npt.ArrayLike]]

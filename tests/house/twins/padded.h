@@ -1,4 +1,4 @@
-// tests/house/twins/padded.h: one half of a clash that ObjectNames.TwinsAreFound has to find.
+// tests/house/twins/padded.h: one half of a clash that ObjectNames.TwinsAreFound must find.
 #pragma once
 
 namespace foretouch::house::twins {

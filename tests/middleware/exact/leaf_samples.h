@@ -1,4 +1,4 @@
-// tests/middleware/exact/leaf_samples.h: how the tests of exact leaves write and draw their inputs.
+// tests/middleware/exact/leaf_samples.h: inputs for the tests of exact leaves.
 #pragma once
 
 #include <array>

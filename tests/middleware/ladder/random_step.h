@@ -1,5 +1,5 @@
 // tests/middleware/ladder/random_step.h: bodies and steps for the rungs above the links: random
-// trees with bare links and several roots, nearly half turns, drifting joints, far places.
+// trees with bare links and several roots, near half turns, drifting joints, far places.
 #pragma once
 
 #include <string>

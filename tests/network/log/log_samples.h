@@ -1,4 +1,4 @@
-// tests/network/log/log_samples.h: logs to be read back, and all that a reader says about one.
+// tests/network/log/log_samples.h: logs to read back, and a reader's complete report about one.
 #pragma once
 
 #include <algorithm>

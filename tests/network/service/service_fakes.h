@@ -1,5 +1,5 @@
-// tests/network/service/service_fakes.h: what surrounds a service, in this process and under a
-// test's hand. A service owns its half of each pair; the test keeps the other.
+// tests/network/service/service_fakes.h: fakes of a service's environment, in this process and
+// under a test's control. A service owns its half of each pair; the test keeps the other.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 
 namespace foretouch::test {
 
-/// Long enough for any machine; only a test that fails waits for so long.
+/// Long enough for any machine; only a failing test waits so long.
 inline constexpr std::chrono::seconds kServicePatience{60};
 
 template <typename Condition>
@@ -36,7 +36,7 @@ bool eventually(const Condition& isMet) {
   return true;
 }
 
-/// Closed, it holds up whoever passes.
+/// While closed, it blocks threads that pass.
 class Gate {
  public:
   void pass() {
@@ -62,7 +62,7 @@ class Gate {
   int atGate_ = 0;
 };
 
-/// What arrives.
+/// Arriving messages.
 class Inbox {
  public:
   void send(const std::string& channel, Bytes payload, std::int64_t receiveUtimeUs = 1) {
@@ -116,7 +116,7 @@ struct Said {
   Bytes payload;
 };
 
-/// What is said.
+/// Sent messages.
 class Outbox {
  public:
   Gate gate;  ///< Of answers.
@@ -160,7 +160,7 @@ struct Recorded {
   Bytes payload;
 };
 
-/// What is recorded.
+/// Recorded events.
 class Book {
  public:
   Gate gate;
@@ -203,7 +203,7 @@ class FakeSink final : public JournalSink {
   std::shared_ptr<Book> book_;
 };
 
-/// One microsecond later whenever it is asked.
+/// Advances one microsecond per call.
 class FakeClock final : public Clock {
  public:
   [[nodiscard]] std::int64_t utimeUs() const override { return ++now_; }

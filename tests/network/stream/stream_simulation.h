@@ -1,7 +1,6 @@
 // tests/network/stream/stream_simulation.h: senders, a faulty network and solvers in one thread;
-// one seed decides everything. Every answer is held against the truth: the full motion of the body,
-// with all the poses and all the joints that the receiver never saw, as the independent oracle
-// tells it.
+// one seed decides everything. Compares every answer with the truth: the full motion of the body,
+// with all the poses and all the joints that the receiver never saw, by the independent oracle.
 #pragma once
 
 #include <array>
@@ -15,18 +14,18 @@
 
 namespace foretouch::test {
 
-/// A rule broken on purpose: what the simulation must find, or it would find nothing.
+/// A rule broken on purpose, which the simulation must detect.
 enum class Mutation {
   None,
-  GapsAreSteps,      ///< Lost poses are not noticed.
-  InvalidIsValid,    ///< Values of joints that are not valid are used.
+  GapsAreSteps,      ///< Ignores lost poses.
+  InvalidIsValid,    ///< Uses values of invalid joints.
   StaleIsTracked,    ///< ... of joints that are neither tracked nor inferred.
   MissingIsAtRest,   ///< Joints that are not listed keep their rest values.
-  LackingIsAtRest,   ///< Joints that the sender does not have do.
-  RestartsAreSteps,  ///< Another session goes on where the one before ended.
-  CopiesAreNew,      ///< A pose that comes twice is answered twice.
+  LackingIsAtRest,   ///< Joints that the sender does not have keep theirs.
+  RestartsAreSteps,  ///< Another session continues where the one before ended.
+  CopiesAreNew,      ///< Answers both copies of a repeated pose.
   ContactsAreLate,   ///< By a hundredth of the step.
-  LastIsForgotten,   ///< The link that comes last is called clear.
+  LastIsForgotten,   ///< Reports the last link as clear.
 };
 inline constexpr std::array<Mutation, 9> kMutations{
     Mutation::GapsAreSteps,    Mutation::InvalidIsValid,  Mutation::StaleIsTracked,
@@ -35,25 +34,25 @@ inline constexpr std::array<Mutation, 9> kMutations{
 [[nodiscard]] const char* toString(Mutation mutation);
 
 struct SimulationOptions {
-  std::optional<double> loss;  ///< Of every seed; else each draws one of kLosses.
+  std::optional<double> loss;  ///< For every seed; else each draws one of kLosses.
   Mutation mutation = Mutation::None;
 };
 
-/// Shares of messages that are lost.
+/// Shares of lost messages.
 inline constexpr std::array<double, 5> kLosses{0.0, 0.001, 0.01, 0.1, 0.5};
 
 struct SimulationTally {
   std::uint64_t seeds = 0;
-  std::uint64_t posesSent = 0, posesArrived = 0;  ///< Copies and altered ones among the latter.
+  std::uint64_t posesSent = 0, posesArrived = 0;  ///< The latter include copies and altered ones.
   std::uint64_t answered = 0;
   std::uint64_t gaps = 0, timelines = 0;
-  std::uint64_t alteredAnswered = 0;  ///< Bytes were changed, yet every rule was kept.
-  /// Steps between two runs of a sender without sessions that goes on in the old one's numbers.
+  std::uint64_t alteredAnswered = 0;  ///< Changed bytes that still meet every rule.
+  /// Steps between two runs of a sender without sessions that continues the old run's numbers.
   std::uint64_t unknowable = 0;
   RejectCounts rejects{};                                     ///< Of bytes, poses and skeletons.
   std::array<std::uint64_t, 4> verdicts{};                    ///< Of link-steps.
   std::array<std::uint64_t, kNumUndecidedReasons> reasons{};  ///< Of undecided ones.
-  std::uint64_t judged = 0;    ///< Link-steps that the oracle was asked of.
+  std::uint64_t judged = 0;    ///< Link-steps that the oracle examined.
   std::uint64_t unproved = 0;  ///< It gave up.
 
   void add(const SimulationTally& other);

@@ -1,5 +1,5 @@
-// tests/network/wire/udpm_bytes.h: datagrams written by hand, right and wrong ones; shares no code
-// with network/.
+// tests/network/wire/udpm_bytes.h: hand-made datagrams, right and wrong ones; shares no code with
+// network/.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ inline void append(RawBytes& bytes, const std::string& text) {
   bytes.insert(bytes.end(), text.begin(), text.end());
 }
 
-/// `channel` as it is to stand in the datagram, NUL included where there is to be one.
+/// `channelAndNul`: as it should be in the datagram, with the NUL if there should be one.
 inline RawBytes shortOf(std::uint32_t sequence, const std::string& channelAndNul,
                         const std::string& payload = "") {
   RawBytes bytes;
@@ -53,7 +53,7 @@ inline std::string withNul(const std::string& channel) {
   return channel + std::string(1, '\0');
 }
 
-/// The fragments of a message, cut at these sizes (the last one is what remains).
+/// The fragments of a message, cut at these sizes (the last one is the rest).
 inline std::vector<RawBytes> cut(const std::string& channel, const RawBytes& payload,
                                  std::uint32_t sequence, const std::vector<std::size_t>& sizes) {
   std::vector<RawBytes> fragments;

@@ -1,5 +1,5 @@
-// tests/tools/glb/glb_reader.h: reads a GLB and holds it against what glTF 2.0 demands; shares no
-// code with what writes them.
+// tests/tools/glb/glb_reader.h: reads a GLB and checks it against glTF 2.0; shares no code with the
+// writer.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ namespace foretouch::test {
 
 class GlbReader {
  public:
-  /// Fails the test where container or JSON are not what they must be.
+  /// Fails the test if container or JSON are wrong.
   explicit GlbReader(const std::string& bytes);
 
   [[nodiscard]] const nlohmann::json& root() const { return root_; }
-  /// The numbers of an accessor of floats, row after row.
+  /// The numbers of an accessor of floats, row by row.
   [[nodiscard]] std::vector<float> floats(std::size_t accessor) const;
   [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t accessor) const;
 
@@ -25,7 +25,7 @@ class GlbReader {
   /// that form trees, animations whose keys are of one length and whose times ascend.
   void check() const;
 
-  /// The one node of this name; fails the test where there is none or two.
+  /// The one node of this name; fails the test if there is none, or two.
   [[nodiscard]] std::size_t node(const std::string& name) const;
   /// The parent of every node; -1: none.
   [[nodiscard]] std::vector<int> parents() const;
@@ -42,7 +42,7 @@ class GlbReader {
   std::string binary_;
 };
 
-/// Numbers a row of an accessor has, by its type.
+/// Numbers per row of an accessor, by its type.
 [[nodiscard]] std::size_t widthOf(const nlohmann::json& accessor);
 
 }  // namespace foretouch::test

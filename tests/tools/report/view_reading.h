@@ -1,4 +1,4 @@
-// tests/tools/report/view_reading.h: view documents read as a page reads them, by code of its own.
+// tests/tools/report/view_reading.h: reads view documents as a page does, with independent code.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace foretouch::test {
 
-/// Digit by digit, by the table of RFC 4648; not the inverse of the encoder's way.
+/// Digit by digit, by the table of RFC 4648; independent of the encoder.
 inline std::vector<unsigned char> fromBase64(const std::string& text) {
   const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::vector<unsigned char> bytes;

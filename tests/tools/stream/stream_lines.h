@@ -1,4 +1,4 @@
-// tests/tools/stream/stream_lines.h: lines of results and of streams, taken apart as texts.
+// tests/tools/stream/stream_lines.h: parses lines of results and of streams as texts.
 #pragma once
 
 #include <sstream>
@@ -16,8 +16,8 @@ inline std::vector<std::string> linesOf(const std::string& text) {
   return lines;
 }
 
-/// The text of the list that is the field "contacts", without what each contact says of its time:
-/// "time" in results, "utime" in streams.
+/// The text of the list in the field "contacts", without each contact's time: "time" in results,
+/// "utime" in streams.
 inline std::string contactsIn(const std::string& line) {
   const std::string name = "\"contacts\":";
   const std::size_t begin = line.find(name);

@@ -2,29 +2,32 @@
  * where and along which normal. One page about its use: docs/c-api.md.
  *
  * Units and frames. Metres, radians, doubles; right-handed world W, +Y up; t is normalised, 0 at
- * the earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. What engines
- * have instead: ft_positions_from_floats() and its three sisters.
+ * the earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. To convert
+ * from an engine's conventions: ft_positions_from_floats() and its three sisters.
  *
- * Errors. Every function that can fail gives an ft_status: FT_OK, or what was wrong, and then
- * ft_last_error() says where and what was expected. A function that fails writes nothing but, where
- * it has one, the required count, and NULL for the handle or text it was to give. Arguments are
- * not trusted: NULL, NaN, wrong sizes, counts beyond the limits and handles of another kind are
- * refused. What cannot be checked is the caller's word: pointers point to as much as the counts
- * say, and a handle is not used after it was destroyed. Nothing aborts, no C++ exception gets out.
+ * Errors. Every function that can fail returns an ft_status: FT_OK, or the kind of error; then
+ * ft_last_error() names the place and the expectation. A function that fails writes only the
+ * required count, if it has one, and NULL in place of a handle or text. The library trusts no
+ * argument: it refuses NULL, NaN, wrong sizes, counts beyond the limits and handles of another
+ * kind. It cannot check two things, so the caller must ensure them: pointers point to as many
+ * elements as the counts say, and no handle is used after it was destroyed. Nothing aborts; no C++
+ * exception escapes.
  *
- * Memory. Handles are made by ft_*_create*() and released by ft_*_destroy(), in any order: a query
- * and a clip keep what they were made of. Arrays are the caller's, in both directions; nothing
- * keeps a pointer into them. A function that fills an array takes its capacity in elements and
- * gives the count that it has in *required (which may be NULL): with too little room it writes
- * nothing and gives FT_ERROR_BUFFER_TOO_SMALL; capacity 0 with a NULL array only asks.
+ * Memory. ft_*_create*() makes handles and ft_*_destroy() releases them, in any order: a query or
+ * clip keeps its scene and avatar alive. The caller owns all arrays, in both directions; the
+ * library keeps no pointer into them. A function that fills an array takes its capacity in elements
+ * and stores the number of elements in *required (which may be NULL). With too little room it
+ * writes nothing else and returns FT_ERROR_BUFFER_TOO_SMALL; capacity 0 with a NULL array only asks
+ * for the number.
  *
  * Threads. Scenes, avatars and clips never change: any number of threads may use one. A query is
- * for one thread at a time: make one a thread and avatar. ft_last_error() is each thread's own.
+ * for one thread at a time: make one per thread and avatar. ft_last_error() is per thread.
  *
  * Versions. A struct's first field is its size, which the ft_*_init() function of the struct or the
  * caller sets. Fields are only ever added at the end, with zero for their default: a smaller size
- * is an older program's, whose missing fields have defaults; a larger one is a newer program's,
- * accepted where all that is unknown here is zero. Structs without a size never change. */
+ * comes from an older program, whose missing fields have defaults; a larger one comes from a newer
+ * program, and is accepted if all fields unknown here are zero. Structs without a size never
+ * change. */
 #ifndef FORETOUCH_FORETOUCH_H
 #define FORETOUCH_FORETOUCH_H
 
@@ -43,11 +46,11 @@ extern "C" {
 
 /* ---- Versions ---- */
 
-/* Of this header. It counts up when a function or a field is added; programs built with an older
- * header go on working. What would break them changes the library's soname instead. */
+/* Of this header. Every new function or field increments it; programs built with an older header
+ * still work. A change that would break them changes the library's soname instead. */
 #define FT_ABI_VERSION 1
 
-/* Both of the library that runs: "0.1.0", which lives for ever, and its FT_ABI_VERSION. */
+/* Of the library that runs: "0.1.0", a text that lives for ever, and its FT_ABI_VERSION. */
 FT_API const char* ft_version(void);
 FT_API uint32_t ft_abi_version(void);
 
@@ -60,21 +63,21 @@ typedef int32_t ft_status;
 enum {
   FT_OK = 0,
   /* Of the call itself. */
-  FT_ERROR_NULL_ARGUMENT = 1, /* NULL where something is needed. */
-  FT_ERROR_WRONG_HANDLE = 2,  /* No handle of this kind. */
+  FT_ERROR_NULL_ARGUMENT = 1, /* NULL for a required pointer. */
+  FT_ERROR_WRONG_HANDLE = 2,  /* Not a handle of this kind. */
   FT_ERROR_STRUCT_SIZE = 3,   /* A size that no version of the struct has, or its newer fields. */
   FT_ERROR_ABI_VERSION = 4,   /* The library is older than the header. */
-  FT_ERROR_BUFFER_TOO_SMALL = 5, /* *required says how much room is needed. */
-  FT_ERROR_NO_STEP = 6,          /* Asks about a step before the first one was answered. */
+  FT_ERROR_BUFFER_TOO_SMALL = 5, /* *required is the room needed. */
+  FT_ERROR_NO_STEP = 6,          /* No step has been answered yet. */
   FT_ERROR_OUT_OF_MEMORY = 7,
-  FT_ERROR_INTERNAL = 8, /* A mistake of Foretouch's own. */
-  /* Of what was given. */
+  FT_ERROR_INTERNAL = 8, /* A bug in Foretouch. */
+  /* Of the input. */
   FT_ERROR_FILE_NOT_FOUND = 100,
   FT_ERROR_FILE_UNREADABLE = 101,
   FT_ERROR_FILE_UNWRITABLE = 102,
   FT_ERROR_SYNTAX = 103,         /* The text breaks the format's grammar. */
   FT_ERROR_LIMIT_EXCEEDED = 104, /* Larger, deeper or longer than the stated limit. */
-  FT_ERROR_NON_FINITE = 105,     /* NaN or infinity where a number is needed. */
+  FT_ERROR_NON_FINITE = 105,     /* NaN or infinity instead of a number. */
   FT_ERROR_OUT_OF_RANGE = 106,   /* A finite number outside its legal range. */
   FT_ERROR_UNKNOWN_NAME = 107,
   FT_ERROR_DUPLICATE_NAME = 108,
@@ -88,15 +91,15 @@ enum {
 
 /* The status as a stable word, "file-not-found"; "unknown" for any other number. Never fails. */
 FT_API const char* ft_status_name(ft_status status);
-/* One line about this thread's last call that failed, naming file, place and expectation; "" where
- * none has. UTF-8, at most 1023 bytes. The text lives until the thread's next call that fails. */
+/* One line about this thread's last call that failed, with file, place and expectation; "" if none
+ * has. UTF-8, at most 1023 bytes. The text lives until the thread's next call that fails. */
 FT_API const char* ft_last_error(void);
-/* The joint, link, frame or triangle that was at fault in that call, -1 where none was. */
+/* The joint, link, frame or triangle at fault in that call; -1 if none. */
 FT_API int64_t ft_last_error_index(void);
 
-/* FT_ERROR_ABI_VERSION where `header_version` is newer than the library. */
+/* FT_ERROR_ABI_VERSION if `header_version` is newer than the library. */
 FT_API ft_status ft_check_abi(uint32_t header_version);
-/* To be asked once, before all else: does the library that was found know what this header says? */
+/* Call this once, before everything else: does the library found at run time know this header? */
 #define FT_CHECK_ABI() ft_check_abi(FT_ABI_VERSION)
 
 /* ---- Scenes: static triangles ---- */
@@ -104,20 +107,20 @@ FT_API ft_status ft_check_abi(uint32_t header_version);
 typedef struct ft_scene_arrays {
   uint32_t size;
   uint32_t reserved;       /* 0 */
-  const double* positions; /* x, y, z a vertex, W, metres, |coordinate| <= 1e7 */
+  const double* positions; /* x, y, z per vertex, W, metres, |coordinate| <= 1e7 */
   size_t vertex_count;
-  const uint32_t* indices; /* 3 a triangle; NULL: three vertices a triangle, in their order */
-  size_t triangle_count;   /* 1 to 50,000,000 */
-  const int32_t* objects;  /* the object of each triangle; NULL: object 0 */
+  const uint32_t* indices;         /* 3 per triangle; NULL: three vertices per triangle, in order */
+  size_t triangle_count;           /* 1 to 50,000,000 */
+  const int32_t* objects;          /* the object of each triangle; NULL: object 0 */
   const char* const* object_names; /* UTF-8; NULL: "object 0" and so on */
-  size_t object_count;             /* 0 is taken for 1 where `objects` is NULL */
+  size_t object_count;             /* 0 counts as 1 if `objects` is NULL */
 } ft_scene_arrays;
 
-/* Zeroes, and the size: at most `size` bytes are written. Likewise all ft_*_init(). */
+/* Writes zeroes and the size, at most `size` bytes. Likewise all ft_*_init(). */
 FT_API ft_status ft_scene_arrays_init(ft_scene_arrays* arrays, size_t size);
 
-/* Triangles are two-sided; those without area are kept, those that are not finite are dropped and
- * counted (ft_scene_info). O(n log n). Errors: those of the arrays, no finite triangle. */
+/* Triangles are two-sided. Keeps those without area; drops and counts those that are not finite
+ * (ft_scene_info). O(n log n). Errors: bad arrays, no finite triangle. */
 FT_API ft_status ft_scene_create(const ft_scene_arrays* arrays, ft_scene** scene);
 
 enum { FT_UP_Y = 0, FT_UP_Z = 1 };
@@ -136,7 +139,7 @@ typedef struct ft_import_options {
 
 FT_API ft_status ft_import_options_init(ft_import_options* options, size_t size);
 
-/* Any mesh format that assimp reads, by a child process under limits: a file that crashes the
+/* Reads any mesh format that assimp reads, in a child process under limits: a file that crashes the
  * importer is an error here. `options` may be NULL. */
 FT_API ft_status ft_scene_create_from_file(const char* path, const ft_import_options* options,
                                            ft_scene** scene);
@@ -153,9 +156,9 @@ typedef struct ft_scene_info {
 
 /* Fills as much of `info` as info->size covers. */
 FT_API ft_status ft_scene_get_info(const ft_scene* scene, ft_scene_info* info);
-/* In *name, the name of an object, which lives as long as the scene. */
+/* Stores an object's name in *name; it lives as long as the scene. */
 FT_API ft_status ft_scene_object_name(const ft_scene* scene, int32_t object, const char** name);
-/* NULL is legal. Not while another thread uses this handle. */
+/* NULL is legal. Do not call while another thread uses this handle. */
 FT_API void ft_scene_destroy(ft_scene* scene);
 
 /* ---- Avatars: joints, and LSS (capsules) that bound the links that move with them ---- */
@@ -176,8 +179,8 @@ typedef struct ft_avatar_arrays {
   size_t joint_count;       /* 1 to 4096 */
   const char* const* names; /* unique UTF-8 */
   const int32_t* parents;   /* index of an earlier joint; -1: a root, placed in W */
-  const double* offsets;    /* rest translation in the parent's frame, x, y, z a joint */
-  const double* rotations;  /* rest rotation, w, x, y, z a joint; NULL: none */
+  const double* offsets;    /* rest translation in the parent's frame, x, y, z per joint */
+  const double* rotations;  /* rest rotation, w, x, y, z per joint; NULL: none */
   const ft_lss* lss;        /* at least one */
   const int32_t* lss_links; /* the joint that each LSS moves with */
   size_t lss_count;
@@ -188,51 +191,52 @@ typedef struct ft_avatar_arrays {
 } ft_avatar_arrays;
 
 FT_API ft_status ft_avatar_arrays_init(ft_avatar_arrays* arrays, size_t size);
-/* O(joints + LSS + triangles). Errors: those of the arrays; ft_last_error_index() is the joint. */
+/* O(joints + LSS + triangles). Errors: bad arrays; ft_last_error_index() is the joint. */
 FT_API ft_status ft_avatar_create(const ft_avatar_arrays* arrays, ft_avatar** avatar);
 
-/* Reads an avatar file (docs/formats.md). `meshes`: how the triangles that it refers to are read,
- * its scale and up included; NULL: they are not, and exact fidelity is refused. */
+/* Reads an avatar file (docs/formats.md). `meshes`: how to read the triangles that it refers to,
+ * scale and up included; NULL: does not read them, and queries refuse exact fidelity. */
 FT_API ft_status ft_avatar_create_from_file(const char* path, const ft_import_options* meshes,
                                             ft_avatar** avatar);
-/* The same text, from memory and without meshes; `name` stands for the file in errors. */
+/* The same from text in memory, without meshes; errors name `name` as the file. */
 FT_API ft_status ft_avatar_create_from_text(const char* text, size_t length, const char* name,
                                             ft_avatar** avatar);
 
 FT_API ft_status ft_avatar_joint_count(const ft_avatar* avatar, size_t* count);
-/* In *name, which lives as long as the avatar. */
+/* Stores the name in *name; it lives as long as the avatar. */
 FT_API ft_status ft_avatar_joint_name(const ft_avatar* avatar, int32_t joint, const char** name);
 /* -1: a root. */
 FT_API ft_status ft_avatar_joint_parent(const ft_avatar* avatar, int32_t joint, int32_t* parent);
-/* FT_ERROR_UNKNOWN_NAME where no joint is called so. O(joints). */
+/* FT_ERROR_UNKNOWN_NAME if no joint has this name. O(joints). */
 FT_API ft_status ft_avatar_find_joint(const ft_avatar* avatar, const char* name, int32_t* joint);
-/* Rotations (4 a joint) and translations (3 a joint; either may be NULL) of the rest pose;
- * `capacity` and `required` in joints. */
+/* Rotations (4 per joint) and translations (3 per joint) of the rest pose; either may be NULL.
+ * `capacity` and `required` are in joints. */
 FT_API ft_status ft_avatar_rest_pose(const ft_avatar* avatar, double* rotations,
                                      double* translations, size_t capacity, size_t* required);
 FT_API void ft_avatar_destroy(ft_avatar* avatar);
 
 /* ---- Poses and clips ---- */
 
-/* Every joint in its parent's frame, a root in W. */
+/* Every joint in its parent's frame; roots in W. */
 typedef struct ft_pose {
   uint32_t size;
-  uint32_t joint_count;       /* the avatar's */
-  const double* rotations;    /* w, x, y, z a joint, norm within 1e-3 of 1, in place of the rest */
-  const double* translations; /* x, y, z a joint, in place of the offsets; NULL: the offsets */
+  uint32_t joint_count; /* the avatar's */
+  const double*
+      rotations; /* w, x, y, z per joint, norm within 1e-3 of 1; replace the rest rotations */
+  const double* translations; /* x, y, z per joint; replace the offsets; NULL: the offsets */
 } ft_pose;
 
 FT_API ft_status ft_pose_init(ft_pose* pose, size_t size);
 
-/* How an engine's floats lie, and how they become ours; quaternions are in the order x, y, z, w. */
+/* Axes and units of an engine's floats, and their conversion; quaternions in the order x, y, z, w.
+ * */
 enum {
   FT_AXES_Y_UP_RIGHT = 0, /* metres, as here: Godot, OpenXR, glTF */
-  FT_AXES_Y_UP_LEFT = 1,  /* metres, left-handed: Unity. z is turned round */
+  FT_AXES_Y_UP_LEFT = 1,  /* metres, left-handed: Unity. Negates z */
   FT_AXES_Z_UP_LEFT = 2   /* centimetres, left-handed: Unreal. (x, y, z) becomes (x, z, y) / 100 */
 };
 
-/* `count` triples or quadruples; NULL and count 0 are legal. Non-finite numbers pass through. O(n).
- */
+/* `count` triples or quadruples; NULL with count 0 is legal. Passes non-finite numbers on. O(n). */
 FT_API ft_status ft_positions_from_floats(const float* xyz, size_t count, int32_t axes,
                                           double* positions);
 FT_API ft_status ft_positions_to_floats(const double* positions, size_t count, int32_t axes,
@@ -252,7 +256,7 @@ typedef struct ft_clip_options {
 
 FT_API ft_status ft_clip_options_init(ft_clip_options* options, size_t size);
 /* Reads a BVH clip whose joints drive those of the avatar that have the same name; the others keep
- * their rest pose. Error where none does. `options` may be NULL. */
+ * their rest pose. Error if no name matches. `options` may be NULL. */
 FT_API ft_status ft_clip_create_from_file(const char* path, const ft_avatar* avatar,
                                           const ft_clip_options* options, ft_clip** clip);
 
@@ -264,33 +268,33 @@ typedef struct ft_clip_info {
 } ft_clip_info;
 
 FT_API ft_status ft_clip_get_info(const ft_clip* clip, ft_clip_info* info);
-/* Frame `frame` as a pose of the avatar; else as ft_avatar_rest_pose(). */
+/* Frame `frame` as a pose of the avatar; otherwise like ft_avatar_rest_pose(). */
 FT_API ft_status ft_clip_pose(const ft_clip* clip, size_t frame, double* rotations,
                               double* translations, size_t capacity, size_t* required);
 FT_API void ft_clip_destroy(ft_clip* clip);
 
 /* ---- Queries: what does each link meet first? ---- */
 
-/* What a link's surface is, coarsest last but one. */
+/* What counts as a link's surface. From coarse to fine: ELLIPSOID, AVATAR, LIMB, LINK, EXACT. */
 enum {
   FT_FIDELITY_LINK = 0,      /* its LSS */
-  FT_FIDELITY_LIMB = 1,      /* one LSS a chain of links between branchings */
+  FT_FIDELITY_LIMB = 1,      /* one LSS per chain of links between branchings */
   FT_FIDELITY_AVATAR = 2,    /* one LSS for all links */
   FT_FIDELITY_ELLIPSOID = 3, /* one ellipsoid on a straight line for all links */
-  FT_FIDELITY_EXACT = 4      /* its triangles; LSS that bound none stand for themselves */
+  FT_FIDELITY_EXACT = 4      /* its triangles, and LSS that contain no triangle */
 };
 enum {
   FT_SCOPE_EVERY_LINK = 0,     /* every link's own first contact */
-  FT_SCOPE_FIRST_OF_AVATAR = 1 /* the links that touch first; the others: undecided, after_first */
+  FT_SCOPE_FIRST_OF_AVATAR = 1 /* the links that touch first; others: undecided, after_first */
 };
 #define FT_EVERY_OBJECT (-1)
 
-/* A link, or a link and one object, whose contacts are not asked for. */
+/* A link, or a link and one object, whose contacts the query ignores. */
 typedef struct ft_ignored_pair {
-  int32_t link, object; /* FT_EVERY_OBJECT: the link is not asked at all */
+  int32_t link, object; /* FT_EVERY_OBJECT: ignores the link altogether */
 } ft_ignored_pair;
 
-/* What one link is asked with, where links differ. */
+/* One link's own tolerance and fidelity, if links differ. */
 typedef struct ft_link_policy {
   double tolerance;
   int32_t fidelity; /* FT_FIDELITY_LINK or FT_FIDELITY_EXACT */
@@ -301,18 +305,18 @@ typedef struct ft_query_options {
   uint32_t size;
   int32_t fidelity;     /* default FT_FIDELITY_LINK */
   double tolerance;     /* metres, 1e-9 to 1e7; default 1e-3 */
-  uint64_t work_budget; /* of a step, in evaluations of a pair (about 10 ns); default UINT64_MAX */
-  double deadline_us;   /* of a step, by the clock, >= 0; default infinity. Not reproducible */
+  uint64_t work_budget; /* per step, in evaluations of a pair (about 10 ns); default UINT64_MAX */
+  double deadline_us;   /* per step, by the clock, >= 0; default infinity. Not reproducible */
   int32_t scope;        /* default FT_SCOPE_EVERY_LINK */
   int32_t reserved;     /* 0 */
   const ft_ignored_pair* ignored;
   size_t ignored_count;
-  const ft_link_policy* policies; /* one a link, in place of tolerance and fidelity, or none */
+  const ft_link_policy* policies; /* one per link, replace tolerance and fidelity; or none */
   size_t policy_count;
 } ft_query_options;
 
 FT_API ft_status ft_query_options_init(ft_query_options* options, size_t size);
-/* A query of one avatar in one scene; `options` may be NULL. Options are checked here. */
+/* A query of one avatar in one scene; `options` may be NULL. Checks the options. */
 FT_API ft_status ft_query_create(const ft_scene* scene, const ft_avatar* avatar,
                                  const ft_query_options* options, ft_query** query);
 /* Changes the options and forgets the last step's answer, but not its pose. */
@@ -320,16 +324,15 @@ FT_API ft_status ft_query_set_options(ft_query* query, const ft_query_options* o
 
 /* Answers the motion from one pose to another: every joint turns at constant rate on the shorter
  * arc, translations are linear, links follow down the chain. `from` NULL: from where the last step
- * ended (FT_ERROR_NO_STEP where none has). Once memory has grown to what the scene asks for,
- * allocates nothing. A step that fails is as if it had not been asked. Cost: docs/performance.md.
- */
+ * ended (FT_ERROR_NO_STEP if there was none). Allocates nothing once memory has grown to the
+ * scene's needs. A step that fails leaves the query unchanged. Cost: docs/performance.md. */
 FT_API ft_status ft_query_step(ft_query* query, const ft_pose* from, const ft_pose* to);
 
 enum {
   FT_VERDICT_CLEAR = 0,             /* proven: touches nothing on [0, 1] */
   FT_VERDICT_CONTACT = 1,           /* free on [0, toi); at toi within the tolerance */
   FT_VERDICT_STARTS_IN_CONTACT = 2, /* touches at t = 0; toi is 0 */
-  FT_VERDICT_UNDECIDED = 3          /* free on [0, free_until), nothing is said after it */
+  FT_VERDICT_UNDECIDED = 3          /* free on [0, free_until), nothing claimed after it */
 };
 enum {
   FT_REASON_NONE = 0,
@@ -340,7 +343,7 @@ enum {
 enum { FT_FEATURE_VERTEX = 0, FT_FEATURE_EDGE = 1, FT_FEATURE_FACE = 2 };
 
 /* What one link meets first. Sound: toi and free_until never exceed the true time of contact. In
- * arrays, the first element's size is that of all, and the library sets the others'. */
+ * arrays, the first element's size applies to all, and the library sets the others'. */
 typedef struct ft_contact {
   uint32_t size;
   int32_t link;
@@ -360,30 +363,29 @@ typedef struct ft_contact {
   int32_t link_feature, scene_feature; /* at exact fidelity */
 } ft_contact;
 
-/* Of the last step: all links, in order. O(links). */
+/* All links of the last step, in order. O(links). */
 FT_API ft_status ft_query_links(const ft_query* query, ft_contact* links, size_t capacity,
                                 size_t* required);
-/* Of the last step: the links that are not clear, the earliest first (undecided ones at their
- * free_until), the lowest link first of those at the same time. O(links log links). */
+/* The links of the last step that are not clear, earliest first (undecided ones at their
+ * free_until); at equal times, the lowest link first. O(links log links). */
 FT_API ft_status ft_query_contacts(const ft_query* query, ft_contact* contacts, size_t capacity,
                                    size_t* required);
 
-/* Where a link is at one t, in W, and how fast, per unit of t. */
+/* A link's place and velocity at one t, in W; velocities per unit of t. */
 typedef struct ft_transform {
   double rotation[4], translation[3]; /* w, x, y, z; metres */
   double angular_velocity[3], velocity[3];
 } ft_transform;
 
-/* All links at `t` in [0, 1] of the last step's motion: at toi, where the avatar stands as it
- * touches. O(joints). */
+/* All links at `t` in [0, 1] of the last step's motion; at toi, the avatar's pose as it touches.
+ * O(joints). */
 FT_API ft_status ft_motion_transforms(ft_query* query, double t, ft_transform* transforms,
                                       size_t capacity, size_t* required);
-/* What a discrete check sees: 1 in *touches where the link's surface touches the scene at `t` of
- * the last step's motion, else 0. By computed distances, without the promise. */
+/* What a discrete check sees: stores 1 in *touches if the link's surface touches the scene at `t`
+ * of the last step's motion, else 0. Uses computed distances, without the promise. */
 FT_API ft_status ft_touches_at(ft_query* query, int32_t link, double t, int32_t* touches);
 
-/* Work of the last step, which no machine load changes (middleware/query/query.h, QueryCounters).
- */
+/* Work of the last step, independent of machine load (middleware/query_counters.h). */
 typedef struct ft_counters {
   uint32_t size;
   uint32_t reserved; /* 0 */
