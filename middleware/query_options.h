@@ -96,8 +96,9 @@ struct QueryOptions {
   std::vector<LinkPolicy> linkPolicies;
   /// Work that the step may cost, all links together, in evaluations of a pair in lanes (about 10
   /// ns; middleware/query/work_meter.h converts other work). Links without an answer by then are
-  /// Undecided, free as far as proven; more work never proves less. Counted, not timed: the same
-  /// query gives the same answer.
+  /// Undecided, free as far as proven; more work never proves less. A step that costs at most seven
+  /// eighths of it gets the answer that it gets without a budget. Counted, not timed: the same query
+  /// gives the same answer.
   std::uint64_t workBudget = std::numeric_limits<std::uint64_t>::max();
   /// The same by the clock, in microseconds from the start of the query, which reads the clock
   /// between pieces of work of a few microseconds. Which links get an answer in time depends on the

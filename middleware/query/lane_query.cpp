@@ -36,8 +36,9 @@ constexpr int kClusterRounds = 6;
 constexpr std::size_t kPartsAtOnce = 4;
 /// Equal parts of a slab by which we sort clusters by time.
 constexpr std::size_t kTimeBins = 32;
-/// If work is limited: the cost of a slab before we halve it, so that some of the motion is proven
-/// if the whole is too much; and how often we halve it.
+/// If work is limited: the share that goes on the step as if it were not. If that is too little, we
+/// halve slabs: the cost of a slab before we do, and how often.
+constexpr double kShareOfWhole = 0.875;
 constexpr std::uint64_t kSlabWork = 2048;
 constexpr int kMostHalvings = 6;
 constexpr float kBegin = -1.0F, kEnd = 1.0F;  // of u
@@ -49,6 +50,11 @@ FloatBox sweptBox(const SweptBoxes& boxes, std::int32_t lss) {
     box.upper[axis] = boxes.upper[axis][lss];
   }
   return box;
+}
+
+/// The work was spent before the answer.
+bool isSpent(const LinkContact& contact) {
+  return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::WorkBudget;
 }
 
 /// An empty box, which meets nothing.
@@ -100,57 +106,66 @@ void LaneQuery::run(StepContacts& step) {
   findWhoIsAsked(step);
   const int slabs = slabsFor(
       table_, motion_, std::max(kInterpolationShare * range_.least, kLeastInterpolationError));
-  if (meter_.isLimited()) return runWithin(step, slabs);
+  if (meter_.isLimited()) {
+    lanes_.freeUntil.assign(countOf(body_.numLinks()), 0.0);
+    meter_.beginShare(kShareOfWhole, kSlabWork);
+  }
   for (int slab = 0; slab < slabs; ++slab) {
     begin_ = static_cast<double>(slab) / slabs;
     end_ = static_cast<double>(slab + 1) / slabs;
     if (!collectHits(step.counters)) continue;
-    if (!answerSlab(step) || options_.scope != Scope::FirstOfAvatar) continue;
-    return leaveAfterFirst(*firstOf(step), step);
+    if (!answerSlab(step)) return runInHalves(step, slab, slabs);
+    if (options_.scope != Scope::FirstOfAvatar) continue;
+    if (const auto first = firstOf(step)) return leaveAfterFirst(*first, step);
   }
   leaveClear(step);
 }
 
-/// Answers all links in the current slab; true if one of them is not clear.
+/// Answers all links in the current slab; false if the work was spent before the last one.
 bool LaneQuery::answerSlab(StepContacts& step) {
-  bool isTouched = false;
   float limit = kEnd;  // nothing later than this matters
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
-    const auto first = static_cast<std::size_t>(table_.first(link));
-    const auto end = static_cast<std::size_t>(table_.first(link + 1));
-    if (lanes_.first[first] == lanes_.first[end]) continue;
+    if (!isNear(link)) continue;
+    const auto i = slotOf(link);
     const LinkContact contact = answer(link, limit, step.counters);
-    if (contact.verdict == Verdict::Clear) continue;
-    isTouched = true;
-    step.links[slotOf(link)] = contact;
+    if (contact.verdict == Verdict::Clear) {
+      if (meter_.isLimited()) lanes_.freeUntil[i] = timeOf(limit);
+      continue;
+    }
+    if (isSpent(contact)) return keepProven(contact);
+    step.links[i] = contact;
     leaveOut(link);
     if (options_.scope == Scope::FirstOfAvatar) {
       limit = std::min(limit, lanesTimeOf(contact.freeUntil));
     }
   }
-  return isTouched;
+  return true;
 }
 
-/// As run(), until the work is spent. Restarts costly slabs as two halves. The order of the work
-/// does not depend on the budget, which only cuts it off, so more work never proves less.
-void LaneQuery::runWithin(StepContacts& step, int slabs) {
+/// Spends what is left of the work on the links that are still open in the current slab, the first
+/// of `slabs` that was too much. Restarts costly slabs as two halves, so that some of the motion is
+/// proven if the whole is too much.
+void LaneQuery::runInHalves(StepContacts& step, int slab, int slabs) {
   const int finest = slabs << kMostHalvings;
-  lanes_.freeUntil.assign(countOf(body_.numLinks()), 0.0);
-  int slab = 0, count = slabs;
+  leaveFarFree();
+  for (double& free : lanes_.freeUntil) free = std::max(free, begin_);
+  slab *= 2;
+  int count = 2 * slabs;
   while (slab < count) {
+    if (meter_.isSpent(step.counters)) return leaveUndone(step);
     begin_ = static_cast<double>(slab) / count;
     end_ = static_cast<double>(slab + 1) / count;
     meter_.beginPart(step.counters, count < finest ? kSlabWork : WorkMeter::kUnlimited);
-    if (answerSlabWithin(step)) {
+    if (answerOpen(step)) {
       const auto first = firstOf(step);
-      if (options_.scope == Scope::FirstOfAvatar && first) return leaveAfterFirst(*first, step);
+      if (options_.scope == Scope::FirstOfAvatar && first && *first <= end_) {
+        return leaveAfterFirst(*first, step);
+      }
       ++slab;
       while (count > slabs && slab % 2 == 0) {
         slab /= 2;
         count /= 2;
       }
-    } else if (meter_.isSpent(step.counters)) {
-      return leaveUndone(step);
     } else {
       slab *= 2;
       count *= 2;
@@ -161,33 +176,40 @@ void LaneQuery::runWithin(StepContacts& step, int slabs) {
 
 /// Answers the open links in the current slab, each from where it is proven free; false if the
 /// slab's work was spent before the last one.
-bool LaneQuery::answerSlabWithin(StepContacts& step) {
-  const bool isNear = collectHits(step.counters);
-  const auto isOpen = [&](LinkId link) {
-    const auto i = slotOf(link);
-    return lanes_.isAsked[i] != 0 && lanes_.freeUntil[i] < end_;
-  };
-  const auto isLinkNear = [&](LinkId link) {
-    return isNear &&
-           lanes_.first[slotOf(table_.first(link))] != lanes_.first[slotOf(table_.first(link + 1))];
-  };
+bool LaneQuery::answerOpen(StepContacts& step) {
+  if (!collectHits(step.counters)) std::fill(lanes_.first.begin(), lanes_.first.end(), 0U);
+  leaveFarFree();
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
-    if (isOpen(link) && !isLinkNear(link)) lanes_.freeUntil[slotOf(link)] = end_;
-  }
-  for (LinkId link = 0; link < body_.numLinks(); ++link) {
-    if (!isOpen(link)) continue;
     const auto i = slotOf(link);
+    if (lanes_.isAsked[i] == 0 || lanes_.freeUntil[i] >= end_) continue;
     const LinkContact contact = answer(link, kEnd, step.counters);
-    if (contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::WorkBudget) {
-      lanes_.freeUntil[i] = std::max(lanes_.freeUntil[i], contact.freeUntil);
-      return false;
-    }
+    if (isSpent(contact)) return keepProven(contact);
     lanes_.freeUntil[i] = end_;
     if (contact.verdict == Verdict::Clear) continue;
     step.links[i] = contact;
     leaveOut(link);
   }
   return true;
+}
+
+/// The link has hits in the current slab.
+bool LaneQuery::isNear(LinkId link) const {
+  return lanes_.first[slotOf(table_.first(link))] != lanes_.first[slotOf(table_.first(link + 1))];
+}
+
+/// Links without hits are free until the end of the current slab.
+void LaneQuery::leaveFarFree() {
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
+    double& free = lanes_.freeUntil[slotOf(link)];
+    if (!isNear(link)) free = std::max(free, end_);
+  }
+}
+
+/// Always false: the link has no answer.
+bool LaneQuery::keepProven(const LinkContact& undone) {
+  double& free = lanes_.freeUntil[slotOf(undone.link)];
+  free = std::max(free, undone.freeUntil);
+  return false;
 }
 
 /// The earliest contact among the answered links; nothing if none touches.

@@ -42,8 +42,11 @@ class LaneQuery {
   void mergeHits();
   void sortHits();
   [[nodiscard]] bool answerSlab(StepContacts& step);
-  void runWithin(StepContacts& step, int slabs);
-  [[nodiscard]] bool answerSlabWithin(StepContacts& step);
+  void runInHalves(StepContacts& step, int slab, int slabs);
+  [[nodiscard]] bool answerOpen(StepContacts& step);
+  [[nodiscard]] bool isNear(LinkId link) const;
+  void leaveFarFree();
+  [[nodiscard]] bool keepProven(const LinkContact& undone);
   [[nodiscard]] std::optional<double> firstOf(const StepContacts& step) const;
   void leaveAfterFirst(double first, StepContacts& step) const;
   void leaveClear(StepContacts& step) const;

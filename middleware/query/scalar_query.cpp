@@ -37,6 +37,7 @@ class StepQuery {
 
   void run(StepContacts& step) {
     scratch_.evaluator.reset(motion_);
+    scratch_.cutShort.clear();
     cutIntoPieces();
     step.counters.states += static_cast<std::uint64_t>(body_.numLinks() * (pieces_.count + 1));
     for (LinkId link = 0; link < body_.numLinks(); ++link) {
@@ -44,10 +45,24 @@ class StepQuery {
       const auto others = static_cast<std::uint64_t>(body_.numLinks() - link);
       meter_.beginPart(step.counters, meter_.left(step.counters) / others);
       step.links[slotOf(link)] = firstContactOf(link, step.counters);
+      if (meter_.isLimited() && meter_.isPartSpent(step.counters))
+        scratch_.cutShort.push_back(link);
+    }
+    for (const LinkId link : scratch_.cutShort) {
+      goOn(step.links[slotOf(link)], step.counters);
     }
   }
 
  private:
+  /// Asks again, with all that is left, for a link whose share was spent.
+  void goOn(LinkContact& contact, QueryCounters& counters) {
+    if (meter_.isSpent(counters)) return;
+    meter_.beginPart(counters, WorkMeter::kUnlimited);
+    const LinkContact again = firstContactOf(contact.link, counters);
+    const bool isWhole = !meter_.isPartSpent(counters);
+    if (isWhole || again.freeUntil > contact.freeUntil) contact = again;
+  }
+
   void cutIntoPieces() {
     double travel = 0.0;
     for (LinkId link = 0; link < body_.numLinks(); ++link) {

@@ -30,6 +30,7 @@ struct ScratchParts {
   std::vector<Aabb> boxes;                    // per LSS of the current link, per piece
   std::vector<TriangleId> found;
   std::vector<Candidate> candidates;
+  std::vector<LinkId> cutShort;  // whose share of the work was spent
   MotionEvaluator evaluator;
   LaneScratch lanes;
   IgnoredObjects ignored;  // of the current link

@@ -11,6 +11,7 @@
 #include "middleware/query/query.h"
 #include "middleware/query/rung_query.h"
 #include "middleware/query/scalar_query.h"
+#include "middleware/query/work_meter.h"
 #include "middleware/scene/scene_parts.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
@@ -33,9 +34,9 @@ bool isSame(const LinkContact& x, const LinkContact& y) {
 
 /// A body in clutter, one of its links bare and one ignored, and what any fidelity needs of it.
 struct Case {
-  explicit Case(std::uint64_t seed) : Case(Random(seed)) {}
-  explicit Case(Random random)
-      : scene(Scene::build(test::clutter(random, 200, 3, Vector3d::Zero())).value()),
+  explicit Case(std::uint64_t seed, int triangles = 200) : Case(Random(seed), triangles) {}
+  Case(Random random, int triangles)
+      : scene(Scene::build(test::clutter(random, triangles, 3, Vector3d::Zero())).value()),
         body(withBareLink(test::bodyInClutter(random, kLinks, Vector3d::Zero()))),
         motion(body.motion()) {
     surface = AvatarSurface::build(body.avatar, test::meshWithin(body.avatar, random, 6, 0.9));
@@ -148,6 +149,37 @@ TEST(Unanswered, NoPathLeavesALinkSo) {
   }
   EXPECT_GT(cut, 500);
   EXPECT_GT(first, 500);
+}
+
+// It cuts off work and does nothing else: neither how links share it nor that there is one shows.
+TEST(Budget, ThatIsNotSpentChangesNothing) {
+  constexpr std::uint64_t kMuchWork = 1e4, kAmple = 4;
+  int touched = 0, heavy = 0;
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    const Case c(seed, seed % 2 == 0 ? 200 : 2000);
+    for (Path path : pathsOf(c)) {
+      for (const Scope scope : {Scope::EveryLink, Scope::FirstOfAvatar}) {
+        SCOPED_TRACE(path.name + ", seed " + std::to_string(seed));
+        path.options.scope = scope;
+        path.options.workBudget = std::numeric_limits<std::uint64_t>::max();
+        const StepContacts whole =
+            firstContacts(c.body.avatar, c.motion, c.scene, path.options).value();
+        const std::uint64_t work = internal::WorkMeter::workOf(whole.counters);
+        path.options.workBudget = kAmple * std::max<std::uint64_t>(work, 1);
+        const StepContacts step =
+            firstContacts(c.body.avatar, c.motion, c.scene, path.options).value();
+        for (std::size_t i = 0; i < whole.links.size(); ++i) {
+          EXPECT_TRUE(isSame(step.links[i], whole.links[i])) << "link " << i;
+          EXPECT_EQ(step.links[i].separation, whole.links[i].separation);
+          EXPECT_EQ(step.links[i].p_WScene, whole.links[i].p_WScene);
+          touched += whole.links[i].verdict != Verdict::Clear ? 1 : 0;
+        }
+        heavy += work > kMuchWork ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(touched, 1000);
+  EXPECT_GT(heavy, 100);
 }
 
 struct BrokenOff {};
