@@ -36,7 +36,7 @@ enum class Scope : std::uint8_t {
   EveryLink,      ///< Every link's own first contact.
   FirstOfAvatar,  ///< Only the earliest contacts of the whole avatar. All other links are Undecided
                   ///< (AfterFirst), free until that instant, even if they touch nothing in the
-                  ///< step.
+                  ///< step; only links without a surface are Clear.
 };
 
 /// "links", "avatar".

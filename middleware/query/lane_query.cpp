@@ -217,7 +217,7 @@ std::optional<double> LaneQuery::firstOf(const StepContacts& step) const {
   std::optional<double> first;
   for (const LinkContact& contact : step.links) {
     if (lanes_.isAsked[slotOf(contact.link)] != 0) continue;
-    if (contact.verdict == Verdict::Clear) continue;  // ignored
+    if (contact.verdict == Verdict::Clear) continue;  // from the start
     first = std::min(first.value_or(contact.freeUntil), contact.freeUntil);
   }
   return first;
@@ -258,7 +258,7 @@ LinkContact LaneQuery::undone(LinkId link) const {
   return undecidedContact(link, begin_, UndecidedReason::WorkBudget);
 }
 
-/// Answers links that are ignored altogether at once: they have no contacts.
+/// Answers links at once that are ignored altogether or have no surface: they have no contacts.
 void LaneQuery::findWhoIsAsked(StepContacts& step) {
   lanes_.isAsked.assign(countOf(body_.numLinks()), 1);
   for (const IgnoredPair& pair : body_.ignored()) {
@@ -266,6 +266,11 @@ void LaneQuery::findWhoIsAsked(StepContacts& step) {
       leaveOut(pair.link);
       answerClear(step.links[slotOf(pair.link)]);
     }
+  }
+  for (LinkId link = 0; link < body_.numLinks(); ++link) {
+    if (table_.first(link) != table_.first(link + 1)) continue;
+    lanes_.isAsked[slotOf(link)] = 0;
+    answerClear(step.links[slotOf(link)]);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "articulated/avatar.h"
 #include "lss/index.h"
 #include "middleware/query_options.h"
 #include "middleware/surface/link_surface.h"
@@ -43,5 +44,11 @@ struct ToleranceRange {
 [[nodiscard]] const LinkSurface* surfaceOf(const QueryOptions& options, LinkId link);
 /// The skin, at skinned fidelity; null at others, and for a link that owns none of its triangles.
 [[nodiscard]] const SkinParts* skinOf(const QueryOptions& options, LinkId link);
+
+/// The link has something that could touch, at any fidelity.
+[[nodiscard]] inline bool hasSurface(const Avatar& avatar, const QueryOptions& options,
+                                     LinkId link) {
+  return !avatar.lss(link).empty() || skinOf(options, link) != nullptr;
+}
 
 }  // namespace foretouch::internal

@@ -138,8 +138,9 @@ void linkQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& sce
   });
 }
 
-/// Links that touch nothing before the earliest contact of all become AfterFirst.
-void keepFirst(StepContacts& step) {
+/// Links that touch nothing before the earliest contact of all become AfterFirst, except those
+/// without a surface.
+void keepFirst(const Avatar& avatar, const QueryOptions& options, StepContacts& step) {
   double first = 1.0;
   bool isTouched = false;
   for (const LinkContact& contact : step.links) {
@@ -150,6 +151,7 @@ void keepFirst(StepContacts& step) {
   if (!isTouched) return;
   for (LinkContact& contact : step.links) {
     if (contact.verdict != Verdict::Clear && contact.freeUntil <= first) continue;
+    if (!internal::hasSurface(avatar, options, contact.link)) continue;
     contact = undecidedContact(contact.link, first, UndecidedReason::AfterFirst);
   }
 }
@@ -167,7 +169,7 @@ Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion, cons
   const auto ask = internal::isRung(options.fidelity) ? internal::rungQuery : linkQuery;
   ask(avatar, motion, scene, options, *culler, meter, scratch.parts(), step);
   FORETOUCH_ASSERT(isAnswered(step));
-  if (options.scope == Scope::FirstOfAvatar) keepFirst(step);
+  if (options.scope == Scope::FirstOfAvatar) keepFirst(avatar, options, step);
   return Done{};
 }
 

@@ -113,6 +113,9 @@ void expectAnswers(const StepContacts& step, const StepContacts& whole, const Pa
     EXPECT_EQ(got.link, static_cast<LinkId>(i));
     EXPECT_FALSE(isUnanswered(got)) << path.name << " link " << i;
     EXPECT_EQ(got.toi, got.freeUntil) << path.name << " link " << i;
+    if (got.link == Case::kBare && path.options.fidelity != Fidelity::Skinned) {
+      EXPECT_EQ(got.verdict, Verdict::Clear) << path.name << ": the link has no surface";
+    }
     if (got.verdict == Verdict::Undecided) {
       EXPECT_NE(got.reason, UndecidedReason::None);
       continue;
@@ -272,7 +275,7 @@ TEST(Unanswered, TheFirstOfAllLeavesNothingClear) {
       for (const LinkContact& contact : step.links) first = std::min(first, contact.freeUntil);
       for (const LinkContact& contact : step.links) {
         EXPECT_FALSE(isUnanswered(contact));
-        if (first == 1.0 || contact.link == Case::kIgnored) continue;
+        if (first == 1.0 || contact.link == Case::kIgnored || contact.link == Case::kBare) continue;
         EXPECT_NE(contact.verdict, Verdict::Clear) << seed << " link " << contact.link;
         if (contact.verdict != Verdict::Undecided) continue;
         EXPECT_EQ(contact.reason, UndecidedReason::AfterFirst);
