@@ -6,6 +6,7 @@
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
+#include "tools/console.h"
 #include "tools/interrupt.h"
 #include "tools/log/replay_log_summary.h"
 #include "tools/progress.h"
@@ -43,6 +44,7 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
     return !guard.requested();
   });
   if (!replayed.ok() || guard.requested()) return replayed;
+  for (const std::string& remark : replayed.value().remarks) printNote(remark);
   FORETOUCH_CHECK(file.commit());
   if (report) {
     const auto reported = writeReport(job.report.path, guard,

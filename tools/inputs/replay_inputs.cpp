@@ -86,6 +86,14 @@ Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
                       std::move(query), isUpright};
 }
 
+std::optional<std::string> remarkOnMeshes(const QueryOptions& query,
+                                          const std::string& avatarPath) {
+  if (!query.surface || query.surface->numTriangles() > 0) return std::nullopt;
+  return avatarPath +
+         ": none of its links at exact fidelity has a mesh, so their LSS are what touches, as at "
+         "link fidelity";
+}
+
 std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
   const ReplayRequest& request = inputs.request;
   std::vector<std::string> remarks = remarksOnClip(inputs.avatar, inputs.clip, inputs.match,
@@ -94,6 +102,8 @@ std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
     remarks.push_back(fmt::format("{}: {} triangles with a vertex that is not finite were left out",
                                   request.scenePath, dropped));
   }
+  const auto meshes = remarkOnMeshes(inputs.query, request.avatarPath);
+  if (meshes) remarks.push_back(*meshes);
   return remarks;
 }
 

@@ -49,6 +49,10 @@ struct ReplayInputs {
                                                    const std::string& avatarPath,
                                                    const Avatar& avatar, const Scene& scene);
 
+/// Says so if exact fidelity is no more than link fidelity here because no link has a mesh.
+[[nodiscard]] std::optional<std::string> remarkOnMeshes(const QueryOptions& query,
+                                                        const std::string& avatarPath);
+
 /// Tolerated faults, joints without a match and signs of a wrong unit: one sentence each, bounded
 /// in number.
 [[nodiscard]] std::vector<std::string> remarksOn(const ReplayInputs& inputs);

@@ -72,6 +72,10 @@ class LogReplay {
 
   LogReplayReport finish(const LogCounts& log) {
     report_.log = log;
+    for (std::size_t i = 0; i < solvers_.size(); ++i) {
+      auto remark = remarkOnMeshes(solvers_[i].options(), inputs_.request.avatars[i].path);
+      if (remark) report_.remarks.push_back(std::move(*remark));
+    }
     if (log.isTruncated || log.tailEvents > 0) report_.journal.endIsOpen();
     for (const StreamSolver& solver : solvers_) {
       const StreamCounts& counts = solver.counts();

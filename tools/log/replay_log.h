@@ -45,6 +45,7 @@ struct LogReplayInputs {
 [[nodiscard]] Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request);
 
 struct LogReplayReport {
+  std::vector<std::string> remarks;  ///< What is not as it was asked for: one sentence each.
   LogCounts log;
   std::int64_t poses = 0, skeletons = 0;  ///< Of the replayed avatars, or unreadable.
   std::int64_t answers = 0;

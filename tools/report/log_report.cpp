@@ -168,6 +168,7 @@ ViewDocument LogReport::document(const LogReplayReport& report, const LogReplayS
   document.title = fileName(request.logPath) + " in " + fileName(request.world.scenePath);
   document.settings = settings();
   document.summary = rowsOf(report, summary);
+  document.notes = report.remarks;
   noteFidelity(request.world.query.fidelity, document.notes);
   noteWhatIsMissing(document.notes);
   double fromS = std::numeric_limits<double>::infinity();

@@ -31,6 +31,8 @@ Result<ServedWorld> loadServedWorld(const ServeConfig& config) {
   }
   for (const NumberedAvatar& served : config.avatars) {
     FORETOUCH_TRY(auto solver, loadAvatar(config, served, scene));
+    const auto remark = remarkOnMeshes(solver.options(), served.path);
+    if (remark) world.remarks.push_back(*remark);
     world.avatars.push_back(std::move(solver));
   }
   return world;

@@ -203,6 +203,30 @@ TEST(ReplayProgram, ProvesMoreWithALargerBudgetAndTheSameOnAnyThread) {
     before = now;
   }
   EXPECT_EQ(undecidedBefore, 0u);
+  // One that is not spent shows in the header alone.
+  const auto most = linesOf(resultsWithoutLatency(out / "more"));
+  const auto all = linesOf(resultsWithoutLatency(out / "all"));
+  ASSERT_EQ(most.size(), all.size());
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_EQ(most[i], all[i]);
+}
+
+TEST(ReplayProgram, SaysWhereExactFidelityIsLinkFidelity) {
+  const SmallWorld world;
+  const std::string page = world.folder / "page.html";
+  std::vector<std::string> steps;
+  for (const std::string fidelity : {"link", "exact"}) {
+    const std::string out = world.folder / fidelity;
+    const Ended ended =
+        runForetouch(world.replay({"--fidelity", fidelity, "--output", out, "--report", page}));
+    ASSERT_EQ(ended.exitCode, 0) << ended.err;
+    const std::string note = "none of its links at exact fidelity has a mesh";
+    const bool isExact = fidelity == "exact";
+    EXPECT_EQ(ended.err.find("man.json: " + note) != std::string::npos, isExact) << ended.err;
+    EXPECT_EQ(contentOf(page).find(note) != std::string::npos, isExact);
+    const std::string results = resultsWithoutLatency(out);
+    steps.push_back(results.substr(results.find('\n')));
+  }
+  EXPECT_EQ(steps[0], steps[1]);
 }
 
 TEST(ReplayProgram, RefusesABudgetBesideWhatCannotKeepIt) {
