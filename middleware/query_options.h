@@ -71,15 +71,22 @@ enum class Descent : std::uint8_t {
 /// "straight", "by-need".
 [[nodiscard]] const char* toString(Descent descent);
 
+/// A query refuses a tolerance below this (m). Above it, the coordinates decide (UndecidedReason).
+inline constexpr double kMinTolerance = 1e-9;
+/// It also refuses one above this (m): boxes grown by more need not fit into floats.
+inline constexpr double kMaxTolerance = kMaxCoordinate;
+/// Metres. The one place that spells it for C++, C, Python and the commands.
+inline constexpr double kDefaultTolerance = 1e-3;
+
 /// One link's own tolerance and fidelity, if links differ. Its verdict keeps the promise for this
 /// tolerance and the surface of this fidelity, whatever those of the others are.
 struct LinkPolicy {
-  double tolerance = 1e-3;             ///< Metres; kMinTolerance to kMaxTolerance.
-  Fidelity fidelity = Fidelity::Link;  ///< Link or Exact.
+  double tolerance = kDefaultTolerance;  ///< Metres; kMinTolerance to kMaxTolerance.
+  Fidelity fidelity = Fidelity::Link;    ///< Link or Exact.
 };
 
 struct QueryOptions {
-  double tolerance = 1e-3;  ///< eps in metres; kMinTolerance to kMaxTolerance.
+  double tolerance = kDefaultTolerance;  ///< eps in metres; kMinTolerance to kMaxTolerance.
   Culler culler = Culler::FlatBvh;
   Fidelity fidelity = Fidelity::Link;
   /// Of the same avatar. Fidelity::Exact needs it, for all links or for one.
@@ -97,18 +104,13 @@ struct QueryOptions {
   /// Work that the step may cost, all links together, in evaluations of a pair in lanes (about 10
   /// ns; middleware/query/work_meter.h converts other work). Links without an answer by then are
   /// Undecided, free as far as proven; more work never proves less. A step that costs at most seven
-  /// eighths of it gets the answer that it gets without a budget. Counted, not timed: the same query
-  /// gives the same answer.
+  /// eighths of it gets the answer that it gets without a budget. Counted, not timed: the same
+  /// query gives the same answer.
   std::uint64_t workBudget = std::numeric_limits<std::uint64_t>::max();
   /// The same by the clock, in microseconds from the start of the query, which reads the clock
   /// between pieces of work of a few microseconds. Which links get an answer in time depends on the
   /// machine and its load.
   double deadlineUs = std::numeric_limits<double>::infinity();
 };
-
-/// A query refuses a tolerance below this (m). Above it, the coordinates decide (UndecidedReason).
-inline constexpr double kMinTolerance = 1e-9;
-/// It also refuses one above this (m): boxes grown by more need not fit into floats.
-inline constexpr double kMaxTolerance = kMaxCoordinate;
 
 }  // namespace foretouch

@@ -68,7 +68,7 @@ bool feedConfig(const std::uint8_t* data, std::size_t size) {
   }
   const tools::ServeConfig& config = parsed.value();
   require(!config.url.empty() && !config.world.scenePath.empty(), "what a service needs is there");
-  require(config.service.workers >= 1 && config.service.workers <= tools::kMaxServeWorkers,
+  require(config.service.workers >= 1 && config.service.workers <= kMaxServiceWorkers,
           "workers are bounded");
   require(config.service.queue >= 1 && config.service.queue <= kMaxServiceQueue,
           "queues are bounded");

@@ -55,7 +55,7 @@ void addNetworkSettings(Settings& settings, ServeConfig& config) {
 
 void addServiceSettings(Settings& settings, ServeConfig& config) {
   settings
-      .whole("--workers", "N", config.service.workers, 1, kMaxServeWorkers,
+      .whole("--workers", "N", config.service.workers, 1, kMaxServiceWorkers,
              "Threads that answer poses")
       .inConfig("service", "workers")
       .inReport("workers");

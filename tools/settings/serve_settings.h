@@ -15,7 +15,6 @@
 
 namespace foretouch::tools {
 
-inline constexpr int kMaxServeWorkers = 64;
 inline constexpr std::size_t kMaxServeAvatars = 4096;
 
 /// The address of `--view` without a value.
@@ -30,7 +29,7 @@ enum class ReceiverKind : std::uint8_t {
 struct ServeConfig {
   std::string url = kDefaultUrl;  ///< Not empty; the wire checks the rest.
   ReceiverKind receiver = ReceiverKind::Own;
-  ServiceOptions service;  ///< Workers (to kMaxServeWorkers), queue and suffix.
+  ServiceOptions service;  ///< Workers, queue and suffix.
   std::string log;         ///< The file that records events.
   std::string http;        ///< "127.0.0.1:9464": the address of the metrics.
   std::string view;        ///< kDefaultView: the address of the live view.

@@ -155,7 +155,7 @@ class Sender {
 TEST(ServeProgram, RefusesBadOptionsByName) {
   const SmallWorld world;
   const std::vector<std::pair<std::vector<std::string>, std::string>> trials = {
-      {{"--workers", "0"}, "--workers: expected a whole number from 1 to 64"},
+      {{"--workers", "0"}, "--workers: expected a whole number from 1 to 256"},
       {{"--queue", "many"}, "--queue: expected"},
       {{"--budget-us", "-3"}, "--budget-us: expected"},
       {{"--http", "9464"}, "--http: expected a host and a port"},

@@ -150,10 +150,10 @@ TEST(ServeConfig, UnknownKeysAreRefusedWithTheirLineAndTheNearestOne) {
 
 TEST(ServeConfig, NumbersOutOfRangeAreRefusedWithTheirLine) {
   EXPECT_TRUE(has(errorOf("service", "\nworkers = 0"),
-                  "etc/serve.toml:3: [service] workers: expected a whole number from 1 to 64, "
+                  "etc/serve.toml:3: [service] workers: expected a whole number from 1 to 256, "
                   "found 0"));
   for (const char* const bad :
-       {"workers = 65", "workers = -1", "queue = 0", "queue = 65537", "budget_us = -1",
+       {"workers = 257", "workers = -1", "queue = 0", "queue = 65537", "budget_us = -1",
         "budget_us = 60000001", "queue = 9223372036854775807"}) {
     EXPECT_TRUE(has(errorOf("service", bad), ":2: [service] ")) << bad;
   }
@@ -182,7 +182,7 @@ TEST(ServeConfig, NumbersOutOfRangeAreRefusedWithTheirLine) {
 
 TEST(ServeConfig, WrongTypesAreRefusedWithTheirLine) {
   EXPECT_TRUE(has(errorOf("service", "workers = 1.5"),
-                  ":2: [service] workers: expected a whole number from 1 to 64, found a number"));
+                  ":2: [service] workers: expected a whole number from 1 to 256, found a number"));
   EXPECT_TRUE(has(errorOf("service", "workers = \"2\""), "found a text"));
   EXPECT_TRUE(has(errorOf("service", "url = 3"), ":2: [service] url: expected a text"));
   EXPECT_TRUE(has(errorOf("service", "log = true"), "found true or false"));
