@@ -5,6 +5,7 @@
 # that its note gives them. It has its headers compiled once instead.
 #   foretouch_unity(<target> [batch size])
 #   foretouch_precompile(<target> [more headers])
+#   foretouch_precompiled_as(<target> <other>): takes the other's, which costs seconds to make
 function(foretouch_unity target)
   if(FORETOUCH_UNITY)
     set(batch ${ARGN} 8)
@@ -20,6 +21,17 @@ function(foretouch_precompile target)
       <algorithm> <array> <cmath> <cstdint> <limits> <memory> <string> <utility> <vector>
       <Eigen/Core> <Eigen/Geometry> ${ARGN})
   endif()
+endfunction()
+function(foretouch_precompiled_as target other)
+  if(FORETOUCH_UNITY)
+    target_precompile_headers(${target} REUSE_FROM ${other})
+  endif()
+endfunction()
+
+# What waits for files and terminals gains nothing from the last optimizations, which cost a quarter
+# of its compile time. Not for the kernel, nor for what a stream or a benchmark passes through.
+function(foretouch_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # Warnings, checks and sanitizers. -ffp-contract=off: the error bounds of docs/guarantees.md count one
@@ -53,6 +65,8 @@ function(foretouch_library folder)
   foretouch_compile_options(${target})
   if(ARG_UNITY)
     foretouch_unity(${target})
+  elseif(TARGET foretouch_lss AND NOT target STREQUAL foretouch_lss)
+    foretouch_precompiled_as(${target} foretouch_lss)
   else()
     foretouch_precompile(${target})
   endif()

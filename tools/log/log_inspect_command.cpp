@@ -41,14 +41,14 @@ void printFindings(const LogInspection& inspection) {
   }
 }
 
-ExitCode checkOne(const std::string& path, bool json) {
+ExitCode checkOne(const std::string& path, bool asJson) {
   const auto read = inspectLog(path);
   if (!read.ok()) {
-    if (json) printOut(jsonLine(path, read.error()));
+    if (asJson) printOut(jsonLine(path, read.error()));
     return failed(inFile(read.error(), path));
   }
   const LogInspection& inspection = read.value();
-  if (json) {
+  if (asJson) {
     printOut(jsonLine(inspection));
   } else {
     printFindings(inspection);

@@ -15,7 +15,7 @@ namespace {
 /// Of all links of an avatar together.
 constexpr std::size_t kMaxLinkTriangles = 100'000;
 
-std::size_t countOf(const std::vector<std::vector<Triangle>>& trianglesOfLinks) {
+std::size_t numTriangles(const std::vector<std::vector<Triangle>>& trianglesOfLinks) {
   std::size_t count = 0;
   for (const auto& triangles : trianglesOfLinks) count += triangles.size();
   return count;
@@ -66,7 +66,7 @@ std::vector<std::vector<Triangle>> trianglesOf(const AvatarSurface& surface) {
 
 std::vector<ViewLinkMesh> linkMeshes(const std::vector<std::vector<Triangle>>& trianglesOfLinks,
                                      std::vector<std::string>& notes) {
-  const std::size_t count = countOf(trianglesOfLinks);
+  const std::size_t count = numTriangles(trianglesOfLinks);
   const double share = static_cast<double>(kMaxLinkTriangles) /
                        static_cast<double>(std::max(count, kMaxLinkTriangles));
   std::vector<ViewLinkMesh> meshes;
