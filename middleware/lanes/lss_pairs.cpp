@@ -198,6 +198,21 @@ LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius) {
   return lane;
 }
 
+LaneLss stillLss(const double* a, const double* b, double radius) {
+  constexpr double kRounding = 2.0 * double{kUnitRoundoffOfFloat};
+  LaneLss lane{};
+  double extent = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    lane.a[axis][0] = static_cast<float>(a[axis]);
+    lane.b[axis][0] = static_cast<float>(b[axis]);
+    extent += std::max(std::abs(a[axis]), std::abs(b[axis]));
+  }
+  lane.radius = floatAbove(radius + kRounding * extent);
+  lane.extent = floatAbove((1.0 + kRounding) * extent);
+  lane.reach = floatAbove(lane.radius + kAxisPlaneRounding * (double{lane.extent} + lane.radius));
+  return lane;
+}
+
 void PairLanes::reserve(std::size_t extra) {
   const std::size_t wanted = roundedUp(count_ + extra) + kMaxLanes;
   if (wanted <= capacity_) return;

@@ -33,6 +33,9 @@ struct LaneLss {
 /// `lssRadius`: of the LSS itself.
 [[nodiscard]] LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius);
 
+/// An LSS that stays where its ends are, relative to the origin of the pairs.
+[[nodiscard]] LaneLss stillLss(const double* a, const double* b, double radius);
+
 /// The separations (m) at which lanes change course; floor < handOver.
 struct LaneTolerances {
   float floor;     ///< No step goes below this.

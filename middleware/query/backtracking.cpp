@@ -51,13 +51,19 @@ class Backtracker {
       std::pop_heap(heap_.begin(), heap_.end(), Later{});
       advance();
     }
-    if (hasContact()) settleTies();
+    if (hasContact()) settle();
     return best_ ? *best_ : clearContact(query_.parts.link);
   }
 
   std::optional<LinkContact> runAtStart() {
-    lookNearestFirst(0.0);
+    if (!lookNearestFirst(0.0)) settleUnseen();
     return best_;
+  }
+
+  LinkContact runAround(const LinkContact& contact) {
+    best_ = contact;
+    lookAround();
+    return *best_;
   }
 
  private:
@@ -145,21 +151,31 @@ class Backtracker {
 
   [[nodiscard]] bool hasContact() const { return best_ && best_->verdict != Verdict::Undecided; }
 
-  /// Chooses the contact to report among those at the instant of the first one found. None left in
-  /// the heap is earlier, and later ones do not matter.
-  void settleTies() {
+  /// Chooses the contact to report at the instant of the first one found.
+  void settle() {
+    if (best_->toi == 0.0) {
+      // Deeper pairs than the one found are not proven apart either, so they are in the heap.
+      const auto others = std::remove_if(heap_.begin(), heap_.end(),
+                                         [](const Candidate& c) { return c.freeUntil > 0.0; });
+      heap_.erase(others, heap_.end());
+      if (!lookNearestFirst(0.0)) return settleUnseen();
+    }
+    if (best_->verdict == Verdict::Contact) lookAround();
+  }
+
+  /// Pairs that moved on beyond the contact's instant, or were dropped, may be nearer at it. A
+  /// spent budget ends the search: the verdict stands, with the best contact seen.
+  void lookAround() {
     const double t = best_->toi;
-    const auto tiesEnd = std::partition(heap_.begin(), heap_.end(),
-                                        [t](const Candidate& c) { return c.freeUntil == t; });
-    heap_.erase(tiesEnd, heap_.end());
-    lookNearestFirst(t);
+    query_.neighbours.collect(t, states_.at(t), reachOf(*best_), heap_, counters_);
+    (void)lookNearestFirst(t);
   }
 
   /// Finds the contact to report at `t`, if there is one. A limb deep in furniture touches
   /// thousands of triangles at once and the smallest separation wins, so this tests the nearest
-  /// boxes first, until the boxes alone show that no better one is left. A spent budget ends it:
-  /// the verdict stands, with the best contact seen.
-  void lookNearestFirst(double t) {
+  /// boxes first, until the boxes alone show that no better one is left. False if a spent budget
+  /// ended it.
+  [[nodiscard]] bool lookNearestFirst(double t) {
     for (Candidate& candidate : heap_) {
       // The lanes' bounds are hardly below the truth; use boxes only where lanes have none.
       if (candidate.nearest == -kInfinity) {
@@ -168,8 +184,12 @@ class Backtracker {
     }
     std::make_heap(heap_.begin(), heap_.end(), Farther{});
     while (!heap_.empty() && heap_.front().nearest <= reach()) {
-      if (query_.meter.isPartSpent(counters_)) return settleUnseen(t);
+      if (query_.meter.isPartSpent(counters_)) return false;
       std::pop_heap(heap_.begin(), heap_.end(), Farther{});
+      if (isBest(heap_.back())) {
+        heap_.pop_back();
+        continue;
+      }
       const PairState pair = pairAt(heap_.back(), t);
       if (pair.gapUpper <= query_.tolerance &&
           !query_.isSurface(heap_.back().lss, heap_.back().part)) {
@@ -184,12 +204,20 @@ class Backtracker {
       }
       heap_.pop_back();
     }
+    return true;
+  }
+
+  /// The pair of the best contact so far.
+  [[nodiscard]] bool isBest(const Candidate& candidate) const {
+    if (!hasContact() || candidate.triangle != best_->triangle) return false;
+    if (candidate.part.isTriangle()) return candidate.part.index() == best_->linkTriangle;
+    return candidate.lss == best_->lss && query_.isSurface(candidate.lss, candidate.part);
   }
 
   /// At t = 0 an unseen pair may be deeper than the contact found, so whether the link starts in
-  /// contact is open. Later it cannot: the link was free before.
-  void settleUnseen(double t) {
-    if (t > 0.0 || !best_ || best_->verdict != Verdict::Contact) return;
+  /// contact is open.
+  void settleUnseen() {
+    if (!best_ || best_->verdict != Verdict::Contact) return;
     best_ = undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget);
   }
 
@@ -219,6 +247,11 @@ std::optional<LinkContact> contactAtStart(const LinkQuery& query,
                                           QueryCounters& counters) {
   if (query.isExact()) return meshContactAtStart(query, candidates, nullptr, counters);
   return Backtracker(query, candidates, counters).runAtStart();
+}
+
+LinkContact nearestContact(const LinkQuery& query, const LinkContact& contact,
+                           std::vector<Candidate>& candidates, QueryCounters& counters) {
+  return Backtracker(query, candidates, counters).runAround(contact);
 }
 
 LinkContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,

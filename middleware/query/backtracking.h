@@ -23,6 +23,12 @@ namespace foretouch::internal {
                                                         std::vector<Candidate>& candidates,
                                                         QueryCounters& counters);
 
+/// What is reported in place of `contact`, a Contact: the nearest at its instant. Replaces
+/// `candidates`.
+[[nodiscard]] LinkContact nearestContact(const LinkQuery& query, const LinkContact& contact,
+                                         std::vector<Candidate>& candidates,
+                                         QueryCounters& counters);
+
 /// The link's first contact on [0,1]. Consumes `candidates` (used as a heap).
 [[nodiscard]] LinkContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,
                                     QueryCounters& counters);

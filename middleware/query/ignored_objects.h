@@ -3,9 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "middleware/query_options.h"
+#include "middleware/scene/flat_bvh_lanes.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 
@@ -31,5 +34,19 @@ class IgnoredObjects {
  private:
   std::vector<ObjectId> objects_;  // ascending
 };
+
+/// Of a leaf's triangles, each a bit, those that are not passed over.
+[[nodiscard]] inline std::uint8_t withoutIgnored(std::uint8_t triangles, const BvhLeaf& leaf,
+                                                 const Scene& scene,
+                                                 const IgnoredObjects& ignored) {
+  if (ignored.empty()) return triangles;
+  unsigned asked = triangles;
+  for (unsigned slot = 0; slot < kBvhWidth; ++slot) {
+    if ((asked >> slot & 1U) != 0 && ignored.has(scene.object(leaf.id[slot]))) {
+      asked &= ~(1U << slot);
+    }
+  }
+  return static_cast<std::uint8_t>(asked);
+}
 
 }  // namespace foretouch::internal

@@ -28,8 +28,24 @@ class LaneBacktracker {
   LinkContact run() {
     surface_.prepare();
     start();
+    if (!lookAtAll()) return leftUndone();
+    if (best_ && best_->verdict == Verdict::Contact) lookAround();
+    return best_ ? *best_ : clearContact(query_.parts.link);
+  }
+
+  LinkContact runAround(const LinkContact& contact) {
+    surface_.prepare();
+    best_ = contact;
+    horizon_ = contact.toi;
+    lookAround();
+    return *best_;
+  }
+
+ private:
+  /// Until no pair is left that could change the answer; false if a spent budget ended it.
+  [[nodiscard]] bool lookAtAll() {
     while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
-      if (query_.meter.isPartSpent(counters_)) return leftUndone();
+      if (query_.meter.isPartSpent(counters_)) return false;
       // Triangles first: a contact makes all later pairs unnecessary.
       const bool areTriangles =
           !scratch_.triangles.isEmpty() && !scratch_.lss.isBefore(scratch_.triangles);
@@ -43,10 +59,21 @@ class LaneBacktracker {
       }
       for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
     }
-    return best_ ? *best_ : clearContact(query_.parts.link);
+    return true;
   }
 
- private:
+  /// Pairs that moved on beyond the contact's instant, or were dropped, may be nearer at it: this
+  /// tests all that lanes cannot prove farther. A spent budget ends it: the verdict stands, with
+  /// the best contact seen.
+  void lookAround() {
+    const double t = best_->toi, reach = reachOf(*best_);
+    query_.neighbours.collect(t, states_.at(t), reach, candidates_, counters_);
+    floor_ = floatAbove(reach);
+    handOver_ = static_cast<double>(floor_);
+    start();
+    (void)lookAtAll();
+  }
+
   void start() {
     scratch_.lss.reset(scratch_.lanes.begin(), end_);
     scratch_.triangles.reset(scratch_.lanes.begin(), end_);
@@ -193,6 +220,13 @@ void TimeBuckets::reset(double begin, double end) {
   occupied_ = 0;
   free_ = kNone;
   entries_.clear();
+}
+
+LinkContact nearestInLanes(const LinkQuery& query, const LinkContact& contact,
+                           std::vector<Candidate>& candidates, PartScratch& scratch,
+                           QueryCounters& counters) {
+  FORETOUCH_ASSERT(query.isExact());
+  return LaneBacktracker(query, candidates, scratch, counters).runAround(contact);
 }
 
 LinkContact backtrackInLanes(const LinkQuery& query, std::vector<Candidate>& candidates,

@@ -100,4 +100,9 @@ struct PartScratch {
                                            std::vector<Candidate>& candidates, PartScratch& scratch,
                                            QueryCounters& counters);
 
+/// As nearestContact().
+[[nodiscard]] LinkContact nearestInLanes(const LinkQuery& query, const LinkContact& contact,
+                                         std::vector<Candidate>& candidates, PartScratch& scratch,
+                                         QueryCounters& counters);
+
 }  // namespace foretouch::internal

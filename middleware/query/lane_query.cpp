@@ -12,6 +12,7 @@
 #include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/query/lane_backtracking.h"
+#include "middleware/query/lane_nearest.h"
 #include "middleware/query/start.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/surface/link_surface.h"
@@ -366,6 +367,7 @@ void LaneQuery::sortHits() {
 }
 
 LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters) {
+  link_ = link;
   const LinkSurface* const surface = surfaceOf(options_, link);
   scratch_.ignored.collect(body_.ignored(), link);
   if (!lanes_.margins.empty()) useTolerance(toleranceOf(options_, link));
@@ -416,7 +418,8 @@ LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, flo
                         tolerance_,
                         meter_,
                         options_.leafMethod,
-                        scratch_.evaluator};
+                        scratch_.evaluator,
+                        *this};
   if (surface == nullptr) return backtrack(query, candidates, counters);
   return surfaceContact(query, best == kBegin && begin_ == 0.0, counters);
 }
@@ -438,8 +441,12 @@ LinkContact LaneQuery::surfaceContact(const LinkQuery& query, bool atStart,
         candidate.laneTriangle = parts.lanes.add(scene_.triangle(candidate.triangle));
       }
     }
-    return meshContactAtStart(query, scratch_.candidates, inLanes ? &parts : nullptr, counters)
-        .value_or(clearContact(query.parts.link));
+    const auto contact =
+        meshContactAtStart(query, scratch_.candidates, inLanes ? &parts : nullptr, counters);
+    if (!contact) return clearContact(query.parts.link);
+    if (contact->verdict != Verdict::Contact) return *contact;
+    return inLanes ? nearestInLanes(query, *contact, scratch_.candidates, parts, counters)
+                   : nearestContact(query, *contact, scratch_.candidates, counters);
   }
   return inLanes ? backtrackInLanes(query, scratch_.candidates, parts, counters)
                  : backtrack(query, scratch_.candidates, counters);
@@ -450,6 +457,24 @@ void LaneQuery::prepareScalar(LinkId link) {
   for (const Lss& lss : body_.lss(link)) {
     scratch_.axisBounds.push_back(axisBounds(lss, motion_.bounds(link)));
   }
+}
+
+/// From the pairs of the current slab: they include all that are within the tolerance at any
+/// instant of it.
+void LaneQuery::collect(double t, const PosedLink& posed, double reach,
+                        std::vector<Candidate>& candidates, QueryCounters& counters) {
+  FORETOUCH_ASSERT(&candidates == &scratch_.candidates);
+  candidates.clear();
+  const std::vector<Lss>& all = body_.lss(link_);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t lss = slotOf(table_.first(link_)) + i;
+    const HitRange hits{lanes_.first[lss], lanes_.first[lss + 1]};
+    if (hits.begin == hits.end) continue;
+    if (meter_.isLimited() && meter_.isPartSpent(counters)) break;
+    findNear(scene_, axisEnds(all[i], posed.state), all[i].radius, reach, hits, scratch_, counters);
+    addCandidates(static_cast<std::int32_t>(i));
+  }
+  for (Candidate& candidate : candidates) candidate.freeUntil = t;
 }
 
 /// Advances the LSS's pairs through the slab; `handed` gets those that lanes leave. False if the
@@ -512,22 +537,11 @@ std::size_t LaneQuery::collectParts(std::size_t begin, std::size_t done, float b
     if (lanes_.clusters.time[i] > best) continue;
     const std::size_t hit = begin + static_cast<std::size_t>(lanes_.clusters.key[i]);
     const BvhLeaf& leaf = bvh_.leaf(static_cast<std::uint32_t>(lanes_.leaf[hit]));
-    const std::uint8_t asked = scratch_.ignored.empty()
-                                   ? lanes_.triangles[hit]
-                                   : withoutIgnored(lanes_.triangles[hit], leaf);
+    const std::uint8_t asked =
+        withoutIgnored(lanes_.triangles[hit], leaf, scene_, scratch_.ignored);
     if (asked != 0) lanes_.leafParts.push_back({&leaf, asked, lanes_.clusters.time[i]});
   }
   return done;
-}
-
-std::uint8_t LaneQuery::withoutIgnored(std::uint8_t triangles, const BvhLeaf& leaf) const {
-  unsigned asked = triangles;
-  for (unsigned slot = 0; slot < kBvhWidth; ++slot) {
-    if ((asked >> slot & 1U) != 0 && scratch_.ignored.has(scene_.object(leaf.id[slot]))) {
-      asked &= ~(1U << slot);
-    }
-  }
-  return static_cast<std::uint8_t>(asked);
 }
 
 void LaneQuery::addCandidates(std::int32_t lssOfLink) {

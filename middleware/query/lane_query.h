@@ -17,7 +17,7 @@
 namespace foretouch::internal {
 
 /// One query over all links of one step, at link or exact fidelity.
-class LaneQuery {
+class LaneQuery final : private Neighbours {
  public:
   /// `table` holds the body's LSS; `meter` started with the query.
   LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion, const Scene& scene,
@@ -58,10 +58,11 @@ class LaneQuery {
   [[nodiscard]] LinkContact surfaceContact(const LinkQuery& query, bool atStart,
                                            QueryCounters& counters);
   void prepareScalar(LinkId link);
+  void collect(double t, const PosedLink& posed, double reach, std::vector<Candidate>& candidates,
+               QueryCounters& counters) override;
   [[nodiscard]] bool advanceLss(std::int32_t lss, float& best, QueryCounters& counters);
   void sortClusters();
   [[nodiscard]] std::size_t collectParts(std::size_t begin, std::size_t done, float best);
-  [[nodiscard]] std::uint8_t withoutIgnored(std::uint8_t triangles, const BvhLeaf& leaf) const;
   void addCandidates(std::int32_t lssOfLink);
   [[nodiscard]] double timeOf(float u) const;
   [[nodiscard]] float lanesTimeOf(double t) const;
@@ -79,6 +80,7 @@ class LaneQuery {
   double tolerance_;      // of the current link
   LaneTolerances tolerances_;
   WorkMeter meter_;
+  LinkId link_ = 0;                 // the current one
   double begin_ = 0.0, end_ = 1.0;  // of the current slab
   bool hasNodes_ = false;
   bool areAllAsked_ = true;  // links, in the current slab

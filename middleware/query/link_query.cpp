@@ -18,6 +18,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Thousands of roundings of what doubles compute.
+constexpr double kSlackOfRounding = 1e-12;
+
 /// Scene to link. If part and triangle meet, their difference has no direction: then the normal of
 /// the features, then any unit vector.
 Vector3d contactNormal(const PairState& pair) {
@@ -66,7 +69,7 @@ double leastGap(const LinkQuery& query, const Candidate& candidate, const PosedL
   const double radius =
       candidate.part.isTriangle() ? 0.0 : query.parts.lssOf(candidate.lss, candidate.part).radius;
   const double gap = box.distance(boxOf(query.scene.triangle(candidate.triangle))) - radius;
-  return gap - 1e-12 * (1.0 + std::abs(gap) + box.max.cwiseAbs().maxCoeff());
+  return gap - kSlackOfRounding * (1.0 + std::abs(gap) + box.max.cwiseAbs().maxCoeff());
 }
 
 PairState pairOf(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed,
@@ -90,6 +93,11 @@ double provenFrom(const LinkQuery& query, const Candidate& candidate, const Pair
     if (reached > t) return reached;
   }
   return timeAfter(t, stepFrom(pair, floor), 1.0);
+}
+
+double reachOf(const LinkContact& contact) {
+  const double coordinates = contact.p_WScene.cwiseAbs().maxCoeff();
+  return contact.separation + kSlackOfRounding * (1.0 + contact.separation + coordinates);
 }
 
 LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const PairState& pair,

@@ -55,6 +55,20 @@ inline void answerClear(LinkContact& unanswered) {
 /// A new record with that answer.
 [[nodiscard]] LinkContact clearContact(LinkId link);
 
+/// Finds the pairs that may be nearer than a contact: before its instant the others are proven
+/// apart, at it they need not be farther.
+class Neighbours {
+ public:
+  /// Replaces `candidates` by pairs of whole parts at `t`, as at the start of a query: all that may
+  /// be within `reach` (m, hardly more than the tolerance), and perhaps others. `posed`: the link
+  /// at that instant.
+  virtual void collect(double t, const PosedLink& posed, double reach,
+                       std::vector<Candidate>& candidates, QueryCounters& counters) = 0;
+
+ protected:
+  ~Neighbours() = default;
+};
+
 /// The input of backtrack() for one link; all references outlive the call.
 struct LinkQuery {
   LinkParts parts;
@@ -64,6 +78,7 @@ struct LinkQuery {
   const WorkMeter& meter;
   LeafMethod leafMethod;
   MotionEvaluator& evaluator;  // of parts.motion
+  Neighbours& neighbours;
 
   [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }
   /// Nothing is below it: whatever it touches, the link touches.
@@ -113,6 +128,10 @@ class StateCache {
 /// 1, and `t` itself if it proves nothing.
 [[nodiscard]] double provenFrom(const LinkQuery& query, const Candidate& candidate,
                                 const PairState& pair, double t, QueryCounters& counters);
+
+/// How far to look for pairs as near as a contact: its separation, and thousands of roundings of
+/// the coordinates.
+[[nodiscard]] double reachOf(const LinkContact& contact);
 
 /// The report of a pair that is in contact at `t`.
 [[nodiscard]] LinkContact contactOf(const LinkQuery& query, const Candidate& candidate,

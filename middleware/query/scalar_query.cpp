@@ -22,7 +22,7 @@ constexpr int kMaxPiecesUsed = 12;
 static_assert(kMaxPiecesUsed <= kMaxPieces);
 
 /// One query over all links of one step.
-class StepQuery {
+class StepQuery final : private Neighbours {
  public:
   StepQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
             const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
@@ -96,17 +96,29 @@ class StepQuery {
     if (const auto atStart = contactAtStart(query, scratch_.candidates, counters)) return *atStart;
     gather(scratch_.boxes, pieces_.count);
     counters.candidates += scratch_.candidates.size();
+    scratch_.pairs = scratch_.candidates;
     return backtrack(query, scratch_.candidates, counters);
   }
 
-  [[nodiscard]] LinkQuery queryOf(LinkId link) const {
+  /// Of the pairs that the search began with those whose boxes, grown by the tolerance, meet then.
+  void collect(double t, const PosedLink& /*posed*/, double /*reach*/,
+               std::vector<Candidate>& candidates, QueryCounters& /*counters*/) override {
+    const int piece = pieces_.at(t);
+    candidates.clear();
+    for (const Candidate& pair : scratch_.pairs) {
+      if ((pair.pieces >> piece & 1u) != 0) candidates.push_back(pair);
+    }
+  }
+
+  [[nodiscard]] LinkQuery queryOf(LinkId link) {
     return {{link, body_.lss(link), scratch_.axisBounds, motion_, surface_, skin_},
             scene_,
             pieces_,
             tolerance_,
             meter_,
             options_.leafMethod,
-            scratch_.evaluator};
+            scratch_.evaluator,
+            *this};
   }
 
   LinkContact firstSkinContactOf(LinkId link, QueryCounters& counters) {
@@ -119,6 +131,7 @@ class StepQuery {
     gatherSkin(scratch_.startBoxes, 1, numTriangles, counters);
     if (const auto atStart = contactAtStart(query, scratch_.candidates, counters)) return *atStart;
     gatherSkin(scratch_.boxes, pieces_.count, numTriangles, counters);
+    scratch_.pairs = scratch_.candidates;
     return backtrack(query, scratch_.candidates, counters);
   }
 

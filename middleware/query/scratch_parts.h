@@ -31,6 +31,7 @@ struct ScratchParts {
   std::vector<TriangleId> found;
   std::vector<Candidate> candidates;
   std::vector<LinkId> cutShort;  // whose share of the work was spent
+  std::vector<Candidate> pairs;  // in doubles: the candidates before any was looked at
   MotionEvaluator evaluator;
   LaneScratch lanes;
   IgnoredObjects ignored;  // of the current link
