@@ -501,12 +501,27 @@ TEST(Service, CountsGarbageUnderItsReason) {
   EXPECT_EQ(named, static_cast<std::int64_t>(kGarbage));
 }
 
+/// Holds an answer back until somebody has seen poses wait behind it, as long as tests wait.
+class Straggler final : public StepObserver {
+ public:
+  explicit Straggler(const std::atomic<int>& seen) : seen_(seen) {}
+  [[nodiscard]] bool wants(std::size_t /*avatar*/) const noexcept override { return seen_ == 0; }
+  void observe(std::size_t /*avatar*/, const StreamStep& /*step*/,
+               const ContactsMessage& /*answer*/) noexcept override {
+    EXPECT_TRUE(eventually([&] { return seen_ > 0; }));
+  }
+
+ private:
+  const std::atomic<int>& seen_;
+};
+
 TEST(Service, AddsUpWheneverItIsAsked) {
   constexpr std::int32_t kAvatars = 3;
   const std::vector<Sent> sent = mixedStreams(kAvatars, 1500, 4);
-  Stage stage(kAvatars, withWorkers(2, 4));
   std::atomic<bool> isOver{false};
   std::atomic<int> looks{0}, busy{0};
+  Straggler straggler(busy);
+  Stage stage(kAvatars, withWorkers(2, 4), false, &straggler);
   std::thread watcher([&] {
     while (!isOver) {
       const StatusMessage status = stage.service().status();
