@@ -89,8 +89,7 @@ Result<Done> checkMeshes(const ClipRequest& asked, const Avatar& avatar, Finding
 }
 
 ExitCode check(const ClipRequest& asked) {
-  FORETOUCH_TRY_OR(failed, const auto read, readAvatarFile(asked.avatarPath));
-  const Avatar& avatar = read;
+  FORETOUCH_TRY_OR(failed, const auto avatar, readAvatarFile(asked.avatarPath));
   Pose pose = restPose(avatar.skeleton());
   Findings findings;
   const bool hasMotion = !asked.motionPath.empty();

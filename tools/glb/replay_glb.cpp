@@ -57,8 +57,7 @@ void ReplayGlb::add(const StepAnswer& answer) {
 }
 
 Result<std::vector<std::string>> ReplayGlb::write() const {
-  FORETOUCH_TRY(const auto staged, inFile(stageOf(inputs_), request_.path));
-  const Stage& stage = staged;
+  FORETOUCH_TRY(const auto stage, inFile(stageOf(inputs_), request_.path));
   std::vector<ReportedContact> shown = contacts_;
   shown.insert(shown.end(), startsInContact_.begin(), startsInContact_.end());
 

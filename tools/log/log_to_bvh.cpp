@@ -153,8 +153,7 @@ std::vector<std::string> notesOn(const Recording& recording) {
 
 Result<BvhOfLog> convert(const LogToBvhRequest& request, LogLoss& loss) {
   FORETOUCH_TRY(const auto channels, channelNames(request.suffix));
-  FORETOUCH_TRY(auto read, readRecording(request, channels, loss));
-  const Recording& recording = read;
+  FORETOUCH_TRY(const auto recording, readRecording(request, channels, loss));
   const auto raw = recording.skeletons.find(recording.poses.front().skeletonHash);
   if (raw == recording.skeletons.end()) {
     return refusal(ErrorCode::Empty, fmt::format("holds poses of avatar {}, but not the skeleton "
