@@ -47,6 +47,7 @@ void LssTable::assign(const std::vector<std::vector<Lss>>& lssPerLink) {
   entries_.clear();
   first_.assign(1, 0);
   rho_.clear();
+  bareLinks_.clear();
   largestRho_ = largestRadius_ = 0.0;
   for (const std::vector<Lss>& lss : lssPerLink) add(lss);
 }
@@ -60,6 +61,7 @@ void LssTable::add(const std::vector<Lss>& lssOfLink) {
     rho = std::max({rho, entries_.back().rhoA, entries_.back().rhoB});
     largestRadius_ = std::max(largestRadius_, lss.radius);
   }
+  if (lssOfLink.empty()) bareLinks_.push_back(link);
   rho_.push_back(rho);
   largestRho_ = std::max(largestRho_, rho);
   first_.push_back(size());

@@ -34,6 +34,8 @@ class LssTable {
   [[nodiscard]] std::int32_t numLinks() const {
     return static_cast<std::int32_t>(first_.size()) - 1;
   }
+  /// The links without LSS, ascending.
+  [[nodiscard]] const std::vector<LinkId>& bareLinks() const { return bareLinks_; }
   /// Largest rhoA or rhoB of the link's LSS; 0 if it has none.
   [[nodiscard]] double rho(LinkId link) const { return rho_[slotOf(link)]; }
   /// Of all links.
@@ -46,6 +48,7 @@ class LssTable {
   std::vector<Entry> entries_;
   std::vector<std::int32_t> first_{0};
   std::vector<double> rho_;
+  std::vector<LinkId> bareLinks_;
   double largestRho_ = 0.0, largestRadius_ = 0.0;
 };
 

@@ -1,4 +1,5 @@
-// middleware/lanes/lss_pairs-inl.h: the kernels of lss_pairs.cpp, compiled once per vector width.
+// middleware/lanes/lss_pairs-inl.h: the kernels of lss_pairs.cpp and near_triangles.cpp, compiled
+// once per vector width.
 // Nothing in here may be shared with other sources (no Eigen, no standard templates): a function
 // compiled for wide vectors must not be linked into code for all processors.
 #if defined(FORETOUCH_LANES_LSS_PAIRS_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -139,6 +140,81 @@ class Chosen {
   std::int32_t from_[kLanes];
 };
 
+/// Triangles relative to the origin; `reach` has their rounding in it.
+template <class V>
+struct Triangles {
+  Point<V> corner[3];
+  V reach;
+};
+/// Of a leaf, from one of its triangles on.
+template <class D>
+HWY_INLINE Triangles<hn::Vec<D>> trianglesOf(D d, const float* vertices, const float* origin,
+                                             float reach) {
+  Triangles<hn::Vec<D>> result;
+  auto largest = hn::Zero(d);
+  for (int corner = 0; corner < 3; ++corner) {
+    const float* const from = vertices + 3 * corner * kBvhWidth;
+    auto& p = result.corner[corner];
+    p.x = hn::Sub(hn::Load(d, from), hn::Set(d, origin[0]));
+    p.y = hn::Sub(hn::Load(d, from + kBvhWidth), hn::Set(d, origin[1]));
+    p.z = hn::Sub(hn::Load(d, from + 2 * kBvhWidth), hn::Set(d, origin[2]));
+    largest = hn::Max(largest, hn::Max(hn::Abs(p.x), hn::Max(hn::Abs(p.y), hn::Abs(p.z))));
+  }
+  const auto grown = hn::MulAdd(largest, hn::Set(d, kRoundingOfCoordinate), hn::Set(d, reach));
+  result.reach = hn::Mul(grown, hn::Set(d, kSumInflation));
+  return result;
+}
+/// The chosen ones, as rows from `row` on.
+template <class V, class D>
+HWY_INLINE void storeTriangles(const Triangles<V>& triangles, const Chosen<D>& chosen,
+                               const LaneRows& rows, std::size_t row) {
+  for (int corner = 0; corner < 3; ++corner) {
+    float* const* const to = rows.coordinates + 3 * corner;
+    chosen.store(triangles.corner[corner].x, to[0] + row);
+    chosen.store(triangles.corner[corner].y, to[1] + row);
+    chosen.store(triangles.corner[corner].z, to[2] + row);
+  }
+  chosen.store(triangles.reach, rows.reach + row);
+}
+/// Rows from `row` on.
+template <class D>
+HWY_INLINE Triangles<hn::Vec<D>> loadTriangles(D d, const LaneRows& rows, std::size_t row) {
+  Triangles<hn::Vec<D>> result;
+  for (int corner = 0; corner < 3; ++corner) {
+    float* const* const from = rows.coordinates + 3 * corner;
+    result.corner[corner] = {hn::Load(d, from[0] + row), hn::Load(d, from[1] + row),
+                             hn::Load(d, from[2] + row)};
+  }
+  result.reach = hn::Load(d, rows.reach + row);
+  return result;
+}
+
+/// Spheres around clusters, relative to the origin; `reach` has radius and rounding in it.
+template <class V>
+struct Spheres {
+  Point<V> centre;
+  V reach;
+};
+/// Of clusters[which[i]]; lanes from `count` on mean nothing.
+template <class D>
+HWY_INLINE Spheres<hn::Vec<D>> spheresOf(D d, const Cluster* clusters, const std::int32_t* which,
+                                         std::size_t count, const float* origin, float reach) {
+  const hn::RebindToSigned<D> di;
+  const float* const base = clusters->centre;
+  // Lanes beyond the count read the first cluster.
+  const auto valid = hn::FirstN(di, count);
+  const auto index = hn::ShiftLeft<2>(hn::IfThenElseZero(valid, hn::LoadU(di, which)));
+  const Point<hn::Vec<D>> centre{
+      hn::Sub(hn::GatherIndex(d, base, index), hn::Set(d, origin[0])),
+      hn::Sub(hn::GatherIndex(d, base + 1, index), hn::Set(d, origin[1])),
+      hn::Sub(hn::GatherIndex(d, base + 2, index), hn::Set(d, origin[2]))};
+  const auto largest = hn::Max(hn::Abs(centre.x), hn::Max(hn::Abs(centre.y), hn::Abs(centre.z)));
+  const auto grown =
+      hn::MulAdd(hn::GatherIndex(d, base + 3, index), hn::Set(d, kSphereInflation),
+                 hn::MulAdd(largest, hn::Set(d, kRoundingOfCoordinate), hn::Set(d, reach)));
+  return {centre, hn::Mul(grown, hn::Set(d, kSumInflation))};
+}
+
 /// One lane's result of one evaluation.
 template <class D>
 struct Advance {
@@ -202,118 +278,128 @@ HWY_INLINE Point<V> direction(const Point<V>& w) {
   return scaled(hn::Div(hn::Set(d, kUnitShrinkOfFloat), norm), w);
 }
 
+/// The closest points found so far: the difference from triangle to axis, and a direction that
+/// the features themselves define.
+template <class V>
+struct Closest {
+  V squared;
+  Point<V> w, normal;
+  HWY_INLINE void offer(V candidate, const Point<V>& difference, const Point<V>& featureNormal) {
+    const auto nearer = hn::Lt(candidate, squared);
+    squared = hn::Min(candidate, squared);
+    w = select(nearer, difference, w);
+    normal = select(nearer, featureNormal, normal);
+  }
+};
+
+/// Closest points of the axis (from p, along d; p relative to the edge's origin) and an edge.
+template <class V>
+HWY_INLINE void offerEdge(const Point<V>& p, const Point<V>& axis, V squaredAxis, V inverseAxis,
+                          const Point<V>& edge, Closest<V>& best) {
+  const hn::DFromV<V> d;
+  const V tiny = hn::Set(d, kTiny);
+  const V squaredEdge = dot(edge, edge), mixed = dot(axis, edge);
+  const V onAxis = dot(axis, p), onEdge = dot(edge, p);
+  const V determinant = hn::NegMulAdd(mixed, mixed, hn::Mul(squaredAxis, squaredEdge));
+  V s = clamp01(hn::Mul(hn::NegMulAdd(onAxis, squaredEdge, hn::Mul(mixed, onEdge)),
+                        roughInverse(hn::Max(determinant, tiny))));
+  const V t =
+      clamp01(hn::Mul(hn::MulAdd(mixed, s, onEdge), roughInverse(hn::Max(squaredEdge, tiny))));
+  s = clamp01(hn::Mul(hn::MulSub(mixed, t, onAxis), inverseAxis));
+  const Point<V> w = along(along(p, s, axis), hn::Neg(t), edge);
+  best.offer(dot(w, w), w, cross(axis, edge));
+}
+
+/// The end p (relative to the face's origin) above the face's interior.
+template <class V>
+HWY_INLINE void offerFace(const Point<V>& p, const Point<V>& e1, const Point<V>& e2, V d00, V d01,
+                          V d11, V inverse, const Point<V>& normal, Closest<V>& best) {
+  const hn::DFromV<V> d;
+  const V d20 = dot(p, e1), d21 = dot(p, e2);
+  const V beta = hn::Mul(hn::NegMulAdd(d01, d21, hn::Mul(d11, d20)), inverse);
+  const V gamma = hn::Mul(hn::NegMulAdd(d01, d20, hn::Mul(d00, d21)), inverse);
+  const V zero = hn::Zero(d);
+  const auto inside = hn::And(hn::And(hn::Ge(beta, zero), hn::Ge(gamma, zero)),
+                              hn::Le(hn::Add(beta, gamma), hn::Set(d, 1.0f)));
+  const Point<V> w = along(along(p, hn::Neg(beta), e1), hn::Neg(gamma), e2);
+  best.offer(hn::IfThenElse(inside, dot(w, w), hn::Set(d, 1e30f)), w, normal);
+}
+
+/// The plane with direction n just above the triangle: what it proves about both ends.
+template <class V>
+HWY_INLINE Plane<V> planeAlong(const Point<V>& n, const Moving<V>& a, const Moving<V>& b,
+                               const Point<V> (&v)[3], V reach) {
+  const V top = hn::Max(dot(n, v[0]), hn::Max(dot(n, v[1]), dot(n, v[2])));
+  return {hn::Sub(hn::Sub(dot(n, a.position), top), reach),
+          hn::Sub(hn::Sub(dot(n, b.position), top), reach), dot(n, a.velocity), dot(n, b.velocity)};
+}
+
+/// The widest plane found between the axis and the triangle, and the square of the distance of the
+/// points that proposed it, which are their own.
+template <class V>
+struct Widest {
+  Plane<V> plane;
+  V squared;
+};
+template <class V>
+HWY_INLINE Widest<V> widestPlane(const Moving<V>& a, const Moving<V>& b,
+                                 const Triangles<V>& triangles) {
+  const hn::DFromV<V> d;
+  const Point<V>(&v)[3] = triangles.corner;
+  const V reach = triangles.reach;
+  const Point<V> axis = sub(b.position, a.position);
+  const Point<V> e1 = sub(v[1], v[0]), e2 = sub(v[2], v[0]), e3 = sub(v[2], v[1]);
+  const Point<V> p = sub(a.position, v[0]), p3 = sub(a.position, v[1]);
+  const V squaredAxis = dot(axis, axis);
+  const V inverseAxis = roughInverse(hn::Max(squaredAxis, hn::Set(d, kTiny)));
+  const Point<V> normal = cross(e1, e2);
+  const V d00 = dot(e1, e1), d01 = dot(e1, e2), d11 = dot(e2, e2);
+  const V inverse =
+      roughInverse(hn::Max(hn::NegMulAdd(d01, d01, hn::Mul(d00, d11)), hn::Set(d, kTiny)));
+
+  Closest<V> best{hn::Set(d, 1e30f), p, normal};
+  offerEdge(p, axis, squaredAxis, inverseAxis, e1, best);
+  offerEdge(p, axis, squaredAxis, inverseAxis, e2, best);
+  offerEdge(p3, axis, squaredAxis, inverseAxis, e3, best);
+  offerFace(p, e1, e2, d00, d01, d11, inverse, normal, best);
+  offerFace(sub(b.position, v[0]), e1, e2, d00, d01, d11, inverse, normal, best);
+
+  Plane<V> plane = planeAlong(direction(best.w), a, b, v, reach);
+  // For long features that are near, the difference of the closest points is a noisy direction.
+  const V extent = hn::Max(hn::Max(d00, d11), squaredAxis);
+  const V noise = hn::Mul(hn::Set(d, kNoisyDistance), extent);
+  const auto isSteady = hn::Gt(best.squared, hn::Mul(noise, noise));
+  if (!hn::AllTrue(d, isSteady)) {
+    const auto away = hn::Ge(dot(best.normal, best.w), hn::Zero(d));
+    const Point<V> negative = scaled(hn::Set(d, -1.0f), best.normal);
+    const Plane<V> other =
+        planeAlong(direction(select(away, best.normal, negative)), a, b, v, reach);
+    const auto wider = hn::Gt(hn::Min(other.gapA, other.gapB), hn::Min(plane.gapA, plane.gapB));
+    // Only in lanes that need it: a pair's result must not depend on its neighbours, whose order
+    // depends on the culler.
+    const auto better = hn::AndNot(isSteady, wider);
+    plane = {hn::IfThenElse(better, other.gapA, plane.gapA),
+             hn::IfThenElse(better, other.gapB, plane.gapB),
+             hn::IfThenElse(better, other.speedA, plane.speedA),
+             hn::IfThenElse(better, other.speedB, plane.speedB)};
+  }
+  return {plane, best.squared};
+}
+
 struct TriangleKernel {
   const LaneLss& lss;
   const LaneTolerances& tolerances;
-
-  /// The closest points found so far: the difference from triangle to axis, and a direction that
-  /// the features themselves define.
-  template <class V>
-  struct Closest {
-    V squared;
-    Point<V> w, normal;
-    HWY_INLINE void offer(V candidate, const Point<V>& difference, const Point<V>& featureNormal) {
-      const auto nearer = hn::Lt(candidate, squared);
-      squared = hn::Min(candidate, squared);
-      w = select(nearer, difference, w);
-      normal = select(nearer, featureNormal, normal);
-    }
-  };
-
-  /// Closest points of the axis (from p, along d; p relative to the edge's origin) and an edge.
-  template <class V>
-  HWY_INLINE void offerEdge(const Point<V>& p, const Point<V>& axis, V squaredAxis, V inverseAxis,
-                            const Point<V>& edge, Closest<V>& best) const {
-    const hn::DFromV<V> d;
-    const V tiny = hn::Set(d, kTiny);
-    const V squaredEdge = dot(edge, edge), mixed = dot(axis, edge);
-    const V onAxis = dot(axis, p), onEdge = dot(edge, p);
-    const V determinant = hn::NegMulAdd(mixed, mixed, hn::Mul(squaredAxis, squaredEdge));
-    V s = clamp01(hn::Mul(hn::NegMulAdd(onAxis, squaredEdge, hn::Mul(mixed, onEdge)),
-                          roughInverse(hn::Max(determinant, tiny))));
-    const V t =
-        clamp01(hn::Mul(hn::MulAdd(mixed, s, onEdge), roughInverse(hn::Max(squaredEdge, tiny))));
-    s = clamp01(hn::Mul(hn::MulSub(mixed, t, onAxis), inverseAxis));
-    const Point<V> w = along(along(p, s, axis), hn::Neg(t), edge);
-    best.offer(dot(w, w), w, cross(axis, edge));
-  }
-
-  /// The end p (relative to the face's origin) above the face's interior.
-  template <class V>
-  HWY_INLINE void offerFace(const Point<V>& p, const Point<V>& e1, const Point<V>& e2, V d00, V d01,
-                            V d11, V inverse, const Point<V>& normal, Closest<V>& best) const {
-    const hn::DFromV<V> d;
-    const V d20 = dot(p, e1), d21 = dot(p, e2);
-    const V beta = hn::Mul(hn::NegMulAdd(d01, d21, hn::Mul(d11, d20)), inverse);
-    const V gamma = hn::Mul(hn::NegMulAdd(d01, d20, hn::Mul(d00, d21)), inverse);
-    const V zero = hn::Zero(d);
-    const auto inside = hn::And(hn::And(hn::Ge(beta, zero), hn::Ge(gamma, zero)),
-                                hn::Le(hn::Add(beta, gamma), hn::Set(d, 1.0f)));
-    const Point<V> w = along(along(p, hn::Neg(beta), e1), hn::Neg(gamma), e2);
-    best.offer(hn::IfThenElse(inside, dot(w, w), hn::Set(d, 1e30f)), w, normal);
-  }
-
-  /// The plane with direction n just above the triangle: what it proves about both ends.
-  template <class V>
-  HWY_INLINE Plane<V> planeAlong(const Point<V>& n, const Moving<V>& a, const Moving<V>& b,
-                                 const Point<V> (&v)[3], V reach) const {
-    const V top = hn::Max(dot(n, v[0]), hn::Max(dot(n, v[1]), dot(n, v[2])));
-    return {hn::Sub(hn::Sub(dot(n, a.position), top), reach),
-            hn::Sub(hn::Sub(dot(n, b.position), top), reach), dot(n, a.velocity),
-            dot(n, b.velocity)};
-  }
 
   template <class D>
   HWY_INLINE Advance<D> operator()(D d, const LaneRows& rows, std::size_t i,
                                    hn::Vec<D> time) const {
     using V = hn::Vec<D>;
     const Moving<V> a = endAt(lss.a, time), b = endAt(lss.b, time);
-    Point<V> v[3];
-    for (int corner = 0; corner < 3; ++corner) {
-      v[corner] = {hn::Load(d, rows.coordinates[3 * corner] + i),
-                   hn::Load(d, rows.coordinates[3 * corner + 1] + i),
-                   hn::Load(d, rows.coordinates[3 * corner + 2] + i)};
-    }
-    const V reach = hn::Load(d, rows.reach + i);
-    const Point<V> axis = sub(b.position, a.position);
-    const Point<V> e1 = sub(v[1], v[0]), e2 = sub(v[2], v[0]), e3 = sub(v[2], v[1]);
-    const Point<V> p = sub(a.position, v[0]), p3 = sub(a.position, v[1]);
-    const V squaredAxis = dot(axis, axis);
-    const V inverseAxis = roughInverse(hn::Max(squaredAxis, hn::Set(d, kTiny)));
-    const Point<V> normal = cross(e1, e2);
-    const V d00 = dot(e1, e1), d01 = dot(e1, e2), d11 = dot(e2, e2);
-    const V inverse =
-        roughInverse(hn::Max(hn::NegMulAdd(d01, d01, hn::Mul(d00, d11)), hn::Set(d, kTiny)));
-
-    Closest<V> best{hn::Set(d, 1e30f), p, normal};
-    offerEdge(p, axis, squaredAxis, inverseAxis, e1, best);
-    offerEdge(p, axis, squaredAxis, inverseAxis, e2, best);
-    offerEdge(p3, axis, squaredAxis, inverseAxis, e3, best);
-    offerFace(p, e1, e2, d00, d01, d11, inverse, normal, best);
-    offerFace(sub(b.position, v[0]), e1, e2, d00, d01, d11, inverse, normal, best);
-
-    Plane<V> plane = planeAlong(direction(best.w), a, b, v, reach);
-    // For long features that are near, the difference of the closest points is a noisy direction.
-    const V extent = hn::Max(hn::Max(d00, d11), squaredAxis);
-    const V noise = hn::Mul(hn::Set(d, kNoisyDistance), extent);
-    const auto isSteady = hn::Gt(best.squared, hn::Mul(noise, noise));
-    if (!hn::AllTrue(d, isSteady)) {
-      const auto away = hn::Ge(dot(best.normal, best.w), hn::Zero(d));
-      const Point<V> negative = scaled(hn::Set(d, -1.0f), best.normal);
-      const Plane<V> other =
-          planeAlong(direction(select(away, best.normal, negative)), a, b, v, reach);
-      const auto wider = hn::Gt(hn::Min(other.gapA, other.gapB), hn::Min(plane.gapA, plane.gapB));
-      // Only in lanes that need it: a pair's result must not depend on its neighbours, whose order
-      // depends on the culler.
-      const auto better = hn::AndNot(isSteady, wider);
-      plane = {hn::IfThenElse(better, other.gapA, plane.gapA),
-               hn::IfThenElse(better, other.gapB, plane.gapB),
-               hn::IfThenElse(better, other.speedA, plane.speedA),
-               hn::IfThenElse(better, other.speedB, plane.speedB)};
-    }
-    Advance<D> result = EndSteps{lss, tolerances}.from(plane, time);
+    const Triangles<V> triangles = loadTriangles(d, rows, i);
+    const Widest<V> widest = widestPlane(a, b, triangles);
+    Advance<D> result = EndSteps{lss, tolerances}.from(widest.plane, time);
     // Both points belong to their sets, so their distance bounds the separation from above.
-    const V spread = hn::MulAdd(hn::Set(d, 3.0f), reach, hn::Sqrt(best.squared));
+    const V spread = hn::MulAdd(hn::Set(d, 3.0f), triangles.reach, hn::Sqrt(widest.squared));
     const V upper = hn::MulSub(hn::Set(d, 1.0f + 0x1p-20f), spread, hn::Set(d, lss.contactShift));
     result.inContact = hn::And(result.handOver, hn::Le(upper, hn::Set(d, tolerances.contact)));
     return result;
@@ -329,8 +415,28 @@ struct TriangleKernel {
   }
 };
 
-/// The axis against the sphere around a cluster: coordinates 0 to 2 are its centre, and its radius
-/// is part of the reach.
+/// A plane between the axis and a sphere, whose radius is part of its reach.
+template <class V>
+struct SpherePlane {
+  Point<V> n;
+  Plane<V> plane;
+};
+template <class V>
+HWY_INLINE SpherePlane<V> planeAbove(const Moving<V>& a, const Moving<V>& b,
+                                     const Spheres<V>& spheres) {
+  const hn::DFromV<V> d;
+  const Point<V> axis = sub(b.position, a.position), p = sub(a.position, spheres.centre);
+  const V s = clamp01(
+      hn::Neg(hn::Mul(dot(axis, p), roughInverse(hn::Max(dot(axis, axis), hn::Set(d, kTiny))))));
+  const Point<V> n = direction(along(p, s, axis));
+  const V top = dot(n, spheres.centre);
+  return {n,
+          {hn::Sub(hn::Sub(dot(n, a.position), top), spheres.reach),
+           hn::Sub(hn::Sub(dot(n, b.position), top), spheres.reach), dot(n, a.velocity),
+           dot(n, b.velocity)}};
+}
+
+/// The axis against the sphere around a cluster: coordinates 0 to 2 are its centre.
 struct SphereKernel {
   const LaneLss& lss;
   const LaneTolerances& tolerances;
@@ -340,18 +446,11 @@ struct SphereKernel {
                                    hn::Vec<D> time) const {
     using V = hn::Vec<D>;
     const Moving<V> a = endAt(lss.a, time), b = endAt(lss.b, time);
-    const Point<V> centre{hn::Load(d, rows.coordinates[0] + i),
-                          hn::Load(d, rows.coordinates[1] + i),
-                          hn::Load(d, rows.coordinates[2] + i)};
-    const V reach = hn::Load(d, rows.reach + i);
-    const Point<V> axis = sub(b.position, a.position), p = sub(a.position, centre);
-    const V s = clamp01(
-        hn::Neg(hn::Mul(dot(axis, p), roughInverse(hn::Max(dot(axis, axis), hn::Set(d, kTiny))))));
-    const Point<V> n = direction(along(p, s, axis));
-    const V top = dot(n, centre);
-    const Plane<V> plane{hn::Sub(hn::Sub(dot(n, a.position), top), reach),
-                         hn::Sub(hn::Sub(dot(n, b.position), top), reach), dot(n, a.velocity),
-                         dot(n, b.velocity)};
+    const Spheres<V> spheres{
+        {hn::Load(d, rows.coordinates[0] + i), hn::Load(d, rows.coordinates[1] + i),
+         hn::Load(d, rows.coordinates[2] + i)},
+        hn::Load(d, rows.reach + i)};
+    const Plane<V> plane = planeAbove(a, b, spheres).plane;
     Advance<D> result = EndSteps{lss, tolerances}.from(plane, time);
     result.inContact = hn::FirstN(d, 0);
     return result;

@@ -7,51 +7,6 @@
 
 #include "lss/rounding.h"
 
-#ifndef FORETOUCH_LANES_LSS_PAIRS_ROWS
-#define FORETOUCH_LANES_LSS_PAIRS_ROWS
-namespace foretouch::internal {
-/// Where the rows of PairLanes begin.
-struct LaneRows {
-  float* coordinates[9];
-  float* reach;
-  float* time;
-  std::int32_t* key;
-};
-/// Where handed-over pairs go.
-struct HandedRows {
-  std::int32_t* key;
-  float* time;
-  float* gap;
-};
-/// Row m: the places of the bits that are set in m, ascending, then zeros.
-struct LanesOfBits {
-  std::uint8_t rows[256][8];
-};
-constexpr LanesOfBits lanesOfBits() {
-  LanesOfBits table{};
-  for (unsigned bits = 0; bits < 256; ++bits) {
-    unsigned count = 0;
-    for (unsigned lane = 0; lane < 8; ++lane) {
-      if ((bits >> lane & 1U) != 0) table.rows[bits][count++] = static_cast<std::uint8_t>(lane);
-    }
-  }
-  return table;
-}
-inline constexpr LanesOfBits kLanesOfBitsTable = lanesOfBits();
-inline constexpr auto& kLanesOfBits = kLanesOfBitsTable.rows;
-
-/// Roundings of a plane's arithmetic per metre of extent, and of the vertices' own subtraction
-/// (lss_pairs.md 2).
-inline constexpr double kAxisPlaneRounding = 12.0 * kUnitRoundoffOfFloat;
-/// The same per metre of the largest coordinate: a point's norm is at most the root of 3 of it.
-inline constexpr float kRoundingOfCoordinate = static_cast<float>(1.7321 * kAxisPlaneRounding);
-/// A sphere's radius has a part in the rounding of the last subtraction.
-inline constexpr float kSphereInflation = 1.0F + 0x1p-20F;
-/// Past the rounding of a sum of three such terms.
-inline constexpr float kSumInflation = 1.0F + 0x1p-21F;
-}  // namespace foretouch::internal
-#endif
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "middleware/lanes/lss_pairs.cpp"
 #include <hwy/foreach_target.h>
@@ -92,15 +47,7 @@ std::size_t gatherTriangles(const LeafPart* parts, std::size_t numParts, const F
       }
       if (hn::AllFalse(d, meeting)) continue;
       const Chosen<decltype(d)> chosen(d, meeting);
-      auto largest = hn::Zero(d);
-      for (std::size_t k = 0; k < 9; ++k) {
-        const auto x =
-            hn::Sub(hn::Load(d, vertices + k * kBvhWidth + i), hn::Set(d, origin[k % 3]));
-        largest = hn::Max(largest, hn::Abs(x));
-        chosen.store(x, rows.coordinates[k] + count);
-      }
-      const auto grown = hn::MulAdd(largest, hn::Set(d, kRoundingOfCoordinate), hn::Set(d, reach));
-      chosen.store(hn::Mul(grown, hn::Set(d, kSumInflation)), rows.reach + count);
+      storeTriangles(trianglesOf(d, vertices + i, origin, reach), chosen, rows, count);
       hn::StoreU(hn::Set(d, parts[part].start), d, rows.time + count);
       chosen.store(hn::Load(di, leaf.id + i), rows.key + count);
       count += chosen.count();
@@ -114,22 +61,12 @@ void gatherSpheres(const Cluster* clusters, const std::int32_t* which, std::size
                    const float* origin, float reach, float start, const LaneRows& rows) {
   const hn::CappedTag<float, kMaxLanes> d;
   const hn::RebindToSigned<decltype(d)> di;
-  const float* const base = clusters->centre;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    // Lanes beyond the count read the first cluster; their results are ignored.
-    const auto valid = hn::FirstN(di, count - i);
-    const auto index = hn::ShiftLeft<2>(hn::IfThenElseZero(valid, hn::LoadU(di, which + i)));
-    auto largest = hn::Zero(d);
-    for (int k = 0; k < 3; ++k) {
-      const auto x = hn::Sub(hn::GatherIndex(d, base + k, index), hn::Set(d, origin[k]));
-      largest = hn::Max(largest, hn::Abs(x));
-      hn::Store(x, d, rows.coordinates[k] + i);
-    }
-    const auto radius = hn::GatherIndex(d, base + 3, index);
-    const auto grown =
-        hn::MulAdd(radius, hn::Set(d, kSphereInflation),
-                   hn::MulAdd(largest, hn::Set(d, kRoundingOfCoordinate), hn::Set(d, reach)));
-    hn::Store(hn::Mul(grown, hn::Set(d, kSumInflation)), d, rows.reach + i);
+    const auto spheres = spheresOf(d, clusters, which + i, count - i, origin, reach);
+    hn::Store(spheres.centre.x, d, rows.coordinates[0] + i);
+    hn::Store(spheres.centre.y, d, rows.coordinates[1] + i);
+    hn::Store(spheres.centre.z, d, rows.coordinates[2] + i);
+    hn::Store(spheres.reach, d, rows.reach + i);
     hn::Store(hn::Set(d, start), d, rows.time + i);
     hn::Store(hn::Iota(di, static_cast<std::int32_t>(i)), di, rows.key + i);
   }
@@ -195,21 +132,6 @@ LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius) {
       std::max(extentOf(lane.a, polynomials.speedA), extentOf(lane.b, polynomials.speedB)));
   lane.reach = floatAbove(lane.radius + kAxisPlaneRounding * (double{lane.extent} + lane.radius));
   lane.contactShift = floatBelow(2.0 * (static_cast<double>(lane.radius) + lssRadius));
-  return lane;
-}
-
-LaneLss stillLss(const double* a, const double* b, double radius) {
-  constexpr double kRounding = 2.0 * double{kUnitRoundoffOfFloat};
-  LaneLss lane{};
-  double extent = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    lane.a[axis][0] = static_cast<float>(a[axis]);
-    lane.b[axis][0] = static_cast<float>(b[axis]);
-    extent += std::max(std::abs(a[axis]), std::abs(b[axis]));
-  }
-  lane.radius = floatAbove(radius + kRounding * extent);
-  lane.extent = floatAbove((1.0 + kRounding) * extent);
-  lane.reach = floatAbove(lane.radius + kAxisPlaneRounding * (double{lane.extent} + lane.radius));
   return lane;
 }
 

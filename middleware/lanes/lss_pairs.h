@@ -11,13 +11,11 @@
 #include <hwy/aligned_allocator.h>
 #include <vector>
 
+#include "middleware/lanes/lane_rows.h"
 #include "middleware/scene/flat_bvh_lanes.h"
 #include "tessellation/lss_polynomials.h"
 
 namespace foretouch::internal {
-
-/// Floats in the widest vector used.
-inline constexpr std::size_t kMaxLanes = 16;
 
 /// One moving LSS in the kernels' form, relative to its polynomials' origin.
 struct LaneLss {
@@ -32,9 +30,6 @@ struct LaneLss {
 };
 /// `lssRadius`: of the LSS itself.
 [[nodiscard]] LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius);
-
-/// An LSS that stays where its ends are, relative to the origin of the pairs.
-[[nodiscard]] LaneLss stillLss(const double* a, const double* b, double radius);
 
 /// The separations (m) at which lanes change course; floor < handOver.
 struct LaneTolerances {
@@ -62,9 +57,6 @@ struct LeafPart {
 struct FloatBox {
   float lower[3], upper[3];
 };
-
-struct LaneRows;
-struct HandedRows;
 
 /// Pairs of one LSS as structure of arrays; keeps its memory.
 class PairLanes {

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 
-#include "middleware/query/scratch_parts.h"
+#include "middleware/query/lane_scratch.h"
+#include "middleware/query_counters.h"
+#include "middleware/scene/scene.h"
 #include "tessellation/swept_lss.h"
 
 namespace foretouch::internal {
@@ -14,10 +16,10 @@ struct HitRange {
   std::uint32_t begin, end;
 };
 
-/// Leaves in `scratch.lanes.handed` those triangles of the hits that the link at hand does not
-/// ignore and that lanes cannot prove farther than `reach` (m) from an LSS with this axis. The ends
-/// are taken for exact: their rounding is the reach's.
+/// Leaves in `scratch.near` those triangles of the hits that lanes cannot prove farther than
+/// `reach` (m) from an LSS with this axis. The ends are taken for exact: their rounding is the
+/// reach's.
 void findNear(const Scene& scene, const AxisEnds& ends, double radius, double reach, HitRange hits,
-              ScratchParts& scratch, QueryCounters& counters);
+              LaneScratch& scratch, QueryCounters& counters);
 
 }  // namespace foretouch::internal

@@ -268,8 +268,7 @@ void LaneQuery::findWhoIsAsked(StepContacts& step) {
       answerClear(step.links[slotOf(pair.link)]);
     }
   }
-  for (LinkId link = 0; link < body_.numLinks(); ++link) {
-    if (table_.first(link) != table_.first(link + 1)) continue;
+  for (const LinkId link : table_.bareLinks()) {
     lanes_.isAsked[slotOf(link)] = 0;
     answerClear(step.links[slotOf(link)]);
   }
@@ -471,10 +470,13 @@ void LaneQuery::collect(double t, const PosedLink& posed, double reach,
     const HitRange hits{lanes_.first[lss], lanes_.first[lss + 1]};
     if (hits.begin == hits.end) continue;
     if (meter_.isLimited() && meter_.isPartSpent(counters)) break;
-    findNear(scene_, axisEnds(all[i], posed.state), all[i].radius, reach, hits, scratch_, counters);
-    addCandidates(static_cast<std::int32_t>(i));
+    findNear(scene_, axisEnds(all[i], posed.state), all[i].radius, reach, hits, lanes_, counters);
+    const NearTriangles& near = lanes_.near;
+    for (std::size_t k = 0; k < near.count; ++k) {
+      if (scratch_.ignored.has(scene_.object(near.id[k]))) continue;
+      addCandidate(near.id[k], static_cast<std::int32_t>(i), near.gap[k], t);
+    }
   }
-  for (Candidate& candidate : candidates) candidate.freeUntil = t;
 }
 
 /// Advances the LSS's pairs through the slab; `handed` gets those that lanes leave. False if the
@@ -547,15 +549,20 @@ std::size_t LaneQuery::collectParts(std::size_t begin, std::size_t done, float b
 void LaneQuery::addCandidates(std::int32_t lssOfLink) {
   const HandedOver& handed = lanes_.handed;
   for (std::size_t i = 0; i < handed.count; ++i) {
-    Candidate candidate;
-    candidate.triangle = handed.key[i];
-    candidate.lss = lssOfLink;
-    candidate.pieces = 1;
-    candidate.nearest = handed.gap[i];
-    candidate.freeUntil = timeOf(handed.time[i]);
-    candidate.end = end_;
-    scratch_.candidates.push_back(candidate);
+    addCandidate(handed.key[i], lssOfLink, handed.gap[i], timeOf(handed.time[i]));
   }
+}
+
+void LaneQuery::addCandidate(TriangleId triangle, std::int32_t lssOfLink, float gap,
+                             double freeUntil) {
+  Candidate candidate;
+  candidate.triangle = triangle;
+  candidate.lss = lssOfLink;
+  candidate.pieces = 1;
+  candidate.nearest = gap;
+  candidate.freeUntil = freeUntil;
+  candidate.end = end_;
+  scratch_.candidates.push_back(candidate);
 }
 
 /// Rounded up.

@@ -64,6 +64,7 @@ class LaneQuery final : private Neighbours {
   void sortClusters();
   [[nodiscard]] std::size_t collectParts(std::size_t begin, std::size_t done, float best);
   void addCandidates(std::int32_t lssOfLink);
+  void addCandidate(TriangleId triangle, std::int32_t lssOfLink, float gap, double freeUntil);
   [[nodiscard]] double timeOf(float u) const;
   [[nodiscard]] float lanesTimeOf(double t) const;
 

@@ -7,6 +7,7 @@
 
 #include "articulated/chain_nodes.h"
 #include "middleware/lanes/lss_pairs.h"
+#include "middleware/lanes/near_triangles.h"
 #include "middleware/query/lane_backtracking.h"
 #include "middleware/scene/flat_bvh.h"
 #include "tessellation/lss_polynomials.h"
@@ -28,6 +29,7 @@ struct LaneScratch {
   std::vector<LeafPart> leafParts;    // of the current LSS
   std::vector<std::uint32_t> order;   // of the clusters, by time
   HandedOver clusters, handed;        // of the current LSS
+  NearTriangles near;                 // of the current LSS, where its link is in contact
   PartScratch parts;                  // of the current link, at exact fidelity
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
   std::vector<double> freeUntil;      // per link, if work is limited: how far it is proven free

@@ -49,6 +49,7 @@ class FlatBvh final : public TriangleCuller {
   }
   [[nodiscard]] std::uint32_t numNodes() const { return static_cast<std::uint32_t>(nodes_.size()); }
   [[nodiscard]] const BvhLeaf& leaf(std::uint32_t index) const { return leaves_[index]; }
+  [[nodiscard]] const BvhLeaf* leaves() const { return leaves_.data(); }
   [[nodiscard]] const Cluster& cluster(std::uint32_t index) const { return clusters_[index]; }
   /// All of them, one per leaf.
   [[nodiscard]] const Cluster* clusters() const { return clusters_.data(); }
