@@ -30,4 +30,9 @@ std::string describe(const Error& error) {
   return text + error.message;
 }
 
+Error inFile(Error error, const std::string& place) {
+  if (error.file.empty()) error.file = place;
+  return error;
+}
+
 }  // namespace foretouch

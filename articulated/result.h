@@ -96,4 +96,12 @@ class [[nodiscard]] Result {
 /// Success without a value.
 struct Done {};
 
+/// The error, with `place` for its file if it names none.
+[[nodiscard]] Error inFile(Error error, const std::string& place);
+template <typename T>
+[[nodiscard]] Result<T> inFile(Result<T> result, const std::string& place) {
+  if (result.ok()) return result;
+  return inFile(result.error(), place);
+}
+
 }  // namespace foretouch

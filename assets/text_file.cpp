@@ -19,14 +19,6 @@ namespace {
 
 constexpr std::size_t kChunkBytes = 1u << 20;
 
-Error fileError(ErrorCode code, const std::string& path, std::string message) {
-  Error error;
-  error.code = code;
-  error.file = path;
-  error.message = std::move(message);
-  return error;
-}
-
 /// Closes on every path; PendingFile needs the result of close(), so it has its own.
 class Descriptor {
  public:
@@ -53,12 +45,12 @@ Result<std::string> readAll(int descriptor, const std::string& path, std::size_t
     const ssize_t got = ::read(descriptor, chunk.data(), chunk.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) {
-      return fileError(ErrorCode::FileUnreadable, path,
+      return Error::in(path, ErrorCode::FileUnreadable,
                        std::string("reading failed: ") + std::strerror(errno));
     }
     if (got == 0) return text;
     if (countOf(got) > limitBytes - text.size()) {
-      return fileError(ErrorCode::LimitExceeded, path,
+      return Error::in(path, ErrorCode::LimitExceeded,
                        "expected at most " + std::to_string(limitBytes) + " bytes, found more");
     }
     text.append(chunk, 0, countOf(got));
@@ -108,23 +100,23 @@ Result<std::string> readWholeFile(const std::string& path, std::size_t limitByte
   // O_NONBLOCK: opening a pipe without a writer would wait for ever.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) {
-    return fileError(ErrorCode::FileNotFound, path,
+    return Error::in(path, ErrorCode::FileNotFound,
                      std::string("cannot be opened: ") + std::strerror(errno));
   }
   struct stat status {};
   if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
-    return fileError(ErrorCode::FileUnreadable, path, "is not a regular file");
+    return Error::in(path, ErrorCode::FileUnreadable, "is not a regular file");
   }
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size > limitBytes) {
-    return fileError(
-        ErrorCode::LimitExceeded, path,
+    return Error::in(
+        path, ErrorCode::LimitExceeded,
         "expected at most " + std::to_string(limitBytes) + " bytes, found " + std::to_string(size));
   }
   try {
     return readAll(file.get(), path, static_cast<std::size_t>(size), limitBytes);
   } catch (const std::bad_alloc&) {
-    return fileError(ErrorCode::LimitExceeded, path, "does not fit into memory");
+    return Error::in(path, ErrorCode::LimitExceeded, "does not fit into memory");
   }
 }
 
@@ -152,7 +144,7 @@ Result<PendingFile> PendingFile::create(const std::string& path) {
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) {
-    return fileError(ErrorCode::FileUnwritable, path, "is a folder, expected a file to write");
+    return Error::in(path, ErrorCode::FileUnwritable, "is a folder, expected a file to write");
   }
   Opened opened;
   if (exists && !S_ISREG(status.st_mode)) {
@@ -165,7 +157,7 @@ Result<PendingFile> PendingFile::create(const std::string& path) {
     static_cast<void>(::fchmod(opened.descriptor, status.st_mode & 0777));
   }
   if (opened.descriptor < 0) {
-    return fileError(ErrorCode::FileUnwritable, path,
+    return Error::in(path, ErrorCode::FileUnwritable,
                      std::string("cannot be written: ") + std::strerror(errno));
   }
   return PendingFile(path, target, opened.temporary, opened.descriptor);
@@ -205,7 +197,7 @@ Result<Done> PendingFile::commit() {
   }
   discard();
   if (failure_ == 0) return Done{};
-  return fileError(ErrorCode::FileUnwritable, path_,
+  return Error::in(path_, ErrorCode::FileUnwritable,
                    std::string("writing failed: ") + std::strerror(failure_));
 }
 

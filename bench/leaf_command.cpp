@@ -52,24 +52,16 @@ void addGenerated(LeafBench& bench) {
   bench.sets.push_back(std::move(rigid));
 }
 
-Error badOption(ErrorCode code, const std::string& option, std::string message) {
-  Error error;
-  error.code = code;
-  error.file = option;
-  error.message = std::move(message);
-  return error;
-}
-
 Result<Done> check(const LeafTexts& texts) {
   if (texts.folders.empty() && texts.generated == 0) {
-    return badOption(ErrorCode::Empty, "bench leaf", "expected --queries or --generated");
+    return Error::in("bench leaf", ErrorCode::Empty, "expected --queries or --generated");
   }
   if (texts.repeat < 1 || texts.repeat > kMaxRepeat) {
-    return badOption(ErrorCode::OutOfRange, "--repeat",
+    return Error::in("--repeat", ErrorCode::OutOfRange,
                      fmt::format("expected 1 to {}, found {}", kMaxRepeat, texts.repeat));
   }
   if (texts.generated < 0 || texts.generated > kMaxGenerated) {
-    return badOption(ErrorCode::OutOfRange, "--generated",
+    return Error::in("--generated", ErrorCode::OutOfRange,
                      fmt::format("expected 0 to {}, found {}", kMaxGenerated, texts.generated));
   }
   return Done{};

@@ -41,14 +41,6 @@ struct PeersRequest {
   std::size_t triangles = 0;
 };
 
-Error badOption(const std::string& option, std::string message) {
-  Error error;
-  error.code = ErrorCode::UnknownName;
-  error.file = option;
-  error.message = std::move(message);
-  return error;
-}
-
 Result<std::vector<MotionSetKind>> setsNamed(const std::vector<std::string>& names) {
   if (names.empty()) return std::vector<MotionSetKind>(kMotionSets.begin(), kMotionSets.end());
   std::vector<MotionSetKind> kinds;
@@ -58,7 +50,8 @@ Result<std::vector<MotionSetKind>> setsNamed(const std::vector<std::string>& nam
       if (name == kind.name) kinds.push_back(kind);
     }
     if (kinds.size() == before) {
-      return badOption("--sets", "expected S1, S2 or S5, found " + inQuotes(name));
+      return Error::in("--sets", ErrorCode::UnknownName,
+                       "expected S1, S2 or S5, found " + inQuotes(name));
     }
   }
   return kinds;

@@ -120,21 +120,13 @@ struct Source {
   std::string path;
 };
 
-Error badFolder(const std::string& folder, ErrorCode code, std::string message) {
-  Error error;
-  error.code = code;
-  error.file = folder;
-  error.message = std::move(message);
-  return error;
-}
-
 /// The CSV files under `folder` whose folder's name is a kind.
 Result<std::vector<Source>> sourcesUnder(const std::string& folder) {
   std::error_code failure;
   const fs::path root = fs::canonical(folder, failure);
-  if (failure) return badFolder(folder, ErrorCode::FileNotFound, "no such folder");
+  if (failure) return Error::in(folder, ErrorCode::FileNotFound, "no such folder");
   fs::recursive_directory_iterator entries(root, failure), end;
-  if (failure) return badFolder(folder, ErrorCode::FileUnreadable, "cannot be read as a folder");
+  if (failure) return Error::in(folder, ErrorCode::FileUnreadable, "cannot be read as a folder");
   std::vector<Source> sources;
   for (; entries != end; entries.increment(failure)) {
     if (failure) break;
@@ -143,14 +135,14 @@ Result<std::vector<Source>> sourcesUnder(const std::string& folder) {
     const auto kind = kindOf(path.parent_path().filename().string());
     if (!kind || path.extension() != ".csv") continue;
     if (sources.size() >= kMaxQueryFiles) {
-      return badFolder(folder, ErrorCode::LimitExceeded,
+      return Error::in(folder, ErrorCode::LimitExceeded,
                        fmt::format("more than {} query files", kMaxQueryFiles));
     }
     sources.push_back({path.parent_path().parent_path().filename().string(), *kind, path.string()});
   }
-  if (failure) return badFolder(folder, ErrorCode::FileUnreadable, failure.message());
+  if (failure) return Error::in(folder, ErrorCode::FileUnreadable, failure.message());
   if (sources.empty()) {
-    return badFolder(folder, ErrorCode::Empty,
+    return Error::in(folder, ErrorCode::Empty,
                      "expected CSV files in folders named vertex-face or edge-edge, found none");
   }
   return sources;

@@ -47,9 +47,4 @@ bool outputArrived() {
   return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
 }
 
-Error inFile(Error error, const std::string& file) {
-  if (error.file.empty()) error.file = file;
-  return error;
-}
-
 }  // namespace foretouch::tools

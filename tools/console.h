@@ -28,12 +28,4 @@ void printAside(const std::string& text);
 void printOut(const std::string& text);
 [[nodiscard]] bool outputArrived();
 
-/// The error, with `file` as its place if it names none.
-[[nodiscard]] Error inFile(Error error, const std::string& file);
-template <typename T>
-[[nodiscard]] Result<T> inFile(Result<T> result, const std::string& file) {
-  if (result.ok()) return result;
-  return inFile(result.error(), file);
-}
-
 }  // namespace foretouch::tools

@@ -261,11 +261,7 @@ Result<Clip> parseBvh(std::string_view text, const std::string& name, const BvhO
                      "expected at most " + std::to_string(kMaxBvhFileBytes) + " bytes");
   }
   try {
-    auto clip = readClip(text, options.scale);
-    if (clip.ok()) return clip;
-    Error error = clip.error();
-    error.file = name;
-    return error;
+    return inFile(readClip(text, options.scale), name);
   } catch (const std::bad_alloc&) {
     return Error::in(name, ErrorCode::LimitExceeded, "does not fit into memory");
   }

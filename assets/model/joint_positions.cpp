@@ -132,17 +132,9 @@ Result<Clip> clipOf(const Model& model, const JointTable& table, std::vector<Dri
 
 Result<Clip> clipFromJointPositions(const Model& model, std::string_view csv,
                                     const std::string& name) {
-  const auto named = [&](Error error) {
-    error.file = name;
-    return error;
-  };
-  const auto table = internal::parseJointTable(csv);
-  if (!table.ok()) return named(table.error());
-  auto drives = findDrives(model, table.value());
-  if (!drives.ok()) return named(drives.error());
-  auto clip = clipOf(model, table.value(), std::move(drives).value());
-  if (!clip.ok()) return named(clip.error());
-  return clip;
+  FORETOUCH_TRY(const auto table, inFile(internal::parseJointTable(csv), name));
+  FORETOUCH_TRY(auto drives, inFile(findDrives(model, table), name));
+  return inFile(clipOf(model, table, std::move(drives)), name);
 }
 
 }  // namespace foretouch

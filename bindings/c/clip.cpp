@@ -65,13 +65,9 @@ ft_status ft_clip_create_from_file(const char* path, const ft_avatar* avatar,
     ClipReading reading;
     if (const auto s = readClipOptions(options, reading); s != FT_OK) return s;
     FORETOUCH_TRY_OR(failure, auto read, readBvhFile(path, reading.bvh));
-    auto match = matchJoints(avatar->parts->avatar.skeleton(), read.skeleton);
-    if (!match.ok()) {
-      Error error = match.error();
-      error.file = path;
-      return failure(error);
-    }
-    *clip = new ft_clip{ft_clip::kMark, avatar->parts, std::move(read), std::move(match).value(),
+    FORETOUCH_TRY_OR(failure, auto match,
+                     inFile(matchJoints(avatar->parts->avatar.skeleton(), read.skeleton), path));
+    *clip = new ft_clip{ft_clip::kMark, avatar->parts, std::move(read), std::move(match),
                         reading.placement};
     return FT_OK;
   });

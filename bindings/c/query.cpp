@@ -2,6 +2,7 @@
 #include <memory>
 #include <utility>
 
+#include "articulated/try.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/query_options.h"
 #include "bindings/c/sized_struct.h"
@@ -32,13 +33,7 @@ ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skele
       pose.translations[j] = Eigen::Map<const Eigen::Vector3d>(known.translations + 3 * j);
     }
   }
-  auto valid = validatedPose(skeleton, std::move(pose));
-  if (!valid.ok()) {
-    Error error = valid.error();
-    error.file = name;
-    return failure(error);
-  }
-  pose = std::move(valid).value();
+  FORETOUCH_TRY_OR(failure, pose, inFile(validatedPose(skeleton, std::move(pose)), name));
   return FT_OK;
 }
 

@@ -74,13 +74,8 @@ ft_status readObjects(const ft_scene_arrays& arrays, RawScene& raw) {
 }
 
 ft_status makeScene(RawScene raw, const std::string& file, ft_scene** scene) {
-  auto built = Scene::build(std::move(raw));
-  if (!built.ok()) {
-    Error error = built.error();
-    if (error.file.empty()) error.file = file;
-    return failure(error);
-  }
-  *scene = new ft_scene{ft_scene::kMark, std::move(built).value()};
+  FORETOUCH_TRY_OR(failure, auto built, inFile(Scene::build(std::move(raw)), file));
+  *scene = new ft_scene{ft_scene::kMark, std::move(built)};
   return FT_OK;
 }
 

@@ -39,10 +39,7 @@ T valueOf(Result<T> result) {
 /// The same; an error without a file names `what` instead.
 template <typename T>
 T valueOf(Result<T> result, const std::string& what) {
-  if (result.ok()) return std::move(result).value();
-  Error error = result.error();
-  if (error.file.empty()) error.file = what;
-  throw Failure(std::move(error));
+  return valueOf(inFile(std::move(result), what));
 }
 
 /// Untrusted bytes as a Python text; bytes that are not UTF-8 become \xNN.

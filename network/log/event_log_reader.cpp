@@ -98,11 +98,8 @@ Result<EventLogReader> EventLogReaderAccess::open(std::unique_ptr<LogBytes> byte
   impl->kind = findKind(impl->window);
   if (impl->window.failure()) return *impl->window.failure();
   if (impl->kind.isEmpty) {
-    Error error;
-    error.code = ErrorCode::Empty;
-    error.file = name;
-    error.message = "no event of an LCM log in it (expected ED A1 DA 01 and a whole event)";
-    return error;
+    return Error::in(name, ErrorCode::Empty,
+                     "no event of an LCM log in it (expected ED A1 DA 01 and a whole event)");
   }
   impl->restart();
   return EventLogReader(std::move(impl));

@@ -44,11 +44,7 @@ class FileBytes : public LogBytes {
 
  private:
   [[nodiscard]] Error failed(const std::string& why) const {
-    Error error;
-    error.code = ErrorCode::FileUnreadable;
-    error.file = path_;
-    error.message = why;
-    return error;
+    return Error::in(path_, ErrorCode::FileUnreadable, why);
   }
 
   std::string path_;

@@ -54,11 +54,7 @@ struct EventLogWriter::Impl {
   }
 
   [[nodiscard]] Error failed(ErrorCode code, std::string why) const {
-    Error error;
-    error.code = code;
-    error.file = path;
-    error.message = std::move(why);
-    return error;
+    return Error::in(path, code, std::move(why));
   }
   [[nodiscard]] Error unwritable(const char* what) const {
     return failed(ErrorCode::FileUnwritable, std::string(what) + ": " + std::strerror(errno));

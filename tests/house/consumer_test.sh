@@ -2,9 +2,13 @@
 # Installs the build into a folder of its own and builds examples against it as somebody else's
 # projects would: the README's in C++ with find_package, the one in C with find_package and with
 # pkg-config.
-#   consumer_test.sh CMAKE BUILD_FOLDER SOURCE_FOLDER CXX_COMPILER GENERATOR C_COMPILER
+#   consumer_test.sh CMAKE BUILD_FOLDER SOURCE_FOLDER CXX_COMPILER GENERATOR C_COMPILER [SANITIZERS]
 set -euo pipefail
 cmake=$1 build=$2 source=$3 cxx=$4 generator=$5 cc=$6
+# Whoever links what is built with sanitizers needs their libraries.
+if [ -n "${7:-}" ]; then
+  export CFLAGS=-fsanitize=$7 CXXFLAGS=-fsanitize=$7 LDFLAGS=-fsanitize=$7
+fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 prefix=$folder/prefix
@@ -41,7 +45,8 @@ if [ -f "$prefix/include/foretouch/foretouch.h" ]; then
   library=$(dirname "$(find "$prefix" -name libforetouch.so)")
   read -ra flags <<<"$(PKG_CONFIG_PATH=$library/pkgconfig pkg-config --cflags --libs foretouch)"
   for program in "$prefix/share/foretouch/c-example/swing.c" "$source/tests/consumer/import.c"; do
-    "$cc" -std=c99 -pedantic -Wall -Wextra -Werror "$program" -o "$folder/$(basename "$program" .c)-c" "${flags[@]}" -lm
+    "$cc" -std=c99 -pedantic -Wall -Wextra -Werror "$program" ${CFLAGS:-} \
+      -o "$folder/$(basename "$program" .c)-c" "${flags[@]}" -lm
   done
   export LD_LIBRARY_PATH=$library
   "$folder/swing-c" | cmp - "$folder/c.txt"

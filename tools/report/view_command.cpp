@@ -48,10 +48,6 @@ FileRole roleOf(const std::string& path) {
   return FileRole::Unknown;
 }
 
-Error fileError(const std::string& path, std::string message) {
-  return Error::in(path, ErrorCode::Mismatch, std::move(message));
-}
-
 /// Assigns files without an option by their names.
 Result<Done> assignFiles(const std::vector<std::string>& files, ReplayRequest& request) {
   for (const std::string& file : files) {
@@ -61,16 +57,17 @@ Result<Done> assignFiles(const std::vector<std::string>& files, ReplayRequest& r
       case FileRole::Avatar: place = &request.avatarPath; break;
       case FileRole::Motion: place = &request.motionPath; break;
       case FileRole::Several:
-        return fileError(file,
+        return Error::in(file, ErrorCode::Mismatch,
                          "may be a scene or a motion; expected --scene or --motion before it");
       case FileRole::Unknown:
-        return fileError(file,
+        return Error::in(file, ErrorCode::Mismatch,
                          "its name does not say what it is; expected --scene, --avatar or --motion "
                          "before it");
     }
     if (!place->empty()) {
-      return fileError(file, "is a second one of its kind; expected at most one, found " +
-                                 inQuotes(*place) + " as well");
+      return Error::in(file, ErrorCode::Mismatch,
+                       "is a second one of its kind; expected at most one, found " +
+                           inQuotes(*place) + " as well");
     }
     *place = file;
   }
@@ -85,7 +82,7 @@ Result<Done> check(ViewJob& job) {
     return Error::in("view", ErrorCode::Empty, "expected a scene, an avatar or a motion");
   }
   if (isEventLog(request.motionPath)) {
-    return fileError(request.motionPath,
+    return Error::in(request.motionPath, ErrorCode::Mismatch,
                      "is an event log; expected a clip. `foretouch replay --report` shows logs");
   }
   return Done{};

@@ -103,10 +103,7 @@ Result<Done> takeTyped(Setting& setting, const std::vector<std::string>& texts) 
   const bool isRead = texts.empty() || readTyped(setting, given);
   auto taken = isRead ? setting.take(given) : Result<Done>(notLegal(setting.legal, given));
   setting.isGiven = true;
-  if (taken.ok() || !taken.error().file.empty()) return taken;
-  Error error = taken.error();
-  error.file = setting.option;
-  return error;
+  return inFile(std::move(taken), setting.option);
 }
 
 Error notLegal(const std::string& legal, const GivenValue& given) {
