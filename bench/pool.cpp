@@ -15,14 +15,14 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::vector<StepTask> tasksAt(int instant, int avatars, const Avatar& avatar,
-                              const std::vector<StepPoses>& steps, const QueryOptions& query) {
+std::vector<StepTask> tasksAt(int instant, int avatars, const Query& query,
+                              const std::vector<StepPoses>& steps) {
   const auto count = static_cast<std::int64_t>(steps.size());
   std::vector<StepTask> tasks;
   tasks.reserve(static_cast<std::size_t>(avatars));
   for (std::int64_t which = 0; which < avatars; ++which) {
     const StepPoses& poses = steps[slotOf((instant + count * which / avatars) % count)];
-    tasks.push_back({&avatar, &poses.from, &poses.to, &query});
+    tasks.push_back({&query, &poses.from, &poses.to});
   }
   return tasks;
 }
@@ -30,15 +30,16 @@ std::vector<StepTask> tasksAt(int instant, int avatars, const Avatar& avatar,
 }  // namespace
 
 Result<CrowdTimes> timeCrowd(const Avatar& avatar, const std::vector<StepPoses>& steps,
-                             const Scene& scene, const QueryOptions& query, int avatars,
+                             const Scene& scene, const QueryOptions& options, int avatars,
                              int instants, int threads) {
+  FORETOUCH_TRY(const auto query, Query::build(avatar, scene, options));
   FORETOUCH_TRY(auto pool, QueryPool::start(threads));
   CrowdTimes times;
   std::vector<StepContacts> answers;
   for (int instant = 0; instant < instants; ++instant) {
-    const std::vector<StepTask> tasks = tasksAt(instant, avatars, avatar, steps, query);
+    const std::vector<StepTask> tasks = tasksAt(instant, avatars, query, steps);
     const Clock::time_point start = Clock::now();
-    const auto done = pool.answer(scene, tasks, answers);
+    const auto done = pool.answer(tasks, answers);
     const double seconds = secondsSince(start);
     if (!done.ok()) return done.error();
     times.wallS += seconds;

@@ -50,19 +50,22 @@ class CacheFlood {
   volatile std::uint64_t kept_ = 0;  // else the compiler would remove the loops
 };
 
+struct AskedCase {
+  Query query;
+  Simd simd;
+};
+
 /// One pass of one case over one step, timed.
 class StepClock {
  public:
-  StepClock(const Avatar& avatar, const Scene& scene)
-      : avatar_(avatar), scene_(scene), overheadUs_(clockOverheadUs()) {}
+  explicit StepClock(const Scene& scene) : scene_(scene), overheadUs_(clockOverheadUs()) {}
 
   /// Microseconds of a step; fills `answer`.
-  Result<double> ask(const StepPoses& poses, const BenchCase& way, StepContacts& answer) {
+  double ask(const StepPoses& poses, const AskedCase& way, StepContacts& answer) {
     simd_.take(way.simd);
     const Clock::time_point start = Clock::now();
-    const auto done = answerStep(avatar_, poses, scene_, way.query, memory_);
+    answerStep(way.query, poses, memory_);
     const double us = since(start);
-    if (!done.ok()) return done.error();
     answer = memory_.contacts;
     return us;
   }
@@ -83,7 +86,6 @@ class StepClock {
     return std::max(0.0, us - overheadUs_);
   }
 
-  const Avatar& avatar_;
   const Scene& scene_;
   double overheadUs_;
   StepMemory memory_;
@@ -99,19 +101,18 @@ void record(const StepContacts& answer, TimedStep& step) {
   }
 }
 
-Result<Done> timeWarm(StepClock& clock, const StepPoses& poses, const BenchCase& way, int repeats,
-                      CaseTimes& times) {
+void timeWarm(StepClock& clock, const StepPoses& poses, const AskedCase& way, int repeats,
+              CaseTimes& times) {
   TimedStep step;
   StepContacts answer;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    FORETOUCH_TRY(const auto us, clock.ask(poses, way, answer));
+    const double us = clock.ask(poses, way, answer);
     if (repeat == 0) step.firstUs = us;
     step.warmUs = repeat == 0 ? us : std::min(step.warmUs, us);
     times.everyUs.push_back(us);
   }
   record(answer, step);
   times.steps.push_back(step);
-  return Done{};
 }
 
 Result<Done> timeRays(const StepClock& clock, const Avatar& avatar, const StepPoses& poses,
@@ -126,19 +127,18 @@ Result<Done> timeRays(const StepClock& clock, const Avatar& avatar, const StepPo
   return Done{};
 }
 
-Result<Done> timeCold(StepClock& clock, const std::vector<StepPoses>& steps, const BenchCase& way,
-                      const TimingOptions& options, CaseTimes& times) {
+void timeCold(StepClock& clock, const std::vector<StepPoses>& steps, const AskedCase& way,
+              const TimingOptions& options, CaseTimes& times) {
   CacheFlood flood(options.coldMb);
   StepContacts answer;
   for (int pass = 0; pass < options.coldPasses; ++pass) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
       flood.run();
-      FORETOUCH_TRY(const auto us, clock.ask(steps[i], way, answer));
+      const double us = clock.ask(steps[i], way, answer);
       double& coldUs = times.steps[i].coldUs;
       coldUs = pass == 0 ? us : std::min(coldUs, us);
     }
   }
-  return Done{};
 }
 
 }  // namespace
@@ -161,18 +161,21 @@ Percentiles percentilesOf(std::vector<double> values) {
   return {sum / count, rank(0.5), rank(0.9), rank(0.99), values.back()};
 }
 
-[[gnu::noinline]] Result<Done> answerStep(const Avatar& avatar, const StepPoses& poses,
-                                          const Scene& scene, const QueryOptions& query,
-                                          StepMemory& memory) {
-  memory.motion.assign(avatar.skeleton(), poses.from, poses.to);
-  return firstContacts(avatar, memory.motion, scene, query, memory.scratch, memory.contacts);
+[[gnu::noinline]] void answerStep(const Query& query, const StepPoses& poses, StepMemory& memory) {
+  memory.motion.assign(query.avatar().skeleton(), poses.from, poses.to);
+  query.answer(memory.motion, memory.scratch, memory.contacts);
 }
 
 Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& steps,
                          const Scene& scene, const std::vector<BenchCase>& cases,
                          const TimingOptions& options) {
   FORETOUCH_ASSERT(!steps.empty() && options.repeats >= 1);
-  StepClock clock(avatar, scene);
+  std::vector<AskedCase> asked;
+  for (const BenchCase& way : cases) {
+    FORETOUCH_TRY(auto query, Query::build(avatar, scene, way.query));
+    asked.push_back({std::move(query), way.simd});
+  }
+  StepClock clock(scene);
   Timing timing;
   timing.cases.resize(cases.size());
   timing.overheadUs = clock.overheadUs();
@@ -182,14 +185,14 @@ Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& ste
   ProgressBar progress("steps", static_cast<std::int64_t>(steps.size()));
   for (std::size_t i = 0; i < steps.size(); ++i) {
     for (std::size_t c = 0; c < cases.size(); ++c) {
-      FORETOUCH_CHECK(timeWarm(clock, steps[i], cases[c], options.repeats, timing.cases[c]));
+      timeWarm(clock, steps[i], asked[c], options.repeats, timing.cases[c]);
     }
     FORETOUCH_CHECK(timeRays(clock, avatar, steps[i], options.repeats, timing.raySetUs));
     progress.advanceTo(static_cast<std::int64_t>(i) + 1);
   }
   for (std::size_t c = 0; c < cases.size(); ++c) {
     if (!cases[c].cold || options.coldMb == 0) continue;
-    FORETOUCH_CHECK(timeCold(clock, steps, cases[c], options, timing.cases[c]));
+    timeCold(clock, steps, asked[c], options, timing.cases[c]);
   }
   return timing;
 }

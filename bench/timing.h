@@ -64,12 +64,10 @@ struct StepMemory {
 };
 
 /// Answers one step. A separate function, so that a profiler can count its cost alone.
-[[nodiscard]] Result<Done> answerStep(const Avatar& avatar, const StepPoses& poses,
-                                      const Scene& scene, const QueryOptions& query,
-                                      StepMemory& memory);
+void answerStep(const Query& query, const StepPoses& poses, StepMemory& memory);
 
 /// Alternates all cases and the ray set at each step, so that drift of the machine affects all
-/// alike. One thread.
+/// alike. One thread. Errors: as Query::build().
 [[nodiscard]] Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& steps,
                                        const Scene& scene, const std::vector<BenchCase>& cases,
                                        const TimingOptions& options);

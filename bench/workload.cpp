@@ -41,13 +41,21 @@ Avatar grownBy(const Avatar& avatar, double margin) {
   return Avatar::build(avatar.skeleton(), std::move(lss)).value();  // as legal as before
 }
 
+/// With legal options, which nothing can be said against.
+Query queryOf(const Avatar& avatar, const Scene& scene) {
+  QueryOptions options;
+  options.tolerance = kWorkloadTolerance;
+  return Query::build(avatar, scene, options).value();
+}
+
 /// Classifies steps.
 class Classifier {
  public:
   Classifier(const BenchInputs& inputs, const BenchBody& body)
-      : inputs_(inputs), body_(body), grown_(grownBy(body.avatar, kNearM)) {
-    options_.tolerance = kWorkloadTolerance;
-  }
+      : inputs_(inputs),
+        body_(body),
+        query_(queryOf(body.avatar, inputs.scene)),
+        grown_(queryOf(grownBy(body.avatar, kNearM), inputs.scene)) {}
 
   [[nodiscard]] Result<Pose> poseAt(const Placement& placement, std::int64_t frame) const {
     const double timeS = static_cast<double>(frame) * inputs_.clip.frameTimeS;
@@ -55,10 +63,9 @@ class Classifier {
                          poseOfBody(body_, placedPose(inputs_, placement, frame), timeS));
   }
 
-  Result<StepClass> classOf(const Pose& from, const Pose& to) {
+  StepClass classOf(const Pose& from, const Pose& to) {
     const ChainMotion motion(body_.avatar.skeleton(), from, to);
-    FORETOUCH_TRY(const auto contacts,
-                  firstContacts(body_.avatar, motion, inputs_.scene, options_, scratch_));
+    const StepContacts contacts = query_.answer(motion, scratch_);
     StepClass kind = StepClass::Far;
     for (const LinkContact& contact : contacts.links) {
       if (contact.verdict == Verdict::StartsInContact) return StepClass::Start;
@@ -71,8 +78,8 @@ class Classifier {
   bool isNear(const ChainMotion& motion) {
     for (int i = 0; i < kNearInstants; ++i) {
       const double t = static_cast<double>(i) / (kNearInstants - 1);
-      for (LinkId link = 0; link < grown_.numLinks(); ++link) {
-        if (touchesAt(grown_, motion, link, t, inputs_.scene, options_, scratch_)) return true;
+      for (LinkId link = 0; link < grown_.avatar().numLinks(); ++link) {
+        if (grown_.touchesAt(motion, link, t, scratch_)) return true;
       }
     }
     return false;
@@ -80,8 +87,7 @@ class Classifier {
 
   const BenchInputs& inputs_;
   const BenchBody& body_;
-  Avatar grown_;
-  QueryOptions options_;
+  Query query_, grown_;
   QueryScratch scratch_;
 };
 
@@ -182,7 +188,7 @@ Result<bool> addSteps(const Placement& placement, std::int64_t ofAll, std::int64
     const auto from = classifier.poseAt(placement, frame);
     const auto to = classifier.poseAt(placement, frame + workload.stride);
     if (!from.ok() || !to.ok()) return false;
-    FORETOUCH_TRY(const auto kind, classifier.classOf(from.value(), to.value()));
+    const StepClass kind = classifier.classOf(from.value(), to.value());
     ++workload.found[slotOf(kind)];
     found.push_back({placement, frame, kind});
   }

@@ -134,12 +134,12 @@ class Asker {
     answer.fidelity = fidelity;
     answer.isFlushed = isFlushed_;
     answer.scope = options_.scope;
-    const auto done =
-        firstContacts(prepared_.avatar, motion_, prepared_.scene, options_, scratch_, answer.step);
-    if (!done.ok()) {
-      asked_.refusal = done.error();
+    const auto query = Query::build(prepared_.avatar, prepared_.scene, options_);
+    if (!query.ok()) {
+      asked_.refusal = query.error();
       return;
     }
+    query.value().answer(motion_, scratch_, answer.step);
     asked_.answers.push_back(std::move(answer));
   }
 

@@ -10,22 +10,17 @@ namespace {
 
 class ForetouchSolver : public SweepSolver {
  public:
-  ForetouchSolver(const Scene& scene, Avatar avatar, double tolerance)
-      : SweepSolver(fmt::format("Foretouch, {:g} m", tolerance), false),
-        scene_(scene),
-        avatar_(std::move(avatar)),
-        from_(restPose(avatar_.skeleton())),
-        to_(from_) {
-    options_.tolerance = tolerance;
-  }
+  explicit ForetouchSolver(Query query)
+      : SweepSolver(fmt::format("Foretouch, {:g} m", query.options().tolerance), false),
+        query_(std::move(query)),
+        from_(restPose(query_.avatar().skeleton())),
+        to_(from_) {}
 
   SweepAnswer solve(const RigidSweep& sweep) override {
     setPose(from_, poseAt(sweep, 0.0));
     setPose(to_, poseAt(sweep, 1.0));
-    motion_.assign(avatar_.skeleton(), from_, to_);
-    const auto done = firstContacts(avatar_, motion_, scene_, options_, scratch_, contacts_);
-    FORETOUCH_ASSERT(done.ok());
-    static_cast<void>(done);
+    motion_.assign(query_.avatar().skeleton(), from_, to_);
+    query_.answer(motion_, scratch_, contacts_);
     const LinkContact& contact = contacts_.links.front();
     return {contact.verdict != Verdict::Clear, contact.freeUntil};
   }
@@ -36,10 +31,8 @@ class ForetouchSolver : public SweepSolver {
     pose.translations.front() = rigid.pivot;
   }
 
-  Scene scene_;
-  Avatar avatar_;
+  Query query_;
   Pose from_, to_;
-  QueryOptions options_;
   QueryScratch scratch_;
   ChainMotion motion_;
   StepContacts contacts_;
@@ -58,7 +51,10 @@ Result<SweepSolvers> foretouchSolvers(const Scene& scene, const Lss& lss_L) {
   FORETOUCH_TRY(const auto avatar, avatarOf(lss_L));
   SweepSolvers solvers;
   for (const double tolerance : kForetouchTolerances) {
-    solvers.push_back(std::make_unique<ForetouchSolver>(scene, avatar, tolerance));
+    QueryOptions options;
+    options.tolerance = tolerance;
+    FORETOUCH_TRY(auto query, Query::build(avatar, scene, options));
+    solvers.push_back(std::make_unique<ForetouchSolver>(std::move(query)));
   }
   return solvers;
 }

@@ -225,17 +225,14 @@ class VoxelSweep : public Strategy {
 
 class ForetouchQuery : public Strategy {
  public:
-  ForetouchQuery(const TradeWorld& world, QueryOptions options, const std::string& name)
-      : Strategy(name,
-                 options.fidelity == Fidelity::Link ? TradePromise::Accurate : TradePromise::Sound),
-        world_(world),
-        options_(std::move(options)) {}
+  ForetouchQuery(Query query, const std::string& name)
+      : Strategy(name, query.options().fidelity == Fidelity::Link ? TradePromise::Accurate
+                                                                  : TradePromise::Sound),
+        query_(std::move(query)) {}
 
   void solve(const TradeStep& step, std::vector<LinkTouch>& touches, TradeWork& work) override {
-    motion_.assign(world_.avatar.skeleton(), step.from, step.to);
-    [[maybe_unused]] const auto done =
-        firstContacts(world_.avatar, motion_, world_.scene, options_, scratch_, contacts_);
-    FORETOUCH_ASSERT(done.ok());
+    motion_.assign(query_.avatar().skeleton(), step.from, step.to);
+    query_.answer(motion_, scratch_, contacts_);
     touches.resize(contacts_.links.size());
     for (std::size_t i = 0; i < touches.size(); ++i) {
       const LinkContact& contact = contacts_.links[i];
@@ -248,8 +245,7 @@ class ForetouchQuery : public Strategy {
   }
 
  private:
-  const TradeWorld& world_;
-  QueryOptions options_;
+  Query query_;
   ChainMotion motion_;
   QueryScratch scratch_;
   StepContacts contacts_;
@@ -274,7 +270,8 @@ std::unique_ptr<Strategy> voxelSweep(const TradeWorld& world) {
 }
 std::unique_ptr<Strategy> foretouchQuery(const TradeWorld& world, const QueryOptions& options,
                                          const std::string& name) {
-  return std::make_unique<ForetouchQuery>(world, options, name);
+  return std::make_unique<ForetouchQuery>(Query::build(world.avatar, world.scene, options).value(),
+                                          name);
 }
 
 }  // namespace foretouch::tools

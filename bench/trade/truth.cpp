@@ -68,7 +68,7 @@ TruthTeller::TruthTeller(const TradeWorld& world, const std::optional<AvatarSurf
 
 Result<StepContacts> TruthTeller::ask(const Avatar& avatar, const StepPoses& step) {
   const ChainMotion motion(avatar.skeleton(), step.from, step.to);
-  return firstContacts(avatar, motion, world_.scene, options_, scratch_);
+  return firstContacts(avatar, motion, world_.scene, options_);
 }
 
 Result<std::vector<LinkTruth>> TruthTeller::truthOf(const StepPoses& step) {
@@ -102,8 +102,7 @@ Result<std::vector<bool>> TruthTeller::comesWithin(const StepPoses& step, double
   options.fidelity = Fidelity::Link;  // a surface lies within its LSS
   options.surface.reset();
   const ChainMotion motion(thicker_->skeleton(), step.from, step.to);
-  FORETOUCH_TRY(const auto contacts,
-                firstContacts(*thicker_, motion, world_.scene, options, scratch_));
+  FORETOUCH_TRY(const auto contacts, firstContacts(*thicker_, motion, world_.scene, options));
   std::vector<bool> within;
   for (const LinkContact& contact : contacts.links) {
     within.push_back(contact.verdict != Verdict::Clear);

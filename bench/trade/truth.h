@@ -58,7 +58,6 @@ class TruthTeller {
   double thickerBy_ = 0.0;
   std::optional<Avatar> thicker_;
   QueryOptions options_;
-  QueryScratch scratch_;
 };
 
 /// The judge's results for a sample of links.

@@ -97,7 +97,7 @@ ft_status ft_query_links(const ft_query* query, ft_contact* links, size_t capaci
     if (const auto s = checkedStep(query); s != FT_OK) return s;
     const auto& all = query->step.answer.links;
     const auto at = [&](std::size_t i) -> const LinkContact& { return all[i]; };
-    return writeContacts(query->scene, all.size(), at, links, capacity, required);
+    return writeContacts(query->question->scene(), all.size(), at, links, capacity, required);
   });
 }
 
@@ -109,7 +109,8 @@ ft_status ft_query_contacts(const ft_query* query, ft_contact* contacts, size_t 
     const auto at = [&](std::size_t i) -> const LinkContact& {
       return query->step.answer.links[slotOf(reported[i])];
     };
-    return writeContacts(query->scene, reported.size(), at, contacts, capacity, required);
+    return writeContacts(query->question->scene(), reported.size(), at, contacts, capacity,
+                         required);
   });
 }
 
@@ -139,8 +140,7 @@ ft_status ft_touches_at(ft_query* query, int32_t link, double t, int32_t* touche
     }
     if (query->isScratchSuspect) query->scratch = QueryScratch();
     query->isScratchSuspect = true;
-    const bool isTouching = touchesAt(avatar, query->step.motion, link, t, query->scene,
-                                      query->options, query->scratch);
+    const bool isTouching = query->question->touchesAt(query->step.motion, link, t, query->scratch);
     query->isScratchSuspect = false;
     *touches = isTouching ? 1 : 0;
     return FT_OK;

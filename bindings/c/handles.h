@@ -64,8 +64,8 @@ struct ft_clip {
 struct ft_query {
   static constexpr auto kMark = foretouch::c::Mark::Query;
   static constexpr const char* kName = "query";
-  ft_query(foretouch::Scene inScene, std::shared_ptr<const foretouch::c::AvatarParts> ofAvatar)
-      : scene(std::move(inScene)), avatar(std::move(ofAvatar)) {}
+  explicit ft_query(std::shared_ptr<const foretouch::c::AvatarParts> ofAvatar)
+      : avatar(std::move(ofAvatar)) {}
 
   struct Step {
     foretouch::ChainMotion motion;
@@ -74,9 +74,8 @@ struct ft_query {
   };
 
   foretouch::c::Mark mark = kMark;
-  foretouch::Scene scene;
   std::shared_ptr<const foretouch::c::AvatarParts> avatar;
-  foretouch::QueryOptions options;
+  std::optional<foretouch::Query> question;  // from ft_query_create() on
   foretouch::QueryScratch scratch;
   bool isScratchSuspect = false;  // an exception left it half written
   foretouch::Pose from, to;       // of the current step

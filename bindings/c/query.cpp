@@ -38,34 +38,25 @@ ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skele
 }
 
 /// Answers query.from to query.to into query.next.
-ft_status answerNext(ft_query& query, const QueryOptions& options) {
+void answerNext(ft_query& query) {
   if (query.isScratchSuspect) query.scratch = QueryScratch();
   query.isScratchSuspect = true;
-  const Avatar& avatar = query.avatar->avatar;
-  query.next.motion.assign(avatar.skeleton(), query.from, query.to);
-  const auto done = firstContacts(avatar, query.next.motion, query.scene, options, query.scratch,
-                                  query.next.answer);
+  query.next.motion.assign(query.avatar->avatar.skeleton(), query.from, query.to);
+  query.question->answer(query.next.motion, query.scratch, query.next.answer);
   query.isScratchSuspect = false;
-  if (!done.ok()) return failure(done.error());
   const auto& links = query.next.answer.links;
   listReported(links.data(), links.size(), query.next.reported);
-  return FT_OK;
 }
 
-/// Refuses bad options now, not at the first step: queries the rest pose with them and a work
-/// budget of 0.
-ft_status takeOptions(const ft_query_options* given, ft_query& query) {
+ft_status takeOptions(const ft_query_options* given, const Scene& scene, ft_query& query) {
   QueryOptions options;
   if (const auto s = readQueryOptions(given, *query.avatar, options); s != FT_OK) return s;
-  QueryOptions idle = options;
-  idle.workBudget = 0;
-  query.from = query.to = restPose(query.avatar->avatar.skeleton());
   if (!(options.deadlineUs >= 0.0)) {
     return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex,
                    "deadline_us: expected microseconds, at least 0, found %g", options.deadlineUs);
   }
-  if (const auto s = answerNext(query, idle); s != FT_OK) return s;
-  query.options = std::move(options);
+  FORETOUCH_TRY_OR(failure, auto question, Query::build(query.avatar->avatar, scene, options));
+  query.question.emplace(std::move(question));
   query.hasStep = false;
   return FT_OK;
 }
@@ -86,11 +77,11 @@ ft_status ft_query_create(const ft_scene* scene, const ft_avatar* avatar,
     if (const auto s = cleared(query); s != FT_OK) return s;
     if (const auto s = checked(scene); s != FT_OK) return s;
     if (const auto s = checked(avatar); s != FT_OK) return s;
-    auto made = std::make_unique<ft_query>(scene->scene, avatar->parts);
+    auto made = std::make_unique<ft_query>(avatar->parts);
     const auto links = countOf(avatar->parts->avatar.numLinks());
     made->step.reported.reserve(links);
     made->next.reported.reserve(links);
-    if (const auto s = takeOptions(options, *made); s != FT_OK) return s;
+    if (const auto s = takeOptions(options, scene->scene, *made); s != FT_OK) return s;
     *query = made.release();
     return FT_OK;
   });
@@ -99,7 +90,7 @@ ft_status ft_query_create(const ft_scene* scene, const ft_avatar* avatar,
 ft_status ft_query_set_options(ft_query* query, const ft_query_options* options) {
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checked(query); s != FT_OK) return s;
-    return takeOptions(options, *query);
+    return takeOptions(options, query->question->scene(), *query);
   });
 }
 
@@ -116,7 +107,7 @@ ft_status ft_query_step(ft_query* query, const ft_pose* from, const ft_pose* to)
                      "from: expected a pose, because no earlier step ends where this one begins");
     }
     if (const auto s = readPose(to, "to", skeleton, query->to); s != FT_OK) return s;
-    if (const auto s = answerNext(*query, query->options); s != FT_OK) return s;
+    answerNext(*query);
     std::swap(query->step, query->next);
     std::swap(query->last, query->to);
     query->hasLast = query->hasStep = true;

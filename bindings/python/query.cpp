@@ -49,16 +49,11 @@ void ScratchShelf::putBack(std::unique_ptr<QueryScratch> scratch) {
   free_.push_back(std::move(scratch));
 }
 
-Query::Query(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene, QueryOptions options)
-    : avatar_(std::move(avatar)), scene_(std::move(scene)), options_(std::move(options)) {
-  // Runs once with a work budget of 0, to refuse bad options here and not at first use: touchesAt()
-  // and the pool do not check them.
-  QueryOptions idle = options_;
-  idle.workBudget = 0;
-  const Pose rest = restPose(avatar_->skeleton());
-  const ChainMotion still(avatar_->skeleton(), rest, rest);
-  static_cast<void>(valueOf(foretouch::firstContacts(*avatar_, still, *scene_, idle)));
-}
+Query::Query(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene,
+             const QueryOptions& options)
+    : avatar_(std::move(avatar)),
+      scene_(std::move(scene)),
+      question_(valueOf(foretouch::Query::build(*avatar_, *scene_, options))) {}
 
 /// The library detects a motion of another avatar only by its number of joints.
 void Query::checkMotion(const Motion& motion) const {
@@ -71,7 +66,7 @@ Step Query::firstContacts(const Motion& motion) {
   const py::gil_scoped_release free;
   BorrowedScratch scratch(shelf_);
   StepContacts step;
-  valueOf(foretouch::firstContacts(*avatar_, motion.chain, *scene_, options_, *scratch, step));
+  question_.answer(motion.chain, *scratch, step);
   return {std::make_shared<const Answers>(
               Answers{avatar_, scene_, std::move(step.links), {step.counters}}),
           0};
@@ -90,9 +85,9 @@ Steps Query::firstContactsMany(const Pose* starts, const Pose* ends, std::size_t
     const py::gil_scoped_release free;
     tasks.clear();
     for (std::size_t i = done; i < std::min(steps, done + kStepsAtOnce); ++i) {
-      tasks.push_back({avatar_.get(), starts + i, ends + i, &options_});
+      tasks.push_back({&question_, starts + i, ends + i});
     }
-    valueOf(pool.answer(*scene_, tasks, found));
+    valueOf(pool.answer(tasks, found));
     for (const StepContacts& step : found) {
       answers->contacts.insert(answers->contacts.end(), step.links.begin(), step.links.end());
       answers->counters.push_back(step.counters);
@@ -109,8 +104,7 @@ py::array_t<bool> Query::touchesAt(const Motion& motion, const Instants& instant
   BorrowedScratch scratch(shelf_);
   for (const double t : instants.values()) {
     for (LinkId link = 0; link < avatar_->numLinks(); ++link) {
-      *answer++ =
-          foretouch::touchesAt(*avatar_, motion.chain, link, t, *scene_, options_, *scratch);
+      *answer++ = question_.touchesAt(motion.chain, link, t, *scratch);
     }
   }
   return touched;
@@ -122,10 +116,10 @@ std::unique_ptr<Query> createQuery(std::shared_ptr<Avatar> avatar, std::shared_p
                                    py::object tolerance, py::object fidelity, py::object policies,
                                    py::object ignore, py::object workBudget, py::object deadlineUs,
                                    py::object scope, py::object surface) {
-  auto options =
+  const auto options =
       optionsFrom({tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface},
                   *avatar, *scene);
-  return std::make_unique<Query>(std::move(avatar), std::move(scene), std::move(options));
+  return std::make_unique<Query>(std::move(avatar), std::move(scene), options);
 }
 
 int threadsFrom(const py::object& given) {

@@ -32,7 +32,7 @@ class ScratchShelf {
 class Query {
  public:
   /// Throws if the library refuses the options.
-  Query(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene, QueryOptions options);
+  Query(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene, const QueryOptions& options);
 
   [[nodiscard]] const std::shared_ptr<Avatar>& avatar() const { return avatar_; }
   [[nodiscard]] const std::shared_ptr<Scene>& scene() const { return scene_; }
@@ -50,7 +50,7 @@ class Query {
   void checkMotion(const Motion& motion) const;
   std::shared_ptr<Avatar> avatar_;
   std::shared_ptr<Scene> scene_;
-  QueryOptions options_;
+  foretouch::Query question_;
   ScratchShelf shelf_;
 };
 

@@ -68,33 +68,19 @@ void closeBox(SweptBoxes& boxes, std::int32_t lss) {
 
 }  // namespace
 
-const LssTable& tableOf(const Avatar& avatar, LaneScratch& lanes) {
-  if (lanes.avatar != avatar.identity()) {
-    lanes.table = LssTable(avatar);
-    lanes.avatar = avatar.identity();
-  }
-  return lanes.table;
-}
-
-LaneQuery::LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion,
-                     const Scene& scene, const QueryOptions& options, const TriangleCuller& culler,
-                     const WorkMeter& meter, ScratchParts& scratch)
-    : body_(body),
+LaneQuery::LaneQuery(const QueryPlan& plan, const Body& body, const LssTable& table,
+                     const ChainMotion& motion, const WorkMeter& meter, ScratchParts& scratch)
+    : plan_(plan),
+      body_(body),
       table_(table),
       motion_(motion),
-      scene_(scene),
-      options_(options),
+      scene_(plan.scene),
       scratch_(scratch),
-      culler_(culler),
       lanes_(scratch.lanes),
-      bvh_(scene.parts().bvh),
-      range_(tolerancesOf(options)),
+      bvh_(plan.scene.parts().bvh),
       meter_(meter) {
-  useTolerance(range_.least);
+  useTolerance(plan.tolerances.least);
   scratch_.evaluator.reset(motion);
-  lanes_.margins.clear();
-  if (range_.least == range_.largest) return;
-  for (const LinkPolicy& policy : options.linkPolicies) lanes_.margins.push_back(policy.tolerance);
 }
 
 void LaneQuery::useTolerance(double tolerance) {
@@ -105,8 +91,9 @@ void LaneQuery::useTolerance(double tolerance) {
 
 void LaneQuery::run(StepContacts& step) {
   findWhoIsAsked(step);
-  const int slabs = slabsFor(
-      table_, motion_, std::max(kInterpolationShare * range_.least, kLeastInterpolationError));
+  const int slabs =
+      slabsFor(table_, motion_,
+               std::max(kInterpolationShare * plan_.tolerances.least, kLeastInterpolationError));
   if (meter_.isLimited()) {
     lanes_.freeUntil.assign(countOf(body_.numLinks()), 0.0);
     meter_.beginShare(kShareOfWhole, kSlabWork);
@@ -116,7 +103,7 @@ void LaneQuery::run(StepContacts& step) {
     end_ = static_cast<double>(slab + 1) / slabs;
     if (!collectHits(step.counters)) continue;
     if (!answerSlab(step)) return runInHalves(step, slab, slabs);
-    if (options_.scope != Scope::FirstOfAvatar) continue;
+    if (plan_.options.scope != Scope::FirstOfAvatar) continue;
     if (const auto first = firstOf(step)) return leaveAfterFirst(*first, step);
   }
   leaveClear(step);
@@ -136,7 +123,7 @@ bool LaneQuery::answerSlab(StepContacts& step) {
     if (isSpent(contact)) return keepProven(contact);
     step.links[i] = contact;
     leaveOut(link);
-    if (options_.scope == Scope::FirstOfAvatar) {
+    if (plan_.options.scope == Scope::FirstOfAvatar) {
       limit = std::min(limit, lanesTimeOf(contact.freeUntil));
     }
   }
@@ -159,7 +146,7 @@ void LaneQuery::runInHalves(StepContacts& step, int slab, int slabs) {
     meter_.beginPart(step.counters, count < finest ? kSlabWork : WorkMeter::kUnlimited);
     if (answerOpen(step)) {
       const auto first = firstOf(step);
-      if (options_.scope == Scope::FirstOfAvatar && first && *first <= end_) {
+      if (plan_.options.scope == Scope::FirstOfAvatar && first && *first <= end_) {
         return leaveAfterFirst(*first, step);
       }
       ++slab;
@@ -286,16 +273,16 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
     counters.states +=
         static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(body_.numLinks());
   }
-  if (lanes_.margins.empty()) {
-    sweptBoxes(table, motion_, lanes_.nodes, range_.least, lanes_.boxes);
+  if (plan_.margins.empty()) {
+    sweptBoxes(table, motion_, lanes_.nodes, plan_.tolerances.least, lanes_.boxes);
   } else {
-    sweptBoxes(table, motion_, lanes_.nodes, lanes_.margins, lanes_.boxes);
+    sweptBoxes(table, motion_, lanes_.nodes, plan_.margins, lanes_.boxes);
   }
   for (std::int32_t lss = 0; !areAllAsked_ && lss < table.size(); ++lss) {
     if (lanes_.isAsked[slotOf(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
   }
   lanes_.hits.clear();
-  if (options_.culler == Culler::FlatBvh) {
+  if (plan_.options.culler == Culler::FlatBvh) {
     BoxLanes boxes;
     boxes.count = lanes_.boxes.count;
     for (int axis = 0; axis < 3; ++axis) {
@@ -323,7 +310,7 @@ void LaneQuery::collectByCuller(QueryCounters& counters) {
     if (!(box.min.x() <= box.max.x())) continue;
     box.grow(0.0);
     scratch_.found.clear();
-    culler_.collect(box, scratch_.found, counters.nodes);
+    plan_.culler->collect(box, scratch_.found, counters.nodes);
     for (const TriangleId id : scratch_.found) {
       const FlatBvh::Slot slot = bvh_.slotOf(id);
       lanes_.hits.push_back({slot.leaf, static_cast<std::uint16_t>(lss),
@@ -367,9 +354,9 @@ void LaneQuery::sortHits() {
 
 LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters) {
   link_ = link;
-  const LinkSurface* const surface = surfaceOf(options_, link);
+  const LinkSurface* const surface = plan_.of(link).surface;
   scratch_.ignored.collect(body_.ignored(), link);
-  if (!lanes_.margins.empty()) useTolerance(toleranceOf(options_, link));
+  if (!plan_.margins.empty()) useTolerance(plan_.of(link).tolerance);
   // A triangle that touches an LSS may still miss the triangles in it.
   tolerances_.contact = surface == nullptr ? floatBelow(kCertainShare * tolerance_) : kNeverCertain;
   float best = limit;
@@ -416,7 +403,7 @@ LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, flo
                         Pieces{},
                         tolerance_,
                         meter_,
-                        options_.leafMethod,
+                        plan_.options.leafMethod,
                         scratch_.evaluator,
                         *this};
   if (surface == nullptr) return backtrack(query, candidates, counters);

@@ -9,7 +9,7 @@
 
 #include "middleware/query/backtracking.h"
 #include "middleware/query/body.h"
-#include "middleware/query/link_options.h"
+#include "middleware/query/query_plan.h"
 #include "middleware/query/scratch_parts.h"
 #include "middleware/query/work_meter.h"
 #include "middleware/scene/flat_bvh.h"
@@ -20,9 +20,8 @@ namespace foretouch::internal {
 class LaneQuery final : private Neighbours {
  public:
   /// `table` holds the body's LSS; `meter` started with the query.
-  LaneQuery(const Body& body, const LssTable& table, const ChainMotion& motion, const Scene& scene,
-            const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
-            ScratchParts& scratch);
+  LaneQuery(const QueryPlan& plan, const Body& body, const LssTable& table,
+            const ChainMotion& motion, const WorkMeter& meter, ScratchParts& scratch);
 
   /// Declares that the scratch's nodes are those of this motion over [0,1], with the scene's
   /// origin.
@@ -68,17 +67,15 @@ class LaneQuery final : private Neighbours {
   [[nodiscard]] double timeOf(float u) const;
   [[nodiscard]] float lanesTimeOf(double t) const;
 
+  const QueryPlan& plan_;
   const Body& body_;
   const LssTable& table_;
   const ChainMotion& motion_;
   const Scene& scene_;
-  const QueryOptions& options_;
   ScratchParts& scratch_;
-  const TriangleCuller& culler_;
   LaneScratch& lanes_;
   const FlatBvh& bvh_;
-  ToleranceRange range_;  // of all links
-  double tolerance_;      // of the current link
+  double tolerance_;  // of the current link
   LaneTolerances tolerances_;
   WorkMeter meter_;
   LinkId link_ = 0;                 // the current one
@@ -86,8 +83,5 @@ class LaneQuery final : private Neighbours {
   bool hasNodes_ = false;
   bool areAllAsked_ = true;  // links, in the current slab
 };
-
-/// The avatar's table, kept in the scratch while queries ask for the same avatar.
-[[nodiscard]] const LssTable& tableOf(const Avatar& avatar, LaneScratch& lanes);
 
 }  // namespace foretouch::internal

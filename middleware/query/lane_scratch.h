@@ -16,8 +16,6 @@
 namespace foretouch::internal {
 
 struct LaneScratch {
-  std::uint64_t avatar = 0;  // whose table this is
-  LssTable table;
   ChainNodes nodes;
   SweptBoxes boxes;
   std::vector<LeafHit> hits;  // of all LSS, in the order of the walk
@@ -33,7 +31,6 @@ struct LaneScratch {
   PartScratch parts;                  // of the current link, at exact fidelity
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
   std::vector<double> freeUntil;      // per link, if work is limited: how far it is proven free
-  std::vector<double> margins;        // per link, if tolerances differ
 };
 
 }  // namespace foretouch::internal

@@ -3,6 +3,8 @@
 // later. The promise, its proof and the constants in it: docs/guarantees.md.
 #pragma once
 
+#include <memory>
+
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "articulated/result.h"
@@ -13,25 +15,48 @@
 
 namespace foretouch {
 
-/// The first contact of every link of `avatar` while it moves as `motion` says. Errors are bad
-/// options (tolerance, a policy or an ignored pair out of range) or a motion of another avatar.
-/// Geometry never produces one: see Verdict. The first form fills `step` and allocates nothing once
-/// scratch and step have grown to the scene's needs. If it fails, every link of `step` is
-/// Undecided, free until 0.
-[[nodiscard]] Result<Done> firstContacts(const Avatar& avatar, const ChainMotion& motion,
-                                         const Scene& scene, const QueryOptions& options,
-                                         QueryScratch& scratch, StepContacts& step);
-[[nodiscard]] Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& motion,
-                                                 const Scene& scene, const QueryOptions& options,
-                                                 QueryScratch& scratch);
+namespace internal {
+struct QueryPlan;
+}
+
+/// A question to ask again and again: which avatar, in which scene, with which options. Checked and
+/// resolved once; from then on every motion of the avatar has an answer. Copies are cheap, and any
+/// number of threads may ask one Query, each with scratch memory of its own.
+class Query {
+ public:
+  /// Errors: options out of range (a tolerance, a policy, an ignored pair, a deadline), or without
+  /// what they need (the surface or the skin of this avatar). O(links + LSS).
+  static Result<Query> build(const Avatar& avatar, const Scene& scene,
+                             const QueryOptions& options = {});
+
+  [[nodiscard]] const Avatar& avatar() const;
+  [[nodiscard]] const Scene& scene() const;
+  [[nodiscard]] const QueryOptions& options() const;
+
+  /// The first contact of every link while the avatar moves as `motion` says. Cannot fail: geometry
+  /// that cannot be decided is a verdict. Allocates nothing once scratch and step have grown to the
+  /// scene's needs. Precondition: a motion of the avatar's skeleton (asserted; one with another
+  /// number of links leaves every link Undecided, free until 0).
+  void answer(const ChainMotion& motion, QueryScratch& scratch, StepContacts& step) const;
+  [[nodiscard]] StepContacts answer(const ChainMotion& motion, QueryScratch& scratch) const;
+
+  /// What a discrete check sees: does the link's surface touch a triangle at this one instant? It
+  /// skips ignored pairs. The computed distance decides (no claim within rounding of zero).
+  /// Preconditions: as for answer(); a link of the avatar; t in [0, 1].
+  [[nodiscard]] bool touchesAt(const ChainMotion& motion, LinkId link, double t,
+                               QueryScratch& scratch) const;
+
+  /// For the query's own sources.
+  [[nodiscard]] const internal::QueryPlan& plan() const { return *plan_; }
+
+ private:
+  explicit Query(std::shared_ptr<const internal::QueryPlan> plan) : plan_(std::move(plan)) {}
+  std::shared_ptr<const internal::QueryPlan> plan_;
+};
+
+/// Builds a Query and asks it once. Errors: as Query::build(), or a motion of another avatar.
 [[nodiscard]] Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& motion,
                                                  const Scene& scene,
                                                  const QueryOptions& options = {});
-
-/// What a discrete check sees: does the link's surface touch a triangle at this one instant? It
-/// skips ignored pairs. The computed distance decides (no claim within rounding of zero).
-[[nodiscard]] bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
-                             const Scene& scene, const QueryOptions& options,
-                             QueryScratch& scratch);
 
 }  // namespace foretouch

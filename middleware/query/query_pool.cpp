@@ -27,22 +27,20 @@ struct alignas(128) Worker {
   std::vector<FailedTask> failures;  // ascending, as a thread takes tasks
   bool isSuspect = false;            // a query was broken off: its memory may be half written
 
-  Result<Done> answerTo(const StepTask& task, const Scene& scene) {
+  void answerTo(const StepTask& task) {
     if (isSuspect) {
       scratch = QueryScratch();
       motion = ChainMotion();
     }
     isSuspect = true;
-    motion.assign(task.avatar->skeleton(), *task.from, *task.to);
-    const auto done = firstContacts(*task.avatar, motion, scene, *task.options, scratch, answer);
+    motion.assign(task.query->avatar().skeleton(), *task.from, *task.to);
+    task.query->answer(motion, scratch, answer);
     isSuspect = false;
-    return done;
   }
 };
 
 /// A list of tasks that the threads take from, one by one.
 struct Work {
-  const Scene* scene = nullptr;
   const std::vector<StepTask>* tasks = nullptr;
   std::vector<StepContacts>* answers = nullptr;
   std::atomic<std::size_t> next{0};
@@ -61,10 +59,9 @@ struct Work {
   void take(Worker& worker, std::size_t i) {
     const StepTask& task = (*tasks)[i];
     try {
-      const auto done = worker.answerTo(task, *scene);
-      if (!done.ok()) worker.failures.push_back({i, done.error()});
+      worker.answerTo(task);
     } catch (const std::exception& failure) {
-      internal::leaveUnanswered(task.avatar->numLinks(), worker.answer.links);
+      internal::leaveUnanswered(task.query->avatar().numLinks(), worker.answer.links);
       worker.answer.counters = {};
       worker.failures.push_back({i, Error::in("query", ErrorCode::DeviceFailed,
                                               std::string("broken off: ") + failure.what())});
@@ -161,16 +158,14 @@ int QueryPool::threads() const {
   return static_cast<int>(impl_->workers.size());
 }
 
-Result<Done> QueryPool::answer(const Scene& scene, const std::vector<StepTask>& tasks,
+Result<Done> QueryPool::answer(const std::vector<StepTask>& tasks,
                                std::vector<StepContacts>& answers) {
   for (const StepTask& task : tasks) {
-    FORETOUCH_ASSERT(task.avatar != nullptr && task.from != nullptr && task.to != nullptr &&
-                     task.options != nullptr);
+    FORETOUCH_ASSERT(task.query != nullptr && task.from != nullptr && task.to != nullptr);
     static_cast<void>(task);
   }
   answers.resize(tasks.size());
   Work& work = impl_->work;
-  work.scene = &scene;
   work.tasks = &tasks;
   work.answers = &answers;
   work.next.store(0, std::memory_order_relaxed);

@@ -1,30 +1,27 @@
-// middleware/query/query_pool.h: many avatars, many steps, one scene: a fixed set of threads that
-// answers lists of queries. A query takes no lock and, once the threads' memory has grown,
-// allocates nothing; the answers are the same for any number of threads.
+// middleware/query/query_pool.h: many avatars, many steps: a fixed set of threads that answers
+// lists of them. A query takes no lock and, once the threads' memory has grown, allocates nothing;
+// the answers are the same for any number of threads.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <vector>
 
-#include "articulated/avatar.h"
 #include "articulated/pose.h"
 #include "articulated/result.h"
 #include "middleware/query/query.h"
-#include "middleware/scene/scene.h"
 
 namespace foretouch {
 
 /// One avatar's step. What it points to must outlive the call; poses are validated ones of the
-/// avatar's skeleton.
+/// query's avatar.
 struct StepTask {
-  const Avatar* avatar = nullptr;
+  const Query* query = nullptr;
   const Pose* from = nullptr;
   const Pose* to = nullptr;
-  const QueryOptions* options = nullptr;
 };
 
-/// A task without an answer, by its place in the list, and why.
+/// A task that was broken off, by its place in the list, and why: memory ran out.
 struct FailedTask {
   std::size_t task = 0;
   Error error;
@@ -47,8 +44,7 @@ class QueryPool {
   /// error is that of the first task that failed; failures() lists them all. Every link of a failed
   /// task is Undecided, free until 0; the other tasks have their answers. Not for two threads at
   /// once.
-  Result<Done> answer(const Scene& scene, const std::vector<StepTask>& tasks,
-                      std::vector<StepContacts>& answers);
+  Result<Done> answer(const std::vector<StepTask>& tasks, std::vector<StepContacts>& answers);
   /// Of the last list, in its order.
   [[nodiscard]] const std::vector<FailedTask>& failures() const;
 

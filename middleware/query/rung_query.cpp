@@ -19,12 +19,13 @@ namespace {
 /// One query. A group is the links of one volume: a limb, or a tree.
 class RungQuery {
  public:
-  RungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
-            const QueryOptions& options, const WorkMeter& meter, ScratchParts& scratch)
-      : avatar_(avatar),
+  RungQuery(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
+            ScratchParts& scratch)
+      : plan_(plan),
+        avatar_(plan.avatar),
         motion_(motion),
-        scene_(scene),
-        options_(options),
+        scene_(plan.scene),
+        options_(plan.options),
         scratch_(scratch),
         meter_(meter),
         rungs_(scratch.rungs) {}
@@ -38,13 +39,13 @@ class RungQuery {
     counters.rungTests += numGroups();
   }
 
-  void run(const TriangleCuller& culler, StepContacts& step) {
+  void run(StepContacts& step) {
     evaluate(step.counters);
     findIgnored();
     if (options_.fidelity == Fidelity::Ellipsoid) {
-      askSpheroids(culler, step);
+      askSpheroids(step);
     } else {
-      askLss(culler, step);
+      askLss(step);
     }
     spread(step);
   }
@@ -121,7 +122,7 @@ class RungQuery {
     });
   }
 
-  void askLss(const TriangleCuller& culler, StepContacts& step) {
+  void askLss(StepContacts& step) {
     rungs_.perLink.resize(countOf(avatar_.numLinks()));
     for (std::vector<Lss>& lss : rungs_.perLink) lss.clear();
     for (std::size_t group = 0; group < numGroups(); ++group) {
@@ -133,11 +134,11 @@ class RungQuery {
     rungs_.carriers.counters = step.counters;
     if (options_.backtracking == Backtracking::Lanes) {
       rungs_.table.assign(rungs_.perLink);
-      LaneQuery query(body, rungs_.table, motion_, scene_, options_, culler, meter_, scratch_);
+      LaneQuery query(plan_, body, rungs_.table, motion_, meter_, scratch_);
       query.keepNodes();
       query.run(rungs_.carriers);
     } else {
-      scalarQuery(body, motion_, scene_, options_, culler, meter_, scratch_, rungs_.carriers);
+      scalarQuery(plan_, body, motion_, meter_, scratch_, rungs_.carriers);
     }
     step.counters = rungs_.carriers.counters;
     rungs_.answers.clear();
@@ -146,13 +147,13 @@ class RungQuery {
     }
   }
 
-  void askSpheroids(const TriangleCuller& culler, StepContacts& step) {
+  void askSpheroids(StepContacts& step) {
     rungs_.answers.clear();
     for (std::size_t group = 0; group < numGroups(); ++group) {
       rungs_.answers.push_back(clearContact(carrierOf(group)));
       if (scratch_.ignored.collect(rungs_.ignored, carrierOf(group))) continue;
       const Spheroid spheroid = spheroidOf(group);
-      const SpheroidQuery query{spheroid,           scene_, culler,
+      const SpheroidQuery query{spheroid,           scene_, *plan_.culler,
                                 options_.tolerance, meter_, scratch_.ignored};
       rungs_.answers.back() = firstContactOf(query, scratch_.found, step.counters);
     }
@@ -207,6 +208,7 @@ class RungQuery {
     });
   }
 
+  const QueryPlan& plan_;
   const Avatar& avatar_;
   const ChainMotion& motion_;
   const Scene& scene_;
@@ -218,15 +220,14 @@ class RungQuery {
 
 }  // namespace
 
-void rungQuery(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
-               const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
+void rungQuery(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
                ScratchParts& scratch, StepContacts& step) {
-  RungQuery(avatar, motion, scene, options, meter, scratch).run(culler, step);
+  RungQuery(plan, motion, meter, scratch).run(step);
 }
 
-bool rungTouchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
-                   const Scene& scene, const QueryOptions& options, ScratchParts& scratch) {
-  return RungQuery(avatar, motion, scene, options, WorkMeter(options), scratch).touchesAt(link, t);
+bool rungTouchesAt(const QueryPlan& plan, const ChainMotion& motion, LinkId link, double t,
+                   ScratchParts& scratch) {
+  return RungQuery(plan, motion, WorkMeter(plan.options), scratch).touchesAt(link, t);
 }
 
 }  // namespace foretouch::internal
@@ -239,8 +240,9 @@ std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& mot
   QueryScratch scratch;
   QueryOptions options;
   options.fidelity = rung;
+  const auto plan = internal::QueryPlan::make(avatar, scene, options);
   const internal::WorkMeter meter(options);
-  internal::RungQuery query(avatar, motion, scene, options, meter, scratch.parts());
+  internal::RungQuery query(*plan.value(), motion, meter, scratch.parts());
   QueryCounters counters;
   query.evaluate(counters);
   std::vector<RungVolume> volumes;

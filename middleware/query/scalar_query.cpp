@@ -5,7 +5,7 @@
 
 #include "lss/index.h"
 #include "middleware/query/backtracking.h"
-#include "middleware/query/link_options.h"
+#include "middleware/query/query_plan.h"
 #include "middleware/query/scratch_parts.h"
 #include "middleware/query/skin_sweep.h"
 #include "middleware/scene/scene_parts.h"
@@ -24,14 +24,12 @@ static_assert(kMaxPiecesUsed <= kMaxPieces);
 /// One query over all links of one step.
 class StepQuery final : private Neighbours {
  public:
-  StepQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
-            const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
-            ScratchParts& scratch)
-      : body_(body),
+  StepQuery(const QueryPlan& plan, const Body& body, const ChainMotion& motion,
+            const WorkMeter& meter, ScratchParts& scratch)
+      : plan_(plan),
+        body_(body),
         motion_(motion),
-        scene_(scene),
-        options_(options),
-        culler_(culler),
+        scene_(plan.scene),
         scratch_(scratch),
         meter_(meter) {}
 
@@ -80,16 +78,16 @@ class StepQuery final : private Neighbours {
   }
 
   LinkContact firstContactOf(LinkId link, QueryCounters& counters) {
-    skin_ = skinOf(options_, link);
-    tolerance_ = toleranceOf(options_, link);
+    skin_ = plan_.of(link).skin;
+    tolerance_ = plan_.of(link).tolerance;
     if (skin_ != nullptr) return firstSkinContactOf(link, counters);
-    surface_ = surfaceOf(options_, link);
+    surface_ = plan_.of(link).surface;
     if (scratch_.ignored.collect(body_.ignored(), link) || body_.lss(link).empty()) {
       return clearContact(link);
     }
     const Aabb swept = sweep(link);
     scratch_.found.clear();
-    culler_.collect(swept, scratch_.found, counters.nodes);
+    plan_.culler->collect(swept, scratch_.found, counters.nodes);
     const LinkQuery query = queryOf(link);
     gather(scratch_.startBoxes, 1);
     counters.candidates += scratch_.candidates.size();
@@ -116,7 +114,7 @@ class StepQuery final : private Neighbours {
             pieces_,
             tolerance_,
             meter_,
-            options_.leafMethod,
+            plan_.options.leafMethod,
             scratch_.evaluator,
             *this};
   }
@@ -139,7 +137,7 @@ class StepQuery final : private Neighbours {
     Aabb all;
     for (const Aabb& box : boxes) all.add(box);
     scratch_.found.clear();
-    culler_.collect(all, scratch_.found, counters.nodes);
+    plan_.culler->collect(all, scratch_.found, counters.nodes);
     return !scratch_.found.empty();
   }
 
@@ -152,7 +150,7 @@ class StepQuery final : private Neighbours {
       Aabb all;
       for (int k = 0; k < count; ++k) all.add(own[k]);
       scratch_.found.clear();
-      culler_.collect(all, scratch_.found, counters.nodes);
+      plan_.culler->collect(all, scratch_.found, counters.nodes);
       for (const TriangleId id : scratch_.found) {
         if (scratch_.ignored.has(scene_.object(id))) continue;
         const std::uint32_t meets = piecesMeeting(own, count, boxOf(scene_.triangle(id)));
@@ -225,11 +223,10 @@ class StepQuery final : private Neighbours {
     }
   }
 
+  const QueryPlan& plan_;
   const Body& body_;
   const ChainMotion& motion_;
   const Scene& scene_;
-  const QueryOptions& options_;
-  const TriangleCuller& culler_;
   ScratchParts& scratch_;
   WorkMeter meter_;
   double tolerance_ = 0.0;  // of the current link
@@ -241,10 +238,9 @@ class StepQuery final : private Neighbours {
 
 }  // namespace
 
-void scalarQuery(const Body& body, const ChainMotion& motion, const Scene& scene,
-                 const QueryOptions& options, const TriangleCuller& culler, const WorkMeter& meter,
-                 ScratchParts& scratch, StepContacts& step) {
-  StepQuery(body, motion, scene, options, culler, meter, scratch).run(step);
+void scalarQuery(const QueryPlan& plan, const Body& body, const ChainMotion& motion,
+                 const WorkMeter& meter, ScratchParts& scratch, StepContacts& step) {
+  StepQuery(plan, body, motion, meter, scratch).run(step);
 }
 
 }  // namespace foretouch::internal

@@ -1,11 +1,11 @@
-// middleware/query/touches_at.cpp: the discrete check of middleware/query/query.h.
+// middleware/query/touches_at.cpp: Query's discrete check.
 #include <cstddef>
 
 #include "lss/assert.h"
 #include "lss/segment_triangle.h"
 #include "middleware/exact/linear_query.h"
-#include "middleware/query/link_options.h"
 #include "middleware/query/query.h"
+#include "middleware/query/query_plan.h"
 #include "middleware/query/rung_query.h"
 #include "middleware/query/scratch_parts.h"
 #include "middleware/scene/scene_parts.h"
@@ -61,19 +61,22 @@ bool skinTouches(const internal::LinkParts& parts, double t, const Scene& scene,
 
 }  // namespace
 
-bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
-               const Scene& scene, const QueryOptions& options, QueryScratch& scratch) {
+bool Query::touchesAt(const ChainMotion& motion, LinkId link, double t,
+                      QueryScratch& scratch) const {
+  const Avatar& avatar = plan_->avatar;
+  const Scene& scene = plan_->scene;
   FORETOUCH_ASSERT(link >= 0 && link < avatar.numLinks());
-  if (internal::isRung(options.fidelity)) {
-    return internal::rungTouchesAt(avatar, motion, link, t, scene, options, scratch.parts());
+  FORETOUCH_ASSERT(motion.numLinks() == avatar.numLinks());
+  if (internal::isRung(plan_->options.fidelity)) {
+    return internal::rungTouchesAt(*plan_, motion, link, t, scratch.parts());
   }
-  const internal::LinkSurface* const surface = internal::surfaceOf(options, link);
+  const internal::LinkPlan& asked = plan_->of(link);
   std::vector<TriangleId>& found = scratch.parts().found;
   IgnoredObjects& ignored = scratch.parts().ignored;
-  if (ignored.collect(options.ignored, link)) return false;
-  if (const internal::SkinParts* const skin = internal::skinOf(options, link)) {
+  if (ignored.collect(plan_->options.ignored, link)) return false;
+  if (asked.skin != nullptr) {
     const std::vector<AxisBounds> none;
-    const internal::LinkParts parts{link, avatar.lss(link), none, motion, nullptr, skin};
+    const internal::LinkParts parts{link, avatar.lss(link), none, motion, nullptr, asked.skin};
     return skinTouches(parts, t, scene, ignored, found);
   }
   const LinkState state = motion.stateAt(link, t);
@@ -90,8 +93,8 @@ bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, dou
     scene.parts().bvh.collect(box, found, visited);
     for (const TriangleId id : found) {
       if (ignored.has(scene.object(id)) || !touches(lss, state, scene.triangle(id))) continue;
-      if (surface == nullptr || !surface->hasTriangles(index) ||
-          meshTouches(*surface, index, state, scene.triangle(id))) {
+      if (asked.surface == nullptr || !asked.surface->hasTriangles(index) ||
+          meshTouches(*asked.surface, index, state, scene.triangle(id))) {
         return true;
       }
     }

@@ -20,12 +20,12 @@ std::int64_t budgetOf(const QueryOptions& options) {
 
 }  // namespace
 
-StreamSolver::StreamSolver(std::int32_t id, const Avatar& avatar, const Scene& scene,
-                           const QueryOptions& options, AvatarStream stream)
-    : id_(id), avatar_(avatar), scene_(scene), options_(options), stream_(std::move(stream)) {
-  if (options_.fidelity != Fidelity::Skinned || !options_.skin) return;
-  for (LinkId link = 0; link < options_.skin->numLinks(); ++link) {
-    movedBy_.push_back(options_.skin->linksMoving(link));
+StreamSolver::StreamSolver(std::int32_t id, Query query, AvatarStream stream)
+    : id_(id), query_(std::move(query)), stream_(std::move(stream)) {
+  if (options().fidelity != Fidelity::Skinned) return;
+  const SkinnedSurface& skin = *options().skin;
+  for (LinkId link = 0; link < skin.numLinks(); ++link) {
+    movedBy_.push_back(skin.linksMoving(link));
   }
 }
 
@@ -46,10 +46,8 @@ Result<StreamSolver> StreamSolver::make(std::int32_t id, const Avatar& avatar, c
                      "expected a work budget instead: no clock decides what a stream is answered");
   }
   FORETOUCH_TRY(auto stream, AvatarStream::make(avatar, policy));
-  StreamSolver solver(id, avatar, scene, options, std::move(stream));
-  const Pose rest = restPose(avatar.skeleton());
-  FORETOUCH_CHECK(solver.query(rest, rest));
-  return solver;
+  FORETOUCH_TRY(auto query, Query::build(avatar, scene, options));
+  return StreamSolver(id, std::move(query), std::move(stream));
 }
 
 Reject StreamSolver::take(const SkeletonMessage& message) {
@@ -63,21 +61,11 @@ Reject StreamSolver::take(const PoseMessage& message, ContactsMessage& answer) {
   if (reject != Reject::None) return reject;
   lastStep_ = step;
   const SteadyClock::time_point start = SteadyClock::now();
-  const auto done = query(*step.from, *step.to);
+  motion_.assign(avatar().skeleton(), *step.from, *step.to);
+  query_.answer(motion_, scratch_, contacts_);
   lastQueryUs_ = std::chrono::duration<double, std::micro>(SteadyClock::now() - start).count();
-  FORETOUCH_ASSERT(done.ok());  // make() tried these options
-  if (!done.ok()) {
-    for (LinkContact& contact : contacts_.links) {
-      contact = undecidedContact(contact.link, 0.0, UndecidedReason::Resolution);
-    }
-  }
   fill(step, answer);
   return Reject::None;
-}
-
-Result<Done> StreamSolver::query(const Pose& from, const Pose& to) {
-  motion_.assign(avatar_.skeleton(), from, to);
-  return firstContacts(avatar_, motion_, scene_, options_, scratch_, contacts_);
 }
 
 void StreamSolver::fill(const StreamStep& step, ContactsMessage& answer) {
@@ -90,9 +78,9 @@ void StreamSolver::fill(const StreamStep& step, ContactsMessage& answer) {
   answer.skeletonHash = step.skeletonHash;
   answer.kind = step.kind;
   answer.lost = step.lost;
-  answer.tolerance = options_.tolerance;
-  answer.fidelity = options_.fidelity;
-  answer.workBudget = budgetOf(options_);
+  answer.tolerance = options().tolerance;
+  answer.fidelity = options().fidelity;
+  answer.workBudget = budgetOf(options());
   answer.queryUs = lastQueryUs_;
 
   answer.verdicts.clear();
@@ -130,13 +118,13 @@ UndecidedReason StreamSolver::unknownOf(LinkId link, const StreamStep& step) con
 void StreamSolver::list(const LinkContact& contact, AnsweredContact& listed) const {
   listed.contact = contact;
   listed.contact.lss = -1;
-  listed.linkName = avatar_.skeleton().name(contact.link);
+  listed.linkName = avatar().skeleton().name(contact.link);
   if (contact.triangle < 0) {
     listed.objectName.clear();
     return;
   }
-  const auto object = static_cast<std::size_t>(scene_.object(contact.triangle));
-  listed.objectName = scene_.objectNames()[object];
+  const auto object = static_cast<std::size_t>(query_.scene().object(contact.triangle));
+  listed.objectName = query_.scene().objectNames()[object];
 }
 
 }  // namespace foretouch

@@ -37,17 +37,14 @@ class StreamSolver {
   [[nodiscard]] Reject take(const PoseMessage& message, ContactsMessage& answer);
 
   [[nodiscard]] std::int32_t id() const { return id_; }
-  [[nodiscard]] const Avatar& avatar() const { return avatar_; }
+  [[nodiscard]] const Avatar& avatar() const { return query_.avatar(); }
   [[nodiscard]] const StreamCounts& counts() const { return stream_.counts(); }
-  [[nodiscard]] const QueryOptions& options() const { return options_; }
+  [[nodiscard]] const QueryOptions& options() const { return query_.options(); }
   /// The step that the last answered pose ended; valid until the next take().
   [[nodiscard]] const StreamStep& lastStep() const { return lastStep_; }
-  /// Of the last answered pose: the query alone, for measurements.
 
  private:
-  StreamSolver(std::int32_t id, const Avatar& avatar, const Scene& scene,
-               const QueryOptions& options, AvatarStream stream);
-  [[nodiscard]] Result<Done> query(const Pose& from, const Pose& to);
+  StreamSolver(std::int32_t id, Query query, AvatarStream stream);
   void fill(const StreamStep& step, ContactsMessage& answer);
   /// Why we claim nothing about the link, whatever the query found; None: the query's answer
   /// stands.
@@ -56,9 +53,7 @@ class StreamSolver {
   void list(const LinkContact& contact, AnsweredContact& listed) const;
 
   std::int32_t id_ = 0;
-  Avatar avatar_;
-  Scene scene_;
-  QueryOptions options_;
+  Query query_;
   AvatarStream stream_;
   /// At skinned fidelity, per link: the links that move its triangles.
   std::vector<std::vector<LinkId>> movedBy_;

@@ -7,6 +7,7 @@
 #include "tests/bindings/c_world.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/support/asked.h"
 
 namespace foretouch {
 namespace {
@@ -147,7 +148,8 @@ void expectSameStates(ft_query* query, const test::RandomBody& body, const Chain
     EXPECT_LT((q.toRotationMatrix() - state.R_WL).norm(), 1e-14);
     std::int32_t touches = -1;
     ASSERT_EQ(ft_touches_at(query, link, t, &touches), FT_OK);
-    EXPECT_EQ(touches, touchesAt(body.avatar, motion, link, t, scene, options, scratch) ? 1 : 0);
+    EXPECT_EQ(touches,
+              test::touchesAt(body.avatar, motion, link, t, scene, options, scratch) ? 1 : 0);
   }
 }
 

@@ -189,20 +189,17 @@ struct Tally {
 Tally tallyOf(const ExampleMotion& motion, const Scene& scene) {
   Tally tally;
   QueryScratch scratch;
-  const QueryOptions options;
+  const Query query = Query::build(motion.avatar, scene).value();
   for (std::size_t f = 0; f + kFramesAStep < motion.poses.size(); f += kFramesAStep) {
     const ChainMotion step(motion.avatar.skeleton(), motion.poses[f],
                            motion.poses[f + kFramesAStep]);
-    const auto answer = firstContacts(motion.avatar, step, scene, options, scratch);
-    EXPECT_TRUE(answer.ok());
+    const StepContacts answer = query.answer(step, scratch);
     bool any = false;
-    for (const LinkContact& link : answer.value().links) {
+    for (const LinkContact& link : answer.links) {
       any = any || link.verdict != Verdict::Clear;
       tally.starts += link.verdict == Verdict::StartsInContact ? 1 : 0;
       if (link.verdict == Verdict::Contact) {
-        const auto touches = [&](double t) {
-          return touchesAt(motion.avatar, step, link.link, t, scene, options, scratch);
-        };
+        const auto touches = [&](double t) { return query.touchesAt(step, link.link, t, scratch); };
         ++tally.contacts;
         tally.missedByPoses += !touches(0.0) && !touches(1.0) ? 1 : 0;
         tally.touched.insert(link.link);

@@ -55,16 +55,23 @@ class Sweeper {
  private:
   void work(SweepTally& tally) {
     QueryScratch scratch;
+    const auto query = Query::build(clip_.avatar, scene_.scene, query_);
+    if (!query.ok()) {
+      ++tally.failedQueries;
+      note(tally, "query refused: " + describe(query.error()));
+      return;
+    }
     for (int i = next_++; i < chosen_; i = next_++) {
       if (options_.deadline && Clock::now() > *options_.deadline) {
         tally.outOfTime = true;
         return;
       }
-      step(static_cast<int>(static_cast<std::int64_t>(i) * steps_ / chosen_), scratch, tally);
+      step(static_cast<int>(static_cast<std::int64_t>(i) * steps_ / chosen_), query.value(),
+           scratch, tally);
     }
   }
 
-  void step(int n, QueryScratch& scratch, SweepTally& tally) const {
+  void step(int n, const Query& query, QueryScratch& scratch, SweepTally& tally) const {
     const Skeleton& skeleton = clip_.avatar.skeleton();
     const auto frame = static_cast<std::size_t>(n * stride_);
     const Pose from = placed(skeleton, clip_.clip.frames[frame], placement_);
@@ -72,22 +79,17 @@ class Sweeper {
         placed(skeleton, clip_.clip.frames[frame + static_cast<std::size_t>(stride_)], placement_);
     const auto asked = Clock::now();
     const ChainMotion motion(skeleton, from, to);
-    const auto answer = firstContacts(clip_.avatar, motion, scene_.scene, query_, scratch);
+    const StepContacts answer = query.answer(motion, scratch);
     const double seconds = secondsSince(asked);
     tally.querySeconds += seconds;
     tally.slowestQueryS = std::max(tally.slowestQueryS, seconds);
     ++tally.steps;
-    if (!answer) {
-      ++tally.failedQueries;
-      note(tally, where(n) + " query failed: " + describe(answer.error()));
-      return;
-    }
     const oracle::Motion truth(plainJoints(skeleton, from, to));
     if (query_.fidelity == Fidelity::Limb || query_.fidelity == Fidelity::Avatar) {
-      judgeVolumes(n, motion, answer.value(), truth, tally);
+      judgeVolumes(n, motion, answer, truth, tally);
       return;
     }
-    for (LinkContact contact : answer.value().links) {
+    for (LinkContact contact : answer.links) {
       if (options_.tamper) options_.tamper(contact);
       judge(n, contact, truth, tally);
     }

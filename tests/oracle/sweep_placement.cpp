@@ -69,16 +69,15 @@ void probe(const SweepClip& clip, const SweepScene& scene, Probed& probed) {
   const int steps = clip.numSteps(stride), probes = std::min(kProbes, steps);
   const Skeleton& skeleton = clip.avatar.skeleton();
   QueryScratch scratch;
+  const Query query = Query::build(clip.avatar, scene.scene).value();
   int touching = 0;
   for (int i = 0; i < probes; ++i) {
     const int frame = static_cast<int>(static_cast<std::int64_t>(i) * steps / probes) * stride;
     const ChainMotion motion(
         skeleton, placed(skeleton, frames[static_cast<std::size_t>(frame)], probed.placement),
         placed(skeleton, frames[static_cast<std::size_t>(frame + stride)], probed.placement));
-    const auto answer = firstContacts(clip.avatar, motion, scene.scene, {}, scratch);
-    if (!answer) continue;
     const int before = probed.contacts;
-    for (const LinkContact& c : answer.value().links) {
+    for (const LinkContact& c : query.answer(motion, scratch).links) {
       probed.contacts += c.verdict == Verdict::Contact;
       probed.starts += c.verdict == Verdict::StartsInContact;
     }

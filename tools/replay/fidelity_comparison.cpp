@@ -20,22 +20,24 @@ void FidelityCounts::add(const FidelityCounts& other) {
   lssUs += other.lssUs;
 }
 
-Result<FidelityCounts> compareWithLink(const Avatar& avatar, const ChainMotion& motion,
-                                       const StepContacts& exact, const Scene& scene,
-                                       const QueryOptions& options, QueryScratch& scratch) {
-  QueryOptions coarser = options;
+Result<Query> askLinks(const Query& exact) {
+  QueryOptions coarser = exact.options();
   coarser.fidelity = Fidelity::Link;
   for (LinkPolicy& policy : coarser.linkPolicies) policy.fidelity = Fidelity::Link;
+  return Query::build(exact.avatar(), exact.scene(), coarser);
+}
+
+FidelityCounts compareWithLink(const Query& link, const ChainMotion& motion,
+                               const StepContacts& exact, QueryScratch& scratch) {
   const auto start = std::chrono::steady_clock::now();
-  const auto link = firstContacts(avatar, motion, scene, coarser, scratch);
+  const StepContacts coarse = link.answer(motion, scratch);
   const std::chrono::duration<double, std::micro> elapsed =
       std::chrono::steady_clock::now() - start;
-  if (!link.ok()) return link.error();
   FidelityCounts counts;
   counts.lssUs = elapsed.count();
   for (std::size_t i = 0; i < exact.links.size(); ++i) {
     const LinkContact& mesh = exact.links[i];
-    const LinkContact& lss = link.value().links[i];
+    const LinkContact& lss = coarse.links[i];
     if (mesh.verdict == Verdict::Undecided || lss.verdict == Verdict::Undecided) {
       ++counts.undecided;
       continue;

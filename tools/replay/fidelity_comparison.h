@@ -4,11 +4,9 @@
 
 #include <cstdint>
 
-#include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "articulated/result.h"
 #include "middleware/query/query.h"
-#include "middleware/scene/scene.h"
 
 namespace foretouch::tools {
 
@@ -25,11 +23,10 @@ struct FidelityCounts {
   void add(const FidelityCounts& other);
 };
 
-/// Compares `exact`, the answer to `motion` with `options`, with that of link fidelity.
-[[nodiscard]] Result<FidelityCounts> compareWithLink(const Avatar& avatar,
-                                                     const ChainMotion& motion,
-                                                     const StepContacts& exact, const Scene& scene,
-                                                     const QueryOptions& options,
-                                                     QueryScratch& scratch);
+/// The same question at link fidelity.
+[[nodiscard]] Result<Query> askLinks(const Query& exact);
+/// Compares `exact`, the answer to `motion`, with that at link fidelity.
+[[nodiscard]] FidelityCounts compareWithLink(const Query& link, const ChainMotion& motion,
+                                             const StepContacts& exact, QueryScratch& scratch);
 
 }  // namespace foretouch::tools

@@ -139,19 +139,23 @@ Chunk solveChunk(StepSolver& solver, std::int64_t first, std::int64_t end) {
 Result<Done> replay(const ReplayInputs& inputs, const ReplayOptions& options,
                     const StepSink& sink) {
   FORETOUCH_ASSERT(options.threads >= 1);
+  FORETOUCH_TRY(const auto query, Query::build(inputs.avatar, inputs.scene, inputs.query));
   std::optional<RigidComparison> rigid;
   if (options.compareRigid) {
-    FORETOUCH_TRY(auto built, RigidComparison::build(inputs.avatar));
-    rigid.emplace(std::move(built));
+    FORETOUCH_TRY(rigid, RigidComparison::build(inputs.avatar, inputs.scene, inputs.query));
+  }
+  std::optional<Query> link;
+  if (options.compareLink) {
+    FORETOUCH_TRY(link, askLinks(query));
   }
   const StepFormat format(inputs.avatar, inputs.scene);
-  const StepExtras extras{rigid ? &*rigid : nullptr, options.compareLink, options.rays};
+  const StepExtras extras{rigid ? &*rigid : nullptr, link ? &*link : nullptr, options.rays};
   std::vector<StepSolver> solvers;
   for (int i = 0; i < options.threads; ++i) {
-    solvers.emplace_back(inputs, format, extras);
+    solvers.emplace_back(inputs, query, format, extras);
   }
-  // The first query builds the reference culler, which must not count in any step's latency. An
-  // error here recurs, and is reported, at step 0.
+  // What the first query grows must not count in any step's latency. An error here recurs, and is
+  // reported, at step 0.
   static_cast<void>(solvers.front().solve(0));
 
   const std::int64_t steps = inputs.steps.count;

@@ -71,7 +71,8 @@ void RigidCounts::add(const RigidCounts& other) {
   undecided += other.undecided;
 }
 
-Result<RigidComparison> RigidComparison::build(const Avatar& avatar) {
+Result<RigidComparison> RigidComparison::build(const Avatar& avatar, const Scene& scene,
+                                               const QueryOptions& options) {
   RawSkeleton raw;
   std::vector<std::vector<Lss>> lss;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
@@ -82,16 +83,16 @@ Result<RigidComparison> RigidComparison::build(const Avatar& avatar) {
   }
   FORETOUCH_TRY(auto skeleton, Skeleton::build(raw));
   FORETOUCH_TRY(auto forest, Avatar::build(std::move(skeleton), std::move(lss)));
-  return RigidComparison(std::move(forest));
+  FORETOUCH_TRY(auto query, Query::build(forest, scene, options));
+  return RigidComparison(std::move(query));
 }
 
 Result<RigidCounts> RigidComparison::compare(const ChainMotion& motion, const StepContacts& truth,
-                                             const Scene& scene, const QueryOptions& options,
                                              QueryScratch& scratch) const {
-  FORETOUCH_TRY(const auto from, worldPose(forest_.skeleton(), motion, 0.0));
-  FORETOUCH_TRY(const auto to, worldPose(forest_.skeleton(), motion, 1.0));
-  const ChainMotion straight(forest_.skeleton(), from, to);
-  FORETOUCH_TRY(const auto rigid, firstContacts(forest_, straight, scene, options, scratch));
+  const Skeleton& skeleton = forest_.avatar().skeleton();
+  FORETOUCH_TRY(const auto from, worldPose(skeleton, motion, 0.0));
+  FORETOUCH_TRY(const auto to, worldPose(skeleton, motion, 1.0));
+  const StepContacts rigid = forest_.answer(ChainMotion(skeleton, from, to), scratch);
   RigidCounts counts;
   for (std::size_t i = 0; i < truth.links.size(); ++i) {
     counts.add(compareLink(motion, truth.links[i], rigid.links[i]));

@@ -33,17 +33,17 @@ inline constexpr double kNoticeable = 1e-3;
 /// Answers steps of one avatar by the rigid model. One per thread.
 class RigidComparison {
  public:
-  /// Builds the avatar as a forest of roots. Fails only if that is impossible.
-  static Result<RigidComparison> build(const Avatar& avatar);
+  /// Builds the avatar as a forest of roots, asked the same way. Errors: as Query::build().
+  static Result<RigidComparison> build(const Avatar& avatar, const Scene& scene,
+                                       const QueryOptions& options);
 
   /// Compares `truth`, the answer to `motion`, with the rigid model's answer to the same step.
   [[nodiscard]] Result<RigidCounts> compare(const ChainMotion& motion, const StepContacts& truth,
-                                            const Scene& scene, const QueryOptions& options,
                                             QueryScratch& scratch) const;
 
  private:
-  explicit RigidComparison(Avatar forest) : forest_(std::move(forest)) {}
-  Avatar forest_;
+  explicit RigidComparison(Query forest) : forest_(std::move(forest)) {}
+  Query forest_;
 };
 
 }  // namespace foretouch::tools

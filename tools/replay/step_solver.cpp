@@ -28,16 +28,13 @@ Result<ReplayedStep> StepSolver::solve(std::int64_t step) {
 
   const Clock::time_point start = Clock::now();
   const ChainMotion motion(inputs_.avatar.skeleton(), from, to);
-  const auto contacts =
-      firstContacts(inputs_.avatar, motion, inputs_.scene, inputs_.query, scratch_);
+  const StepContacts contacts = query_.answer(motion, scratch_);
   const double latencyUs = microsecondsSince(start);
-  if (!contacts.ok()) return contacts.error();
 
   ReplayedStep replayed;
-  replayed.answer = recorded(step, contacts.value(), latencyUs);
+  replayed.answer = recorded(step, contacts, latencyUs);
   replayed.answer.missedByPoses = missedByPoses(motion, replayed.answer.contacts);
-  FORETOUCH_CHECK(
-      inFile(addExtras(motion, contacts.value(), replayed), inputs_.request.motionPath));
+  FORETOUCH_CHECK(inFile(addExtras(motion, contacts, replayed), inputs_.request.motionPath));
   replayed.line = format_.line(replayed.answer);
   return replayed;
 }
@@ -68,7 +65,7 @@ StepAnswer StepSolver::recorded(std::int64_t step, const StepContacts& contacts,
 std::vector<LinkId> StepSolver::missedByPoses(const ChainMotion& motion,
                                               const std::vector<LinkContact>& contacts) {
   const auto touches = [&](LinkId link, double t) {
-    return touchesAt(inputs_.avatar, motion, link, t, inputs_.scene, inputs_.query, scratch_);
+    return query_.touchesAt(motion, link, t, scratch_);
   };
   std::vector<LinkId> missed;
   for (const LinkContact& contact : contacts) {
@@ -83,16 +80,10 @@ std::vector<LinkId> StepSolver::missedByPoses(const ChainMotion& motion,
 Result<Done> StepSolver::addExtras(const ChainMotion& motion, const StepContacts& contacts,
                                    ReplayedStep& replayed) {
   if (extras_.rigid != nullptr) {
-    const auto counts =
-        extras_.rigid->compare(motion, contacts, inputs_.scene, inputs_.query, scratch_);
-    if (!counts.ok()) return counts.error();
-    replayed.rigid = counts.value();
+    FORETOUCH_TRY(replayed.rigid, extras_.rigid->compare(motion, contacts, scratch_));
   }
-  if (extras_.link) {
-    const auto counts =
-        compareWithLink(inputs_.avatar, motion, contacts, inputs_.scene, inputs_.query, scratch_);
-    if (!counts.ok()) return counts.error();
-    replayed.link = counts.value();
+  if (extras_.link != nullptr) {
+    replayed.link = compareWithLink(*extras_.link, motion, contacts, scratch_);
   }
   if (extras_.rays) {
     const std::array<RaySegment, kRaysPerSet> rays = raysAlong(motion);

@@ -27,15 +27,17 @@ struct ReplayedStep {
 /// Extra work beside the query, for comparison.
 struct StepExtras {
   const RigidComparison* rigid = nullptr;  ///< Null: no comparison.
-  bool link = false;                       ///< Also answer at link fidelity.
+  const Query* link = nullptr;             ///< The same question at link fidelity; null: not asked.
   bool rays = false;  ///< Also time a set of rays (middleware/scene/ray_yardstick.h).
 };
 
 /// Answers single steps, in any order; one per thread. Its arguments must outlive it.
 class StepSolver {
  public:
-  StepSolver(const ReplayInputs& inputs, const StepFormat& format, const StepExtras& extras)
-      : inputs_(inputs), format_(format), extras_(extras) {}
+  /// `query`: of the inputs.
+  StepSolver(const ReplayInputs& inputs, const Query& query, const StepFormat& format,
+             const StepExtras& extras)
+      : inputs_(inputs), query_(query), format_(format), extras_(extras) {}
 
   [[nodiscard]] Result<ReplayedStep> solve(std::int64_t step);
 
@@ -49,6 +51,7 @@ class StepSolver {
                                        ReplayedStep& replayed);
 
   const ReplayInputs& inputs_;
+  const Query& query_;
   const StepFormat& format_;
   StepExtras extras_;
   QueryScratch scratch_;

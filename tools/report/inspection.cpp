@@ -220,10 +220,9 @@ Result<ViewDocument> documentOf(const Inspected& inspected, const ReportOptions&
   document.notes = inspected.notes;
   AlignedBox3d action;
   if (const Avatar* const body = inspected.body()) {
-    const QueryOptions query;
-    std::optional<TouchQuestion> question;
-    if (inspected.scene) question.emplace(TouchQuestion{*inspected.scene, query});
-    TrackBuilder track(*body, question ? &*question : nullptr);
+    std::optional<Query> question;
+    if (inspected.scene) question = touchQuestion(*body, *inspected.scene, QueryOptions{});
+    TrackBuilder track(*body, std::move(question));
     FORETOUCH_CHECK(addTrack(inspected, options, track, document.notes, progress));
     action = track.box();
     ViewAvatar avatar;

@@ -39,8 +39,8 @@ std::vector<ViewRow> rowsOf(const LogReplayReport& report, const LogReplaySummar
 
 }  // namespace
 
-LogReport::Player::Player(const Avatar& avatar, const Scene& scene, QueryOptions options)
-    : query(std::move(options)), question{scene, query}, track(avatar, &question) {}
+LogReport::Player::Player(const Avatar& avatar, const Scene& scene, const QueryOptions& options)
+    : surface(options.surface), track(avatar, touchQuestion(avatar, scene, options)) {}
 
 LogReport::LogReport(const LogReplayInputs& inputs, const ReportOptions& options)
     : inputs_(inputs), options_(options), players_(inputs.avatars.size()) {}
@@ -109,8 +109,8 @@ ViewAvatar LogReport::avatarOf(std::size_t index, double fromS, ViewDocument& do
   view.name = fileName(numbered.path);
   view.avatar = &inputs_.avatars[index];
   Player& player = *players_[index];
-  if (player.query.surface) {
-    view.meshes = linkMeshes(trianglesOf(*player.query.surface), document.notes);
+  if (player.surface) {
+    view.meshes = linkMeshes(trianglesOf(*player.surface), document.notes);
   }
   view.track = player.track.finish();
   view.contacts = std::move(player.contacts);

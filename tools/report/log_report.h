@@ -35,14 +35,13 @@ class LogReport {
  private:
   /// One avatar's data so far.
   struct Player {
-    QueryOptions query;
-    TouchQuestion question;
+    std::optional<AvatarSurface> surface;
     TrackBuilder track;
     std::vector<ReportedContact> contacts;
     double shiftS = 0.0;  ///< Added to the times of this timeline.
     std::int64_t moved = 0, leftOut = 0, acrossGaps = 0;
 
-    Player(const Avatar& avatar, const Scene& scene, QueryOptions options);
+    Player(const Avatar& avatar, const Scene& scene, const QueryOptions& options);
   };
 
   Player& playerOf(const AnsweredPose& answered);

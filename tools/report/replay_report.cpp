@@ -12,8 +12,7 @@ namespace foretouch::tools {
 ReplayReport::ReplayReport(const ReplayInputs& inputs, const ReportOptions& options)
     : inputs_(inputs),
       options_(options),
-      question_{inputs.scene, inputs.query},
-      track_(inputs.avatar, &question_),
+      track_(inputs.avatar, touchQuestion(inputs.avatar, inputs.scene, inputs.query)),
       mostSteps_(static_cast<std::int64_t>(track_.capacity(options.maxRotations)) - 1) {}
 
 void ReplayReport::add(const ReplayedStep& step) {

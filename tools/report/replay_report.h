@@ -36,7 +36,6 @@ class ReplayReport {
 
   const ReplayInputs& inputs_;
   ReportOptions options_;
-  TouchQuestion question_;
   TrackBuilder track_;
   std::int64_t mostSteps_;
   bool isFull_ = false;

@@ -25,9 +25,16 @@ bool isSame(const Eigen::Vector3d& v, const Eigen::Vector3d& w) {
 
 }  // namespace
 
-TrackBuilder::TrackBuilder(const Avatar& avatar, const TouchQuestion* question)
-    : avatar_(avatar), question_(question) {
-  if (question_ != nullptr) track_.touchingFirst.push_back(0);
+std::optional<Query> touchQuestion(const Avatar& avatar, const Scene& scene,
+                                   const QueryOptions& options) {
+  auto query = Query::build(avatar, scene, options);
+  if (!query.ok()) return std::nullopt;
+  return std::move(query).value();
+}
+
+TrackBuilder::TrackBuilder(const Avatar& avatar, std::optional<Query> question)
+    : avatar_(avatar), question_(std::move(question)) {
+  if (question_) track_.touchingFirst.push_back(0);
 }
 
 std::size_t TrackBuilder::capacity(std::size_t numbers) const {
@@ -43,7 +50,7 @@ void TrackBuilder::addPose(double timeS, const Pose& pose) {
   track_.poseTimesS.push_back(timeS);
   motion_.assign(avatar_.skeleton(), pose, pose);
   growBox(motion_);
-  if (question_ != nullptr) askWhatTouches(motion_);
+  if (question_) askWhatTouches(motion_);
 }
 
 void TrackBuilder::addTranslations(const Pose& pose) {
@@ -83,7 +90,7 @@ void TrackBuilder::growBox(const ChainMotion& motion) {
 
 void TrackBuilder::askWhatTouches(const ChainMotion& motion) {
   for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
-    if (touchesAt(avatar_, motion, link, 0.0, question_->scene, question_->query, scratch_)) {
+    if (question_->touchesAt(motion, link, 0.0, scratch_)) {
       track_.touching.push_back(static_cast<std::uint16_t>(link));
     }
   }
@@ -98,7 +105,7 @@ void TrackBuilder::addStep(std::uint32_t from, std::uint32_t to, std::optional<d
 }
 
 bool TrackBuilder::touches(std::size_t pose, LinkId link) const {
-  if (question_ == nullptr) return false;
+  if (!question_) return false;
   const auto first = track_.touching.begin() + track_.touchingFirst[pose];
   const auto last = track_.touching.begin() + track_.touchingFirst[pose + 1];
   return std::binary_search(first, last, static_cast<std::uint16_t>(link));

@@ -18,16 +18,15 @@
 
 namespace foretouch::tools {
 
-/// The scene and options for testing which links touch at each pose.
-struct TouchQuestion {
-  const Scene& scene;
-  const QueryOptions& query;
-};
+/// For testing which links touch at each pose. Nothing if the options are refused, as the replay
+/// that is reported then is.
+[[nodiscard]] std::optional<Query> touchQuestion(const Avatar& avatar, const Scene& scene,
+                                                 const QueryOptions& options);
 
 class TrackBuilder {
  public:
-  /// `avatar`, and the objects of `question`, must outlive it; null: tests nothing.
-  TrackBuilder(const Avatar& avatar, const TouchQuestion* question);
+  /// `avatar` must outlive it. Without a question it tests nothing.
+  TrackBuilder(const Avatar& avatar, std::optional<Query> question);
 
   /// Number of this avatar's poses whose rotations fit in `numbers` numbers.
   [[nodiscard]] std::size_t capacity(std::size_t numbers) const;
@@ -56,7 +55,7 @@ class TrackBuilder {
   void growBox(const ChainMotion& motion);
 
   const Avatar& avatar_;
-  const TouchQuestion* question_;
+  std::optional<Query> question_;
   QueryScratch scratch_;
   ChainMotion motion_;
   std::vector<LinkState> states_;

@@ -10,6 +10,7 @@
 #include "lss/segment_triangle.h"
 #include "middleware/query/query.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/support/asked.h"
 
 namespace foretouch {
 namespace {
@@ -35,7 +36,7 @@ StepContacts answer(const test::RandomBody& body, const Scene& scene, Culler cul
   QueryOptions options;
   options.culler = culler;
   options.tolerance = 1e-4;
-  return firstContacts(body.avatar, body.motion(), scene, options, scratch).value();
+  return test::answerOf(body.avatar, body.motion(), scene, options, scratch);
 }
 
 /// The scene with its triangles in another order; order[i] is the old place of the new i-th.

@@ -12,6 +12,7 @@
 #include "judge/plain_motion.h"
 #include "lss/fit.h"
 #include "middleware/query/query.h"
+#include "tests/support/asked.h"
 #include "tests/support/judged.h"
 #include "tests/support/random_geometry.h"
 
@@ -211,10 +212,10 @@ TEST_P(ExactContacts, OfSwingingMeshesAreSoundAndTight) {
     options.fidelity = Fidelity::Exact;
     options.leafMethod = std::get<LeafMethod>(GetParam());
     options.surface = AvatarSurface::build(avatar, {{}, c.mesh}).value();
-    const auto result = firstContacts(avatar, ChainMotion(avatar.skeleton(), from, to),
-                                      Scene::build(std::move(raw)).value(), options, scratch);
-    ASSERT_TRUE(result.ok()) << describe(result.error());
-    const LinkContact& got = result.value().links[kLink];
+    const StepContacts step =
+        test::answerOf(avatar, ChainMotion(avatar.skeleton(), from, to),
+                       Scene::build(std::move(raw)).value(), options, scratch);
+    const LinkContact& got = step.links[kLink];
     hits += c.impact.has_value() ? 1 : 0;
     if (got.verdict == Verdict::Clear) {
       ASSERT_FALSE(c.impact) << "missed";

@@ -12,6 +12,7 @@
 #include "middleware/query/query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/support/asked.h"
 
 namespace foretouch {
 namespace {
@@ -86,7 +87,8 @@ TEST(ExactFidelity, NoSampledTouchIsMissedOrEarlierThanReported) {
       const LinkContact& got = exact.links[static_cast<std::size_t>(link)];
       for (int k = 0; k <= 60; ++k) {
         const double t = k / 60.0;
-        if (!touchesAt(bench.body.avatar, motion, link, t, bench.scene, bench.exact, scratch)) {
+        if (!test::touchesAt(bench.body.avatar, motion, link, t, bench.scene, bench.exact,
+                             scratch)) {
           continue;
         }
         ++seen;
@@ -162,7 +164,8 @@ TEST_P(ExactInLanes, MissNoSampledTouchAndAreNotLate) {
       const LinkContact& got = exact.links[static_cast<std::size_t>(link)];
       for (int k = 0; k <= 60; ++k) {
         const double t = k / 60.0;
-        if (!touchesAt(bench.body.avatar, motion, link, t, bench.scene, bench.exact, scratch)) {
+        if (!test::touchesAt(bench.body.avatar, motion, link, t, bench.scene, bench.exact,
+                             scratch)) {
           continue;
         }
         ++seen;
@@ -313,8 +316,9 @@ TEST(ExactFidelity, AnLssWithoutTrianglesStandsForItself) {
       contacts += touches(link.links[i]) ? 1 : 0;
       for (const double t : {0.0, 0.5, 1.0}) {
         const auto l = static_cast<LinkId>(i);
-        EXPECT_EQ(touchesAt(bench.body.avatar, motion, l, t, bench.scene, bench.exact, scratch),
-                  touchesAt(bench.body.avatar, motion, l, t, bench.scene, bench.link, scratch));
+        EXPECT_EQ(
+            test::touchesAt(bench.body.avatar, motion, l, t, bench.scene, bench.exact, scratch),
+            test::touchesAt(bench.body.avatar, motion, l, t, bench.scene, bench.link, scratch));
       }
     }
   }

@@ -7,6 +7,7 @@
 
 #include "middleware/query/query.h"
 #include "tests/middleware/analytic_cases.h"
+#include "tests/support/asked.h"
 
 namespace foretouch {
 namespace {
@@ -67,11 +68,9 @@ TEST_P(FirstContacts, AreSoundAndTight) {
     SCOPED_TRACE(c.name + " " + std::to_string(i));
     QueryOptions options;
     options.tolerance = tolerances[random.below(4)];
-    const auto result = firstContacts(c.avatar(), c.motion(), c.scene(), options, scratch);
-    ASSERT_TRUE(result.ok()) << describe(result.error());
-    judge(c, result.value().links[AnalyticCase::kLink], options.tolerance);
-    EXPECT_EQ(result.value().links[0].verdict, Verdict::Clear)
-        << "a link without LSS touches nothing";
+    const auto step = test::answerOf(c.avatar(), c.motion(), c.scene(), options, scratch);
+    judge(c, step.links[AnalyticCase::kLink], options.tolerance);
+    EXPECT_EQ(step.links[0].verdict, Verdict::Clear) << "a link without LSS touches nothing";
     hits += c.impact.has_value() ? 1 : 0;
     if (HasFailure()) return;
   }
@@ -98,8 +97,8 @@ TEST(TouchesAt, BothPosesAreFreeWhileTheSwingIsNot) {
   const Avatar avatar = c.avatar();
   const ChainMotion motion = c.motion();
   const Scene scene = c.scene();
-  EXPECT_FALSE(touchesAt(avatar, motion, AnalyticCase::kLink, 0.0, scene, {}, scratch));
-  EXPECT_FALSE(touchesAt(avatar, motion, AnalyticCase::kLink, 1.0, scene, {}, scratch));
+  EXPECT_FALSE(test::touchesAt(avatar, motion, AnalyticCase::kLink, 0.0, scene, {}, scratch));
+  EXPECT_FALSE(test::touchesAt(avatar, motion, AnalyticCase::kLink, 1.0, scene, {}, scratch));
   const auto result = firstContacts(avatar, motion, scene);
   ASSERT_TRUE(result.ok());
   EXPECT_EQ(result.value().links[AnalyticCase::kLink].verdict, Verdict::Contact);
@@ -110,14 +109,14 @@ TEST(TouchesAt, SeesWhatIsTouchedAtThatInstant) {
   AnalyticCase c = test::fallingSphere(random);
   while (!c.impact || c.lss.radius < 1e-3) c = test::fallingSphere(random);
   QueryScratch scratch;
-  EXPECT_FALSE(touchesAt(c.avatar(), c.motion(), AnalyticCase::kLink, *c.impact - 1e-4, c.scene(),
-                         {}, scratch));
-  EXPECT_TRUE(touchesAt(c.avatar(), c.motion(), AnalyticCase::kLink, *c.impact + 1e-4, c.scene(),
-                        {}, scratch));
+  EXPECT_FALSE(test::touchesAt(c.avatar(), c.motion(), AnalyticCase::kLink, *c.impact - 1e-4,
+                               c.scene(), {}, scratch));
+  EXPECT_TRUE(test::touchesAt(c.avatar(), c.motion(), AnalyticCase::kLink, *c.impact + 1e-4,
+                              c.scene(), {}, scratch));
   QueryOptions ignoring;
   ignoring.ignored = {{AnalyticCase::kLink, 0}};
-  EXPECT_FALSE(touchesAt(c.avatar(), c.motion(), AnalyticCase::kLink, *c.impact + 1e-4, c.scene(),
-                         ignoring, scratch));
+  EXPECT_FALSE(test::touchesAt(c.avatar(), c.motion(), AnalyticCase::kLink, *c.impact + 1e-4,
+                               c.scene(), ignoring, scratch));
 }
 
 AnalyticCase certainHit() {

@@ -12,6 +12,7 @@
 #include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/support/asked.h"
 #include "tests/support/judged_answer.h"
 
 namespace foretouch {
@@ -259,10 +260,10 @@ TEST_P(LinkPolicies, AskLssAndMeshesInOneQuery) {
   EXPECT_EQ(step.links[0].linkTriangle, -1);
   EXPECT_EQ(step.links[1].verdict, Verdict::Clear);
   QueryScratch scratch;
-  EXPECT_TRUE(touchesAt(row.avatar, motion, 0, 1.0, row.scene, mixed, scratch));
-  EXPECT_FALSE(touchesAt(row.avatar, motion, 1, 1.0, row.scene, mixed, scratch));
+  EXPECT_TRUE(test::touchesAt(row.avatar, motion, 0, 1.0, row.scene, mixed, scratch));
+  EXPECT_FALSE(test::touchesAt(row.avatar, motion, 1, 1.0, row.scene, mixed, scratch));
   mixed.linkPolicies[1].fidelity = Fidelity::Link;
-  EXPECT_TRUE(touchesAt(row.avatar, motion, 1, 1.0, row.scene, mixed, scratch));
+  EXPECT_TRUE(test::touchesAt(row.avatar, motion, 1, 1.0, row.scene, mixed, scratch));
 }
 
 /// Nothing in reach at the least tolerance need not be nothing at the largest.
@@ -324,14 +325,17 @@ TEST(LinkPoliciesOfThreads, AreAnsweredTheSameByAnyNumber) {
     mixed.linkPolicies = randomPolicies(random, body.avatar.numLinks(), {1e-2, 1e-3, 1e-5});
     options.push_back(mixed);
   }
+  std::vector<Query> queries;
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    queries.push_back(Query::build(worlds[i].body.avatar, worlds[0].scene, options[i]).value());
+  }
   std::vector<StepTask> tasks;
   for (std::size_t i = 0; i < worlds.size(); ++i) {
-    tasks.push_back(
-        {&worlds[i].body.avatar, &worlds[i].body.from, &worlds[i].body.to, &options[i]});
+    tasks.push_back({&queries[i], &worlds[i].body.from, &worlds[i].body.to});
   }
   std::vector<StepContacts> got, expected;
-  ASSERT_TRUE(QueryPool::start(4).value().answer(worlds[0].scene, tasks, got).ok());
-  ASSERT_TRUE(QueryPool::start(1).value().answer(worlds[0].scene, tasks, expected).ok());
+  ASSERT_TRUE(QueryPool::start(4).value().answer(tasks, got).ok());
+  ASSERT_TRUE(QueryPool::start(1).value().answer(tasks, expected).ok());
   for (std::size_t i = 0; i < got.size(); ++i) {
     for (std::size_t link = 0; link < got[i].links.size(); ++link) {
       expectSame(expected[i].links[link], got[i].links[link]);

@@ -13,23 +13,23 @@ using test::Random;
 struct Crowd {
   Scene scene;
   std::vector<test::RandomBody> bodies;
-  QueryOptions options;
-  std::vector<StepTask> tasks;
+  std::vector<Query> queries;
 };
 
 Crowd makeCrowd(int avatars) {
   Random random(7);
-  Crowd crowd{Scene::build(test::clutter(random, 400, 3, Vector3d::Zero())).value(), {}, {}, {}};
+  Crowd crowd{Scene::build(test::clutter(random, 400, 3, Vector3d::Zero())).value(), {}, {}};
   for (int i = 0; i < avatars; ++i) {
     crowd.bodies.push_back(test::bodyInClutter(random, 3 + i % 9, Vector3d::Zero()));
+    crowd.queries.push_back(Query::build(crowd.bodies.back().avatar, crowd.scene).value());
   }
   return crowd;
 }
 
 std::vector<StepTask> tasksOf(const Crowd& crowd) {
   std::vector<StepTask> tasks;
-  for (const test::RandomBody& body : crowd.bodies) {
-    tasks.push_back({&body.avatar, &body.from, &body.to, &crowd.options});
+  for (std::size_t i = 0; i < crowd.bodies.size(); ++i) {
+    tasks.push_back({&crowd.queries[i], &crowd.bodies[i].from, &crowd.bodies[i].to});
   }
   return tasks;
 }
@@ -42,12 +42,11 @@ TEST(QueryPool, AnswersLikeSingleQueriesForAnyNumberOfThreads) {
     EXPECT_EQ(pool.threads(), threads);
     std::vector<StepContacts> answers;
     for (int round = 0; round < 3; ++round) {
-      ASSERT_TRUE(pool.answer(crowd.scene, tasks, answers).ok());
+      ASSERT_TRUE(pool.answer(tasks, answers).ok());
       ASSERT_EQ(answers.size(), tasks.size());
       for (std::size_t i = 0; i < tasks.size(); ++i) {
         const test::RandomBody& body = crowd.bodies[i];
-        const StepContacts alone =
-            firstContacts(body.avatar, body.motion(), crowd.scene, crowd.options).value();
+        const StepContacts alone = firstContacts(body.avatar, body.motion(), crowd.scene).value();
         ASSERT_EQ(answers[i].links.size(), alone.links.size());
         for (std::size_t link = 0; link < alone.links.size(); ++link) {
           EXPECT_EQ(answers[i].links[link].verdict, alone.links[link].verdict);
@@ -60,43 +59,31 @@ TEST(QueryPool, AnswersLikeSingleQueriesForAnyNumberOfThreads) {
   }
 }
 
-// What a worker answered last must not stand in a failed task's place.
-TEST(QueryPool, TellsEveryErrorAndAnswersTheRest) {
-  const Crowd crowd = makeCrowd(20);
-  std::vector<StepTask> tasks = tasksOf(crowd);
-  QueryOptions bad;
-  bad.tolerance = -1.0;
-  QueryOptions badPair;
-  badPair.ignored = {{1000, 0}};
-  tasks[5].options = &badPair;
-  tasks[11].options = &bad;
+// One list may ask different questions: other scenes, other options.
+TEST(QueryPool, AnswersEachTaskByItsOwnQuery) {
+  Crowd crowd = makeCrowd(20);
+  const std::vector<StepTask> tasks = tasksOf(crowd);
+  RawScene none;
+  none.triangles = {{{Vector3d(900, 0, 0), Vector3d(901, 0, 0), Vector3d(900, 1, 0)}}};
+  none.objectOf = {0};
+  none.objectNames = {"far away"};
+  crowd.queries[5] = Query::build(crowd.bodies[5].avatar, Scene::build(none).value()).value();
+  QueryOptions little;
+  little.workBudget = 0;
+  crowd.queries[11] = Query::build(crowd.bodies[11].avatar, crowd.scene, little).value();
   QueryPool pool = QueryPool::start(3).value();
-  std::vector<StepContacts> answers, good;
-  ASSERT_TRUE(pool.answer(crowd.scene, tasksOf(crowd), good).ok());
-  EXPECT_TRUE(pool.failures().empty());
+  std::vector<StepContacts> answers;
   for (int round = 0; round < 3; ++round) {
-    const auto done = pool.answer(crowd.scene, tasks, answers);
-    ASSERT_FALSE(done.ok());
-    EXPECT_EQ(done.error().file, "ignored");
-    ASSERT_EQ(pool.failures().size(), 2U);
-    EXPECT_EQ(pool.failures()[0].task, 5U);
-    EXPECT_EQ(pool.failures()[1].task, 11U);
-    EXPECT_EQ(pool.failures()[1].error.file, "tolerance");
-    for (std::size_t i = 0; i < tasks.size(); ++i) {
-      ASSERT_EQ(answers[i].links.size(),
-                static_cast<std::size_t>(crowd.bodies[i].avatar.numLinks()));
-      for (std::size_t link = 0; link < answers[i].links.size(); ++link) {
-        const LinkContact& got = answers[i].links[link];
-        EXPECT_EQ(got.link, static_cast<LinkId>(link));
-        const bool isFailed = i == 5 || i == 11;
-        const LinkContact expected = isFailed ? LinkContact{} : good[i].links[link];
-        EXPECT_EQ(got.verdict, expected.verdict);
-        EXPECT_EQ(got.freeUntil, expected.freeUntil);
-      }
+    ASSERT_TRUE(pool.answer(tasks, answers).ok());
+    EXPECT_TRUE(pool.failures().empty());
+    for (const LinkContact& contact : answers[5].links) {
+      EXPECT_EQ(contact.verdict, Verdict::Clear);
+    }
+    for (const LinkContact& contact : answers[11].links) {
+      EXPECT_TRUE(contact.verdict == Verdict::Undecided || contact.verdict == Verdict::Clear);
     }
   }
-  EXPECT_TRUE(pool.answer(crowd.scene, {}, answers).ok());
-  EXPECT_TRUE(pool.failures().empty());
+  EXPECT_TRUE(pool.answer({}, answers).ok());
   EXPECT_TRUE(answers.empty());
 }
 

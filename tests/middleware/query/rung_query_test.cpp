@@ -13,6 +13,7 @@
 #include "middleware/query/query.h"
 #include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/support/asked.h"
 #include "tests/support/judged_answer.h"
 
 namespace foretouch {
@@ -166,10 +167,10 @@ TEST(RungDeterminism, CullersTriangleOrderAndScratchDoNotShow) {
       QueryOptions options = at(rung, 1e-4);
       const ChainMotion motion = c.step.motion();
       const auto fresh = firstContacts(c.step.avatar, motion, c.scene, options).value();
-      const auto again = firstContacts(c.step.avatar, motion, c.scene, options, used).value();
-      const auto mixed = firstContacts(c.step.avatar, motion, other, options, used).value();
+      const auto again = test::answerOf(c.step.avatar, motion, c.scene, options, used);
+      const auto mixed = test::answerOf(c.step.avatar, motion, other, options, used);
       options.culler = Culler::PointQuery;
-      const auto slow = firstContacts(c.step.avatar, motion, c.scene, options, used).value();
+      const auto slow = test::answerOf(c.step.avatar, motion, c.scene, options, used);
       for (std::size_t link = 0; link < fresh.links.size(); ++link) {
         expectSame(fresh.links[link], again.links[link]);
         expectSame(fresh.links[link], slow.links[link]);
@@ -232,8 +233,8 @@ TEST(RungTouchesAt, SeesTheVolumeThatAQueryMoves) {
     SCOPED_TRACE(toString(rung));
     const QueryOptions options = at(rung, 1e-6);
     const double toi = firstContacts(c.avatar, c.motion, c.scene, options).value().links[1].toi;
-    EXPECT_FALSE(touchesAt(c.avatar, c.motion, 1, toi - 1e-3, c.scene, options, scratch));
-    EXPECT_TRUE(touchesAt(c.avatar, c.motion, 1, toi + 1e-3, c.scene, options, scratch));
+    EXPECT_FALSE(test::touchesAt(c.avatar, c.motion, 1, toi - 1e-3, c.scene, options, scratch));
+    EXPECT_TRUE(test::touchesAt(c.avatar, c.motion, 1, toi + 1e-3, c.scene, options, scratch));
   }
 }
 

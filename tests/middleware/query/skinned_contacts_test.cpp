@@ -8,6 +8,7 @@
 #include "middleware/query/query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/support/asked.h"
 #include "tests/support/judged.h"
 
 namespace foretouch {
@@ -131,7 +132,8 @@ TEST(SkinnedContacts, AreTightInFiftyDigitsAndMissNoSampledTouch) {
     for (const LinkContact& got : step.links) {
       ASSERT_NE(got.verdict, Verdict::Undecided);
       for (int k = 0; k <= 20; ++k) {
-        if (!touchesAt(body.avatar, motion, got.link, k / 20.0, scene, options, scratch)) continue;
+        if (!test::touchesAt(body.avatar, motion, got.link, k / 20.0, scene, options, scratch))
+          continue;
         ++sampled;
         ASSERT_TRUE(touches(got)) << "missed at " << k / 20.0;
         ASSERT_LE(got.toi, k / 20.0) << "late";

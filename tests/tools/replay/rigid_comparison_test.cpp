@@ -35,9 +35,9 @@ class RigidComparisonOfAnArm : public testing::Test {
     const Scene scene = Scene::build(std::move(raw)).value();
     const auto truth = firstContacts(avatar, motion, scene);
     QueryScratch scratch;
-    return RigidComparison::build(avatar)
+    return RigidComparison::build(avatar, scene, {})
         .value()
-        .compare(motion, truth.value(), scene, QueryOptions{}, scratch)
+        .compare(motion, truth.value(), scratch)
         .value();
   }
 
@@ -89,8 +89,8 @@ TEST(RigidComparison, AgreesWhereALinkIsARigidBody) {
   const Avatar body =
       Avatar::build(Skeleton::build(raw).value(), {{Lss{{-0.2, 0, 0}, {0.3, 0.1, 0}, 0.05}}})
           .value();
-  const RigidComparison comparison = RigidComparison::build(body).value();
   const Scene scene = Scene::build(test::wallAt(0.0, "wall")).value();
+  const RigidComparison comparison = RigidComparison::build(body, scene, {}).value();
   QueryScratch scratch;
   RigidCounts counts;
   constexpr int kCases = 300;
@@ -102,7 +102,7 @@ TEST(RigidComparison, AgreesWhereALinkIsARigidBody) {
     to = validatedPose(body.skeleton(), to).value();
     const ChainMotion motion(body.skeleton(), from, to);
     const auto truth = firstContacts(body, motion, scene);
-    counts.add(comparison.compare(motion, truth.value(), scene, QueryOptions{}, scratch).value());
+    counts.add(comparison.compare(motion, truth.value(), scratch).value());
   }
   EXPECT_GT(counts.contacts, kCases / 4);
   EXPECT_LT(counts.contacts, kCases * 9 / 10);

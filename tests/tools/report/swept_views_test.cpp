@@ -19,7 +19,7 @@ ReportProgress onward() {
 ViewDocument document(const ReplayInputs& inputs) {
   ViewAvatar avatar;
   avatar.avatar = &inputs.avatar;
-  TrackBuilder track(inputs.avatar, nullptr);
+  TrackBuilder track(inputs.avatar, std::nullopt);
   for (std::int64_t i = 0; i <= inputs.steps.count; ++i) {
     track.addPose(inputs.timeOfStep(i), poseAtFrame(inputs, i).value());
   }

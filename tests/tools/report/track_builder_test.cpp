@@ -46,7 +46,7 @@ TEST(TrackBuilder, KeepsPosesBitForBit) {
   for (int i = 0; i < 40; ++i) {
     test::Random random(static_cast<std::uint64_t>(i));
     const auto poses = randomPoses(skeleton, 5, {(i & 1) != 0, (i & 2) != 0}, random);
-    TrackBuilder builder(inputs.avatar, nullptr);
+    TrackBuilder builder(inputs.avatar, std::nullopt);
     for (std::size_t k = 0; k < poses.size(); ++k) {
       builder.addPose(0.1 * static_cast<double>(k), poses[k]);
     }
@@ -63,7 +63,7 @@ TEST(TrackBuilder, TellsZerosApart) {
   const Pose rest = restPose(inputs.avatar.skeleton());
   Pose other = rest;
   other.translations[0].x() = -0.0;
-  TrackBuilder builder(inputs.avatar, nullptr);
+  TrackBuilder builder(inputs.avatar, std::nullopt);
   builder.addPose(0.0, rest);
   builder.addPose(1.0, rest);
   builder.addPose(2.0, other);
@@ -76,8 +76,7 @@ TEST(TrackBuilder, TellsZerosApart) {
 TEST(TrackBuilder, SaysWhatEachPoseTouches) {
   // A sphere of 0.1 m and an arm of 0.05 m, moving along x through a wall at x = 0.
   const ReplayInputs inputs = test::smallInputs({-1, -0.08, 0.03, 0.2});
-  const TouchQuestion question{inputs.scene, inputs.query};
-  TrackBuilder builder(inputs.avatar, &question);
+  TrackBuilder builder(inputs.avatar, touchQuestion(inputs.avatar, inputs.scene, inputs.query));
   for (std::int64_t i = 0; i < 4; ++i) {
     builder.addPose(inputs.timeOfStep(i), poseAtFrame(inputs, i).value());
   }

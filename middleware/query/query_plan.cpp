@@ -1,0 +1,127 @@
+#include "middleware/query/query_plan.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "articulated/try.h"
+#include "middleware/scene/flat_bvh_lanes.h"
+#include "middleware/scene/scene_parts.h"
+
+namespace foretouch::internal {
+namespace {
+
+Result<Done> checkedTolerance(double tolerance, LinkId link) {
+  if (tolerance >= kMinTolerance && tolerance <= kMaxTolerance) return Done{};
+  return Error{ErrorCode::OutOfRange, "tolerance", -1, link, "expected 1e-9 to 1e7 metres"};
+}
+
+/// One policy per link, each with a fidelity that answers links one by one.
+Result<Done> checkedPolicies(const Avatar& avatar, const QueryOptions& options) {
+  if (options.linkPolicies.empty()) return Done{};
+  const auto isOfLinks = [](Fidelity fidelity) {
+    return fidelity == Fidelity::Link || fidelity == Fidelity::Exact;
+  };
+  if (!isOfLinks(options.fidelity)) {
+    return Error::in("linkPolicies", ErrorCode::Mismatch,
+                     std::string("expected none at fidelity ") + toString(options.fidelity) +
+                         ": only at link and exact fidelity has each link a surface of its own");
+  }
+  if (options.linkPolicies.size() != countOf(avatar.numLinks())) {
+    return Error::in("linkPolicies", ErrorCode::Mismatch,
+                     "expected none, or one per link of the avatar");
+  }
+  LinkId link = 0;
+  for (const LinkPolicy& policy : options.linkPolicies) {
+    FORETOUCH_CHECK(checkedTolerance(policy.tolerance, link));
+    if (!isOfLinks(policy.fidelity)) {
+      return Error{ErrorCode::OutOfRange, "linkPolicies", -1, link,
+                   "expected link or exact fidelity"};
+    }
+    ++link;
+  }
+  return Done{};
+}
+
+Result<Done> checkedSurfaces(const Avatar& avatar, const QueryOptions& options) {
+  const auto& policies = options.linkPolicies;
+  const bool isAnyExact = policies.empty()
+                              ? options.fidelity == Fidelity::Exact
+                              : std::any_of(policies.begin(), policies.end(), [](const auto& own) {
+                                  return own.fidelity == Fidelity::Exact;
+                                });
+  if (isAnyExact && (!options.surface || options.surface->numLinks() != avatar.numLinks())) {
+    return Error::in("fidelity", ErrorCode::Mismatch,
+                     "expected the surface of this avatar, which exact fidelity needs");
+  }
+  if (options.fidelity == Fidelity::Skinned &&
+      (!options.skin || options.skin->numLinks() != avatar.numLinks())) {
+    return Error::in("fidelity", ErrorCode::Mismatch,
+                     "expected the skin of this avatar, which skinned fidelity needs");
+  }
+  return Done{};
+}
+
+Result<Done> checked(const Avatar& avatar, const Scene& scene, const QueryOptions& options) {
+  FORETOUCH_CHECK(checkedTolerance(options.tolerance, -1));
+  FORETOUCH_CHECK(checkedPolicies(avatar, options));
+  if (!(options.deadlineUs >= 0.0)) {
+    return Error::in("deadline", ErrorCode::OutOfRange, "expected microseconds, at least 0");
+  }
+  FORETOUCH_CHECK(checkedSurfaces(avatar, options));
+  const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
+  for (const IgnoredPair& pair : options.ignored) {
+    if (pair.link < 0 || pair.link >= avatar.numLinks() ||
+        pair.object < IgnoredPair::kEveryObject || pair.object >= numObjects) {
+      return Error{ErrorCode::OutOfRange, "ignored", -1, pair.link,
+                   "expected a link of the avatar and an object of the scene"};
+    }
+  }
+  return Done{};
+}
+
+Result<const TriangleCuller*> cullerOf(const Scene& scene, Culler which) {
+  if (which == Culler::FlatBvh) return static_cast<const TriangleCuller*>(&scene.parts().bvh);
+  FORETOUCH_TRY(const auto built, scene.parts().pointQueryCuller());
+  return static_cast<const TriangleCuller*>(built);
+}
+
+LinkPlan planOf(const Avatar& avatar, const QueryOptions& options, LinkId link) {
+  const auto i = slotOf(link);
+  const LinkPolicy own = options.linkPolicies.empty()
+                             ? LinkPolicy{options.tolerance, options.fidelity}
+                             : options.linkPolicies[i];
+  LinkPlan plan{own.tolerance, nullptr, nullptr, !avatar.lss(link).empty()};
+  if (own.fidelity == Fidelity::Exact) plan.surface = options.surface->parts().links[i].get();
+  if (own.fidelity == Fidelity::Skinned && options.skin->parts().numTriangles(link) > 0) {
+    plan.skin = &options.skin->parts();
+    plan.hasSurface = true;
+  }
+  return plan;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const QueryPlan>> QueryPlan::make(const Avatar& avatar, const Scene& scene,
+                                                         const QueryOptions& options) {
+  FORETOUCH_CHECK(checked(avatar, scene, options));
+  FORETOUCH_TRY(const auto culler, cullerOf(scene, options.culler));
+  auto plan = std::make_shared<QueryPlan>(
+      QueryPlan{avatar, scene, options, culler, {}, LssTable(avatar), {}, {}, false});
+  plan->tolerances = {kMaxTolerance, kMinTolerance};
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    plan->links.push_back(planOf(avatar, plan->options, link));
+    plan->tolerances.least = std::min(plan->tolerances.least, plan->links.back().tolerance);
+    plan->tolerances.largest = std::max(plan->tolerances.largest, plan->links.back().tolerance);
+  }
+  if (plan->tolerances.least != plan->tolerances.largest) {
+    for (const LinkPlan& link : plan->links) plan->margins.push_back(link.tolerance);
+  }
+  // Not for skins, which change shape, nor beyond the number of boxes of a walk.
+  plan->inLanes = options.backtracking == Backtracking::Lanes &&
+                  options.fidelity != Fidelity::Skinned &&
+                  plan->table.size() <= BoxLanes::kMaxBoxes;
+  return std::shared_ptr<const QueryPlan>(std::move(plan));
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,56 @@
+// middleware/query/query_plan.h: a question, checked and resolved (query.h). The query's sources
+// read it and never the options' alternatives. Not installed.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/result.h"
+#include "lss/index.h"
+#include "middleware/query_options.h"
+#include "middleware/scene/culler.h"
+#include "middleware/scene/scene.h"
+#include "middleware/surface/link_surface.h"
+#include "middleware/surface/skin_parts.h"
+#include "tessellation/lss_table.h"
+
+namespace foretouch::internal {
+
+/// Above link fidelity.
+[[nodiscard]] inline bool isRung(Fidelity fidelity) {
+  return fidelity == Fidelity::Limb || fidelity == Fidelity::Avatar ||
+         fidelity == Fidelity::Ellipsoid;
+}
+
+/// What is asked of one link.
+struct LinkPlan {
+  double tolerance;
+  const LinkSurface* surface;  ///< At exact fidelity; null at others.
+  const SkinParts* skin;  ///< At skinned fidelity, if the link owns triangles of it; else null.
+  bool hasSurface;        ///< It has something that could touch, at any fidelity.
+};
+
+struct ToleranceRange {
+  double least, largest;
+};
+
+struct QueryPlan {
+  Avatar avatar;
+  Scene scene;
+  QueryOptions options;
+  const TriangleCuller* culler;  // the scene's
+  std::vector<LinkPlan> links;
+  LssTable table;               // of the avatar
+  ToleranceRange tolerances;    // of all links
+  std::vector<double> margins;  // per link, if tolerances differ
+  bool inLanes;                 // not pair by pair in doubles
+
+  [[nodiscard]] const LinkPlan& of(LinkId link) const { return links[slotOf(link)]; }
+
+  /// As Query::build().
+  static Result<std::shared_ptr<const QueryPlan>> make(const Avatar& avatar, const Scene& scene,
+                                                       const QueryOptions& options);
+};
+
+}  // namespace foretouch::internal
