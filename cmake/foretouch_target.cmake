@@ -47,8 +47,10 @@ function(foretouch_compile_options target)
   target_compile_definitions(${target} PRIVATE
     FORETOUCH_CHECKS=$<IF:$<CONFIG:Debug,RelWithDebInfo>,1,0>)
   if(FORETOUCH_SANITIZE)
+    # GCC takes what the sanitizers add for uses of variables that nothing has set.
     target_compile_options(${target} PRIVATE -fsanitize=${FORETOUCH_SANITIZE}
-                           -fno-sanitize-recover=all -fno-omit-frame-pointer)
+                           -fno-sanitize-recover=all -fno-omit-frame-pointer
+                           -Wno-maybe-uninitialized)
     target_link_options(${target} PRIVATE -fsanitize=${FORETOUCH_SANITIZE})
   endif()
 endfunction()
