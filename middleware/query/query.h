@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"

@@ -161,7 +161,8 @@ std::vector<std::map<std::string, Said>> saidIn(const std::string& path) {
   const std::vector<std::string> lines = linesOf(contentOf(path));
   for (std::size_t i = 1; i < lines.size(); ++i) {
     std::map<std::string, Said> step;
-    for (const json& contact : json::parse(lines[i])["contacts"]) {
+    const json line = json::parse(lines[i]);
+    for (const json& contact : line["contacts"]) {
       const bool isUndecided = contact["verdict"] == "undecided";
       if (isUndecided) {
         EXPECT_EQ(contact["reason"], "work-budget");
