@@ -8,22 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include "lss/sanitizer.h"
+
 namespace foretouch::internal {
 
 /// The sanitizers' runtimes reserve terabytes of address space, write files as they start, and turn
-/// deaths by signal into exits: under them, we do not limit address space and file size.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kUnderSanitizer = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-inline constexpr bool kUnderSanitizer = true;
-#else
-inline constexpr bool kUnderSanitizer = false;
-#endif
-#else
-inline constexpr bool kUnderSanitizer = false;
-#endif
-
+/// deaths by signal into exits: under them (kUnderSanitizer), the address space and the size of
+/// files are not limited.
 struct ProcessLimits {
   std::size_t addressSpaceBytes = 0;
   double seconds = 0.0;  ///< Of wall time, and (rounded up) of CPU time.
