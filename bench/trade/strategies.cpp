@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "bench/trade/link_sweep.h"
-#include "lss/assert.h"
 #include "lss/index.h"
 
 namespace foretouch::tools {

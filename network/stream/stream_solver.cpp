@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "articulated/try.h"
-#include "lss/assert.h"
 #include "lss/index.h"
 
 namespace foretouch {
