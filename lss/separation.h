@@ -1,18 +1,20 @@
-// lss/separation.h: proven bounds on the distance of a segment and a triangle, rounding included. A
-// plane between two convex sets bounds their distance from below, a pair of points from above, and
-// neither relies on the closest-point solver, which only proposes. Proof: docs/guarantees.md 3.
+// lss/separation.h: proven bounds on the distance of two hulls, rounding included. A plane between
+// two convex sets bounds their distance from below, a pair of points from above, and neither relies
+// on the closest-point solver, which only proposes. Proof: docs/guarantees.md 3.
 #pragma once
+
+#include <algorithm>
+#include <array>
 
 #include <Eigen/Core>
 
+#include "lss/hull.h"
 #include "lss/rounding.h"
-#include "lss/segment_triangle.h"
-#include "lss/triangle.h"
 
 namespace foretouch {
 
 /// Rounding of the plane's and the witnesses' arithmetic, relative to the sum of the extents
-/// involved (docs/guarantees.md 3.2). Doubling it loses accuracy near 1e-14 m per metre; halving it
+/// involved (docs/guarantees.md 3). Doubling it loses accuracy near 1e-14 m per metre; halving it
 /// breaks the proof, but not yet the measured worst case (tests/lss/separation_test.cpp).
 inline constexpr double kSeparationRounding = 16.0 * kUnitRoundoff;
 
@@ -22,20 +24,35 @@ namespace internal {
 inline constexpr double kNoisyDirection = 1e-3;
 }  // namespace internal
 
-/// The proof for one segment and one triangle at one instant. Distances in metres. For every point
-/// x of the segment a + s(b-a) and every point y of the triangle nhat.(x - y) >= (1-s)*clearanceA +
-/// s*clearanceB, with |nhat| <= 1; so the distance is at least min(clearanceA, clearanceB), and at
-/// most `upper`.
+/// The proof for two hulls at one instant. Distances in metres. For every point x = sum w_i x_i of
+/// `one` and every point y = sum v_j y_j of `other`, nhat.(x - y) >= sum w_i v_j clearance(i, j),
+/// with |nhat| <= 1; so their distance is at least the least clearance, and at most `upper`.
 struct Separation {
-  Eigen::Vector3d nhat = Eigen::Vector3d::Zero();  ///< From the triangle towards the segment.
-  double clearanceA = 0.0, clearanceB = 0.0;       ///< Rounded down.
-  double upper = 0.0;                              ///< Rounded up.
-  ClosestPoints closest;
+  Eigen::Vector3d nhat = Eigen::Vector3d::Zero();  ///< From `other` towards `one`.
+  /// Of each point of `one` above all of `other`; rounded down.
+  std::array<double, 3> clearance{};
+  /// How much more each point of `other` leaves, >= 0.
+  std::array<double, 3> spare{};
+  double upper = 0.0;  ///< Rounded up.
+  /// The closest points found. Both lie in their hulls up to rounding.
+  Eigen::Vector3d onOne = Eigen::Vector3d::Zero(), onOther = Eigen::Vector3d::Zero();
+  /// onOne - onOther before the far origin is added back, and its length; 0, up to rounding, if the
+  /// hulls meet.
+  Eigen::Vector3d difference = Eigen::Vector3d::Zero();
+  double distance = 0.0;
+  Eigen::Vector3d featureNormal = Eigen::Vector3d::Zero();  ///< As ClosestPoints::featureNormal.
+  int numOne = 0, numOther = 0;                             ///< Their points.
 
-  [[nodiscard]] double lower() const { return clearanceA < clearanceB ? clearanceA : clearanceB; }
+  [[nodiscard]] double clearanceOf(std::size_t i, std::size_t j) const {
+    return clearance[i] + spare[j];
+  }
+  [[nodiscard]] double lower() const {
+    const double least = std::min(clearance[0], clearance[1]);
+    return numOne == 3 ? std::min(least, clearance[2]) : least;
+  }
 };
 
-[[nodiscard]] Separation separation(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                    const Triangle& triangle);
+/// All coordinates finite, below 1e100.
+[[nodiscard]] Separation separation(const Hull& one, const Hull& other);
 
 }  // namespace foretouch

@@ -154,12 +154,12 @@ double SpheroidPair::leastOfAll() const {
 
 SpheroidPair::Look SpheroidPair::at(double t) const {
   const Vector3d center = t * velocity_;
-  const Separation s = separation(center, center, unit_);
+  const Separation s = separation(Hull::segment(center, center), Hull::of(unit_));
   Look look;
   look.nhat = s.nhat;
-  look.lower = s.clearanceA - 1.0 - slack_;
+  look.lower = s.clearance[0] - 1.0 - slack_;
   look.upper = s.upper - 1.0 + slack_;
-  look.onTriangle = s.closest.onTriangle;
+  look.onTriangle = s.onOther;
   return look;
 }
 

@@ -225,7 +225,7 @@ HWY_INLINE Plane widestPlane(Floats d, const Triangles<kPoints>& pair) {
   return best;
 }
 
-/// As safeStep() of middleware/query/link_pair.h. Precondition: clearance >= kLeastClearance,
+/// As safeStep() of lss/safe_step.h. Precondition: clearance >= kLeastClearance,
 /// acceleration >= kLeastAcceleration.
 HWY_INLINE Lanes rootOf(Floats d, Lanes clearance, Lanes speed, Lanes acceleration) {
   const Lanes twice = hn::Add(clearance, clearance);

@@ -1,6 +1,6 @@
 // middleware/lanes/triangle_pairs.h: many pairs of triangles at once, one per float lane, each at
 // its own instant: a proven bound on their separation now, and for how long it holds. The
-// counterpart of triangleSeparation() and stepFrom(), which decide the pairs that floats leave
+// counterpart of movingPair(), which decide the pairs that floats leave
 // open. Proof with rounding: middleware/lanes/triangle_pairs.md. Not installed.
 #pragma once
 

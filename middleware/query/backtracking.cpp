@@ -91,7 +91,7 @@ class Backtracker {
   void advance() {
     Candidate& candidate = heap_.back();
     const double t = candidate.freeUntil;
-    const PairState pair = pairAt(candidate, t);
+    const MovingPair pair = pairAt(candidate, t);
     const bool isSurface = query_.isSurface(candidate.lss, candidate.part);
     if (pair.gapUpper <= query_.tolerance) {
       if (!isSurface) return descendFrom(pair, t);
@@ -117,12 +117,11 @@ class Backtracker {
 
   /// From an instant on, replaces the heap's last candidate by the two parts below; the plane found
   /// for it advances them if it can.
-  void descendFrom(const PairState& pair, double t) {
+  void descendFrom(const MovingPair& pair, double t) {
     descend(Later{}, [&](Candidate& part) {
       ++counters_.planeTests;
-      const double step = query_.parts.stepByPlane(part.lss, part.part, states_.at(t).state,
-                                                   query_.scene.triangle(part.triangle), pair.nhat,
-                                                   query_.tolerance);
+      const MovingHull below = query_.parts.hullOf(part.lss, part.part, states_.at(t));
+      const double step = stepByPlane(below, pair.other, pair.axes.nhat, query_.tolerance);
       if (step > 0.0) part.freeUntil = nextPossible(part, timeAfter(t, step, 1.0));
     });
   }
@@ -145,7 +144,7 @@ class Backtracker {
     }
   }
 
-  [[nodiscard]] PairState pairAt(const Candidate& candidate, double t) {
+  [[nodiscard]] MovingPair pairAt(const Candidate& candidate, double t) {
     return pairOf(query_, candidate, states_.at(t), counters_);
   }
 
@@ -190,7 +189,7 @@ class Backtracker {
         heap_.pop_back();
         continue;
       }
-      const PairState pair = pairAt(heap_.back(), t);
+      const MovingPair pair = pairAt(heap_.back(), t);
       if (pair.gapUpper <= query_.tolerance &&
           !query_.isSurface(heap_.back().lss, heap_.back().part)) {
         descend(Farther{}, [&](Candidate& part) {

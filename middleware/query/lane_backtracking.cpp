@@ -175,7 +175,7 @@ class LaneBacktracker {
     const double t = pair.freeUntil;
     Candidate candidate = candidateOf(pair);
     if (!pair.isWhole) candidate.part = Part::of(pair.part);
-    const PairState state = pairOf(query_, candidate, states_.at(t), counters_);
+    const MovingPair state = pairOf(query_, candidate, states_.at(t), counters_);
     if (state.gapUpper <= query_.tolerance) {
       const LinkContact contact = contactOf(query_, candidate, state, t);
       if (t < horizon_ || best_->verdict == Verdict::Undecided || comesFirst(contact, *best_)) {

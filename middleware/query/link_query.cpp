@@ -23,10 +23,10 @@ constexpr double kSlackOfRounding = 1e-12;
 
 /// Scene to link. If part and triangle meet, their difference has no direction: then the normal of
 /// the features, then any unit vector.
-Vector3d contactNormal(const PairState& pair) {
-  if (pair.nhat.squaredNorm() > 0.5) return pair.nhat.normalized();
-  if (pair.distance > 0.0) return pair.difference.stableNormalized();
-  if (pair.featureNormal.stableNorm() > 0.0) return pair.featureNormal.stableNormalized();
+Vector3d contactNormal(const Separation& axes) {
+  if (axes.nhat.squaredNorm() > 0.5) return axes.nhat.normalized();
+  if (axes.distance > 0.0) return axes.difference.stableNormalized();
+  if (axes.featureNormal.stableNorm() > 0.0) return axes.featureNormal.stableNormalized();
   return Vector3d::UnitY();
 }
 
@@ -72,16 +72,16 @@ double leastGap(const LinkQuery& query, const Candidate& candidate, const PosedL
   return gap - kSlackOfRounding * (1.0 + std::abs(gap) + box.max.cwiseAbs().maxCoeff());
 }
 
-PairState pairOf(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed,
-                 QueryCounters& counters) {
+MovingPair pairOf(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed,
+                  QueryCounters& counters) {
   ++counters.advancements;
   if (candidate.part.isTriangle()) ++counters.leafTests;
   if (query.isExact() && !candidate.part.isTriangle()) ++counters.hierarchyTests;
-  return query.parts.pair(candidate.lss, candidate.part, posed,
-                          query.scene.triangle(candidate.triangle));
+  return movingPair(query.parts.hullOf(candidate.lss, candidate.part, posed),
+                    MovingHull::still(query.scene.triangle(candidate.triangle)));
 }
 
-double provenFrom(const LinkQuery& query, const Candidate& candidate, const PairState& pair,
+double provenFrom(const LinkQuery& query, const Candidate& candidate, const MovingPair& pair,
                   double t, QueryCounters& counters) {
   const double floor = kFloorShare * query.tolerance;
   if (query.leafMethod == LeafMethod::Cubics && query.isExact() && candidate.part.isTriangle()) {
@@ -89,10 +89,10 @@ double provenFrom(const LinkQuery& query, const Candidate& candidate, const Pair
     const double reached = freeUntilByCubics(query.evaluator, query.parts.link, t, 1.0,
                                              query.parts.surface->triangle(candidate.part.index()),
                                              query.scene.triangle(candidate.triangle), floor,
-                                             kFloorShare * query.tolerance, pair.nhat);
+                                             kFloorShare * query.tolerance, pair.axes.nhat);
     if (reached > t) return reached;
   }
-  return timeAfter(t, stepFrom(pair, floor), 1.0);
+  return timeAfter(t, pair.stepFrom(floor), 1.0);
 }
 
 double reachOf(const LinkContact& contact) {
@@ -100,7 +100,7 @@ double reachOf(const LinkContact& contact) {
   return contact.separation + kSlackOfRounding * (1.0 + contact.separation + coordinates);
 }
 
-LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const PairState& pair,
+LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const MovingPair& pair,
                       double t) {
   LinkContact contact;
   contact.link = query.parts.link;
@@ -108,20 +108,20 @@ LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const 
   // touching; for triangles, the computed vertices give an exact answer.
   const bool starts = t == 0.0 && pair.gapLower() <= 0.0 &&
                       (!candidate.part.isTriangle() ||
-                       trianglesMeet(pair.hull, query.scene.triangle(candidate.triangle)));
+                       trianglesMeet(pair.one.hull.triangle(), pair.other.hull.triangle()));
   contact.verdict = starts ? Verdict::StartsInContact : Verdict::Contact;
   contact.toi = contact.freeUntil = t;
   contact.separation = starts ? 0.0 : std::min(query.tolerance, std::max(0.0, pair.estimate()));
   contact.penetration = starts ? std::max(0.0, -pair.estimate()) : 0.0;
   contact.triangle = candidate.triangle;
   contact.lss = candidate.lss;
-  contact.nhat_SL_W = contactNormal(pair);
-  contact.p_WScene = pair.onScene;
-  contact.p_WLink = pair.onHull - pair.radius * contact.nhat_SL_W;
+  contact.nhat_SL_W = contactNormal(pair.axes);
+  contact.p_WScene = pair.axes.onOther;
+  contact.p_WLink = pair.axes.onOne - pair.one.radius * contact.nhat_SL_W;
   if (candidate.part.isTriangle()) {
     contact.linkTriangle = candidate.part.index();
-    contact.linkFeature = featureAt(pair.hull, pair.onHull);
-    contact.sceneFeature = featureAt(query.scene.triangle(candidate.triangle), pair.onScene);
+    contact.linkFeature = featureAt(pair.one.hull.triangle(), pair.axes.onOne);
+    contact.sceneFeature = featureAt(pair.other.hull.triangle(), pair.axes.onOther);
   }
   return contact;
 }

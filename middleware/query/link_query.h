@@ -9,7 +9,7 @@
 
 #include "articulated/motion.h"
 #include "middleware/contact.h"
-#include "middleware/query/link_pair.h"
+#include "middleware/query/link_parts.h"
 #include "middleware/query/work_meter.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
@@ -115,19 +115,20 @@ class StateCache {
   double time_ = -1.0;
 };
 
-/// A lower bound on the separation that pair() would compute, from the boxes of part and triangle.
-/// Its slack, thousands of roundings of the coordinates, keeps it below however either side rounds.
+/// A lower bound on the separation that pairOf() would compute, from the boxes of part and
+/// triangle. Its slack, thousands of roundings of the coordinates, keeps it below however either
+/// side rounds.
 [[nodiscard]] double leastGap(const LinkQuery& query, const Candidate& candidate,
                               const PosedLink& posed);
 
 /// The candidate's pair at one instant, counted.
-[[nodiscard]] PairState pairOf(const LinkQuery& query, const Candidate& candidate,
-                               const PosedLink& posed, QueryCounters& counters);
+[[nodiscard]] MovingPair pairOf(const LinkQuery& query, const Candidate& candidate,
+                                const PosedLink& posed, QueryCounters& counters);
 
 /// Up to which t, from `t` on, `pair` (the candidate's pair at `t`) proves the two apart; at most
 /// 1, and `t` itself if it proves nothing.
 [[nodiscard]] double provenFrom(const LinkQuery& query, const Candidate& candidate,
-                                const PairState& pair, double t, QueryCounters& counters);
+                                const MovingPair& pair, double t, QueryCounters& counters);
 
 /// How far to look for pairs as near as a contact: its separation, and thousands of roundings of
 /// the coordinates.
@@ -135,7 +136,7 @@ class StateCache {
 
 /// The report of a pair that is in contact at `t`.
 [[nodiscard]] LinkContact contactOf(const LinkQuery& query, const Candidate& candidate,
-                                    const PairState& pair, double t);
+                                    const MovingPair& pair, double t);
 
 /// The order of contacts with equal toi, as query.h states it.
 [[nodiscard]] bool comesFirst(const LinkContact& x, const LinkContact& y);

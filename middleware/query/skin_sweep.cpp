@@ -8,9 +8,9 @@
 namespace foretouch::internal {
 namespace {
 
-Aabb boxOf(const MovingTriangle& moving) {
+Aabb boxOf(const MovingHull& moving) {
   Aabb box;
-  for (const Eigen::Vector3d& v : moving.triangle.vertices) box.add(v);
+  for (const Eigen::Vector3d& v : moving.hull.points) box.add(v);
   return box;
 }
 
@@ -33,7 +33,7 @@ void sweepSkin(const LinkParts& parts, const std::vector<std::vector<LinkState>>
     // Pieces are equal up to a rounding of their boundaries, which the inflation covers.
     const double sagitta = 1.0 / (8.0 * static_cast<double>(count) * static_cast<double>(count));
     for (std::int32_t i = 0; i < numTriangles; ++i) {
-      const MovingTriangle moving = parts.movingTriangle(i, posed);
+      const MovingHull moving = parts.hullOf(0, Part::of(HierarchyChild::triangle(i)), posed);
       const Aabb corners = boxOf(moving);
       const double rounding = largest(moving.positionRounding) + margin;
       if (k == 0) {

@@ -56,7 +56,7 @@ class StartSearch {
       Candidate candidate = heap_.back();
       heap_.pop_back();
       if (candidate.pieces != 0) {
-        const PairState pair = look(candidate);
+        const MovingPair pair = look(candidate);
         if (pair.gapUpper > query_.tolerance) continue;
         candidate.nearest = pair.estimate();
         candidate.pieces = 0;
@@ -71,7 +71,7 @@ class StartSearch {
   }
 
  private:
-  PairState look(const Candidate& candidate) {
+  MovingPair look(const Candidate& candidate) {
     return pairOf(query_, candidate, states_.at(0.0), counters_);
   }
 
@@ -133,7 +133,7 @@ class StartSearch {
       const bool isSurface = query_.isSurface(candidate.lss, candidate.part);
       if (isSurface || !candidate.part.isWhole()) {
         if (leastGap(query_, candidate, states_.at(0.0)) > query_.tolerance) continue;
-        const PairState pair = look(candidate);
+        const MovingPair pair = look(candidate);
         if (pair.gapUpper > query_.tolerance) continue;
         if (isSurface) take(contactOf(query_, candidate, pair, 0.0), touching);
       }
@@ -153,7 +153,7 @@ class StartSearch {
     for (const std::int32_t triangle : left) {
       Candidate candidate = whole;
       candidate.part = Part::of(HierarchyChild::triangle(triangle));
-      const PairState pair = look(candidate);
+      const MovingPair pair = look(candidate);
       if (pair.gapUpper > query_.tolerance) continue;
       take(contactOf(query_, candidate, pair, 0.0), touching);
       if (touching) return;

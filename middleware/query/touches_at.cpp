@@ -48,7 +48,8 @@ bool skinTouches(const internal::LinkParts& parts, double t, const Scene& scene,
   internal::PosedLink posed;
   parts.motion.statesAt(t, posed.all);
   for (std::int32_t i = 0; i < parts.skin->numTriangles(parts.link); ++i) {
-    const Triangle moved = parts.movingTriangle(i, posed).triangle;
+    const Triangle moved =
+        parts.hullOf(0, internal::Part::of(HierarchyChild::triangle(i)), posed).hull.triangle();
     found.clear();
     std::uint64_t visited = 0;
     scene.parts().bvh.collect(internal::boxOf(moved), found, visited);

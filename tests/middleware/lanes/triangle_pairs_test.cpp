@@ -10,10 +10,10 @@
 #include <gtest/gtest.h>
 
 #include "judge/plain_motion.h"
+#include "lss/safe_step.h"
+#include "lss/separation.h"
 #include "lss/simd.h"
 #include "lss/single.h"
-#include "lss/triangle_separation.h"
-#include "middleware/query/link_pair.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::internal {
@@ -211,7 +211,7 @@ TEST(TrianglePairLanes, StayTightWhereEdgesAreTenMicrometresApart) {
   }
   for (const std::vector<LaneAnswer>& answers : answersOfEveryWidth(pairs)) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const double above = triangleSeparation({pairs[i].link}, {pairs[i].scene}).upper;
+      const double above = separation({pairs[i].link, 3}, {pairs[i].scene, 3}).upper;
       EXPECT_GE(answers[i].lower, above - 4.0 * provedSlack(pairs[i])) << i;
     }
   }
@@ -254,7 +254,7 @@ LanePair randomMotion(Random& random) {
 }
 
 TrueMotion truthWithin(const LanePair& pair, Random& random) {
-  const TriangleSeparation now = triangleSeparation({pair.link}, {pair.scene});
+  const Separation now = separation({pair.link, 3}, {pair.scene, 3});
   const Vector3d across = -now.nhat;
   const double linkShare = random.uniform(0.0, 1.0);
   const Vector3d linkOff = linkShare * pair.positionPad * unknown(random, across);
@@ -270,9 +270,9 @@ TrueMotion truthWithin(const LanePair& pair, Random& random) {
   return truth;
 }
 
-/// What triangleSeparation() and stepFrom() prove of the same pair, in doubles.
+/// What movingPair() proves of the same pair, in doubles.
 double stepInDoubles(const LanePair& pair) {
-  const TriangleSeparation now = triangleSeparation({pair.link}, {pair.scene});
+  const Separation now = separation({pair.link, 3}, {pair.scene, 3});
   double step = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3; ++i) {
     const double clearance = now.clearance[i] - pair.positionPad - pair.floor;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "judge/plain_motion.h"
+#include "lss/safe_step.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::internal {

@@ -40,7 +40,9 @@ StepContacts answer(const test::RandomBody& body, const Scene& scene, double tol
 double separationAt(const test::RandomBody& body, const Scene& scene, const LinkContact& contact) {
   const Lss& lss = body.avatar.lss(contact.link)[static_cast<std::size_t>(contact.lss)];
   const AxisEnds ends = axisEnds(lss, body.motion().stateAt(contact.link, contact.toi));
-  return separation(ends.a, ends.b, scene.triangle(contact.triangle)).upper - lss.radius;
+  return separation(Hull::segment(ends.a, ends.b), Hull::of(scene.triangle(contact.triangle)))
+             .upper -
+         lss.radius;
 }
 
 struct Tally {

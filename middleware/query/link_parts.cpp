@@ -1,0 +1,89 @@
+#include "middleware/query/link_parts.h"
+
+#include "lss/assert.h"
+#include "lss/index.h"
+#include "lss/rounding.h"
+
+namespace foretouch::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Adds one link's share of a skinned vertex. Sums of a handful of terms: twice the rounding of a
+/// point for each covers the products and the sum.
+void addInfluence(const SkinInfluence& influence, const LinkState& state,
+                  const MotionBounds& bounds, std::size_t corner, MovingHull& moving) {
+  const double w = influence.weight, rho = influence.p_L.norm() * kInflation;
+  moving.hull.points[corner] += w * state.pointAt(influence.p_L);
+  moving.velocity[corner] += w * state.velocityAt(influence.p_L);
+  moving.acceleration[corner] += w * bounds.accelerationAt(rho) * kInflation;
+  moving.positionRounding[corner] += 2.0 * w * bounds.positionRoundingAt(rho) * kInflation;
+  moving.velocityRounding[corner] += 2.0 * w * bounds.velocityRoundingAt(rho) * kInflation;
+}
+
+MovingHull skinTriangle(const LinkParts& parts, std::int32_t index, const PosedLink& posed) {
+  MovingHull moving;
+  moving.moves = true;
+  moving.hull.count = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    moving.hull.points[i].setZero();
+    moving.velocity[i].setZero();
+    const std::int32_t vertex = parts.skin->triangle(parts.link, index)[i];
+    for (const SkinInfluence& influence : parts.skin->skin.vertices[slotOf(vertex)]) {
+      addInfluence(influence, posed.all[slotOf(influence.link)],
+                   parts.motion.bounds(influence.link), i, moving);
+    }
+  }
+  return moving;
+}
+
+MovingHull meshTriangle(const LinkParts& parts, std::int32_t index, const LinkState& state) {
+  const MotionBounds& bounds = parts.motion.bounds(parts.link);
+  MovingHull moving;
+  moving.moves = true;
+  moving.hull.count = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3d& p_L = parts.surface->triangle(index).vertices[i];
+    const double rho = p_L.norm() * kInflation;
+    moving.hull.points[i] = state.pointAt(p_L);
+    moving.velocity[i] = state.velocityAt(p_L);
+    moving.acceleration[i] = bounds.accelerationAt(rho) * kInflation;
+    moving.positionRounding[i] = bounds.positionRoundingAt(rho) * kInflation;
+    moving.velocityRounding[i] = bounds.velocityRoundingAt(rho) * kInflation;
+  }
+  return moving;
+}
+
+}  // namespace
+
+const Lss& LinkParts::lssOf(std::int32_t lssIndex, Part part) const {
+  FORETOUCH_ASSERT(!part.isTriangle());
+  const auto index = slotOf(lssIndex);
+  return part.isWhole() ? lss[index] : surface->hierarchy(lssIndex).node(part.index()).lss;
+}
+
+MovingHull LinkParts::hullOf(std::int32_t lssIndex, Part part, const PosedLink& posed) const {
+  if (part.isTriangle()) {
+    return skin != nullptr ? skinTriangle(*this, part.index(), posed)
+                           : meshTriangle(*this, part.index(), posed.state);
+  }
+  const Lss& bound = lssOf(lssIndex, part);
+  return MovingHull::of(bound,
+                        part.isWhole() ? axisBounds[slotOf(lssIndex)]
+                                       : foretouch::axisBounds(bound, motion.bounds(link)),
+                        posed.state);
+}
+
+Aabb LinkParts::boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const {
+  Aabb box;
+  if (part.isTriangle()) {
+    for (const Vector3d& v : hullOf(lssIndex, part, posed).hull.points) box.add(v);
+    return box;
+  }
+  const AxisEnds ends = axisEnds(lssOf(lssIndex, part), posed.state);
+  box.add(ends.a);
+  box.add(ends.b);
+  return box;
+}
+
+}  // namespace foretouch::internal
