@@ -51,9 +51,10 @@ Result<std::vector<StepContacts>> touchesOf(const Avatar& avatar,
                                             const std::vector<StepPoses>& steps, const Scene& scene,
                                             QueryOptions query, StepMemory& memory) {
   query.tolerance = kTouchTolerance;
-  query.backtracking = Backtracking::Scalar;
+  ReferenceOptions reference;
+  reference.backtracking = Backtracking::Scalar;
   std::vector<StepContacts> touches;
-  FORETOUCH_TRY(const auto asked, Query::build(avatar, scene, query));
+  FORETOUCH_TRY(const auto asked, buildReference(avatar, scene, query, reference));
   for (const StepPoses& poses : steps) {
     answerStep(asked, poses, memory);
     touches.push_back(memory.contacts);
@@ -151,7 +152,8 @@ Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request) {
   std::vector<Limit> limits = limitsOf(request, query.value());
   std::vector<Query> queries;
   for (const Limit& limit : limits) {
-    FORETOUCH_TRY(auto limited, Query::build(avatar, scene, limit.query));
+    FORETOUCH_TRY(auto limited,
+                  buildReference(avatar, scene, limit.query, request.options.reference));
     queries.push_back(std::move(limited));
   }
   const auto numSteps = static_cast<std::int64_t>(steps.value().size());
@@ -177,7 +179,7 @@ Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request) {
   report.command = request.options.command;
   report.date = dateNow();
   report.machine = machineFacts();
-  report.workload = workloadFacts(inputs, scene, avatar, query.value());
+  report.workload = workloadFacts(inputs, scene, avatar, query.value(), request.options.reference);
   report.workload.emplace_back("steps", describe(workload));
   report.workload.emplace_back("tolerance", fmt::format("{:g} m", request.tolerance));
   BenchTable table = deadlineTable();

@@ -192,6 +192,7 @@ std::vector<BenchCase> casesOf(const LatencyRequest& request, const QueryOptions
     BenchCase way;
     way.name = fmt::format("{:g} m {}", tolerance, toString(simd));
     way.query = query;
+    way.reference = request.options.reference;
     way.query.tolerance = tolerance;
     way.simd = simd;
     way.cold = cases.empty() && request.options.timing.coldMb > 0;
@@ -226,7 +227,7 @@ BenchReport startedReport(const LatencyRequest& request, const BenchInputs& inpu
   report.command = request.options.command;
   report.date = dateNow();
   report.machine = machineFacts();
-  report.workload = workloadFacts(inputs, scene, avatar, query);
+  report.workload = workloadFacts(inputs, scene, avatar, query, request.options.reference);
   report.tables = {latencyTable(), ratiosTable(), countersTable()};
   return report;
 }

@@ -1,6 +1,7 @@
 #include "bench/options.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <utility>
 
@@ -29,6 +30,18 @@ Result<std::vector<Value>> parseEach(const std::string& text, const Parse& parse
     values.push_back(value);
   }
   return values;
+}
+
+/// One of two words, as toString() has them.
+template <typename Value>
+Result<Value> parseWord(const std::string& option, const std::string& text,
+                        const std::array<Value, 2>& values) {
+  for (const Value value : values) {
+    if (text == toString(value)) return value;
+  }
+  return Error::in(option, ErrorCode::UnknownName,
+                   std::string("expected ") + toString(values[0]) + " or " + toString(values[1]) +
+                       ", found " + inQuotes(text));
 }
 
 std::string nameOf(const std::string& path) {
@@ -140,6 +153,9 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts) {
          "What touches: ellipsoid, avatar, limb, link or exact");
   option("--descent", texts.descent, "straight|by-need",
          "Whether a query first checks if anything is within the avatar's reach");
+  option("--leaves", texts.leaves, "advancement|cubics",
+         "How exact fidelity tests pairs of triangles; both keep the promise");
+  option("--culler", texts.culler, "flat|point-query", "How to cull; both give the same answers");
   option("--surface-triangles", texts.surfaceTriangles, "N",
          "Of an avatar without meshes, at exact fidelity: the skins of its LSS");
   option("--json", texts.json, "FILE", "Also write the figures to a file");
@@ -153,7 +169,13 @@ Result<BenchOptions> settled(const BenchTexts& texts) {
   settleWorkload(texts, settle, options.workload);
   settle.into(options.timing.repeats, parseCount("--repeat", texts.repeat, kMaxBenchRepeats));
   settle.into(options.fidelity, parseFidelity("--fidelity", texts.fidelity));
-  settle.into(options.descent, parseDescent("--descent", texts.descent));
+  settle.into(options.reference.descent,
+              parseWord<Descent>("--descent", texts.descent, {Descent::Straight, Descent::ByNeed}));
+  settle.into(options.reference.leafMethod,
+              parseWord<LeafMethod>("--leaves", texts.leaves,
+                                    {LeafMethod::Advancement, LeafMethod::Cubics}));
+  settle.into(options.reference.culler,
+              parseWord<Culler>("--culler", texts.culler, {Culler::FlatBvh, Culler::PointQuery}));
   int surfaceTriangles = 0;
   settle.into(surfaceTriangles,
               parseCount("--surface-triangles", texts.surfaceTriangles, kMaxBenchTriangles));
@@ -184,7 +206,6 @@ Result<QueryOptions> queryFor(const BenchInputs& inputs, const BenchBody& body,
                               const BenchOptions& options) {
   QueryOptions query;
   query.fidelity = options.fidelity;
-  query.descent = options.descent;
   if (query.fidelity != Fidelity::Exact) return query;
   std::vector<std::vector<Triangle>> triangles;
   if (body.avatar.numLinks() == inputs.avatar.numLinks() && hasMeshes(inputs.avatar)) {
@@ -212,7 +233,8 @@ Result<BenchBody> bodyOf(const BenchInputs& inputs, int links) {
 }
 
 std::vector<BenchFact> workloadFacts(const BenchInputs& inputs, const Scene& scene,
-                                     const Avatar& avatar, const QueryOptions& query) {
+                                     const Avatar& avatar, const QueryOptions& query,
+                                     const ReferenceOptions& reference) {
   const std::string madeOf =
       inputs.files.avatarPath.empty() ? "made of the clip" : nameOf(inputs.files.avatarPath);
   std::vector<BenchFact> facts = {
@@ -223,7 +245,9 @@ std::vector<BenchFact> workloadFacts(const BenchInputs& inputs, const Scene& sce
       {"clip", fmt::format("{}, {} frames at {:.4g} Hz", nameOf(inputs.files.motionPath),
                            inputs.clip.frames.size(), 1.0 / inputs.clip.frameTimeS)},
       {"fidelity", toString(query.fidelity)}};
-  if (query.descent == Descent::ByNeed) facts.back().second += ", descent by need";
+  if (reference.descent == Descent::ByNeed) facts.back().second += ", descent by need";
+  if (reference.leafMethod == LeafMethod::Cubics) facts.back().second += ", by cubics";
+  if (reference.culler == Culler::PointQuery) facts.back().second += ", culled by point queries";
   if (query.surface) {
     facts.back().second +=
         fmt::format(", {} triangles on the links", query.surface->numTriangles());

@@ -11,6 +11,7 @@
 #include "bench/workload.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 
 namespace CLI {
 class App;
@@ -24,7 +25,8 @@ struct BenchTexts {
   std::string sceneScale = "1", scale = "1", up = "y", motionUp = "y", floor = "0", lift = "0.05";
   std::string steps = "500", seed = "1", places = "1000", repeat = "9", processor = "any",
               choice = "busy";
-  std::string fidelity = "link", descent = "straight", surfaceTriangles = "20000";
+  std::string fidelity = "link", descent = "straight", leaves = "advancement", culler = "flat",
+              surfaceTriangles = "20000";
 };
 
 /// The same, checked.
@@ -33,7 +35,7 @@ struct BenchOptions {
   WorkloadRequest workload;
   TimingOptions timing;
   Fidelity fidelity = Fidelity::Link;
-  Descent descent = Descent::Straight;
+  ReferenceOptions reference;
   std::size_t surfaceTriangles = 20'000;
   std::optional<int> processor;
   std::string jsonPath, csvPath;
@@ -71,8 +73,9 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts);
 /// The inputs' avatar with `links` links; 0: its own.
 [[nodiscard]] Result<BenchBody> bodyOf(const BenchInputs& inputs, int links);
 
-/// Scene, avatar, clip and surface, in words.
+/// Scene, avatar, clip, surface and what of `reference` is not the product's, in words.
 [[nodiscard]] std::vector<BenchFact> workloadFacts(const BenchInputs& inputs, const Scene& scene,
-                                                   const Avatar& avatar, const QueryOptions& query);
+                                                   const Avatar& avatar, const QueryOptions& query,
+                                                   const ReferenceOptions& reference = {});
 
 }  // namespace foretouch::tools

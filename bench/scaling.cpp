@@ -180,6 +180,7 @@ Result<double> ScalingBench::row(const Point& point, double baseMeanUs) {
   FORETOUCH_CHECK(prepare(point));
   BenchCase way;
   way.query = query_;
+  way.reference = request_.options.reference;
   way.query.tolerance = point.tolerance;
   way.simd = supportedSimd().back();
   FORETOUCH_TRY(const auto timing,
@@ -261,7 +262,8 @@ Result<MeasuredBench> ScalingBench::run() {
   report.date = dateNow();
   report.machine = machineFacts();
   FORETOUCH_CHECK(prepare(basePoint("base")));
-  report.workload = workloadFacts(inputs_, scene_, body_->avatar, query_);
+  report.workload =
+      workloadFacts(inputs_, scene_, body_->avatar, query_, request_.options.reference);
   report.workload.emplace_back(fmt::format("at {:g} Hz", request_.rateHz), describe(*workload_));
   report.notes = {
       fmt::format("The first row of each axis is the base, measured anew: {:g} triangles, {:g} "

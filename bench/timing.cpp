@@ -172,7 +172,7 @@ Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& ste
   FORETOUCH_ASSERT(!steps.empty() && options.repeats >= 1);
   std::vector<AskedCase> asked;
   for (const BenchCase& way : cases) {
-    FORETOUCH_TRY(auto query, Query::build(avatar, scene, way.query));
+    FORETOUCH_TRY(auto query, buildReference(avatar, scene, way.query, way.reference));
     asked.push_back({std::move(query), way.simd});
   }
   StepClock clock(scene);

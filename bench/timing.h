@@ -11,6 +11,7 @@
 #include "bench/workload.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch::tools {
@@ -27,6 +28,7 @@ struct Percentiles {
 struct BenchCase {
   std::string name;
   QueryOptions query;
+  ReferenceOptions reference;
   Simd simd = Simd::Scalar;
   bool cold = false;  ///< Also run with empty caches.
 };
@@ -67,7 +69,7 @@ struct StepMemory {
 void answerStep(const Query& query, const StepPoses& poses, StepMemory& memory);
 
 /// Alternates all cases and the ray set at each step, so that drift of the machine affects all
-/// alike. One thread. Errors: as Query::build().
+/// alike. One thread. Errors: as buildReference().
 [[nodiscard]] Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& steps,
                                        const Scene& scene, const std::vector<BenchCase>& cases,
                                        const TimingOptions& options);

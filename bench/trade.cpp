@@ -50,9 +50,9 @@ std::vector<TradeContender> contendersFor(const TradeWorld& world,
     add(certificates(world, tolerance));
     QueryOptions options;
     options.tolerance = tolerance;
-    options.backtracking = Backtracking::Scalar;
-    add(foretouchQuery(world, options, "Foretouch, scalar"));
-    options.backtracking = Backtracking::Lanes;
+    ReferenceOptions scalar;
+    scalar.backtracking = Backtracking::Scalar;
+    add(foretouchQuery(world, options, "Foretouch, scalar", scalar));
     add(foretouchQuery(world, options, "Foretouch"));
     for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid}) {
       options.fidelity = rung;

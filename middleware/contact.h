@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "articulated/skeleton.h"
-#include "middleware/exact/leaf.h"
+#include "middleware/exact/feature.h"
 #include "middleware/query_counters.h"
 #include "middleware/scene/triangle_id.h"
 

@@ -14,23 +14,6 @@
 
 namespace foretouch {
 
-/// Both give the same answer, byte for byte; PointQuery is the slower reference.
-enum class Culler : std::uint8_t {
-  FlatBvh,     ///< Embree's builder (rtcBuildBVH), flattened; our traversal.
-  PointQuery,  ///< An RTCScene and rtcPointQuery.
-};
-
-/// How the query finds first contacts. Both keep the promise; they may report contact at different
-/// instants within it.
-enum class Backtracking : std::uint8_t {
-  Lanes,   ///< Many pairs at once in the processor's vectors (lss/simd.h), in doubles where lanes
-           ///< cannot decide. Skins always take the scalar way.
-  Scalar,  ///< Pair by pair in doubles: the slower reference.
-};
-
-/// "lanes", "scalar".
-[[nodiscard]] const char* toString(Backtracking backtracking);
-
 /// Which contacts of a step the query reports.
 enum class Scope : std::uint8_t {
   EveryLink,      ///< Every link's own first contact.
@@ -51,26 +34,6 @@ struct IgnoredPair {
   static constexpr ObjectId kEveryObject = -1;
 };
 
-/// How a query follows a pair of triangles through time. Both keep the promise; they may report
-/// contact at different instants within it.
-enum class LeafMethod : std::uint8_t {
-  Advancement,  ///< Conservative advancement, as for LSS. The faster one.
-  Cubics,       ///< Pieces of the motion as nlerp bodies, by their contact functions ([Canny86]).
-};
-
-/// "advancement", "cubics".
-[[nodiscard]] const char* toString(LeafMethod method);
-
-/// Whether a query at link or exact fidelity first tests whether anything is within reach of the
-/// whole avatar, however it moves, and stops if nothing is. The same answers.
-enum class Descent : std::uint8_t {
-  Straight,
-  ByNeed,
-};
-
-/// "straight", "by-need".
-[[nodiscard]] const char* toString(Descent descent);
-
 /// A query refuses a tolerance below this (m). Above it, the coordinates decide (UndecidedReason).
 inline constexpr double kMinTolerance = 1e-9;
 /// It also refuses one above this (m): boxes grown by more need not fit into floats.
@@ -85,17 +48,15 @@ struct LinkPolicy {
   Fidelity fidelity = Fidelity::Link;    ///< Link or Exact.
 };
 
+/// Query::build() refuses by name what its fidelity cannot honour.
 struct QueryOptions {
   double tolerance = kDefaultTolerance;  ///< eps in metres; kMinTolerance to kMaxTolerance.
-  Culler culler = Culler::FlatBvh;
   Fidelity fidelity = Fidelity::Link;
-  /// Of the same avatar. Fidelity::Exact needs it, for all links or for one.
+  /// Of the same avatar. Fidelity::Exact needs it, for all links or for one. Where nobody needs it,
+  /// it is not looked at; nor is the skin.
   std::optional<AvatarSurface> surface;
   std::optional<SkinnedSurface> skin;  ///< Of the same avatar. Fidelity::Skinned needs it.
-  LeafMethod leafMethod = LeafMethod::Advancement;
-  Backtracking backtracking = Backtracking::Lanes;
   Scope scope = Scope::EveryLink;
-  Descent descent = Descent::Straight;
   std::vector<IgnoredPair> ignored;
   /// One per link, in order. They replace `tolerance` and `fidelity`; `fidelity` must still be Link
   /// or Exact. Empty: all links alike. If all policies are equal, the answer is that without

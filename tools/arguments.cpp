@@ -89,28 +89,10 @@ Result<UpAxis> parseUpAxis(const std::string& option, const std::string& text) {
   return refusal(option, "y or z", text);
 }
 
-Result<Culler> parseCuller(const std::string& option, const std::string& text) {
-  if (text == "flat") return Culler::FlatBvh;
-  if (text == "point-query") return Culler::PointQuery;
-  return refusal(option, "flat or point-query", text);
-}
-
-Result<LeafMethod> parseLeafMethod(const std::string& option, const std::string& text) {
-  if (text == "advancement") return LeafMethod::Advancement;
-  if (text == "cubics") return LeafMethod::Cubics;
-  return refusal(option, "advancement or cubics", text);
-}
-
 Result<Scope> parseScope(const std::string& option, const std::string& text) {
   if (text == "links") return Scope::EveryLink;
   if (text == "avatar") return Scope::FirstOfAvatar;
   return refusal(option, "links or avatar", text);
-}
-
-Result<Descent> parseDescent(const std::string& option, const std::string& text) {
-  if (text == "straight") return Descent::Straight;
-  if (text == "by-need") return Descent::ByNeed;
-  return refusal(option, "straight or by-need", text);
 }
 
 Result<Fidelity> parseFidelity(const std::string& option, const std::string& text) {

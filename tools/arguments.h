@@ -39,12 +39,7 @@ inline constexpr int kMaxThreads = 256;
 [[nodiscard]] Result<Placement> parsePlacement(const std::string& option, const std::string& text);
 /// "y" or "z".
 [[nodiscard]] Result<UpAxis> parseUpAxis(const std::string& option, const std::string& text);
-/// "flat" or "point-query".
-[[nodiscard]] Result<Culler> parseCuller(const std::string& option, const std::string& text);
-[[nodiscard]] Result<LeafMethod> parseLeafMethod(const std::string& option,
-                                                 const std::string& text);
 [[nodiscard]] Result<Scope> parseScope(const std::string& option, const std::string& text);
-[[nodiscard]] Result<Descent> parseDescent(const std::string& option, const std::string& text);
 [[nodiscard]] Result<Fidelity> parseFidelity(const std::string& option, const std::string& text);
 
 /// Refuses an output file that is one of the inputs. Skips empty paths.

@@ -94,7 +94,7 @@ class Asker {
   void run() {
     for (const Simd simd : supportedSimd()) {
       useSimd(simd);
-      options_.backtracking = Backtracking::Lanes;
+      reference_.backtracking = Backtracking::Lanes;
       everyFidelity(fmt::format("lanes {}", toString(simd)));
     }
     useSimd(std::nullopt);
@@ -102,7 +102,7 @@ class Asker {
     one("lanes, first of avatar", Fidelity::Link);
     options_.scope = Scope::EveryLink;
     cubics("lanes, cubics");
-    options_.backtracking = Backtracking::Scalar;
+    reference_.backtracking = Backtracking::Scalar;
     everyFidelity("scalar");
     cubics("scalar, cubics");
   }
@@ -110,19 +110,19 @@ class Asker {
  private:
   void everyFidelity(const std::string& way) {
     for (const Culler culler : {Culler::FlatBvh, Culler::PointQuery}) {
-      options_.culler = culler;
+      reference_.culler = culler;
       const std::string both = way + (culler == Culler::FlatBvh ? ", flat" : ", point-query");
       one(both, Fidelity::Link);
       if (prepared_.surface) one(both, Fidelity::Exact);
     }
-    options_.culler = Culler::FlatBvh;
+    reference_.culler = Culler::FlatBvh;
   }
 
   void cubics(const std::string& way) {
     if (!prepared_.surface) return;
-    options_.leafMethod = LeafMethod::Cubics;
+    reference_.leafMethod = LeafMethod::Cubics;
     one(way, Fidelity::Exact);
-    options_.leafMethod = LeafMethod::Advancement;
+    reference_.leafMethod = LeafMethod::Advancement;
   }
 
   void one(const std::string& way, Fidelity fidelity) {
@@ -134,7 +134,7 @@ class Asker {
     answer.fidelity = fidelity;
     answer.isFlushed = isFlushed_;
     answer.scope = options_.scope;
-    const auto query = Query::build(prepared_.avatar, prepared_.scene, options_);
+    const auto query = buildReference(prepared_.avatar, prepared_.scene, options_, reference_);
     if (!query.ok()) {
       asked_.refusal = query.error();
       return;
@@ -148,6 +148,7 @@ class Asker {
   bool isFlushed_;
   Asked& asked_;
   QueryOptions options_;
+  ReferenceOptions reference_;
   QueryScratch scratch_;
 };
 

@@ -268,9 +268,10 @@ std::unique_ptr<Strategy> voxelSweep(const TradeWorld& world) {
   return std::make_unique<VoxelSweep>(world);
 }
 std::unique_ptr<Strategy> foretouchQuery(const TradeWorld& world, const QueryOptions& options,
-                                         const std::string& name) {
-  return std::make_unique<ForetouchQuery>(Query::build(world.avatar, world.scene, options).value(),
-                                          name);
+                                         const std::string& name,
+                                         const ReferenceOptions& reference) {
+  return std::make_unique<ForetouchQuery>(
+      buildReference(world.avatar, world.scene, options, reference).value(), name);
 }
 
 }  // namespace foretouch::tools

@@ -14,6 +14,7 @@
 #include "bench/trade/voxels.h"
 #include "judge/scene.h"
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 
 namespace foretouch::tools {
 
@@ -47,9 +48,11 @@ struct TradeWorld {
 /// Sweeps the link through a grid of occupied cells, at samples so fine that it moves by at most
 /// half a cell between instants, with everything grown by the possible error.
 [[nodiscard]] std::unique_ptr<Strategy> voxelSweep(const TradeWorld& world);
-/// Ours, with `options`, which determine its promise; the name is given.
+/// Ours, with `options`, which determine its promise; the name is given. Precondition: options that
+/// buildReference() takes.
 [[nodiscard]] std::unique_ptr<Strategy> foretouchQuery(const TradeWorld& world,
                                                        const QueryOptions& options,
-                                                       const std::string& name);
+                                                       const std::string& name,
+                                                       const ReferenceOptions& reference = {});
 
 }  // namespace foretouch::tools

@@ -60,7 +60,7 @@ Avatar withRadiiChanged(const Avatar& avatar, double by) {
 TruthTeller::TruthTeller(const TradeWorld& world, const std::optional<AvatarSurface>& surface)
     : world_(world), thinner_(withRadiiChanged(world.avatar, -kThinner)) {
   options_.tolerance = kTruthTolerance;
-  options_.backtracking = Backtracking::Scalar;
+  reference_.backtracking = Backtracking::Scalar;
   if (!surface) return;
   options_.fidelity = Fidelity::Exact;
   options_.surface = surface;
@@ -68,7 +68,7 @@ TruthTeller::TruthTeller(const TradeWorld& world, const std::optional<AvatarSurf
 
 Result<StepContacts> TruthTeller::ask(const Avatar& avatar, const StepPoses& step) {
   const ChainMotion motion(avatar.skeleton(), step.from, step.to);
-  return firstContacts(avatar, motion, world_.scene, options_);
+  return firstContacts(avatar, motion, world_.scene, options_, reference_);
 }
 
 Result<std::vector<LinkTruth>> TruthTeller::truthOf(const StepPoses& step) {
@@ -102,7 +102,8 @@ Result<std::vector<bool>> TruthTeller::comesWithin(const StepPoses& step, double
   options.fidelity = Fidelity::Link;  // a surface lies within its LSS
   options.surface.reset();
   const ChainMotion motion(thicker_->skeleton(), step.from, step.to);
-  FORETOUCH_TRY(const auto contacts, firstContacts(*thicker_, motion, world_.scene, options));
+  FORETOUCH_TRY(const auto contacts,
+                firstContacts(*thicker_, motion, world_.scene, options, reference_));
   std::vector<bool> within;
   for (const LinkContact& contact : contacts.links) {
     within.push_back(contact.verdict != Verdict::Clear);

@@ -58,6 +58,7 @@ class TruthTeller {
   double thickerBy_ = 0.0;
   std::optional<Avatar> thicker_;
   QueryOptions options_;
+  ReferenceOptions reference_;
 };
 
 /// The judge's results for a sample of links.

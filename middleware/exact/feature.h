@@ -1,12 +1,15 @@
 // middleware/exact/feature.h: which feature of a triangle a witness point lies on.
 #pragma once
 
+#include <cstdint>
+
 #include <Eigen/Core>
 
 #include "lss/triangle.h"
-#include "middleware/exact/leaf.h"
 
 namespace foretouch {
+
+enum class FeatureKind : std::uint8_t { Vertex, Edge, Face };
 
 /// The vertex, else the edge, within 1e-9 of the triangle's size of `point`; else the face. Metres.
 [[nodiscard]] FeatureKind featureAt(const Triangle& triangle, const Eigen::Vector3d& point);

@@ -118,7 +118,7 @@ class LaneBacktracker {
         enter(pair);
         continue;
       }
-      if (pair.isWhole || (pair.part.isTriangle() && query_.leafMethod == LeafMethod::Cubics)) {
+      if (pair.isWhole || (pair.part.isTriangle() && query_.leafProver != nullptr)) {
         look(pair);
         continue;
       }

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 #include "lss/assert.h"
 #include "lss/index.h"
@@ -282,59 +281,16 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
     if (lanes_.isAsked[slotOf(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
   }
   lanes_.hits.clear();
-  if (plan_.options.culler == Culler::FlatBvh) {
-    BoxLanes boxes;
-    boxes.count = lanes_.boxes.count;
-    for (int axis = 0; axis < 3; ++axis) {
-      boxes.lower[axis] = lanes_.boxes.lower[axis];
-      boxes.upper[axis] = lanes_.boxes.upper[axis];
-    }
-    bvh_.collectWholeLeaves(boxes, lanes_.hits, counters.nodes, counters.leaves);
-  } else {
-    collectByCuller(counters);
+  BoxLanes boxes;
+  boxes.count = lanes_.boxes.count;
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes.lower[axis] = lanes_.boxes.lower[axis];
+    boxes.upper[axis] = lanes_.boxes.upper[axis];
   }
+  plan_.culler->collectLeaves(boxes, lanes_.hits, counters.nodes, counters.leaves);
   if (lanes_.hits.empty()) return false;
   sortHits();
   return true;
-}
-
-/// The reference culler's triangles, as hits of the tree's leaves.
-void LaneQuery::collectByCuller(QueryCounters& counters) {
-  const Eigen::Vector3d& origin = scene_.parts().origin;
-  for (std::int32_t lss = 0; lss < lanes_.boxes.count; ++lss) {
-    Aabb box;
-    for (int axis = 0; axis < 3; ++axis) {
-      box.min[axis] = origin[axis] + static_cast<double>(lanes_.boxes.lower[axis][lss]);
-      box.max[axis] = origin[axis] + static_cast<double>(lanes_.boxes.upper[axis][lss]);
-    }
-    if (!(box.min.x() <= box.max.x())) continue;
-    box.grow(0.0);
-    scratch_.found.clear();
-    plan_.culler->collect(box, scratch_.found, counters.nodes);
-    for (const TriangleId id : scratch_.found) {
-      const FlatBvh::Slot slot = bvh_.slotOf(id);
-      lanes_.hits.push_back({slot.leaf, static_cast<std::uint16_t>(lss),
-                             static_cast<std::uint8_t>(1U << slot.place)});
-    }
-  }
-  mergeHits();
-}
-
-/// One hit per leaf and LSS.
-void LaneQuery::mergeHits() {
-  auto& hits = lanes_.hits;
-  std::sort(hits.begin(), hits.end(), [](const LeafHit& x, const LeafHit& y) {
-    return std::tie(x.box, x.leaf) < std::tie(y.box, y.leaf);
-  });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (kept > 0 && hits[kept - 1].box == hits[i].box && hits[kept - 1].leaf == hits[i].leaf) {
-      hits[kept - 1].triangles |= hits[i].triangles;
-    } else {
-      hits[kept++] = hits[i];
-    }
-  }
-  hits.resize(kept);
 }
 
 /// By LSS, otherwise in the order of the walk (counting sort).
@@ -403,7 +359,7 @@ LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, flo
                         Pieces{},
                         tolerance_,
                         meter_,
-                        plan_.options.leafMethod,
+                        plan_.leafProver.get(),
                         scratch_.evaluator,
                         *this};
   if (surface == nullptr) return backtrack(query, candidates, counters);

@@ -37,8 +37,6 @@ class LaneQuery final : private Neighbours {
   void leaveOut(LinkId link);
   /// Of all LSS in the current slab; false if there are none.
   [[nodiscard]] bool collectHits(QueryCounters& counters);
-  void collectByCuller(QueryCounters& counters);
-  void mergeHits();
   void sortHits();
   [[nodiscard]] bool answerSlab(StepContacts& step);
   void runInHalves(StepContacts& step, int slab, int slabs);

@@ -8,9 +8,8 @@
 
 #include "lss/index.h"
 #include "lss/rounding.h"
-#include "middleware/exact/chain_piece.h"
 #include "middleware/exact/feature.h"
-#include "middleware/exact/linear_query.h"
+#include "middleware/exact/triangles_meet.h"
 #include "middleware/scene/culler.h"
 
 namespace foretouch::internal {
@@ -83,16 +82,11 @@ MovingPair pairOf(const LinkQuery& query, const Candidate& candidate, const Pose
 
 double provenFrom(const LinkQuery& query, const Candidate& candidate, const MovingPair& pair,
                   double t, QueryCounters& counters) {
-  const double floor = kFloorShare * query.tolerance;
-  if (query.leafMethod == LeafMethod::Cubics && query.isExact() && candidate.part.isTriangle()) {
-    ++counters.cubicTests;
-    const double reached = freeUntilByCubics(query.evaluator, query.parts.link, t, 1.0,
-                                             query.parts.surface->triangle(candidate.part.index()),
-                                             query.scene.triangle(candidate.triangle), floor,
-                                             kFloorShare * query.tolerance, pair.axes.nhat);
+  if (query.leafProver != nullptr && query.isExact() && candidate.part.isTriangle()) {
+    const double reached = query.leafProver->freeUntil(query, candidate, pair, t, counters);
     if (reached > t) return reached;
   }
-  return timeAfter(t, pair.stepFrom(floor), 1.0);
+  return timeAfter(t, pair.stepFrom(kFloorShare * query.tolerance), 1.0);
 }
 
 double reachOf(const LinkContact& contact) {

@@ -10,8 +10,8 @@
 #include "articulated/motion.h"
 #include "middleware/contact.h"
 #include "middleware/query/link_parts.h"
+#include "middleware/query/provers.h"
 #include "middleware/query/work_meter.h"
-#include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
@@ -76,8 +76,8 @@ struct LinkQuery {
   Pieces pieces;
   double tolerance;
   const WorkMeter& meter;
-  LeafMethod leafMethod;
-  MotionEvaluator& evaluator;  // of parts.motion
+  const LeafProver* leafProver;  // or null: advancement alone
+  MotionEvaluator& evaluator;    // of parts.motion
   Neighbours& neighbours;
 
   [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }

@@ -8,7 +8,6 @@
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
 #include "middleware/query/query_plan.h"
-#include "middleware/query/reach.h"
 #include "middleware/query/rung_query.h"
 #include "middleware/query/scalar_query.h"
 #include "middleware/query/scratch_parts.h"
@@ -21,9 +20,7 @@ namespace {
 void linkQuery(const internal::QueryPlan& plan, const ChainMotion& motion,
                const internal::WorkMeter& meter, internal::ScratchParts& scratch,
                StepContacts& step) {
-  if (plan.options.descent == Descent::ByNeed && plan.options.fidelity != Fidelity::Skinned &&
-      internal::nothingInReach(plan.table, motion, plan.scene, plan.tolerances.largest,
-                               step.counters)) {
+  if (plan.stepProver != nullptr && plan.stepProver->isClear(motion, step.counters)) {
     for (LinkContact& contact : step.links) internal::answerClear(contact);
     return;
   }
@@ -64,7 +61,7 @@ void keepFirst(const internal::QueryPlan& plan, StepContacts& step) {
 
 Result<Query> Query::build(const Avatar& avatar, const Scene& scene, const QueryOptions& options) {
   FORETOUCH_TRY(auto plan, internal::QueryPlan::make(avatar, scene, options));
-  return Query(std::move(plan));
+  return Query(std::make_shared<const internal::QueryPlan>(std::move(plan)));
 }
 
 const Avatar& Query::avatar() const {

@@ -42,16 +42,17 @@ class Query {
   [[nodiscard]] StepContacts answer(const ChainMotion& motion, QueryScratch& scratch) const;
 
   /// What a discrete check sees: does the link's surface touch a triangle at this one instant? It
-  /// skips ignored pairs. The computed distance decides (no claim within rounding of zero).
+  /// skips ignored pairs; it needs no tolerance, no scope and no budget. The computed distance
+  /// decides (no claim within rounding of zero).
   /// Preconditions: as for answer(); a link of the avatar; t in [0, 1].
   [[nodiscard]] bool touchesAt(const ChainMotion& motion, LinkId link, double t,
                                QueryScratch& scratch) const;
 
   /// For the query's own sources.
+  explicit Query(std::shared_ptr<const internal::QueryPlan> plan) : plan_(std::move(plan)) {}
   [[nodiscard]] const internal::QueryPlan& plan() const { return *plan_; }
 
  private:
-  explicit Query(std::shared_ptr<const internal::QueryPlan> plan) : plan_(std::move(plan)) {}
   std::shared_ptr<const internal::QueryPlan> plan_;
 };
 

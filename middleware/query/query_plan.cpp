@@ -80,10 +80,10 @@ Result<Done> checked(const Avatar& avatar, const Scene& scene, const QueryOption
   return Done{};
 }
 
-Result<const TriangleCuller*> cullerOf(const Scene& scene, Culler which) {
-  if (which == Culler::FlatBvh) return static_cast<const TriangleCuller*>(&scene.parts().bvh);
-  FORETOUCH_TRY(const auto built, scene.parts().pointQueryCuller());
-  return static_cast<const TriangleCuller*>(built);
+/// Keeps the scene.
+std::shared_ptr<const TriangleCuller> cullerOf(const Scene& scene) {
+  const auto kept = std::make_shared<const Scene>(scene);
+  return {kept, &kept->parts().bvh};
 }
 
 LinkPlan planOf(const Avatar& avatar, const QueryOptions& options, LinkId link) {
@@ -102,26 +102,25 @@ LinkPlan planOf(const Avatar& avatar, const QueryOptions& options, LinkId link) 
 
 }  // namespace
 
-Result<std::shared_ptr<const QueryPlan>> QueryPlan::make(const Avatar& avatar, const Scene& scene,
-                                                         const QueryOptions& options) {
+Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
+                                  const QueryOptions& options) {
   FORETOUCH_CHECK(checked(avatar, scene, options));
-  FORETOUCH_TRY(const auto culler, cullerOf(scene, options.culler));
-  auto plan = std::make_shared<QueryPlan>(
-      QueryPlan{avatar, scene, options, culler, {}, LssTable(avatar), {}, {}, false});
-  plan->tolerances = {kMaxTolerance, kMinTolerance};
+  QueryPlan plan{avatar, scene, options,         {},      LssTable(avatar), {},
+                 {},     false, cullerOf(scene), nullptr, nullptr};
+  plan.tolerances = {kMaxTolerance, kMinTolerance};
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    plan->links.push_back(planOf(avatar, plan->options, link));
-    plan->tolerances.least = std::min(plan->tolerances.least, plan->links.back().tolerance);
-    plan->tolerances.largest = std::max(plan->tolerances.largest, plan->links.back().tolerance);
+    plan.links.push_back(planOf(avatar, plan.options, link));
+    plan.tolerances.least = std::min(plan.tolerances.least, plan.links.back().tolerance);
+    plan.tolerances.largest = std::max(plan.tolerances.largest, plan.links.back().tolerance);
   }
-  if (plan->tolerances.least != plan->tolerances.largest) {
-    for (const LinkPlan& link : plan->links) plan->margins.push_back(link.tolerance);
+  if (plan.tolerances.least != plan.tolerances.largest) {
+    for (const LinkPlan& link : plan.links) plan.margins.push_back(link.tolerance);
   }
-  // Not for skins, which change shape, nor beyond the number of boxes of a walk.
-  plan->inLanes = options.backtracking == Backtracking::Lanes &&
-                  options.fidelity != Fidelity::Skinned &&
-                  plan->table.size() <= BoxLanes::kMaxBoxes;
-  return std::shared_ptr<const QueryPlan>(std::move(plan));
+  // Not for skins, which change shape, nor beyond the number of boxes of a walk. Above the links
+  // there is one box per limb at most, hence never too many.
+  plan.inLanes = options.fidelity != Fidelity::Skinned &&
+                 (isRung(options.fidelity) || plan.table.size() <= BoxLanes::kMaxBoxes);
+  return plan;
 }
 
 }  // namespace foretouch::internal

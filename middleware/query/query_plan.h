@@ -8,6 +8,7 @@
 #include "articulated/avatar.h"
 #include "articulated/result.h"
 #include "lss/index.h"
+#include "middleware/query/provers.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene.h"
@@ -39,18 +40,21 @@ struct QueryPlan {
   Avatar avatar;
   Scene scene;
   QueryOptions options;
-  const TriangleCuller* culler;  // the scene's
   std::vector<LinkPlan> links;
   LssTable table;               // of the avatar
   ToleranceRange tolerances;    // of all links
   std::vector<double> margins;  // per link, if tolerances differ
   bool inLanes;                 // not pair by pair in doubles
+  // What the reference room may replace (middleware/reference/reference_query.h).
+  std::shared_ptr<const TriangleCuller> culler;  // the scene's
+  std::shared_ptr<const LeafProver> leafProver;  // null
+  std::shared_ptr<const StepProver> stepProver;  // null
 
   [[nodiscard]] const LinkPlan& of(LinkId link) const { return links[slotOf(link)]; }
 
   /// As Query::build().
-  static Result<std::shared_ptr<const QueryPlan>> make(const Avatar& avatar, const Scene& scene,
-                                                       const QueryOptions& options);
+  static Result<QueryPlan> make(const Avatar& avatar, const Scene& scene,
+                                const QueryOptions& options);
 };
 
 }  // namespace foretouch::internal

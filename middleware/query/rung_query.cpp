@@ -132,7 +132,7 @@ class RungQuery {
     const Body body(rungs_.perLink, rungs_.ignored);
     leaveUnanswered(avatar_.numLinks(), rungs_.carriers.links);
     rungs_.carriers.counters = step.counters;
-    if (options_.backtracking == Backtracking::Lanes) {
+    if (plan_.inLanes) {
       rungs_.table.assign(rungs_.perLink);
       LaneQuery query(plan_, body, rungs_.table, motion_, meter_, scratch_);
       query.keepNodes();
@@ -242,7 +242,7 @@ std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& mot
   options.fidelity = rung;
   const auto plan = internal::QueryPlan::make(avatar, scene, options);
   const internal::WorkMeter meter(options);
-  internal::RungQuery query(*plan.value(), motion, meter, scratch.parts());
+  internal::RungQuery query(plan.value(), motion, meter, scratch.parts());
   QueryCounters counters;
   query.evaluate(counters);
   std::vector<RungVolume> volumes;

@@ -114,7 +114,7 @@ class StepQuery final : private Neighbours {
             pieces_,
             tolerance_,
             meter_,
-            plan_.options.leafMethod,
+            plan_.leafProver.get(),
             scratch_.evaluator,
             *this};
   }

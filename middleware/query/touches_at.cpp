@@ -3,7 +3,7 @@
 
 #include "lss/assert.h"
 #include "lss/segment_triangle.h"
-#include "middleware/exact/linear_query.h"
+#include "middleware/exact/triangles_meet.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_plan.h"
 #include "middleware/query/rung_query.h"

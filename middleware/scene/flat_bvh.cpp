@@ -1,10 +1,6 @@
 #include "middleware/scene/flat_bvh.h"
 
-#include <algorithm>
-#include <mutex>
-
 #include "lss/assert.h"
-#include "lss/index.h"
 #include "lss/rounding.h"
 
 namespace foretouch::internal {
@@ -12,8 +8,6 @@ namespace {
 
 /// A walk of one box, depth first, keeps at most this many nodes.
 constexpr std::size_t kStackSize = kBvhWidth * (kMaxBvhDepth + 1);
-constexpr int kPlaceBits = 3;
-constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
 struct FloatBox {
   float lower[3], upper[3];
@@ -67,17 +61,6 @@ void collectLeaf(const BvhLeaf& leaf, const FloatBox& box, std::vector<TriangleI
 
 }  // namespace
 
-/// Leaf and place of every triangle, in one word.
-struct FlatBvh::SlotTable {
-  std::once_flag made;
-  std::vector<std::uint32_t> of;  // per triangle id
-};
-
-FlatBvh::FlatBvh() : slots_(std::make_unique<SlotTable>()) {}
-FlatBvh::FlatBvh(FlatBvh&&) noexcept = default;
-FlatBvh& FlatBvh::operator=(FlatBvh&&) noexcept = default;
-FlatBvh::~FlatBvh() = default;
-
 void FlatBvh::collect(const Aabb& box, std::vector<TriangleId>& ids, std::uint64_t& visited) const {
   const FloatBox local = localBox(box, origin_);
   std::uint32_t stack[kStackSize];
@@ -120,8 +103,8 @@ bool FlatBvh::meetsLeaf(const Aabb& box, std::uint64_t& visited) const {
   return false;
 }
 
-void FlatBvh::collectWholeLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
-                                 std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const {
+void FlatBvh::collectLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
+                            std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const {
   FORETOUCH_ASSERT(boxes.count >= 0 && boxes.count <= BoxLanes::kMaxBoxes);
   BvhWalk walk;
   walk.nodes = nodes_.data();
@@ -135,25 +118,6 @@ void FlatBvh::collectWholeLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hi
     nodesVisited += walk.nodesVisited;
     leavesVisited += walk.leavesVisited;
   }
-}
-
-FlatBvh::Slot FlatBvh::slotOf(TriangleId id) const {
-  std::call_once(slots_->made, [this] {
-    TriangleId greatest = 0;
-    for (const BvhLeaf& leaf : leaves_) {
-      greatest = std::max(greatest, *std::max_element(leaf.id, leaf.id + kBvhWidth));
-    }
-    slots_->of.assign(static_cast<std::size_t>(greatest) + 1, kNoSlot);
-    for (std::uint32_t leaf = 0; leaf < numLeaves(); ++leaf) {
-      for (int place = 0; place < leaves_[leaf].count(); ++place) {
-        slots_->of[static_cast<std::size_t>(leaves_[leaf].id[place])] =
-            (leaf << kPlaceBits) | static_cast<std::uint32_t>(place);
-      }
-    }
-  });
-  const std::uint32_t slot = slots_->of[static_cast<std::size_t>(id)];
-  FORETOUCH_ASSERT(slot != kNoSlot);
-  return {slot >> kPlaceBits, static_cast<int>(slot & ((1u << kPlaceBits) - 1))};
 }
 
 }  // namespace foretouch::internal

@@ -1,14 +1,12 @@
-// middleware/scene/flat_bvh.h: the fast culler: Embree builds the tree (rtcBuildBVH), we flatten it
+// middleware/scene/flat_bvh.h: the culler: Embree builds the tree (rtcBuildBVH), we flatten it
 // into 8-wide nodes of floats rounded outward and leaves of eight triangles, and walk it ourselves,
 // one box at a time or all boxes of a pose at once. Proofs: flat_bvh.md. Not installed.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "articulated/result.h"
-#include "lss/index.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/flat_bvh_lanes.h"
 
@@ -20,11 +18,6 @@ namespace foretouch::internal {
 class FlatBvh final : public TriangleCuller {
  public:
   using Leaf = BvhLeaf;
-
-  FlatBvh();
-  FlatBvh(FlatBvh&&) noexcept;
-  FlatBvh& operator=(FlatBvh&&) noexcept;
-  ~FlatBvh() override;
 
   /// A tree of `triangles[id]` for every id of `ids`, which are finite; at least one.
   static Result<FlatBvh> build(const std::vector<Triangle>& triangles,
@@ -41,8 +34,8 @@ class FlatBvh final : public TriangleCuller {
   /// box. Reads no leaf, so memory beyond the caches is read only when needed. The hits of a box
   /// come in ascending order of leaves; the order depends only on the tree and the boxes. Adds to
   /// the counters: a node or a leaf counts once per kBoxGroup boxes.
-  void collectWholeLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
-                          std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const;
+  void collectLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits, std::uint64_t& nodesVisited,
+                     std::uint64_t& leavesVisited) const override;
 
   [[nodiscard]] std::uint32_t numLeaves() const {
     return static_cast<std::uint32_t>(leaves_.size());
@@ -58,16 +51,7 @@ class FlatBvh final : public TriangleCuller {
   /// the triangle's. Depends on the box of the whole scene only.
   [[nodiscard]] double vertexRounding() const { return vertexRounding_; }
 
-  struct Slot {
-    std::uint32_t leaf;
-    int place;  ///< 0..7
-  };
-  /// Where a triangle of the tree lies. The first call builds the table, 4 bytes per triangle; safe
-  /// from many threads.
-  [[nodiscard]] Slot slotOf(TriangleId id) const;
-
  private:
-  struct SlotTable;
   friend class FlatBvhBuilder;
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
@@ -75,7 +59,6 @@ class FlatBvh final : public TriangleCuller {
   std::vector<BvhNode> nodes_;  // root first
   std::vector<BvhLeaf> leaves_;
   std::vector<Cluster> clusters_;  // per leaf
-  std::unique_ptr<SlotTable> slots_;
 };
 
 }  // namespace foretouch::internal

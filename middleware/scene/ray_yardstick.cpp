@@ -6,9 +6,9 @@
 namespace foretouch {
 
 Result<int> castRaySet(const Scene& scene, const std::array<RaySegment, kRaysPerSet>& rays) {
-  FORETOUCH_TRY(const auto culler, scene.parts().pointQueryCuller());
+  FORETOUCH_TRY(const auto triangles, scene.parts().embreeTriangles());
   int hits = 0;
-  for (const RaySegment& ray : rays) hits += culler->rayOccluded(ray.from, ray.to) ? 1 : 0;
+  for (const RaySegment& ray : rays) hits += triangles->rayOccluded(ray.from, ray.to) ? 1 : 0;
   return hits;
 }
 

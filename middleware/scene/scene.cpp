@@ -137,12 +137,12 @@ const SceneAudit& Scene::audit() const {
   return parts_->audit;
 }
 
-Result<const internal::PointQueryCuller*> internal::SceneParts::pointQueryCuller() const {
+Result<const internal::EmbreeTriangles*> internal::SceneParts::embreeTriangles() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (pointQueryCuller_ == nullptr) {
-    FORETOUCH_TRY(pointQueryCuller_, PointQueryCuller::build(triangles, finiteIds, origin));
+  if (embreeTriangles_ == nullptr) {
+    FORETOUCH_TRY(embreeTriangles_, EmbreeTriangles::build(triangles, finiteIds, origin));
   }
-  return static_cast<const PointQueryCuller*>(pointQueryCuller_.get());
+  return static_cast<const EmbreeTriangles*>(embreeTriangles_.get());
 }
 
 }  // namespace foretouch

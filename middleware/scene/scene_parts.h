@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "middleware/scene/culler.h"
+#include "middleware/scene/embree_triangles.h"
 #include "middleware/scene/flat_bvh.h"
-#include "middleware/scene/point_query_culler.h"
 #include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
@@ -22,12 +21,12 @@ struct SceneParts {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   FlatBvh bvh;
 
-  /// Builds the reference scene on first use: most programs never need it.
-  [[nodiscard]] Result<const PointQueryCuller*> pointQueryCuller() const;
+  /// Builds them on first use: most programs never need them.
+  [[nodiscard]] Result<const EmbreeTriangles*> embreeTriangles() const;
 
  private:
   mutable std::mutex mutex_;
-  mutable std::unique_ptr<PointQueryCuller> pointQueryCuller_;
+  mutable std::unique_ptr<EmbreeTriangles> embreeTriangles_;
 };
 
 }  // namespace foretouch::internal

@@ -53,8 +53,9 @@ class TradeWall : public ::testing::Test {
     QueryOptions options;
     options.tolerance = kTolerance;
     all.push_back(foretouchQuery(world_, options, "Foretouch"));
-    options.backtracking = Backtracking::Scalar;
-    all.push_back(foretouchQuery(world_, options, "Foretouch, scalar"));
+    ReferenceOptions scalar;
+    scalar.backtracking = Backtracking::Scalar;
+    all.push_back(foretouchQuery(world_, options, "Foretouch, scalar", scalar));
     return all;
   }
 

@@ -28,16 +28,14 @@ WAYS = {
     "budget-unspent": "--budget-us 100000",
     "fine": "--tolerance 1e-6",
     "coarse": "--tolerance 0.02",
-    "point-query": "--culler point-query",
     "two-threads": "--threads 2",
     "policy": "--policy policy.toml",
     "ignore": "--ignore *Foot:floor,Hips",
     "placed": "--place 0.3,0,0.2,30 --rate 5",
-    "placed-point-query": "--place 0.3,0,0.2,30 --rate 5 --culler point-query",
     "lying": "--motion-up z --place 0,1,0",
     "small-scene": "--scene-scale 0.8",
 }
-SHORT_WAYS = ("limb", "budget", "policy", "point-query")
+SHORT_WAYS = ("limb", "budget", "policy")
 
 
 def way_cases():

@@ -59,7 +59,7 @@ CLIP_WAYS = {
     "first-of-avatar": "--scope avatar",
     "budget": "--budget-us 10",
     "fine": "--tolerance 1e-5",
-    "two-threads": "--threads 2 --culler point-query",
+    "two-threads": "--threads 2",
     "policy": "--policy policy.toml",
 }
 CLIP_POLICY = """
@@ -145,7 +145,6 @@ def model_cases():
 
 MODEL_WAYS = {
     "link": "--fidelity link",
-    "cubics": "--fidelity exact --leaves cubics",
     "first-of-avatar": "--fidelity exact --scope avatar",
     "budget": "--fidelity exact --budget-us 20",
     "skinned": "--fidelity skinned --skin {data}/avatars/cesium_man.gltf --skin-scale 1",

@@ -32,8 +32,34 @@ expect_kernel_alone() {  # expect_kernel_alone PROGRAM
   fi
 }
 
+# The reference room (middleware/reference/) is for tests and benchmarks: what is installed has none
+# of its functions, and no header to ask for them.
+expect_no_reference() {  # expect_no_reference FILE...
+  local room file shared
+  room=$(find "$build" -name 'libforetouch_reference.*' | head -n 1)
+  [ -n "$room" ] || return 0  # neither tests nor benchmarks were built
+  nm --defined-only "$room" | awk '$2 == "T" { print $3 }' | sort -u >"$folder/reference.txt"
+  [ "$(wc -l <"$folder/reference.txt")" -gt 20 ] || { echo "$room defines nothing" >&2; exit 1; }
+  for file in "$@"; do
+    shared=$(nm "$file" | awk '{ print $NF }' | sort -u | comm -12 - "$folder/reference.txt")
+    if [ -n "$shared" ]; then
+      printf '%s has functions of the reference room:\n%s\n' "$file" "$shared" >&2
+      exit 1
+    fi
+  done
+  if [ -e "$prefix/include/foretouch/middleware/reference" ]; then
+    echo "headers of the reference room are installed" >&2
+    exit 1
+  fi
+}
+
 consume consumer "$source/tests/consumer" -DCMAKE_CXX_COMPILER="$cxx"
 expect_kernel_alone "$folder/consumer/consumer"
+products=()
+for product in bin/foretouch lib/libforetouch.so bindings/c/libforetouch.so; do
+  if [ -f "$build/$product" ]; then products+=("$build/$product"); fi
+done
+expect_no_reference "$folder/consumer/consumer" "${products[@]}"
 "$folder/consumer/consumer" | tee "$folder/cxx.txt"
 
 if [ -f "$prefix/include/foretouch/foretouch.h" ]; then

@@ -45,7 +45,8 @@ const std::map<std::string, Rooms> kRooms = {
       {"exact", {}},
       {"", {"scene", "surface", "exact"}},
       {"ladder", {"", "scene"}},
-      {"query", {"ladder", "", "exact", "surface", "lanes", "scene"}}}},
+      {"query", {"ladder", "", "exact", "surface", "lanes", "scene"}},
+      {"reference", {"query", "", "exact", "surface", "scene"}}}},
     {"assets",
      {{"", {}},
       {"bvh", {""}},
@@ -203,6 +204,20 @@ TEST(IncludeArrows, PointOneWayBetweenRooms) {
   }
 }
 
+// What only compares is in the reference room: no program of the product knows the way there.
+TEST(IncludeArrows, OnlyBenchmarksEnterTheReferenceRoom) {
+  const fs::path root(FORETOUCH_SOURCE_DIR);
+  const std::string room = "middleware/reference/";
+  std::set<std::string> entered;
+  for (const auto& [folder, unused] : kArrows) {
+    for (const Include& include : includesOf(root / folder)) {
+      const std::string from = include.file.lexically_relative(root).string();
+      if (include.target.rfind(room, 0) == 0 && from.rfind(room, 0) != 0) entered.insert(folder);
+    }
+  }
+  EXPECT_EQ(entered, std::set<std::string>{"bench"});
+}
+
 // What writes JSON has assets/json_writer.h: the library that parses it is slow to compile, and is
 // for those who read, and for glTF, which is built as one large document.
 TEST(IncludeArrows, JsonIsParsedInFewRooms) {
@@ -214,8 +229,8 @@ TEST(IncludeArrows, JsonIsParsedInFewRooms) {
       rooms.insert(folder + ("/" + roomOf(include.file.lexically_relative(root).string())));
     }
   }
-  EXPECT_EQ(rooms, (std::set<std::string>{"assets/avatar", "assets/import", "assets/mesh", "tools/glb",
-                                          "tools/inputs", "tools/sweep"}));
+  EXPECT_EQ(rooms, (std::set<std::string>{"assets/avatar", "assets/import", "assets/mesh",
+                                          "tools/glb", "tools/inputs", "tools/sweep"}));
 }
 
 /// A header and its source are one unit.

@@ -6,7 +6,7 @@
 #include <exception>
 #include <thread>
 
-#include "middleware/exact/linear_query.h"
+#include "middleware/reference/linear_query.h"
 
 namespace foretouch::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "middleware/exact/leaf.h"
+#include "middleware/reference/leaf.h"
 #include "tests/oracle/leaf_families.h"
 
 namespace foretouch::test {

@@ -46,7 +46,7 @@ SweepTally sweepEveryWay(const SweepClip& clip, const SweepScene& scene, const P
                          SweepOptions options) {
   SweepTally total;
   for (const Way way : everyWay()) {
-    options.backtracking = way ? Backtracking::Lanes : Backtracking::Scalar;
+    options.reference.backtracking = way ? Backtracking::Lanes : Backtracking::Scalar;
     EXPECT_TRUE(useSimd(way));
     total.add(sweep(clip, scene, placement, options));
   }
@@ -102,7 +102,7 @@ TEST(OracleSampleOfMeshes, EveryExactAnswerKeepsThePromise) {
         options.rateHz = 5.0;
         options.tolerance = tolerance;
         options.maxSteps = 8;
-        options.leafMethod = method;
+        options.reference.leafMethod = method;
         total.add(sweepEveryWay(clip.value(), scene.value(), placement, options));
       }
     }

@@ -136,12 +136,14 @@ class Run {
     options.tolerance = tolerance;
     options.maxSteps = arguments_.maxSteps;
     options.threads = arguments_.threads;
-    options.culler =
+    options.reference.culler =
         arguments_.culler == "point" ? foretouch::Culler::PointQuery : foretouch::Culler::FlatBvh;
-    options.leafMethod = arguments_.leaves == "cubics" ? foretouch::LeafMethod::Cubics
-                                                       : foretouch::LeafMethod::Advancement;
-    options.backtracking = arguments_.backtracking == "scalar" ? foretouch::Backtracking::Scalar
-                                                               : foretouch::Backtracking::Lanes;
+    options.reference.leafMethod = arguments_.leaves == "cubics"
+                                       ? foretouch::LeafMethod::Cubics
+                                       : foretouch::LeafMethod::Advancement;
+    if (arguments_.backtracking == "scalar") {
+      options.reference.backtracking = foretouch::Backtracking::Scalar;
+    }
     if (arguments_.workBudget > 0) options.workBudget = arguments_.workBudget;
     if (arguments_.deadlineUs > 0.0) options.deadlineUs = arguments_.deadlineUs;
     if (arguments_.fidelity == "limb") options.fidelity = foretouch::Fidelity::Limb;

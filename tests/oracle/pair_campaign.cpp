@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "middleware/exact/linear_query.h"
+#include "middleware/exact/triangles_meet.h"
+#include "middleware/reference/linear_query.h"
 
 namespace foretouch::test {
 namespace {

@@ -25,9 +25,6 @@ class Sweeper {
           const SweepOptions& options)
       : clip_(clip), scene_(scene), placement_(placement), options_(options) {
     query_.tolerance = options.tolerance;
-    query_.culler = options.culler;
-    query_.leafMethod = options.leafMethod;
-    query_.backtracking = options.backtracking;
     query_.workBudget = options.workBudget;
     query_.deadlineUs = options.deadlineUs;
     query_.surface = clip.surface;
@@ -55,7 +52,7 @@ class Sweeper {
  private:
   void work(SweepTally& tally) {
     QueryScratch scratch;
-    const auto query = Query::build(clip_.avatar, scene_.scene, query_);
+    const auto query = buildReference(clip_.avatar, scene_.scene, query_, options_.reference);
     if (!query.ok()) {
       ++tally.failedQueries;
       note(tally, "query refused: " + describe(query.error()));

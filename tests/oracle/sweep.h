@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "middleware/reference/reference_query.h"
 #include "tests/oracle/sweep_inputs.h"
 
 namespace foretouch::test {
@@ -19,9 +20,7 @@ struct SweepOptions {
   double tolerance = 1e-3;
   int maxSteps = 200;  ///< Spread evenly over the clip, its first step included.
   int threads = 1;
-  Culler culler = Culler::FlatBvh;
-  LeafMethod leafMethod = LeafMethod::Advancement;
-  Backtracking backtracking = Backtracking::Lanes;
+  ReferenceOptions reference;
   std::uint64_t workBudget = QueryOptions{}.workBudget;
   double deadlineUs = QueryOptions{}.deadlineUs;
   /// For clips without a surface: a rung above the links; then judges its volumes instead.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 
 namespace foretouch::test {
 
@@ -9,6 +10,12 @@ namespace foretouch::test {
 inline StepContacts answerOf(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                              const QueryOptions& options, QueryScratch& scratch) {
   return Query::build(avatar, scene, options).value().answer(motion, scratch);
+}
+/// The same in other ways. Precondition: options that buildReference() takes.
+inline StepContacts answerOf(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
+                             const QueryOptions& options, const ReferenceOptions& reference,
+                             QueryScratch& scratch) {
+  return buildReference(avatar, scene, options, reference).value().answer(motion, scratch);
 }
 inline bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
                       const Scene& scene, const QueryOptions& options, QueryScratch& scratch) {

@@ -72,18 +72,6 @@ TEST(ParseUpAxis, KnowsTwoAxes) {
   for (const char* text : {"x", "Y", "", "yz"}) EXPECT_FALSE(parseUpAxis("--up", text).ok());
 }
 
-TEST(ParseCuller, KnowsTwoCullers) {
-  EXPECT_EQ(parseCuller("--culler", "flat").value(), Culler::FlatBvh);
-  EXPECT_EQ(parseCuller("--culler", "point-query").value(), Culler::PointQuery);
-  EXPECT_FALSE(parseCuller("--culler", "bvh").ok());
-}
-
-TEST(ParseLeafMethod, KnowsItsTwoWays) {
-  EXPECT_EQ(parseLeafMethod("--leaves", "advancement").value(), LeafMethod::Advancement);
-  EXPECT_EQ(parseLeafMethod("--leaves", "cubics").value(), LeafMethod::Cubics);
-  EXPECT_FALSE(parseLeafMethod("--leaves", "roots").ok());
-}
-
 TEST(ParseFidelity, TakesEveryRungByName) {
   EXPECT_EQ(parseFidelity("--fidelity", "ellipsoid").value(), Fidelity::Ellipsoid);
   EXPECT_EQ(parseFidelity("--fidelity", "avatar").value(), Fidelity::Avatar);
@@ -95,12 +83,6 @@ TEST(ParseFidelity, TakesEveryRungByName) {
   ASSERT_FALSE(unknown.ok());
   EXPECT_NE(unknown.error().message.find("ellipsoid, avatar, limb, link, exact or skinned"),
             std::string::npos);
-}
-
-TEST(ParseDescent, TakesBothAndNothingElse) {
-  EXPECT_EQ(parseDescent("--descent", "straight").value(), Descent::Straight);
-  EXPECT_EQ(parseDescent("--descent", "by-need").value(), Descent::ByNeed);
-  EXPECT_FALSE(parseDescent("--descent", "").ok());
 }
 
 TEST(CheckIsNoInput, SeesTheSameFileUnderAnotherName) {

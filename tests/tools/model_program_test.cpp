@@ -242,7 +242,6 @@ TEST(ReplayFidelity, TellsTheBoxFromTheLssAroundIt) {
   EXPECT_FALSE(holds(link, "\"toi\":0.49")) << link;
   for (const std::vector<std::string>& exact :
        {std::vector<std::string>{"--fidelity", "exact", "--compare-link"},
-        {"--fidelity", "exact", "--leaves", "cubics"},
         {"--fidelity", "skinned", "--skin", boxes}}) {
     const std::string results = run(exact);
     EXPECT_TRUE(holds(results, "\"fidelity\":\"" + exact[1] + "\"")) << results;
@@ -303,7 +302,6 @@ TEST(ReplayFidelity, RefusesWhatItHasNoSurfaceFor) {
   const std::string boxes = world.folder.write("boxes.obj", twoBoxes());
   EXPECT_TRUE(holds(error({"--fidelity", "skinned", "--skin", boxes}),
                     "boxes.obj: expected the avatar's 2 links"));
-  EXPECT_TRUE(holds(error({"--fidelity", "exact", "--leaves", "roots"}), "--leaves: "));
 }
 
 TEST(ReplayModels, MovesAnAvatarByTheAnimationOfItsOwnFile) {

@@ -121,12 +121,6 @@ Result<Done> checkTogether(const ReplayJob& job) {
                      "expected none with --compare-rigid or --compare-link: what is undecided has "
                      "nothing to compare");
   }
-  if (request.query.culler != Culler::FlatBvh) {
-    return Error::in(
-        "--budget-us", ErrorCode::Mismatch,
-        "expected none with --culler point-query: cullers do different work, and would "
-        "leave different links undecided");
-  }
   return Done{};
 }
 

@@ -32,7 +32,7 @@ void beginResults(JsonWriter& out);
 void writeFileName(const char* name, const std::string& path, JsonWriter& out);
 void writeLinkNames(const Avatar& avatar, JsonWriter& out);
 
-/// The first line. Names neither threads nor culler: they do not change the results.
+/// The first line. Does not name threads: they do not change the results.
 [[nodiscard]] std::string headerLine(const ReplayInputs& inputs);
 
 /// Formats steps. Const calls from several threads are fine.

@@ -44,6 +44,7 @@ void addSetting(CLI::App& app, Typed& typed) {
   typed.option->type_name(setting.value);
   if (setting.isRequired) typed.option->required();
   if (!setting.needs.empty()) typed.option->needs(app.get_option(setting.needs));
+  if (!setting.isGone.empty()) typed.option->group("");  // hidden from help
   if (!setting.valueIfNone.empty()) {
     typed.option->expected(0, 1)->default_str(setting.valueIfNone);
   }

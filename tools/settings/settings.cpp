@@ -193,6 +193,17 @@ Setting& Settings::parsed(const char* option, const char* value,
   return setting;
 }
 
+Setting& Settings::gone(const char* option, const char* text) {
+  Setting& setting = add(option, "", ValueKind::Text, "");
+  setting.isGone = text;
+  setting.valueIfNone = "none";  // no error of its own if nothing follows
+  setting.shown = setting.told = [] { return std::string(); };
+  setting.take = [text](const GivenValue&) -> Result<Done> {
+    return Error::of(ErrorCode::Mismatch, text);
+  };
+  return setting;
+}
+
 Setting& Settings::of(const std::string& option) {
   const auto found =
       std::find_if(all_.begin(), all_.end(), [&](const Setting& s) { return s.option == option; });

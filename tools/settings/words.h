@@ -20,30 +20,10 @@ namespace foretouch::tools {
   return words;
 }
 
-[[nodiscard]] inline Words<Culler> cullerWords() {
-  return {{"flat", Culler::FlatBvh}, {"point-query", Culler::PointQuery}};
-}
-
-[[nodiscard]] inline Words<LeafMethod> leafMethodWords() {
-  Words<LeafMethod> words;
-  for (const LeafMethod method : {LeafMethod::Advancement, LeafMethod::Cubics}) {
-    words.emplace_back(toString(method), method);
-  }
-  return words;
-}
-
 [[nodiscard]] inline Words<Scope> scopeWords() {
   Words<Scope> words;
   for (const Scope scope : {Scope::EveryLink, Scope::FirstOfAvatar}) {
     words.emplace_back(toString(scope), scope);
-  }
-  return words;
-}
-
-[[nodiscard]] inline Words<Descent> descentWords() {
-  Words<Descent> words;
-  for (const Descent descent : {Descent::Straight, Descent::ByNeed}) {
-    words.emplace_back(toString(descent), descent);
   }
   return words;
 }

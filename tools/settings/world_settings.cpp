@@ -101,11 +101,14 @@ void addQuerySettings(Settings& settings, WorldRequest& request) {
 
 void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
   addSkinSettings(settings, request);
+  // Results still say how exact fidelity tested pairs of triangles (docs/formats.md).
   settings
-      .word("--leaves", "advancement|cubics", request.query.leafMethod, leafMethodWords(),
-            "How exact fidelity tests pairs of triangles; both keep the promise")
+      .gone("--leaves",
+            "is gone: queries follow pairs of triangles by advancement. Cubics are for comparison "
+            "only: foretouch-bench latency --fidelity exact --leaves cubics")
       .inHeader("leaves")
-      .namedIf([&request] { return isExactAnywhere(request); });
+      .namedIf([&request] { return isExactAnywhere(request); })
+      .json = [] { return jsonString("advancement"); };
   const auto isNarrow = [&request] { return request.query.scope != QueryOptions().scope; };
   settings
       .word("--scope", "links|avatar", request.query.scope, scopeWords(),
@@ -117,8 +120,9 @@ void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
       .told = [&request, isNarrow]() -> std::string {
     return isNarrow() ? toString(request.query.scope) : "";
   };
-  settings.word("--culler", "flat|point-query", request.query.culler, cullerWords(),
-                "How to cull; both give the same answers");
+  settings.gone("--culler",
+                "is gone: the answers never depended on it. The slower culler is for comparison "
+                "only: foretouch-bench latency --culler point-query");
   settings
       .path("--policy", "FILE", request.policyPath,
             "Tolerance, fidelity and what to ignore, link by link: [[policy]] tables "

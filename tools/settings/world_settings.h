@@ -45,8 +45,7 @@ struct WorldRequest {
 void addSceneSettings(Settings& settings, WorldRequest& request);
 /// The ones that services have too: --tolerance, --fidelity, --ignore, --budget-us.
 void addQuerySettings(Settings& settings, WorldRequest& request);
-/// The rest: --scope, --leaves, --skin and how to read it, --culler, --policy (does not read its
-/// file).
+/// The rest: --scope, --skin and how to read it, --policy (does not read its file).
 void addReplayQuerySettings(Settings& settings, WorldRequest& request);
 
 }  // namespace foretouch::tools

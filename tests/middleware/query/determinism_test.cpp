@@ -9,6 +9,7 @@
 
 #include "lss/segment_triangle.h"
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/support/asked.h"
 
@@ -34,9 +35,10 @@ void expectSame(const LinkContact& x, const LinkContact& y) {
 StepContacts answer(const test::RandomBody& body, const Scene& scene, Culler culler,
                     QueryScratch& scratch) {
   QueryOptions options;
-  options.culler = culler;
+  ReferenceOptions reference;
+  reference.culler = culler;
   options.tolerance = 1e-4;
-  return test::answerOf(body.avatar, body.motion(), scene, options, scratch);
+  return test::answerOf(body.avatar, body.motion(), scene, options, reference, scratch);
 }
 
 /// The scene with its triangles in another order; order[i] is the old place of the new i-th.

@@ -12,6 +12,7 @@
 #include "judge/plain_motion.h"
 #include "lss/fit.h"
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 #include "tests/support/asked.h"
 #include "tests/support/judged.h"
 #include "tests/support/random_geometry.h"
@@ -210,11 +211,12 @@ TEST_P(ExactContacts, OfSwingingMeshesAreSoundAndTight) {
     QueryOptions options;
     options.tolerance = tolerances[random.below(3)];
     options.fidelity = Fidelity::Exact;
-    options.leafMethod = std::get<LeafMethod>(GetParam());
+    ReferenceOptions reference;
+    reference.leafMethod = std::get<LeafMethod>(GetParam());
     options.surface = AvatarSurface::build(avatar, {{}, c.mesh}).value();
     const StepContacts step =
         test::answerOf(avatar, ChainMotion(avatar.skeleton(), from, to),
-                       Scene::build(std::move(raw)).value(), options, scratch);
+                       Scene::build(std::move(raw)).value(), options, reference, scratch);
     const LinkContact& got = step.links[kLink];
     hits += c.impact.has_value() ? 1 : 0;
     if (got.verdict == Verdict::Clear) {

@@ -10,6 +10,7 @@
 
 #include "lss/simd.h"
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/support/asked.h"
@@ -28,12 +29,14 @@ struct Bench {
   test::RandomBody body;
   Scene scene;
   QueryOptions link, exact;
+  ReferenceOptions reference;
 };
 
 Bench makeBench(int seed, double share) {
   Random random(static_cast<std::uint64_t>(seed));
   Bench bench{test::bodyInClutter(random, 6, Vector3d::Zero()),
               Scene::build(test::clutter(random, 600, 5, Vector3d::Zero())).value(),
+              {},
               {},
               {}};
   bench.link.tolerance = random.magnitude(1e-6, 1e-2);
@@ -52,7 +55,8 @@ TEST(ExactFidelity, ContactsAreASubsetOfTheLssContactsAndNeverEarlier) {
     const Bench bench = makeBench(seed, 0.8);
     const auto motion = bench.body.motion();
     const auto link = firstContacts(bench.body.avatar, motion, bench.scene, bench.link).value();
-    const auto exact = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
+    const auto exact =
+        firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
     for (std::size_t i = 0; i < link.links.size(); ++i) {
       const LinkContact &l = link.links[i], &e = exact.links[i];
       ASSERT_NE(e.verdict, Verdict::Undecided);
@@ -81,7 +85,8 @@ TEST(ExactFidelity, NoSampledTouchIsMissedOrEarlierThanReported) {
     SCOPED_TRACE(seed);
     const Bench bench = makeBench(1000 + seed, 0.9);
     const auto motion = bench.body.motion();
-    const auto exact = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
+    const auto exact =
+        firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
     QueryScratch scratch;
     for (LinkId link = 0; link < bench.body.avatar.numLinks(); ++link) {
       const LinkContact& got = exact.links[static_cast<std::size_t>(link)];
@@ -134,9 +139,11 @@ TEST_P(ExactInLanes, AgreeWithDoublesWithinThePromise) {
     SCOPED_TRACE(seed);
     Bench bench = makeBench(2000 + seed, 0.95);
     const auto motion = bench.body.motion();
-    const auto lanes = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
-    bench.exact.backtracking = Backtracking::Scalar;
-    const auto doubles = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
+    const auto lanes =
+        firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
+    bench.reference.backtracking = Backtracking::Scalar;
+    const auto doubles =
+        firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
     ASSERT_GT(lanes.counters.candidates, 0U);
     for (std::size_t i = 0; i < lanes.links.size(); ++i) {
       expectWithinThePromise(lanes.links[i], doubles.links[i], bench.exact.tolerance, differ);
@@ -158,7 +165,8 @@ TEST_P(ExactInLanes, MissNoSampledTouchAndAreNotLate) {
     SCOPED_TRACE(seed);
     const Bench bench = makeBench(3000 + seed, 0.95);
     const auto motion = bench.body.motion();
-    const auto exact = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
+    const auto exact =
+        firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
     QueryScratch scratch;
     for (LinkId link = 0; link < bench.body.avatar.numLinks(); ++link) {
       const LinkContact& got = exact.links[static_cast<std::size_t>(link)];
@@ -187,9 +195,11 @@ TEST(ExactFidelity, AnswersAlikeWithEitherCullerAndAnyOrderOfTheScene) {
     SCOPED_TRACE(seed);
     Bench bench = makeBench(seed, 0.8);
     const auto motion = bench.body.motion();
-    const auto first = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
-    bench.exact.culler = Culler::PointQuery;
-    const auto second = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
+    const auto first =
+        firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
+    bench.reference.culler = Culler::PointQuery;
+    const auto second =
+        firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
 
     RawScene shuffled;
     std::vector<TriangleId> order(bench.scene.numTriangles());
@@ -223,14 +233,17 @@ void judgeSpentBudgets(Backtracking backtracking) {
   for (int seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     Bench bench = makeBench(seed, 0.8);
-    bench.exact.backtracking = backtracking;
+    bench.reference.backtracking = backtracking;
     const auto motion = bench.body.motion();
     QueryOptions fine = bench.exact;
     fine.tolerance *= 1e-3;
-    const auto touch = firstContacts(bench.body.avatar, motion, bench.scene, fine).value();
+    const auto touch =
+        firstContacts(bench.body.avatar, motion, bench.scene, fine, bench.reference).value();
     for (const std::uint64_t budget : {100u, 1000u, 5000u}) {
       bench.exact.workBudget = budget;
-      const auto cut = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
+      const auto cut =
+          firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference)
+              .value();
       for (std::size_t i = 0; i < touch.links.size(); ++i) {
         EXPECT_LE(cut.links[i].freeUntil, touch.links[i].freeUntil + kAfterTheTouch);
         undecided += cut.links[i].verdict == Verdict::Undecided ? 1 : 0;
@@ -251,8 +264,9 @@ TEST(ExactFidelity, SpentBudgetIsUndecidedAndNeverLateInLanes) {
 TEST(ExactFidelity, CountsWhatItDescendedInLanes) {
   if (activeSimd() == Simd::Scalar) GTEST_SKIP() << "a single lane: doubles descend";
   const Bench bench = makeBench(3, 0.8);
-  const auto exact =
-      firstContacts(bench.body.avatar, bench.body.motion(), bench.scene, bench.exact).value();
+  const auto exact = firstContacts(bench.body.avatar, bench.body.motion(), bench.scene, bench.exact,
+                                   bench.reference)
+                         .value();
   EXPECT_GT(exact.counters.partSteps, 0u);
   EXPECT_GT(exact.counters.leafTests, 0u) << "contact is for doubles to say";
   EXPECT_GT(exact.counters.partSteps, 10 * exact.counters.advancements);
@@ -261,9 +275,10 @@ TEST(ExactFidelity, CountsWhatItDescendedInLanes) {
 
 TEST(ExactFidelity, CountsWhatItDescendedInDoubles) {
   Bench bench = makeBench(3, 0.8);
-  bench.exact.backtracking = Backtracking::Scalar;
-  const auto exact =
-      firstContacts(bench.body.avatar, bench.body.motion(), bench.scene, bench.exact).value();
+  bench.reference.backtracking = Backtracking::Scalar;
+  const auto exact = firstContacts(bench.body.avatar, bench.body.motion(), bench.scene, bench.exact,
+                                   bench.reference)
+                         .value();
   EXPECT_EQ(exact.counters.partSteps, 0u);
   EXPECT_GT(exact.counters.hierarchyTests, 0u);
   EXPECT_GT(exact.counters.planeTests, 0u);
@@ -308,7 +323,8 @@ TEST(ExactFidelity, AnLssWithoutTrianglesStandsForItself) {
     bench.exact.surface = AvatarSurface::build(bench.body.avatar, none).value();
     const auto motion = bench.body.motion();
     const auto link = firstContacts(bench.body.avatar, motion, bench.scene, bench.link).value();
-    const auto exact = firstContacts(bench.body.avatar, motion, bench.scene, bench.exact).value();
+    const auto exact =
+        firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
     QueryScratch scratch;
     for (std::size_t i = 0; i < link.links.size(); ++i) {
       ASSERT_EQ(exact.links[i].verdict, link.links[i].verdict);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 #include "tests/middleware/analytic_cases.h"
 #include "tests/support/asked.h"
 
@@ -142,9 +143,10 @@ TEST(FirstContactsOptions, TakesTheLargestTolerance) {
     for (const Culler culler : {Culler::FlatBvh, Culler::PointQuery}) {
       QueryOptions options;
       options.tolerance = kMaxTolerance;
-      options.backtracking = backtracking;
-      options.culler = culler;
-      const auto result = firstContacts(c.avatar(), c.motion(), c.scene(), options);
+      ReferenceOptions reference;
+      reference.backtracking = backtracking;
+      reference.culler = culler;
+      const auto result = firstContacts(c.avatar(), c.motion(), c.scene(), options, reference);
       ASSERT_TRUE(result.ok());
       const LinkContact& contact = result.value().links[AnalyticCase::kLink];
       EXPECT_EQ(contact.freeUntil, 0.0);
@@ -203,10 +205,12 @@ BudgetCounts judgeBudgets(Backtracking backtracking) {
     double before = 0.0;
     for (std::uint64_t budget = 0; budget < kBudgets; ++budget) {
       QueryOptions options;
-      options.backtracking = backtracking;
+      ReferenceOptions reference;
+      reference.backtracking = backtracking;
       options.tolerance = 1e-5;
       options.workBudget = budget * kBudgetStep;
-      const StepContacts step = firstContacts(c.avatar(), c.motion(), c.scene(), options).value();
+      const StepContacts step =
+          firstContacts(c.avatar(), c.motion(), c.scene(), options, reference).value();
       const LinkContact& got = step.links[AnalyticCase::kLink];
       if (got.verdict != Verdict::Undecided) {
         judge(c, got, options.tolerance);
@@ -243,8 +247,10 @@ TEST(FirstContactsBudget, APassedDeadlineLeavesEverythingUndecided) {
   QueryOptions options;
   options.deadlineUs = 0.0;
   for (const Backtracking backtracking : {Backtracking::Scalar, Backtracking::Lanes}) {
-    options.backtracking = backtracking;
-    const StepContacts step = firstContacts(c.avatar(), c.motion(), c.scene(), options).value();
+    ReferenceOptions reference;
+    reference.backtracking = backtracking;
+    const StepContacts step =
+        firstContacts(c.avatar(), c.motion(), c.scene(), options, reference).value();
     const LinkContact& got = step.links[AnalyticCase::kLink];
     EXPECT_EQ(got.verdict, Verdict::Undecided);
     EXPECT_EQ(got.reason, UndecidedReason::WorkBudget);

@@ -8,6 +8,7 @@
 #include "lss/separation.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 #include "tessellation/swept_lss.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
@@ -32,8 +33,9 @@ StepContacts answer(const test::RandomBody& body, const Scene& scene, double tol
                     Backtracking backtracking) {
   QueryOptions options;
   options.tolerance = tolerance;
-  options.backtracking = backtracking;
-  return firstContacts(body.avatar, body.motion(), scene, options).value();
+  ReferenceOptions reference;
+  reference.backtracking = backtracking;
+  return firstContacts(body.avatar, body.motion(), scene, options, reference).value();
 }
 
 /// Separation of the reported LSS and triangle at the reported instant.
@@ -113,11 +115,14 @@ TEST_P(LaneQueries, TakeIgnoredPairsAndManySlabs) {
     options.ignored = {{1, IgnoredPair::kEveryObject}, {2, 0}, {3, 1}};
     for (const double tolerance : {1e-3, 1e-6}) {
       options.tolerance = tolerance;
-      options.backtracking = Backtracking::Lanes;
-      const auto lanes = firstContacts(body.avatar, body.motion(), scene, options).value();
-      options.backtracking = Backtracking::Scalar;
+      ReferenceOptions reference;
+      reference.backtracking = Backtracking::Lanes;
+      const auto lanes =
+          firstContacts(body.avatar, body.motion(), scene, options, reference).value();
+      reference.backtracking = Backtracking::Scalar;
       options.tolerance = 1e-8;
-      const auto exact = firstContacts(body.avatar, body.motion(), scene, options).value();
+      const auto exact =
+          firstContacts(body.avatar, body.motion(), scene, options, reference).value();
       for (std::size_t link = 0; link < lanes.links.size(); ++link) {
         const LinkContact &l = lanes.links[link], &e = exact.links[link];
         EXPECT_NE(l.verdict, Verdict::Undecided);
@@ -147,10 +152,11 @@ TEST_P(LaneQueries, OfTheAvatarsFirstContactAreItsLinksEarliest) {
     const Scene scene = Scene::build(test::clutter(random, 60, 3, Vector3d::Zero())).value();
     const test::RandomBody body = test::bodyInClutter(random, 6, Vector3d::Zero());
     QueryOptions options;
-    options.backtracking = i % 3 == 0 ? Backtracking::Scalar : Backtracking::Lanes;
-    const auto every = firstContacts(body.avatar, body.motion(), scene, options).value();
+    ReferenceOptions reference;
+    reference.backtracking = i % 3 == 0 ? Backtracking::Scalar : Backtracking::Lanes;
+    const auto every = firstContacts(body.avatar, body.motion(), scene, options, reference).value();
     options.scope = Scope::FirstOfAvatar;
-    const auto first = firstContacts(body.avatar, body.motion(), scene, options).value();
+    const auto first = firstContacts(body.avatar, body.motion(), scene, options, reference).value();
     double earliest = 2.0;
     for (const LinkContact& contact : every.links) {
       if (contact.verdict != Verdict::Clear) earliest = std::min(earliest, contact.toi);
@@ -213,8 +219,9 @@ TEST_P(LaneQueries, ReportTheSameForBothCullersAtExactFidelity) {
     options.surface =
         AvatarSurface::build(body.avatar, test::meshWithin(body.avatar, random, 12, 0.9)).value();
     const auto flat = firstContacts(body.avatar, body.motion(), scene, options).value();
-    options.culler = Culler::PointQuery;
-    const auto point = firstContacts(body.avatar, body.motion(), scene, options).value();
+    ReferenceOptions reference;
+    reference.culler = Culler::PointQuery;
+    const auto point = firstContacts(body.avatar, body.motion(), scene, options, reference).value();
     for (std::size_t link = 0; link < flat.links.size(); ++link) {
       EXPECT_EQ(flat.links[link].verdict, point.links[link].verdict);
       EXPECT_EQ(flat.links[link].toi, point.links[link].toi);

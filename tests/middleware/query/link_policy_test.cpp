@@ -9,6 +9,7 @@
 #include "lss/simd.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_pool.h"
+#include "middleware/reference/reference_query.h"
 #include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
@@ -37,10 +38,11 @@ class LinkPolicies : public testing::TestWithParam<Way> {
  protected:
   void SetUp() override { ASSERT_TRUE(useSimd(GetParam().simd)); }
   void TearDown() override { useSimd(std::nullopt); }
-  static QueryOptions options() {
-    QueryOptions options;
-    options.backtracking = GetParam().backtracking;
-    return options;
+  static ReferenceOptions reference(Descent descent = Descent::Straight) {
+    ReferenceOptions reference;
+    reference.backtracking = GetParam().backtracking;
+    reference.descent = descent;
+    return reference;
   }
 };
 
@@ -83,8 +85,10 @@ World someWorld(int seed, int triangles = 1500, int links = 8) {
   return {raw, Scene::build(raw).value(), std::move(body), std::move(mesh), std::move(surface)};
 }
 
-StepContacts answer(const World& world, const QueryOptions& options) {
-  return firstContacts(world.body.avatar, world.body.motion(), world.scene, options).value();
+StepContacts answer(const World& world, const QueryOptions& options,
+                    const ReferenceOptions& reference) {
+  return firstContacts(world.body.avatar, world.body.motion(), world.scene, options, reference)
+      .value();
 }
 
 std::vector<LinkPolicy> randomPolicies(Random& random, std::int32_t links,
@@ -103,18 +107,18 @@ TEST_P(LinkPolicies, OfLinksThatAreAlikeDoNotShow) {
   for (int i = 0; i < 40; ++i) {
     SCOPED_TRACE(i);
     const World world = someWorld(i);
-    QueryOptions plain = options();
+    QueryOptions plain;
     plain.tolerance = std::array<double, 3>{5e-3, 1e-4, 1e-6}[i % 3];
     plain.fidelity = i % 2 == 0 ? Fidelity::Link : Fidelity::Exact;
     plain.surface = world.surface;
     plain.ignored = {{1, 0}};
-    plain.descent = i % 5 == 0 ? Descent::ByNeed : Descent::Straight;
+    const ReferenceOptions way = reference(i % 5 == 0 ? Descent::ByNeed : Descent::Straight);
     QueryOptions perLink = plain;
     perLink.linkPolicies.assign(static_cast<std::size_t>(world.body.avatar.numLinks()),
                                 {plain.tolerance, plain.fidelity});
     perLink.tolerance = 1.0;  // what stands beside policies decides nothing
     perLink.fidelity = i % 2 == 0 ? Fidelity::Exact : Fidelity::Link;
-    const StepContacts expected = answer(world, plain), got = answer(world, perLink);
+    const StepContacts expected = answer(world, plain, way), got = answer(world, perLink, way);
     for (std::size_t link = 0; link < expected.links.size(); ++link) {
       expectSame(expected.links[link], got.links[link]);
       touched += expected.links[link].verdict != Verdict::Clear;
@@ -135,21 +139,21 @@ TEST_P(LinkPolicies, GiveEachLinkTheAnswerItHasAlone) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(700 + i));
     const World world = someWorld(100 + i);
-    QueryOptions mixed = options();
+    QueryOptions mixed;
     mixed.surface = world.surface;
     mixed.ignored = {{2, IgnoredPair::kEveryObject}, {3, 1}};
     mixed.linkPolicies = randomPolicies(random, world.body.avatar.numLinks(), tolerances);
-    const StepContacts got = answer(world, mixed);
+    const StepContacts got = answer(world, mixed, reference());
     for (LinkId link = 0; link < world.body.avatar.numLinks(); ++link) {
       SCOPED_TRACE("link " + std::to_string(link));
       const LinkPolicy policy = mixed.linkPolicies[static_cast<std::size_t>(link)];
-      QueryOptions alone = options();
+      QueryOptions alone;
       alone.surface = world.surface;
       alone.ignored = mixed.ignored;
       alone.tolerance = policy.tolerance;
       alone.fidelity = policy.fidelity;
       const auto place = static_cast<std::size_t>(link);
-      expectSame(answer(world, alone).links[place], got.links[place]);
+      expectSame(answer(world, alone, reference()).links[place], got.links[place]);
       touched[policy.fidelity == Fidelity::Exact] += got.links[place].verdict != Verdict::Clear;
     }
     EXPECT_EQ(got.links[2].verdict, Verdict::Clear);
@@ -176,11 +180,11 @@ TEST_P(LinkPolicies, KeepThePromiseOfEachLinkByTheOracle) {
     const oracle::Scene scene(test::plain(world.raw.triangles));
     const oracle::Motion truth(
         test::plainJoints(world.body.avatar.skeleton(), world.body.from, world.body.to));
-    QueryOptions mixed = options();
+    QueryOptions mixed;
     mixed.surface = world.surface;
     mixed.linkPolicies =
         randomPolicies(random, world.body.avatar.numLinks(), {2e-2, 5e-3, 1e-4, 1e-6});
-    const StepContacts got = answer(world, mixed);
+    const StepContacts got = answer(world, mixed, reference());
     for (const LinkContact& contact : got.links) {
       const LinkPolicy policy = mixed.linkPolicies[static_cast<std::size_t>(contact.link)];
       const oracle::Judgement judgement =
@@ -231,12 +235,12 @@ FallingRow fallingRow(int balls) {
 TEST_P(LinkPolicies, ReportFallingBallsEachWithinItsOwnTolerance) {
   const std::array<double, 6> tolerances{0.05, 1e-7, 5e-3, 1e-4, 1e-9, 1e-2};
   const FallingRow row = fallingRow(static_cast<int>(tolerances.size()));
-  QueryOptions mixed = options();
+  QueryOptions mixed;
   for (const double tolerance : tolerances) {
     mixed.linkPolicies.push_back({tolerance, Fidelity::Link});
   }
   const ChainMotion motion(row.avatar.skeleton(), row.from, row.to);
-  const auto step = firstContacts(row.avatar, motion, row.scene, mixed).value();
+  const auto step = firstContacts(row.avatar, motion, row.scene, mixed, reference()).value();
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     SCOPED_TRACE(i);
     EXPECT_EQ(step.links[i].verdict, Verdict::Contact);
@@ -250,12 +254,12 @@ TEST_P(LinkPolicies, AskLssAndMeshesInOneQuery) {
   FallingRow row = fallingRow(2);
   for (Vector3d& place : row.to.translations) place.y() = 0.09;
   const Triangle needle{{Vector3d(0, 0, 0), Vector3d(0.01, 0, 0), Vector3d(0, 0.01, 0)}};
-  QueryOptions mixed = options();
+  QueryOptions mixed;
   // Of the first link no mesh is there at all: nobody asks for it.
   mixed.surface = AvatarSurface::build(row.avatar, {{}, {needle}}).value();
   mixed.linkPolicies = {{1e-3, Fidelity::Link}, {1e-3, Fidelity::Exact}};
   const ChainMotion motion(row.avatar.skeleton(), row.from, row.to);
-  const auto step = firstContacts(row.avatar, motion, row.scene, mixed).value();
+  const auto step = firstContacts(row.avatar, motion, row.scene, mixed, reference()).value();
   EXPECT_EQ(step.links[0].verdict, Verdict::Contact);
   EXPECT_EQ(step.links[0].linkTriangle, -1);
   EXPECT_EQ(step.links[1].verdict, Verdict::Clear);
@@ -270,13 +274,12 @@ TEST_P(LinkPolicies, AskLssAndMeshesInOneQuery) {
 TEST_P(LinkPolicies, AreAllInReachByNeed) {
   FallingRow row = fallingRow(2);
   for (Vector3d& place : row.to.translations) place.y() = 0.1001;
-  QueryOptions mixed = options();
-  mixed.descent = Descent::ByNeed;
+  QueryOptions mixed;
   mixed.linkPolicies = {{1e-6, Fidelity::Link}, {1e-2, Fidelity::Link}};
   const ChainMotion motion(row.avatar.skeleton(), row.from, row.to);
-  const auto step = firstContacts(row.avatar, motion, row.scene, mixed).value();
-  mixed.descent = Descent::Straight;
-  const auto straight = firstContacts(row.avatar, motion, row.scene, mixed).value();
+  const auto step =
+      firstContacts(row.avatar, motion, row.scene, mixed, reference(Descent::ByNeed)).value();
+  const auto straight = firstContacts(row.avatar, motion, row.scene, mixed, reference()).value();
   EXPECT_EQ(step.links[0].verdict, Verdict::Clear);
   EXPECT_EQ(step.links[1].verdict, Verdict::Contact);
   for (std::size_t link = 0; link < 2; ++link) expectSame(straight.links[link], step.links[link]);
@@ -289,13 +292,12 @@ TEST_P(LinkPolicies, AreAnsweredByNeedAsStraightAtAnyFidelity) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(2100 + i));
     World world = someWorld(2100 + i, i % 3 == 0 ? 1 : 1500, 5);
-    QueryOptions mixed = options();
+    QueryOptions mixed;
     mixed.surface = world.surface;
     mixed.fidelity = Fidelity::Exact;
     if (i % 2 == 0) mixed.linkPolicies = randomPolicies(random, 5, {1e-2, 1e-4});
-    const StepContacts straight = answer(world, mixed);
-    mixed.descent = Descent::ByNeed;
-    const StepContacts byNeed = answer(world, mixed);
+    const StepContacts straight = answer(world, mixed, reference());
+    const StepContacts byNeed = answer(world, mixed, reference(Descent::ByNeed));
     for (std::size_t link = 0; link < straight.links.size(); ++link) {
       expectSame(straight.links[link], byNeed.links[link]);
       touched += straight.links[link].verdict != Verdict::Clear;

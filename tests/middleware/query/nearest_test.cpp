@@ -10,6 +10,7 @@
 #include "judge/motion.h"
 #include "judge/scene.h"
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/support/judged.h"
@@ -37,11 +38,12 @@ struct Case {
     options.tolerance = tolerance;
     options.fidelity = fidelity;
     options.surface = surface;
-    options.backtracking = way;
+    ReferenceOptions reference;
+    reference.backtracking = way;
     for (LinkId link = 1; link < body.avatar.numLinks(); link += 2) {
       options.ignored.push_back({link, 1});
     }
-    return firstContacts(body.avatar, body.motion(), scene, options).value();
+    return firstContacts(body.avatar, body.motion(), scene, options, reference).value();
   }
 
   /// Of all triangles that the link does not ignore.

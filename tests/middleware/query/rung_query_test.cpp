@@ -11,6 +11,7 @@
 #include "lss/simd.h"
 #include "middleware/ladder/rungs.h"
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 #include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/support/asked.h"
@@ -50,8 +51,9 @@ QueryOptions at(Fidelity fidelity, double tolerance) {
   return options;
 }
 
-StepContacts answer(const Case& c, const QueryOptions& options) {
-  return firstContacts(c.step.avatar, c.step.motion(), c.scene, options).value();
+StepContacts answer(const Case& c, const QueryOptions& options,
+                    const ReferenceOptions& reference = {}) {
+  return firstContacts(c.step.avatar, c.step.motion(), c.scene, options, reference).value();
 }
 
 class RungQueries : public testing::TestWithParam<Simd> {
@@ -68,9 +70,10 @@ TEST_P(RungQueries, AreSoundAndTightByTheOracle) {
     const oracle::Scene scene(test::plain(c.raw.triangles));
     const oracle::Motion truth(test::plainJoints(c.step.avatar.skeleton(), c.step.from, c.step.to));
     for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar}) {
-      QueryOptions options = at(rung, std::array<double, 3>{1e-2, 1e-3, 1e-6}[i % 3]);
-      if (i % 4 == 0) options.backtracking = Backtracking::Scalar;
-      const StepContacts got = answer(c, options);
+      const QueryOptions options = at(rung, std::array<double, 3>{1e-2, 1e-3, 1e-6}[i % 3]);
+      ReferenceOptions reference;
+      if (i % 4 == 0) reference.backtracking = Backtracking::Scalar;
+      const StepContacts got = answer(c, options, reference);
       for (const RungVolume& volume : rungVolumes(c.step.avatar, c.step.motion(), c.scene, rung)) {
         const std::vector<oracle::Capsule> capsule{test::plain(volume.lss)};
         const LinkContact& first = got.links[static_cast<std::size_t>(volume.links.front())];
@@ -169,8 +172,9 @@ TEST(RungDeterminism, CullersTriangleOrderAndScratchDoNotShow) {
       const auto fresh = firstContacts(c.step.avatar, motion, c.scene, options).value();
       const auto again = test::answerOf(c.step.avatar, motion, c.scene, options, used);
       const auto mixed = test::answerOf(c.step.avatar, motion, other, options, used);
-      options.culler = Culler::PointQuery;
-      const auto slow = test::answerOf(c.step.avatar, motion, c.scene, options, used);
+      ReferenceOptions pointQuery;
+      pointQuery.culler = Culler::PointQuery;
+      const auto slow = test::answerOf(c.step.avatar, motion, c.scene, options, pointQuery, used);
       for (std::size_t link = 0; link < fresh.links.size(); ++link) {
         expectSame(fresh.links[link], again.links[link]);
         expectSame(fresh.links[link], slow.links[link]);
@@ -265,11 +269,12 @@ TEST(DescentByNeed, GivesTheSameAnswers) {
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
     const Case c = someCase(4000 + i, 20);
-    QueryOptions options = at(Fidelity::Link, i % 2 == 0 ? 1e-3 : 0.05);
-    if (i % 5 == 0) options.backtracking = Backtracking::Scalar;
-    const StepContacts straight = answer(c, options);
-    options.descent = Descent::ByNeed;
-    const StepContacts byNeed = answer(c, options);
+    const QueryOptions options = at(Fidelity::Link, i % 2 == 0 ? 1e-3 : 0.05);
+    ReferenceOptions reference;
+    if (i % 5 == 0) reference.backtracking = Backtracking::Scalar;
+    const StepContacts straight = answer(c, options, reference);
+    reference.descent = Descent::ByNeed;
+    const StepContacts byNeed = answer(c, options, reference);
     EXPECT_EQ(byNeed.counters.rungTests, 1U);
     settled += byNeed.counters.settledAbove > 0;
     ++asked;

@@ -2,6 +2,8 @@
 // early or refused here, and what it leaves behind is looked at.
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "middleware/query/rung_query.h"
 #include "middleware/query/scalar_query.h"
 #include "middleware/query/work_meter.h"
+#include "middleware/reference/reference_query.h"
 #include "middleware/scene/scene_parts.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
@@ -73,33 +76,46 @@ struct Case {
 struct Path {
   std::string name;
   QueryOptions options;
+  ReferenceOptions reference;
 };
+
+StepContacts answer(const Case& c, const Path& path) {
+  return firstContacts(c.body.avatar, c.motion, c.scene, path.options, path.reference).value();
+}
+
+/// The ways of backtracking that a fidelity has.
+std::vector<std::optional<Backtracking>> backtrackingsOf(Fidelity fidelity) {
+  if (fidelity == Fidelity::Ellipsoid) return {std::nullopt};
+  if (fidelity == Fidelity::Skinned) return {Backtracking::Scalar};
+  return {Backtracking::Lanes, Backtracking::Scalar};
+}
 
 /// Every way that a query goes, each link asked for by itself and without a budget.
 std::vector<Path> pathsOf(const Case& c) {
   std::vector<Path> paths;
   for (const Fidelity fidelity : {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned,
                                   Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid}) {
-    for (const Backtracking way : {Backtracking::Lanes, Backtracking::Scalar}) {
+    for (const std::optional<Backtracking> way : backtrackingsOf(fidelity)) {
       for (const Culler culler : {Culler::FlatBvh, Culler::PointQuery}) {
-        QueryOptions options = c.options(fidelity);
-        options.backtracking = way;
-        options.culler = culler;
-        paths.push_back({std::string(toString(fidelity)) + " " + toString(way), options});
+        Path path{toString(fidelity), c.options(fidelity), {}};
+        path.reference.backtracking = way;
+        path.reference.culler = culler;
+        if (way) path.name += std::string(" ") + toString(*way);
+        paths.push_back(std::move(path));
       }
     }
   }
-  QueryOptions options = c.options(Fidelity::Exact);
-  options.leafMethod = LeafMethod::Cubics;
-  paths.push_back({"cubics", options});
-  options = c.options(Fidelity::Link);
-  options.descent = Descent::ByNeed;
-  paths.push_back({"by need", options});
+  paths.push_back({"cubics", c.options(Fidelity::Exact), {}});
+  paths.back().reference.leafMethod = LeafMethod::Cubics;
+  QueryOptions options = c.options(Fidelity::Link);
+  paths.push_back({"by need", options, {}});
+  paths.back().reference.descent = Descent::ByNeed;
   for (LinkId link = 0; link < Case::kLinks; ++link) {
     options.linkPolicies.push_back(
         {link % 2 == 0 ? 1e-4 : 5e-3, link % 3 == 0 ? Fidelity::Exact : Fidelity::Link});
   }
-  paths.push_back({"policies", options});
+  paths.push_back({"policies", options, {}});
+  paths.back().reference.descent = Descent::ByNeed;
   return paths;
 }
 
@@ -132,17 +148,15 @@ TEST(Unanswered, NoPathLeavesALinkSo) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const Case c(seed);
     for (const Path& path : pathsOf(c)) {
-      const StepContacts whole =
-          firstContacts(c.body.avatar, c.motion, c.scene, path.options).value();
+      const StepContacts whole = answer(c, path);
       expectAnswers(whole, whole, path);
       EXPECT_EQ(whole.links[Case::kIgnored].verdict, Verdict::Clear) << path.name;
       for (const std::uint64_t budget : {0, 30, 1000, 100000}) {
         for (const Scope scope : {Scope::EveryLink, Scope::FirstOfAvatar}) {
-          QueryOptions options = path.options;
-          options.workBudget = budget;
-          options.scope = scope;
-          const StepContacts step =
-              firstContacts(c.body.avatar, c.motion, c.scene, options).value();
+          Path less = path;
+          less.options.workBudget = budget;
+          less.options.scope = scope;
+          const StepContacts step = answer(c, less);
           expectAnswers(step, whole, path);
           for (const LinkContact& contact : step.links) {
             cut += contact.reason == UndecidedReason::WorkBudget ? 1 : 0;
@@ -167,12 +181,10 @@ TEST(Budget, ThatIsNotSpentChangesNothing) {
         SCOPED_TRACE(path.name + ", seed " + std::to_string(seed));
         path.options.scope = scope;
         path.options.workBudget = std::numeric_limits<std::uint64_t>::max();
-        const StepContacts whole =
-            firstContacts(c.body.avatar, c.motion, c.scene, path.options).value();
+        const StepContacts whole = answer(c, path);
         const std::uint64_t work = internal::WorkMeter::workOf(whole.counters);
         path.options.workBudget = kAmple * std::max<std::uint64_t>(work, 1);
-        const StepContacts step =
-            firstContacts(c.body.avatar, c.motion, c.scene, path.options).value();
+        const StepContacts step = answer(c, path);
         for (std::size_t i = 0; i < whole.links.size(); ++i) {
           EXPECT_TRUE(isSame(step.links[i], whole.links[i])) << "link " << i;
           EXPECT_EQ(step.links[i].separation, whole.links[i].separation);
@@ -198,6 +210,11 @@ class BreakingCuller : public internal::TriangleCuller {
     if (left_-- == 0) throw BrokenOff{};
     scene_.parts().bvh.collect(box, ids, visited);
   }
+  void collectLeaves(const internal::BoxLanes& boxes, std::vector<internal::LeafHit>& hits,
+                     std::uint64_t& nodes, std::uint64_t& leaves) const override {
+    if (left_-- == 0) throw BrokenOff{};
+    scene_.parts().bvh.collectLeaves(boxes, hits, nodes, leaves);
+  }
 
  private:
   const Scene& scene_;
@@ -205,10 +222,12 @@ class BreakingCuller : public internal::TriangleCuller {
 };
 
 /// As Query::answer(), up to the culler.
-void ask(const Case& c, const QueryOptions& options, const internal::TriangleCuller& culler,
+void ask(const Case& c, const Path& path, const internal::TriangleCuller& culler,
          QueryScratch& scratch, StepContacts& step) {
-  internal::QueryPlan plan = Query::build(c.body.avatar, c.scene, options).value().plan();
-  plan.culler = &culler;
+  const QueryOptions& options = path.options;
+  internal::QueryPlan plan =
+      buildReference(c.body.avatar, c.scene, options, path.reference).value().plan();
+  plan.culler = {std::shared_ptr<const void>(), &culler};  // the caller's
   const internal::Body body(plan.avatar, plan.options.ignored);
   internal::ScratchParts& parts = scratch.parts();
   const internal::WorkMeter meter(options);
@@ -225,18 +244,16 @@ TEST(Unanswered, QueriesThatAreBrokenOffLeaveNothingClear) {
   int broken = 0, unanswered = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Case c(seed);
-    for (Path path : pathsOf(c)) {
-      path.options.culler = Culler::PointQuery;  // lanes ask theirs, too
+    for (const Path& path : pathsOf(c)) {
       QueryScratch scratch;
-      const StepContacts whole =
-          firstContacts(c.body.avatar, c.motion, c.scene, path.options).value();
+      const StepContacts whole = answer(c, path);
       bool isBroken = true;
       for (int questions = 0; isBroken; ++questions) {
         isBroken = false;
         StepContacts step;
         internal::leaveUnanswered(Case::kLinks, step.links);
         try {
-          ask(c, path.options, BreakingCuller(c.scene, questions), scratch, step);
+          ask(c, path, BreakingCuller(c.scene, questions), scratch, step);
         } catch (const BrokenOff&) {
           isBroken = true;
         }
@@ -270,7 +287,7 @@ TEST(Unanswered, TheFirstOfAllLeavesNothingClear) {
       QueryScratch scratch;
       StepContacts step;
       internal::leaveUnanswered(Case::kLinks, step.links);
-      ask(c, options, c.scene.parts().bvh, scratch, step);
+      ask(c, {"link", options, {}}, c.scene.parts().bvh, scratch, step);
       double first = 1.0;
       for (const LinkContact& contact : step.links) first = std::min(first, contact.freeUntil);
       for (const LinkContact& contact : step.links) {

@@ -86,7 +86,7 @@ bool same(const Walked& x, const Walked& y) {
 
 Walked walk(const FlatBvh& bvh, const Boxes& boxes) {
   Walked walked;
-  bvh.collectWholeLeaves(boxes.lanes(), walked.hits, walked.nodes, walked.leaves);
+  bvh.collectLeaves(boxes.lanes(), walked.hits, walked.nodes, walked.leaves);
   return walked;
 }
 
@@ -250,7 +250,7 @@ TEST(CollectLeaves, AppendsAndCounts) {
   const Boxes boxes = randomBoxes(random, scene, Vector3d::Zero(), 70);
   const Walked once = walk(bvh, boxes);
   Walked twice = once;
-  bvh.collectWholeLeaves(boxes.lanes(), twice.hits, twice.nodes, twice.leaves);
+  bvh.collectLeaves(boxes.lanes(), twice.hits, twice.nodes, twice.leaves);
   EXPECT_GT(once.hits.size(), 0u);
   EXPECT_GE(once.leaves, 1u);
   EXPECT_LE(once.leaves, 2 * bvh.numLeaves()) << "once for every 64 boxes";
@@ -417,28 +417,6 @@ TEST(FlatBvhClusters, ContainTheTrueTriangles) {
     }
   }
   EXPECT_LT(tightness / clusters, 0.95) << "no better than the ball around the box";
-}
-
-TEST(FlatBvhSlots, LeadToEveryTriangleOfTheTreeFromManyThreads) {
-  Random random(8);
-  RawScene raw = test::clutter(random, 1000, 1, Vector3d::Zero());
-  for (std::size_t i = 0; i < raw.triangles.size(); i += 7) {  // dropped by the scene
-    raw.triangles[i].vertices[1].y() = std::numeric_limits<double>::quiet_NaN();
-  }
-  const Scene scene = Scene::build(raw).value();
-  const FlatBvh& bvh = scene.parts().bvh;
-  std::vector<int> wrong(4, 0);
-  std::vector<std::thread> threads;
-  for (int& count : wrong) {
-    threads.emplace_back([&] {
-      for (const TriangleId id : scene.parts().finiteIds) {
-        const FlatBvh::Slot slot = bvh.slotOf(id);
-        if (slot.leaf >= bvh.numLeaves() || bvh.leaf(slot.leaf).id[slot.place] != id) ++count;
-      }
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(wrong, std::vector<int>(4, 0));
 }
 
 }  // namespace

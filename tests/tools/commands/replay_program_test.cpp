@@ -94,22 +94,19 @@ TEST(ReplayProgram, ReportsHowDeepAStepStarts) {
   EXPECT_NEAR(contact["penetration"].get<double>(), 0.06, 1e-12);
 }
 
-TEST(ReplayProgram, WritesTheSameBytesForAnyThreadsAndEitherCuller) {
+TEST(ReplayProgram, WritesTheSameBytesForAnyThreads) {
   const SmallWorld world;
   world.folder.write("long.bvh", clipAlongX(toAndFro(600)));
   std::string first;
   for (const std::string threads : {"1", "2", "4"}) {
-    for (const std::string culler : {"flat", "point-query"}) {
-      const std::string out = world.folder / (threads + culler);
-      ASSERT_EQ(
-          runForetouch(world.replay({"--threads", threads, "--culler", culler, "--output", out},
-                                    "wall.obj", "man.json", "long.bvh"))
-              .exitCode,
-          0);
-      const std::string results = resultsWithoutLatency(out);
-      if (first.empty()) first = results;
-      EXPECT_EQ(results, first) << threads << " " << culler;
-    }
+    const std::string out = world.folder / threads;
+    ASSERT_EQ(runForetouch(world.replay({"--threads", threads, "--output", out}, "wall.obj",
+                                        "man.json", "long.bvh"))
+                  .exitCode,
+              0);
+    const std::string results = resultsWithoutLatency(out);
+    if (first.empty()) first = results;
+    EXPECT_EQ(results, first) << threads;
   }
   EXPECT_EQ(linesOf(first).size(), 600u);
   EXPECT_NE(first.find("\"contact\""), std::string::npos);
@@ -232,9 +229,8 @@ TEST(ReplayProgram, SaysWhereExactFidelityIsLinkFidelity) {
 
 TEST(ReplayProgram, RefusesABudgetBesideWhatCannotKeepIt) {
   const SmallWorld world;
-  for (const std::vector<std::string>& options : {std::vector<std::string>{"--compare-rigid"},
-                                                  {"--compare-link", "--fidelity", "exact"},
-                                                  {"--culler", "point-query"}}) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--compare-rigid"}, {"--compare-link", "--fidelity", "exact"}}) {
     std::vector<std::string> arguments = options;
     arguments.insert(arguments.end(), {"--budget-us", "5", "--output", world.folder / "x.jsonl"});
     const Ended ended = runForetouch(world.replay(arguments));

@@ -71,15 +71,13 @@ TEST(Replay, DoesNotCallAContactMissedThatAPoseShows) {
   EXPECT_GE(contacts, 1);
 }
 
-TEST(Replay, GivesTheSameLinesForAnyNumberOfThreadsAndEitherCuller) {
-  ReplayInputs inputs = smallInputs(manyPlaces(400));
+TEST(Replay, GivesTheSameLinesForAnyNumberOfThreads) {
+  const ReplayInputs inputs = smallInputs(manyPlaces(400));
   const std::vector<std::string> expected = linesOf(inputs, {});
   ASSERT_EQ(expected.size(), 399u);
   for (const int threads : {2, 3, 4, 16}) {
     EXPECT_EQ(linesOf(inputs, {threads, false}), expected) << threads;
   }
-  inputs.query.culler = Culler::PointQuery;
-  EXPECT_EQ(linesOf(inputs, {1, false}), expected);
   EXPECT_EQ(linesOf(inputs, {4, true}), expected);
 }
 

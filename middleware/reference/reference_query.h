@@ -1,0 +1,80 @@
+// middleware/reference/reference_query.h: the door of the reference room: the same questions,
+// answered in other ways. For tests, which hold one way against another, and for benchmarks; no
+// program of the product links this library, and none of its answers needs it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "articulated/avatar.h"
+#include "articulated/motion.h"
+#include "articulated/result.h"
+#include "middleware/contact.h"
+#include "middleware/query/query.h"
+#include "middleware/query_options.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch {
+
+/// Both give the same answer, byte for byte.
+enum class Culler : std::uint8_t {
+  FlatBvh,     ///< Embree's builder (rtcBuildBVH), flattened; our traversal.
+  PointQuery,  ///< An RTCScene and rtcPointQuery: slower.
+};
+
+/// "flat", "point-query".
+[[nodiscard]] const char* toString(Culler culler);
+
+/// How the query finds first contacts. Both keep the promise; they may report contact at different
+/// instants within it.
+enum class Backtracking : std::uint8_t {
+  Lanes,   ///< Many pairs at once in the processor's vectors (lss/simd.h), in doubles where lanes
+           ///< cannot decide.
+  Scalar,  ///< Pair by pair in doubles: slower.
+};
+
+/// "lanes", "scalar".
+[[nodiscard]] const char* toString(Backtracking backtracking);
+
+/// How a query at exact fidelity follows a pair of triangles through time. Both keep the promise;
+/// they may report contact at different instants within it.
+enum class LeafMethod : std::uint8_t {
+  Advancement,  ///< Conservative advancement, as for LSS. The faster one.
+  Cubics,       ///< Pieces of the motion as nlerp bodies, by their contact functions ([Canny86]).
+};
+
+/// "advancement", "cubics".
+[[nodiscard]] const char* toString(LeafMethod method);
+
+/// Whether a query at link or exact fidelity first tests whether anything is within reach of the
+/// whole avatar, however it moves, and stops if nothing is. The same answers.
+enum class Descent : std::uint8_t {
+  Straight,
+  ByNeed,
+};
+
+/// "straight", "by-need".
+[[nodiscard]] const char* toString(Descent descent);
+
+/// The defaults are what the product does.
+struct ReferenceOptions {
+  Culler culler = Culler::FlatBvh;  ///< Of answer(); touchesAt() always asks the flat tree.
+  /// None: lanes, except for skins and for more LSS than a walk takes.
+  std::optional<Backtracking> backtracking;
+  LeafMethod leafMethod = LeafMethod::Advancement;
+  Descent descent = Descent::Straight;
+};
+
+/// As Query::build(), answered in the ways of `reference`. Further errors: a way that the query
+/// does not have (cubics without exact fidelity; by need of skins or above the links; lanes of
+/// skins or of too many LSS; either backtracking of an ellipsoid).
+[[nodiscard]] Result<Query> buildReference(const Avatar& avatar, const Scene& scene,
+                                           const QueryOptions& options,
+                                           const ReferenceOptions& reference);
+
+/// Builds such a query and asks it once. Errors: as there, and as firstContacts().
+[[nodiscard]] Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& motion,
+                                                 const Scene& scene, const QueryOptions& options,
+                                                 const ReferenceOptions& reference);
+
+}  // namespace foretouch
