@@ -105,17 +105,26 @@ LinkState composed(const LinkState& parent, const JointMotion& joint, double t) 
   return state;
 }
 
+/// The joints that move a link in the frame of a link above it, or in W.
+struct ChainBelow {
+  JointId joints[kMaxChainDepth];  // the link's own first
+  int depth = 0;
+
+  ChainBelow(const ChainMotion& motion, LinkId frame, LinkId link) {
+    for (JointId j = link; j != frame; j = motion.parent(j)) {
+      FORETOUCH_ASSERT(j != kNoParent && depth < kMaxChainDepth);
+      joints[depth++] = j;
+    }
+  }
+};
+
 /// The link's state, with `jointOf(id)` giving one joint's motion.
 template <typename JointOf>
-LinkState chainState(const ChainMotion& motion, LinkId link, double t, const JointOf& jointOf) {
-  JointId chain[kMaxChainDepth];
-  int depth = 0;
-  for (JointId j = link; j != kNoParent; j = motion.parent(j)) {
-    FORETOUCH_ASSERT(depth < kMaxChainDepth);
-    chain[depth++] = j;
-  }
+LinkState chainState(const ChainMotion& motion, LinkId frame, LinkId link, double t,
+                     const JointOf& jointOf) {
+  const ChainBelow chain(motion, frame, link);
   LinkState state;
-  while (depth > 0) state = composed(state, jointOf(chain[--depth]), t);
+  for (int i = chain.depth; i > 0; --i) state = composed(state, jointOf(chain.joints[i - 1]), t);
   return state;
 }
 
@@ -185,7 +194,17 @@ JointArc ChainMotion::arc(LinkId link) const {
 }
 
 LinkState ChainMotion::stateAt(LinkId link, double t) const {
-  return chainState(*this, link, t, [this](JointId j) { return jointMotion(arc(j)); });
+  return chainState(*this, kNoParent, link, t, [this](JointId j) { return jointMotion(arc(j)); });
+}
+
+ChainSums ChainMotion::sumsIn(LinkId frame, LinkId link) const {
+  if (frame == kNoParent) return sums(link);
+  const internal::JointColumns arcs = {const_cast<double*>(arcs_.data()), numLinks()};
+  const ChainBelow chain(*this, frame, link);
+  if (chain.depth == 0) return {};
+  ChainSums sums = rootSums(arcs, slotOf(chain.joints[chain.depth - 1]));
+  for (int i = chain.depth - 1; i > 0; --i) sums = sumsOf(sums, arcs, slotOf(chain.joints[i - 1]));
+  return sums;
 }
 
 void ChainMotion::statesAt(double t, std::vector<LinkState>& states) const {
@@ -215,8 +234,12 @@ const MotionEvaluator::JointMotion& MotionEvaluator::joint(JointId joint) {
 }
 
 LinkState MotionEvaluator::stateAt(LinkId link, double t) {
+  return stateIn(kNoParent, link, t);
+}
+
+LinkState MotionEvaluator::stateIn(LinkId frame, LinkId link, double t) {
   const auto jointOf = [this](JointId j) -> const JointMotion& { return joint(j); };
-  return chainState(*motion_, link, t, jointOf);
+  return chainState(*motion_, frame, link, t, jointOf);
 }
 
 void MotionEvaluator::statesAt(double t, std::vector<LinkState>& states) {

@@ -138,6 +138,10 @@ class ChainMotion {
   void statesAt(double t, std::vector<LinkState>& states) const;
 
   [[nodiscard]] MotionBounds bounds(LinkId link) const { return sums(link).bounds(); }
+  /// The same bounds on the link's motion in the frame of a link above it, where only the joints
+  /// below `frame` move; in W if that is kNoParent. Never above those in W. `frame` is the link
+  /// itself or above it (asserted). O(depth below the frame).
+  [[nodiscard]] ChainSums sumsIn(LinkId frame, LinkId link) const;
   /// The sums that bounds() is made of.
   [[nodiscard]] const ChainSums& sums(LinkId link) const { return sums_[slotOf(link)]; }
   /// The largest angularSpeed, eighthDerivative, armReach and depth of all links' sums, each by
@@ -179,6 +183,10 @@ class MotionEvaluator {
 
   /// `t` in [0,1]. O(depth of the link).
   [[nodiscard]] LinkState stateAt(LinkId link, double t);
+  /// The link's state in the frame of a link above it, as ChainMotion::sumsIn() bounds it:
+  /// rotation, place and velocities that somebody who rides on `frame` sees. O(depth below the
+  /// frame).
+  [[nodiscard]] LinkState stateIn(LinkId frame, LinkId link, double t);
   /// All links at once, in order; `states` is resized. O(joints).
   void statesAt(double t, std::vector<LinkState>& states);
 

@@ -73,8 +73,22 @@ struct LinkContact {
   FeatureKind linkFeature = FeatureKind::Face, sceneFeature = FeatureKind::Face;
 };
 
+/// The first contact of two of an avatar's own links, where QueryOptions::self asks for it. The
+/// other link takes the place of the scene in what LinkContact says: `p_WScene` is on its surface,
+/// the normal points from it to `link`, `triangle` is one of its mesh's (-1 at link fidelity).
+struct PairContact : LinkContact {
+  LinkId other = -1;           ///< Above `link`; -1: the scene.
+  std::int32_t otherLss = -1;  ///< Index among the other link's LSS.
+};
+
 struct StepContacts {
   std::vector<LinkContact> links;  ///< One per link of the avatar, in order.
+  /// Of own links: every asked pair that is not clear, in the order of isReportedBefore(), then of
+  /// the other link.
+  std::vector<PairContact> pairs;
+  /// True: own links were asked, and every asked pair that `pairs` does not list is proven clear.
+  /// False: `pairs` is empty and claims nothing.
+  bool arePairsAnswered = false;
   QueryCounters counters;
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "articulated/pair_rules.h"
 #include "articulated/skeleton.h"
 #include "middleware/fidelity.h"
 #include "middleware/scene/triangle_id.h"
@@ -62,6 +63,10 @@ struct QueryOptions {
   /// or Exact. Empty: all links alike. If all policies are equal, the answer is that without
   /// policies, bit for bit.
   std::vector<LinkPolicy> linkPolicies;
+  /// Asks whether own links touch each other, too: StepContacts::pairs. Of the same avatar; at link
+  /// and exact fidelity, with Scope::EveryLink. Two links with policies meet by the smaller
+  /// tolerance, each by the surface of its own fidelity.
+  std::optional<PairRules> self;
   /// Work that the step may cost, all links together, in evaluations of a pair in lanes (about 10
   /// ns; middleware/query/work_meter.h converts other work). Links without an answer by then are
   /// Undecided, free as far as proven; more work never proves less. A step that costs at most seven

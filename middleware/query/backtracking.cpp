@@ -22,7 +22,9 @@ struct Later {
     if (x.freeUntil != y.freeUntil) return x.freeUntil > y.freeUntil;
     if (x.triangle != y.triangle) return x.triangle > y.triangle;
     if (x.lss != y.lss) return x.lss > y.lss;
-    return y.part < x.part;
+    if (x.otherLss != y.otherLss) return x.otherLss > y.otherLss;
+    if (!(x.part == y.part)) return y.part < x.part;
+    return y.otherPart < x.otherPart;
   }
 };
 
@@ -32,7 +34,9 @@ struct Farther {
     if (x.nearest != y.nearest) return x.nearest > y.nearest;
     if (x.triangle != y.triangle) return x.triangle > y.triangle;
     if (x.lss != y.lss) return x.lss > y.lss;
-    return y.part < x.part;
+    if (x.otherLss != y.otherLss) return x.otherLss > y.otherLss;
+    if (!(x.part == y.part)) return y.part < x.part;
+    return y.otherPart < x.otherPart;
   }
 };
 
@@ -41,7 +45,7 @@ class Backtracker {
   Backtracker(const LinkQuery& query, std::vector<Candidate>& heap, QueryCounters& counters)
       : query_(query), heap_(heap), counters_(counters), states_(query, counters) {}
 
-  LinkContact run() {
+  PairContact run() {
     startCandidates();
     while (!heap_.empty() && !hasContact() && heap_.front().freeUntil <= horizon_) {
       if (query_.meter.isPartSpent(counters_)) {
@@ -52,15 +56,15 @@ class Backtracker {
       advance();
     }
     if (hasContact()) settle();
-    return best_ ? *best_ : clearContact(query_.parts.link);
+    return best_ ? *best_ : PairContact{clearContact(query_.parts.link)};
   }
 
-  std::optional<LinkContact> runAtStart() {
+  std::optional<PairContact> runAtStart() {
     if (!lookNearestFirst(0.0)) settleUnseen();
     return best_;
   }
 
-  LinkContact runAround(const LinkContact& contact) {
+  PairContact runAround(const PairContact& contact) {
     best_ = contact;
     lookAround();
     return *best_;
@@ -92,7 +96,7 @@ class Backtracker {
     Candidate& candidate = heap_.back();
     const double t = candidate.freeUntil;
     const MovingPair pair = pairAt(candidate, t);
-    const bool isSurface = query_.isSurface(candidate.lss, candidate.part);
+    const bool isSurface = query_.isSurface(candidate);
     if (pair.gapUpper <= query_.tolerance) {
       if (!isSurface) return descendFrom(pair, t);
       best_ = contactOf(query_, candidate, pair, t);
@@ -120,8 +124,9 @@ class Backtracker {
   void descendFrom(const MovingPair& pair, double t) {
     descend(Later{}, [&](Candidate& part) {
       ++counters_.planeTests;
-      const MovingHull below = query_.parts.hullOf(part.lss, part.part, states_.at(t));
-      const double step = stepByPlane(below, pair.other, pair.axes.nhat, query_.tolerance);
+      const double step =
+          stepByPlane(oneSideOf(query_, part, states_.at(t)),
+                      otherSideOf(query_, part, states_.at(t)), pair.axes.nhat, query_.tolerance);
       if (step > 0.0) part.freeUntil = nextPossible(part, timeAfter(t, step, 1.0));
     });
   }
@@ -132,11 +137,9 @@ class Backtracker {
   void descend(const Order& order, const Prepare& prepare) {
     const Candidate parent = heap_.back();
     heap_.pop_back();
-    const std::array<Part, 2> parts = query_.below(parent.lss, parent.part);
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (i == 1 && parts[1] == parts[0]) break;
-      Candidate child = parent;
-      child.part = parts[i];
+    LinkQuery::Below below = query_.below(parent);
+    for (std::size_t i = 0; i < below.count; ++i) {
+      Candidate& child = below.candidates[i];
       prepare(child);
       if (!(child.freeUntil < 1.0) || child.freeUntil > horizon_) continue;
       heap_.push_back(child);
@@ -190,15 +193,14 @@ class Backtracker {
         continue;
       }
       const MovingPair pair = pairAt(heap_.back(), t);
-      if (pair.gapUpper <= query_.tolerance &&
-          !query_.isSurface(heap_.back().lss, heap_.back().part)) {
+      if (pair.gapUpper <= query_.tolerance && !query_.isSurface(heap_.back())) {
         descend(Farther{}, [&](Candidate& part) {
           part.nearest = std::max(part.nearest, leastGap(query_, part, states_.at(t)));
         });
         continue;
       }
       if (pair.gapUpper <= query_.tolerance) {
-        const LinkContact contact = contactOf(query_, heap_.back(), pair, t);
+        const PairContact contact = contactOf(query_, heap_.back(), pair, t);
         if (!hasContact() || comesFirst(contact, *best_)) best_ = contact;
       }
       heap_.pop_back();
@@ -208,16 +210,19 @@ class Backtracker {
 
   /// The pair of the best contact so far.
   [[nodiscard]] bool isBest(const Candidate& candidate) const {
-    if (!hasContact() || candidate.triangle != best_->triangle) return false;
+    if (!hasContact() || candidate.otherLss != best_->otherLss ||
+        otherTriangle(query_, candidate) != best_->triangle) {
+      return false;
+    }
     if (candidate.part.isTriangle()) return candidate.part.index() == best_->linkTriangle;
-    return candidate.lss == best_->lss && query_.isSurface(candidate.lss, candidate.part);
+    return candidate.lss == best_->lss && query_.isSurface(candidate);
   }
 
   /// At t = 0 an unseen pair may be deeper than the contact found, so whether the link starts in
   /// contact is open.
   void settleUnseen() {
     if (!best_ || best_->verdict != Verdict::Contact) return;
-    best_ = undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget);
+    best_ = PairContact{undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget)};
   }
 
   /// A pair farther than this is not a contact, or not one to report.
@@ -227,14 +232,14 @@ class Backtracker {
 
   void giveUp(double t, UndecidedReason reason) {
     if (best_) return;  // a contact at this instant stands
-    best_ = undecidedContact(query_.parts.link, t, reason);
+    best_ = PairContact{undecidedContact(query_.parts.link, t, reason)};
     horizon_ = t;
   }
 
   const LinkQuery& query_;
   std::vector<Candidate>& heap_;
   QueryCounters& counters_;
-  std::optional<LinkContact> best_;  // nothing: clear so far
+  std::optional<PairContact> best_;  // nothing: clear so far
   double horizon_ = kInfinity;       // nothing later than this can change the answer
   StateCache states_;
 };
@@ -250,10 +255,10 @@ std::optional<LinkContact> contactAtStart(const LinkQuery& query,
 
 LinkContact nearestContact(const LinkQuery& query, const LinkContact& contact,
                            std::vector<Candidate>& candidates, QueryCounters& counters) {
-  return Backtracker(query, candidates, counters).runAround(contact);
+  return Backtracker(query, candidates, counters).runAround(PairContact{contact});
 }
 
-LinkContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,
+PairContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,
                       QueryCounters& counters) {
   return Backtracker(query, candidates, counters).run();
 }

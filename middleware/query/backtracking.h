@@ -29,8 +29,9 @@ namespace foretouch::internal {
                                          std::vector<Candidate>& candidates,
                                          QueryCounters& counters);
 
-/// The link's first contact on [0,1]. Consumes `candidates` (used as a heap).
-[[nodiscard]] LinkContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,
+/// The link's first contact on [0,1], with the scene or with the query's other link. Consumes
+/// `candidates` (used as a heap).
+[[nodiscard]] PairContact backtrack(const LinkQuery& query, std::vector<Candidate>& candidates,
                                     QueryCounters& counters);
 
 }  // namespace foretouch::internal

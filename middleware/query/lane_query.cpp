@@ -79,7 +79,6 @@ LaneQuery::LaneQuery(const QueryPlan& plan, const Body& body, const LssTable& ta
       bvh_(plan.scene.parts().bvh),
       meter_(meter) {
   useTolerance(plan.tolerances.least);
-  scratch_.evaluator.reset(motion);
 }
 
 void LaneQuery::useTolerance(double tolerance) {
@@ -269,6 +268,7 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
   const LssTable& table = table_;
   if (!hasNodes_ || begin_ != 0.0 || end_ != 1.0) {
     lanes_.nodes.evaluate(motion_, begin_, end_, scene_.parts().origin);
+    lanes_.areNodesOfStep = true;
     counters.states +=
         static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(body_.numLinks());
   }
@@ -277,6 +277,7 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
   } else {
     sweptBoxes(table, motion_, lanes_.nodes, plan_.margins, lanes_.boxes);
   }
+  lanes_.areBoxesOfNodes = areAllAsked_ && &table_ == &plan_.table;
   for (std::int32_t lss = 0; !areAllAsked_ && lss < table.size(); ++lss) {
     if (lanes_.isAsked[slotOf(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
   }

@@ -17,8 +17,10 @@ namespace foretouch::internal {
 
 struct LaneScratch {
   ChainNodes nodes;
+  bool areNodesOfStep = false;  // of the motion that is asked, in the span that they name
   SweptBoxes boxes;
-  std::vector<LeafHit> hits;  // of all LSS, in the order of the walk
+  bool areBoxesOfNodes = false;  // of the avatar's own LSS, all of them
+  std::vector<LeafHit> hits;     // of all LSS, in the order of the walk
   // The hits by LSS; `first`: where those of an LSS begin.
   std::vector<std::uint32_t> first;
   std::vector<std::int32_t> leaf;  // padded by kMaxLanes

@@ -21,24 +21,8 @@ void addInfluence(const SkinInfluence& influence, const LinkState& state,
   moving.velocityRounding[corner] += 2.0 * w * bounds.velocityRoundingAt(rho) * kInflation;
 }
 
-MovingHull skinTriangle(const LinkParts& parts, std::int32_t index, const PosedLink& posed) {
-  MovingHull moving;
-  moving.moves = true;
-  moving.hull.count = 3;
-  for (std::size_t i = 0; i < 3; ++i) {
-    moving.hull.points[i].setZero();
-    moving.velocity[i].setZero();
-    const std::int32_t vertex = parts.skin->triangle(parts.link, index)[i];
-    for (const SkinInfluence& influence : parts.skin->skin.vertices[slotOf(vertex)]) {
-      addInfluence(influence, posed.all[slotOf(influence.link)],
-                   parts.motion.bounds(influence.link), i, moving);
-    }
-  }
-  return moving;
-}
-
 MovingHull meshTriangle(const LinkParts& parts, std::int32_t index, const LinkState& state) {
-  const MotionBounds& bounds = parts.motion.bounds(parts.link);
+  const MotionBounds bounds = parts.bounds();
   MovingHull moving;
   moving.moves = true;
   moving.hull.count = 3;
@@ -62,25 +46,53 @@ const Lss& LinkParts::lssOf(std::int32_t lssIndex, Part part) const {
   return part.isWhole() ? lss[index] : surface->hierarchy(lssIndex).node(part.index()).lss;
 }
 
-MovingHull LinkParts::hullOf(std::int32_t lssIndex, Part part, const PosedLink& posed) const {
-  if (part.isTriangle()) {
-    return skin != nullptr ? skinTriangle(*this, part.index(), posed)
-                           : meshTriangle(*this, part.index(), posed.state);
-  }
+std::array<Part, 2> LinkParts::below(std::int32_t lssIndex, Part part) const {
+  const LssHierarchy& hierarchy = surface->hierarchy(lssIndex);
+  HierarchyChild child = hierarchy.root();
+  if (part.isWhole() && child.isTriangle()) return {Part::of(child), Part::of(child)};
+  if (!part.isWhole()) child = HierarchyChild::node(part.index());
+  const auto& children = hierarchy.node(child.index()).children;
+  return {Part::of(children[0]), Part::of(children[1])};
+}
+
+MovingHull LinkParts::hullAt(std::int32_t lssIndex, Part part, const LinkState& state) const {
+  if (part.isTriangle()) return meshTriangle(*this, part.index(), state);
   const Lss& bound = lssOf(lssIndex, part);
-  return MovingHull::of(bound,
-                        part.isWhole() ? axisBounds[slotOf(lssIndex)]
-                                       : foretouch::axisBounds(bound, motion.bounds(link)),
-                        posed.state);
+  return MovingHull::of(
+      bound, part.isWhole() ? axisBounds[slotOf(lssIndex)] : foretouch::axisBounds(bound, bounds()),
+      state);
+}
+
+MovingHull LinkParts::skinTriangle(std::int32_t index, const std::vector<LinkState>& states) const {
+  MovingHull moving;
+  moving.moves = true;
+  moving.hull.count = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    moving.hull.points[i].setZero();
+    moving.velocity[i].setZero();
+    const std::int32_t vertex = skin->triangle(link, index)[i];
+    for (const SkinInfluence& influence : skin->skin.vertices[slotOf(vertex)]) {
+      addInfluence(influence, states[slotOf(influence.link)], motion.bounds(influence.link), i,
+                   moving);
+    }
+  }
+  return moving;
 }
 
 Aabb LinkParts::boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const {
+  if (skin == nullptr || !part.isTriangle()) return boxAt(lssIndex, part, posed.state);
+  Aabb box;
+  for (const Vector3d& v : skinTriangle(part.index(), posed.all).hull.points) box.add(v);
+  return box;
+}
+
+Aabb LinkParts::boxAt(std::int32_t lssIndex, Part part, const LinkState& state) const {
   Aabb box;
   if (part.isTriangle()) {
-    for (const Vector3d& v : hullOf(lssIndex, part, posed).hull.points) box.add(v);
+    for (const Vector3d& v : surface->triangle(part.index()).vertices) box.add(state.pointAt(v));
     return box;
   }
-  const AxisEnds ends = axisEnds(lssOf(lssIndex, part), posed.state);
+  const AxisEnds ends = axisEnds(lssOf(lssIndex, part), state);
   box.add(ends.a);
   box.add(ends.b);
   return box;

@@ -2,6 +2,7 @@
 // hierarchies below them, the triangles of its mesh or skin. Not installed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -36,9 +37,9 @@ class Part {
   std::int32_t code_;
 };
 
-/// A link at one instant; of a skinned surface, all links.
+/// A link at one instant, and the other one of a pair; of a skinned surface, all links.
 struct PosedLink {
-  LinkState state;
+  LinkState state, other;
   std::vector<LinkState> all;
 };
 
@@ -48,14 +49,33 @@ struct LinkParts {
   const std::vector<Lss>& lss;
   const std::vector<AxisBounds>& axisBounds;  // one per LSS
   const ChainMotion& motion;
-  const LinkSurface* surface = nullptr;  // exact fidelity; else null
-  const SkinParts* skin = nullptr;       // skinned fidelity; else null
+  const LinkSurface* surface = nullptr;   // exact fidelity; else null
+  const SkinParts* skin = nullptr;        // skinned fidelity; else null
+  const MotionBounds* inFrame = nullptr;  // in another frame than W; null in W
 
+  [[nodiscard]] MotionBounds bounds() const {
+    return inFrame != nullptr ? *inFrame : motion.bounds(link);
+  }
+  /// Nothing is below the part.
+  [[nodiscard]] bool isSurface(std::int32_t lssIndex, Part part) const {
+    return surface == nullptr || part.isTriangle() || !surface->hasTriangles(lssIndex);
+  }
+  /// The two parts below one that is not the surface itself (one, twice, if the LSS contains a
+  /// single triangle).
+  [[nodiscard]] std::array<Part, 2> below(std::int32_t lssIndex, Part part) const;
   [[nodiscard]] const Lss& lssOf(std::int32_t lssIndex, Part part) const;
   /// The part in W. A triangle by its index within the link, in the rigid surface or in the skin.
-  [[nodiscard]] MovingHull hullOf(std::int32_t lssIndex, Part part, const PosedLink& posed) const;
+  [[nodiscard]] MovingHull hullOf(std::int32_t lssIndex, Part part, const PosedLink& posed) const {
+    if (skin != nullptr && part.isTriangle()) return skinTriangle(part.index(), posed.all);
+    return hullAt(lssIndex, part, posed.state);
+  }
+  /// The same of a link that has no skin, in the frame of its state.
+  [[nodiscard]] MovingHull hullAt(std::int32_t lssIndex, Part part, const LinkState& state) const;
   /// A box around the part's points, as computed.
   [[nodiscard]] Aabb boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const;
+  [[nodiscard]] Aabb boxAt(std::int32_t lssIndex, Part part, const LinkState& state) const;
+  [[nodiscard]] MovingHull skinTriangle(std::int32_t index,
+                                        const std::vector<LinkState>& states) const;
 };
 
 }  // namespace foretouch::internal

@@ -29,6 +29,16 @@ Vector3d contactNormal(const Separation& axes) {
   return Vector3d::UnitY();
 }
 
+std::array<double, 7> orderKey(const LinkContact& c) {
+  return {c.separation - c.penetration,
+          c.p_WScene.x(),
+          c.p_WScene.y(),
+          c.p_WScene.z(),
+          c.nhat_SL_W.x(),
+          c.nhat_SL_W.y(),
+          c.nhat_SL_W.z()};
+}
+
 }  // namespace
 
 void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links) {
@@ -54,20 +64,55 @@ int Pieces::at(double t) const {
   return k;
 }
 
-std::array<Part, 2> LinkQuery::below(std::int32_t lss, Part part) const {
-  const LssHierarchy& hierarchy = parts.surface->hierarchy(lss);
-  HierarchyChild child = hierarchy.root();
-  if (part.isWhole() && child.isTriangle()) return {Part::of(child), Part::of(child)};
-  if (!part.isWhole()) child = HierarchyChild::node(part.index());
-  const auto& children = hierarchy.node(child.index()).children;
-  return {Part::of(children[0]), Part::of(children[1])};
+MovingHull oneSideOf(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed) {
+  MovingHull side = query.parts.hullOf(candidate.lss, candidate.part, posed);
+  side.radius *= candidate.radiusShare;
+  return side;
+}
+
+MovingHull otherSideOf(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed) {
+  if (query.other == nullptr) return MovingHull::still(query.scene.triangle(candidate.triangle));
+  MovingHull side = query.other->hullAt(candidate.otherLss, candidate.otherPart, posed.other);
+  side.radius *= candidate.radiusShare;
+  return side;
+}
+
+TriangleId otherTriangle(const LinkQuery& query, const Candidate& candidate) {
+  if (query.other == nullptr) return candidate.triangle;
+  return candidate.otherPart.isTriangle() ? candidate.otherPart.index() : -1;
+}
+
+LinkQuery::Below LinkQuery::below(const Candidate& candidate) const {
+  const auto radiusOf = [](const LinkParts& side, std::int32_t lss, Part part) {
+    return side.isSurface(lss, part) ? -1.0 : side.lssOf(lss, part).radius;
+  };
+  const bool isOther =
+      other != nullptr && radiusOf(*other, candidate.otherLss, candidate.otherPart) >
+                              radiusOf(parts, candidate.lss, candidate.part);
+  const std::array<Part, 2> children = isOther
+                                           ? other->below(candidate.otherLss, candidate.otherPart)
+                                           : parts.below(candidate.lss, candidate.part);
+  Below below{{candidate, candidate}, children[0] == children[1] ? std::size_t{1} : 2};
+  for (std::size_t i = 0; i < 2; ++i) {
+    Candidate& child = below.candidates[i];
+    (isOther ? child.otherPart : child.part) = children[i];
+  }
+  return below;
 }
 
 double leastGap(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed) {
+  const auto radiusOf = [](const LinkParts& side, std::int32_t lss, Part part) {
+    return part.isTriangle() ? 0.0 : side.lssOf(lss, part).radius;
+  };
+  const LinkParts* const other = query.other;
   const Aabb box = query.parts.boxOfPoints(candidate.lss, candidate.part, posed);
-  const double radius =
-      candidate.part.isTriangle() ? 0.0 : query.parts.lssOf(candidate.lss, candidate.part).radius;
-  const double gap = box.distance(boxOf(query.scene.triangle(candidate.triangle))) - radius;
+  double radii = radiusOf(query.parts, candidate.lss, candidate.part);
+  if (other != nullptr) radii += radiusOf(*other, candidate.otherLss, candidate.otherPart);
+  const double gap =
+      box.distance(other != nullptr
+                       ? other->boxAt(candidate.otherLss, candidate.otherPart, posed.other)
+                       : boxOf(query.scene.triangle(candidate.triangle))) -
+      radii;
   return gap - kSlackOfRounding * (1.0 + std::abs(gap) + box.max.cwiseAbs().maxCoeff());
 }
 
@@ -76,8 +121,7 @@ MovingPair pairOf(const LinkQuery& query, const Candidate& candidate, const Pose
   ++counters.advancements;
   if (candidate.part.isTriangle()) ++counters.leafTests;
   if (query.isExact() && !candidate.part.isTriangle()) ++counters.hierarchyTests;
-  return movingPair(query.parts.hullOf(candidate.lss, candidate.part, posed),
-                    MovingHull::still(query.scene.triangle(candidate.triangle)));
+  return movingPair(oneSideOf(query, candidate, posed), otherSideOf(query, candidate, posed));
 }
 
 double provenFrom(const LinkQuery& query, const Candidate& candidate, const MovingPair& pair,
@@ -94,20 +138,21 @@ double reachOf(const LinkContact& contact) {
   return contact.separation + kSlackOfRounding * (1.0 + contact.separation + coordinates);
 }
 
-LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const MovingPair& pair,
+PairContact contactOf(const LinkQuery& query, const Candidate& candidate, const MovingPair& pair,
                       double t) {
-  LinkContact contact;
+  PairContact contact;
   contact.link = query.parts.link;
+  const bool areTriangles = pair.one.hull.count == 3 && pair.other.hull.count == 3;
   // At t = 0 no earlier proof keeps the pair apart: an LSS that we cannot prove apart counts as
   // touching; for triangles, the computed vertices give an exact answer.
-  const bool starts = t == 0.0 && pair.gapLower() <= 0.0 &&
-                      (!candidate.part.isTriangle() ||
-                       trianglesMeet(pair.one.hull.triangle(), pair.other.hull.triangle()));
+  const bool starts =
+      t == 0.0 && pair.gapLower() <= 0.0 &&
+      (!areTriangles || trianglesMeet(pair.one.hull.triangle(), pair.other.hull.triangle()));
   contact.verdict = starts ? Verdict::StartsInContact : Verdict::Contact;
   contact.toi = contact.freeUntil = t;
   contact.separation = starts ? 0.0 : std::min(query.tolerance, std::max(0.0, pair.estimate()));
   contact.penetration = starts ? std::max(0.0, -pair.estimate()) : 0.0;
-  contact.triangle = candidate.triangle;
+  contact.triangle = otherTriangle(query, candidate);
   contact.lss = candidate.lss;
   contact.nhat_SL_W = contactNormal(pair.axes);
   contact.p_WScene = pair.axes.onOther;
@@ -115,25 +160,29 @@ LinkContact contactOf(const LinkQuery& query, const Candidate& candidate, const 
   if (candidate.part.isTriangle()) {
     contact.linkTriangle = candidate.part.index();
     contact.linkFeature = featureAt(pair.one.hull.triangle(), pair.axes.onOne);
+  }
+  if (areTriangles) {
     contact.sceneFeature = featureAt(pair.other.hull.triangle(), pair.axes.onOther);
+  }
+  if (query.other != nullptr) {
+    contact.p_WScene += pair.other.radius * contact.nhat_SL_W;
+    contact.other = query.other->link;
+    contact.otherLss = candidate.otherLss;
   }
   return contact;
 }
 
 bool comesFirst(const LinkContact& x, const LinkContact& y) {
   if (x.verdict != y.verdict) return x.verdict == Verdict::StartsInContact;
-  const auto key = [](const LinkContact& c) {
-    return std::array<double, 7>{c.separation - c.penetration,
-                                 c.p_WScene.x(),
-                                 c.p_WScene.y(),
-                                 c.p_WScene.z(),
-                                 c.nhat_SL_W.x(),
-                                 c.nhat_SL_W.y(),
-                                 c.nhat_SL_W.z()};
-  };
-  const auto keyX = key(x), keyY = key(y);
+  const auto keyX = orderKey(x), keyY = orderKey(y);
   if (keyX != keyY) return keyX < keyY;
   return std::tie(x.triangle, x.lss, x.linkTriangle) < std::tie(y.triangle, y.lss, y.linkTriangle);
+}
+
+bool comesFirst(const PairContact& x, const PairContact& y) {
+  const auto isFirst = [](const LinkContact& a, const LinkContact& b) { return comesFirst(a, b); };
+  if (isFirst(x, y)) return true;
+  return !isFirst(y, x) && x.otherLss < y.otherLss;
 }
 
 }  // namespace foretouch::internal

@@ -19,27 +19,33 @@ namespace foretouch::internal {
 /// A step never goes below this share of the tolerance, so that contact is found from outside.
 inline constexpr double kFloorShare = 0.25;
 
-/// The equal pieces into which [0,1] is cut for culling: piece k is [timeOf(k), timeOf(k+1)].
+/// The pieces into which a span of t is cut for culling: piece k is [timeOf(k), timeOf(k+1)].
 struct Pieces {
-  int count = 1;  // at most kMaxPieces
-  [[nodiscard]] double timeOf(int k) const { return static_cast<double>(k) / count; }
+  int count = 1;                  // at most kMaxPieces
+  const double* times = nullptr;  // count + 1, ascending; null: equal pieces of [0,1]
+  [[nodiscard]] double timeOf(int k) const {
+    return times != nullptr ? times[k] : static_cast<double>(k) / count;
+  }
   /// The piece that holds `t`, which is in [0,1).
   [[nodiscard]] int at(double t) const;
 };
 inline constexpr int kMaxPieces = 32;
 
-/// One part of the link against one triangle, on the pieces in which their boxes meet. A query
-/// begins with whole LSS. At exact fidelity, when one comes within the tolerance, the query
-/// replaces it by the two parts below it, from that instant on.
+/// One part of the link against one triangle of the scene, or against one part of another link, on
+/// the pieces in which they may be near. A query begins with whole LSS. At exact fidelity, when one
+/// comes within the tolerance, the query replaces it by the two parts below it, from that instant
+/// on.
 struct Candidate {
   TriangleId triangle = -1;
   std::int32_t lss = -1;
-  std::uint32_t pieces = 0;  // bit k: piece k
+  std::int32_t otherLss = -1;  // of the other link; then there is no triangle of the scene
+  std::uint32_t pieces = 0;    // bit k: piece k
   // At freeUntil the gap is at least this, by boxes, lanes or separations.
   double nearest = -std::numeric_limits<double>::infinity();
   double freeUntil = 0.0;  // proven: separation > 0 on [0, freeUntil), >= floor there unless 0
   double end = 1.0;        // the query does not look beyond
-  Part part = Part::whole();
+  Part part = Part::whole(), otherPart = Part::whole();
+  double radiusShare = 1.0;        // of the two LSS' radii, what counts (PairRadius)
   std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, if there are any
 };
 
@@ -69,7 +75,8 @@ class Neighbours {
   ~Neighbours() = default;
 };
 
-/// The input of backtrack() for one link; all references outlive the call.
+/// The input of backtrack() for one link against the scene, or against another link; all references
+/// outlive the call.
 struct LinkQuery {
   LinkParts parts;
   const Scene& scene;
@@ -79,15 +86,24 @@ struct LinkQuery {
   const LeafProver* leafProver;  // or null: advancement alone
   MotionEvaluator& evaluator;    // of parts.motion
   Neighbours& neighbours;
+  const LinkParts* other = nullptr;  // the other side, if it is a link and not the scene
+  /// What both links are looked at in: the frame of one above both, where only the joints below it
+  /// move them; W otherwise. `parts` and `other` have their bounds in it.
+  LinkId frame = kNoParent;
 
   [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }
-  /// Nothing is below it: whatever it touches, the link touches.
-  [[nodiscard]] bool isSurface(std::int32_t lss, Part part) const {
-    return !isExact() || part.isTriangle() || !parts.surface->hasTriangles(lss);
+  /// Nothing is below either part: whatever they touch, the link touches.
+  [[nodiscard]] bool isSurface(const Candidate& candidate) const {
+    return parts.isSurface(candidate.lss, candidate.part) &&
+           (other == nullptr || other->isSurface(candidate.otherLss, candidate.otherPart));
   }
-  /// The two parts below one that is not the surface itself (one, twice, if the LSS contains a
-  /// single triangle).
-  [[nodiscard]] std::array<Part, 2> below(std::int32_t lss, Part part) const;
+  /// The candidates that replace one that is not of surfaces: the part with the larger radius gives
+  /// way to the two below it, which may be one.
+  struct Below {
+    std::array<Candidate, 2> candidates;
+    std::size_t count;
+  };
+  [[nodiscard]] Below below(const Candidate& candidate) const;
 };
 
 /// The link's states by instant. Keeps the last one: neighbouring candidates need the same.
@@ -101,7 +117,11 @@ class StateCache {
       query_.evaluator.statesAt(t, posed_.all);
       counters_.states += posed_.all.size();
     } else {
-      posed_.state = query_.evaluator.stateAt(query_.parts.link, t);
+      posed_.state = query_.evaluator.stateIn(query_.frame, query_.parts.link, t);
+      ++counters_.states;
+    }
+    if (query_.other != nullptr) {
+      posed_.other = query_.evaluator.stateIn(query_.frame, query_.other->link, t);
       ++counters_.states;
     }
     time_ = t;
@@ -114,6 +134,14 @@ class StateCache {
   PosedLink posed_;
   double time_ = -1.0;
 };
+
+/// The candidate's parts, as the pair sees them.
+[[nodiscard]] MovingHull oneSideOf(const LinkQuery& query, const Candidate& candidate,
+                                   const PosedLink& posed);
+[[nodiscard]] MovingHull otherSideOf(const LinkQuery& query, const Candidate& candidate,
+                                     const PosedLink& posed);
+/// The other side's triangle, of the scene or of the other link's mesh; -1 for an LSS.
+[[nodiscard]] TriangleId otherTriangle(const LinkQuery& query, const Candidate& candidate);
 
 /// A lower bound on the separation that pairOf() would compute, from the boxes of part and
 /// triangle. Its slack, thousands of roundings of the coordinates, keeps it below however either
@@ -135,10 +163,11 @@ class StateCache {
 [[nodiscard]] double reachOf(const LinkContact& contact);
 
 /// The report of a pair that is in contact at `t`.
-[[nodiscard]] LinkContact contactOf(const LinkQuery& query, const Candidate& candidate,
+[[nodiscard]] PairContact contactOf(const LinkQuery& query, const Candidate& candidate,
                                     const MovingPair& pair, double t);
 
 /// The order of contacts with equal toi, as query.h states it.
 [[nodiscard]] bool comesFirst(const LinkContact& x, const LinkContact& y);
+[[nodiscard]] bool comesFirst(const PairContact& x, const PairContact& y);
 
 }  // namespace foretouch::internal

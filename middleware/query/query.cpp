@@ -11,6 +11,7 @@
 #include "middleware/query/rung_query.h"
 #include "middleware/query/scalar_query.h"
 #include "middleware/query/scratch_parts.h"
+#include "middleware/query/self_query.h"
 
 namespace foretouch {
 
@@ -80,12 +81,18 @@ void Query::answer(const ChainMotion& motion, QueryScratch& scratch, StepContact
   const internal::WorkMeter meter(plan_->options);
   step.counters = {};
   internal::leaveUnanswered(plan_->avatar.numLinks(), step.links);
+  step.pairs.clear();
+  step.arePairsAnswered = false;
   FORETOUCH_ASSERT(motion.numLinks() == plan_->avatar.numLinks());
   if (motion.numLinks() != plan_->avatar.numLinks()) return;
+  internal::ScratchParts& parts = scratch.parts();
+  parts.evaluator.reset(motion);
+  parts.lanes.areNodesOfStep = parts.lanes.areBoxesOfNodes = false;
   const auto ask = internal::isRung(plan_->options.fidelity) ? internal::rungQuery : linkQuery;
-  ask(*plan_, motion, meter, scratch.parts(), step);
+  ask(*plan_, motion, meter, parts, step);
   FORETOUCH_ASSERT(isAnswered(step));
   if (plan_->options.scope == Scope::FirstOfAvatar) keepFirst(*plan_, step);
+  if (plan_->self.isAsked()) internal::SelfQuery(*plan_, motion, meter, parts).run(step);
 }
 
 StepContacts Query::answer(const ChainMotion& motion, QueryScratch& scratch) const {

@@ -62,6 +62,34 @@ Result<Done> checkedSurfaces(const Avatar& avatar, const QueryOptions& options) 
   return Done{};
 }
 
+/// Own links, where they are asked.
+Result<Done> checkedSelf(const Avatar& avatar, const QueryOptions& options) {
+  if (!options.self) return Done{};
+  const auto refused = [](std::string text) {
+    return Error::in("self", ErrorCode::Mismatch, std::move(text));
+  };
+  if (options.self->avatarIdentity() != avatar.identity()) {
+    return refused("expected the pair rules of this avatar");
+  }
+  if (options.fidelity != Fidelity::Link && options.fidelity != Fidelity::Exact) {
+    return refused(std::string("expected link or exact fidelity, found ") +
+                   toString(options.fidelity) + ", which has no surface per link");
+  }
+  if (options.scope != Scope::EveryLink) {
+    return refused("expected scope links: own pairs are answered one by one");
+  }
+  const bool isAnyExact =
+      options.fidelity == Fidelity::Exact ||
+      std::any_of(options.linkPolicies.begin(), options.linkPolicies.end(),
+                  [](const LinkPolicy& own) { return own.fidelity == Fidelity::Exact; });
+  if (isAnyExact && !options.self->radii().empty()) {
+    return refused(
+        "expected rules without pair radii at exact fidelity: a smaller LSS does not "
+        "hold its link's mesh");
+  }
+  return Done{};
+}
+
 Result<Done> checked(const Avatar& avatar, const Scene& scene, const QueryOptions& options) {
   FORETOUCH_CHECK(checkedTolerance(options.tolerance, -1));
   FORETOUCH_CHECK(checkedPolicies(avatar, options));
@@ -69,6 +97,7 @@ Result<Done> checked(const Avatar& avatar, const Scene& scene, const QueryOption
     return Error::in("deadline", ErrorCode::OutOfRange, "expected microseconds, at least 0");
   }
   FORETOUCH_CHECK(checkedSurfaces(avatar, options));
+  FORETOUCH_CHECK(checkedSelf(avatar, options));
   const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
   for (const IgnoredPair& pair : options.ignored) {
     if (pair.link < 0 || pair.link >= avatar.numLinks() ||
@@ -105,8 +134,8 @@ LinkPlan planOf(const Avatar& avatar, const QueryOptions& options, LinkId link) 
 Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
                                   const QueryOptions& options) {
   FORETOUCH_CHECK(checked(avatar, scene, options));
-  QueryPlan plan{avatar, scene, options,         {},      LssTable(avatar), {},
-                 {},     false, cullerOf(scene), nullptr, nullptr};
+  QueryPlan plan{avatar, scene, options,         {},      LssTable(avatar), {}, {},
+                 false,  {},    cullerOf(scene), nullptr, nullptr};
   plan.tolerances = {kMaxTolerance, kMinTolerance};
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     plan.links.push_back(planOf(avatar, plan.options, link));
@@ -120,6 +149,7 @@ Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
   // there is one box per limb at most, hence never too many.
   plan.inLanes = options.fidelity != Fidelity::Skinned &&
                  (isRung(options.fidelity) || plan.table.size() <= BoxLanes::kMaxBoxes);
+  if (options.self) plan.self = SelfPlan(avatar, plan.table, *options.self);
   return plan;
 }
 

@@ -9,6 +9,7 @@
 #include "articulated/result.h"
 #include "lss/index.h"
 #include "middleware/query/provers.h"
+#include "middleware/query/self_plan.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene.h"
@@ -45,6 +46,7 @@ struct QueryPlan {
   ToleranceRange tolerances;    // of all links
   std::vector<double> margins;  // per link, if tolerances differ
   bool inLanes;                 // not pair by pair in doubles
+  SelfPlan self;                // which own links are asked; none by default
   // What the reference room may replace (middleware/reference/reference_query.h).
   std::shared_ptr<const TriangleCuller> culler;  // the scene's
   std::shared_ptr<const LeafProver> leafProver;  // null

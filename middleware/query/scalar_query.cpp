@@ -34,7 +34,6 @@ class StepQuery final : private Neighbours {
         meter_(meter) {}
 
   void run(StepContacts& step) {
-    scratch_.evaluator.reset(motion_);
     scratch_.cutShort.clear();
     cutIntoPieces();
     step.counters.states += static_cast<std::uint64_t>(body_.numLinks() * (pieces_.count + 1));

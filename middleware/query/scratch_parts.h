@@ -5,6 +5,8 @@
 
 #include "articulated/motion.h"
 #include "middleware/ladder/rung_volumes.h"
+#include "middleware/lanes/node_planes.h"
+#include "middleware/lanes/pair_boxes.h"
 #include "middleware/query/ignored_objects.h"
 #include "middleware/query/lane_scratch.h"
 #include "middleware/query/link_query.h"
@@ -22,6 +24,16 @@ struct RungScratch {
   std::vector<LinkContact> answers;   // of the volumes
 };
 
+/// Memory of queries about own links.
+struct SelfScratch {
+  NodeEnds ends;
+  std::vector<NodeFrame> frames;
+  std::vector<float> accelerations;  // per frame, per LSS; negative: not known yet
+  MeetingPairs meeting;
+  std::vector<PlanePair> pairs;                        // that planes have left open
+  std::vector<AxisBounds> boundsOfOne, boundsOfOther;  // per LSS of both links of a pair
+};
+
 /// Memory that one thread's queries reuse.
 struct ScratchParts {
   std::vector<std::vector<LinkState>> nodes;  // per piece boundary, per link
@@ -36,6 +48,7 @@ struct ScratchParts {
   LaneScratch lanes;
   IgnoredObjects ignored;  // of the current link
   RungScratch rungs;
+  SelfScratch self;
 };
 
 }  // namespace foretouch::internal

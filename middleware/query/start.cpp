@@ -130,7 +130,7 @@ class StartSearch {
       Candidate candidate = whole;
       candidate.part = stack_.back();
       stack_.pop_back();
-      const bool isSurface = query_.isSurface(candidate.lss, candidate.part);
+      const bool isSurface = query_.isSurface(candidate);
       if (isSurface || !candidate.part.isWhole()) {
         if (leastGap(query_, candidate, states_.at(0.0)) > query_.tolerance) continue;
         const MovingPair pair = look(candidate);
@@ -138,7 +138,7 @@ class StartSearch {
         if (isSurface) take(contactOf(query_, candidate, pair, 0.0), touching);
       }
       if (isSurface) continue;
-      const std::array<Part, 2> parts = query_.below(candidate.lss, candidate.part);
+      const std::array<Part, 2> parts = query_.parts.below(candidate.lss, candidate.part);
       stack_.push_back(parts[0]);
       if (!(parts[1] == parts[0])) stack_.push_back(parts[1]);
     }

@@ -1,0 +1,216 @@
+#include "articulated/pair_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "articulated/motion.h"
+#include "articulated/try.h"
+#include "lss/index.h"
+#include "lss/separation.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+
+bool comesBefore(const LeftOutPair& x, const LeftOutPair& y) {
+  return std::tie(x.a, x.b, x.reason) < std::tie(y.a, y.b, y.reason);
+}
+
+/// The nearest link above that has LSS; kNoParent if there is none.
+LinkId boundedAbove(const Avatar& avatar, LinkId link) {
+  const Skeleton& skeleton = avatar.skeleton();
+  LinkId above = skeleton.parent(link);
+  while (above != kNoParent && avatar.lss(above).empty()) above = skeleton.parent(above);
+  return above;
+}
+
+bool isAdjacent(const Avatar& avatar, LinkId a, LinkId b) {
+  return boundedAbove(avatar, b) == a || boundedAbove(avatar, a) == b;
+}
+
+/// All LSS of an avatar in one pose.
+class PosedAvatar {
+ public:
+  PosedAvatar(const Avatar& avatar, const Pose& pose) : avatar_(avatar) {
+    ChainMotion(avatar.skeleton(), pose, pose).statesAt(0.0, states_);
+  }
+  /// Of the axes (m).
+  [[nodiscard]] double distance(LinkId a, std::size_t lssA, LinkId b, std::size_t lssB) const {
+    return separation(axisOf(a, lssA), axisOf(b, lssB)).distance;
+  }
+  [[nodiscard]] bool touch(LinkId a, LinkId b) const {
+    const auto &ofA = avatar_.lss(a), &ofB = avatar_.lss(b);
+    for (std::size_t i = 0; i < ofA.size(); ++i) {
+      for (std::size_t j = 0; j < ofB.size(); ++j) {
+        if (distance(a, i, b, j) <= ofA[i].radius + ofB[j].radius) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] Hull axisOf(LinkId link, std::size_t i) const {
+    const Lss& lss = avatar_.lss(link)[i];
+    const LinkState& state = states_[slotOf(link)];
+    return Hull::segment(state.pointAt(lss.a), state.pointAt(lss.b));
+  }
+
+  const Avatar& avatar_;
+  std::vector<LinkState> states_;
+};
+
+/// Calls `visit` with every two different links that both have LSS, the lower one first.
+template <typename Visit>
+void forPairs(const Avatar& avatar, const Visit& visit) {
+  for (LinkId a = 0; a < avatar.numLinks(); ++a) {
+    if (avatar.lss(a).empty()) continue;
+    for (LinkId b = a + 1; b < avatar.numLinks(); ++b) {
+      if (!avatar.lss(b).empty()) visit(a, b);
+    }
+  }
+}
+
+/// The smaller radii that keep two links apart at rest; false if some axes are too near for that.
+bool addRadii(const Avatar& avatar, const PosedAvatar& rest, LinkPair pair, double skin,
+              std::vector<PairRadius>& radii) {
+  const auto &ofA = avatar.lss(pair.a), &ofB = avatar.lss(pair.b);
+  const std::size_t before = radii.size();
+  for (std::size_t i = 0; i < ofA.size(); ++i) {
+    for (std::size_t j = 0; j < ofB.size(); ++j) {
+      const double radius = rest.distance(pair.a, i, pair.b, j) - skin;
+      if (radius >= ofA[i].radius + ofB[j].radius) continue;
+      if (!(radius > 0.0)) {
+        radii.resize(before);
+        return false;
+      }
+      radii.push_back(
+          {pair.a, static_cast<std::int32_t>(i), pair.b, static_cast<std::int32_t>(j), radius});
+    }
+  }
+  return true;
+}
+
+/// Of the usual poses, in how many two links touch.
+std::vector<std::int64_t> countTouches(const Avatar& avatar, const std::vector<Pose>& poses) {
+  const auto n = countOf(avatar.numLinks());
+  std::vector<std::int64_t> touches(n * n, 0);
+  for (const Pose& pose : poses) {
+    const PosedAvatar posed(avatar, pose);
+    forPairs(avatar, [&](LinkId a, LinkId b) {
+      if (posed.touch(a, b)) ++touches[slotOf(a) * n + slotOf(b)];
+    });
+  }
+  return touches;
+}
+
+Result<Done> checkedOptions(const Avatar& avatar, const PairRuleOptions& options) {
+  if (!(options.restSkin > 0.0 && std::isfinite(options.restSkin))) {
+    return Error::in("restSkin", ErrorCode::OutOfRange, "expected metres, above 0");
+  }
+  if (!(options.alwaysShare > 0.0 && options.alwaysShare <= 1.0)) {
+    return Error::in("alwaysShare", ErrorCode::OutOfRange, "expected a share, above 0, at most 1");
+  }
+  if (options.usualPoses == nullptr) return Done{};
+  for (const Pose& pose : *options.usualPoses) {
+    if (pose.rotations.size() != countOf(avatar.numLinks()) ||
+        pose.translations.size() != countOf(avatar.numLinks())) {
+      return Error::in("usualPoses", ErrorCode::Mismatch, "expected poses of this avatar");
+    }
+  }
+  return Done{};
+}
+
+}  // namespace
+
+const char* toString(PairReason reason) {
+  switch (reason) {
+    case PairReason::Asked: return "asked";
+    case PairReason::Adjacent: return "adjacent";
+    case PairReason::RestOverlap: return "rest-overlap";
+    case PairReason::Always: return "always";
+    case PairReason::User: return "user";
+  }
+  return "asked";
+}
+
+Result<PairRules> PairRules::derive(const Avatar& avatar, const PairRuleOptions& options) {
+  FORETOUCH_CHECK(checkedOptions(avatar, options));
+  PairRules rules;
+  for (const LinkPair& pair : options.leftOut) {
+    rules.leftOut_.push_back({pair.a, pair.b, PairReason::User});
+  }
+  const auto n = countOf(avatar.numLinks());
+  const std::size_t numPoses = options.usualPoses == nullptr ? 0 : options.usualPoses->size();
+  std::vector<std::int64_t> touches;
+  if (numPoses > 0) touches = countTouches(avatar, *options.usualPoses);
+  const PosedAvatar rest(avatar, restPose(avatar.skeleton()));
+  forPairs(avatar, [&](LinkId a, LinkId b) {
+    const auto leaveOut = [&](PairReason reason) { rules.leftOut_.push_back({a, b, reason}); };
+    if (isAdjacent(avatar, a, b)) return leaveOut(PairReason::Adjacent);
+    if (rest.touch(a, b) &&
+        !(options.usePairRadii && addRadii(avatar, rest, {a, b}, options.restSkin, rules.radii_))) {
+      return leaveOut(PairReason::RestOverlap);
+    }
+    if (numPoses > 0 && static_cast<double>(touches[slotOf(a) * n + slotOf(b)]) >=
+                            options.alwaysShare * static_cast<double>(numPoses)) {
+      leaveOut(PairReason::Always);
+    }
+  });
+  FORETOUCH_CHECK(rules.settle(avatar));
+  return rules;
+}
+
+Result<PairRules> PairRules::of(const Avatar& avatar, std::vector<LeftOutPair> leftOut) {
+  PairRules rules;
+  rules.leftOut_ = std::move(leftOut);
+  FORETOUCH_CHECK(rules.settle(avatar));
+  return rules;
+}
+
+/// Sorts the pairs that are left out, drops repetitions (the lowest reason stays) and checks them.
+Result<Done> PairRules::settle(const Avatar& avatar) {
+  numLinks_ = avatar.numLinks();
+  avatarIdentity_ = avatar.identity();
+  for (LeftOutPair& pair : leftOut_) {
+    for (const LinkId link : {pair.a, pair.b}) {
+      if (link < 0 || link >= numLinks_) {
+        return Error{ErrorCode::OutOfRange, "pairs", -1, link, "expected a link of the avatar"};
+      }
+    }
+    if (pair.a == pair.b) {
+      return Error{ErrorCode::OutOfRange, "pairs", -1, pair.a, "expected two different links"};
+    }
+    if (pair.a > pair.b) std::swap(pair.a, pair.b);
+  }
+  std::sort(leftOut_.begin(), leftOut_.end(), comesBefore);
+  const auto same = [](const LeftOutPair& x, const LeftOutPair& y) {
+    return x.a == y.a && x.b == y.b;
+  };
+  leftOut_.erase(std::unique(leftOut_.begin(), leftOut_.end(), same), leftOut_.end());
+  forPairs(avatar, [&](LinkId a, LinkId b) {
+    ++numPairs_;
+    if (reasonOf(a, b) == PairReason::Asked) ++numAsked_;
+  });
+  if (numAsked_ == 0) {
+    return Error::in("pairs", ErrorCode::Empty,
+                     "expected at least one pair of links to ask, found all " +
+                         std::to_string(numPairs_) + " left out");
+  }
+  return Done{};
+}
+
+PairReason PairRules::reasonOf(LinkId a, LinkId b) const {
+  if (a > b) std::swap(a, b);
+  const auto found = std::lower_bound(leftOut_.begin(), leftOut_.end(), LeftOutPair{a, b, {}},
+                                      [](const LeftOutPair& x, const LeftOutPair& y) {
+                                        return std::tie(x.a, x.b) < std::tie(y.a, y.b);
+                                      });
+  const bool isLeftOut = found != leftOut_.end() && found->a == a && found->b == b;
+  return isLeftOut ? found->reason : PairReason::Asked;
+}
+
+}  // namespace foretouch

@@ -1,0 +1,93 @@
+// articulated/pair_rules.h: which pairs of an avatar's own links a query asks whether they touch.
+// Every pair that is left out is a hole in the proof, so each has a reason that tools can show.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/pose.h"
+#include "articulated/result.h"
+
+namespace foretouch {
+
+/// Why a pair of links is asked, or left out. The numbers are those of the C API.
+enum class PairReason : std::uint8_t {
+  Asked = 0,
+  Adjacent = 1,     ///< One moves the other: between the two is no other link with LSS.
+  RestOverlap = 2,  ///< Their LSS overlap in the rest pose.
+  Always = 3,       ///< They touch in nearly all usual poses.
+  User = 4,         ///< Somebody wanted it so.
+};
+inline constexpr std::uint8_t kNumPairReasons = 5;
+
+/// "asked", "adjacent", "rest-overlap", "always", "user".
+[[nodiscard]] const char* toString(PairReason reason);
+
+struct LinkPair {
+  LinkId a = 0, b = 0;
+};
+
+/// A pair that is left out, a < b.
+struct LeftOutPair {
+  LinkId a = 0, b = 0;
+  PairReason reason = PairReason::User;
+};
+
+/// Two LSS whose sum of radii counts as `radius` (m), so that they do not touch at rest but do
+/// when they come nearer to each other than at rest.
+struct PairRadius {
+  LinkId a = 0;
+  std::int32_t lssA = 0;
+  LinkId b = 0;
+  std::int32_t lssB = 0;
+  double radius = 0.0;
+};
+
+struct PairRuleOptions {
+  /// Two LSS that overlap at rest count with a smaller sum of radii, so that they are `restSkin`
+  /// apart there, where their axes are farther apart than that. Only at link fidelity: a smaller
+  /// LSS no longer holds its link's mesh. If false, or where the axes are too near, the pair of
+  /// links is left out.
+  bool usePairRadii = false;
+  double restSkin = 2e-3;  ///< Metres, > 0.
+  /// Poses that the avatar usually takes, for PairReason::Always. Validated for its skeleton.
+  const std::vector<Pose>* usualPoses = nullptr;
+  double alwaysShare = 0.95;      ///< Of the usual poses, in (0,1].
+  std::vector<LinkPair> leftOut;  ///< By the user, in either order.
+};
+
+/// Immutable; belongs to one avatar and its copies.
+class PairRules {
+ public:
+  /// Leaves out what PairReason names. Errors: options out of range, unknown links, a pair of one
+  /// link with itself (Error::index is the link), and rules that leave no pair to ask. O(LSS^2),
+  /// times poses where there are any.
+  static Result<PairRules> derive(const Avatar& avatar, const PairRuleOptions& options = {});
+  /// Exactly these are left out. Errors as above.
+  static Result<PairRules> of(const Avatar& avatar, std::vector<LeftOutPair> leftOut);
+
+  [[nodiscard]] std::int32_t numLinks() const { return numLinks_; }
+  /// Pairs of different links that both have LSS, and those of them that are asked.
+  [[nodiscard]] std::int64_t numPairs() const { return numPairs_; }
+  [[nodiscard]] std::int64_t numAsked() const { return numAsked_; }
+  /// By a, then by b; every pair once.
+  [[nodiscard]] const std::vector<LeftOutPair>& leftOut() const { return leftOut_; }
+  [[nodiscard]] const std::vector<PairRadius>& radii() const { return radii_; }
+  /// Two different links, in either order. O(log pairs).
+  [[nodiscard]] PairReason reasonOf(LinkId a, LinkId b) const;
+  /// Avatar::identity() of the avatar.
+  [[nodiscard]] std::uint64_t avatarIdentity() const { return avatarIdentity_; }
+
+ private:
+  PairRules() = default;
+  Result<Done> settle(const Avatar& avatar);
+
+  std::int32_t numLinks_ = 0;
+  std::int64_t numPairs_ = 0, numAsked_ = 0;
+  std::uint64_t avatarIdentity_ = 0;
+  std::vector<LeftOutPair> leftOut_;
+  std::vector<PairRadius> radii_;
+};
+
+}  // namespace foretouch

@@ -1,0 +1,149 @@
+#include "middleware/lanes/node_planes.h"
+
+#include <algorithm>
+
+#include "lss/rounding.h"
+#include "middleware/lanes/lane_rows.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "middleware/lanes/node_planes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "middleware/lanes/lss_pairs-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace foretouch::internal::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Brings a direction below unit length in its frame, past the rounding of its turn there.
+constexpr float kTurnShrink = 1.0F - 32.0F * kUnitRoundoffOfFloat;
+
+/// Pairs whose normals are made together.
+struct ProposalBlock {
+  alignas(64) float a1[3][kMaxLanes], b1[3][kMaxLanes], a2[3][kMaxLanes], b2[3][kMaxLanes];
+  alignas(64) float n[3][kMaxLanes];
+};
+
+HWY_INLINE void putAxis(const NodeEnds::Axis& axis, int node, std::size_t lane,
+                        float (*a)[kMaxLanes], float (*b)[kMaxLanes]) {
+  for (int k = 0; k < 3; ++k) {
+    a[k][lane] = axis.a[k][node];
+    b[k][lane] = axis.b[k][node];
+  }
+}
+
+template <class D>
+HWY_INLINE Point<hn::Vec<D>> pointOf(D d, const float (*rows)[kMaxLanes], std::size_t lane) {
+  return {hn::Load(d, rows[0] + lane), hn::Load(d, rows[1] + lane), hn::Load(d, rows[2] + lane)};
+}
+
+/// From the second axis' closest point towards the first's: only proposes.
+template <class D>
+HWY_INLINE void propose(D d, ProposalBlock& block, std::size_t lane) {
+  using V = hn::Vec<D>;
+  const Point<V> a1 = pointOf(d, block.a1, lane), a2 = pointOf(d, block.a2, lane);
+  const Point<V> d1 = sub(pointOf(d, block.b1, lane), a1), d2 = sub(pointOf(d, block.b2, lane), a2);
+  const Point<V> r = sub(a1, a2);
+  const V tiny = hn::Set(d, kTiny);
+  const V a = hn::Max(dot(d1, d1), tiny), e = hn::Max(dot(d2, d2), tiny), b = dot(d1, d2);
+  const V c = dot(d1, r), f = dot(d2, r);
+  const V determinant = hn::Max(hn::NegMulAdd(b, b, hn::Mul(a, e)), tiny);
+  V s = clamp01(hn::Mul(hn::MulSub(b, f, hn::Mul(c, e)), roughInverse(determinant)));
+  const V t = clamp01(hn::Mul(hn::MulAdd(b, s, f), roughInverse(e)));
+  s = clamp01(hn::Mul(hn::MulSub(b, t, c), roughInverse(a)));
+  const Point<V> n = direction(along(along(r, s, d1), hn::Neg(t), d2));
+  hn::Store(n.x, d, block.n[0] + lane);
+  hn::Store(n.y, d, block.n[1] + lane);
+  hn::Store(n.z, d, block.n[2] + lane);
+}
+
+/// A direction of W at a node, as the frame sees it: the plane that rests there.
+HWY_INLINE void turnIntoFrame(const NodeFrame& frame, int node, const ProposalBlock& block,
+                              std::size_t lane, float* n) {
+  for (int k = 0; k < 3; ++k) {
+    n[k] = kTurnShrink *
+           (frame.R[k][node] * block.n[0][lane] + frame.R[3 + k][node] * block.n[1][lane] +
+            frame.R[6 + k][node] * block.n[2][lane]);
+  }
+}
+
+/// Heights of one axis' ends along the plane's normals at the nodes from `lane` on.
+template <class D, class V>
+HWY_INLINE V heightOf(D d, const Point<V>& n, const float (*end)[kNodes], int lane) {
+  return dot(n, Point<V>{hn::Load(d, end[0] + lane), hn::Load(d, end[1] + lane),
+                         hn::Load(d, end[2] + lane)});
+}
+
+/// Bit k: the plane that rests in the frame with the normal `n` does not keep the axes apart by
+/// enough between nodes k and k + 1.
+HWY_INLINE unsigned openPieces(const NodePlanes& planes, const PlanePair& pair, const float* n) {
+  const hn::CappedTag<float, kNodes> d;
+  using V = hn::Vec<decltype(d)>;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(hn::CappedTag<float, kNodes>()));
+  const NodeFrame& frame = planes.frames[pair.frame];
+  const NodeEnds::Axis &one = planes.axes[pair.i], &other = planes.axes[pair.j];
+  const V nx = hn::Set(d, n[0]), ny = hn::Set(d, n[1]), nz = hn::Set(d, n[2]);
+  alignas(64) float width[kNodes + 1];
+  width[kNodes] = 0.0F;  // the last node has no next one, and no pair has its piece open
+  for (int lane = 0; lane < kNodes; lane += kLanes) {
+    const auto row = [&](int k) HWY_ATTR {
+      return dot(
+          Point<V>{hn::Load(d, frame.R[3 * k] + lane), hn::Load(d, frame.R[3 * k + 1] + lane),
+                   hn::Load(d, frame.R[3 * k + 2] + lane)},
+          Point<V>{nx, ny, nz});
+    };
+    const Point<V> turned{row(0), row(1), row(2)};
+    const V low = hn::Min(heightOf(d, turned, one.a, lane), heightOf(d, turned, one.b, lane));
+    const V high = hn::Max(heightOf(d, turned, other.a, lane), heightOf(d, turned, other.b, lane));
+    hn::Store(hn::Sub(low, high), d, width + lane);
+  }
+  unsigned open = 0;
+  for (int lane = 0; lane < kNodes; lane += kLanes) {
+    const V need = hn::MulAdd(hn::Set(d, pair.bend), hn::LoadU(d, planes.sagittas + lane),
+                              hn::Set(d, pair.reach));
+    // Written so that a NaN leaves its pieces open.
+    const auto isWide = hn::And(hn::Gt(hn::Load(d, width + lane), need),
+                                hn::Gt(hn::LoadU(d, width + lane + 1), need));
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Not(isWide), bits);
+    open |= static_cast<unsigned>(bits[0]) << static_cast<unsigned>(lane);
+  }
+  return open;
+}
+
+void closePieces(const NodePlanes& planes, int node, PlanePair* pairs, std::size_t count) {
+  const hn::CappedTag<float, kMaxLanes> d;
+  const std::size_t lanes = hn::Lanes(d);
+  ProposalBlock block{};
+  for (std::size_t first = 0; first < count; first += kMaxLanes) {
+    const std::size_t here = count - first < kMaxLanes ? count - first : kMaxLanes;
+    for (std::size_t k = 0; k < here; ++k) {
+      const PlanePair& pair = pairs[first + k];
+      putAxis(planes.axes[pair.i], node, k, block.a1, block.b1);
+      putAxis(planes.axes[pair.j], node, k, block.a2, block.b2);
+    }
+    for (std::size_t lane = 0; lane < here; lane += lanes) propose(d, block, lane);
+    for (std::size_t k = 0; k < here; ++k) {
+      PlanePair& pair = pairs[first + k];
+      float n[3];
+      turnIntoFrame(planes.frames[pair.frame], node, block, k, n);
+      pair.open = static_cast<std::uint8_t>(pair.open & openPieces(planes, pair, n));
+    }
+  }
+}
+
+}  // namespace foretouch::internal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace foretouch::internal {
+
+HWY_EXPORT(closePieces);
+
+void closeByPlanes(const NodePlanes& planes, int node, PlanePair* pairs, std::size_t count) {
+  HWY_DYNAMIC_DISPATCH(closePieces)(planes, node, pairs, count);
+}
+
+}  // namespace foretouch::internal
+#endif

@@ -1,0 +1,30 @@
+// middleware/lanes/pair_boxes.h: which pairs of LSS have swept boxes that meet. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tessellation/swept_boxes.h"
+
+namespace foretouch::internal {
+
+/// Which pairs are asked: for LSS i and block k of LSS, bit j says that i and 16 k + j are.
+struct AskedPairs {
+  std::int32_t blocks = 0;          ///< Of SweptBoxes::kPadding LSS each.
+  std::vector<std::uint16_t> bits;  ///< Row after row, `blocks` per LSS; only j > i.
+  std::size_t numPairs = 0;         ///< Bits that are set.
+};
+
+struct LssIndexPair {
+  std::int32_t i, j;
+};
+
+struct MeetingPairs {
+  std::vector<LssIndexPair> pairs;  ///< Longer than `count`.
+  std::size_t count = 0;
+};
+
+/// Those of the asked pairs whose boxes meet, by i, then by j. O(LSS^2) divided by 16.
+void collectMeeting(const SweptBoxes& boxes, const AskedPairs& asked, MeetingPairs& meeting);
+
+}  // namespace foretouch::internal

@@ -1,0 +1,244 @@
+#include "middleware/query/self_query.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "lss/index.h"
+#include "lss/rounding.h"
+#include "middleware/query/backtracking.h"
+#include "middleware/scene/scene_parts.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Nodes whose closest points propose planes, one after the other, for pairs that are still open:
+/// the middle closes most, the ends what meets there.
+constexpr int kProposingNodes[] = {3, 0, 7};
+/// As in lane_query.cpp: how well a slab's nodes follow the motion, as a share of the tolerance or
+/// in metres. Fewer slabs only cost tightness.
+constexpr double kWantedError = 4e-6;
+
+/// Per h^2/8 of a piece, rounded up past h's own rounding.
+float sagittaOf(double begin, double end) {
+  const double h = end - begin;
+  return floatPaddedAbove(h * h / 8.0 * kInflation);
+}
+
+bool isOfLinks(const PairContact& contact, LinkId a, LinkId b) {
+  return contact.link == a && contact.other == b;
+}
+
+bool comesBefore(const PairContact& x, const PairContact& y) {
+  if (isReportedBefore(x, y)) return true;
+  return !isReportedBefore(y, x) && x.other < y.other;
+}
+
+}  // namespace
+
+SelfQuery::SelfQuery(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
+                     ScratchParts& scratch)
+    : plan_(plan),
+      self_(plan.self),
+      table_(plan.table),
+      motion_(motion),
+      meter_(meter),
+      scratch_(scratch),
+      own_(scratch.self) {}
+
+void SelfQuery::run(StepContacts& step) {
+  const int slabs = slabsFor(table_, motion_, kWantedError);
+  for (int slab = 0; slab < slabs; ++slab) {
+    begin_ = static_cast<double>(slab) / slabs;
+    end_ = static_cast<double>(slab + 1) / slabs;
+    evaluate(step.counters);
+    collectOpen(step.counters);
+    answerPairs(step);
+  }
+  std::sort(step.pairs.begin(), step.pairs.end(), comesBefore);
+  step.arePairsAnswered = true;
+}
+
+/// The links' frames at the nodes, and the boxes and ends of all LSS, in the current slab.
+void SelfQuery::evaluate(QueryCounters& counters) {
+  LaneScratch& lanes = scratch_.lanes;
+  if (!lanes.areNodesOfStep || lanes.nodes.begin() != begin_ || lanes.nodes.end() != end_) {
+    lanes.nodes.evaluate(motion_, begin_, end_, plan_.scene.parts().origin);
+    lanes.areNodesOfStep = true;
+    lanes.areBoxesOfNodes = false;
+    counters.states +=
+        static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(motion_.numLinks());
+  }
+  if (!lanes.areBoxesOfNodes) {
+    sweptBoxes(table_, motion_, lanes.nodes, plan_.tolerances.largest, lanes.boxes);
+    lanes.areBoxesOfNodes = true;
+  }
+  nodeEnds(table_, lanes.nodes, lanes.boxes, own_.ends);
+  own_.frames.resize(self_.frames().size());
+  for (std::size_t i = 0; i < own_.frames.size(); ++i) {
+    const LinkId link = self_.frames()[i].link;
+    for (std::size_t k = 0; k < 9; ++k) {
+      for (std::size_t node = 0; node < kNodes; ++node) {
+        own_.frames[i].R[k][node] = link == kNoParent
+                                        ? (k % 4 == 0 ? 1.0F : 0.0F)
+                                        : static_cast<float>(lanes.nodes.link(link).R[k][node]);
+      }
+    }
+  }
+  own_.accelerations.assign(countOf(table_.size()) * self_.frames().size(), -1.0F);
+}
+
+/// Pairs of LSS that planes do not keep apart throughout the slab.
+void SelfQuery::collectOpen(QueryCounters& counters) {
+  const ChainNodes& nodes = scratch_.lanes.nodes;
+  collectMeeting(scratch_.lanes.boxes, self_.asked(), own_.meeting);
+  own_.pairs.clear();
+  for (std::size_t k = 0; k < own_.meeting.count; ++k) addPlanePair(own_.meeting.pairs[k]);
+  NodePlanes planes{own_.ends.axes.data(), own_.frames.data(), {}};
+  for (int k = 0; k < kNodePieces; ++k) {
+    planes.sagittas[k] = sagittaOf(nodes.instant(k), nodes.instant(k + 1));
+  }
+  for (const int node : kProposingNodes) {
+    if (own_.pairs.empty()) return;
+    counters.laneSteps += own_.pairs.size();
+    closeByPlanes(planes, node, own_.pairs.data(), own_.pairs.size());
+    dropClosed();
+  }
+}
+
+void SelfQuery::addPlanePair(const LssIndexPair& pair) {
+  const LinkId a = table_[pair.i].link, b = table_[pair.j].link;
+  const auto i = slotOf(pair.i), j = slotOf(pair.j);
+  const double tolerance = std::min(plan_.of(a).tolerance, plan_.of(b).tolerance);
+  const double extents =
+      static_cast<double>(own_.ends.extents[i]) + static_cast<double>(own_.ends.extents[j]);
+  const double roundings =
+      static_cast<double>(own_.ends.roundings[i]) + static_cast<double>(own_.ends.roundings[j]);
+  PlanePair open{pair.i, pair.j, self_.frameOf(a, b), 0.0F, 0.0F, kEveryPiece};
+  // Padding is twice what floats round by, and the kernel's sum rounds by as much again.
+  constexpr double kSumInflationOfReach = 1.0 + 0x1p-21;
+  open.reach = floatPaddedAbove((self_.radiusOf(pair.i, pair.j) + kFloorShare * tolerance +
+                                 kNodePlaneRounding * extents + roundings) *
+                                kSumInflationOfReach);
+  open.bend =
+      (accelerationOf(open.frame, pair.i) + accelerationOf(open.frame, pair.j)) * (1.0F + 0x1p-21F);
+  own_.pairs.push_back(open);
+}
+
+/// Of the LSS' ends in the frame; rounded up. Found when it is first needed.
+float SelfQuery::accelerationOf(std::int32_t frame, std::int32_t lss) {
+  float& known = own_.accelerations[slotOf(frame) * countOf(table_.size()) + slotOf(lss)];
+  if (known < 0.0F) {
+    const LssTable::Entry& entry = table_[lss];
+    const ChainSums sums = motion_.sumsIn(self_.frames()[slotOf(frame)].link, entry.link);
+    known = floatPaddedAbove(sums.accelerationAt(std::max(entry.rhoA, entry.rhoB)));
+  }
+  return known;
+}
+
+void SelfQuery::dropClosed() {
+  own_.pairs.erase(std::remove_if(own_.pairs.begin(), own_.pairs.end(),
+                                  [](const PlanePair& pair) { return pair.open == 0; }),
+                   own_.pairs.end());
+}
+
+/// By pairs of links; those that have an answer from an earlier slab keep it.
+void SelfQuery::answerPairs(StepContacts& step) {
+  std::vector<PlanePair>& pairs = own_.pairs;
+  const auto linksOf = [this](const PlanePair& pair) {
+    return std::make_tuple(table_[pair.i].link, table_[pair.j].link);
+  };
+  std::sort(pairs.begin(), pairs.end(), [&](const PlanePair& x, const PlanePair& y) {
+    return std::tuple_cat(linksOf(x), std::make_tuple(x.i, x.j)) <
+           std::tuple_cat(linksOf(y), std::make_tuple(y.i, y.j));
+  });
+  for (std::size_t first = 0; first < pairs.size();) {
+    std::size_t next = first + 1;
+    while (next < pairs.size() && linksOf(pairs[next]) == linksOf(pairs[first])) ++next;
+    const auto [a, b] = linksOf(pairs[first]);
+    const bool isKnown = begin_ > 0.0 && std::any_of(step.pairs.begin(), step.pairs.end(),
+                                                     [a = a, b = b](const PairContact& contact) {
+                                                       return isOfLinks(contact, a, b);
+                                                     });
+    if (!isKnown) answerPair(first, next - first, step);
+    first = next;
+  }
+}
+
+void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& step) {
+  const PlanePair* const pairs = own_.pairs.data() + first;
+  const LinkId frame = self_.frames()[slotOf(pairs->frame)].link;
+  prepareSide(one_, table_[pairs->i].link, frame, own_.boundsOfOne);
+  prepareSide(other_, table_[pairs->j].link, frame, own_.boundsOfOther);
+  scratch_.candidates.clear();
+  for (std::size_t k = 0; k < count; ++k) scratch_.candidates.push_back(candidateOf(pairs[k]));
+  double times[kNodes];
+  for (int k = 0; k < kNodes; ++k) times[k] = scratch_.lanes.nodes.instant(k);
+  const LinkParts other = partsOf(other_, own_.boundsOfOther);
+  const LinkQuery query{partsOf(one_, own_.boundsOfOne),
+                        plan_.scene,
+                        Pieces{kNodePieces, times},
+                        std::min(plan_.of(one_.link).tolerance, plan_.of(other_.link).tolerance),
+                        meter_,
+                        nullptr,
+                        scratch_.evaluator,
+                        *this,
+                        &other,
+                        frame};
+  const PairContact contact = backtrack(query, scratch_.candidates, step.counters);
+  if (contact.verdict != Verdict::Clear) keep(contact, frame, step);
+}
+
+void SelfQuery::prepareSide(Side& side, LinkId link, LinkId frame,
+                            std::vector<AxisBounds>& bounds) {
+  side.link = link;
+  side.bounds = motion_.sumsIn(frame, link).bounds();
+  bounds.clear();
+  for (const Lss& lss : plan_.avatar.lss(link)) bounds.push_back(axisBounds(lss, side.bounds));
+}
+
+LinkParts SelfQuery::partsOf(const Side& side, const std::vector<AxisBounds>& bounds) const {
+  return {side.link,   plan_.avatar.lss(side.link), bounds,
+          motion_,     plan_.of(side.link).surface, nullptr,
+          &side.bounds};
+}
+
+Candidate SelfQuery::candidateOf(const PlanePair& pair) const {
+  Candidate candidate;
+  candidate.lss = pair.i - table_.first(table_[pair.i].link);
+  candidate.otherLss = pair.j - table_.first(table_[pair.j].link);
+  candidate.pieces = pair.open;
+  candidate.freeUntil = begin_;
+  candidate.end = end_;
+  const double sum = table_[pair.i].radius + table_[pair.j].radius;
+  const double radius = self_.radiusOf(pair.i, pair.j);
+  if (radius < sum) candidate.radiusShare = radius / sum;
+  return candidate;
+}
+
+/// In W, with both links named.
+void SelfQuery::keep(PairContact contact, LinkId frame, StepContacts& step) {
+  contact.link = one_.link;
+  contact.other = other_.link;
+  if (contact.verdict != Verdict::Undecided && frame != kNoParent) {
+    const LinkState state = scratch_.evaluator.stateAt(frame, contact.toi);
+    contact.p_WScene = state.pointAt(contact.p_WScene);
+    contact.p_WLink = state.pointAt(contact.p_WLink);
+    contact.nhat_SL_W = state.R_WL * contact.nhat_SL_W;
+  }
+  step.pairs.push_back(contact);
+}
+
+/// All pairs of LSS of the two links whose boxes meet in the current slab.
+void SelfQuery::collect(double t, const PosedLink& /*posed*/, double /*reach*/,
+                        std::vector<Candidate>& candidates, QueryCounters& /*counters*/) {
+  candidates.clear();
+  for (std::size_t k = 0; k < own_.meeting.count; ++k) {
+    const LssIndexPair& pair = own_.meeting.pairs[k];
+    if (table_[pair.i].link != one_.link || table_[pair.j].link != other_.link) continue;
+    Candidate candidate = candidateOf({pair.i, pair.j, 0, 0.0F, 0.0F, kEveryPiece});
+    candidate.freeUntil = t;
+    candidates.push_back(candidate);
+  }
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,61 @@
+// middleware/query/self_query.h: which of an avatar's own links touch each other: boxes of all LSS,
+// planes at the nodes for the pairs whose boxes meet, and backtracking in doubles for the few that
+// those leave. At link or exact fidelity. Not installed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "articulated/motion.h"
+#include "middleware/contact.h"
+#include "middleware/query/link_query.h"
+#include "middleware/query/query_plan.h"
+#include "middleware/query/scratch_parts.h"
+#include "middleware/query/work_meter.h"
+
+namespace foretouch::internal {
+
+/// One query over all asked pairs of links of one step.
+class SelfQuery final : private Neighbours {
+ public:
+  /// Preconditions: the plan asks for pairs; the scratch's evaluator is that of the motion.
+  SelfQuery(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
+            ScratchParts& scratch);
+
+  /// Fills `step.pairs`.
+  void run(StepContacts& step);
+
+ private:
+  /// One side of the pair at hand.
+  struct Side {
+    LinkId link = 0;
+    MotionBounds bounds;
+  };
+
+  void evaluate(QueryCounters& counters);
+  void collectOpen(QueryCounters& counters);
+  void addPlanePair(const LssIndexPair& pair);
+  [[nodiscard]] float accelerationOf(std::int32_t frame, std::int32_t lss);
+  void dropClosed();
+  void answerPairs(StepContacts& step);
+  void answerPair(std::size_t first, std::size_t count, StepContacts& step);
+  [[nodiscard]] LinkParts partsOf(const Side& side, const std::vector<AxisBounds>& bounds) const;
+  void prepareSide(Side& side, LinkId link, LinkId frame, std::vector<AxisBounds>& bounds);
+  [[nodiscard]] Candidate candidateOf(const PlanePair& pair) const;
+  void keep(PairContact contact, LinkId frame, StepContacts& step);
+  void collect(double t, const PosedLink& posed, double reach, std::vector<Candidate>& candidates,
+               QueryCounters& counters) override;
+
+  const QueryPlan& plan_;
+  const SelfPlan& self_;
+  const LssTable& table_;
+  const ChainMotion& motion_;
+  const WorkMeter& meter_;
+  ScratchParts& scratch_;
+  SelfScratch& own_;
+  double begin_ = 0.0, end_ = 1.0;  // of the current slab
+  Side one_, other_;                // of the current pair of links
+};
+
+}  // namespace foretouch::internal
