@@ -9,7 +9,7 @@
 #include "tools/inputs/ignored_pairs.h"
 #include "tools/inputs/name_pattern.h"
 #include "tools/inputs/policy_rules.h"
-#include "tools/settings/near_names.h"
+#include "assets/near_names.h"
 
 namespace foretouch::tools {
 namespace {

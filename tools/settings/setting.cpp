@@ -7,7 +7,7 @@
 
 #include "assets/text_file.h"
 #include "lss/assert.h"
-#include "tools/settings/near_names.h"
+#include "assets/near_names.h"
 
 namespace foretouch::tools {
 namespace {

@@ -3,7 +3,7 @@
 #include <charconv>
 
 #include "network/wire/messages.h"
-#include "tools/settings/near_names.h"
+#include "assets/near_names.h"
 
 namespace foretouch::tools {
 namespace {

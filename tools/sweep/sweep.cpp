@@ -14,7 +14,7 @@
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/played_clip.h"
-#include "tools/settings/near_names.h"
+#include "assets/near_names.h"
 
 namespace foretouch::tools {
 namespace {
