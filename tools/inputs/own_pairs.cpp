@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "assets/avatar/pairs_file.h"
 #include "assets/near_names.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
@@ -116,6 +117,20 @@ Result<std::vector<LinkPair>> parseLeftOut(const std::string& option,
     }
   }
   return pairs;
+}
+
+Result<PairRules> pairRulesFor(const WorldRequest& request, const Avatar& avatar, const Clip& clip,
+                               const JointMatch& match, const std::string& motionPath) {
+  if (!request.pairsPath.empty()) return readPairsFile(request.pairsPath, avatar);
+  std::vector<Pose> poses;
+  FORETOUCH_CHECK(addUsualPoses(avatar, clip, match, motionPath, poses));
+  PairRuleOptions options;
+  options.usualPoses = &poses;
+  auto rules = PairRules::derive(avatar, options);
+  if (rules.ok()) return rules;
+  Error error = rules.error();
+  error.file = "--self";
+  return error;
 }
 
 std::string reasonsOf(const PairRules& rules) {

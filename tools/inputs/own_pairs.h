@@ -11,6 +11,7 @@
 #include "articulated/pair_rules.h"
 #include "articulated/result.h"
 #include "assets/avatar/joint_match.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 
@@ -30,6 +31,12 @@ inline constexpr std::size_t kMostUsualPoses = 2000;
 [[nodiscard]] Result<std::vector<LinkPair>> parseLeftOut(const std::string& option,
                                                          const std::vector<std::string>& texts,
                                                          const Avatar& avatar);
+
+/// The rules for `request`, which asks for own links: those of its file, or derived from the avatar
+/// and the clip's poses. Errors name the file or the option.
+[[nodiscard]] Result<PairRules> pairRulesFor(const WorldRequest& request, const Avatar& avatar,
+                                             const Clip& clip, const JointMatch& match,
+                                             const std::string& motionPath);
 
 /// "25 adjacent, 3 rest-overlap, 1 always", without the reasons that no pair has.
 [[nodiscard]] std::string reasonsOf(const PairRules& rules);

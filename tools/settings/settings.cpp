@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "assets/json_writer.h"
-#include "lss/assert.h"
 #include "assets/near_names.h"
+#include "lss/assert.h"
 
 namespace foretouch::tools {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <charconv>
 
-#include "network/wire/messages.h"
 #include "assets/near_names.h"
+#include "network/wire/messages.h"
 
 namespace foretouch::tools {
 namespace {
