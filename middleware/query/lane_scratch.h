@@ -33,6 +33,17 @@ struct LaneScratch {
   PartScratch parts;                  // of the current link, at exact fidelity
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
   std::vector<double> freeUntil;      // per link, if work is limited: how far it is proven free
+
+  /// The nodes of a span of the motion that is asked, unless they are there.
+  void evaluateNodes(const ChainMotion& motion, double begin, double end,
+                     const Eigen::Vector3d& origin, QueryCounters& counters) {
+    if (areNodesOfStep && nodes.begin() == begin && nodes.end() == end) return;
+    nodes.evaluate(motion, begin, end, origin);
+    areNodesOfStep = true;
+    areBoxesOfNodes = false;
+    counters.states +=
+        static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(motion.numLinks());
+  }
 };
 
 }  // namespace foretouch::internal

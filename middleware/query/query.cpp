@@ -86,8 +86,7 @@ void Query::answer(const ChainMotion& motion, QueryScratch& scratch, StepContact
   FORETOUCH_ASSERT(motion.numLinks() == plan_->avatar.numLinks());
   if (motion.numLinks() != plan_->avatar.numLinks()) return;
   internal::ScratchParts& parts = scratch.parts();
-  parts.evaluator.reset(motion);
-  parts.lanes.areNodesOfStep = parts.lanes.areBoxesOfNodes = false;
+  parts.beginStep(motion);
   const auto ask = internal::isRung(plan_->options.fidelity) ? internal::rungQuery : linkQuery;
   ask(*plan_, motion, meter, parts, step);
   FORETOUCH_ASSERT(isAnswered(step));
