@@ -62,6 +62,11 @@ void LaneLink::useTolerance(double tolerance) {
   tolerances_.handOver = floatBelow(kHandOverShare * tolerance);
 }
 
+double LaneLink::toleranceOf(LinkId link) const {
+  const double own = lanes_.tolerances.empty() ? 0.0 : lanes_.tolerances[slotOf(link)];
+  return own > 0.0 ? own : plan_.of(link).tolerance;
+}
+
 LinkContact LaneLink::undone(LinkId link) const {
   return undecidedContact(link, begin_, UndecidedReason::WorkBudget);
 }
@@ -70,7 +75,10 @@ LinkContact LaneLink::answer(LinkId link, float limit, QueryCounters& counters) 
   link_ = link;
   const LinkSurface* const surface = plan_.of(link).surface;
   scratch_.ignored.collect(body_.ignored(), link);
-  if (!plan_.margins.empty()) useTolerance(plan_.of(link).tolerance);
+  for (const IgnoredPair& pair : lanes_.touched) {
+    if (pair.link == link) scratch_.ignored.add(pair.object);
+  }
+  if (!plan_.margins.empty() || !lanes_.tolerances.empty()) useTolerance(toleranceOf(link));
   // A triangle that touches an LSS may still miss the triangles in it.
   tolerances_.contact = surface == nullptr ? floatBelow(kCertainShare * tolerance_) : kNeverCertain;
   float best = limit;

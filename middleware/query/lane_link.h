@@ -37,6 +37,7 @@ class LaneLink final : private Neighbours {
 
  private:
   void useTolerance(double tolerance);
+  [[nodiscard]] double toleranceOf(LinkId link) const;
   [[nodiscard]] LinkContact answerBefore(LinkId link, const LinkSurface* surface, float& best,
                                          QueryCounters& counters);
   [[nodiscard]] LinkContact undone(LinkId link) const;

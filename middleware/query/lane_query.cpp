@@ -17,6 +17,9 @@ constexpr double kShareOfWhole = 0.875;
 constexpr std::uint64_t kSlabWork = 2048;
 constexpr int kMostHalvings = 6;
 
+/// Of the separation that a link began with, how near it may come when it leaves.
+constexpr double kPassShare = 0.25;
+
 /// The work was spent before the answer.
 bool isSpent(const LinkContact& contact) {
   return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::WorkBudget;
@@ -37,6 +40,9 @@ LaneQuery::LaneQuery(const QueryPlan& plan, const Body& body, const LssTable& ta
 
 void LaneQuery::run(StepContacts& step) {
   findWhoIsAsked(step);
+  lanes_.touched.clear();
+  lanes_.tolerances.clear();
+  if (plan_.options.passSeparating) lanes_.tolerances.assign(countOf(body_.numLinks()), 0.0);
   const int slabs =
       slabsFor(table_, motion_,
                std::max(kInterpolationShare * plan_.tolerances.least, kLeastInterpolationError));
@@ -65,8 +71,12 @@ bool LaneQuery::answerSlab(StepContacts& step) {
   float limit = LaneLink::kEnd;  // nothing later than this matters
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     if (!isNear(link)) continue;
+    if (plan_.options.scope == Scope::EveryObject) {
+      answerObjects(link, step);
+      continue;
+    }
     const auto i = slotOf(link);
-    const LinkContact contact = link_.answer(link, limit, step.counters);
+    const LinkContact contact = answer(link, limit, step.counters);
     if (contact.verdict == Verdict::Clear) {
       if (meter_.isLimited()) lanes_.freeUntil[i] = link_.timeOf(limit);
       continue;
@@ -79,6 +89,39 @@ bool LaneQuery::answerSlab(StepContacts& step) {
     }
   }
   return true;
+}
+
+/// The link's first contact in the current slab, beyond the one that it begins with and leaves.
+LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters) {
+  const LinkContact contact = link_.answer(link, limit, counters);
+  if (!plan_.options.passSeparating || !mayPass(contact)) return contact;
+  lanes_.tolerances[slotOf(link)] = kPassShare * contact.separation;
+  return link_.answer(link, limit, counters);
+}
+
+/// It begins apart, and its witness point does not approach the scene's.
+bool LaneQuery::mayPass(const LinkContact& contact) const {
+  if (contact.verdict != Verdict::Contact || contact.toi != 0.0) return false;
+  if (!(kPassShare * contact.separation >= kMinTolerance)) return false;
+  const LinkState state = motion_.stateAt(contact.link, 0.0);
+  const Eigen::Vector3d velocity = state.v_WL + state.w_WL.cross(contact.p_WLink - state.p_WL);
+  return velocity.dot(contact.nhat_SL_W) >= 0.0;
+}
+
+/// The link's first contact with each object in the current slab, one after the other: whoever has
+/// had his is left out of the next question.
+void LaneQuery::answerObjects(LinkId link, StepContacts& step) {
+  LinkContact& earliest = step.links[slotOf(link)];
+  for (;;) {
+    const LinkContact contact = answer(link, LaneLink::kEnd, step.counters);
+    if (contact.verdict == Verdict::Clear) return;
+    const bool isFirst =
+        earliest.verdict == Verdict::Undecided && earliest.reason == UndecidedReason::None;
+    if (isFirst || isReportedBefore(contact, earliest)) earliest = contact;
+    step.perObject.push_back(contact);
+    if (contact.verdict == Verdict::Undecided) return leaveOut(link);
+    lanes_.touched.push_back({link, plan_.scene.object(contact.triangle)});
+  }
 }
 
 /// Spends what is left of the work on the links that are still open in the current slab, the first
@@ -121,7 +164,7 @@ bool LaneQuery::answerOpen(StepContacts& step) {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = slotOf(link);
     if (lanes_.isAsked[i] == 0 || lanes_.freeUntil[i] >= end_) continue;
-    const LinkContact contact = link_.answer(link, LaneLink::kEnd, step.counters);
+    const LinkContact contact = answer(link, LaneLink::kEnd, step.counters);
     if (isSpent(contact)) return keepProven(contact);
     lanes_.freeUntil[i] = end_;
     if (contact.verdict == Verdict::Clear) continue;
@@ -175,8 +218,11 @@ void LaneQuery::leaveAfterFirst(double first, StepContacts& step) const {
 void LaneQuery::leaveClear(StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = slotOf(link);
-    if (lanes_.isAsked[i] != 0) answerClear(step.links[i]);
+    const bool isOpen = step.links[i].reason == UndecidedReason::None &&
+                        step.links[i].verdict == Verdict::Undecided;
+    if (lanes_.isAsked[i] != 0 && isOpen) answerClear(step.links[i]);
   }
+  std::sort(step.perObject.begin(), step.perObject.end(), isReportedBefore);
 }
 
 /// Links without an answer are free as far as proven.

@@ -32,6 +32,9 @@ class LaneQuery {
   void leaveOut(LinkId link);
   void beginSlab(int slab, int count);
   [[nodiscard]] bool answerSlab(StepContacts& step);
+  [[nodiscard]] LinkContact answer(LinkId link, float limit, QueryCounters& counters);
+  [[nodiscard]] bool mayPass(const LinkContact& contact) const;
+  void answerObjects(LinkId link, StepContacts& step);
   void runInHalves(StepContacts& step, int slab, int slabs);
   [[nodiscard]] bool answerOpen(StepContacts& step);
   [[nodiscard]] bool isNear(LinkId link) const;

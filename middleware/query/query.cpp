@@ -81,6 +81,7 @@ void Query::answer(const ChainMotion& motion, QueryScratch& scratch, StepContact
   const internal::WorkMeter meter(plan_->options);
   step.counters = {};
   internal::leaveUnanswered(plan_->avatar.numLinks(), step.links);
+  step.perObject.clear();
   step.pairs.clear();
   step.arePairsAnswered = false;
   FORETOUCH_ASSERT(motion.numLinks() == plan_->avatar.numLinks());
