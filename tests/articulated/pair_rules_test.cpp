@@ -1,113 +1,126 @@
+// Which pairs of own links are asked, which are left out, and why.
 #include "articulated/pair_rules.h"
 
-#include <string>
-#include <utility>
-#include <vector>
+#include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "articulated/motion.h"
+#include "lss/separation.h"
 
 namespace foretouch {
 namespace {
 
-/// A trunk of 0.1 m radius, an arm left and right of it, each of upper and lower half, and a hat on
-/// a joint without LSS. The upper arms overlap the trunk's neighbour, the hat, at rest.
-Avatar figure() {
+using Eigen::Vector3d;
+
+/// A trunk with two arms of two links each, 40 cm apart, and a bare joint at each shoulder.
+Avatar trunkWithArms() {
   RawSkeleton raw;
-  const auto add = [&](const char* name, JointId parent, const Eigen::Vector3d& offset) {
-    RawJoint joint;
-    joint.name = name;
-    joint.parent = parent;
-    joint.offset = offset;
-    raw.joints.push_back(joint);
+  raw.joints = {{"trunk", kNoParent, Vector3d::Zero()},
+                {"left shoulder", 0, Vector3d(-0.2, 0.4, 0)},
+                {"left arm", 1, Vector3d::Zero()},
+                {"left hand", 2, Vector3d(-0.3, 0, 0)},
+                {"right shoulder", 0, Vector3d(0.2, 0.4, 0)},
+                {"right arm", 4, Vector3d::Zero()},
+                {"right hand", 5, Vector3d(0.3, 0, 0)}};
+  const Lss trunk{Vector3d::Zero(), Vector3d(0, 0.4, 0), 0.15};
+  const Lss left{Vector3d::Zero(), Vector3d(-0.3, 0, 0), 0.06};
+  const Lss right{Vector3d::Zero(), Vector3d(0.3, 0, 0), 0.06};
+  const Lss hand{Vector3d::Zero(), Vector3d::Zero(), 0.07};
+  return Avatar::build(Skeleton::build(raw).value(),
+                       {{trunk}, {}, {left}, {hand}, {}, {right}, {hand}})
+      .value();
+}
+
+PairRules derived(const Avatar& avatar, const PairRuleOptions& options = {}) {
+  return PairRules::derive(avatar, options).value();
+}
+
+TEST(PairRules, LeaveOutWhatOneMovesEvenPastABareJoint) {
+  const Avatar avatar = trunkWithArms();
+  const PairRules rules = derived(avatar);
+  EXPECT_EQ(rules.reasonOf(0, 2), PairReason::Adjacent);
+  EXPECT_EQ(rules.reasonOf(3, 2), PairReason::Adjacent) << "in either order";
+  EXPECT_EQ(rules.reasonOf(0, 3), PairReason::Asked);
+  EXPECT_EQ(rules.reasonOf(3, 6), PairReason::Asked);
+  EXPECT_EQ(rules.numPairs(), 10);
+  EXPECT_EQ(rules.numAsked(), 6);
+  EXPECT_EQ(rules.leftOut().size(), 4U);
+}
+
+TEST(PairRules, LeaveOutWhatOverlapsAtRestOrShrinkIt) {
+  RawSkeleton raw;
+  raw.joints = {{"a", kNoParent, Vector3d::Zero()},
+                {"b", 0, Vector3d(1, 0, 0)},
+                {"c", 1, Vector3d(-0.92, 0, 0)}};
+  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), 0.05};
+  const Avatar avatar =
+      Avatar::build(Skeleton::build(raw).value(), {{ball}, {ball}, {ball}}).value();
+  EXPECT_FALSE(PairRules::derive(avatar).ok()) << "nothing is left to ask";
+  PairRuleOptions options;
+  options.usePairRadii = true;
+  options.restSkin = 0.01;
+  const PairRules rules = derived(avatar, options);
+  EXPECT_EQ(rules.reasonOf(0, 2), PairReason::Asked);
+  ASSERT_EQ(rules.radii().size(), 1U);
+  EXPECT_NEAR(rules.radii()[0].radius, 0.08 - 0.01, 1e-12);
+  EXPECT_EQ(rules.radii()[0].a, 0);
+  EXPECT_EQ(rules.radii()[0].b, 2);
+}
+
+TEST(PairRules, LeaveOutWhatTouchesInNearlyAllUsualPoses) {
+  const Avatar avatar = trunkWithArms();
+  // The left hand on the trunk in three of four poses.
+  std::vector<Pose> poses(4, restPose(avatar.skeleton()));
+  for (std::size_t i = 0; i < 3; ++i) {
+    poses[i].translations[3] = Vector3d(0.2, -0.2, 0);
+  }
+  PairRuleOptions options;
+  options.usualPoses = &poses;
+  options.alwaysShare = 0.75;
+  EXPECT_EQ(derived(avatar, options).reasonOf(0, 3), PairReason::Always);
+  options.alwaysShare = 0.8;
+  EXPECT_EQ(derived(avatar, options).reasonOf(0, 3), PairReason::Asked);
+}
+
+TEST(PairRules, RefuseWhatTheyCannotMean) {
+  const Avatar avatar = trunkWithArms();
+  const auto errorOf = [&](const PairRuleOptions& options) {
+    const auto rules = PairRules::derive(avatar, options);
+    return rules.ok() ? std::string("accepted") : describe(rules.error());
   };
-  add("Trunk", kNoParent, {0, 0, 0});
-  add("LeftArm", 0, {0.2, 0, 0});
-  add("LeftHand", 1, {0.3, 0, 0});
-  add("RightArm", 0, {-0.2, 0, 0});
-  add("RightHand", 3, {-0.3, 0, 0});
-  add("Neck", 0, {0, 0.2, 0});
-  add("Hat", 5, {0, 0.1, 0});
-  const Eigen::Vector3d zero = Eigen::Vector3d::Zero(), half(0.15, 0, 0), brim(0.25, -0.25, 0);
-  std::vector<std::vector<Lss>> lss{{{zero, zero, 0.1}},   {{zero, half, 0.05}},
-                                    {{zero, half, 0.04}},  {{zero, -half, 0.05}},
-                                    {{zero, -half, 0.04}}, {},
-                                    {{zero, brim, 0.03}}};
-  return Avatar::build(Skeleton::build(raw).value(), std::move(lss)).value();
-}
-
-constexpr LinkId kTrunk = 0, kLeftArm = 1, kLeftHand = 2, kRightArm = 3, kRightHand = 4, kHat = 6;
-
-TEST(PairRules, LeavesOutNeighboursAcrossLinksWithoutLss) {
-  const PairRules rules = PairRules::derive(figure()).value();
-  EXPECT_EQ(rules.reasonOf(kTrunk, kLeftArm), PairReason::Adjacent);
-  EXPECT_EQ(rules.reasonOf(kHat, kTrunk), PairReason::Adjacent);
-  EXPECT_EQ(rules.reasonOf(kLeftArm, kHat), PairReason::RestOverlap);
-  EXPECT_EQ(rules.reasonOf(kLeftHand, kRightHand), PairReason::Asked);
-  EXPECT_EQ(rules.numPairs(), 15);
-  EXPECT_EQ(rules.numAsked(), rules.numPairs() - static_cast<std::int64_t>(rules.leftOut().size()));
-}
-
-TEST(PairRules, ExactListsKeepTheirReasonsAndRadii) {
-  const Avatar avatar = figure();
-  const PairRules derived = PairRules::derive(avatar, {true, 2e-3, nullptr, 0.95, {}}).value();
-  ASSERT_FALSE(derived.radii().empty());
-  const PairRules same = PairRules::of(avatar, derived.leftOut(), derived.radii()).value();
-  EXPECT_EQ(same.numAsked(), derived.numAsked());
-  ASSERT_EQ(same.leftOut().size(), derived.leftOut().size());
-  for (std::size_t i = 0; i < same.leftOut().size(); ++i) {
-    EXPECT_EQ(same.leftOut()[i].reason, derived.leftOut()[i].reason);
+  PairRuleOptions options;
+  options.leftOut = {{6, 3}};
+  const PairRules rules = derived(avatar, options);
+  EXPECT_EQ(rules.reasonOf(3, 6), PairReason::User);
+  options.leftOut = {{3, 7}};
+  EXPECT_NE(errorOf(options).find("expected a link of the avatar"), std::string::npos);
+  options.leftOut = {{3, 3}};
+  EXPECT_NE(errorOf(options).find("expected two different links"), std::string::npos);
+  options.leftOut.clear();
+  for (LinkId a = 0; a < 7; ++a) {
+    for (LinkId b = 0; b < a; ++b) options.leftOut.push_back({a, b});
   }
-  ASSERT_EQ(same.radii().size(), derived.radii().size());
-  for (std::size_t i = 0; i < same.radii().size(); ++i) {
-    EXPECT_EQ(same.radii()[i].radius, derived.radii()[i].radius);
-  }
+  EXPECT_NE(errorOf(options).find("found all 10 left out"), std::string::npos);
+  options = {};
+  options.restSkin = std::nan("");
+  EXPECT_NE(errorOf(options).find("restSkin"), std::string::npos);
+  options = {};
+  options.alwaysShare = 0.0;
+  EXPECT_NE(errorOf(options).find("alwaysShare"), std::string::npos);
+  options = {};
+  const std::vector<Pose> foreign(1);
+  options.usualPoses = &foreign;
+  EXPECT_NE(errorOf(options).find("usualPoses"), std::string::npos);
 }
 
-void expectRefusal(const std::vector<PairRadius>& radii, std::int64_t index, const char* about) {
-  const Avatar avatar = figure();
-  const auto rules = PairRules::of(avatar, {{kTrunk, kLeftArm, PairReason::Adjacent}}, radii);
-  ASSERT_FALSE(rules.ok()) << about;
-  EXPECT_EQ(rules.error().file, "radii") << describe(rules.error());
-  EXPECT_EQ(rules.error().index, index) << describe(rules.error());
-  EXPECT_NE(rules.error().message.find(about), std::string::npos) << describe(rules.error());
-}
-
-TEST(PairRules, RefusesRadiiThatDoNotFit) {
-  const PairRadius good{kLeftHand, 0, kRightHand, 0, 0.05};
-  EXPECT_TRUE(PairRules::of(figure(), {}, {good}).ok());
-  expectRefusal({good, {kLeftHand, 0, 99, 0, 0.05}}, 1, "links of the avatar");
-  expectRefusal({{-1, 0, kLeftHand, 0, 0.05}}, 0, "links of the avatar");
-  expectRefusal({{kLeftHand, 0, kLeftHand, 0, 0.05}}, 0, "two different links");
-  expectRefusal({{kLeftHand, 1, kRightHand, 0, 0.05}}, 0, "LSS that the two links have");
-  expectRefusal({{kLeftHand, 0, kRightHand, -1, 0.05}}, 0, "LSS that the two links have");
-  expectRefusal({{kLeftHand, 0, kRightHand, 0, 0.08}}, 0, "below the sum");
-  expectRefusal({{kLeftHand, 0, kRightHand, 0, 0.0}}, 0, "above 0");
-  expectRefusal({good, {kTrunk, 0, kLeftArm, 0, 0.1}}, 1, "a pair of links that is asked");
-  expectRefusal({good, {kRightHand, 0, kLeftHand, 0, 0.04}}, 1, "each two LSS once");
-}
-
-TEST(PairRules, RefusesUnknownLinksAndListsThatLeaveNothing) {
-  const Avatar avatar = figure();
-  const auto unknown = PairRules::of(avatar, {{kTrunk, 7, PairReason::User}});
-  ASSERT_FALSE(unknown.ok());
-  EXPECT_EQ(unknown.error().index, 7);
-  std::vector<LeftOutPair> all;
-  for (LinkId a = 0; a < avatar.numLinks(); ++a) {
-    for (LinkId b = a + 1; b < avatar.numLinks(); ++b) all.push_back({a, b, PairReason::User});
-  }
-  const auto nothing = PairRules::of(avatar, all);
-  ASSERT_FALSE(nothing.ok());
-  EXPECT_EQ(nothing.error().code, ErrorCode::Empty);
-}
-
-TEST(PairReasonCheck, HoldsReasonsAgainstTheAvatar) {
-  const PairReasonCheck check(figure());
-  EXPECT_TRUE(check.isTrue({kTrunk, kHat, PairReason::Adjacent}));
-  EXPECT_FALSE(check.isTrue({kLeftArm, kRightArm, PairReason::Adjacent}));
-  EXPECT_TRUE(check.isTrue({kLeftArm, kHat, PairReason::RestOverlap}));
-  EXPECT_FALSE(check.isTrue({kLeftHand, kRightHand, PairReason::RestOverlap}));
-  EXPECT_TRUE(check.isTrue({kLeftHand, kRightHand, PairReason::Always}));
-  EXPECT_TRUE(check.isTrue({kLeftHand, kRightHand, PairReason::User}));
+TEST(PairRules, KeepOneReasonPerPair) {
+  const Avatar avatar = trunkWithArms();
+  const PairRules rules =
+      PairRules::of(avatar, {{6, 3, PairReason::User}, {3, 6, PairReason::Always}}).value();
+  ASSERT_EQ(rules.leftOut().size(), 1U);
+  EXPECT_EQ(rules.reasonOf(6, 3), PairReason::Always);
+  EXPECT_EQ(rules.numAsked(), 9);
 }
 
 }  // namespace
