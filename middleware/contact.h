@@ -52,7 +52,7 @@ inline constexpr std::uint8_t kNumUndecidedReasons = 9;
 /// of the smaller separation, then the lexicographically smaller witness point and normal, then the
 /// lowest triangle. (At exact fidelity and t = 0: of the scene's triangles that the link touches,
 /// the one deepest in the link's LSS, with the lowest of the link's triangles.) So the answer does
-/// not depend on threads, on the culler or on the triangles' order.
+/// not depend on threads or on the triangles' order.
 struct LinkContact {
   LinkId link = 0;
   Verdict verdict = Verdict::Undecided;

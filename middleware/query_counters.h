@@ -7,8 +7,8 @@ namespace foretouch {
 
 /// Work done, for measurements that do not depend on the machine's load.
 struct QueryCounters {
-  std::uint64_t nodes = 0;           ///< BVH nodes visited (FlatBvh) or callbacks (PointQuery).
-  std::uint64_t leaves = 0;          ///< Leaves of the tree visited (Backtracking::Lanes).
+  std::uint64_t nodes = 0;           ///< Nodes of the tree visited.
+  std::uint64_t leaves = 0;          ///< Leaves of the tree visited (in lanes).
   std::uint64_t candidates = 0;      ///< (LSS, triangle) pairs that passed the culling.
   std::uint64_t clusterSteps = 0;    ///< Evaluations in lanes of an LSS and a leaf's sphere.
   std::uint64_t laneSteps = 0;       ///< Evaluations in lanes of an LSS and a triangle.
@@ -16,11 +16,11 @@ struct QueryCounters {
   std::uint64_t advancements = 0;    ///< Scalar distance evaluations, all kinds together.
   std::uint64_t hierarchyTests = 0;  ///< At exact fidelity: of an LSS or a node below it.
   std::uint64_t planeTests = 0;      ///< At exact fidelity: of a part against its parent's plane.
-  std::uint64_t cubicTests = 0;      ///< At exact fidelity by LeafMethod::Cubics: pieces of pairs.
+  std::uint64_t cubicTests = 0;      ///< By the reference room's cubics: pieces of pairs.
   std::uint64_t leafTests = 0;       ///< At exact fidelity: of two triangles.
   std::uint64_t states = 0;          ///< Link states evaluated (forward kinematics).
   std::uint64_t rungTests = 0;       ///< Tests of volumes that cover several links.
-  std::uint64_t settledAbove = 0;    ///< Links that such a volume settled, with Descent::ByNeed.
+  std::uint64_t settledAbove = 0;    ///< Links that the reference room's reach settled.
 };
 
 }  // namespace foretouch

@@ -1,14 +1,15 @@
 // tessellation/node_ends.h: the ends of every LSS's axis at the nodes of a span, as floats around
-// the body, for tests that need nothing but places. Metres.
+// the body, for tests that need nothing but places. sweptBoxes() makes them on its way. Metres.
 #pragma once
 
 #include <vector>
 
 #include "articulated/chain_nodes.h"
 #include "tessellation/lss_table.h"
-#include "tessellation/swept_boxes.h"
 
 namespace foretouch {
+
+struct SweptBoxes;
 
 /// Places are relative to `origin`, which is near the body, and that to the nodes' origin. Each
 /// coordinate is off by at most a unit roundoff of float of itself, and besides that the place by
@@ -21,10 +22,12 @@ struct NodeEnds {
   std::vector<float> extents;    ///< Per LSS: no end's coordinates add up to more. Rounded up.
   std::vector<float> roundings;  ///< Per LSS, of both ends in double. Rounded up.
   double origin[3] = {0.0, 0.0, 0.0};
-};
 
-/// `boxes`: of the same table and nodes, so that they contain the ends. O(LSS).
-void nodeEnds(const LssTable& table, const ChainNodes& nodes, const SweptBoxes& boxes,
-              NodeEnds& ends);
+  /// Makes room for the table's LSS, and places the origin at the first of them.
+  void placeAround(const LssTable& table, const ChainNodes& nodes);
+  /// Fills `extents` and `roundings`. `boxes`: of the same table and nodes, so that they contain
+  /// the ends.
+  void bound(const LssTable& table, const ChainNodes& nodes, const SweptBoxes& boxes);
+};
 
 }  // namespace foretouch

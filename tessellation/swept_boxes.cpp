@@ -47,14 +47,26 @@ HWY_INLINE Ends endsAt(NodeLanes d, const LssTable::Entry& entry, const LinkNode
   return {pointAt(d, link, entry.a, 0.0, axis, lane), b};
 }
 
+/// As floats relative to `shift`.
+HWY_INLINE void storeEnds(NodeLanes d, const Ends& ends, double shift, int axis, int lane,
+                          NodeEnds::Axis& to) {
+  const hn::Rebind<float, NodeLanes> floats;
+  const NodeVector from = hn::Set(d, shift);
+  hn::StoreU(hn::DemoteTo(floats, hn::Sub(ends.a, from)), floats, to.a[axis] + lane);
+  hn::StoreU(hn::DemoteTo(floats, hn::Sub(ends.b, from)), floats, to.b[axis] + lane);
+}
+
+/// `kept`: null if nobody needs the ends themselves.
 HWY_INLINE void storeExtents(const LssTable::Entry& entry, const LinkNodes& link, int axis, int row,
-                             Extents& extents) {
+                             Extents& extents, const double* origin, NodeEnds::Axis* kept) {
   const NodeLanes d;
   Ends ends = endsAt(d, entry, link, axis, 0);
+  if (kept != nullptr) storeEnds(d, ends, origin[axis], axis, 0, *kept);
   NodeVector low = hn::Min(ends.a, ends.b), high = hn::Max(ends.a, ends.b);
   for (int lane = static_cast<int>(hn::Lanes(d)); lane < kNodes;
        lane += static_cast<int>(hn::Lanes(d))) {
     ends = endsAt(d, entry, link, axis, lane);
+    if (kept != nullptr) storeEnds(d, ends, origin[axis], axis, lane, *kept);
     low = hn::Min(low, hn::Min(ends.a, ends.b));
     high = hn::Max(high, hn::Max(ends.a, ends.b));
   }
@@ -110,9 +122,11 @@ HWY_INLINE void leastOfRows(const double (*rows)[kNodes], double* leastOf) {
 #endif
 
 /// Boxes of `count` LSS; `growths` are how far each reaches beyond the ends at the nodes.
-/// `lower`, `upper`: three arrays each, `growths` one, with room for a multiple of kNodes.
+/// `lower`, `upper`: three arrays each, `growths` one, with room for a multiple of kNodes. `kept`:
+/// room for the ends themselves, relative to `origin`; or null.
 void boxesOf(const LssTable::Entry* entries, int count, const LinkNodes* links,
-             const double* growths, float* const* lower, float* const* upper) {
+             const double* growths, float* const* lower, float* const* upper, const double* origin,
+             NodeEnds::Axis* kept) {
   const NodeLanes d;
   const hn::Rebind<float, NodeLanes> floats;
   Extents extents[3];
@@ -120,9 +134,13 @@ void boxesOf(const LssTable::Entry* entries, int count, const LinkNodes* links,
   for (int first = 0; first < count; first += kNodes) {
     for (int i = 0; i < kNodes; ++i) {
       // Lanes beyond the last LSS repeat it.
-      const LssTable::Entry& entry = entries[first + i < count ? first + i : count - 1];
+      const int lss = first + i < count ? first + i : count - 1;
+      const LssTable::Entry& entry = entries[lss];
       const LinkNodes& link = links[entry.link];
-      for (int axis = 0; axis < 3; ++axis) storeExtents(entry, link, axis, i, extents[axis]);
+      for (int axis = 0; axis < 3; ++axis) {
+        storeExtents(entry, link, axis, i, extents[axis], origin,
+                     kept != nullptr ? kept + lss : nullptr);
+      }
     }
     for (int axis = 0; axis < 3; ++axis) {
       leastOfRows(extents[axis].least, least);
@@ -175,6 +193,14 @@ class Growth {
   internal::PointRoundings rounding_;
 };
 
+void computeBoxes(const LssTable& table, const ChainNodes& nodes, const double* growths,
+                  SweptBoxes& boxes, NodeEnds* ends) {
+  if (ends != nullptr) ends->placeAround(table, nodes);
+  HWY_DYNAMIC_DISPATCH(boxesOf)
+  (table.data(), table.size(), &nodes.link(0), growths, boxes.lower, boxes.upper,
+   ends != nullptr ? ends->origin : nullptr, ends != nullptr ? ends->axes.data() : nullptr);
+}
+
 double widestGap(const ChainNodes& nodes) {
   double gap = 0.0;
   for (int k = 1; k < kNodes; ++k) gap = std::max(gap, nodes.instant(k) - nodes.instant(k - 1));
@@ -210,7 +236,7 @@ void SweptBoxes::emptyFrom(std::int32_t first) {
 }
 
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
-                double margin, SweptBoxes& boxes) {
+                double margin, SweptBoxes& boxes, NodeEnds* ends) {
   FORETOUCH_ASSERT(table.numLinks() == nodes.numLinks() && nodes.numLinks() == motion.numLinks());
   boxes.makeRoom(table.size());
   if (table.size() == 0) return;
@@ -218,13 +244,13 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
   const double whole = growth.wholeMargin(margin);
   double* const growths = boxes.growths_.data();
   for (std::int32_t i = 0; i < table.size(); ++i) growths[i] = growth.of(table[i], whole);
-  HWY_DYNAMIC_DISPATCH(boxesOf)
-  (table.data(), table.size(), &nodes.link(0), growths, boxes.lower, boxes.upper);
+  computeBoxes(table, nodes, growths, boxes, ends);
   boxes.emptyFrom(table.size());
+  if (ends != nullptr) ends->bound(table, nodes, boxes);
 }
 
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
-                const std::vector<double>& margins, SweptBoxes& boxes) {
+                const std::vector<double>& margins, SweptBoxes& boxes, NodeEnds* ends) {
   FORETOUCH_ASSERT(table.numLinks() == nodes.numLinks() && nodes.numLinks() == motion.numLinks());
   FORETOUCH_ASSERT(margins.size() == countOf(table.numLinks()));
   boxes.makeRoom(table.size());
@@ -235,9 +261,9 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
     const double margin = margins[slotOf(table[i].link)];
     growths[i] = growth.of(table[i], growth.wholeMargin(margin));
   }
-  HWY_DYNAMIC_DISPATCH(boxesOf)
-  (table.data(), table.size(), &nodes.link(0), growths, boxes.lower, boxes.upper);
+  computeBoxes(table, nodes, growths, boxes, ends);
   boxes.emptyFrom(table.size());
+  if (ends != nullptr) ends->bound(table, nodes, boxes);
 }
 
 }  // namespace foretouch

@@ -9,6 +9,7 @@
 #include "articulated/chain_nodes.h"
 #include "articulated/motion.h"
 #include "tessellation/lss_table.h"
+#include "tessellation/node_ends.h"
 
 namespace foretouch {
 
@@ -31,9 +32,9 @@ struct SweptBoxes {
     float lanes[kPadding];
   };
   friend void sweptBoxes(const LssTable&, const ChainMotion&, const ChainNodes&, double,
-                         SweptBoxes&);
+                         SweptBoxes&, NodeEnds*);
   friend void sweptBoxes(const LssTable&, const ChainMotion&, const ChainNodes&,
-                         const std::vector<double>&, SweptBoxes&);
+                         const std::vector<double>&, SweptBoxes&, NodeEnds*);
   /// As resize(), but leaves the lanes as they are.
   void makeRoom(std::int32_t newCount);
   /// Lanes from `first` on.
@@ -44,11 +45,12 @@ struct SweptBoxes {
 };
 
 /// The float box of every LSS over the whole span of `nodes`, grown by `margin` (m), relative to
-/// the origin of the nodes, rounded outward. O(LSS).
+/// the origin of the nodes, rounded outward. `ends`: if not null, gets what the boxes are made of.
+/// O(LSS).
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
-                double margin, SweptBoxes& boxes);
+                double margin, SweptBoxes& boxes, NodeEnds* ends = nullptr);
 /// The same with a margin per link: `margins[link]` (m). As many as links (asserted).
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
-                const std::vector<double>& margins, SweptBoxes& boxes);
+                const std::vector<double>& margins, SweptBoxes& boxes, NodeEnds* ends = nullptr);
 
 }  // namespace foretouch

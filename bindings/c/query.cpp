@@ -50,7 +50,7 @@ void answerNext(ft_query& query) {
 
 ft_status takeOptions(const ft_query_options* given, const Scene& scene, ft_query& query) {
   QueryOptions options;
-  if (const auto s = readQueryOptions(given, *query.avatar, options); s != FT_OK) return s;
+  if (const auto s = readQueryOptions(given, *query.avatar, scene, options); s != FT_OK) return s;
   if (!(options.deadlineUs >= 0.0)) {
     return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex,
                    "deadline_us: expected microseconds, at least 0, found %g", options.deadlineUs);

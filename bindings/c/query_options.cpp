@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "lss/index.h"
+#include "middleware/object_policies.h"
 
 namespace foretouch::c {
 namespace {
 
 /// More than all pairs of a body of a hundred links and a scene of a thousand objects.
 constexpr std::size_t kMaxIgnoredPairs = std::size_t{1} << 20;
+constexpr std::size_t kMaxObjectPolicies = std::size_t{1} << 12;
 
 ft_status readFidelity(std::int32_t given, std::int64_t link, Fidelity& fidelity) {
   switch (given) {
@@ -53,6 +56,43 @@ ft_status readPolicies(const ft_query_options& given, QueryOptions& options) {
   return FT_OK;
 }
 
+/// What a policy leaves out is FT_UNCHANGED; a tolerance that is, 0.
+ft_status readObjectPolicy(const ft_object_policy& given, std::int64_t place,
+                           ObjectPolicy& policy) {
+  if (given.link != FT_EVERY_LINK) policy.links = {given.link};
+  if (given.object != FT_EVERY_OBJECT) policy.objects = {given.object};
+  if (given.tolerance != 0.0) policy.tolerance = given.tolerance;
+  if (given.fidelity != FT_UNCHANGED) {
+    const auto s = readFidelity(given.fidelity, place, policy.fidelity.emplace());
+    if (s != FT_OK) return s;
+  }
+  if (given.ignore == FT_UNCHANGED) return FT_OK;
+  if (given.ignore != 0 && given.ignore != 1) {
+    return failure(FT_ERROR_OUT_OF_RANGE, place,
+                   "object_policies: expected `ignore` 0, 1 or FT_UNCHANGED, found %d",
+                   given.ignore);
+  }
+  policy.ignore = given.ignore == 1;
+  return FT_OK;
+}
+
+ft_status applyGiven(const ft_query_options& given, const AvatarParts& avatar, const Scene& scene,
+                     QueryOptions& options) {
+  const auto s = neededArray(given.object_policies, given.object_policy_count, kMaxObjectPolicies,
+                             "object_policies");
+  if (s != FT_OK) return s;
+  std::vector<ObjectPolicy> policies(given.object_policy_count);
+  for (std::size_t i = 0; i < policies.size(); ++i) {
+    const auto status =
+        readObjectPolicy(given.object_policies[i], static_cast<std::int64_t>(i), policies[i]);
+    if (status != FT_OK) return status;
+  }
+  const auto applied =
+      applyObjectPolicies(policies, avatar.avatar.numLinks(),
+                          static_cast<std::int32_t>(scene.objectNames().size()), options);
+  return applied.ok() ? FT_OK : failure(applied.error());
+}
+
 ft_status checkedSurface(const AvatarParts& avatar, const QueryOptions& options) {
   const auto isExact = [](const LinkPolicy& policy) { return policy.fidelity == Fidelity::Exact; };
   const bool needsSurface =
@@ -79,7 +119,7 @@ ft_query_options defaultQueryOptions() {
 }
 
 ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& avatar,
-                           QueryOptions& options) {
+                           const Scene& scene, QueryOptions& options) {
   ft_query_options known = defaultQueryOptions();
   if (given != nullptr) {
     if (const auto s = readStruct(given, "ft_query_options", known); s != FT_OK) return s;
@@ -99,6 +139,7 @@ ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& ava
   options.deadlineUs = known.deadline_us;
   options.scope = known.scope == FT_SCOPE_FIRST_OF_AVATAR ? Scope::FirstOfAvatar : Scope::EveryLink;
   options.surface = avatar.surface;
+  if (const auto s = applyGiven(known, avatar, scene, options); s != FT_OK) return s;
   return checkedSurface(avatar, options);
 }
 

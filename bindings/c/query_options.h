@@ -10,6 +10,6 @@ namespace foretouch::c {
 
 /// Checks everything that needs no query; NULL: the defaults.
 [[nodiscard]] ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& avatar,
-                                         QueryOptions& options);
+                                         const Scene& scene, QueryOptions& options);
 
 }  // namespace foretouch::c

@@ -4,6 +4,7 @@
 
 #include "bindings/python/surface.h"
 #include "lss/index.h"
+#include "middleware/object_policies.h"
 
 namespace foretouch::python {
 namespace {
@@ -64,33 +65,56 @@ std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avat
 
 // ---- policies ----
 
-void applyPolicy(py::handle given, const std::string& what, LinkPolicy& policy) {
+/// What a policy sets for its link, or for its link with its objects.
+void readPolicy(py::handle given, const std::string& what, ObjectPolicy& policy) {
   for (const auto& [key, value] : mapping(given, what)) {
     const std::string name = text(key, what);
     const std::string place = what + "['" + name + "']";
     if (name == "tolerance") {
       policy.tolerance = number(value, place);
-      if (policy.tolerance >= kMinTolerance && policy.tolerance <= kMaxTolerance) continue;
+      if (*policy.tolerance >= kMinTolerance && *policy.tolerance <= kMaxTolerance) continue;
       refuse(ErrorCode::OutOfRange, place, "expected 1e-9 to 1e7 metres");
     } else if (name == "fidelity") {
       policy.fidelity = oneOf(value, place, kFidelities);
+    } else if (name == "ignore") {
+      if (!PyBool_Check(value.ptr())) refuse(ErrorCode::Mismatch, place, "expected a bool");
+      policy.ignore = value.ptr() == Py_True;
     } else {
-      refuse(ErrorCode::UnknownName, place, "expected 'tolerance' or 'fidelity'");
+      refuse(ErrorCode::UnknownName, place, "expected 'tolerance', 'fidelity' or 'ignore'");
     }
   }
 }
 
-/// {link: {"tolerance": ..., "fidelity": ...}}; a missing option is as for all links.
-std::vector<LinkPolicy> policiesFrom(const py::object& given, const Avatar& avatar,
-                                     const QueryOptions& options) {
-  if (given.is_none()) return {};
-  std::vector<LinkPolicy> policies(countOf(avatar.numLinks()),
-                                   {options.tolerance, options.fidelity});
-  for (const auto& [link, policy] : mapping(given, "policies")) {
-    const LinkId id = linkOf(avatar, link, "policies");
-    applyPolicy(policy, "policies['" + avatar.skeleton().name(id) + "']", policies[slotOf(id)]);
+/// A link, or a pair of a link and an object; returns what errors call it.
+std::string readKey(py::handle given, const Avatar& avatar, const Scene& scene,
+                    ObjectPolicy& policy) {
+  if (!py::isinstance<py::tuple>(given)) {
+    policy.links = {linkOf(avatar, given, "policies")};
+    return "policies['" + avatar.skeleton().name(policy.links[0]) + "']";
   }
-  return policies;
+  const std::vector<py::object> pair = items(given, "policies");
+  if (pair.size() != 2) {
+    refuse(ErrorCode::Mismatch, "policies", "expected a link, or a pair of a link and an object");
+  }
+  policy.links = {linkOf(avatar, pair[0], "policies")};
+  policy.objects = objectsOf(scene, pair[1], "policies");
+  return "policies['" + avatar.skeleton().name(policy.links[0]) + "', '" +
+         scene.objectNames()[slotOf(policy.objects[0])] + "']";
+}
+
+/// {link or (link, object): {"tolerance": ..., "fidelity": ..., "ignore": ...}}, later ones over
+/// earlier ones; what is left out is as for all links.
+void applyPolicies(const py::object& given, const Avatar& avatar, const Scene& scene,
+                   QueryOptions& options) {
+  if (given.is_none()) return;
+  std::vector<ObjectPolicy> policies;
+  for (const auto& [key, policy] : mapping(given, "policies")) {
+    ObjectPolicy& read = policies.emplace_back();
+    const std::string what = readKey(key, avatar, scene, read);
+    readPolicy(policy, what, read);
+  }
+  valueOf(applyObjectPolicies(policies, avatar.numLinks(),
+                              static_cast<std::int32_t>(scene.objectNames().size()), options));
 }
 
 /// A surface of another avatar would cause reads out of bounds.
@@ -112,8 +136,8 @@ QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar, const 
   QueryOptions options;
   options.tolerance = number(given.tolerance, "tolerance");
   options.fidelity = oneOf(given.fidelity, "fidelity", kFidelities);
-  options.linkPolicies = policiesFrom(given.policies, avatar, options);
   options.ignored = ignoredFrom(given.ignore, avatar, scene);
+  applyPolicies(given.policies, avatar, scene, options);
   options.scope = oneOf(given.scope, "scope", kScopes);
   options.surface = surfaceFrom(given.surface, avatar);
   if (!given.workBudget.is_none()) {

@@ -24,9 +24,9 @@ constexpr double kLargestCoordinate = 1e100;
 /// Each of the determinant's six products of three components passes eight roundings: three
 /// subtractions, two products, three sums. So does the sum of their magnitudes, to which this is
 /// relative; twice eight covers both. Halving it breaks the proof.
-constexpr double kSideRounding = 16.0 * kUnitRoundoff;
+constexpr double kDeterminantRounding = 16.0 * kUnitRoundoff;
 /// Absorbs underflow: six products below 2^-1074, each times a length of up to 2e100.
-constexpr double kSideUnderflow = 1e-200;
+constexpr double kDeterminantUnderflow = 1e-200;
 
 using Exact = std::array<Integer, 3>;
 
@@ -71,7 +71,7 @@ int sideOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector
   const double magnitude = p.x() * (q.y() * r.z() + q.z() * r.y()) +
                            p.y() * (q.z() * r.x() + q.x() * r.z()) +
                            p.z() * (q.x() * r.y() + q.y() * r.x());
-  const double bound = kSideRounding * magnitude + kSideUnderflow;
+  const double bound = kDeterminantRounding * magnitude + kDeterminantUnderflow;
   if (determinant > bound) return 1;
   return determinant < -bound ? -1 : exactSideOf(a, b, c, d);
 }

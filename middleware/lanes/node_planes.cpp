@@ -115,7 +115,7 @@ HWY_INLINE unsigned openPieces(const NodePlanes& planes, const PlanePair& pair, 
 void closePieces(const NodePlanes& planes, int node, PlanePair* pairs, std::size_t count) {
   const hn::CappedTag<float, kMaxLanes> d;
   const std::size_t lanes = hn::Lanes(d);
-  ProposalBlock block{};
+  ProposalBlock block;  // lanes beyond the pairs mean nothing
   for (std::size_t first = 0; first < count; first += kMaxLanes) {
     const std::size_t here = count - first < kMaxLanes ? count - first : kMaxLanes;
     for (std::size_t k = 0; k < here; ++k) {

@@ -272,10 +272,11 @@ bool LaneQuery::collectHits(QueryCounters& counters) {
     counters.states +=
         static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(body_.numLinks());
   }
+  NodeEnds* const ends = plan_.self.isAsked() ? &scratch_.self.ends : nullptr;
   if (plan_.margins.empty()) {
-    sweptBoxes(table, motion_, lanes_.nodes, plan_.tolerances.least, lanes_.boxes);
+    sweptBoxes(table, motion_, lanes_.nodes, plan_.tolerances.least, lanes_.boxes, ends);
   } else {
-    sweptBoxes(table, motion_, lanes_.nodes, plan_.margins, lanes_.boxes);
+    sweptBoxes(table, motion_, lanes_.nodes, plan_.margins, lanes_.boxes, ends);
   }
   lanes_.areBoxesOfNodes = areAllAsked_ && &table_ == &plan_.table;
   for (std::int32_t lss = 0; !areAllAsked_ && lss < table.size(); ++lss) {

@@ -7,6 +7,7 @@
 #include "lss/rounding.h"
 #include "middleware/query/backtracking.h"
 #include "middleware/scene/scene_parts.h"
+#include "tessellation/point_rounding.h"
 
 namespace foretouch::internal {
 namespace {
@@ -18,14 +19,13 @@ constexpr int kProposingNodes[] = {3, 0, 7};
 /// in metres. Fewer slabs only cost tightness.
 constexpr double kWantedError = 4e-6;
 
+/// Past the rounding of a sum, and of the kernel's product with it.
+constexpr float kBendInflation = 1.0F + 0x1p-21F;
+
 /// Per h^2/8 of a piece, rounded up past h's own rounding.
 float sagittaOf(double begin, double end) {
   const double h = end - begin;
   return floatPaddedAbove(h * h / 8.0 * kInflation);
-}
-
-bool isOfLinks(const PairContact& contact, LinkId a, LinkId b) {
-  return contact.link == a && contact.other == b;
 }
 
 bool comesBefore(const PairContact& x, const PairContact& y) {
@@ -69,10 +69,9 @@ void SelfQuery::evaluate(QueryCounters& counters) {
         static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(motion_.numLinks());
   }
   if (!lanes.areBoxesOfNodes) {
-    sweptBoxes(table_, motion_, lanes.nodes, plan_.tolerances.largest, lanes.boxes);
+    sweptBoxes(table_, motion_, lanes.nodes, plan_.tolerances.largest, lanes.boxes, &own_.ends);
     lanes.areBoxesOfNodes = true;
   }
-  nodeEnds(table_, lanes.nodes, lanes.boxes, own_.ends);
   own_.frames.resize(self_.frames().size());
   for (std::size_t i = 0; i < own_.frames.size(); ++i) {
     const LinkId link = self_.frames()[i].link;
@@ -102,6 +101,15 @@ void SelfQuery::collectOpen(QueryCounters& counters) {
     counters.laneSteps += own_.pairs.size();
     closeByPlanes(planes, node, own_.pairs.data(), own_.pairs.size());
     dropClosed();
+    if (node == kProposingNodes[0]) tightenBends();
+  }
+}
+
+/// In their frames, pairs bend less than in W; that costs too much for those that need it not.
+void SelfQuery::tightenBends() {
+  for (PlanePair& pair : own_.pairs) {
+    pair.bend =
+        (accelerationOf(pair.frame, pair.i) + accelerationOf(pair.frame, pair.j)) * kBendInflation;
   }
 }
 
@@ -119,8 +127,10 @@ void SelfQuery::addPlanePair(const LssIndexPair& pair) {
   open.reach = floatPaddedAbove((self_.radiusOf(pair.i, pair.j) + kFloorShare * tolerance +
                                  kNodePlaneRounding * extents + roundings) *
                                 kSumInflationOfReach);
-  open.bend =
-      (accelerationOf(open.frame, pair.i) + accelerationOf(open.frame, pair.j)) * (1.0F + 0x1p-21F);
+  const auto inWorld = [this](const LssTable::Entry& entry) {
+    return motion_.sums(entry.link).accelerationAt(std::max(entry.rhoA, entry.rhoB));
+  };
+  open.bend = floatPaddedAbove(inWorld(table_[pair.i]) + inWorld(table_[pair.j])) * kBendInflation;
   own_.pairs.push_back(open);
 }
 
@@ -155,10 +165,11 @@ void SelfQuery::answerPairs(StepContacts& step) {
     std::size_t next = first + 1;
     while (next < pairs.size() && linksOf(pairs[next]) == linksOf(pairs[first])) ++next;
     const auto [a, b] = linksOf(pairs[first]);
-    const bool isKnown = begin_ > 0.0 && std::any_of(step.pairs.begin(), step.pairs.end(),
-                                                     [a = a, b = b](const PairContact& contact) {
-                                                       return isOfLinks(contact, a, b);
-                                                     });
+    const bool isKnown =
+        begin_ > 0.0 && std::any_of(step.pairs.begin(), step.pairs.end(),
+                                    [a = a, b = b](const PairContact& contact) {
+                                      return contact.link == a && contact.other == b;
+                                    });
     if (!isKnown) answerPair(first, next - first, step);
     first = next;
   }
@@ -167,10 +178,8 @@ void SelfQuery::answerPairs(StepContacts& step) {
 void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& step) {
   const PlanePair* const pairs = own_.pairs.data() + first;
   const LinkId frame = self_.frames()[slotOf(pairs->frame)].link;
-  prepareSide(one_, table_[pairs->i].link, frame, own_.boundsOfOne);
-  prepareSide(other_, table_[pairs->j].link, frame, own_.boundsOfOther);
-  scratch_.candidates.clear();
-  for (std::size_t k = 0; k < count; ++k) scratch_.candidates.push_back(candidateOf(pairs[k]));
+  one_.link = table_[pairs->i].link;
+  other_.link = table_[pairs->j].link;
   double times[kNodes];
   for (int k = 0; k < kNodes; ++k) times[k] = scratch_.lanes.nodes.instant(k);
   const LinkParts other = partsOf(other_, own_.boundsOfOther);
@@ -184,16 +193,74 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
                         *this,
                         &other,
                         frame};
+  const bool mayStart = begin_ == 0.0 && std::any_of(pairs, pairs + count, [](const PlanePair& p) {
+                          return (p.open & 1U) != 0;
+                        });
+  if (mayStart && !query.isExact() && !other.surface) {
+    if (const auto contact = contactAtStart(query, step.counters)) {
+      return keep(*contact, kNoParent, step);
+    }
+  }
+  prepareSide(one_, frame, own_.boundsOfOne);
+  prepareSide(other_, frame, own_.boundsOfOther);
+  scratch_.candidates.clear();
+  for (std::size_t k = 0; k < count; ++k) scratch_.candidates.push_back(candidateOf(pairs[k]));
   const PairContact contact = backtrack(query, scratch_.candidates, step.counters);
   if (contact.verdict != Verdict::Clear) keep(contact, frame, step);
 }
 
-void SelfQuery::prepareSide(Side& side, LinkId link, LinkId frame,
-                            std::vector<AxisBounds>& bounds) {
-  side.link = link;
-  side.bounds = motion_.sumsIn(frame, link).bounds();
+/// At t = 0 the first node has the places, without trigonometry. The contact of the nearest two
+/// LSS, in W; nothing if none is within the tolerance.
+std::optional<PairContact> SelfQuery::contactAtStart(const LinkQuery& query,
+                                                     QueryCounters& counters) {
+  std::optional<PairContact> best;
+  for (std::size_t k = 0; k < own_.meeting.count; ++k) {
+    const LssIndexPair& pair = own_.meeting.pairs[k];
+    if (!isOfLinks(pair)) continue;
+    const Candidate candidate = candidateOf({pair.i, pair.j, 0, 0.0F, 0.0F, kEveryPiece});
+    ++counters.advancements;
+    const MovingPair apart = movingPair(atFirstNode(pair.i, candidate.radiusShare),
+                                        atFirstNode(pair.j, candidate.radiusShare));
+    if (apart.gapUpper > query.tolerance) continue;
+    const PairContact contact = contactOf(query, candidate, apart, 0.0);
+    if (!best || comesFirst(contact, *best)) best = contact;
+  }
+  if (!best) return best;
+  const Eigen::Vector3d& origin = scratch_.lanes.nodes.origin();
+  best->p_WScene += origin;
+  best->p_WLink += origin;
+  return best;
+}
+
+/// Relative to the nodes' origin.
+MovingHull SelfQuery::atFirstNode(std::int32_t lss, double radiusShare) const {
+  const LssTable::Entry& entry = table_[lss];
+  const LinkNodes& link = scratch_.lanes.nodes.link(entry.link);
+  const auto placeOf = [&link](const double* p_L) {
+    Eigen::Vector3d p;
+    for (int i = 0; i < 3; ++i) {
+      p[i] = link.p[i][0] + (link.R[3 * i][0] * p_L[0] + link.R[3 * i + 1][0] * p_L[1] +
+                             link.R[3 * i + 2][0] * p_L[2]);
+    }
+    return p;
+  };
+  MovingHull hull;
+  hull.hull = Hull::segment(placeOf(entry.a), placeOf(entry.b));
+  hull.radius = entry.radius * radiusShare;
+  hull.positionRounding.fill(
+      pointRounding(scratch_.lanes.nodes.bounds(), std::max(entry.rhoA, entry.rhoB)));
+  return hull;
+}
+
+void SelfQuery::prepareSide(Side& side, LinkId frame, std::vector<AxisBounds>& bounds) {
+  side.bounds = motion_.sumsIn(frame, side.link).bounds();
   bounds.clear();
-  for (const Lss& lss : plan_.avatar.lss(link)) bounds.push_back(axisBounds(lss, side.bounds));
+  for (const Lss& lss : plan_.avatar.lss(side.link)) bounds.push_back(axisBounds(lss, side.bounds));
+}
+
+/// Of the links of the current pair.
+bool SelfQuery::isOfLinks(const LssIndexPair& pair) const {
+  return table_[pair.i].link == one_.link && table_[pair.j].link == other_.link;
 }
 
 LinkParts SelfQuery::partsOf(const Side& side, const std::vector<AxisBounds>& bounds) const {
@@ -234,7 +301,7 @@ void SelfQuery::collect(double t, const PosedLink& /*posed*/, double /*reach*/,
   candidates.clear();
   for (std::size_t k = 0; k < own_.meeting.count; ++k) {
     const LssIndexPair& pair = own_.meeting.pairs[k];
-    if (table_[pair.i].link != one_.link || table_[pair.j].link != other_.link) continue;
+    if (!isOfLinks(pair)) continue;
     Candidate candidate = candidateOf({pair.i, pair.j, 0, 0.0F, 0.0F, kEveryPiece});
     candidate.freeUntil = t;
     candidates.push_back(candidate);

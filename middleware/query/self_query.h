@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "articulated/motion.h"
@@ -37,11 +38,16 @@ class SelfQuery final : private Neighbours {
   void collectOpen(QueryCounters& counters);
   void addPlanePair(const LssIndexPair& pair);
   [[nodiscard]] float accelerationOf(std::int32_t frame, std::int32_t lss);
+  void tightenBends();
   void dropClosed();
   void answerPairs(StepContacts& step);
   void answerPair(std::size_t first, std::size_t count, StepContacts& step);
+  [[nodiscard]] std::optional<PairContact> contactAtStart(const LinkQuery& query,
+                                                          QueryCounters& counters);
+  [[nodiscard]] MovingHull atFirstNode(std::int32_t lss, double radiusShare) const;
   [[nodiscard]] LinkParts partsOf(const Side& side, const std::vector<AxisBounds>& bounds) const;
-  void prepareSide(Side& side, LinkId link, LinkId frame, std::vector<AxisBounds>& bounds);
+  void prepareSide(Side& side, LinkId frame, std::vector<AxisBounds>& bounds);
+  [[nodiscard]] bool isOfLinks(const LssIndexPair& pair) const;
   [[nodiscard]] Candidate candidateOf(const PlanePair& pair) const;
   void keep(PairContact contact, LinkId frame, StepContacts& step);
   void collect(double t, const PosedLink& posed, double reach, std::vector<Candidate>& candidates,

@@ -29,7 +29,7 @@ enum class Culler : std::uint8_t {
 /// instants within it.
 enum class Backtracking : std::uint8_t {
   Lanes,   ///< Many pairs at once in the processor's vectors (lss/simd.h), in doubles where lanes
-           ///< cannot decide.
+           ///< cannot decide, and at exact fidelity where the processor has a single one.
   Scalar,  ///< Pair by pair in doubles: slower.
 };
 
@@ -58,7 +58,7 @@ enum class Descent : std::uint8_t {
 
 /// The defaults are what the product does.
 struct ReferenceOptions {
-  Culler culler = Culler::FlatBvh;  ///< Of answer(); touchesAt() always asks the flat tree.
+  Culler culler = Culler::FlatBvh;  ///< touchesAt() and Descent::ByNeed ask the flat tree anyway.
   /// None: lanes, except for skins and for more LSS than a walk takes.
   std::optional<Backtracking> backtracking;
   LeafMethod leafMethod = LeafMethod::Advancement;

@@ -2,6 +2,8 @@
 // `instructions` as a user runs them. Shapes and invariants; no time is judged.
 #include <algorithm>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -42,6 +44,35 @@ class BenchProgram : public testing::Test {
 
   SmallWorld world;
 };
+
+// What `foretouch replay` once had, and what it says of where that went.
+TEST_F(BenchProgram, LatencyComparesTheReferenceRoomsWays) {
+  const auto run = [&](const Words& more) {
+    Words words =
+        bench("latency", {"--place", "0,0,0", "--rate", "5", "--simd", "widest", "--repeat", "1",
+                          "--cold-mb", "1", "--json", world.folder / "way.json"});
+    words.insert(words.end(), more.begin(), more.end());
+    return runBench(words);
+  };
+  const Ended ended = run({"--fidelity", "exact", "--surface-triangles", "2000", "--leaves",
+                           "cubics", "--culler", "point-query", "--descent", "by-need"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const std::string report = contentOf(world.folder / "way.json");
+  for (const char* way : {"descent by need", "by cubics", "culled by point queries"}) {
+    EXPECT_NE(report.find(way), std::string::npos) << way;
+  }
+  for (const auto& [words, why] : std::vector<std::pair<Words, const char*>>{
+           {{"--leaves", "roots"}, "--leaves: expected advancement or cubics, found 'roots'"},
+           {{"--culler", "bvh"}, "--culler: expected flat or point-query, found 'bvh'"},
+           {{"--descent", ""}, "--descent: expected straight or by-need, found ''"},
+           {{"--leaves", "cubics"}, "leafMethod: expected advancement at fidelity link"},
+           {{"--descent", "by-need", "--fidelity", "limb"},
+            "descent: expected straight at fidelity limb"}}) {
+    const Ended refused = run(words);
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.err.find(why), std::string::npos) << refused.err;
+  }
+}
 
 TEST_F(BenchProgram, LatencyReportsEveryRateToleranceAndCache) {
   const Words words =

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <optional>
 
+#include "middleware/object_policies.h"
 #include "middleware/query/query.h"
 #include "tests/bindings/c_world.h"
 #include "tests/middleware/mesh_body.h"
@@ -21,12 +22,25 @@ struct Options {
   ft_query_options c = test::initialised(ft_query_options_init);
   std::vector<ft_ignored_pair> ignored;
   std::vector<ft_link_policy> policies;
+  std::vector<ft_object_policy> objectPolicies;
+  std::vector<ObjectPolicy> cxxObjectPolicies;
 
   void ignore(LinkId link, ObjectId object) {
     cxx.ignored.push_back({link, object});
     ignored.push_back({link, object});
     c.ignored = ignored.data();
     c.ignored_count = ignored.size();
+  }
+  void objectPolicy(const ft_object_policy& policy) {
+    ObjectPolicy same;
+    if (policy.link != FT_EVERY_LINK) same.links = {policy.link};
+    if (policy.object != FT_EVERY_OBJECT) same.objects = {policy.object};
+    if (policy.tolerance != 0.0) same.tolerance = policy.tolerance;
+    if (policy.ignore != FT_UNCHANGED) same.ignore = policy.ignore != 0;
+    cxxObjectPolicies.push_back(same);
+    objectPolicies.push_back(policy);
+    c.object_policies = objectPolicies.data();
+    c.object_policy_count = objectPolicies.size();
   }
   void policy(double tolerance, bool isExact) {
     cxx.linkPolicies.push_back({tolerance, isExact ? Fidelity::Exact : Fidelity::Link});
@@ -71,6 +85,15 @@ void draw(Random& random, const test::RandomBody& body, int objects, Options& op
   options.cxx.linkPolicies.clear();
   options.c.policies = nullptr;
   options.c.policy_count = 0;
+  for (int i = random.below(4); isOfLinks && i > 0; --i) {
+    options.objectPolicy({random.below(body.avatar.numLinks() + 1) - 1,
+                          random.below(objects + 1) - 1,
+                          random.chance(0.3) ? 0.0 : random.magnitude(1e-6, 1e-2), FT_UNCHANGED,
+                          random.below(3) - 1});
+  }
+  EXPECT_TRUE(
+      applyObjectPolicies(options.cxxObjectPolicies, body.avatar.numLinks(), objects, options.cxx)
+          .ok());
 }
 
 void expectSameVector(const double (&c)[3], const Vector3d& cxx) {

@@ -74,7 +74,13 @@ static_assert(sizeof(ft_ignored_pair) == 8);
 static_assert(sizeof(ft_link_policy) == 16);
 AT(ft_link_policy, fidelity, 8);
 
-static_assert(sizeof(ft_query_options) == 72);
+static_assert(sizeof(ft_object_policy) == 24);
+AT(ft_object_policy, object, 4);
+AT(ft_object_policy, tolerance, 8);
+AT(ft_object_policy, fidelity, 16);
+AT(ft_object_policy, ignore, 20);
+
+static_assert(sizeof(ft_query_options) == 88);
 AT(ft_query_options, fidelity, 4);
 AT(ft_query_options, tolerance, 8);
 AT(ft_query_options, work_budget, 16);
@@ -85,6 +91,8 @@ AT(ft_query_options, ignored, 40);
 AT(ft_query_options, ignored_count, 48);
 AT(ft_query_options, policies, 56);
 AT(ft_query_options, policy_count, 64);
+AT(ft_query_options, object_policies, 72);
+AT(ft_query_options, object_policy_count, 80);
 
 static_assert(sizeof(ft_contact) == 144);
 AT(ft_contact, link, 4);

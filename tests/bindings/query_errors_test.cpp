@@ -88,6 +88,56 @@ TEST(CQueryErrors, OfQueryOptions) {
   expectRefused(a.make(), FT_ERROR_STRUCT_SIZE, {"reserved"});
 }
 
+ft_object_policy policyOf(std::int32_t link, std::int32_t object) {
+  return {link, object, 0.0, FT_UNCHANGED, FT_UNCHANGED};
+}
+
+TEST(CQueryErrors, OfObjectPolicies) {
+  refuse<Asking>([](Asking& a) { a.options.object_policy_count = 1; }, FT_ERROR_NULL_ARGUMENT,
+                 {"object_policies"});
+  const auto refused = [](const ft_object_policy& policy, ft_status status, const char* why) {
+    Asking a;
+    a.options.object_policies = &policy;
+    a.options.object_policy_count = 1;
+    expectRefused(a.make(), status, {why});
+    EXPECT_EQ(ft_last_error_index(), 0) << why;
+  };
+  refused(policyOf(7, FT_EVERY_OBJECT), FT_ERROR_OUT_OF_RANGE, "expected links");
+  refused(policyOf(-2, FT_EVERY_OBJECT), FT_ERROR_OUT_OF_RANGE, "expected links");
+  refused(policyOf(0, 9), FT_ERROR_OUT_OF_RANGE, "expected links");
+  ft_object_policy policy = policyOf(0, FT_EVERY_OBJECT);
+  for (const double tolerance : {kNotANumber, -1.0, 1e-10, 2e7}) {
+    policy.tolerance = tolerance;
+    refused(policy, FT_ERROR_OUT_OF_RANGE, "tolerance");
+  }
+  policy.tolerance = 0.0;
+  policy.fidelity = FT_FIDELITY_LIMB;
+  refused(policy, FT_ERROR_OUT_OF_RANGE, "link or exact");
+  policy.fidelity = 77;
+  refused(policy, FT_ERROR_OUT_OF_RANGE, "77");
+  policy.fidelity = FT_FIDELITY_LINK;
+  policy.object = 0;
+  refused(policy, FT_ERROR_MISMATCH, "no objects beside it");
+  policy = policyOf(0, 0);
+  policy.ignore = 2;
+  refused(policy, FT_ERROR_OUT_OF_RANGE, "ignore");
+}
+
+// Nothing reads a pair that is not there, nor takes a number for a tolerance that is none.
+TEST(CQueryErrors, OfOptionsBesideObjectPolicies) {
+  const ft_object_policy policy = {0, 0, 1e-3, FT_UNCHANGED, FT_UNCHANGED};
+  const ft_ignored_pair far[] = {{0, 1 << 30}};
+  Asking a;
+  a.options.object_policies = &policy;
+  a.options.object_policy_count = 1;
+  a.options.ignored = far;
+  a.options.ignored_count = 1;
+  expectRefused(a.make(), FT_ERROR_OUT_OF_RANGE, {"ignored"});
+  a.options.ignored_count = 0;
+  a.options.tolerance = kNotANumber;
+  expectRefused(a.make(), FT_ERROR_OUT_OF_RANGE, {"tolerance"});
+}
+
 TEST(CQueryErrors, OfSteps) {
   test::SmallWorld world;
   const auto query = test::makeQuery(world.scene, world.avatar);

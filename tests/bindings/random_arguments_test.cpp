@@ -144,6 +144,13 @@ class Caller {
     for (ft_link_policy& policy : policies_) policy = {number(), index(), 0};
     if (random_.chance(0.3)) made.ignored = maybe(ignored_.data()), made.ignored_count = count();
     if (random_.chance(0.3)) made.policies = maybe(policies_.data()), made.policy_count = count();
+    for (ft_object_policy& policy : objectPolicies_) {
+      policy = {index(), index(), random_.chance(0.5) ? 0.0 : number(), index(), index()};
+    }
+    if (random_.chance(0.3)) {
+      made.object_policies = maybe(objectPolicies_.data());
+      made.object_policy_count = count();
+    }
     return made;
   }
   void makeQuery(test::SmallWorld& world) {
@@ -220,6 +227,7 @@ class Caller {
   std::array<std::int32_t, kRoom> indices_{};
   std::array<ft_ignored_pair, kRoom> ignored_{};
   std::array<ft_link_policy, kRoom> policies_{};
+  std::array<ft_object_policy, kRoom> objectPolicies_{};
   std::array<const char*, kRoom> names_ = {"stick", "b", "\xff", "", nullptr, "f", "g", "h"};
   int accepted_ = 0, refused_ = 0;
 };

@@ -17,7 +17,9 @@ objects = ["floor"]
 ignore = true
 """
 
-# Ways to ask about the bundled example that leave results of their own.
+# Ways to ask about the bundled example that leave results of their own. None has --culler or
+# --leaves: the program has those options no more. What they chose is held against what it does in
+# tests/middleware/, tests/examples/ and tests/oracle/.
 WAYS = {
     "every-pose": "--rate all",
     "ellipsoid": "--fidelity ellipsoid --place 0,1.1,0",

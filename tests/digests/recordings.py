@@ -51,7 +51,8 @@ def clip_cases():
                        [needs, SCENES[scene][0]])
 
 
-# Ways to ask about one clip in one scene, beside every link's own volume.
+# Ways to ask about one clip in one scene, beside every link's own volume. Neither --culler nor
+# --leaves among them or below: see bundled.py.
 CLIP_WAYS = {
     "ellipsoid": "--fidelity ellipsoid",
     "avatar": "--fidelity avatar",

@@ -19,6 +19,7 @@
 #include "assets/avatar/joint_match.h"
 #include "assets/bvh/bvh_reader.h"
 #include "middleware/query/query.h"
+#include "middleware/reference/reference_query.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch {
@@ -209,6 +210,34 @@ Tally tallyOf(const ExampleMotion& motion, const Scene& scene) {
     tally.stepsWithContact += any ? 1 : 0;
   }
   return tally;
+}
+
+TEST(ExampleSteps, AreAnsweredAlikeByEitherCuller) {
+  const ExampleMotion motion = ExampleMotion::read();
+  const Scene room = Scene::build(readPlainObj(kFolder + "/room.obj")).value();
+  ReferenceOptions pointQuery;
+  pointQuery.culler = Culler::PointQuery;
+  const Query flat = Query::build(motion.avatar, room).value();
+  const Query slow = buildReference(motion.avatar, room, {}, pointQuery).value();
+  QueryScratch scratch;
+  int contacts = 0;
+  for (std::size_t f = 0; f + kFramesAStep < motion.poses.size(); f += kFramesAStep) {
+    SCOPED_TRACE(f);
+    const ChainMotion step(motion.avatar.skeleton(), motion.poses[f],
+                           motion.poses[f + kFramesAStep]);
+    const StepContacts expected = flat.answer(step, scratch), got = slow.answer(step, scratch);
+    for (std::size_t i = 0; i < expected.links.size(); ++i) {
+      const LinkContact &x = expected.links[i], &y = got.links[i];
+      EXPECT_EQ(x.verdict, y.verdict);
+      EXPECT_EQ(x.toi, y.toi);
+      EXPECT_EQ(x.separation, y.separation);
+      EXPECT_EQ(x.triangle, y.triangle);
+      EXPECT_EQ(x.p_WScene, y.p_WScene);
+      EXPECT_EQ(x.p_WLink, y.p_WLink);
+      contacts += x.verdict != Verdict::Clear ? 1 : 0;
+    }
+  }
+  EXPECT_GT(contacts, 20);
 }
 
 TEST(ExampleSteps, HoldContactsThatNoPoseShows) {

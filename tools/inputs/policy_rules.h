@@ -24,15 +24,10 @@ namespace foretouch::tools {
 /// Reads the rules of the request's policy file, if it names one.
 [[nodiscard]] Result<Done> readPolicies(WorldRequest& request);
 
-/// Resolves the rules for one avatar and scene, in order: later ones win. Fills the options'
-/// ignored pairs. If any rule sets a tolerance or fidelity:
-///   - A link's tolerance is the least of its tolerances for the objects that it does not ignore,
-///     so a contact with any of them is within that object's tolerance.
-///   - The options' own tolerance becomes the largest of the links', and their fidelity Exact if
-///     any link's is, else Link. Links that are ignored altogether do not count.
-///   - The options get link policies only if links differ.
-/// Errors name the rule's file and line: names that match nothing (with the nearest), a tolerance
-/// or fidelity while the options' fidelity is neither Link nor Exact, too many pairs.
+/// Finds the rules' names in one avatar and scene and applies them in order: applyObjectPolicies()
+/// (middleware/object_policies.h). Errors name the rule's file and line: names that match nothing
+/// (with the nearest), a tolerance or fidelity while the options' fidelity is neither Link nor
+/// Exact, too many pairs.
 [[nodiscard]] Result<Done> applyPolicies(const std::vector<PolicyRule>& rules,
                                          const Skeleton& skeleton,
                                          const std::vector<std::string>& objectNames,

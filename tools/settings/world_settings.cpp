@@ -86,7 +86,8 @@ void addQuerySettings(Settings& settings, WorldRequest& request) {
   Setting& budget =
       settings
           .whole("--budget-us", "US", request.budgetUs, 0, kMostBudgetUs,
-                 "Work that one step may cost; links beyond it are undecided; 0: no limit")
+                 "Work that one step may cost, at 100 evaluations per us; links beyond it are "
+                 "undecided; 0: no limit")
           .inConfig("service", "budget_us")
           .inHeader("budget_us")
           .inReport("budget")

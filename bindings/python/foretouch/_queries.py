@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from foretouch._foretouch import Avatar, Motion, Query, Scene, Step, Steps, Surface
-from foretouch._types import IgnoredLike, LinkLike, Policy, PosesLike
+from foretouch._types import IgnoredLike, Policy, PolicyKey, PosesLike
 
 
 def first_contacts(
@@ -19,7 +19,7 @@ def first_contacts(
     tolerance: float = 1e-3,
     fidelity: str = "link",
     *,
-    policies: Optional[Mapping[LinkLike, Policy]] = None,
+    policies: Optional[Mapping[PolicyKey, Policy]] = None,
     ignore: Iterable[IgnoredLike] = (),
     work_budget: Optional[int] = None,
     deadline_us: Optional[float] = None,
@@ -52,7 +52,7 @@ def first_contacts_many(
     *,
     ends: Optional[PosesLike] = None,
     threads: Optional[int] = None,
-    policies: Optional[Mapping[LinkLike, Policy]] = None,
+    policies: Optional[Mapping[PolicyKey, Policy]] = None,
     ignore: Iterable[IgnoredLike] = (),
     work_budget: Optional[int] = None,
     deadline_us: Optional[float] = None,

@@ -112,16 +112,21 @@ class SweptSurface(NamedTuple):
 
 
 class Policy(TypedDict, total=False):
-    """One link's own options. A missing one is as for all links."""
+    """What one link has for itself, or with one object. What is missing is as for all links."""
 
     tolerance: float
     fidelity: str
+    """Of a link, not of a pair: a link has one surface for all objects."""
+    ignore: bool
+    """False: no longer ignored."""
 
 
 LinkLike = Union[str, int]
 """A link's name or index."""
 IgnoredLike = Union[LinkLike, tuple[LinkLike, Union[str, int]]]
 """A link, or a link and an object (its name or index), whose contacts the query ignores."""
+PolicyKey = Union[LinkLike, tuple[LinkLike, Union[str, int]]]
+"""A link, or a link and an object (its name or index), which have options of their own."""
 PoseLike = Union[Pose, tuple[npt.ArrayLike, npt.ArrayLike]]
 """Rotations (n, 4) and translations (n, 3)."""
 PosesLike = Union[Poses, tuple[npt.ArrayLike, npt.ArrayLike]]

@@ -204,8 +204,17 @@ class Errors(unittest.TestCase):
         self.refused(r"policies\['fore'\]\['tol'\]", ask, policies={"fore": {"tol": 1}})
         self.refused(r"policies\['fore'\]\['tolerance'\]: expected 1e-9", ask,
                      policies={"fore": {"tolerance": 0}})
-        self.refused("linkPolicies", ask, policies={"fore": {"fidelity": "limb"}})
-        self.refused("linkPolicies", ask, fidelity="limb", policies={"fore": {}})
+        self.refused("policies: fidelity: expected link or exact", ask,
+                     policies={"fore": {"fidelity": "limb"}})
+        self.refused("policies: expected neither tolerance nor fidelity beside the fidelity limb",
+                     ask, fidelity="limb", policies={"fore": {"tolerance": 1e-3}})
+        self.refused(r"policies\['fore', 'wall'\]\['ignore'\]: expected a bool", ask,
+                     policies={("fore", "wall"): {"ignore": 1}})
+        self.refused("policies: 'walls' is no object.*'wall'", ask,
+                     policies={("fore", "walls"): {"ignore": True}})
+        self.refused("policies: expected a link, or a pair", ask, policies={("fore",): {}})
+        self.refused("policies: fidelity: expected no objects beside it", ask,
+                     policies={("fore", "wall"): {"fidelity": "exact"}})
         self.refused("surface of this avatar", ask, policies={0: {"fidelity": "exact"}})
         self.refused("", Query, None, scene, kind=TypeError)
         self.refused("", Query, avatar, None, kind=TypeError)

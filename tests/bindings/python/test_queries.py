@@ -128,6 +128,17 @@ class Options(unittest.TestCase):
         self.assertLess(mixed["fore"].separation, 2e-7)
         self.assertGreater(coarse["fore"].separation, 1e-6)
 
+    def test_policies_of_a_link_and_an_object(self):
+        without = self.ask(policies={("fore", "wall"): {"ignore": True}})
+        self.assertEqual(without["fore"].verdict, Verdict.CLEAR)
+        again = {"fore": {"ignore": True}, ("fore", 0): {"ignore": False, "tolerance": 1e-7}}
+        fine = self.ask(tolerance=1e-2, policies=again)
+        self.assertEqual(fine["fore"].toi, self.ask(tolerance=1e-7)["fore"].toi)
+        # A pair that is ignored has no say in the link's tolerance.
+        free = self.ask(tolerance=1e-2, ignore=[("fore", "wall")],
+                        policies={("fore", "wall"): {"tolerance": 1e-7}})
+        self.assertEqual(free["fore"].verdict, Verdict.CLEAR)
+
     def test_the_scope_of_the_avatar_reports_the_first_alone(self):
         step = self.ask(scope="avatar")
         self.assertEqual(step["upper"].reason, "after-first")

@@ -130,23 +130,6 @@ void replayExample(const std::string& out, const std::vector<std::string>& more)
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
 }
 
-TEST(ReplayProgram, WritesTheSameBytesForEitherCullerInTheBundledRoom) {
-  const TempFolder out;
-  for (const std::vector<std::string>& at :
-       {std::vector<std::string>{"--rate", "15"},
-        std::vector<std::string>{"--rate", "5", "--place", "0.3,0,0.2,30"}}) {
-    std::vector<std::string> pointQuery = at;
-    pointQuery.insert(pointQuery.end(), {"--culler", "point-query"});
-    replayExample(out / "flat", at);
-    replayExample(out / "point", pointQuery);
-    const auto flat = linesOf(resultsWithoutLatency(out / "flat"));
-    const auto point = linesOf(resultsWithoutLatency(out / "point"));
-    ASSERT_EQ(flat.size(), point.size());
-    EXPECT_GT(flat.size(), 60u);
-    for (std::size_t i = 0; i < flat.size(); ++i) EXPECT_EQ(flat[i], point[i]);
-  }
-}
-
 /// What a step's line says of a link: how long it is free of contact, and whether that is all.
 struct Said {
   double free = 1.0;

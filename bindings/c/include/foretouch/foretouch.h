@@ -301,6 +301,20 @@ typedef struct ft_link_policy {
   int32_t reserved; /* 0 */
 } ft_link_policy;
 
+#define FT_EVERY_LINK (-1)
+#define FT_UNCHANGED (-1)
+
+/* What a link has with one object, if objects differ. Later policies win; what one leaves out stays
+ * as earlier ones set it, or else as for all links. A link's tolerance is the least of those that it
+ * has with the objects that it does not ignore. */
+typedef struct ft_object_policy {
+  int32_t link;     /* or FT_EVERY_LINK */
+  int32_t object;   /* or FT_EVERY_OBJECT */
+  double tolerance; /* metres, 1e-9 to 1e7; 0: unchanged */
+  int32_t fidelity; /* FT_FIDELITY_LINK or _EXACT, only for FT_EVERY_OBJECT; or FT_UNCHANGED */
+  int32_t ignore;   /* 1: ignores contacts; 0: no longer ignores them; or FT_UNCHANGED */
+} ft_object_policy;
+
 typedef struct ft_query_options {
   uint32_t size;
   int32_t fidelity;     /* default FT_FIDELITY_LINK */
@@ -313,6 +327,8 @@ typedef struct ft_query_options {
   size_t ignored_count;
   const ft_link_policy* policies; /* one per link, replace tolerance and fidelity; or none */
   size_t policy_count;
+  const ft_object_policy* object_policies; /* in order, over all options above; or none */
+  size_t object_policy_count;              /* with tolerance or fidelity: not beside policies */
 } ft_query_options;
 
 FT_API ft_status ft_query_options_init(ft_query_options* options, size_t size);
