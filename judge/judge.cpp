@@ -110,12 +110,12 @@ std::string Judge::witnessContradiction(const Answer& a) const {
   if (a.triangle < 0 || a.triangle >= surface.numOthers()) return "triangle index";
   const Real radius = surface.radius(piece, a.triangle);
   const Real radiusOfOther = surface.radiusOfOther(piece, a.triangle);
-  const auto isOff = [](Real value, Real by) { return !(std::abs(value) <= by); };  // true for NaN
-  const auto off = [&](Real value) { return isOff(value, guardInWorld_); };
+  // True for NaN.
+  const auto off = [&](Real value) { return !(std::abs(value) <= guardInWorld_); };
 
   const Real signedSeparation = static_cast<Real>(a.separation) - a.penetration;
   const Real separation = surface.separationFrom(piece, a.triangle, a.toi);
-  if (isOff(separation - signedSeparation, guard_)) return "separation";
+  if (off(separation - signedSeparation)) return "separation";
   const Vec3r onScene = a.onScene.as<Real>(), onLink = a.onLink.as<Real>();
   const Vec3r n = a.normal.as<Real>();
   if (off(norm(n) - 1)) return "normal's length";

@@ -85,7 +85,7 @@ class Judge {
   void add(std::unique_ptr<MovingSurface> surface);
 
   std::vector<std::unique_ptr<MovingSurface>> surfaces_;
-  Real guard_ = 0, guardInWorld_ = 0;  ///< Of separations; of witness points and normals.
+  Real guard_ = 0, guardInWorld_ = 0;  ///< Of starts; of witnesses.
 };
 
 }  // namespace foretouch::oracle

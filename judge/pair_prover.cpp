@@ -150,8 +150,8 @@ bool PairProver::proveSpan(Parts parts, Real from, Real to) {
     outcome_.freeUntil = to;
     return true;
   }
-  const Real larger = std::max(partOfOne.isSingle() ? 0 : partOfOne.radius,
-                               partOfOther.isSingle() ? 0 : partOfOther.radius);
+  // A single hull's large ball, too, is a reason to come down to where certificates decide.
+  const Real larger = std::max(partOfOne.radius, partOfOther.radius);
   if (!isSingle && (larger > way || isShortest)) return proveHalves(parts, from, to);
   return proveSpan(parts, from, middle) && proveSpan(parts, middle, to);
 }

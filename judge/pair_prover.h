@@ -21,9 +21,9 @@ struct RadiusSum {
 };
 
 /// Looks at both links from the frame of the deepest joint that moves both, where the joints above
-/// it move neither. Tries parts of both as balls first; halves the larger ball if it is larger than
-/// the path of one part seen from the other, else the span; certificates decide pairs of single
-/// hulls as they do capsules (capsule_prover.h). Keeps a reference: the motion outlives it.
+/// it move neither. Tries parts of both as balls first; halves a part if one of the balls is larger
+/// than the path of one part seen from the other, else the span; certificates decide pairs of
+/// single hulls as they do capsules (capsule_prover.h). Keeps a reference: the motion outlives it.
 class PairProver final : public MovingSurface {
  public:
   /// Neither link may be without hulls; all hulls of a side name the same link.

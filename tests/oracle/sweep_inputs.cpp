@@ -148,6 +148,18 @@ std::vector<std::string> sceneNames() {
   return names;
 }
 
+SweepScene emptySurroundings() {
+  using Eigen::Vector3d;
+  RawScene raw;
+  raw.objectNames = {"far"};
+  raw.triangles = {
+      {{Vector3d(9e3, 9e3, 9e3), Vector3d(9.1e3, 9e3, 9e3), Vector3d(9e3, 9.1e3, 9e3)}}};
+  raw.objectOf = {0};
+  std::vector<oracle::Triangle> triangles = plain(raw.triangles);
+  return {"nothing", std::move(Scene::build(std::move(raw))).value(),
+          oracle::Scene(std::move(triangles))};
+}
+
 Result<SweepScene> loadScene(const std::string& name, const std::string& dataFolder) {
   const auto* known = std::find_if(std::begin(kScenes), std::end(kScenes),
                                    [&](const KnownScene& k) { return name == k.name; });
