@@ -152,8 +152,9 @@ SweepScene emptySurroundings() {
   using Eigen::Vector3d;
   RawScene raw;
   raw.objectNames = {"far"};
-  raw.triangles = {
-      {{Vector3d(9e3, 9e3, 9e3), Vector3d(9.1e3, 9e3, 9e3), Vector3d(9e3, 9.1e3, 9e3)}}};
+  // Not farther than it must: the product's places are relative to the scene's middle, and round by
+  // their distance from it.
+  raw.triangles.push_back({{Vector3d(90, 90, 90), Vector3d(91, 90, 90), Vector3d(90, 91, 90)}});
   raw.objectOf = {0};
   std::vector<oracle::Triangle> triangles = plain(raw.triangles);
   return {"nothing", std::move(Scene::build(std::move(raw))).value(),
