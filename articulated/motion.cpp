@@ -73,6 +73,15 @@ ChainSums larger(const ChainSums& a, const ChainSums& b) {
   return sums;
 }
 
+/// The rotation at `t` on the arc between two unit quaternions.
+Quaternion turnedBy(const Quaternion& from, const Quaternion& to, double t) {
+  const Vector3d turn = rotationVector(from.normalized(), to.normalized());
+  const double angle = turn.norm();
+  if (!(angle > 0.0)) return from;
+  const Vector3d part = (std::sin(0.5 * angle * t) / angle) * turn;
+  return (from * Quaternion(std::cos(0.5 * angle * t), part.x(), part.y(), part.z())).normalized();
+}
+
 using JointMotion = MotionEvaluator::JointMotion;
 
 JointMotion jointMotion(const JointArc& arc) {
@@ -195,6 +204,20 @@ JointArc ChainMotion::arc(LinkId link) const {
 
 LinkState ChainMotion::stateAt(LinkId link, double t) const {
   return chainState(*this, kNoParent, link, t, [this](JointId j) { return jointMotion(arc(j)); });
+}
+
+void ChainMotion::poseAt(double t, Pose& pose) const {
+  const auto n = countOf(numLinks());
+  pose.rotations.resize(n);
+  pose.translations.resize(n);
+  for (LinkId link = 0; link < numLinks(); ++link) {
+    const JointArc joint = arc(link);
+    const Quaternion from(joint.from[0], joint.from[1], joint.from[2], joint.from[3]);
+    const Quaternion to(joint.to[0], joint.to[1], joint.to[2], joint.to[3]);
+    const Vector3d translation(joint.translation), drift(joint.drift);
+    pose.translations[slotOf(link)] = translation + t * drift;
+    pose.rotations[slotOf(link)] = t == 0.0 ? from : t == 1.0 ? to : turnedBy(from, to, t);
+  }
 }
 
 ChainSums ChainMotion::sumsIn(LinkId frame, LinkId link) const {

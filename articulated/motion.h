@@ -137,6 +137,10 @@ class ChainMotion {
   /// All links at once, in order; `states` is resized. O(joints).
   void statesAt(double t, std::vector<LinkState>& states) const;
 
+  /// The parent-relative pose at `t` in [0,1], the given ones at both ends: a motion from it, or to
+  /// it, runs along the same path, to rounding. `pose` is resized. O(joints).
+  void poseAt(double t, Pose& pose) const;
+
   [[nodiscard]] MotionBounds bounds(LinkId link) const { return sums(link).bounds(); }
   /// The same bounds on the link's motion in the frame of a link above it, where only the joints
   /// below `frame` move; in W if that is kNoParent. Never above those in W. `frame` is the link

@@ -64,9 +64,11 @@ struct LinkContact {
   double penetration = 0.0;  ///< Radius minus the axis's distance; 0 unless StartsInContact.
   TriangleId triangle = -1;
   std::int32_t lss = -1;  ///< Index among the link's LSS; 0 above link fidelity.
-  Eigen::Vector3d p_WScene = Eigen::Vector3d::Zero();   ///< Witness point on the triangle.
-  Eigen::Vector3d p_WLink = Eigen::Vector3d::Zero();    ///< Witness point on the LSS's surface.
-  Eigen::Vector3d nhat_SL_W = Eigen::Vector3d::Zero();  ///< Unit normal from the scene to the link.
+  Eigen::Vector3d p_WScene = Eigen::Vector3d::Zero();  ///< Witness point on the triangle.
+  Eigen::Vector3d p_WLink = Eigen::Vector3d::Zero();   ///< Witness point on the LSS's surface.
+  /// Unit normal from the scene to the link; zero if they meet so that none is told (a point on a
+  /// point, without radii).
+  Eigen::Vector3d nhat_SL_W = Eigen::Vector3d::Zero();
   /// At exact fidelity: the link's triangle, and the features of it and of the scene's triangle
   /// that hold the witness points. -1 at link fidelity.
   std::int32_t linkTriangle = -1;
@@ -83,6 +85,10 @@ struct PairContact : LinkContact {
 
 struct StepContacts {
   std::vector<LinkContact> links;  ///< One per link of the avatar, in order.
+  /// With Scope::EveryObject: the first contact of every link with every object, in the order of
+  /// isReportedBefore(); `links` has the earliest of each link. A link and an object that it does
+  /// not list never touch, but for a link that it lists as undecided: those hold until then.
+  std::vector<LinkContact> perObject;
   /// Of own links: every asked pair that is not clear, in the order of isReportedBefore(), then of
   /// the other link.
   std::vector<PairContact> pairs;

@@ -21,9 +21,12 @@ enum class Scope : std::uint8_t {
   FirstOfAvatar,  ///< Only the earliest contacts of the whole avatar. All other links are Undecided
                   ///< (AfterFirst), free until that instant, even if they touch nothing in the
                   ///< step; only links without a surface are Clear.
+  EveryObject,    ///< Every link's own first contact with each object of the scene:
+                  ///< StepContacts::perObject. A hand that rests on a table still meets the cup.
+                  ///< At link and exact fidelity, without a budget.
 };
 
-/// "links", "avatar".
+/// "links", "avatar", "objects".
 [[nodiscard]] const char* toString(Scope scope);
 
 /// A link, or a link and one object, whose contacts the query ignores. Above link fidelity a volume
@@ -58,6 +61,12 @@ struct QueryOptions {
   std::optional<AvatarSurface> surface;
   std::optional<SkinnedSurface> skin;  ///< Of the same avatar. Fidelity::Skinned needs it.
   Scope scope = Scope::EveryLink;
+  /// A link that begins within the tolerance of the scene without touching it, and whose witness
+  /// point does not approach the scene's, is not stopped there: its first contact is the next one
+  /// within a quarter of the separation that it began with. So a body that was stopped at `toi` can
+  /// leave again, and never comes nearer than that quarter. Below a separation of 4 nm it is
+  /// stopped all the same. At link and exact fidelity.
+  bool passSeparating = false;
   std::vector<IgnoredPair> ignored;
   /// One per link, in order. They replace `tolerance` and `fidelity`; `fidelity` must still be Link
   /// or Exact. Empty: all links alike. If all policies are equal, the answer is that without

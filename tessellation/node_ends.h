@@ -9,8 +9,6 @@
 
 namespace foretouch {
 
-struct SweptBoxes;
-
 /// Places are relative to `origin`, which is near the body, and that to the nodes' origin. Each
 /// coordinate is off by at most a unit roundoff of float of itself, and besides that the place by
 /// `roundings`. Keeps its memory.
@@ -25,9 +23,6 @@ struct NodeEnds {
 
   /// Makes room for the table's LSS, and places the origin at the first of them.
   void placeAround(const LssTable& table, const ChainNodes& nodes);
-  /// Fills `extents` and `roundings`. `boxes`: of the same table and nodes, so that they contain
-  /// the ends.
-  void bound(const LssTable& table, const ChainNodes& nodes, const SweptBoxes& boxes);
 };
 
 }  // namespace foretouch

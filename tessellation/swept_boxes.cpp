@@ -1,6 +1,7 @@
 #include "tessellation/swept_boxes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "lss/assert.h"
@@ -201,6 +202,34 @@ void computeBoxes(const LssTable& table, const ChainNodes& nodes, const double* 
    ends != nullptr ? ends->origin : nullptr, ends != nullptr ? ends->axes.data() : nullptr);
 }
 
+/// Covers the differences and sums of an extent, in float.
+constexpr float kExtentInflation = 1.0F + 0x1p-20F;
+
+/// What no end's coordinates, added up, are above: of the box around them, seen from the origin.
+float extentOf(const SweptBoxes& boxes, std::int32_t lss, const float* origin) {
+  float extent = 0.0F;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float low = boxes.lower[axis][lss], high = boxes.upper[axis][lss];
+    extent += std::max(std::abs(low - origin[axis]), std::abs(high - origin[axis]));
+  }
+  return extent * kExtentInflation;
+}
+
+/// Fills the ends' extents and roundings. The boxes contain the ends.
+void boundEnds(const LssTable& table, const ChainNodes& nodes, const SweptBoxes& boxes,
+               NodeEnds& ends) {
+  // One rounding more than a point's own: the origin is taken off in double.
+  const internal::PointRoundings rounding = internal::pointRoundings(nodes.bounds());
+  float from[3];
+  for (int axis = 0; axis < 3; ++axis) from[axis] = static_cast<float>(ends.origin[axis]);
+  for (std::int32_t i = 0; i < table.size(); ++i) {
+    const double rho = std::max(table[i].rhoA, table[i].rhoB);
+    ends.extents[slotOf(i)] = extentOf(boxes, i, from);
+    ends.roundings[slotOf(i)] =
+        internal::floatPaddedAbove(rounding.atOrigin + rounding.perLength * rho);
+  }
+}
+
 double widestGap(const ChainNodes& nodes) {
   double gap = 0.0;
   for (int k = 1; k < kNodes; ++k) gap = std::max(gap, nodes.instant(k) - nodes.instant(k - 1));
@@ -246,7 +275,7 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
   for (std::int32_t i = 0; i < table.size(); ++i) growths[i] = growth.of(table[i], whole);
   computeBoxes(table, nodes, growths, boxes, ends);
   boxes.emptyFrom(table.size());
-  if (ends != nullptr) ends->bound(table, nodes, boxes);
+  if (ends != nullptr) boundEnds(table, nodes, boxes, *ends);
 }
 
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
@@ -263,7 +292,7 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
   }
   computeBoxes(table, nodes, growths, boxes, ends);
   boxes.emptyFrom(table.size());
-  if (ends != nullptr) ends->bound(table, nodes, boxes);
+  if (ends != nullptr) boundEnds(table, nodes, boxes, *ends);
 }
 
 }  // namespace foretouch

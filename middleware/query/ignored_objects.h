@@ -26,6 +26,10 @@ class IgnoredObjects {
     std::sort(objects_.begin(), objects_.end());
     return false;
   }
+  /// One more of the current link.
+  void add(ObjectId object) {
+    objects_.insert(std::lower_bound(objects_.begin(), objects_.end(), object), object);
+  }
   [[nodiscard]] bool empty() const { return objects_.empty(); }
   [[nodiscard]] bool has(ObjectId object) const {
     return std::binary_search(objects_.begin(), objects_.end(), object);

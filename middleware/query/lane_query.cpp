@@ -1,68 +1,28 @@
 #include "middleware/query/lane_query.h"
 
 #include <algorithm>
-#include <array>
-#include <iterator>
-#include <limits>
-#include <numeric>
 
-#include "lss/assert.h"
 #include "lss/index.h"
-#include "lss/rounding.h"
-#include "lss/simd.h"
-#include "middleware/query/lane_backtracking.h"
-#include "middleware/query/lane_nearest.h"
-#include "middleware/query/start.h"
-#include "middleware/scene/scene_parts.h"
-#include "middleware/surface/link_surface.h"
 
 namespace foretouch::internal {
 namespace {
 
-/// Lanes report certain contact within this share of the tolerance. The scalar code must agree; its
-/// rounding is far below the rest.
-constexpr double kCertainShare = 1.0 - 0x1p-10;
-/// No pair is certainly in contact.
-constexpr float kNeverCertain = -1.0F;
 /// Polynomials that are off by less than this share of the tolerance, or by this (m), decide almost
 /// as well as exact ones: their radius includes the error, and more slabs cost more.
 constexpr double kInterpolationShare = 1.0 / 64.0;
 constexpr double kLeastInterpolationError = 4e-6;
-/// Steps of a cluster before its triangles: if the cluster is done by then, up to eight triangles
-/// need no steps.
-constexpr int kClusterRounds = 6;
-/// Leaves whose triangles advance together. The first that touch save the others most of their
-/// steps.
-constexpr std::size_t kPartsAtOnce = 4;
-/// Equal parts of a slab by which we sort clusters by time.
-constexpr std::size_t kTimeBins = 32;
 /// If work is limited: the share that goes on the step as if it were not. If that is too little, we
 /// halve slabs: the cost of a slab before we do, and how often.
 constexpr double kShareOfWhole = 0.875;
 constexpr std::uint64_t kSlabWork = 2048;
 constexpr int kMostHalvings = 6;
-constexpr float kBegin = -1.0F, kEnd = 1.0F;  // of u
 
-FloatBox sweptBox(const SweptBoxes& boxes, std::int32_t lss) {
-  FloatBox box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = boxes.lower[axis][lss];
-    box.upper[axis] = boxes.upper[axis][lss];
-  }
-  return box;
-}
+/// Of the separation that a link began with, how near it may come when it leaves.
+constexpr double kPassShare = 0.25;
 
 /// The work was spent before the answer.
 bool isSpent(const LinkContact& contact) {
   return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::WorkBudget;
-}
-
-/// An empty box, which meets nothing.
-void closeBox(SweptBoxes& boxes, std::int32_t lss) {
-  for (int axis = 0; axis < 3; ++axis) {
-    boxes.lower[axis][lss] = std::numeric_limits<float>::infinity();
-    boxes.upper[axis][lss] = -std::numeric_limits<float>::infinity();
-  }
 }
 
 }  // namespace
@@ -73,22 +33,16 @@ LaneQuery::LaneQuery(const QueryPlan& plan, const Body& body, const LssTable& ta
       body_(body),
       table_(table),
       motion_(motion),
-      scene_(plan.scene),
-      scratch_(scratch),
       lanes_(scratch.lanes),
-      bvh_(plan.scene.parts().bvh),
-      meter_(meter) {
-  useTolerance(plan.tolerances.least);
-}
-
-void LaneQuery::useTolerance(double tolerance) {
-  tolerance_ = tolerance;
-  tolerances_.floor = floatAbove(kFloorShare * tolerance);
-  tolerances_.handOver = floatBelow(kHandOverShare * tolerance);
-}
+      meter_(meter),
+      cull_{plan, table, motion, scratch},
+      link_(plan, body, table, motion, meter_, scratch) {}
 
 void LaneQuery::run(StepContacts& step) {
   findWhoIsAsked(step);
+  lanes_.touched.clear();
+  lanes_.tolerances.clear();
+  if (plan_.options.passSeparating) lanes_.tolerances.assign(countOf(body_.numLinks()), 0.0);
   const int slabs =
       slabsFor(table_, motion_,
                std::max(kInterpolationShare * plan_.tolerances.least, kLeastInterpolationError));
@@ -97,9 +51,8 @@ void LaneQuery::run(StepContacts& step) {
     meter_.beginShare(kShareOfWhole, kSlabWork);
   }
   for (int slab = 0; slab < slabs; ++slab) {
-    begin_ = static_cast<double>(slab) / slabs;
-    end_ = static_cast<double>(slab + 1) / slabs;
-    if (!collectHits(step.counters)) continue;
+    beginSlab(slab, slabs);
+    if (!cull_.collect(begin_, end_, areAllAsked_, step.counters)) continue;
     if (!answerSlab(step)) return runInHalves(step, slab, slabs);
     if (plan_.options.scope != Scope::FirstOfAvatar) continue;
     if (const auto first = firstOf(step)) return leaveAfterFirst(*first, step);
@@ -107,25 +60,68 @@ void LaneQuery::run(StepContacts& step) {
   leaveClear(step);
 }
 
+void LaneQuery::beginSlab(int slab, int count) {
+  begin_ = static_cast<double>(slab) / count;
+  end_ = static_cast<double>(slab + 1) / count;
+  link_.beginSpan(begin_, end_);
+}
+
 /// Answers all links in the current slab; false if the work was spent before the last one.
 bool LaneQuery::answerSlab(StepContacts& step) {
-  float limit = kEnd;  // nothing later than this matters
+  float limit = LaneLink::kEnd;  // nothing later than this matters
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     if (!isNear(link)) continue;
+    if (plan_.options.scope == Scope::EveryObject) {
+      answerObjects(link, step);
+      continue;
+    }
     const auto i = slotOf(link);
     const LinkContact contact = answer(link, limit, step.counters);
     if (contact.verdict == Verdict::Clear) {
-      if (meter_.isLimited()) lanes_.freeUntil[i] = timeOf(limit);
+      if (meter_.isLimited()) lanes_.freeUntil[i] = link_.timeOf(limit);
       continue;
     }
     if (isSpent(contact)) return keepProven(contact);
     step.links[i] = contact;
     leaveOut(link);
     if (plan_.options.scope == Scope::FirstOfAvatar) {
-      limit = std::min(limit, lanesTimeOf(contact.freeUntil));
+      limit = std::min(limit, link_.lanesTimeOf(contact.freeUntil));
     }
   }
   return true;
+}
+
+/// The link's first contact in the current slab, beyond the one that it begins with and leaves.
+LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters) {
+  const LinkContact contact = link_.answer(link, limit, counters);
+  if (!plan_.options.passSeparating || !mayPass(contact)) return contact;
+  lanes_.tolerances[slotOf(link)] = kPassShare * contact.separation;
+  return link_.answer(link, limit, counters);
+}
+
+/// It begins apart, and its witness point does not approach the scene's.
+bool LaneQuery::mayPass(const LinkContact& contact) const {
+  if (contact.verdict != Verdict::Contact || contact.toi != 0.0) return false;
+  if (!(kPassShare * contact.separation >= kMinTolerance)) return false;
+  const LinkState state = motion_.stateAt(contact.link, 0.0);
+  const Eigen::Vector3d velocity = state.v_WL + state.w_WL.cross(contact.p_WLink - state.p_WL);
+  return velocity.dot(contact.nhat_SL_W) >= 0.0;
+}
+
+/// The link's first contact with each object in the current slab, one after the other: whoever has
+/// had his is left out of the next question.
+void LaneQuery::answerObjects(LinkId link, StepContacts& step) {
+  LinkContact& earliest = step.links[slotOf(link)];
+  for (;;) {
+    const LinkContact contact = answer(link, LaneLink::kEnd, step.counters);
+    if (contact.verdict == Verdict::Clear) return;
+    const bool isFirst =
+        earliest.verdict == Verdict::Undecided && earliest.reason == UndecidedReason::None;
+    if (isFirst || isReportedBefore(contact, earliest)) earliest = contact;
+    step.perObject.push_back(contact);
+    if (contact.verdict == Verdict::Undecided) return leaveOut(link);
+    lanes_.touched.push_back({link, plan_.scene.object(contact.triangle)});
+  }
 }
 
 /// Spends what is left of the work on the links that are still open in the current slab, the first
@@ -139,8 +135,7 @@ void LaneQuery::runInHalves(StepContacts& step, int slab, int slabs) {
   int count = 2 * slabs;
   while (slab < count) {
     if (meter_.isSpent(step.counters)) return leaveUndone(step);
-    begin_ = static_cast<double>(slab) / count;
-    end_ = static_cast<double>(slab + 1) / count;
+    beginSlab(slab, count);
     meter_.beginPart(step.counters, count < finest ? kSlabWork : WorkMeter::kUnlimited);
     if (answerOpen(step)) {
       const auto first = firstOf(step);
@@ -163,12 +158,13 @@ void LaneQuery::runInHalves(StepContacts& step, int slab, int slabs) {
 /// Answers the open links in the current slab, each from where it is proven free; false if the
 /// slab's work was spent before the last one.
 bool LaneQuery::answerOpen(StepContacts& step) {
-  if (!collectHits(step.counters)) std::fill(lanes_.first.begin(), lanes_.first.end(), 0U);
+  if (!cull_.collect(begin_, end_, areAllAsked_, step.counters))
+    std::fill(lanes_.first.begin(), lanes_.first.end(), 0U);
   leaveFarFree();
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = slotOf(link);
     if (lanes_.isAsked[i] == 0 || lanes_.freeUntil[i] >= end_) continue;
-    const LinkContact contact = answer(link, kEnd, step.counters);
+    const LinkContact contact = answer(link, LaneLink::kEnd, step.counters);
     if (isSpent(contact)) return keepProven(contact);
     lanes_.freeUntil[i] = end_;
     if (contact.verdict == Verdict::Clear) continue;
@@ -222,8 +218,11 @@ void LaneQuery::leaveAfterFirst(double first, StepContacts& step) const {
 void LaneQuery::leaveClear(StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = slotOf(link);
-    if (lanes_.isAsked[i] != 0) answerClear(step.links[i]);
+    const bool isOpen = step.links[i].reason == UndecidedReason::None &&
+                        step.links[i].verdict == Verdict::Undecided;
+    if (lanes_.isAsked[i] != 0 && isOpen) answerClear(step.links[i]);
   }
+  std::sort(step.perObject.begin(), step.perObject.end(), isReportedBefore);
 }
 
 /// Links without an answer are free as far as proven.
@@ -238,10 +237,6 @@ void LaneQuery::leaveUndone(StepContacts& step) const {
       step.links[i] = undecidedContact(link, free, UndecidedReason::WorkBudget);
     }
   }
-}
-
-LinkContact LaneQuery::undone(LinkId link) const {
-  return undecidedContact(link, begin_, UndecidedReason::WorkBudget);
 }
 
 /// Answers links at once that are ignored altogether or have no surface: they have no contacts.
@@ -262,263 +257,6 @@ void LaneQuery::findWhoIsAsked(StepContacts& step) {
 void LaneQuery::leaveOut(LinkId link) {
   lanes_.isAsked[slotOf(link)] = 0;
   areAllAsked_ = false;
-}
-
-bool LaneQuery::collectHits(QueryCounters& counters) {
-  const LssTable& table = table_;
-  if (!hasNodes_ || begin_ != 0.0 || end_ != 1.0) {
-    lanes_.nodes.evaluate(motion_, begin_, end_, scene_.parts().origin);
-    lanes_.areNodesOfStep = true;
-    counters.states +=
-        static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(body_.numLinks());
-  }
-  NodeEnds* const ends = plan_.self.isAsked() ? &scratch_.self.ends : nullptr;
-  if (plan_.margins.empty()) {
-    sweptBoxes(table, motion_, lanes_.nodes, plan_.tolerances.least, lanes_.boxes, ends);
-  } else {
-    sweptBoxes(table, motion_, lanes_.nodes, plan_.margins, lanes_.boxes, ends);
-  }
-  lanes_.areBoxesOfNodes = areAllAsked_ && &table_ == &plan_.table;
-  for (std::int32_t lss = 0; !areAllAsked_ && lss < table.size(); ++lss) {
-    if (lanes_.isAsked[slotOf(table[lss].link)] == 0) closeBox(lanes_.boxes, lss);
-  }
-  lanes_.hits.clear();
-  BoxLanes boxes;
-  boxes.count = lanes_.boxes.count;
-  for (int axis = 0; axis < 3; ++axis) {
-    boxes.lower[axis] = lanes_.boxes.lower[axis];
-    boxes.upper[axis] = lanes_.boxes.upper[axis];
-  }
-  plan_.culler->collectLeaves(boxes, lanes_.hits, counters.nodes, counters.leaves);
-  if (lanes_.hits.empty()) return false;
-  sortHits();
-  return true;
-}
-
-/// By LSS, otherwise in the order of the walk (counting sort).
-void LaneQuery::sortHits() {
-  const auto count = static_cast<std::size_t>(table_.size());
-  lanes_.first.assign(count + 2, 0);
-  for (const LeafHit& hit : lanes_.hits) ++lanes_.first[hit.box + 2U];
-  for (std::size_t i = 2; i < count + 2; ++i) lanes_.first[i] += lanes_.first[i - 1];
-  lanes_.leaf.resize(lanes_.hits.size() + kMaxLanes);
-  lanes_.triangles.resize(lanes_.hits.size());
-  for (const LeafHit& hit : lanes_.hits) {
-    const std::uint32_t place = lanes_.first[hit.box + 1U]++;
-    lanes_.leaf[place] = static_cast<std::int32_t>(hit.leaf);
-    lanes_.triangles[place] = hit.triangles;
-  }
-}
-
-LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters) {
-  link_ = link;
-  const LinkSurface* const surface = plan_.of(link).surface;
-  scratch_.ignored.collect(body_.ignored(), link);
-  if (!plan_.margins.empty()) useTolerance(plan_.of(link).tolerance);
-  // A triangle that touches an LSS may still miss the triangles in it.
-  tolerances_.contact = surface == nullptr ? floatBelow(kCertainShare * tolerance_) : kNeverCertain;
-  float best = limit;
-  if (surface != nullptr && begin_ == 0.0) {
-    // The triangles that a link inside furniture touches at once settle it, whatever it sweeps
-    // afterwards.
-    best = kBegin;
-    const LinkContact atStart = answerBefore(link, surface, best, counters);
-    if (atStart.verdict != Verdict::Clear) return atStart;
-    best = limit;
-  }
-  const LinkContact contact = answerBefore(link, surface, best, counters);
-  const bool isBelieved = best == limit;
-  if (isBelieved || (contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(best))) {
-    return contact;
-  }
-  // Lanes dropped pairs later than a contact that the scalar code then did not find. Both are
-  // proved, so this does not happen; if it did, we must still miss nothing.
-  tolerances_.contact = kNeverCertain;
-  best = limit;
-  return answerBefore(link, surface, best, counters);
-}
-
-/// Looks for nothing later than `best`, and lowers it by certain contacts. At exact fidelity: if
-/// `best` is the step's beginning, tests for contact then, else looks after it.
-LinkContact LaneQuery::answerBefore(LinkId link, const LinkSurface* surface, float& best,
-                                    QueryCounters& counters) {
-  scratch_.candidates.clear();
-  const std::int32_t firstLss = table_.first(link);
-  for (std::int32_t lss = firstLss; lss < table_.first(link + 1); ++lss) {
-    lanes_.handed.count = 0;
-    if (!advanceLss(lss, best, counters)) return undone(link);
-    addCandidates(lss - firstLss);
-  }
-  const double latest = timeOf(best);
-  auto& candidates = scratch_.candidates;
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
-                                  [&](const Candidate& c) { return c.freeUntil > latest; }),
-                   candidates.end());
-  if (candidates.empty()) return clearContact(link);
-  prepareScalar(link);
-  const LinkQuery query{{link, body_.lss(link), scratch_.axisBounds, motion_, surface, nullptr},
-                        scene_,
-                        Pieces{},
-                        tolerance_,
-                        meter_,
-                        plan_.leafProver.get(),
-                        scratch_.evaluator,
-                        *this};
-  if (surface == nullptr) return backtrack(query, candidates, counters);
-  return surfaceContact(query, best == kBegin && begin_ == 0.0, counters);
-}
-
-/// At exact fidelity: of the link's triangles, by the LSS candidates' times.
-LinkContact LaneQuery::surfaceContact(const LinkQuery& query, bool atStart,
-                                      QueryCounters& counters) {
-  PartScratch& parts = lanes_.parts;
-  // A single lane is slower than doubles, which need fewer evaluations.
-  const bool inLanes = activeSimd() != Simd::Scalar;
-  if (inLanes) {
-    const FramePolynomials polynomials =
-        framePolynomialsOf(query.parts.link, motion_, lanes_.nodes);
-    parts.lanes.reset(polynomials, scene_.parts().origin, begin_, end_);
-  }
-  if (atStart) {
-    if (inLanes) {
-      for (Candidate& candidate : scratch_.candidates) {
-        candidate.laneTriangle = parts.lanes.add(scene_.triangle(candidate.triangle));
-      }
-    }
-    const auto contact =
-        meshContactAtStart(query, scratch_.candidates, inLanes ? &parts : nullptr, counters);
-    if (!contact) return clearContact(query.parts.link);
-    if (contact->verdict != Verdict::Contact) return *contact;
-    return inLanes ? nearestInLanes(query, *contact, scratch_.candidates, parts, counters)
-                   : nearestContact(query, *contact, scratch_.candidates, counters);
-  }
-  return inLanes ? backtrackInLanes(query, scratch_.candidates, parts, counters)
-                 : backtrack(query, scratch_.candidates, counters);
-}
-
-void LaneQuery::prepareScalar(LinkId link) {
-  scratch_.axisBounds.clear();
-  for (const Lss& lss : body_.lss(link)) {
-    scratch_.axisBounds.push_back(axisBounds(lss, motion_.bounds(link)));
-  }
-}
-
-/// From the pairs of the current slab: they include all that are within the tolerance at any
-/// instant of it.
-void LaneQuery::collect(double t, const PosedLink& posed, double reach,
-                        std::vector<Candidate>& candidates, QueryCounters& counters) {
-  FORETOUCH_ASSERT(&candidates == &scratch_.candidates);
-  candidates.clear();
-  const std::vector<Lss>& all = body_.lss(link_);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::size_t lss = slotOf(table_.first(link_)) + i;
-    const HitRange hits{lanes_.first[lss], lanes_.first[lss + 1]};
-    if (hits.begin == hits.end) continue;
-    if (meter_.isLimited() && meter_.isPartSpent(counters)) break;
-    findNear(scene_, axisEnds(all[i], posed.state), all[i].radius, reach, hits, lanes_, counters);
-    const NearTriangles& near = lanes_.near;
-    for (std::size_t k = 0; k < near.count; ++k) {
-      if (scratch_.ignored.has(scene_.object(near.id[k]))) continue;
-      addCandidate(near.id[k], static_cast<std::int32_t>(i), near.gap[k], t);
-    }
-  }
-}
-
-/// Advances the LSS's pairs through the slab; `handed` gets those that lanes leave. False if the
-/// work was spent before all were done.
-bool LaneQuery::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
-  const auto begin = lanes_.first[slotOf(lss)];
-  const auto end = lanes_.first[slotOf(lss) + 1];
-  if (begin == end) return true;
-  if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
-  const LssTable::Entry& entry = table_[lss];
-  const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes);
-  const LaneLss lane = laneLss(polynomials, entry.radius);
-  float origin[3];
-  for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);
-  lanes_.pairs.setSpheres(lane, bvh_.clusters(), lanes_.leaf.data() + begin, end - begin, origin,
-                          kBegin);
-  lanes_.clusters.count = 0;
-  counters.clusterSteps +=
-      lanes_.pairs.advanceSpheres(lane, tolerances_, kClusterRounds, best, lanes_.clusters);
-  sortClusters();
-  std::size_t done = 0;
-  while (done < lanes_.clusters.count) {
-    if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
-    done = collectParts(begin, done, best);
-    lanes_.pairs.addTriangles(lane, lanes_.leafParts.data(), lanes_.leafParts.size(),
-                              sweptBox(lanes_.boxes, lss), origin, bvh_.vertexRounding());
-    counters.candidates += lanes_.pairs.count();
-    counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
-  }
-  return true;
-}
-
-/// Sorts clusters by the earliest time still unproven, so that an early contact lets us skip the
-/// later ones. No order if one batch takes them all.
-void LaneQuery::sortClusters() {
-  HandedOver& clusters = lanes_.clusters;
-  const std::size_t count = clusters.count;
-  lanes_.order.resize(count);
-  if (count <= kPartsAtOnce) {
-    std::iota(lanes_.order.begin(), lanes_.order.end(), 0U);
-    return;
-  }
-  std::array<std::uint32_t, kTimeBins + 1> first{};
-  const auto binOf = [&](std::size_t i) {
-    const float share = 0.5F * (clusters.time[i] + 1.0F);
-    return std::min(static_cast<std::size_t>(share * kTimeBins), kTimeBins - 1);
-  };
-  for (std::size_t i = 0; i < count; ++i) ++first[binOf(i) + 1];
-  for (std::size_t bin = 0; bin < kTimeBins; ++bin) first[bin + 1] += first[bin];
-  for (std::size_t i = 0; i < count; ++i)
-    lanes_.order[first[binOf(i)]++] = static_cast<std::uint32_t>(i);
-}
-
-/// Collects the triangles of the next clusters that are not proven clear, each from its first
-/// unproven time. Returns where to continue.
-std::size_t LaneQuery::collectParts(std::size_t begin, std::size_t done, float best) {
-  lanes_.leafParts.clear();
-  for (; done < lanes_.clusters.count && lanes_.leafParts.size() < kPartsAtOnce; ++done) {
-    const std::uint32_t i = lanes_.order[done];
-    if (lanes_.clusters.time[i] > best) continue;
-    const std::size_t hit = begin + static_cast<std::size_t>(lanes_.clusters.key[i]);
-    const BvhLeaf& leaf = bvh_.leaf(static_cast<std::uint32_t>(lanes_.leaf[hit]));
-    const std::uint8_t asked =
-        withoutIgnored(lanes_.triangles[hit], leaf, scene_, scratch_.ignored);
-    if (asked != 0) lanes_.leafParts.push_back({&leaf, asked, lanes_.clusters.time[i]});
-  }
-  return done;
-}
-
-void LaneQuery::addCandidates(std::int32_t lssOfLink) {
-  const HandedOver& handed = lanes_.handed;
-  for (std::size_t i = 0; i < handed.count; ++i) {
-    addCandidate(handed.key[i], lssOfLink, handed.gap[i], timeOf(handed.time[i]));
-  }
-}
-
-void LaneQuery::addCandidate(TriangleId triangle, std::int32_t lssOfLink, float gap,
-                             double freeUntil) {
-  Candidate candidate;
-  candidate.triangle = triangle;
-  candidate.lss = lssOfLink;
-  candidate.pieces = 1;
-  candidate.nearest = gap;
-  candidate.freeUntil = freeUntil;
-  candidate.end = end_;
-  scratch_.candidates.push_back(candidate);
-}
-
-/// Rounded up.
-float LaneQuery::lanesTimeOf(double t) const {
-  return std::min(kEnd, floatAbove(2.0 * (t - begin_) / (end_ - begin_) - 1.0));
-}
-
-/// A slab's bounds are multiples of a power of two and u is a float, so only u + 1 rounds, for the
-/// least u; kTimeRounding of the lanes covers that.
-double LaneQuery::timeOf(float u) const {
-  return begin_ + 0.5 * (static_cast<double>(u) + 1.0) * (end_ - begin_);
 }
 
 }  // namespace foretouch::internal

@@ -9,6 +9,7 @@
 #include "middleware/lanes/lss_pairs.h"
 #include "middleware/lanes/near_triangles.h"
 #include "middleware/query/lane_backtracking.h"
+#include "middleware/query_options.h"
 #include "middleware/scene/flat_bvh.h"
 #include "tessellation/lss_polynomials.h"
 #include "tessellation/swept_boxes.h"
@@ -32,7 +33,20 @@ struct LaneScratch {
   NearTriangles near;                 // of the current LSS, where its link is in contact
   PartScratch parts;                  // of the current link, at exact fidelity
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
+  std::vector<double> tolerances;     // per link that passes its start: its own; else 0
+  std::vector<IgnoredPair> touched;   // objects that have had their contact (Scope::EveryObject)
   std::vector<double> freeUntil;      // per link, if work is limited: how far it is proven free
+
+  /// The nodes of a span of the motion that is asked, unless they are there.
+  void evaluateNodes(const ChainMotion& motion, double begin, double end,
+                     const Eigen::Vector3d& origin, QueryCounters& counters) {
+    if (areNodesOfStep && nodes.begin() == begin && nodes.end() == end) return;
+    nodes.evaluate(motion, begin, end, origin);
+    areNodesOfStep = true;
+    areBoxesOfNodes = false;
+    counters.states +=
+        static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(motion.numLinks());
+  }
 };
 
 }  // namespace foretouch::internal

@@ -21,12 +21,12 @@ using Eigen::Vector3d;
 constexpr double kSlackOfRounding = 1e-12;
 
 /// Scene to link. If part and triangle meet, their difference has no direction: then the normal of
-/// the features, then any unit vector.
+/// the features; zero if these have none either.
 Vector3d contactNormal(const Separation& axes) {
   if (axes.nhat.squaredNorm() > 0.5) return axes.nhat.normalized();
   if (axes.distance > 0.0) return axes.difference.stableNormalized();
   if (axes.featureNormal.stableNorm() > 0.0) return axes.featureNormal.stableNormalized();
-  return Vector3d::UnitY();
+  return Vector3d::Zero();
 }
 
 std::array<double, 7> orderKey(const LinkContact& c) {

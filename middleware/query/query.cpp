@@ -81,13 +81,13 @@ void Query::answer(const ChainMotion& motion, QueryScratch& scratch, StepContact
   const internal::WorkMeter meter(plan_->options);
   step.counters = {};
   internal::leaveUnanswered(plan_->avatar.numLinks(), step.links);
+  step.perObject.clear();
   step.pairs.clear();
   step.arePairsAnswered = false;
   FORETOUCH_ASSERT(motion.numLinks() == plan_->avatar.numLinks());
   if (motion.numLinks() != plan_->avatar.numLinks()) return;
   internal::ScratchParts& parts = scratch.parts();
-  parts.evaluator.reset(motion);
-  parts.lanes.areNodesOfStep = parts.lanes.areBoxesOfNodes = false;
+  parts.beginStep(motion);
   const auto ask = internal::isRung(plan_->options.fidelity) ? internal::rungQuery : linkQuery;
   ask(*plan_, motion, meter, parts, step);
   FORETOUCH_ASSERT(isAnswered(step));

@@ -10,6 +10,7 @@
 #include "articulated/motion.h"
 #include "articulated/result.h"
 #include "middleware/contact.h"
+#include "middleware/query/contact_details.h"
 #include "middleware/query/query_scratch.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
@@ -40,6 +41,15 @@ class Query {
   /// number of links leaves every link Undecided, free until 0).
   void answer(const ChainMotion& motion, QueryScratch& scratch, StepContacts& step) const;
   [[nodiscard]] StepContacts answer(const ChainMotion& motion, QueryScratch& scratch) const;
+
+  /// More about a contact that this query answered for this motion. Preconditions: its verdict is
+  /// Contact or StartsInContact (asserted; others have no details); link or exact fidelity, for
+  /// `points`: elsewhere there are none. Not meant for every contact of every step: it looks at the
+  /// near pairs once more, in doubles.
+  [[nodiscard]] ContactDetails details(const ChainMotion& motion, const LinkContact& contact,
+                                       QueryScratch& scratch) const;
+  [[nodiscard]] ContactDetails details(const ChainMotion& motion, const PairContact& contact,
+                                       QueryScratch& scratch) const;
 
   /// What a discrete check sees: does the link's surface touch a triangle at this one instant? It
   /// skips ignored pairs; it needs no tolerance, no scope and no budget. The computed distance

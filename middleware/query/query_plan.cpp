@@ -1,6 +1,7 @@
 #include "middleware/query/query_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -62,6 +63,28 @@ Result<Done> checkedSurfaces(const Avatar& avatar, const QueryOptions& options) 
   return Done{};
 }
 
+/// What only lanes answer, link by link.
+Result<Done> checkedLanes(const QueryPlan& plan) {
+  const QueryOptions& options = plan.options;
+  const bool isOfLinks =
+      plan.inLanes && (options.fidelity == Fidelity::Link || options.fidelity == Fidelity::Exact);
+  if (options.passSeparating && !isOfLinks) {
+    return Error::in("passSeparating", ErrorCode::Mismatch,
+                     std::string("expected false at fidelity ") + toString(options.fidelity));
+  }
+  if (options.scope != Scope::EveryObject) return Done{};
+  if (!isOfLinks) {
+    return Error::in(
+        "scope", ErrorCode::Mismatch,
+        std::string("expected links or avatar at fidelity ") + toString(options.fidelity));
+  }
+  if (options.workBudget != QueryOptions{}.workBudget || std::isfinite(options.deadlineUs)) {
+    return Error::in("scope", ErrorCode::Mismatch,
+                     "expected links or avatar with a budget: it may end before the last object");
+  }
+  return Done{};
+}
+
 /// Own links, where they are asked.
 Result<Done> checkedSelf(const Avatar& avatar, const QueryOptions& options) {
   if (!options.self) return Done{};
@@ -75,8 +98,8 @@ Result<Done> checkedSelf(const Avatar& avatar, const QueryOptions& options) {
     return refused(std::string("expected link or exact fidelity, found ") +
                    toString(options.fidelity) + ", which has no surface per link");
   }
-  if (options.scope != Scope::EveryLink) {
-    return refused("expected scope links: own pairs are answered one by one");
+  if (options.scope == Scope::FirstOfAvatar) {
+    return refused("expected scope links or objects: own pairs are answered one by one");
   }
   const bool isAnyExact =
       options.fidelity == Fidelity::Exact ||
@@ -149,6 +172,7 @@ Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
   // there is one box per limb at most, hence never too many.
   plan.inLanes = options.fidelity != Fidelity::Skinned &&
                  (isRung(options.fidelity) || plan.table.size() <= BoxLanes::kMaxBoxes);
+  FORETOUCH_CHECK(checkedLanes(plan));
   if (options.self) plan.self = SelfPlan(avatar, plan.table, *options.self);
   return plan;
 }

@@ -31,9 +31,7 @@ class RungQuery {
         rungs_(scratch.rungs) {}
 
   void evaluate(QueryCounters& counters) {
-    scratch_.lanes.nodes.evaluate(motion_, 0.0, 1.0, scene_.parts().origin);
-    counters.states +=
-        static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(avatar_.numLinks());
+    scratch_.lanes.evaluateNodes(motion_, 0.0, 1.0, scene_.parts().origin, counters);
     rungs_.volumes.evaluate(avatar_, motion_, scratch_.lanes.nodes,
                             options_.fidelity != Fidelity::Limb);
     counters.rungTests += numGroups();
@@ -134,9 +132,7 @@ class RungQuery {
     rungs_.carriers.counters = step.counters;
     if (plan_.inLanes) {
       rungs_.table.assign(rungs_.perLink);
-      LaneQuery query(plan_, body, rungs_.table, motion_, meter_, scratch_);
-      query.keepNodes();
-      query.run(rungs_.carriers);
+      LaneQuery(plan_, body, rungs_.table, motion_, meter_, scratch_).run(rungs_.carriers);
     } else {
       scalarQuery(plan_, body, motion_, meter_, scratch_, rungs_.carriers);
     }
@@ -227,6 +223,7 @@ void rungQuery(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter
 
 bool rungTouchesAt(const QueryPlan& plan, const ChainMotion& motion, LinkId link, double t,
                    ScratchParts& scratch) {
+  scratch.beginStep(motion);
   return RungQuery(plan, motion, WorkMeter(plan.options), scratch).touchesAt(link, t);
 }
 

@@ -49,6 +49,12 @@ struct ScratchParts {
   IgnoredObjects ignored;  // of the current link
   RungScratch rungs;
   SelfScratch self;
+
+  /// Another motion is asked from now on: nothing of the last one counts. It outlives the question.
+  void beginStep(const ChainMotion& motion) {
+    evaluator.reset(motion);
+    lanes.areNodesOfStep = lanes.areBoxesOfNodes = false;
+  }
 };
 
 }  // namespace foretouch::internal

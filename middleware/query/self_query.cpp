@@ -61,13 +61,7 @@ void SelfQuery::run(StepContacts& step) {
 /// The links' frames at the nodes, and the boxes and ends of all LSS, in the current slab.
 void SelfQuery::evaluate(QueryCounters& counters) {
   LaneScratch& lanes = scratch_.lanes;
-  if (!lanes.areNodesOfStep || lanes.nodes.begin() != begin_ || lanes.nodes.end() != end_) {
-    lanes.nodes.evaluate(motion_, begin_, end_, plan_.scene.parts().origin);
-    lanes.areNodesOfStep = true;
-    lanes.areBoxesOfNodes = false;
-    counters.states +=
-        static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(motion_.numLinks());
-  }
+  lanes.evaluateNodes(motion_, begin_, end_, plan_.scene.parts().origin, counters);
   if (!lanes.areBoxesOfNodes) {
     sweptBoxes(table_, motion_, lanes.nodes, plan_.tolerances.largest, lanes.boxes, &own_.ends);
     lanes.areBoxesOfNodes = true;

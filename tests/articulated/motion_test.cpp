@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/random_motion.h"
+
 namespace foretouch {
 namespace {
 
@@ -89,6 +91,65 @@ TEST(ChainMotion, NoMotionStaysWhereItIs) {
   EXPECT_EQ(motion.stateAt(1, 0.0).p_WL, motion.stateAt(1, 1.0).p_WL);
   EXPECT_LT(motion.bounds(1).speed, 1e-12);
   EXPECT_LT(motion.bounds(1).acceleration, 1e-12);
+}
+
+// A pose on the way divides the motion: both parts run along the whole one, 10 km away too.
+TEST(ChainMotion, APoseOnTheWayDividesItsPath) {
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    test::Random random(static_cast<std::uint64_t>(i));
+    const test::RandomMotion steps = test::randomMotion(random, 6);
+    const ChainMotion whole(steps.skeleton, steps.from, steps.to);
+    const double cut = random.uniform(0.0, 1.0);
+    Pose at;
+    whole.poseAt(cut, at);
+    ASSERT_TRUE(validatedPose(steps.skeleton, at).ok());
+    const ChainMotion first(steps.skeleton, steps.from, at), second(steps.skeleton, at, steps.to);
+    const double reach = 1.0 + whole.bounds(0).reach;
+    for (const double s : {0.0, 0.3, 1.0}) {
+      for (LinkId link = 0; link < whole.numLinks(); ++link) {
+        const LinkState one = whole.stateAt(link, s * cut), other = first.stateAt(link, s);
+        EXPECT_LT((one.p_WL - other.p_WL).norm(), 1e-13 * reach);
+        EXPECT_LT((one.R_WL - other.R_WL).norm(), 1e-13);
+        const LinkState later = whole.stateAt(link, cut + s * (1.0 - cut));
+        const LinkState last = second.stateAt(link, s);
+        EXPECT_LT((later.p_WL - last.p_WL).norm(), 1e-13 * reach);
+        EXPECT_LT((later.R_WL - last.R_WL).norm(), 1e-13);
+      }
+    }
+  }
+}
+
+// What somebody sees who rides on a link above: the frames of W, turned into his, and bounds that
+// are never larger than those in W and hold.
+TEST(ChainMotion, StatesInALinksFrameAreThoseOfTheWorldSeenFromIt) {
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    test::Random random(static_cast<std::uint64_t>(i));
+    const test::RandomMotion steps = test::randomMotion(random, 8);
+    const ChainMotion motion(steps.skeleton, steps.from, steps.to);
+    MotionEvaluator evaluator(motion);
+    for (LinkId link = 0; link < 8; ++link) {
+      for (LinkId frame = link; frame != kNoParent; frame = motion.parent(frame)) {
+        const MotionBounds bounds = motion.sumsIn(frame, link).bounds();
+        const MotionBounds inWorld = motion.bounds(link);
+        EXPECT_LE(bounds.angularSpeed, inWorld.angularSpeed);
+        EXPECT_LE(bounds.acceleration, inWorld.acceleration);
+        EXPECT_LE(bounds.speed, inWorld.speed);
+        EXPECT_LE(bounds.eighthDerivative, inWorld.eighthDerivative);
+        for (const double t : {0.0, 0.37, 1.0}) {
+          const LinkState seen = evaluator.stateIn(frame, link, t);
+          const LinkState above = motion.stateAt(frame, t), below = motion.stateAt(link, t);
+          const Vector3d p = above.R_WL.transpose() * (below.p_WL - above.p_WL);
+          const double rounding = 1e-13 * (1.0 + inWorld.reach);
+          EXPECT_LT((seen.p_WL - p).norm(), rounding);
+          EXPECT_LT((seen.R_WL - above.R_WL.transpose() * below.R_WL).norm(), 1e-13);
+          EXPECT_LE(seen.v_WL.norm(), bounds.speed * (1.0 + 1e-12) + 1e-15);
+          EXPECT_LE(seen.w_WL.norm(), bounds.angularSpeed * (1.0 + 1e-12) + 1e-15);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

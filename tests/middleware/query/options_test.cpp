@@ -94,6 +94,62 @@ TEST(QueryOptions, AreHonouredOrRefusedByNameAtEveryFidelity) {
   }
 }
 
+const std::set<Fidelity> kNotOfLinks = {Fidelity::Skinned, Fidelity::Limb, Fidelity::Avatar,
+                                        Fidelity::Ellipsoid};
+
+// What looks beyond the first contact, or at own links, is honoured link by link or refused.
+TEST(QueryOptions, BeyondTheFirstContactAreHonouredOrRefusedByName) {
+  const World world{Random(3)};
+  const auto rules = PairRules::derive(world.body.avatar);
+  ASSERT_TRUE(rules.ok());
+  const std::vector<Change> changes = {
+      {"passSeparating", [](QueryOptions& o) { o.passSeparating = true; }, kNotOfLinks},
+      {"scope", [](QueryOptions& o) { o.scope = Scope::EveryObject; }, kNotOfLinks},
+      {"self", [&](QueryOptions& o) { o.self = rules.value(); }, kNotOfLinks}};
+  for (const Fidelity fidelity : kFidelities) {
+    for (const Change& change : changes) {
+      QueryOptions options = world.options(fidelity);
+      change.make(options);
+      const std::string got = said(Query::build(world.body.avatar, world.scene, options));
+      const bool isRefused = change.refusedAt.count(fidelity) != 0;
+      EXPECT_EQ(got.rfind(isRefused ? std::string(change.name) + ": expected" : "accepted", 0), 0u)
+          << change.name << " at " << toString(fidelity) << ": " << got;
+      if (isRefused) {
+        EXPECT_NE(got.find(toString(fidelity)), std::string::npos) << got;
+      }
+    }
+  }
+}
+
+TEST(QueryOptions, ThatExcludeEachOtherAreRefusedByName) {
+  const World world{Random(3)};
+  const auto rules = PairRules::derive(world.body.avatar).value();
+  const std::vector<Change> changes = {
+      {"scope",
+       [](QueryOptions& o) {
+         o.scope = Scope::EveryObject;
+         o.workBudget = 1000;
+       }},
+      {"scope",
+       [](QueryOptions& o) {
+         o.scope = Scope::EveryObject;
+         o.deadlineUs = 10.0;
+       }},
+      {"self",
+       [&](QueryOptions& o) {
+         o.self = rules;
+         o.scope = Scope::FirstOfAvatar;
+       }},
+      {"self",
+       [&](QueryOptions& o) { o.self = PairRules::derive(World(Random(4)).body.avatar).value(); }}};
+  for (const Change& change : changes) {
+    QueryOptions options;
+    change.make(options);
+    const std::string got = said(Query::build(world.body.avatar, world.scene, options));
+    EXPECT_EQ(got.rfind(std::string(change.name) + ": expected", 0), 0u) << got;
+  }
+}
+
 // Policies may need what the fidelity beside them does not, and a program may keep one set of
 // options: a surface or a skin that nobody asks for is not looked at.
 TEST(QueryOptions, WithASurfaceThatNobodyNeedsChangeNothing) {

@@ -231,7 +231,7 @@ void ask(const Case& c, const Path& path, const internal::TriangleCuller& culler
   const internal::Body body(plan.avatar, plan.options.ignored);
   internal::ScratchParts& parts = scratch.parts();
   const internal::WorkMeter meter(options);
-  parts.evaluator.reset(c.motion);
+  parts.beginStep(c.motion);
   if (internal::isRung(options.fidelity)) {
     internal::rungQuery(plan, c.motion, meter, parts, step);
   } else if (plan.inLanes) {

@@ -1,0 +1,63 @@
+#include "middleware/query/lane_cull.h"
+
+#include <limits>
+
+#include "lss/index.h"
+#include "middleware/scene/scene_parts.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// An empty box, which meets nothing.
+void closeBox(SweptBoxes& boxes, std::int32_t lss) {
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes.lower[axis][lss] = std::numeric_limits<float>::infinity();
+    boxes.upper[axis][lss] = -std::numeric_limits<float>::infinity();
+  }
+}
+
+}  // namespace
+
+bool LaneCull::collect(double begin, double end, bool areAllAsked, QueryCounters& counters) const {
+  LaneScratch& lanes = scratch.lanes;
+  lanes.evaluateNodes(motion, begin, end, plan.scene.parts().origin, counters);
+  NodeEnds* const ends = plan.self.isAsked() ? &scratch.self.ends : nullptr;
+  if (plan.margins.empty()) {
+    sweptBoxes(table, motion, lanes.nodes, plan.tolerances.least, lanes.boxes, ends);
+  } else {
+    sweptBoxes(table, motion, lanes.nodes, plan.margins, lanes.boxes, ends);
+  }
+  lanes.areBoxesOfNodes = areAllAsked && &table == &plan.table;
+  for (std::int32_t lss = 0; !areAllAsked && lss < table.size(); ++lss) {
+    if (lanes.isAsked[slotOf(table[lss].link)] == 0) closeBox(lanes.boxes, lss);
+  }
+  lanes.hits.clear();
+  BoxLanes boxes;
+  boxes.count = lanes.boxes.count;
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes.lower[axis] = lanes.boxes.lower[axis];
+    boxes.upper[axis] = lanes.boxes.upper[axis];
+  }
+  plan.culler->collectLeaves(boxes, lanes.hits, counters.nodes, counters.leaves);
+  if (lanes.hits.empty()) return false;
+  sortHits();
+  return true;
+}
+
+/// By LSS, otherwise in the order of the walk (counting sort).
+void LaneCull::sortHits() const {
+  LaneScratch& lanes = scratch.lanes;
+  const auto count = static_cast<std::size_t>(table.size());
+  lanes.first.assign(count + 2, 0);
+  for (const LeafHit& hit : lanes.hits) ++lanes.first[hit.box + 2U];
+  for (std::size_t i = 2; i < count + 2; ++i) lanes.first[i] += lanes.first[i - 1];
+  lanes.leaf.resize(lanes.hits.size() + kMaxLanes);
+  lanes.triangles.resize(lanes.hits.size());
+  for (const LeafHit& hit : lanes.hits) {
+    const std::uint32_t place = lanes.first[hit.box + 1U]++;
+    lanes.leaf[place] = static_cast<std::int32_t>(hit.leaf);
+    lanes.triangles[place] = hit.triangles;
+  }
+}
+
+}  // namespace foretouch::internal

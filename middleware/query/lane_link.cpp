@@ -1,0 +1,288 @@
+#include "middleware/query/lane_link.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "lss/assert.h"
+#include "lss/index.h"
+#include "lss/rounding.h"
+#include "lss/simd.h"
+#include "middleware/query/lane_backtracking.h"
+#include "middleware/query/lane_nearest.h"
+#include "middleware/query/start.h"
+#include "middleware/scene/scene_parts.h"
+#include "middleware/surface/link_surface.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Lanes report certain contact within this share of the tolerance. The scalar code must agree; its
+/// rounding is far below the rest.
+constexpr double kCertainShare = 1.0 - 0x1p-10;
+/// No pair is certainly in contact.
+constexpr float kNeverCertain = -1.0F;
+/// Steps of a cluster before its triangles: if the cluster is done by then, up to eight triangles
+/// need no steps.
+constexpr int kClusterRounds = 6;
+/// Leaves whose triangles advance together. The first that touch save the others most of their
+/// steps.
+constexpr std::size_t kPartsAtOnce = 4;
+/// Equal parts of a slab by which we sort clusters by time.
+constexpr std::size_t kTimeBins = 32;
+
+FloatBox sweptBox(const SweptBoxes& boxes, std::int32_t lss) {
+  FloatBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = boxes.lower[axis][lss];
+    box.upper[axis] = boxes.upper[axis][lss];
+  }
+  return box;
+}
+
+}  // namespace
+
+LaneLink::LaneLink(const QueryPlan& plan, const Body& body, const LssTable& table,
+                   const ChainMotion& motion, const WorkMeter& meter, ScratchParts& scratch)
+    : plan_(plan),
+      body_(body),
+      table_(table),
+      motion_(motion),
+      scene_(plan.scene),
+      meter_(meter),
+      scratch_(scratch),
+      lanes_(scratch.lanes),
+      bvh_(plan.scene.parts().bvh) {
+  useTolerance(plan.tolerances.least);
+}
+
+void LaneLink::useTolerance(double tolerance) {
+  tolerance_ = tolerance;
+  tolerances_.floor = floatAbove(kFloorShare * tolerance);
+  tolerances_.handOver = floatBelow(kHandOverShare * tolerance);
+}
+
+double LaneLink::toleranceOf(LinkId link) const {
+  const double own = lanes_.tolerances.empty() ? 0.0 : lanes_.tolerances[slotOf(link)];
+  return own > 0.0 ? own : plan_.of(link).tolerance;
+}
+
+LinkContact LaneLink::undone(LinkId link) const {
+  return undecidedContact(link, begin_, UndecidedReason::WorkBudget);
+}
+
+LinkContact LaneLink::answer(LinkId link, float limit, QueryCounters& counters) {
+  link_ = link;
+  const LinkSurface* const surface = plan_.of(link).surface;
+  scratch_.ignored.collect(body_.ignored(), link);
+  for (const IgnoredPair& pair : lanes_.touched) {
+    if (pair.link == link) scratch_.ignored.add(pair.object);
+  }
+  if (!plan_.margins.empty() || !lanes_.tolerances.empty()) useTolerance(toleranceOf(link));
+  // A triangle that touches an LSS may still miss the triangles in it.
+  tolerances_.contact = surface == nullptr ? floatBelow(kCertainShare * tolerance_) : kNeverCertain;
+  float best = limit;
+  if (surface != nullptr && begin_ == 0.0) {
+    // The triangles that a link inside furniture touches at once settle it, whatever it sweeps
+    // afterwards.
+    best = kBegin;
+    const LinkContact atStart = answerBefore(link, surface, best, counters);
+    if (atStart.verdict != Verdict::Clear) return atStart;
+    best = limit;
+  }
+  const LinkContact contact = answerBefore(link, surface, best, counters);
+  const bool isBelieved = best == limit;
+  if (isBelieved || (contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(best))) {
+    return contact;
+  }
+  // Lanes dropped pairs later than a contact that the scalar code then did not find. Both are
+  // proved, so this does not happen; if it did, we must still miss nothing.
+  tolerances_.contact = kNeverCertain;
+  best = limit;
+  return answerBefore(link, surface, best, counters);
+}
+
+/// Looks for nothing later than `best`, and lowers it by certain contacts. At exact fidelity: if
+/// `best` is the step's beginning, tests for contact then, else looks after it.
+LinkContact LaneLink::answerBefore(LinkId link, const LinkSurface* surface, float& best,
+                                   QueryCounters& counters) {
+  scratch_.candidates.clear();
+  const std::int32_t firstLss = table_.first(link);
+  for (std::int32_t lss = firstLss; lss < table_.first(link + 1); ++lss) {
+    lanes_.handed.count = 0;
+    if (!advanceLss(lss, best, counters)) return undone(link);
+    addCandidates(lss - firstLss);
+  }
+  const double latest = timeOf(best);
+  auto& candidates = scratch_.candidates;
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& c) { return c.freeUntil > latest; }),
+                   candidates.end());
+  if (candidates.empty()) return clearContact(link);
+  prepareScalar(link);
+  const LinkQuery query{{link, body_.lss(link), scratch_.axisBounds, motion_, surface, nullptr},
+                        scene_,
+                        Pieces{},
+                        tolerance_,
+                        meter_,
+                        plan_.leafProver.get(),
+                        scratch_.evaluator,
+                        *this};
+  if (surface == nullptr) return backtrack(query, candidates, counters);
+  return surfaceContact(query, best == kBegin && begin_ == 0.0, counters);
+}
+
+/// At exact fidelity: of the link's triangles, by the LSS candidates' times.
+LinkContact LaneLink::surfaceContact(const LinkQuery& query, bool atStart,
+                                     QueryCounters& counters) {
+  PartScratch& parts = lanes_.parts;
+  // A single lane is slower than doubles, which need fewer evaluations.
+  const bool inLanes = activeSimd() != Simd::Scalar;
+  if (inLanes) {
+    const FramePolynomials polynomials =
+        framePolynomialsOf(query.parts.link, motion_, lanes_.nodes);
+    parts.lanes.reset(polynomials, scene_.parts().origin, begin_, end_);
+  }
+  if (atStart) {
+    if (inLanes) {
+      for (Candidate& candidate : scratch_.candidates) {
+        candidate.laneTriangle = parts.lanes.add(scene_.triangle(candidate.triangle));
+      }
+    }
+    const auto contact =
+        meshContactAtStart(query, scratch_.candidates, inLanes ? &parts : nullptr, counters);
+    if (!contact) return clearContact(query.parts.link);
+    if (contact->verdict != Verdict::Contact) return *contact;
+    return inLanes ? nearestInLanes(query, *contact, scratch_.candidates, parts, counters)
+                   : nearestContact(query, *contact, scratch_.candidates, counters);
+  }
+  return inLanes ? backtrackInLanes(query, scratch_.candidates, parts, counters)
+                 : backtrack(query, scratch_.candidates, counters);
+}
+
+void LaneLink::prepareScalar(LinkId link) {
+  scratch_.axisBounds.clear();
+  for (const Lss& lss : body_.lss(link)) {
+    scratch_.axisBounds.push_back(axisBounds(lss, motion_.bounds(link)));
+  }
+}
+
+/// From the pairs of the current slab: they include all that are within the tolerance at any
+/// instant of it.
+void LaneLink::collect(double t, const PosedLink& posed, double reach,
+                       std::vector<Candidate>& candidates, QueryCounters& counters) {
+  FORETOUCH_ASSERT(&candidates == &scratch_.candidates);
+  candidates.clear();
+  const std::vector<Lss>& all = body_.lss(link_);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t lss = slotOf(table_.first(link_)) + i;
+    const HitRange hits{lanes_.first[lss], lanes_.first[lss + 1]};
+    if (hits.begin == hits.end) continue;
+    if (meter_.isLimited() && meter_.isPartSpent(counters)) break;
+    findNear(scene_, axisEnds(all[i], posed.state), all[i].radius, reach, hits, lanes_, counters);
+    const NearTriangles& near = lanes_.near;
+    for (std::size_t k = 0; k < near.count; ++k) {
+      if (scratch_.ignored.has(scene_.object(near.id[k]))) continue;
+      addCandidate(near.id[k], static_cast<std::int32_t>(i), near.gap[k], t);
+    }
+  }
+}
+
+/// Advances the LSS's pairs through the slab; `handed` gets those that lanes leave. False if the
+/// work was spent before all were done.
+bool LaneLink::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
+  const auto begin = lanes_.first[slotOf(lss)];
+  const auto end = lanes_.first[slotOf(lss) + 1];
+  if (begin == end) return true;
+  if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
+  const LssTable::Entry& entry = table_[lss];
+  const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes);
+  const LaneLss lane = laneLss(polynomials, entry.radius);
+  float origin[3];
+  for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);
+  lanes_.pairs.setSpheres(lane, bvh_.clusters(), lanes_.leaf.data() + begin, end - begin, origin,
+                          kBegin);
+  lanes_.clusters.count = 0;
+  counters.clusterSteps +=
+      lanes_.pairs.advanceSpheres(lane, tolerances_, kClusterRounds, best, lanes_.clusters);
+  sortClusters();
+  std::size_t done = 0;
+  while (done < lanes_.clusters.count) {
+    if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
+    done = collectParts(begin, done, best);
+    lanes_.pairs.addTriangles(lane, lanes_.leafParts.data(), lanes_.leafParts.size(),
+                              sweptBox(lanes_.boxes, lss), origin, bvh_.vertexRounding());
+    counters.candidates += lanes_.pairs.count();
+    counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
+  }
+  return true;
+}
+
+/// Sorts clusters by the earliest time still unproven, so that an early contact lets us skip the
+/// later ones. No order if one batch takes them all.
+void LaneLink::sortClusters() {
+  HandedOver& clusters = lanes_.clusters;
+  const std::size_t count = clusters.count;
+  lanes_.order.resize(count);
+  if (count <= kPartsAtOnce) {
+    std::iota(lanes_.order.begin(), lanes_.order.end(), 0U);
+    return;
+  }
+  std::array<std::uint32_t, kTimeBins + 1> first{};
+  const auto binOf = [&](std::size_t i) {
+    const float share = 0.5F * (clusters.time[i] + 1.0F);
+    return std::min(static_cast<std::size_t>(share * kTimeBins), kTimeBins - 1);
+  };
+  for (std::size_t i = 0; i < count; ++i) ++first[binOf(i) + 1];
+  for (std::size_t bin = 0; bin < kTimeBins; ++bin) first[bin + 1] += first[bin];
+  for (std::size_t i = 0; i < count; ++i)
+    lanes_.order[first[binOf(i)]++] = static_cast<std::uint32_t>(i);
+}
+
+/// Collects the triangles of the next clusters that are not proven clear, each from its first
+/// unproven time. Returns where to continue.
+std::size_t LaneLink::collectParts(std::size_t begin, std::size_t done, float best) {
+  lanes_.leafParts.clear();
+  for (; done < lanes_.clusters.count && lanes_.leafParts.size() < kPartsAtOnce; ++done) {
+    const std::uint32_t i = lanes_.order[done];
+    if (lanes_.clusters.time[i] > best) continue;
+    const std::size_t hit = begin + static_cast<std::size_t>(lanes_.clusters.key[i]);
+    const BvhLeaf& leaf = bvh_.leaf(static_cast<std::uint32_t>(lanes_.leaf[hit]));
+    const std::uint8_t asked =
+        withoutIgnored(lanes_.triangles[hit], leaf, scene_, scratch_.ignored);
+    if (asked != 0) lanes_.leafParts.push_back({&leaf, asked, lanes_.clusters.time[i]});
+  }
+  return done;
+}
+
+void LaneLink::addCandidates(std::int32_t lssOfLink) {
+  const HandedOver& handed = lanes_.handed;
+  for (std::size_t i = 0; i < handed.count; ++i) {
+    addCandidate(handed.key[i], lssOfLink, handed.gap[i], timeOf(handed.time[i]));
+  }
+}
+
+void LaneLink::addCandidate(TriangleId triangle, std::int32_t lssOfLink, float gap,
+                            double freeUntil) {
+  Candidate candidate;
+  candidate.triangle = triangle;
+  candidate.lss = lssOfLink;
+  candidate.pieces = 1;
+  candidate.nearest = gap;
+  candidate.freeUntil = freeUntil;
+  candidate.end = end_;
+  scratch_.candidates.push_back(candidate);
+}
+
+/// Rounded up.
+float LaneLink::lanesTimeOf(double t) const {
+  return std::min(kEnd, floatAbove(2.0 * (t - begin_) / (end_ - begin_) - 1.0));
+}
+
+/// A slab's bounds are multiples of a power of two and u is a float, so only u + 1 rounds, for the
+/// least u; kTimeRounding of the lanes covers that.
+double LaneLink::timeOf(float u) const {
+  return begin_ + 0.5 * (static_cast<double>(u) + 1.0) * (end_ - begin_);
+}
+
+}  // namespace foretouch::internal
