@@ -118,7 +118,9 @@ std::string Judge::witnessContradiction(const Answer& a) const {
   if (off(separation - signedSeparation)) return "separation";
   const Vec3r onScene = a.onScene.as<Real>(), onLink = a.onLink.as<Real>();
   const Vec3r n = a.normal.as<Real>();
-  if (off(norm(n) - 1)) return "normal's length";
+  // Points without radius that meet have no direction.
+  const bool isUndirected = n == Vec3r{} && radius + radiusOfOther == 0 && signedSeparation == 0;
+  if (!isUndirected && off(norm(n) - 1)) return "normal's length";
   const Vec3r onOther = onScene - radiusOfOther * n;
   if (off(surface.distanceToOther(a.triangle, onOther, a.toi))) return "point on the scene";
   const Vec3r onAxis = onScene + (radius + signedSeparation) * n;
