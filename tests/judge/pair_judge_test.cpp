@@ -455,6 +455,16 @@ TEST(PairProver, FindsWhatALoopOverInstantsFinds) {
   EXPECT_GT(free, 40);
 }
 
+// A part of many triangles in one place is smaller than any path, beside a triangle much larger.
+TEST(PairProver, NeedsFewLooksForManyTrianglesInOnePlace) {
+  for (int i = 0; i < 20; ++i) {
+    Random random(static_cast<std::uint64_t>(i));
+    PairCase c = fallingCorner(random, false);
+    for (Hull& hull : c.one) hull.points = {Vec3d{}, Vec3d{}, Vec3d{}};
+    EXPECT_LT(c.judged(Answer{}).looks, 20'000u);
+  }
+}
+
 // What carries both links does not cost a look.
 TEST(PairProver, LooksNoMoreWhereTheWholeBodyTurns) {
   for (int i = 0; i < 60; ++i) {

@@ -139,8 +139,9 @@ Quaternion about(const Eigen::Vector3d& axis, double angle) {
 /// their bounds allow: whatever takes them for straighter misses the contact.
 OwnBody passingCranks(Random& random, double depth) {
   const auto lever = [&] { return random.chance(0.3) ? 0.0 : random.uniform(0.05, 0.6); };
-  const double one = random.uniform(0.05, 0.6), other = lever(), half = 1.2 * std::max(one, other);
-  const double radius = random.uniform(0.01, 0.1), radiusOfOther = random.uniform(0.01, 0.1);
+  const double one = random.uniform(0.05, 0.6), other = lever();
+  const double half = random.magnitude(0.02, 1.2) * std::max(one, other);
+  const double radius = random.uniform(0.01, 0.4), radiusOfOther = random.uniform(0.01, 0.4);
   const Eigen::Vector3d apart(0, one + other + radius + radiusOfOther - depth, 0);
   const Quaternion rest = Quaternion::Identity();
   RawSkeleton raw;
@@ -157,7 +158,8 @@ OwnBody passingCranks(Random& random, double depth) {
   steps.skeleton = body.avatar.skeleton();
   steps.from = steps.to = restPose(steps.skeleton);
   steps.from.rotations[0] = random.rotation();
-  steps.to.rotations[0] = steps.from.rotations[0] * random.turn(random.uniform(0.0, 0.5));
+  steps.to.rotations[0] =
+      steps.from.rotations[0] * random.turn(random.uniform(0.0, random.chance(0.3) ? 2.5 : 0.5));
   const double when = random.uniform(0.05, 0.95);
   const Eigen::Vector3d axes[] = {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -182,7 +184,7 @@ TEST_P(SelfOracle, ProvesEveryAnswerOfCranksThatPassBetweenInstants) {
     judge(body, rules.value(), options);
   }
   EXPECT_GT(tally_.contact, 1000);
-  EXPECT_GT(tally_.clear, 300);
+  EXPECT_GT(tally_.clear, 200);
 }
 
 TEST_P(SelfOracle, ProvesEveryAnswerWhereNoPairIsLeftOut) {
