@@ -14,7 +14,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "tessellation/point_lanes-inl.h"
+#include "tessellation/curve_lanes-inl.h"
 
 #ifndef FORETOUCH_TESSELLATION_FITTED_CURVE
 #define FORETOUCH_TESSELLATION_FITTED_CURVE
@@ -41,32 +41,6 @@ namespace foretouch::HWY_NAMESPACE {
 using internal::CurveRows;
 using internal::FittedCurve;
 using internal::PolynomialMatrices;
-
-/// Sum over k of row[k] times the matrix's k-th row, from column `lane` on.
-HWY_INLINE NodeVector combined(NodeLanes d, const double* row, const double (*matrix)[kNodes],
-                               int from, int lane) {
-  NodeVector sum = hn::Mul(hn::Set(d, row[from]), hn::Load(d, matrix[from] + lane));
-  for (int k = from + 1; k < kNodes; ++k) {
-    sum = hn::MulAdd(hn::Set(d, row[k]), hn::Load(d, matrix[k] + lane), sum);
-  }
-  return sum;
-}
-
-/// Largest norm of the vectors that the rows make of the matrix's columns.
-HWY_INLINE double largestNorm(const double (*rows)[kNodes], int count,
-                              const double (*matrix)[kNodes], int from) {
-  const NodeLanes d;
-  NodeVector largest = hn::Zero(d);
-  for (int lane = 0; lane < kNodes; lane += static_cast<int>(hn::Lanes(d))) {
-    NodeVector square = hn::Zero(d);
-    for (int row = 0; row < count; ++row) {
-      const NodeVector x = combined(d, rows[row], matrix, from, lane);
-      square = hn::MulAdd(x, x, square);
-    }
-    largest = hn::Max(largest, square);
-  }
-  return hn::GetLane(hn::Sqrt(hn::MaxOfLanes(d, largest)));
-}
 
 HWY_INLINE FittedCurve fitted(const PolynomialMatrices& matrices, const CurveRows& rows) {
   const NodeLanes d;
@@ -120,20 +94,18 @@ HWY_EXPORT(fitRotation);
 
 using internal::FittedCurve;
 using internal::floatPaddedAbove;
+using internal::kControlRounding;
+using internal::kFitting;
 using internal::kInflation;
+using internal::kInstantRounding;
+using internal::kLebesgue;
 using internal::kUnitRoundoffOfFloat;
 using internal::polynomialMatrices;
 
-/// Of a node's instant from the Chebyshev-Lobatto point of its span, in t.
-constexpr double kInstant = 0x1p-52;
-
 // Derived in tessellation/lss_polynomials.md 3 and 4; checked by
 // tests/tessellation/lss_polynomials_test.cpp.
-constexpr double kLebesgue = 2.5;    ///< Errors at the nodes grow by at most this in between.
-constexpr double kFitting = 4096.0;  ///< The coefficients' rounding in double, in u of weighted.
 constexpr double kEvaluation = 1.0 + 1e-5;      ///< Products of two roundings in float.
 constexpr double kPolynomialUnderflow = 1e-36;  ///< Of a few dozen products in float (m).
-constexpr double kDerivative = 1e-13;           ///< Rounding of control points, of weighted.
 /// A matrix times a vector in float, the vector rounded, for a matrix that is a rotation within
 /// 1e-3; and adding the origin. In units of its roundoff.
 constexpr double kFloatPoint = 9.0, kFloatSum = 4.1;
@@ -146,7 +118,8 @@ double evaluationError(const FittedCurve& curve) {
 
 /// How far the sampled points may be from the true ones at the nodes of the formula.
 double sampleError(const ChainMotion& motion, const ChainNodes& nodes, LinkId link, double rho) {
-  return internal::pointRounding(nodes.bounds(), rho) + motion.bounds(link).speedAt(rho) * kInstant;
+  return internal::pointRounding(nodes.bounds(), rho) +
+         motion.bounds(link).speedAt(rho) * kInstantRounding;
 }
 
 double pointError(const FittedCurve& curve, const ChainMotion& motion, const ChainNodes& nodes,
@@ -158,11 +131,11 @@ double pointError(const FittedCurve& curve, const ChainMotion& motion, const Cha
 }
 
 float speedOf(const FittedCurve& curve) {
-  return floatPaddedAbove((curve.speed + kDerivative * curve.weighted) * kInflation +
+  return floatPaddedAbove((curve.speed + kControlRounding * curve.weighted) * kInflation +
                           kPolynomialUnderflow);
 }
 float accelerationOf(const FittedCurve& curve) {
-  return floatPaddedAbove((curve.acceleration + kDerivative * curve.weighted) * kInflation +
+  return floatPaddedAbove((curve.acceleration + kControlRounding * curve.weighted) * kInflation +
                           kPolynomialUnderflow);
 }
 
@@ -218,7 +191,7 @@ FramePolynomials framePolynomialsOf(LinkId link, const ChainMotion& motion,
   turning.angularSpeed = bounds.angularSpeed;
   const double rotationError =
       interpolationError(turning, 1.0, nodes.end() - nodes.begin()) +
-      kLebesgue * (nodes.bounds().rotationRounding + bounds.angularSpeed * kInstant) +
+      kLebesgue * (nodes.bounds().rotationRounding + bounds.angularSpeed * kInstantRounding) +
       evaluationError(R) + kFloatPoint * kUnitRoundoffOfFloat;
   const double originError = pointError(p, motion, nodes, link, 0.0) +
                              kFloatSum * kUnitRoundoffOfFloat * p.weighted + kPolynomialUnderflow;

@@ -1,5 +1,6 @@
 #include "middleware/query/lane_cull.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "lss/index.h"
@@ -7,6 +8,11 @@
 
 namespace foretouch::internal {
 namespace {
+
+/// Polynomials that are off by less than this share of the tolerance, or by this (m), decide almost
+/// as well as exact ones: their radius includes the error, and more slabs cost more.
+constexpr double kInterpolationShare = 1.0 / 64.0;
+constexpr double kLeastInterpolationError = 4e-6;
 
 /// An empty box, which meets nothing.
 void closeBox(SweptBoxes& boxes, std::int32_t lss) {
@@ -17,6 +23,11 @@ void closeBox(SweptBoxes& boxes, std::int32_t lss) {
 }
 
 }  // namespace
+
+int slabsOf(const LssTable& table, const ChainMotion& motion, double tolerance) {
+  return slabsFor(table, motion,
+                  std::max(kInterpolationShare * tolerance, kLeastInterpolationError));
+}
 
 bool LaneCull::collect(double begin, double end, bool areAllAsked, QueryCounters& counters) const {
   LaneScratch& lanes = scratch.lanes;

@@ -11,6 +11,10 @@
 
 namespace foretouch::internal {
 
+/// Into how many equal slabs a motion is cut, so that polynomials follow it well enough for this
+/// tolerance (m).
+[[nodiscard]] int slabsOf(const LssTable& table, const ChainMotion& motion, double tolerance);
+
 /// All references outlive it.
 struct LaneCull {
   const QueryPlan& plan;

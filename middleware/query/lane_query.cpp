@@ -7,10 +7,6 @@
 namespace foretouch::internal {
 namespace {
 
-/// Polynomials that are off by less than this share of the tolerance, or by this (m), decide almost
-/// as well as exact ones: their radius includes the error, and more slabs cost more.
-constexpr double kInterpolationShare = 1.0 / 64.0;
-constexpr double kLeastInterpolationError = 4e-6;
 /// If work is limited: the share that goes on the step as if it were not. If that is too little, we
 /// halve slabs: the cost of a slab before we do, and how often.
 constexpr double kShareOfWhole = 0.875;
@@ -43,9 +39,7 @@ void LaneQuery::run(StepContacts& step) {
   lanes_.touched.clear();
   lanes_.tolerances.clear();
   if (plan_.options.passSeparating) lanes_.tolerances.assign(countOf(body_.numLinks()), 0.0);
-  const int slabs =
-      slabsFor(table_, motion_,
-               std::max(kInterpolationShare * plan_.tolerances.least, kLeastInterpolationError));
+  const int slabs = slabsOf(table_, motion_, plan_.tolerances.least);
   if (meter_.isLimited()) {
     lanes_.freeUntil.assign(countOf(body_.numLinks()), 0.0);
     meter_.beginShare(kShareOfWhole, kSlabWork);

@@ -10,6 +10,7 @@
 #include "middleware/query/ignored_objects.h"
 #include "middleware/query/lane_scratch.h"
 #include "middleware/query/link_query.h"
+#include "tessellation/axis_curve.h"
 
 namespace foretouch::internal {
 
@@ -24,6 +25,12 @@ struct RungScratch {
   std::vector<LinkContact> answers;   // of the volumes
 };
 
+/// An LSS of the table as a curve.
+struct SelfCurve {
+  std::int32_t lss;
+  AxisCurve curve;
+};
+
 /// Memory of queries about own links.
 struct SelfScratch {
   NodeEnds ends;
@@ -32,6 +39,7 @@ struct SelfScratch {
   MeetingPairs meeting;
   std::vector<PlanePair> pairs;                        // that planes have left open
   std::vector<AxisBounds> boundsOfOne, boundsOfOther;  // per LSS of both links of a pair
+  std::vector<SelfCurve> curves;                       // of LSS of these, as far as needed
 };
 
 /// Memory that one thread's queries reuse.

@@ -6,6 +6,8 @@
 #include "lss/index.h"
 #include "lss/rounding.h"
 #include "middleware/query/backtracking.h"
+#include "middleware/query/lane_backtracking.h"
+#include "middleware/query/lane_cull.h"
 #include "middleware/scene/scene_parts.h"
 #include "tessellation/point_rounding.h"
 
@@ -15,12 +17,20 @@ namespace {
 /// Nodes whose closest points propose planes, one after the other, for pairs that are still open:
 /// the middle closes most, the ends what meets there.
 constexpr int kProposingNodes[] = {3, 0, 7};
-/// As in lane_query.cpp: how well a slab's nodes follow the motion, as a share of the tolerance or
-/// in metres. Fewer slabs only cost tightness.
-constexpr double kWantedError = 4e-6;
-
 /// Past the rounding of a sum, and of the kernel's product with it.
 constexpr float kBendInflation = 1.0F + 0x1p-21F;
+
+/// Steps along curves before doubles look: two that slide along each other take many.
+constexpr int kMostRounds = 200;
+
+/// The earliest instant from `t` on in a piece that planes left open; the candidate's end if none.
+double nextOpen(const Pieces& pieces, const Candidate& candidate, double t) {
+  if (t >= candidate.end) return candidate.end;
+  for (int k = pieces.at(t); k < pieces.count; ++k) {
+    if ((candidate.pieces >> k & 1U) != 0) return std::max(t, pieces.timeOf(k));
+  }
+  return candidate.end;
+}
 
 /// Per h^2/8 of a piece, rounded up past h's own rounding.
 float sagittaOf(double begin, double end) {
@@ -46,7 +56,7 @@ SelfQuery::SelfQuery(const QueryPlan& plan, const ChainMotion& motion, const Wor
       own_(scratch.self) {}
 
 void SelfQuery::run(StepContacts& step) {
-  const int slabs = slabsFor(table_, motion_, kWantedError);
+  const int slabs = slabsOf(table_, motion_, plan_.tolerances.least);
   for (int slab = 0; slab < slabs; ++slab) {
     begin_ = static_cast<double>(slab) / slabs;
     end_ = static_cast<double>(slab + 1) / slabs;
@@ -199,8 +209,65 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   prepareSide(other_, frame, own_.boundsOfOther);
   scratch_.candidates.clear();
   for (std::size_t k = 0; k < count; ++k) scratch_.candidates.push_back(candidateOf(pairs[k]));
+  advanceAlongCurves(query, step.counters);
+  if (scratch_.candidates.empty()) return;
   const PairContact contact = backtrack(query, scratch_.candidates, step.counters);
   if (contact.verdict != Verdict::Clear) keep(contact, frame, step);
+}
+
+/// Drops the candidates that never come near in the slab, and takes the others to where they do:
+/// all but the last look is spared trigonometry.
+void SelfQuery::advanceAlongCurves(const LinkQuery& query, QueryCounters& counters) {
+  own_.curves.clear();
+  std::vector<Candidate>& candidates = scratch_.candidates;
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                  [&](Candidate& c) { return !advance(query, c, counters); }),
+                   candidates.end());
+}
+
+/// False: proven apart throughout the slab.
+bool SelfQuery::advance(const LinkQuery& query, Candidate& candidate, QueryCounters& counters) {
+  const double floor = kFloorShare * query.tolerance, handOver = kHandOverShare * query.tolerance;
+  double t = nextOpen(query.pieces, candidate, candidate.freeUntil);
+  for (int round = 0; round < kMostRounds && t < candidate.end; ++round) {
+    candidate.freeUntil = t;
+    ++counters.planeTests;
+    const MovingPair pair =
+        movingPair(alongCurve(one_, candidate.lss, query.frame, t, candidate.radiusShare),
+                   alongCurve(other_, candidate.otherLss, query.frame, t, candidate.radiusShare));
+    // Curves that are off by much of the tolerance cannot tell.
+    if (!(pair.gapLower() > handOver)) return true;
+    const double reached = timeAfter(t, pair.stepFrom(floor), candidate.end);
+    if (!(reached > t)) return true;
+    t = nextOpen(query.pieces, candidate, reached);
+  }
+  return t < candidate.end;
+}
+
+MovingHull SelfQuery::alongCurve(const Side& side, std::int32_t lss, LinkId frame, double t,
+                                 double radiusShare) {
+  const AxisCurve& curve = curveOf(side, lss, frame);
+  const AxisCurve::Ends ends = curve.endsAt(t);
+  MovingHull hull;
+  hull.hull = Hull::segment(ends.a, ends.b);
+  hull.radius = plan_.avatar.lss(side.link)[slotOf(lss)].radius * radiusShare;
+  hull.moves = true;
+  hull.velocity = {ends.velocityA, ends.velocityB, Eigen::Vector3d::Zero()};
+  hull.acceleration = {curve.accelerationA, curve.accelerationB, 0.0};
+  hull.positionRounding = {curve.error, curve.error, 0.0};
+  hull.velocityRounding = {curve.velocityRounding, curve.velocityRounding, 0.0};
+  return hull;
+}
+
+const AxisCurve& SelfQuery::curveOf(const Side& side, std::int32_t lss, LinkId frame) {
+  const std::int32_t inTable = table_.first(side.link) + lss;
+  for (const SelfCurve& known : own_.curves) {
+    if (known.lss == inTable) return known.curve;
+  }
+  const ChainNodes& nodes = scratch_.lanes.nodes;
+  own_.curves.push_back({inTable, axisCurve(table_[inTable], side.bounds, nodes,
+                                            frame == kNoParent ? nullptr : &nodes.link(frame))});
+  return own_.curves.back().curve;
 }
 
 /// At t = 0 the first node has the places, without trigonometry. The contact of the nearest two

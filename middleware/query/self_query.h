@@ -48,6 +48,11 @@ class SelfQuery final : private Neighbours {
   [[nodiscard]] LinkParts partsOf(const Side& side, const std::vector<AxisBounds>& bounds) const;
   void prepareSide(Side& side, LinkId frame, std::vector<AxisBounds>& bounds);
   [[nodiscard]] bool isOfLinks(const LssIndexPair& pair) const;
+  void advanceAlongCurves(const LinkQuery& query, QueryCounters& counters);
+  [[nodiscard]] bool advance(const LinkQuery& query, Candidate& candidate, QueryCounters& counters);
+  [[nodiscard]] MovingHull alongCurve(const Side& side, std::int32_t lss, LinkId frame, double t,
+                                      double radiusShare);
+  [[nodiscard]] const AxisCurve& curveOf(const Side& side, std::int32_t lss, LinkId frame);
   [[nodiscard]] Candidate candidateOf(const PlanePair& pair) const;
   void keep(PairContact contact, LinkId frame, StepContacts& step);
   void collect(double t, const PosedLink& posed, double reach, std::vector<Candidate>& candidates,

@@ -71,6 +71,50 @@ TEST(SweptBoxes, ContainTheTrueLssAtEveryWidth) {
   }
 }
 
+// The ends on the way are the true ones within what they say of their own error, and their extents
+// bound them, far from the nodes' origin too.
+TEST(SweptBoxes, KeepTheEndsThatTheyAreMadeOfAtEveryWidth) {
+  const test::WidestAfterwards guard;
+  ChainNodes nodes;
+  SweptBoxes boxes;
+  NodeEnds ends;
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const test::MovingBody body(random, 1 + random.below(12));
+    const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.to);
+    const LssTable table(body.avatar);
+    const double span = random.magnitude(1e-3, 1.0), begin = random.uniform(0.0, 1.0 - span);
+    const Vector3d origin =
+        random.chance(0.5) ? body.motion.from.translations[0] : Vector3d(random.inBox(1e4));
+    const int node = random.below(kNodes);
+    for (const Simd simd : supportedSimd()) {
+      SCOPED_TRACE(toString(simd));
+      ASSERT_TRUE(useSimd(simd));
+      nodes.evaluate(motion, begin, begin + span, origin);
+      sweptBoxes(table, motion, nodes, 1e-3, boxes, &ends);
+      const auto frames = oracle::preciseFrames(body.motion.precise, Real(nodes.instant(node)));
+      for (std::int32_t k = 0; k < table.size(); ++k) {
+        SCOPED_TRACE(k);
+        const PreciseFrame& frame = frames[static_cast<std::size_t>(table[k].link)];
+        const auto at = static_cast<std::size_t>(k);
+        const Precise3 from = Precise3(origin) + Precise3(Vector3d(ends.origin));
+        for (const bool isA : {true, false}) {
+          const auto& kept = isA ? ends.axes[at].a : ends.axes[at].b;
+          const Precise3 truth = frame.at(Vector3d(isA ? table[k].a : table[k].b)) - from;
+          Real extent = 0;
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Real x(kept[axis][node]);
+            extent += abs(x);
+            EXPECT_LE(abs(x - truth[axis]), Real(0x1p-24) * abs(x) + Real(ends.roundings[at]));
+          }
+          EXPECT_LE(extent, Real(ends.extents[at]));
+        }
+      }
+    }
+  }
+}
+
 TEST(SweptBoxes, GrowByTheMarginOfTheirLink) {
   SweptBoxes boxes, alike;
   ChainNodes nodes;

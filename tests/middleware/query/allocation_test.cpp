@@ -114,6 +114,24 @@ TEST_F(Allocations, OfQueriesAtExactFidelityAreNone) {
   EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
 }
 
+TEST_F(Allocations, OfQueriesAboutOwnLinksAreNone) {
+  Random random(11);
+  const Scene scene = Scene::build(test::clutter(random, 400, 3, Vector3d::Zero())).value();
+  std::vector<test::RandomBody> bodies;
+  std::vector<QueryOptions> options;
+  while (bodies.size() < kBodies) {
+    test::RandomBody body = test::bodyInClutter(random, 8, Vector3d::Zero());
+    const auto rules = PairRules::derive(body.avatar);
+    if (!rules.ok()) continue;
+    options.emplace_back();
+    options.back().self = rules.value();
+    if (bodies.size() % 2 == 0) options.back().scope = Scope::EveryObject;
+    if (bodies.size() % 3 == 0) options.back().passSeparating = true;
+    bodies.push_back(std::move(body));
+  }
+  EXPECT_EQ(inSteadyState(bodies, scene, options), 0U);
+}
+
 TEST_F(Allocations, OfQueriesWhoseLinksDifferAreNone) {
   Random random(4);
   const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();

@@ -12,6 +12,7 @@
 #include "lss/simd.h"
 #include "middleware/query/query.h"
 #include "tessellation/swept_lss.h"
+#include "tests/middleware/mesh_body.h"
 #include "tests/middleware/own_body.h"
 #include "tests/support/asked.h"
 
@@ -124,6 +125,166 @@ TEST_P(SelfQueries, AreSoundAndTight) {
   EXPECT_GT(tally.contact, 200);
   EXPECT_GT(tally.start, 200);
   EXPECT_EQ(tally.undecided, 0);
+}
+
+/// Of the meshes of two links, or of the LSS of one that has none, at an instant.
+double surfaceSeparationAt(const Avatar& avatar, const std::vector<std::vector<Triangle>>& meshes,
+                           const std::vector<LinkState>& states, LinkId a, LinkId b) {
+  const auto partsOf = [&](LinkId link) {
+    std::vector<std::pair<Hull, double>> parts;
+    const LinkState& state = states[slotOf(link)];
+    for (Triangle triangle : meshes[slotOf(link)]) {
+      for (Vector3d& v : triangle.vertices) v = state.pointAt(v);
+      parts.emplace_back(Hull::of(triangle), 0.0);
+    }
+    for (const Lss& lss : avatar.lss(link)) {
+      if (!meshes[slotOf(link)].empty()) break;
+      const AxisEnds ends = axisEnds(lss, state);
+      parts.emplace_back(Hull::segment(ends.a, ends.b), lss.radius);
+    }
+    return parts;
+  };
+  double least = std::numeric_limits<double>::infinity();
+  const auto ones = partsOf(a), others = partsOf(b);
+  for (const auto& [hull, radius] : ones) {
+    for (const auto& [other, otherRadius] : others) {
+      least = std::min(least, separation(hull, other).distance - (radius + otherRadius));
+    }
+  }
+  return least;
+}
+
+// At exact fidelity the meshes decide, and where a link has none its LSS; with policies each side
+// has its own. What is clear at link fidelity is clear exactly, and nothing is earlier.
+TEST_P(SelfQueries, OfMeshesAreSoundTightAndNeverEarlierThanTheirLss) {
+  constexpr int kSamples = 60;
+  constexpr double kRounding = 1e-10;
+  int contacts = 0, starts = 0, clearer = 0;
+  QueryScratch scratch;
+  for (int i = 0; i < 150; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const OwnBody body = randomOwnBody(random);
+    const auto rules = PairRules::derive(body.avatar);
+    if (!rules.ok()) continue;
+    auto meshes = test::meshWithin(body.avatar, random, 4, 0.9);
+    for (auto& mesh : meshes) {
+      if (random.chance(0.2)) mesh.clear();
+    }
+    QueryOptions options;
+    options.tolerance = random.magnitude(1e-6, 5e-3);
+    options.self = rules.value();
+    options.surface = AvatarSurface::build(body.avatar, meshes).value();
+    if (random.chance(0.5)) {
+      options.fidelity = Fidelity::Exact;
+    } else {
+      for (auto& mesh : meshes) {
+        const bool isExact = random.chance(0.6);
+        options.linkPolicies.push_back(
+            {options.tolerance, isExact ? Fidelity::Exact : Fidelity::Link});
+        if (!isExact) mesh.clear();
+      }
+    }
+    const ChainMotion motion = body.motion();
+    const StepContacts step = test::answerOf(body.avatar, motion, farScene(), options, scratch);
+    QueryOptions bounds;
+    bounds.tolerance = options.tolerance;
+    bounds.self = rules.value();
+    const StepContacts outer = test::answerOf(body.avatar, motion, farScene(), bounds, scratch);
+    ASSERT_TRUE(step.arePairsAnswered);
+    std::map<std::pair<LinkId, LinkId>, PairContact> found, above;
+    for (const PairContact& c : step.pairs) found.emplace(std::make_pair(c.link, c.other), c);
+    for (const PairContact& c : outer.pairs) above.emplace(std::make_pair(c.link, c.other), c);
+    clearer += static_cast<int>(above.size()) - static_cast<int>(found.size());
+    std::vector<LinkState> states;
+    for (const auto& [links, bound] : above) {
+      const auto contact = found.find(links);
+      const double free = contact == found.end() ? 2.0 : contact->second.freeUntil;
+      EXPECT_GE(free, bound.freeUntil);
+      for (int k = 0; k <= kSamples; ++k) {
+        const double t = static_cast<double>(k) / kSamples;
+        if (t >= free) break;
+        motion.statesAt(t, states);
+        EXPECT_GT(surfaceSeparationAt(body.avatar, meshes, states, links.first, links.second),
+                  -kRounding);
+      }
+    }
+    for (const auto& [links, contact] : found) {
+      EXPECT_EQ(above.count(links), 1U);
+      motion.statesAt(contact.freeUntil, states);
+      const double apart =
+          surfaceSeparationAt(body.avatar, meshes, states, links.first, links.second);
+      ASSERT_NE(contact.verdict, Verdict::Undecided);
+      EXPECT_LE(apart,
+                contact.verdict == Verdict::Contact ? options.tolerance + kRounding : kRounding);
+      (contact.verdict == Verdict::Contact ? contacts : starts) += 1;
+    }
+  }
+  EXPECT_GT(contacts, 60);
+  EXPECT_GT(starts, 30);
+  EXPECT_GT(clearer, 30);
+}
+
+// Deeper than at rest is still told: two LSS with a pair radius touch when they come nearer than
+// they rest, and not before.
+TEST_P(SelfQueries, WithPairRadiiTellWhatIsDeeperThanAtRest) {
+  RawSkeleton raw;
+  raw.joints = {{"a", kNoParent, Vector3d::Zero()},
+                {"b", 0, Vector3d(1, 0, 0)},
+                {"c", 1, Vector3d(-0.92, 0, 0)}};
+  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), 0.05};
+  const Avatar avatar =
+      Avatar::build(Skeleton::build(raw).value(), {{ball}, {ball}, {ball}}).value();
+  PairRuleOptions derived;
+  derived.usePairRadii = true;
+  derived.restSkin = 0.01;
+  QueryOptions options;
+  options.self = PairRules::derive(avatar, derived).value();
+  QueryScratch scratch;
+  Pose nearer = restPose(avatar.skeleton()), farther = nearer;
+  nearer.translations[2].x() = -0.98;
+  farther.translations[2].x() = -0.7;
+  const auto pairsOf = [&](const Pose& to) {
+    const ChainMotion motion(avatar.skeleton(), restPose(avatar.skeleton()), to);
+    return test::answerOf(avatar, motion, farScene(), options, scratch).pairs;
+  };
+  EXPECT_TRUE(pairsOf(farther).empty());
+  const auto touching = pairsOf(nearer);
+  ASSERT_EQ(touching.size(), 1U);
+  EXPECT_EQ(touching[0].verdict, Verdict::Contact);
+  // From 8 cm towards 2 cm, with 7 cm for the radii.
+  EXPECT_NEAR(touching[0].toi, (0.08 - 0.07) / 0.06, 0.02);
+}
+
+// A budget that is spent leaves pairs undecided, free as far as proven, and never clear.
+TEST_P(SelfQueries, WithoutWorkAreUndecidedAndNeverClearThatTouch) {
+  int undecided = 0;
+  QueryScratch scratch;
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const OwnBody body = randomOwnBody(random);
+    const auto rules = PairRules::derive(body.avatar);
+    if (!rules.ok()) continue;
+    QueryOptions options;
+    options.self = rules.value();
+    const StepContacts whole =
+        test::answerOf(body.avatar, body.motion(), farScene(), options, scratch);
+    options.workBudget = static_cast<std::uint64_t>(random.magnitude(1.0, 1e4));
+    const StepContacts cut =
+        test::answerOf(body.avatar, body.motion(), farScene(), options, scratch);
+    std::map<std::pair<LinkId, LinkId>, PairContact> told;
+    for (const PairContact& c : cut.pairs) told.emplace(std::make_pair(c.link, c.other), c);
+    for (const PairContact& contact : whole.pairs) {
+      const auto found = told.find({contact.link, contact.other});
+      ASSERT_NE(found, told.end()) << "it touches, so nothing may say that it is clear";
+      EXPECT_LE(found->second.freeUntil, contact.freeUntil);
+    }
+    for (const PairContact& contact : cut.pairs) {
+      undecided += contact.reason == UndecidedReason::WorkBudget ? 1 : 0;
+    }
+  }
+  EXPECT_GT(undecided, 50);
 }
 
 std::string nameOf(const testing::TestParamInfo<Simd>& tested) {

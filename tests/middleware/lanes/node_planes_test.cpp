@@ -1,0 +1,209 @@
+// Planes at the nodes: what they close is apart between the nodes, at every width; they close
+// nearly all that is clearly apart; and what carries the whole body does not open anything.
+#include "middleware/lanes/node_planes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "judge/distance.h"
+#include "judge/motion.h"
+#include "lss/simd.h"
+#include "middleware/lanes/pair_boxes.h"
+#include "tests/support/widest_afterwards.h"
+#include "tests/tessellation/random_lss.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using internal::PlanePair;
+using oracle::Real;
+using oracle::Vec3d;
+using oracle::Vec3r;
+using test::Random;
+
+/// A moving body's pairs of LSS, as a query makes them: planes rest in the frame of the root.
+struct Planes {
+  Planes(const LssTable& aTable, const ChainMotion& motion, double floor) : table(aTable) {
+    nodes.evaluate(motion, 0.0, 1.0, Vector3d::Zero());
+    sweptBoxes(table, motion, nodes, 0.0, boxes, &ends);
+    for (std::size_t k = 0; k < 9; ++k) {
+      for (std::size_t node = 0; node < kNodes; ++node) {
+        frame.R[k][node] = static_cast<float>(nodes.link(0).R[k][node]);
+      }
+    }
+    for (std::int32_t i = 0; i < table.size(); ++i) {
+      for (std::int32_t j = i + 1; j < table.size(); ++j) add(i, j, motion, floor);
+    }
+  }
+
+  void add(std::int32_t i, std::int32_t j, const ChainMotion& motion, double floor) {
+    const auto bendOf = [&](std::int32_t k) {
+      return motion.sumsIn(0, table[k].link).accelerationAt(std::max(table[k].rhoA, table[k].rhoB));
+    };
+    const auto x = static_cast<std::size_t>(i), y = static_cast<std::size_t>(j);
+    const double reach =
+        table[i].radius + table[j].radius + floor +
+        internal::kNodePlaneRounding * (double{ends.extents[x]} + double{ends.extents[y]}) +
+        double{ends.roundings[x]} + double{ends.roundings[y]};
+    pairs.push_back({i, j, 0, static_cast<float>(reach * (1.0 + 0x1p-20)),
+                     static_cast<float>((bendOf(i) + bendOf(j)) * (1.0 + 0x1p-20))});
+  }
+
+  void close() {
+    internal::NodePlanes planes{ends.axes.data(), &frame, {}};
+    for (int k = 0; k < internal::kNodePieces; ++k) {
+      const double h = nodes.instant(k + 1) - nodes.instant(k);
+      planes.sagittas[k] = static_cast<float>(h * h / 8.0 * (1.0 + 0x1p-20));
+    }
+    for (const int node : {3, 0, 7}) {
+      internal::closeByPlanes(planes, node, pairs.data(), pairs.size());
+    }
+  }
+
+  const LssTable& table;
+  ChainNodes nodes;
+  SweptBoxes boxes;
+  NodeEnds ends;
+  internal::NodeFrame frame{};
+  std::vector<PlanePair> pairs;
+};
+
+/// Of two LSS at an instant, in long double.
+Real separationAt(const oracle::Motion& truth, const LssTable& table, const PlanePair& pair,
+                  Real t) {
+  const auto axisOf = [&](std::int32_t i) {
+    const std::array<Vec3d, 2> ends = {Vec3d(table[i].a[0], table[i].a[1], table[i].a[2]),
+                                       Vec3d(table[i].b[0], table[i].b[1], table[i].b[2])};
+    return truth.pointsAt(table[i].link, ends, t, Real(0));
+  };
+  const auto one = axisOf(pair.i), other = axisOf(pair.j);
+  const oracle::Corners<Real> segment = {other[0].position, other[1].position, other[1].position};
+  return oracle::closestPoints(one[0].position, one[1].position, segment).distance -
+         (Real(table[pair.i].radius) + Real(table[pair.j].radius));
+}
+
+TEST(NodePlanes, CloseOnlyWhatIsApartAtEveryWidth) {
+  const test::WidestAfterwards guard;
+  int closed = 0, open = 0, wide = 0, closedOfWide = 0;
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const test::MovingBody body(random, 3 + random.below(5));
+    const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.to);
+    const LssTable table(body.avatar);
+    const oracle::Motion truth(body.motion.precise);
+    const double floor = random.magnitude(1e-6, 1e-2);
+    for (const Simd simd : supportedSimd()) {
+      SCOPED_TRACE(toString(simd));
+      ASSERT_TRUE(useSimd(simd));
+      Planes planes(table, motion, floor);
+      planes.close();
+      for (const PlanePair& pair : planes.pairs) {
+        for (int piece = 0; piece < internal::kNodePieces; ++piece) {
+          const bool isOpen = (pair.open >> piece & 1) != 0;
+          (isOpen ? open : closed) += 1;
+          const double first = planes.nodes.instant(piece);
+          const double share = random.uniform(0.0, 1.0);
+          const Real t = Real(first) + Real(share) * (planes.nodes.instant(piece + 1) - first);
+          const Real apart = separationAt(truth, table, pair, t);
+          if (!isOpen) {
+            ASSERT_GE(apart, Real(floor) - Real(1e-12));
+          }
+          const double sagitta = double{pair.bend} * 0.0125;
+          if (apart > Real(0.3 + sagitta)) {
+            ++wide;
+            closedOfWide += isOpen ? 0 : 1;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(closed, 10000);
+  EXPECT_GT(open, 10000);
+  EXPECT_GT(closedOfWide, wide * 6 / 10) << "planes that close nothing prove nothing";
+}
+
+// The planes rest in the root's frame, so turning and moving the root changes no more than
+// rounding.
+TEST(NodePlanes, AreNotOpenedByWhatCarriesTheBody) {
+  int pieces = 0, different = 0;
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const test::MovingBody body(random, 4);
+    Pose still = body.motion.from, to = body.motion.to, turned = body.motion.to;
+    still.translations[0] = to.translations[0] = Vector3d(1, 2, 3);
+    turned.translations[0] = Vector3d(2, 2, 3);
+    to.rotations[0] = still.rotations[0];
+    turned.rotations[0] = still.rotations[0] * random.turn(2.0);
+    const LssTable table(body.avatar);
+    Planes resting(table, ChainMotion(body.avatar.skeleton(), still, to), 1e-3);
+    Planes carried(table, ChainMotion(body.avatar.skeleton(), still, turned), 1e-3);
+    resting.close();
+    carried.close();
+    for (std::size_t k = 0; k < resting.pairs.size(); ++k) {
+      EXPECT_NEAR(double{resting.pairs[k].bend}, double{carried.pairs[k].bend},
+                  1e-5 * double{resting.pairs[k].bend});
+      pieces += internal::kNodePieces;
+      different += __builtin_popcount(resting.pairs[k].open ^ carried.pairs[k].open);
+    }
+  }
+  EXPECT_GT(pieces, 3000);
+  EXPECT_LT(different, pieces / 50);
+}
+
+TEST(PairBoxes, FindEveryAskedPairWhoseBoxesMeetAtEveryWidth) {
+  const test::WidestAfterwards guard;
+  std::size_t found = 0;
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const int count = 1 + random.below(70);
+    SweptBoxes boxes;
+    boxes.resize(count);
+    for (int k = 0; k < count; ++k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto low = static_cast<float>(random.uniform(-1.0, 1.0));
+        boxes.lower[axis][k] = low;
+        boxes.upper[axis][k] =
+            random.chance(0.2) ? low : low + static_cast<float>(random.uniform(0.0, 1.2));
+      }
+    }
+    internal::AskedPairs asked;
+    asked.blocks = (count + 15) / 16;
+    asked.bits.assign(static_cast<std::size_t>(count * asked.blocks), 0);
+    std::vector<std::pair<int, int>> expected;
+    for (int a = 0; a < count; ++a) {
+      for (int b = a + 1; b < count; ++b) {
+        if (random.chance(0.3)) continue;
+        std::uint16_t& bits = asked.bits[static_cast<std::size_t>(a * asked.blocks + b / 16)];
+        bits = static_cast<std::uint16_t>(bits | 1U << (b % 16));
+        ++asked.numPairs;
+        bool meets = true;
+        for (int axis = 0; axis < 3; ++axis) {
+          meets = meets && boxes.lower[axis][a] <= boxes.upper[axis][b] &&
+                  boxes.lower[axis][b] <= boxes.upper[axis][a];
+        }
+        if (meets) expected.emplace_back(a, b);
+      }
+    }
+    for (const Simd simd : supportedSimd()) {
+      SCOPED_TRACE(toString(simd));
+      ASSERT_TRUE(useSimd(simd));
+      internal::MeetingPairs meeting;
+      internal::collectMeeting(boxes, asked, meeting);
+      ASSERT_EQ(meeting.count, expected.size());
+      for (std::size_t k = 0; k < meeting.count; ++k) {
+        EXPECT_EQ(std::make_pair(meeting.pairs[k].i, meeting.pairs[k].j), expected[k]);
+      }
+      found += meeting.count;
+    }
+  }
+  EXPECT_GT(found, 1000U);
+}
+
+}  // namespace
+}  // namespace foretouch
