@@ -184,7 +184,7 @@ Result<double> ScalingBench::row(const Point& point, double baseMeanUs) {
   way.query.tolerance = point.tolerance;
   way.simd = supportedSimd().back();
   FORETOUCH_TRY(const auto timing,
-                timeSteps(body_->avatar, steps_, scene_, {way}, request_.options.timing));
+                timeSteps(body_->avatar, steps_, {}, scene_, {way}, request_.options.timing));
   addRow(point, timing, baseMeanUs);
   double sum = 0.0;
   for (const TimedStep& step : timing.cases.front().steps) sum += step.warmUs;

@@ -37,7 +37,7 @@ class SimdChoice {
 /// Memory to write and read, to push everything else out of the caches.
 class CacheFlood {
  public:
-  explicit CacheFlood(int megabytes) : words_(static_cast<std::size_t>(megabytes) << 17) {}
+  explicit CacheFlood(int kilobytes) : words_(static_cast<std::size_t>(kilobytes) << 7) {}
   void run() {
     std::uint64_t sum = kept_;
     for (std::uint64_t& word : words_) word = ++sum;
@@ -127,16 +127,18 @@ Result<Done> timeRays(const StepClock& clock, const Avatar& avatar, const StepPo
   return Done{};
 }
 
-void timeCold(StepClock& clock, const std::vector<StepPoses>& steps, const AskedCase& way,
-              const TimingOptions& options, CaseTimes& times) {
-  CacheFlood flood(options.coldMb);
+/// Every step once per pass, in the order given, with other work before each; the least of all
+/// passes counts.
+void timeSingly(StepClock& clock, const std::vector<StepPoses>& steps,
+                const std::vector<std::size_t>& order, const AskedCase& way, int passes,
+                CacheFlood flood, double TimedStep::*time, CaseTimes& times) {
   StepContacts answer;
-  for (int pass = 0; pass < options.coldPasses; ++pass) {
-    for (std::size_t i = 0; i < steps.size(); ++i) {
+  for (int pass = 0; pass < passes; ++pass) {
+    for (const std::size_t i : order) {
       flood.run();
       const double us = clock.ask(steps[i], way, answer);
-      double& coldUs = times.steps[i].coldUs;
-      coldUs = pass == 0 ? us : std::min(coldUs, us);
+      double& least = times.steps[i].*time;
+      least = pass == 0 ? us : std::min(least, us);
     }
   }
 }
@@ -167,8 +169,8 @@ Percentiles percentilesOf(std::vector<double> values) {
 }
 
 Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& steps,
-                         const Scene& scene, const std::vector<BenchCase>& cases,
-                         const TimingOptions& options) {
+                         const std::vector<std::size_t>& clipOrder, const Scene& scene,
+                         const std::vector<BenchCase>& cases, const TimingOptions& options) {
   FORETOUCH_ASSERT(!steps.empty() && options.repeats >= 1);
   std::vector<AskedCase> asked;
   for (const BenchCase& way : cases) {
@@ -192,7 +194,10 @@ Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& ste
   }
   for (std::size_t c = 0; c < cases.size(); ++c) {
     if (!cases[c].cold || options.coldMb == 0) continue;
-    timeCold(clock, steps, asked[c], options, timing.cases[c]);
+    timeSingly(clock, steps, clipOrder, asked[c], options.coldPasses, CacheFlood(options.betweenKb),
+               &TimedStep::onceUs, timing.cases[c]);
+    timeSingly(clock, steps, clipOrder, asked[c], options.coldPasses,
+               CacheFlood(1024 * options.coldMb), &TimedStep::coldUs, timing.cases[c]);
   }
   return timing;
 }

@@ -30,16 +30,20 @@ struct BenchCase {
   QueryOptions query;
   ReferenceOptions reference;
   Simd simd = Simd::Scalar;
-  bool cold = false;  ///< Also run with empty caches.
+  bool cold = false;  ///< Also asked once, after other work and with empty caches.
 };
 
 struct TimingOptions {
-  int repeats = 9;     ///< Of each step, in a row.
-  int coldPasses = 3;  ///< Over all steps; a step's least time counts.
-  int coldMb = 16;     ///< Streamed through the caches before each cold step.
+  int repeats = 9;      ///< Of each step, in a row.
+  int coldPasses = 3;   ///< Over all steps; a step's least time counts. Also of steps asked once.
+  int betweenKb = 512;  ///< Streamed through the caches before each step that is asked once: what
+                        ///< else a program does between two poses.
+  int coldMb = 16;      ///< Streamed through the caches before each cold step.
 };
 
 struct TimedStep {
+  /// Asked once, in the order of the clip, after other work.
+  double onceUs = std::numeric_limits<double>::quiet_NaN();
   double warmUs = 0.0;   ///< The least of all repeats.
   double firstUs = 0.0;  ///< The first of them, after other steps.
   double coldUs = std::numeric_limits<double>::quiet_NaN();
@@ -69,8 +73,10 @@ struct StepMemory {
 void answerStep(const Query& query, const StepPoses& poses, StepMemory& memory);
 
 /// Alternates all cases and the ray set at each step, so that drift of the machine affects all
-/// alike. One thread. Errors: as buildReference().
+/// alike; then asks them singly, place by place in the order of the clip (`clipOrder`). One thread.
+/// Errors: as buildReference().
 [[nodiscard]] Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& steps,
+                                       const std::vector<std::size_t>& clipOrder,
                                        const Scene& scene, const std::vector<BenchCase>& cases,
                                        const TimingOptions& options);
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -364,6 +366,19 @@ Result<std::vector<StepPoses>> posesOf(const BenchInputs& inputs, const BenchBod
     poses.push_back({std::move(from), std::move(to)});
   }
   return poses;
+}
+
+std::vector<std::size_t> inClipOrder(const Workload& workload) {
+  std::vector<std::size_t> order(workload.picks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    const StepPick& pick = workload.picks[i];
+    const Eigen::Vector3d& p = pick.placement.origin;
+    return std::make_tuple(p.x(), p.y(), p.z(), pick.placement.yawDeg, pick.frame);
+  };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
 }
 
 }  // namespace foretouch::tools

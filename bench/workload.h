@@ -90,4 +90,8 @@ struct StepPoses {
                                                      const BenchBody& body,
                                                      const Workload& workload);
 
+/// The picks' places in the list, placement by placement, and there in the order of the
+/// clip: as a live program asks them.
+[[nodiscard]] std::vector<std::size_t> inClipOrder(const Workload& workload);
+
 }  // namespace foretouch::tools

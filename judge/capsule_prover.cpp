@@ -23,7 +23,7 @@ struct CapsuleProver::Look {
 
 CapsuleProver::CapsuleProver(const Scene& scene, const Motion& motion, int link,
                              const Capsule& capsule)
-    : scene_(scene), motion_(motion), link_(link), capsule_(capsule) {
+    : SurfaceInScene(scene), motion_(motion), link_(link), capsule_(capsule) {
   const Real rho = std::max(norm(capsule.ends[0].as<Real>()), norm(capsule.ends[1].as<Real>()));
   scale_ = std::max(Real(1), motion.reach(link, rho + static_cast<Real>(capsule.radius)));
   guard_ = kSoundGuard * scale_;

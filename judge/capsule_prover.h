@@ -22,7 +22,7 @@ struct Capsule {
 /// Halves a span until each part is proved: at its middle the distance exceeds the farthest that
 /// the axis can move in half the span, or the axis cannot cross a plane between it and the
 /// triangle.
-class CapsuleProver final : public MovingSurface {
+class CapsuleProver final : public SurfaceInScene {
  public:
   CapsuleProver(const Scene& scene, const Motion& motion, int link, const Capsule& capsule);
 
@@ -30,7 +30,7 @@ class CapsuleProver final : public MovingSurface {
   [[nodiscard]] Real separationAt(Real t, double within = Box::kEmpty) const override;
   [[nodiscard]] Real separationFrom(int piece, int triangle, Real t) const override;
   [[nodiscard]] Real distanceToCore(int piece, const Vec3r& point, Real t) const override;
-  [[nodiscard]] Real radius() const override { return static_cast<Real>(capsule_.radius); }
+  [[nodiscard]] Real radius(int, int) const override { return static_cast<Real>(capsule_.radius); }
   [[nodiscard]] int numPieces() const override { return 1; }
   [[nodiscard]] Real scale() const override { return scale_; }
 
@@ -53,7 +53,6 @@ class CapsuleProver final : public MovingSurface {
     return separation < -guard_ || separation <= -static_cast<Real>(capsule_.radius);
   }
 
-  const Scene& scene_;
   const Motion& motion_;
   int link_;
   Capsule capsule_;

@@ -13,17 +13,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "judge/hull.h"
 #include "judge/motion.h"
 
 namespace foretouch::oracle {
-
-/// A convex part fixed in a link: the hull of two or three points, grown by a radius.
-struct Hull {
-  int link = 0;
-  int count = 2;
-  Triangle points;
-  double radius = 0.0;
-};
 
 /// Lengths are bounded by roots in float, which keep at least 1.1e-19 m per joint.
 inline constexpr double kLeastExtent = 1e-16;

@@ -31,20 +31,25 @@ const char* toString(Verdict verdict) {
 }
 
 Judge::Judge(const Scene& scene, const Motion& motion, int link,
-             const std::vector<Capsule>& capsules)
-    : scene_(scene) {
+             const std::vector<Capsule>& capsules) {
   for (const Capsule& capsule : capsules) {
     add(std::make_unique<CapsuleProver>(scene, motion, link, capsule));
   }
 }
 
-Judge::Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Triangle>& mesh)
-    : scene_(scene) {
+Judge::Judge(const Scene& scene, const Motion& motion, int link,
+             const std::vector<Triangle>& mesh) {
   add(std::make_unique<MeshProver>(scene, motion, link, mesh));
+}
+
+Judge::Judge(const Motion& motion, std::vector<Hull> one, std::vector<Hull> other,
+             std::vector<RadiusSum> sums) {
+  add(std::make_unique<PairProver>(motion, std::move(one), std::move(other), std::move(sums)));
 }
 
 void Judge::add(std::unique_ptr<MovingSurface> surface) {
   guard_ = std::max(guard_, kWitnessGuard * surface->scale());
+  guardInWorld_ = std::max(guardInWorld_, kWitnessGuard * surface->scaleInWorld());
   surfaces_.push_back(std::move(surface));
 }
 
@@ -101,18 +106,23 @@ std::string Judge::witnessContradiction(const Answer& a) const {
     piece -= surfaces_[at++]->numPieces();
   }
   if (piece < 0 || at == surfaces_.size()) return "capsule index";
-  if (a.triangle < 0 || a.triangle >= scene_.numTriangles()) return "triangle index";
   const MovingSurface& surface = *surfaces_[at];
-  const Real radius = surface.radius();
-  const auto off = [&](Real value) { return !(std::abs(value) <= guard_); };  // true for NaN
+  if (a.triangle < 0 || a.triangle >= surface.numOthers()) return "triangle index";
+  const Real radius = surface.radius(piece, a.triangle);
+  const Real radiusOfOther = surface.radiusOfOther(piece, a.triangle);
+  // True for NaN.
+  const auto off = [&](Real value) { return !(std::abs(value) <= guardInWorld_); };
 
   const Real signedSeparation = static_cast<Real>(a.separation) - a.penetration;
-  if (off(surface.separationFrom(piece, a.triangle, a.toi) - signedSeparation)) return "separation";
+  const Real separation = surface.separationFrom(piece, a.triangle, a.toi);
+  if (off(separation - signedSeparation)) return "separation";
   const Vec3r onScene = a.onScene.as<Real>(), onLink = a.onLink.as<Real>();
   const Vec3r n = a.normal.as<Real>();
-  const Corners<Real> corners = cornersOf<Real>(scene_.triangle(a.triangle), a.onScene);
-  if (off(closestPoints(Vec3r{}, Vec3r{}, corners).distance)) return "point on the scene";
-  if (off(norm(n) - 1)) return "normal's length";
+  // Points without radius that meet have no direction.
+  const bool isUndirected = n == Vec3r{} && radius + radiusOfOther == 0 && signedSeparation == 0;
+  if (!isUndirected && off(norm(n) - 1)) return "normal's length";
+  const Vec3r onOther = onScene - radiusOfOther * n;
+  if (off(surface.distanceToOther(a.triangle, onOther, a.toi))) return "point on the scene";
   const Vec3r onAxis = onScene + (radius + signedSeparation) * n;
   if (off(surface.distanceToCore(piece, onAxis, a.toi))) return "normal's direction";
   if (off(norm(onAxis - radius * n - onLink))) return "point on the link";

@@ -1,4 +1,5 @@
-// judge/judge.h: decides whether an answer about one link and one step keeps the promise.
+// judge/judge.h: decides whether an answer about one step keeps the promise: of one link and a
+// scene, or of two links of one body.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +9,14 @@
 #include <vector>
 
 #include "judge/capsule_prover.h"
+#include "judge/pair_prover.h"
 
 namespace foretouch::oracle {
 
 enum class Verdict { Clear, Contact, StartsInContact, Undecided };
 
-/// The answer, in the oracle's own types.
+/// The answer, in the oracle's own types. Of two links, the other one takes the scene's place: its
+/// piece that of the triangle, and the normal points from it to the first.
 struct Answer {
   Verdict verdict = Verdict::Clear;
   double toi = 1.0, freeUntil = 1.0;
@@ -52,12 +55,15 @@ struct Bracket {
   Real low = 0, high = 0;
 };
 
-/// Both keep references: the scene and the motion outlive it.
+/// Keeps references: the scene and the motion outlive it.
 class Judge {
  public:
   Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Capsule>& capsules);
   /// The link's surface is `mesh`, triangles in the link's frame.
   Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Triangle>& mesh);
+  /// Two links, each made of hulls (of one link, at least one).
+  Judge(const Motion& motion, std::vector<Hull> one, std::vector<Hull> other,
+        std::vector<RadiusSum> sums = {});
 
   [[nodiscard]] Judgement judge(const Answer& answer, double tolerance);
 
@@ -65,7 +71,7 @@ class Judge {
   /// A touch that goes no deeper than the sound guard does not count.
   [[nodiscard]] std::optional<Bracket> firstContact();
 
-  /// The least over the link's surface and the scene; `within` if nothing is nearer.
+  /// The least over the link's surface and the other side; `within` if nothing is nearer.
   [[nodiscard]] Real separationAt(Real t, double within = Box::kEmpty) const;
 
  private:
@@ -78,9 +84,8 @@ class Judge {
 
   void add(std::unique_ptr<MovingSurface> surface);
 
-  const Scene& scene_;
   std::vector<std::unique_ptr<MovingSurface>> surfaces_;
-  Real guard_ = 0;
+  Real guard_ = 0, guardInWorld_ = 0;  ///< Of starts; of witnesses.
 };
 
 }  // namespace foretouch::oracle

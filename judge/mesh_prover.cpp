@@ -2,7 +2,6 @@
 #include "judge/mesh_prover.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace foretouch::oracle {
@@ -13,58 +12,28 @@ constexpr std::size_t kMostCandidates = 256;
 /// Spans shorter than this list them anyway.
 constexpr Real kCrowdedSpan = 0x1p-8L;
 
+std::vector<Hull> hullsOf(int link, const std::vector<Triangle>& mesh) {
+  std::vector<Hull> hulls;
+  hulls.reserve(mesh.size());
+  for (const Triangle& triangle : mesh) hulls.push_back({link, 3, triangle, 0.0});
+  return hulls;
+}
+
 }  // namespace
 
 MeshProver::MeshProver(const Scene& scene, const Motion& motion, int link,
                        const std::vector<Triangle>& mesh)
-    : scene_(scene), motion_(motion), link_(link), mesh_(mesh) {
+    : SurfaceInScene(scene),
+      motion_(motion),
+      link_(link),
+      mesh_(mesh),
+      parts_(hullsOf(link, mesh)) {
   Real rho = 0;
   for (const Triangle& t : mesh_) {
     for (const Vec3d& v : t) rho = std::max(rho, norm(v.as<Real>()));
   }
   scale_ = std::max(Real(1), motion.reach(link, rho));
   guard_ = kSoundGuard * scale_;
-  order_.resize(mesh_.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  if (!mesh_.empty()) addPart(0, numPieces());
-}
-
-int MeshProver::addPart(int first, int last) {
-  Part part;
-  part.first = first;
-  part.last = last;
-  Box box;
-  const auto triangleAt = [&](int i) -> const Triangle& {
-    return mesh_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
-  };
-  for (int i = first; i < last; ++i) {
-    for (const Vec3d& v : triangleAt(i)) box.add(v);
-  }
-  part.center = 0.5 * box.low + 0.5 * box.high;
-  for (int i = first; i < last; ++i) {
-    for (const Vec3d& v : triangleAt(i)) {
-      part.radius = std::max(part.radius, norm(v - part.center) * (1 + kDoubleMargin));
-    }
-  }
-  const auto index = parts_.size();
-  parts_.push_back(part);
-  if (last - first > 1) {
-    const Vec3d size = box.high - box.low;
-    double Vec3d::*axis = &Vec3d::x;
-    if (size.y > size.*axis) axis = &Vec3d::y;
-    if (size.z > size.*axis) axis = &Vec3d::z;
-    const auto place = [&](int id) {
-      const Triangle& t = mesh_[static_cast<std::size_t>(id)];
-      return t[0].*axis + t[1].*axis + t[2].*axis;
-    };
-    const int middle = first + (last - first) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](int a, int b) { return place(a) < place(b); });
-    const int left = addPart(first, middle), right = addPart(middle, last);
-    parts_[index].left = left;
-    parts_[index].right = right;
-  }
-  return static_cast<int>(index);
 }
 
 bool MeshProver::gather(const MovingPoint& center, double around, bool all,
@@ -112,7 +81,8 @@ void MeshProver::examine(int piece, Real middle, Real half, Candidates& candidat
   candidates = std::move(open);
 }
 
-bool MeshProver::proveHalves(const Part& part, Real from, Real to, const Candidates* candidates) {
+bool MeshProver::proveHalves(const BallPart& part, Real from, Real to,
+                             const Candidates* candidates) {
   if (!proveSpan(part.left, from, to, candidates)) {
     outcome_.freeUntil = from;  // the other half is unexamined
     return false;
@@ -125,8 +95,8 @@ bool MeshProver::proveHalves(const Part& part, Real from, Real to, const Candida
 bool MeshProver::proveSpan(int index, Real from, Real to, const Candidates* inherited) {
   outcome_.freeUntil = from;
   if (++outcome_.looks > kMostLooks) return false;
-  const Part part = parts_[static_cast<std::size_t>(index)];
-  const bool single = part.left < 0, shortest = to - from < kShortestSpan;
+  const BallPart& part = parts_.part(index);
+  const bool single = part.isSingle(), shortest = to - from < kShortestSpan;
   const Real middle = from + (to - from) / 2;
   const Real half = std::max(middle - from, to - middle);
   const MovingPoint center =
@@ -138,7 +108,7 @@ bool MeshProver::proveSpan(int index, Real from, Real to, const Candidates* inhe
   const bool listAll = single || half < kCrowdedSpan;
   const bool complete = gather(center, around, listAll, inherited, candidates);
   if (single && !candidates.empty()) {
-    examine(order_[static_cast<std::size_t>(part.first)], middle, half, candidates);
+    examine(parts_.hullOf(part), middle, half, candidates);
     if (outcome_.touching) return false;
     if (!candidates.empty() && shortest) {
       ++outcome_.grazing;
@@ -209,7 +179,7 @@ Real MeshProver::separationAt(Real t, double within) const {
 
 /// Skips parts whose ball is no nearer than the known least.
 void MeshProver::nearest(int index, Real t, Real& least) const {
-  const Part& part = parts_[static_cast<std::size_t>(index)];
+  const BallPart& part = parts_.part(index);
   const Vec3d center =
       motion_.pointsAt(link_, std::array<Vec3d, 1>{part.center}, t, 0)[0].position.as<double>();
   const double slack = kDoubleMargin * static_cast<double>(scale_);
@@ -218,8 +188,8 @@ void MeshProver::nearest(int index, Real t, Real& least) const {
   bool near = false;
   double reach = static_cast<double>(least) + part.radius + slack;
   scene_.visitNear(point, reach, [&](int id) {
-    if (part.left < 0) {
-      least = std::min(least, separationFrom(order_[static_cast<std::size_t>(part.first)], id, t));
+    if (part.isSingle()) {
+      least = std::min(least, separationFrom(parts_.hullOf(part), id, t));
       reach = std::min(reach, static_cast<double>(least) + part.radius + slack);
     } else {
       near = true;

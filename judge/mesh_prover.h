@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "judge/ball_tree.h"
 #include "judge/certificate.h"
 #include "judge/motion.h"
 #include "judge/scene.h"
@@ -15,7 +16,7 @@ namespace foretouch::oracle {
 /// look. Otherwise halves the part if it is larger than its path in the span, else the span;
 /// certificates decide single triangles as they do capsules (capsule_prover.h). Keeps references:
 /// scene and motion outlive it.
-class MeshProver final : public MovingSurface {
+class MeshProver final : public SurfaceInScene {
  public:
   /// `mesh` in the link's frame; may be empty.
   MeshProver(const Scene& scene, const Motion& motion, int link, const std::vector<Triangle>& mesh);
@@ -24,7 +25,7 @@ class MeshProver final : public MovingSurface {
   [[nodiscard]] Real separationAt(Real t, double within) const override;
   [[nodiscard]] Real separationFrom(int piece, int triangle, Real t) const override;
   [[nodiscard]] Real distanceToCore(int piece, const Vec3r& point, Real t) const override;
-  [[nodiscard]] Real radius() const override { return 0; }
+  [[nodiscard]] Real radius(int, int) const override { return 0; }
   [[nodiscard]] int numPieces() const override { return static_cast<int>(mesh_.size()); }
   [[nodiscard]] Real scale() const override { return scale_; }
 
@@ -32,18 +33,10 @@ class MeshProver final : public MovingSurface {
   static constexpr std::uint64_t kMostLooks = 4'000'000;
 
  private:
-  /// A part of the link: the triangles order_[first, last), all within `radius` of `center`.
-  struct Part {
-    Vec3d center;
-    double radius = 0.0;
-    int first = 0, last = 0;
-    int left = -1, right = -1;  ///< Its halves; -1 for a single triangle.
-  };
   using Candidates = std::vector<int>;
 
-  int addPart(int first, int last);
   bool proveSpan(int part, Real from, Real to, const Candidates* inherited);
-  bool proveHalves(const Part& part, Real from, Real to, const Candidates* candidates);
+  bool proveHalves(const BallPart& part, Real from, Real to, const Candidates* candidates);
   /// False, with `candidates` unfinished, if there are too many.
   bool gather(const MovingPoint& center, double around, bool all, const Candidates* inherited,
               Candidates& candidates) const;
@@ -51,12 +44,10 @@ class MeshProver final : public MovingSurface {
   void nearest(int index, Real t, Real& least) const;
   [[nodiscard]] Corners<Real> pieceAt(int piece, Real t) const;
 
-  const Scene& scene_;
   const Motion& motion_;
   int link_;
   std::vector<Triangle> mesh_;
-  std::vector<int> order_;
-  std::vector<Part> parts_;
+  BallTree parts_;
   Real scale_ = 1, guard_ = 0;
   SpanOutcome outcome_;
 };

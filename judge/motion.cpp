@@ -22,7 +22,7 @@ typename MotionOf<S>::Turn MotionOf<S>::turnOf(const Joint& joint, const Vec3d& 
     for (double& c : to) c = -c;
   }
   Turn turn;
-  turn.parent = joint.parent;
+  turn.parent = std::max(joint.parent, -1);
   turn.from = unit(quaternionOf<S>(joint.fromRotation));
   const Quaternion<S> relative = conjugate(turn.from) * unit(quaternionOf<S>(to));
   const S sine = norm(relative.vector());
@@ -82,9 +82,9 @@ Quaternion<S> MotionOf<S>::rotationAt(const Turn& turn, const S& t) {
 //   y'' = R (w x (w x x) + 2 w x x' + x''),           |y''| <= angle^2 |x| + 2 angle |x'| + |x''|
 // where |x| is at most its value at the span's middle plus halfSpan * sup |x'|.
 template <typename S>
-void MotionOf<S>::carry(int link, MovingPointOf<S>* points, std::size_t count, const S& t,
+void MotionOf<S>::carry(Chain chain, MovingPointOf<S>* points, std::size_t count, const S& t,
                         const S& halfSpan) const {
-  for (int j = link; j >= 0; j = turns_[static_cast<std::size_t>(j)].parent) {
+  for (int j = chain.link; j != chain.above; j = parent(j)) {
     const Turn& turn = turns_[static_cast<std::size_t>(j)];
     const Quaternion<S> rotation = rotationAt(turn, t);
     const Vec3<S> spin = turn.angle * turn.axis;
@@ -117,9 +117,9 @@ void MotionOf<S>::framesAt(const S& t, std::vector<MovingFrame<S>>& frames) cons
 }
 
 template <typename S>
-S MotionOf<S>::reach(int link, S rho) const {
+S MotionOf<S>::reach(int link, S rho, int above) const {
   S sum = rho;
-  for (int j = link; j >= 0; j = turns_[static_cast<std::size_t>(j)].parent) {
+  for (int j = link; j != above; j = parent(j)) {
     const Turn& turn = turns_[static_cast<std::size_t>(j)];
     sum += std::max(norm(turn.translation), norm(turn.translation + turn.drift));
   }

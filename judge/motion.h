@@ -74,15 +74,19 @@ class MotionOf {
   explicit MotionOf(const std::vector<Joint>& joints, const Vec3d& origin = {});
 
   [[nodiscard]] int numLinks() const { return static_cast<int>(turns_.size()); }
+  /// -1: the world.
+  [[nodiscard]] int parent(int link) const { return turns_[static_cast<std::size_t>(link)].parent; }
 
-  /// Points of a link at t, given in the link's frame.
+  /// Points of a link at t, given in the link's frame; seen from the frame of `above`, the link
+  /// itself or one above it (-1: the world).
   template <std::size_t N = 2>
   [[nodiscard]] std::array<MovingPointOf<S>, N> pointsAt(int link,
                                                          const std::array<Vec3d, N>& points,
-                                                         const S& t, const S& halfSpan) const {
+                                                         const S& t, const S& halfSpan,
+                                                         int above = -1) const {
     std::array<MovingPointOf<S>, N> moving;
     for (std::size_t i = 0; i < N; ++i) moving[i].position = points[i].template as<S>();
-    carry(link, moving.data(), N, t, halfSpan);
+    carry({link, above}, moving.data(), N, t, halfSpan);
     return moving;
   }
 
@@ -93,9 +97,10 @@ class MotionOf {
     return bounds_[static_cast<std::size_t>(link)];
   }
 
-  /// The largest distance from the origin that a point at distance `rho` from the link's origin, or
-  /// any joint above it, can have. Rounding is proportional to it.
-  [[nodiscard]] S reach(int link, S rho) const;
+  /// The largest distance from the origin of the world, or of `above`, that a point at distance
+  /// `rho` from the link's origin, or any joint in between, can have. Rounding is proportional to
+  /// it.
+  [[nodiscard]] S reach(int link, S rho, int above = -1) const;
 
  private:
   struct Turn {
@@ -105,7 +110,10 @@ class MotionOf {
     S angle = 0;   // over the whole step, radians, >= 0
     Vec3<S> translation, drift;
   };
-  void carry(int link, MovingPointOf<S>* points, std::size_t count, const S& t,
+  struct Chain {
+    int link, above;
+  };
+  void carry(Chain chain, MovingPointOf<S>* points, std::size_t count, const S& t,
              const S& halfSpan) const;
   static Turn turnOf(const Joint& joint, const Vec3d& origin);
   static Quaternion<S> rotationAt(const Turn& turn, const S& t);

@@ -1,4 +1,3 @@
-// middleware/query/contact_details.cpp: Query::details().
 #include "middleware/query/contact_details.h"
 
 #include <algorithm>
@@ -13,9 +12,7 @@
 #include "lss/safe_step.h"
 #include "lss/separation.h"
 #include "middleware/query/link_parts.h"
-#include "middleware/query/query.h"
 #include "middleware/query/query_plan.h"
-#include "middleware/query/scratch_parts.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch {
@@ -230,37 +227,37 @@ bool hasContact(const LinkContact& contact) {
   return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
 }
 
-bool hasPoints(const QueryPlan& plan) {
-  return plan.options.fidelity == Fidelity::Link || plan.options.fidelity == Fidelity::Exact;
-}
-
 }  // namespace
 
-ContactDetails Query::details(const ChainMotion& motion, const LinkContact& contact,
-                              QueryScratch& scratch) const {
+namespace internal {
+
+ContactDetails detailsOf(const QueryPlan& plan, const ChainMotion& motion,
+                         const LinkContact& contact, std::vector<TriangleId>& found) {
   ContactDetails details;
   FORETOUCH_ASSERT(hasContact(contact));
   if (!hasContact(contact)) return details;
   describeApproach(contact, pointOf(motion, contact.link, contact.toi, contact.p_WLink), {},
                    details);
-  if (!hasPoints(*plan_)) return details;
-  NearPoints near(*plan_, motion, contact, plan_->of(contact.link).tolerance);
-  choosePoints(near.ofScene(scratch.parts().found), details);
+  const Fidelity fidelity = plan.options.fidelity;
+  if (fidelity != Fidelity::Link && fidelity != Fidelity::Exact) return details;
+  NearPoints near(plan, motion, contact, plan.of(contact.link).tolerance);
+  choosePoints(near.ofScene(found), details);
   return details;
 }
 
-ContactDetails Query::details(const ChainMotion& motion, const PairContact& contact,
-                              QueryScratch& /*scratch*/) const {
+ContactDetails detailsOf(const QueryPlan& plan, const ChainMotion& motion,
+                         const PairContact& contact) {
   ContactDetails details;
   FORETOUCH_ASSERT(hasContact(contact) && contact.other >= 0);
   if (!hasContact(contact) || contact.other < 0) return details;
   describeApproach(contact, pointOf(motion, contact.link, contact.toi, contact.p_WLink),
                    pointOf(motion, contact.other, contact.toi, contact.p_WScene), details);
   const double tolerance =
-      std::min(plan_->of(contact.link).tolerance, plan_->of(contact.other).tolerance);
-  NearPoints near(*plan_, motion, contact, tolerance);
+      std::min(plan.of(contact.link).tolerance, plan.of(contact.other).tolerance);
+  NearPoints near(plan, motion, contact, tolerance);
   choosePoints(near.ofLink(contact.other), details);
   return details;
 }
 
+}  // namespace internal
 }  // namespace foretouch

@@ -6,9 +6,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include "articulated/motion.h"
 #include "middleware/contact.h"
 #include "middleware/scene/triangle_id.h"
 
@@ -41,5 +43,14 @@ struct ContactDetails {
   std::array<ContactPoint, kMostPoints> points;
   std::size_t numPoints = 0;
 };
+
+/// For the query's own sources (Query::details()).
+namespace internal {
+struct QueryPlan;
+[[nodiscard]] ContactDetails detailsOf(const QueryPlan& plan, const ChainMotion& motion,
+                                       const LinkContact& contact, std::vector<TriangleId>& found);
+[[nodiscard]] ContactDetails detailsOf(const QueryPlan& plan, const ChainMotion& motion,
+                                       const PairContact& contact);
+}  // namespace internal
 
 }  // namespace foretouch

@@ -95,6 +95,16 @@ void Query::answer(const ChainMotion& motion, QueryScratch& scratch, StepContact
   if (plan_->self.isAsked()) internal::SelfQuery(*plan_, motion, meter, parts).run(step);
 }
 
+ContactDetails Query::details(const ChainMotion& motion, const LinkContact& contact,
+                              QueryScratch& scratch) const {
+  return internal::detailsOf(*plan_, motion, contact, scratch.parts().found);
+}
+
+ContactDetails Query::details(const ChainMotion& motion, const PairContact& contact,
+                              QueryScratch& /*scratch*/) const {
+  return internal::detailsOf(*plan_, motion, contact);
+}
+
 StepContacts Query::answer(const ChainMotion& motion, QueryScratch& scratch) const {
   StepContacts step;
   answer(motion, scratch, step);

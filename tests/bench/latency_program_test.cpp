@@ -89,7 +89,7 @@ TEST_F(BenchProgram, LatencyReportsEveryRateToleranceAndCache) {
       0u);
   EXPECT_FALSE(report["machine"]["processor"].get<std::string>().empty());
   const Json rows = table(report, "latency");
-  EXPECT_EQ(rows.size(), 2u * (4u + 1u));  // the second tolerance only warm
+  EXPECT_EQ(rows.size(), 2u * (5u + 1u));  // the second tolerance only warm
   for (const Json& row : rows) {
     EXPECT_GT(row["ray_set_us"], 0.0);
     EXPECT_LE(row["p50_us"], row["p90_us"]);

@@ -20,7 +20,7 @@ using foretouch::test::SweepTally;
 
 struct Arguments {
   std::vector<std::string> clips{"all"};
-  std::vector<std::string> scenes = foretouch::test::sceneNames();
+  std::vector<std::string> scenes;
   std::vector<double> rates{5, 10, 30};
   std::vector<double> tolerances{1e-3, 1e-5};
   int maxSteps = 200, threads = 2, placements = 2;
@@ -28,7 +28,7 @@ struct Arguments {
                     fidelity = "link";
   double budgetS = 0.0, deadlineUs = 0.0;
   std::uint64_t workBudget = 0;
-  bool everyClip = false;
+  bool everyClip = false, self = false;
 };
 
 std::vector<std::string> simdNames() {
@@ -46,7 +46,9 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
                  "are judged at "
                  "exact fidelity")
       ->delimiter(',');
-  app.add_option("--scenes", a.scenes, "Scenes by name")->delimiter(',');
+  app.add_option("--scenes", a.scenes, "Scenes by name; all if none is given")->delimiter(',');
+  app.add_flag("--self", a.self,
+               "Judge whether own links touch each other; without --scenes, with nothing around");
   app.add_option("--rates", a.rates, "Pose rates in Hz")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
@@ -79,6 +81,7 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
   }
   a.everyClip = a.clips == std::vector<std::string>{"all"};
   if (a.everyClip) a.clips = foretouch::test::clipPaths(a.data);
+  if (a.scenes.empty() && !a.self) a.scenes = foretouch::test::sceneNames();
   return a;
 }
 
@@ -109,13 +112,12 @@ class Run {
 
   void clipInScene(const SweepClip& clip, const SweepScene& scene) {
     for (const auto& placement : choosePlacements(clip, scene, arguments_.placements)) {
-      for (const double rate : arguments_.rates) {
-        for (const double tolerance : arguments_.tolerances) {
-          if (total_.outOfTime) return;
-          combination(clip, scene, placement, rate, tolerance);
-        }
-      }
+      placedClip(clip, scene, placement);
     }
+  }
+
+  void clipAlone(const SweepClip& clip) {
+    placedClip(clip, foretouch::test::emptySurroundings(), foretouch::test::Placement{});
   }
 
   [[nodiscard]] bool outOfTime() const { return total_.outOfTime; }
@@ -129,11 +131,29 @@ class Run {
   }
 
  private:
-  void combination(const SweepClip& clip, const SweepScene& scene,
-                   const foretouch::test::Placement& placement, double rate, double tolerance) {
+  void placedClip(const SweepClip& clip, const SweepScene& scene,
+                  const foretouch::test::Placement& placement) {
     SweepOptions options;
-    options.rateHz = rate;
-    options.tolerance = tolerance;
+    if (arguments_.self) {
+      auto rules = foretouch::PairRules::derive(clip.avatar);
+      if (!rules) {
+        std::cerr << "left out: " << clip.name << ": " << describe(rules.error()) << "\n";
+        return;
+      }
+      options.self = std::move(rules).value();
+    }
+    for (const double rate : arguments_.rates) {
+      for (const double tolerance : arguments_.tolerances) {
+        if (total_.outOfTime) return;
+        options.rateHz = rate;
+        options.tolerance = tolerance;
+        combination(clip, scene, placement, options);
+      }
+    }
+  }
+
+  void combination(const SweepClip& clip, const SweepScene& scene,
+                   const foretouch::test::Placement& placement, SweepOptions options) {
     options.maxSteps = arguments_.maxSteps;
     options.threads = arguments_.threads;
     options.reference.culler =
@@ -150,9 +170,9 @@ class Run {
     if (arguments_.fidelity == "avatar") options.fidelity = foretouch::Fidelity::Avatar;
     options.deadline = deadline_;
     const SweepTally tally = sweep(clip, scene, placement, options);
-    std::cout << clip.name << " x " << scene.name << ", " << rate << " Hz, eps " << tolerance
-              << ", probed contact rate " << placement.contactRate << ": " << tally.summary()
-              << std::endl;
+    std::cout << clip.name << " x " << scene.name << ", " << options.rateHz << " Hz, eps "
+              << options.tolerance << ", probed contact rate " << placement.contactRate << ": "
+              << tally.summary() << std::endl;
     total_.add(tally);
   }
 
@@ -171,6 +191,9 @@ int main(int argc, char** argv) {
   const auto clips = loadClips(*arguments);
   if (!clips) return 2;
   Run run(*arguments);
+  if (arguments->scenes.empty()) {
+    for (const SweepClip& clip : *clips) run.clipAlone(clip);
+  }
   for (const std::string& name : arguments->scenes) {
     if (run.outOfTime()) break;
     const auto scene = foretouch::test::loadScene(name, arguments->data);

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "middleware/ladder/rungs.h"
+#include "tests/support/judged_pairs.h"
 
 namespace foretouch::test {
 namespace {
@@ -29,6 +30,10 @@ class Sweeper {
     query_.deadlineUs = options.deadlineUs;
     query_.surface = clip.surface;
     query_.fidelity = clip.surface ? Fidelity::Exact : options.fidelity;
+    query_.self = options.self;
+    if (options.self) {
+      pairs_.emplace(clip.avatar, *options.self, clip.surface ? &*clip.surface : nullptr);
+    }
     stride_ = std::min(strideFor(clip.clip, options.rateHz),
                        static_cast<int>(clip.clip.frames.size()) - 1);
     steps_ = clip.numSteps(stride_);
@@ -76,12 +81,13 @@ class Sweeper {
         placed(skeleton, clip_.clip.frames[frame + static_cast<std::size_t>(stride_)], placement_);
     const auto asked = Clock::now();
     const ChainMotion motion(skeleton, from, to);
-    const StepContacts answer = query.answer(motion, scratch);
+    StepContacts answer = query.answer(motion, scratch);
     const double seconds = secondsSince(asked);
     tally.querySeconds += seconds;
     tally.slowestQueryS = std::max(tally.slowestQueryS, seconds);
     ++tally.steps;
     const oracle::Motion truth(plainJoints(skeleton, from, to));
+    if (pairs_) return judgePairs(n, answer, truth, tally);
     if (query_.fidelity == Fidelity::Limb || query_.fidelity == Fidelity::Avatar) {
       judgeVolumes(n, motion, answer, truth, tally);
       return;
@@ -89,6 +95,21 @@ class Sweeper {
     for (LinkContact contact : answer.links) {
       if (options_.tamper) options_.tamper(contact);
       judge(n, contact, truth, tally);
+    }
+  }
+
+  void judgePairs(int n, StepContacts& step, const oracle::Motion& truth, SweepTally& tally) const {
+    if (!step.arePairsAnswered) {
+      ++tally.failedQueries;
+      note(tally, where(n) + " says nothing of pairs");
+    }
+    if (options_.tamperWithPairs) options_.tamperWithPairs(step.pairs);
+    const auto start = Clock::now();
+    const std::vector<JudgedPair> judged = pairs_->judge(truth, step, options_.tolerance);
+    addJudgeTime(start, tally);
+    for (const JudgedPair& pair : judged) {
+      count(pair.verdict, pair.judgement, tally);
+      if (!pair.isOk()) note(tally, where(n) + " " + pair.text(clip_.avatar.skeleton()));
     }
   }
 
@@ -125,14 +146,8 @@ class Sweeper {
                       .judge(answer, options_.tolerance)
                 : oracle::Judge(scene_.oracle, truth, contact.link, capsules)
                       .judge(answer, options_.tolerance);
-    const double seconds = secondsSince(start);
-    tally.judgeSeconds += seconds;
-    tally.slowestJudgementS = std::max(tally.slowestJudgementS, seconds);
-    ++tally.judged;
-    ++tally.verdicts[static_cast<std::size_t>(answer.verdict)];
-    ++tally.findings[static_cast<std::size_t>(judgement.finding)];
-    tally.grazing += judgement.grazing;
-    tally.looks += judgement.looks;
+    addJudgeTime(start, tally);
+    count(answer.verdict, judgement, tally);
     if (judgement.finding == oracle::Finding::Ok) return;
     std::ostringstream line;
     line << where(n) << " link " << contact.link << " '"
@@ -144,6 +159,21 @@ class Sweeper {
          << (judgement.what.empty() ? "" : ")") << ": at t " << std::setprecision(21)
          << judgement.time << " the separation is " << judgement.separation;
     note(tally, line.str());
+  }
+
+  static void addJudgeTime(Clock::time_point start, SweepTally& tally) {
+    const double seconds = secondsSince(start);
+    tally.judgeSeconds += seconds;
+    tally.slowestJudgementS = std::max(tally.slowestJudgementS, seconds);
+  }
+
+  static void count(oracle::Verdict verdict, const oracle::Judgement& judgement,
+                    SweepTally& tally) {
+    ++tally.judged;
+    ++tally.verdicts[static_cast<std::size_t>(verdict)];
+    ++tally.findings[static_cast<std::size_t>(judgement.finding)];
+    tally.grazing += judgement.grazing;
+    tally.looks += judgement.looks;
   }
 
   [[nodiscard]] std::string where(int n) const {
@@ -164,6 +194,7 @@ class Sweeper {
   const Placement& placement_;
   const SweepOptions& options_;
   QueryOptions query_;
+  std::optional<PairsJudge> pairs_;  // of own links, if they are asked
   int stride_ = 1, steps_ = 0, chosen_ = 0;
   std::atomic<int> next_{0};
 };
@@ -201,7 +232,7 @@ std::string SweepTally::summary() const {
   using oracle::Finding;
   using oracle::Verdict;
   std::ostringstream text;
-  text << steps << " steps, " << judged << " link-steps: " << of(Verdict::Contact) << " contact, "
+  text << steps << " steps, " << judged << " answers: " << of(Verdict::Contact) << " contact, "
        << of(Verdict::StartsInContact) << " starts in contact, " << of(Verdict::Clear) << " clear, "
        << of(Verdict::Undecided) << " undecided";
   for (const auto finding : {Finding::Missed, Finding::Late, Finding::Early, Finding::WrongStart,
@@ -211,7 +242,7 @@ std::string SweepTally::summary() const {
   if (failedQueries > 0) text << ", " << failedQueries << " failed queries";
   text << std::setprecision(3) << "; " << grazing << " grazing spans; query " << querySeconds
        << " s (slowest step " << 1e3 * slowestQueryS << " ms), judge " << judgeSeconds
-       << " s (slowest link " << 1e3 * slowestJudgementS << " ms)";
+       << " s (slowest " << 1e3 * slowestJudgementS << " ms)";
   return text.str();
 }
 

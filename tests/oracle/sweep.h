@@ -1,5 +1,5 @@
 // tests/oracle/sweep.h: runs the product on many steps of a real clip in a real scene; the oracle
-// judges every answer.
+// judges every answer about links and the scene, or about the body's own links.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "articulated/pair_rules.h"
 #include "middleware/reference/reference_query.h"
 #include "tests/oracle/sweep_inputs.h"
 
@@ -25,14 +26,18 @@ struct SweepOptions {
   double deadlineUs = QueryOptions{}.deadlineUs;
   /// For clips without a surface: a rung above the links; then judges its volumes instead.
   Fidelity fidelity = Fidelity::Link;
+  /// Asks whether own links touch each other, and judges that instead.
+  std::optional<PairRules> self;
   std::optional<std::chrono::steady_clock::time_point> deadline;
   /// Applied to every answer before the judge: for controls that plant lies.
   std::function<void(LinkContact&)> tamper;
+  std::function<void(std::vector<PairContact>&)> tamperWithPairs;
 };
 
 struct SweepTally {
   static constexpr std::size_t kFindings = 7, kVerdicts = 4;
-  std::uint64_t steps = 0, judged = 0;  ///< Judged: links with a surface, once per step.
+  /// Judged: links with a surface, or asked pairs of links, once per step.
+  std::uint64_t steps = 0, judged = 0;
   std::array<std::uint64_t, kVerdicts> verdicts{};
   std::array<std::uint64_t, kFindings> findings{};
   std::uint64_t failedQueries = 0;

@@ -148,6 +148,19 @@ std::vector<std::string> sceneNames() {
   return names;
 }
 
+SweepScene emptySurroundings() {
+  using Eigen::Vector3d;
+  RawScene raw;
+  raw.objectNames = {"far"};
+  // Not farther than it must: the product's places are relative to the scene's middle, and round by
+  // their distance from it.
+  raw.triangles.push_back({{Vector3d(90, 90, 90), Vector3d(91, 90, 90), Vector3d(90, 91, 90)}});
+  raw.objectOf = {0};
+  std::vector<oracle::Triangle> triangles = plain(raw.triangles);
+  return {"nothing", std::move(Scene::build(std::move(raw))).value(),
+          oracle::Scene(std::move(triangles))};
+}
+
 Result<SweepScene> loadScene(const std::string& name, const std::string& dataFolder) {
   const auto* known = std::find_if(std::begin(kScenes), std::end(kScenes),
                                    [&](const KnownScene& k) { return name == k.name; });

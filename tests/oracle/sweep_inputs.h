@@ -50,6 +50,8 @@ struct SweepScene {
 
 /// The scenes that the sweep knows by name, with their files and up axes.
 [[nodiscard]] std::vector<std::string> sceneNames();
+/// One triangle out of every clip's reach: for questions about own links alone.
+[[nodiscard]] SweepScene emptySurroundings();
 [[nodiscard]] Result<SweepScene> loadScene(const std::string& name, const std::string& dataFolder);
 
 /// Every BVH file's path in data/mocap, sorted.

@@ -13,56 +13,17 @@
 #include "middleware/query/query.h"
 #include "tessellation/swept_lss.h"
 #include "tests/middleware/mesh_body.h"
+#include "tests/middleware/own_body.h"
 #include "tests/support/asked.h"
-#include "tests/support/random_motion.h"
 
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
+using test::farScene;
+using test::OwnBody;
 using test::Random;
-
-/// A random tree of links with LSS, on its way from one random pose to another.
-struct OwnBody {
-  test::RandomMotion steps;
-  Avatar avatar;
-
-  [[nodiscard]] ChainMotion motion() const { return {steps.skeleton, steps.from, steps.to}; }
-};
-
-std::vector<Lss> randomLss(Random& random) {
-  std::vector<Lss> lss;
-  const int count = 1 + random.below(3);
-  for (int i = 0; i < count; ++i) {
-    Lss one{random.inBox(0.15), random.inBox(0.3), random.magnitude(1e-3, 0.08)};
-    if (random.chance(0.1)) one.b = one.a;
-    if (random.chance(0.1)) one.radius = 0.0;
-    lss.push_back(one);
-  }
-  return lss;
-}
-
-OwnBody randomOwnBody(Random& random) {
-  test::RandomMotion steps = test::randomMotion(random, 3 + random.below(8));
-  std::vector<std::vector<Lss>> lss;
-  for (LinkId link = 0; link < steps.skeleton.numJoints(); ++link) {
-    lss.push_back(link > 1 && random.chance(0.2) ? std::vector<Lss>{} : randomLss(random));
-  }
-  Avatar avatar = Avatar::build(steps.skeleton, lss).value();
-  return {std::move(steps), std::move(avatar)};
-}
-
-/// A triangle that no body here reaches.
-const Scene& farScene() {
-  static const Scene scene = [] {
-    RawScene raw;
-    raw.objectNames = {"far"};
-    raw.triangles.push_back({{Vector3d(90, 90, 90), Vector3d(91, 90, 90), Vector3d(90, 91, 90)}});
-    raw.objectOf = {0};
-    return Scene::build(std::move(raw)).value();
-  }();
-  return scene;
-}
+using test::randomOwnBody;
 
 /// Of the LSS of two links at an instant, their radii counted.
 double separationAt(const Avatar& avatar, const std::vector<LinkState>& states, LinkId a,
