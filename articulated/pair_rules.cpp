@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
-#include "articulated/motion.h"
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/separation.h"
@@ -32,12 +32,18 @@ bool isAdjacent(const Avatar& avatar, LinkId a, LinkId b) {
   return boundedAbove(avatar, b) == a || boundedAbove(avatar, a) == b;
 }
 
+std::vector<LinkState> statesIn(const Avatar& avatar, const Pose& pose) {
+  std::vector<LinkState> states;
+  ChainMotion(avatar.skeleton(), pose, pose).statesAt(0.0, states);
+  return states;
+}
+
 /// All LSS of an avatar in one pose.
 class PosedAvatar {
  public:
-  PosedAvatar(const Avatar& avatar, const Pose& pose) : avatar_(avatar) {
-    ChainMotion(avatar.skeleton(), pose, pose).statesAt(0.0, states_);
-  }
+  /// Keeps references to both.
+  PosedAvatar(const Avatar& avatar, const std::vector<LinkState>& states)
+      : avatar_(avatar), states_(states) {}
   /// Of the axes (m).
   [[nodiscard]] double distance(LinkId a, std::size_t lssA, LinkId b, std::size_t lssB) const {
     return separation(axisOf(a, lssA), axisOf(b, lssB)).distance;
@@ -60,7 +66,7 @@ class PosedAvatar {
   }
 
   const Avatar& avatar_;
-  std::vector<LinkState> states_;
+  const std::vector<LinkState>& states_;
 };
 
 /// Calls `visit` with every two different links that both have LSS, the lower one first.
@@ -99,12 +105,38 @@ std::vector<std::int64_t> countTouches(const Avatar& avatar, const std::vector<P
   const auto n = countOf(avatar.numLinks());
   std::vector<std::int64_t> touches(n * n, 0);
   for (const Pose& pose : poses) {
-    const PosedAvatar posed(avatar, pose);
+    const std::vector<LinkState> states = statesIn(avatar, pose);
+    const PosedAvatar posed(avatar, states);
     forPairs(avatar, [&](LinkId a, LinkId b) {
       if (posed.touch(a, b)) ++touches[slotOf(a) * n + slotOf(b)];
     });
   }
   return touches;
+}
+
+std::tuple<LinkId, LinkId, std::int32_t, std::int32_t> placeOf(const PairRadius& own) {
+  return {own.a, own.b, own.lssA, own.lssB};
+}
+
+/// What is wrong with a radius; nullptr: nothing.
+const char* wrongOf(const Avatar& avatar, const PairRadius& own) {
+  if (own.a < 0 || own.b >= avatar.numLinks()) return "expected links of the avatar";
+  if (own.a == own.b) return "expected two different links";
+  const auto &ofA = avatar.lss(own.a), &ofB = avatar.lss(own.b);
+  if (own.lssA < 0 || slotOf(own.lssA) >= ofA.size() || own.lssB < 0 ||
+      slotOf(own.lssB) >= ofB.size()) {
+    return "expected LSS that the two links have";
+  }
+  const double sum = ofA[slotOf(own.lssA)].radius + ofB[slotOf(own.lssB)].radius;
+  return own.radius > 0.0 && own.radius < sum
+             ? nullptr
+             : "expected metres, above 0 and below the sum of the two radii";
+}
+
+Error radiusRefused(std::size_t place, const char* why) {
+  Error error = Error::in("radii", ErrorCode::OutOfRange, why);
+  error.index = static_cast<std::int64_t>(place);
+  return error;
 }
 
 Result<Done> checkedOptions(const Avatar& avatar, const PairRuleOptions& options) {
@@ -147,7 +179,8 @@ Result<PairRules> PairRules::derive(const Avatar& avatar, const PairRuleOptions&
   const std::size_t numPoses = options.usualPoses == nullptr ? 0 : options.usualPoses->size();
   std::vector<std::int64_t> touches;
   if (numPoses > 0) touches = countTouches(avatar, *options.usualPoses);
-  const PosedAvatar rest(avatar, restPose(avatar.skeleton()));
+  const std::vector<LinkState> atRest = statesIn(avatar, restPose(avatar.skeleton()));
+  const PosedAvatar rest(avatar, atRest);
   forPairs(avatar, [&](LinkId a, LinkId b) {
     const auto leaveOut = [&](PairReason reason) { rules.leftOut_.push_back({a, b, reason}); };
     if (isAdjacent(avatar, a, b)) return leaveOut(PairReason::Adjacent);
@@ -164,10 +197,13 @@ Result<PairRules> PairRules::derive(const Avatar& avatar, const PairRuleOptions&
   return rules;
 }
 
-Result<PairRules> PairRules::of(const Avatar& avatar, std::vector<LeftOutPair> leftOut) {
+Result<PairRules> PairRules::of(const Avatar& avatar, std::vector<LeftOutPair> leftOut,
+                                std::vector<PairRadius> radii) {
   PairRules rules;
   rules.leftOut_ = std::move(leftOut);
   FORETOUCH_CHECK(rules.settle(avatar));
+  rules.radii_ = std::move(radii);
+  FORETOUCH_CHECK(rules.settleRadii(avatar));
   return rules;
 }
 
@@ -203,6 +239,36 @@ Result<Done> PairRules::settle(const Avatar& avatar) {
   return Done{};
 }
 
+Result<Done> PairRules::settleRadii(const Avatar& avatar) {
+  std::vector<std::size_t> order(radii_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = 0; i < radii_.size(); ++i) {
+    PairRadius& own = radii_[i];
+    if (own.a > own.b) {
+      std::swap(own.a, own.b);
+      std::swap(own.lssA, own.lssB);
+    }
+    if (const char* const wrong = wrongOf(avatar, own); wrong != nullptr) {
+      return radiusRefused(i, wrong);
+    }
+    if (reasonOf(own.a, own.b) != PairReason::Asked) {
+      return radiusRefused(i, "expected a pair of links that is asked");
+    }
+  }
+  std::sort(order.begin(), order.end(), [this](std::size_t x, std::size_t y) {
+    return std::make_tuple(placeOf(radii_[x]), x) < std::make_tuple(placeOf(radii_[y]), y);
+  });
+  std::vector<PairRadius> sorted;
+  for (const std::size_t i : order) {
+    if (!sorted.empty() && placeOf(sorted.back()) == placeOf(radii_[i])) {
+      return radiusRefused(i, "expected each two LSS once");
+    }
+    sorted.push_back(radii_[i]);
+  }
+  radii_ = std::move(sorted);
+  return Done{};
+}
+
 PairReason PairRules::reasonOf(LinkId a, LinkId b) const {
   if (a > b) std::swap(a, b);
   const auto found = std::lower_bound(leftOut_.begin(), leftOut_.end(), LeftOutPair{a, b, {}},
@@ -211,6 +277,20 @@ PairReason PairRules::reasonOf(LinkId a, LinkId b) const {
                                       });
   const bool isLeftOut = found != leftOut_.end() && found->a == a && found->b == b;
   return isLeftOut ? found->reason : PairReason::Asked;
+}
+
+PairReasonCheck::PairReasonCheck(const Avatar& avatar)
+    : avatar_(avatar), atRest_(statesIn(avatar, restPose(avatar.skeleton()))) {}
+
+bool PairReasonCheck::isTrue(const LeftOutPair& pair) const {
+  switch (pair.reason) {
+    case PairReason::Adjacent: return isAdjacent(avatar_, pair.a, pair.b);
+    case PairReason::RestOverlap: return PosedAvatar(avatar_, atRest_).touch(pair.a, pair.b);
+    case PairReason::Asked:
+    case PairReason::Always:
+    case PairReason::User: break;
+  }
+  return true;
 }
 
 }  // namespace foretouch

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "articulated/motion.h"
 #include "articulated/pose.h"
 #include "articulated/result.h"
 
@@ -64,8 +65,11 @@ class PairRules {
   /// link with itself (Error::index is the link), and rules that leave no pair to ask. O(LSS^2),
   /// times poses where there are any.
   static Result<PairRules> derive(const Avatar& avatar, const PairRuleOptions& options = {});
-  /// Exactly these are left out. Errors as above.
-  static Result<PairRules> of(const Avatar& avatar, std::vector<LeftOutPair> leftOut);
+  /// Exactly these are left out, and only these LSS count with radii of their own. Errors as above;
+  /// radii of unknown LSS, of a pair that is left out or listed before, or not between 0 and the
+  /// sum of the two (Error::index is the place in `radii`).
+  static Result<PairRules> of(const Avatar& avatar, std::vector<LeftOutPair> leftOut,
+                              std::vector<PairRadius> radii = {});
 
   [[nodiscard]] std::int32_t numLinks() const { return numLinks_; }
   /// Pairs of different links that both have LSS, and those of them that are asked.
@@ -73,6 +77,7 @@ class PairRules {
   [[nodiscard]] std::int64_t numAsked() const { return numAsked_; }
   /// By a, then by b; every pair once.
   [[nodiscard]] const std::vector<LeftOutPair>& leftOut() const { return leftOut_; }
+  /// a < b; by a, then by b, then by the LSS.
   [[nodiscard]] const std::vector<PairRadius>& radii() const { return radii_; }
   /// Two different links, in either order. O(log pairs).
   [[nodiscard]] PairReason reasonOf(LinkId a, LinkId b) const;
@@ -82,12 +87,27 @@ class PairRules {
  private:
   PairRules() = default;
   Result<Done> settle(const Avatar& avatar);
+  Result<Done> settleRadii(const Avatar& avatar);
 
   std::int32_t numLinks_ = 0;
   std::int64_t numPairs_ = 0, numAsked_ = 0;
   std::uint64_t avatarIdentity_ = 0;
   std::vector<LeftOutPair> leftOut_;
   std::vector<PairRadius> radii_;
+};
+
+/// Whether an avatar is what a reason says: its links adjacent, its LSS overlapping at rest. Always
+/// true of the other reasons, which are not about the avatar alone. Precondition: its links.
+class PairReasonCheck {
+ public:
+  /// Keeps a copy of the avatar. O(links).
+  explicit PairReasonCheck(const Avatar& avatar);
+  /// O(links + LSS^2 of the two).
+  [[nodiscard]] bool isTrue(const LeftOutPair& pair) const;
+
+ private:
+  Avatar avatar_;
+  std::vector<LinkState> atRest_;
 };
 
 }  // namespace foretouch

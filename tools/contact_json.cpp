@@ -21,9 +21,11 @@ void writeValue(const Value& value, JsonWriter& out) {
 }  // namespace
 
 void writeContact(const LinkContact& contact, const ContactWords& words, JsonWriter& out) {
+  const bool isOwn = !words.other.empty();
   for (const ContactField& field : kContactFields) {
     if (!isTold(field.use, contact)) continue;
     const std::string_view name = field.name;
+    if (isOwn && (name == "object" || (name == "triangle" && contact.triangle < 0))) continue;
     out.key(name);
     if (name == "link") {
       out.raw(words.link);
@@ -32,6 +34,7 @@ void writeContact(const LinkContact& contact, const ContactWords& words, JsonWri
     } else {
       std::visit([&](auto member) { writeValue(contact.*member, out); }, field.member);
     }
+    if (isOwn && name == "link") out.rawField("other", words.other);
     if (name != "toi") continue;
     if (words.timeS) out.field("time", *words.timeS);
     if (words.utimeUs) out.field("utime", *words.utimeUs);

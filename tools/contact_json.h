@@ -17,6 +17,8 @@ struct ContactWords {
   std::string_view object;      ///< Not read if the link is undecided, nor are the next fields.
   std::optional<double> timeS;  ///< Time of contact: in the clip,
   std::optional<std::int64_t> utimeUs;  ///< and on the clock.
+  /// The own link, its name or number, that takes the place of the scene; empty: none.
+  std::string_view other;
 };
 
 /// Writes the contact's fields by kContactFields into an open object. `contact` is not clear.

@@ -13,8 +13,10 @@ struct ReportedContact {
   std::int64_t step = 0;
   // Not read for undecided links.
   double timeS = 0.0;          ///< Seconds on the document's clock.
-  std::string object;          ///< The object touched; may be empty if a scene is available.
+  std::string object;          ///< The object touched; may be empty if a scene is available. Of
+                               ///< own links the other one's name.
   bool missedByPoses = false;  ///< No touch at either pose.
+  LinkId other = -1;           ///< The own link that takes the place of the scene; -1: none.
 };
 
 /// The time of contact, in a step from `t0S` to `t1S`.

@@ -1,26 +1,21 @@
 #include "assets/avatar/avatar_file.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <new>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "articulated/try.h"
+#include "assets/avatar/marked_sax.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
 
 namespace foretouch {
 namespace {
-
-using nlohmann::json;
 
 constexpr char kFormatName[] = "foretouch-avatar";
 constexpr double kFormatVersion = 1.0;
@@ -72,37 +67,11 @@ const char* expectation(Kind kind) {
   return "";
 }
 
-/// Reads for the JSON parser and records its position, for line numbers.
-struct MarkingIterator {
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  const char* at;
-  const char** mark;
-
-  reference operator*() const { return *at; }
-  MarkingIterator& operator++() {
-    *mark = ++at;
-    return *this;
-  }
-  bool operator==(const MarkingIterator& other) const { return at == other.at; }
-  bool operator!=(const MarkingIterator& other) const { return at != other.at; }
-};
-
-/// Fills raw links from the parser's events as they come, so that the format bounds the memory, not
-/// the text. Ends the parse at the first event out of place.
-class AvatarSax final : public nlohmann::json_sax<json> {
+/// Fills raw links from the parser's events.
+class AvatarSax final : public internal::MarkedSax {
  public:
-  AvatarSax(std::string_view text, const std::string& file)
-      : text_(text), file_(file), mark_(text.data()) {}
+  using MarkedSax::MarkedSax;
 
-  [[nodiscard]] MarkingIterator begin() { return {text_.data(), &mark_}; }
-  [[nodiscard]] MarkingIterator end() { return {text_.data() + text_.size(), &mark_}; }
-
-  [[nodiscard]] Error error() const { return *error_; }
   [[nodiscard]] Result<Avatar> build();
 
   bool null() override {
@@ -121,7 +90,6 @@ class AvatarSax final : public nlohmann::json_sax<json> {
   bool end_object() override;
   bool start_array(std::size_t) override;
   bool end_array() override;
-  bool parse_error(std::size_t, const std::string& token, const json::exception& e) override;
 
  private:
   [[nodiscard]] Place place() const { return places_.empty() ? Place::Outside : places_.back(); }
@@ -136,15 +104,9 @@ class AvatarSax final : public nlohmann::json_sax<json> {
     field_ = nullptr;
     return true;
   }
-  bool fail(ErrorCode code, const std::string& message);
+  bool fail(ErrorCode code, const std::string& message) override;
   bool unexpected(const std::string& found);
-  [[nodiscard]] std::int64_t line() const;
   [[nodiscard]] Error located(Error error) const;
-
-  std::string_view text_;
-  const std::string& file_;
-  const char* mark_;
-  std::optional<Error> error_;
 
   std::vector<Place> places_;
   std::vector<unsigned> seen_;  // per open object: which of kFields it has had
@@ -158,17 +120,10 @@ class AvatarSax final : public nlohmann::json_sax<json> {
   std::unordered_map<std::string, JointId> byName_;
 };
 
-// A number ends with the byte after it, which the parser has then already taken; every other token
-// ends with a byte that is not a line break. So the last byte taken never counts.
-std::int64_t AvatarSax::line() const {
-  const char* last = mark_ == text_.data() ? mark_ : mark_ - 1;
-  return 1 + std::count(text_.data(), last, '\n');
-}
-
 bool AvatarSax::fail(ErrorCode code, const std::string& message) {
   Error error;
   error.code = code;
-  error.file = file_;
+  error.file = file();
   error.line = line();
   error.message = message;
   if (!raw_.joints.empty() && places_.size() > 2) {  // inside a link
@@ -176,8 +131,7 @@ bool AvatarSax::fail(ErrorCode code, const std::string& message) {
     error.message =
         "link " + std::to_string(error.index) + " " + inQuotes(joint().name) + ": " + error.message;
   }
-  error_ = std::move(error);
-  return false;
+  return stop(std::move(error));
 }
 
 bool AvatarSax::unexpected(const std::string& found) {
@@ -333,25 +287,8 @@ bool AvatarSax::end_array() {
   return valueDone();
 }
 
-bool AvatarSax::parse_error(std::size_t, const std::string& token, const json::exception& e) {
-  constexpr int kNumberOverflow = 406;
-  constexpr std::size_t kShown = 32;
-  const std::string_view tail =
-      std::string_view(token).substr(token.size() - std::min(token.size(), kShown));
-  if (e.id == kNumberOverflow) {
-    return fail(ErrorCode::NonFinite,
-                "the number " + inQuotes(tail) + " is too large for a double");
-  }
-  // Only the end of the library's text is useful here, and free of the file's content.
-  const std::string_view what = e.what();
-  const std::size_t expected = what.rfind("; expected ");
-  return fail(ErrorCode::Syntax,
-              "broken JSON at " + inQuotes(tail) +
-                  (expected == what.npos ? std::string() : std::string(what.substr(expected))));
-}
-
 Error AvatarSax::located(Error error) const {
-  error.file = file_;
+  error.file = file();
   if (error.index >= 0 && slotOf(error.index) < lines_.size()) {
     error.line = lines_[slotOf(error.index)];
   }
@@ -375,7 +312,7 @@ Result<Avatar> parseAvatar(std::string_view json, const std::string& name) {
   }
   try {
     AvatarSax sax(json, name);
-    if (!nlohmann::json::sax_parse(sax.begin(), sax.end(), &sax)) return sax.error();
+    if (!sax.parse()) return sax.error();
     return sax.build();
   } catch (const std::bad_alloc&) {
     return Error::in(name, ErrorCode::LimitExceeded, "does not fit into memory");

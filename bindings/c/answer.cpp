@@ -1,5 +1,6 @@
 // bindings/c/answer.cpp: the answer of a query's last step.
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -55,12 +56,17 @@ ft_contact contactOf(const LinkContact& contact, const Scene& scene) {
   return c;
 }
 
-/// Writes `count` contacts; `at(i)` returns the i-th.
+/// The other link's triangle is none of the scene's.
+ft_contact contactOf(PairContact contact, const Scene& scene) {
+  const TriangleId triangle = std::exchange(contact.triangle, -1);
+  ft_contact c = contactOf(static_cast<const LinkContact&>(contact), scene);
+  c.triangle = triangle;
+  return c;
+}
+
+/// Writes `count` contacts; `at(i)` returns the i-th. Precondition: there is room.
 template <typename At>
-ft_status writeContacts(const Scene& scene, std::size_t count, const At& at, ft_contact* contacts,
-                        std::size_t capacity, std::size_t* required) {
-  const Room room = roomFor(count, contacts, capacity, required, "contacts");
-  if (room.status != FT_OK || room.isAsking || count == 0) return room.status;
+ft_status fillContacts(const Scene& scene, std::size_t count, const At& at, ft_contact* contacts) {
   std::size_t stride = 0;
   if (const auto s = readSize(contacts, "ft_contact", stride); s != FT_OK) return s;
   const auto size = static_cast<std::uint32_t>(stride);
@@ -72,6 +78,15 @@ ft_status writeContacts(const Scene& scene, std::size_t count, const At& at, ft_
     if (s != FT_OK) return s;
   }
   return FT_OK;
+}
+
+/// The same with the check for room.
+template <typename At>
+ft_status writeContacts(const Scene& scene, std::size_t count, const At& at, ft_contact* contacts,
+                        std::size_t capacity, std::size_t* required) {
+  const Room room = roomFor(count, contacts, capacity, required, "contacts");
+  if (room.status != FT_OK || room.isAsking || count == 0) return room.status;
+  return fillContacts(scene, count, at, contacts);
 }
 
 ft_transform transformOf(const LinkState& state) {
@@ -111,6 +126,29 @@ ft_status ft_query_contacts(const ft_query* query, ft_contact* contacts, size_t 
     };
     return writeContacts(query->question->scene(), reported.size(), at, contacts, capacity,
                          required);
+  });
+}
+
+ft_status ft_query_pairs(const ft_query* query, ft_contact* contacts, ft_other_link* others,
+                         size_t capacity, size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checkedStep(query); s != FT_OK) return s;
+    if (!query->step.answer.arePairsAnswered) {
+      return failure(
+          FT_ERROR_MISMATCH, kNoIndex,
+          "expected ft_query_set_pair_rules() before the step: own links were not asked");
+    }
+    const auto& pairs = query->step.answer.pairs;
+    const Room room = roomFor(pairs.size(), contacts, capacity, required, "contacts");
+    if (room.status != FT_OK || room.isAsking || pairs.empty()) return room.status;
+    if (const auto s = needed(others, "others"); s != FT_OK) return s;
+    const auto at = [&](std::size_t i) -> const PairContact& { return pairs[i]; };
+    const auto s = fillContacts(query->question->scene(), pairs.size(), at, contacts);
+    if (s != FT_OK) return s;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      others[i] = {pairs[i].other, pairs[i].otherLss};
+    }
+    return FT_OK;
   });
 }
 

@@ -10,6 +10,7 @@
 #include "articulated/avatar.h"
 #include "articulated/clip.h"
 #include "articulated/motion.h"
+#include "articulated/pair_rules.h"
 #include "articulated/pose.h"
 #include "assets/avatar/joint_match.h"
 #include "bindings/c/status.h"
@@ -32,6 +33,7 @@ enum class Mark : std::uint64_t {
   Avatar = 0x6174617641746600u,
   Clip = 0x0070696c43746600u,
   Query = 0x0079726575746600u,
+  PairRules = 0x0072696170746600u,
 };
 
 }  // namespace foretouch::c
@@ -60,6 +62,13 @@ struct ft_clip {
   foretouch::Placement placement;
 };
 
+struct ft_pair_rules {
+  static constexpr auto kMark = foretouch::c::Mark::PairRules;
+  static constexpr const char* kName = "rules";
+  foretouch::c::Mark mark = kMark;
+  foretouch::PairRules rules;
+};
+
 /// For one thread. Computes a step beside the last one, which it replaces once done.
 struct ft_query {
   static constexpr auto kMark = foretouch::c::Mark::Query;
@@ -75,6 +84,7 @@ struct ft_query {
 
   foretouch::c::Mark mark = kMark;
   std::shared_ptr<const foretouch::c::AvatarParts> avatar;
+  std::optional<foretouch::PairRules> self;  // stay when the options change
   std::optional<foretouch::Query> question;  // from ft_query_create() on
   foretouch::QueryScratch scratch;
   bool isScratchSuspect = false;  // an exception left it half written

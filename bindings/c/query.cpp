@@ -55,6 +55,7 @@ ft_status takeOptions(const ft_query_options* given, const Scene& scene, ft_quer
     return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex,
                    "deadline_us: expected microseconds, at least 0, found %g", options.deadlineUs);
   }
+  options.self = query.self;
   FORETOUCH_TRY_OR(failure, auto question, Query::build(query.avatar->avatar, scene, options));
   query.question.emplace(std::move(question));
   query.hasStep = false;
@@ -91,6 +92,25 @@ ft_status ft_query_set_options(ft_query* query, const ft_query_options* options)
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checked(query); s != FT_OK) return s;
     return takeOptions(options, query->question->scene(), *query);
+  });
+}
+
+ft_status ft_query_set_pair_rules(ft_query* query, const ft_pair_rules* rules) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(query); s != FT_OK) return s;
+    std::optional<PairRules> self;
+    if (rules != nullptr) {
+      if (const auto s = checked(rules); s != FT_OK) return s;
+      self = rules->rules;
+    }
+    QueryOptions options = query->question->options();
+    options.self = self;
+    FORETOUCH_TRY_OR(failure, auto question,
+                     Query::build(query->avatar->avatar, query->question->scene(), options));
+    query->self = std::move(self);
+    query->question.emplace(std::move(question));
+    query->hasStep = false;
+    return FT_OK;
   });
 }
 

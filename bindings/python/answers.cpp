@@ -118,11 +118,37 @@ py::list contactList(const Step& step) {
   return list;
 }
 
+/// Of the step's pairs in Answers::pairs.
+std::pair<std::size_t, std::size_t> placesOfPairs(const Step& step) {
+  const auto& end = step.answers->pairsEnd;
+  return {step.step == 0 ? 0 : end[step.step - 1], end[step.step]};
+}
+
+/// None if own links were not asked.
+py::object pairList(const Step& step) {
+  if (!step.answers->asksSelf) return py::none();
+  py::list list;
+  const auto [begin, end] = placesOfPairs(step);
+  for (std::size_t place = begin; place < end; ++place) {
+    list.append(py::cast(PairContact{{step.answers, place, true}}));
+  }
+  return std::move(list);
+}
+
+bool isClear(const Step& step) {
+  const auto [begin, end] = placesOfPairs(step);
+  return begin == end && contacts(step).empty();
+}
+
 double freePrefix(const Step& step) {
   const LinkContact* const first = firstOf(step);
   double least = 1.0;
   for (std::size_t i = 0; i < step.answers->links(); ++i) {
     least = std::min(least, first[i].freeUntil);
+  }
+  const auto [begin, end] = placesOfPairs(step);
+  for (std::size_t place = begin; place < end; ++place) {
+    least = std::min(least, step.answers->pairs[place].freeUntil);
   }
   return least;
 }
@@ -138,7 +164,10 @@ py::dict counterDict(const Step& step) {
 std::string stepText(const Step& step) {
   std::string text = "<foretouch.Step: ";
   const auto found = contacts(step);
-  if (found.empty()) return text + "all " + std::to_string(step.answers->links()) + " links clear>";
+  if (isClear(step)) return text + "all " + std::to_string(step.answers->links()) + " links clear>";
+  const auto [begin, end] = placesOfPairs(step);
+  if (end > begin) text += std::to_string(end - begin) + " pairs of own links not clear, ";
+  if (found.empty()) return text + "scene not met>";
   return text + std::to_string(found.size()) + " links not clear, first " + textOf(found.front()) +
          ">";
 }
@@ -150,11 +179,16 @@ void bindStep(py::module_& module) {
   defineArrays(type);
   type.def_property_readonly("contacts", &contactList,
                              "Of the links that are not clear, earliest first.")
-      .def_property_readonly(
-          "is_clear", [](const Step& step) { return contacts(step).empty(); },
-          "Whether every link is proven free on the whole motion.")
+      .def_property_readonly("pairs", &pairList,
+                             "PairContact: the asked pairs of own links that are not clear, in "
+                             "the same order.\n"
+                             "None where own links were not asked (self_pairs).")
+      .def_property_readonly("is_clear", &isClear,
+                             "Whether every link, and every asked pair of own links, is proven\n"
+                             "free on the whole motion.")
       .def_property_readonly("free_prefix", &freePrefix,
-                             "No link touches anything before this t: the least free_until.")
+                             "No link, and no asked pair, touches anything before this t: the\n"
+                             "least free_until.")
       .def_property_readonly("counters", &counterDict, "Work done, by kind.")
       .def(
           "__getitem__",
@@ -190,6 +224,13 @@ void bindSteps(py::module_& module) {
 }
 
 }  // namespace
+
+void Answers::add(StepContacts&& step) {
+  contacts.insert(contacts.end(), step.links.begin(), step.links.end());
+  counters.push_back(step.counters);
+  pairs.insert(pairs.end(), step.pairs.begin(), step.pairs.end());
+  pairsEnd.push_back(pairs.size());
+}
 
 void bindAnswers(py::module_& module) {
   bindStep(module);

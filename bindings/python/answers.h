@@ -18,8 +18,14 @@ namespace foretouch::python {
 struct Answers {
   std::shared_ptr<const Avatar> avatar;  ///< For names.
   std::shared_ptr<const Scene> scene;
-  std::vector<LinkContact> contacts;    ///< Step after step, every link of it in order.
-  std::vector<QueryCounters> counters;  ///< One per step.
+  std::vector<LinkContact> contacts;               ///< Step after step, every link of it in order.
+  std::vector<QueryCounters> counters;             ///< One per step.
+  bool asksSelf = false;                           ///< Own links were asked, too.
+  std::vector<foretouch::PairContact> pairs = {};  ///< Of own links, step after step.
+  std::vector<std::size_t> pairsEnd = {};          ///< One per step: where its pairs end.
+
+  /// Appends the answer to one step.
+  void add(StepContacts&& step);
 
   [[nodiscard]] std::size_t links() const { return countOf(avatar->numLinks()); }
 };
@@ -39,8 +45,11 @@ struct Steps {
 /// One link's part of a step.
 struct Contact {
   SharedAnswers answers;
-  std::size_t place = 0;  ///< In Answers::contacts.
+  std::size_t place = 0;  ///< In Answers::contacts, or in Answers::pairs.
+  bool isOfPair = false;
 };
+/// Two own links' part of a step.
+struct PairContact : Contact {};
 /// Readable text, in angle brackets.
 [[nodiscard]] std::string textOf(const Contact& contact);
 

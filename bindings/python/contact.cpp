@@ -29,7 +29,12 @@ py::object verdictOf(const LinkContact& contact) {
 }
 
 const LinkContact& contactOf(const Contact& contact) {
+  if (contact.isOfPair) return contact.answers->pairs[contact.place];
   return contact.answers->contacts[contact.place];
+}
+
+const foretouch::PairContact& pairOf(const PairContact& contact) {
+  return contact.answers->pairs[contact.place];
 }
 
 bool isTouching(const LinkContact& contact) {
@@ -62,9 +67,43 @@ py::object featureOf(const Contact& contact, FeatureKind LinkContact::*field) {
   return py::str(toString(c.*field));
 }
 
-const std::string& objectNameOf(const Contact& contact, const LinkContact& c) {
+/// What the link touches: an object of the scene, or another link.
+const std::string& metBy(const Contact& contact, const LinkContact& c) {
+  if (contact.isOfPair) {
+    const LinkId other = contact.answers->pairs[contact.place].other;
+    return contact.answers->avatar->skeleton().name(other);
+  }
   const Scene& scene = *contact.answers->scene;
   return scene.objectNames()[std::size_t(scene.object(c.triangle))];
+}
+
+/// None for another link.
+py::object objectOf(const Contact& contact, const LinkContact& c) {
+  if (contact.isOfPair) return py::none();
+  return readable(metBy(contact, c));
+}
+
+py::object objectIdOf(const Contact& contact, const LinkContact& c) {
+  if (contact.isOfPair) return py::none();
+  return py::int_(contact.answers->scene->object(c.triangle));
+}
+
+py::object triangleOf(const Contact&, const LinkContact& c) {
+  if (c.triangle < 0) return py::none();  // of a link's LSS
+  return py::int_(c.triangle);
+}
+
+/// Both links, where they are named.
+std::string subjectOf(const Contact& contact, const LinkContact& c) {
+  const std::string& link = contact.answers->avatar->skeleton().name(c.link);
+  if (!contact.isOfPair) return "<foretouch.Contact: " + link;
+  const bool isTold = isTouching(c);
+  return "<foretouch.PairContact: " + link + (isTold ? "" : " with " + metBy(contact, c));
+}
+
+/// ", triangle 7>" of the scene.
+std::string endOf(const Contact& contact, const LinkContact& c) {
+  return contact.isOfPair ? ">" : ", triangle " + std::to_string(c.triangle) + ">";
 }
 
 py::str linkNameOf(const Contact& contact) {
@@ -75,20 +114,18 @@ py::str linkNameOf(const Contact& contact) {
 
 std::string textOf(const Contact& contact) {
   const LinkContact& c = contactOf(contact);
-  const std::string& link = contact.answers->avatar->skeleton().name(c.link);
+  const std::string subject = subjectOf(contact, c);
   std::array<char, 96> numbers{};
   if (isTouching(c)) {
     const bool begins = c.verdict == Verdict::StartsInContact;
-    std::snprintf(numbers.data(), numbers.size(), " at t=%.6g, %.3g mm %s, triangle %d>", c.toi,
-                  1e3 * (begins ? c.penetration : c.separation), begins ? "deep" : "apart",
-                  c.triangle);
-    return "<foretouch.Contact: " + link + (begins ? " starts in contact with " : " meets ") +
-           objectNameOf(contact, c) + numbers.data();
+    std::snprintf(numbers.data(), numbers.size(), " at t=%.6g, %.3g mm %s", c.toi,
+                  1e3 * (begins ? c.penetration : c.separation), begins ? "deep" : "apart");
+    return subject + (begins ? " starts in contact with " : " meets ") + metBy(contact, c) +
+           numbers.data() + endOf(contact, c);
   }
-  if (c.verdict == Verdict::Clear) return "<foretouch.Contact: " + link + " is clear>";
+  if (c.verdict == Verdict::Clear) return subject + " is clear>";
   std::snprintf(numbers.data(), numbers.size(), ", free until t=%.6g>", c.freeUntil);
-  return "<foretouch.Contact: " + link + " is undecided (" + toString(c.reason) + ")" +
-         numbers.data();
+  return subject + " is undecided (" + toString(c.reason) + ")" + numbers.data();
 }
 
 void bindContact(py::module_& module) {
@@ -124,15 +161,9 @@ void bindContact(py::module_& module) {
       .def_property_readonly("on_link", pointOf(&LinkContact::p_WLink), "(3,), on the link.")
       .def_property_readonly("normal", pointOf(&LinkContact::nhat_SL_W),
                              "(3,), unit, from the scene to the link.")
-      .def_property_readonly(
-          "triangle", ofTouch([](const Contact&, const LinkContact& c) { return c.triangle; }))
-      .def_property_readonly("object", ofTouch([](const Contact& contact, const LinkContact& c) {
-                               return readable(objectNameOf(contact, c));
-                             }),
-                             "The name of the triangle's object.")
-      .def_property_readonly("object_id", ofTouch([](const Contact& contact, const LinkContact& c) {
-                               return contact.answers->scene->object(c.triangle);
-                             }))
+      .def_property_readonly("triangle", ofTouch(&triangleOf))
+      .def_property_readonly("object", ofTouch(&objectOf), "The name of the triangle's object.")
+      .def_property_readonly("object_id", ofTouch(&objectIdOf))
       .def_property_readonly("lss",
                              ofTouch([](const Contact&, const LinkContact& c) { return c.lss; }),
                              "Which of the link's LSS.")
@@ -153,6 +184,30 @@ void bindContact(py::module_& module) {
           [](const Contact& contact) { return featureOf(contact, &LinkContact::sceneFeature); },
           "The same of the scene's triangle.")
       .def("__repr__", &textOf);
+}
+
+void bindPairContact(py::module_& module) {
+  py::class_<PairContact, Contact>(
+      module, "PairContact",
+      "What two own links do in one step: the other link takes the place of the scene. `point`\n"
+      "is on it, `normal` points from it to `link`, `triangle` is of its mesh, and there is no\n"
+      "object.")
+      .def_property_readonly(
+          "other",
+          [](const PairContact& contact) {
+            return nameOf(*contact.answers->avatar, pairOf(contact).other);
+          },
+          "The other link's name.")
+      .def_property_readonly("other_id",
+                             [](const PairContact& contact) { return pairOf(contact).other; })
+      .def_property_readonly(
+          "other_lss",
+          [](const PairContact& contact) -> py::object {
+            const foretouch::PairContact& pair = pairOf(contact);
+            if (!isTouching(pair)) return py::none();
+            return py::int_(pair.otherLss);
+          },
+          "Which of the other link's LSS.");
 }
 
 void bindVerdict(py::module_& module) {

@@ -9,10 +9,12 @@ PYBIND11_MODULE(_foretouch, module) {
   bindScene(module);
   bindAvatar(module);
   bindSurface(module);
+  bindPairRules(module);
   bindClip(module);
   bindMotion(module);
   bindVerdict(module);
   bindContact(module);
+  bindPairContact(module);
   bindAnswers(module);
   bindQuery(module);
   bindSweep(module);

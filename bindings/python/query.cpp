@@ -30,6 +30,14 @@ class BorrowedScratch {
   std::unique_ptr<QueryScratch> scratch_;
 };
 
+/// An error about `self` is one about the keyword self_pairs.
+Result<foretouch::Query> withKeywords(Result<foretouch::Query> built) {
+  if (built.ok() || built.error().file != "self") return built;
+  Error error = built.error();
+  error.file = "self_pairs";
+  return error;
+}
+
 void throwIfInterrupted() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
@@ -53,7 +61,7 @@ Query::Query(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene,
              const QueryOptions& options)
     : avatar_(std::move(avatar)),
       scene_(std::move(scene)),
-      question_(valueOf(foretouch::Query::build(*avatar_, *scene_, options))) {}
+      question_(valueOf(withKeywords(foretouch::Query::build(*avatar_, *scene_, options)))) {}
 
 /// The library detects a motion of another avatar only by its number of joints.
 void Query::checkMotion(const Motion& motion) const {
@@ -67,15 +75,16 @@ Step Query::firstContacts(const Motion& motion) {
   BorrowedScratch scratch(shelf_);
   StepContacts step;
   question_.answer(motion.chain, *scratch, step);
-  return {std::make_shared<const Answers>(
-              Answers{avatar_, scene_, std::move(step.links), {step.counters}}),
-          0};
+  Answers answers{avatar_, scene_, {}, {}, question_.options().self.has_value()};
+  answers.add(std::move(step));
+  return {std::make_shared<const Answers>(std::move(answers)), 0};
 }
 
 Steps Query::firstContactsMany(const Pose* starts, const Pose* ends, std::size_t steps,
                                int threads) {
   auto pool = valueOf(QueryPool::start(threads));
-  const auto answers = std::make_shared<Answers>(Answers{avatar_, scene_, {}, {}});
+  const auto answers = std::make_shared<Answers>(
+      Answers{avatar_, scene_, {}, {}, question_.options().self.has_value()});
   answers->contacts.reserve(steps * answers->links());
   answers->counters.reserve(steps);
   std::vector<StepTask> tasks;
@@ -88,10 +97,7 @@ Steps Query::firstContactsMany(const Pose* starts, const Pose* ends, std::size_t
       tasks.push_back({&question_, starts + i, ends + i});
     }
     valueOf(pool.answer(tasks, found));
-    for (const StepContacts& step : found) {
-      answers->contacts.insert(answers->contacts.end(), step.links.begin(), step.links.end());
-      answers->counters.push_back(step.counters);
-    }
+    for (StepContacts& step : found) answers->add(std::move(step));
   }
   return {answers};
 }
@@ -115,10 +121,10 @@ namespace {
 std::unique_ptr<Query> createQuery(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene,
                                    py::object tolerance, py::object fidelity, py::object policies,
                                    py::object ignore, py::object workBudget, py::object deadlineUs,
-                                   py::object scope, py::object surface) {
-  const auto options =
-      optionsFrom({tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface},
-                  *avatar, *scene);
+                                   py::object scope, py::object surface, py::object selfPairs) {
+  const auto options = optionsFrom(
+      {tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface, selfPairs},
+      *avatar, *scene);
   return std::make_unique<Query>(std::move(avatar), std::move(scene), options);
 }
 
@@ -162,6 +168,7 @@ void bindQuery(py::module_& module) {
            py::arg("policies") = py::none(), py::arg("ignore") = py::tuple(),
            py::arg("work_budget") = py::none(), py::arg("deadline_us") = py::none(),
            py::arg("scope") = "links", py::arg("surface") = py::none(),
+           py::arg("self_pairs") = py::none(),
            "tolerance: metres, at most what separates a contact at its toi. fidelity: 'link' "
            "(LSS),\n"
            "'exact' (triangles; needs surface), or coarser: 'limb', 'avatar', 'ellipsoid'.\n"
@@ -171,7 +178,9 @@ void bindQuery(py::module_& module) {
            "work_budget: evaluations (about 10 ns each) that a step may cost; deadline_us: the "
            "same\n"
            "by the clock. What is not answered by then is undecided.\n"
-           "scope: 'links', every link's own contact; 'avatar', only the earliest of all.")
+           "scope: 'links', every link's own contact; 'avatar', only the earliest of all.\n"
+           "self_pairs: PairRules: also ask whether own links touch each other (Step.pairs); at\n"
+           "fidelity 'link' or 'exact', and scope 'links'.")
       .def("first_contacts", &Query::firstContacts, py::arg("motion"),
            "What every link meets first: a Step.")
       .def("first_contacts_many", &many, py::arg("poses"), py::kw_only(),

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "bindings/python/pair_rules.h"
 #include "bindings/python/surface.h"
 #include "lss/index.h"
 #include "middleware/object_policies.h"
@@ -130,6 +131,18 @@ std::optional<AvatarSurface> surfaceFrom(const py::object& given, const Avatar& 
   return surface.triangles;
 }
 
+std::optional<foretouch::PairRules> rulesFrom(const py::object& given, const Avatar& avatar) {
+  if (given.is_none()) return std::nullopt;
+  if (!py::isinstance<PairRules>(given)) {
+    refuse(ErrorCode::Mismatch, "self_pairs", "expected a foretouch.PairRules");
+  }
+  const auto& own = given.cast<const PairRules&>();
+  if (own.avatar->identity() != avatar.identity()) {
+    refuse(ErrorCode::Mismatch, "self_pairs", "expected the rules of this avatar");
+  }
+  return own.rules;
+}
+
 }  // namespace
 
 QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar, const Scene& scene) {
@@ -144,6 +157,7 @@ QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar, const 
     options.workBudget = static_cast<std::uint64_t>(
         integer(given.workBudget, "work_budget", 0, std::numeric_limits<std::int64_t>::max()));
   }
+  options.self = rulesFrom(given.selfPairs, avatar);
   if (!given.deadlineUs.is_none()) options.deadlineUs = number(given.deadlineUs, "deadline_us");
   return options;
 }

@@ -8,7 +8,8 @@ namespace foretouch::python {
 
 /// As given, unchecked.
 struct GivenOptions {
-  py::object tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface;
+  py::object tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface,
+      selfPairs;
 };
 
 /// Looks up the names of links and objects. The library itself checks the values.

@@ -20,11 +20,13 @@ struct Release {
   void operator()(ft_scene* scene) const { ft_scene_destroy(scene); }
   void operator()(ft_avatar* avatar) const { ft_avatar_destroy(avatar); }
   void operator()(ft_clip* clip) const { ft_clip_destroy(clip); }
+  void operator()(ft_pair_rules* rules) const { ft_pair_rules_destroy(rules); }
   void operator()(ft_query* query) const { ft_query_destroy(query); }
 };
 using SceneHandle = std::unique_ptr<ft_scene, Release>;
 using AvatarHandle = std::unique_ptr<ft_avatar, Release>;
 using ClipHandle = std::unique_ptr<ft_clip, Release>;
+using RulesHandle = std::unique_ptr<ft_pair_rules, Release>;
 using QueryHandle = std::unique_ptr<ft_query, Release>;
 
 /// The arrays of ft_scene_arrays: a separate vertex for every corner.

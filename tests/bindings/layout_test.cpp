@@ -70,6 +70,36 @@ AT(ft_clip_info, matched_joints, 4);
 AT(ft_clip_info, frame_count, 8);
 AT(ft_clip_info, frame_time_s, 16);
 
+static_assert(sizeof(ft_link_pair) == 8);
+static_assert(sizeof(ft_left_out_pair) == 12);
+AT(ft_left_out_pair, b, 4);
+AT(ft_left_out_pair, reason, 8);
+
+static_assert(sizeof(ft_pair_radius) == 24);
+AT(ft_pair_radius, lss_a, 4);
+AT(ft_pair_radius, b, 8);
+AT(ft_pair_radius, lss_b, 12);
+AT(ft_pair_radius, radius, 16);
+
+static_assert(sizeof(ft_pair_rule_options) == 64);
+AT(ft_pair_rule_options, use_pair_radii, 4);
+AT(ft_pair_rule_options, rest_skin, 8);
+AT(ft_pair_rule_options, always_share, 16);
+AT(ft_pair_rule_options, usual_rotations, 24);
+AT(ft_pair_rule_options, usual_translations, 32);
+AT(ft_pair_rule_options, usual_count, 40);
+AT(ft_pair_rule_options, left_out, 48);
+AT(ft_pair_rule_options, left_out_count, 56);
+
+static_assert(sizeof(ft_pair_rules_info) == 40);
+AT(ft_pair_rules_info, pairs, 8);
+AT(ft_pair_rules_info, asked, 16);
+AT(ft_pair_rules_info, left_out, 24);
+AT(ft_pair_rules_info, radii, 32);
+
+static_assert(sizeof(ft_other_link) == 8);
+AT(ft_other_link, lss, 4);
+
 static_assert(sizeof(ft_ignored_pair) == 8);
 static_assert(sizeof(ft_link_policy) == 16);
 AT(ft_link_policy, fidelity, 8);

@@ -21,7 +21,7 @@ class Caller {
   explicit Caller(std::uint64_t seed) : random_(seed) {}
 
   void callSomething(test::SmallWorld& world, ft_query* query) {
-    switch (random_.below(9)) {
+    switch (random_.below(10)) {
       case 0: makeScene(); break;
       case 1: makeAvatar(); break;
       case 2: makeQuery(world); break;
@@ -30,6 +30,7 @@ class Caller {
       case 5: askAvatar(world); break;
       case 6: convert(); break;
       case 7: askScene(world); break;
+      case 8: makeRules(world, query); break;
       default: setOptions(query); break;
     }
   }
@@ -164,6 +165,44 @@ class Caller {
   void setOptions(ft_query* query) {
     const ft_query_options made = options();
     take(ft_query_set_options(maybe(query), maybe(&made)));
+  }
+
+  void makeRules(test::SmallWorld& world, ft_query* query) {
+    fillNumbers();
+    ft_pair_rule_options options = test::initialised(ft_pair_rule_options_init);
+    options.size = sizeOr(sizeof options);
+    if (random_.chance(0.3)) options.use_pair_radii = index();
+    if (random_.chance(0.3)) options.rest_skin = number();
+    if (random_.chance(0.3)) options.always_share = number();
+    if (random_.chance(0.3)) options.usual_rotations = maybe(numbers_.data());
+    if (random_.chance(0.3)) options.usual_translations = maybe(numbers_.data());
+    if (random_.chance(0.3)) options.usual_count = count();
+    std::array<ft_link_pair, kRoom> pairs{};
+    std::array<ft_left_out_pair, kRoom> leftOut{};
+    std::array<ft_pair_radius, kRoom> radii{};
+    for (ft_link_pair& pair : pairs) pair = {index(), index()};
+    for (ft_left_out_pair& pair : leftOut) pair = {index(), index(), index()};
+    for (ft_pair_radius& own : radii) own = {index(), index(), index(), index(), number()};
+    if (random_.chance(0.3)) options.left_out = maybe(pairs.data());
+    if (random_.chance(0.3)) options.left_out_count = count();
+    const ft_avatar* avatar = maybe(world.avatar.get());
+    if (random_.chance(0.1)) avatar = reinterpret_cast<const ft_avatar*>(world.scene.get());
+    ft_pair_rules* rules = nullptr;
+    takeHandle(ft_pair_rules_create(avatar, maybe(&options), &rules), rules, ft_pair_rules_destroy);
+    takeHandle(ft_pair_rules_create_exactly(avatar, maybe(leftOut.data()), count(),
+                                            maybe(radii.data()), count(), &rules),
+               rules, ft_pair_rules_destroy);
+    takeHandle(ft_pair_rules_create_from_file(maybe("/absent"), avatar, &rules), rules,
+               ft_pair_rules_destroy);
+    const auto* wrong = reinterpret_cast<const ft_pair_rules*>(world.avatar.get());
+    take(ft_query_set_pair_rules(maybe(query), random_.chance(0.5) ? nullptr : wrong));
+    take(ft_pair_rules_get_info(maybe(wrong), nullptr));
+    std::array<ft_contact, 2> contacts{};
+    contacts[0].size = sizeOr(sizeof(ft_contact));
+    std::array<ft_other_link, 2> others{};
+    std::size_t required = 0;
+    take(ft_query_pairs(maybe(query), maybe(contacts.data()), maybe(others.data()),
+                        static_cast<std::size_t>(random_.below(3)), maybe(&required)));
   }
 
   ft_pose pose() {

@@ -160,6 +160,8 @@ std::vector<BadInput> badOptions() {
       badOption("LeavesAreGoneAlone", {"--leaves"}, "--leaves: is gone: "),
       badOption("FidelityNotComparable", {"--fidelity", "avatar", "--compare-rigid"},
                 "--fidelity: "),
+      badOption("SelfOfTwoNeighbours", {"--self"}, "--self: expected at least one pair"),
+      badOption("PairsWithoutSelf", {"--pairs", "p.json"}, "--pairs requires --self"),
       badOption("FidelityUnknown", {"--fidelity", "best"}, "--fidelity: "),
       badOption("MapMissing", {"--map", "/absent/map.json"}, "/absent/map.json: "),
       badOption("OptionUnknown", {"--sceen", "x"}, "see foretouch replay --help"),

@@ -32,6 +32,7 @@ TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
                                              {"avatar", "mesh", "--help"},
                                              {"avatar", "urdf", "--help"},
                                              {"avatar", "check", "--help"},
+                                             {"avatar", "pairs", "--help"},
                                              {"scene", "check", "--help"},
                                              {"log", "info", "--help"}}) {
     const Ended ended = runForetouch(command);

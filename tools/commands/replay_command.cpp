@@ -102,6 +102,21 @@ Settings replaySettings(AskedReplay& asked) {
   return settings;
 }
 
+/// What own links are not asked with.
+Result<Done> checkSelf(const WorldRequest& request) {
+  if (!request.asksSelf) return Done{};
+  const Fidelity fidelity = request.query.fidelity;
+  if (fidelity != Fidelity::Link && fidelity != Fidelity::Exact) {
+    return Error::in("--self", ErrorCode::Mismatch,
+                     std::string("expected --fidelity link or exact, found ") + toString(fidelity) +
+                         ": at other ones links have no surface of their own to touch each other");
+  }
+  if (request.query.scope == Scope::EveryLink) return Done{};
+  return Error::in("--self", ErrorCode::Mismatch,
+                   std::string("expected --scope links, found ") + toString(request.query.scope) +
+                       ": own pairs are answered one by one");
+}
+
 /// Options that are legal by themselves, but not together.
 Result<Done> checkTogether(const ReplayJob& job) {
   const WorldRequest& request = job.request;
@@ -115,6 +130,7 @@ Result<Done> checkTogether(const ReplayJob& job) {
         "expected link, exact or skinned with --compare-rigid or --compare-link: above "
         "them links have no surface of their own to compare");
   }
+  FORETOUCH_CHECK(checkSelf(request));
   if (request.budgetUs == 0) return Done{};
   if (compares) {
     return Error::in("--budget-us", ErrorCode::Mismatch,
@@ -192,6 +208,8 @@ constexpr char kReplayExamples[] = R"(Examples:
       --output contacts.jsonl
   foretouch replay --scene room.obj --avatar 1=anna.json --avatar 2=ben.json \
       --motion journal.lcmlog --output contacts.jsonl
+  foretouch replay --scene room.obj --avatar man.json --motion dance.bvh --self \
+      --pairs man.pairs.json --output contacts.jsonl
   foretouch replay --scene cell.dae --avatar arm.json --motion log.csv --robot arm.urdf \
       --output contacts.jsonl
 
@@ -216,7 +234,7 @@ Result<Done> runReplay(const ReplayJob& job,
     const auto checked =
         checkOutputs(job.outputPath, page,
                      {request.scenePath, request.avatarPath, request.motionPath, request.robotPath,
-                      request.mapPath, request.policyPath, request.skinPath,
+                      request.mapPath, request.policyPath, request.skinPath, request.pairsPath,
                       page == job.glb.path ? job.report.path : ""});
     if (!checked.ok()) return checked.error();
   }

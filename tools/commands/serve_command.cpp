@@ -228,6 +228,9 @@ Command serveCommand() {
   Settings settings;
   addConfigSetting(settings, *config);
   addServeSettings(settings, *config);
+  settings.gone("--self",
+                "is not possible yet: messages have no field for contacts of own links. Record a "
+                "clip and ask foretouch replay --self");
   Command command{"serve", "Answer poses that arrive over LCM, until stopped", kServeExamples,
                   std::move(settings)};
   command.run = [config](const Settings& given) { return run(given, *config); };

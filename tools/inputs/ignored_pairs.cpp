@@ -5,9 +5,9 @@
 #include <tuple>
 
 #include "articulated/try.h"
+#include "assets/near_names.h"
 #include "assets/text_file.h"
 #include "tools/inputs/name_pattern.h"
-#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {

@@ -3,13 +3,13 @@
 #include <utility>
 
 #include "articulated/try.h"
+#include "assets/near_names.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
 #include "middleware/object_policies.h"
 #include "tools/inputs/ignored_pairs.h"
 #include "tools/inputs/name_pattern.h"
 #include "tools/inputs/policy_rules.h"
-#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {

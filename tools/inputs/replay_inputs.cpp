@@ -1,5 +1,6 @@
 #include "tools/inputs/replay_inputs.h"
 
+#include <algorithm>
 #include <utility>
 
 #if defined(__GLIBC__)
@@ -11,11 +12,13 @@
 #include "articulated/try.h"
 #include "assets/import/scene_import.h"
 #include "assets/mesh/link_mesh.h"
+#include "assets/text_file.h"
 #include "lss/index.h"
 #include "middleware/query/work_budget.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/ignored_pairs.h"
+#include "tools/inputs/own_pairs.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/inputs/policy_rules.h"
 #include "tools/inputs/skin_file.h"
@@ -53,6 +56,28 @@ Result<Done> loadSurface(const WorldRequest& request, const std::string& avatarP
   return Done{};
 }
 
+/// A smaller LSS does not hold its link's mesh.
+Result<Done> checkRadii(const QueryOptions& query, const std::string& pairsPath) {
+  const bool isExact =
+      query.fidelity == Fidelity::Exact ||
+      std::any_of(query.linkPolicies.begin(), query.linkPolicies.end(),
+                  [](const LinkPolicy& own) { return own.fidelity == Fidelity::Exact; });
+  if (!isExact || query.self->radii().empty()) return Done{};
+  return Error::in(
+      "--pairs", ErrorCode::Mismatch,
+      "expected rules without pair radii at exact fidelity, found some in " + inQuotes(pairsPath));
+}
+
+/// What nobody asks, and how to see it.
+std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) {
+  return fmt::format(
+      "--self: {} of {} pairs of own links are left out, so nothing is said of them ({}); list "
+      "them: foretouch avatar pairs {} --clip {}{}",
+      rules.leftOut().size(), rules.numPairs(), reasonsOf(rules), request.avatarPath,
+      request.motionPath,
+      request.motionScale == 1.0 ? "" : fmt::format(" --scale {}", request.motionScale));
+}
+
 }  // namespace
 
 Result<Scene> loadScene(const WorldRequest& request) {
@@ -81,6 +106,10 @@ Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
   auto& [avatar, clip, match, steps, isUpright] = played;
   FORETOUCH_TRY(auto scene, loadScene(request));
   FORETOUCH_TRY(auto query, queryOptionsFor(request, request.avatarPath, avatar, scene));
+  if (request.asksSelf) {
+    FORETOUCH_TRY(query.self, pairRulesFor(request, avatar, clip, match, request.motionPath));
+    FORETOUCH_CHECK(checkRadii(query, request.pairsPath));
+  }
   return ReplayInputs{request,          std::move(scene), std::move(avatar),
                       std::move(clip),  std::move(match), steps,
                       std::move(query), isUpright};
@@ -101,6 +130,9 @@ std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
   if (const std::size_t dropped = inputs.scene.audit().droppedNonFinite; dropped > 0) {
     remarks.push_back(fmt::format("{}: {} triangles with a vertex that is not finite were left out",
                                   request.scenePath, dropped));
+  }
+  if (inputs.query.self && request.pairsPath.empty() && !inputs.query.self->leftOut().empty()) {
+    remarks.push_back(remarkOnPairs(request, *inputs.query.self));
   }
   const auto meshes = remarkOnMeshes(inputs.query, request.avatarPath);
   if (meshes) remarks.push_back(*meshes);

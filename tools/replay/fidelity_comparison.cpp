@@ -23,6 +23,7 @@ void FidelityCounts::add(const FidelityCounts& other) {
 Result<Query> askLinks(const Query& exact) {
   QueryOptions coarser = exact.options();
   coarser.fidelity = Fidelity::Link;
+  coarser.self.reset();  // what own links do is not compared
   for (LinkPolicy& policy : coarser.linkPolicies) policy.fidelity = Fidelity::Link;
   return Query::build(exact.avatar(), exact.scene(), coarser);
 }

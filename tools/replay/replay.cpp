@@ -148,7 +148,7 @@ Result<Done> replay(const ReplayInputs& inputs, const ReplayOptions& options,
   if (options.compareLink) {
     FORETOUCH_TRY(link, askLinks(query));
   }
-  const StepFormat format(inputs.avatar, inputs.scene);
+  const StepFormat format(inputs.avatar, inputs.scene, inputs.query.self.has_value());
   const StepExtras extras{rigid ? &*rigid : nullptr, link ? &*link : nullptr, options.rays};
   std::vector<StepSolver> solvers;
   for (int i = 0; i < options.threads; ++i) {

@@ -28,6 +28,31 @@ void writeLinkNames(const Avatar& avatar, JsonWriter& out) {
   out.endArray();
 }
 
+namespace {
+
+/// Which pairs of own links the results tell of, and of which ones they say nothing.
+void writeSelf(const ReplayInputs& inputs, JsonWriter& out) {
+  const PairRules& rules = *inputs.query.self;
+  const Skeleton& skeleton = inputs.avatar.skeleton();
+  out.key("self");
+  out.beginObject();
+  const std::string& path = inputs.request.pairsPath;
+  if (!path.empty()) writeFileName("file", path, out);
+  out.field("pairs", rules.numPairs());
+  out.field("asked", rules.numAsked());
+  out.field("radii", rules.radii().size());
+  out.list("left_out", rules.leftOut(), [&](const LeftOutPair& pair) {
+    out.beginObject();
+    out.field("a", skeleton.name(pair.a));
+    out.field("b", skeleton.name(pair.b));
+    out.field("reason", toString(pair.reason));
+    out.endObject();
+  });
+  out.endObject();
+}
+
+}  // namespace
+
 std::string headerLine(const ReplayInputs& inputs) {
   ReplayRequest request = inputs.request;
   Settings settings;
@@ -51,13 +76,15 @@ std::string headerLine(const ReplayInputs& inputs) {
                      "ignore", "scope", "budget_us", "policy", "leaves", "skin", "skin_scale",
                      "skin_up", "animation", "robot"},
                     out);
+  if (inputs.query.self) writeSelf(inputs, out);
   writeLinkNames(inputs.avatar, out);
   out.field("unmatched_joints", inputs.match.unmatchedAvatar);
   out.endObject();
   return text + "\n";
 }
 
-StepFormat::StepFormat(const Avatar& avatar, const Scene& scene) : scene_(scene) {
+StepFormat::StepFormat(const Avatar& avatar, const Scene& scene, bool asksSelf)
+    : scene_(scene), asksSelf_(asksSelf) {
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     links_.push_back(jsonString(avatar.skeleton().name(link)));
   }
@@ -73,10 +100,25 @@ std::string StepFormat::line(const StepAnswer& answer) const {
   out.field("t1", answer.t1S);
   out.list("contacts", answer.contacts,
            [&](const LinkContact& contact) { write(contact, answer, out); });
+  if (asksSelf_) {
+    out.list("pairs", answer.pairs,
+             [&](const PairContact& contact) { write(contact, answer, out); });
+  }
   out.key("latency_us");
   out.fixed(answer.latencyUs, 1);
   out.endObject();
   return text + "\n";
+}
+
+void StepFormat::write(const PairContact& contact, const StepAnswer& answer,
+                       JsonWriter& out) const {
+  ContactWords words;
+  words.link = links_[slotOf(contact.link)];
+  words.other = links_[slotOf(contact.other)];
+  words.timeS = timeOf(contact, answer.t0S, answer.t1S);
+  out.beginObject();
+  writeContact(contact, words, out);
+  out.endObject();
 }
 
 void StepFormat::write(const LinkContact& contact, const StepAnswer& answer,

@@ -20,6 +20,7 @@ struct StepAnswer {
   std::int64_t step = 0;
   double t0S = 0.0, t1S = 0.0;        ///< Seconds from the clip's first frame.
   std::vector<LinkContact> contacts;  ///< Of the links of reported(), in its order.
+  std::vector<PairContact> pairs;     ///< Of own links, if they are asked.
   std::vector<LinkId> missedByPoses;  ///< Links in contact that touch nothing at either pose.
   QueryCounters counters;
   double latencyUs = 0.0;
@@ -38,15 +39,18 @@ void writeLinkNames(const Avatar& avatar, JsonWriter& out);
 /// Formats steps. Const calls from several threads are fine.
 class StepFormat {
  public:
-  StepFormat(const Avatar& avatar, const Scene& scene);
+  /// `asksSelf`: every line tells of own links, too, even if none touch.
+  StepFormat(const Avatar& avatar, const Scene& scene, bool asksSelf = false);
 
   /// One line, its line break included.
   [[nodiscard]] std::string line(const StepAnswer& answer) const;
 
  private:
   void write(const LinkContact& contact, const StepAnswer& answer, JsonWriter& out) const;
+  void write(const PairContact& contact, const StepAnswer& answer, JsonWriter& out) const;
 
   Scene scene_;
+  bool asksSelf_;
   std::vector<std::string> links_, objects_;  // as JSON strings
 };
 

@@ -83,7 +83,9 @@ Result<RigidComparison> RigidComparison::build(const Avatar& avatar, const Scene
   }
   FORETOUCH_TRY(auto skeleton, Skeleton::build(raw));
   FORETOUCH_TRY(auto forest, Avatar::build(std::move(skeleton), std::move(lss)));
-  FORETOUCH_TRY(auto query, Query::build(forest, scene, options));
+  QueryOptions ofForest = options;
+  ofForest.self.reset();  // what own links do is not compared
+  FORETOUCH_TRY(auto query, Query::build(forest, scene, ofForest));
   return RigidComparison(std::move(query));
 }
 

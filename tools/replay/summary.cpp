@@ -28,6 +28,12 @@ double mean(const std::vector<float>& values) {
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
+void addTo(ReplaySummary::Counts& counts, const LinkContact& contact) {
+  counts.contacts += contact.verdict == Verdict::Contact ? 1 : 0;
+  counts.startsInContact += contact.verdict == Verdict::StartsInContact ? 1 : 0;
+  counts.undecided += contact.verdict == Verdict::Undecided ? 1 : 0;
+}
+
 }  // namespace
 
 double percentile(std::vector<float>& values, double share) {
@@ -61,6 +67,7 @@ void ReplaySummary::add(const ReplayedStep& step) {
     }
   }
   stepsWithContact_ += touches ? 1 : 0;
+  countPairs(answer);
   if (step.rigid) {
     if (!rigid_) rigid_.emplace();
     rigid_->add(*step.rigid);
@@ -81,11 +88,18 @@ void ReplaySummary::add(const ReplayedStep& step) {
 }
 
 void ReplaySummary::count(const LinkContact& contact) {
-  for (Counts* counts : {&total_, &ofLink_[slotOf(contact.link)]}) {
-    counts->contacts += contact.verdict == Verdict::Contact ? 1 : 0;
-    counts->startsInContact += contact.verdict == Verdict::StartsInContact ? 1 : 0;
-    counts->undecided += contact.verdict == Verdict::Undecided ? 1 : 0;
+  for (Counts* counts : {&total_, &ofLink_[slotOf(contact.link)]}) addTo(*counts, contact);
+}
+
+void ReplaySummary::countPairs(const StepAnswer& answer) {
+  bool touches = false;
+  for (const PairContact& contact : answer.pairs) {
+    for (Counts* counts : {&pairs_, &ofPair_[{contact.link, contact.other}]}) {
+      addTo(*counts, contact);
+    }
+    touches = touches || contact.verdict != Verdict::Undecided;
   }
+  stepsWithPairs_ += touches ? 1 : 0;
 }
 
 double ReplaySummary::latencyUs(double share) const {
@@ -94,7 +108,7 @@ double ReplaySummary::latencyUs(double share) const {
 }
 
 std::string ReplaySummary::text(int threads) const {
-  return head(threads) + verdicts() + byLink() + rigid() + link() + cost();
+  return head(threads) + verdicts() + byLink() + ownPairs() + rigid() + link() + cost();
 }
 
 std::string ReplaySummary::head(int threads) const {
@@ -147,6 +161,36 @@ std::string ReplaySummary::byLink() const {
                     c.contacts, c.missedByPoses, c.startsInContact, c.undecided);
   }
   if (order.size() > kMaxRows) text += fmt::format("and {} more\n", order.size() - kMaxRows);
+  return text;
+}
+
+std::string ReplaySummary::ownPairs() const {
+  if (!inputs_.query.self) return "";
+  constexpr std::size_t kMaxRows = 20;
+  const PairRules& rules = *inputs_.query.self;
+  std::string text = "\n" + row("own pairs asked", rules.numAsked(),
+                                fmt::format("of {} pairs of own links", rules.numPairs()));
+  text += row("steps with own contact", stepsWithPairs_, shareOf(stepsWithPairs_, steps_));
+  text += row("own contacts", pairs_.contacts);
+  text += row("start in own contact", pairs_.startsInContact);
+  text += row("own pairs undecided", pairs_.undecided);
+  using Row = std::pair<std::pair<LinkId, LinkId>, Counts>;
+  std::vector<Row> rows(ofPair_.begin(), ofPair_.end());
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& x, const Row& y) {
+    return std::make_pair(x.second.contacts, x.second.startsInContact) >
+           std::make_pair(y.second.contacts, y.second.startsInContact);
+  });
+  if (!rows.empty()) {
+    text += fmt::format("\n{:<50}{:>10}{:>19}{:>11}\n", "own links", "contacts",
+                        "starts in contact", "undecided");
+  }
+  const Skeleton& skeleton = inputs_.avatar.skeleton();
+  for (std::size_t i = 0; i < std::min(rows.size(), kMaxRows); ++i) {
+    const auto& [pair, c] = rows[i];
+    text += fmt::format("{:<25}{:<25}{:>10}{:>19}{:>11}\n", skeleton.name(pair.first),
+                        skeleton.name(pair.second), c.contacts, c.startsInContact, c.undecided);
+  }
+  if (rows.size() > kMaxRows) text += fmt::format("and {} more\n", rows.size() - kMaxRows);
   return text;
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "middleware/query/query.h"
@@ -39,6 +41,9 @@ class ReplaySummary {
   };
   [[nodiscard]] const Counts& total() const { return total_; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
+  /// Of own links, where they were asked; what the poses miss is not counted.
+  [[nodiscard]] const Counts& totalOfPairs() const { return pairs_; }
+  [[nodiscard]] std::int64_t stepsWithPairs() const { return stepsWithPairs_; }
   [[nodiscard]] std::int64_t stepsWithContact() const { return stepsWithContact_; }
   /// Nothing if the replay was not compared with it.
   [[nodiscard]] const std::optional<RigidCounts>& rigidCounts() const { return rigid_; }
@@ -47,16 +52,19 @@ class ReplaySummary {
 
  private:
   void count(const LinkContact& contact);
+  void countPairs(const StepAnswer& answer);
   [[nodiscard]] std::string head(int threads) const;
   [[nodiscard]] std::string verdicts() const;
   [[nodiscard]] std::string byLink() const;
+  [[nodiscard]] std::string ownPairs() const;
   [[nodiscard]] std::string rigid() const;
   [[nodiscard]] std::string link() const;
   [[nodiscard]] std::string cost() const;
 
   const ReplayInputs& inputs_;
-  std::int64_t steps_ = 0, stepsWithContact_ = 0;
-  Counts total_;
+  std::int64_t steps_ = 0, stepsWithContact_ = 0, stepsWithPairs_ = 0;
+  Counts total_, pairs_;
+  std::map<std::pair<LinkId, LinkId>, Counts> ofPair_;
   std::vector<Counts> ofLink_;
   std::vector<ReportedContact> firstMissed_;
   std::optional<RigidCounts> rigid_;

@@ -46,8 +46,8 @@ std::vector<ViewRow> querySettings(WorldRequest request) {
   Settings settings;
   addQuerySettings(settings, request);
   addReplayQuerySettings(settings, request);
-  return rowsOf(settings,
-                {"tolerance", "fidelity", "skin", "scope", "policy", "ignored", "budget"});
+  return rowsOf(settings, {"tolerance", "fidelity", "skin", "scope", "policy", "ignored",
+                           "own links", "budget"});
 }
 
 std::vector<ViewRow> clipSettings(ClipRequest request) {
@@ -121,7 +121,7 @@ void addScene(const Scene& scene, const std::string& path, std::size_t maxTriang
   request.maxTriangles = maxTriangles;
   for (const ViewAvatar& avatar : document.avatars) {
     for (const ReportedContact& contact : avatar.contacts) {
-      if (contact.contact.triangle < 0) continue;
+      if (contact.contact.triangle < 0 || contact.other >= 0) continue;
       request.contacted.push_back(contact.contact.triangle);
       action.extend(contact.contact.p_WScene);
     }
@@ -139,6 +139,17 @@ ReportedContact contactView(const LinkContact& contact, const Scene& scene, std:
     view.timeS = timeOf(contact, t0S, t1S);
     view.object = scene.objectNames()[slotOf(scene.object(contact.triangle))];
   }
+  return view;
+}
+
+ReportedContact contactView(const PairContact& contact, const Skeleton& skeleton, std::int64_t step,
+                            double t0S, double t1S) {
+  ReportedContact view;
+  view.step = step;
+  view.contact = contact;
+  view.other = contact.other;
+  view.object = skeleton.name(contact.other);
+  if (contact.verdict != Verdict::Undecided) view.timeS = timeOf(contact, t0S, t1S);
   return view;
 }
 

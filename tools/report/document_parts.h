@@ -51,5 +51,8 @@ void addScene(const Scene& scene, const std::string& path, std::size_t maxTriang
 /// A contact in the form of results. `contact` is not clear.
 [[nodiscard]] ReportedContact contactView(const LinkContact& contact, const Scene& scene,
                                           std::int64_t step, double t0S, double t1S);
+/// The same of two own links.
+[[nodiscard]] ReportedContact contactView(const PairContact& contact, const Skeleton& skeleton,
+                                          std::int64_t step, double t0S, double t1S);
 
 }  // namespace foretouch::tools

@@ -18,7 +18,7 @@ ReplayReport::ReplayReport(const ReplayInputs& inputs, const ReportOptions& opti
 void ReplayReport::add(const ReplayedStep& step) {
   const StepAnswer& answer = step.answer;
   isFull_ = isFull_ || answer.step >= mostSteps_ ||
-            contacts_.size() + answer.contacts.size() > options_.maxContacts;
+            contacts_.size() + answer.contacts.size() + answer.pairs.size() > options_.maxContacts;
   if (isFull_) return;
   latenciesUs_.push_back(answer.latencyUs);
   for (const LinkContact& contact : answer.contacts) {
@@ -26,6 +26,10 @@ void ReplayReport::add(const ReplayedStep& step) {
     view.missedByPoses =
         std::count(answer.missedByPoses.begin(), answer.missedByPoses.end(), contact.link) > 0;
     contacts_.push_back(std::move(view));
+  }
+  for (const PairContact& contact : answer.pairs) {
+    contacts_.push_back(
+        contactView(contact, inputs_.avatar.skeleton(), answer.step, answer.t0S, answer.t1S));
   }
 }
 
@@ -69,6 +73,17 @@ std::vector<ViewRow> ReplayReport::rowsOf(const ReplaySummary& summary) {
       {"latency of a step",
        fmt::format("p50 {:.1f} us, p99 {:.1f} us", summary.latencyUs(0.5), summary.latencyUs(0.99)),
        "the query, from two poses to all verdicts"}};
+  if (summary.inputs().query.self) {
+    const PairRules& rules = *summary.inputs().query.self;
+    const auto& own = summary.totalOfPairs();
+    rows.push_back(
+        {"own pairs asked", text(rules.numAsked()),
+         fmt::format("of {} pairs of own links; nothing is said of the others", rules.numPairs())});
+    rows.push_back({"steps with own contact", text(summary.stepsWithPairs()), ""});
+    rows.push_back({"own contacts", text(own.contacts), ""});
+    rows.push_back({"start in own contact", text(own.startsInContact), ""});
+    rows.push_back({"own pairs undecided", text(own.undecided), ""});
+  }
   if (const auto& rigid = summary.rigidCounts()) {
     rows.push_back(
         {"rigid model misses", text(rigid->missed),

@@ -192,10 +192,17 @@ void write(const ReportedContact& found, Writer& out) {
   words.link = link;
   words.object = object;
   words.timeS = found.timeS;
+  const bool isOwn = found.other >= 0;
+  const std::string other = isOwn ? std::to_string(found.other) : "";
+  words.other = other;
   out.beginObject();
   out.field("step", found.step);
   writeContact(found.contact, words, out);
-  if (found.contact.verdict == Verdict::Contact) out.field("missed_by_poses", found.missedByPoses);
+  if (isOwn) {
+    out.field("object", found.object);
+  } else if (found.contact.verdict == Verdict::Contact) {
+    out.field("missed_by_poses", found.missedByPoses);
+  }
   out.endObject();
   out.handOnPieces();
 }

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "assets/near_names.h"
 #include "assets/text_file.h"
 #include "lss/assert.h"
-#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {

@@ -61,7 +61,7 @@ struct Setting {
   bool mayBeEmpty = true;   ///< For a text in a configuration.
   std::string valueIfNone;  ///< Not empty: the option's value is optional, and defaults to this.
   bool isOfClips = false, isOfLogs = false;  ///< In a replay: valid only for these.
-  std::string isGone;  ///< Not empty: the option no longer exists; its error tells users so.
+  std::string isGone;  ///< Not empty: there is no such option; its error tells users why.
 
   bool isGiven = false;  ///< On this command line.
 

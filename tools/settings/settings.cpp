@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "assets/json_writer.h"
+#include "assets/near_names.h"
 #include "lss/assert.h"
-#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {

@@ -86,7 +86,8 @@ class Settings {
                   std::function<Result<Done>(const std::string&)> take,
                   std::function<std::string()> shown, const char* help);
 
-  /// An option that is no more: help leaves it out, and `text` is the error of a user who types it.
+  /// An option that is no more, or not yet: help leaves it out, and `text` is the error of a user
+  /// who types it.
   Setting& gone(const char* option, const char* text);
 
   /// The setting of an option, a header's field, a report's row. Precondition: it exists.

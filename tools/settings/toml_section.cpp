@@ -2,8 +2,8 @@
 
 #include <charconv>
 
+#include "assets/near_names.h"
 #include "network/wire/messages.h"
-#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {

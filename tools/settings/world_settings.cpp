@@ -43,6 +43,27 @@ void addSkinSettings(Settings& settings, WorldRequest& request) {
       .namedIf(isNamed);
 }
 
+/// The first line of results has them from the rules themselves.
+void addSelfSettings(Settings& settings, WorldRequest& request) {
+  settings
+      .flag("--self", request.asksSelf,
+            "Also ask whether the avatar's own links touch each other; which pairs are asked: "
+            "foretouch avatar pairs")
+      .ofClips()
+      .inReport("own links")
+      .told = [&request]() -> std::string {
+    if (!request.asksSelf) return "";
+    const std::size_t name = request.pairsPath.rfind('/') + 1;
+    return "asked, by " + (request.pairsPath.empty() ? "rules derived from avatar and clip"
+                                                     : request.pairsPath.substr(name));
+  };
+  settings
+      .path("--pairs", "FILE", request.pairsPath,
+            "With --self: the pair rules; not given: derived from the avatar and the clip's poses")
+      .ofClips()
+      .needing("--self");
+}
+
 }  // namespace
 
 void addSceneSettings(Settings& settings, WorldRequest& request) {
@@ -132,6 +153,7 @@ void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
       .inReport("policy")
       .namedIf([&request] { return !request.policies.empty(); })
       .json = [&request] { return policiesJson(request.policies); };
+  addSelfSettings(settings, request);
 }
 
 }  // namespace foretouch::tools

@@ -37,6 +37,9 @@ struct WorldRequest {
   std::vector<PolicyRule> policies;  ///< From that file, or from a configuration; later ones win.
   std::string skinPath;              ///< The model whose skin is the surface, at skinned fidelity.
   SceneImportOptions skinImport;
+  bool asksSelf =
+      false;  ///< Own links, too: completes `query.self`, by the rules of the next file.
+  std::string pairsPath;  ///< Empty: derived from the avatar and its motion.
 };
 
 // Each adds its part of the table; `request` outlives the settings.
@@ -45,7 +48,8 @@ struct WorldRequest {
 void addSceneSettings(Settings& settings, WorldRequest& request);
 /// The ones that services have too: --tolerance, --fidelity, --ignore, --budget-us.
 void addQuerySettings(Settings& settings, WorldRequest& request);
-/// The rest: --scope, --skin and how to read it, --policy (does not read its file).
+/// The rest: --scope, --skin and how to read it, --policy and --pairs (does not read their files),
+/// --self.
 void addReplayQuerySettings(Settings& settings, WorldRequest& request);
 
 }  // namespace foretouch::tools

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "assets/near_names.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
 #include "tessellation/swept_lss.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/played_clip.h"
-#include "tools/settings/near_names.h"
 
 namespace foretouch::tools {
 namespace {

@@ -13,6 +13,8 @@ from foretouch._foretouch import (
     Error,
     InputError,
     Motion,
+    PairContact,
+    PairRules,
     Query,
     ResourceError,
     Scene,
@@ -25,7 +27,16 @@ from foretouch._foretouch import (
 )
 from foretouch._examples import example_folder
 from foretouch._queries import first_contacts, first_contacts_many, touches_at
-from foretouch._types import JointMatch, Lss, Pose, Poses, SceneAudit, SweptSurface
+from foretouch._types import (
+    JointMatch,
+    LeftOutPair,
+    Lss,
+    PairRadius,
+    Pose,
+    Poses,
+    SceneAudit,
+    SweptSurface,
+)
 
 __all__ = [
     "Avatar",
@@ -34,8 +45,12 @@ __all__ = [
     "Error",
     "InputError",
     "JointMatch",
+    "LeftOutPair",
     "Lss",
     "Motion",
+    "PairContact",
+    "PairRadius",
+    "PairRules",
     "Pose",
     "Poses",
     "Query",

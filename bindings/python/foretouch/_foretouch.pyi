@@ -13,8 +13,13 @@ from foretouch._types import (
     Doubles,
     IgnoredLike,
     JointMatch,
+    LeftOutLike,
+    LeftOutPair,
     LinkLike,
+    LinkPairLike,
     Lss,
+    PairRadius,
+    PairRadiusLike,
     Policy,
     PolicyKey,
     Pose,
@@ -117,6 +122,38 @@ class Surface:
     def num_triangles(self) -> int: ...
     def triangles(self, link: LinkLike) -> Doubles: ...
 
+class PairRules:
+    @staticmethod
+    def derive(
+        avatar: Avatar,
+        *,
+        usual_poses: Optional[PosesLike] = None,
+        always_share: float = 0.95,
+        pair_radii: bool = False,
+        rest_skin: float = 0.002,
+        leave_out: Sequence[LinkPairLike] = (),
+    ) -> PairRules: ...
+    @staticmethod
+    def exactly(
+        avatar: Avatar,
+        left_out: Sequence[LeftOutLike],
+        radii: Sequence[PairRadiusLike] = (),
+    ) -> PairRules: ...
+    @staticmethod
+    def load(path: _Path, avatar: Avatar) -> PairRules: ...
+    def save(self, path: _Path) -> None: ...
+    def reason_of(self, a: LinkLike, b: LinkLike) -> str: ...
+    @property
+    def avatar(self) -> Avatar: ...
+    @property
+    def num_pairs(self) -> int: ...
+    @property
+    def num_asked(self) -> int: ...
+    @property
+    def left_out(self) -> list[LeftOutPair]: ...
+    @property
+    def radii(self) -> list[PairRadius]: ...
+
 class Clip:
     @staticmethod
     def load(path: _Path, scale: float = 1.0) -> Clip: ...
@@ -188,6 +225,14 @@ class Contact:
     @property
     def scene_feature(self) -> Optional[str]: ...
 
+class PairContact(Contact):
+    @property
+    def other(self) -> str: ...
+    @property
+    def other_id(self) -> int: ...
+    @property
+    def other_lss(self) -> Optional[int]: ...
+
 class Step:
     @property
     def verdicts(self) -> npt.NDArray[np.uint8]: ...
@@ -211,6 +256,8 @@ class Step:
     def link_names(self) -> list[str]: ...
     @property
     def contacts(self) -> list[Contact]: ...
+    @property
+    def pairs(self) -> Optional[list[PairContact]]: ...
     @property
     def is_clear(self) -> bool: ...
     @property
@@ -258,6 +305,7 @@ class Query:
         deadline_us: Optional[float] = None,
         scope: str = "links",
         surface: Optional[Surface] = None,
+        self_pairs: Optional[PairRules] = None,
     ) -> None: ...
     def first_contacts(self, motion: Motion) -> Step: ...
     def first_contacts_many(

@@ -8,7 +8,7 @@ from typing import Optional
 import numpy as np
 import numpy.typing as npt
 
-from foretouch._foretouch import Avatar, Motion, Query, Scene, Step, Steps, Surface
+from foretouch._foretouch import Avatar, Motion, PairRules, Query, Scene, Step, Steps, Surface
 from foretouch._types import IgnoredLike, Policy, PolicyKey, PosesLike
 
 
@@ -25,6 +25,7 @@ def first_contacts(
     deadline_us: Optional[float] = None,
     scope: str = "links",
     surface: Optional[Surface] = None,
+    self_pairs: Optional[PairRules] = None,
 ) -> Step:
     """The first contact of every link in one motion. The options are those of Query, which is
     faster for more than one motion."""
@@ -39,6 +40,7 @@ def first_contacts(
         deadline_us=deadline_us,
         scope=scope,
         surface=surface,
+        self_pairs=self_pairs,
     )
     return query.first_contacts(motion)
 
@@ -58,6 +60,7 @@ def first_contacts_many(
     deadline_us: Optional[float] = None,
     scope: str = "links",
     surface: Optional[Surface] = None,
+    self_pairs: Optional[PairRules] = None,
 ) -> Steps:
     """The first contact of every link on the way from each pose to the next (or to the one at the
     same place in `ends`), on several threads."""
@@ -72,6 +75,7 @@ def first_contacts_many(
         deadline_us=deadline_us,
         scope=scope,
         surface=surface,
+        self_pairs=self_pairs,
     )
     return query.first_contacts_many(poses, ends=ends, threads=threads)
 

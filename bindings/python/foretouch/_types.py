@@ -70,6 +70,25 @@ class Lss(NamedTuple):
     radius: float
 
 
+class LeftOutPair(NamedTuple):
+    """Two own links that no query asks whether they touch: nothing is said of them."""
+
+    a: str
+    b: str
+    reason: str
+    """'adjacent', 'rest-overlap', 'always' or 'user'."""
+
+
+class PairRadius(NamedTuple):
+    """Two LSS of own links whose sum of radii counts as `radius`. Metres."""
+
+    a: str
+    lss_a: int
+    b: str
+    lss_b: int
+    radius: float
+
+
 class JointMatch(NamedTuple):
     """Which joint of a clip drives which joint of an avatar."""
 
@@ -123,6 +142,12 @@ class Policy(TypedDict, total=False):
 
 LinkLike = Union[str, int]
 """A link's name or index."""
+LinkPairLike = tuple[LinkLike, LinkLike]
+"""Two links, in either order."""
+LeftOutLike = Union[LinkPairLike, tuple[LinkLike, LinkLike, str]]
+"""Two links, and why they are left out; "user" if nothing says why."""
+PairRadiusLike = tuple[LinkLike, int, LinkLike, int, float]
+"""Two links, each with the number of its LSS, and the sum of radii that counts for the two."""
 IgnoredLike = Union[LinkLike, tuple[LinkLike, Union[str, int]]]
 """A link, or a link and an object (its name or index), whose contacts the query ignores."""
 PolicyKey = Union[LinkLike, tuple[LinkLike, Union[str, int]]]

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/settings/near_names.h"
+#include "assets/near_names.h"
 
 namespace foretouch::tools {
 namespace {

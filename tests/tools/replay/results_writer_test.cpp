@@ -51,6 +51,35 @@ TEST(StepFormat, WritesEveryFieldOfEveryVerdict) {
             "\n");
 }
 
+TEST(StepFormat, TellsOfOwnLinksOnlyWhereTheyAreAsked) {
+  const ReplayInputs inputs = smallInputs({0, 1});
+  StepAnswer answer;
+  answer.t1S = 0.1;
+  PairContact pair;
+  static_cast<LinkContact&>(pair) = contactOf(0, Verdict::Contact, 0.5);
+  pair.other = 1;
+  pair.triangle = -1;
+  PairContact undecided = pair;
+  undecided.verdict = Verdict::Undecided;
+  undecided.reason = UndecidedReason::WorkBudget;
+  PairContact exact = pair;
+  exact.triangle = 7;
+  exact.linkTriangle = 3;
+  answer.pairs = {pair, undecided, exact};
+  EXPECT_EQ(StepFormat(inputs.avatar, inputs.scene).line(answer),
+            "{\"step\":0,\"t0\":0,\"t1\":0.1,\"contacts\":[],\"latency_us\":0.0}\n");
+  EXPECT_EQ(StepFormat(inputs.avatar, inputs.scene, true).line(answer),
+            R"({"step":0,"t0":0,"t1":0.1,"contacts":[],"pairs":[)"
+            R"({"link":"Hips","other":"Arm","verdict":"contact","toi":0.5,"time":0.05,)"
+            R"("separation":0,"point":[0,0,0],"on_link":[0,0,0],"normal":[0,0,0]},)"
+            R"({"link":"Hips","other":"Arm","verdict":"undecided","free_until":0.5,)"
+            R"("reason":"work-budget"},)"
+            R"({"link":"Hips","other":"Arm","verdict":"contact","toi":0.5,"time":0.05,)"
+            R"("separation":0,"point":[0,0,0],"on_link":[0,0,0],"normal":[0,0,0],"triangle":7,)"
+            R"("link_triangle":3,"link_feature":"face","scene_feature":"face"}],"latency_us":0.0})"
+            "\n");
+}
+
 TEST(StepFormat, WritesNumbersThatReadBackAsTheSameDoubles) {
   const ReplayInputs inputs = smallInputs({0, 1});
   const StepFormat format(inputs.avatar, inputs.scene);

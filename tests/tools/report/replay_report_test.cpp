@@ -57,6 +57,34 @@ std::vector<json> contactsByStep(const json& document, std::size_t steps) {
   return byStep;
 }
 
+TEST(ReplayReport, HoldsTheContactsOfOwnLinks) {
+  ReplayInputs inputs = smallInputs(swing(20));
+  std::string avatar = test::kManAvatar;  // with the arm 5 cm deep in the hips
+  avatar.replace(avatar.find("[0,0.3,0]"), 9, "[0,0.1,0]");
+  inputs.avatar = parseAvatar(avatar, "man.json").value();
+  inputs.query.self = PairRules::of(inputs.avatar, {}).value();
+  const Reported reported = report(inputs);
+  std::size_t own = 0;
+  for (const json& contact : reported.document["avatars"][0]["contacts"]) {
+    if (contact.count("other") == 0) continue;
+    ++own;
+    EXPECT_EQ(contact["link"], 0);
+    EXPECT_EQ(contact["other"], 1);
+    EXPECT_EQ(contact["object"], "Arm");
+    EXPECT_EQ(contact.count("missed_by_poses"), 0u);
+    EXPECT_NEAR(contact["penetration"].get<double>(), 0.05, 1e-9);
+  }
+  EXPECT_EQ(own, reported.lines.size());
+  std::size_t rows = 0;
+  for (const json& row : reported.document["summary"]) {
+    if (row["name"] == "start in own contact") {
+      EXPECT_EQ(row["value"], "19");
+      ++rows;
+    }
+  }
+  EXPECT_EQ(rows, 1u);
+}
+
 TEST(ReplayReport, HoldsTheContactsOfTheResults) {
   const ReplayInputs inputs = smallInputs(swing(100));
   const Reported reported = report(inputs);

@@ -57,6 +57,7 @@ FT_API uint32_t ft_abi_version(void);
 typedef struct ft_scene ft_scene;
 typedef struct ft_avatar ft_avatar;
 typedef struct ft_clip ft_clip;
+typedef struct ft_pair_rules ft_pair_rules;
 typedef struct ft_query ft_query;
 
 typedef int32_t ft_status;
@@ -273,6 +274,75 @@ FT_API ft_status ft_clip_pose(const ft_clip* clip, size_t frame, double* rotatio
                               double* translations, size_t capacity, size_t* required);
 FT_API void ft_clip_destroy(ft_clip* clip);
 
+/* ---- Pair rules: which own links are asked whether they touch each other ---- */
+
+enum {
+  FT_PAIR_ASKED = 0,
+  FT_PAIR_ADJACENT = 1,     /* one moves the other: between the two is no other link with LSS */
+  FT_PAIR_REST_OVERLAP = 2, /* their LSS overlap in the rest pose */
+  FT_PAIR_ALWAYS = 3,       /* they touch in nearly all usual poses */
+  FT_PAIR_USER = 4          /* somebody wanted it so */
+};
+
+/* Two links, in either order. */
+typedef struct ft_link_pair {
+  int32_t a, b;
+} ft_link_pair;
+
+/* A pair that is left out: a hole in the proof, so it has a reason. */
+typedef struct ft_left_out_pair {
+  int32_t a, b;
+  int32_t reason; /* FT_PAIR_ADJACENT to FT_PAIR_USER */
+} ft_left_out_pair;
+
+/* Two LSS whose sum of radii counts as `radius`: less than it is. */
+typedef struct ft_pair_radius {
+  int32_t a, lss_a, b, lss_b;
+  double radius; /* metres, > 0 */
+} ft_pair_radius;
+
+typedef struct ft_pair_rule_options {
+  uint32_t size;
+  int32_t use_pair_radii; /* 1: LSS that overlap at rest count with smaller radii, if they can */
+  double rest_skin;       /* metres that these are then apart at rest; default 2e-3 */
+  double always_share;    /* of the usual poses, for FT_PAIR_ALWAYS; default 0.95 */
+  const double* usual_rotations;    /* w, x, y, z per joint and pose, pose by pose */
+  const double* usual_translations; /* x, y, z per joint and pose; NULL: the offsets */
+  size_t usual_count;               /* poses that the avatar usually takes; 0: none */
+  const ft_link_pair* left_out;     /* by the user */
+  size_t left_out_count;
+} ft_pair_rule_options;
+
+FT_API ft_status ft_pair_rule_options_init(ft_pair_rule_options* options, size_t size);
+/* Leaves out what the enumeration above names; `options` may be NULL. Rules belong to this avatar.
+ * Errors: bad options, and rules that leave no pair to ask. O(LSS^2) per pose. */
+FT_API ft_status ft_pair_rules_create(const ft_avatar* avatar, const ft_pair_rule_options* options,
+                                      ft_pair_rules** rules);
+/* Exactly these pairs are left out, and only these LSS have radii of their own. */
+FT_API ft_status ft_pair_rules_create_exactly(const ft_avatar* avatar,
+                                              const ft_left_out_pair* left_out,
+                                              size_t left_out_count, const ft_pair_radius* radii,
+                                              size_t radius_count, ft_pair_rules** rules);
+/* Reads a file of pair rules (docs/formats.md). */
+FT_API ft_status ft_pair_rules_create_from_file(const char* path, const ft_avatar* avatar,
+                                                ft_pair_rules** rules);
+
+typedef struct ft_pair_rules_info {
+  uint32_t size;
+  uint32_t reserved; /* 0 */
+  uint64_t pairs;    /* of different links that both have LSS */
+  uint64_t asked;    /* of these */
+  uint64_t left_out, radii;
+} ft_pair_rules_info;
+
+FT_API ft_status ft_pair_rules_get_info(const ft_pair_rules* rules, ft_pair_rules_info* info);
+/* By a, then by b; a < b. */
+FT_API ft_status ft_pair_rules_left_out(const ft_pair_rules* rules, ft_left_out_pair* pairs,
+                                        size_t capacity, size_t* required);
+FT_API ft_status ft_pair_rules_radii(const ft_pair_rules* rules, ft_pair_radius* radii,
+                                     size_t capacity, size_t* required);
+FT_API void ft_pair_rules_destroy(ft_pair_rules* rules);
+
 /* ---- Queries: what does each link meet first? ---- */
 
 /* What counts as a link's surface. From coarse to fine: ELLIPSOID, AVATAR, LIMB, LINK, EXACT. */
@@ -305,8 +375,8 @@ typedef struct ft_link_policy {
 #define FT_UNCHANGED (-1)
 
 /* What a link has with one object, if objects differ. Later policies win; what one leaves out stays
- * as earlier ones set it, or else as for all links. A link's tolerance is the least of those that it
- * has with the objects that it does not ignore. */
+ * as earlier ones set it, or else as for all links. A link's tolerance is the least of those that
+ * it has with the objects that it does not ignore. */
 typedef struct ft_object_policy {
   int32_t link;     /* or FT_EVERY_LINK */
   int32_t object;   /* or FT_EVERY_OBJECT */
@@ -337,6 +407,10 @@ FT_API ft_status ft_query_create(const ft_scene* scene, const ft_avatar* avatar,
                                  const ft_query_options* options, ft_query** query);
 /* Changes the options and forgets the last step's answer, but not its pose. */
 FT_API ft_status ft_query_set_options(ft_query* query, const ft_query_options* options);
+/* Asks whether own links touch, too; NULL: no longer. The rules stay when options change, which
+ * must then be FT_FIDELITY_LINK or _EXACT (without radii), and FT_SCOPE_EVERY_LINK. Forgets the
+ * last step's answer, but not its pose. The query keeps no handle of the rules. */
+FT_API ft_status ft_query_set_pair_rules(ft_query* query, const ft_pair_rules* rules);
 
 /* Answers the motion from one pose to another: every joint turns at constant rate on the shorter
  * arc, translations are linear, links follow down the chain. `from` NULL: from where the last step
@@ -386,6 +460,19 @@ FT_API ft_status ft_query_links(const ft_query* query, ft_contact* links, size_t
  * free_until); at equal times, the lowest link first. O(links log links). */
 FT_API ft_status ft_query_contacts(const ft_query* query, ft_contact* contacts, size_t capacity,
                                    size_t* required);
+
+/* The own link that takes the place of the scene in a contact of two own links. */
+typedef struct ft_other_link {
+  int32_t link; /* above the contact's */
+  int32_t lss;  /* which of its LSS; -1: none */
+} ft_other_link;
+
+/* All asked pairs of own links of the last step that are not clear, in the order of
+ * ft_query_contacts(), then of the other link; every other asked pair is proven clear. In each
+ * contact, `point_scene`, `triangle` and `scene_feature` are of the other link and its mesh, and
+ * `object` is -1. FT_ERROR_MISMATCH without pair rules. */
+FT_API ft_status ft_query_pairs(const ft_query* query, ft_contact* contacts, ft_other_link* others,
+                                size_t capacity, size_t* required);
 
 /* A link's place and velocity at one t, in W; velocities per unit of t. */
 typedef struct ft_transform {

@@ -1,4 +1,4 @@
-#include "tools/settings/near_names.h"
+#include "assets/near_names.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "assets/text_file.h"
 
-namespace foretouch::tools {
+namespace foretouch {
 namespace {
 
 constexpr std::size_t kMaxCompared = 64;
@@ -54,4 +54,4 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& na
   return text.empty() ? text : text + "?";
 }
 
-}  // namespace foretouch::tools
+}  // namespace foretouch

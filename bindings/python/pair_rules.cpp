@@ -1,0 +1,174 @@
+// bindings/python/pair_rules.cpp: foretouch.PairRules.
+#include "bindings/python/pair_rules.h"
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assets/avatar/pairs_file.h"
+#include "bindings/python/arguments.h"
+#include "bindings/python/bindings.h"
+#include "bindings/python/poses.h"
+#include "lss/index.h"
+
+namespace foretouch::python {
+namespace {
+
+using SharedAvatar = std::shared_ptr<Avatar>;
+
+constexpr std::array<std::pair<const char*, PairReason>, 4> kLeftOutReasons{
+    {{"adjacent", PairReason::Adjacent},
+     {"rest-overlap", PairReason::RestOverlap},
+     {"always", PairReason::Always},
+     {"user", PairReason::User}}};
+
+/// Two links, by name or index, and whatever follows them.
+struct GivenPair {
+  LinkId a = 0, b = 0;
+  std::vector<py::object> items;
+  std::string what;
+};
+
+GivenPair pairFrom(const Avatar& avatar, const py::object& given, const std::string& list,
+                   std::size_t place, std::size_t least, std::size_t most) {
+  GivenPair pair;
+  pair.what = list + "[" + std::to_string(place) + "]";
+  pair.items = items(given, pair.what);
+  if (pair.items.size() < least || pair.items.size() > most) {
+    refuse(ErrorCode::Mismatch, pair.what,
+           "expected " + std::to_string(least) + (most > least ? " or more" : "") +
+               " items, found " + std::to_string(pair.items.size()));
+  }
+  pair.a = linkOf(avatar, pair.items[0], pair.what + "[0]");
+  pair.b = linkOf(avatar, pair.items[1], pair.what + "[1]");
+  return pair;
+}
+
+PairRules derive(SharedAvatar avatar, const py::object& usualPoses, const py::object& alwaysShare,
+                 bool pairRadii, const py::object& restSkin, const py::object& leaveOut) {
+  PairRuleOptions options;
+  options.alwaysShare = number(alwaysShare, "always_share");
+  options.usePairRadii = pairRadii;
+  options.restSkin = number(restSkin, "rest_skin");
+  for (const py::object& one : items(leaveOut, "leave_out")) {
+    const GivenPair pair = pairFrom(*avatar, one, "leave_out", options.leftOut.size(), 2, 2);
+    options.leftOut.push_back({pair.a, pair.b});
+  }
+  std::vector<Pose> poses;
+  if (!usualPoses.is_none()) poses = posesFrom(avatar->skeleton(), usualPoses, "usual_poses");
+  options.usualPoses = &poses;
+  const py::gil_scoped_release free;
+  auto rules = valueOf(foretouch::PairRules::derive(*avatar, options), "PairRules.derive");
+  return {std::move(avatar), std::move(rules)};
+}
+
+PairRules exactly(SharedAvatar avatar, const py::object& leftOut, const py::object& radii) {
+  std::vector<LeftOutPair> pairs;
+  for (const py::object& one : items(leftOut, "left_out")) {
+    const GivenPair pair = pairFrom(*avatar, one, "left_out", pairs.size(), 2, 3);
+    const PairReason reason = pair.items.size() == 2
+                                  ? PairReason::User
+                                  : oneOf(pair.items[2], pair.what + "[2]", kLeftOutReasons);
+    pairs.push_back({pair.a, pair.b, reason});
+  }
+  std::vector<PairRadius> own;
+  for (const py::object& one : items(radii, "radii")) {
+    const std::vector<py::object> parts = items(one, "radii[" + std::to_string(own.size()) + "]");
+    const std::string what = "radii[" + std::to_string(own.size()) + "]";
+    if (parts.size() != 5) {
+      refuse(ErrorCode::Mismatch, what, "expected (a, lss_a, b, lss_b, radius)");
+    }
+    const auto lss = [&](std::size_t i) {
+      return static_cast<std::int32_t>(
+          integer(parts[i], what + "[" + std::to_string(i) + "]", 0, kMaxLssPerLink - 1));
+    };
+    own.push_back({linkOf(*avatar, parts[0], what + "[0]"), lss(1),
+                   linkOf(*avatar, parts[2], what + "[2]"), lss(3),
+                   number(parts[4], what + "[4]")});
+  }
+  auto rules = valueOf(foretouch::PairRules::of(*avatar, std::move(pairs), std::move(own)),
+                       "PairRules.exactly");
+  return {std::move(avatar), std::move(rules)};
+}
+
+PairRules load(const py::object& file, SharedAvatar avatar) {
+  const std::string from = path(file, "path");
+  const py::gil_scoped_release free;
+  auto rules = valueOf(readPairsFile(from, *avatar), from);
+  return {std::move(avatar), std::move(rules)};
+}
+
+void save(const PairRules& own, const py::object& file) {
+  const std::string to = path(file, "path");
+  const py::gil_scoped_release free;
+  valueOf(writePairsFile(own.rules, *own.avatar, to), to);
+}
+
+py::list leftOutList(const PairRules& own) {
+  const py::object type = pythonType("LeftOutPair");
+  py::list list;
+  for (const LeftOutPair& pair : own.rules.leftOut()) {
+    list.append(
+        type(nameOf(*own.avatar, pair.a), nameOf(*own.avatar, pair.b), toString(pair.reason)));
+  }
+  return list;
+}
+
+py::list radiusList(const PairRules& own) {
+  const py::object type = pythonType("PairRadius");
+  py::list list;
+  for (const PairRadius& one : own.rules.radii()) {
+    list.append(type(nameOf(*own.avatar, one.a), one.lssA, nameOf(*own.avatar, one.b), one.lssB,
+                     one.radius));
+  }
+  return list;
+}
+
+const char* reasonOf(const PairRules& own, const py::object& a, const py::object& b) {
+  const LinkId first = linkOf(*own.avatar, a, "a"), second = linkOf(*own.avatar, b, "b");
+  if (first == second) refuse(ErrorCode::OutOfRange, "b", "expected two different links");
+  return toString(own.rules.reasonOf(first, second));
+}
+
+std::string textOf(const PairRules& own) {
+  return "<foretouch.PairRules: " + std::to_string(own.rules.numAsked()) + " of " +
+         std::to_string(own.rules.numPairs()) + " pairs asked>";
+}
+
+}  // namespace
+
+void bindPairRules(py::module_& module) {
+  const PairRuleOptions usual;
+  py::class_<PairRules>(module, "PairRules",
+                        "Which pairs of an avatar's own links a query asks whether they touch.\n"
+                        "Every pair that is left out is a hole in the proof, so each has a "
+                        "reason. Immutable.")
+      .def_static("derive", &derive, py::arg("avatar").none(false), py::kw_only(),
+                  py::arg("usual_poses") = py::none(), py::arg("always_share") = usual.alwaysShare,
+                  py::arg("pair_radii") = false, py::arg("rest_skin") = usual.restSkin,
+                  py::arg("leave_out") = py::tuple(),
+                  "Leaves out links of which one moves the other ('adjacent'), links that overlap\n"
+                  "at rest ('rest-overlap'), links that touch in always_share of usual_poses\n"
+                  "('always'), and the pairs of leave_out ('user'). pair_radii: LSS that overlap\n"
+                  "at rest count with smaller radii instead, rest_skin metres apart there; only\n"
+                  "for fidelity 'link'.")
+      .def_static("exactly", &exactly, py::arg("avatar").none(false), py::arg("left_out"),
+                  py::arg("radii") = py::tuple(),
+                  "left_out: (a, b) or (a, b, reason); radii: (a, lss_a, b, lss_b, radius).")
+      .def_static("load", &load, py::arg("path"), py::arg("avatar").none(false),
+                  "A file of foretouch avatar pairs.")
+      .def("save", &save, py::arg("path"))
+      .def("reason_of", &reasonOf, py::arg("a"), py::arg("b"),
+           "'asked', or why the pair is left out.")
+      .def_property_readonly("avatar", [](const PairRules& own) { return own.avatar; })
+      .def_property_readonly(
+          "num_pairs", [](const PairRules& own) { return own.rules.numPairs(); },
+          "Of different links that both have LSS.")
+      .def_property_readonly("num_asked", [](const PairRules& own) { return own.rules.numAsked(); })
+      .def_property_readonly("left_out", &leftOutList)
+      .def_property_readonly("radii", &radiusList)
+      .def("__repr__", &textOf);
+}
+
+}  // namespace foretouch::python
