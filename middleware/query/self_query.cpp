@@ -20,6 +20,10 @@ constexpr int kProposingNodes[] = {3, 0, 7};
 /// Past the rounding of a sum, and of the kernel's product with it.
 constexpr float kBendInflation = 1.0F + 0x1p-21F;
 
+/// The nodes are relative to the scene's middle. Where that is so far away that their places lose
+/// more than this (m), a contact's points are found from the links' own states.
+constexpr double kStartRounding = 1e-12;
+
 /// Steps along curves before doubles look: two that slide along each other take many.
 constexpr int kMostRounds = 200;
 
@@ -200,7 +204,8 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   const bool mayStart = begin_ == 0.0 && std::any_of(pairs, pairs + count, [](const PlanePair& p) {
                           return (p.open & 1U) != 0;
                         });
-  if (mayStart && !query.isExact() && !other.surface) {
+  const bool areNodesFine = pointRounding(scratch_.lanes.nodes.bounds(), 0.0) <= kStartRounding;
+  if (mayStart && areNodesFine && !query.isExact() && !other.surface) {
     if (const auto contact = contactAtStart(query, step.counters)) {
       return keep(*contact, kNoParent, step);
     }
