@@ -79,6 +79,15 @@ ft_status readExactly(const ft_left_out_pair* given, std::size_t count,
   return FT_OK;
 }
 
+/// The library's options by their names here.
+Result<PairRules> withNames(Result<PairRules> made) {
+  if (made.ok()) return made;
+  Error error = made.error();
+  if (error.file == "restSkin") error.file = "rest_skin";
+  if (error.file == "alwaysShare") error.file = "always_share";
+  return error;
+}
+
 ft_status makeRules(Result<PairRules> made, ft_pair_rules** rules) {
   FORETOUCH_TRY_OR(failure, auto known, std::move(made));
   *rules = new ft_pair_rules{ft_pair_rules::kMark, std::move(known)};
@@ -118,7 +127,7 @@ ft_status ft_pair_rules_create(const ft_avatar* avatar, const ft_pair_rule_optio
     std::vector<Pose> poses;
     if (const auto s = readUsualPoses(known, of.skeleton(), poses); s != FT_OK) return s;
     given.usualPoses = &poses;
-    return makeRules(PairRules::derive(of, given), rules);
+    return makeRules(withNames(PairRules::derive(of, given)), rules);
   });
 }
 

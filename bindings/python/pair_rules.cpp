@@ -45,6 +45,15 @@ GivenPair pairFrom(const Avatar& avatar, const py::object& given, const std::str
   return pair;
 }
 
+/// The library's options by their names here.
+Result<foretouch::PairRules> withKeywords(Result<foretouch::PairRules> made) {
+  if (made.ok()) return made;
+  Error error = made.error();
+  if (error.file == "restSkin") error.file = "rest_skin";
+  if (error.file == "alwaysShare") error.file = "always_share";
+  return error;
+}
+
 PairRules derive(SharedAvatar avatar, const py::object& usualPoses, const py::object& alwaysShare,
                  bool pairRadii, const py::object& restSkin, const py::object& leaveOut) {
   PairRuleOptions options;
@@ -59,7 +68,8 @@ PairRules derive(SharedAvatar avatar, const py::object& usualPoses, const py::ob
   if (!usualPoses.is_none()) poses = posesFrom(avatar->skeleton(), usualPoses, "usual_poses");
   options.usualPoses = &poses;
   const py::gil_scoped_release free;
-  auto rules = valueOf(foretouch::PairRules::derive(*avatar, options), "PairRules.derive");
+  auto rules =
+      valueOf(withKeywords(foretouch::PairRules::derive(*avatar, options)), "PairRules.derive");
   return {std::move(avatar), std::move(rules)};
 }
 

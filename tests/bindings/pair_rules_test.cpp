@@ -207,7 +207,7 @@ TEST(CPairRules, RefuseBadArguments) {
   options = test::initialised(ft_pair_rule_options_init);
   options.always_share = 0.0;
   expectRefused(ft_pair_rules_create(handle.get(), &options, &rules), FT_ERROR_OUT_OF_RANGE,
-                {"alwaysShare"});
+                {"always_share"});
   expectRefused(ft_pair_rules_create_from_file("/absent.json", handle.get(), &rules),
                 FT_ERROR_FILE_NOT_FOUND, {"/absent.json"});
   EXPECT_EQ(rules, nullptr);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "assets/avatar/avatar_file.h"
+#include "assets/avatar/pairs_file.h"
 #include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
 #include "tests/fuzz/promise.h"
@@ -80,6 +81,28 @@ bool feedAvatar(const std::uint8_t* data, std::size_t size) {
   }
   require(avatar.value().numLss() >= 1, "an avatar has an LSS");
   checkRoundTrip(avatar.value());
+  return true;
+}
+
+bool feedPairs(const std::uint8_t* data, std::size_t size) {
+  static const Avatar avatar = parseAvatar(R"({"format":"foretouch-avatar","version":1,"links":[
+{"name":"a","parent":null,"offset":[0,0,0],"lss":[{"a":[0,0,0],"b":[0,0,0],"radius":0.1}]},
+{"name":"b","parent":"a","offset":[1,0,0],"lss":[{"a":[0,0,0],"b":[1,0,0],"radius":0.1}]},
+{"name":"c","parent":"b","offset":[-0.85,0,0],"lss":[{"a":[0,0,0],"b":[0,0,0],"radius":0.1}]},
+{"name":"d","parent":"c","offset":[0,1,0],"lss":[]}]})",
+                                           "avatar")
+                                   .value();
+  const auto rules = parsePairs(textOf(data, size), "input", avatar);
+  if (!rules.ok()) {
+    checkError(rules.error());
+    return false;
+  }
+  require(rules.value().numAsked() >= 1, "something is asked");
+  const std::string text = formatPairs(rules.value(), avatar);
+  const auto again = parsePairs(text, "written", avatar);
+  require(again.ok(), "written rules are read");
+  require(formatPairs(again.value(), avatar) == text, "written rules are read as they were");
+  require(again.value().numAsked() == rules.value().numAsked(), "they ask the same");
   return true;
 }
 

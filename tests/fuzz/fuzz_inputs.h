@@ -13,4 +13,8 @@ bool feedBvh(const std::uint8_t* data, std::size_t size);
 /// Reads the bytes as an avatar file. An accepted one must survive writing and reading.
 bool feedAvatar(const std::uint8_t* data, std::size_t size);
 
+/// Reads the bytes as pair rules of an avatar of four links. Accepted ones must ask something and
+/// survive writing and reading.
+bool feedPairs(const std::uint8_t* data, std::size_t size);
+
 }  // namespace foretouch::fuzz

@@ -20,5 +20,11 @@ TEST(FuzzCorpus, AvatarInputsKeepThePromises) {
   EXPECT_GE(counts.refused, 2);
 }
 
+TEST(FuzzCorpus, PairRulesKeepThePromises) {
+  const CorpusCounts counts = replayCorpus("pairs", feedPairs, AlsoFeed::EveryBeginning);
+  EXPECT_GE(counts.accepted, 3);
+  EXPECT_GE(counts.refused, 3);
+}
+
 }  // namespace
 }  // namespace foretouch::fuzz

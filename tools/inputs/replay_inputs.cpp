@@ -70,12 +70,14 @@ Result<Done> checkRadii(const QueryOptions& query, const std::string& pairsPath)
 
 /// What nobody asks, and how to see it.
 std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) {
+  std::string command =
+      "foretouch avatar pairs " + request.avatarPath + " --clip " + request.motionPath;
+  if (request.motionScale != 1.0) command += fmt::format(" --scale {}", request.motionScale);
+  if (!request.animation.empty()) command += " --animation " + request.animation;
   return fmt::format(
       "--self: {} of {} pairs of own links are left out, so nothing is said of them ({}); list "
-      "them: foretouch avatar pairs {} --clip {}{}",
-      rules.leftOut().size(), rules.numPairs(), reasonsOf(rules), request.avatarPath,
-      request.motionPath,
-      request.motionScale == 1.0 ? "" : fmt::format(" --scale {}", request.motionScale));
+      "them: {}",
+      rules.leftOut().size(), rules.numPairs(), reasonsOf(rules), command);
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ class Rules(unittest.TestCase):
             (lambda: PairRules.exactly(avatar, [], [("left", 0, "right", 0)]), r"radii\[0\]"),
             (lambda: PairRules.exactly(avatar, [], [("left", 0, "right", 0, 1.0)]),
              "below the sum"),
-            (lambda: PairRules.derive(avatar, always_share=0), "alwaysShare"),
+            (lambda: PairRules.derive(avatar, always_share=0), "always_share: expected"),
             (lambda: PairRules.derive(avatar, leave_out=["left"]), "leave_out"),
             (lambda: rules.reason_of("left", "left"), "two different links"),
         ]
