@@ -38,7 +38,11 @@ std::string malformation(const LinkContact& c, double tolerance, Scope scope) {
   if (!(c.separation >= 0.0 && c.separation <= tolerance)) return "a separation beyond [0,eps]";
   if (!(c.penetration >= 0.0)) return "a negative penetration";
   if (isTouch && c.triangle < 0) return "no triangle";
-  if (isTouch && std::abs(c.nhat_SL_W.norm() - 1.0) > kUnitSlack) return "no unit normal";
+  // What meets in a point, without radii, has no direction, and then none is told.
+  const bool mayHaveNone = c.verdict == Verdict::StartsInContact && c.nhat_SL_W.isZero(0.0);
+  if (isTouch && !mayHaveNone && std::abs(c.nhat_SL_W.norm() - 1.0) > kUnitSlack) {
+    return "no unit normal";
+  }
   if (c.verdict == Verdict::StartsInContact && c.toi != 0.0) return "a start that is none";
   const bool mayBeAfterFirst = scope == Scope::FirstOfAvatar;
   if (c.verdict == Verdict::Undecided && c.reason != UndecidedReason::Resolution &&
