@@ -184,12 +184,14 @@ Result<PairRules> PairRules::derive(const Avatar& avatar, const PairRuleOptions&
   forPairs(avatar, [&](LinkId a, LinkId b) {
     const auto leaveOut = [&](PairReason reason) { rules.leftOut_.push_back({a, b, reason}); };
     if (isAdjacent(avatar, a, b)) return leaveOut(PairReason::Adjacent);
-    if (rest.touch(a, b) &&
+    const std::int64_t touched = numPoses > 0 ? touches[slotOf(a) * n + slotOf(b)] : 0;
+    const bool isRestTaken = numPoses == 0 || touched > 0;
+    if (isRestTaken && rest.touch(a, b) &&
         !(options.usePairRadii && addRadii(avatar, rest, {a, b}, options.restSkin, rules.radii_))) {
       return leaveOut(PairReason::RestOverlap);
     }
-    if (numPoses > 0 && static_cast<double>(touches[slotOf(a) * n + slotOf(b)]) >=
-                            options.alwaysShare * static_cast<double>(numPoses)) {
+    if (numPoses > 0 &&
+        static_cast<double>(touched) >= options.alwaysShare * static_cast<double>(numPoses)) {
       leaveOut(PairReason::Always);
     }
   });

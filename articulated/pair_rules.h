@@ -16,7 +16,7 @@ namespace foretouch {
 enum class PairReason : std::uint8_t {
   Asked = 0,
   Adjacent = 1,     ///< One moves the other: between the two is no other link with LSS.
-  RestOverlap = 2,  ///< Their LSS overlap in the rest pose.
+  RestOverlap = 2,  ///< Their LSS overlap at rest, and in a usual pose if any are known.
   Always = 3,       ///< They touch in nearly all usual poses.
   User = 4,         ///< Somebody wanted it so.
 };

@@ -68,6 +68,24 @@ TEST(PairRules, LeaveOutWhatOverlapsAtRestOrShrinkIt) {
   EXPECT_EQ(rules.radii()[0].b, 2);
 }
 
+// The rest pose of many files is none that a body takes: links may lie in one another there.
+TEST(PairRules, AskWhatOverlapsAtRestAndInNoUsualPose) {
+  RawSkeleton raw;
+  raw.joints = {{"a", kNoParent, Vector3d::Zero()},
+                {"b", 0, Vector3d(1, 0, 0)},
+                {"c", 1, Vector3d(-0.92, 0, 0)}};
+  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), 0.05};
+  const Avatar avatar =
+      Avatar::build(Skeleton::build(raw).value(), {{ball}, {ball}, {ball}}).value();
+  std::vector<Pose> poses(3, restPose(avatar.skeleton()));
+  for (Pose& pose : poses) pose.translations[2] = Vector3d(0.5, 0, 0);
+  PairRuleOptions options;
+  options.usualPoses = &poses;
+  EXPECT_EQ(derived(avatar, options).reasonOf(0, 2), PairReason::Asked);
+  poses[1] = restPose(avatar.skeleton());
+  EXPECT_FALSE(PairRules::derive(avatar, options).ok()) << "it is taken, so nothing is left to ask";
+}
+
 TEST(PairRules, LeaveOutWhatTouchesInNearlyAllUsualPoses) {
   const Avatar avatar = trunkWithArms();
   // The left hand on the trunk in three of four poses.
