@@ -34,6 +34,10 @@ struct LinkState {
   [[nodiscard]] Eigen::Vector3d velocityAt(const Eigen::Vector3d& p_L) const {
     return v_WL + w_WL.cross(R_WL * p_L);
   }
+  /// Of the link's point that is at `p_W` in W.
+  [[nodiscard]] Eigen::Vector3d velocityOf(const Eigen::Vector3d& p_W) const {
+    return v_WL + w_WL.cross(p_W - p_WL);
+  }
 };
 
 /// Bounds that hold at every t in [0,1], for one link. A point of the link at distance rho from its

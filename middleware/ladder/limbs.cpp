@@ -18,17 +18,6 @@ std::vector<std::uint8_t> linksThatCount(const Avatar& avatar) {
   return counts;
 }
 
-std::vector<int> childrenThatCount(const Avatar& avatar, const std::vector<std::uint8_t>& counts) {
-  std::vector<int> children(counts.size(), 0);
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    const JointId parent = avatar.skeleton().parent(link);
-    if (counts[slotOf(link)] != 0 && parent != kNoParent) {
-      ++children[slotOf(parent)];
-    }
-  }
-  return children;
-}
-
 void addPoints(const Avatar& avatar, LinkId link, std::vector<AxisPoint>& points) {
   for (const Lss& lss : avatar.lss(link)) {
     for (const Eigen::Vector3d& end : {lss.a, lss.b}) {
@@ -39,9 +28,21 @@ void addPoints(const Avatar& avatar, LinkId link, std::vector<AxisPoint>& points
 
 }  // namespace
 
+std::vector<int> childrenThatCount(const Avatar& avatar) {
+  const std::vector<std::uint8_t> counts = linksThatCount(avatar);
+  std::vector<int> children(counts.size(), 0);
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    const JointId parent = avatar.skeleton().parent(link);
+    if (counts[slotOf(link)] != 0 && parent != kNoParent) {
+      ++children[slotOf(parent)];
+    }
+  }
+  return children;
+}
+
 Limbs::Limbs(const Avatar& avatar) {
   const std::vector<std::uint8_t> counts = linksThatCount(avatar);
-  const std::vector<int> children = childrenThatCount(avatar, counts);
+  const std::vector<int> children = childrenThatCount(avatar);
   std::vector<std::int32_t> limbOf(counts.size(), -1);
   isCarrier_.assign(counts.size(), 0);
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {

@@ -12,6 +12,10 @@
 
 namespace foretouch::internal {
 
+/// Per link: how many of its children count, that is, have LSS or a link below that has. Two or
+/// more make a branching.
+[[nodiscard]] std::vector<int> childrenThatCount(const Avatar& avatar);
+
 /// An end of an LSS's axis in its link's frame, with the LSS's radius: a ball. Metres.
 struct AxisPoint {
   LinkId link;

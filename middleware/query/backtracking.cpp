@@ -74,20 +74,9 @@ class Backtracker {
   void startCandidates() {
     for (Candidate& candidate : heap_) {
       FORETOUCH_ASSERT(candidate.pieces != 0);
-      candidate.freeUntil = nextPossible(candidate, candidate.freeUntil);
+      candidate.freeUntil = nextPossible(query_.pieces, candidate, candidate.freeUntil);
     }
     std::make_heap(heap_.begin(), heap_.end(), Later{});
-  }
-
-  /// The earliest instant from `t` on at which the pair's boxes meet; infinity if none before 1.
-  [[nodiscard]] double nextPossible(const Candidate& candidate, double t) const {
-    if (t >= candidate.end) return kInfinity;
-    const int here = query_.pieces.at(t);
-    if ((candidate.pieces >> here & 1u) != 0) return t;
-    for (int k = here + 1; k < query_.pieces.count; ++k) {
-      if ((candidate.pieces >> k & 1u) != 0) return query_.pieces.timeOf(k);
-    }
-    return kInfinity;
   }
 
   /// Tests the candidate (the heap's last, just popped) at its instant, and advances it, ends it,
@@ -110,7 +99,7 @@ class Backtracker {
       heap_.pop_back();
       return;
     }
-    candidate.freeUntil = nextPossible(candidate, reached);
+    candidate.freeUntil = nextPossible(query_.pieces, candidate, reached);
     candidate.nearest = -kInfinity;
     if (candidate.freeUntil <= horizon_ && candidate.freeUntil < 1.0) {
       std::push_heap(heap_.begin(), heap_.end(), Later{});
@@ -127,7 +116,7 @@ class Backtracker {
       const double step =
           stepByPlane(oneSideOf(query_, part, states_.at(t)),
                       otherSideOf(query_, part, states_.at(t)), pair.axes.nhat, query_.tolerance);
-      if (step > 0.0) part.freeUntil = nextPossible(part, timeAfter(t, step, 1.0));
+      if (step > 0.0) part.freeUntil = nextPossible(query_.pieces, part, timeAfter(t, step, 1.0));
     });
   }
 

@@ -9,7 +9,6 @@
 
 #include "lss/assert.h"
 #include "lss/index.h"
-#include "lss/safe_step.h"
 #include "lss/separation.h"
 #include "middleware/query/link_parts.h"
 #include "middleware/query/query_plan.h"
@@ -30,10 +29,8 @@ struct MaterialPoint {
 MaterialPoint pointOf(const ChainMotion& motion, LinkId link, double t, const Vector3d& p_W) {
   const LinkState state = motion.stateAt(link, t);
   const MotionBounds bounds = motion.bounds(link);
-  const Vector3d arm = p_W - state.p_WL;
-  const double rho = arm.norm() * internal::kInflation + bounds.originRounding;
-  return {state.v_WL + state.w_WL.cross(arm), bounds.accelerationAt(rho),
-          bounds.velocityRoundingAt(rho)};
+  const double rho = (p_W - state.p_WL).norm() * internal::kInflation + bounds.originRounding;
+  return {state.velocityOf(p_W), bounds.accelerationAt(rho), bounds.velocityRoundingAt(rho)};
 }
 
 /// Fills the speeds. Along a fixed normal the speed changes by no more than both accelerations; the
@@ -238,8 +235,7 @@ ContactDetails detailsOf(const QueryPlan& plan, const ChainMotion& motion,
   if (!hasContact(contact)) return details;
   describeApproach(contact, pointOf(motion, contact.link, contact.toi, contact.p_WLink), {},
                    details);
-  const Fidelity fidelity = plan.options.fidelity;
-  if (fidelity != Fidelity::Link && fidelity != Fidelity::Exact) return details;
+  if (!isOfLinks(plan.options.fidelity)) return details;
   NearPoints near(plan, motion, contact, plan.of(contact.link).tolerance);
   choosePoints(near.ofScene(found), details);
   return details;

@@ -98,8 +98,7 @@ bool LaneQuery::mayPass(const LinkContact& contact) const {
   if (contact.verdict != Verdict::Contact || contact.toi != 0.0) return false;
   if (!(kPassShare * contact.separation >= kMinTolerance)) return false;
   const LinkState state = motion_.stateAt(contact.link, 0.0);
-  const Eigen::Vector3d velocity = state.v_WL + state.w_WL.cross(contact.p_WLink - state.p_WL);
-  return velocity.dot(contact.nhat_SL_W) >= 0.0;
+  return state.velocityOf(contact.p_WLink).dot(contact.nhat_SL_W) >= 0.0;
 }
 
 /// The link's first contact with each object in the current slab, one after the other: whoever has
@@ -109,9 +108,7 @@ void LaneQuery::answerObjects(LinkId link, StepContacts& step) {
   for (;;) {
     const LinkContact contact = answer(link, LaneLink::kEnd, step.counters);
     if (contact.verdict == Verdict::Clear) return;
-    const bool isFirst =
-        earliest.verdict == Verdict::Undecided && earliest.reason == UndecidedReason::None;
-    if (isFirst || isReportedBefore(contact, earliest)) earliest = contact;
+    if (isUnanswered(earliest) || isReportedBefore(contact, earliest)) earliest = contact;
     step.perObject.push_back(contact);
     if (contact.verdict == Verdict::Undecided) return leaveOut(link);
     lanes_.touched.push_back({link, plan_.scene.object(contact.triangle)});
@@ -212,9 +209,7 @@ void LaneQuery::leaveAfterFirst(double first, StepContacts& step) const {
 void LaneQuery::leaveClear(StepContacts& step) const {
   for (LinkId link = 0; link < body_.numLinks(); ++link) {
     const auto i = slotOf(link);
-    const bool isOpen = step.links[i].reason == UndecidedReason::None &&
-                        step.links[i].verdict == Verdict::Undecided;
-    if (lanes_.isAsked[i] != 0 && isOpen) answerClear(step.links[i]);
+    if (lanes_.isAsked[i] != 0 && isUnanswered(step.links[i])) answerClear(step.links[i]);
   }
   std::sort(step.perObject.begin(), step.perObject.end(), isReportedBefore);
 }

@@ -64,6 +64,17 @@ int Pieces::at(double t) const {
   return k;
 }
 
+double nextPossible(const Pieces& pieces, const Candidate& candidate, double t) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (t >= candidate.end) return kNever;
+  const int here = pieces.at(t);
+  if ((candidate.pieces >> here & 1u) != 0) return t;
+  for (int k = here + 1; k < pieces.count; ++k) {
+    if ((candidate.pieces >> k & 1u) != 0) return pieces.timeOf(k);
+  }
+  return kNever;
+}
+
 MovingHull oneSideOf(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed) {
   MovingHull side = query.parts.hullOf(candidate.lss, candidate.part, posed);
   side.radius *= candidate.radiusShare;

@@ -49,6 +49,13 @@ struct Candidate {
   std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, if there are any
 };
 
+/// The earliest instant from `t` on in a piece of the candidate's; infinity if none before its end.
+[[nodiscard]] double nextPossible(const Pieces& pieces, const Candidate& candidate, double t);
+
+/// No query has answered the link.
+[[nodiscard]] inline bool isUnanswered(const LinkContact& contact) {
+  return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::None;
+}
 /// Marks every link as answered by no query.
 void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links);
 

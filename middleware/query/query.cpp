@@ -35,9 +35,7 @@ void linkQuery(const internal::QueryPlan& plan, const ChainMotion& motion,
 
 /// Every link has an answer.
 [[maybe_unused]] bool isAnswered(const StepContacts& step) {
-  return std::none_of(step.links.begin(), step.links.end(), [](const LinkContact& contact) {
-    return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::None;
-  });
+  return std::none_of(step.links.begin(), step.links.end(), internal::isUnanswered);
 }
 
 /// Links that touch nothing before the earliest contact of all become AfterFirst, except those

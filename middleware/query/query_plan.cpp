@@ -20,9 +20,6 @@ Result<Done> checkedTolerance(double tolerance, LinkId link) {
 /// One policy per link, each with a fidelity that answers links one by one.
 Result<Done> checkedPolicies(const Avatar& avatar, const QueryOptions& options) {
   if (options.linkPolicies.empty()) return Done{};
-  const auto isOfLinks = [](Fidelity fidelity) {
-    return fidelity == Fidelity::Link || fidelity == Fidelity::Exact;
-  };
   if (!isOfLinks(options.fidelity)) {
     return Error::in("linkPolicies", ErrorCode::Mismatch,
                      std::string("expected none at fidelity ") + toString(options.fidelity) +
@@ -44,13 +41,14 @@ Result<Done> checkedPolicies(const Avatar& avatar, const QueryOptions& options) 
   return Done{};
 }
 
+bool hasExactPolicy(const QueryOptions& options) {
+  return std::any_of(options.linkPolicies.begin(), options.linkPolicies.end(),
+                     [](const LinkPolicy& own) { return own.fidelity == Fidelity::Exact; });
+}
+
 Result<Done> checkedSurfaces(const Avatar& avatar, const QueryOptions& options) {
-  const auto& policies = options.linkPolicies;
-  const bool isAnyExact = policies.empty()
-                              ? options.fidelity == Fidelity::Exact
-                              : std::any_of(policies.begin(), policies.end(), [](const auto& own) {
-                                  return own.fidelity == Fidelity::Exact;
-                                });
+  const bool isAnyExact =
+      options.linkPolicies.empty() ? options.fidelity == Fidelity::Exact : hasExactPolicy(options);
   if (isAnyExact && (!options.surface || options.surface->numLinks() != avatar.numLinks())) {
     return Error::in("fidelity", ErrorCode::Mismatch,
                      "expected the surface of this avatar, which exact fidelity needs");
@@ -66,14 +64,13 @@ Result<Done> checkedSurfaces(const Avatar& avatar, const QueryOptions& options) 
 /// What only lanes answer, link by link.
 Result<Done> checkedLanes(const QueryPlan& plan) {
   const QueryOptions& options = plan.options;
-  const bool isOfLinks =
-      plan.inLanes && (options.fidelity == Fidelity::Link || options.fidelity == Fidelity::Exact);
-  if (options.passSeparating && !isOfLinks) {
+  const bool areLinksInLanes = plan.inLanes && isOfLinks(options.fidelity);
+  if (options.passSeparating && !areLinksInLanes) {
     return Error::in("passSeparating", ErrorCode::Mismatch,
                      std::string("expected false at fidelity ") + toString(options.fidelity));
   }
   if (options.scope != Scope::EveryObject) return Done{};
-  if (!isOfLinks) {
+  if (!areLinksInLanes) {
     return Error::in(
         "scope", ErrorCode::Mismatch,
         std::string("expected links or avatar at fidelity ") + toString(options.fidelity));
@@ -94,18 +91,15 @@ Result<Done> checkedSelf(const Avatar& avatar, const QueryOptions& options) {
   if (options.self->avatarIdentity() != avatar.identity()) {
     return refused("expected the pair rules of this avatar");
   }
-  if (options.fidelity != Fidelity::Link && options.fidelity != Fidelity::Exact) {
+  if (!isOfLinks(options.fidelity)) {
     return refused(std::string("expected link or exact fidelity, found ") +
                    toString(options.fidelity) + ", which has no surface per link");
   }
   if (options.scope == Scope::FirstOfAvatar) {
     return refused("expected scope links or objects: own pairs are answered one by one");
   }
-  const bool isAnyExact =
-      options.fidelity == Fidelity::Exact ||
-      std::any_of(options.linkPolicies.begin(), options.linkPolicies.end(),
-                  [](const LinkPolicy& own) { return own.fidelity == Fidelity::Exact; });
-  if (isAnyExact && !options.self->radii().empty()) {
+  const bool mayBeExact = options.fidelity == Fidelity::Exact || hasExactPolicy(options);
+  if (mayBeExact && !options.self->radii().empty()) {
     return refused(
         "expected rules without pair radii at exact fidelity: a smaller LSS does not "
         "hold its link's mesh");

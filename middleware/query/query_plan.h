@@ -25,6 +25,11 @@ namespace foretouch::internal {
          fidelity == Fidelity::Ellipsoid;
 }
 
+/// Each link has a surface of its own, fixed to it.
+[[nodiscard]] inline bool isOfLinks(Fidelity fidelity) {
+  return fidelity == Fidelity::Link || fidelity == Fidelity::Exact;
+}
+
 /// What is asked of one link.
 struct LinkPlan {
   double tolerance;

@@ -15,14 +15,7 @@
 
 namespace foretouch::internal {
 
-/// A frame in which pairs of links move only by the joints below it, and the links below it.
-struct SelfFrame {
-  LinkId link;  ///< kNoParent: W.
-  /// Per link: its bounded LSS' place in the accelerations; -1 if the link is not below.
-  std::vector<std::int32_t> placeOf;
-  std::vector<LinkId> below;  ///< Links with LSS, parents before children.
-};
-
+/// Of the LSS in an avatar's table.
 class SelfPlan {
  public:
   SelfPlan() = default;
@@ -31,30 +24,30 @@ class SelfPlan {
 
   [[nodiscard]] bool isAsked() const { return asked_.numPairs > 0; }
   [[nodiscard]] const AskedPairs& asked() const { return asked_; }
-  [[nodiscard]] const std::vector<SelfFrame>& frames() const { return frames_; }
-  /// Place in frames() of the one that bounds both links.
+  /// Links in whose frames asked pairs move only by the joints below; kNoParent: W.
+  [[nodiscard]] const std::vector<LinkId>& frames() const { return frames_; }
+  /// Place in frames() of the one that bounds an asked pair of links, a < b.
   [[nodiscard]] std::int32_t frameOf(LinkId a, LinkId b) const {
     return frameOf_[slotOf(a) * numLinks_ + slotOf(b)];
   }
-  /// The sum of radii (m) of LSS i and j of the table, i < j.
-  [[nodiscard]] double radiusOf(std::int32_t i, std::int32_t j) const;
+  /// What counts of the sum of radii of LSS i and j, i < j.
+  [[nodiscard]] double radiusShare(std::int32_t i, std::int32_t j) const;
 
  private:
-  void askPairs(const Avatar& avatar, const PairRules& rules);
-  void findFrames(const Avatar& avatar);
-  void addRadii(const PairRules& rules);
+  void ask(const LssTable& table, LinkId a, LinkId b);
+  [[nodiscard]] std::int32_t placeOfFrame(LinkId frame);
+  void addRadii(const LssTable& table, const PairRules& rules);
 
-  struct OwnRadius {
+  struct OwnShare {
     std::int32_t i, j;
-    double radius;
+    double share;
   };
 
-  LssTable table_;
   AskedPairs asked_;
   std::size_t numLinks_ = 0;
   std::vector<std::int32_t> frameOf_;  // per pair of links
-  std::vector<SelfFrame> frames_;
-  std::vector<OwnRadius> radii_;  // by i, then by j; pairs that do not count with their radii
+  std::vector<LinkId> frames_;
+  std::vector<OwnShare> shares_;  // by i, then by j; of pairs that do not count with their radii
 };
 
 }  // namespace foretouch::internal

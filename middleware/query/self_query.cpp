@@ -27,15 +27,6 @@ constexpr double kStartRounding = 1e-11;
 /// Steps along curves before doubles look: two that slide along each other take many.
 constexpr int kMostRounds = 200;
 
-/// The earliest instant from `t` on in a piece that planes left open; the candidate's end if none.
-double nextOpen(const Pieces& pieces, const Candidate& candidate, double t) {
-  if (t >= candidate.end) return candidate.end;
-  for (int k = pieces.at(t); k < pieces.count; ++k) {
-    if ((candidate.pieces >> k & 1U) != 0) return std::max(t, pieces.timeOf(k));
-  }
-  return candidate.end;
-}
-
 /// Per h^2/8 of a piece, rounded up past h's own rounding.
 float sagittaOf(double begin, double end) {
   const double h = end - begin;
@@ -82,7 +73,7 @@ void SelfQuery::evaluate(QueryCounters& counters) {
   }
   own_.frames.resize(self_.frames().size());
   for (std::size_t i = 0; i < own_.frames.size(); ++i) {
-    const LinkId link = self_.frames()[i].link;
+    const LinkId link = self_.frames()[i];
     for (std::size_t k = 0; k < 9; ++k) {
       for (std::size_t node = 0; node < kNodes; ++node) {
         own_.frames[i].R[k][node] = link == kNoParent
@@ -132,9 +123,11 @@ void SelfQuery::addPlanePair(const LssIndexPair& pair) {
   PlanePair open{pair.i, pair.j, self_.frameOf(a, b), 0.0F, 0.0F, kEveryPiece};
   // Padding is twice what floats round by, and the kernel's sum rounds by as much again.
   constexpr double kSumInflationOfReach = 1.0 + 0x1p-21;
-  open.reach = floatPaddedAbove((self_.radiusOf(pair.i, pair.j) + kFloorShare * tolerance +
-                                 kNodePlaneRounding * extents + roundings) *
-                                kSumInflationOfReach);
+  const double radii =
+      self_.radiusShare(pair.i, pair.j) * (table_[pair.i].radius + table_[pair.j].radius);
+  open.reach = floatPaddedAbove(
+      (radii + kFloorShare * tolerance + kNodePlaneRounding * extents + roundings) *
+      kSumInflationOfReach);
   const auto inWorld = [this](const LssTable::Entry& entry) {
     return motion_.sums(entry.link).accelerationAt(std::max(entry.rhoA, entry.rhoB));
   };
@@ -147,7 +140,7 @@ float SelfQuery::accelerationOf(std::int32_t frame, std::int32_t lss) {
   float& known = own_.accelerations[slotOf(frame) * countOf(table_.size()) + slotOf(lss)];
   if (known < 0.0F) {
     const LssTable::Entry& entry = table_[lss];
-    const ChainSums sums = motion_.sumsIn(self_.frames()[slotOf(frame)].link, entry.link);
+    const ChainSums sums = motion_.sumsIn(self_.frames()[slotOf(frame)], entry.link);
     known = floatPaddedAbove(sums.accelerationAt(std::max(entry.rhoA, entry.rhoB)));
   }
   return known;
@@ -185,7 +178,7 @@ void SelfQuery::answerPairs(StepContacts& step) {
 
 void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& step) {
   const PlanePair* const pairs = own_.pairs.data() + first;
-  const LinkId frame = self_.frames()[slotOf(pairs->frame)].link;
+  const LinkId frame = self_.frames()[slotOf(pairs->frame)];
   one_.link = table_[pairs->i].link;
   other_.link = table_[pairs->j].link;
   double times[kNodes];
@@ -213,7 +206,9 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   prepareSide(one_, frame, own_.boundsOfOne);
   prepareSide(other_, frame, own_.boundsOfOther);
   scratch_.candidates.clear();
-  for (std::size_t k = 0; k < count; ++k) scratch_.candidates.push_back(candidateOf(pairs[k]));
+  for (std::size_t k = 0; k < count; ++k) {
+    scratch_.candidates.push_back(candidateOf({pairs[k].i, pairs[k].j}, pairs[k].open));
+  }
   advanceAlongCurves(query, step.counters);
   if (scratch_.candidates.empty()) return;
   const PairContact contact = backtrack(query, scratch_.candidates, step.counters);
@@ -233,7 +228,7 @@ void SelfQuery::advanceAlongCurves(const LinkQuery& query, QueryCounters& counte
 /// False: proven apart throughout the slab.
 bool SelfQuery::advance(const LinkQuery& query, Candidate& candidate, QueryCounters& counters) {
   const double floor = kFloorShare * query.tolerance, handOver = kHandOverShare * query.tolerance;
-  double t = nextOpen(query.pieces, candidate, candidate.freeUntil);
+  double t = nextPossible(query.pieces, candidate, candidate.freeUntil);
   for (int round = 0; round < kMostRounds && t < candidate.end; ++round) {
     candidate.freeUntil = t;
     ++counters.planeTests;
@@ -244,7 +239,7 @@ bool SelfQuery::advance(const LinkQuery& query, Candidate& candidate, QueryCount
     if (!(pair.gapLower() > handOver)) return true;
     const double reached = timeAfter(t, pair.stepFrom(floor), candidate.end);
     if (!(reached > t)) return true;
-    t = nextOpen(query.pieces, candidate, reached);
+    t = nextPossible(query.pieces, candidate, reached);
   }
   return t < candidate.end;
 }
@@ -280,13 +275,12 @@ const AxisCurve& SelfQuery::curveOf(const Side& side, std::int32_t lss, LinkId f
 std::optional<PairContact> SelfQuery::contactAtStart(const LinkQuery& query,
                                                      QueryCounters& counters) {
   std::optional<PairContact> best;
-  for (std::size_t k = 0; k < own_.meeting.count; ++k) {
-    const LssIndexPair& pair = own_.meeting.pairs[k];
-    if (!isOfLinks(pair)) continue;
-    const Candidate candidate = candidateOf({pair.i, pair.j, 0, 0.0F, 0.0F, kEveryPiece});
+  collect(0.0, {}, query.tolerance, scratch_.candidates, counters);
+  for (const Candidate& candidate : scratch_.candidates) {
     ++counters.advancements;
-    const MovingPair apart = movingPair(atFirstNode(pair.i, candidate.radiusShare),
-                                        atFirstNode(pair.j, candidate.radiusShare));
+    const MovingPair apart =
+        movingPair(atFirstNode(one_.link, candidate.lss, candidate.radiusShare),
+                   atFirstNode(other_.link, candidate.otherLss, candidate.radiusShare));
     if (apart.gapUpper > query.tolerance) continue;
     const PairContact contact = contactOf(query, candidate, apart, 0.0);
     if (!best || comesFirst(contact, *best)) best = contact;
@@ -299,9 +293,9 @@ std::optional<PairContact> SelfQuery::contactAtStart(const LinkQuery& query,
 }
 
 /// Relative to the nodes' origin.
-MovingHull SelfQuery::atFirstNode(std::int32_t lss, double radiusShare) const {
-  const LssTable::Entry& entry = table_[lss];
-  const LinkNodes& link = scratch_.lanes.nodes.link(entry.link);
+MovingHull SelfQuery::atFirstNode(LinkId of, std::int32_t lss, double radiusShare) const {
+  const LssTable::Entry& entry = table_[table_.first(of) + lss];
+  const LinkNodes& link = scratch_.lanes.nodes.link(of);
   const auto placeOf = [&link](const double* p_L) {
     Eigen::Vector3d p;
     for (int i = 0; i < 3; ++i) {
@@ -324,27 +318,20 @@ void SelfQuery::prepareSide(Side& side, LinkId frame, std::vector<AxisBounds>& b
   for (const Lss& lss : plan_.avatar.lss(side.link)) bounds.push_back(axisBounds(lss, side.bounds));
 }
 
-/// Of the links of the current pair.
-bool SelfQuery::isOfLinks(const LssIndexPair& pair) const {
-  return table_[pair.i].link == one_.link && table_[pair.j].link == other_.link;
-}
-
 LinkParts SelfQuery::partsOf(const Side& side, const std::vector<AxisBounds>& bounds) const {
   return {side.link,   plan_.avatar.lss(side.link), bounds,
           motion_,     plan_.of(side.link).surface, nullptr,
           &side.bounds};
 }
 
-Candidate SelfQuery::candidateOf(const PlanePair& pair) const {
+Candidate SelfQuery::candidateOf(const LssIndexPair& pair, std::uint8_t pieces) const {
   Candidate candidate;
   candidate.lss = pair.i - table_.first(table_[pair.i].link);
   candidate.otherLss = pair.j - table_.first(table_[pair.j].link);
-  candidate.pieces = pair.open;
+  candidate.pieces = pieces;
   candidate.freeUntil = begin_;
   candidate.end = end_;
-  const double sum = table_[pair.i].radius + table_[pair.j].radius;
-  const double radius = self_.radiusOf(pair.i, pair.j);
-  if (radius < sum) candidate.radiusShare = radius / sum;
+  candidate.radiusShare = self_.radiusShare(pair.i, pair.j);
   return candidate;
 }
 
@@ -367,10 +354,9 @@ void SelfQuery::collect(double t, const PosedLink& /*posed*/, double /*reach*/,
   candidates.clear();
   for (std::size_t k = 0; k < own_.meeting.count; ++k) {
     const LssIndexPair& pair = own_.meeting.pairs[k];
-    if (!isOfLinks(pair)) continue;
-    Candidate candidate = candidateOf({pair.i, pair.j, 0, 0.0F, 0.0F, kEveryPiece});
-    candidate.freeUntil = t;
-    candidates.push_back(candidate);
+    if (table_[pair.i].link != one_.link || table_[pair.j].link != other_.link) continue;
+    candidates.push_back(candidateOf(pair, kEveryPiece));
+    candidates.back().freeUntil = t;
   }
 }
 

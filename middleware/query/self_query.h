@@ -44,16 +44,15 @@ class SelfQuery final : private Neighbours {
   void answerPair(std::size_t first, std::size_t count, StepContacts& step);
   [[nodiscard]] std::optional<PairContact> contactAtStart(const LinkQuery& query,
                                                           QueryCounters& counters);
-  [[nodiscard]] MovingHull atFirstNode(std::int32_t lss, double radiusShare) const;
+  [[nodiscard]] MovingHull atFirstNode(LinkId of, std::int32_t lss, double radiusShare) const;
   [[nodiscard]] LinkParts partsOf(const Side& side, const std::vector<AxisBounds>& bounds) const;
   void prepareSide(Side& side, LinkId frame, std::vector<AxisBounds>& bounds);
-  [[nodiscard]] bool isOfLinks(const LssIndexPair& pair) const;
   void advanceAlongCurves(const LinkQuery& query, QueryCounters& counters);
   [[nodiscard]] bool advance(const LinkQuery& query, Candidate& candidate, QueryCounters& counters);
   [[nodiscard]] MovingHull alongCurve(const Side& side, std::int32_t lss, LinkId frame, double t,
                                       double radiusShare);
   [[nodiscard]] const AxisCurve& curveOf(const Side& side, std::int32_t lss, LinkId frame);
-  [[nodiscard]] Candidate candidateOf(const PlanePair& pair) const;
+  [[nodiscard]] Candidate candidateOf(const LssIndexPair& pair, std::uint8_t pieces) const;
   void keep(PairContact contact, LinkId frame, StepContacts& step);
   void collect(double t, const PosedLink& posed, double reach, std::vector<Candidate>& candidates,
                QueryCounters& counters) override;
