@@ -32,6 +32,16 @@ Avatar trunkWithArms() {
       .value();
 }
 
+/// Three balls; the last one overlaps the first at rest, and each moves the next.
+Avatar ballsInOneAnother() {
+  RawSkeleton raw;
+  raw.joints = {{"a", kNoParent, Vector3d::Zero()},
+                {"b", 0, Vector3d(1, 0, 0)},
+                {"c", 1, Vector3d(-0.92, 0, 0)}};
+  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), 0.05};
+  return Avatar::build(Skeleton::build(raw).value(), {{ball}, {ball}, {ball}}).value();
+}
+
 PairRules derived(const Avatar& avatar, const PairRuleOptions& options = {}) {
   return PairRules::derive(avatar, options).value();
 }
@@ -49,13 +59,7 @@ TEST(PairRules, LeaveOutWhatOneMovesEvenPastABareJoint) {
 }
 
 TEST(PairRules, LeaveOutWhatOverlapsAtRestOrShrinkIt) {
-  RawSkeleton raw;
-  raw.joints = {{"a", kNoParent, Vector3d::Zero()},
-                {"b", 0, Vector3d(1, 0, 0)},
-                {"c", 1, Vector3d(-0.92, 0, 0)}};
-  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), 0.05};
-  const Avatar avatar =
-      Avatar::build(Skeleton::build(raw).value(), {{ball}, {ball}, {ball}}).value();
+  const Avatar avatar = ballsInOneAnother();
   EXPECT_FALSE(PairRules::derive(avatar).ok()) << "nothing is left to ask";
   PairRuleOptions options;
   options.usePairRadii = true;
@@ -70,13 +74,7 @@ TEST(PairRules, LeaveOutWhatOverlapsAtRestOrShrinkIt) {
 
 // The rest pose of many files is none that a body takes: links may lie in one another there.
 TEST(PairRules, AskWhatOverlapsAtRestAndInNoUsualPose) {
-  RawSkeleton raw;
-  raw.joints = {{"a", kNoParent, Vector3d::Zero()},
-                {"b", 0, Vector3d(1, 0, 0)},
-                {"c", 1, Vector3d(-0.92, 0, 0)}};
-  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), 0.05};
-  const Avatar avatar =
-      Avatar::build(Skeleton::build(raw).value(), {{ball}, {ball}, {ball}}).value();
+  const Avatar avatar = ballsInOneAnother();
   std::vector<Pose> poses(3, restPose(avatar.skeleton()));
   for (Pose& pose : poses) pose.translations[2] = Vector3d(0.5, 0, 0);
   PairRuleOptions options;
