@@ -34,6 +34,10 @@ class IgnoredObjects {
   [[nodiscard]] bool has(ObjectId object) const {
     return std::binary_search(objects_.begin(), objects_.end(), object);
   }
+  /// Reads the triangle's object only if there is something to ignore.
+  [[nodiscard]] bool has(const Scene& scene, TriangleId triangle) const {
+    return !empty() && has(scene.object(triangle));
+  }
 
  private:
   std::vector<ObjectId> objects_;  // ascending
@@ -46,7 +50,7 @@ class IgnoredObjects {
   if (ignored.empty()) return triangles;
   unsigned asked = triangles;
   for (unsigned slot = 0; slot < kBvhWidth; ++slot) {
-    if ((asked >> slot & 1U) != 0 && ignored.has(scene.object(leaf.id[slot]))) {
+    if ((asked >> slot & 1U) != 0 && ignored.has(scene, leaf.id[slot])) {
       asked &= ~(1U << slot);
     }
   }

@@ -6,6 +6,7 @@
 
 #include "lss/assert.h"
 #include "lss/index.h"
+#include "lss/prefetch.h"
 #include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/query/lane_backtracking.h"
@@ -140,7 +141,7 @@ LinkContact LaneLink::surfaceContact(const LinkQuery& query, bool atStart,
   const bool inLanes = activeSimd() != Simd::Scalar;
   if (inLanes) {
     const FramePolynomials polynomials =
-        framePolynomialsOf(query.parts.link, motion_, lanes_.nodes);
+        framePolynomialsOf(query.parts.link, motion_, lanes_.nodes());
     parts.lanes.reset(polynomials, scene_.parts().origin, begin_, end_);
   }
   if (atStart) {

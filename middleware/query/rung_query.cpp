@@ -32,7 +32,7 @@ class RungQuery {
 
   void evaluate(QueryCounters& counters) {
     scratch_.lanes.evaluateNodes(motion_, 0.0, 1.0, scene_.parts().origin, counters);
-    rungs_.volumes.evaluate(avatar_, motion_, scratch_.lanes.nodes,
+    rungs_.volumes.evaluate(avatar_, motion_, scratch_.lanes.nodes(),
                             options_.fidelity != Fidelity::Limb);
     counters.rungTests += numGroups();
   }
@@ -77,7 +77,7 @@ class RungQuery {
     return byLimb() ? rungs_.volumes.limb(group) : rungs_.volumes.tree(group);
   }
   [[nodiscard]] Spheroid spheroidOf(std::size_t group) const {
-    return spheroidAround(volumeOf(group), carrierOf(group), motion_, scratch_.lanes.nodes);
+    return spheroidAround(volumeOf(group), carrierOf(group), motion_, scratch_.lanes.nodes());
   }
 
  private:
@@ -178,7 +178,7 @@ class RungQuery {
     std::uint64_t visited = 0;
     scene_.parts().bvh.collect(box, scratch_.found, visited);
     return std::any_of(scratch_.found.begin(), scratch_.found.end(), [&](TriangleId id) {
-      return !scratch_.ignored.has(scene_.object(id)) && touches(scene_.triangle(id));
+      return !scratch_.ignored.has(scene_, id) && touches(scene_.triangle(id));
     });
   }
 

@@ -55,7 +55,7 @@ class Sweep {
     query_.culler.collect(box, found_, counters_.nodes);
     found_.erase(std::remove_if(
                      found_.begin(), found_.end(),
-                     [this](TriangleId id) { return query_.ignored.has(query_.scene.object(id)); }),
+                     [this](TriangleId id) { return query_.ignored.has(query_.scene, id); }),
                  found_.end());
     counters_.candidates += found_.size();
   }

@@ -54,7 +54,7 @@ bool skinTouches(const internal::LinkParts& parts, double t, const Scene& scene,
     std::uint64_t visited = 0;
     scene.parts().bvh.collect(internal::boxOf(moved), found, visited);
     for (const TriangleId id : found) {
-      if (!ignored.has(scene.object(id)) && trianglesMeet(moved, scene.triangle(id))) return true;
+      if (!ignored.has(scene, id) && trianglesMeet(moved, scene.triangle(id))) return true;
     }
   }
   return false;
@@ -93,7 +93,7 @@ bool Query::touchesAt(const ChainMotion& motion, LinkId link, double t,
     std::uint64_t visited = 0;
     scene.parts().bvh.collect(box, found, visited);
     for (const TriangleId id : found) {
-      if (ignored.has(scene.object(id)) || !touches(lss, state, scene.triangle(id))) continue;
+      if (ignored.has(scene, id) || !touches(lss, state, scene.triangle(id))) continue;
       if (asked.surface == nullptr || !asked.surface->hasTriangles(index) ||
           meshTouches(*asked.surface, index, state, scene.triangle(id))) {
         return true;
