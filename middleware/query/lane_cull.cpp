@@ -32,22 +32,23 @@ int slabsOf(const LssTable& table, const ChainMotion& motion, double tolerance) 
 bool LaneCull::collect(double begin, double end, bool areAllAsked, QueryCounters& counters) const {
   LaneScratch& lanes = scratch.lanes;
   lanes.evaluateNodes(motion, begin, end, plan.scene.parts().origin, counters);
-  NodeEnds* const ends = plan.self.isAsked() ? &scratch.self.ends : nullptr;
+  SlabScratch& slab = lanes.slab();
+  NodeEnds* const ends = plan.self.isAsked() ? &slab.ends : nullptr;
   if (plan.margins.empty()) {
-    sweptBoxes(table, motion, lanes.nodes, plan.tolerances.least, lanes.boxes, ends);
+    sweptBoxes(table, motion, slab.nodes, plan.tolerances.least, slab.boxes, ends);
   } else {
-    sweptBoxes(table, motion, lanes.nodes, plan.margins, lanes.boxes, ends);
+    sweptBoxes(table, motion, slab.nodes, plan.margins, slab.boxes, ends);
   }
-  lanes.areBoxesOfNodes = areAllAsked && &table == &plan.table;
+  slab.areBoxesOfNodes = areAllAsked && &table == &plan.table;
   for (std::int32_t lss = 0; !areAllAsked && lss < table.size(); ++lss) {
-    if (lanes.isAsked[slotOf(table[lss].link)] == 0) closeBox(lanes.boxes, lss);
+    if (lanes.isAsked[slotOf(table[lss].link)] == 0) closeBox(slab.boxes, lss);
   }
   lanes.hits.clear();
   BoxLanes boxes;
-  boxes.count = lanes.boxes.count;
+  boxes.count = slab.boxes.count;
   for (int axis = 0; axis < 3; ++axis) {
-    boxes.lower[axis] = lanes.boxes.lower[axis];
-    boxes.upper[axis] = lanes.boxes.upper[axis];
+    boxes.lower[axis] = slab.boxes.lower[axis];
+    boxes.upper[axis] = slab.boxes.upper[axis];
   }
   plan.culler->collectLeaves(boxes, lanes.hits, counters.nodes, counters.leaves);
   if (lanes.hits.empty()) return false;

@@ -6,7 +6,6 @@
 
 #include "lss/assert.h"
 #include "lss/index.h"
-#include "lss/prefetch.h"
 #include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/query/lane_backtracking.h"
@@ -183,7 +182,7 @@ void LaneLink::collect(double t, const PosedLink& posed, double reach,
     findNear(scene_, axisEnds(all[i], posed.state), all[i].radius, reach, hits, lanes_, counters);
     const NearTriangles& near = lanes_.near;
     for (std::size_t k = 0; k < near.count; ++k) {
-      if (scratch_.ignored.has(scene_.object(near.id[k]))) continue;
+      if (scratch_.ignored.has(scene_, near.id[k])) continue;
       addCandidate(near.id[k], static_cast<std::int32_t>(i), near.gap[k], t);
     }
   }
@@ -197,7 +196,7 @@ bool LaneLink::advanceLss(std::int32_t lss, float& best, QueryCounters& counters
   if (begin == end) return true;
   if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
   const LssTable::Entry& entry = table_[lss];
-  const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes);
+  const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes());
   const LaneLss lane = laneLss(polynomials, entry.radius);
   float origin[3];
   for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);
@@ -212,7 +211,7 @@ bool LaneLink::advanceLss(std::int32_t lss, float& best, QueryCounters& counters
     if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
     done = collectParts(begin, done, best);
     lanes_.pairs.addTriangles(lane, lanes_.leafParts.data(), lanes_.leafParts.size(),
-                              sweptBox(lanes_.boxes, lss), origin, bvh_.vertexRounding());
+                              sweptBox(lanes_.boxes(), lss), origin, bvh_.vertexRounding());
     counters.candidates += lanes_.pairs.count();
     counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
   }

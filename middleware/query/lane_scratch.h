@@ -2,6 +2,8 @@
 // installed.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,16 +14,23 @@
 #include "middleware/query_options.h"
 #include "middleware/scene/flat_bvh.h"
 #include "tessellation/lss_polynomials.h"
+#include "tessellation/node_ends.h"
 #include "tessellation/swept_boxes.h"
 
 namespace foretouch::internal {
 
-struct LaneScratch {
+/// What is known of one span of the motion that is asked.
+struct SlabScratch {
   ChainNodes nodes;
-  bool areNodesOfStep = false;  // of the motion that is asked, in the span that they name
+  bool areNodesOfStep = false;
   SweptBoxes boxes;
+  NodeEnds ends;                 // with `boxes`, if somebody asks for own links
   bool areBoxesOfNodes = false;  // of the avatar's own LSS, all of them
-  std::vector<LeafHit> hits;     // of all LSS, in the order of the walk
+  std::uint64_t lastUse = 0;
+};
+
+struct LaneScratch {
+  std::vector<LeafHit> hits;  // of all LSS, in the order of the walk
   // The hits by LSS; `first`: where those of an LSS begin.
   std::vector<std::uint32_t> first;
   std::vector<std::int32_t> leaf;  // padded by kMaxLanes
@@ -37,16 +46,49 @@ struct LaneScratch {
   std::vector<IgnoredPair> touched;   // objects that have had their contact (Scope::EveryObject)
   std::vector<double> freeUntil;      // per link, if work is limited: how far it is proven free
 
-  /// The nodes of a span of the motion that is asked, unless they are there.
+  /// Another motion is asked from now on.
+  void beginStep() {
+    for (SlabScratch& slab : slabs_) slab.areNodesOfStep = slab.areBoxesOfNodes = false;
+  }
+  /// The span that evaluateNodes() was called for last.
+  [[nodiscard]] SlabScratch& slab() { return slabs_[current_]; }
+  [[nodiscard]] const SlabScratch& slab() const { return slabs_[current_]; }
+  [[nodiscard]] const ChainNodes& nodes() const { return slab().nodes; }
+  [[nodiscard]] const SweptBoxes& boxes() const { return slab().boxes; }
+
+  /// Goes to a span of the motion that is asked, and finds its nodes unless they are there.
   void evaluateNodes(const ChainMotion& motion, double begin, double end,
                      const Eigen::Vector3d& origin, QueryCounters& counters) {
-    if (areNodesOfStep && nodes.begin() == begin && nodes.end() == end) return;
-    nodes.evaluate(motion, begin, end, origin);
-    areNodesOfStep = true;
-    areBoxesOfNodes = false;
+    current_ = slabFor(begin, end);
+    SlabScratch& here = slab();
+    here.lastUse = ++uses_;
+    if (here.areNodesOfStep && here.nodes.begin() == begin && here.nodes.end() == end) return;
+    here.nodes.evaluate(motion, begin, end, origin);
+    here.areNodesOfStep = true;
+    here.areBoxesOfNodes = false;
     counters.states +=
         static_cast<std::uint64_t>(kNodes) * static_cast<std::uint64_t>(motion.numLinks());
   }
+
+ private:
+  /// The whole motion, its halves, and its thirds.
+  static constexpr std::size_t kSlabsKept = 6;
+
+  /// The place that has the span, in this step or in an earlier one, whose instants it keeps; else
+  /// the one that has been idle for longest.
+  [[nodiscard]] std::size_t slabFor(double begin, double end) const {
+    std::size_t idle = 0;
+    for (std::size_t i = 0; i < kSlabsKept; ++i) {
+      const ChainNodes& nodes = slabs_[i].nodes;
+      if (nodes.begin() == begin && nodes.end() == end) return i;
+      if (slabs_[i].lastUse < slabs_[idle].lastUse) idle = i;
+    }
+    return idle;
+  }
+
+  std::array<SlabScratch, kSlabsKept> slabs_;
+  std::size_t current_ = 0;
+  std::uint64_t uses_ = 0;
 };
 
 }  // namespace foretouch::internal

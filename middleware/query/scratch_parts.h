@@ -33,7 +33,6 @@ struct SelfCurve {
 
 /// Memory of queries about own links.
 struct SelfScratch {
-  NodeEnds ends;
   std::vector<NodeFrame> frames;
   std::vector<float> accelerations;  // per frame, per LSS; negative: not known yet
   MeetingPairs meeting;
@@ -61,7 +60,7 @@ struct ScratchParts {
   /// Another motion is asked from now on: nothing of the last one counts. It outlives the question.
   void beginStep(const ChainMotion& motion) {
     evaluator.reset(motion);
-    lanes.areNodesOfStep = lanes.areBoxesOfNodes = false;
+    lanes.beginStep();
   }
 };
 

@@ -67,9 +67,10 @@ void SelfQuery::run(StepContacts& step) {
 void SelfQuery::evaluate(QueryCounters& counters) {
   LaneScratch& lanes = scratch_.lanes;
   lanes.evaluateNodes(motion_, begin_, end_, plan_.scene.parts().origin, counters);
-  if (!lanes.areBoxesOfNodes) {
-    sweptBoxes(table_, motion_, lanes.nodes, plan_.tolerances.largest, lanes.boxes, &own_.ends);
-    lanes.areBoxesOfNodes = true;
+  SlabScratch& slab = lanes.slab();
+  if (!slab.areBoxesOfNodes) {
+    sweptBoxes(table_, motion_, slab.nodes, plan_.tolerances.largest, slab.boxes, &slab.ends);
+    slab.areBoxesOfNodes = true;
   }
   own_.frames.resize(self_.frames().size());
   for (std::size_t i = 0; i < own_.frames.size(); ++i) {
@@ -78,7 +79,7 @@ void SelfQuery::evaluate(QueryCounters& counters) {
       for (std::size_t node = 0; node < kNodes; ++node) {
         own_.frames[i].R[k][node] = link == kNoParent
                                         ? (k % 4 == 0 ? 1.0F : 0.0F)
-                                        : static_cast<float>(lanes.nodes.link(link).R[k][node]);
+                                        : static_cast<float>(slab.nodes.link(link).R[k][node]);
       }
     }
   }
@@ -87,11 +88,11 @@ void SelfQuery::evaluate(QueryCounters& counters) {
 
 /// Pairs of LSS that planes do not keep apart throughout the slab.
 void SelfQuery::collectOpen(QueryCounters& counters) {
-  const ChainNodes& nodes = scratch_.lanes.nodes;
-  collectMeeting(scratch_.lanes.boxes, self_.asked(), own_.meeting);
+  const ChainNodes& nodes = scratch_.lanes.nodes();
+  collectMeeting(scratch_.lanes.boxes(), self_.asked(), own_.meeting);
   own_.pairs.clear();
   for (std::size_t k = 0; k < own_.meeting.count; ++k) addPlanePair(own_.meeting.pairs[k]);
-  NodePlanes planes{own_.ends.axes.data(), own_.frames.data(), {}};
+  NodePlanes planes{scratch_.lanes.slab().ends.axes.data(), own_.frames.data(), {}};
   for (int k = 0; k < kNodePieces; ++k) {
     planes.sagittas[k] = sagittaOf(nodes.instant(k), nodes.instant(k + 1));
   }
@@ -115,11 +116,12 @@ void SelfQuery::tightenBends() {
 void SelfQuery::addPlanePair(const LssIndexPair& pair) {
   const LinkId a = table_[pair.i].link, b = table_[pair.j].link;
   const auto i = slotOf(pair.i), j = slotOf(pair.j);
+  const NodeEnds& ends = scratch_.lanes.slab().ends;
   const double tolerance = std::min(plan_.of(a).tolerance, plan_.of(b).tolerance);
   const double extents =
-      static_cast<double>(own_.ends.extents[i]) + static_cast<double>(own_.ends.extents[j]);
+      static_cast<double>(ends.extents[i]) + static_cast<double>(ends.extents[j]);
   const double roundings =
-      static_cast<double>(own_.ends.roundings[i]) + static_cast<double>(own_.ends.roundings[j]);
+      static_cast<double>(ends.roundings[i]) + static_cast<double>(ends.roundings[j]);
   PlanePair open{pair.i, pair.j, self_.frameOf(a, b), 0.0F, 0.0F, kEveryPiece};
   // Padding is twice what floats round by, and the kernel's sum rounds by as much again.
   constexpr double kSumInflationOfReach = 1.0 + 0x1p-21;
@@ -182,7 +184,7 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   one_.link = table_[pairs->i].link;
   other_.link = table_[pairs->j].link;
   double times[kNodes];
-  for (int k = 0; k < kNodes; ++k) times[k] = scratch_.lanes.nodes.instant(k);
+  for (int k = 0; k < kNodes; ++k) times[k] = scratch_.lanes.nodes().instant(k);
   const LinkParts other = partsOf(other_, own_.boundsOfOther);
   const LinkQuery query{partsOf(one_, own_.boundsOfOne),
                         plan_.scene,
@@ -197,7 +199,7 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   const bool mayStart = begin_ == 0.0 && std::any_of(pairs, pairs + count, [](const PlanePair& p) {
                           return (p.open & 1U) != 0;
                         });
-  const bool areNodesFine = pointRounding(scratch_.lanes.nodes.bounds(), 0.0) <= kStartRounding;
+  const bool areNodesFine = pointRounding(scratch_.lanes.nodes().bounds(), 0.0) <= kStartRounding;
   if (mayStart && areNodesFine && !query.isExact() && !other.surface) {
     if (const auto contact = contactAtStart(query, step.counters)) {
       return keep(*contact, kNoParent, step);
@@ -264,7 +266,7 @@ const AxisCurve& SelfQuery::curveOf(const Side& side, std::int32_t lss, LinkId f
   for (const SelfCurve& known : own_.curves) {
     if (known.lss == inTable) return known.curve;
   }
-  const ChainNodes& nodes = scratch_.lanes.nodes;
+  const ChainNodes& nodes = scratch_.lanes.nodes();
   own_.curves.push_back({inTable, axisCurve(table_[inTable], side.bounds, nodes,
                                             frame == kNoParent ? nullptr : &nodes.link(frame))});
   return own_.curves.back().curve;
@@ -286,7 +288,7 @@ std::optional<PairContact> SelfQuery::contactAtStart(const LinkQuery& query,
     if (!best || comesFirst(contact, *best)) best = contact;
   }
   if (!best) return best;
-  const Eigen::Vector3d& origin = scratch_.lanes.nodes.origin();
+  const Eigen::Vector3d& origin = scratch_.lanes.nodes().origin();
   best->p_WScene += origin;
   best->p_WLink += origin;
   return best;
@@ -295,7 +297,7 @@ std::optional<PairContact> SelfQuery::contactAtStart(const LinkQuery& query,
 /// Relative to the nodes' origin.
 MovingHull SelfQuery::atFirstNode(LinkId of, std::int32_t lss, double radiusShare) const {
   const LssTable::Entry& entry = table_[table_.first(of) + lss];
-  const LinkNodes& link = scratch_.lanes.nodes.link(of);
+  const LinkNodes& link = scratch_.lanes.nodes().link(of);
   const auto placeOf = [&link](const double* p_L) {
     Eigen::Vector3d p;
     for (int i = 0; i < 3; ++i) {
@@ -308,7 +310,7 @@ MovingHull SelfQuery::atFirstNode(LinkId of, std::int32_t lss, double radiusShar
   hull.hull = Hull::segment(placeOf(entry.a), placeOf(entry.b));
   hull.radius = entry.radius * radiusShare;
   hull.positionRounding.fill(
-      pointRounding(scratch_.lanes.nodes.bounds(), std::max(entry.rhoA, entry.rhoB)));
+      pointRounding(scratch_.lanes.nodes().bounds(), std::max(entry.rhoA, entry.rhoB)));
   return hull;
 }
 
