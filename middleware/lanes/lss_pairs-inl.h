@@ -13,6 +13,7 @@
 
 #include "lss/rounding.h"
 #include "middleware/lanes/lss_pairs.h"
+#include "middleware/lanes/points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace foretouch::internal::HWY_NAMESPACE {
@@ -31,37 +32,6 @@ constexpr float kTiny = 1e-30f;
 /// normal.
 constexpr float kNoisyDistance = 0.1f;
 
-template <class V>
-struct Point {
-  V x, y, z;
-};
-template <class V>
-HWY_INLINE Point<V> sub(const Point<V>& p, const Point<V>& q) {
-  return {hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
-}
-template <class V>
-HWY_INLINE V dot(const Point<V>& p, const Point<V>& q) {
-  return hn::MulAdd(p.z, q.z, hn::MulAdd(p.y, q.y, hn::Mul(p.x, q.x)));
-}
-template <class V>
-HWY_INLINE Point<V> cross(const Point<V>& p, const Point<V>& q) {
-  return {hn::NegMulAdd(p.z, q.y, hn::Mul(p.y, q.z)), hn::NegMulAdd(p.x, q.z, hn::Mul(p.z, q.x)),
-          hn::NegMulAdd(p.y, q.x, hn::Mul(p.x, q.y))};
-}
-/// p + s q
-template <class V>
-HWY_INLINE Point<V> along(const Point<V>& p, V s, const Point<V>& q) {
-  return {hn::MulAdd(s, q.x, p.x), hn::MulAdd(s, q.y, p.y), hn::MulAdd(s, q.z, p.z)};
-}
-template <class V>
-HWY_INLINE Point<V> scaled(V s, const Point<V>& p) {
-  return {hn::Mul(s, p.x), hn::Mul(s, p.y), hn::Mul(s, p.z)};
-}
-template <class M, class V>
-HWY_INLINE Point<V> select(M mask, const Point<V>& yes, const Point<V>& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-          hn::IfThenElse(mask, yes.z, no.z)};
-}
 /// An approximate 1/x, x > 0: for proposals only.
 template <class V>
 HWY_INLINE V roughInverse(V x) {
@@ -69,12 +39,6 @@ HWY_INLINE V roughInverse(V x) {
   const hn::DFromV<V> d;
   return hn::Mul(y, hn::NegMulAdd(x, y, hn::Set(d, 2.0f)));
 }
-template <class V>
-HWY_INLINE V clamp01(V x) {
-  const hn::DFromV<V> d;
-  return hn::Min(hn::Max(x, hn::Zero(d)), hn::Set(d, 1.0f));
-}
-
 /// Point and derivative of one axis end at the lanes' times.
 template <class V>
 struct Moving {

@@ -9,11 +9,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "middleware/lanes/points-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace foretouch::internal::HWY_NAMESPACE {
-namespace {
-
 namespace hn = hwy::HWY_NAMESPACE;
+namespace {
 
 using Floats = hn::CappedTag<float, kTrianglePairLanes>;
 using Lanes = hn::Vec<Floats>;
@@ -45,31 +46,8 @@ constexpr float kNearParallelSin2 = 0x1p-21F;
 /// Stands for the square of an edge without length.
 constexpr float kNoLength = 0x1p-120F;
 
-struct Vec3 {
-  Lanes x, y, z;
-};
+using Vec3 = Point<Lanes>;
 
-HWY_INLINE Vec3 minus(const Vec3& a, const Vec3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE Vec3 scaled(Lanes s, const Vec3& a) {
-  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
-}
-/// a + s * b
-HWY_INLINE Vec3 along(const Vec3& a, Lanes s, const Vec3& b) {
-  return {hn::MulAdd(s, b.x, a.x), hn::MulAdd(s, b.y, a.y), hn::MulAdd(s, b.z, a.z)};
-}
-/// a - s * b
-HWY_INLINE Vec3 against(const Vec3& a, Lanes s, const Vec3& b) {
-  return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
-}
-HWY_INLINE Lanes dot(const Vec3& a, const Vec3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-HWY_INLINE Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
-          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
-}
 HWY_INLINE Lanes square(const Vec3& a) {
   return dot(a, a);
 }
@@ -78,13 +56,6 @@ HWY_INLINE Lanes largestOf(Lanes a, Lanes b, Lanes c) {
 }
 HWY_INLINE Lanes sumOf(Lanes a, Lanes b, Lanes c) {
   return hn::Add(a, hn::Add(b, c));
-}
-HWY_INLINE Vec3 choose(LaneMask mask, const Vec3& yes, const Vec3& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-          hn::IfThenElse(mask, yes.z, no.z)};
-}
-HWY_INLINE Lanes clamp01(Floats d, Lanes s) {
-  return hn::Min(hn::Max(s, hn::Zero(d)), hn::Set(d, 1.0F));
 }
 HWY_INLINE LaneMask isInside(Floats d, Lanes s) {
   return hn::And(hn::Gt(s, hn::Zero(d)), hn::Lt(s, hn::Set(d, 1.0F)));
@@ -131,8 +102,8 @@ HWY_INLINE void offerEdges(Floats d, const Edge& one, const Edge& other, const V
   const Lanes numerator = hn::NegMulAdd(other.square, oneByW, hn::Mul(mixed, otherByW));
   const Lanes crossing = hn::IfThenElseZero(crosses, hn::Div(numerator, determinant));
   const Lanes t =
-      clamp01(d, hn::Mul(hn::MulAdd(clamp01(d, crossing), mixed, otherByW), other.inverseSquare));
-  const Lanes s = clamp01(d, hn::Mul(hn::MulSub(t, mixed, oneByW), one.inverseSquare));
+      clamp01(hn::Mul(hn::MulAdd(clamp01(crossing), mixed, otherByW), other.inverseSquare));
+  const Lanes s = clamp01(hn::Mul(hn::MulSub(t, mixed, oneByW), one.inverseSquare));
 
   const Vec3 difference = against(along(w, s, one.along), t, other.along);
   const Lanes squaredDistance = square(difference);
@@ -146,14 +117,14 @@ HWY_INLINE void offerEdges(Floats d, const Edge& one, const Edge& other, const V
       hn::IfThenElseZero(insideOne, hn::Mul(dot(difference, one.along), one.inverseSquare));
   const Vec3 straight = against(against(difference, tiltOther, other.along), tiltOne, one.along);
   nearest.squaredDistance = hn::IfThenElse(nearer, squaredDistance, nearest.squaredDistance);
-  nearest.difference = choose(nearer, straight, nearest.difference);
-  nearest.across = choose(nearer, cross(one.along, other.along), nearest.across);
+  nearest.difference = select(nearer, straight, nearest.difference);
+  nearest.across = select(nearer, cross(one.along, other.along), nearest.across);
 }
 
 /// The nearest of the link's edges from `start` and the scene's three.
 HWY_INLINE void offerEdge(Floats d, const Edge& one, const Vec3& start, const Vec3& second,
                           const Edge (&other)[3], NearestEdges& nearest) {
-  const Vec3 fromSecond = minus(start, second);
+  const Vec3 fromSecond = sub(start, second);
   for (int j = 0; j < 3; ++j) {
     const Vec3& w = j == 2 ? fromSecond : start;
     offerEdges(d, one, other[j], w, dot(one.along, w), dot(other[j].along, w), nearest);
@@ -163,15 +134,15 @@ HWY_INLINE void offerEdge(Floats d, const Edge& one, const Vec3& start, const Ve
 template <int kPoints>
 HWY_INLINE NearestEdges nearestEdges(Floats d, const Triangles<kPoints>& pair) {
   const Edge other[3] = {edgeAlong(d, pair.scene[0]), edgeAlong(d, pair.scene[1]),
-                         edgeAlong(d, minus(pair.scene[1], pair.scene[0]))};
+                         edgeAlong(d, sub(pair.scene[1], pair.scene[0]))};
   const Vec3 zero{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   NearestEdges nearest{hn::Set(d, kMostSquare), zero, zero};
   for (int i = 0; i + 1 < kPoints; ++i) {
-    const Vec3 along = minus(pair.link[i + 1], pair.link[0]);
+    const Vec3 along = sub(pair.link[i + 1], pair.link[0]);
     offerEdge(d, edgeAlong(d, along), pair.link[0], pair.scene[0], other, nearest);
   }
   if (kPoints == 3) {
-    const Vec3 along = minus(pair.link[kPoints - 1], pair.link[1]);
+    const Vec3 along = sub(pair.link[kPoints - 1], pair.link[1]);
     offerEdge(d, edgeAlong(d, along), pair.link[1], pair.scene[0], other, nearest);
   }
   return nearest;
@@ -206,7 +177,7 @@ HWY_INLINE void tryDirection(Floats d, const Triangles<kPoints>& pair, const Vec
   const Lanes gap = hn::Max(above, below);
   const LaneMask wider = hn::Gt(gap, best.gap);
   const Vec3 turned{hn::Neg(n.x), hn::Neg(n.y), hn::Neg(n.z)};
-  best.n = choose(wider, choose(hn::Gt(below, above), turned, n), best.n);
+  best.n = select(wider, select(hn::Gt(below, above), turned, n), best.n);
   best.gap = hn::IfThenElse(wider, gap, best.gap);
 }
 
@@ -219,8 +190,8 @@ HWY_INLINE Plane widestPlane(Floats d, const Triangles<kPoints>& pair) {
   tryDirection(d, pair, nearest.across, best);
   tryDirection(d, pair, cross(pair.scene[0], pair.scene[1]), best);
   if (kPoints == 3) {
-    const Vec3 e1 = minus(pair.link[1], pair.link[0]);
-    tryDirection(d, pair, cross(e1, minus(pair.link[kPoints - 1], pair.link[0])), best);
+    const Vec3 e1 = sub(pair.link[1], pair.link[0]);
+    tryDirection(d, pair, cross(e1, sub(pair.link[kPoints - 1], pair.link[0])), best);
   }
   return best;
 }
@@ -284,10 +255,10 @@ HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t fir
   Triangles<kPoints> pair;
   Vec3 velocity[kPoints];
   for (int i = 0; i < kPoints; ++i) {
-    pair.link[i] = minus(load(d, block.link[i], first), origin);
+    pair.link[i] = sub(load(d, block.link[i], first), origin);
     velocity[i] = load(d, block.velocity[i], first);
   }
-  for (int i = 0; i < 2; ++i) pair.scene[i] = minus(load(d, block.scene[i + 1], first), origin);
+  for (int i = 0; i < 2; ++i) pair.scene[i] = sub(load(d, block.scene[i + 1], first), origin);
   const Slack slack = slackOf(d, block, first, pair, velocity);
   const Plane plane = widestPlane(d, pair);
 
