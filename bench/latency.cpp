@@ -33,6 +33,11 @@ double warmOf(const TimedStep& step) {
   return step.warmUs;
 }
 
+/// Vector instructions, and what else the case asks.
+std::string vectorsOf(const BenchCase& way) {
+  return std::string(toString(way.simd)) + (way.query.self ? ", own links too" : "");
+}
+
 BenchTable latencyTable() {
   return {"latency",
           "Latency of a step, microseconds, and in ray-sets",
@@ -81,6 +86,15 @@ BenchTable rawTable() {
   return table;
 }
 
+/// Per step.
+std::vector<double> whatIsAdded(const CaseTimes& times, const CaseTimes& base) {
+  std::vector<double> added;
+  for (std::size_t i = 0; i < times.steps.size(); ++i) {
+    added.push_back(times.steps[i].warmUs - base.steps[i].warmUs);
+  }
+  return added;
+}
+
 void addLatencyRows(const RateTimes& at, BenchTable& table) {
   const double rays = at.raySetUs();
   for (std::size_t c = 0; c < at.cases.size(); ++c) {
@@ -89,12 +103,13 @@ void addLatencyRows(const RateTimes& at, BenchTable& table) {
     const auto add = [&](const char* caches, std::vector<double> values) {
       const auto count = static_cast<std::int64_t>(values.size());
       const Percentiles p = percentilesOf(std::move(values));
-      table.rows.push_back({at.rateHz, way.query.tolerance, std::string(toString(way.simd)),
-                            std::string(caches), count, p.mean, p.p50, p.p90, p.p99, p.max, rays,
-                            p.mean / rays, p.p50 / rays, p.p99 / rays});
+      table.rows.push_back({at.rateHz, way.query.tolerance, vectorsOf(way), std::string(caches),
+                            count, p.mean, p.p50, p.p90, p.p99, p.max, rays, p.mean / rays,
+                            p.p50 / rays, p.p99 / rays});
     };
     if (way.cold) add("asked once", column(times, [](const TimedStep& s) { return s.onceUs; }));
     add("warm", column(times, warmOf));
+    if (way.query.self) add("warm, what own links add", whatIsAdded(times, at.timing.cases[0]));
     if (c > 0) continue;
     add("first of all", column(times, [](const TimedStep& s) { return s.firstUs; }));
     add("every repeat", times.everyUs);
@@ -121,7 +136,7 @@ void addCounterRows(const RateTimes& at, BenchTable& table) {
   for (std::size_t c = 0; c < at.cases.size(); ++c) {
     const std::vector<BenchCell> counts = meanCounts(at.timing.cases[c]);
     const BenchCell tolerance = at.cases[c].query.tolerance;
-    const std::string simd = toString(at.cases[c].simd);
+    const std::string simd = vectorsOf(at.cases[c]);
     const auto same = std::find_if(
         table.rows.begin() + first, table.rows.end(), [&](const std::vector<BenchCell>& row) {
           return row[1] == tolerance &&
@@ -164,7 +179,7 @@ void addRawRows(const RateTimes& at, BenchTable& table) {
       const Eigen::Vector3d& p = pick.placement.origin;
       std::vector<BenchCell> row = {at.rateHz,
                                     at.cases[c].query.tolerance,
-                                    std::string(toString(at.cases[c].simd)),
+                                    vectorsOf(at.cases[c]),
                                     static_cast<std::int64_t>(i),
                                     p.x(),
                                     p.y(),
@@ -187,8 +202,10 @@ void addRawRows(const RateTimes& at, BenchTable& table) {
   }
 }
 
-/// Every tolerance at the first width, and every width at the first tolerance.
-std::vector<BenchCase> casesOf(const LatencyRequest& request, const QueryOptions& query) {
+/// Every tolerance at the first width, and every width at the first tolerance; there also with own
+/// links, if there are rules for them.
+std::vector<BenchCase> casesOf(const LatencyRequest& request, const QueryOptions& query,
+                               const std::optional<PairRules>& rules) {
   std::vector<BenchCase> cases;
   const auto add = [&](double tolerance, Simd simd) {
     BenchCase way;
@@ -203,6 +220,11 @@ std::vector<BenchCase> casesOf(const LatencyRequest& request, const QueryOptions
   for (const double tolerance : request.tolerances) add(tolerance, request.widths.front());
   for (std::size_t i = 1; i < request.widths.size(); ++i) {
     add(request.tolerances.front(), request.widths[i]);
+  }
+  if (rules) {
+    add(request.tolerances.front(), request.widths.front());
+    cases.back().name += " with own links";
+    cases.back().query.self = rules;
   }
   return cases;
 }
@@ -221,6 +243,15 @@ std::vector<std::string> notesOn(const TimingOptions& timing, double overheadUs)
                   timing.repeats, timing.coldMb, timing.coldPasses, overheadUs),
       "A ray-set is 16 occlusion rays along the links' ways; its time here is the median over the "
       "same steps, taken in turns with them."};
+}
+
+/// Pairs of own links that touch in nearly all steps' poses are left out.
+Result<PairRules> rulesFor(const Avatar& avatar, const std::vector<StepPoses>& steps) {
+  std::vector<Pose> poses;
+  for (const StepPoses& step : steps) poses.push_back(step.from);
+  PairRuleOptions options;
+  options.usualPoses = &poses;
+  return PairRules::derive(avatar, options);
 }
 
 BenchReport startedReport(const LatencyRequest& request, const BenchInputs& inputs,
@@ -248,13 +279,17 @@ Result<MeasuredBench> measureLatency(const LatencyRequest& request) {
 
   MeasuredBench bench{startedReport(request, inputs, scene, body.avatar, query), rawTable()};
   BenchReport& report = bench.report;
-  const std::vector<BenchCase> cases = casesOf(request, query);
   double overheadUs = 0.0;
   for (const double rateHz : request.ratesHz) {
     WorkloadRequest wanted = request.options.workload;
     wanted.rateHz = rateHz;
     FORETOUCH_TRY(const auto workload, chooseSteps(inputs, body, wanted));
     FORETOUCH_TRY(const auto steps, posesOf(inputs, body, workload));
+    std::optional<PairRules> rules;
+    if (request.self) {
+      FORETOUCH_TRY(rules, rulesFor(body.avatar, steps));
+    }
+    const std::vector<BenchCase> cases = casesOf(request, query, rules);
     const auto timing =
         timeSteps(body.avatar, steps, inClipOrder(workload), scene, cases, request.options.timing);
     if (!timing.ok()) return timing.error();

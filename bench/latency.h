@@ -14,6 +14,7 @@ struct LatencyRequest {
   std::vector<Simd> widths;   ///< At least one.
   int links = 0;              ///< 0: the avatar's own.
   std::size_t triangles = 0;  ///< 0: the scene's own.
+  bool self = false;          ///< Also with the avatar's own links.
 };
 
 struct MeasuredBench {

@@ -17,6 +17,7 @@ namespace {
 struct LatencyTexts : BenchTexts {
   std::string rate = "5,10,30", tolerance = "0.001,0.00001", simd = "all", links = "own",
               triangles = "own", coldMb = "16";
+  bool self = false;
 };
 
 Result<LatencyRequest> settledLatency(const LatencyTexts& texts) {
@@ -35,6 +36,7 @@ Result<LatencyRequest> settledLatency(const LatencyTexts& texts) {
   if (texts.coldMb != "0") {
     settle.into(request.options.timing.coldMb, parseCount("--cold-mb", texts.coldMb, kMaxColdMb));
   }
+  request.self = texts.self;
   if (settle.error()) return *settle.error();
   return request;
 }
@@ -63,6 +65,8 @@ void addBenchLatencyCommand(CLI::App& bench, ExitCode& exit) {
   option("--triangles", texts->triangles, "N|own", "Triangles that the scene is divided into");
   option("--cold-mb", texts->coldMb, "MB",
          "Streamed through the caches before a cold step; 0: none");
+  command->add_flag("--self", texts->self,
+                    "Also with the avatar's own links, by rules from these steps' poses");
   addBenchOptions(*command, *texts);
   command->footer(
       "Example:\n  foretouch-bench latency --triangles 300000 --links 16 --json latency.json");
