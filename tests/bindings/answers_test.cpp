@@ -63,20 +63,28 @@ constexpr Rung kRungs[] = {{Fidelity::Link, FT_FIDELITY_LINK},
 /// Of one step, all that can be asked, for links that differ from case to case.
 void draw(Random& random, const test::RandomBody& body, int objects, Options& options) {
   const Rung& rung = kRungs[random.below(5)];
+  const bool isOfLinks = rung.cxx == Fidelity::Link || rung.cxx == Fidelity::Exact;
   options.cxx.fidelity = rung.cxx;
   options.c.fidelity = rung.c;
   options.cxx.tolerance = options.c.tolerance = random.magnitude(1e-6, 1e-2);
-  if (random.chance(0.2)) {
+  const bool hasBudget = random.chance(0.2);
+  if (hasBudget) {
     options.cxx.workBudget = options.c.work_budget = static_cast<std::uint64_t>(random.below(300));
   }
   if (random.chance(0.2)) {
     options.cxx.scope = Scope::FirstOfAvatar;
     options.c.scope = FT_SCOPE_FIRST_OF_AVATAR;
+  } else if (isOfLinks && !hasBudget && random.chance(0.6)) {
+    options.cxx.scope = Scope::EveryObject;
+    options.c.scope = FT_SCOPE_EVERY_OBJECT;
+  }
+  if (isOfLinks && random.chance(0.4)) {
+    options.cxx.passSeparating = true;
+    options.c.pass_separating = 1;
   }
   for (int i = random.below(3); i > 0; --i) {
     options.ignore(random.below(body.avatar.numLinks()), random.below(objects + 1) - 1);
   }
-  const bool isOfLinks = rung.cxx == Fidelity::Link || rung.cxx == Fidelity::Exact;
   for (LinkId link = 0; isOfLinks && random.chance(0.99) && link < body.avatar.numLinks(); ++link) {
     if (link == 0 && random.chance(0.7)) break;  // no policies at all
     options.policy(random.magnitude(1e-6, 1e-2), random.chance(0.5));
@@ -137,6 +145,70 @@ void expectReported(const ft_query* query, const StepContacts& step, const Scene
   EXPECT_EQ(contacts[count].size, count == 0 ? sizeof(ft_contact) : 0u) << "written past the end";
 }
 
+/// Every contact of every link with every object; how many there are.
+std::size_t expectSameObjects(const ft_query* query, const StepContacts& step, const Scene& scene,
+                              Scope scope) {
+  std::size_t count = 0;
+  const ft_status status = ft_query_objects(query, nullptr, 0, &count);
+  EXPECT_EQ(status, scope == Scope::EveryObject ? FT_OK : FT_ERROR_MISMATCH);
+  EXPECT_EQ(count, step.perObject.size());
+  std::vector<ft_contact> contacts(count + 1);
+  contacts[0].size = sizeof(ft_contact);
+  if (count == 0) return 0;
+  EXPECT_EQ(ft_query_objects(query, contacts.data(), count, nullptr), FT_OK);
+  for (std::size_t i = 0; i < count; ++i) expectSame(contacts[i], step.perObject[i], scene);
+  EXPECT_EQ(contacts[count].size, 0u) << "written past the end";
+  return count;
+}
+
+void expectSame(const ft_contact_details& c, const ContactDetails& cxx) {
+  expectSameVector(c.velocity_scene, cxx.v_WOther);
+  expectSameVector(c.velocity_link, cxx.v_WLink);
+  EXPECT_EQ(c.approach_speed, cxx.approachSpeed);
+  EXPECT_EQ(c.approach_lower, cxx.approachLower);
+  EXPECT_EQ(c.approach_upper, cxx.approachUpper);
+  ASSERT_EQ(c.point_count, static_cast<int>(cxx.numPoints));
+  for (std::size_t i = 0; i < cxx.numPoints; ++i) {
+    expectSameVector(c.points[i].point_scene, cxx.points[i].p_WOther);
+    expectSameVector(c.points[i].point_link, cxx.points[i].p_WLink);
+    EXPECT_EQ(c.points[i].separation, cxx.points[i].separation);
+    EXPECT_EQ(c.points[i].triangle, cxx.points[i].triangle);
+    EXPECT_EQ(c.points[i].lss, cxx.points[i].lss);
+    EXPECT_EQ(c.points[i].link_triangle, cxx.points[i].linkTriangle);
+  }
+}
+
+/// Those of a list, each at its place; how many have details.
+int expectSameDetails(ft_query* query, std::int32_t list, const std::vector<LinkContact>& contacts,
+                      const Query& question, const ChainMotion& motion) {
+  QueryScratch scratch;
+  int touches = 0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    ft_contact_details details{};
+    details.size = sizeof details;
+    const Verdict verdict = contacts[i].verdict;
+    const bool isTouch = verdict == Verdict::Contact || verdict == Verdict::StartsInContact;
+    EXPECT_EQ(ft_query_details(query, list, i, &details), isTouch ? FT_OK : FT_ERROR_MISMATCH);
+    if (isTouch) expectSame(details, question.details(motion, contacts[i], scratch));
+    touches += isTouch;
+  }
+  return touches;
+}
+
+void expectSamePose(ft_query* query, const ChainMotion& motion, double t) {
+  Pose pose;
+  motion.poseAt(t, pose);
+  std::vector<double> rotations(4 * pose.rotations.size()), translations(3 * pose.rotations.size());
+  std::size_t joints = 0;
+  ASSERT_EQ(ft_motion_pose(query, t, rotations.data(), translations.data(), pose.rotations.size(),
+                           &joints),
+            FT_OK);
+  ASSERT_EQ(joints, pose.rotations.size());
+  const test::PoseArrays expected(pose);
+  EXPECT_EQ(rotations, expected.rotations);
+  EXPECT_EQ(translations, expected.translations);
+}
+
 void expectSameCounters(const ft_query* query, const QueryCounters& cxx) {
   ft_counters c{};
   c.size = sizeof c;
@@ -178,7 +250,8 @@ void expectSameStates(ft_query* query, const test::RandomBody& body, const Chain
 
 TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
   constexpr int kCases = 400;
-  int contacts = 0, undecided = 0, clear = 0, exact = 0;
+  int contacts = 0, undecided = 0, clear = 0, exact = 0, detailed = 0, passing = 0;
+  std::size_t ofObjects = 0;
   for (int i = 0; i < kCases; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     Random random(static_cast<std::uint64_t>(i));
@@ -200,7 +273,9 @@ TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
     const ft_pose first = from.view(), second = to.view();
     ASSERT_EQ(ft_query_step(query.get(), &first, &second), FT_OK) << ft_last_error();
     const ChainMotion motion = body.motion();
-    const StepContacts step = firstContacts(body.avatar, motion, scene, options.cxx).value();
+    const Query question = Query::build(body.avatar, scene, options.cxx).value();
+    QueryScratch scratch;
+    const StepContacts step = question.answer(motion, scratch);
 
     std::vector<ft_contact> links(step.links.size());
     links[0].size = sizeof(ft_contact);
@@ -215,9 +290,17 @@ TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
       exact += links[link].link_triangle >= 0;
     }
     expectReported(query.get(), step, scene);
+    ofObjects += expectSameObjects(query.get(), step, scene, options.cxx.scope);
+    detailed += expectSameDetails(query.get(), FT_LIST_LINKS, step.links, question, motion);
+    expectSameDetails(query.get(), FT_LIST_OBJECTS, step.perObject, question, motion);
+    passing += options.cxx.passSeparating;
     expectSameCounters(query.get(), step.counters);
     expectSameStates(query.get(), body, motion, random.uniform(0, 1), scene, options.cxx);
+    expectSamePose(query.get(), motion, random.uniform(0, 1));
   }
+  EXPECT_GT(ofObjects, std::size_t{kCases / 10});
+  EXPECT_GT(detailed, kCases / 10);
+  EXPECT_GT(passing, kCases / 10);
   EXPECT_GT(contacts, kCases / 12);
   EXPECT_GT(undecided, kCases / 10);
   EXPECT_GT(clear, kCases / 2);
@@ -241,6 +324,44 @@ TEST(CAnswers, FollowAStreamOfPosesFromWhereTheLastStepEnded) {
   links[0].size = sizeof(ft_contact);
   ASSERT_EQ(ft_query_links(query.get(), links.data(), links.size(), nullptr), FT_OK);
   for (std::size_t i = 0; i < links.size(); ++i) expectSame(links[i], back.links[i], scene);
+}
+
+// A hand that was stopped above the floor goes on from where it stands: up it is free, down it is
+// not. Its places are known in closed form.
+TEST(CAnswers, GoOnFromWhereTheAvatarWasStopped) {
+  test::SmallWorld world;
+  ft_query_options options = test::initialised(ft_query_options_init);
+  options.pass_separating = 1;
+  const auto query = test::makeQuery(world.scene, world.avatar, &options);
+  const ft_pose up = world.up(), lowered = world.lowered();
+  ASSERT_EQ(ft_query_step(query.get(), &up, &lowered), FT_OK);
+  ft_contact contact{};
+  contact.size = sizeof contact;
+  ASSERT_EQ(ft_query_contacts(query.get(), &contact, 1, nullptr), FT_OK);
+  ft_contact_details details{};
+  details.size = sizeof details;
+  ASSERT_EQ(ft_query_details(query.get(), FT_LIST_CONTACTS, 0, &details), FT_OK);
+  EXPECT_NEAR(details.velocity_link[1], -1.5, 1e-12);
+  EXPECT_LE(details.approach_lower, 1.5);
+  EXPECT_GE(details.approach_upper, 1.5);
+  EXPECT_GE(details.point_count, 2);  // both ends of a stick that lies flat
+
+  double rotation[4], translation[3];
+  ASSERT_EQ(ft_motion_pose(query.get(), contact.toi, rotation, translation, 1, nullptr), FT_OK);
+  EXPECT_NEAR(translation[1], 1 - 1.5 * contact.toi, 1e-12);
+  const ft_pose stopped = test::SmallWorld::poseOf(rotation, translation);
+  ASSERT_EQ(ft_query_step(query.get(), &stopped, &up), FT_OK);
+  ASSERT_EQ(ft_query_links(query.get(), &contact, 1, nullptr), FT_OK);
+  EXPECT_EQ(contact.verdict, FT_VERDICT_CLEAR);
+  ASSERT_EQ(ft_query_step(query.get(), &stopped, &lowered), FT_OK);
+  ASSERT_EQ(ft_query_links(query.get(), &contact, 1, nullptr), FT_OK);
+  EXPECT_EQ(contact.verdict, FT_VERDICT_CONTACT);
+  EXPECT_EQ(contact.toi, 0.0);
+  options.pass_separating = 0;
+  ASSERT_EQ(ft_query_set_options(query.get(), &options), FT_OK);
+  ASSERT_EQ(ft_query_step(query.get(), &stopped, &up), FT_OK);
+  ASSERT_EQ(ft_query_links(query.get(), &contact, 1, nullptr), FT_OK);
+  EXPECT_EQ(contact.verdict, FT_VERDICT_CONTACT);  // held where it stands
 }
 
 TEST(CAnswers, OutliveTheHandlesTheyWereMadeOf) {
