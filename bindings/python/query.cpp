@@ -158,6 +158,26 @@ Steps many(Query& query, const py::object& poses, const py::object& ends,
   return query.firstContactsMany({nullptr, std::move(from), std::move(to)}, count);
 }
 
+constexpr char kOptionsText[] =
+    "tolerance: metres, at most what separates a contact at its toi. fidelity: 'link' "
+    "(LSS),\n"
+    "'exact' (triangles; needs surface), or coarser: 'limb', 'avatar', 'ellipsoid'.\n"
+    "policies: {link: {'tolerance': ..., 'fidelity': ..., 'ignore': ...}} where links\n"
+    "differ, or {(link, object): ...} where objects do; later ones win.\n"
+    "ignore: a list of links and of pairs (link, object), by name or index.\n"
+    "work_budget: evaluations (about 10 ns each) that a step may cost; deadline_us: the "
+    "same\n"
+    "by the clock. What is not answered by then is undecided.\n"
+    "scope: 'links', every link's own contact; 'avatar', only the earliest of all; "
+    "'objects',\n"
+    "also every link's own contact with every object (Step.objects), at fidelity 'link' or\n"
+    "'exact' and without a budget.\n"
+    "self_pairs: PairRules: also ask whether own links touch each other (Step.pairs); at\n"
+    "fidelity 'link' or 'exact', and not at scope 'avatar'.\n"
+    "pass_separating: a link that begins within the tolerance of the scene without touching\n"
+    "it, and does not approach it, goes on until it is a quarter as near: so an avatar that\n"
+    "was stopped can leave again. At fidelity 'link' or 'exact'.";
+
 }  // namespace
 
 void bindQuery(py::module_& module) {
@@ -165,31 +185,12 @@ void bindQuery(py::module_& module) {
   py::class_<Query>(module, "Query",
                     "A question to ask again and again: avatar, scene and options, checked\n"
                     "once, with memory that it keeps. Any number of threads may ask one at once.")
-      .def(
-          py::init(&createQuery), py::arg("avatar").none(false), py::arg("scene").none(false),
-          py::kw_only(), py::arg("tolerance") = usual.tolerance, py::arg("fidelity") = "link",
-          py::arg("policies") = py::none(), py::arg("ignore") = py::tuple(),
-          py::arg("work_budget") = py::none(), py::arg("deadline_us") = py::none(),
-          py::arg("scope") = "links", py::arg("surface") = py::none(),
-          py::arg("self_pairs") = py::none(), py::arg("pass_separating") = false,
-          "tolerance: metres, at most what separates a contact at its toi. fidelity: 'link' "
-          "(LSS),\n"
-          "'exact' (triangles; needs surface), or coarser: 'limb', 'avatar', 'ellipsoid'.\n"
-          "policies: {link: {'tolerance': ..., 'fidelity': ..., 'ignore': ...}} where links\n"
-          "differ, or {(link, object): ...} where objects do; later ones win.\n"
-          "ignore: a list of links and of pairs (link, object), by name or index.\n"
-          "work_budget: evaluations (about 10 ns each) that a step may cost; deadline_us: the "
-          "same\n"
-          "by the clock. What is not answered by then is undecided.\n"
-          "scope: 'links', every link's own contact; 'avatar', only the earliest of all; "
-          "'objects',\n"
-          "also every link's own contact with every object (Step.objects), at fidelity 'link' or\n"
-          "'exact' and without a budget.\n"
-          "self_pairs: PairRules: also ask whether own links touch each other (Step.pairs); at\n"
-          "fidelity 'link' or 'exact', and not at scope 'avatar'.\n"
-          "pass_separating: a link that begins within the tolerance of the scene without touching\n"
-          "it, and does not approach it, goes on until it is a quarter as near: so an avatar that\n"
-          "was stopped can leave again. At fidelity 'link' or 'exact'.")
+      .def(py::init(&createQuery), py::arg("avatar").none(false), py::arg("scene").none(false),
+           py::kw_only(), py::arg("tolerance") = usual.tolerance, py::arg("fidelity") = "link",
+           py::arg("policies") = py::none(), py::arg("ignore") = py::tuple(),
+           py::arg("work_budget") = py::none(), py::arg("deadline_us") = py::none(),
+           py::arg("scope") = "links", py::arg("surface") = py::none(),
+           py::arg("self_pairs") = py::none(), py::arg("pass_separating") = false, kOptionsText)
       .def(
           "first_contacts",
           [](Query& query, std::shared_ptr<Motion> motion) {

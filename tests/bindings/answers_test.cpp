@@ -6,6 +6,7 @@
 #include "middleware/object_policies.h"
 #include "middleware/query/query.h"
 #include "tests/bindings/c_world.h"
+#include "tests/bindings/same_answers.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/support/asked.h"
@@ -14,6 +15,11 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
+using test::expectSame;
+using test::expectSameDetails;
+using test::expectSameObjects;
+using test::expectSamePose;
+using test::expectSameVector;
 using test::Random;
 
 /// The same options, for both.
@@ -104,30 +110,6 @@ void draw(Random& random, const test::RandomBody& body, int objects, Options& op
           .ok());
 }
 
-void expectSameVector(const double (&c)[3], const Vector3d& cxx) {
-  EXPECT_EQ(std::memcmp(c, cxx.data(), sizeof c), 0) << c[0] << " and " << cxx.x();
-}
-
-void expectSame(const ft_contact& c, const LinkContact& cxx, const Scene& scene) {
-  EXPECT_EQ(c.size, sizeof c);
-  EXPECT_EQ(c.link, cxx.link);
-  EXPECT_EQ(c.verdict, static_cast<int>(cxx.verdict));
-  EXPECT_EQ(c.reason, static_cast<int>(cxx.reason));
-  EXPECT_EQ(c.toi, cxx.toi);
-  EXPECT_EQ(c.free_until, cxx.freeUntil);
-  EXPECT_EQ(c.separation, cxx.separation);
-  EXPECT_EQ(c.penetration, cxx.penetration);
-  expectSameVector(c.point_scene, cxx.p_WScene);
-  expectSameVector(c.point_link, cxx.p_WLink);
-  expectSameVector(c.normal, cxx.nhat_SL_W);
-  EXPECT_EQ(c.triangle, cxx.triangle);
-  EXPECT_EQ(c.object, cxx.triangle < 0 ? -1 : scene.object(cxx.triangle));
-  EXPECT_EQ(c.lss, cxx.lss);
-  EXPECT_EQ(c.link_triangle, cxx.linkTriangle);
-  EXPECT_EQ(c.link_feature, static_cast<int>(cxx.linkFeature));
-  EXPECT_EQ(c.scene_feature, static_cast<int>(cxx.sceneFeature));
-}
-
 /// Those not clear, in the order of reports.
 void expectReported(const ft_query* query, const StepContacts& step, const Scene& scene) {
   std::vector<LinkContact> expected;
@@ -143,70 +125,6 @@ void expectReported(const ft_query* query, const StepContacts& step, const Scene
   ASSERT_EQ(ft_query_contacts(query, contacts.data(), count, &count), FT_OK);
   for (std::size_t i = 0; i < count; ++i) expectSame(contacts[i], expected[i], scene);
   EXPECT_EQ(contacts[count].size, count == 0 ? sizeof(ft_contact) : 0u) << "written past the end";
-}
-
-/// Every contact of every link with every object; how many there are.
-std::size_t expectSameObjects(const ft_query* query, const StepContacts& step, const Scene& scene,
-                              Scope scope) {
-  std::size_t count = 0;
-  const ft_status status = ft_query_objects(query, nullptr, 0, &count);
-  EXPECT_EQ(status, scope == Scope::EveryObject ? FT_OK : FT_ERROR_MISMATCH);
-  EXPECT_EQ(count, step.perObject.size());
-  std::vector<ft_contact> contacts(count + 1);
-  contacts[0].size = sizeof(ft_contact);
-  if (count == 0) return 0;
-  EXPECT_EQ(ft_query_objects(query, contacts.data(), count, nullptr), FT_OK);
-  for (std::size_t i = 0; i < count; ++i) expectSame(contacts[i], step.perObject[i], scene);
-  EXPECT_EQ(contacts[count].size, 0u) << "written past the end";
-  return count;
-}
-
-void expectSame(const ft_contact_details& c, const ContactDetails& cxx) {
-  expectSameVector(c.velocity_scene, cxx.v_WOther);
-  expectSameVector(c.velocity_link, cxx.v_WLink);
-  EXPECT_EQ(c.approach_speed, cxx.approachSpeed);
-  EXPECT_EQ(c.approach_lower, cxx.approachLower);
-  EXPECT_EQ(c.approach_upper, cxx.approachUpper);
-  ASSERT_EQ(c.point_count, static_cast<int>(cxx.numPoints));
-  for (std::size_t i = 0; i < cxx.numPoints; ++i) {
-    expectSameVector(c.points[i].point_scene, cxx.points[i].p_WOther);
-    expectSameVector(c.points[i].point_link, cxx.points[i].p_WLink);
-    EXPECT_EQ(c.points[i].separation, cxx.points[i].separation);
-    EXPECT_EQ(c.points[i].triangle, cxx.points[i].triangle);
-    EXPECT_EQ(c.points[i].lss, cxx.points[i].lss);
-    EXPECT_EQ(c.points[i].link_triangle, cxx.points[i].linkTriangle);
-  }
-}
-
-/// Those of a list, each at its place; how many have details.
-int expectSameDetails(ft_query* query, std::int32_t list, const std::vector<LinkContact>& contacts,
-                      const Query& question, const ChainMotion& motion) {
-  QueryScratch scratch;
-  int touches = 0;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    ft_contact_details details{};
-    details.size = sizeof details;
-    const Verdict verdict = contacts[i].verdict;
-    const bool isTouch = verdict == Verdict::Contact || verdict == Verdict::StartsInContact;
-    EXPECT_EQ(ft_query_details(query, list, i, &details), isTouch ? FT_OK : FT_ERROR_MISMATCH);
-    if (isTouch) expectSame(details, question.details(motion, contacts[i], scratch));
-    touches += isTouch;
-  }
-  return touches;
-}
-
-void expectSamePose(ft_query* query, const ChainMotion& motion, double t) {
-  Pose pose;
-  motion.poseAt(t, pose);
-  std::vector<double> rotations(4 * pose.rotations.size()), translations(3 * pose.rotations.size());
-  std::size_t joints = 0;
-  ASSERT_EQ(ft_motion_pose(query, t, rotations.data(), translations.data(), pose.rotations.size(),
-                           &joints),
-            FT_OK);
-  ASSERT_EQ(joints, pose.rotations.size());
-  const test::PoseArrays expected(pose);
-  EXPECT_EQ(rotations, expected.rotations);
-  EXPECT_EQ(translations, expected.translations);
 }
 
 void expectSameCounters(const ft_query* query, const QueryCounters& cxx) {
@@ -248,10 +166,31 @@ void expectSameStates(ft_query* query, const test::RandomBody& body, const Chain
   }
 }
 
-TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
-  constexpr int kCases = 400;
+/// What the cases of a test were about.
+struct Seen {
   int contacts = 0, undecided = 0, clear = 0, exact = 0, detailed = 0, passing = 0;
   std::size_t ofObjects = 0;
+
+  void add(const ft_contact& link) {
+    contacts += link.verdict == FT_VERDICT_CONTACT;
+    undecided += link.verdict == FT_VERDICT_UNDECIDED;
+    clear += link.verdict == FT_VERDICT_CLEAR;
+    exact += link.link_triangle >= 0;
+  }
+  void expectMany(int cases) const {
+    EXPECT_GT(ofObjects, static_cast<std::size_t>(cases / 10));
+    EXPECT_GT(detailed, cases / 10);
+    EXPECT_GT(passing, cases / 10);
+    EXPECT_GT(contacts, cases / 12);
+    EXPECT_GT(undecided, cases / 10);
+    EXPECT_GT(clear, cases / 2);
+    EXPECT_GT(exact, cases / 10);
+  }
+};
+
+TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
+  constexpr int kCases = 400;
+  Seen seen;
   for (int i = 0; i < kCases; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     Random random(static_cast<std::uint64_t>(i));
@@ -284,27 +223,18 @@ TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
     ASSERT_EQ(count, step.links.size());
     for (std::size_t link = 0; link < count; ++link) {
       expectSame(links[link], step.links[link], scene);
-      contacts += links[link].verdict == FT_VERDICT_CONTACT;
-      undecided += links[link].verdict == FT_VERDICT_UNDECIDED;
-      clear += links[link].verdict == FT_VERDICT_CLEAR;
-      exact += links[link].link_triangle >= 0;
+      seen.add(links[link]);
     }
     expectReported(query.get(), step, scene);
-    ofObjects += expectSameObjects(query.get(), step, scene, options.cxx.scope);
-    detailed += expectSameDetails(query.get(), FT_LIST_LINKS, step.links, question, motion);
+    seen.ofObjects += expectSameObjects(query.get(), step, scene, options.cxx.scope);
+    seen.detailed += expectSameDetails(query.get(), FT_LIST_LINKS, step.links, question, motion);
     expectSameDetails(query.get(), FT_LIST_OBJECTS, step.perObject, question, motion);
-    passing += options.cxx.passSeparating;
+    seen.passing += options.cxx.passSeparating;
     expectSameCounters(query.get(), step.counters);
     expectSameStates(query.get(), body, motion, random.uniform(0, 1), scene, options.cxx);
     expectSamePose(query.get(), motion, random.uniform(0, 1));
   }
-  EXPECT_GT(ofObjects, std::size_t{kCases / 10});
-  EXPECT_GT(detailed, kCases / 10);
-  EXPECT_GT(passing, kCases / 10);
-  EXPECT_GT(contacts, kCases / 12);
-  EXPECT_GT(undecided, kCases / 10);
-  EXPECT_GT(clear, kCases / 2);
-  EXPECT_GT(exact, kCases / 10);
+  seen.expectMany(kCases);
 }
 
 TEST(CAnswers, FollowAStreamOfPosesFromWhereTheLastStepEnded) {
