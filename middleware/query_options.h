@@ -73,7 +73,7 @@ struct QueryOptions {
   /// policies, bit for bit.
   std::vector<LinkPolicy> linkPolicies;
   /// Asks whether own links touch each other, too: StepContacts::pairs. Of the same avatar; at link
-  /// and exact fidelity, with Scope::EveryLink. Two links with policies meet by the smaller
+  /// and exact fidelity, not with Scope::FirstOfAvatar. Two links with policies meet by the smaller
   /// tolerance, each by the surface of its own fidelity.
   std::optional<PairRules> self;
   /// Work that the step may cost, all links together, in evaluations of a pair in lanes (about 10

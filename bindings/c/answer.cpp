@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "bindings/c/handles.h"
+#include "bindings/c/last_step.h"
 #include "bindings/c/sized_struct.h"
 #include "lss/index.h"
 
@@ -23,12 +23,6 @@ static_assert(static_cast<int>(UndecidedReason::AfterFirst) == FT_REASON_AFTER_F
 static_assert(static_cast<int>(FeatureKind::Vertex) == FT_FEATURE_VERTEX);
 static_assert(static_cast<int>(FeatureKind::Edge) == FT_FEATURE_EDGE);
 static_assert(static_cast<int>(FeatureKind::Face) == FT_FEATURE_FACE);
-
-ft_status checkedStep(const ft_query* query) {
-  if (const auto s = checked(query); s != FT_OK) return s;
-  if (query->hasStep) return FT_OK;
-  return failure(FT_ERROR_NO_STEP, kNoIndex, "expected ft_query_step() to be answered before");
-}
 
 ft_status checkedTime(double t) {
   if (t >= 0.0 && t <= 1.0) return FT_OK;
@@ -129,15 +123,20 @@ ft_status ft_query_contacts(const ft_query* query, ft_contact* contacts, size_t 
   });
 }
 
+ft_status ft_query_objects(const ft_query* query, ft_contact* contacts, size_t capacity,
+                           size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checkedObjects(query); s != FT_OK) return s;
+    const auto& all = query->step.answer.perObject;
+    const auto at = [&](std::size_t i) -> const LinkContact& { return all[i]; };
+    return writeContacts(query->question->scene(), all.size(), at, contacts, capacity, required);
+  });
+}
+
 ft_status ft_query_pairs(const ft_query* query, ft_contact* contacts, ft_other_link* others,
                          size_t capacity, size_t* required) {
   return guarded(__func__, [&]() -> ft_status {
-    if (const auto s = checkedStep(query); s != FT_OK) return s;
-    if (!query->step.answer.arePairsAnswered) {
-      return failure(
-          FT_ERROR_MISMATCH, kNoIndex,
-          "expected ft_query_set_pair_rules() before the step: own links were not asked");
-    }
+    if (const auto s = checkedPairs(query); s != FT_OK) return s;
     const auto& pairs = query->step.answer.pairs;
     const Room room = roomFor(pairs.size(), contacts, capacity, required, "contacts");
     if (room.status != FT_OK || room.isAsking || pairs.empty()) return room.status;
@@ -163,6 +162,16 @@ ft_status ft_motion_transforms(ft_query* query, double t, ft_transform* transfor
     query->step.motion.statesAt(t, query->states);
     for (std::size_t i = 0; i < links; ++i) transforms[i] = transformOf(query->states[i]);
     return FT_OK;
+  });
+}
+
+ft_status ft_motion_pose(ft_query* query, double t, double* rotations, double* translations,
+                         size_t capacity, size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checkedStep(query); s != FT_OK) return s;
+    if (const auto s = checkedTime(t); s != FT_OK) return s;
+    query->step.motion.poseAt(t, query->pose);
+    return writePose(query->pose, rotations, translations, capacity, required);
   });
 }
 

@@ -94,6 +94,7 @@ struct ft_query {
   Step step, next;
   bool hasStep = false;
   std::vector<foretouch::LinkState> states;
+  foretouch::Pose pose;
 };
 
 namespace foretouch::c {

@@ -48,6 +48,16 @@ void answerNext(ft_query& query) {
   listReported(links.data(), links.size(), query.next.reported);
 }
 
+/// Names the option as C does.
+Result<Query> builtQuery(const AvatarParts& avatar, const Scene& scene,
+                         const QueryOptions& options) {
+  auto built = Query::build(avatar.avatar, scene, options);
+  if (built.ok() || built.error().file != "passSeparating") return built;
+  Error error = built.error();
+  error.file = "pass_separating";
+  return error;
+}
+
 ft_status takeOptions(const ft_query_options* given, const Scene& scene, ft_query& query) {
   QueryOptions options;
   if (const auto s = readQueryOptions(given, *query.avatar, scene, options); s != FT_OK) return s;
@@ -56,7 +66,7 @@ ft_status takeOptions(const ft_query_options* given, const Scene& scene, ft_quer
                    "deadline_us: expected microseconds, at least 0, found %g", options.deadlineUs);
   }
   options.self = query.self;
-  FORETOUCH_TRY_OR(failure, auto question, Query::build(query.avatar->avatar, scene, options));
+  FORETOUCH_TRY_OR(failure, auto question, builtQuery(*query.avatar, scene, options));
   query.question.emplace(std::move(question));
   query.hasStep = false;
   return FT_OK;
@@ -106,7 +116,7 @@ ft_status ft_query_set_pair_rules(ft_query* query, const ft_pair_rules* rules) {
     QueryOptions options = query->question->options();
     options.self = self;
     FORETOUCH_TRY_OR(failure, auto question,
-                     Query::build(query->avatar->avatar, query->question->scene(), options));
+                     builtQuery(*query->avatar, query->question->scene(), options));
     query->self = std::move(self);
     query->question.emplace(std::move(question));
     query->hasStep = false;

@@ -27,6 +27,26 @@ ft_status readFidelity(std::int32_t given, std::int64_t link, Fidelity& fidelity
                  given);
 }
 
+ft_status readScope(std::int32_t given, Scope& scope) {
+  switch (given) {
+    case FT_SCOPE_EVERY_LINK: scope = Scope::EveryLink; return FT_OK;
+    case FT_SCOPE_FIRST_OF_AVATAR: scope = Scope::FirstOfAvatar; return FT_OK;
+    case FT_SCOPE_EVERY_OBJECT: scope = Scope::EveryObject; return FT_OK;
+    default: break;
+  }
+  return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "scope: expected one of FT_SCOPE_*, found %d",
+                 given);
+}
+
+ft_status readPassSeparating(std::int32_t given, bool& passSeparating) {
+  if (given != 0 && given != 1) {
+    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "pass_separating: expected 0 or 1, found %d",
+                   given);
+  }
+  passSeparating = given == 1;
+  return FT_OK;
+}
+
 ft_status readIgnored(const ft_query_options& given, QueryOptions& options) {
   const auto s = neededArray(given.ignored, given.ignored_count, kMaxIgnoredPairs, "ignored");
   if (s != FT_OK) return s;
@@ -124,11 +144,13 @@ ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& ava
   if (given != nullptr) {
     if (const auto s = readStruct(given, "ft_query_options", known); s != FT_OK) return s;
   }
-  if (known.scope != FT_SCOPE_EVERY_LINK && known.scope != FT_SCOPE_FIRST_OF_AVATAR) {
-    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "scope: expected one of FT_SCOPE_*, found %d",
-                   known.scope);
+  for (const std::int32_t reserved : {known.reserved, known.reserved_end}) {
+    const auto s = zero(static_cast<std::uint32_t>(reserved), "reserved");
+    if (s != FT_OK) return s;
   }
-  if (const auto s = zero(static_cast<std::uint32_t>(known.reserved), "reserved"); s != FT_OK) {
+  if (const auto s = readScope(known.scope, options.scope); s != FT_OK) return s;
+  if (const auto s = readPassSeparating(known.pass_separating, options.passSeparating);
+      s != FT_OK) {
     return s;
   }
   if (const auto s = readFidelity(known.fidelity, kNoIndex, options.fidelity); s != FT_OK) return s;
@@ -137,7 +159,6 @@ ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& ava
   options.tolerance = known.tolerance;
   options.workBudget = known.work_budget;
   options.deadlineUs = known.deadline_us;
-  options.scope = known.scope == FT_SCOPE_FIRST_OF_AVATAR ? Scope::FirstOfAvatar : Scope::EveryLink;
   options.surface = avatar.surface;
   if (const auto s = applyGiven(known, avatar, scene, options); s != FT_OK) return s;
   return checkedSurface(avatar, options);

@@ -118,19 +118,33 @@ py::list contactList(const Step& step) {
   return list;
 }
 
-/// Of the step's pairs in Answers::pairs.
-std::pair<std::size_t, std::size_t> placesOfPairs(const Step& step) {
-  const auto& end = step.answers->pairsEnd;
+/// Of the step's part of a list, whose parts end there.
+std::pair<std::size_t, std::size_t> placesIn(const std::vector<std::size_t>& end,
+                                             const Step& step) {
   return {step.step == 0 ? 0 : end[step.step - 1], end[step.step]};
+}
+std::pair<std::size_t, std::size_t> placesOfPairs(const Step& step) {
+  return placesIn(step.answers->pairsEnd, step);
 }
 
 /// None if own links were not asked.
 py::object pairList(const Step& step) {
-  if (!step.answers->asksSelf) return py::none();
+  if (!step.answers->asksSelf()) return py::none();
   py::list list;
   const auto [begin, end] = placesOfPairs(step);
   for (std::size_t place = begin; place < end; ++place) {
-    list.append(py::cast(PairContact{{step.answers, place, true}}));
+    list.append(py::cast(PairContact{{step.answers, place, ContactList::Pairs}}));
+  }
+  return std::move(list);
+}
+
+/// None if objects were not asked one by one.
+py::object objectList(const Step& step) {
+  if (!step.answers->asksObjects()) return py::none();
+  py::list list;
+  const auto [begin, end] = placesIn(step.answers->perObjectEnd, step);
+  for (std::size_t place = begin; place < end; ++place) {
+    list.append(py::cast(Contact{step.answers, place, ContactList::Objects}));
   }
   return std::move(list);
 }
@@ -183,6 +197,10 @@ void bindStep(py::module_& module) {
                              "PairContact: the asked pairs of own links that are not clear, in "
                              "the same order.\n"
                              "None where own links were not asked (self_pairs).")
+      .def_property_readonly("objects", &objectList,
+                             "The first Contact of every link with every object, in the same "
+                             "order; the others never\n"
+                             "touch. None unless scope is 'objects'.")
       .def_property_readonly("is_clear", &isClear,
                              "Whether every link, and every asked pair of own links, is proven\n"
                              "free on the whole motion.")
@@ -230,6 +248,8 @@ void Answers::add(StepContacts&& step) {
   counters.push_back(step.counters);
   pairs.insert(pairs.end(), step.pairs.begin(), step.pairs.end());
   pairsEnd.push_back(pairs.size());
+  perObject.insert(perObject.end(), step.perObject.begin(), step.perObject.end());
+  perObjectEnd.push_back(perObject.size());
 }
 
 void bindAnswers(py::module_& module) {

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
+#include "assets/near_names.h"
 #include "bindings/python/errors.h"
 
 namespace foretouch::python {
@@ -60,11 +61,14 @@ Value oneOf(py::handle given, const std::string& what,
             const std::array<std::pair<const char*, Value>, kCount>& words) {
   const std::string word = text(given, what);
   std::string expected;
+  std::vector<std::string> names;
   for (const auto& [name, value] : words) {
     if (word == name) return value;
     expected += (expected.empty() ? "'" : ", '") + std::string(name) + "'";
+    names.emplace_back(name);
   }
-  refuse(ErrorCode::UnknownName, what, "expected one of " + expected + ", found '" + word + "'");
+  refuse(ErrorCode::UnknownName, what,
+         "expected one of " + expected + ", found '" + word + "'" + didYouMean(word, names));
 }
 
 }  // namespace foretouch::python

@@ -28,17 +28,8 @@ py::object verdictOf(const LinkContact& contact) {
   return py::reinterpret_borrow<py::object>(verdictType)(static_cast<int>(contact.verdict));
 }
 
-const LinkContact& contactOf(const Contact& contact) {
-  if (contact.isOfPair) return contact.answers->pairs[contact.place];
-  return contact.answers->contacts[contact.place];
-}
-
 const foretouch::PairContact& pairOf(const PairContact& contact) {
   return contact.answers->pairs[contact.place];
-}
-
-bool isTouching(const LinkContact& contact) {
-  return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
 }
 
 /// A property that only a contact has; None for clear or undecided links.
@@ -69,7 +60,7 @@ py::object featureOf(const Contact& contact, FeatureKind LinkContact::*field) {
 
 /// What the link touches: an object of the scene, or another link.
 const std::string& metBy(const Contact& contact, const LinkContact& c) {
-  if (contact.isOfPair) {
+  if (contact.isOfPair()) {
     const LinkId other = contact.answers->pairs[contact.place].other;
     return contact.answers->avatar->skeleton().name(other);
   }
@@ -79,12 +70,12 @@ const std::string& metBy(const Contact& contact, const LinkContact& c) {
 
 /// None for another link.
 py::object objectOf(const Contact& contact, const LinkContact& c) {
-  if (contact.isOfPair) return py::none();
+  if (contact.isOfPair()) return py::none();
   return readable(metBy(contact, c));
 }
 
 py::object objectIdOf(const Contact& contact, const LinkContact& c) {
-  if (contact.isOfPair) return py::none();
+  if (contact.isOfPair()) return py::none();
   return py::int_(contact.answers->scene->object(c.triangle));
 }
 
@@ -96,14 +87,14 @@ py::object triangleOf(const Contact&, const LinkContact& c) {
 /// Both links, where they are named.
 std::string subjectOf(const Contact& contact, const LinkContact& c) {
   const std::string& link = contact.answers->avatar->skeleton().name(c.link);
-  if (!contact.isOfPair) return "<foretouch.Contact: " + link;
+  if (!contact.isOfPair()) return "<foretouch.Contact: " + link;
   const bool isTold = isTouching(c);
   return "<foretouch.PairContact: " + link + (isTold ? "" : " with " + metBy(contact, c));
 }
 
 /// ", triangle 7>" of the scene.
 std::string endOf(const Contact& contact, const LinkContact& c) {
-  return contact.isOfPair ? ">" : ", triangle " + std::to_string(c.triangle) + ">";
+  return contact.isOfPair() ? ">" : ", triangle " + std::to_string(c.triangle) + ">";
 }
 
 py::str linkNameOf(const Contact& contact) {
@@ -111,6 +102,19 @@ py::str linkNameOf(const Contact& contact) {
 }
 
 }  // namespace
+
+const LinkContact& contactOf(const Contact& contact) {
+  switch (contact.list) {
+    case ContactList::Pairs: return contact.answers->pairs[contact.place];
+    case ContactList::Objects: return contact.answers->perObject[contact.place];
+    case ContactList::Links: break;
+  }
+  return contact.answers->contacts[contact.place];
+}
+
+bool isTouching(const LinkContact& contact) {
+  return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
+}
 
 std::string textOf(const Contact& contact) {
   const LinkContact& c = contactOf(contact);
@@ -183,6 +187,10 @@ void bindContact(py::module_& module) {
           "scene_feature",
           [](const Contact& contact) { return featureOf(contact, &LinkContact::sceneFeature); },
           "The same of the scene's triangle.")
+      .def("details", &detailsOf,
+           "ContactDetails: how fast the two sides approach, and where else they are near. It "
+           "looks\n"
+           "at the near pairs once more: not meant for every contact of every step.")
       .def("__repr__", &textOf);
 }
 

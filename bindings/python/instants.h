@@ -12,6 +12,7 @@ class Instants {
   /// A number or a one-dimensional array, in [0,1].
   explicit Instants(py::handle given);
 
+  [[nodiscard]] bool isOne() const { return isOne_; }
   [[nodiscard]] const std::vector<double>& values() const { return values_; }
   /// `rest` for one instant; for many, their number and then `rest`.
   [[nodiscard]] Shape shapeWith(Shape rest) const;

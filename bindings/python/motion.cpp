@@ -5,16 +5,17 @@
 #include "bindings/python/bindings.h"
 #include "bindings/python/instants.h"
 #include "bindings/python/poses.h"
+#include "lss/index.h"
 
 namespace foretouch::python {
 namespace {
 
-std::unique_ptr<Motion> createMotion(std::shared_ptr<Avatar> avatar, const py::object& start,
+std::shared_ptr<Motion> createMotion(std::shared_ptr<Avatar> avatar, const py::object& start,
                                      const py::object& end) {
   const Skeleton& skeleton = avatar->skeleton();
   Pose from = poseFrom(skeleton, start, "start"), to = poseFrom(skeleton, end, "end");
   ChainMotion chain(skeleton, from, to);
-  return std::make_unique<Motion>(
+  return std::make_shared<Motion>(
       Motion{std::move(avatar), std::move(from), std::move(to), std::move(chain)});
 }
 
@@ -45,10 +46,19 @@ Numbers transforms(const Motion& motion, const py::object& t) {
   return array;
 }
 
+py::object poseAt(const Motion& motion, const py::object& t) {
+  const Instants instants(t);
+  std::vector<Pose> poses(instants.values().size());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    motion.chain.poseAt(instants.values()[i], poses[i]);
+  if (instants.isOne()) return toPython(poses.front());
+  return toPython(poses, countOf(motion.chain.numLinks()));
+}
+
 }  // namespace
 
 void bindMotion(py::module_& module) {
-  py::class_<Motion>(
+  py::class_<Motion, std::shared_ptr<Motion>>(
       module, "Motion",
       "The in-between motion of an avatar: every joint turns at constant rate on the shorter arc\n"
       "(slerp) and moves on a straight line in its parent's frame, t from 0 to 1. Immutable.")
@@ -56,6 +66,10 @@ void bindMotion(py::module_& module) {
       .def("transforms", &transforms, py::arg("t"),
            "Where every link is: (n, 4, 4) homogeneous matrices from the link's frame to the\n"
            "world for a number t, (k, n, 4, 4) for k of them.")
+      .def("pose_at", &poseAt, py::arg("t"),
+           "The Pose at a number t, the given ones at 0 and 1; Poses for many. A motion from it, "
+           "or\n"
+           "to it, runs along the same path: at a contact's toi, where a stopped avatar stands.")
       .def_property_readonly("avatar", [](const Motion& motion) { return motion.avatar; })
       .def_property_readonly("start", [](const Motion& motion) { return toPython(motion.start); })
       .def_property_readonly("end", [](const Motion& motion) { return toPython(motion.end); })

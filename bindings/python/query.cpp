@@ -30,11 +30,12 @@ class BorrowedScratch {
   std::unique_ptr<QueryScratch> scratch_;
 };
 
-/// An error about `self` is one about the keyword self_pairs.
+/// An error about an option is one about its keyword.
 Result<foretouch::Query> withKeywords(Result<foretouch::Query> built) {
-  if (built.ok() || built.error().file != "self") return built;
+  if (built.ok()) return built;
   Error error = built.error();
-  error.file = "self_pairs";
+  if (error.file == "self") error.file = "self_pairs";
+  if (error.file == "passSeparating") error.file = "pass_separating";
   return error;
 }
 
@@ -69,22 +70,22 @@ void Query::checkMotion(const Motion& motion) const {
   refuse(ErrorCode::Mismatch, "motion", "expected a motion of this avatar");
 }
 
-Step Query::firstContacts(const Motion& motion) {
-  checkMotion(motion);
+Step Query::firstContacts(std::shared_ptr<const Motion> motion) {
+  checkMotion(*motion);
   const py::gil_scoped_release free;
   BorrowedScratch scratch(shelf_);
   StepContacts step;
-  question_.answer(motion.chain, *scratch, step);
-  Answers answers{avatar_, scene_, {}, {}, question_.options().self.has_value()};
+  question_.answer(motion->chain, *scratch, step);
+  Answers answers{avatar_, scene_, question_, {std::move(motion), {}, {}}};
   answers.add(std::move(step));
   return {std::make_shared<const Answers>(std::move(answers)), 0};
 }
 
-Steps Query::firstContactsMany(const Pose* starts, const Pose* ends, std::size_t steps,
-                               int threads) {
+Steps Query::firstContactsMany(AnsweredMotions motions, int threads) {
   auto pool = valueOf(QueryPool::start(threads));
-  const auto answers = std::make_shared<Answers>(
-      Answers{avatar_, scene_, {}, {}, question_.options().self.has_value()});
+  const std::size_t steps = motions.count();
+  const auto answers =
+      std::make_shared<Answers>(Answers{avatar_, scene_, question_, std::move(motions)});
   answers->contacts.reserve(steps * answers->links());
   answers->counters.reserve(steps);
   std::vector<StepTask> tasks;
@@ -94,7 +95,7 @@ Steps Query::firstContactsMany(const Pose* starts, const Pose* ends, std::size_t
     const py::gil_scoped_release free;
     tasks.clear();
     for (std::size_t i = done; i < std::min(steps, done + kStepsAtOnce); ++i) {
-      tasks.push_back({&question_, starts + i, ends + i});
+      tasks.push_back({&question_, &answers->motions.start(i), &answers->motions.end(i)});
     }
     valueOf(pool.answer(tasks, found));
     for (StepContacts& step : found) answers->add(std::move(step));
@@ -121,10 +122,11 @@ namespace {
 std::unique_ptr<Query> createQuery(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene,
                                    py::object tolerance, py::object fidelity, py::object policies,
                                    py::object ignore, py::object workBudget, py::object deadlineUs,
-                                   py::object scope, py::object surface, py::object selfPairs) {
-  const auto options = optionsFrom(
-      {tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface, selfPairs},
-      *avatar, *scene);
+                                   py::object scope, py::object surface, py::object selfPairs,
+                                   py::object passSeparating) {
+  const auto options = optionsFrom({tolerance, fidelity, policies, ignore, workBudget, deadlineUs,
+                                    scope, surface, selfPairs, passSeparating},
+                                   *avatar, *scene);
   return std::make_unique<Query>(std::move(avatar), std::move(scene), options);
 }
 
@@ -139,22 +141,42 @@ Steps many(Query& query, const py::object& poses, const py::object& ends,
            const py::object& threads) {
   const Skeleton& skeleton = query.avatar()->skeleton();
   const int count = threadsFrom(threads);
-  const std::vector<Pose> from = posesFrom(skeleton, poses, "poses");
+  std::vector<Pose> from = posesFrom(skeleton, poses, "poses");
   if (ends.is_none()) {
     if (from.size() < 2) {
       refuse(ErrorCode::Empty, "poses",
              "expected at least two poses, found " + std::to_string(from.size()));
     }
-    return query.firstContactsMany(from.data(), from.data() + 1, from.size() - 1, count);
+    return query.firstContactsMany({nullptr, std::move(from), {}}, count);
   }
-  const std::vector<Pose> to = posesFrom(skeleton, ends, "ends");
+  std::vector<Pose> to = posesFrom(skeleton, ends, "ends");
   if (to.size() != from.size() || from.empty()) {
     refuse(ErrorCode::Mismatch, "ends",
            "expected one per pose, and at least one; found " + std::to_string(to.size()) + " for " +
                std::to_string(from.size()) + " poses");
   }
-  return query.firstContactsMany(from.data(), to.data(), from.size(), count);
+  return query.firstContactsMany({nullptr, std::move(from), std::move(to)}, count);
 }
+
+constexpr char kOptionsText[] =
+    "tolerance: metres, at most what separates a contact at its toi. fidelity: 'link' "
+    "(LSS),\n"
+    "'exact' (triangles; needs surface), or coarser: 'limb', 'avatar', 'ellipsoid'.\n"
+    "policies: {link: {'tolerance': ..., 'fidelity': ..., 'ignore': ...}} where links\n"
+    "differ, or {(link, object): ...} where objects do; later ones win.\n"
+    "ignore: a list of links and of pairs (link, object), by name or index.\n"
+    "work_budget: evaluations (about 10 ns each) that a step may cost; deadline_us: the "
+    "same\n"
+    "by the clock. What is not answered by then is undecided.\n"
+    "scope: 'links', every link's own contact; 'avatar', only the earliest of all; "
+    "'objects',\n"
+    "also every link's own contact with every object (Step.objects), at fidelity 'link' or\n"
+    "'exact' and without a budget.\n"
+    "self_pairs: PairRules: also ask whether own links touch each other (Step.pairs); at\n"
+    "fidelity 'link' or 'exact', and not at scope 'avatar'.\n"
+    "pass_separating: a link that begins within the tolerance of the scene without touching\n"
+    "it, and does not approach it, goes on until it is a quarter as near: so an avatar that\n"
+    "was stopped can leave again. At fidelity 'link' or 'exact'.";
 
 }  // namespace
 
@@ -168,21 +190,13 @@ void bindQuery(py::module_& module) {
            py::arg("policies") = py::none(), py::arg("ignore") = py::tuple(),
            py::arg("work_budget") = py::none(), py::arg("deadline_us") = py::none(),
            py::arg("scope") = "links", py::arg("surface") = py::none(),
-           py::arg("self_pairs") = py::none(),
-           "tolerance: metres, at most what separates a contact at its toi. fidelity: 'link' "
-           "(LSS),\n"
-           "'exact' (triangles; needs surface), or coarser: 'limb', 'avatar', 'ellipsoid'.\n"
-           "policies: {link: {'tolerance': ..., 'fidelity': ..., 'ignore': ...}} where links\n"
-           "differ, or {(link, object): ...} where objects do; later ones win.\n"
-           "ignore: a list of links and of pairs (link, object), by name or index.\n"
-           "work_budget: evaluations (about 10 ns each) that a step may cost; deadline_us: the "
-           "same\n"
-           "by the clock. What is not answered by then is undecided.\n"
-           "scope: 'links', every link's own contact; 'avatar', only the earliest of all.\n"
-           "self_pairs: PairRules: also ask whether own links touch each other (Step.pairs); at\n"
-           "fidelity 'link' or 'exact', and scope 'links'.")
-      .def("first_contacts", &Query::firstContacts, py::arg("motion"),
-           "What every link meets first: a Step.")
+           py::arg("self_pairs") = py::none(), py::arg("pass_separating") = false, kOptionsText)
+      .def(
+          "first_contacts",
+          [](Query& query, std::shared_ptr<Motion> motion) {
+            return query.firstContacts(std::move(motion));
+          },
+          py::arg("motion").none(false), "What every link meets first: a Step.")
       .def("first_contacts_many", &many, py::arg("poses"), py::kw_only(),
            py::arg("ends") = py::none(), py::arg("threads") = py::none(),
            "From each pose to the next (or to the one at the same place in ends): Steps. threads:\n"

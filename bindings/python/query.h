@@ -37,11 +37,10 @@ class Query {
   [[nodiscard]] const std::shared_ptr<Avatar>& avatar() const { return avatar_; }
   [[nodiscard]] const std::shared_ptr<Scene>& scene() const { return scene_; }
 
-  [[nodiscard]] Step firstContacts(const Motion& motion);
+  [[nodiscard]] Step firstContacts(std::shared_ptr<const Motion> motion);
 
-  /// One step from each of `starts` to its neighbour in `ends`, by `threads` threads.
-  [[nodiscard]] Steps firstContactsMany(const Pose* starts, const Pose* ends, std::size_t steps,
-                                        int threads);
+  /// By `threads` threads.
+  [[nodiscard]] Steps firstContactsMany(AnsweredMotions motions, int threads);
 
   /// (links) of booleans at one instant, (instants, links) at many.
   [[nodiscard]] py::array_t<bool> touchesAt(const Motion& motion, const Instants& instants);

@@ -16,8 +16,9 @@ constexpr std::array<std::pair<const char*, Fidelity>, 5> kFidelities{
      {"limb", Fidelity::Limb},
      {"avatar", Fidelity::Avatar},
      {"ellipsoid", Fidelity::Ellipsoid}}};
-constexpr std::array<std::pair<const char*, Scope>, 2> kScopes{
-    {{"links", Scope::EveryLink}, {"avatar", Scope::FirstOfAvatar}}};
+constexpr std::array<std::pair<const char*, Scope>, 3> kScopes{{{"links", Scope::EveryLink},
+                                                                {"avatar", Scope::FirstOfAvatar},
+                                                                {"objects", Scope::EveryObject}}};
 
 // ---- ignore ----
 
@@ -66,6 +67,11 @@ std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avat
 
 // ---- policies ----
 
+bool boolean(py::handle given, const std::string& what) {
+  if (!PyBool_Check(given.ptr())) refuse(ErrorCode::Mismatch, what, "expected a bool");
+  return given.ptr() == Py_True;
+}
+
 /// What a policy sets for its link, or for its link with its objects.
 void readPolicy(py::handle given, const std::string& what, ObjectPolicy& policy) {
   for (const auto& [key, value] : mapping(given, what)) {
@@ -78,8 +84,7 @@ void readPolicy(py::handle given, const std::string& what, ObjectPolicy& policy)
     } else if (name == "fidelity") {
       policy.fidelity = oneOf(value, place, kFidelities);
     } else if (name == "ignore") {
-      if (!PyBool_Check(value.ptr())) refuse(ErrorCode::Mismatch, place, "expected a bool");
-      policy.ignore = value.ptr() == Py_True;
+      policy.ignore = boolean(value, place);
     } else {
       refuse(ErrorCode::UnknownName, place, "expected 'tolerance', 'fidelity' or 'ignore'");
     }
@@ -152,6 +157,7 @@ QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar, const 
   options.ignored = ignoredFrom(given.ignore, avatar, scene);
   applyPolicies(given.policies, avatar, scene, options);
   options.scope = oneOf(given.scope, "scope", kScopes);
+  options.passSeparating = boolean(given.passSeparating, "pass_separating");
   options.surface = surfaceFrom(given.surface, avatar);
   if (!given.workBudget.is_none()) {
     options.workBudget = static_cast<std::uint64_t>(

@@ -9,7 +9,7 @@ namespace foretouch::python {
 /// As given, unchecked.
 struct GivenOptions {
   py::object tolerance, fidelity, policies, ignore, workBudget, deadlineUs, scope, surface,
-      selfPairs;
+      selfPairs, passSeparating;
 };
 
 /// Looks up the names of links and objects. The library itself checks the values.

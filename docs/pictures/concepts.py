@@ -70,9 +70,12 @@ class Picture:
         wings = [(q[0] - 10 * math.cos(angle + s), q[1] - 10 * math.sin(angle + s)) for s in (0.4, -0.4)]
         self.path([q] + wings, color, 1, color, 1.0, True)
 
+    def svg(self):
+        return "\n".join(self.parts + ["</svg>"]) + "\n"
+
     def write(self, name):
         with open(os.path.join(FOLDER, name), "w", encoding="utf-8", newline="\n") as file:
-            file.write("\n".join(self.parts + ["</svg>"]) + "\n")
+            file.write(self.svg())
 
 
 def nearest_on_segment(p, a, b):

@@ -6,6 +6,7 @@
 #include "middleware/object_policies.h"
 #include "middleware/query/query.h"
 #include "tests/bindings/c_world.h"
+#include "tests/bindings/same_answers.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/support/asked.h"
@@ -14,6 +15,11 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
+using test::expectSame;
+using test::expectSameDetails;
+using test::expectSameObjects;
+using test::expectSamePose;
+using test::expectSameVector;
 using test::Random;
 
 /// The same options, for both.
@@ -63,20 +69,28 @@ constexpr Rung kRungs[] = {{Fidelity::Link, FT_FIDELITY_LINK},
 /// Of one step, all that can be asked, for links that differ from case to case.
 void draw(Random& random, const test::RandomBody& body, int objects, Options& options) {
   const Rung& rung = kRungs[random.below(5)];
+  const bool isOfLinks = rung.cxx == Fidelity::Link || rung.cxx == Fidelity::Exact;
   options.cxx.fidelity = rung.cxx;
   options.c.fidelity = rung.c;
   options.cxx.tolerance = options.c.tolerance = random.magnitude(1e-6, 1e-2);
-  if (random.chance(0.2)) {
+  const bool hasBudget = random.chance(0.2);
+  if (hasBudget) {
     options.cxx.workBudget = options.c.work_budget = static_cast<std::uint64_t>(random.below(300));
   }
   if (random.chance(0.2)) {
     options.cxx.scope = Scope::FirstOfAvatar;
     options.c.scope = FT_SCOPE_FIRST_OF_AVATAR;
+  } else if (isOfLinks && !hasBudget && random.chance(0.6)) {
+    options.cxx.scope = Scope::EveryObject;
+    options.c.scope = FT_SCOPE_EVERY_OBJECT;
+  }
+  if (isOfLinks && random.chance(0.4)) {
+    options.cxx.passSeparating = true;
+    options.c.pass_separating = 1;
   }
   for (int i = random.below(3); i > 0; --i) {
     options.ignore(random.below(body.avatar.numLinks()), random.below(objects + 1) - 1);
   }
-  const bool isOfLinks = rung.cxx == Fidelity::Link || rung.cxx == Fidelity::Exact;
   for (LinkId link = 0; isOfLinks && random.chance(0.99) && link < body.avatar.numLinks(); ++link) {
     if (link == 0 && random.chance(0.7)) break;  // no policies at all
     options.policy(random.magnitude(1e-6, 1e-2), random.chance(0.5));
@@ -94,30 +108,6 @@ void draw(Random& random, const test::RandomBody& body, int objects, Options& op
   EXPECT_TRUE(
       applyObjectPolicies(options.cxxObjectPolicies, body.avatar.numLinks(), objects, options.cxx)
           .ok());
-}
-
-void expectSameVector(const double (&c)[3], const Vector3d& cxx) {
-  EXPECT_EQ(std::memcmp(c, cxx.data(), sizeof c), 0) << c[0] << " and " << cxx.x();
-}
-
-void expectSame(const ft_contact& c, const LinkContact& cxx, const Scene& scene) {
-  EXPECT_EQ(c.size, sizeof c);
-  EXPECT_EQ(c.link, cxx.link);
-  EXPECT_EQ(c.verdict, static_cast<int>(cxx.verdict));
-  EXPECT_EQ(c.reason, static_cast<int>(cxx.reason));
-  EXPECT_EQ(c.toi, cxx.toi);
-  EXPECT_EQ(c.free_until, cxx.freeUntil);
-  EXPECT_EQ(c.separation, cxx.separation);
-  EXPECT_EQ(c.penetration, cxx.penetration);
-  expectSameVector(c.point_scene, cxx.p_WScene);
-  expectSameVector(c.point_link, cxx.p_WLink);
-  expectSameVector(c.normal, cxx.nhat_SL_W);
-  EXPECT_EQ(c.triangle, cxx.triangle);
-  EXPECT_EQ(c.object, cxx.triangle < 0 ? -1 : scene.object(cxx.triangle));
-  EXPECT_EQ(c.lss, cxx.lss);
-  EXPECT_EQ(c.link_triangle, cxx.linkTriangle);
-  EXPECT_EQ(c.link_feature, static_cast<int>(cxx.linkFeature));
-  EXPECT_EQ(c.scene_feature, static_cast<int>(cxx.sceneFeature));
 }
 
 /// Those not clear, in the order of reports.
@@ -176,9 +166,31 @@ void expectSameStates(ft_query* query, const test::RandomBody& body, const Chain
   }
 }
 
+/// What the cases of a test were about.
+struct Seen {
+  int contacts = 0, undecided = 0, clear = 0, exact = 0, detailed = 0, passing = 0;
+  std::size_t ofObjects = 0;
+
+  void add(const ft_contact& link) {
+    contacts += link.verdict == FT_VERDICT_CONTACT;
+    undecided += link.verdict == FT_VERDICT_UNDECIDED;
+    clear += link.verdict == FT_VERDICT_CLEAR;
+    exact += link.link_triangle >= 0;
+  }
+  void expectMany(int cases) const {
+    EXPECT_GT(ofObjects, static_cast<std::size_t>(cases / 10));
+    EXPECT_GT(detailed, cases / 10);
+    EXPECT_GT(passing, cases / 10);
+    EXPECT_GT(contacts, cases / 12);
+    EXPECT_GT(undecided, cases / 10);
+    EXPECT_GT(clear, cases / 2);
+    EXPECT_GT(exact, cases / 10);
+  }
+};
+
 TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
   constexpr int kCases = 400;
-  int contacts = 0, undecided = 0, clear = 0, exact = 0;
+  Seen seen;
   for (int i = 0; i < kCases; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     Random random(static_cast<std::uint64_t>(i));
@@ -200,7 +212,9 @@ TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
     const ft_pose first = from.view(), second = to.view();
     ASSERT_EQ(ft_query_step(query.get(), &first, &second), FT_OK) << ft_last_error();
     const ChainMotion motion = body.motion();
-    const StepContacts step = firstContacts(body.avatar, motion, scene, options.cxx).value();
+    const Query question = Query::build(body.avatar, scene, options.cxx).value();
+    QueryScratch scratch;
+    const StepContacts step = question.answer(motion, scratch);
 
     std::vector<ft_contact> links(step.links.size());
     links[0].size = sizeof(ft_contact);
@@ -209,19 +223,18 @@ TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
     ASSERT_EQ(count, step.links.size());
     for (std::size_t link = 0; link < count; ++link) {
       expectSame(links[link], step.links[link], scene);
-      contacts += links[link].verdict == FT_VERDICT_CONTACT;
-      undecided += links[link].verdict == FT_VERDICT_UNDECIDED;
-      clear += links[link].verdict == FT_VERDICT_CLEAR;
-      exact += links[link].link_triangle >= 0;
+      seen.add(links[link]);
     }
     expectReported(query.get(), step, scene);
+    seen.ofObjects += expectSameObjects(query.get(), step, scene, options.cxx.scope);
+    seen.detailed += expectSameDetails(query.get(), FT_LIST_LINKS, step.links, question, motion);
+    expectSameDetails(query.get(), FT_LIST_OBJECTS, step.perObject, question, motion);
+    seen.passing += options.cxx.passSeparating;
     expectSameCounters(query.get(), step.counters);
     expectSameStates(query.get(), body, motion, random.uniform(0, 1), scene, options.cxx);
+    expectSamePose(query.get(), motion, random.uniform(0, 1));
   }
-  EXPECT_GT(contacts, kCases / 12);
-  EXPECT_GT(undecided, kCases / 10);
-  EXPECT_GT(clear, kCases / 2);
-  EXPECT_GT(exact, kCases / 10);
+  seen.expectMany(kCases);
 }
 
 TEST(CAnswers, FollowAStreamOfPosesFromWhereTheLastStepEnded) {
@@ -241,6 +254,44 @@ TEST(CAnswers, FollowAStreamOfPosesFromWhereTheLastStepEnded) {
   links[0].size = sizeof(ft_contact);
   ASSERT_EQ(ft_query_links(query.get(), links.data(), links.size(), nullptr), FT_OK);
   for (std::size_t i = 0; i < links.size(); ++i) expectSame(links[i], back.links[i], scene);
+}
+
+// A hand that was stopped above the floor goes on from where it stands: up it is free, down it is
+// not. Its places are known in closed form.
+TEST(CAnswers, GoOnFromWhereTheAvatarWasStopped) {
+  test::SmallWorld world;
+  ft_query_options options = test::initialised(ft_query_options_init);
+  options.pass_separating = 1;
+  const auto query = test::makeQuery(world.scene, world.avatar, &options);
+  const ft_pose up = world.up(), lowered = world.lowered();
+  ASSERT_EQ(ft_query_step(query.get(), &up, &lowered), FT_OK);
+  ft_contact contact{};
+  contact.size = sizeof contact;
+  ASSERT_EQ(ft_query_contacts(query.get(), &contact, 1, nullptr), FT_OK);
+  ft_contact_details details{};
+  details.size = sizeof details;
+  ASSERT_EQ(ft_query_details(query.get(), FT_LIST_CONTACTS, 0, &details), FT_OK);
+  EXPECT_NEAR(details.velocity_link[1], -1.5, 1e-12);
+  EXPECT_LE(details.approach_lower, 1.5);
+  EXPECT_GE(details.approach_upper, 1.5);
+  EXPECT_GE(details.point_count, 2);  // both ends of a stick that lies flat
+
+  double rotation[4], translation[3];
+  ASSERT_EQ(ft_motion_pose(query.get(), contact.toi, rotation, translation, 1, nullptr), FT_OK);
+  EXPECT_NEAR(translation[1], 1 - 1.5 * contact.toi, 1e-12);
+  const ft_pose stopped = test::SmallWorld::poseOf(rotation, translation);
+  ASSERT_EQ(ft_query_step(query.get(), &stopped, &up), FT_OK);
+  ASSERT_EQ(ft_query_links(query.get(), &contact, 1, nullptr), FT_OK);
+  EXPECT_EQ(contact.verdict, FT_VERDICT_CLEAR);
+  ASSERT_EQ(ft_query_step(query.get(), &stopped, &lowered), FT_OK);
+  ASSERT_EQ(ft_query_links(query.get(), &contact, 1, nullptr), FT_OK);
+  EXPECT_EQ(contact.verdict, FT_VERDICT_CONTACT);
+  EXPECT_EQ(contact.toi, 0.0);
+  options.pass_separating = 0;
+  ASSERT_EQ(ft_query_set_options(query.get(), &options), FT_OK);
+  ASSERT_EQ(ft_query_step(query.get(), &stopped, &up), FT_OK);
+  ASSERT_EQ(ft_query_links(query.get(), &contact, 1, nullptr), FT_OK);
+  EXPECT_EQ(contact.verdict, FT_VERDICT_CONTACT);  // held where it stands
 }
 
 TEST(CAnswers, OutliveTheHandlesTheyWereMadeOf) {

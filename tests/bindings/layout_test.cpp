@@ -110,7 +110,7 @@ AT(ft_object_policy, tolerance, 8);
 AT(ft_object_policy, fidelity, 16);
 AT(ft_object_policy, ignore, 20);
 
-static_assert(sizeof(ft_query_options) == 88);
+static_assert(sizeof(ft_query_options) == 96);
 AT(ft_query_options, fidelity, 4);
 AT(ft_query_options, tolerance, 8);
 AT(ft_query_options, work_budget, 16);
@@ -123,6 +123,8 @@ AT(ft_query_options, policies, 56);
 AT(ft_query_options, policy_count, 64);
 AT(ft_query_options, object_policies, 72);
 AT(ft_query_options, object_policy_count, 80);
+AT(ft_query_options, pass_separating, 88);
+AT(ft_query_options, reserved_end, 92);
 
 static_assert(sizeof(ft_contact) == 144);
 AT(ft_contact, link, 4);
@@ -141,6 +143,23 @@ AT(ft_contact, lss, 128);
 AT(ft_contact, link_triangle, 132);
 AT(ft_contact, link_feature, 136);
 AT(ft_contact, scene_feature, 140);
+
+static_assert(sizeof(ft_contact_point) == 72);
+AT(ft_contact_point, point_link, 24);
+AT(ft_contact_point, separation, 48);
+AT(ft_contact_point, triangle, 56);
+AT(ft_contact_point, lss, 60);
+AT(ft_contact_point, link_triangle, 64);
+AT(ft_contact_point, reserved, 68);
+
+static_assert(sizeof(ft_contact_details) == 368);
+AT(ft_contact_details, point_count, 4);
+AT(ft_contact_details, velocity_scene, 8);
+AT(ft_contact_details, velocity_link, 32);
+AT(ft_contact_details, approach_speed, 56);
+AT(ft_contact_details, approach_lower, 64);
+AT(ft_contact_details, approach_upper, 72);
+AT(ft_contact_details, points, 80);
 
 static_assert(sizeof(ft_transform) == 104);
 AT(ft_transform, translation, 32);

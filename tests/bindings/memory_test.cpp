@@ -173,6 +173,7 @@ TEST(CMemory, IsNotAskedForOnceItHasGrown) {
   const ft_pose first = from.view(), second = to.view();
   std::vector<ft_contact> contacts(5);
   std::vector<ft_transform> transforms(5);
+  std::vector<double> rotations(20);
   std::uint64_t before = 0;
   for (int round = 0; round < 6; ++round) {
     before = allocations;
@@ -183,6 +184,7 @@ TEST(CMemory, IsNotAskedForOnceItHasGrown) {
     EXPECT_EQ(ft_query_contacts(query.get(), contacts.data(), 5, &count), FT_OK);
     EXPECT_GT(count, 0u);
     EXPECT_EQ(ft_motion_transforms(query.get(), 0.5, transforms.data(), 5, nullptr), FT_OK);
+    EXPECT_EQ(ft_motion_pose(query.get(), 0.5, rotations.data(), nullptr, 5, nullptr), FT_OK);
   }
   EXPECT_EQ(allocations - before, 0u);
 }

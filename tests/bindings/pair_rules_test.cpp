@@ -7,6 +7,7 @@
 #include "assets/avatar/pairs_file.h"
 #include "middleware/query/query.h"
 #include "tests/bindings/c_world.h"
+#include "tests/bindings/same_answers.h"
 #include "tests/support/temp_folder.h"
 
 namespace foretouch {
@@ -164,6 +165,26 @@ TEST(CPairRules, AnswerWhatTheCxxLibraryAnswers) {
   EXPECT_EQ(contact.point_scene[0], step.pairs[0].p_WScene.x());
   EXPECT_EQ(contact.triangle, -1);
   EXPECT_EQ(contact.object, -1);
+
+  ft_contact_details details{};
+  details.size = sizeof details;
+  ASSERT_EQ(ft_query_details(query.get(), FT_LIST_PAIRS, 0, &details), FT_OK) << ft_last_error();
+  test::expectSame(
+      details, question.details(ChainMotion(avatar.skeleton(), from, to), step.pairs[0], scratch));
+  EXPECT_NEAR(details.velocity_link[0], -1.2, 1e-12);  // one hand moves, from 0.5 to -0.7
+}
+
+TEST(CPairRules, AreAskedBesideEveryObject) {
+  const test::AvatarHandle handle = test::makeAvatar(figure());
+  ft_query_options options = test::initialised(ft_query_options_init);
+  options.scope = FT_SCOPE_EVERY_OBJECT;
+  const test::QueryHandle query = test::makeQuery(test::makeScene(farFloor()), handle, &options);
+  const auto rules = madeBy(
+      [&](ft_pair_rules** made) { return ft_pair_rules_create(handle.get(), nullptr, made); });
+  EXPECT_EQ(ft_query_set_pair_rules(query.get(), rules.get()), FT_OK) << ft_last_error();
+  options.scope = FT_SCOPE_FIRST_OF_AVATAR;
+  expectRefused(ft_query_set_options(query.get(), &options), FT_ERROR_MISMATCH,
+                {"self", "links or objects"});
 }
 
 TEST(CPairRules, StayWhenOptionsChangeAndCanBeTakenAway) {

@@ -1,4 +1,5 @@
 // Every way in which a query, a step and what is asked of it can be refused.
+#include <cstring>
 #include <limits>
 
 #include "tests/bindings/c_world.h"
@@ -43,7 +44,10 @@ TEST(CQueryErrors, OfQueryOptions) {
   refuse<Asking>([&](Asking& a) { a.options.fidelity = FT_FIDELITY_EXACT; }, FT_ERROR_MISMATCH,
                  {"triangles"});
   refuse<Asking>([&](Asking& a) { a.options.scope = -1; }, FT_ERROR_OUT_OF_RANGE, {"scope"});
+  refuse<Asking>([&](Asking& a) { a.options.scope = 3; }, FT_ERROR_OUT_OF_RANGE, {"scope", "3"});
   refuse<Asking>([&](Asking& a) { a.options.reserved = 1; }, FT_ERROR_STRUCT_SIZE, {"reserved"});
+  refuse<Asking>([&](Asking& a) { a.options.reserved_end = 1; }, FT_ERROR_STRUCT_SIZE,
+                 {"reserved"});
   refuse<Asking>([&](Asking& a) { a.options.ignored_count = 1; }, FT_ERROR_NULL_ARGUMENT,
                  {"ignored"});
   refuse<Asking>(
@@ -136,6 +140,80 @@ TEST(CQueryErrors, OfOptionsBesideObjectPolicies) {
   a.options.ignored_count = 0;
   a.options.tolerance = kNotANumber;
   expectRefused(a.make(), FT_ERROR_OUT_OF_RANGE, {"tolerance"});
+}
+
+// What looks beyond the first contact is honoured link by link, or refused by name.
+TEST(CQueryErrors, OfOptionsBeyondTheFirstContact) {
+  const auto ofEveryObject = [](Asking& a) { a.options.scope = FT_SCOPE_EVERY_OBJECT; };
+  refuse<Asking>([&](Asking& a) { ofEveryObject(a), a.options.fidelity = FT_FIDELITY_LIMB; },
+                 FT_ERROR_MISMATCH, {"scope", "limb"});
+  refuse<Asking>([&](Asking& a) { ofEveryObject(a), a.options.work_budget = 1000; },
+                 FT_ERROR_MISMATCH, {"scope", "budget"});
+  refuse<Asking>([&](Asking& a) { ofEveryObject(a), a.options.deadline_us = 1000; },
+                 FT_ERROR_MISMATCH, {"scope", "budget"});
+  refuse<Asking>([](Asking& a) { a.options.pass_separating = 2; }, FT_ERROR_OUT_OF_RANGE,
+                 {"pass_separating", "2"});
+  for (const std::int32_t fidelity :
+       {FT_FIDELITY_LIMB, FT_FIDELITY_AVATAR, FT_FIDELITY_ELLIPSOID}) {
+    refuse<Asking>([&](Asking& a) { a.options.pass_separating = 1, a.options.fidelity = fidelity; },
+                   FT_ERROR_MISMATCH, {"pass_separating", "fidelity"});
+  }
+}
+
+TEST(CQueryErrors, OfDetails) {
+  test::SmallWorld world;
+  const auto query = test::makeQuery(world.scene, world.avatar);
+  ft_contact_details details{};
+  details.size = sizeof details;
+  const auto expectNot = [&](std::int32_t list, std::size_t index, ft_status status,
+                             const std::vector<std::string>& words) {
+    expectRefused(ft_query_details(query.get(), list, index, &details), status, words);
+  };
+  expectNot(FT_LIST_LINKS, 0, FT_ERROR_NO_STEP, {"ft_query_step"});
+  const ft_pose up = world.up(), lowered = world.lowered();
+  ASSERT_EQ(ft_query_step(query.get(), &up, &up), FT_OK);
+  expectNot(FT_LIST_LINKS, 0, FT_ERROR_MISMATCH, {"clear"});
+  expectNot(FT_LIST_CONTACTS, 0, FT_ERROR_OUT_OF_RANGE, {"index", "0 contacts"});
+  ASSERT_EQ(ft_query_step(query.get(), &up, &lowered), FT_OK);
+  expectNot(FT_LIST_LINKS, 1, FT_ERROR_OUT_OF_RANGE, {"index", "1 contacts", "found 1"});
+  EXPECT_EQ(ft_last_error_index(), 1);
+  expectNot(FT_LIST_LINKS, kNegative, FT_ERROR_OUT_OF_RANGE, {"index"});
+  expectNot(4, 0, FT_ERROR_OUT_OF_RANGE, {"list", "4"});
+  expectNot(-1, 0, FT_ERROR_OUT_OF_RANGE, {"list", "-1"});
+  expectNot(FT_LIST_OBJECTS, 0, FT_ERROR_MISMATCH, {"FT_SCOPE_EVERY_OBJECT"});
+  expectNot(FT_LIST_PAIRS, 0, FT_ERROR_MISMATCH, {"ft_query_set_pair_rules"});
+  expectRefused(ft_query_details(query.get(), FT_LIST_LINKS, 0, nullptr), FT_ERROR_NULL_ARGUMENT,
+                {"details"});
+  details.size = 3;
+  expectNot(FT_LIST_LINKS, 0, FT_ERROR_STRUCT_SIZE, {"ft_contact_details", "3"});
+  // An older program's struct is filled as far as it goes.
+  std::memset(&details, 0x5a, sizeof details);
+  details.size = 64;
+  ASSERT_EQ(ft_query_details(query.get(), FT_LIST_LINKS, 0, &details), FT_OK);
+  EXPECT_NEAR(details.approach_speed, 1.5, 1e-12);
+  EXPECT_EQ(std::memcmp(&details.approach_lower, "ZZZZZZZZ", 8), 0) << "written past the end";
+}
+
+TEST(CQueryErrors, OfPosesOnTheWay) {
+  test::SmallWorld world;
+  const auto query = test::makeQuery(world.scene, world.avatar);
+  double rotation[4] = {}, translation[3] = {};
+  std::size_t joints = 0;
+  expectRefused(ft_motion_pose(query.get(), 0, rotation, translation, 1, &joints), FT_ERROR_NO_STEP,
+                {"ft_query_step"});
+  const ft_pose up = world.up(), lowered = world.lowered();
+  ASSERT_EQ(ft_query_step(query.get(), &up, &lowered), FT_OK);
+  for (const double t : {-0.1, 1.1, kNotANumber}) {
+    expectRefused(ft_motion_pose(query.get(), t, rotation, translation, 1, &joints),
+                  FT_ERROR_OUT_OF_RANGE, {"t:"});
+  }
+  expectRefused(ft_motion_pose(query.get(), 0, rotation, translation, 0, &joints),
+                FT_ERROR_BUFFER_TOO_SMALL, {"room for 1"});
+  EXPECT_EQ(joints, 1u);
+  ASSERT_EQ(ft_motion_pose(query.get(), 1, nullptr, translation, 1, nullptr), FT_OK);
+  EXPECT_EQ(translation[1], test::SmallWorld::kLowered[1]);
+  expectRefused(ft_query_objects(query.get(), nullptr, 0, &joints), FT_ERROR_MISMATCH,
+                {"FT_SCOPE_EVERY_OBJECT"});
 }
 
 TEST(CQueryErrors, OfSteps) {

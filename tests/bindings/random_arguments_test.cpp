@@ -141,6 +141,7 @@ class Caller {
     if (random_.chance(0.3)) made.work_budget = static_cast<std::uint64_t>(random_.below(1000));
     if (random_.chance(0.3)) made.deadline_us = number();
     if (random_.chance(0.3)) made.scope = index();
+    if (random_.chance(0.3)) made.pass_separating = index();
     for (ft_ignored_pair& pair : ignored_) pair = {index(), index()};
     for (ft_link_policy& policy : policies_) policy = {number(), index(), 0};
     if (random_.chance(0.3)) made.ignored = maybe(ignored_.data()), made.ignored_count = count();
@@ -233,6 +234,13 @@ class Caller {
     take(ft_motion_transforms(maybe(query), number(), maybe(transforms.data()), capacity,
                               maybe(&required)));
     take(ft_touches_at(maybe(query), index(), number(), maybe(&touches)));
+    take(ft_query_objects(maybe(query), maybe(contacts.data()), capacity, maybe(&required)));
+    take(ft_motion_pose(maybe(query), number(), maybe(numbers_.data()), maybe(numbers_.data() + 4),
+                        std::min<std::size_t>(capacity, 1), maybe(&required)));
+    ft_contact_details details{};
+    details.size = sizeOr(sizeof details);
+    take(ft_query_details(maybe(query), index(), static_cast<std::size_t>(index()),
+                          maybe(&details)));
     take(ft_query_counters(maybe(query), maybe(&counters)));
   }
   void askAvatar(test::SmallWorld& world) {

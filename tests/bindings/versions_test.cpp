@@ -45,6 +45,16 @@ TEST(CVersions, AnOlderProgramGetsDefaultsForWhatItDoesNotKnow) {
   EXPECT_LE(contact.separation, 0.5);
 }
 
+TEST(CVersions, AProgramOlderThanPassSeparatingDoesNotPass) {
+  test::SmallWorld world;
+  ft_query_options options = test::initialised(ft_query_options_init);
+  options.size = 88;
+  options.pass_separating = options.reserved_end = 77;  // beyond what the older program has
+  EXPECT_NE(test::makeQuery(world.scene, world.avatar, &options), nullptr);
+  ASSERT_EQ(ft_query_options_init(&options, 88), FT_OK);
+  EXPECT_EQ(options.pass_separating, 77) << "written past the end";
+}
+
 TEST(CVersions, AnOlderProgramsStructsAreNotWrittenPastTheirEnd) {
   test::SmallWorld world;
   ft_scene_info info;

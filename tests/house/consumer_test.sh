@@ -67,10 +67,11 @@ if [ -f "$prefix/include/foretouch/foretouch.h" ]; then
   "$folder/swing/swing" | tee "$folder/c.txt"
   # The same question, the same answer.
   cmp "$folder/cxx.txt" <(head -n 1 "$folder/c.txt")
+  "$folder/swing/table"
 
   library=$(dirname "$(find "$prefix" -name libforetouch.so)")
   read -ra flags <<<"$(PKG_CONFIG_PATH=$library/pkgconfig pkg-config --cflags --libs foretouch)"
-  for program in "$prefix/share/foretouch/c-example/swing.c" "$source/tests/consumer/import.c"; do
+  for program in "$prefix"/share/foretouch/c-example/*.c "$source/tests/consumer/import.c"; do
     "$cc" -std=c99 -pedantic -Wall -Wextra -Werror "$program" ${CFLAGS:-} \
       -o "$folder/$(basename "$program" .c)-c" "${flags[@]}" -lm
   done

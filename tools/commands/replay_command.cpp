@@ -102,19 +102,41 @@ Settings replaySettings(AskedReplay& asked) {
   return settings;
 }
 
+/// What link and exact fidelity alone can answer.
+Result<Done> checkFidelity(const char* option, const WorldRequest& request) {
+  const Fidelity fidelity = request.query.fidelity;
+  if (fidelity == Fidelity::Link || fidelity == Fidelity::Exact) return Done{};
+  return Error::in(option, ErrorCode::Mismatch,
+                   std::string("expected --fidelity link or exact, found ") + toString(fidelity) +
+                       ": at other ones links have no surface of their own");
+}
+
 /// What own links are not asked with.
 Result<Done> checkSelf(const WorldRequest& request) {
   if (!request.asksSelf) return Done{};
-  const Fidelity fidelity = request.query.fidelity;
-  if (fidelity != Fidelity::Link && fidelity != Fidelity::Exact) {
-    return Error::in("--self", ErrorCode::Mismatch,
-                     std::string("expected --fidelity link or exact, found ") + toString(fidelity) +
-                         ": at other ones links have no surface of their own to touch each other");
-  }
-  if (request.query.scope == Scope::EveryLink) return Done{};
+  FORETOUCH_CHECK(checkFidelity("--self", request));
+  if (request.query.scope != Scope::FirstOfAvatar) return Done{};
   return Error::in("--self", ErrorCode::Mismatch,
-                   std::string("expected --scope links, found ") + toString(request.query.scope) +
-                       ": own pairs are answered one by one");
+                   std::string("expected --scope links or objects, found ") +
+                       toString(request.query.scope) + ": own pairs are answered one by one");
+}
+
+/// What is not asked beyond the first contact. `compares`: with another model.
+Result<Done> checkBeyondFirst(const WorldRequest& request, bool compares) {
+  if (request.query.scope == Scope::EveryObject) {
+    FORETOUCH_CHECK(checkFidelity("--scope objects", request));
+    if (request.budgetUs > 0) {
+      return Error::in("--scope objects", ErrorCode::Mismatch,
+                       "expected no --budget-us, found " + std::to_string(request.budgetUs) +
+                           ": it may end before the last object");
+    }
+  }
+  if (!request.query.passSeparating) return Done{};
+  FORETOUCH_CHECK(checkFidelity("--pass-separating", request));
+  if (!compares) return Done{};
+  return Error::in("--pass-separating", ErrorCode::Mismatch,
+                   "expected neither --compare-rigid nor --compare-link: each model would pass "
+                   "other contacts");
 }
 
 /// Options that are legal by themselves, but not together.
@@ -131,6 +153,7 @@ Result<Done> checkTogether(const ReplayJob& job) {
         "them links have no surface of their own to compare");
   }
   FORETOUCH_CHECK(checkSelf(request));
+  FORETOUCH_CHECK(checkBeyondFirst(request, compares));
   if (request.budgetUs == 0) return Done{};
   if (compares) {
     return Error::in("--budget-us", ErrorCode::Mismatch,
@@ -210,6 +233,8 @@ constexpr char kReplayExamples[] = R"(Examples:
       --motion journal.lcmlog --output contacts.jsonl
   foretouch replay --scene room.obj --avatar man.json --motion dance.bvh --self \
       --pairs man.pairs.json --output contacts.jsonl
+  foretouch replay --scene room.obj --avatar man.json --motion dance.bvh --scope objects \
+      --pass-separating --output contacts.jsonl
   foretouch replay --scene cell.dae --avatar arm.json --motion log.csv --robot arm.urdf \
       --output contacts.jsonl
 

@@ -231,6 +231,12 @@ Command serveCommand() {
   settings.gone("--self",
                 "is not possible yet: messages have no field for contacts of own links. Record a "
                 "clip and ask foretouch replay --self");
+  settings.gone("--scope",
+                "is not possible: of a stream every link is answered. Record a clip and ask "
+                "foretouch replay --scope");
+  settings.gone("--pass-separating",
+                "is not possible: a stream goes from pose to pose and stops nowhere. Record a clip "
+                "and ask foretouch replay --pass-separating");
   Command command{"serve", "Answer poses that arrive over LCM, until stopped", kServeExamples,
                   std::move(settings)};
   command.run = [config](const Settings& given) { return run(given, *config); };

@@ -23,7 +23,9 @@ void FidelityCounts::add(const FidelityCounts& other) {
 Result<Query> askLinks(const Query& exact) {
   QueryOptions coarser = exact.options();
   coarser.fidelity = Fidelity::Link;
-  coarser.self.reset();  // what own links do is not compared
+  // Compared is each link's first contact with the scene, which is the same in both scopes.
+  if (coarser.scope == Scope::EveryObject) coarser.scope = Scope::EveryLink;
+  coarser.self.reset();
   for (LinkPolicy& policy : coarser.linkPolicies) policy.fidelity = Fidelity::Link;
   return Query::build(exact.avatar(), exact.scene(), coarser);
 }

@@ -134,12 +134,22 @@ Chunk solveChunk(StepSolver& solver, std::int64_t first, std::int64_t end) {
   return chunk;
 }
 
+/// An error about what this avatar cannot be asked is one about the option that asks it.
+Result<Query> withOptions(Result<Query> built) {
+  if (built.ok()) return built;
+  Error error = built.error();
+  if (error.file == "scope") error.file = "--scope";
+  if (error.file == "passSeparating") error.file = "--pass-separating";
+  return error;
+}
+
 }  // namespace
 
 Result<Done> replay(const ReplayInputs& inputs, const ReplayOptions& options,
                     const StepSink& sink) {
   FORETOUCH_ASSERT(options.threads >= 1);
-  FORETOUCH_TRY(const auto query, Query::build(inputs.avatar, inputs.scene, inputs.query));
+  FORETOUCH_TRY(const auto query,
+                withOptions(Query::build(inputs.avatar, inputs.scene, inputs.query)));
   std::optional<RigidComparison> rigid;
   if (options.compareRigid) {
     FORETOUCH_TRY(rigid, RigidComparison::build(inputs.avatar, inputs.scene, inputs.query));
@@ -148,7 +158,7 @@ Result<Done> replay(const ReplayInputs& inputs, const ReplayOptions& options,
   if (options.compareLink) {
     FORETOUCH_TRY(link, askLinks(query));
   }
-  const StepFormat format(inputs.avatar, inputs.scene, inputs.query.self.has_value());
+  const StepFormat format(inputs.avatar, inputs.scene, AskedLists::of(inputs.query));
   const StepExtras extras{rigid ? &*rigid : nullptr, link ? &*link : nullptr, options.rays};
   std::vector<StepSolver> solvers;
   for (int i = 0; i < options.threads; ++i) {

@@ -73,8 +73,8 @@ std::string headerLine(const ReplayInputs& inputs) {
   out.field("steps", inputs.steps.count);
   writeHeaderFields(settings,
                     {"tolerance", "fidelity", "scale", "motion_up", "place", "scene_scale", "up",
-                     "ignore", "scope", "budget_us", "policy", "leaves", "skin", "skin_scale",
-                     "skin_up", "animation", "robot"},
+                     "ignore", "scope", "pass_separating", "budget_us", "policy", "leaves", "skin",
+                     "skin_scale", "skin_up", "animation", "robot"},
                     out);
   if (inputs.query.self) writeSelf(inputs, out);
   writeLinkNames(inputs.avatar, out);
@@ -83,8 +83,8 @@ std::string headerLine(const ReplayInputs& inputs) {
   return text + "\n";
 }
 
-StepFormat::StepFormat(const Avatar& avatar, const Scene& scene, bool asksSelf)
-    : scene_(scene), asksSelf_(asksSelf) {
+StepFormat::StepFormat(const Avatar& avatar, const Scene& scene, AskedLists asked)
+    : scene_(scene), asked_(asked) {
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     links_.push_back(jsonString(avatar.skeleton().name(link)));
   }
@@ -98,9 +98,10 @@ std::string StepFormat::line(const StepAnswer& answer) const {
   out.field("step", answer.step);
   out.field("t0", answer.t0S);
   out.field("t1", answer.t1S);
-  out.list("contacts", answer.contacts,
-           [&](const LinkContact& contact) { write(contact, answer, out); });
-  if (asksSelf_) {
+  const auto writeOne = [&](const LinkContact& contact) { write(contact, answer, out); };
+  out.list("contacts", answer.contacts, writeOne);
+  if (asked_.objects) out.list("objects", answer.objects, writeOne);
+  if (asked_.pairs) {
     out.list("pairs", answer.pairs,
              [&](const PairContact& contact) { write(contact, answer, out); });
   }

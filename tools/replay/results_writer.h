@@ -20,6 +20,7 @@ struct StepAnswer {
   std::int64_t step = 0;
   double t0S = 0.0, t1S = 0.0;        ///< Seconds from the clip's first frame.
   std::vector<LinkContact> contacts;  ///< Of the links of reported(), in its order.
+  std::vector<LinkContact> objects;   ///< By object (StepContacts::perObject), if asked so.
   std::vector<PairContact> pairs;     ///< Of own links, if they are asked.
   std::vector<LinkId> missedByPoses;  ///< Links in contact that touch nothing at either pose.
   QueryCounters counters;
@@ -36,11 +37,19 @@ void writeLinkNames(const Avatar& avatar, JsonWriter& out);
 /// The first line. Does not name threads: they do not change the results.
 [[nodiscard]] std::string headerLine(const ReplayInputs& inputs);
 
+/// Lists that every line has if they were asked for, even if nothing is in them.
+struct AskedLists {
+  bool objects = false, pairs = false;
+
+  [[nodiscard]] static AskedLists of(const QueryOptions& query) {
+    return {query.scope == Scope::EveryObject, query.self.has_value()};
+  }
+};
+
 /// Formats steps. Const calls from several threads are fine.
 class StepFormat {
  public:
-  /// `asksSelf`: every line tells of own links, too, even if none touch.
-  StepFormat(const Avatar& avatar, const Scene& scene, bool asksSelf = false);
+  StepFormat(const Avatar& avatar, const Scene& scene, AskedLists asked = {});
 
   /// One line, its line break included.
   [[nodiscard]] std::string line(const StepAnswer& answer) const;
@@ -50,7 +59,7 @@ class StepFormat {
   void write(const PairContact& contact, const StepAnswer& answer, JsonWriter& out) const;
 
   Scene scene_;
-  bool asksSelf_;
+  AskedLists asked_;
   std::vector<std::string> links_, objects_;  // as JSON strings
 };
 

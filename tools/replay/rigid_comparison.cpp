@@ -84,7 +84,9 @@ Result<RigidComparison> RigidComparison::build(const Avatar& avatar, const Scene
   FORETOUCH_TRY(auto skeleton, Skeleton::build(raw));
   FORETOUCH_TRY(auto forest, Avatar::build(std::move(skeleton), std::move(lss)));
   QueryOptions ofForest = options;
-  ofForest.self.reset();  // what own links do is not compared
+  // Compared is each link's first contact with the scene, which is the same in both scopes.
+  if (ofForest.scope == Scope::EveryObject) ofForest.scope = Scope::EveryLink;
+  ofForest.self.reset();
   FORETOUCH_TRY(auto query, Query::build(forest, scene, ofForest));
   return RigidComparison(std::move(query));
 }

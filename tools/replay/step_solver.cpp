@@ -57,6 +57,7 @@ StepAnswer StepSolver::recorded(std::int64_t step, const StepContacts& contacts,
   for (const LinkId link : reported(contacts)) {
     answer.contacts.push_back(contacts.links[slotOf(link)]);
   }
+  answer.objects = contacts.perObject;
   answer.pairs = contacts.pairs;
   answer.counters = contacts.counters;
   answer.latencyUs = std::round(10.0 * latencyUs) / 10.0;

@@ -34,6 +34,35 @@ void addTo(ReplaySummary::Counts& counts, const LinkContact& contact) {
   counts.undecided += contact.verdict == Verdict::Undecided ? 1 : 0;
 }
 
+/// What an undecided link has to do with every object that it has not met yet.
+constexpr ObjectId kAnyOther = -1;
+constexpr std::size_t kMaxRowsOfTwo = 20;
+
+/// Of two names each: those with the most contacts first.
+template <typename Other, typename NameOf>
+std::string rowsOfTwo(const char* title,
+                      const std::map<std::pair<LinkId, Other>, ReplaySummary::Counts>& counts,
+                      const Skeleton& skeleton, const NameOf& nameOfOther) {
+  using Row = std::pair<std::pair<LinkId, Other>, ReplaySummary::Counts>;
+  std::vector<Row> rows(counts.begin(), counts.end());
+  if (rows.empty()) return "";
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& x, const Row& y) {
+    return std::make_pair(x.second.contacts, x.second.startsInContact) >
+           std::make_pair(y.second.contacts, y.second.startsInContact);
+  });
+  std::string text = fmt::format("\n{:<50}{:>10}{:>19}{:>11}\n", title, "contacts",
+                                 "starts in contact", "undecided");
+  for (std::size_t i = 0; i < std::min(rows.size(), kMaxRowsOfTwo); ++i) {
+    const auto& [two, c] = rows[i];
+    text += fmt::format("{:<25}{:<25}{:>10}{:>19}{:>11}\n", skeleton.name(two.first),
+                        nameOfOther(two.second), c.contacts, c.startsInContact, c.undecided);
+  }
+  if (rows.size() > kMaxRowsOfTwo) {
+    text += fmt::format("and {} more\n", rows.size() - kMaxRowsOfTwo);
+  }
+  return text;
+}
+
 }  // namespace
 
 double percentile(std::vector<float>& values, double share) {
@@ -67,6 +96,7 @@ void ReplaySummary::add(const ReplayedStep& step) {
     }
   }
   stepsWithContact_ += touches ? 1 : 0;
+  countObjects(answer);
   countPairs(answer);
   if (step.rigid) {
     if (!rigid_) rigid_.emplace();
@@ -91,6 +121,14 @@ void ReplaySummary::count(const LinkContact& contact) {
   for (Counts* counts : {&total_, &ofLink_[slotOf(contact.link)]}) addTo(*counts, contact);
 }
 
+void ReplaySummary::countObjects(const StepAnswer& answer) {
+  for (const LinkContact& contact : answer.objects) {
+    const bool isTold = contact.verdict != Verdict::Undecided;
+    const ObjectId object = isTold ? inputs_.scene.object(contact.triangle) : kAnyOther;
+    for (Counts* counts : {&objects_, &ofObject_[{contact.link, object}]}) addTo(*counts, contact);
+  }
+}
+
 void ReplaySummary::countPairs(const StepAnswer& answer) {
   bool touches = false;
   for (const PairContact& contact : answer.pairs) {
@@ -108,7 +146,8 @@ double ReplaySummary::latencyUs(double share) const {
 }
 
 std::string ReplaySummary::text(int threads) const {
-  return head(threads) + verdicts() + byLink() + ownPairs() + rigid() + link() + cost();
+  return head(threads) + verdicts() + byLink() + byObject() + ownPairs() + rigid() + link() +
+         cost();
 }
 
 std::string ReplaySummary::head(int threads) const {
@@ -164,9 +203,20 @@ std::string ReplaySummary::byLink() const {
   return text;
 }
 
+std::string ReplaySummary::byObject() const {
+  if (inputs_.query.scope != Scope::EveryObject) return "";
+  std::string text = "\n" + row("by object: contacts", objects_.contacts);
+  text += row("  starts in contact", objects_.startsInContact);
+  text += row("  undecided", objects_.undecided);
+  return text + rowsOfTwo("link and object", ofObject_, inputs_.avatar.skeleton(),
+                          [&](ObjectId object) -> std::string {
+                            if (object == kAnyOther) return "(any other)";
+                            return inputs_.scene.objectNames()[slotOf(object)];
+                          });
+}
+
 std::string ReplaySummary::ownPairs() const {
   if (!inputs_.query.self) return "";
-  constexpr std::size_t kMaxRows = 20;
   const PairRules& rules = *inputs_.query.self;
   std::string text = "\n" + row("own pairs asked", rules.numAsked(),
                                 fmt::format("of {} pairs of own links", rules.numPairs()));
@@ -174,24 +224,9 @@ std::string ReplaySummary::ownPairs() const {
   text += row("own contacts", pairs_.contacts);
   text += row("start in own contact", pairs_.startsInContact);
   text += row("own pairs undecided", pairs_.undecided);
-  using Row = std::pair<std::pair<LinkId, LinkId>, Counts>;
-  std::vector<Row> rows(ofPair_.begin(), ofPair_.end());
-  std::stable_sort(rows.begin(), rows.end(), [](const Row& x, const Row& y) {
-    return std::make_pair(x.second.contacts, x.second.startsInContact) >
-           std::make_pair(y.second.contacts, y.second.startsInContact);
-  });
-  if (!rows.empty()) {
-    text += fmt::format("\n{:<50}{:>10}{:>19}{:>11}\n", "own links", "contacts",
-                        "starts in contact", "undecided");
-  }
   const Skeleton& skeleton = inputs_.avatar.skeleton();
-  for (std::size_t i = 0; i < std::min(rows.size(), kMaxRows); ++i) {
-    const auto& [pair, c] = rows[i];
-    text += fmt::format("{:<25}{:<25}{:>10}{:>19}{:>11}\n", skeleton.name(pair.first),
-                        skeleton.name(pair.second), c.contacts, c.startsInContact, c.undecided);
-  }
-  if (rows.size() > kMaxRows) text += fmt::format("and {} more\n", rows.size() - kMaxRows);
-  return text;
+  return text + rowsOfTwo("own links", ofPair_, skeleton,
+                          [&](LinkId other) { return skeleton.name(other); });
 }
 
 std::string ReplaySummary::rigid() const {

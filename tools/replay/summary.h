@@ -43,6 +43,8 @@ class ReplaySummary {
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Of own links, where they were asked; what the poses miss is not counted.
   [[nodiscard]] const Counts& totalOfPairs() const { return pairs_; }
+  /// Of every link with every object, where they were asked one by one; likewise.
+  [[nodiscard]] const Counts& totalOfObjects() const { return objects_; }
   [[nodiscard]] std::int64_t stepsWithPairs() const { return stepsWithPairs_; }
   [[nodiscard]] std::int64_t stepsWithContact() const { return stepsWithContact_; }
   /// Nothing if the replay was not compared with it.
@@ -52,10 +54,12 @@ class ReplaySummary {
 
  private:
   void count(const LinkContact& contact);
+  void countObjects(const StepAnswer& answer);
   void countPairs(const StepAnswer& answer);
   [[nodiscard]] std::string head(int threads) const;
   [[nodiscard]] std::string verdicts() const;
   [[nodiscard]] std::string byLink() const;
+  [[nodiscard]] std::string byObject() const;
   [[nodiscard]] std::string ownPairs() const;
   [[nodiscard]] std::string rigid() const;
   [[nodiscard]] std::string link() const;
@@ -63,7 +67,8 @@ class ReplaySummary {
 
   const ReplayInputs& inputs_;
   std::int64_t steps_ = 0, stepsWithContact_ = 0, stepsWithPairs_ = 0;
-  Counts total_, pairs_;
+  Counts total_, objects_, pairs_;
+  std::map<std::pair<LinkId, ObjectId>, Counts> ofObject_;
   std::map<std::pair<LinkId, LinkId>, Counts> ofPair_;
   std::vector<Counts> ofLink_;
   std::vector<ReportedContact> firstMissed_;

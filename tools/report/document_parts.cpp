@@ -46,8 +46,8 @@ std::vector<ViewRow> querySettings(WorldRequest request) {
   Settings settings;
   addQuerySettings(settings, request);
   addReplayQuerySettings(settings, request);
-  return rowsOf(settings, {"tolerance", "fidelity", "skin", "scope", "policy", "ignored",
-                           "own links", "budget"});
+  return rowsOf(settings, {"tolerance", "fidelity", "skin", "scope", "what separates", "policy",
+                           "ignored", "own links", "budget"});
 }
 
 std::vector<ViewRow> clipSettings(ClipRequest request) {

@@ -18,10 +18,10 @@ ReplayReport::ReplayReport(const ReplayInputs& inputs, const ReportOptions& opti
 void ReplayReport::add(const ReplayedStep& step) {
   const StepAnswer& answer = step.answer;
   isFull_ = isFull_ || answer.step >= mostSteps_ ||
-            contacts_.size() + answer.contacts.size() + answer.pairs.size() > options_.maxContacts;
+            contacts_.size() + shownOf(answer).size() + answer.pairs.size() > options_.maxContacts;
   if (isFull_) return;
   latenciesUs_.push_back(answer.latencyUs);
-  for (const LinkContact& contact : answer.contacts) {
+  for (const LinkContact& contact : shownOf(answer)) {
     ReportedContact view = contactView(contact, inputs_.scene, answer.step, answer.t0S, answer.t1S);
     view.missedByPoses =
         std::count(answer.missedByPoses.begin(), answer.missedByPoses.end(), contact.link) > 0;
@@ -31,6 +31,10 @@ void ReplayReport::add(const ReplayedStep& step) {
     contacts_.push_back(
         contactView(contact, inputs_.avatar.skeleton(), answer.step, answer.t0S, answer.t1S));
   }
+}
+
+const std::vector<LinkContact>& ReplayReport::shownOf(const StepAnswer& answer) const {
+  return inputs_.query.scope == Scope::EveryObject ? answer.objects : answer.contacts;
 }
 
 Result<Done> ReplayReport::addTrack(const ReportProgress& progress) {
@@ -73,6 +77,13 @@ std::vector<ViewRow> ReplayReport::rowsOf(const ReplaySummary& summary) {
       {"latency of a step",
        fmt::format("p50 {:.1f} us, p99 {:.1f} us", summary.latencyUs(0.5), summary.latencyUs(0.99)),
        "the query, from two poses to all verdicts"}};
+  if (summary.inputs().query.scope == Scope::EveryObject) {
+    const auto& ofObjects = summary.totalOfObjects();
+    rows.push_back({"by object: contacts", text(ofObjects.contacts),
+                    "the first contact of every link with every object"});
+    rows.push_back({"by object: starts in contact", text(ofObjects.startsInContact), ""});
+    rows.push_back({"by object: undecided", text(ofObjects.undecided), ""});
+  }
   if (summary.inputs().query.self) {
     const PairRules& rules = *summary.inputs().query.self;
     const auto& own = summary.totalOfPairs();

@@ -32,6 +32,8 @@ class ReplayReport {
  private:
   [[nodiscard]] std::vector<ViewRow> settings() const;
   [[nodiscard]] static std::vector<ViewRow> rowsOf(const ReplaySummary& summary);
+  /// Of every link with every object, if they are asked one by one.
+  [[nodiscard]] const std::vector<LinkContact>& shownOf(const StepAnswer& answer) const;
   [[nodiscard]] Result<Done> addTrack(const ReportProgress& progress);
 
   const ReplayInputs& inputs_;

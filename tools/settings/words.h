@@ -22,7 +22,7 @@ namespace foretouch::tools {
 
 [[nodiscard]] inline Words<Scope> scopeWords() {
   Words<Scope> words;
-  for (const Scope scope : {Scope::EveryLink, Scope::FirstOfAvatar}) {
+  for (const Scope scope : {Scope::EveryLink, Scope::FirstOfAvatar, Scope::EveryObject}) {
     words.emplace_back(toString(scope), scope);
   }
   return words;

@@ -43,6 +43,32 @@ void addSkinSettings(Settings& settings, WorldRequest& request) {
       .namedIf(isNamed);
 }
 
+void addScopeSettings(Settings& settings, WorldRequest& request) {
+  const auto isNamed = [&request] { return request.query.scope != QueryOptions().scope; };
+  settings
+      .word("--scope", "links|avatar|objects", request.query.scope, scopeWords(),
+            "First contact of every link, only of the whole avatar, or of every link with every "
+            "object")
+      .ofClips()
+      .inHeader("scope")
+      .inReport("scope")
+      .namedIf(isNamed)
+      .told = [&request, isNamed]() -> std::string {
+    return isNamed() ? toString(request.query.scope) : "";
+  };
+  settings
+      .flag("--pass-separating", request.query.passSeparating,
+            "A link that begins within the tolerance of the scene and does not approach it goes "
+            "on, until it is a quarter as near")
+      .ofClips()
+      .inHeader("pass_separating")
+      .inReport("what separates")
+      .namedIf([&request] { return request.query.passSeparating; })
+      .told = [&request]() -> std::string {
+    return request.query.passSeparating ? "is passed" : "";
+  };
+}
+
 /// The first line of results has them from the rules themselves.
 void addSelfSettings(Settings& settings, WorldRequest& request) {
   settings
@@ -131,17 +157,7 @@ void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
       .inHeader("leaves")
       .namedIf([&request] { return isExactAnywhere(request); })
       .json = [] { return jsonString("advancement"); };
-  const auto isNarrow = [&request] { return request.query.scope != QueryOptions().scope; };
-  settings
-      .word("--scope", "links|avatar", request.query.scope, scopeWords(),
-            "First contact of every link, or only of the whole avatar")
-      .ofClips()
-      .inHeader("scope")
-      .inReport("scope")
-      .namedIf(isNarrow)
-      .told = [&request, isNarrow]() -> std::string {
-    return isNarrow() ? toString(request.query.scope) : "";
-  };
+  addScopeSettings(settings, request);
   settings.gone("--culler",
                 "is gone: the answers never depended on it. The slower culler is for comparison "
                 "only: foretouch-bench latency --culler point-query");

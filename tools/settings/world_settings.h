@@ -48,7 +48,8 @@ struct WorldRequest {
 void addSceneSettings(Settings& settings, WorldRequest& request);
 /// The ones that services have too: --tolerance, --fidelity, --ignore, --budget-us.
 void addQuerySettings(Settings& settings, WorldRequest& request);
-/// The rest: --scope, --skin and how to read it, --policy and --pairs (does not read their files),
+/// The rest: --scope, --pass-separating, --skin and how to read it, --policy and --pairs (does not
+/// read their files),
 /// --self.
 void addReplayQuerySettings(Settings& settings, WorldRequest& request);
 

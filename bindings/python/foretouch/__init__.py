@@ -28,6 +28,8 @@ from foretouch._foretouch import (
 from foretouch._examples import example_folder
 from foretouch._queries import first_contacts, first_contacts_many, touches_at
 from foretouch._types import (
+    ContactDetails,
+    ContactPoint,
     JointMatch,
     LeftOutPair,
     Lss,
@@ -42,6 +44,8 @@ __all__ = [
     "Avatar",
     "Clip",
     "Contact",
+    "ContactDetails",
+    "ContactPoint",
     "Error",
     "InputError",
     "JointMatch",

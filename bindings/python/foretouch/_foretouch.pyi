@@ -4,12 +4,13 @@ compares it with the module, name by name; `./run python-types` does so with myp
 import enum
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Optional, Union
+from typing import Optional, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from foretouch._types import (
+    ContactDetails,
     Doubles,
     IgnoredLike,
     JointMatch,
@@ -180,6 +181,10 @@ class Clip:
 class Motion:
     def __init__(self, avatar: Avatar, start: PoseLike, end: PoseLike) -> None: ...
     def transforms(self, t: npt.ArrayLike) -> Doubles: ...
+    @overload
+    def pose_at(self, t: float) -> Pose: ...
+    @overload
+    def pose_at(self, t: npt.ArrayLike) -> Union[Pose, Poses]: ...
     @property
     def avatar(self) -> Avatar: ...
     @property
@@ -224,6 +229,7 @@ class Contact:
     def link_feature(self) -> Optional[str]: ...
     @property
     def scene_feature(self) -> Optional[str]: ...
+    def details(self) -> Optional[ContactDetails]: ...
 
 class PairContact(Contact):
     @property
@@ -258,6 +264,8 @@ class Step:
     def contacts(self) -> list[Contact]: ...
     @property
     def pairs(self) -> Optional[list[PairContact]]: ...
+    @property
+    def objects(self) -> Optional[list[Contact]]: ...
     @property
     def is_clear(self) -> bool: ...
     @property
@@ -306,6 +314,7 @@ class Query:
         scope: str = "links",
         surface: Optional[Surface] = None,
         self_pairs: Optional[PairRules] = None,
+        pass_separating: bool = False,
     ) -> None: ...
     def first_contacts(self, motion: Motion) -> Step: ...
     def first_contacts_many(

@@ -26,6 +26,7 @@ def first_contacts(
     scope: str = "links",
     surface: Optional[Surface] = None,
     self_pairs: Optional[PairRules] = None,
+    pass_separating: bool = False,
 ) -> Step:
     """The first contact of every link in one motion. The options are those of Query, which is
     faster for more than one motion."""
@@ -41,6 +42,7 @@ def first_contacts(
         scope=scope,
         surface=surface,
         self_pairs=self_pairs,
+        pass_separating=pass_separating,
     )
     return query.first_contacts(motion)
 
@@ -61,6 +63,7 @@ def first_contacts_many(
     scope: str = "links",
     surface: Optional[Surface] = None,
     self_pairs: Optional[PairRules] = None,
+    pass_separating: bool = False,
 ) -> Steps:
     """The first contact of every link on the way from each pose to the next (or to the one at the
     same place in `ends`), on several threads."""
@@ -76,6 +79,7 @@ def first_contacts_many(
         scope=scope,
         surface=surface,
         self_pairs=self_pairs,
+        pass_separating=pass_separating,
     )
     return query.first_contacts_many(poses, ends=ends, threads=threads)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple, TypedDict, Union, overload
+from typing import NamedTuple, Optional, TypedDict, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -60,6 +60,41 @@ class Poses(Sequence[Pose]):
 
     def __repr__(self) -> str:
         return f"<foretouch.Poses: {len(self)} poses of {self.rotations.shape[1]} joints>"
+
+
+class ContactPoint(NamedTuple):
+    """Two points, one of each side, that are near when a contact is made. Metres, world frame."""
+
+    point: Doubles
+    """(3,), on the scene, or on the other link."""
+    on_link: Doubles
+    separation: float
+    """As computed; below 0 where the two overlap."""
+    triangle: Optional[int]
+    """Of the scene, or of the other link's mesh; None for its LSS."""
+    lss: Optional[int]
+    """Which of the link's LSS; None for a triangle."""
+    link_triangle: Optional[int]
+    """Which of the link's triangles; None for an LSS."""
+
+
+class ContactDetails(NamedTuple):
+    """More about a contact, at its toi. Velocities in metres per unit of t: divide by the step's
+    seconds."""
+
+    velocity: Doubles
+    """(3,), of the material point at `Contact.point`; zero for the scene."""
+    velocity_of_link: Doubles
+    """(3,), the same at `Contact.on_link`."""
+    approach_speed: float
+    """Along the normal, above 0 while the two approach; 0 without a normal."""
+    approach_lower: float
+    """If these two points touch in the rest of the step, within the tolerance from here, they do so
+    at a speed between this and the next, along this normal. Below 0: perhaps they never touch."""
+    approach_upper: float
+    points: list[ContactPoint]
+    """Up to four that are within the tolerance: the nearest first, then points far from it and from
+    each other. At fidelity 'link' and 'exact'; elsewhere there are none."""
 
 
 class Lss(NamedTuple):

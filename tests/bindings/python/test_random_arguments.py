@@ -87,6 +87,8 @@ class RandomArguments(unittest.TestCase):
             lambda v: foretouch.Motion(avatar, (v(), rest.translations), rest),
             lambda v: foretouch.Motion(v(), rest, rest),
             lambda v: motion.transforms(v()),
+            lambda v: motion.pose_at(v()),
+            lambda v: foretouch.Query(avatar, scene, pass_separating=v(), scope=v()),
             lambda v: query.first_contacts(v()),
             lambda v: query.first_contacts_many(v(), ends=v(), threads=1),
             lambda v: query.touches_at(motion, v()),
@@ -114,7 +116,7 @@ class RandomArguments(unittest.TestCase):
     def test_nearly_right_ones_are_answered_or_refused(self):
         avatar = arm()
         motion = swing(avatar)
-        built = 0
+        built = detailed = 0
         for seed in range(CASES):
             random = np.random.default_rng(seed)
             scene = self.attempt(seed, foretouch.Scene.from_arrays, *nearly_right(random))
@@ -122,12 +124,25 @@ class RandomArguments(unittest.TestCase):
                 continue
             built += 1
             tolerance = float(10.0 ** random.uniform(-9.5, 1))
-            step = self.attempt(seed, foretouch.first_contacts, avatar, motion, scene, tolerance)
+            step = self.attempt(seed, foretouch.first_contacts, avatar, motion, scene, tolerance,
+                                scope="objects", pass_separating=bool(seed % 2))
             if step is not None:
                 self.assertTrue(((step.free_until >= 0) & (step.free_until <= 1)).all(), seed)
                 touched = step.verdicts == foretouch.Verdict.CONTACT
                 self.assertTrue((step.separation[touched] <= tolerance).all(), seed)
+                detailed += sum(self.has_details(seed, contact) for contact in step.objects)
         self.assertGreater(built, CASES // 2)
+        self.assertGreater(detailed, CASES // 20)
+
+    def has_details(self, seed, contact):
+        details = contact.details()
+        if details is None:
+            return False
+        self.assertLessEqual(details.approach_lower, details.approach_speed, seed)
+        self.assertLessEqual(details.approach_speed, details.approach_upper, seed)
+        self.assertTrue(np.isfinite(details.velocity_of_link).all(), seed)
+        self.assertLessEqual(len(details.points), 4, seed)
+        return True
 
 
 if __name__ == "__main__":

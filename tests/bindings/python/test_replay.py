@@ -39,7 +39,7 @@ def as_written(contact):
 
 
 class Replay(unittest.TestCase):
-    def check(self, query, *options):
+    def check(self, query, *options, lists=("contacts",)):
         avatar, _, clip = example()
         header, steps = replayed(*options)
         poses = clip.poses(avatar)[::FRAMES_A_STEP]
@@ -47,9 +47,10 @@ class Replay(unittest.TestCase):
         self.assertEqual(len(steps), len(poses) - 1)
         contacts = 0
         for step, start, end in zip(steps, poses, poses[1:]):
-            expected = [{k: v for k, v in c.items() if k != "time"} for c in step["contacts"]]
             answer = query.first_contacts(foretouch.Motion(avatar, start, end))
-            self.assertEqual([as_written(c) for c in answer.contacts], expected)
+            for name in lists:
+                expected = [{k: v for k, v in c.items() if k != "time"} for c in step[name]]
+                self.assertEqual([as_written(c) for c in getattr(answer, name)], expected)
             contacts += len(expected)
         return contacts
 
@@ -70,6 +71,17 @@ class Replay(unittest.TestCase):
     def test_gives_them_in_the_scope_of_the_avatar(self):
         avatar, scene, _ = example()
         self.check(foretouch.Query(avatar, scene, scope="avatar"), "--scope", "avatar")
+
+    def test_gives_them_by_object(self):
+        avatar, scene, _ = example()
+        query = foretouch.Query(avatar, scene, scope="objects")
+        self.assertGreater(self.check(query, "--scope", "objects", lists=("contacts", "objects")),
+                           200)
+
+    def test_gives_them_where_what_separates_is_passed(self):
+        avatar, scene, _ = example()
+        query = foretouch.Query(avatar, scene, tolerance=0.02, pass_separating=True)
+        self.check(query, "--tolerance", "0.02", "--pass-separating")
 
 
 if __name__ == "__main__":

@@ -182,7 +182,7 @@ TEST(SelfReplay, RefusesByNameWhatCannotBeHonoured) {
       {{"--self", "--fidelity", "ellipsoid"}, "--self: expected --fidelity link or exact"},
       {{"--self", "--fidelity", "skinned", "--skin", "x.glb"},
        "--self: expected --fidelity link or exact, found skinned"},
-      {{"--self", "--scope", "avatar"}, "--self: expected --scope links, found avatar"},
+      {{"--self", "--scope", "avatar"}, "--self: expected --scope links or objects, found avatar"},
       {{"--pairs", radii}, "--pairs requires --self"},
       {{"--self", "--pairs", "absent.json"}, "absent.json: "},
       {{"--self", "--pairs", world.folder / "man.pairs.json"},

@@ -172,6 +172,9 @@ TEST(ServeProgram, RefusesBadOptionsByName) {
       {{"--ignore", "Nose"}, "--ignore"},
       {{"--url", "tcpq://127.0.0.1:7700"}, "tcpq://127.0.0.1:7700: expected udpm://"},
       {{"--self"}, "--self: is not possible yet: messages have no field for contacts of own links"},
+      {{"--scope", "objects"}, "--scope: is not possible: of a stream every link is answered"},
+      {{"--pass-separating"},
+       "--pass-separating: is not possible: a stream goes from pose to pose"},
       {{"--config", world.folder / "none.toml"}, "none.toml"},
   };
   for (const auto& [options, expected] : trials) {

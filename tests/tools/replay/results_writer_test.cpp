@@ -68,7 +68,7 @@ TEST(StepFormat, TellsOfOwnLinksOnlyWhereTheyAreAsked) {
   answer.pairs = {pair, undecided, exact};
   EXPECT_EQ(StepFormat(inputs.avatar, inputs.scene).line(answer),
             "{\"step\":0,\"t0\":0,\"t1\":0.1,\"contacts\":[],\"latency_us\":0.0}\n");
-  EXPECT_EQ(StepFormat(inputs.avatar, inputs.scene, true).line(answer),
+  EXPECT_EQ(StepFormat(inputs.avatar, inputs.scene, AskedLists{false, true}).line(answer),
             R"({"step":0,"t0":0,"t1":0.1,"contacts":[],"pairs":[)"
             R"({"link":"Hips","other":"Arm","verdict":"contact","toi":0.5,"time":0.05,)"
             R"("separation":0,"point":[0,0,0],"on_link":[0,0,0],"normal":[0,0,0]},)"
@@ -77,6 +77,25 @@ TEST(StepFormat, TellsOfOwnLinksOnlyWhereTheyAreAsked) {
             R"({"link":"Hips","other":"Arm","verdict":"contact","toi":0.5,"time":0.05,)"
             R"("separation":0,"point":[0,0,0],"on_link":[0,0,0],"normal":[0,0,0],"triangle":7,)"
             R"("link_triangle":3,"link_feature":"face","scene_feature":"face"}],"latency_us":0.0})"
+            "\n");
+}
+
+TEST(StepFormat, ListsContactsByObjectOnlyWhereTheyAreAsked) {
+  const ReplayInputs inputs = smallInputs({0, 1});
+  StepAnswer answer;
+  answer.t1S = 0.1;
+  LinkContact undecided = contactOf(1, Verdict::Undecided, 0.75);
+  undecided.reason = UndecidedReason::Resolution;
+  undecided.triangle = -1;
+  answer.objects = {contactOf(0, Verdict::Contact, 0.5), undecided};
+  EXPECT_EQ(StepFormat(inputs.avatar, inputs.scene).line(answer),
+            "{\"step\":0,\"t0\":0,\"t1\":0.1,\"contacts\":[],\"latency_us\":0.0}\n");
+  EXPECT_EQ(StepFormat(inputs.avatar, inputs.scene, AskedLists{true, false}).line(answer),
+            R"({"step":0,"t0":0,"t1":0.1,"contacts":[],"objects":[)"
+            R"({"link":"Hips","verdict":"contact","toi":0.5,"time":0.05,"separation":0,)"
+            R"("point":[0,0,0],"on_link":[0,0,0],"normal":[0,0,0],"triangle":1,"object":"wall"},)"
+            R"({"link":"Arm","verdict":"undecided","free_until":0.75,"reason":"resolution"})"
+            R"(],"latency_us":0.0})"
             "\n");
 }
 

@@ -354,8 +354,10 @@ enum {
   FT_FIDELITY_EXACT = 4      /* its triangles, and LSS that contain no triangle */
 };
 enum {
-  FT_SCOPE_EVERY_LINK = 0,     /* every link's own first contact */
-  FT_SCOPE_FIRST_OF_AVATAR = 1 /* the links that touch first; others: undecided, after_first */
+  FT_SCOPE_EVERY_LINK = 0,      /* every link's own first contact */
+  FT_SCOPE_FIRST_OF_AVATAR = 1, /* the links that touch first; others: undecided, after_first */
+  FT_SCOPE_EVERY_OBJECT = 2     /* every link's own first contact with each object as well
+                                   (ft_query_objects); FT_FIDELITY_LINK or _EXACT, no budget */
 };
 #define FT_EVERY_OBJECT (-1)
 
@@ -399,6 +401,12 @@ typedef struct ft_query_options {
   size_t policy_count;
   const ft_object_policy* object_policies; /* in order, over all options above; or none */
   size_t object_policy_count;              /* with tolerance or fidelity: not beside policies */
+  /* 1: a link that begins within the tolerance of the scene without touching it, and does not
+   * approach it, goes on; its first contact is the next one within a quarter of the separation that
+   * it began with. So an avatar that was stopped at `toi` can leave again. FT_FIDELITY_LINK or
+   * _EXACT. */
+  int32_t pass_separating;
+  int32_t reserved_end; /* 0 */
 } ft_query_options;
 
 FT_API ft_status ft_query_options_init(ft_query_options* options, size_t size);
@@ -408,8 +416,8 @@ FT_API ft_status ft_query_create(const ft_scene* scene, const ft_avatar* avatar,
 /* Changes the options and forgets the last step's answer, but not its pose. */
 FT_API ft_status ft_query_set_options(ft_query* query, const ft_query_options* options);
 /* Asks whether own links touch, too; NULL: no longer. The rules stay when options change, which
- * must then be FT_FIDELITY_LINK or _EXACT (without radii), and FT_SCOPE_EVERY_LINK. Forgets the
- * last step's answer, but not its pose. The query keeps no handle of the rules. */
+ * must then be FT_FIDELITY_LINK or _EXACT (without radii), and not FT_SCOPE_FIRST_OF_AVATAR.
+ * Forgets the last step's answer, but not its pose. The query keeps no handle of the rules. */
 FT_API ft_status ft_query_set_pair_rules(ft_query* query, const ft_pair_rules* rules);
 
 /* Answers the motion from one pose to another: every joint turns at constant rate on the shorter
@@ -461,6 +469,13 @@ FT_API ft_status ft_query_links(const ft_query* query, ft_contact* links, size_t
 FT_API ft_status ft_query_contacts(const ft_query* query, ft_contact* contacts, size_t capacity,
                                    size_t* required);
 
+/* With FT_SCOPE_EVERY_OBJECT: the first contact of every link with every object in the last step,
+ * in the order of ft_query_contacts(). A link and an object that it does not list never touch,
+ * unless it lists the link as undecided: then only before that. FT_ERROR_MISMATCH at other scopes.
+ */
+FT_API ft_status ft_query_objects(const ft_query* query, ft_contact* contacts, size_t capacity,
+                                  size_t* required);
+
 /* The own link that takes the place of the scene in a contact of two own links. */
 typedef struct ft_other_link {
   int32_t link; /* above the contact's */
@@ -474,6 +489,49 @@ typedef struct ft_other_link {
 FT_API ft_status ft_query_pairs(const ft_query* query, ft_contact* contacts, ft_other_link* others,
                                 size_t capacity, size_t* required);
 
+/* Two points, one of each side, that are near when a contact is made. */
+typedef struct ft_contact_point {
+  double point_scene[3]; /* W; on the other link, in a contact of two own links */
+  double point_link[3];
+  double separation;     /* metres, as computed; below 0 where the two overlap */
+  int32_t triangle;      /* -1: none, as for the next two */
+  int32_t lss;           /* which of the link's LSS */
+  int32_t link_triangle; /* at exact fidelity, of the link's triangles */
+  int32_t reserved;      /* 0 */
+} ft_contact_point;
+
+#define FT_MOST_CONTACT_POINTS 4
+
+/* More about one contact, at its toi. Velocities in metres per unit of t: divide by the step's
+ * seconds. */
+typedef struct ft_contact_details {
+  uint32_t size;
+  int32_t point_count;
+  double velocity_scene[3]; /* of the material points at the two witness points; 0 for the scene */
+  double velocity_link[3];
+  double approach_speed; /* along the normal, above 0 while the two approach; 0 without a normal */
+  /* If these two points touch in the rest of the step, within the tolerance from here, they do so
+   * at a speed between these along this normal. A lower bound below 0: perhaps they never touch. */
+  double approach_lower, approach_upper;
+  /* Of what is within the tolerance: the nearest first, then points far from it and from each
+   * other. At FT_FIDELITY_LINK and _EXACT; elsewhere there are none. */
+  ft_contact_point points[FT_MOST_CONTACT_POINTS];
+} ft_contact_details;
+
+/* Which of the last step's lists a contact is counted in. */
+enum {
+  FT_LIST_LINKS = 0,    /* ft_query_links() */
+  FT_LIST_CONTACTS = 1, /* ft_query_contacts() */
+  FT_LIST_OBJECTS = 2,  /* ft_query_objects() */
+  FT_LIST_PAIRS = 3     /* ft_query_pairs() */
+};
+
+/* Fills as much of `details` as details->size covers, about the contact that `list` has at `index`.
+ * Not meant for every contact of every step: it looks at the near pairs once more.
+ * FT_ERROR_MISMATCH if the step has no such list, or if nothing is touched there. */
+FT_API ft_status ft_query_details(ft_query* query, int32_t list, size_t index,
+                                  ft_contact_details* details);
+
 /* A link's place and velocity at one t, in W; velocities per unit of t. */
 typedef struct ft_transform {
   double rotation[4], translation[3]; /* w, x, y, z; metres */
@@ -484,6 +542,10 @@ typedef struct ft_transform {
  * O(joints). */
 FT_API ft_status ft_motion_transforms(ft_query* query, double t, ft_transform* transforms,
                                       size_t capacity, size_t* required);
+/* The pose at `t` in [0, 1] of the last step's motion, to begin the next step with: from toi on,
+ * say. The given poses at both ends; otherwise like ft_avatar_rest_pose(). */
+FT_API ft_status ft_motion_pose(ft_query* query, double t, double* rotations, double* translations,
+                                size_t capacity, size_t* required);
 /* What a discrete check sees: stores 1 in *touches if the link's surface touches the scene at `t`
  * of the last step's motion, else 0. Uses computed distances, without the promise. */
 FT_API ft_status ft_touches_at(ft_query* query, int32_t link, double t, int32_t* touches);
