@@ -75,6 +75,7 @@ void LaneCull::sweepSkin(QueryCounters& counters) const {
     if (lanes.isNear[slotOf(link)] == 0) continue;
     for (std::int32_t lss = table.first(link); lss < table.first(link + 1); ++lss) {
       skin.addBox(lss, margin, lanes.boxes);
+      ++counters.partSteps;
     }
   }
 }
