@@ -236,8 +236,8 @@ TEST_P(SkinQueries, WithASpentBudgetAreUndecidedAndNeverLate) {
   for (int i = 0; i < 30; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(3500 + i));
-    const Scene scene = Scene::build(test::clutter(random, 800, 3, Vector3d::Zero())).value();
-    SkinnedBody body(random, 6, Vector3d::Zero());
+    const Scene scene = Scene::build(test::clutter(random, 200, 3, Vector3d::Zero())).value();
+    SkinnedBody body(random, 6, Vector3d::Zero(), 1.0);
     const StepContacts exact = body.answer(scene, 1e-8, Backtracking::Scalar);
     for (const std::uint64_t budget : {0U, 2000U, 4000U, 8000U, 16000U, 40000U, 4000000U}) {
       SCOPED_TRACE(budget);
@@ -263,7 +263,8 @@ TEST_P(SkinQueries, WithASpentBudgetAreUndecidedAndNeverLate) {
   }
   EXPECT_GT(undecided, 100);
   EXPECT_GT(decided, 100);
-  EXPECT_GT(partly, 20);
+  // Doubles look at a link as a whole, lanes slab by slab.
+  EXPECT_GT(partly, GetParam() == Simd::Scalar ? 0 : 20);
 }
 
 TEST_P(SkinQueries, AskLinksWithoutTrianglesByTheirOwnLss) {
