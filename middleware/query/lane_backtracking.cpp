@@ -16,7 +16,7 @@ class LaneBacktracker {
   LaneBacktracker(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch,
                   QueryCounters& counters)
       : query_(query),
-        surface_(*query.parts.surface),
+        surface_(query.parts.surface),
         candidates_(candidates),
         scratch_(scratch),
         counters_(counters),
@@ -26,7 +26,7 @@ class LaneBacktracker {
         end_(scratch.lanes.end()) {}
 
   LinkContact run() {
-    surface_.prepare();
+    prepare();
     start();
     if (!lookAtAll()) return leftUndone();
     if (best_ && best_->verdict == Verdict::Contact) lookAround();
@@ -34,7 +34,7 @@ class LaneBacktracker {
   }
 
   LinkContact runAround(const LinkContact& contact) {
-    surface_.prepare();
+    prepare();
     best_ = contact;
     horizon_ = contact.toi;
     lookAround();
@@ -42,6 +42,10 @@ class LaneBacktracker {
   }
 
  private:
+  void prepare() const {
+    if (surface_ != nullptr) surface_->prepare();
+  }
+
   /// Until no pair is left that could change the answer; false if a spent budget ended it.
   [[nodiscard]] bool lookAtAll() {
     while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
@@ -52,7 +56,9 @@ class LaneBacktracker {
       takeBatch(areTriangles ? scratch_.triangles : scratch_.lss);
       if (count_ == 0) continue;
       counters_.partSteps += count_;
-      if (areTriangles) {
+      if (surface_ == nullptr) {
+        scratch_.lanes.proveBlends(scratch_.skin.curves(), count_);
+      } else if (areTriangles) {
         scratch_.lanes.proveTriangles(count_);
       } else {
         scratch_.lanes.proveLss(count_);
@@ -106,7 +112,7 @@ class LaneBacktracker {
   }
   /// The LSS contains no triangle: it is the surface, and its pairs go to doubles.
   [[nodiscard]] bool isBare(const PartPair& pair) const {
-    return !surface_.hasTriangles(candidateOf(pair).lss);
+    return surface_ != nullptr && !surface_->hasTriangles(candidateOf(pair).lss);
   }
   /// Fills the lanes with the earliest pairs.
   void takeBatch(TimeBuckets& buckets) {
@@ -122,12 +128,22 @@ class LaneBacktracker {
         look(pair);
         continue;
       }
-      const Candidate& candidate = candidateOf(pair);
-      scratch_.lanes.put(count_, candidate.laneTriangle,
-                         surface_.lanePart(candidate.lss, pair.part),
-                         scratch_.lanes.laneTime(pair.freeUntil), floor_);
-      batch_[count_++] = pair;
+      put(pair);
     }
+  }
+
+  void put(const PartPair& pair) {
+    const Candidate& candidate = candidateOf(pair);
+    const float u = scratch_.lanes.laneTime(pair.freeUntil);
+    if (surface_ != nullptr) {
+      scratch_.lanes.put(count_, candidate.laneTriangle,
+                         surface_->lanePart(candidate.lss, pair.part), u, floor_);
+    } else {
+      const std::int32_t curve = scratch_.skin.curve(pair.part.index());
+      scratch_.lanes.putBlend(count_, candidate.laneTriangle, curve,
+                              scratch_.skin.positionPad(curve), u, floor_);
+    }
+    batch_[count_++] = pair;
   }
 
   /// Advances a lane's pair as far as proven, or gives it up.
@@ -155,7 +171,8 @@ class LaneBacktracker {
       candidate.laneTriangle = scratch_.lanes.add(query_.scene.triangle(candidate.triangle));
     }
     pair.isWhole = false;
-    pair.part = surface_.root(candidate.lss);
+    if (surface_ == nullptr) return enterCluster(pair, candidate.lss);
+    pair.part = surface_->root(candidate.lss);
     if (pair.part.isTriangle()) {
       push(pair);
     } else {
@@ -163,8 +180,15 @@ class LaneBacktracker {
     }
   }
 
+  void enterCluster(PartPair pair, std::int32_t lss) {
+    for (const std::int32_t triangle : scratch_.skin.trianglesOf(lss)) {
+      pair.part = HierarchyChild::triangle(triangle);
+      push(pair);
+    }
+  }
+
   void descend(PartPair pair) {
-    for (const HierarchyChild part : surface_.below(candidateOf(pair).lss, pair.part)) {
+    for (const HierarchyChild part : surface_->below(candidateOf(pair).lss, pair.part)) {
       pair.part = part;
       push(pair);
     }
@@ -175,6 +199,7 @@ class LaneBacktracker {
     const double t = pair.freeUntil;
     Candidate candidate = candidateOf(pair);
     if (!pair.isWhole) candidate.part = Part::of(pair.part);
+    if (surface_ == nullptr) candidate.lss = 0;  // a cluster's number means nothing outside
     const MovingPair state = pairOf(query_, candidate, states_.at(t), counters_);
     if (state.gapUpper <= query_.tolerance) {
       const LinkContact contact = contactOf(query_, candidate, state, t);
@@ -197,7 +222,7 @@ class LaneBacktracker {
   }
 
   const LinkQuery& query_;
-  const LinkSurface& surface_;
+  const LinkSurface* surface_;  // null: the triangles are those of a skin, in clusters
   std::vector<Candidate>& candidates_;
   PartScratch& scratch_;
   QueryCounters& counters_;
@@ -231,7 +256,7 @@ LinkContact nearestInLanes(const LinkQuery& query, const LinkContact& contact,
 
 LinkContact backtrackInLanes(const LinkQuery& query, std::vector<Candidate>& candidates,
                              PartScratch& scratch, QueryCounters& counters) {
-  FORETOUCH_ASSERT(query.isExact() && !candidates.empty());
+  FORETOUCH_ASSERT((query.isExact() || query.parts.skin != nullptr) && !candidates.empty());
   return LaneBacktracker(query, candidates, scratch, counters).run();
 }
 

@@ -1,6 +1,6 @@
 // middleware/query/lane_backtracking.h: backtracking through a link's LSS hierarchy in lanes: many
 // pairs of a part and a scene's triangle at once, each at its own instant; contact is decided in
-// doubles alone. The fast form of backtracking.h for exact fidelity. Not installed.
+// doubles alone. The fast form of backtracking.h for exact and skinned fidelity. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "lss/index.h"
 #include "middleware/query/link_query.h"
 #include "middleware/query/part_lanes.h"
+#include "middleware/query/skin_lanes.h"
 
 namespace foretouch::internal {
 
@@ -90,12 +91,14 @@ struct PartScratch {
   TimeBuckets lss, triangles;
   std::vector<HierarchyChild> parts;        // a stack
   std::vector<std::int32_t> linkTriangles;  // those the stack ended in
+  SkinLanes skin;                           // at skinned fidelity
+  std::vector<Candidate> pairs;             // of a skin's triangles, at the start
 };
 
-/// As backtrack(), for exact fidelity and for candidates in the span of `scratch.lanes`, to which
-/// it adds their triangles as needed. Every pair's instants depend on that pair alone, so the
-/// reported contact does not depend on order, unless the current part of the budget runs out before
-/// all pairs are done.
+/// As backtrack(), for exact and skinned fidelity and for candidates in the span of
+/// `scratch.lanes`, to which it adds their triangles as needed. Every pair's instants depend on
+/// that pair alone, so the reported contact does not depend on order, unless the current part of
+/// the budget runs out before all pairs are done.
 [[nodiscard]] LinkContact backtrackInLanes(const LinkQuery& query,
                                            std::vector<Candidate>& candidates, PartScratch& scratch,
                                            QueryCounters& counters);

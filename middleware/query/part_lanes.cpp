@@ -13,7 +13,7 @@ namespace {
 /// Of a scene's vertex, taken relative to the origin and rounded (lanes/frame_lanes.md 4).
 constexpr double kVertexRounding = 2.0 * kUnitRoundoffOfFloat;
 constexpr double kOriginRounding = 2.0 * kUnitRoundoff;
-/// Rounds the sum of a floor and a radius up.
+/// Rounds the sum of a floor and a radius, or of two pads, up.
 constexpr float kFloorInflation = 1.0F + 4.0F * kUnitRoundoffOfFloat;
 
 }  // namespace
@@ -53,17 +53,36 @@ std::int32_t PartLanes::add(const Triangle& triangle_W) {
 void PartLanes::put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u,
                     float floor) {
   const SceneTriangle& scene = triangles_[slotOf(triangle)];
+  putScene(lane, scene, u);
   for (int i = 0; i < 3; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      parts_.point[i][axis][lane] = part.point[i][axis];
-      pairs_.scene[i][axis][lane] = scene.vertex[i][axis];
-    }
+    for (int axis = 0; axis < 3; ++axis) parts_.point[i][axis][lane] = part.point[i][axis];
   }
-  parts_.u[lane] = u;
   parts_.rho[lane] = part.rho;
   parts_.scenePad[lane] = scene.pad;
   pairs_.floor[lane] = (floor + part.radius) * kFloorInflation;
   radius_[lane] = part.radius;
+}
+
+void PartLanes::putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, float pad,
+                         float u, float floor) {
+  const SceneTriangle& scene = triangles_[slotOf(triangle)];
+  putScene(lane, scene, u);
+  curves_[lane] = curve;
+  pairs_.positionPad[lane] = (pad + scene.pad) * kFloorInflation;
+  pairs_.floor[lane] = floor;
+  radius_[lane] = 0.0F;
+}
+
+void PartLanes::putScene(std::size_t lane, const SceneTriangle& scene, float u) {
+  for (int i = 0; i < 3; ++i) {
+    for (int axis = 0; axis < 3; ++axis) pairs_.scene[i][axis][lane] = scene.vertex[i][axis];
+  }
+  parts_.u[lane] = u;
+}
+
+void PartLanes::proveBlends(const BlendTriangle* curves, std::size_t count) {
+  placeBlends(curves, curves_, parts_.u, count, pairs_);
+  proveSteps(pairs_, count, steps_);
 }
 
 void PartLanes::proveTriangles(std::size_t count) {

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "lss/triangle.h"
+#include "middleware/lanes/blend_lanes.h"
 #include "middleware/lanes/frame_lanes.h"
 #include "middleware/lanes/triangle_pairs.h"
 
@@ -42,9 +43,14 @@ class PartLanes {
 
   /// Fills a lane. `floor` (m): of the part's own surface, its radius counted.
   void put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u, float floor);
-  /// Proves the first `count` lanes: all of triangles, or all of LSS.
+  /// The same for a triangle of a skin, whose curve is relative to the link's frame and off by at
+  /// most `pad`.
+  void putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, float pad, float u,
+                float floor);
+  /// Proves the first `count` lanes: all of triangles, all of LSS, or all of triangles of a skin.
   void proveTriangles(std::size_t count);
   void proveLss(std::size_t count);
+  void proveBlends(const BlendTriangle* curves, std::size_t count);
 
   /// Lower bound (m) on the separation of the lane's part and triangle; not above 0 if nothing is
   /// proven.
@@ -65,12 +71,15 @@ class PartLanes {
     float pad;
   };
 
+  void putScene(std::size_t lane, const SceneTriangle& scene, float u);
+
   LaneFrame frame_{};
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double begin_ = 0.0, end_ = 1.0, halfSpan_ = 0.5, instantsPerTime_ = 1.0 / kInstant;
   double originPad_ = 0.0;
   std::vector<SceneTriangle> triangles_;
   PartBlock parts_{};
+  std::int32_t curves_[kTrianglePairLanes] = {};
   TrianglePairBlock pairs_{};
   TrianglePairSteps steps_{};
   PairFloats radius_{};
