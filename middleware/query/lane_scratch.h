@@ -10,7 +10,7 @@
 #include "articulated/chain_nodes.h"
 #include "middleware/lanes/lss_pairs.h"
 #include "middleware/lanes/near_triangles.h"
-#include "middleware/query/lane_backtracking.h"
+#include "middleware/query/part_pairs.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/flat_bvh.h"
 #include "tessellation/lss_polynomials.h"
