@@ -17,6 +17,7 @@
 #include "lss/index.h"
 #include "tools/arguments.h"
 #include "tools/console.h"
+#include "tools/inputs/skin_file.h"
 #include "tools/settling.h"
 
 namespace foretouch::tools {
@@ -150,7 +151,8 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts) {
   option("--repeat", texts.repeat, "N", "How often to ask each step");
   option("--processor", texts.processor, "N", "Keep to this processor");
   option("--fidelity", texts.fidelity, "RUNG",
-         "What touches: ellipsoid, avatar, limb, link or exact");
+         "What touches: ellipsoid, avatar, limb, link, exact or skinned");
+  option("--skin", texts.skin, "FILE", "At skinned fidelity: the model that the avatar was made of");
   option("--descent", texts.descent, "straight|by-need",
          "Whether a query first checks if anything is within the avatar's reach");
   option("--leaves", texts.leaves, "advancement|cubics",
@@ -190,9 +192,10 @@ Result<BenchOptions> settled(const BenchTexts& texts) {
   options.csvPath = texts.csv;
   options.command = ownCommandLine();
   if (settle.error()) return *settle.error();
-  if (options.fidelity == Fidelity::Skinned) {
-    return Error::in("--fidelity", ErrorCode::OutOfRange,
-                     "expected ellipsoid, avatar, limb, link or exact");
+  options.skinPath = texts.skin;
+  if ((options.fidelity == Fidelity::Skinned) == texts.skin.empty()) {
+    return Error::in("--skin", ErrorCode::Mismatch,
+                     "expected a model at skinned fidelity, and none at others");
   }
   if (options.processor && !pinToProcessor(*options.processor)) {
     return Error::in(
@@ -206,6 +209,9 @@ Result<QueryOptions> queryFor(const BenchInputs& inputs, const BenchBody& body,
                               const BenchOptions& options) {
   QueryOptions query;
   query.fidelity = options.fidelity;
+  if (query.fidelity == Fidelity::Skinned) {
+    FORETOUCH_TRY(query.skin, loadSkin(options.skinPath, {}, body.avatar));
+  }
   if (query.fidelity != Fidelity::Exact) return query;
   std::vector<std::vector<Triangle>> triangles;
   if (body.avatar.numLinks() == inputs.avatar.numLinks() && hasMeshes(inputs.avatar)) {
@@ -248,6 +254,9 @@ std::vector<BenchFact> workloadFacts(const BenchInputs& inputs, const Scene& sce
   if (reference.descent == Descent::ByNeed) facts.back().second += ", descent by need";
   if (reference.leafMethod == LeafMethod::Cubics) facts.back().second += ", by cubics";
   if (reference.culler == Culler::PointQuery) facts.back().second += ", culled by point queries";
+  if (query.skin) {
+    facts.back().second += fmt::format(", {} triangles of a skin", query.skin->numTriangles());
+  }
   if (query.surface) {
     facts.back().second +=
         fmt::format(", {} triangles on the links", query.surface->numTriangles());

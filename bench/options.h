@@ -21,7 +21,7 @@ namespace foretouch::tools {
 
 /// Values as typed in.
 struct BenchTexts {
-  std::string scene, motion, avatar, map, place, json, csv;
+  std::string scene, motion, avatar, map, skin, place, json, csv;
   std::string sceneScale = "1", scale = "1", up = "y", motionUp = "y", floor = "0", lift = "0.05";
   std::string steps = "500", seed = "1", places = "1000", repeat = "9", processor = "any",
               choice = "busy";
@@ -37,6 +37,7 @@ struct BenchOptions {
   Fidelity fidelity = Fidelity::Link;
   ReferenceOptions reference;
   std::size_t surfaceTriangles = 20'000;
+  std::string skinPath;  ///< Not empty at skinned fidelity.
   std::optional<int> processor;
   std::string jsonPath, csvPath;
   std::string command;  ///< As typed in.
@@ -64,7 +65,8 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts);
                                                    const std::string& text);
 
 /// The options of a body's query for the fidelity: at exact fidelity with its triangles, from the
-/// avatar file if the body is that avatar and it has some, else the skins of its LSS.
+/// avatar file if the body is that avatar and it has some, else the skins of its LSS; at skinned
+/// fidelity with the skin of the model, whose avatar the body must be.
 [[nodiscard]] Result<QueryOptions> queryFor(const BenchInputs& inputs, const BenchBody& body,
                                             const BenchOptions& options);
 

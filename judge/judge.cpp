@@ -42,6 +42,10 @@ Judge::Judge(const Scene& scene, const Motion& motion, int link,
   add(std::make_unique<MeshProver>(scene, motion, link, mesh));
 }
 
+Judge::Judge(const Scene& scene, const Motion& motion, const std::vector<SkinTriangle>& skin) {
+  add(std::make_unique<SkinProver>(scene, motion, skin));
+}
+
 Judge::Judge(const Motion& motion, std::vector<Hull> one, std::vector<Hull> other,
              std::vector<RadiusSum> sums) {
   add(std::make_unique<PairProver>(motion, std::move(one), std::move(other), std::move(sums)));

@@ -10,6 +10,7 @@
 
 #include "judge/capsule_prover.h"
 #include "judge/pair_prover.h"
+#include "judge/skin_prover.h"
 
 namespace foretouch::oracle {
 
@@ -61,6 +62,8 @@ class Judge {
   Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Capsule>& capsules);
   /// The link's surface is `mesh`, triangles in the link's frame.
   Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Triangle>& mesh);
+  /// The link's surface is part of a skin.
+  Judge(const Scene& scene, const Motion& motion, const std::vector<SkinTriangle>& skin);
   /// Two links, each made of hulls (of one link, at least one).
   Judge(const Motion& motion, std::vector<Hull> one, std::vector<Hull> other,
         std::vector<RadiusSum> sums = {});

@@ -177,13 +177,21 @@ LssPolynomials polynomialsOf(const LssTable::Entry& entry, const ChainMotion& mo
   return result;
 }
 
+constexpr double kLinksOwnOrigin[3] = {0.0, 0.0, 0.0};
+
 FramePolynomials framePolynomialsOf(LinkId link, const ChainMotion& motion,
                                     const ChainNodes& nodes) {
+  double origin[3];
+  placeOrigin(nodes.link(link), kLinksOwnOrigin, origin);
+  return framePolynomialsOf(link, motion, nodes, origin);
+}
+
+FramePolynomials framePolynomialsOf(LinkId link, const ChainMotion& motion, const ChainNodes& nodes,
+                                    const double* origin) {
   const LinkNodes& frames = nodes.link(link);
-  constexpr double kOrigin[3] = {0.0, 0.0, 0.0};
   FramePolynomials result;
-  placeOrigin(frames, kOrigin, result.origin);
-  const FittedCurve p = HWY_DYNAMIC_DISPATCH(fitPoint)(polynomialMatrices(), frames, kOrigin,
+  std::copy_n(origin, 3, result.origin);
+  const FittedCurve p = HWY_DYNAMIC_DISPATCH(fitPoint)(polynomialMatrices(), frames, kLinksOwnOrigin,
                                                        result.origin, result.p);
   const FittedCurve R = HWY_DYNAMIC_DISPATCH(fitRotation)(polynomialMatrices(), frames, result.R);
   const MotionBounds& bounds = motion.bounds(link);

@@ -49,5 +49,9 @@ struct FramePolynomials {
 
 [[nodiscard]] FramePolynomials framePolynomialsOf(LinkId link, const ChainMotion& motion,
                                                   const ChainNodes& nodes);
+/// The same relative to a given `origin`, of another link's polynomials. Coarser the farther away
+/// it is.
+[[nodiscard]] FramePolynomials framePolynomialsOf(LinkId link, const ChainMotion& motion,
+                                                  const ChainNodes& nodes, const double* origin);
 
 }  // namespace foretouch

@@ -23,8 +23,10 @@ using LaneMask = hn::Mask<Floats>;
 /// Of the plane's arithmetic, relative to the extents: the proof needs 6.02 unit roundoffs. Halving
 /// it breaks the proof; doubling it costs 4e-7 of the extents.
 constexpr float kPairPlaneRounding = 6.5F * kUnitRoundoffOfFloat;
-/// Of n.velocity, relative to the velocity: the proof needs 4.02 unit roundoffs.
+/// Of n.velocity, relative to the velocity: the proof needs 4.02 unit roundoffs; where both sides
+/// move, relative to both velocities, 5.02.
 constexpr float kSpeedRounding = 4.5F * kUnitRoundoffOfFloat;
+constexpr float kRelativeSpeedRounding = 5.5F * kUnitRoundoffOfFloat;
 /// Shrinks a direction whose normalisation errs by at most 4.51 unit roundoffs.
 constexpr float kPairUnitShrink = 1.0F - 5.0F * kUnitRoundoffOfFloat;
 /// Shrinks a step whose formula errs by at most 6.01 unit roundoffs.
@@ -216,12 +218,49 @@ struct Slack {
   LaneMask inRange;
 };
 
-template <int kPoints>
+/// The other side at rest.
+struct AtRest {
+  static constexpr float kRounding = kSpeedRounding;
+  HWY_INLINE Lanes fastestSquare(Floats d) const { return hn::Zero(d); }
+  HWY_INLINE Lanes sumOfSquares(Floats d) const { return hn::Zero(d); }
+  HWY_INLINE Lanes relative(const Vec3& /*n*/, Lanes speed) const { return speed; }
+  HWY_INLINE Lanes acceleration(Floats /*d*/, Lanes ofLink) const { return ofLink; }
+};
+
+/// The other side's vertices, all of which a plane must stay above.
+struct InMotion {
+  static constexpr float kRounding = kRelativeSpeedRounding;
+  Vec3 velocity[3];
+  Lanes bound;
+
+  HWY_INLINE InMotion(Floats d, const OtherMotions& others, std::size_t first)
+      : velocity{load(d, others.velocity[0], first), load(d, others.velocity[1], first),
+                 load(d, others.velocity[2], first)},
+        bound(hn::Load(d, others.acceleration + first)) {}
+  HWY_INLINE Lanes fastestSquare(Floats /*d*/) const {
+    return largestOf(square(velocity[0]), square(velocity[1]), square(velocity[2]));
+  }
+  HWY_INLINE Lanes sumOfSquares(Floats /*d*/) const {
+    return sumOf(square(velocity[0]), square(velocity[1]), square(velocity[2]));
+  }
+  HWY_INLINE Lanes relative(const Vec3& n, Lanes speed) const {
+    return hn::Sub(speed, largestOf(dot(n, velocity[0]), dot(n, velocity[1]), dot(n, velocity[2])));
+  }
+  /// Negative or NaN if either is.
+  HWY_INLINE Lanes acceleration(Floats d, Lanes ofLink) const {
+    const LaneMask isBound = hn::And(hn::Ge(ofLink, hn::Zero(d)), hn::Ge(bound, hn::Zero(d)));
+    const Lanes sum = hn::Mul(hn::Add(ofLink, bound), hn::Set(d, kPadInflation));
+    return hn::IfThenElse(isBound, sum, hn::Set(d, -1.0F));
+  }
+};
+
+template <int kPoints, class Other>
 HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t first,
-                         const Triangles<kPoints>& pair, const Vec3 (&velocity)[kPoints]) {
+                         const Triangles<kPoints>& pair, const Vec3 (&velocity)[kPoints],
+                         const Other& other) {
   const Lanes scene[2] = {square(pair.scene[0]), square(pair.scene[1])};
   // Sums, because a maximum might hide a NaN.
-  Lanes squares = hn::Add(scene[0], scene[1]);
+  Lanes squares = sumOf(scene[0], scene[1], other.sumOfSquares(d));
   Lanes farthest = hn::Zero(d), fastestSquare = farthest;
   for (int i = 0; i < kPoints; ++i) {
     const Lanes place = square(pair.link[i]), speed = square(velocity[i]);
@@ -233,14 +272,14 @@ HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t f
   const Lanes positionPad = hn::Load(d, block.positionPad + first);
   const Lanes velocityPad = hn::Load(d, block.velocityPad + first);
   const Lanes extent = hn::Add(hn::Sqrt(farthest), hn::Sqrt(hn::Max(scene[0], scene[1])));
-  const Lanes fastest = hn::Sqrt(fastestSquare);
+  const Lanes fastest = hn::Add(hn::Sqrt(fastestSquare), hn::Sqrt(other.fastestSquare(d)));
   const Lanes pads = hn::Add(positionPad, velocityPad);
   const LaneMask padsInRange = hn::And(hn::Ge(hn::Min(positionPad, velocityPad), hn::Zero(d)),
                                        hn::Le(pads, hn::Set(d, kMost)));
   Slack slack;
   slack.position = hn::MulAdd(hn::Set(d, kPairPlaneRounding), extent,
                               hn::MulAdd(positionPad, inflation, underflow));
-  slack.velocity = hn::MulAdd(hn::Set(d, kSpeedRounding), fastest,
+  slack.velocity = hn::MulAdd(hn::Set(d, Other::kRounding), fastest,
                               hn::MulAdd(velocityPad, inflation, underflow));
   slack.inRange = hn::And(padsInRange, hn::Le(squares, hn::Set(d, kMost * kMost)));
   return slack;
@@ -248,9 +287,9 @@ HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t f
 
 /// The plane's proof: the gap of each of the link's vertices, how fast it grows, and so for how
 /// long all stay above `floor`.
-template <int kPoints>
-HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t first,
-                       TrianglePairSteps& steps) {
+template <int kPoints, class Other>
+HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, const Other& other,
+                       std::size_t first, TrianglePairSteps& steps) {
   const Vec3 origin = load(d, block.scene[0], first);
   Triangles<kPoints> pair;
   Vec3 velocity[kPoints];
@@ -259,7 +298,7 @@ HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t fir
     velocity[i] = load(d, block.velocity[i], first);
   }
   for (int i = 0; i < 2; ++i) pair.scene[i] = sub(load(d, block.scene[i + 1], first), origin);
-  const Slack slack = slackOf(d, block, first, pair, velocity);
+  const Slack slack = slackOf(d, block, first, pair, velocity, other);
   const Plane plane = widestPlane(d, pair);
 
   const Lanes top =
@@ -269,10 +308,10 @@ HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t fir
   LaneMask clears = hn::And(slack.inRange, hn::Ge(floor, hn::Zero(d)));
   Lanes lower = most, step = most;
   for (int i = 0; i < kPoints; ++i) {
-    const Lanes given = hn::Load(d, block.acceleration[i] + first);
+    const Lanes given = other.acceleration(d, hn::Load(d, block.acceleration[i] + first));
     const Lanes gap = hn::Sub(hn::Sub(dot(plane.n, pair.link[i]), top), slack.position);
     const Lanes clearance = hn::Sub(gap, floor);
-    const Lanes speed = hn::Sub(dot(plane.n, velocity[i]), slack.velocity);
+    const Lanes speed = hn::Sub(other.relative(plane.n, dot(plane.n, velocity[i])), slack.velocity);
     lower = hn::Min(lower, gap);
     step =
         hn::Min(step, rootOf(d, clearance, speed, hn::Max(given, hn::Set(d, kLeastAcceleration))));
@@ -287,14 +326,25 @@ HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, std::size_t fir
 void proveLanes(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
-  for (std::size_t first = 0; first < count; first += lanes) answer<3>(d, block, first, steps);
+  for (std::size_t first = 0; first < count; first += lanes)
+    answer<3>(d, block, AtRest(), first, steps);
+}
+
+void proveMovingLanes(const TrianglePairBlock& block, const OtherMotions& others, std::size_t count,
+                      TrianglePairSteps& steps) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t first = 0; first < count; first += lanes) {
+    answer<3>(d, block, InMotion(d, others, first), first, steps);
+  }
 }
 
 void proveSegmentLanes(const TrianglePairBlock& block, std::size_t count,
                        TrianglePairSteps& steps) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
-  for (std::size_t first = 0; first < count; first += lanes) answer<2>(d, block, first, steps);
+  for (std::size_t first = 0; first < count; first += lanes)
+    answer<2>(d, block, AtRest(), first, steps);
 }
 
 }  // namespace
@@ -306,12 +356,18 @@ namespace foretouch::internal {
 namespace {
 
 HWY_EXPORT(proveLanes);
+HWY_EXPORT(proveMovingLanes);
 HWY_EXPORT(proveSegmentLanes);
 
 }  // namespace
 
 void proveSteps(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps) {
   HWY_DYNAMIC_DISPATCH(proveLanes)(block, count, steps);
+}
+
+void proveSteps(const TrianglePairBlock& block, const OtherMotions& others, std::size_t count,
+                TrianglePairSteps& steps) {
+  HWY_DYNAMIC_DISPATCH(proveMovingLanes)(block, others, count, steps);
 }
 
 void proveSegmentSteps(const TrianglePairBlock& block, std::size_t count,

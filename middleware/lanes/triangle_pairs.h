@@ -30,6 +30,13 @@ struct TrianglePairBlock {
   alignas(64) PairFloats floor;        ///< Separation that a step keeps; at least 0.
 };
 
+/// How the other side of a block's pairs moves, where it does: the triangle in `scene`. The block's
+/// pads cover both sides then, each the sum of what they are for one.
+struct OtherMotions {
+  alignas(64) PairFloats velocity[3][3];  ///< [vertex][axis]
+  alignas(64) PairFloats acceleration;    ///< Of every vertex: at most this long, from now on.
+};
+
 /// The proof for each pair. Both are 0 if nothing is proven.
 struct TrianglePairSteps {
   alignas(64) PairFloats lower;  ///< The true triangles are at least this far apart now.
@@ -41,6 +48,10 @@ struct TrianglePairSteps {
 /// Answers the first `count` pairs, at most kTrianglePairLanes; also reads and writes slots beyond,
 /// up to a whole vector, which mean nothing.
 void proveSteps(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps);
+
+/// The same for pairs of which both sides move.
+void proveSteps(const TrianglePairBlock& block, const OtherMotions& others, std::size_t count,
+                TrianglePairSteps& steps);
 
 /// The same for pairs whose link triangle is a segment, from link[0] to link[1]; does not read the
 /// third vertex. Looks at three pairs of edges, not nine.

@@ -5,18 +5,20 @@
 #include "lss/assert.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
+#include "middleware/query/lane_sides.h"
 
 namespace foretouch::internal {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+template <class Sides>
 class LaneBacktracker {
  public:
   LaneBacktracker(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch,
                   QueryCounters& counters)
       : query_(query),
-        surface_(*query.parts.surface),
+        sides_(query, candidates, scratch),
         candidates_(candidates),
         scratch_(scratch),
         counters_(counters),
@@ -25,19 +27,19 @@ class LaneBacktracker {
         handOver_(kHandOverShare * query.tolerance),
         end_(scratch.lanes.end()) {}
 
-  LinkContact run() {
-    surface_.prepare();
+  PairContact run() {
     start();
     if (!lookAtAll()) return leftUndone();
-    if (best_ && best_->verdict == Verdict::Contact) lookAround();
-    return best_ ? *best_ : clearContact(query_.parts.link);
+    if (!best_) return PairContact{clearContact(query_.parts.link)};
+    // Pairs that moved on from the start are farther than what touches there.
+    if (best_->verdict == Verdict::Contact && !lookAround() && isOpenAtStart()) return spent(0.0);
+    return *best_;
   }
 
-  LinkContact runAround(const LinkContact& contact) {
-    surface_.prepare();
+  PairContact runAround(const PairContact& contact) {
     best_ = contact;
     horizon_ = contact.toi;
-    lookAround();
+    (void)lookAround();
     return *best_;
   }
 
@@ -47,31 +49,27 @@ class LaneBacktracker {
     while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
       if (query_.meter.isPartSpent(counters_)) return false;
       // Triangles first: a contact makes all later pairs unnecessary.
-      const bool areTriangles =
+      const bool areSurfaces =
           !scratch_.triangles.isEmpty() && !scratch_.lss.isBefore(scratch_.triangles);
-      takeBatch(areTriangles ? scratch_.triangles : scratch_.lss);
+      takeBatch(areSurfaces ? scratch_.triangles : scratch_.lss);
       if (count_ == 0) continue;
       counters_.partSteps += count_;
-      if (areTriangles) {
-        scratch_.lanes.proveTriangles(count_);
-      } else {
-        scratch_.lanes.proveLss(count_);
-      }
+      sides_.prove(areSurfaces, count_);
       for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
     }
     return true;
   }
 
   /// Pairs that moved on beyond the contact's instant, or were dropped, may be nearer at it: this
-  /// tests all that lanes cannot prove farther. A spent budget ends it: the verdict stands, with
-  /// the best contact seen.
-  void lookAround() {
+  /// tests all that lanes cannot prove farther. False if a spent budget ended it: the verdict
+  /// stands, with the best contact seen.
+  bool lookAround() {
     const double t = best_->toi, reach = reachOf(*best_);
     query_.neighbours.collect(t, states_.at(t), reach, candidates_, counters_);
     floor_ = floatAbove(reach);
     handOver_ = static_cast<double>(floor_);
     start();
-    (void)lookAtAll();
+    return lookAtAll();
   }
 
   void start() {
@@ -79,53 +77,47 @@ class LaneBacktracker {
     scratch_.triangles.reset(scratch_.lanes.begin(), end_);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       PartPair pair;
-      pair.freeUntil = candidates_[i].freeUntil;
+      pair.freeUntil = nextPossible(query_.pieces, candidates_[i], candidates_[i].freeUntil);
       pair.candidate = static_cast<std::int32_t>(i);
-      pair.isWhole = true;
-      push(pair);
+      if (pair.freeUntil < end_) push(pair);
     }
   }
 
   /// The remaining pairs bound how far the link is free; a contact that none of them can precede
   /// stands.
-  [[nodiscard]] LinkContact leftUndone() {
+  [[nodiscard]] PairContact leftUndone() {
     double freeUntil = horizon_;
     for (TimeBuckets* buckets : {&scratch_.lss, &scratch_.triangles}) {
       while (!buckets->isEmpty()) freeUntil = std::min(freeUntil, buckets->pop().freeUntil);
     }
-    if (freeUntil == horizon_ && best_) return *best_;
-    return undecidedContact(query_.parts.link, freeUntil, UndecidedReason::WorkBudget);
+    if (freeUntil == horizon_ && best_ && !isOpenAtStart()) return *best_;
+    return spent(freeUntil);
+  }
+
+  /// A pair that nobody has looked at may be deeper, so whether the links start in contact is open.
+  [[nodiscard]] bool isOpenAtStart() const {
+    return Sides::kAnswersStarts && best_->toi == 0.0 && best_->verdict == Verdict::Contact;
+  }
+  [[nodiscard]] PairContact spent(double freeUntil) const {
+    return PairContact{undecidedContact(query_.parts.link, freeUntil, UndecidedReason::WorkBudget)};
   }
 
   void push(const PartPair& pair) {
-    (!pair.isWhole && pair.part.isTriangle() ? scratch_.triangles : scratch_.lss).push(pair);
+    (Sides::isSurface(pair) ? scratch_.triangles : scratch_.lss).push(pair);
   }
 
-  [[nodiscard]] const Candidate& candidateOf(const PartPair& pair) const {
-    return candidates_[slotOf(pair.candidate)];
-  }
-  /// The LSS contains no triangle: it is the surface, and its pairs go to doubles.
-  [[nodiscard]] bool isBare(const PartPair& pair) const {
-    return !surface_.hasTriangles(candidateOf(pair).lss);
-  }
   /// Fills the lanes with the earliest pairs.
   void takeBatch(TimeBuckets& buckets) {
     count_ = 0;
+    const auto pushed = [this](const PartPair& pair) { push(pair); };
     while (count_ < kTrianglePairLanes && !buckets.isEmpty()) {
       const PartPair pair = buckets.pop();
-      if (pair.freeUntil > horizon_) continue;
-      if (pair.isWhole && !isBare(pair)) {
-        enter(pair);
-        continue;
-      }
-      if (pair.isWhole || (pair.part.isTriangle() && query_.leafProver != nullptr)) {
+      if (pair.freeUntil > horizon_ || sides_.enter(pair, pushed)) continue;
+      if (sides_.isForDoubles(pair)) {
         look(pair);
         continue;
       }
-      const Candidate& candidate = candidateOf(pair);
-      scratch_.lanes.put(count_, candidate.laneTriangle,
-                         surface_.lanePart(candidate.lss, pair.part),
-                         scratch_.lanes.laneTime(pair.freeUntil), floor_);
+      sides_.put(count_, pair, floor_);
       batch_[count_++] = pair;
     }
   }
@@ -138,46 +130,23 @@ class LaneBacktracker {
       const double reached = scratch_.lanes.freeUntil(lane);
       if (reached > pair.freeUntil) return moveOn(pair, reached);
     }
-    if (pair.part.isTriangle()) return look(pair);
-    descend(pair);
+    if (Sides::isSurface(pair)) return look(pair);
+    sides_.descend(pair, [this](const PartPair& below) { push(below); });
   }
 
   void moveOn(PartPair pair, double reached) {
-    if (reached >= end_ || reached > horizon_) return;
-    pair.freeUntil = reached;
+    pair.freeUntil = nextPossible(query_.pieces, sides_.candidateOf(pair), reached);
+    if (pair.freeUntil >= end_ || pair.freeUntil > horizon_) return;
     push(pair);
-  }
-
-  /// Descends from an LSS, which lanes gave up as a whole, into its hierarchy.
-  void enter(PartPair pair) {
-    Candidate& candidate = candidates_[slotOf(pair.candidate)];
-    if (candidate.laneTriangle < 0) {
-      candidate.laneTriangle = scratch_.lanes.add(query_.scene.triangle(candidate.triangle));
-    }
-    pair.isWhole = false;
-    pair.part = surface_.root(candidate.lss);
-    if (pair.part.isTriangle()) {
-      push(pair);
-    } else {
-      descend(pair);
-    }
-  }
-
-  void descend(PartPair pair) {
-    for (const HierarchyChild part : surface_.below(candidateOf(pair).lss, pair.part)) {
-      pair.part = part;
-      push(pair);
-    }
   }
 
   /// Decides in doubles: contact, or advance.
   void look(const PartPair& pair) {
     const double t = pair.freeUntil;
-    Candidate candidate = candidateOf(pair);
-    if (!pair.isWhole) candidate.part = Part::of(pair.part);
+    const Candidate candidate = sides_.inDoubles(pair);
     const MovingPair state = pairOf(query_, candidate, states_.at(t), counters_);
     if (state.gapUpper <= query_.tolerance) {
-      const LinkContact contact = contactOf(query_, candidate, state, t);
+      const PairContact contact = contactOf(query_, candidate, state, t);
       if (t < horizon_ || best_->verdict == Verdict::Undecided || comesFirst(contact, *best_)) {
         best_ = contact;
       }
@@ -192,12 +161,12 @@ class LaneBacktracker {
   /// The numbers cannot resolve the pair; a contact at this instant stands.
   void giveUp(double t) {
     if (t == horizon_) return;
-    best_ = undecidedContact(query_.parts.link, t, UndecidedReason::Resolution);
+    best_ = PairContact{undecidedContact(query_.parts.link, t, UndecidedReason::Resolution)};
     horizon_ = t;
   }
 
   const LinkQuery& query_;
-  const LinkSurface& surface_;
+  Sides sides_;
   std::vector<Candidate>& candidates_;
   PartScratch& scratch_;
   QueryCounters& counters_;
@@ -208,31 +177,29 @@ class LaneBacktracker {
   std::array<PartPair, kTrianglePairLanes> batch_;
   std::size_t count_ = 0;
   double horizon_ = kInfinity;       // nothing later than this can change the answer
-  std::optional<LinkContact> best_;  // nothing: horizon_ is infinite
+  std::optional<PairContact> best_;  // nothing: horizon_ is infinite
 };
 
 }  // namespace
-
-void TimeBuckets::reset(double begin, double end) {
-  FORETOUCH_ASSERT(begin < end);
-  begin_ = begin;
-  bucketsPerTime_ = kBuckets / (end - begin);
-  occupied_ = 0;
-  free_ = kNone;
-  entries_.clear();
-}
 
 LinkContact nearestInLanes(const LinkQuery& query, const LinkContact& contact,
                            std::vector<Candidate>& candidates, PartScratch& scratch,
                            QueryCounters& counters) {
   FORETOUCH_ASSERT(query.isExact());
-  return LaneBacktracker(query, candidates, scratch, counters).runAround(contact);
+  return LaneBacktracker<MeshSides>(query, candidates, scratch, counters)
+      .runAround(PairContact{contact});
 }
 
-LinkContact backtrackInLanes(const LinkQuery& query, std::vector<Candidate>& candidates,
+PairContact backtrackInLanes(const LinkQuery& query, std::vector<Candidate>& candidates,
                              PartScratch& scratch, QueryCounters& counters) {
-  FORETOUCH_ASSERT(query.isExact() && !candidates.empty());
-  return LaneBacktracker(query, candidates, scratch, counters).run();
+  FORETOUCH_ASSERT(!candidates.empty());
+  if (query.other != nullptr) {
+    return LaneBacktracker<OwnSides>(query, candidates, scratch, counters).run();
+  }
+  if (query.parts.skin != nullptr) {
+    return LaneBacktracker<SkinSides>(query, candidates, scratch, counters).run();
+  }
+  return LaneBacktracker<MeshSides>(query, candidates, scratch, counters).run();
 }
 
 }  // namespace foretouch::internal

@@ -1,17 +1,12 @@
 // middleware/query/lane_backtracking.h: backtracking through a link's LSS hierarchy in lanes: many
 // pairs of a part and a scene's triangle at once, each at its own instant; contact is decided in
-// doubles alone. The fast form of backtracking.h for exact fidelity. Not installed.
+// doubles alone. The fast form of backtracking.h for exact and skinned fidelity. Not installed.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <limits>
 #include <vector>
 
-#include "lss/index.h"
 #include "middleware/query/link_query.h"
-#include "middleware/query/part_lanes.h"
+#include "middleware/query/part_pairs.h"
 
 namespace foretouch::internal {
 
@@ -19,84 +14,11 @@ namespace foretouch::internal {
 /// will mostly find contact: what lanes prove is a little less than the truth.
 inline constexpr double kHandOverShare = 0.75;
 
-/// A part and a triangle of the scene, proven apart before `freeUntil`.
-struct PartPair {
-  double freeUntil = 0.0;
-  std::int32_t candidate = -1;  // whose LSS and triangle
-  HierarchyChild part = HierarchyChild::node(0);
-  bool isWhole = false;  // the LSS itself, whatever `part` says
-};
-
-/// Pairs by time, the earliest first up to 1/64 of the span. The order only decides how much work a
-/// contact saves. Keeps its memory.
-class TimeBuckets {
- public:
-  void reset(double begin, double end);
-  void push(const PartPair& pair) {
-    const double place = (pair.freeUntil - begin_) * bucketsPerTime_;
-    const auto bucket = static_cast<std::size_t>(std::min(std::max(place, 0.0), kBuckets - 1.0));
-    const std::uint64_t bit = std::uint64_t{1} << bucket;
-    const std::int32_t next = (occupied_ & bit) != 0 ? first_[bucket] : kNone;
-    first_[bucket] = take({pair, next});
-    occupied_ |= bit;
-  }
-  [[nodiscard]] bool isEmpty() const { return occupied_ == 0; }
-  /// Holds a pair in an earlier bucket than every pair of `other`, whose span is the same.
-  [[nodiscard]] bool isBefore(const TimeBuckets& other) const {
-    const std::uint64_t mine = occupied_ & (~occupied_ + 1);
-    return occupied_ != 0 && (other.occupied_ & (2 * mine - 1)) == 0;
-  }
-  /// Precondition: not empty.
-  PartPair pop() {
-    const auto bucket = static_cast<std::size_t>(__builtin_ctzll(occupied_));
-    const std::int32_t index = first_[bucket];
-    Entry& entry = entries_[slotOf(index)];
-    if (entry.next == kNone) occupied_ &= occupied_ - 1;
-    first_[bucket] = entry.next;
-    entry.next = free_;
-    free_ = index;
-    return entry.pair;
-  }
-
- private:
-  static constexpr int kBuckets = 64;
-  static constexpr std::int32_t kNone = -1;
-  struct Entry {
-    PartPair pair;
-    std::int32_t next;
-  };
-
-  std::int32_t take(const Entry& entry) {
-    if (free_ == kNone) {
-      entries_.push_back(entry);
-      return static_cast<std::int32_t>(entries_.size()) - 1;
-    }
-    const std::int32_t index = free_;
-    free_ = entries_[slotOf(index)].next;
-    entries_[slotOf(index)] = entry;
-    return index;
-  }
-
-  double begin_ = 0.0, bucketsPerTime_ = kBuckets;
-  std::uint64_t occupied_ = 0;  // bit k: the bucket holds something
-  std::array<std::int32_t, kBuckets> first_{};
-  std::int32_t free_ = kNone;
-  std::vector<Entry> entries_;
-};
-
-/// Reusable memory for the descents of one thread's queries.
-struct PartScratch {
-  PartLanes lanes;
-  TimeBuckets lss, triangles;
-  std::vector<HierarchyChild> parts;        // a stack
-  std::vector<std::int32_t> linkTriangles;  // those the stack ended in
-};
-
-/// As backtrack(), for exact fidelity and for candidates in the span of `scratch.lanes`, to which
-/// it adds their triangles as needed. Every pair's instants depend on that pair alone, so the
-/// reported contact does not depend on order, unless the current part of the budget runs out before
-/// all pairs are done.
-[[nodiscard]] LinkContact backtrackInLanes(const LinkQuery& query,
+/// As backtrack(), for exact and skinned fidelity and for candidates in the span of
+/// `scratch.lanes`, to which it adds their triangles as needed. Every pair's instants depend on
+/// that pair alone, so the reported contact does not depend on order, unless the current part of
+/// the budget runs out before all pairs are done.
+[[nodiscard]] PairContact backtrackInLanes(const LinkQuery& query,
                                            std::vector<Candidate>& candidates, PartScratch& scratch,
                                            QueryCounters& counters);
 

@@ -28,6 +28,8 @@ struct LaneCull {
                              QueryCounters& counters) const;
 
  private:
+  void walk(const SweptBoxes& swept, QueryCounters& counters) const;
+  void sweepSkin(QueryCounters& counters) const;
   void sortHits() const;
 };
 

@@ -10,6 +10,7 @@
 #include "lss/simd.h"
 #include "middleware/query/lane_backtracking.h"
 #include "middleware/query/lane_nearest.h"
+#include "middleware/query/skin_start.h"
 #include "middleware/query/start.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/surface/link_surface.h"
@@ -73,24 +74,24 @@ LinkContact LaneLink::undone(LinkId link) const {
 
 LinkContact LaneLink::answer(LinkId link, float limit, QueryCounters& counters) {
   link_ = link;
-  const LinkSurface* const surface = plan_.of(link).surface;
+  const bool hasTriangles = plan_.of(link).surface != nullptr || plan_.of(link).skin != nullptr;
   scratch_.ignored.collect(body_.ignored(), link);
   for (const IgnoredPair& pair : lanes_.touched) {
     if (pair.link == link) scratch_.ignored.add(pair.object);
   }
   if (!plan_.margins.empty() || !lanes_.tolerances.empty()) useTolerance(toleranceOf(link));
   // A triangle that touches an LSS may still miss the triangles in it.
-  tolerances_.contact = surface == nullptr ? floatBelow(kCertainShare * tolerance_) : kNeverCertain;
+  tolerances_.contact = hasTriangles ? kNeverCertain : floatBelow(kCertainShare * tolerance_);
   float best = limit;
-  if (surface != nullptr && begin_ == 0.0) {
+  if (hasTriangles && begin_ == 0.0) {
     // The triangles that a link inside furniture touches at once settle it, whatever it sweeps
     // afterwards.
     best = kBegin;
-    const LinkContact atStart = answerBefore(link, surface, best, counters);
+    const LinkContact atStart = answerBefore(link, best, counters);
     if (atStart.verdict != Verdict::Clear) return atStart;
     best = limit;
   }
-  const LinkContact contact = answerBefore(link, surface, best, counters);
+  const LinkContact contact = answerBefore(link, best, counters);
   const bool isBelieved = best == limit;
   if (isBelieved || (contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(best))) {
     return contact;
@@ -99,13 +100,12 @@ LinkContact LaneLink::answer(LinkId link, float limit, QueryCounters& counters) 
   // proved, so this does not happen; if it did, we must still miss nothing.
   tolerances_.contact = kNeverCertain;
   best = limit;
-  return answerBefore(link, surface, best, counters);
+  return answerBefore(link, best, counters);
 }
 
-/// Looks for nothing later than `best`, and lowers it by certain contacts. At exact fidelity: if
+/// Looks for nothing later than `best`, and lowers it by certain contacts. Of a mesh or a skin: if
 /// `best` is the step's beginning, tests for contact then, else looks after it.
-LinkContact LaneLink::answerBefore(LinkId link, const LinkSurface* surface, float& best,
-                                   QueryCounters& counters) {
+LinkContact LaneLink::answerBefore(LinkId link, float& best, QueryCounters& counters) {
   scratch_.candidates.clear();
   const std::int32_t firstLss = table_.first(link);
   for (std::int32_t lss = firstLss; lss < table_.first(link + 1); ++lss) {
@@ -120,16 +120,23 @@ LinkContact LaneLink::answerBefore(LinkId link, const LinkSurface* surface, floa
                    candidates.end());
   if (candidates.empty()) return clearContact(link);
   prepareScalar(link);
-  const LinkQuery query{{link, body_.lss(link), scratch_.axisBounds, motion_, surface, nullptr},
-                        scene_,
-                        Pieces{},
-                        tolerance_,
-                        meter_,
-                        plan_.leafProver.get(),
-                        scratch_.evaluator,
-                        *this};
-  if (surface == nullptr) return backtrack(query, candidates, counters);
-  return surfaceContact(query, best == kBegin && begin_ == 0.0, counters);
+  const LinkPlan& asked = plan_.of(link);
+  const LinkQuery query{
+      {link, body_.lss(link), scratch_.axisBounds, motion_, asked.surface, asked.skin},
+      scene_,
+      Pieces{},
+      tolerance_,
+      meter_,
+      plan_.leafProver.get(),
+      scratch_.evaluator,
+      *this,
+      nullptr,
+      kNoParent,
+      &scratch_.states};
+  const bool atStart = best == kBegin && begin_ == 0.0;
+  if (asked.skin != nullptr) return skinContact(query, atStart, counters);
+  if (asked.surface == nullptr) return backtrack(query, candidates, counters);
+  return surfaceContact(query, atStart, counters);
 }
 
 /// At exact fidelity: of the link's triangles, by the LSS candidates' times.
@@ -160,6 +167,15 @@ LinkContact LaneLink::surfaceContact(const LinkQuery& query, bool atStart,
                  : backtrack(query, scratch_.candidates, counters);
 }
 
+/// At skinned fidelity likewise, by the clusters' candidates.
+LinkContact LaneLink::skinContact(const LinkQuery& query, bool atStart, QueryCounters& counters) {
+  PartScratch& parts = lanes_.parts;
+  parts.lanes.reset(parts.skin.beginLink(query.parts.link), scene_.parts().origin, begin_, end_);
+  if (!atStart) return backtrackInLanes(query, scratch_.candidates, parts, counters);
+  const auto contact = skinContactAtStart(query, scratch_.candidates, parts, counters);
+  return contact ? *contact : clearContact(query.parts.link);
+}
+
 void LaneLink::prepareScalar(LinkId link) {
   scratch_.axisBounds.clear();
   for (const Lss& lss : body_.lss(link)) {
@@ -173,19 +189,28 @@ void LaneLink::collect(double t, const PosedLink& posed, double reach,
                        std::vector<Candidate>& candidates, QueryCounters& counters) {
   FORETOUCH_ASSERT(&candidates == &scratch_.candidates);
   candidates.clear();
-  const std::vector<Lss>& all = body_.lss(link_);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::size_t lss = slotOf(table_.first(link_)) + i;
-    const HitRange hits{lanes_.first[lss], lanes_.first[lss + 1]};
+  const std::int32_t first = table_.first(link_);
+  for (std::int32_t lss = first; lss < table_.first(link_ + 1); ++lss) {
+    const HitRange hits{lanes_.first[slotOf(lss)], lanes_.first[slotOf(lss) + 1]};
     if (hits.begin == hits.end) continue;
     if (meter_.isLimited() && meter_.isPartSpent(counters)) break;
-    findNear(scene_, axisEnds(all[i], posed.state), all[i].radius, reach, hits, lanes_, counters);
+    findNear(scene_, endsOf(lss, posed), radiusOf(lss), reach, hits, lanes_, counters);
     const NearTriangles& near = lanes_.near;
     for (std::size_t k = 0; k < near.count; ++k) {
       if (scratch_.ignored.has(scene_, near.id[k])) continue;
-      addCandidate(near.id[k], static_cast<std::int32_t>(i), near.gap[k], t);
+      addCandidate(near.id[k], lss - first, near.gap[k], t);
     }
   }
+}
+
+/// Of one of the current link's LSS, or of one around a cluster of its skin.
+AxisEnds LaneLink::endsOf(std::int32_t lss, const PosedLink& posed) const {
+  if (plan_.of(link_).skin != nullptr) return lanes_.parts.skin.endsAt(lss, *posed.all);
+  return axisEnds(body_.lss(link_)[slotOf(lss - table_.first(link_))], posed.state);
+}
+
+double LaneLink::radiusOf(std::int32_t lss) const {
+  return plan_.blends ? lanes_.parts.skin.radius(lss) : table_[lss].radius;
 }
 
 /// Advances the LSS's pairs through the slab; `handed` gets those that lanes leave. False if the
@@ -196,7 +221,9 @@ bool LaneLink::advanceLss(std::int32_t lss, float& best, QueryCounters& counters
   if (begin == end) return true;
   if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
   const LssTable::Entry& entry = table_[lss];
-  const LssPolynomials polynomials = polynomialsOf(entry, motion_, lanes_.nodes());
+  const LssPolynomials polynomials = plan_.blends
+                                         ? lanes_.parts.skin.polynomials(lss)
+                                         : polynomialsOf(entry, motion_, lanes_.nodes());
   const LaneLss lane = laneLss(polynomials, entry.radius);
   float origin[3];
   for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);

@@ -38,11 +38,14 @@ class LaneLink final : private Neighbours {
  private:
   void useTolerance(double tolerance);
   [[nodiscard]] double toleranceOf(LinkId link) const;
-  [[nodiscard]] LinkContact answerBefore(LinkId link, const LinkSurface* surface, float& best,
-                                         QueryCounters& counters);
+  [[nodiscard]] LinkContact answerBefore(LinkId link, float& best, QueryCounters& counters);
   [[nodiscard]] LinkContact undone(LinkId link) const;
   [[nodiscard]] LinkContact surfaceContact(const LinkQuery& query, bool atStart,
                                            QueryCounters& counters);
+  [[nodiscard]] LinkContact skinContact(const LinkQuery& query, bool atStart,
+                                        QueryCounters& counters);
+  [[nodiscard]] AxisEnds endsOf(std::int32_t lss, const PosedLink& posed) const;
+  [[nodiscard]] double radiusOf(std::int32_t lss) const;
   void prepareScalar(LinkId link);
   void collect(double t, const PosedLink& posed, double reach, std::vector<Candidate>& candidates,
                QueryCounters& counters) override;

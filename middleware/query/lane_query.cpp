@@ -39,7 +39,8 @@ void LaneQuery::run(StepContacts& step) {
   lanes_.touched.clear();
   lanes_.tolerances.clear();
   if (plan_.options.passSeparating) lanes_.tolerances.assign(countOf(body_.numLinks()), 0.0);
-  const int slabs = slabsOf(table_, motion_, plan_.tolerances.least);
+  const int slabs =
+      slabsOf(plan_.blends ? plan_.blends->carried() : table_, motion_, plan_.tolerances.least);
   if (meter_.isLimited()) {
     lanes_.freeUntil.assign(countOf(body_.numLinks()), 0.0);
     meter_.beginShare(kShareOfWhole, kSlabWork);

@@ -15,7 +15,7 @@
 
 namespace foretouch::internal {
 
-/// One query over all links of one step, at link or exact fidelity.
+/// One query over all links of one step, at link, exact or skinned fidelity.
 class LaneQuery {
  public:
   /// `table` holds the body's LSS; `meter` started with the query. The scratch's evaluator is that

@@ -10,7 +10,7 @@
 #include "articulated/chain_nodes.h"
 #include "middleware/lanes/lss_pairs.h"
 #include "middleware/lanes/near_triangles.h"
-#include "middleware/query/lane_backtracking.h"
+#include "middleware/query/part_pairs.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/flat_bvh.h"
 #include "tessellation/lss_polynomials.h"
@@ -42,9 +42,10 @@ struct LaneScratch {
   NearTriangles near;                 // of the current LSS, where its link is in contact
   PartScratch parts;                  // of the current link, at exact fidelity
   std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
-  std::vector<double> tolerances;     // per link that passes its start: its own; else 0
-  std::vector<IgnoredPair> touched;   // objects that have had their contact (Scope::EveryObject)
-  std::vector<double> freeUntil;      // per link, if work is limited: how far it is proven free
+  std::vector<std::uint8_t> isNear;  // per link, at skinned fidelity: asked, and its box met a leaf
+  std::vector<double> tolerances;    // per link that passes its start: its own; else 0
+  std::vector<IgnoredPair> touched;  // objects that have had their contact (Scope::EveryObject)
+  std::vector<double> freeUntil;     // per link, if work is limited: how far it is proven free
 
   /// Another motion is asked from now on.
   void beginStep() {

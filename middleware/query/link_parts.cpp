@@ -82,7 +82,7 @@ MovingHull LinkParts::skinTriangle(std::int32_t index, const std::vector<LinkSta
 Aabb LinkParts::boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const {
   if (skin == nullptr || !part.isTriangle()) return boxAt(lssIndex, part, posed.state);
   Aabb box;
-  for (const Vector3d& v : skinTriangle(part.index(), posed.all).hull.points) box.add(v);
+  for (const Vector3d& v : skinTriangle(part.index(), *posed.all).hull.points) box.add(v);
   return box;
 }
 

@@ -40,7 +40,7 @@ class Part {
 /// A link at one instant, and the other one of a pair; of a skinned surface, all links.
 struct PosedLink {
   LinkState state, other;
-  std::vector<LinkState> all;
+  const std::vector<LinkState>* all = nullptr;
 };
 
 /// A link's parts, their bounds and states. All references outlive it.
@@ -66,7 +66,7 @@ struct LinkParts {
   [[nodiscard]] const Lss& lssOf(std::int32_t lssIndex, Part part) const;
   /// The part in W. A triangle by its index within the link, in the rigid surface or in the skin.
   [[nodiscard]] MovingHull hullOf(std::int32_t lssIndex, Part part, const PosedLink& posed) const {
-    if (skin != nullptr && part.isTriangle()) return skinTriangle(part.index(), posed.all);
+    if (skin != nullptr && part.isTriangle()) return skinTriangle(part.index(), *posed.all);
     return hullAt(lssIndex, part, posed.state);
   }
   /// The same of a link that has no skin, in the frame of its state.

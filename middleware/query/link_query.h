@@ -97,6 +97,7 @@ struct LinkQuery {
   /// What both links are looked at in: the frame of one above both, where only the joints below it
   /// move them; W otherwise. `parts` and `other` have their bounds in it.
   LinkId frame = kNoParent;
+  std::vector<LinkState>* states = nullptr;  // memory for those of all links, if there is a skin
 
   [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }
   /// Nothing is below either part: whatever they touch, the link touches.
@@ -121,8 +122,9 @@ class StateCache {
   [[nodiscard]] const PosedLink& at(double t) {
     if (t == time_) return posed_;
     if (query_.parts.skin != nullptr) {
-      query_.evaluator.statesAt(t, posed_.all);
-      counters_.states += posed_.all.size();
+      query_.evaluator.statesAt(t, *query_.states);
+      posed_.all = query_.states;
+      counters_.states += query_.states->size();
     } else {
       posed_.state = query_.evaluator.stateIn(query_.frame, query_.parts.link, t);
       ++counters_.states;

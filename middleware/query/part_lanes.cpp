@@ -13,7 +13,7 @@ namespace {
 /// Of a scene's vertex, taken relative to the origin and rounded (lanes/frame_lanes.md 4).
 constexpr double kVertexRounding = 2.0 * kUnitRoundoffOfFloat;
 constexpr double kOriginRounding = 2.0 * kUnitRoundoff;
-/// Rounds the sum of a floor and a radius up.
+/// Rounds the sum of a floor and a radius, or of two pads, up.
 constexpr float kFloorInflation = 1.0F + 4.0F * kUnitRoundoffOfFloat;
 
 }  // namespace
@@ -53,17 +53,65 @@ std::int32_t PartLanes::add(const Triangle& triangle_W) {
 void PartLanes::put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u,
                     float floor) {
   const SceneTriangle& scene = triangles_[slotOf(triangle)];
-  for (int i = 0; i < 3; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      parts_.point[i][axis][lane] = part.point[i][axis];
-      pairs_.scene[i][axis][lane] = scene.vertex[i][axis];
-    }
-  }
-  parts_.u[lane] = u;
-  parts_.rho[lane] = part.rho;
-  parts_.scenePad[lane] = scene.pad;
+  putScene(lane, scene, u);
+  putPart(lane, part, u, scene.pad, parts_);
   pairs_.floor[lane] = (floor + part.radius) * kFloorInflation;
   radius_[lane] = part.radius;
+}
+
+void PartLanes::putBoth(std::size_t lane, const LanePart& part, const LanePart& other, float u,
+                        float floor) {
+  putPart(lane, part, u, 0.0F, parts_);
+  putPart(lane, other, u, 0.0F, otherParts_);
+  radius_[lane] = (part.radius + other.radius) * kFloorInflation;
+  pairs_.floor[lane] = (floor + radius_[lane]) * kFloorInflation;
+}
+
+void PartLanes::putPart(std::size_t lane, const LanePart& part, float u, float scenePad,
+                        PartBlock& block) {
+  for (int i = 0; i < 3; ++i) {
+    for (int axis = 0; axis < 3; ++axis) block.point[i][axis][lane] = part.point[i][axis];
+  }
+  block.u[lane] = u;
+  block.rho[lane] = part.rho;
+  block.scenePad[lane] = scenePad;
+}
+
+void PartLanes::putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, float pad,
+                         float u, float floor) {
+  const SceneTriangle& scene = triangles_[slotOf(triangle)];
+  putScene(lane, scene, u);
+  curves_[lane] = curve;
+  pairs_.positionPad[lane] = (pad + scene.pad) * kFloorInflation;
+  pairs_.floor[lane] = floor;
+  radius_[lane] = 0.0F;
+}
+
+void PartLanes::putScene(std::size_t lane, const SceneTriangle& scene, float u) {
+  for (int i = 0; i < 3; ++i) {
+    for (int axis = 0; axis < 3; ++axis) pairs_.scene[i][axis][lane] = scene.vertex[i][axis];
+  }
+  parts_.u[lane] = u;
+}
+
+void PartLanes::proveBlends(const BlendTriangle* curves, std::size_t count) {
+  placeBlends(curves, curves_, parts_.u, count, pairs_);
+  proveSteps(pairs_, count, steps_);
+}
+
+void PartLanes::proveBoth(std::size_t count) {
+  placeParts(frame_, parts_, count, pairs_);
+  placeParts(otherFrame_, otherParts_, count, others_);
+  std::copy_n(&others_.link[0][0][0], 9 * kTrianglePairLanes, &pairs_.scene[0][0][0]);
+  std::copy_n(&others_.velocity[0][0][0], 9 * kTrianglePairLanes, &motions_.velocity[0][0][0]);
+  std::copy_n(others_.acceleration[0], kTrianglePairLanes, motions_.acceleration);
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    pairs_.positionPad[lane] =
+        (pairs_.positionPad[lane] + others_.positionPad[lane]) * kFloorInflation;
+    pairs_.velocityPad[lane] =
+        (pairs_.velocityPad[lane] + others_.velocityPad[lane]) * kFloorInflation;
+  }
+  proveSteps(pairs_, motions_, count, steps_);
 }
 
 void PartLanes::proveTriangles(std::size_t count) {

@@ -1,5 +1,5 @@
-// middleware/query/part_lanes.h: parts of one link against triangles of the scene, sixteen pairs at
-// a time, each at its own instant: fills the lanes (lanes/frame_lanes.h), runs the proofs
+// middleware/query/part_lanes.h: parts of one link against triangles of the scene, or against parts
+// of another link, sixteen pairs at a time, each at its own instant: fills the lanes (lanes/frame_lanes.h), runs the proofs
 // (lanes/triangle_pairs.h) and turns their results back into t. Not installed.
 #pragma once
 
@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "lss/triangle.h"
+#include "middleware/lanes/blend_lanes.h"
 #include "middleware/lanes/frame_lanes.h"
 #include "middleware/lanes/triangle_pairs.h"
 
@@ -22,6 +23,8 @@ class PartLanes {
   /// The polynomials' origin is relative to `nodesOrigin_W`. Forgets the scene's triangles.
   void reset(const FramePolynomials& polynomials, const Eigen::Vector3d& nodesOrigin_W,
              double begin, double end);
+  /// The other link, whose polynomials have the same origin over the same span. After reset().
+  void setOther(const FramePolynomials& polynomials) { otherFrame_ = laneFrame(polynomials); }
 
   [[nodiscard]] double begin() const { return begin_; }
   [[nodiscard]] double end() const { return end_; }
@@ -42,9 +45,17 @@ class PartLanes {
 
   /// Fills a lane. `floor` (m): of the part's own surface, its radius counted.
   void put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u, float floor);
-  /// Proves the first `count` lanes: all of triangles, or all of LSS.
+  /// The same for a triangle of a skin, whose curve is relative to the link's frame and off by at
+  /// most `pad`.
+  void putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, float pad, float u,
+                float floor);
+  /// The same for parts of both links.
+  void putBoth(std::size_t lane, const LanePart& part, const LanePart& other, float u, float floor);
+  /// Proves the first `count` lanes: all of both links, all of triangles, all of LSS, or all of triangles of a skin.
   void proveTriangles(std::size_t count);
   void proveLss(std::size_t count);
+  void proveBlends(const BlendTriangle* curves, std::size_t count);
+  void proveBoth(std::size_t count);
 
   /// Lower bound (m) on the separation of the lane's part and triangle; not above 0 if nothing is
   /// proven.
@@ -65,13 +76,22 @@ class PartLanes {
     float pad;
   };
 
-  LaneFrame frame_{};
+  static void putPart(std::size_t lane, const LanePart& part, float u, float scenePad,
+                      PartBlock& block);
+  void putScene(std::size_t lane, const SceneTriangle& scene, float u);
+
+  LaneFrame frame_{}, otherFrame_{};
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double begin_ = 0.0, end_ = 1.0, halfSpan_ = 0.5, instantsPerTime_ = 1.0 / kInstant;
   double originPad_ = 0.0;
   std::vector<SceneTriangle> triangles_;
   PartBlock parts_{};
+  std::int32_t curves_[kTrianglePairLanes] = {};
   TrianglePairBlock pairs_{};
+  // The other link's parts, where they are, and how they move.
+  PartBlock otherParts_{};
+  TrianglePairBlock others_{};
+  OtherMotions motions_{};
   TrianglePairSteps steps_{};
   PairFloats radius_{};
 };

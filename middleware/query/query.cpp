@@ -5,6 +5,7 @@
 
 #include "articulated/try.h"
 #include "lss/assert.h"
+#include "lss/simd.h"
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
 #include "middleware/query/query_plan.h"
@@ -26,8 +27,10 @@ void linkQuery(const internal::QueryPlan& plan, const ChainMotion& motion,
     return;
   }
   const internal::Body body(plan.avatar, plan.options.ignored);
-  if (plan.inLanes) {
-    internal::LaneQuery(plan, body, plan.table, motion, meter, scratch).run(step);
+  // Of a skin, a single lane is slower than doubles.
+  const bool isSingleLane = plan.blends && activeSimd() == Simd::Scalar;
+  if (plan.inLanes && !isSingleLane) {
+    internal::LaneQuery(plan, body, plan.laneTable(), motion, meter, scratch).run(step);
   } else {
     internal::scalarQuery(plan, body, motion, meter, scratch, step);
   }

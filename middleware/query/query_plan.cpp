@@ -132,6 +132,12 @@ std::shared_ptr<const TriangleCuller> cullerOf(const Scene& scene) {
   return {kept, &kept->parts().bvh};
 }
 
+/// The skin's own, unless it was built for another avatar.
+std::shared_ptr<const BlendTable> blendsOf(const Avatar& avatar, const SkinnedSurface& skin) {
+  if (skin.parts().avatarIdentity == avatar.identity()) return skin.parts().blends;
+  return std::make_shared<const BlendTable>(avatar, skin.parts());
+}
+
 LinkPlan planOf(const Avatar& avatar, const QueryOptions& options, LinkId link) {
   const auto i = slotOf(link);
   const LinkPolicy own = options.linkPolicies.empty()
@@ -151,7 +157,7 @@ LinkPlan planOf(const Avatar& avatar, const QueryOptions& options, LinkId link) 
 Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
                                   const QueryOptions& options) {
   FORETOUCH_CHECK(checked(avatar, scene, options));
-  QueryPlan plan{avatar, scene, options,         {},      LssTable(avatar), {}, {},
+  QueryPlan plan{avatar, scene, options,         {},      LssTable(avatar), nullptr, {}, {},
                  false,  {},    cullerOf(scene), nullptr, nullptr};
   plan.tolerances = {kMaxTolerance, kMinTolerance};
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
@@ -162,10 +168,10 @@ Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
   if (plan.tolerances.least != plan.tolerances.largest) {
     for (const LinkPlan& link : plan.links) plan.margins.push_back(link.tolerance);
   }
-  // Not for skins, which change shape, nor beyond the number of boxes of a walk. Above the links
-  // there is one box per limb at most, hence never too many.
-  plan.inLanes = options.fidelity != Fidelity::Skinned &&
-                 (isRung(options.fidelity) || plan.table.size() <= BoxLanes::kMaxBoxes);
+  if (options.fidelity == Fidelity::Skinned) plan.blends = blendsOf(avatar, *options.skin);
+  // Not beyond the number of boxes of a walk. Above the links there is one box per limb at most,
+  // hence never too many.
+  plan.inLanes = isRung(options.fidelity) || plan.laneTable().size() <= BoxLanes::kMaxBoxes;
   FORETOUCH_CHECK(checkedLanes(plan));
   if (options.self) plan.self = SelfPlan(avatar, plan.table, *options.self);
   return plan;

@@ -13,6 +13,7 @@
 #include "middleware/query_options.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene.h"
+#include "middleware/surface/blend_table.h"
 #include "middleware/surface/link_surface.h"
 #include "middleware/surface/skin_parts.h"
 #include "tessellation/lss_table.h"
@@ -47,17 +48,20 @@ struct QueryPlan {
   Scene scene;
   QueryOptions options;
   std::vector<LinkPlan> links;
-  LssTable table;               // of the avatar
-  ToleranceRange tolerances;    // of all links
-  std::vector<double> margins;  // per link, if tolerances differ
-  bool inLanes;                 // not pair by pair in doubles
-  SelfPlan self;                // which own links are asked; none by default
+  LssTable table;                            // of the avatar
+  std::shared_ptr<const BlendTable> blends;  // at skinned fidelity; else null
+  ToleranceRange tolerances;                 // of all links
+  std::vector<double> margins;               // per link, if tolerances differ
+  bool inLanes;                              // not pair by pair in doubles
+  SelfPlan self;                             // which own links are asked; none by default
   // What the reference room may replace (middleware/reference/reference_query.h).
   std::shared_ptr<const TriangleCuller> culler;  // the scene's
   std::shared_ptr<const LeafProver> leafProver;  // null
   std::shared_ptr<const StepProver> stepProver;  // null
 
   [[nodiscard]] const LinkPlan& of(LinkId link) const { return links[slotOf(link)]; }
+  /// What lanes move: the links' own LSS, or those around clusters of a skin.
+  [[nodiscard]] const LssTable& laneTable() const { return blends ? blends->table() : table; }
 
   /// As Query::build().
   static Result<QueryPlan> make(const Avatar& avatar, const Scene& scene,

@@ -115,7 +115,10 @@ class StepQuery final : private Neighbours {
             meter_,
             plan_.leafProver.get(),
             scratch_.evaluator,
-            *this};
+            *this,
+            nullptr,
+            kNoParent,
+            &scratch_.states};
   }
 
   LinkContact firstSkinContactOf(LinkId link, QueryCounters& counters) {

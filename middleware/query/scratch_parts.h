@@ -52,6 +52,7 @@ struct ScratchParts {
   std::vector<LinkId> cutShort;  // whose share of the work was spent
   std::vector<Candidate> pairs;  // in doubles: the candidates before any was looked at
   MotionEvaluator evaluator;
+  std::vector<LinkState> states;  // per link, at one instant
   LaneScratch lanes;
   IgnoredObjects ignored;  // of the current link
   RungScratch rungs;

@@ -5,6 +5,7 @@
 
 #include "lss/index.h"
 #include "lss/rounding.h"
+#include "lss/simd.h"
 #include "middleware/query/backtracking.h"
 #include "middleware/query/lane_backtracking.h"
 #include "middleware/query/lane_cull.h"
@@ -213,8 +214,22 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   }
   advanceAlongCurves(query, step.counters);
   if (scratch_.candidates.empty()) return;
-  const PairContact contact = backtrack(query, scratch_.candidates, step.counters);
+  const PairContact contact = query.isExact() || other.surface != nullptr
+                                  ? meshContact(query, step.counters)
+                                  : backtrack(query, scratch_.candidates, step.counters);
   if (contact.verdict != Verdict::Clear) keep(contact, frame, step);
+}
+
+/// Of the triangles of both links, or of the LSS of one that has none.
+PairContact SelfQuery::meshContact(const LinkQuery& query, QueryCounters& counters) {
+  // A single lane is slower than doubles.
+  if (activeSimd() == Simd::Scalar) return backtrack(query, scratch_.candidates, counters);
+  const ChainNodes& nodes = scratch_.lanes.nodes();
+  PartScratch& parts = scratch_.lanes.parts;
+  const FramePolynomials polynomials = framePolynomialsOf(one_.link, motion_, nodes);
+  parts.lanes.reset(polynomials, nodes.origin(), begin_, end_);
+  parts.lanes.setOther(framePolynomialsOf(other_.link, motion_, nodes, polynomials.origin));
+  return backtrackInLanes(query, scratch_.candidates, parts, counters);
 }
 
 /// Drops the candidates that never come near in the slab, and takes the others to where they do:

@@ -47,6 +47,7 @@ class SelfQuery final : private Neighbours {
   [[nodiscard]] MovingHull atFirstNode(LinkId of, std::int32_t lss, double radiusShare) const;
   [[nodiscard]] LinkParts partsOf(const Side& side, const std::vector<AxisBounds>& bounds) const;
   void prepareSide(Side& side, LinkId frame, std::vector<AxisBounds>& bounds);
+  [[nodiscard]] PairContact meshContact(const LinkQuery& query, QueryCounters& counters);
   void advanceAlongCurves(const LinkQuery& query, QueryCounters& counters);
   [[nodiscard]] bool advance(const LinkQuery& query, Candidate& candidate, QueryCounters& counters);
   [[nodiscard]] MovingHull alongCurve(const Side& side, std::int32_t lss, LinkId frame, double t,

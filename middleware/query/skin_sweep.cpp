@@ -29,7 +29,7 @@ void sweepSkin(const LinkParts& parts, const std::vector<std::vector<LinkState>>
   boxes.assign(static_cast<std::size_t>(numTriangles) * count, Aabb{});
   PosedLink posed;
   for (int k = 0; k <= pieces.count; ++k) {
-    posed.all = nodes[slotOf(k)];
+    posed.all = &nodes[slotOf(k)];
     // Pieces are equal up to a rounding of their boundaries, which the inflation covers.
     const double sagitta = 1.0 / (8.0 * static_cast<double>(count) * static_cast<double>(count));
     for (std::int32_t i = 0; i < numTriangles; ++i) {

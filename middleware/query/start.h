@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "middleware/query/lane_backtracking.h"
 #include "middleware/query/link_query.h"
+#include "middleware/query/part_pairs.h"
 
 namespace foretouch::internal {
 

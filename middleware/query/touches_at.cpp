@@ -45,8 +45,10 @@ bool meshTouches(const internal::LinkSurface& surface, std::int32_t lss, const L
 
 bool skinTouches(const internal::LinkParts& parts, double t, const Scene& scene,
                  const IgnoredObjects& ignored, std::vector<TriangleId>& found) {
+  std::vector<LinkState> states;
+  parts.motion.statesAt(t, states);
   internal::PosedLink posed;
-  parts.motion.statesAt(t, posed.all);
+  posed.all = &states;
   for (std::int32_t i = 0; i < parts.skin->numTriangles(parts.link); ++i) {
     const Triangle moved =
         parts.hullOf(0, internal::Part::of(HierarchyChild::triangle(i)), posed).hull.triangle();

@@ -9,6 +9,7 @@
 
 #include "lss/index.h"
 #include "middleware/surface/avatar_surface.h"
+#include "middleware/surface/blend_table.h"
 #include "middleware/surface/skin_parts.h"
 
 namespace foretouch {
@@ -64,6 +65,17 @@ std::optional<Error> problemOf(const Avatar& avatar, const Skin& skin) {
   return std::nullopt;
 }
 
+void addShares(internal::SkinParts& parts) {
+  for (const std::vector<SkinInfluence>& vertex : parts.skin.vertices) {
+    parts.firstShare.push_back(static_cast<std::int32_t>(parts.shares.size()));
+    for (const SkinInfluence& influence : vertex) {
+      parts.shares.push_back(
+          internal::laneShare(influence.link, influence.weight, influence.p_L.data()));
+    }
+  }
+  parts.firstShare.push_back(static_cast<std::int32_t>(parts.shares.size()));
+}
+
 }  // namespace
 
 Result<SkinnedSurface> SkinnedSurface::build(const Avatar& avatar, Skin skin,
@@ -82,6 +94,9 @@ Result<SkinnedSurface> SkinnedSurface::build(const Avatar& avatar, Skin skin,
                      "expected every link's number of triangles, together those of the skin");
   }
   parts->skin = std::move(skin);
+  addShares(*parts);
+  parts->avatarIdentity = avatar.identity();
+  parts->blends = std::make_shared<const internal::BlendTable>(avatar, *parts);
   return SkinnedSurface(std::move(parts));
 }
 

@@ -1,7 +1,7 @@
 // middleware/surface/skinned_surface.h: a surface whose vertices follow the blend of several links
 // (linear blend skinning): at t a vertex is at the sum of weight * (the link's pose at t applied to
-// the vertex at bind time). Metres. It has no hierarchy, because its triangles change shape: every
-// query sweeps all triangles of a link that is near anything.
+// the vertex at bind time). Metres. Its triangles change shape, so clusters of them, and no
+// hierarchy, say which are near anything.
 #pragma once
 
 #include <array>

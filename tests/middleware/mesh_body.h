@@ -37,15 +37,17 @@ inline std::vector<std::vector<Triangle>> meshWithin(const Avatar& avatar, Rando
   return meshes;
 }
 
-/// Every vertex of a random mesh, blended between its own link and two others.
+/// Every vertex of a random mesh, `count` triangles per LSS, blended between its own link and two
+/// others.
 struct RandomSkin {
   Skin skin;
   std::vector<std::size_t> counts;
 };
 
-inline RandomSkin randomSkin(const Avatar& avatar, const ChainMotion& motion, Random& random) {
+inline RandomSkin randomSkin(const Avatar& avatar, const ChainMotion& motion, Random& random,
+                             int count = 8) {
   RandomSkin made;
-  const auto meshes = meshWithin(avatar, random, 8, 0.8);
+  const auto meshes = meshWithin(avatar, random, count, 0.8);
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     const auto& triangles = meshes[static_cast<std::size_t>(link)];
     made.counts.push_back(triangles.size());

@@ -64,8 +64,8 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
       ->check(CLI::IsMember({"advancement", "cubics"}));
   app.add_option("--backtracking", a.backtracking, "lanes or scalar")
       ->check(CLI::IsMember({"lanes", "scalar"}));
-  app.add_option("--fidelity", a.fidelity, "limb, avatar or link; models: always exact")
-      ->check(CLI::IsMember({"limb", "avatar", "link"}));
+  app.add_option("--fidelity", a.fidelity, "limb, avatar or link; models: skinned, else exact")
+      ->check(CLI::IsMember({"limb", "avatar", "link", "skinned"}));
   app.add_option("--simd", a.simd, "Vector instructions of the lanes; the widest if not given")
       ->check(CLI::IsMember(simdNames()));
   app.add_option("--data", a.data, "Folder with mocap/ and scenes/");
@@ -168,6 +168,7 @@ class Run {
     if (arguments_.deadlineUs > 0.0) options.deadlineUs = arguments_.deadlineUs;
     if (arguments_.fidelity == "limb") options.fidelity = foretouch::Fidelity::Limb;
     if (arguments_.fidelity == "avatar") options.fidelity = foretouch::Fidelity::Avatar;
+    if (arguments_.fidelity == "skinned") options.fidelity = foretouch::Fidelity::Skinned;
     options.deadline = deadline_;
     const SweepTally tally = sweep(clip, scene, placement, options);
     std::cout << clip.name << " x " << scene.name << ", " << options.rateHz << " Hz, eps "

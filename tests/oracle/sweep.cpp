@@ -30,6 +30,10 @@ class Sweeper {
     query_.deadlineUs = options.deadlineUs;
     query_.surface = clip.surface;
     query_.fidelity = clip.surface ? Fidelity::Exact : options.fidelity;
+    if (clip.skin && options.fidelity == Fidelity::Skinned) {
+      query_.fidelity = Fidelity::Skinned;
+      query_.skin = clip.skin;
+    }
     query_.self = options.self;
     if (options.self) {
       pairs_.emplace(clip.avatar, *options.self, clip.surface ? &*clip.surface : nullptr);
@@ -140,12 +144,16 @@ class Sweeper {
     }
     const auto start = Clock::now();
     const oracle::Answer answer = plain(contact);
+    const bool isSkinned = query_.fidelity == Fidelity::Skinned;
     const oracle::Judgement judgement =
-        isExact ? oracle::Judge(scene_.oracle, truth, contact.link,
-                                clip_.meshes[static_cast<std::size_t>(contact.link)])
-                      .judge(answer, options_.tolerance)
-                : oracle::Judge(scene_.oracle, truth, contact.link, capsules)
-                      .judge(answer, options_.tolerance);
+        isSkinned ? oracle::Judge(scene_.oracle, truth,
+                                  clip_.skins[static_cast<std::size_t>(contact.link)])
+                        .judge(answer, options_.tolerance)
+        : isExact ? oracle::Judge(scene_.oracle, truth, contact.link,
+                                  clip_.meshes[static_cast<std::size_t>(contact.link)])
+                        .judge(answer, options_.tolerance)
+                  : oracle::Judge(scene_.oracle, truth, contact.link, capsules)
+                        .judge(answer, options_.tolerance);
     addJudgeTime(start, tally);
     count(answer.verdict, judgement, tally);
     if (judgement.finding == oracle::Finding::Ok) return;

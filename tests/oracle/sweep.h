@@ -24,7 +24,8 @@ struct SweepOptions {
   ReferenceOptions reference;
   std::uint64_t workBudget = QueryOptions{}.workBudget;
   double deadlineUs = QueryOptions{}.deadlineUs;
-  /// For clips without a surface: a rung above the links; then judges its volumes instead.
+  /// For clips without a surface: a rung above the links; then judges its volumes instead. For
+  /// models: Skinned asks and judges their skins.
   Fidelity fidelity = Fidelity::Link;
   /// Asks whether own links touch each other, and judges that instead.
   std::optional<PairRules> self;

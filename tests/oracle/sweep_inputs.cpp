@@ -60,6 +60,26 @@ std::vector<std::vector<oracle::Capsule>> capsulesOf(const Avatar& avatar) {
   return capsules;
 }
 
+/// Per link.
+std::vector<std::vector<oracle::SkinTriangle>> skinsOf(
+    const Skin& skin, const std::vector<std::size_t>& trianglesOfLink) {
+  std::vector<std::vector<oracle::SkinTriangle>> skins(trianglesOfLink.size());
+  std::size_t next = 0;
+  for (std::size_t link = 0; link < skins.size(); ++link) {
+    for (std::size_t i = 0; i < trianglesOfLink[link]; ++i, ++next) {
+      oracle::SkinTriangle triangle;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t vertex = skin.triangles[next][k];
+        for (const SkinInfluence& share : skin.vertices[static_cast<std::size_t>(vertex)]) {
+          triangle[k].push_back({share.link, share.weight, plain(share.p_L)});
+        }
+      }
+      skins[link].push_back(triangle);
+    }
+  }
+  return skins;
+}
+
 struct KnownScene {
   const char* name;
   const char* file;
@@ -97,11 +117,19 @@ Result<SweepClip> loadModel(const std::string& path, double scale) {
                    std::move(capsules),
                    std::nullopt,
                    {},
+                   std::nullopt,
+                   {},
                    Eigen::Vector3d::Zero(),
                    0.0};
+  std::vector<std::size_t> trianglesOfLink;
   for (const auto& triangles : made.value().surface) {
+    trianglesOfLink.push_back(triangles.size());
     result.meshes.push_back(plain(triangles));
   }
+  result.skins = skinsOf(made.value().skin, trianglesOfLink);
+  auto skin = SkinnedSurface::build(result.avatar, std::move(made.value().skin), trianglesOfLink);
+  if (!skin) return skin.error();
+  result.skin = std::move(skin).value();
   auto surface = AvatarSurface::build(result.avatar, std::move(made.value().surface));
   if (!surface) return surface.error();
   result.surface = std::move(surface).value();
@@ -134,6 +162,8 @@ Result<SweepClip> loadClip(const std::string& path) {
                    std::move(clip).value(),
                    std::move(avatar).value(),
                    std::move(capsules),
+                   std::nullopt,
+                   {},
                    std::nullopt,
                    {},
                    Eigen::Vector3d::Zero(),

@@ -26,6 +26,9 @@ struct SweepClip {
   /// For models: queries use exact fidelity, judged by the triangles of each link.
   std::optional<AvatarSurface> surface;
   std::vector<std::vector<oracle::Triangle>> meshes;
+  /// The same triangles as a skin, for skinned fidelity.
+  std::optional<SkinnedSurface> skin;
+  std::vector<std::vector<oracle::SkinTriangle>> skins;
   // Of the unplaced clip: the place of its middle frame, and its lowest joint over all frames.
   Eigen::Vector3d standsAt = Eigen::Vector3d::Zero();
   double lowest = 0.0;

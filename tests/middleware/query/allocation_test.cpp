@@ -114,6 +114,20 @@ TEST_F(Allocations, OfQueriesAtExactFidelityAreNone) {
   EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
 }
 
+TEST_F(Allocations, OfQueriesAtSkinnedFidelityAreNone) {
+  Random random(8);
+  const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();
+  std::vector<test::RandomBody> bodies(kBodies, test::bodyInClutter(random, 9, Vector3d::Zero()));
+  const test::RandomSkin made = test::randomSkin(bodies[0].avatar, bodies[0].motion(), random);
+  for (test::RandomBody& body : bodies) {
+    for (auto& rotation : body.to.rotations) rotation = random.turn(0.5);
+  }
+  QueryOptions options;
+  options.fidelity = Fidelity::Skinned;
+  options.skin = SkinnedSurface::build(bodies[0].avatar, made.skin, made.counts).value();
+  EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U);
+}
+
 TEST_F(Allocations, OfQueriesAboutOwnLinksAreNone) {
   Random random(11);
   const Scene scene = Scene::build(test::clutter(random, 400, 3, Vector3d::Zero())).value();

@@ -1,0 +1,206 @@
+// middleware/query/lane_sides.h: what the pairs of LaneBacktracker are made of, and what is below
+// each: the triangles of a link's mesh or skin against triangles of the scene, or of another link's
+// mesh. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lss/index.h"
+#include "middleware/query/link_query.h"
+#include "middleware/query/part_pairs.h"
+
+namespace foretouch::internal {
+
+/// What all sides share. A pair whose two sides have nothing below is of surfaces: doubles decide.
+class LaneSides {
+ protected:
+  LaneSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
+      : query_(query), candidates_(candidates), scratch_(scratch) {}
+
+  [[nodiscard]] Candidate& candidateOf(const PartPair& pair) const {
+    return candidates_[slotOf(pair.candidate)];
+  }
+  [[nodiscard]] float laneTime(const PartPair& pair) const {
+    return scratch_.lanes.laneTime(pair.freeUntil);
+  }
+  /// The scene's triangle, in the lanes.
+  [[nodiscard]] std::int32_t laneTriangle(const PartPair& pair) const {
+    Candidate& candidate = candidateOf(pair);
+    if (candidate.laneTriangle < 0) {
+      candidate.laneTriangle = scratch_.lanes.add(query_.scene.triangle(candidate.triangle));
+    }
+    return candidate.laneTriangle;
+  }
+
+  const LinkQuery& query_;
+  std::vector<Candidate>& candidates_;
+  PartScratch& scratch_;
+};
+
+/// A link's meshes under their LSS.
+class MeshSides : private LaneSides {
+ public:
+  /// Contacts at the start are left to whoever asks.
+  static constexpr bool kAnswersStarts = false;
+  using LaneSides::candidateOf;
+  MeshSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
+      : LaneSides(query, candidates, scratch), surface_(*query.parts.surface) {
+    surface_.prepare();
+  }
+
+  [[nodiscard]] static bool isSurface(const PartPair& pair) {
+    return !pair.isWhole && pair.part.isTriangle();
+  }
+  /// Replaces a whole LSS, which lanes gave up, by what is below it; false if there is nothing.
+  template <typename Push>
+  [[nodiscard]] bool enter(PartPair pair, const Push& push) const {
+    // An LSS that contains no triangle is the surface.
+    if (!pair.isWhole || !surface_.hasTriangles(candidateOf(pair).lss)) return false;
+    pair.isWhole = false;
+    pair.part = surface_.root(candidateOf(pair).lss);
+    pair.part.isTriangle() ? push(pair) : descend(pair, push);
+    return true;
+  }
+  template <typename Push>
+  void descend(PartPair pair, const Push& push) const {
+    for (const HierarchyChild part : surface_.below(candidateOf(pair).lss, pair.part)) {
+      pair.part = part;
+      push(pair);
+    }
+  }
+  [[nodiscard]] bool isForDoubles(const PartPair& pair) const {
+    return pair.isWhole || (pair.part.isTriangle() && query_.leafProver != nullptr);
+  }
+  void put(std::size_t lane, const PartPair& pair, float floor) const {
+    scratch_.lanes.put(lane, laneTriangle(pair),
+                       surface_.lanePart(candidateOf(pair).lss, pair.part), laneTime(pair), floor);
+  }
+  void prove(bool areSurfaces, std::size_t count) const {
+    areSurfaces ? scratch_.lanes.proveTriangles(count) : scratch_.lanes.proveLss(count);
+  }
+  [[nodiscard]] Candidate inDoubles(const PartPair& pair) const {
+    Candidate candidate = candidateOf(pair);
+    if (!pair.isWhole) candidate.part = Part::of(pair.part);
+    return candidate;
+  }
+
+ private:
+  const LinkSurface& surface_;
+};
+
+/// A link's triangles of a skin under their clusters.
+class SkinSides : private LaneSides {
+ public:
+  static constexpr bool kAnswersStarts = false;
+  using LaneSides::candidateOf;
+  SkinSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
+      : LaneSides(query, candidates, scratch) {}
+
+  [[nodiscard]] static bool isSurface(const PartPair& pair) { return !pair.isWhole; }
+  template <typename Push>
+  [[nodiscard]] bool enter(PartPair pair, const Push& push) const {
+    if (!pair.isWhole) return false;
+    pair.isWhole = false;
+    for (const std::int32_t triangle : scratch_.skin.trianglesOf(candidateOf(pair).lss)) {
+      pair.part = HierarchyChild::triangle(triangle);
+      push(pair);
+    }
+    return true;
+  }
+  template <typename Push>
+  void descend(const PartPair& /*pair*/, const Push& /*push*/) const {}
+  [[nodiscard]] static bool isForDoubles(const PartPair& /*pair*/) { return false; }
+  void put(std::size_t lane, const PartPair& pair, float floor) const {
+    const std::int32_t curve = scratch_.skin.curve(pair.part.index());
+    scratch_.lanes.putBlend(lane, laneTriangle(pair), curve, scratch_.skin.positionPad(curve),
+                            laneTime(pair), floor);
+  }
+  void prove(bool /*areSurfaces*/, std::size_t count) const {
+    scratch_.lanes.proveBlends(scratch_.skin.curves(), count);
+  }
+  [[nodiscard]] Candidate inDoubles(const PartPair& pair) const {
+    Candidate candidate = candidateOf(pair);
+    candidate.part = Part::of(pair.part);
+    candidate.lss = 0;  // a cluster's number means nothing outside
+    return candidate;
+  }
+};
+
+/// The meshes of two links, each under its LSS; an LSS without triangles is its side's surface.
+class OwnSides : private LaneSides {
+ public:
+  static constexpr bool kAnswersStarts = true;
+  using LaneSides::candidateOf;
+  OwnSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
+      : LaneSides(query, candidates, scratch) {
+    if (query.parts.surface != nullptr) query.parts.surface->prepare();
+    if (query.other->surface != nullptr) query.other->surface->prepare();
+  }
+
+  [[nodiscard]] static bool isSurface(const PartPair& pair) {
+    return pair.isEntered && isOnTop(pair.isWhole, pair.part) &&
+           isOnTop(pair.isOtherWhole, pair.otherPart);
+  }
+  template <typename Push>
+  [[nodiscard]] bool enter(PartPair pair, const Push& push) const {
+    if (pair.isEntered) return false;
+    const Candidate& candidate = candidateOf(pair);
+    pair.isEntered = true;
+    enterSide(query_.parts, candidate.lss, pair.isWhole, pair.part);
+    enterSide(*query_.other, candidate.otherLss, pair.isOtherWhole, pair.otherPart);
+    push(pair);
+    return true;
+  }
+  /// The side with the larger radius gives way.
+  template <typename Push>
+  void descend(PartPair pair, const Push& push) const {
+    const Candidate& candidate = candidateOf(pair);
+    const bool isOther =
+        radiusOf(*query_.other, candidate.otherLss, pair.isOtherWhole, pair.otherPart) >
+        radiusOf(query_.parts, candidate.lss, pair.isWhole, pair.part);
+    const LinkParts& side = isOther ? *query_.other : query_.parts;
+    const std::int32_t lss = isOther ? candidate.otherLss : candidate.lss;
+    HierarchyChild& part = isOther ? pair.otherPart : pair.part;
+    for (const HierarchyChild below : side.surface->below(lss, part)) {
+      part = below;
+      push(pair);
+    }
+  }
+  [[nodiscard]] static bool isForDoubles(const PartPair& /*pair*/) { return false; }
+  void put(std::size_t lane, const PartPair& pair, float floor) const {
+    const Candidate& candidate = candidateOf(pair);
+    scratch_.lanes.putBoth(
+        lane, partOf(query_.parts, candidate.lss, pair.isWhole, pair.part),
+        partOf(*query_.other, candidate.otherLss, pair.isOtherWhole, pair.otherPart),
+        laneTime(pair), floor);
+  }
+  void prove(bool /*areSurfaces*/, std::size_t count) const { scratch_.lanes.proveBoth(count); }
+  [[nodiscard]] Candidate inDoubles(const PartPair& pair) const {
+    Candidate candidate = candidateOf(pair);
+    if (!pair.isWhole) candidate.part = Part::of(pair.part);
+    if (!pair.isOtherWhole) candidate.otherPart = Part::of(pair.otherPart);
+    return candidate;
+  }
+
+ private:
+  [[nodiscard]] static bool isOnTop(bool isWhole, HierarchyChild part) {
+    return isWhole || part.isTriangle();
+  }
+  static void enterSide(const LinkParts& side, std::int32_t lss, bool& isWhole,
+                        HierarchyChild& part) {
+    isWhole = side.surface == nullptr || !side.surface->hasTriangles(lss);
+    if (!isWhole) part = side.surface->root(lss);
+  }
+  /// Below zero where nothing is below.
+  [[nodiscard]] static float radiusOf(const LinkParts& side, std::int32_t lss, bool isWhole,
+                                      HierarchyChild part) {
+    return isOnTop(isWhole, part) ? -1.0F : side.surface->lanePart(lss, part).radius;
+  }
+  [[nodiscard]] static LanePart partOf(const LinkParts& side, std::int32_t lss, bool isWhole,
+                                       HierarchyChild part) {
+    return isWhole ? lanePart(side.lss[slotOf(lss)]) : side.surface->lanePart(lss, part);
+  }
+};
+
+}  // namespace foretouch::internal

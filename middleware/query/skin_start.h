@@ -1,0 +1,20 @@
+// middleware/query/skin_start.h: does a link's skin touch the scene at t = 0? Not installed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "middleware/query/link_query.h"
+#include "middleware/query/part_pairs.h"
+
+namespace foretouch::internal {
+
+/// contactAtStart() for a skin whose `candidates` are of clusters. Lanes refute pairs of their
+/// triangles; those left go to doubles, so the answer is theirs. The span of `scratch` begins at 0.
+/// Replaces `candidates`.
+[[nodiscard]] std::optional<LinkContact> skinContactAtStart(const LinkQuery& query,
+                                                            std::vector<Candidate>& candidates,
+                                                            PartScratch& scratch,
+                                                            QueryCounters& counters);
+
+}  // namespace foretouch::internal

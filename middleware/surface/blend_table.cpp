@@ -1,0 +1,284 @@
+#include "middleware/surface/blend_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "articulated/motion.h"
+#include "lss/fit.h"
+#include "lss/rounding.h"
+
+namespace foretouch::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Fewer mean more LSS to cull, more mean more triangles for each that comes near; only speed
+/// depends on it.
+constexpr std::ptrdiff_t kTrianglesOfCluster = 8;
+
+/// Of a merged point, relative to its coordinates; an LSS's ends are as far as its points.
+constexpr double kMergeRounding = 64.0 * kUnitRoundoff;
+
+/// Of a sum of weights, in double.
+constexpr double kWeightRounding = 64.0 * kUnitRoundoff;
+
+double sumOf(const std::vector<SkinInfluence>& vertex) {
+  double sum = 0.0;
+  for (const SkinInfluence& influence : vertex) sum += influence.weight;
+  return sum;
+}
+
+/// A link's share of a vertex; null if the link has none.
+const SkinInfluence* shareOf(const std::vector<SkinInfluence>& vertex, LinkId link) {
+  for (const SkinInfluence& influence : vertex) {
+    if (influence.link == link) return &influence;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+/// Adds a link's share of a vertex; several of one link are as one, at their mean.
+void merge(const SkinInfluence& influence, std::vector<SkinInfluence>& merged) {
+  for (SkinInfluence& known : merged) {
+    if (known.link != influence.link) continue;
+    const double sum = known.weight + influence.weight;
+    known.p_L = (known.weight * known.p_L + influence.weight * influence.p_L) / sum;
+    known.weight = sum;
+    return;
+  }
+  merged.push_back(influence);
+}
+
+class BlendTableBuilder {
+ public:
+  BlendTableBuilder(const Avatar& avatar, const SkinParts& skin, BlendTable& made)
+      : avatar_(avatar), skin_(skin), made_(made) {
+    const Pose rest = restPose(avatar.skeleton());
+    ChainMotion(avatar.skeleton(), rest, rest).statesAt(0.0, rest_);
+    placeVertices();
+  }
+
+  void run() {
+    std::vector<std::vector<Lss>> own(countOf(avatar_.numLinks()));
+    carried_.resize(countOf(avatar_.numLinks()));
+    ownersOf_.resize(countOf(avatar_.numLinks()));
+    for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
+      if (skin_.numTriangles(link) > 0) {
+        addClusters(link, own[slotOf(link)]);
+      } else {
+        addRigid(link, own[slotOf(link)]);
+      }
+    }
+    made_.table_.assign(own);
+    made_.carried_.assign(carried_);
+    for (const std::vector<LinkId>& owners : ownersOf_) {
+      made_.owners_.insert(made_.owners_.end(), owners.begin(), owners.end());
+    }
+  }
+
+ private:
+  using Influences = std::vector<SkinInfluence>;
+
+  [[nodiscard]] const Influences& influencesOf(std::int32_t vertex) const {
+    return vertices_[slotOf(vertex)];
+  }
+
+  /// Where the vertices are at rest, which groups them; and their influences, one per link.
+  void placeVertices() {
+    double off = 0.0;
+    for (const Influences& vertex : skin_.skin.vertices) {
+      Vector3d place = Vector3d::Zero();
+      Influences merged;
+      for (const SkinInfluence& influence : vertex) {
+        place += influence.weight * rest_[slotOf(influence.link)].pointAt(influence.p_L);
+        merge(influence, merged);
+      }
+      places_.push_back(place);
+      off = std::max(off, std::abs(sumOf(vertex) - 1.0));
+      vertices_.push_back(std::move(merged));
+    }
+    // Of the vertices' sums, and of the clusters', each against 1.
+    made_.sumError_ = 4.0 * (off + kWeightRounding);
+  }
+
+  /// The link's own LSS, which no skin covers.
+  void addRigid(LinkId link, std::vector<Lss>& own) {
+    for (const Lss& lss : avatar_.lss(link)) {
+      BlendShare share{};
+      for (int axis = 0; axis < 3; ++axis) {
+        share.a[axis] = lss.a[axis];
+        share.b[axis] = lss.b[axis];
+      }
+      share.rho = std::max(lss.a.norm(), lss.b.norm()) * kInflation;
+      share.weight = 1.0;
+      share.link = link;
+      made_.lss_.push_back(
+          {static_cast<std::int32_t>(made_.shares_.size()), 1, 0, 0, lss.radius, lss.a == lss.b});
+      addShare(share);
+      own.push_back(lss);
+      carry(link, link, lss);
+    }
+  }
+
+  void addShare(const BlendShare& share) {
+    made_.shares_.push_back(share);
+    made_.endsA_.push_back(laneShare(share.link, share.weight, share.a));
+    made_.endsB_.push_back(laneShare(share.link, share.weight, share.b));
+  }
+
+  void carry(LinkId carrier, LinkId owner, const Lss& lss) {
+    carried_[slotOf(carrier)].push_back(lss);
+    ownersOf_[slotOf(carrier)].push_back(owner);
+  }
+
+  void addClusters(LinkId link, std::vector<Lss>& own) {
+    const auto first = static_cast<std::ptrdiff_t>(made_.order_.size());
+    for (std::int32_t i = 0; i < skin_.numTriangles(link); ++i) made_.order_.push_back(i);
+    const std::vector<std::int32_t> vertices =
+        verticesOf(link, first, static_cast<std::ptrdiff_t>(made_.order_.size()));
+    for (const LinkId mover : linksOf(vertices)) {
+      std::vector<Vector3d> points;
+      for (const std::int32_t vertex : vertices) {
+        const SkinInfluence* const share = shareOf(influencesOf(vertex), mover);
+        if (share != nullptr) points.push_back(share->p_L);
+      }
+      Lss hull = fitLss(points);
+      // Merged points are off by a few roundings.
+      hull.radius += kMergeRounding * (hull.a.norm() + hull.b.norm() + hull.radius);
+      carry(mover, link, hull);
+    }
+    split(link, first, static_cast<std::ptrdiff_t>(made_.order_.size()), own);
+  }
+
+  /// Halves the triangles at the median along their longest extent until they are few.
+  void split(LinkId link, std::ptrdiff_t first, std::ptrdiff_t last, std::vector<Lss>& own) {
+    if (last - first <= kTrianglesOfCluster) return addCluster(link, first, last, own);
+    Eigen::AlignedBox3d extent;
+    for (std::ptrdiff_t i = first; i < last; ++i) {
+      extent.extend(middleOf(link, made_.order_[static_cast<std::size_t>(i)]));
+    }
+    Eigen::Index axis = 0;
+    extent.sizes().maxCoeff(&axis);
+    const std::ptrdiff_t middle = first + (last - first) / 2;
+    const auto order = made_.order_.begin();
+    std::nth_element(order + first, order + middle, order + last,
+                     [&](std::int32_t x, std::int32_t y) {
+                       const double at = middleOf(link, x)[axis], other = middleOf(link, y)[axis];
+                       return at != other ? at < other : x < y;
+                     });
+    split(link, first, middle, own);
+    split(link, middle, last, own);
+  }
+
+  [[nodiscard]] Vector3d middleOf(LinkId link, std::int32_t triangle) const {
+    Vector3d sum = Vector3d::Zero();
+    for (const std::int32_t vertex : skin_.triangle(link, triangle)) sum += places_[slotOf(vertex)];
+    return sum / 3.0;
+  }
+
+  [[nodiscard]] std::vector<std::int32_t> verticesOf(LinkId link, std::ptrdiff_t first,
+                                                     std::ptrdiff_t last) const {
+    std::vector<std::int32_t> vertices;
+    for (std::ptrdiff_t i = first; i < last; ++i) {
+      const auto& triangle = skin_.triangle(link, made_.order_[static_cast<std::size_t>(i)]);
+      vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+  }
+
+  [[nodiscard]] std::vector<LinkId> linksOf(const std::vector<std::int32_t>& vertices) const {
+    std::vector<LinkId> links;
+    for (const std::int32_t vertex : vertices) {
+      for (const SkinInfluence& influence : influencesOf(vertex)) links.push_back(influence.link);
+    }
+    std::sort(links.begin(), links.end());
+    links.erase(std::unique(links.begin(), links.end()), links.end());
+    return links;
+  }
+
+  void addCluster(LinkId link, std::ptrdiff_t first, std::ptrdiff_t last, std::vector<Lss>& own) {
+    std::sort(made_.order_.begin() + first, made_.order_.begin() + last);
+    const std::vector<std::int32_t> vertices = verticesOf(link, first, last);
+    Eigen::AlignedBox3d extent;
+    for (const std::int32_t vertex : vertices) extent.extend(places_[slotOf(vertex)]);
+    std::vector<BlendShare> shares;
+    for (const LinkId mover : linksOf(vertices)) {
+      shares.push_back(shareOfCluster(mover, vertices, extent.center()));
+    }
+    std::stable_sort(shares.begin(), shares.end(),
+                     [](const BlendShare& x, const BlendShare& y) { return x.weight > y.weight; });
+    const double radius = radiusAround(vertices, shares);
+    const auto count = static_cast<std::int32_t>(shares.size());
+    made_.lss_.push_back({static_cast<std::int32_t>(made_.shares_.size()), count,
+                          static_cast<std::int32_t>(first), static_cast<std::int32_t>(last - first),
+                          radius, true});
+    for (const BlendShare& share : shares) addShare(share);
+    own.push_back({Vector3d::Zero(), Vector3d::Zero(), radius});
+  }
+
+  /// The cluster's middle as the link sees it: from each vertex that the link moves, as far as the
+  /// middle is at rest; the mean of these, in case they differ.
+  [[nodiscard]] BlendShare shareOfCluster(LinkId mover, const std::vector<std::int32_t>& vertices,
+                                          const Vector3d& middle) const {
+    const Eigen::Matrix3d& R = rest_[slotOf(mover)].R_WL;
+    double weights = 0.0, count = 0.0;
+    Vector3d sum = Vector3d::Zero();
+    for (const std::int32_t vertex : vertices) {
+      const SkinInfluence* const share = shareOf(influencesOf(vertex), mover);
+      if (share == nullptr) continue;
+      weights += share->weight;
+      sum += share->p_L + R.transpose() * (middle - places_[slotOf(vertex)]);
+      count += 1.0;
+    }
+    const Vector3d at = sum / count;
+    BlendShare made{};
+    for (int axis = 0; axis < 3; ++axis) made.a[axis] = made.b[axis] = at[axis];
+    made.rho = at.norm() * kInflation;
+    made.weight = weights / static_cast<double>(vertices.size());
+    made.link = mover;
+    for (const std::int32_t vertex : vertices) {
+      const SkinInfluence* const share = shareOf(influencesOf(vertex), mover);
+      const double own = share == nullptr ? 0.0 : share->weight;
+      made.spread = std::max(made.spread, std::abs(own - made.weight) * kInflation);
+    }
+    return made;
+  }
+
+  [[nodiscard]] double radiusAround(const std::vector<std::int32_t>& vertices,
+                                    const std::vector<BlendShare>& shares) const {
+    double radius = 0.0;
+    for (const std::int32_t vertex : vertices) {
+      double reach = 0.0;
+      for (const BlendShare& share : shares) {
+        const SkinInfluence* const own = shareOf(influencesOf(vertex), share.link);
+        if (own == nullptr) continue;
+        reach += own->weight * (own->p_L - Vector3d(share.a[0], share.a[1], share.a[2])).norm();
+      }
+      radius = std::max(radius, reach);
+    }
+    // Coordinates that nearly cancel leave their rounding.
+    double extent = 0.0;
+    for (const BlendShare& share : shares) extent = std::max(extent, share.rho);
+    return radius * kInflation + kMergeRounding * (extent + radius);
+  }
+
+  const Avatar& avatar_;
+  const SkinParts& skin_;
+  BlendTable& made_;
+  std::vector<LinkState> rest_;
+  std::vector<Vector3d> places_;  // at rest, per vertex
+  std::vector<Influences> vertices_;
+  std::vector<std::vector<Lss>> carried_;
+  std::vector<std::vector<LinkId>> ownersOf_;
+};
+
+BlendTable::BlendTable(const Avatar& avatar, const SkinParts& skin) {
+  BlendTableBuilder(avatar, skin, *this).run();
+}
+
+}  // namespace foretouch::internal
