@@ -6,7 +6,6 @@
 #include "articulated/joint_arcs.h"
 #include "lss/assert.h"
 #include "lss/index.h"
-#include "lss/prefetch.h"
 
 namespace foretouch {
 namespace {
@@ -166,10 +165,6 @@ void ChainMotion::assign(const Skeleton& skeleton, const Pose& from, const Pose&
   largest_ = ChainSums();
   largestVersine_ = 0.0;
   if (n == 0) return;
-  for (const Pose* pose : {&from, &to}) {
-    internal::prefetch(pose->rotations.data(), n * sizeof(Quaternion));
-    internal::prefetch(pose->translations.data(), n * sizeof(Vector3d));
-  }
   const JointColumns arcs = {arcs_.data(), static_cast<int>(n)};
   computeArcs({{from.rotations[0].coeffs().data(), to.rotations[0].coeffs().data()},
                {from.translations[0].data(), to.translations[0].data()}},

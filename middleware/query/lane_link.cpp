@@ -124,7 +124,7 @@ LinkContact LaneLink::answerBefore(LinkId link, float& best, QueryCounters& coun
   const LinkQuery query{
       {link, body_.lss(link), scratch_.axisBounds, motion_, asked.surface, asked.skin},
       scene_,
-      Pieces{},
+      Pieces{1, nullptr, end_},
       tolerance_,
       meter_,
       plan_.leafProver.get(),
@@ -297,7 +297,6 @@ void LaneLink::addCandidate(TriangleId triangle, std::int32_t lssOfLink, float g
   candidate.pieces = 1;
   candidate.nearest = gap;
   candidate.freeUntil = freeUntil;
-  candidate.end = end_;
   scratch_.candidates.push_back(candidate);
 }
 

@@ -56,7 +56,7 @@ LinkContact clearContact(LinkId link) {
   return contact;
 }
 
-int Pieces::at(double t) const {
+int Pieces::amongSeveral(double t) const {
   int k = std::min(count - 1, static_cast<int>(t * count));
   // The product may have rounded across a boundary; the boundaries are what timeOf() says.
   while (k > 0 && t < timeOf(k)) --k;
@@ -66,7 +66,7 @@ int Pieces::at(double t) const {
 
 double nextPossible(const Pieces& pieces, const Candidate& candidate, double t) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  if (t >= candidate.end) return kNever;
+  if (t >= pieces.end) return kNever;
   const int here = pieces.at(t);
   if ((candidate.pieces >> here & 1u) != 0) return t;
   for (int k = here + 1; k < pieces.count; ++k) {

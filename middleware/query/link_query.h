@@ -23,11 +23,13 @@ inline constexpr double kFloorShare = 0.25;
 struct Pieces {
   int count = 1;                  // at most kMaxPieces
   const double* times = nullptr;  // count + 1, ascending; null: equal pieces of [0,1]
+  double end = 1.0;               // the query does not look beyond
   [[nodiscard]] double timeOf(int k) const {
     return times != nullptr ? times[k] : static_cast<double>(k) / count;
   }
   /// The piece that holds `t`, which is in [0,1).
-  [[nodiscard]] int at(double t) const;
+  [[nodiscard]] int at(double t) const { return count == 1 ? 0 : amongSeveral(t); }
+  [[nodiscard]] int amongSeveral(double t) const;
 };
 inline constexpr int kMaxPieces = 32;
 
@@ -43,13 +45,13 @@ struct Candidate {
   // At freeUntil the gap is at least this, by boxes, lanes or separations.
   double nearest = -std::numeric_limits<double>::infinity();
   double freeUntil = 0.0;  // proven: separation > 0 on [0, freeUntil), >= floor there unless 0
-  double end = 1.0;        // the query does not look beyond
   Part part = Part::whole(), otherPart = Part::whole();
   double radiusShare = 1.0;        // of the two LSS' radii, what counts (PairRadius)
   std::int32_t laneTriangle = -1;  // the triangle's number in PartLanes, if there are any
 };
 
-/// The earliest instant from `t` on in a piece of the candidate's; infinity if none before its end.
+/// The earliest instant from `t` on in a piece of the candidate's; infinity if none before their
+/// end.
 [[nodiscard]] double nextPossible(const Pieces& pieces, const Candidate& candidate, double t);
 
 /// No query has answered the link.

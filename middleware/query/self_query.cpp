@@ -189,7 +189,7 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   const LinkParts other = partsOf(other_, own_.boundsOfOther);
   const LinkQuery query{partsOf(one_, own_.boundsOfOne),
                         plan_.scene,
-                        Pieces{kNodePieces, times},
+                        Pieces{kNodePieces, times, end_},
                         std::min(plan_.of(one_.link).tolerance, plan_.of(other_.link).tolerance),
                         meter_,
                         nullptr,
@@ -246,7 +246,7 @@ void SelfQuery::advanceAlongCurves(const LinkQuery& query, QueryCounters& counte
 bool SelfQuery::advance(const LinkQuery& query, Candidate& candidate, QueryCounters& counters) {
   const double floor = kFloorShare * query.tolerance, handOver = kHandOverShare * query.tolerance;
   double t = nextPossible(query.pieces, candidate, candidate.freeUntil);
-  for (int round = 0; round < kMostRounds && t < candidate.end; ++round) {
+  for (int round = 0; round < kMostRounds && t < end_; ++round) {
     candidate.freeUntil = t;
     ++counters.planeTests;
     const MovingPair pair =
@@ -254,11 +254,11 @@ bool SelfQuery::advance(const LinkQuery& query, Candidate& candidate, QueryCount
                    alongCurve(other_, candidate.otherLss, query.frame, t, candidate.radiusShare));
     // Curves that are off by much of the tolerance cannot tell.
     if (!(pair.gapLower() > handOver)) return true;
-    const double reached = timeAfter(t, pair.stepFrom(floor), candidate.end);
+    const double reached = timeAfter(t, pair.stepFrom(floor), end_);
     if (!(reached > t)) return true;
     t = nextPossible(query.pieces, candidate, reached);
   }
-  return t < candidate.end;
+  return t < end_;
 }
 
 MovingHull SelfQuery::alongCurve(const Side& side, std::int32_t lss, LinkId frame, double t,
@@ -347,8 +347,7 @@ Candidate SelfQuery::candidateOf(const LssIndexPair& pair, std::uint8_t pieces) 
   candidate.otherLss = pair.j - table_.first(table_[pair.j].link);
   candidate.pieces = pieces;
   candidate.freeUntil = begin_;
-  candidate.end = end_;
-  candidate.radiusShare = self_.radiusShare(pair.i, pair.j);
+    candidate.radiusShare = self_.radiusShare(pair.i, pair.j);
   return candidate;
 }
 

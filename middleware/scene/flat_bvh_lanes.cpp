@@ -1,9 +1,8 @@
 #include "middleware/scene/flat_bvh_lanes.h"
 
-#include "lss/prefetch.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "middleware/scene/flat_bvh_lanes.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -78,6 +77,13 @@ HWY_INLINE std::uint64_t boxesMeeting(const BvhWalk& walk, const BvhNode& node, 
                << first;
   }
   return meeting & alive;
+}
+
+HWY_INLINE void prefetch(const void* object, int bytes) {
+  constexpr int kCacheLine = 64;
+  for (int byte = 0; byte < bytes; byte += kCacheLine) {
+    hwy::Prefetch(static_cast<const char*>(object) + byte);
+  }
 }
 
 /// Queues a child that the `alive` boxes meet, and prefetches it.
