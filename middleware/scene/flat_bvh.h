@@ -9,7 +9,6 @@
 #include "articulated/result.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/flat_bvh_lanes.h"
-#include "middleware/scene/huge_pages.h"
 
 namespace foretouch::internal {
 
@@ -57,9 +56,9 @@ class FlatBvh final : public TriangleCuller {
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double vertexRounding_ = 0.0;
-  HugePageVector<BvhNode> nodes_;  // root first
-  HugePageVector<BvhLeaf> leaves_;
-  HugePageVector<Cluster> clusters_;  // per leaf
+  std::vector<BvhNode> nodes_;  // root first
+  std::vector<BvhLeaf> leaves_;
+  std::vector<Cluster> clusters_;  // per leaf
 };
 
 }  // namespace foretouch::internal
