@@ -72,6 +72,12 @@ struct BlendTriangle {
 void blendTriangle(const BlendFrame* frames, const LaneBlend (&corners)[3], const double* origin,
                    BlendTriangle& triangle);
 
+/// What surrounds a triangle of points in lanes.
+struct BlendHull {
+  float pad;     ///< At least the error of the points' places.
+  float radius;  ///< Of what they stand for: 0 for a triangle itself.
+};
+
 /// Evaluates triangles[which[lane]] at u[lane] for the first `count` lanes, at most
 /// kTrianglePairLanes: fills their places, velocities, accelerations and velocity pads in `pairs`.
 /// Whatever proveSteps() then proves, with at least bounds.positionPad in `pairs`, holds for the

@@ -56,16 +56,21 @@ class LaneBacktracker {
       takeBatch(areTriangles ? scratch_.triangles : scratch_.lss);
       if (count_ == 0) continue;
       counters_.partSteps += count_;
-      if (surface_ == nullptr) {
-        scratch_.lanes.proveBlends(scratch_.skin.curves(), count_);
-      } else if (areTriangles) {
-        scratch_.lanes.proveTriangles(count_);
-      } else {
-        scratch_.lanes.proveLss(count_);
-      }
+      prove(areTriangles);
       for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
     }
     return true;
+  }
+
+  void prove(bool areTriangles) {
+    PartLanes& lanes = scratch_.lanes;
+    const BlendTriangle* const curves = scratch_.skin.curves();
+    if (surface_ != nullptr) {
+      areTriangles ? lanes.proveTriangles(count_) : lanes.proveLss(count_);
+    } else {
+      areTriangles ? lanes.proveBlendedTriangles(curves, count_)
+                   : lanes.proveBlendedParts(curves, count_);
+    }
   }
 
   /// Pairs that moved on beyond the contact's instant, or were dropped, may be nearer at it: this
@@ -139,9 +144,9 @@ class LaneBacktracker {
       scratch_.lanes.put(count_, candidate.laneTriangle,
                          surface_->lanePart(candidate.lss, pair.part), u, floor_);
     } else {
-      const std::int32_t curve = scratch_.skin.curve(pair.part.index());
-      scratch_.lanes.putBlend(count_, candidate.laneTriangle, curve,
-                              scratch_.skin.positionPad(curve), u, floor_);
+      const std::int32_t curve = scratch_.skin.curve(pair.part);
+      scratch_.lanes.putBlend(count_, candidate.laneTriangle, curve, scratch_.skin.hull(curve), u,
+                              floor_);
     }
     batch_[count_++] = pair;
   }
@@ -181,15 +186,25 @@ class LaneBacktracker {
   }
 
   void enterCluster(PartPair pair, std::int32_t lss) {
-    for (const std::int32_t triangle : scratch_.skin.trianglesOf(lss)) {
-      pair.part = HierarchyChild::triangle(triangle);
+    const PartRange parts = scratch_.skin.partsOf(lss);
+    for (std::int32_t part = parts.first; part < parts.last; ++part) {
+      pair.part = HierarchyChild::node(part);
       push(pair);
     }
   }
 
   void descend(PartPair pair) {
+    if (surface_ == nullptr) return descendSkin(pair);
     for (const HierarchyChild part : surface_->below(candidateOf(pair).lss, pair.part)) {
       pair.part = part;
+      push(pair);
+    }
+  }
+
+  void descendSkin(PartPair pair) {
+    const PartRange triangles = scratch_.skin.trianglesOf(pair.part);
+    for (std::int32_t i = triangles.first; i < triangles.last; ++i) {
+      pair.part = scratch_.skin.triangle(i);
       push(pair);
     }
   }
@@ -222,7 +237,7 @@ class LaneBacktracker {
   }
 
   const LinkQuery& query_;
-  const LinkSurface* surface_;  // null: the triangles are those of a skin, in clusters
+  const LinkSurface* surface_;  // null: the triangles are those of a skin
   std::vector<Candidate>& candidates_;
   PartScratch& scratch_;
   QueryCounters& counters_;

@@ -92,7 +92,7 @@ struct PartScratch {
   std::vector<HierarchyChild> parts;        // a stack
   std::vector<std::int32_t> linkTriangles;  // those the stack ended in
   SkinLanes skin;                           // at skinned fidelity
-  std::vector<Candidate> pairs;             // of a skin's triangles, at the start
+  std::vector<Candidate> pairs;             // of a skin's parts, at the start
 };
 
 /// As backtrack(), for exact and skinned fidelity and for candidates in the span of

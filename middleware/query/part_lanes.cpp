@@ -63,14 +63,14 @@ void PartLanes::put(std::size_t lane, std::int32_t triangle, const LanePart& par
   radius_[lane] = part.radius;
 }
 
-void PartLanes::putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, float pad,
-                         float u, float floor) {
+void PartLanes::putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve,
+                         const BlendHull& hull, float u, float floor) {
   const SceneTriangle& scene = triangles_[slotOf(triangle)];
   putScene(lane, scene, u);
   curves_[lane] = curve;
-  pairs_.positionPad[lane] = (pad + scene.pad) * kFloorInflation;
-  pairs_.floor[lane] = floor;
-  radius_[lane] = 0.0F;
+  pairs_.positionPad[lane] = (hull.pad + scene.pad) * kFloorInflation;
+  pairs_.floor[lane] = (floor + hull.radius) * kFloorInflation;
+  radius_[lane] = hull.radius;
 }
 
 void PartLanes::putScene(std::size_t lane, const SceneTriangle& scene, float u) {
@@ -80,9 +80,14 @@ void PartLanes::putScene(std::size_t lane, const SceneTriangle& scene, float u) 
   parts_.u[lane] = u;
 }
 
-void PartLanes::proveBlends(const BlendTriangle* curves, std::size_t count) {
+void PartLanes::proveBlendedTriangles(const BlendTriangle* curves, std::size_t count) {
   placeBlends(curves, curves_, parts_.u, count, pairs_);
   proveSteps(pairs_, count, steps_);
+}
+
+void PartLanes::proveBlendedParts(const BlendTriangle* curves, std::size_t count) {
+  placeBlends(curves, curves_, parts_.u, count, pairs_);
+  proveSegmentSteps(pairs_, count, steps_);
 }
 
 void PartLanes::proveTriangles(std::size_t count) {

@@ -43,14 +43,15 @@ class PartLanes {
 
   /// Fills a lane. `floor` (m): of the part's own surface, its radius counted.
   void put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u, float floor);
-  /// The same for a triangle of a skin, whose curve is relative to the link's frame and off by at
-  /// most `pad`.
-  void putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, float pad, float u,
-                float floor);
-  /// Proves the first `count` lanes: all of triangles, all of LSS, or all of triangles of a skin.
+  /// The same for a triangle or a part of a skin, whose curve is relative to the link's frame.
+  void putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, const BlendHull& hull,
+                float u, float floor);
+  /// Proves the first `count` lanes: all of triangles, or all of LSS.
   void proveTriangles(std::size_t count);
   void proveLss(std::size_t count);
-  void proveBlends(const BlendTriangle* curves, std::size_t count);
+  /// The same of a skin.
+  void proveBlendedTriangles(const BlendTriangle* curves, std::size_t count);
+  void proveBlendedParts(const BlendTriangle* curves, std::size_t count);
 
   /// Lower bound (m) on the separation of the lane's part and triangle; not above 0 if nothing is
   /// proven.
