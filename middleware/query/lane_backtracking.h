@@ -85,6 +85,13 @@ class TimeBuckets {
   std::vector<Entry> entries_;
 };
 
+/// A pair of triangles that may be in contact at the start; a point that they share has at least
+/// this x in W (m).
+struct StartPair {
+  Candidate pair;
+  double leastX;
+};
+
 /// Reusable memory for the descents of one thread's queries.
 struct PartScratch {
   PartLanes lanes;
@@ -92,7 +99,9 @@ struct PartScratch {
   std::vector<HierarchyChild> parts;        // a stack
   std::vector<std::int32_t> linkTriangles;  // those the stack ended in
   SkinLanes skin;                           // at skinned fidelity
-  std::vector<Candidate> pairs;             // of a skin's parts, at the start
+  // Of a skin's parts and of its triangles, at the start.
+  std::vector<Candidate> partPairs;
+  std::vector<StartPair> startPairs;
 };
 
 /// As backtrack(), for exact and skinned fidelity and for candidates in the span of

@@ -100,6 +100,12 @@ void PartLanes::proveLss(std::size_t count) {
   proveSegmentSteps(pairs_, count, steps_);
 }
 
+double PartLanes::leastX(std::size_t lane) const {
+  const auto& x = pairs_.link;
+  const float least = std::min({x[0][0][lane], x[1][0][lane], x[2][0][lane]});
+  return origin_.x() + static_cast<double>(least) - static_cast<double>(pairs_.positionPad[lane]);
+}
+
 double PartLanes::freeUntil(std::size_t lane) const {
   const double from = timeOf(parts_.u[lane]);
   const double step = static_cast<double>(steps_.step[lane]) * halfSpan_;

@@ -58,6 +58,8 @@ class PartLanes {
   [[nodiscard]] double lower(std::size_t lane) const {
     return static_cast<double>(steps_.lower[lane]) - static_cast<double>(radius_[lane]);
   }
+  /// Of a skin's triangle at the lane's instant: no point of it has a smaller x in W (m).
+  [[nodiscard]] double leastX(std::size_t lane) const;
   /// Up to which t the pair keeps its floor, rounded down; at most the span's end.
   [[nodiscard]] double freeUntil(std::size_t lane) const;
 
