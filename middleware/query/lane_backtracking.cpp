@@ -23,6 +23,7 @@ class LaneBacktracker {
         states_(query, counters),
         floor_(floatAbove(kFloorShare * query.tolerance)),
         handOver_(kHandOverShare * query.tolerance),
+        reach_(reachInLanes(query.tolerance)),
         end_(scratch.lanes.end()) {}
 
   LinkContact run() {
@@ -81,6 +82,7 @@ class LaneBacktracker {
     query_.neighbours.collect(t, states_.at(t), reach, candidates_, counters_);
     floor_ = floatAbove(reach);
     handOver_ = static_cast<double>(floor_);
+    reach_ = std::max(reach_, reachInLanes(reach));
     start();
     (void)lookAtAll();
   }
@@ -188,8 +190,7 @@ class LaneBacktracker {
   void enterCluster(PartPair pair, std::int32_t lss) {
     const PartRange parts = scratch_.skin.partsOf(lss);
     for (std::int32_t part = parts.first; part < parts.last; ++part) {
-      pair.part = HierarchyChild::node(part);
-      push(pair);
+      pushIfNear(pair, HierarchyChild::node(part));
     }
   }
 
@@ -204,9 +205,17 @@ class LaneBacktracker {
   void descendSkin(PartPair pair) {
     const PartRange triangles = scratch_.skin.trianglesOf(pair.part);
     for (std::int32_t i = triangles.first; i < triangles.last; ++i) {
-      pair.part = scratch_.skin.triangle(i);
-      push(pair);
+      pushIfNear(pair, scratch_.skin.triangle(i));
     }
+  }
+
+  /// Unless the boxes over the whole span are farther apart than any contact.
+  void pushIfNear(PartPair pair, HierarchyChild part) {
+    const CurveBox& scene = scratch_.lanes.box(candidateOf(pair).laneTriangle);
+    const std::int32_t curve = scratch_.skin.curve(part);
+    if (!scratch_.skin.hull(curve).swept.isNear(scene, reach_)) return;
+    pair.part = part;
+    push(pair);
   }
 
   /// Decides in doubles: contact, or advance.
@@ -244,6 +253,7 @@ class LaneBacktracker {
   StateCache states_;
   float floor_;
   double handOver_;
+  float reach_;
   double end_;
   std::array<PartPair, kTrianglePairLanes> batch_;
   std::size_t count_ = 0;

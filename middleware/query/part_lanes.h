@@ -9,12 +9,19 @@
 
 #include <Eigen/Core>
 
+#include "lss/index.h"
+#include "lss/rounding.h"
 #include "lss/triangle.h"
 #include "middleware/lanes/blend_lanes.h"
 #include "middleware/lanes/frame_lanes.h"
 #include "middleware/lanes/triangle_pairs.h"
 
 namespace foretouch::internal {
+
+/// How far boxes in lanes may be apart, by a difference that rounds, where `reach` (m) counts.
+[[nodiscard]] inline float reachInLanes(double reach) {
+  return floatAbove(reach * (1.0 + 4.0 * double{kUnitRoundoffOfFloat}));
+}
 
 /// One link over one span of t, whose length and bounds are multiples of 2^-20. Keeps its memory;
 /// for one thread.
@@ -29,6 +36,11 @@ class PartLanes {
 
   /// A number for the triangle, ascending from 0.
   std::int32_t add(const Triangle& triangle_W);
+
+  /// Around the triangle, relative to the frame's origin.
+  [[nodiscard]] const CurveBox& box(std::int32_t triangle) const {
+    return triangles_[slotOf(triangle)].box;
+  }
 
   /// The last instant, not after `t` in [begin, end), that lanes can begin at.
   [[nodiscard]] float laneTime(double t) const {
@@ -72,6 +84,7 @@ class PartLanes {
   struct SceneTriangle {
     float vertex[3][3];  // relative to origin_
     float pad;
+    CurveBox box;
   };
 
   void putScene(std::size_t lane, const SceneTriangle& scene, float u);

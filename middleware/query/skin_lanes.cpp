@@ -198,7 +198,8 @@ void SkinLanes::addCurve(HierarchyChild part) {
   curves_.emplace_back();
   BlendTriangle& curve = curves_.back();
   blendTriangle(frames_.data(), corners, frames_[slotOf(link_)].polynomials.origin, curve);
-  hulls_.push_back({floatAbove(double{curve.bounds.positionPad} + originPad_), floatAbove(radius)});
+  const float pad = floatAbove(double{curve.bounds.positionPad} + originPad_);
+  hulls_.push_back(blendHull(curve, pad, floatAbove(radius)));
 }
 
 }  // namespace foretouch::internal

@@ -19,7 +19,10 @@ double leastX(const Triangle& triangle) {
 class StartSearch {
  public:
   StartSearch(const LinkQuery& query, PartScratch& scratch, QueryCounters& counters)
-      : query_(query), scratch_(scratch), counters_(counters) {}
+      : query_(query),
+        scratch_(scratch),
+        counters_(counters),
+        reach_(reachInLanes(query.tolerance)) {}
 
   /// From clusters to their parts; false if the work was spent.
   [[nodiscard]] bool keepParts(const std::vector<Candidate>& clusters) {
@@ -56,8 +59,11 @@ class StartSearch {
   }
 
  private:
+  /// Unless the boxes at the start are farther apart than any contact.
   void put(const Candidate& pair, HierarchyChild part) {
     const std::int32_t curve = scratch_.skin.curve(part);
+    const CurveBox& scene = scratch_.lanes.box(pair.laneTriangle);
+    if (!scratch_.skin.hull(curve).start.isNear(scene, reach_)) return;
     scratch_.lanes.putBlend(count_, pair.laneTriangle, curve, scratch_.skin.hull(curve),
                             scratch_.lanes.laneTime(0.0), 0.0F);
     batch_[count_] = pair;
@@ -93,6 +99,7 @@ class StartSearch {
   const LinkQuery& query_;
   PartScratch& scratch_;
   QueryCounters& counters_;
+  float reach_;
   std::array<Candidate, kTrianglePairLanes> batch_;
   std::size_t count_ = 0;
 };
