@@ -85,8 +85,8 @@ class TimeBuckets {
   std::vector<Entry> entries_;
 };
 
-/// A pair of triangles that may be in contact at the start; a point that they share has at least
-/// this x in W (m).
+/// A pair that may be in contact at the start; a point that both sides share has at least this x in
+/// W (m).
 struct StartPair {
   Candidate pair;
   double leastX;
@@ -99,9 +99,9 @@ struct PartScratch {
   std::vector<HierarchyChild> parts;        // a stack
   std::vector<std::int32_t> linkTriangles;  // those the stack ended in
   SkinLanes skin;                           // at skinned fidelity
-  // Of a skin's parts and of its triangles, at the start.
-  std::vector<Candidate> partPairs;
-  std::vector<StartPair> startPairs;
+  // At the start of a skin: of clusters; of triangles that may touch; of parts; of triangles apart.
+  std::vector<StartPair> clusterPairs, startPairs;
+  std::vector<Candidate> partPairs, nearPairs;
 };
 
 /// As backtrack(), for exact and skinned fidelity and for candidates in the span of

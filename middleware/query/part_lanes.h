@@ -42,6 +42,9 @@ class PartLanes {
     return triangles_[slotOf(triangle)].box;
   }
 
+  /// A place's x in W (m), relative to the frame's origin and rounded up.
+  [[nodiscard]] float laneX(double x) const { return floatAbove(x - origin_.x()); }
+
   /// The last instant, not after `t` in [begin, end), that lanes can begin at.
   [[nodiscard]] float laneTime(double t) const {
     const auto instant = static_cast<std::int32_t>((t - begin_) * instantsPerTime_);

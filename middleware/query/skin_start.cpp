@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace foretouch::internal {
 namespace {
@@ -10,12 +11,24 @@ namespace {
 /// Thousands of roundings of what doubles compute.
 constexpr double kStartRounding = 1e-12;
 
+/// Clusters' pairs that go to lanes together. What they find saves later ones.
+constexpr std::size_t kPairsAtOnce = 32;
+
+/// Of a point that both sides share, as doubles compute it.
 double leastX(const Triangle& triangle) {
   const auto& v = triangle.vertices;
-  return std::min({v[0].x(), v[1].x(), v[2].x()});
+  const double least = std::min({v[0].x(), v[1].x(), v[2].x()});
+  return least - kStartRounding * (1.0 + std::abs(least));
 }
 
-/// Pairs at t = 0 of a cluster's parts, or of a part's triangles, that lanes do not refute.
+bool isBefore(const StartPair& x, const StartPair& y) {
+  if (x.leastX != y.leastX) return x.leastX < y.leastX;
+  if (x.pair.triangle != y.pair.triangle) return x.pair.triangle < y.pair.triangle;
+  if (x.pair.lss != y.pair.lss) return x.pair.lss < y.pair.lss;
+  return x.pair.part < y.pair.part;
+}
+
+/// The pairs at t = 0 of clusters' triangles that lanes do not refute.
 class StartSearch {
  public:
   StartSearch(const LinkQuery& query, PartScratch& scratch, QueryCounters& counters)
@@ -24,46 +37,47 @@ class StartSearch {
         counters_(counters),
         reach_(reachInLanes(query.tolerance)) {}
 
-  /// From clusters to their parts; false if the work was spent.
-  [[nodiscard]] bool keepParts(const std::vector<Candidate>& clusters) {
-    scratch_.partPairs.clear();
-    for (const Candidate& cluster : clusters) {
-      if (query_.meter.isPartSpent(counters_)) return false;
-      Candidate pair = cluster;
-      pair.laneTriangle = scratch_.lanes.add(query_.scene.triangle(cluster.triangle));
-      pair.lss = 0;  // a cluster's number means nothing outside
-      const PartRange parts = scratch_.skin.partsOf(cluster.lss);
-      for (std::int32_t part = parts.first; part < parts.last; ++part) {
-        put(pair, HierarchyChild::node(part));
-        if (count_ == kTrianglePairLanes) settleParts();
-      }
-    }
-    settleParts();
-    return true;
+  /// From now on leaves out what can share no point with x up to this.
+  void keepUpTo(double x) {
+    mostX_ = scratch_.lanes.laneX(x + 2.0 * kStartRounding * (1.0 + std::abs(x)));
   }
 
-  /// From the parts to their triangles; false if the work was spent.
-  [[nodiscard]] bool keepTriangles() {
+  /// Replaces startPairs and adds to nearPairs.
+  void expand(const StartPair* first, const StartPair* last) {
+    scratch_.partPairs.clear();
     scratch_.startPairs.clear();
-    for (const Candidate& pair : scratch_.partPairs) {
-      if (query_.meter.isPartSpent(counters_)) return false;
-      const PartRange triangles =
-          scratch_.skin.trianglesOf(HierarchyChild::node(pair.part.index()));
-      for (std::int32_t i = triangles.first; i < triangles.last; ++i) {
-        put(pair, scratch_.skin.triangle(i));
-        if (count_ == kTrianglePairLanes) settleTriangles();
-      }
-    }
+    for (; first != last; ++first) expandCluster(first->pair);
+    settleParts();
+    for (const Candidate& pair : scratch_.partPairs) expandPart(pair);
     settleTriangles();
-    return true;
   }
 
  private:
+  void expandCluster(const Candidate& cluster) {
+    Candidate pair = cluster;
+    pair.laneTriangle = scratch_.lanes.add(query_.scene.triangle(cluster.triangle));
+    pair.lss = 0;  // a cluster's number means nothing outside
+    const PartRange parts = scratch_.skin.partsOf(cluster.lss);
+    for (std::int32_t part = parts.first; part < parts.last; ++part) {
+      put(pair, HierarchyChild::node(part));
+      if (count_ == kTrianglePairLanes) settleParts();
+    }
+  }
+
+  void expandPart(const Candidate& pair) {
+    const PartRange triangles = scratch_.skin.trianglesOf(HierarchyChild::node(pair.part.index()));
+    for (std::int32_t i = triangles.first; i < triangles.last; ++i) {
+      put(pair, scratch_.skin.triangle(i));
+      if (count_ == kTrianglePairLanes) settleTriangles();
+    }
+  }
+
   /// Unless the boxes at the start are farther apart than any contact.
   void put(const Candidate& pair, HierarchyChild part) {
     const std::int32_t curve = scratch_.skin.curve(part);
     const CurveBox& scene = scratch_.lanes.box(pair.laneTriangle);
-    if (!scratch_.skin.hull(curve).start.isNear(scene, reach_)) return;
+    const CurveBox& own = scratch_.skin.hull(curve).start;
+    if (std::max(own.lower[0], scene.lower[0]) > mostX_ || !own.isNear(scene, reach_)) return;
     scratch_.lanes.putBlend(count_, pair.laneTriangle, curve, scratch_.skin.hull(curve),
                             scratch_.lanes.laneTime(0.0), 0.0F);
     batch_[count_] = pair;
@@ -78,9 +92,11 @@ class StartSearch {
   void settleTriangles() {
     scratch_.lanes.proveBlendedTriangles(scratch_.skin.curves(), count_);
     settle([&](const Candidate& pair, std::size_t lane) {
-      const double least =
-          std::max(scratch_.lanes.leastX(lane), leastX(query_.scene.triangle(pair.triangle)));
-      scratch_.startPairs.push_back({pair, least - kStartRounding * (1.0 + std::abs(least))});
+      if (pair.nearest > 0.0) return scratch_.nearPairs.push_back(pair);
+      const double least = scratch_.lanes.leastX(lane);
+      scratch_.startPairs.push_back(
+          {pair, std::max(least - kStartRounding * (1.0 + std::abs(least)),
+                          leastX(query_.scene.triangle(pair.triangle)))});
     });
   }
 
@@ -100,6 +116,7 @@ class StartSearch {
   PartScratch& scratch_;
   QueryCounters& counters_;
   float reach_;
+  float mostX_ = std::numeric_limits<float>::infinity();
   std::array<Candidate, kTrianglePairLanes> batch_;
   std::size_t count_ = 0;
 };
@@ -108,40 +125,41 @@ class StartSearch {
 /// with the least x, so these are looked at by theirs until no better one can be left.
 class StartLook {
  public:
-  StartLook(const LinkQuery& query, std::vector<StartPair>& pairs, QueryCounters& counters)
-      : query_(query), pairs_(pairs), counters_(counters), states_(query, counters) {}
+  StartLook(const LinkQuery& query, QueryCounters& counters)
+      : query_(query), counters_(counters), states_(query, counters) {}
 
-  std::optional<LinkContact> run() {
-    const auto apart = std::partition(pairs_.begin(), pairs_.end(),
-                                      [](const StartPair& p) { return p.pair.nearest <= 0.0; });
-    std::sort(pairs_.begin(), apart, isBefore<&StartLook::leastX>);
-    for (auto pair = pairs_.begin(); pair != apart; ++pair) {
-      if (touches() && pair->leastX > best_->p_WScene.x()) return best_;
-      if (!look(pair->pair)) return unseen();
+  [[nodiscard]] bool touches() const { return best_ && best_->verdict == Verdict::StartsInContact; }
+  /// No pair beyond this x comes before the best. Precondition: touches().
+  [[nodiscard]] double mostX() const { return best_->p_WScene.x(); }
+  [[nodiscard]] bool isPast(const StartPair& pair) const {
+    return touches() && pair.leastX > mostX();
+  }
+  [[nodiscard]] const std::optional<LinkContact>& best() const { return best_; }
+
+  /// False if the work was spent.
+  [[nodiscard]] bool lookAtTouching(std::vector<StartPair>& pairs) {
+    std::sort(pairs.begin(), pairs.end(), isBefore);
+    for (const StartPair& pair : pairs) {
+      if (isPast(pair)) return true;
+      if (!look(pair.pair)) return false;
     }
-    if (touches()) return best_;
-    std::sort(apart, pairs_.end(), isBefore<&StartLook::nearest>);
-    for (auto pair = apart; pair != pairs_.end() && pair->pair.nearest <= reach(); ++pair) {
-      if (!look(pair->pair)) return unseen();
+    return true;
+  }
+
+  [[nodiscard]] bool lookAtNear(std::vector<Candidate>& pairs) {
+    std::sort(pairs.begin(), pairs.end(), [](const Candidate& x, const Candidate& y) {
+      if (x.nearest != y.nearest) return x.nearest < y.nearest;
+      if (x.triangle != y.triangle) return x.triangle < y.triangle;
+      return x.part < y.part;
+    });
+    for (const Candidate& pair : pairs) {
+      if (pair.nearest > (best_ ? best_->separation : query_.tolerance)) return true;
+      if (!look(pair)) return false;
     }
-    return best_;
+    return true;
   }
 
  private:
-  static double leastX(const StartPair& pair) { return pair.leastX; }
-  static double nearest(const StartPair& pair) { return pair.pair.nearest; }
-  /// A total order, so that the work does not depend on that of the pairs.
-  template <double (*kKey)(const StartPair&)>
-  static bool isBefore(const StartPair& x, const StartPair& y) {
-    if (kKey(x) != kKey(y)) return kKey(x) < kKey(y);
-    if (x.pair.triangle != y.pair.triangle) return x.pair.triangle < y.pair.triangle;
-    return x.pair.part < y.pair.part;
-  }
-
-  [[nodiscard]] bool touches() const { return best_ && best_->verdict == Verdict::StartsInContact; }
-  [[nodiscard]] double reach() const { return best_ ? best_->separation : query_.tolerance; }
-
-  /// False if the work was spent.
   [[nodiscard]] bool look(const Candidate& candidate) {
     if (query_.meter.isPartSpent(counters_)) return false;
     const MovingPair pair = pairOf(query_, candidate, states_.at(0.0), counters_);
@@ -151,18 +169,21 @@ class StartLook {
     return true;
   }
 
-  /// A touch stands; whether there is another than a Contact is open.
-  [[nodiscard]] LinkContact unseen() const {
-    if (touches()) return *best_;
-    return undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget);
-  }
-
   const LinkQuery& query_;
-  std::vector<StartPair>& pairs_;
   QueryCounters& counters_;
   StateCache states_;
   std::optional<LinkContact> best_;
 };
+
+/// By the least x of the scene's triangles.
+void sortClusters(const LinkQuery& query, const std::vector<Candidate>& clusters,
+                  std::vector<StartPair>& sorted) {
+  sorted.clear();
+  for (const Candidate& cluster : clusters) {
+    sorted.push_back({cluster, leastX(query.scene.triangle(cluster.triangle))});
+  }
+  std::sort(sorted.begin(), sorted.end(), isBefore);
+}
 
 }  // namespace
 
@@ -170,10 +191,23 @@ std::optional<LinkContact> skinContactAtStart(const LinkQuery& query,
                                               const std::vector<Candidate>& clusters,
                                               PartScratch& scratch, QueryCounters& counters) {
   StartSearch search(query, scratch, counters);
-  if (!search.keepParts(clusters) || !search.keepTriangles()) {
-    return undecidedContact(query.parts.link, 0.0, UndecidedReason::WorkBudget);
+  StartLook look(query, counters);
+  const LinkContact unseen = undecidedContact(query.parts.link, 0.0, UndecidedReason::WorkBudget);
+  scratch.nearPairs.clear();
+  sortClusters(query, clusters, scratch.clusterPairs);
+  const StartPair* const end = scratch.clusterPairs.data() + scratch.clusterPairs.size();
+  for (const StartPair* next = scratch.clusterPairs.data(); next != end;) {
+    if (look.isPast(*next)) break;
+    const StartPair* const first = next;
+    next += std::min(kPairsAtOnce, static_cast<std::size_t>(end - first));
+    search.expand(first, next);
+    const bool isDone = look.lookAtTouching(scratch.startPairs);
+    // A touch stands, though a spent budget may leave one that comes before it unseen.
+    if (!isDone || query.meter.isPartSpent(counters)) return look.touches() ? look.best() : unseen;
+    if (look.touches()) search.keepUpTo(look.mostX());
   }
-  return StartLook(query, scratch.startPairs, counters).run();
+  if (!look.touches() && !look.lookAtNear(scratch.nearPairs)) return unseen;
+  return look.best();
 }
 
 }  // namespace foretouch::internal
