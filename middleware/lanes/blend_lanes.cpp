@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lss/rounding.h"
 
@@ -150,6 +151,11 @@ constexpr double kBoundRoundings = 64.0, kShareRoundings = 8.0;
 /// Underflow may cost a place (m) or a rate (m per u) this much (frame_lanes.md 3).
 constexpr double kBlendUnderflow = 0x1p-90;
 
+/// Of the sums that make a box, relative to their terms: the proof needs 12 unit roundoffs, of what
+/// then grows it again too.
+constexpr float kBoxRounding = 32.0F * kUnitRoundoffOfFloat;
+constexpr float kBoxInflation = 1.0F + 16.0F * kUnitRoundoffOfFloat;
+
 /// Norms of rows of coefficients, power by power, weighted with the roundings of Horner's rule.
 template <std::size_t kRows>
 float weightedOf(const float (&rows)[kRows][kCoefficients]) {
@@ -256,6 +262,31 @@ void blendTriangle(const BlendFrame* frames, const LaneBlend (&corners)[3], cons
       for (int k = 0; k < kCoefficients; ++k) triangle.c[k][3 * i + axis] = point.c[axis][k];
     }
   }
+}
+
+BlendHull blendHull(const BlendTriangle& triangle, float pad, float radius) {
+  BlendHull hull{pad, radius, {}, {}};
+  constexpr float kEmpty = std::numeric_limits<float>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    CurveBox &swept = hull.swept, &start = hull.start;
+    swept.lower[axis] = start.lower[axis] = kEmpty;
+    swept.upper[axis] = start.upper[axis] = -kEmpty;
+    for (int column = axis; column < 9; column += 3) {
+      const float middle = triangle.c[0][column];
+      float way = 0.0F, from = middle;
+      for (int k = 1; k < kCoefficients; ++k) {
+        const float c = triangle.c[k][column];
+        way += std::abs(c);
+        from += k % 2 == 0 ? c : -c;
+      }
+      const float grown = (pad + radius + kBoxRounding * (way + std::abs(middle))) * kBoxInflation;
+      swept.lower[axis] = std::min(swept.lower[axis], middle - (way + grown));
+      swept.upper[axis] = std::max(swept.upper[axis], middle + (way + grown));
+      start.lower[axis] = std::min(start.lower[axis], from - grown);
+      start.upper[axis] = std::max(start.upper[axis], from + grown);
+    }
+  }
+  return hull;
 }
 
 void placeBlends(const BlendTriangle* triangles, const std::int32_t* which, const PairFloats& u,

@@ -72,6 +72,29 @@ struct BlendTriangle {
 void blendTriangle(const BlendFrame* frames, const LaneBlend (&corners)[3], const double* origin,
                    BlendTriangle& triangle);
 
+/// A closed box relative to the curves' origin, or one of a triangle of the scene relative to it.
+struct CurveBox {
+  float lower[3], upper[3];
+  /// No farther apart than `reach` on any axis, or not proven so.
+  [[nodiscard]] bool isNear(const CurveBox& other, float reach) const {
+    bool near = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      near = near && lower[axis] - other.upper[axis] <= reach &&
+             other.lower[axis] - upper[axis] <= reach;
+    }
+    return near;
+  }
+};
+
+/// What surrounds a triangle of points in lanes.
+struct BlendHull {
+  float pad;              ///< At least the error of the points' places.
+  float radius;           ///< Of what they stand for: 0 for a triangle itself.
+  CurveBox swept, start;  ///< Around it at every u in [-1,1], and at u = -1.
+};
+/// `pad` at least triangle.bounds.positionPad.
+[[nodiscard]] BlendHull blendHull(const BlendTriangle& triangle, float pad, float radius);
+
 /// Evaluates triangles[which[lane]] at u[lane] for the first `count` lanes, at most
 /// kTrianglePairLanes: fills their places, velocities, accelerations and velocity pads in `pairs`.
 /// Whatever proveSteps() then proves, with at least bounds.positionPad in `pairs`, holds for the

@@ -68,6 +68,7 @@ class LaneBacktracker {
     query_.neighbours.collect(t, states_.at(t), reach, candidates_, counters_);
     floor_ = floatAbove(reach);
     handOver_ = static_cast<double>(floor_);
+    sides_.widen(reach);
     start();
     return lookAtAll();
   }

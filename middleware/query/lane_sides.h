@@ -3,6 +3,7 @@
 // mesh. Not installed.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace foretouch::internal {
 
 /// What all sides share. A pair whose two sides have nothing below is of surfaces: doubles decide.
 class LaneSides {
+ public:
+  /// Pairs up to `reach` (m) apart count from now on.
+  static void widen(double /*reach*/) {}
+
  protected:
   LaneSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
       : query_(query), candidates_(candidates), scratch_(scratch) {}
@@ -44,6 +49,7 @@ class MeshSides : private LaneSides {
   /// Contacts at the start are left to whoever asks.
   static constexpr bool kAnswersStarts = false;
   using LaneSides::candidateOf;
+  using LaneSides::widen;
   MeshSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
       : LaneSides(query, candidates, scratch), surface_(*query.parts.surface) {
     surface_.prepare();
@@ -95,29 +101,39 @@ class SkinSides : private LaneSides {
   static constexpr bool kAnswersStarts = false;
   using LaneSides::candidateOf;
   SkinSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
-      : LaneSides(query, candidates, scratch) {}
+      : LaneSides(query, candidates, scratch), reach_(reachInLanes(query.tolerance)) {}
 
-  [[nodiscard]] static bool isSurface(const PartPair& pair) { return !pair.isWhole; }
+  void widen(double reach) { reach_ = std::max(reach_, reachInLanes(reach)); }
+  [[nodiscard]] static bool isSurface(const PartPair& pair) {
+    return !pair.isWhole && pair.part.isTriangle();
+  }
   template <typename Push>
   [[nodiscard]] bool enter(PartPair pair, const Push& push) const {
     if (!pair.isWhole) return false;
     pair.isWhole = false;
-    for (const std::int32_t triangle : scratch_.skin.trianglesOf(candidateOf(pair).lss)) {
-      pair.part = HierarchyChild::triangle(triangle);
-      push(pair);
+    const PartRange parts = scratch_.skin.partsOf(candidateOf(pair).lss);
+    for (std::int32_t part = parts.first; part < parts.last; ++part) {
+      pushIfNear(pair, HierarchyChild::node(part), push);
     }
     return true;
   }
   template <typename Push>
-  void descend(const PartPair& /*pair*/, const Push& /*push*/) const {}
+  void descend(const PartPair& pair, const Push& push) const {
+    const PartRange triangles = scratch_.skin.trianglesOf(pair.part);
+    for (std::int32_t i = triangles.first; i < triangles.last; ++i) {
+      pushIfNear(pair, scratch_.skin.triangle(i), push);
+    }
+  }
   [[nodiscard]] static bool isForDoubles(const PartPair& /*pair*/) { return false; }
   void put(std::size_t lane, const PartPair& pair, float floor) const {
-    const std::int32_t curve = scratch_.skin.curve(pair.part.index());
-    scratch_.lanes.putBlend(lane, laneTriangle(pair), curve, scratch_.skin.positionPad(curve),
+    const std::int32_t curve = scratch_.skin.curve(pair.part);
+    scratch_.lanes.putBlend(lane, laneTriangle(pair), curve, scratch_.skin.hull(curve),
                             laneTime(pair), floor);
   }
-  void prove(bool /*areSurfaces*/, std::size_t count) const {
-    scratch_.lanes.proveBlends(scratch_.skin.curves(), count);
+  void prove(bool areSurfaces, std::size_t count) const {
+    const BlendTriangle* const curves = scratch_.skin.curves();
+    areSurfaces ? scratch_.lanes.proveBlendedTriangles(curves, count)
+                : scratch_.lanes.proveBlendedParts(curves, count);
   }
   [[nodiscard]] Candidate inDoubles(const PartPair& pair) const {
     Candidate candidate = candidateOf(pair);
@@ -125,6 +141,18 @@ class SkinSides : private LaneSides {
     candidate.lss = 0;  // a cluster's number means nothing outside
     return candidate;
   }
+
+ private:
+  /// Unless the boxes over the whole span are farther apart than any contact.
+  template <typename Push>
+  void pushIfNear(PartPair pair, HierarchyChild part, const Push& push) const {
+    const CurveBox& scene = scratch_.lanes.box(laneTriangle(pair));
+    if (!scratch_.skin.hull(scratch_.skin.curve(part)).swept.isNear(scene, reach_)) return;
+    pair.part = part;
+    push(pair);
+  }
+
+  float reach_;  // in lanes
 };
 
 /// The meshes of two links, each under its LSS; an LSS without triangles is its side's surface.
@@ -132,6 +160,7 @@ class OwnSides : private LaneSides {
  public:
   static constexpr bool kAnswersStarts = true;
   using LaneSides::candidateOf;
+  using LaneSides::widen;
   OwnSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
       : LaneSides(query, candidates, scratch) {
     if (query.parts.surface != nullptr) query.parts.surface->prepare();

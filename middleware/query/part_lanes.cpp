@@ -13,6 +13,8 @@ namespace {
 /// Of a scene's vertex, taken relative to the origin and rounded (lanes/frame_lanes.md 4).
 constexpr double kVertexRounding = 2.0 * kUnitRoundoffOfFloat;
 constexpr double kOriginRounding = 2.0 * kUnitRoundoff;
+/// Of a bound of a vertex's box: 4 unit roundoffs of the larger of it and the pad, which is less.
+constexpr float kBoxRounding = 8.0F * kUnitRoundoffOfFloat;
 /// Rounds the sum of a floor and a radius, or of two pads, up.
 constexpr float kFloorInflation = 1.0F + 4.0F * kUnitRoundoffOfFloat;
 
@@ -46,6 +48,12 @@ std::int32_t PartLanes::add(const Triangle& triangle_W) {
     largest = std::max(largest, squares);
   }
   scene.pad = floatAbove(kVertexRounding * std::sqrt(largest) + originPad_);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::initializer_list<float> x = {scene.vertex[0][axis], scene.vertex[1][axis],
+                                            scene.vertex[2][axis]};
+    scene.box.lower[axis] = (std::min(x) - scene.pad) - kBoxRounding * std::abs(std::min(x));
+    scene.box.upper[axis] = (std::max(x) + scene.pad) + kBoxRounding * std::abs(std::max(x));
+  }
   triangles_.push_back(scene);
   return static_cast<std::int32_t>(triangles_.size()) - 1;
 }
@@ -77,14 +85,14 @@ void PartLanes::putPart(std::size_t lane, const LanePart& part, float u, float s
   block.scenePad[lane] = scenePad;
 }
 
-void PartLanes::putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, float pad,
-                         float u, float floor) {
+void PartLanes::putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve,
+                         const BlendHull& hull, float u, float floor) {
   const SceneTriangle& scene = triangles_[slotOf(triangle)];
   putScene(lane, scene, u);
   curves_[lane] = curve;
-  pairs_.positionPad[lane] = (pad + scene.pad) * kFloorInflation;
-  pairs_.floor[lane] = floor;
-  radius_[lane] = 0.0F;
+  pairs_.positionPad[lane] = (hull.pad + scene.pad) * kFloorInflation;
+  pairs_.floor[lane] = (floor + hull.radius) * kFloorInflation;
+  radius_[lane] = hull.radius;
 }
 
 void PartLanes::putScene(std::size_t lane, const SceneTriangle& scene, float u) {
@@ -94,7 +102,7 @@ void PartLanes::putScene(std::size_t lane, const SceneTriangle& scene, float u) 
   parts_.u[lane] = u;
 }
 
-void PartLanes::proveBlends(const BlendTriangle* curves, std::size_t count) {
+void PartLanes::proveBlendedTriangles(const BlendTriangle* curves, std::size_t count) {
   placeBlends(curves, curves_, parts_.u, count, pairs_);
   proveSteps(pairs_, count, steps_);
 }
@@ -114,6 +122,11 @@ void PartLanes::proveBoth(std::size_t count) {
   proveSteps(pairs_, motions_, count, steps_);
 }
 
+void PartLanes::proveBlendedParts(const BlendTriangle* curves, std::size_t count) {
+  placeBlends(curves, curves_, parts_.u, count, pairs_);
+  proveSegmentSteps(pairs_, count, steps_);
+}
+
 void PartLanes::proveTriangles(std::size_t count) {
   placeParts(frame_, parts_, count, pairs_);
   proveSteps(pairs_, count, steps_);
@@ -122,6 +135,12 @@ void PartLanes::proveTriangles(std::size_t count) {
 void PartLanes::proveLss(std::size_t count) {
   placeParts(frame_, parts_, count, pairs_);
   proveSegmentSteps(pairs_, count, steps_);
+}
+
+double PartLanes::leastX(std::size_t lane) const {
+  const auto& x = pairs_.link;
+  const float least = std::min({x[0][0][lane], x[1][0][lane], x[2][0][lane]});
+  return origin_.x() + static_cast<double>(least) - static_cast<double>(pairs_.positionPad[lane]);
 }
 
 double PartLanes::freeUntil(std::size_t lane) const {

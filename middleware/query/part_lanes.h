@@ -1,6 +1,7 @@
 // middleware/query/part_lanes.h: parts of one link against triangles of the scene, or against parts
-// of another link, sixteen pairs at a time, each at its own instant: fills the lanes (lanes/frame_lanes.h), runs the proofs
-// (lanes/triangle_pairs.h) and turns their results back into t. Not installed.
+// of another link, sixteen pairs at a time, each at its own instant: fills the lanes
+// (lanes/frame_lanes.h), runs the proofs (lanes/triangle_pairs.h) and turns their results back into
+// t. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +10,19 @@
 
 #include <Eigen/Core>
 
+#include "lss/index.h"
+#include "lss/rounding.h"
 #include "lss/triangle.h"
 #include "middleware/lanes/blend_lanes.h"
 #include "middleware/lanes/frame_lanes.h"
 #include "middleware/lanes/triangle_pairs.h"
 
 namespace foretouch::internal {
+
+/// How far boxes in lanes may be apart, by a difference that rounds, where `reach` (m) counts.
+[[nodiscard]] inline float reachInLanes(double reach) {
+  return floatAbove(reach * (1.0 + 4.0 * double{kUnitRoundoffOfFloat}));
+}
 
 /// One link over one span of t, whose length and bounds are multiples of 2^-20. Keeps its memory;
 /// for one thread.
@@ -32,6 +40,14 @@ class PartLanes {
   /// A number for the triangle, ascending from 0.
   std::int32_t add(const Triangle& triangle_W);
 
+  /// Around the triangle, relative to the frame's origin.
+  [[nodiscard]] const CurveBox& box(std::int32_t triangle) const {
+    return triangles_[slotOf(triangle)].box;
+  }
+
+  /// A place's x in W (m), relative to the frame's origin and rounded up.
+  [[nodiscard]] float laneX(double x) const { return floatAbove(x - origin_.x()); }
+
   /// The last instant, not after `t` in [begin, end), that lanes can begin at.
   [[nodiscard]] float laneTime(double t) const {
     const auto instant = static_cast<std::int32_t>((t - begin_) * instantsPerTime_);
@@ -45,16 +61,18 @@ class PartLanes {
 
   /// Fills a lane. `floor` (m): of the part's own surface, its radius counted.
   void put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u, float floor);
-  /// The same for a triangle of a skin, whose curve is relative to the link's frame and off by at
-  /// most `pad`.
-  void putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, float pad, float u,
-                float floor);
+  /// The same for a triangle or a part of a skin, whose curve is relative to the link's frame.
+  void putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, const BlendHull& hull,
+                float u, float floor);
   /// The same for parts of both links.
   void putBoth(std::size_t lane, const LanePart& part, const LanePart& other, float u, float floor);
-  /// Proves the first `count` lanes: all of both links, all of triangles, all of LSS, or all of triangles of a skin.
+  /// Proves the first `count` lanes: all of triangles, or all of LSS.
   void proveTriangles(std::size_t count);
   void proveLss(std::size_t count);
-  void proveBlends(const BlendTriangle* curves, std::size_t count);
+  /// The same of a skin.
+  void proveBlendedTriangles(const BlendTriangle* curves, std::size_t count);
+  void proveBlendedParts(const BlendTriangle* curves, std::size_t count);
+  /// The same of both links.
   void proveBoth(std::size_t count);
 
   /// Lower bound (m) on the separation of the lane's part and triangle; not above 0 if nothing is
@@ -62,6 +80,8 @@ class PartLanes {
   [[nodiscard]] double lower(std::size_t lane) const {
     return static_cast<double>(steps_.lower[lane]) - static_cast<double>(radius_[lane]);
   }
+  /// Of a skin's triangle at the lane's instant: no point of it has a smaller x in W (m).
+  [[nodiscard]] double leastX(std::size_t lane) const;
   /// Up to which t the pair keeps its floor, rounded down; at most the span's end.
   [[nodiscard]] double freeUntil(std::size_t lane) const;
 
@@ -74,6 +94,7 @@ class PartLanes {
   struct SceneTriangle {
     float vertex[3][3];  // relative to origin_
     float pad;
+    CurveBox box;
   };
 
   static void putPart(std::size_t lane, const LanePart& part, float u, float scenePad,

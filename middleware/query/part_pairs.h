@@ -82,6 +82,13 @@ class TimeBuckets {
   std::vector<Entry> entries_;
 };
 
+/// A pair that may be in contact at the start; a point that both sides share has at least this x in
+/// W (m).
+struct StartPair {
+  Candidate pair;
+  double leastX;
+};
+
 /// Reusable memory for the descents of one thread's queries.
 struct PartScratch {
   PartLanes lanes;
@@ -89,7 +96,9 @@ struct PartScratch {
   std::vector<HierarchyChild> parts;        // a stack
   std::vector<std::int32_t> linkTriangles;  // those the stack ended in
   SkinLanes skin;                           // at skinned fidelity
-  std::vector<Candidate> pairs;             // of a skin's triangles, at the start
+  // At the start of a skin: of clusters; of triangles that may touch; of parts; of triangles apart.
+  std::vector<StartPair> clusterPairs, startPairs;
+  std::vector<Candidate> partPairs, nearPairs;
 };
 
 }  // namespace foretouch::internal

@@ -1,5 +1,5 @@
 // middleware/query/scalar_query.h: a query the plain way, link by link, in doubles: the only way
-// for skins and for more LSS than lanes take, and what lanes are held against. Not installed.
+// for more LSS than lanes take, and what lanes are held against. Not installed.
 #pragma once
 
 #include "articulated/motion.h"

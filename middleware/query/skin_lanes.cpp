@@ -65,8 +65,7 @@ const SweptBoxes& SkinLanes::linkBoxes(double margin) {
   return links_;
 }
 
-void SkinLanes::addBox(std::int32_t lss, double margin, SweptBoxes& boxes) {
-  const BlendedLss& blended = (*table_)[lss];
+SkinLanes::Reach SkinLanes::reachOf(const BlendedLss& blended) {
   const BlendShare* const shares = table_->shares(blended);
   const double first = motion_->sums(shares[0].link).accelerationAt(shares[0].rho);
   double reach = 0.0, strays = 0.0, spreads = 0.0, sag = 0.0;
@@ -81,18 +80,25 @@ void SkinLanes::addBox(std::int32_t lss, double margin, SweptBoxes& boxes) {
     axis_.push_back({share.a, blended.isPoint ? share.a : share.b, share.weight, share.spread,
                      &nodes_->link(share.link)});
   }
-  const BlendExtent extent = blendExtent(axis_.data(), blended.numShares);
-  const double rounding =
+  Reach result{blendExtent(axis_.data(), blended.numShares), 0.0, sag * sagitta_, 0.0};
+  result.rounding =
       kBlendRoundings * (blended.numShares + 1.0) * pointRounding(nodes_->bounds(), reach);
+  result.radius = (blended.radius + result.extent.spread + strays * sagitta_ +
+                   (1.0 + spreads) * result.rounding + offWorld(reach)) *
+                  kInflation;
+  return result;
+}
+
+void SkinLanes::addBox(std::int32_t lss, double margin, SweptBoxes& boxes) {
+  const Reach reach = reachOf((*table_)[lss]);
   Span& span = spans_[slotOf(lss)];
-  span.radius = (blended.radius + extent.spread + strays * sagitta_ + (1.0 + spreads) * rounding +
-                 offWorld(reach)) *
-                kInflation;
-  const double grown = (span.radius + sag * sagitta_ + rounding + margin) * kInflation;
+  span.radius = reach.radius;
+  const double grown = (reach.radius + reach.sag + reach.rounding + margin) * kInflation;
   for (int axis = 0; axis < 3; ++axis) {
-    span.middle[axis] = 0.5 * (extent.least[axis] + extent.most[axis]);
-    boxes.lower[axis][lss] = outwardBelow(extent.least[axis] - grown);
-    boxes.upper[axis][lss] = floatPaddedAbove(extent.most[axis] + grown);
+    const double least = reach.extent.least[axis], most = reach.extent.most[axis];
+    span.middle[axis] = 0.5 * (least + most);
+    boxes.lower[axis][lss] = outwardBelow(least - grown);
+    boxes.upper[axis][lss] = floatPaddedAbove(most + grown);
   }
 }
 
@@ -138,40 +144,62 @@ AxisEnds SkinLanes::endsAt(std::int32_t lss, const std::vector<LinkState>& state
   return ends;
 }
 
-ClusterTriangles SkinLanes::trianglesOf(std::int32_t lssOfLink) const {
-  const BlendedLss& cluster = (*table_)[table_->table().first(link_) + lssOfLink];
-  const std::int32_t* const first = table_->triangles(cluster);
-  return {first, first + cluster.numTriangles};
-}
-
 const FramePolynomials& SkinLanes::beginLink(LinkId link) {
   const LaneShare own{0.0, 0.0F, {}, 0.0F, link};
   const FramePolynomials& frame = framesFor({&own, 1})[link].polynomials;
   if (link == link_) return frame;
+  FORETOUCH_ASSERT(skin_->numTriangles(link) > 0);
   link_ = link;
   curves_.clear();
+  hulls_.clear();
   curveOf_.assign(countOf(skin_->numTriangles(link)), -1);
+  const LssTable& table = table_->table();
+  firstPart_ = partsOf(0).first;
+  const std::int32_t endPart = partsOf(table.first(link + 1) - table.first(link) - 1).last;
+  curveOfPart_.assign(countOf(endPart - firstPart_), -1);
   Eigen::Vector3d origin = nodes_->origin();
   for (int axis = 0; axis < 3; ++axis) origin[axis] += frame.origin[axis];
   originPad_ = table_->sumError() * origin.norm() * kInflation;
   return frame;
 }
 
-std::int32_t SkinLanes::curve(std::int32_t triangle) {
-  std::int32_t& known = curveOf_[slotOf(triangle)];
-  if (known >= 0) return known;
-  known = static_cast<std::int32_t>(curves_.size());
-  const auto& corners = skin_->triangle(link_, triangle);
-  const LaneBlend blends[3] = {skin_->blend(corners[0]), skin_->blend(corners[1]),
-                               skin_->blend(corners[2])};
-  for (const LaneBlend& blend : blends) (void)framesFor(blend);
-  curves_.emplace_back();
-  blendTriangle(frames_.data(), blends, frames_[slotOf(link_)].polynomials.origin, curves_.back());
+PartRange SkinLanes::partsOf(std::int32_t lssOfLink) const {
+  const BlendedLss& cluster = (*table_)[table_->table().first(link_) + lssOfLink];
+  return {cluster.first, cluster.last};
+}
+
+PartRange SkinLanes::trianglesOf(HierarchyChild part) const {
+  const BlendedLss& of = table_->part(part.index());
+  return {of.first, of.last};
+}
+
+std::int32_t SkinLanes::curve(HierarchyChild part) {
+  std::int32_t& known = part.isTriangle() ? curveOf_[slotOf(part.index())]
+                                          : curveOfPart_[slotOf(part.index() - firstPart_)];
+  if (known < 0) {
+    known = static_cast<std::int32_t>(curves_.size());
+    addCurve(part);
+  }
   return known;
 }
 
-float SkinLanes::positionPad(std::int32_t curve) const {
-  return floatAbove(double{curves_[slotOf(curve)].bounds.positionPad} + originPad_);
+void SkinLanes::addCurve(HierarchyChild part) {
+  LaneBlend corners[3];
+  double radius = 0.0;
+  if (part.isTriangle()) {
+    const auto& vertices = skin_->triangle(link_, part.index());
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = skin_->blend(vertices[i]);
+  } else {
+    const BlendedLss& of = table_->part(part.index());
+    radius = reachOf(of).radius;
+    for (LaneBlend& corner : corners) corner = table_->end(of, false);
+  }
+  for (const LaneBlend& corner : corners) (void)framesFor(corner);
+  curves_.emplace_back();
+  BlendTriangle& curve = curves_.back();
+  blendTriangle(frames_.data(), corners, frames_[slotOf(link_)].polynomials.origin, curve);
+  const float pad = floatAbove(double{curve.bounds.positionPad} + originPad_);
+  hulls_.push_back(blendHull(curve, pad, floatAbove(radius)));
 }
 
 }  // namespace foretouch::internal

@@ -9,11 +9,10 @@
 
 namespace foretouch::internal {
 
-/// contactAtStart() for a skin whose `candidates` are of clusters. Lanes refute pairs of their
-/// triangles; those left go to doubles, so the answer is theirs. The span of `scratch` begins at 0.
-/// Replaces `candidates`.
+/// contactAtStart() for pairs of clusters of a skin. Lanes refute pairs of their triangles; those
+/// left go to doubles, so the answer is theirs. The span of `scratch` begins at 0.
 [[nodiscard]] std::optional<LinkContact> skinContactAtStart(const LinkQuery& query,
-                                                            std::vector<Candidate>& candidates,
+                                                            const std::vector<Candidate>& clusters,
                                                             PartScratch& scratch,
                                                             QueryCounters& counters);
 

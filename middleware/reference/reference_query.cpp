@@ -42,7 +42,7 @@ Result<Done> checked(const internal::QueryPlan& plan, const ReferenceOptions& re
   if (*reference.backtracking == Backtracking::Lanes && !plan.inLanes) {
     return Error::in("backtracking", ErrorCode::Mismatch,
                      "expected scalar" + found +
-                         ": lanes answer neither skins nor avatars of more than " +
+                         ": lanes answer no avatars of more than " +
                          std::to_string(internal::BoxLanes::kMaxBoxes) + " LSS");
   }
   return Done{};

@@ -59,7 +59,7 @@ enum class Descent : std::uint8_t {
 /// The defaults are what the product does.
 struct ReferenceOptions {
   Culler culler = Culler::FlatBvh;  ///< touchesAt() and Descent::ByNeed ask the flat tree anyway.
-  /// None: lanes, except for skins and for more LSS than a walk takes.
+  /// None: lanes, except for more LSS than a walk takes, and for skins where there are no vectors.
   std::optional<Backtracking> backtracking;
   LeafMethod leafMethod = LeafMethod::Advancement;
   Descent descent = Descent::Straight;

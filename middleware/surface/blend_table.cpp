@@ -14,15 +14,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Fewer mean more LSS to cull, more mean more triangles for each that comes near; only speed
-/// depends on it.
-constexpr std::ptrdiff_t kTrianglesOfCluster = 8;
+/// Triangles of a cluster and of a part, at most. Smaller clusters mean more LSS to cull, larger
+/// ones more parts for each that comes near; likewise parts and their triangles. Only speed depends
+/// on it.
+constexpr std::ptrdiff_t kTrianglesOfCluster = 64, kTrianglesOfPart = 8;
 
 /// Of a merged point, relative to its coordinates; an LSS's ends are as far as its points.
 constexpr double kMergeRounding = 64.0 * kUnitRoundoff;
 
-/// Of a sum of weights, in double.
-constexpr double kWeightRounding = 64.0 * kUnitRoundoff;
+/// Of sums of weights, and of their means over the vertices of a cluster, in double.
+constexpr double kWeightRounding = 256.0 * kUnitRoundoff;
 
 double sumOf(const std::vector<SkinInfluence>& vertex) {
   double sum = 0.0;
@@ -67,7 +68,7 @@ class BlendTableBuilder {
     ownersOf_.resize(countOf(avatar_.numLinks()));
     for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
       if (skin_.numTriangles(link) > 0) {
-        addClusters(link, own[slotOf(link)]);
+        addSurface(link, own[slotOf(link)]);
       } else {
         addRigid(link, own[slotOf(link)]);
       }
@@ -134,7 +135,7 @@ class BlendTableBuilder {
     ownersOf_[slotOf(carrier)].push_back(owner);
   }
 
-  void addClusters(LinkId link, std::vector<Lss>& own) {
+  void addSurface(LinkId link, std::vector<Lss>& own) {
     const auto first = static_cast<std::ptrdiff_t>(made_.order_.size());
     for (std::int32_t i = 0; i < skin_.numTriangles(link); ++i) made_.order_.push_back(i);
     const std::vector<std::int32_t> vertices =
@@ -150,12 +151,40 @@ class BlendTableBuilder {
       hull.radius += kMergeRounding * (hull.a.norm() + hull.b.norm() + hull.radius);
       carry(mover, link, hull);
     }
-    split(link, first, static_cast<std::ptrdiff_t>(made_.order_.size()), own);
+    addClusters(link, first, static_cast<std::ptrdiff_t>(made_.order_.size()), own);
   }
 
-  /// Halves the triangles at the median along their longest extent until they are few.
-  void split(LinkId link, std::ptrdiff_t first, std::ptrdiff_t last, std::vector<Lss>& own) {
-    if (last - first <= kTrianglesOfCluster) return addCluster(link, first, last, own);
+  void addClusters(LinkId link, std::ptrdiff_t first, std::ptrdiff_t last, std::vector<Lss>& own) {
+    if (last - first > kTrianglesOfCluster) {
+      const std::ptrdiff_t middle = halve(link, first, last);
+      addClusters(link, first, middle, own);
+      addClusters(link, middle, last, own);
+      return;
+    }
+    BlendedLss cluster = blendAround(link, first, last);
+    cluster.first = made_.numParts();
+    addParts(link, first, last);
+    cluster.last = made_.numParts();
+    made_.lss_.push_back(cluster);
+    own.push_back({Vector3d::Zero(), Vector3d::Zero(), cluster.radius});
+  }
+
+  void addParts(LinkId link, std::ptrdiff_t first, std::ptrdiff_t last) {
+    if (last - first > kTrianglesOfPart) {
+      const std::ptrdiff_t middle = halve(link, first, last);
+      addParts(link, first, middle);
+      addParts(link, middle, last);
+      return;
+    }
+    std::sort(made_.order_.begin() + first, made_.order_.begin() + last);
+    BlendedLss part = blendAround(link, first, last);
+    part.first = static_cast<std::int32_t>(first);
+    part.last = static_cast<std::int32_t>(last);
+    made_.parts_.push_back(part);
+  }
+
+  /// At the median of the triangles' middles along their longest extent; returns it.
+  std::ptrdiff_t halve(LinkId link, std::ptrdiff_t first, std::ptrdiff_t last) {
     Eigen::AlignedBox3d extent;
     for (std::ptrdiff_t i = first; i < last; ++i) {
       extent.extend(middleOf(link, made_.order_[static_cast<std::size_t>(i)]));
@@ -169,8 +198,7 @@ class BlendTableBuilder {
                        const double at = middleOf(link, x)[axis], other = middleOf(link, y)[axis];
                        return at != other ? at < other : x < y;
                      });
-    split(link, first, middle, own);
-    split(link, middle, last, own);
+    return middle;
   }
 
   [[nodiscard]] Vector3d middleOf(LinkId link, std::int32_t triangle) const {
@@ -201,30 +229,27 @@ class BlendTableBuilder {
     return links;
   }
 
-  void addCluster(LinkId link, std::ptrdiff_t first, std::ptrdiff_t last, std::vector<Lss>& own) {
-    std::sort(made_.order_.begin() + first, made_.order_.begin() + last);
+  /// The blended LSS around these triangles.
+  BlendedLss blendAround(LinkId link, std::ptrdiff_t first, std::ptrdiff_t last) {
     const std::vector<std::int32_t> vertices = verticesOf(link, first, last);
     Eigen::AlignedBox3d extent;
     for (const std::int32_t vertex : vertices) extent.extend(places_[slotOf(vertex)]);
     std::vector<BlendShare> shares;
     for (const LinkId mover : linksOf(vertices)) {
-      shares.push_back(shareOfCluster(mover, vertices, extent.center()));
+      shares.push_back(shareAround(mover, vertices, extent.center()));
     }
     std::stable_sort(shares.begin(), shares.end(),
                      [](const BlendShare& x, const BlendShare& y) { return x.weight > y.weight; });
-    const double radius = radiusAround(vertices, shares);
-    const auto count = static_cast<std::int32_t>(shares.size());
-    made_.lss_.push_back({static_cast<std::int32_t>(made_.shares_.size()), count,
-                          static_cast<std::int32_t>(first), static_cast<std::int32_t>(last - first),
-                          radius, true});
+    const auto firstShare = static_cast<std::int32_t>(made_.shares_.size());
     for (const BlendShare& share : shares) addShare(share);
-    own.push_back({Vector3d::Zero(), Vector3d::Zero(), radius});
+    return {firstShare, static_cast<std::int32_t>(shares.size()), 0,
+            0,          radiusAround(vertices, shares),           true};
   }
 
-  /// The cluster's middle as the link sees it: from each vertex that the link moves, as far as the
+  /// The triangles' middle as the link sees it: from each vertex that the link moves, as far as the
   /// middle is at rest; the mean of these, in case they differ.
-  [[nodiscard]] BlendShare shareOfCluster(LinkId mover, const std::vector<std::int32_t>& vertices,
-                                          const Vector3d& middle) const {
+  [[nodiscard]] BlendShare shareAround(LinkId mover, const std::vector<std::int32_t>& vertices,
+                                       const Vector3d& middle) const {
     const Eigen::Matrix3d& R = rest_[slotOf(mover)].R_WL;
     double weights = 0.0, count = 0.0;
     Vector3d sum = Vector3d::Zero();

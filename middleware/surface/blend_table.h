@@ -1,7 +1,7 @@
 // middleware/surface/blend_table.h: what a skinned avatar moves through the scene, as LSS in link
-// order: a link's triangles in clusters, and around each an LSS whose axis is a blend of links as
-// its vertices are; a link without triangles has its own LSS. Proof: lanes/blend_lanes.md. Metres.
-// Not installed.
+// order: a link's triangles in clusters, these in parts, and around each an LSS whose axis is a
+// blend of links as its vertices are; a link without triangles has its own LSS. Proof:
+// lanes/blend_lanes.md. Metres. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct BlendShare {
 /// first share and |y_0| measured from W's origin.
 struct BlendedLss {
   std::int32_t firstShare, numShares;
-  std::int32_t firstTriangle, numTriangles;  ///< Of the cluster; none if it is a link's own LSS.
+  std::int32_t first, last;  ///< Of a cluster's parts, or of a part's triangles; else none.
   double radius;
   bool isPoint;  ///< Both ends are one.
 };
@@ -52,10 +52,11 @@ class BlendTable {
   [[nodiscard]] LaneBlend end(const BlendedLss& lss, bool isB) const {
     return {(isB ? endsB_ : endsA_).data() + lss.firstShare, lss.numShares};
   }
-  /// A cluster's triangles, by their index within the link.
-  [[nodiscard]] const std::int32_t* triangles(const BlendedLss& cluster) const {
-    return order_.data() + cluster.firstTriangle;
-  }
+  /// A cluster has the parts [first, last). Those of a link follow one another.
+  [[nodiscard]] const BlendedLss& part(std::int32_t part) const { return parts_[slotOf(part)]; }
+  [[nodiscard]] std::int32_t numParts() const { return static_cast<std::int32_t>(parts_.size()); }
+  /// A part has the triangles [first, last) of these, by their index within the link.
+  [[nodiscard]] std::int32_t triangle(std::int32_t i) const { return order_[slotOf(i)]; }
 
   /// What every link carries of each link's surface: LSS by the link that carries them. The surface
   /// of `owner(i)` is at every t in the hull of its LSS here, but for sumError * its distance from
@@ -70,7 +71,7 @@ class BlendTable {
   friend class BlendTableBuilder;
 
   LssTable table_, carried_;
-  std::vector<BlendedLss> lss_;
+  std::vector<BlendedLss> lss_, parts_;
   std::vector<BlendShare> shares_;
   std::vector<LaneShare> endsA_, endsB_;  // as the shares
   std::vector<std::int32_t> order_;

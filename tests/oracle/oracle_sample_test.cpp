@@ -115,6 +115,33 @@ TEST(OracleSampleOfMeshes, EveryExactAnswerKeepsThePromise) {
   EXPECT_GT(total.of(oracle::Verdict::Clear), total.judged / 4);
 }
 
+// Skinned fidelity, by the judge of skins.
+TEST(OracleSampleOfSkins, EveryAnswerKeepsThePromise) {
+  FORETOUCH_REQUIRE_SHARED(file, "scenes/cpr_office.dae");
+  FORETOUCH_REQUIRE_SHARED(path, "avatars/cesium_man.gltf");
+  const auto scene = loadScene("office", *sharedDataFolder());
+  ASSERT_TRUE(scene.ok()) << describe(scene.error());
+  const auto clip = loadClip(*path);
+  ASSERT_TRUE(clip.ok()) << describe(clip.error());
+  SweepTally total;
+  for (const Placement& placement : choosePlacements(clip.value(), scene.value(), 2)) {
+    for (const double tolerance : {1e-3, 1e-5}) {
+      SweepOptions options;
+      options.rateHz = 10.0;
+      options.tolerance = tolerance;
+      options.maxSteps = 4;
+      options.fidelity = Fidelity::Skinned;
+      total.add(sweepEveryWay(clip.value(), scene.value(), placement, options));
+    }
+  }
+  std::cout << total.summary() << "\n";
+  for (const std::string& line : total.violations) ADD_FAILURE() << line;
+  EXPECT_EQ(total.broken(), 0u);
+  EXPECT_EQ(total.of(oracle::Finding::Unproved), 0u);
+  EXPECT_GT(total.of(oracle::Verdict::Contact), 30u);
+  EXPECT_GT(total.of(oracle::Verdict::Clear), total.judged / 4);
+}
+
 // Above the links: each limb's and the avatar's volume, by the same judge.
 TEST(OracleSampleOfRungs, EveryAnswerKeepsThePromise) {
   FORETOUCH_REQUIRE_SHARED(file, "scenes/collision-world.glb");
