@@ -136,7 +136,10 @@ class LaneBacktracker {
   }
 
   void moveOn(PartPair pair, double reached) {
-    pair.freeUntil = nextPossible(query_.pieces, sides_.candidateOf(pair), reached);
+    // Against the scene there is one piece, and the candidate need not be read.
+    pair.freeUntil = query_.pieces.count == 1
+                         ? reached
+                         : nextPossible(query_.pieces, sides_.candidateOf(pair), reached);
     if (pair.freeUntil >= end_ || pair.freeUntil > horizon_) return;
     push(pair);
   }
