@@ -13,8 +13,9 @@ namespace {
 /// Of a scene's vertex, taken relative to the origin and rounded (lanes/frame_lanes.md 4).
 constexpr double kVertexRounding = 2.0 * kUnitRoundoffOfFloat;
 constexpr double kOriginRounding = 2.0 * kUnitRoundoff;
-/// Of a bound of a vertex's box: 4 unit roundoffs of the larger of it and the pad, which is less.
-constexpr float kBoxRounding = 8.0F * kUnitRoundoffOfFloat;
+/// Of a bound of the vertices: the proof needs 2 unit roundoffs. Their pad is twice their error,
+/// which covers its own part.
+constexpr float kSceneBoxRounding = 8.0F * kUnitRoundoffOfFloat;
 /// Rounds the sum of a floor and a radius, or of two pads, up.
 constexpr float kFloorInflation = 1.0F + 4.0F * kUnitRoundoffOfFloat;
 
@@ -51,8 +52,8 @@ std::int32_t PartLanes::add(const Triangle& triangle_W) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::initializer_list<float> x = {scene.vertex[0][axis], scene.vertex[1][axis],
                                             scene.vertex[2][axis]};
-    scene.box.lower[axis] = (std::min(x) - scene.pad) - kBoxRounding * std::abs(std::min(x));
-    scene.box.upper[axis] = (std::max(x) + scene.pad) + kBoxRounding * std::abs(std::max(x));
+    scene.box.lower[axis] = (std::min(x) - scene.pad) - kSceneBoxRounding * std::abs(std::min(x));
+    scene.box.upper[axis] = (std::max(x) + scene.pad) + kSceneBoxRounding * std::abs(std::max(x));
   }
   triangles_.push_back(scene);
   return static_cast<std::int32_t>(triangles_.size()) - 1;

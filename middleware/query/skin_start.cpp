@@ -9,7 +9,7 @@ namespace foretouch::internal {
 namespace {
 
 /// Thousands of roundings of what doubles compute.
-constexpr double kStartRounding = 1e-12;
+constexpr double kSkinStartRounding = 1e-12;
 
 /// Clusters' pairs that go to lanes together. What they find saves later ones.
 constexpr std::size_t kPairsAtOnce = 32;
@@ -18,7 +18,7 @@ constexpr std::size_t kPairsAtOnce = 32;
 double leastX(const Triangle& triangle) {
   const auto& v = triangle.vertices;
   const double least = std::min({v[0].x(), v[1].x(), v[2].x()});
-  return least - kStartRounding * (1.0 + std::abs(least));
+  return least - kSkinStartRounding * (1.0 + std::abs(least));
 }
 
 bool isBefore(const StartPair& x, const StartPair& y) {
@@ -39,7 +39,7 @@ class StartSearch {
 
   /// From now on leaves out what can share no point with x up to this.
   void keepUpTo(double x) {
-    mostX_ = scratch_.lanes.laneX(x + 2.0 * kStartRounding * (1.0 + std::abs(x)));
+    mostX_ = scratch_.lanes.laneX(x + 2.0 * kSkinStartRounding * (1.0 + std::abs(x)));
   }
 
   /// Replaces startPairs and adds to nearPairs.
@@ -95,7 +95,7 @@ class StartSearch {
       if (pair.nearest > 0.0) return scratch_.nearPairs.push_back(pair);
       const double least = scratch_.lanes.leastX(lane);
       scratch_.startPairs.push_back(
-          {pair, std::max(least - kStartRounding * (1.0 + std::abs(least)),
+          {pair, std::max(least - kSkinStartRounding * (1.0 + std::abs(least)),
                           leastX(query_.scene.triangle(pair.triangle)))});
     });
   }
@@ -106,7 +106,7 @@ class StartSearch {
     for (std::size_t lane = 0; lane < count_; ++lane) {
       // What doubles find is farther from the truth by rounding.
       const double lower = scratch_.lanes.lower(lane);
-      batch_[lane].nearest = lower - kStartRounding * (1.0 + std::abs(lower));
+      batch_[lane].nearest = lower - kSkinStartRounding * (1.0 + std::abs(lower));
       if (batch_[lane].nearest <= query_.tolerance) keep(batch_[lane], lane);
     }
     count_ = 0;
