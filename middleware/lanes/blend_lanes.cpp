@@ -153,8 +153,8 @@ constexpr double kBlendUnderflow = 0x1p-90;
 
 /// Of the sums that make a box, relative to their terms: the proof needs 12 unit roundoffs, of what
 /// then grows it again too.
-constexpr float kCurveBoxRounding = 32.0F * kUnitRoundoffOfFloat;
-constexpr float kCurveBoxInflation = 1.0F + 16.0F * kUnitRoundoffOfFloat;
+constexpr float kBlendBoxRounding = 32.0F * kUnitRoundoffOfFloat;
+constexpr float kBlendBoxInflation = 1.0F + 16.0F * kUnitRoundoffOfFloat;
 
 /// Norms of rows of coefficients, power by power, weighted with the roundings of Horner's rule.
 template <std::size_t kRows>
@@ -280,7 +280,7 @@ BlendHull blendHull(const BlendTriangle& triangle, float pad, float radius) {
         from += k % 2 == 0 ? c : -c;
       }
       const float grown =
-          (pad + radius + kCurveBoxRounding * (way + std::abs(middle))) * kCurveBoxInflation;
+          (pad + radius + kBlendBoxRounding * (way + std::abs(middle))) * kBlendBoxInflation;
       swept.lower[axis] = std::min(swept.lower[axis], middle - (way + grown));
       swept.upper[axis] = std::max(swept.upper[axis], middle + (way + grown));
       start.lower[axis] = std::min(start.lower[axis], from - grown);

@@ -221,8 +221,8 @@ struct Slack {
 /// The other side at rest.
 struct AtRest {
   static constexpr float kRounding = kSpeedRounding;
-  HWY_INLINE Lanes fastestSquare(Floats d) const { return hn::Zero(d); }
-  HWY_INLINE Lanes sumOfSquares(Floats d) const { return hn::Zero(d); }
+  HWY_INLINE Lanes withFastest(Lanes ofLink) const { return ofLink; }
+  HWY_INLINE Lanes withSquares(Lanes ofLink) const { return ofLink; }
   HWY_INLINE Lanes relative(const Vec3& /*n*/, Lanes speed) const { return speed; }
   HWY_INLINE Lanes acceleration(Floats /*d*/, Lanes ofLink) const { return ofLink; }
 };
@@ -237,11 +237,12 @@ struct InMotion {
       : velocity{load(d, others.velocity[0], first), load(d, others.velocity[1], first),
                  load(d, others.velocity[2], first)},
         bound(hn::Load(d, others.acceleration + first)) {}
-  HWY_INLINE Lanes fastestSquare(Floats /*d*/) const {
-    return largestOf(square(velocity[0]), square(velocity[1]), square(velocity[2]));
+  HWY_INLINE Lanes withFastest(Lanes ofLink) const {
+    const Lanes squared = largestOf(square(velocity[0]), square(velocity[1]), square(velocity[2]));
+    return hn::Add(ofLink, hn::Sqrt(squared));
   }
-  HWY_INLINE Lanes sumOfSquares(Floats /*d*/) const {
-    return sumOf(square(velocity[0]), square(velocity[1]), square(velocity[2]));
+  HWY_INLINE Lanes withSquares(Lanes ofLink) const {
+    return hn::Add(ofLink, sumOf(square(velocity[0]), square(velocity[1]), square(velocity[2])));
   }
   HWY_INLINE Lanes relative(const Vec3& n, Lanes speed) const {
     return hn::Sub(speed, largestOf(dot(n, velocity[0]), dot(n, velocity[1]), dot(n, velocity[2])));
@@ -260,7 +261,7 @@ HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t f
                          const Other& other) {
   const Lanes scene[2] = {square(pair.scene[0]), square(pair.scene[1])};
   // Sums, because a maximum might hide a NaN.
-  Lanes squares = sumOf(scene[0], scene[1], other.sumOfSquares(d));
+  Lanes squares = other.withSquares(hn::Add(scene[0], scene[1]));
   Lanes farthest = hn::Zero(d), fastestSquare = farthest;
   for (int i = 0; i < kPoints; ++i) {
     const Lanes place = square(pair.link[i]), speed = square(velocity[i]);
@@ -272,7 +273,7 @@ HWY_INLINE Slack slackOf(Floats d, const TrianglePairBlock& block, std::size_t f
   const Lanes positionPad = hn::Load(d, block.positionPad + first);
   const Lanes velocityPad = hn::Load(d, block.velocityPad + first);
   const Lanes extent = hn::Add(hn::Sqrt(farthest), hn::Sqrt(hn::Max(scene[0], scene[1])));
-  const Lanes fastest = hn::Add(hn::Sqrt(fastestSquare), hn::Sqrt(other.fastestSquare(d)));
+  const Lanes fastest = other.withFastest(hn::Sqrt(fastestSquare));
   const Lanes pads = hn::Add(positionPad, velocityPad);
   const LaneMask padsInRange = hn::And(hn::Ge(hn::Min(positionPad, velocityPad), hn::Zero(d)),
                                        hn::Le(pads, hn::Set(d, kMost)));

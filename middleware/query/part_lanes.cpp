@@ -13,8 +13,9 @@ namespace {
 /// Of a scene's vertex, taken relative to the origin and rounded (lanes/frame_lanes.md 4).
 constexpr double kVertexRounding = 2.0 * kUnitRoundoffOfFloat;
 constexpr double kOriginRounding = 2.0 * kUnitRoundoff;
-/// Of a bound of a vertex's box: 4 unit roundoffs of the larger of it and the pad, which is less.
-constexpr float kTriangleBoxRounding = 8.0F * kUnitRoundoffOfFloat;
+/// Of a bound of the vertices: the proof needs 2 unit roundoffs. Their pad is twice their error,
+/// which covers its own part.
+constexpr float kSceneBoxRounding = 8.0F * kUnitRoundoffOfFloat;
 /// Rounds the sum of a floor and a radius, or of two pads, up.
 constexpr float kFloorInflation = 1.0F + 4.0F * kUnitRoundoffOfFloat;
 
@@ -32,6 +33,7 @@ void PartLanes::reset(const FramePolynomials& polynomials, const Eigen::Vector3d
   halfSpan_ = 0.5 * (end - begin);
   instantsPerTime_ = 1.0 / (kInstant * halfSpan_);
   triangles_.clear();
+  boxes_.clear();
 }
 
 std::int32_t PartLanes::add(const Triangle& triangle_W) {
@@ -48,16 +50,23 @@ std::int32_t PartLanes::add(const Triangle& triangle_W) {
     largest = std::max(largest, squares);
   }
   scene.pad = floatAbove(kVertexRounding * std::sqrt(largest) + originPad_);
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::initializer_list<float> x = {scene.vertex[0][axis], scene.vertex[1][axis],
-                                            scene.vertex[2][axis]};
-    scene.box.lower[axis] =
-        (std::min(x) - scene.pad) - kTriangleBoxRounding * std::abs(std::min(x));
-    scene.box.upper[axis] =
-        (std::max(x) + scene.pad) + kTriangleBoxRounding * std::abs(std::max(x));
-  }
   triangles_.push_back(scene);
   return static_cast<std::int32_t>(triangles_.size()) - 1;
+}
+
+const CurveBox& PartLanes::box(std::int32_t triangle) {
+  for (std::size_t i = boxes_.size(); i <= slotOf(triangle); ++i) {
+    const SceneTriangle& scene = triangles_[i];
+    CurveBox box{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [least, most] =
+          std::minmax({scene.vertex[0][axis], scene.vertex[1][axis], scene.vertex[2][axis]});
+      box.lower[axis] = (least - scene.pad) - kSceneBoxRounding * std::abs(least);
+      box.upper[axis] = (most + scene.pad) + kSceneBoxRounding * std::abs(most);
+    }
+    boxes_.push_back(box);
+  }
+  return boxes_[slotOf(triangle)];
 }
 
 void PartLanes::put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u,

@@ -40,10 +40,8 @@ class PartLanes {
   /// A number for the triangle, ascending from 0.
   std::int32_t add(const Triangle& triangle_W);
 
-  /// Around the triangle, relative to the frame's origin.
-  [[nodiscard]] const CurveBox& box(std::int32_t triangle) const {
-    return triangles_[slotOf(triangle)].box;
-  }
+  /// Around the triangle, relative to the frame's origin. Made when it is first needed.
+  [[nodiscard]] const CurveBox& box(std::int32_t triangle);
 
   /// A place's x in W (m), relative to the frame's origin and rounded up.
   [[nodiscard]] float laneX(double x) const { return floatAbove(x - origin_.x()); }
@@ -94,7 +92,6 @@ class PartLanes {
   struct SceneTriangle {
     float vertex[3][3];  // relative to origin_
     float pad;
-    CurveBox box;
   };
 
   static void putPart(std::size_t lane, const LanePart& part, float u, float scenePad,
@@ -106,6 +103,7 @@ class PartLanes {
   double begin_ = 0.0, end_ = 1.0, halfSpan_ = 0.5, instantsPerTime_ = 1.0 / kInstant;
   double originPad_ = 0.0;
   std::vector<SceneTriangle> triangles_;
+  std::vector<CurveBox> boxes_;  // of the first of them
   PartBlock parts_{};
   std::int32_t curves_[kTrianglePairLanes] = {};
   TrianglePairBlock pairs_{};

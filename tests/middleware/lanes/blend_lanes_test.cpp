@@ -139,6 +139,15 @@ Precise3 derivativeOf(const BlendTriangle& curve, int corner, float u, int order
   return sum;
 }
 
+bool isIn(const CurveBox& box, const Precise3& place) {
+  bool isInside = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    isInside =
+        isInside && place[axis] >= Real(box.lower[axis]) && place[axis] <= Real(box.upper[axis]);
+  }
+  return isInside;
+}
+
 struct Used {
   double place = 0.0, velocity = 0.0, acceleration = 0.0;
 };
@@ -156,7 +165,7 @@ void checkCurves(const MovingSkin& moving, LinkId link, SkinLanes& lanes, Random
     PairFloats u{};
     u[0] = randomInstant(random);
     placeBlends(lanes.curves(), &which, u, 1, pairs);
-    const auto frames = moving.framesAt(u[0]);
+    const auto frames = moving.framesAt(u[0]), atStart = moving.framesAt(-1.0F);
     const auto pointOf = [](const PairFloats(&p)[3]) {
       return Precise3(Real(p[0][0]), Real(p[1][0]), Real(p[2][0]));
     };
@@ -166,6 +175,8 @@ void checkCurves(const MovingSkin& moving, LinkId link, SkinLanes& lanes, Random
       const Real off = norm(moving.placeOf(vertex, frames) - origin - pointOf(pairs.link[corner]));
       ASSERT_LE(off, Real(lanes.hull(which).pad));
       used.place = std::max(used.place, static_cast<double>(off / Real(lanes.hull(which).pad)));
+      ASSERT_TRUE(isIn(lanes.hull(which).swept, moving.placeOf(vertex, frames) - origin));
+      ASSERT_TRUE(isIn(lanes.hull(which).start, moving.placeOf(vertex, atStart) - origin));
       const BlendTriangle& curve = lanes.curves()[which];
       const Real slip =
           norm(derivativeOf(curve, corner, u[0], 1) - pointOf(pairs.velocity[corner]));
@@ -253,6 +264,10 @@ double shareOfPart(const MovingSkin& moving, const FramePolynomials& frame, Skin
     centre[axis] += Real(frame.origin[axis]) + Real(pairs.link[0][axis][0]);
   }
   const BlendHull& hull = lanes.hull(which);
+  const Vector3d from(frame.origin[0], frame.origin[1], frame.origin[2]);
+  const Precise3 relative = place - Precise3(moving.nodes.origin()) - Precise3(from);
+  EXPECT_TRUE(isIn(hull.swept, relative));
+  EXPECT_TRUE(u > -1.0F || isIn(hull.start, relative));
   return static_cast<double>(norm(place - centre) / (Real(hull.radius) + Real(hull.pad)));
 }
 
