@@ -31,7 +31,7 @@ TEST(Figures, OfTheDocumentsAreThoseOfTheirMeasurements) {
 TEST(Figures, TheFirstScreenHasOnePerPromise) {
   const std::string readme = house::contentOf(std::string(FORETOUCH_SOURCE_DIR) + "/README.md");
   const std::string screen = readme.substr(0, readme.find("```"));
-  for (const std::string name : {"oracle-contacts", "room-5hz-p50", "rigid-missed-5hz"}) {
+  for (const std::string name : {"oracle-contacts", "mix-10hz-once-p50", "rigid-missed-5hz"}) {
     EXPECT_NE(screen.find("<!-- figure: " + name + " -->"), std::string::npos) << name;
   }
 }
