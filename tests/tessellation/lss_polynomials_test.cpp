@@ -155,6 +155,11 @@ TEST(LssPolynomials, ContainTheTrueLssAndPointsAtEveryWidth) {
       const Vector3d p_L = random.magnitude(1e-3, 1.0) * random.direction();
       checkFrame(framePolynomialsOf(entry.link, motion, nodes), nodes, frame, u, p_L, shares);
       if (HasFatalFailure()) return;
+      const LinkId other = table[random.below(table.size())].link;
+      const FramePolynomials around = framePolynomialsOf(other, motion, nodes);
+      checkFrame(framePolynomialsOf(entry.link, motion, nodes, around.origin), nodes, frame, u, p_L,
+                 shares);
+      if (HasFatalFailure()) return;
     }
   }
   std::cout << "worst shares of the bounds used: LSS " << shares.lss << ", point " << shares.point
