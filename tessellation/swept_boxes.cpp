@@ -245,13 +245,13 @@ void boundEnds(const LssTable& table, const ChainNodes& nodes, const SweptBoxes&
   }
 }
 
+}  // namespace
+
 double widestGap(const ChainNodes& nodes) {
   double gap = 0.0;
   for (int k = 1; k < kNodes; ++k) gap = std::max(gap, nodes.instant(k) - nodes.instant(k - 1));
   return gap;
 }
-
-}  // namespace
 
 void SweptBoxes::resize(std::int32_t newCount) {
   makeRoom(newCount);

@@ -44,6 +44,9 @@ struct SweptBoxes {
   std::vector<double> growths_;  // one per LSS
 };
 
+/// The longest time between neighbouring nodes.
+[[nodiscard]] double widestGap(const ChainNodes& nodes);
+
 /// The float box of every LSS over the whole span of `nodes`, grown by `margin` (m), relative to
 /// the origin of the nodes, rounded outward. `ends`: if not null, gets what the boxes are made of.
 /// O(LSS).

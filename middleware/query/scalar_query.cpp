@@ -154,7 +154,7 @@ class StepQuery final : private Neighbours {
       scratch_.found.clear();
       plan_.culler->collect(all, scratch_.found, counters.nodes);
       for (const TriangleId id : scratch_.found) {
-        if (scratch_.ignored.has(scene_.object(id))) continue;
+        if (scratch_.ignored.has(scene_, id)) continue;
         const std::uint32_t meets = piecesMeeting(own, count, boxOf(scene_.triangle(id)));
         if (meets == 0) continue;
         addCandidate(id, 0, meets, Part::of(HierarchyChild::triangle(i)));
@@ -214,7 +214,7 @@ class StepQuery final : private Neighbours {
     scratch_.candidates.clear();
     const auto numLss = static_cast<std::int32_t>(scratch_.axisBounds.size());
     for (const TriangleId id : scratch_.found) {
-      if (scratch_.ignored.has(scene_.object(id))) continue;
+      if (scratch_.ignored.has(scene_, id)) continue;
       const Aabb box = boxOf(scene_.triangle(id));
       for (std::int32_t lss = 0; lss < numLss; ++lss) {
         const std::uint32_t meets = piecesMeeting(boxes.data() + lss * count, count, box);

@@ -197,11 +197,12 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
                         *this,
                         &other,
                         frame};
+  const bool areMeshes = query.isExact() || other.surface != nullptr;
   const bool mayStart = begin_ == 0.0 && std::any_of(pairs, pairs + count, [](const PlanePair& p) {
                           return (p.open & 1U) != 0;
                         });
   const bool areNodesFine = pointRounding(scratch_.lanes.nodes().bounds(), 0.0) <= kStartRounding;
-  if (mayStart && areNodesFine && !query.isExact() && !other.surface) {
+  if (mayStart && areNodesFine && !areMeshes) {
     if (const auto contact = contactAtStart(query, step.counters)) {
       return keep(*contact, kNoParent, step);
     }
@@ -214,9 +215,8 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   }
   advanceAlongCurves(query, step.counters);
   if (scratch_.candidates.empty()) return;
-  const PairContact contact = query.isExact() || other.surface != nullptr
-                                  ? meshContact(query, step.counters)
-                                  : backtrack(query, scratch_.candidates, step.counters);
+  const PairContact contact = areMeshes ? meshContact(query, step.counters)
+                                        : backtrack(query, scratch_.candidates, step.counters);
   if (contact.verdict != Verdict::Clear) keep(contact, frame, step);
 }
 
@@ -347,7 +347,7 @@ Candidate SelfQuery::candidateOf(const LssIndexPair& pair, std::uint8_t pieces) 
   candidate.otherLss = pair.j - table_.first(table_[pair.j].link);
   candidate.pieces = pieces;
   candidate.freeUntil = begin_;
-    candidate.radiusShare = self_.radiusShare(pair.i, pair.j);
+  candidate.radiusShare = self_.radiusShare(pair.i, pair.j);
   return candidate;
 }
 

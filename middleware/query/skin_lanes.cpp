@@ -15,12 +15,6 @@ namespace {
 /// and the root (lanes/blend_lanes.md 5).
 constexpr double kBlendRoundings = 8.0;
 
-double widestGap(const ChainNodes& nodes) {
-  double gap = 0.0;
-  for (int k = 1; k < kNodes; ++k) gap = std::max(gap, nodes.instant(k) - nodes.instant(k - 1));
-  return gap;
-}
-
 /// The next float or the one after.
 float outwardBelow(double x) {
   return -floatPaddedAbove(-x);
