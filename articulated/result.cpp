@@ -1,5 +1,8 @@
 #include "articulated/result.h"
 
+#include <cstdio>
+#include <cstdlib>
+
 namespace foretouch {
 
 const char* toString(ErrorCode code) {
@@ -29,6 +32,20 @@ std::string describe(const Error& error) {
   if (!text.empty()) text += ": ";
   return text + error.message;
 }
+
+namespace internal {
+
+void stopForValueOf(const Error& error) {
+  std::fprintf(stderr, "foretouch: value() of a Result that failed: %s\n", describe(error).c_str());
+  std::abort();
+}
+
+void stopForErrorOfSuccess() {
+  std::fputs("foretouch: error() of a Result that is ok\n", stderr);
+  std::abort();
+}
+
+}  // namespace internal
 
 Error inFile(Error error, const std::string& place) {
   if (error.file.empty()) error.file = place;

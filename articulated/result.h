@@ -7,8 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "lss/assert.h"
-
 namespace foretouch {
 
 enum class ErrorCode : std::uint8_t {
@@ -60,7 +58,14 @@ struct Error {
 /// One line for a person: "clip.bvh:12: expected CHANNELS, found 'OFFSET'".
 [[nodiscard]] std::string describe(const Error& error);
 
-/// A value, or the Error that prevented it. `value()` of a failed Result is a bug (asserted).
+namespace internal {
+/// Say on stderr what was taken without asking ok(), and stop the program.
+[[noreturn]] void stopForValueOf(const Error& error);
+[[noreturn]] void stopForErrorOfSuccess();
+}  // namespace internal
+
+/// A value, or the Error that prevented it. Ask ok() first: `value()` of a failed Result says the
+/// error on stderr and stops the program, in every build. So does `error()` of one that is ok.
 template <typename T>
 class [[nodiscard]] Result {
  public:
@@ -73,19 +78,19 @@ class [[nodiscard]] Result {
   explicit operator bool() const { return ok(); }
 
   [[nodiscard]] const T& value() const& {
-    FORETOUCH_ASSERT(ok());
+    if (!ok()) internal::stopForValueOf(*std::get_if<1>(&content_));
     return *std::get_if<0>(&content_);
   }
   [[nodiscard]] T& value() & {
-    FORETOUCH_ASSERT(ok());
+    if (!ok()) internal::stopForValueOf(*std::get_if<1>(&content_));
     return *std::get_if<0>(&content_);
   }
   [[nodiscard]] T&& value() && {
-    FORETOUCH_ASSERT(ok());
+    if (!ok()) internal::stopForValueOf(*std::get_if<1>(&content_));
     return std::move(*std::get_if<0>(&content_));
   }
   [[nodiscard]] const Error& error() const {
-    FORETOUCH_ASSERT(!ok());
+    if (ok()) internal::stopForErrorOfSuccess();
     return *std::get_if<1>(&content_);
   }
 

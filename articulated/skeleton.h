@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "articulated/result.h"
+#include "lss/assert.h"
 #include "lss/index.h"
 
 namespace foretouch {

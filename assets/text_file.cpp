@@ -12,6 +12,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "lss/assert.h"
 #include "lss/index.h"
 
 namespace foretouch {

@@ -6,6 +6,7 @@
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
+#include "lss/assert.h"
 #include "lss/index.h"
 
 namespace foretouch {
