@@ -6,12 +6,12 @@
 
 #include "articulated/try.h"
 #include "assets/json_writer.h"
+#include "tools/microseconds.h"
 #include "tools/progress.h"
 
 namespace foretouch::tools {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 
 /// With a point, whole or not.
 std::string rateText(double rateHz) {

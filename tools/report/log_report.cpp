@@ -1,4 +1,5 @@
 #include "tools/report/log_report.h"
+#include "tools/microseconds.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +10,6 @@
 namespace foretouch::tools {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 /// Between a timeline and one moved behind it.
 constexpr double kPauseS = 1.0;
 

@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "assets/json_writer.h"
+#include "tools/microseconds.h"
 #include "tools/settings/channel_names.h"
 
 namespace foretouch::tools {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 constexpr NumberRange kStepRange{1.0 / kUsPerS, static_cast<double>(kMostStepUs) / kUsPerS,
                                  "seconds", "s"};
 
