@@ -91,7 +91,7 @@ const std::map<std::string, std::set<std::string>> kLibraries = {
     {"console_bridge", {"assets"}},
     {"lcm", {"network"}},
     {"foretouch", {"network"}},  // generated from network/wire/lcm
-    {"xxhash.h", {"network"}},
+    {"xxhash.h", {"network", "tools"}},
     {"boost", {"judge", "middleware"}},
     {"quadmath.h", {"judge"}},
     {"toml++", {"tools"}},

@@ -125,6 +125,7 @@ Command avatarCheckCommand() {
       "Measure an avatar; exit code 1 where its size, its meshes or its match with a clip is amiss",
       "Example:\n  foretouch avatar check walker.avatar.json --motion walk.bvh --scale 0.01",
       std::move(settings)};
+  command.takesProject = true;
   command.run = [asked](const Settings&) { return check(*asked); };
   return command;
 }

@@ -50,6 +50,7 @@ Command sceneCommand() {
   scene.value = "SCENE";
   Command check{"check", "Measure a scene; exit code 1 where its size or its triangles are amiss",
                 "Example:\n  foretouch scene check kitchen.ply --up z", std::move(settings)};
+  check.takesProject = true;
   check.run = [asked](const Settings&) { return tools::check(*asked); };
   Command command{"scene", "Check scenes"};
   command.commands.push_back(std::move(check));

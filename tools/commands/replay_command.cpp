@@ -39,6 +39,7 @@ void addFileSettings(Settings& settings, AskedReplay& asked) {
   settings
       .list("--avatar", "[ID=]FILE", asked.avatars,
             "Avatar file (see foretouch avatar); of a log, its number before it, and repeated")
+      .inConfig("avatar", "file")
       .required();
   addMotionSetting(settings, request, "--motion", "CLIP|LOG",
                    "BVH clip, animated model (glb, gltf, fbx, dae, x), joint positions (csv), or "
@@ -303,6 +304,7 @@ Command replayCommand() {
   const auto asked = std::make_shared<AskedReplay>();
   Command command{"replay", "Find what an avatar touches between the poses of a recorded clip",
                   kReplayExamples, replaySettings(*asked)};
+  command.takesProject = true;
   command.run = [asked](const Settings& settings) { return run(settings, *asked); };
   return command;
 }

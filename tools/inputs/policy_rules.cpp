@@ -68,7 +68,8 @@ Result<std::vector<PolicyRule>> parsePolicyFile(std::string_view text, const std
   FORETOUCH_TRY(const auto parsed, parseToml(text, file));
   TomlReading reading{file, std::nullopt};
   TomlSection root(reading, parsed, "the file");
-  root.allowOnly({"policy"});
+  // A project file may hold the policies; takeFromProject() checks its other tables.
+  root.allowOnly({"policy", "scene", "clip", "avatar", "query", "service", "stream", "made"});
   std::vector<PolicyRule> rules;
   readPolicies(root, reading, rules);
   if (rules.empty()) reading.fail(ErrorCode::Empty, -1, "expected at least one [[policy]]");

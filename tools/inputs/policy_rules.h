@@ -16,8 +16,9 @@
 
 namespace foretouch::tools {
 
-/// A file of nothing but [[policy]] tables, at least one and at most kMaxPolicyRules. `file`: the
-/// path of `text`. Errors name the line. Never throws.
+/// The [[policy]] tables of a file, at least one and at most kMaxPolicyRules; of other tables, the
+/// file has none but those of a project. `file`: the path of `text`. Errors name the line. Never
+/// throws.
 [[nodiscard]] Result<std::vector<PolicyRule>> parsePolicyFile(std::string_view text,
                                                               const std::string& file);
 [[nodiscard]] Result<std::vector<PolicyRule>> readPolicyFile(const std::string& path);

@@ -142,6 +142,7 @@ Command viewCommand() {
   Command command{"view",
                   "Look at a scene, an avatar or a clip before a run: units, axes, placement",
                   kViewExamples, std::move(settings)};
+  command.takesProject = true;
   command.run = [job](const Settings&) { return run(*job); };
   return command;
 }

@@ -34,26 +34,32 @@ void addPlaceSetting(Settings& settings, Placement& place) {
     return fmt::format("{}, {}, {} m, turned by {} degrees", place.origin.x(), place.origin.y(),
                        place.origin.z(), place.yawDeg);
   };
-  setting.inHeader("place").inReport("placed at");
+  setting.inConfig("clip", "place").inHeader("place").inReport("placed at");
 }
 
 void addSourceSettings(Settings& settings, ClipRequest& request) {
   settings
       .text("--animation", "NAME", request.animation,
             "Which animation of a model: its name, or its number from 0; the first if not given")
+      .inConfig("clip", "animation")
       .inHeader("animation")
       .inReport("animation")
       .namedIf([&request] { return !request.animation.empty(); });
   settings.path("--robot", "URDF", request.robotPath, "The robot that joint positions are about")
+      .inConfig("clip", "robot")
       .inHeader("robot")
       .inReport("robot")
       .namedIf([&request] { return !request.robotPath.empty(); });
   settings
       .path("--map", "FILE", request.mapPath,
             R"(Joint names that differ: {"avatar joint": "clip joint"})")
+      .inConfig("clip", "map")
       .inReport("joint map");
-  settings.list("--package", "DIR", request.packagePaths,
-                "Folder of the robot's packages; may be repeated");
+  settings
+      .list("--package", "DIR", request.packagePaths,
+            "Folder of the robot's packages; may be repeated")
+      .inConfig("clip", "packages")
+      .isPath = true;
 }
 
 }  // namespace
@@ -61,28 +67,34 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
 Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* option,
                           const char* value, const char* help) {
   return settings.path(option, value, request.motionPath, help)
+      .inConfig("clip", "file")
       .inHeader("motion")
       .inReport("motion");
 }
 
 Setting& addAvatarSetting(Settings& settings, ClipRequest& request) {
   return settings.path("--avatar", "FILE", request.avatarPath, "Avatar file (see foretouch avatar)")
+      .inConfig("avatar", "file")
       .inReport("avatar");
 }
 
 Setting& addRateSetting(Settings& settings, ClipRequest& request, const char* help) {
-  return settings.number("--rate", "HZ", request.rateHz, kAboveZero, "all", help).inHeader("rate");
+  return settings.number("--rate", "HZ", request.rateHz, kAboveZero, "all", help)
+      .inConfig("clip", "rate")
+      .inHeader("rate");
 }
 
 void addClipReadingSettings(Settings& settings, ClipRequest& request) {
   settings
       .number("--scale", "S", request.motionScale, kMetresPerUnit,
               "Metres per unit of the clip: 0.01 for centimetres")
+      .inConfig("clip", "scale")
       .inHeader("scale")
       .inReport("motion's unit");
   settings
       .word<bool>("--motion-up", "y|z", request.placement.motionUpZ, {{"y", false}, {"z", true}},
                   "Which axis of the clip points up")
+      .inConfig("clip", "up")
       .inHeader("motion_up")
       .inReport("motion's up axis");
   addSourceSettings(settings, request);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include "articulated/try.h"
+#include "tools/settings/project_file.h"
 
 namespace foretouch::tools {
 namespace {
@@ -23,11 +25,21 @@ struct Typed {
 /// A command's data after parsing.
 struct Subcommand {
   Command command;
+  std::string project;  ///< The value of --project.
   std::deque<Typed> typed;
 };
 
+bool isProjectOption(const Setting& setting) {
+  return setting.option == "--project";
+}
+
+/// What a project may supply is not required of the command line.
+bool mayComeFromProject(const Command& command, const Setting& setting) {
+  return command.takesProject && !setting.table.empty();
+}
+
 /// Help shows no default if there is none.
-void addSetting(CLI::App& app, Typed& typed) {
+void addSetting(CLI::App& app, Typed& typed, bool isRequired) {
   const Setting& setting = *typed.setting;
   if (setting.kind == ValueKind::Flag) {
     typed.option = app.add_flag(setting.option, setting.help);
@@ -42,7 +54,7 @@ void addSetting(CLI::App& app, Typed& typed) {
     if (!typed.text.empty()) typed.option->capture_default_str();
   }
   typed.option->type_name(setting.value);
-  if (setting.isRequired) typed.option->required();
+  if (isRequired) typed.option->required();
   if (!setting.needs.empty()) typed.option->needs(app.get_option(setting.needs));
   if (!setting.isGone.empty()) typed.option->group("");  // hidden from help
   if (!setting.valueIfNone.empty()) {
@@ -59,10 +71,54 @@ Result<Done> take(const Typed& typed) {
   }
 }
 
-ExitCode runSubcommand(const Subcommand& subcommand) {
+/// The project to take settings from; empty: none. One that lies in the current folder counts only
+/// where the command line names no files: it never mixes with others by accident.
+std::string projectOf(const Subcommand& subcommand) {
+  if (!subcommand.command.takesProject) return "";
+  bool namesFiles = false;
+  for (const Typed& typed : subcommand.typed) {
+    if (typed.option->count() == 0) continue;
+    if (isProjectOption(*typed.setting)) return typed.text;
+    const bool isPositional = typed.setting->option.front() != '-';
+    namesFiles = namesFiles || isPositional || typed.setting->key == "file";
+  }
+  std::error_code unused;
+  return !namesFiles && std::filesystem::is_regular_file(kProjectName, unused) ? kProjectName : "";
+}
+
+Result<Done> takeProject(Subcommand& subcommand) {
+  const std::string path = projectOf(subcommand);
+  if (path.empty()) return Done{};
+  FORETOUCH_TRY(const auto notes,
+                takeFromProject(path, subcommand.command.settings, [&](const Setting& setting) {
+                  return std::any_of(subcommand.typed.begin(), subcommand.typed.end(),
+                                     [&](const Typed& typed) {
+                                       return typed.setting == &setting &&
+                                              typed.option->count() > 0;
+                                     });
+                }));
+  printNote("settings from " + path);
+  for (const std::string& note : notes) printNote(note);
+  return Done{};
+}
+
+Result<Done> checkRequired(const Command& command) {
+  for (const Setting& setting : command.settings) {
+    if (!setting.isRequired || setting.isGiven || !mayComeFromProject(command, setting)) continue;
+    if (!setting.shown().empty()) continue;
+    return Error::in(setting.option, ErrorCode::Empty,
+                     std::string("is required (or a project: foretouch setup makes ") +
+                         kProjectName + ")");
+  }
+  return Done{};
+}
+
+ExitCode runSubcommand(Subcommand& subcommand) {
+  FORETOUCH_CHECK_OR(failed, takeProject(subcommand));
   for (const Typed& typed : subcommand.typed) {
     FORETOUCH_CHECK_OR(failed, take(typed));
   }
+  FORETOUCH_CHECK_OR(failed, checkRequired(subcommand.command));
   return subcommand.command.run(subcommand.command.settings);
 }
 
@@ -89,10 +145,17 @@ void addCommand(CLI::App& program, Command command, ExitCode& exit) {
   }
   const auto subcommand = std::make_shared<Subcommand>();
   subcommand->command = std::move(command);
+  if (subcommand->command.takesProject) {
+    subcommand->command.settings.path(
+        "--project", "FILE", subcommand->project,
+        "Project file: what this command line does not say; foretouch.toml of the current folder "
+        "if the command line names no files");
+  }
   for (Setting& setting : subcommand->command.settings) {
     Typed& typed = subcommand->typed.emplace_back();
     typed.setting = &setting;
-    addSetting(*app, typed);
+    addSetting(*app, typed,
+               setting.isRequired && !mayComeFromProject(subcommand->command, setting));
   }
   app->callback([subcommand, &exit] { exit = runSubcommand(*subcommand); });
 }

@@ -22,6 +22,9 @@ struct Command {
   Settings settings = {};
   /// Called once the settings hold the given values, all legal. `settings` are these.
   std::function<ExitCode(const Settings& settings)> run = {};
+  /// Takes what its command line does not say from a project file: --project, or the foretouch.toml
+  /// of the current folder if the command line names no file at all.
+  bool takesProject = false;
   std::vector<Command> commands = {};  ///< Subcommands; the user must name one if there are any.
   /// Not empty: the command is gone, and naming it prints this text.
   std::string isGone = {};

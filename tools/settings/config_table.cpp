@@ -1,3 +1,5 @@
+#include "tools/settings/config_table.h"
+
 #include <fmt/format.h>
 
 #include "tools/settings/serve_settings.h"
@@ -8,11 +10,18 @@ namespace {
 /// As a configuration spells it.
 std::string inToml(const Setting& setting) {
   if (!setting.mayBeEmpty && setting.shown().empty()) return "required";
-  if (setting.kind == ValueKind::Flag) return "`\"" + setting.shown() + "\"`";
+  if (setting.kind == ValueKind::Flag) {
+    return setting.words.empty() ? "`false`" : "`\"" + setting.shown() + "\"`";
+  }
+  const bool isNumber = setting.kind == ValueKind::Number && !setting.words.empty();
+  if (isNumber && setting.json() == "null") return setting.shown();
+  if (setting.kind == ValueKind::Text) return "`\"" + setting.shown() + "\"`";
   return "`" + setting.json() + "`";
 }
 
 std::string legalValues(const Setting& setting) {
+  if (setting.kind == ValueKind::Number) return setting.legal;
+  if (setting.kind == ValueKind::Flag && setting.words.empty()) return "true or false";
   if (!setting.words.empty()) {
     std::string text;
     for (const std::string& word : setting.words) {
@@ -34,21 +43,27 @@ std::string cell(std::string text) {
 
 }  // namespace
 
-std::string configTable() {
-  ServeConfig config;
-  Settings settings;
-  addServeSettings(settings, config);
+std::string configRows(const Settings& settings, std::initializer_list<const char*> tables,
+                       const std::function<bool(const Setting&)>& which) {
   std::string text = "| key | option | default | legal | what it says |\n|---|---|---|---|---|\n";
-  for (const char* const table : {"service", "scene", "query", "stream"}) {
+  for (const char* const table : tables) {
     std::string title = fmt::format("`[{}]` ", table);
     for (const Setting& setting : settings) {
-      if (setting.table != table) continue;
+      if (setting.table != table || !which(setting)) continue;
       text += fmt::format("| {}`{}` | `{}` | {} | {} | {} |\n", title, setting.key, setting.option,
                           inToml(setting), cell(legalValues(setting)), cell(setting.help));
       title.clear();
     }
   }
   return text;
+}
+
+std::string configTable() {
+  ServeConfig config;
+  Settings settings;
+  addServeSettings(settings, config);
+  return configRows(settings, {"service", "scene", "query", "stream"},
+                    [](const Setting&) { return true; });
 }
 
 }  // namespace foretouch::tools

@@ -117,15 +117,20 @@ bool TomlSection::readKind(const Setting& setting, const toml::node& node, Given
       given.number = node.is_integer() ? static_cast<double>(node.as_integer()->get())
                                        : node.as_floating_point()->get();
       given.found = shownNumber(given.number);
+      given.texts = {given.found};
       if (std::isfinite(given.number)) return true;
       return outOfRange(key, setting.legal, given.found, node), false;
     case ValueKind::Whole:
       if (!node.is_integer()) return wrongType(key, setting.legal, node), false;
       given.whole = node.as_integer()->get();
       given.found = std::to_string(given.whole);
+      given.texts = {given.found};
       return true;
     case ValueKind::List: texts(key, given.texts); return !reading_.error;
     case ValueKind::Flag:
+      if (!setting.words.empty()) break;
+      if (!node.is_boolean()) return wrongType(key, "true or false", node), false;
+      return node.as_boolean()->get();  // the option is given, or it is not
     case ValueKind::Text: break;
   }
   if (!setting.words.empty()) return readWord(setting, node, given);
@@ -149,7 +154,9 @@ void TomlSection::read(Setting& setting,
   const toml::node* const node = find(setting.key.c_str());
   GivenValue given;
   if (node == nullptr || !readKind(setting, *node, given)) return;
-  if (setting.isPath) given.texts.front() = pathOf(given.texts.front());
+  if (setting.isPath) {
+    std::transform(given.texts.begin(), given.texts.end(), given.texts.begin(), pathOf);
+  }
   const auto taken = setting.take(given);
   if (taken.ok()) return;
   reading_.fail(taken.error().code, lineOf(*node),

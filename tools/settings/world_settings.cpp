@@ -24,6 +24,7 @@ void addSkinSettings(Settings& settings, WorldRequest& request) {
   settings
       .path("--skin", "BODY", request.skinPath,
             "Skinned fidelity: the model from which the avatar was made")
+      .inConfig("query", "skin")
       .inHeader("skin")
       .inReport("skin")
       .namedIf(isNamed)
@@ -34,11 +35,13 @@ void addSkinSettings(Settings& settings, WorldRequest& request) {
   settings
       .number("--skin-scale", "S", request.skinImport.scale, kMetresPerUnit,
               "Metres per unit of that model")
+      .inConfig("query", "skin_scale")
       .inHeader("skin_scale")
       .namedIf(isNamed);
   settings
       .word("--skin-up", "y|z", request.skinImport.up, upAxisWords(),
             "Which axis of that model points up")
+      .inConfig("query", "skin_up")
       .inHeader("skin_up")
       .namedIf(isNamed);
 }
@@ -50,6 +53,7 @@ void addScopeSettings(Settings& settings, WorldRequest& request) {
             "First contact of every link, only of the whole avatar, or of every link with every "
             "object")
       .ofClips()
+      .inConfig("query", "scope")
       .inHeader("scope")
       .inReport("scope")
       .namedIf(isNamed)
@@ -61,6 +65,7 @@ void addScopeSettings(Settings& settings, WorldRequest& request) {
             "A link that begins within the tolerance of the scene and does not approach it goes "
             "on, until it is a quarter as near")
       .ofClips()
+      .inConfig("query", "pass_separating")
       .inHeader("pass_separating")
       .inReport("what separates")
       .namedIf([&request] { return request.query.passSeparating; })
@@ -76,6 +81,7 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
             "Also ask whether the avatar's own links touch each other; which pairs are asked: "
             "foretouch avatar pairs")
       .ofClips()
+      .inConfig("query", "self")
       .inReport("own links")
       .told = [&request]() -> std::string {
     if (!request.asksSelf) return "";
@@ -87,6 +93,7 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
       .path("--pairs", "FILE", request.pairsPath,
             "With --self: the pair rules; not given: derived from the avatar and the clip's poses")
       .ofClips()
+      .inConfig("query", "pairs")
       .needing("--self");
 }
 

@@ -173,6 +173,7 @@ Command publishCommand() {
   addClipSettings(settings, job->request);
   Command command{"publish", "Send a recorded clip as a live stream of poses", kPublishExamples,
                   std::move(settings)};
+  command.takesProject = true;
   command.run = [job](const Settings&) { return run(*job); };
   return command;
 }

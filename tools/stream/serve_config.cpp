@@ -1,6 +1,5 @@
 #include "tools/stream/serve_config.h"
 
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <set>
@@ -9,32 +8,12 @@
 #include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/inputs/policy_section.h"
-#include "tools/settings/toml_section.h"
+#include "tools/settings/config_reading.h"
 
 namespace foretouch::tools {
 namespace {
 
 static_assert(kMaxServeConfigBytes == kMaxTomlBytes);
-
-/// A path in the file `from`, relative to that file's folder.
-std::string resolved(const std::string& path, const std::string& from) {
-  if (path.empty()) return path;
-  return (std::filesystem::path(from).parent_path() / path).string();
-}
-
-/// The keys of one table: those of the settings, and no others.
-void readTable(TomlSection& root, const char* table, TomlReading& reading, Settings& settings) {
-  TomlSection section = root.table(table);
-  std::vector<std::string> keys;
-  for (const Setting& setting : settings) {
-    if (setting.table == table) keys.push_back(setting.key);
-  }
-  section.allowOnly(keys);
-  for (Setting& setting : settings) {
-    if (setting.table != table) continue;
-    section.read(setting, [&](const std::string& path) { return resolved(path, reading.file); });
-  }
-}
 
 void readAvatars(TomlSection root, TomlReading& reading, ServeConfig& config) {
   const toml::node* const node = root.find("avatar");
@@ -56,7 +35,7 @@ void readAvatars(TomlSection root, TomlReading& reading, ServeConfig& config) {
     section.allowOnly({"id", "file"});
     section.integer("id", 0, std::numeric_limits<std::int32_t>::max(), avatar.id);
     section.text("file", avatar.path, false);
-    avatar.path = resolved(avatar.path, reading.file);
+    avatar.path = besideFile(avatar.path, reading.file);
     if (avatar.path.empty()) {
       reading.fail(ErrorCode::Empty, section.line(), "[[avatar]]: expected a file");
     }
@@ -76,11 +55,12 @@ Result<ServeConfig> parseServeConfig(std::string_view text, const std::string& f
   TomlReading reading{file, std::nullopt};
   ServeConfig config;
   TomlSection root(reading, parsed, "the file");
-  root.allowOnly({"service", "scene", "query", "policy", "stream", "avatar"});
+  // A project file may be a configuration, too: what it says of a clip is not about streams.
+  root.allowOnly({"service", "scene", "query", "policy", "stream", "avatar", "clip", "made"});
   Settings settings;
   addServeSettings(settings, config);
   for (const char* const table : {"service", "scene", "query", "stream"}) {
-    readTable(root, table, reading, settings);
+    readWholeTable(root, table, reading, settings);
   }
   readPolicies(root, reading, config.world.policies);
   readAvatars(root, reading, config);

@@ -166,6 +166,7 @@ Command sweepCommand() {
   Command command{
       "sweep", "Write what links of an avatar cover during a clip as a mesh with a certified error",
       kSweepExamples, std::move(settings)};
+  command.takesProject = true;
   command.run = [job](const Settings&) { return run(*job); };
   return command;
 }

@@ -1,0 +1,26 @@
+#include "tools/settings/file_mark.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <fstream>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace foretouch::tools {
+
+Result<std::string> markOfFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return Error::in(path, ErrorCode::FileNotFound, "cannot be opened");
+  XXH64_state_t state;
+  XXH64_reset(&state, 0);
+  std::vector<char> piece(std::size_t{1} << 20);
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
+    XXH64_update(&state, piece.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad()) return Error::in(path, ErrorCode::FileUnreadable, "cannot be read");
+  return fmt::format("{:016x}", XXH64_digest(&state));
+}
+
+}  // namespace foretouch::tools

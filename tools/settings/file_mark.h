@@ -1,0 +1,14 @@
+// tools/settings/file_mark.h: tells whether a file is still the one that it was.
+#pragma once
+
+#include <string>
+
+#include "articulated/result.h"
+
+namespace foretouch::tools {
+
+/// Sixteen hexadecimal digits of a file's content (XXH64): for files that somebody replaced by
+/// mistake, not for those that an attacker did. Errors: a file that cannot be read.
+[[nodiscard]] Result<std::string> markOfFile(const std::string& path);
+
+}  // namespace foretouch::tools
