@@ -1,0 +1,168 @@
+#include "tools/setup/body_offer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "articulated/motion.h"
+#include "assets/bvh/body_parts.h"
+#include "assets/bvh/stature.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Unit {
+  double metres;
+  const char* name;
+};
+/// What exporters use, the commonest first. CMU's: inches over 0.45, as its own skeletons say.
+/// Neighbours differ by 1.7 at least, so that only one of them makes an adult of a skeleton.
+constexpr std::array<Unit, 7> kUnits = {{{1.0, "metres"},
+                                         {0.01, "centimetres"},
+                                         {0.0564, "CMU's unit, 1/0.45 inch"},
+                                         {0.0254, "inches"},
+                                         {0.1, "decimetres, as MakeHuman's"},
+                                         {0.001, "millimetres"},
+                                         {0.3048, "feet"}}};
+
+/// Adults, with room for short and long legs.
+constexpr double kShortestAdult = 1.3, kTallestAdult = 2.2;
+constexpr double kUsualAdult = 1.7;
+/// Without legs: a hand, an animal, a robot.
+constexpr double kSmallestBody = 0.15, kLargestBody = 10.0;
+
+/// Among how many frames of a clip to look.
+constexpr std::size_t kFramesLookedAt = 32;
+
+const Unit& nearestUnit(double size, double wanted) {
+  return *std::min_element(kUnits.begin(), kUnits.end(), [&](const Unit& a, const Unit& b) {
+    return std::abs(std::log(size * a.metres / wanted)) <
+           std::abs(std::log(size * b.metres / wanted));
+  });
+}
+
+/// The largest side of the skeleton at rest.
+double sizeOf(const Skeleton& skeleton) {
+  std::vector<LinkState> states;
+  const Pose rest = restPose(skeleton);
+  ChainMotion(skeleton, rest, rest).statesAt(0.0, states);
+  Vector3d lower = states.front().p_WL, upper = lower;
+  for (const LinkState& state : states) {
+    lower = lower.cwiseMin(state.p_WL);
+    upper = upper.cwiseMax(state.p_WL);
+  }
+  return (upper - lower).maxCoeff();
+}
+
+/// No known unit: the one of the usual adult, to two digits.
+double guessedUnit(double size) {
+  const double unit = kUsualAdult / size;
+  const double digits = std::pow(10.0, 1.0 - std::floor(std::log10(unit)));
+  return std::round(unit * digits) / digits;
+}
+
+/// Of a file whose format says metres, and whose body is far from a person's or an animal's size:
+/// exporters forget to convert centimetres and millimetres.
+double forgottenUnit(double size) {
+  return size > kLargestBody ? (size > 100.0 * kLargestBody ? 0.001 : 0.01) : 1.0;
+}
+
+Offer<double> byStature(double stature, bool isInMetres) {
+  const auto isAdult = [](double tall) { return tall >= kShortestAdult && tall <= kTallestAdult; };
+  if (isInMetres) {
+    const double unit = forgottenUnit(stature);
+    return {unit, isAdult(stature),
+            fmt::format("its format says metres, and by its legs the body is {:.3g} m tall",
+                        stature)};
+  }
+  const Unit& unit = nearestUnit(stature, kUsualAdult);
+  if (isAdult(stature * unit.metres)) {
+    return {unit.metres, true,
+            fmt::format("{} make it {:.3g} m tall, by the length of its legs", unit.name,
+                        stature * unit.metres)};
+  }
+  return {guessedUnit(stature), false,
+          fmt::format("its legs make it {:.3g} units tall, and no unit that is known makes that an "
+                      "adult: {:.2g} to {:.2g} do",
+                      stature, kShortestAdult / stature, kTallestAdult / stature)};
+}
+
+Offer<double> bySize(double size, bool isInMetres) {
+  if (!(size > 0.0)) return {1.0, false, "its skeleton has no size"};
+  if (isInMetres) {
+    const double unit = forgottenUnit(size);
+    return {unit, unit == 1.0 && size >= kSmallestBody,
+            fmt::format("its format says metres, and it is {:.3g} m long", size)};
+  }
+  const double unit = size <= kLargestBody ? 1.0 : guessedUnit(size);
+  return {unit, false,
+          fmt::format("its joints' names show no legs; this makes it {:.3g} m long", size * unit)};
+}
+
+/// Feet to head, summed over the clip's frames, each as a direction.
+Vector3d meanUpright(const Clip& clip, std::size_t& found) {
+  Vector3d sum = Vector3d::Zero();
+  const std::size_t stride = std::max<std::size_t>(1, clip.frames.size() / kFramesLookedAt);
+  for (std::size_t frame = 0; frame < clip.frames.size(); frame += stride) {
+    const auto up = footToHead(clip.skeleton, clip.frames[frame]);
+    if (!up || !(up->norm() > 0.0)) continue;
+    sum += up->normalized();
+    ++found;
+  }
+  return found == 0 ? sum : Vector3d(sum / static_cast<double>(found));
+}
+
+Offer<UpAxis> byShape(const Clip& clip) {
+  std::vector<LinkState> states;
+  const Pose& pose = clip.frames.front();
+  ChainMotion(clip.skeleton, pose, pose).statesAt(0.0, states);
+  Vector3d lower = states.front().p_WL, upper = lower;
+  for (const LinkState& state : states) {
+    lower = lower.cwiseMin(state.p_WL);
+    upper = upper.cwiseMax(state.p_WL);
+  }
+  const Vector3d size = upper - lower;
+  const bool isZ = size.z() > 1.5 * size.y();
+  return {isZ ? UpAxis::Z : UpAxis::Y, false,
+          fmt::format("its joints' names show no feet and head; it is {:.3g} x {:.3g} x {:.3g} of "
+                      "its units",
+                      size.x(), size.y(), size.z())};
+}
+
+}  // namespace
+
+std::string nameOfUnit(double metres) {
+  for (const Unit& unit : kUnits) {
+    if (unit.metres == metres) return unit.name;
+  }
+  return "";
+}
+
+Offer<double> unitOf(const Clip& clip, bool isInMetres) {
+  const auto stature = statureOf(clip.skeleton);
+  return stature ? byStature(*stature, isInMetres) : bySize(sizeOf(clip.skeleton), isInMetres);
+}
+
+Offer<UpAxis> upAxisOf(const Clip& clip, bool isUpright) {
+  std::size_t found = 0;
+  const Vector3d up = meanUpright(clip, found);
+  if (found == 0) {
+    if (isUpright) return {UpAxis::Y, true, "its reader turns it by what the file's format says"};
+    return byShape(clip);
+  }
+  Eigen::Index axis = 0;
+  up.cwiseAbs().maxCoeff(&axis);
+  constexpr double kClearly = 0.7;  // within 45 degrees, on the average
+  const bool isClear = up[axis] >= kClearly && axis != 0;
+  const char* const name = axis == 0 ? "x" : axis == 1 ? "y" : "z";
+  const std::string reason = fmt::format("its feet and head lie along {}{}", name,
+                                         up[axis] < 0.0 ? ", head down" : "");
+  const UpAxis value = axis == 2 && !isUpright ? UpAxis::Z : UpAxis::Y;
+  return {value, isClear && (!isUpright || axis == 1), reason};
+}
+
+}  // namespace foretouch::tools

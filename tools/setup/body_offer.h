@@ -1,0 +1,23 @@
+// tools/setup/body_offer.h: the unit and the up axis of a clip, from the body that it moves.
+#pragma once
+
+#include "articulated/clip.h"
+#include "assets/import/imported_scene.h"
+#include "tools/setup/offer.h"
+
+namespace foretouch::tools {
+
+/// Metres per unit of a clip that was read with a scale of 1. A person's legs tell the stature; of
+/// the units that exporters use, one makes it that of an adult, and no two do. Without legs, or
+/// where no unit fits: unsure, by the size of the skeleton. `isInMetres`: the file's format says so
+/// (glTF, URDF), or its reader has converted it.
+[[nodiscard]] Offer<double> unitOf(const Clip& clip, bool isInMetres);
+
+/// Which axis points from feet to head, over the whole clip; at rest where names do not tell feet
+/// and head. Unsure if the body lies, or hangs head down. `isUpright`: its reader has turned it.
+[[nodiscard]] Offer<UpAxis> upAxisOf(const Clip& clip, bool isUpright);
+
+/// "centimetres" for 0.01; empty for a number that no exporter is known to use.
+[[nodiscard]] std::string nameOfUnit(double metres);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,62 @@
+// tools/setup/level.h: a scene as somebody would walk through it: where floors are, which side of a
+// surface is its front, and what a point meets along a line. World W: metres, +Y up.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/result.h"
+#include "middleware/query/query.h"
+#include "middleware/scene/scene.h"
+#include "tools/settings/world_settings.h"
+
+namespace foretouch::tools {
+
+/// A triangle on a line, and its side.
+struct LevelHit {
+  double distance = 0.0;
+  TriangleId triangle = -1;
+  bool isFront = true;  ///< By the order of the triangle's vertices in the file.
+};
+
+/// A spot on a surface that a foot could stand on.
+struct FloorSpot {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+  bool facesUp = true;  ///< Its front is up.
+};
+
+class Level {
+ public:
+  /// Errors name the file.
+  [[nodiscard]] static Result<Level> load(const WorldRequest& request);
+  /// Errors: as Scene::build().
+  [[nodiscard]] static Result<Level> build(RawScene raw);
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// Unit, of the front; zero without an area.
+  [[nodiscard]] Eigen::Vector3d normal(TriangleId triangle) const;
+
+  /// What a point meets first on its way. Straight up, down or sideways it is fast.
+  [[nodiscard]] std::optional<LevelHit> cast(const Eigen::Vector3d& from,
+                                             const Eigen::Vector3d& to) const;
+
+  /// About `count` spots on all surfaces that are at most `steepest` (radians) from level, spread
+  /// evenly over their area; the same ones every time. None if there is no such surface.
+  [[nodiscard]] std::vector<FloorSpot> floorSpots(std::size_t count, double steepest) const;
+  /// Of all surfaces at most that steep, in square metres.
+  [[nodiscard]] double floorArea(double steepest) const;
+
+ private:
+  Level(Scene scene, std::vector<Eigen::Vector3d> areas, Avatar point, Query query);
+
+  Scene scene_;
+  std::vector<Eigen::Vector3d> areas_;  ///< Per triangle: the front's normal times the area.
+  Avatar point_;                        ///< A body of one point: the engine's own ray.
+  Query query_;
+  std::unique_ptr<QueryScratch> scratch_;
+};
+
+}  // namespace foretouch::tools
