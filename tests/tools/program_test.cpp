@@ -44,12 +44,14 @@ TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
   const Ended replay = runForetouch({"replay", "--help"});
   for (const char* option :
        {"--scene ",       "--avatar ", "--motion ",   "--animation ",     "--robot ",
-        "--package ",     "--rate ",   "--scale ",    "--motion-up ",     "--up ",
+        "--package ",     "--rate ",   "--clip-scale ",    "--clip-up ",     "--scene-up ",
         "--scene-scale ", "--place ",  "--fidelity ", "--tolerance ",     "--threads ",
         "--ignore ",      "--map ",    "--output ",   "--compare-rigid ", "--rays "}) {
     EXPECT_TRUE(holds(replay.out, std::string("\n  ") + option)) << option;
   }
-  for (const char* gone : {"--culler", "--leaves"}) EXPECT_FALSE(holds(replay.out, gone)) << gone;
+  for (const char* gone : {"--culler", "--leaves", " --scale", " --motion-up", " --up"}) {
+    EXPECT_FALSE(holds(replay.out, gone)) << gone;
+  }
 }
 
 TEST(Program, EndsWithTwoOnBadUse) {

@@ -34,26 +34,31 @@ void addPlaceSetting(Settings& settings, Placement& place) {
     return fmt::format("{}, {}, {} m, turned by {} degrees", place.origin.x(), place.origin.y(),
                        place.origin.z(), place.yawDeg);
   };
-  setting.inHeader("place").inReport("placed at");
+  setting.in(kUnitsGroup).inHeader("place").inReport("placed at");
 }
 
 void addSourceSettings(Settings& settings, ClipRequest& request) {
   settings
       .text("--animation", "NAME", request.animation,
             "Which animation of a model: its name, or its number from 0; the first if not given")
+      .in(kInputGroup)
       .inHeader("animation")
       .inReport("animation")
       .namedIf([&request] { return !request.animation.empty(); });
   settings.path("--robot", "URDF", request.robotPath, "The robot that joint positions are about")
+      .in(kInputGroup)
       .inHeader("robot")
       .inReport("robot")
       .namedIf([&request] { return !request.robotPath.empty(); });
   settings
       .path("--map", "FILE", request.mapPath,
             R"(Joint names that differ: {"avatar joint": "clip joint"})")
+      .in(kInputGroup)
       .inReport("joint map");
-  settings.list("--package", "DIR", request.packagePaths,
-                "Folder of the robot's packages; may be repeated");
+  settings
+      .list("--package", "DIR", request.packagePaths,
+            "Folder of the robot's packages; may be repeated")
+      .in(kInputGroup);
 }
 
 }  // namespace
@@ -61,28 +66,36 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
 Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* option,
                           const char* value, const char* help) {
   return settings.path(option, value, request.motionPath, help)
+      .in(kInputGroup)
       .inHeader("motion")
       .inReport("motion");
 }
 
 Setting& addAvatarSetting(Settings& settings, ClipRequest& request) {
   return settings.path("--avatar", "FILE", request.avatarPath, "Avatar file (see foretouch avatar)")
+      .in(kInputGroup)
       .inReport("avatar");
 }
 
 Setting& addRateSetting(Settings& settings, ClipRequest& request, const char* help) {
-  return settings.number("--rate", "HZ", request.rateHz, kAboveZero, "all", help).inHeader("rate");
+  return settings.number("--rate", "HZ", request.rateHz, kAboveZero, "all", help)
+      .in(kInputGroup)
+      .inHeader("rate");
 }
 
 void addClipReadingSettings(Settings& settings, ClipRequest& request) {
   settings
-      .number("--scale", "S", request.motionScale, kMetresPerUnit,
+      .number("--clip-scale", "S", request.motionScale, kMetresPerUnit,
               "Metres per unit of the clip: 0.01 for centimetres")
+      .formerly("--scale")
+      .in(kUnitsGroup)
       .inHeader("scale")
       .inReport("motion's unit");
   settings
-      .word<bool>("--motion-up", "y|z", request.placement.motionUpZ, {{"y", false}, {"z", true}},
+      .word<bool>("--clip-up", "y|z", request.placement.motionUpZ, {{"y", false}, {"z", true}},
                   "Which axis of the clip points up")
+      .formerly("--motion-up")
+      .in(kUnitsGroup)
       .inHeader("motion_up")
       .inReport("motion's up axis");
   addSourceSettings(settings, request);

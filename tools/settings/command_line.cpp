@@ -8,6 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include "articulated/try.h"
+#include "tools/help_page.h"
+#include "tools/usage_error.h"
 
 namespace foretouch::tools {
 namespace {
@@ -23,26 +25,41 @@ struct Typed {
 /// A command's data after parsing.
 struct Subcommand {
   Command command;
+  const CLI::App* app = nullptr;
   std::deque<Typed> typed;
 };
 
+/// With the former ones behind it, which help leaves out.
+std::string namesOf(const Setting& setting) {
+  std::string names = setting.option;
+  for (const std::string& former : setting.formerNames) names += "," + former;
+  return names;
+}
+
 /// Help shows no default if there is none.
-void addSetting(CLI::App& app, Typed& typed) {
+void addOption(CLI::App& app, Typed& typed) {
   const Setting& setting = *typed.setting;
+  const std::string names = namesOf(setting);
   if (setting.kind == ValueKind::Flag) {
-    typed.option = app.add_flag(setting.option, setting.help);
+    typed.option = app.add_flag(names, setting.help);
     return;
   }
   if (setting.kind == ValueKind::List) {
-    typed.option = app.add_option(setting.option, typed.texts, setting.help);
+    typed.option = app.add_option(names, typed.texts, setting.help);
     if (setting.option.front() == '-') typed.option->allow_extra_args(false);
   } else {
     typed.text = setting.shown();
-    typed.option = app.add_option(setting.option, typed.text, setting.help);
+    typed.option = app.add_option(names, typed.text, setting.help);
     if (!typed.text.empty()) typed.option->capture_default_str();
   }
   typed.option->type_name(setting.value);
-  if (setting.isRequired) typed.option->required();
+}
+
+void addSetting(CLI::App& app, Typed& typed) {
+  const Setting& setting = *typed.setting;
+  addOption(app, typed);
+  if (!setting.group.empty()) typed.option->group(setting.group);
+  if (setting.isRequired) typed.option->option_text(kRequired);
   if (!setting.needs.empty()) typed.option->needs(app.get_option(setting.needs));
   if (!setting.isGone.empty()) typed.option->group("");  // hidden from help
   if (!setting.valueIfNone.empty()) {
@@ -59,9 +76,26 @@ Result<Done> take(const Typed& typed) {
   }
 }
 
+/// "--scene and --output are required" or "expected a scene file"; empty: nothing is missing.
+std::string missingIn(const Subcommand& subcommand) {
+  std::vector<std::string> names;
+  for (const Typed& typed : subcommand.typed) {
+    const Setting& setting = *typed.setting;
+    if (!setting.isRequired || setting.isGiven || !setting.shown().empty()) continue;
+    if (setting.option.front() != '-') return "expected " + setting.noun;
+    names.push_back(setting.name());
+  }
+  if (names.empty()) return "";
+  return wordList(names, "and") + (names.size() == 1 ? " is required" : " are required");
+}
+
 ExitCode runSubcommand(const Subcommand& subcommand) {
   for (const Typed& typed : subcommand.typed) {
     FORETOUCH_CHECK_OR(failed, take(typed));
+  }
+  if (const std::string missing = missingIn(subcommand); !missing.empty()) {
+    printError(withHelpOf(*subcommand.app, leadOf(*subcommand.app) + missing));
+    return ExitCode::BadInput;
   }
   return subcommand.command.run(subcommand.command.settings);
 }
@@ -82,6 +116,7 @@ void addCommand(CLI::App& program, Command command, ExitCode& exit) {
   if (!command.isGone.empty()) return addGone(program, command, exit);
   CLI::App* const app = program.add_subcommand(command.name, command.purpose);
   if (!command.examples.empty()) app->footer(command.examples);
+  if (!command.group.empty()) app->group(command.group);
   if (!command.commands.empty()) {
     app->require_subcommand(1);
     for (Command& inner : command.commands) addCommand(*app, std::move(inner), exit);
@@ -89,6 +124,7 @@ void addCommand(CLI::App& program, Command command, ExitCode& exit) {
   }
   const auto subcommand = std::make_shared<Subcommand>();
   subcommand->command = std::move(command);
+  subcommand->app = app;
   for (Setting& setting : subcommand->command.settings) {
     Typed& typed = subcommand->typed.emplace_back();
     typed.setting = &setting;

@@ -23,6 +23,7 @@ struct Command {
   /// Called once the settings hold the given values, all legal. `settings` are these.
   std::function<ExitCode(const Settings& settings)> run = {};
   std::vector<Command> commands = {};  ///< Subcommands; the user must name one if there are any.
+  std::string group = {};              ///< In the list of commands; empty: "Commands".
   /// Not empty: the command is gone, and naming it prints this text.
   std::string isGone = {};
 };
