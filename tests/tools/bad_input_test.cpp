@@ -166,7 +166,8 @@ std::vector<BadInput> badOptions() {
       badOption("PairsWithoutSelf", {"--pairs", "p.json"}, "--pairs requires --self"),
       badOption("FidelityUnknown", {"--fidelity", "best"}, "--fidelity: "),
       badOption("MapMissing", {"--map", "/absent/map.json"}, "/absent/map.json: "),
-      badOption("OptionUnknown", {"--sceen", "x"}, "see foretouch replay --help"),
+      badOption("OptionUnknown", {"--sceen", "x"},
+                "unknown option '--sceen'; did you mean '--scene'? See foretouch replay --help"),
   };
 }
 
