@@ -32,11 +32,12 @@ Command memoryCommand() {
             "What touches, where no policy says more")
       .only({"link", "exact"});
   settings.path("--policy", "FILE", request->policyPath, "As of replay: [[policy]] tables");
-  Command command{
-      "memory", "What a scene and an avatar cost in time and memory before the first answer",
-      "Example:\n  foretouch-bench memory --scene kitchen.ply --up z --avatar man.avatar.json "
-      "--fidelity exact",
-      std::move(settings)};
+  Command command{"memory",
+                  "What a scene and an avatar cost in time and memory before the first answer",
+                  "Example:\n  foretouch-bench memory --scene kitchen.ply --scene-up z --avatar "
+                  "man.avatar.json "
+                  "--fidelity exact",
+                  std::move(settings)};
   command.run = [request](const Settings&) { return run(*request); };
   return command;
 }

@@ -62,9 +62,9 @@ void settleFiles(const BenchTexts& texts, Settling& settle, BenchFiles& files) {
   files.avatarPath = texts.avatar;
   files.mapPath = texts.map;
   settle.into(files.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
-  settle.into(files.motionScale, parsePositive("--scale", texts.scale));
-  settle.into(files.sceneUp, parseUpAxis("--up", texts.up));
-  settle.into(files.motionUp, parseUpAxis("--motion-up", texts.motionUp));
+  settle.into(files.motionScale, parsePositive("--clip-scale", texts.scale));
+  settle.into(files.sceneUp, parseUpAxis("--scene-up", texts.up));
+  settle.into(files.motionUp, parseUpAxis("--clip-up", texts.motionUp));
 }
 
 void settleWorkload(const BenchTexts& texts, Settling& settle, WorkloadRequest& workload) {
@@ -135,10 +135,10 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts) {
   option("--motion", texts.motion, "CLIP", "Clip; the bundled one if not given");
   option("--avatar", texts.avatar, "FILE", "Avatar; one LSS a bone of the clip if not given");
   option("--map", texts.map, "FILE", "Joint names that differ, as for replay");
-  option("--scale", texts.scale, "S", "Metres per unit of the clip");
-  option("--motion-up", texts.motionUp, "y|z", "Which axis of the clip points up");
+  option("--clip-scale,--scale", texts.scale, "S", "Metres per unit of the clip");
+  option("--clip-up,--motion-up", texts.motionUp, "y|z", "Which axis of the clip points up");
   option("--scene-scale", texts.sceneScale, "S", "Metres per unit of the scene");
-  option("--up", texts.up, "y|z", "Which axis of the scene points up");
+  option("--scene-up,--up", texts.up, "y|z", "Which axis of the scene points up");
   option("--place", texts.place, "X,Y,Z[,YAW]",
          "Every step at this one place, as replay has it, instead of a choice");
   option("--choice", texts.choice, "busy|mix",
@@ -152,7 +152,8 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts) {
   option("--processor", texts.processor, "N", "Keep to this processor");
   option("--fidelity", texts.fidelity, "RUNG",
          "What touches: ellipsoid, avatar, limb, link, exact or skinned");
-  option("--skin", texts.skin, "FILE", "At skinned fidelity: the model that the avatar was made of");
+  option("--skin", texts.skin, "FILE",
+         "At skinned fidelity: the model that the avatar was made of");
   option("--descent", texts.descent, "straight|by-need",
          "Whether a query first checks if anything is within the avatar's reach");
   option("--leaves", texts.leaves, "advancement|cubics",

@@ -59,7 +59,7 @@ Result<std::vector<MotionSetKind>> setsNamed(const std::vector<std::string>& nam
 
 Result<Done> parseScene(const PeersTexts& texts, PeersRequest& request) {
   FORETOUCH_TRY(const auto scale, parsePositive("--scene-scale", texts.sceneScale));
-  FORETOUCH_TRY(const auto up, parseUpAxis("--up", texts.up));
+  FORETOUCH_TRY(const auto up, parseUpAxis("--scene-up", texts.up));
   FORETOUCH_TRY(const auto triangles, parseCount("--triangles", texts.triangles, kMostTriangles));
   request.import.scale = scale;
   request.import.up = up;
@@ -149,7 +149,7 @@ void addOptions(CLI::App& command, PeersTexts& texts) {
   };
   option("--scene", texts.scene, "Scene instead of the bundled room", "FILE");
   option("--scene-scale", texts.sceneScale, "Metres per unit of the scene", "M");
-  option("--up", texts.up, "Which axis of the scene is up: y or z", "AXIS");
+  option("--scene-up,--up", texts.up, "Which axis of the scene is up: y or z", "AXIS");
   option("--triangles", texts.triangles, "Split the scene's longest edges until it has so many",
          "N");
   command

@@ -93,8 +93,8 @@ void settleWorlds(const TradeTexts& texts, Settling& settle, TradeRequest& reque
   settle.into(clips, parseFiles("--clips", texts.clips));
   settle.into(sceneScales, parseScales("--scene-scales", texts.sceneScales, scenes.size()));
   settle.into(sceneUps, parseUpAxes("--scene-ups", texts.sceneUps, scenes.size()));
-  settle.into(clipScales, parseScales("--scales", texts.scales, clips.size()));
-  settle.into(clipUps, parseUpAxes("--ups", texts.clipUps, clips.size()));
+  settle.into(clipScales, parseScales("--clip-scales", texts.scales, clips.size()));
+  settle.into(clipUps, parseUpAxes("--clip-ups", texts.clipUps, clips.size()));
   if (settle.error()) return;
   for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
     for (std::size_t clip = 0; clip < clips.size(); ++clip) {
@@ -207,7 +207,7 @@ constexpr char kFooter[] =
     R"(Every clip in every scene, at every rate that it has, at every tolerance, by every strategy.
 Examples:
   foretouch-bench trade --quick --html trade.html
-  foretouch-bench trade --clips walk.bvh,kick.bvh --scales 0.01 --scenes room.obj,kitchen.ply --scene-ups y,z \
+  foretouch-bench trade --clips walk.bvh,kick.bvh --clip-scales 0.01 --scenes room.obj,kitchen.ply --scene-ups y,z \
       --json trade.json --csv trade.csv --html trade.html --markdown trade.md)";
 
 }  // namespace
@@ -222,9 +222,10 @@ void addBenchTradeCommand(CLI::App& bench, ExitCode& exit) {
   option("--scenes", texts->scenes, "FILE,...", "Scenes; the bundled room if not given");
   option("--clips", texts->clips, "FILE,...", "Clips; the bundled one if not given");
   option("--scene-scales", texts->sceneScales, "S,...", "Metres per unit, one for all or one each");
-  option("--scales", texts->scales, "S,...", "Of the clips, one for all or one each");
+  option("--clip-scales,--scales", texts->scales, "S,...", "Of the clips, one for all or one each");
   option("--scene-ups", texts->sceneUps, "y|z,...", "Up axes of scenes, one for all or one each");
-  option("--ups", texts->clipUps, "y|z,...", "Up axes of clips, one for all or one each");
+  option("--clip-ups,--ups", texts->clipUps, "y|z,...",
+         "Up axes of clips, one for all or one each");
   option("--tolerance", texts->tolerances, "M,...", "Tolerances (m)");
   option("--rate", texts->rates, "HZ,...", "Poses a second");
   option("--seconds", texts->seconds, "S", "Of the clip at each place");

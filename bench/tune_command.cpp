@@ -32,9 +32,9 @@ Result<TuneRequest> settledTune(const TuneTexts& texts) {
   request.files.avatarPath = texts.avatar;
   request.files.mapPath = texts.map;
   settle.into(request.files.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
-  settle.into(request.files.motionScale, parsePositive("--scale", texts.scale));
-  settle.into(request.files.sceneUp, parseUpAxis("--up", texts.up));
-  settle.into(request.files.motionUp, parseUpAxis("--motion-up", texts.motionUp));
+  settle.into(request.files.motionScale, parsePositive("--clip-scale", texts.scale));
+  settle.into(request.files.sceneUp, parseUpAxis("--scene-up", texts.up));
+  settle.into(request.files.motionUp, parseUpAxis("--clip-up", texts.motionUp));
   settle.into(request.budgetUs, parsePositive("--budget-us", texts.budgetUs));
   int steps = 0;
   settle.into(steps, parseCount("--steps", texts.steps, kMaxBenchSteps));
@@ -69,7 +69,7 @@ constexpr char kTuneFooter[] =
     R"(Tries the rungs of the ladder and tolerances on your own scene, avatar and clip.
 Examples:
   foretouch-bench tune --budget-us 20
-  foretouch-bench tune --scene kitchen.ply --motion walk.bvh --scale 0.01 --rate 30 --budget-us 50)";
+  foretouch-bench tune --scene kitchen.ply --motion walk.bvh --clip-scale 0.01 --rate 30 --budget-us 50)";
 
 }  // namespace
 
@@ -85,10 +85,10 @@ void addTuneCommand(CLI::App& program, ExitCode& exit) {
   option("--motion", texts->motion, "CLIP", "Clip; the bundled one if not given");
   option("--avatar", texts->avatar, "FILE", "Avatar; one LSS a bone of the clip if not given");
   option("--map", texts->map, "FILE", "Joint names that differ, as for replay");
-  option("--scale", texts->scale, "S", "Metres per unit of the clip");
-  option("--motion-up", texts->motionUp, "y|z", "Which axis of the clip points up");
+  option("--clip-scale,--scale", texts->scale, "S", "Metres per unit of the clip");
+  option("--clip-up,--motion-up", texts->motionUp, "y|z", "Which axis of the clip points up");
   option("--scene-scale", texts->sceneScale, "S", "Metres per unit of the scene");
-  option("--up", texts->up, "y|z", "Which axis of the scene points up");
+  option("--scene-up,--up", texts->up, "y|z", "Which axis of the scene points up");
   option("--place", texts->place, "X,Y,Z[,YAW]", "Where the clip stands, as for replay");
   option("--budget-us", texts->budgetUs, "US", "Microseconds per step, at the 99th percentile");
   option("--rate", texts->rate, "HZ", "Poses per second; by default tries several");

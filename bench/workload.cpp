@@ -293,7 +293,7 @@ Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Classifier& c
   if (!workload.picks.empty()) return Done{};
   return Error::in(inputs.files.scenePath, ErrorCode::Empty,
                    fmt::format("no steps with and without a contact were found at {} places; are "
-                               "--scale, --floor and --lift right?",
+                               "--clip-scale, --floor and --lift right?",
                                workload.placements));
 }
 

@@ -1,47 +1,89 @@
 #include "tools/program.h"
 
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "tools/console.h"
+#include "tools/help_page.h"
+#include "tools/help_text.h"
+#include "tools/usage_error.h"
 
 namespace foretouch::tools {
 namespace {
 
-/// The innermost subcommand that the user named, for its help.
-const CLI::App& innermost(const CLI::App& program) {
-  const CLI::App* app = &program;
-  for (auto named = app->get_subcommands(); !named.empty(); named = app->get_subcommands()) {
-    app = named.front();
+/// Shown by CLI11 wherever it shows help.
+std::string helpOf(const CLI::App* app, const std::string&, CLI::AppFormatMode mode) {
+  const std::size_t columns = textColumns();
+  std::string text = helpText(helpPageOf(*app), columns);
+  if (mode != CLI::AppFormatMode::All) return text;
+  for (const CLI::App* const command : listedCommands(*app)) {
+    text += "\n\n" + helpText(helpPageOf(*command), columns);
   }
-  return *app;
+  return text;
 }
 
-std::string helpOf(const CLI::App& app) {
-  std::string words;
-  for (const CLI::App* a = &app; a != nullptr; a = a->get_parent()) {
-    words = a->get_name() + (words.empty() ? "" : " ") + words;
+/// `foretouch help avatar check`
+ExitCode help(const CLI::App& program, const std::vector<std::string>& words) {
+  std::size_t rest = 0;
+  const CLI::App& app = commandNamed(program, words, rest);
+  if (rest < words.size()) {
+    printError(withHelpOf(app, unknownCommand(app, words[rest])));
+    return ExitCode::BadInput;
   }
-  return words + " --help";
+  printOut(helpOf(&app, "", CLI::AppFormatMode::Normal));
+  return ExitCode::Done;
+}
+
+constexpr char kHelpGroup[] = "Help";
+
+/// What every program has.
+void addOwnCommands(CLI::App& program, const std::string& version, ExitCode& exit) {
+  const auto words = std::make_shared<std::vector<std::string>>();
+  CLI::App* const own = program.add_subcommand("help", "Show the help of a command");
+  own->group(kHelpGroup);
+  own->add_option("COMMAND", *words, "The command's words; none: the program's help");
+  own->callback([&program, words, &exit] { exit = help(program, *words); });
+  program.add_subcommand("version", "Show the version")->group(kHelpGroup)->callback([version] {
+    printOut(version + "\n");
+  });
+}
+
+/// A command line that is no command's: also `foretouch`, and `foretouch avatar help`.
+ExitCode tellUsage(const CLI::App& program, const std::vector<std::string>& words,
+                   const std::string& parsersWords) {
+  std::size_t rest = 0;
+  const CLI::App& app = commandNamed(program, words, rest);
+  if (words.empty() || (rest + 1 == words.size() && words[rest] == "help")) {
+    printOut(helpOf(&app, "", CLI::AppFormatMode::Normal));
+    return words.empty() ? ExitCode::BadInput : ExitCode::Done;
+  }
+  printError(usageError(program, words, parsersWords));
+  return ExitCode::BadInput;
 }
 
 ExitCode run(const ProgramText& text, const AddCommands& addCommands, int argc,
              const char* const* argv) {
+  const std::string version = std::string(text.name) + " " FORETOUCH_VERSION;
   CLI::App program(text.purpose, text.name);
-  program.set_version_flag("--version", std::string(text.name) + " " FORETOUCH_VERSION);
+  program.formatter_fn(helpOf);
+  program.set_help_flag("-h,--help", "Show this help");
+  program.set_help_all_flag("--help-all", "Show the help of every command");
+  program.set_version_flag("-V,--version", version, "Show the version");
   program.require_subcommand(1);
   program.footer(text.start);
   ExitCode exit = ExitCode::Done;
   addCommands(program, exit);
+  addOwnCommands(program, version, exit);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success)) {
-      printError(std::string(e.what()) + "; see " + helpOf(innermost(program)));
-      return ExitCode::BadInput;
+      return tellUsage(program, {argv + 1, argv + argc}, e.what());
     }
     static_cast<void>(program.exit(e));  // prints the help or the version
   }

@@ -149,10 +149,12 @@ std::vector<BadInput> badOptions() {
       badOption("IgnoreUnknownObject", {"--ignore", "Hips:wal"}, "did you mean 'wall'?"),
       badOption("PlaceOfTwoNumbers", {"--place", "1,2"}, "--place: "),
       badOption("PlaceNotFinite", {"--place", "1,2,inf"}, "--place: "),
-      badOption("ScaleZero", {"--scale", "0"}, "--scale: "),
+      badOption("ScaleZero", {"--clip-scale", "0"}, "--clip-scale: "),
+      badOption("ScaleZeroByItsFormerName", {"--scale", "0"}, "--clip-scale: "),
       badOption("SceneScaleNegative", {"--scene-scale", "-1"}, "--scene-scale: "),
-      badOption("UpUnknown", {"--up", "x"}, "--up: "),
-      badOption("MotionUpUnknown", {"--motion-up", "w"}, "--motion-up: "),
+      badOption("UpUnknown", {"--scene-up", "x"}, "--scene-up: "),
+      badOption("UpUnknownByItsFormerName", {"--up", "x"}, "--scene-up: "),
+      badOption("MotionUpUnknown", {"--clip-up", "w"}, "--clip-up: "),
       badOption("CullerIsGone", {"--culler", "point-query"},
                 "--culler: is gone: the answers never depended on it"),
       badOption("LeavesAreGone", {"--leaves", "cubics"},
@@ -164,7 +166,8 @@ std::vector<BadInput> badOptions() {
       badOption("PairsWithoutSelf", {"--pairs", "p.json"}, "--pairs requires --self"),
       badOption("FidelityUnknown", {"--fidelity", "best"}, "--fidelity: "),
       badOption("MapMissing", {"--map", "/absent/map.json"}, "/absent/map.json: "),
-      badOption("OptionUnknown", {"--sceen", "x"}, "see foretouch replay --help"),
+      badOption("OptionUnknown", {"--sceen", "x"},
+                "unknown option '--sceen'; did you mean '--scene'? See foretouch replay --help"),
   };
 }
 

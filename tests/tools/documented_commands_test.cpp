@@ -20,6 +20,17 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
+/// Names that options had when figures were measured whose commands stand in a document.
+const std::map<std::string, std::string> kFormerNames = {{"--scale", "--clip-scale"},
+                                                         {"--motion-up", "--clip-up"},
+                                                         {"--up", "--scene-up"},
+                                                         {"--scales", "--clip-scales"},
+                                                         {"--ups", "--clip-ups"}};
+
+bool isOfMeasurements(const std::string& document) {
+  return document == "performance.md" || document == "memory.md" || document == "trade.md";
+}
+
 /// What a --help lists.
 struct Help {
   std::set<std::string> options, subcommands;
@@ -35,10 +46,9 @@ Help helpFrom(const std::string& text) {
   std::string line;
   bool listsSubcommands = false;
   while (std::getline(lines, line)) {
-    if (line.rfind("Subcommands:", 0) == 0) {
-      listsSubcommands = true;
-    } else if (isBlank(line) || line.front() != ' ') {
-      listsSubcommands = false;
+    if (isBlank(line) || line.front() != ' ') {
+      // Commands come first, under any title; arguments and examples do not.
+      listsSubcommands = line.rfind("Arguments:", 0) != 0 && line.rfind("Example", 0) != 0;
     } else if (line.rfind("  ", 0) == 0 && line.size() > 2 && line[2] != ' ') {
       std::istringstream words(line);
       std::string word;
@@ -117,7 +127,8 @@ bool isWord(const std::string& text) {
 }
 
 /// The words from the program's name on. "..." and words in capitals stand for something.
-void expectCommand(const Words& words, const std::string& where) {
+/// `mayBeFormer`: options may have the names of then.
+void expectCommand(const Words& words, bool mayBeFormer, const std::string& where) {
   Words path{words.front()};
   std::size_t at = 1;
   while (at < words.size() && isWord(words[at]) && words[at].front() != '-') {
@@ -130,11 +141,13 @@ void expectCommand(const Words& words, const std::string& where) {
   }
   if (path.size() == 1) return;
   for (; at < words.size(); ++at) {
-    const std::string option = words[at].substr(0, words[at].find_first_of("=,.;:)]"));
+    std::string option = words[at].substr(0, words[at].find_first_of("=,.;:)]"));
     if (option.rfind("--", 0) != 0 && !(option.size() == 2 && option.front() == '-' &&
                                         std::isalpha(static_cast<unsigned char>(option[1])) != 0)) {
       continue;
     }
+    const auto former = kFormerNames.find(option);
+    if (mayBeFormer && former != kFormerNames.end()) option = former->second;
     EXPECT_EQ(helpOf(path).options.count(option), 1u) << where << ": no option " << option;
   }
 }
@@ -162,7 +175,7 @@ TEST(Documents, TellOnlyOfCommandsAndOptionsThatExist) {
       }
       if (words.empty() || !isProgram(words.front())) continue;
       ++commands;
-      expectCommand(words, where);
+      expectCommand(words, isOfMeasurements(document.filename().string()), where);
     }
   }
   EXPECT_GT(commands, 50);

@@ -75,8 +75,8 @@ TEST(AvatarMesh, MakesAnAvatarAndItsMeshThatTheCheckAccepts) {
 TEST(AvatarMesh, ScalesAndTurns) {
   const TempFolder folder;
   const std::string model = folder.write("boxes.obj", twoBoxes());
-  const Ended ended = runForetouch({"avatar", "mesh", model, "-o", folder / "a.json", "--scale",
-                                    "0.5", "--up", "z", "--max-lss", "1"});
+  const Ended ended = runForetouch({"avatar", "mesh", model, "-o", folder / "a.json", "--model-scale",
+                                    "0.5", "--model-up", "z", "--max-lss", "1"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const Avatar avatar = readAvatarFile(folder / "a.json").value();
   EXPECT_EQ(avatar.numLss(), 2);

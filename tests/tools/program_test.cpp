@@ -1,5 +1,8 @@
 // tests/tools/program_test.cpp: help, exit codes and the small commands of the program.
+#include <array>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -43,19 +46,20 @@ TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
   }
   const Ended replay = runForetouch({"replay", "--help"});
   for (const char* option :
-       {"--scene ",       "--avatar ", "--motion ",   "--animation ",     "--robot ",
-        "--package ",     "--rate ",   "--scale ",    "--motion-up ",     "--up ",
-        "--scene-scale ", "--place ",  "--fidelity ", "--tolerance ",     "--threads ",
-        "--ignore ",      "--map ",    "--output ",   "--compare-rigid ", "--rays "}) {
+       {"--scene ",       "--avatar ", "--motion ",     "--animation ",     "--robot ",
+        "--package ",     "--rate ",   "--clip-scale ", "--clip-up ",       "--scene-up ",
+        "--scene-scale ", "--place ",  "--fidelity ",   "--tolerance ",     "--threads ",
+        "--ignore ",      "--map ",    "-o,--output ",  "--compare-rigid ", "--rays "}) {
     EXPECT_TRUE(holds(replay.out, std::string("\n  ") + option)) << option;
   }
-  for (const char* gone : {"--culler", "--leaves"}) EXPECT_FALSE(holds(replay.out, gone)) << gone;
+  for (const char* gone : {"--culler", "--leaves", " --scale", " --motion-up", " --up"}) {
+    EXPECT_FALSE(holds(replay.out, gone)) << gone;
+  }
 }
 
 TEST(Program, EndsWithTwoOnBadUse) {
   for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{},
-                                             {"dance"},
+       std::vector<std::vector<std::string>>{{"dance"},
                                              {"avatar"},
                                              {"scene"},
                                              {"replay"},
@@ -70,6 +74,66 @@ TEST(Program, EndsWithTwoOnBadUse) {
     EXPECT_EQ(ended.err.rfind("foretouch: ", 0), 0u) << ended.err;
     EXPECT_TRUE(holds(ended.err, " --help\n")) << ended.err;
   }
+}
+
+TEST(Program, HelpsWhoeverTypesNothingAndEndsWithTwo) {
+  const Ended ended = runForetouch({});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_EQ(ended.out, runForetouch({"--help"}).out);
+  EXPECT_EQ(ended.err, "");
+}
+
+TEST(Program, NamesWhatWasTypedAndWhatWasMeant) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"replya"}, "unknown command 'replya'; did you mean 'replay'? See foretouch --help"},
+      {{"help", "replya"}, "unknown command 'replya'; did you mean 'replay'?"},
+      {{"avatar", "chek"}, "avatar: unknown command 'chek'; did you mean 'check'?"},
+      {{"avatar"}, "avatar: expected a command: bvh mesh urdf check pairs"},
+      {{"replay", "-o", "x.jsonl"}, "replay: --scene, --avatar and --motion are required"},
+      {{"avatar", "bvh", "x.bvh"}, "avatar bvh: --output is required"},
+      {{"scene", "check", "X", "--scale", "0.01"},
+       "scene check: unknown option '--scale'; did you mean '--scene-scale'?"},
+      {{"scene", "check"}, "scene check: expected a scene file"},
+      {{"demo", "extra"}, "demo: expected no argument 'extra'"}};
+  for (const auto& [arguments, expected] : cases) {
+    const Ended ended = runForetouch(arguments);
+    EXPECT_EQ(ended.exitCode, 2);
+    EXPECT_EQ(ended.err.rfind("foretouch: " + expected, 0), 0u) << ended.err;
+  }
+}
+
+TEST(Program, HelpsByEveryUsualWord) {
+  const std::string help = runForetouch({"replay", "--help"}).out;
+  EXPECT_EQ(runForetouch({"help", "replay"}).out, help);
+  EXPECT_EQ(runForetouch({"avatar", "help"}).out, runForetouch({"help", "avatar"}).out);
+  const std::string version = runForetouch({"--version"}).out;
+  for (const char* const word : {"-V", "version"}) EXPECT_EQ(runForetouch({word}).out, version);
+  EXPECT_TRUE(holds(runForetouch({"--help-all"}).out, help));
+  for (const char* const title : {"Input:", "Units, axes and place:", "What touches:", "Output:",
+                                  "Comparison:", "Effort:", "General:"}) {
+    EXPECT_TRUE(holds(help, std::string("\n") + title + "\n")) << title;
+  }
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+}
+
+TEST(Program, TakesTheFormerNamesOfOptions) {
+  const SmallWorld world;
+  const std::string scene = world.folder / "wall.obj";
+  EXPECT_EQ(runForetouch({"scene", "check", scene, "--up", "z"}).out,
+            runForetouch({"scene", "check", scene, "--scene-up", "z"}).out);
+  const std::string out = world.folder / "out.jsonl";
+  std::vector<std::string> before, now;
+  for (auto [words, names] :
+       {std::pair(&before, std::array{"--scale", "--up", "--motion-up"}),
+        std::pair(&now, std::array{"--clip-scale", "--scene-up", "--clip-up"})}) {
+    const Ended ended = runForetouch(
+        world.replay({"--output", out, names[0], "0.5", names[1], "y", names[2], "y"}));
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    words->push_back(contentOf(out));
+  }
+  EXPECT_EQ(before, now);
+  EXPECT_TRUE(holds(now.front(), "\"scale\":0.5")) << now.front().substr(0, 400);
 }
 
 TEST(Program, EndsWithTwoWhereItsOutputDoesNotArrive) {

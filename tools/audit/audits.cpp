@@ -23,7 +23,7 @@ std::string sides(const Vector3d& extent) {
 }
 
 std::vector<std::string> sizeDoubt(double largestSide, double least, double most,
-                                   const char* option) {
+                                   const std::string& option) {
   if (largestSide >= least && largestSide <= most) return {};
   return {fmt::format("measures {:.4g} m; expected {:g} to {:g} m: is the unit ({}) right?",
                       largestSide, least, most, option)};
@@ -85,16 +85,16 @@ std::string describe(const SceneAudit& audit) {
                   fmt::format("{:.4g} to {:.4g} m", audit.shortestEdge, audit.longestEdge));
 }
 
-std::vector<std::string> doubtsAbout(const AvatarAudit& audit) {
+std::vector<std::string> doubtsAbout(const AvatarAudit& audit, const std::string& unitOption) {
   const double largestSide = audit.extent.maxCoeff();
-  if (!audit.stature) return sizeDoubt(largestSide, kSmallestThing, kLargestThing, "--scale");
-  auto doubts = sizeDoubt(largestSide, kSmallestPerson, kLargestPerson, "--scale");
+  if (!audit.stature) return sizeDoubt(largestSide, kSmallestThing, kLargestThing, unitOption);
+  auto doubts = sizeDoubt(largestSide, kSmallestPerson, kLargestPerson, unitOption);
   const bool isLikely = *audit.stature >= kSmallestStature && *audit.stature <= kLargestStature;
   if (doubts.empty() && !isLikely) {
     doubts.push_back(fmt::format(
         "is {:.3g} m tall, by the length of its legs; expected {:g} to {:g} m of a person: is the "
-        "unit (--scale) right?",
-        *audit.stature, kSmallestStature, kLargestStature));
+        "unit ({}) right?",
+        *audit.stature, kSmallestStature, kLargestStature, unitOption));
   }
   return doubts;
 }

@@ -47,7 +47,9 @@ struct AvatarAudit {
 [[nodiscard]] std::string describe(const SceneAudit& audit);
 
 /// The findings that fail a check, one sentence each; empty if nothing looks wrong.
-[[nodiscard]] std::vector<std::string> doubtsAbout(const AvatarAudit& audit);
+/// `unitOption`: what would give the avatar another unit.
+[[nodiscard]] std::vector<std::string> doubtsAbout(
+    const AvatarAudit& audit, const std::string& unitOption = "--clip-scale or --model-scale");
 [[nodiscard]] std::vector<std::string> doubtsAbout(const SceneAudit& audit);
 
 /// One aligned line of an audit.

@@ -110,20 +110,20 @@ ExitCode check(const ClipRequest& asked) {
 Command avatarCheckCommand() {
   const auto asked = std::make_shared<ClipRequest>();
   Settings settings;
-  Setting& avatar = addAvatarSetting(settings, *asked).required();
+  Setting& avatar = addAvatarSetting(settings, *asked).required("an avatar file");
   avatar.option = "avatar";
   avatar.value = "AVATAR";
   avatar.help = "Avatar file";
   addMotionSetting(settings, *asked, "--motion", "CLIP",
                    "Clip to match joints with, by name: BVH, animated model, or csv");
   addClipReadingSettings(settings, *asked);
-  for (const char* const option : {"--map", "--animation", "--robot", "--motion-up"}) {
+  for (const char* const option : {"--map", "--animation", "--robot", "--clip-up"}) {
     settings.of(option).needing("--motion");
   }
   Command command{
       "check",
       "Measure an avatar; exit code 1 where its size, its meshes or its match with a clip is amiss",
-      "Example:\n  foretouch avatar check walker.avatar.json --motion walk.bvh --scale 0.01",
+      "Example:\n  foretouch avatar check walker.avatar.json --motion walk.bvh --clip-scale 0.01",
       std::move(settings)};
   command.takesProject = true;
   command.run = [asked](const Settings&) { return check(*asked); };

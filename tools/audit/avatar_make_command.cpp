@@ -40,12 +40,13 @@ struct AskedOfModel {
 };
 
 /// Describes the result, and what looks wrong about it.
+/// `unitOption`: the option that gives its unit.
 void tell(const Avatar& avatar, const std::string& output, const std::string& more,
-          bool isRobot = false) {
+          const char* unitOption, bool isRobot = false) {
   AvatarAudit audit = auditAvatar(avatar, restPose(avatar.skeleton()));
   if (isRobot) audit.stature.reset();
   printOut(output + "\n" + describe(audit, "rest pose") + more);
-  for (const std::string& doubt : doubtsAbout(audit)) printNote(output + ": " + doubt);
+  for (const std::string& doubt : doubtsAbout(audit, unitOption)) printNote(output + ": " + doubt);
 }
 
 ExitCode makeFromBvh(const AskedOfClip& asked) {
@@ -55,7 +56,7 @@ ExitCode makeFromBvh(const AskedOfClip& asked) {
   FORETOUCH_TRY_OR(failed, const auto avatar,
                    inFile(avatarFromClip(clip, asked.making), asked.clip));
   FORETOUCH_CHECK_OR(failed, writeAvatarFile(avatar, asked.output));
-  tell(avatar, asked.output, "");
+  tell(avatar, asked.output, "", "--clip-scale");
   return ExitCode::Done;
 }
 
@@ -109,7 +110,7 @@ ExitCode makeFromModel(AskedOfModel asked) {
 
   std::size_t read = 0;
   for (const ModelMesh& mesh : model.meshes) read += mesh.triangles.size();
-  tell(made.avatar, asked.output, describe(made, read), asked.isRobot);
+  tell(made.avatar, asked.output, describe(made, read), "--model-scale", asked.isRobot);
   return ExitCode::Done;
 }
 
@@ -120,9 +121,12 @@ void addOutput(Settings& settings, std::string& output) {
 /// Settings of both kinds of models.
 void addModelSettings(Settings& settings, AskedOfModel& asked, const char* scaleHelp) {
   addOutput(settings, asked.output);
-  settings.number("--scale", "S", asked.reading.import.scale, kMetresPerUnit, scaleHelp);
-  settings.word("--up", "y|z", asked.reading.import.up, upAxisWords(),
-                "Which axis of the model points up");
+  settings.number("--model-scale", "S", asked.reading.import.scale, kMetresPerUnit, scaleHelp)
+      .formerly("--scale");
+  settings
+      .word("--model-up", "y|z", asked.reading.import.up, upAxisWords(),
+            "Which axis of the model points up")
+      .formerly("--up");
   settings.whole("--max-lss", "N", asked.making.maxLssPerLink, 1, kMaxLssPerLink,
                  "Most LSS that one link's triangles are split among");
 }
@@ -132,15 +136,18 @@ void addModelSettings(Settings& settings, AskedOfModel& asked, const char* scale
 Command avatarBvhCommand() {
   const auto asked = std::make_shared<AskedOfClip>();
   Settings settings;
-  settings.path("clip", "CLIP", asked->clip, "BVH clip").required();
+  settings.path("clip", "CLIP", asked->clip, "BVH clip").required("a BVH clip");
   addOutput(settings, asked->output);
-  settings.number("--scale", "S", asked->reading.scale, kMetresPerUnit,
-                  "Metres per unit of the clip: 0.01 for centimetres");
+  settings
+      .number("--clip-scale", "S", asked->reading.scale, kMetresPerUnit,
+              "Metres per unit of the clip: 0.01 for centimetres")
+      .formerly("--scale");
   settings.number("--radius-scale", "S", asked->making.radiusScale, kAboveZero,
                   "Multiplies every radius");
-  Command command{"bvh", "Make an avatar from a clip's skeleton, an LSS a bone",
-                  "Example:\n  foretouch avatar bvh walk.bvh --scale 0.01 -o walker.avatar.json",
-                  std::move(settings)};
+  Command command{
+      "bvh", "Make an avatar from a clip's skeleton, an LSS a bone",
+      "Example:\n  foretouch avatar bvh walk.bvh --clip-scale 0.01 -o walker.avatar.json",
+      std::move(settings)};
   command.run = [asked](const Settings&) { return makeFromBvh(*asked); };
   return command;
 }
@@ -151,7 +158,7 @@ Command avatarMeshCommand() {
   settings
       .path("model", "BODY", asked->model,
             "Model: any format with bones or nodes that assimp reads")
-      .required();
+      .required("a rigged model");
   addModelSettings(settings, *asked, "Metres per unit of the model");
   Command command{"mesh", "Make an avatar from a rigged model: LSS that contain its triangles",
                   "Example:\n  foretouch avatar mesh man.glb -o man.avatar.json\n\n"
@@ -166,7 +173,7 @@ Command avatarUrdfCommand() {
   asked->reading.import.up = UpAxis::Z;
   asked->isRobot = true;
   Settings settings;
-  settings.path("robot", "ROBOT", asked->model, "URDF file").required();
+  settings.path("robot", "ROBOT", asked->model, "URDF file").required("a URDF file");
   addModelSettings(settings, *asked, "Metres per unit of the robot");
   settings.flag("--visual", asked->visual, "Use the visual meshes as the collision surface");
   settings.list("--package", "DIR", asked->reading.packagePaths,

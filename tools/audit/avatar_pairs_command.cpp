@@ -153,7 +153,7 @@ Settings pairsSettings(AskedPairs& asked) {
   settings
       .path("avatar", "AVATAR|CLIP", asked.source,
             "Avatar file, or a BVH clip: the avatar that foretouch avatar bvh makes of it")
-      .required();
+      .required("an avatar file or a BVH clip");
   settings.path("-o,--output", "FILE", asked.output, "Pair rules to write, for replay --pairs");
   settings.list(
       "--clip", "CLIP", asked.clips,
@@ -184,7 +184,7 @@ Command avatarPairsCommand() {
       "pairs",
       "Find which of an avatar's own links a query asks whether they touch, and which not, and why",
       "Examples:\n"
-      "  foretouch avatar pairs walker.avatar.json --clip walk.bvh --scale 0.01 \\\n"
+      "  foretouch avatar pairs walker.avatar.json --clip walk.bvh --clip-scale 0.01 \\\n"
       "      -o walker.pairs.json\n"
       "  foretouch avatar pairs man.avatar.json --leave-out 'LeftHand*:LeftHand*'",
       pairsSettings(*asked)};

@@ -45,11 +45,11 @@ Command sceneCommand() {
   const auto asked = std::make_shared<WorldRequest>();
   Settings settings;
   addSceneSettings(settings, *asked);
-  Setting& scene = settings.of("--scene").required();
+  Setting& scene = settings.of("--scene").required("a scene file");
   scene.option = "scene";
   scene.value = "SCENE";
   Command check{"check", "Measure a scene; exit code 1 where its size or its triangles are amiss",
-                "Example:\n  foretouch scene check kitchen.ply --up z", std::move(settings)};
+                "Example:\n  foretouch scene check kitchen.ply --scene-up z", std::move(settings)};
   check.takesProject = true;
   check.run = [asked](const Settings&) { return tools::check(*asked); };
   Command command{"scene", "Check scenes"};

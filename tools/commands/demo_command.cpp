@@ -76,7 +76,7 @@ Command demoCommand() {
   const auto output = std::make_shared<std::string>("foretouch-demo.jsonl");
   const auto report = std::make_shared<std::string>();
   Settings settings;
-  settings.path("--output", "FILE", *output, "Results, as lines of JSON");
+  settings.path("-o,--output", "FILE", *output, "Results, as lines of JSON");
   settings.path("--report", "FILE", *report,
                 "The report, a page for a browser; beside the results if not given");
   Command command{"demo", "Replay the bundled dancer in the bundled room and say what was found",

@@ -32,32 +32,43 @@ struct AskedReplay {
   int threads = 0;  ///< 0: one per processor.
 };
 
-void addFileSettings(Settings& settings, AskedReplay& asked) {
+void addInputSettings(Settings& settings, AskedReplay& asked) {
   ReplayRequest& request = asked.job.request;
   addSceneSettings(settings, request);
   settings.of("--scene").required();
   settings
       .list("--avatar", "[ID=]FILE", asked.avatars,
             "Avatar file (see foretouch avatar); of a log, its number before it, and repeated")
+      .in(kInputGroup)
       .inConfig("avatar", "file")
       .required();
   addMotionSetting(settings, request, "--motion", "CLIP|LOG",
                    "BVH clip, animated model (glb, gltf, fbx, dae, x), joint positions (csv), or "
                    "event log (lcmlog)")
       .required();
-  settings.path("--output", "FILE", asked.job.outputPath, "Results, as lines of JSON").required();
-  settings.path("--report", "FILE", asked.job.report.path,
-                "The report: a page for a browser, all in one file");
-  settings.whole(
-      "--report-triangles", "N", asked.job.report.maxTriangles, 1, kMostReportTriangles,
-      "Of a heavier scene the report shows what is near the action, or a simplified form");
+}
+
+void addOutputSettings(Settings& settings, AskedReplay& asked) {
+  settings.path("-o,--output", "FILE", asked.job.outputPath, "Results, as lines of JSON")
+      .in(kOutputGroup)
+      .required();
+  settings
+      .path("--report", "FILE", asked.job.report.path,
+            "The report: a page for a browser, all in one file")
+      .in(kOutputGroup);
+  settings
+      .whole("--report-triangles", "N", asked.job.report.maxTriangles, 1, kMostReportTriangles,
+             "Of a heavier scene the report shows what is near the action, or a simplified form")
+      .in(kOutputGroup);
   settings
       .path("--glb", "FILE", asked.job.glb.path,
             "Also the replay as an animated GLB, for any viewer of glTF (docs/formats.md)")
+      .in(kOutputGroup)
       .ofClips();
   settings
       .whole("--glb-triangles", "N", asked.job.glb.mostTriangles, 1, kMaxTriangles,
              "Triangles of that file at most")
+      .in(kOutputGroup)
       .ofClips();
 }
 
@@ -65,28 +76,35 @@ void addComparisonSettings(Settings& settings, ReplayOptions& options) {
   settings
       .flag("--compare-rigid", options.compareRigid,
             "Also count what a model that knows only each link's own two poses misses")
+      .in(kComparisonGroup)
       .ofClips();
   settings
       .flag("--compare-link", options.compareLink,
             "With --fidelity exact: also count the LSS contacts that the meshes refute")
+      .in(kComparisonGroup)
       .ofClips();
   settings.flag("--rays", options.rays, "Also time 16 occlusion rays per step, as a yardstick")
+      .in(kComparisonGroup)
       .ofClips();
 }
 
-/// Settings of clips only, and of logs only.
-void addMotionSettings(Settings& settings, AskedReplay& asked) {
+/// Settings of clips only.
+void addClipOnlySettings(Settings& settings, AskedReplay& asked) {
   addRateSetting(settings, asked.job.request).ofClips();
   addClipSettings(settings, asked.job.request);
   for (const char* const option :
-       {"--scale", "--motion-up", "--place", "--map", "--animation", "--robot", "--package"}) {
+       {"--clip-scale", "--clip-up", "--place", "--map", "--animation", "--robot", "--package"}) {
     settings.of(option).ofClips();
   }
+}
+
+/// Settings of logs only.
+void addLogSettings(Settings& settings, AskedReplay& asked) {
   addSuffixSetting(settings, asked.suffix);
   addStreamSettings(settings, asked.stream);
   for (const char* const option :
        {"--suffix", "--max-step", "--confirmations", "--unmatched-at-rest"}) {
-    Setting& setting = settings.of(option).ofLogs();
+    Setting& setting = settings.of(option).ofLogs().in("Event logs");
     setting.help.front() = static_cast<char>(std::tolower(setting.help.front()));
     setting.help = "Of a log: " + setting.help;
   }
@@ -94,12 +112,16 @@ void addMotionSettings(Settings& settings, AskedReplay& asked) {
 
 Settings replaySettings(AskedReplay& asked) {
   Settings settings;
-  addFileSettings(settings, asked);
+  addInputSettings(settings, asked);
+  addClipOnlySettings(settings, asked);
   addQuerySettings(settings, asked.job.request);
   addReplayQuerySettings(settings, asked.job.request);
-  settings.wholeOr("cores", "--threads", "N", asked.threads, kMaxThreads, "Threads").ofClips();
-  addMotionSettings(settings, asked);
+  addOutputSettings(settings, asked);
   addComparisonSettings(settings, asked.job.options);
+  settings.wholeOr("cores", "--threads", "N", asked.threads, kMaxThreads, "Threads")
+      .in(kEffortGroup)
+      .ofClips();
+  addLogSettings(settings, asked);
   return settings;
 }
 
@@ -169,7 +191,7 @@ Result<Done> checkOptions(const Settings& settings, const AskedReplay& asked, bo
   const std::string& motion = asked.job.request.motionPath;
   for (const Setting& setting : settings) {
     if (!setting.isGiven || !(isLog ? setting.isOfClips : setting.isOfLogs)) continue;
-    return Error::in(setting.option, ErrorCode::Mismatch,
+    return Error::in(setting.name(), ErrorCode::Mismatch,
                      std::string("applies to ") + (isLog ? "clips" : "event logs") +
                          " only, but --motion is the " + (isLog ? "event log " : "clip ") +
                          inQuotes(motion));
@@ -226,8 +248,8 @@ ExitCode run(const Settings& settings, AskedReplay& asked) {
 constexpr char kReplayExamples[] = R"(Examples:
   foretouch replay --scene room.obj --avatar dancer.avatar.json --motion dancer.bvh \
       --rate 10 --output contacts.jsonl
-  foretouch replay --scene kitchen.ply --up z --avatar a.avatar.json --motion walk.bvh \
-      --scale 0.01 --place 1.5,0,-2,90 --ignore '*:floor,LeftFoot' --output contacts.jsonl
+  foretouch replay --scene kitchen.ply --scene-up z --avatar a.avatar.json --motion walk.bvh \
+      --clip-scale 0.01 --place 1.5,0,-2,90 --ignore '*:floor,LeftFoot' --output contacts.jsonl
   foretouch replay --scene room.obj --avatar man.json --motion man.glb --animation Walk \
       --output contacts.jsonl
   foretouch replay --scene room.obj --avatar 1=anna.json --avatar 2=ben.json \

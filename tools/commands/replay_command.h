@@ -5,11 +5,11 @@
 #include <string>
 
 #include "articulated/result.h"
-#include "tools/settings/command_line.h"
 #include "tools/glb/replay_glb.h"
 #include "tools/replay/replay.h"
 #include "tools/replay/summary.h"
 #include "tools/report/document_parts.h"
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
 

@@ -173,7 +173,7 @@ void addConfigSetting(Settings& settings, ServeConfig& config) {
 
 constexpr char kServeExamples[] = R"(Examples:
   foretouch serve --scene room.obj --avatar dancer.avatar.json
-  foretouch serve --scene kitchen.ply --up z --avatar 1=anna.json --avatar 2=ben.json \
+  foretouch serve --scene kitchen.ply --scene-up z --avatar 1=anna.json --avatar 2=ben.json \
       --workers 2 --log today.lcmlog --http 127.0.0.1:9464
   foretouch serve --scene room.obj --avatar dancer.avatar.json --view
   foretouch serve --config service.toml --workers 4

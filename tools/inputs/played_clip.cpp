@@ -73,8 +73,9 @@ std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,
   constexpr double kSuspiciousRatio = 2.0;  // people differ by less, centimetres and inches by more
   const double ratio = sizeOfClipToAvatar(avatar.skeleton(), clip, match);
   if (ratio <= kSuspiciousRatio && ratio >= 1.0 / kSuspiciousRatio) return std::nullopt;
-  return fmt::format("{}: its bones are {:.4g} times as long as the avatar's; is --scale right?",
-                     motionPath, ratio);
+  return fmt::format(
+      "{}: its bones are {:.4g} times as long as the avatar's; is --clip-scale right?", motionPath,
+      ratio);
 }
 
 std::string firstOf(const std::vector<std::string>& names) {

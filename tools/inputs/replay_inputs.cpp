@@ -72,7 +72,7 @@ Result<Done> checkRadii(const QueryOptions& query, const std::string& pairsPath)
 std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) {
   std::string command =
       "foretouch avatar pairs " + request.avatarPath + " --clip " + request.motionPath;
-  if (request.motionScale != 1.0) command += fmt::format(" --scale {}", request.motionScale);
+  if (request.motionScale != 1.0) command += fmt::format(" --clip-scale {}", request.motionScale);
   if (!request.animation.empty()) command += " --animation " + request.animation;
   return fmt::format(
       "--self: {} of {} pairs of own links are left out, so nothing is said of them ({}); list "

@@ -144,7 +144,7 @@ Command logConvertCommand() {
   const auto asked = std::make_shared<Conversion>();
   Settings settings;
   settings.path("INPUT", "", asked->input, "Event log, or a clip as foretouch publish reads it")
-      .required();
+      .required("an event log or a clip");
   settings.path("-o,--output", "FILE", asked->output, "Ends in .bvh, .jsonl or .lcmlog").required();
   settings.text("--avatar", "ID|[ID=]FILE", asked->avatar,
                 "Of a log: whose poses, 1 if not given. Of a clip: the avatar file that it moves");

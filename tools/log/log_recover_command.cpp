@@ -72,7 +72,7 @@ ExitCode recover(const Recovery& asked) {
 Command logRecoverCommand() {
   const auto asked = std::make_shared<Recovery>();
   Settings settings;
-  settings.path("log", "LOG", asked->log, "LCM event log").required();
+  settings.path("log", "LOG", asked->log, "LCM event log").required("an event log");
   settings.path("-o,--output", "FILE", asked->output, "The new log; an existing file is refused")
       .required();
   settings.flag("--keep-tail", asked->keepTail,

@@ -34,18 +34,20 @@ void addPlaceSetting(Settings& settings, Placement& place) {
     return fmt::format("{}, {}, {} m, turned by {} degrees", place.origin.x(), place.origin.y(),
                        place.origin.z(), place.yawDeg);
   };
-  setting.inConfig("clip", "place").inHeader("place").inReport("placed at");
+  setting.in(kUnitsGroup).inConfig("clip", "place").inHeader("place").inReport("placed at");
 }
 
 void addSourceSettings(Settings& settings, ClipRequest& request) {
   settings
       .text("--animation", "NAME", request.animation,
             "Which animation of a model: its name, or its number from 0; the first if not given")
+      .in(kInputGroup)
       .inConfig("clip", "animation")
       .inHeader("animation")
       .inReport("animation")
       .namedIf([&request] { return !request.animation.empty(); });
   settings.path("--robot", "URDF", request.robotPath, "The robot that joint positions are about")
+      .in(kInputGroup)
       .inConfig("clip", "robot")
       .inHeader("robot")
       .inReport("robot")
@@ -53,11 +55,13 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
   settings
       .path("--map", "FILE", request.mapPath,
             R"(Joint names that differ: {"avatar joint": "clip joint"})")
+      .in(kInputGroup)
       .inConfig("clip", "map")
       .inReport("joint map");
   settings
       .list("--package", "DIR", request.packagePaths,
             "Folder of the robot's packages; may be repeated")
+      .in(kInputGroup)
       .inConfig("clip", "packages")
       .isPath = true;
 }
@@ -67,6 +71,7 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
 Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* option,
                           const char* value, const char* help) {
   return settings.path(option, value, request.motionPath, help)
+      .in(kInputGroup)
       .inConfig("clip", "file")
       .inHeader("motion")
       .inReport("motion");
@@ -74,26 +79,32 @@ Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* 
 
 Setting& addAvatarSetting(Settings& settings, ClipRequest& request) {
   return settings.path("--avatar", "FILE", request.avatarPath, "Avatar file (see foretouch avatar)")
+      .in(kInputGroup)
       .inConfig("avatar", "file")
       .inReport("avatar");
 }
 
 Setting& addRateSetting(Settings& settings, ClipRequest& request, const char* help) {
   return settings.number("--rate", "HZ", request.rateHz, kAboveZero, "all", help)
+      .in(kInputGroup)
       .inConfig("clip", "rate")
       .inHeader("rate");
 }
 
 void addClipReadingSettings(Settings& settings, ClipRequest& request) {
   settings
-      .number("--scale", "S", request.motionScale, kMetresPerUnit,
+      .number("--clip-scale", "S", request.motionScale, kMetresPerUnit,
               "Metres per unit of the clip: 0.01 for centimetres")
+      .formerly("--scale")
+      .in(kUnitsGroup)
       .inConfig("clip", "scale")
       .inHeader("scale")
       .inReport("motion's unit");
   settings
-      .word<bool>("--motion-up", "y|z", request.placement.motionUpZ, {{"y", false}, {"z", true}},
+      .word<bool>("--clip-up", "y|z", request.placement.motionUpZ, {{"y", false}, {"z", true}},
                   "Which axis of the clip points up")
+      .formerly("--motion-up")
+      .in(kUnitsGroup)
       .inConfig("clip", "up")
       .inHeader("motion_up")
       .inReport("motion's up axis");

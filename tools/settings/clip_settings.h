@@ -38,7 +38,8 @@ Setting& addRateSetting(
     Settings& settings, ClipRequest& request,
     const char* help = "Poses per second to take from the clip; animations: 30 if all");
 
-/// How to read the motion and match it with the avatar: --scale, --motion-up, --animation, --robot,
+/// How to read the motion and match it with the avatar: --clip-scale, --clip-up, --animation,
+/// --robot,
 /// --map and --package. `request` outlives the settings.
 void addClipReadingSettings(Settings& settings, ClipRequest& request);
 /// The same, and its placement: --place.

@@ -9,7 +9,9 @@
 #include <CLI/CLI.hpp>
 
 #include "articulated/try.h"
+#include "tools/help_page.h"
 #include "tools/settings/project_file.h"
+#include "tools/usage_error.h"
 
 namespace foretouch::tools {
 namespace {
@@ -26,35 +28,41 @@ struct Typed {
 struct Subcommand {
   Command command;
   std::string project;  ///< The value of --project.
+  const CLI::App* app = nullptr;
   std::deque<Typed> typed;
 };
 
-bool isProjectOption(const Setting& setting) {
-  return setting.option == "--project";
-}
-
-/// What a project may supply is not required of the command line.
-bool mayComeFromProject(const Command& command, const Setting& setting) {
-  return command.takesProject && !setting.table.empty();
+/// With the former ones behind it, which help leaves out.
+std::string namesOf(const Setting& setting) {
+  std::string names = setting.option;
+  for (const std::string& former : setting.formerNames) names += "," + former;
+  return names;
 }
 
 /// Help shows no default if there is none.
-void addSetting(CLI::App& app, Typed& typed, bool isRequired) {
+void addOption(CLI::App& app, Typed& typed) {
   const Setting& setting = *typed.setting;
+  const std::string names = namesOf(setting);
   if (setting.kind == ValueKind::Flag) {
-    typed.option = app.add_flag(setting.option, setting.help);
+    typed.option = app.add_flag(names, setting.help);
     return;
   }
   if (setting.kind == ValueKind::List) {
-    typed.option = app.add_option(setting.option, typed.texts, setting.help);
+    typed.option = app.add_option(names, typed.texts, setting.help);
     if (setting.option.front() == '-') typed.option->allow_extra_args(false);
   } else {
     typed.text = setting.shown();
-    typed.option = app.add_option(setting.option, typed.text, setting.help);
+    typed.option = app.add_option(names, typed.text, setting.help);
     if (!typed.text.empty()) typed.option->capture_default_str();
   }
   typed.option->type_name(setting.value);
-  if (isRequired) typed.option->required();
+}
+
+void addSetting(CLI::App& app, Typed& typed) {
+  const Setting& setting = *typed.setting;
+  addOption(app, typed);
+  if (!setting.group.empty()) typed.option->group(setting.group);
+  if (setting.isRequired) typed.option->option_text(kRequired);
   if (!setting.needs.empty()) typed.option->needs(app.get_option(setting.needs));
   if (!setting.isGone.empty()) typed.option->group("");  // hidden from help
   if (!setting.valueIfNone.empty()) {
@@ -78,7 +86,7 @@ std::string projectOf(const Subcommand& subcommand) {
   bool namesFiles = false;
   for (const Typed& typed : subcommand.typed) {
     if (typed.option->count() == 0) continue;
-    if (isProjectOption(*typed.setting)) return typed.text;
+    if (typed.setting->option == "--project") return typed.text;
     const bool isPositional = typed.setting->option.front() != '-';
     namesFiles = namesFiles || isPositional || typed.setting->key == "file";
   }
@@ -102,15 +110,17 @@ Result<Done> takeProject(Subcommand& subcommand) {
   return Done{};
 }
 
-Result<Done> checkRequired(const Command& command) {
-  for (const Setting& setting : command.settings) {
-    if (!setting.isRequired || setting.isGiven || !mayComeFromProject(command, setting)) continue;
-    if (!setting.shown().empty()) continue;
-    return Error::in(setting.option, ErrorCode::Empty,
-                     std::string("is required (or a project: foretouch setup makes ") +
-                         kProjectName + ")");
+/// "--scene and --output are required" or "expected a scene file"; empty: nothing is missing.
+std::string missingIn(const Subcommand& subcommand) {
+  std::vector<std::string> names;
+  for (const Typed& typed : subcommand.typed) {
+    const Setting& setting = *typed.setting;
+    if (!setting.isRequired || setting.isGiven || !setting.shown().empty()) continue;
+    if (setting.option.front() != '-') return "expected " + setting.noun;
+    names.push_back(setting.name());
   }
-  return Done{};
+  if (names.empty()) return "";
+  return wordList(names, "and") + (names.size() == 1 ? " is required" : " are required");
 }
 
 ExitCode runSubcommand(Subcommand& subcommand) {
@@ -118,7 +128,10 @@ ExitCode runSubcommand(Subcommand& subcommand) {
   for (const Typed& typed : subcommand.typed) {
     FORETOUCH_CHECK_OR(failed, take(typed));
   }
-  FORETOUCH_CHECK_OR(failed, checkRequired(subcommand.command));
+  if (const std::string missing = missingIn(subcommand); !missing.empty()) {
+    printError(withHelpOf(*subcommand.app, leadOf(*subcommand.app) + missing));
+    return ExitCode::BadInput;
+  }
   return subcommand.command.run(subcommand.command.settings);
 }
 
@@ -138,6 +151,7 @@ void addCommand(CLI::App& program, Command command, ExitCode& exit) {
   if (!command.isGone.empty()) return addGone(program, command, exit);
   CLI::App* const app = program.add_subcommand(command.name, command.purpose);
   if (!command.examples.empty()) app->footer(command.examples);
+  if (!command.group.empty()) app->group(command.group);
   if (!command.commands.empty()) {
     app->require_subcommand(1);
     for (Command& inner : command.commands) addCommand(*app, std::move(inner), exit);
@@ -149,13 +163,14 @@ void addCommand(CLI::App& program, Command command, ExitCode& exit) {
     subcommand->command.settings.path(
         "--project", "FILE", subcommand->project,
         "Project file: what this command line does not say; foretouch.toml of the current folder "
-        "if the command line names no files");
+        "if the command line names no files")
+        .in(kInputGroup);
   }
+  subcommand->app = app;
   for (Setting& setting : subcommand->command.settings) {
     Typed& typed = subcommand->typed.emplace_back();
     typed.setting = &setting;
-    addSetting(*app, typed,
-               setting.isRequired && !mayComeFromProject(subcommand->command, setting));
+    addSetting(*app, typed);
   }
   app->callback([subcommand, &exit] { exit = runSubcommand(*subcommand); });
 }

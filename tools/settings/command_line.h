@@ -26,6 +26,7 @@ struct Command {
   /// of the current folder if the command line names no file at all.
   bool takesProject = false;
   std::vector<Command> commands = {};  ///< Subcommands; the user must name one if there are any.
+  std::string group = {};              ///< In the list of commands; empty: "Commands".
   /// Not empty: the command is gone, and naming it prints this text.
   std::string isGone = {};
 };

@@ -42,6 +42,7 @@ void addNetworkSettings(Settings& settings, ServeConfig& config) {
           "--url", "URL", config.url,
           "Network to receive from and send to; by default LCM_DEFAULT_URL, else this machine only")
       .notEmpty()
+      .in(kNetworkGroup)
       .inConfig("service", "url")
       .inReport("address");
   addSuffixSetting(settings, config.service.suffix);
@@ -50,6 +51,7 @@ void addNetworkSettings(Settings& settings, ServeConfig& config) {
           "--receiver", "own|liblcm", config.receiver,
           {{"own", ReceiverKind::Own}, {"liblcm", ReceiverKind::Liblcm}},
           "Whose receiver reads datagrams; use liblcm only on networks that you trust")
+      .in(kNetworkGroup)
       .inConfig("service", "receiver");
 }
 
@@ -57,22 +59,27 @@ void addServiceSettings(Settings& settings, ServeConfig& config) {
   settings
       .whole("--workers", "N", config.service.workers, 1, kMaxServiceWorkers,
              "Threads that answer poses")
+      .in(kEffortGroup)
       .inConfig("service", "workers")
       .inReport("workers");
   settings
       .whole("--queue", "N", config.service.queue, 1, kMaxServiceQueue,
              "Poses per avatar that may wait; beyond that the service drops the oldest")
+      .in(kEffortGroup)
       .inConfig("service", "queue");
   settings
       .path("--log", "FILE|DIR", config.log,
             "Record accepted poses and their answers: a new event log, or a folder that gets one "
             "per run")
+      .in(kOutputGroup)
       .inConfig("service", "log");
   addAddress(settings, "--http", "ADDRESS:PORT", config.http, parseHttpAddress,
              "Address at which to serve /metrics and /healthz")
+      .in(kOutputGroup)
       .inConfig("service", "http");
   addAddress(settings, "--view", "[ADDRESS:PORT]", config.view, parseViewAddress,
              "Address at which a browser on this machine can watch the stream")
+      .in(kOutputGroup)
       .inConfig("service", "view")
       .valueIfNone = kDefaultView;
 }
@@ -85,6 +92,7 @@ void addServeSettings(Settings& settings, ServeConfig& config) {
       "--avatar", "[ID=]FILE", {}, [] { return std::string(); },
       "Avatar file, and its ID in messages (1 if not given); may be repeated");
   avatars.kind = ValueKind::List;
+  avatars.in(kInputGroup);
   avatars.take = [&config](const GivenValue& given) {
     return takeAvatars(given.texts, config.avatars);
   };

@@ -53,8 +53,14 @@ Setting& Setting::namedIf(std::function<bool()> condition) {
   return *this;
 }
 
-Setting& Setting::required() {
+Setting& Setting::in(const char* helpGroup) {
+  group = helpGroup;
+  return *this;
+}
+
+Setting& Setting::required(const char* what) {
   isRequired = true;
+  noun = what;
   return *this;
 }
 
@@ -75,6 +81,11 @@ Setting& Setting::ofClips() {
 
 Setting& Setting::ofLogs() {
   isOfLogs = true;
+  return *this;
+}
+
+Setting& Setting::formerly(const char* name) {
+  formerNames.emplace_back(name);
   return *this;
 }
 
@@ -103,7 +114,7 @@ Result<Done> takeTyped(Setting& setting, const std::vector<std::string>& texts) 
   const bool isRead = texts.empty() || readTyped(setting, given);
   auto taken = isRead ? setting.take(given) : Result<Done>(notLegal(setting.legal, given));
   setting.isGiven = true;
-  return inFile(std::move(taken), setting.option);
+  return inFile(std::move(taken), setting.name());
 }
 
 Error notLegal(const std::string& legal, const GivenValue& given) {
@@ -121,10 +132,10 @@ std::string tidyNumber(double number) {
   return text.substr(0, e + 1) + (isSmall ? "-" : "") + text.substr(digits);
 }
 
-std::string wordList(const std::vector<std::string>& words) {
+std::string wordList(const std::vector<std::string>& words, const char* last) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    if (i > 0) text += i + 1 == words.size() ? std::string(" ") + last + " " : ", ";
     text += words[i];
   }
   return text;

@@ -13,6 +13,16 @@
 
 namespace foretouch::tools {
 
+/// Titles in help. Options of no group are under "Options".
+inline constexpr char kInputGroup[] = "Input";
+inline constexpr char kUnitsGroup[] = "Units, axes and place";
+inline constexpr char kTouchGroup[] = "What touches";
+inline constexpr char kOutputGroup[] = "Output";
+inline constexpr char kComparisonGroup[] = "Comparison";
+inline constexpr char kEffortGroup[] = "Effort";
+inline constexpr char kStreamGroup[] = "Stream";
+inline constexpr char kNetworkGroup[] = "Network";
+
 /// The kind of a value, before the check that it is legal.
 enum class ValueKind : std::uint8_t {
   Number,  ///< Any finite one.
@@ -55,26 +65,36 @@ struct Setting {
   std::string field;       ///< In the first line of results. Empty: not there.
   std::string row;         ///< In a report. Empty: not there.
 
+  std::string group;  ///< In help. Empty: "Options".
   bool isRequired = false;
+  std::string noun;         ///< Of a required argument, for its error: "a scene file".
   std::string needs;        ///< Another option that this one requires.
   bool isPath = false;      ///< In a configuration, relative to that file's folder.
   bool mayBeEmpty = true;   ///< For a text in a configuration.
   std::string valueIfNone;  ///< Not empty: the option's value is optional, and defaults to this.
   bool isOfClips = false, isOfLogs = false;  ///< In a replay: valid only for these.
   std::string isGone;  ///< Not empty: there is no such option; its error tells users why.
+  std::vector<std::string> formerNames;  ///< Still taken; help does not list them.
 
   bool isGiven = false;  ///< On this command line.
+
+  /// "--output" of "-o,--output".
+  [[nodiscard]] std::string name() const { return option.substr(option.rfind(',') + 1); }
 
   // Chainable attributes of a setting.
   Setting& inConfig(const char* ofTable, const char* ofKey);
   Setting& inHeader(const char* name);
   Setting& inReport(const char* name);
   Setting& namedIf(std::function<bool()> condition);
-  Setting& required();
+  /// `what`: of an argument, for the error of a user who gives none.
+  Setting& required(const char* what = "");
+  Setting& in(const char* helpGroup);
   Setting& needing(const char* other);
   Setting& notEmpty();
   Setting& ofClips();
   Setting& ofLogs();
+  /// A name that the option had: who still types it gets the same.
+  Setting& formerly(const char* name);
   /// For words: only these are legal. Precondition: each is one of them.
   Setting& only(std::vector<std::string> some);
 };
@@ -89,6 +109,6 @@ struct Setting {
 [[nodiscard]] std::string tidyNumber(double number);
 
 /// "a, b or c".
-[[nodiscard]] std::string wordList(const std::vector<std::string>& words);
+[[nodiscard]] std::string wordList(const std::vector<std::string>& words, const char* last = "or");
 
 }  // namespace foretouch::tools

@@ -206,14 +206,14 @@ Setting& Settings::gone(const char* option, const char* text) {
 
 Setting& Settings::of(const std::string& option) {
   const auto found =
-      std::find_if(all_.begin(), all_.end(), [&](const Setting& s) { return s.option == option; });
+      std::find_if(all_.begin(), all_.end(), [&](const Setting& s) { return s.name() == option; });
   FORETOUCH_ASSERT(found != all_.end());
   return *found;
 }
 
 bool Settings::isGiven(const std::string& option) const {
   return std::any_of(all_.begin(), all_.end(),
-                     [&](const Setting& s) { return s.option == option && s.isGiven; });
+                     [&](const Setting& s) { return s.name() == option && s.isGiven; });
 }
 
 const Setting& Settings::ofField(const std::string& field) const {

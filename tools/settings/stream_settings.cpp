@@ -25,7 +25,7 @@ void addMaxStep(Settings& settings, std::int64_t& maxStepUs) {
   };
   setting.shown =
       setting.json = [&maxStepUs] { return numberText(static_cast<double>(maxStepUs) / kUsPerS); };
-  setting.inConfig("stream", "max_step_s").inHeader("max_step");
+  setting.in(kStreamGroup).inConfig("stream", "max_step_s").inHeader("max_step");
 }
 
 }  // namespace
@@ -45,6 +45,7 @@ Setting& addSuffixSetting(Settings& settings, std::string& suffix) {
             return Done{};
           },
           [&suffix] { return suffix; }, "Suffix of the channel names")
+      .in(kStreamGroup)
       .inConfig("service", "suffix")
       .inHeader("suffix")
       .inReport("suffix");
@@ -55,12 +56,14 @@ void addStreamSettings(Settings& settings, StreamPolicy& policy) {
   settings
       .whole("--confirmations", "N", policy.confirmations, 1, kMostConfirmations,
              "Poses in a row that confirm an unexpected new timeline")
+      .in(kStreamGroup)
       .inConfig("stream", "confirmations")
       .inHeader("confirmations");
   settings
       .flag("--unmatched-at-rest", policy.unmatchedAtRest,
             "Joints that the sender does not have count as known, at their rest values",
             {"undecided", "rest"})
+      .in(kStreamGroup)
       .inConfig("stream", "unmatched")
       .inHeader("unmatched_at_rest");
 }

@@ -24,6 +24,7 @@ void addSkinSettings(Settings& settings, WorldRequest& request) {
   settings
       .path("--skin", "BODY", request.skinPath,
             "Skinned fidelity: the model from which the avatar was made")
+      .in(kTouchGroup)
       .inConfig("query", "skin")
       .inHeader("skin")
       .inReport("skin")
@@ -35,12 +36,14 @@ void addSkinSettings(Settings& settings, WorldRequest& request) {
   settings
       .number("--skin-scale", "S", request.skinImport.scale, kMetresPerUnit,
               "Metres per unit of that model")
+      .in(kTouchGroup)
       .inConfig("query", "skin_scale")
       .inHeader("skin_scale")
       .namedIf(isNamed);
   settings
       .word("--skin-up", "y|z", request.skinImport.up, upAxisWords(),
             "Which axis of that model points up")
+      .in(kTouchGroup)
       .inConfig("query", "skin_up")
       .inHeader("skin_up")
       .namedIf(isNamed);
@@ -53,6 +56,7 @@ void addScopeSettings(Settings& settings, WorldRequest& request) {
             "First contact of every link, only of the whole avatar, or of every link with every "
             "object")
       .ofClips()
+      .in(kTouchGroup)
       .inConfig("query", "scope")
       .inHeader("scope")
       .inReport("scope")
@@ -65,6 +69,7 @@ void addScopeSettings(Settings& settings, WorldRequest& request) {
             "A link that begins within the tolerance of the scene and does not approach it goes "
             "on, until it is a quarter as near")
       .ofClips()
+      .in(kTouchGroup)
       .inConfig("query", "pass_separating")
       .inHeader("pass_separating")
       .inReport("what separates")
@@ -81,6 +86,7 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
             "Also ask whether the avatar's own links touch each other; which pairs are asked: "
             "foretouch avatar pairs")
       .ofClips()
+      .in(kTouchGroup)
       .inConfig("query", "self")
       .inReport("own links")
       .told = [&request]() -> std::string {
@@ -93,6 +99,7 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
       .path("--pairs", "FILE", request.pairsPath,
             "With --self: the pair rules; not given: derived from the avatar and the clip's poses")
       .ofClips()
+      .in(kTouchGroup)
       .inConfig("query", "pairs")
       .needing("--self");
 }
@@ -102,18 +109,22 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
 void addSceneSettings(Settings& settings, WorldRequest& request) {
   settings.path("--scene", "FILE", request.scenePath, "Scene: any mesh format that assimp reads")
       .notEmpty()
+      .in(kInputGroup)
       .inConfig("scene", "file")
       .inHeader("scene")
       .inReport("scene");
   settings
       .number("--scene-scale", "S", request.sceneImport.scale, kMetresPerUnit,
               "Metres per unit of the scene")
+      .in(kUnitsGroup)
       .inConfig("scene", "scale")
       .inHeader("scene_scale")
       .inReport("scene's unit");
   settings
-      .word("--up", "y|z", request.sceneImport.up, upAxisWords(),
+      .word("--scene-up", "y|z", request.sceneImport.up, upAxisWords(),
             "Which axis of the scene points up")
+      .formerly("--up")
+      .in(kUnitsGroup)
       .inConfig("scene", "up")
       .inHeader("up")
       .inReport("scene's up axis");
@@ -123,6 +134,7 @@ void addQuerySettings(Settings& settings, WorldRequest& request) {
   settings
       .number("--tolerance", "M", request.query.tolerance, kToleranceRange,
               "Largest separation (m) of a reported contact")
+      .in(kTouchGroup)
       .inConfig("query", "tolerance")
       .inHeader("tolerance")
       .inReport("tolerance");
@@ -130,10 +142,12 @@ void addQuerySettings(Settings& settings, WorldRequest& request) {
       .word("--fidelity", "RUNG", request.query.fidelity, fidelityWords(),
             "What touches: one ellipsoid, one LSS (avatar), one per limb, the links' LSS (link), "
             "their meshes (exact), or a skin (skinned)")
+      .in(kTouchGroup)
       .inConfig("query", "fidelity")
       .inHeader("fidelity")
       .inReport("fidelity");
   settings.list("--ignore", "PAIRS", request.ignore, "Contacts to ignore; may be repeated")
+      .in(kTouchGroup)
       .inConfig("query", "ignore")
       .inHeader("ignore")
       .inReport("ignored");
@@ -142,6 +156,7 @@ void addQuerySettings(Settings& settings, WorldRequest& request) {
           .whole("--budget-us", "US", request.budgetUs, 0, kMostBudgetUs,
                  "Work that one step may cost, at 100 evaluations per us; links beyond it are "
                  "undecided; 0: no limit")
+          .in(kEffortGroup)
           .inConfig("service", "budget_us")
           .inHeader("budget_us")
           .inReport("budget")
@@ -172,6 +187,7 @@ void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
       .path("--policy", "FILE", request.policyPath,
             "Tolerance, fidelity and what to ignore, link by link: [[policy]] tables "
             "(docs/formats.md)")
+      .in(kTouchGroup)
       .inHeader("policy")
       .inReport("policy")
       .namedIf([&request] { return !request.policies.empty(); })

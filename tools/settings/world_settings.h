@@ -44,7 +44,7 @@ struct WorldRequest {
 
 // Each adds its part of the table; `request` outlives the settings.
 
-/// --scene, --scene-scale and --up: the scene, and how to read its file.
+/// --scene, --scene-scale and --scene-up: the scene, and how to read its file.
 void addSceneSettings(Settings& settings, WorldRequest& request);
 /// The ones that services have too: --tolerance, --fidelity, --ignore, --budget-us.
 void addQuerySettings(Settings& settings, WorldRequest& request);

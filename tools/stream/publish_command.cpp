@@ -115,7 +115,7 @@ ExitCode run(PublishJob job) {
 
 constexpr char kPublishExamples[] = R"(Examples:
   foretouch publish dancer.bvh --avatar dancer.avatar.json --rate 30 --loop
-  foretouch publish walk.bvh --avatar a.avatar.json --scale 0.01 --place 1.5,0,-2,90 --id 2
+  foretouch publish walk.bvh --avatar a.avatar.json --clip-scale 0.01 --place 1.5,0,-2,90 --id 2
   foretouch publish dancer.bvh --avatar dancer.avatar.json --output dancer.lcmlog
 
 A service (foretouch serve) that knows the avatar answers as foretouch replay does.)";
@@ -131,7 +131,7 @@ void addSendingSettings(Settings& settings, PublishJob& job) {
   settings.text("--url", "URL", job.url,
                 "Network to send to; by default LCM_DEFAULT_URL, else this machine only");
   addSuffixSetting(settings, job.suffix);
-  settings.path("--output", "LOG", job.outputPath, "Write a new event log instead of sending");
+  settings.path("-o,--output", "LOG", job.outputPath, "Write a new event log instead of sending");
   settings.parsed(
       "--start", "US",
       [&job](const std::string& text) -> Result<Done> {
@@ -167,7 +167,7 @@ Result<PublishReport> publishToLog(const ClipRequest& request, const PublishOpti
 Command publishCommand() {
   const auto job = std::make_shared<PublishJob>();
   Settings settings;
-  addMotionSetting(settings, job->request, "CLIP", "").required();
+  addMotionSetting(settings, job->request, "CLIP", "").required("a clip to send");
   addAvatarSetting(settings, job->request).required();
   addSendingSettings(settings, *job);
   addClipSettings(settings, job->request);

@@ -8,8 +8,8 @@
 
 #include "articulated/result.h"
 #include "assets/avatar/joint_match.h"
-#include "tools/settings/command_line.h"
 #include "tools/settings/clip_settings.h"
+#include "tools/settings/command_line.h"
 #include "tools/stream/clip_publisher.h"
 
 namespace foretouch::tools {

@@ -134,7 +134,7 @@ ExitCode run(SweepJob job) {
 constexpr char kSweepExamples[] = R"(Examples:
   foretouch sweep --avatar dancer.avatar.json --motion dancer.bvh --links LeftHand,RightHand \
       --from 2 --to 3 --error 0.001 --output hands.ply
-  foretouch sweep --avatar a.avatar.json --motion walk.bvh --scale 0.01 --rate 10 --inner \
+  foretouch sweep --avatar a.avatar.json --motion walk.bvh --clip-scale 0.01 --rate 10 --inner \
       --output inner.glb
 
 The surface is closed and oriented, and may pass through itself: enclosed is what it winds around
@@ -159,7 +159,9 @@ Command sweepCommand() {
   settings.number("--error", "M", request.surface.error, kToleranceRange,
                   "Largest distance (m) between surface and swept volume");
   settings.flag("--inner", job->inner, "The surface inside the swept volume, not around it");
-  settings.path("--output", "FILE", job->output, "Mesh to write: .obj, .ply or .glb").required();
+  settings.path("-o,--output", "FILE", job->output, "Mesh to write: .obj, .ply or .glb")
+      .in(kOutputGroup)
+      .required();
   settings.whole("--max-triangles", "N", request.surface.maxTriangles, 1, kMostTriangles,
                  "Give up beyond this many");
   addClipSettings(settings, request);

@@ -229,7 +229,7 @@ TEST(ReplayProgram, ObeysRateScalePlaceIgnoreAndUp) {
   const std::string out = world.folder / "out.jsonl";
   const auto contactsOf = [&](const std::vector<std::string>& options) {
     std::vector<std::string> arguments = world.replay(options, "wall.obj", "man.json", "long.bvh");
-    arguments.insert(arguments.end(), {"--output", out, "--scale", "0.01"});
+    arguments.insert(arguments.end(), {"--output", out, "--clip-scale", "0.01"});
     const Ended ended = runForetouch(arguments);
     EXPECT_EQ(ended.exitCode, 0) << ended.err;
     std::vector<std::string> texts;
@@ -277,7 +277,7 @@ TEST(ReplayProgram, NotesAWrongUnit) {
   const Ended ended =
       runForetouch(world.replay({"--output", world.folder / "out.jsonl", "--scale", "0.01"}));
   EXPECT_EQ(ended.exitCode, 0);
-  EXPECT_NE(ended.err.find("is --scale right?"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("is --clip-scale right?"), std::string::npos) << ended.err;
 }
 
 TEST(ReplayProgram, GivesStandardOutputToTheResultsWhereAsked) {

@@ -263,7 +263,7 @@ TEST(View, SaysWhatLooksWrong) {
                                     "200,0,0", "--output", page});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const json document = documentOf(page);
-  EXPECT_TRUE(notes(document, "is --scale right?")) << document["notes"];
+  EXPECT_TRUE(notes(document, "is --clip-scale right?")) << document["notes"];
   EXPECT_TRUE(notes(document, "never inside the scene's box")) << document["notes"];
   EXPECT_NE(ended.err.find("never inside"), std::string::npos) << ended.err;
 }

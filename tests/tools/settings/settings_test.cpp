@@ -39,7 +39,7 @@ TEST(Settings, PutLegalValuesInTheirPlace) {
   EXPECT_EQ(errorOf(settings.of("--tolerance"), "0.25"), "accepted");
   EXPECT_TRUE(settings.isGiven("--tolerance"));
   EXPECT_EQ(request.query.tolerance, 0.25);
-  EXPECT_EQ(errorOf(settings.of("--up"), "z"), "accepted");
+  EXPECT_EQ(errorOf(settings.of("--scene-up"), "z"), "accepted");
   EXPECT_EQ(request.sceneImport.up, UpAxis::Z);
   ASSERT_TRUE(takeTyped(settings.of("--ignore"), {"Hand", "Foot:floor"}).ok());
   EXPECT_EQ(request.ignore, (std::vector<std::string>{"Hand", "Foot:floor"}));
@@ -85,7 +85,7 @@ TEST(Settings, PlacesKeepTheAxisThatAnotherOptionTurned) {
   Settings settings;
   addClipSettings(settings, request);
   EXPECT_EQ(settings.of("--place").shown(), "0,0,0,0");
-  EXPECT_EQ(errorOf(settings.of("--motion-up"), "z"), "accepted");
+  EXPECT_EQ(errorOf(settings.of("--clip-up"), "z"), "accepted");
   EXPECT_EQ(errorOf(settings.of("--place"), "1.5,0,-2,90"), "accepted");
   EXPECT_TRUE(request.placement.motionUpZ);
   EXPECT_EQ(request.placement.yawDeg, 90.0);
