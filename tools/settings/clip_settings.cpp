@@ -7,6 +7,7 @@
 #include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "tools/arguments.h"
+#include "tools/settings/frame_settings.h"
 #include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
@@ -75,16 +76,19 @@ Setting& addRateSetting(Settings& settings, ClipRequest& request, const char* he
 }
 
 void addClipReadingSettings(Settings& settings, ClipRequest& request) {
-  settings
-      .number("--scale", "S", request.motionScale, kMetresPerUnit,
-              "Metres per unit of the clip: 0.01 for centimetres")
+  addUnit(settings, "--scale", request.motionScale,
+          "Metres per unit of the clip: 0.01 for centimetres")
       .inHeader("scale")
       .inReport("motion's unit");
-  settings
-      .word<bool>("--motion-up", "y|z", request.placement.motionUpZ, {{"y", false}, {"z", true}},
-                  "Which axis of the clip points up")
-      .inHeader("motion_up")
-      .inReport("motion's up axis");
+  Setting& up =
+      addUpAxis(settings, "--motion-up", request.motionUp, "Which axis of the clip points up")
+          .inHeader("motion_up")
+          .inReport("motion's up axis");
+  up.take = [&request, take = up.take](const GivenValue& given) -> Result<Done> {
+    FORETOUCH_CHECK(take(given));
+    request.placement.motionUpZ = request.motionUp == UpAxis::Z;
+    return Done{};
+  };
   addSourceSettings(settings, request);
 }
 
