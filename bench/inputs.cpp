@@ -33,21 +33,27 @@ Result<Avatar> loadAvatar(const BenchFiles& files, const Clip& clip) {
 
 }  // namespace
 
+SceneImportOptions importOf(double scale, UpAxis up) {
+  SceneImportOptions import;
+  if (scale != 1.0) import.scale = scale;
+  if (up != UpAxis::Y) import.up = up;
+  return import;
+}
+
 Result<BenchInputs> loadBenchInputs(BenchFiles files) {
   FORETOUCH_CHECK(fillInBundled(files));
   MotionRequest request;
   request.path = files.motionPath;
-  request.scale = files.motionScale;
-  request.up = files.motionUp;
+  const SceneImportOptions ofMotion = importOf(files.motionScale, files.motionUp);
+  request.scale = ofMotion.scale;
+  request.up = ofMotion.up;
   FORETOUCH_TRY(auto motion, readMotion(request));
   Clip& clip = motion.clip;
   FORETOUCH_TRY(auto avatar, loadAvatar(files, clip));
   auto match = matchWithMap(avatar.skeleton(), clip.skeleton, files.mapPath, files.motionPath);
   if (!match.ok()) return match.error();
-  SceneImportOptions import;
-  import.scale = files.sceneScale;
-  import.up = files.sceneUp;
-  FORETOUCH_TRY(auto imported, importScene(files.scenePath, import));
+  FORETOUCH_TRY(auto imported,
+                importScene(files.scenePath, importOf(files.sceneScale, files.sceneUp)));
   FORETOUCH_TRY(auto scene, inFile(Scene::build(imported.scene), files.scenePath));
   return BenchInputs{std::move(files),  std::move(imported.scene), std::move(scene),
                      std::move(avatar), std::move(clip),           std::move(match).value(),

@@ -32,6 +32,9 @@ struct BenchInputs {
   bool isUpright = false;  ///< As Motion::isUpright.
 };
 
+/// 1 and Y, the defaults of the options, ask for nothing: what a file says of itself counts then.
+[[nodiscard]] SceneImportOptions importOf(double scale, UpAxis up);
+
 /// Errors name the file.
 [[nodiscard]] Result<BenchInputs> loadBenchInputs(BenchFiles files);
 

@@ -12,6 +12,7 @@
 #include "articulated/try.h"
 #include "assets/import/scene_import.h"
 #include "assets/text_file.h"
+#include "bench/inputs.h"
 #include "bench/machine.h"
 #include "bench/peers.h"
 #include "bench/report.h"
@@ -61,8 +62,7 @@ Result<Done> parseScene(const PeersTexts& texts, PeersRequest& request) {
   FORETOUCH_TRY(const auto scale, parsePositive("--scene-scale", texts.sceneScale));
   FORETOUCH_TRY(const auto up, parseUpAxis("--scene-up", texts.up));
   FORETOUCH_TRY(const auto triangles, parseCount("--triangles", texts.triangles, kMostTriangles));
-  request.import.scale = scale;
-  request.import.up = up;
+  request.import = importOf(scale, up);
   request.triangles = countOf(triangles);
   request.scenePath = texts.scene;
   if (!texts.scene.empty()) return Done{};

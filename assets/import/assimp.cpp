@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string_view>
 
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 
+#include "assets/import/declared_frame.h"
 #include "assets/import/file_damage.h"
 #include "lss/index.h"
 #include "middleware/scene/raw_scene.h"
@@ -39,21 +39,6 @@ void addFace(const aiMesh& mesh, const aiFace& face, MeshTriangles& out) {
   }
 }
 
-/// Metres per unit. Only FBX states its unit without applying it (in centimetres). Collada's reader
-/// applies its unit; the other formats are in metres or have no unit.
-double metresPerUnit(const Assimp::Importer& importer, const aiScene& scene) {
-  const int index = importer.GetPropertyInteger("importerIndex", -1);
-  const aiImporterDesc* reader = index < 0 ? nullptr : importer.GetImporterInfo(slotOf(index));
-  const bool isFbx = reader != nullptr && reader->mFileExtensions != nullptr &&
-                     std::string_view(reader->mFileExtensions) == "fbx";
-  float centimetres = 0.0F;
-  if (!isFbx || scene.mMetaData == nullptr ||
-      !scene.mMetaData->Get("UnitScaleFactor", centimetres) || !(centimetres > 0.0F)) {
-    return 1.0;
-  }
-  return static_cast<double>(centimetres) / 100.0;
-}
-
 void setUp(Assimp::Importer& importer, Animations animations) {
   // Otherwise files with bones and no mesh get a mesh of bones, a surface that nobody drew.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
@@ -84,7 +69,14 @@ AssimpFile readWithAssimp(const std::string& path, Animations animations) {
     throw Failure{ImportFailure::Refused, damage.value_or(reason)};
   }
   if (scene->mRootNode == nullptr) throw Failure{ImportFailure::Refused, "no root node"};
-  return {scene, metresPerUnit(importer, *scene)};
+  AssimpFile file;
+  file.scene = scene;
+  const int index = importer.GetPropertyInteger("importerIndex", -1);
+  const aiImporterDesc* reader = index < 0 ? nullptr : importer.GetImporterInfo(slotOf(index));
+  if (reader != nullptr && reader->mFileExtensions != nullptr) {
+    findFrame(reader->mFileExtensions, file);
+  }
+  return file;
 }
 
 Affine transformOf(const aiMatrix4x4& m) {

@@ -1,5 +1,5 @@
 // assets/import/assimp.h: the importer's use of assimp, for scenes and for models: a file read raw,
-// its faces as triangles, its unit. In foretouch-import only. Not installed.
+// its faces as triangles. In foretouch-import only. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,8 @@ enum class Animations : bool { Skip, Read };
 /// triangles, or refuse sloppy but usable files. The importer does the necessary ones itself.
 struct AssimpFile {
   const aiScene* scene = nullptr;  ///< With a root node; never freed.
-  double metresPerUnit = 1.0;
+  double metresPerUnit = 1.0;      ///< To multiply its numbers by.
+  FileFrame frame;                 ///< Of the numbers so multiplied.
 };
 [[nodiscard]] AssimpFile readWithAssimp(const std::string& path, Animations animations);
 

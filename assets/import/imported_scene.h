@@ -2,18 +2,18 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
+#include <optional>
 #include <string>
 
+#include "assets/file_frame.h"
 #include "middleware/scene/raw_scene.h"
 
 namespace foretouch {
 
-enum class UpAxis : std::uint8_t { Y, Z };
-
 struct SceneImportOptions {
-  double scale = 1.0;     ///< Metres per unit of assimp's output. Finite, > 0.
-  UpAxis up = UpAxis::Y;  ///< Z: turned in, (x,y,z) becomes (x,z,-y). Scale and turn commute.
+  /// Metres per unit of the file, in place of what the file says. Finite, > 0.
+  std::optional<double> scale;
+  std::optional<UpAxis> up;  ///< Of the file, in place of what the file says.
   std::size_t memoryLimitBytes = std::size_t{8} << 30;  ///< Address space of the child.
   double timeLimitS = 300.0;                            ///< Wall and CPU time of the child.
   std::string importer;  ///< Path of foretouch-import; empty: $FORETOUCH_IMPORTER, else beside the
@@ -34,6 +34,7 @@ struct SceneImportReport {
 struct ImportedScene {
   RawScene scene;
   SceneImportReport report;
+  FileFrame frame;
 };
 
 }  // namespace foretouch

@@ -35,6 +35,7 @@ bool writeAll(int fd, std::string_view bytes) {
 bool sendModel(const ModelQuestion& question, ModelWriter& writer) {
   const Model model =
       lowerExtensionOf(question.path) == ".urdf" ? readUrdf(question) : readModel(question);
+  writer.fileFrame(model.frame);
   return writer.write(model);
 }
 

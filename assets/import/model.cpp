@@ -267,8 +267,10 @@ Model ModelBuilder::take() {
 }
 
 Model readModel(const ModelQuestion& question) {
+  const AssimpFile file = readWithAssimp(question.path, Animations::Read);
   ModelBuilder builder;
-  AssimpModel(readWithAssimp(question.path, Animations::Read), builder).build();
+  builder.model.frame = file.frame;
+  AssimpModel(file, builder).build();
   return builder.take();
 }
 

@@ -47,12 +47,14 @@ void scaleLengths(Model& model, double scale) {
   }
 }
 
-/// (x, y, z) becomes (x, z, -y): at the roots, and in the animations that move them.
-void turnRoots(Model& model) {
+/// At the roots, and in the animations that move them.
+void turnRoots(Model& model, internal::FrameChange::Turn by) {
+  if (by == internal::FrameChange::Turn::None) return;
+  const double sign = by == internal::FrameChange::Turn::FromZUp ? 1.0 : -1.0;
   Affine turn;
-  turn.linear << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  turn.linear << 1, 0, 0, 0, 0, sign, 0, -sign, 0;
   const double half = std::sqrt(0.5);
-  const Quaternion rotation(half, -half, 0, 0);
+  const Quaternion rotation(half, -sign * half, 0, 0);
   for (ModelNode& node : model.nodes) {
     if (node.parent < 0) node.toParent = turn * node.toParent;
   }
@@ -82,13 +84,15 @@ Result<Model> importChecked(const std::string& path, const ModelImportOptions& o
     return *error;
   }
   Model model = reader.take();
+  model.frame = reader.fileFrame();
   if (holdsNothing(model)) {
     return importError(path, ErrorCode::Empty,
                        "expected triangles, spheres, capsules or animations, found none" +
                            (model.notes.empty() ? "" : " (" + model.notes.front() + ")"));
   }
-  if (options.import.scale != 1.0) scaleLengths(model, options.import.scale);
-  if (options.import.up == UpAxis::Z) turnRoots(model);
+  const auto change = internal::settleFrame(options.import.scale, options.import.up, model.frame);
+  if (change.scale != 1.0) scaleLengths(model, change.scale);
+  turnRoots(model, change.turn);
   return Result<Model>(std::move(model));
 }
 

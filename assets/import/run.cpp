@@ -36,9 +36,10 @@ std::string errorText(int error) {
 }
 
 std::optional<Error> badOption(const std::string& path, const SceneImportOptions& options) {
-  if (!std::isfinite(options.scale) || !(options.scale > 0.0)) {
+  const double scale = options.scale.value_or(1.0);
+  if (!std::isfinite(scale) || !(scale > 0.0)) {
     return importError(path, ErrorCode::OutOfRange,
-                       "expected a finite scale above 0, found " + shortest(options.scale));
+                       "expected a finite scale above 0, found " + shortest(scale));
   }
   if (!(options.timeLimitS > 0.0 && options.timeLimitS <= kMaxTimeS)) {
     return importError(path, ErrorCode::OutOfRange,

@@ -93,6 +93,7 @@ bool sendScene(const std::string& path, ImportWriter& writer) {
     model.meshes.push_back(trianglesOf(*model.scene->mMeshes[i]));
   }
   placeAll(model, file.metresPerUnit);
+  writer.fileFrame(file.frame);
   writePlaced(model, writer);
   return writer.finish();
 }

@@ -23,11 +23,11 @@ void nameTheNameless(RawScene& scene, const std::string& path) {
 }
 
 /// Metres and +Y up: scale, then turn.
-void place(RawScene& scene, const SceneImportOptions& options) {
+void place(RawScene& scene, const internal::FrameChange& change) {
   for (Triangle& triangle : scene.triangles) {
     for (Eigen::Vector3d& vertex : triangle.vertices) {
-      vertex *= options.scale;
-      if (options.up == UpAxis::Z) vertex = Eigen::Vector3d(vertex.x(), vertex.z(), -vertex.y());
+      vertex *= change.scale;
+      vertex = change.turned(vertex);
     }
   }
 }
@@ -36,6 +36,7 @@ Result<ImportedScene> importChecked(const std::string& path, const SceneImportOp
   internal::ImportReader reader;
   if (const auto error = internal::runImporter(path, options, {path}, reader)) return *error;
   ImportedScene imported = reader.take();
+  imported.frame = reader.fileFrame();
   if (imported.scene.triangles.empty()) {
     return importError(path, ErrorCode::Empty,
                        "expected triangles, found none (" +
@@ -44,7 +45,7 @@ Result<ImportedScene> importChecked(const std::string& path, const SceneImportOp
                            " faces with indices out of range)");
   }
   nameTheNameless(imported.scene, path);
-  place(imported.scene, options);
+  place(imported.scene, internal::settleFrame(options.scale, options.up, imported.frame));
   return Result<ImportedScene>(std::move(imported));
 }
 

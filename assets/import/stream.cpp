@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "assets/import/text.h"
@@ -11,7 +13,7 @@ namespace {
 
 struct Greeting {
   std::array<char, 8> magic = {'F', 'T', 'I', 'M', 'P', 'O', 'R', 'T'};
-  std::uint32_t version = 1;
+  std::uint32_t version = 2;
   std::uint32_t byteOrder = 0x01020304;
 };
 struct FrameHead {
@@ -20,6 +22,33 @@ struct FrameHead {
 struct Trailer {
   std::uint64_t count, checksum;
 };
+
+/// Without padding. 0: not declared.
+struct FileFrameRecord {
+  double declaredUnit, unit;
+  std::uint32_t declaredUp, up, isOfFormat, unused;
+};
+
+std::uint32_t numberOf(UpAxis up) {
+  return up == UpAxis::Z ? 2 : 1;
+}
+
+/// Nothing if the record cannot be.
+std::optional<FileFrame> frameIn(const FileFrameRecord& record) {
+  const auto isUnit = [](double unit) { return std::isfinite(unit) && unit > 0.0; };
+  const bool isDeclaredUnit = record.declaredUnit != 0.0;
+  if ((isDeclaredUnit && !isUnit(record.declaredUnit)) || !isUnit(record.unit)) return {};
+  if (record.declaredUp > 2 || record.up < 1 || record.up > 2 || record.isOfFormat > 1) return {};
+  FileFrame frame;
+  if (isDeclaredUnit) frame.declared.metresPerUnit = record.declaredUnit;
+  if (record.declaredUp != 0) {
+    frame.declared.up = record.declaredUp == 2 ? UpAxis::Z : UpAxis::Y;
+  }
+  frame.declared.isOfFormat = record.isOfFormat == 1;
+  frame.metresPerUnit = record.unit;
+  frame.up = record.up == 2 ? UpAxis::Z : UpAxis::Y;
+  return frame;
+}
 
 constexpr std::uint64_t kChecksumSeed = 0xCBF29CE484222325;
 
@@ -77,6 +106,14 @@ bool FrameWriter::fail(ImportFailure failure, std::string_view text) {
   return intact_;
 }
 
+void FrameWriter::fileFrame(const FileFrame& fileFrame) {
+  const DeclaredFrame& declared = fileFrame.declared;
+  frame(kFileFrame,
+        bytesOf(FileFrameRecord{declared.metresPerUnit.value_or(0.0), fileFrame.metresPerUnit,
+                                declared.up ? numberOf(*declared.up) : 0, numberOf(fileFrame.up),
+                                declared.isOfFormat ? 1U : 0U, 0}));
+}
+
 FrameReader::State FrameReader::feed(std::string_view bytes) {
   if (state_ != State::Reading) return state_;
   // Parses whole frames in place; keeps only an incomplete one.
@@ -113,6 +150,8 @@ std::size_t FrameReader::parseOne(std::string_view bytes) {
   const std::string_view payload = bytes.substr(sizeof head, head.bytes);
   if (head.type == kFailureFrame) {
     parseFailure(payload);
+  } else if (head.type == kFileFrame) {
+    parseFileFrame(payload);
   } else if (head.type == kTrailerFrame) {
     parseTrailer(payload);
   } else {
@@ -145,6 +184,13 @@ void FrameReader::parseFailure(std::string_view payload) {
   failure_ = static_cast<ImportFailure>(failure);
   failureText_ = readableText(payload.substr(sizeof failure), kMaxFailureTextBytes);
   state_ = State::Failed;
+}
+
+void FrameReader::parseFileFrame(std::string_view payload) {
+  if (payload.size() != sizeof(FileFrameRecord)) return breakOff("a file's frame of a wrong size");
+  const auto frame = frameIn(valueIn<FileFrameRecord>(payload));
+  if (!frame) return breakOff("a file's unit or axis that cannot be");
+  fileFrame_ = *frame;
 }
 
 void FrameReader::parseTrailer(std::string_view payload) {

@@ -2,9 +2,10 @@
 // models. Not installed.
 //
 // A greeting (magic, version, byte order), then frames: type and payload size as 32-bit numbers,
-// then the payload. Last a trailer with a count and a checksum of everything before it. Or, at any
-// place before the trailer, a failure with its text. Native byte order: both ends are processes of
-// one machine. The checksum detects a stream that something else wrote into. Against everything
+// then the payload. One of them, at any place or none, says what frame the file declares and what
+// the child made of it. Last a trailer with a count and a checksum of everything before it. Or, at
+// any place before the trailer, a failure with its text. Native byte order: both ends are processes
+// of one machine. The checksum detects a stream that something else wrote into. Against everything
 // else, the readers trust nothing in the stream.
 #pragma once
 
@@ -15,6 +16,8 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+
+#include "assets/file_frame.h"
 
 namespace foretouch::internal {
 
@@ -32,7 +35,7 @@ enum class ImportFailure : std::uint32_t {
 
 /// Types below 16 belong to scenes (assets/import/protocol.cpp), the others to models
 /// (assets/import/model_records.h).
-inline constexpr std::uint32_t kTrailerFrame = 4, kFailureFrame = 5;
+inline constexpr std::uint32_t kTrailerFrame = 4, kFailureFrame = 5, kFileFrame = 6;
 
 template <typename T>
 std::string_view bytesOf(const T& value) {
@@ -57,6 +60,8 @@ class FrameWriter {
   explicit FrameWriter(Sink sink);
 
   bool fail(ImportFailure failure, std::string_view text);
+  /// What the numbers that are sent were read with.
+  void fileFrame(const FileFrame& fileFrame);
 
  protected:
   void frame(std::uint32_t type, std::string_view payload);
@@ -92,9 +97,11 @@ class FrameReader {
   [[nodiscard]] ImportFailure failure() const { return failure_; }
   [[nodiscard]] const std::string& failureText() const { return failureText_; }
   [[nodiscard]] const std::string& broken() const { return broken_; }
+  /// What the numbers were read with: nothing declared unless the child says so.
+  [[nodiscard]] const FileFrame& fileFrame() const { return fileFrame_; }
 
  protected:
-  /// Any frame but a failure and the trailer.
+  /// Any frame but a failure, the file's frame and the trailer.
   virtual void parseFrame(std::uint32_t type, std::string_view payload) = 0;
   /// Has everything promised arrived, `count` of it?
   [[nodiscard]] virtual bool isWhole(std::uint64_t count) const = 0;
@@ -104,6 +111,7 @@ class FrameReader {
   std::size_t parseOne(std::string_view bytes);
   std::size_t parseGreeting(std::string_view bytes);
   void parseFailure(std::string_view payload);
+  void parseFileFrame(std::string_view payload);
   void parseTrailer(std::string_view payload);
 
   State state_ = State::Reading;
@@ -111,6 +119,7 @@ class FrameReader {
   std::uint64_t checksum_ = 0;
   ImportFailure failure_ = ImportFailure::None;
   std::string failureText_, broken_;
+  FileFrame fileFrame_;
   std::string pending_;  // the incomplete frame at the end
 };
 

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "articulated/skeleton.h"
+#include "assets/file_frame.h"
 #include "lss/lss.h"
 
 namespace foretouch {
@@ -92,6 +93,7 @@ struct Model {
   /// Faults that the reader skipped, one sentence each (a missing mesh file, faces with indices out
   /// of range, points and lines, ...). Bounded in number.
   std::vector<std::string> notes;
+  FileFrame frame;
 };
 
 }  // namespace foretouch

@@ -30,7 +30,7 @@ ft_status readClipOptions(const ft_clip_options* given, ClipReading& reading) {
   if (given != nullptr) {
     if (const auto s = readStruct(given, "ft_clip_options", known); s != FT_OK) return s;
   }
-  UpAxis up = UpAxis::Y;
+  std::optional<UpAxis> up;
   if (const auto s = readUpAxis(known.up, up); s != FT_OK) return s;
   reading.bvh.scale = known.scale;
   reading.placement.motionUpZ = up == UpAxis::Z;

@@ -41,14 +41,14 @@ ft_import_options defaultImportOptions() {
   const SceneImportOptions defaults;
   ft_import_options options{};
   options.size = sizeof options;
-  options.up = FT_UP_Y;
-  options.scale = defaults.scale;
+  options.up = FT_UP_FILE;
+  options.scale = 0.0;
   options.memory_limit_bytes = defaults.memoryLimitBytes;
   options.time_limit_s = defaults.timeLimitS;
   return options;
 }
 
-ft_status readUpAxis(std::int32_t given, UpAxis& up) {
+ft_status readUpAxis(std::int32_t given, std::optional<UpAxis>& up) {
   if (given != FT_UP_Y && given != FT_UP_Z) {
     return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "up: expected FT_UP_Y or FT_UP_Z, found %d",
                    given);
@@ -64,8 +64,10 @@ ft_status readImportOptions(const ft_import_options* given, SceneImportOptions& 
       return status;
     }
   }
-  if (const auto status = readUpAxis(known.up, options.up); status != FT_OK) return status;
-  options.scale = known.scale;
+  if (known.up != FT_UP_FILE) {
+    if (const auto status = readUpAxis(known.up, options.up); status != FT_OK) return status;
+  }
+  if (known.scale != 0.0) options.scale = known.scale;
   options.memoryLimitBytes = known.memory_limit_bytes;
   options.timeLimitS = known.time_limit_s;
   options.importer = importerPlace(known.importer);

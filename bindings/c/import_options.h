@@ -1,6 +1,8 @@
 // bindings/c/import_options.h: options of the child process that reads models, and its place.
 #pragma once
 
+#include <optional>
+
 #include "assets/import/scene_import.h"
 #include "bindings/c/sized_struct.h"
 
@@ -13,6 +15,6 @@ namespace foretouch::c {
                                           SceneImportOptions& options);
 
 /// FT_UP_Y or FT_UP_Z.
-[[nodiscard]] ft_status readUpAxis(std::int32_t given, UpAxis& up);
+[[nodiscard]] ft_status readUpAxis(std::int32_t given, std::optional<UpAxis>& up);
 
 }  // namespace foretouch::c

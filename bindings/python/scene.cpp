@@ -87,8 +87,8 @@ SharedScene loadScene(const py::object& file, const py::object& scale, const py:
       {{"y", UpAxis::Y}, {"z", UpAxis::Z}}};
   const std::string from = path(file, "path");
   SceneImportOptions options;
-  options.scale = number(scale, "scale");
-  options.up = oneOf(up, "up", kAxes);
+  if (!scale.is_none()) options.scale = number(scale, "scale");
+  if (!up.is_none()) options.up = oneOf(up, "up", kAxes);
   options.importer = importerPlace(importer);
   options.timeLimitS = number(timeLimitS, "time_limit_s");
   options.memoryLimitBytes = static_cast<std::size_t>(
@@ -157,13 +157,13 @@ void bindScene(py::module_& module) {
           "vertices (n, 3) in metres; triangles (m, 3) indices of vertices; object_of (m,)\n"
           "indices of object_names. Without object_of all triangles are one object.")
       .def_static(
-          "load", &loadScene, py::arg("path"), py::arg("scale") = usual.scale, py::arg("up") = "y",
-          py::kw_only(), py::arg("importer") = py::none(),
+          "load", &loadScene, py::arg("path"), py::arg("scale") = py::none(),
+          py::arg("up") = py::none(), py::kw_only(), py::arg("importer") = py::none(),
           py::arg("time_limit_s") = usual.timeLimitS,
           py::arg("memory_limit_bytes") = usual.memoryLimitBytes,
           "Any mesh format that assimp reads, in a child process under limits (the program\n"
           "foretouch-import; docs/python.md says where it is looked for). scale: metres per\n"
-          "unit of the file; up: 'y' or 'z'.")
+          "unit of the file; up: 'y' or 'z'; both in place of what the file says itself.")
       .def_property_readonly("num_triangles", &Scene::numTriangles)
       .def_property_readonly("triangles", &triangleArray,
                              "A copy, (m, 3, 3): each triangle's vertices, in ascending order.")

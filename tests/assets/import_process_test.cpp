@@ -80,9 +80,9 @@ TEST_F(ImporterProcess, HasSpentItsTimeWhenItsCpuLimitKillsIt) {
 TEST_F(ImporterProcess, MustSpeakTheProtocol) {
   EXPECT_EQ(failureWith("echo garbage").code, ErrorCode::Mismatch);
   EXPECT_EQ(failureWith("cat /dev/zero").code, ErrorCode::Mismatch);
-  EXPECT_EQ(failureWith("printf 'FTIMPORT\\002\\000\\000\\000'").code, ErrorCode::Mismatch);
+  EXPECT_EQ(failureWith("printf 'FTIMPORT\\003\\000\\000\\000'").code, ErrorCode::Mismatch);
   EXPECT_EQ(
-      failureWith("printf 'FTIMPORT\\001\\000\\000\\000\\004\\003\\002\\001'; cat /dev/zero").code,
+      failureWith("printf 'FTIMPORT\\002\\000\\000\\000\\004\\003\\002\\001'; cat /dev/zero").code,
       ErrorCode::ImportFailed);
 }
 

@@ -20,7 +20,7 @@
 #include "tools/audit/audits.h"
 #include "tools/audit/surface_audit.h"
 #include "tools/inputs/replay_inputs.h"
-#include "tools/settings/words.h"
+#include "tools/settings/frame_settings.h"
 #include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
@@ -121,11 +121,8 @@ void addOutput(Settings& settings, std::string& output) {
 /// Settings of both kinds of models.
 void addModelSettings(Settings& settings, AskedOfModel& asked, const char* scaleHelp) {
   addOutput(settings, asked.output);
-  settings.number("--model-scale", "S", asked.reading.import.scale, kMetresPerUnit, scaleHelp)
-      .formerly("--scale");
-  settings
-      .word("--model-up", "y|z", asked.reading.import.up, upAxisWords(),
-            "Which axis of the model points up")
+  addUnit(settings, "--model-scale", asked.reading.import.scale, scaleHelp).formerly("--scale");
+  addUpAxis(settings, "--model-up", asked.reading.import.up, "Which axis of the model points up")
       .formerly("--up");
   settings.whole("--max-lss", "N", asked.making.maxLssPerLink, 1, kMaxLssPerLink,
                  "Most LSS that one link's triangles are split among");

@@ -63,7 +63,7 @@ Result<Motion> readNoted(const ClipRequest& request) {
 Result<Avatar> readAvatar(const AskedPairs& asked) {
   if (!isBvh(asked.source)) return readAvatarFile(asked.source);
   BvhOptions reading;
-  reading.scale = asked.reading.motionScale;
+  reading.scale = asked.reading.motionScale.value_or(1.0);
   FORETOUCH_TRY(const auto clip, readBvhFile(asked.source, reading));
   return inFile(avatarFromClip(clip, asked.making), asked.source);
 }

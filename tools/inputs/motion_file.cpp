@@ -54,7 +54,7 @@ Result<Motion> readModel(const MotionRequest& request) {
   FORETOUCH_TRY(const auto model, importModel(request.path, options));
   FORETOUCH_TRY(auto clip,
                 inFile(clipFromModel(model, {request.animation, request.rateHz}), request.path));
-  return Motion{std::move(clip), true};
+  return Motion{std::move(clip), true, model.frame};
 }
 
 Result<Motion> readTable(const MotionRequest& request) {
@@ -65,7 +65,7 @@ Result<Motion> readTable(const MotionRequest& request) {
   options.packagePaths = request.packagePaths;
   FORETOUCH_TRY(const auto robot, importModel(request.robot, options));
   FORETOUCH_TRY(auto clip, inFile(clipFromJointPositions(robot, text, request.path), request.path));
-  return Motion{std::move(clip), true};
+  return Motion{std::move(clip), true, robot.frame};
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ MotionRequest motionRequestOf(const ClipRequest& request) {
   MotionRequest motion;
   motion.path = request.motionPath;
   motion.scale = request.motionScale;
-  motion.up = request.placement.motionUpZ ? UpAxis::Z : UpAxis::Y;
+  motion.up = request.motionUp;
   motion.animation = request.animation;
   motion.robot = request.robotPath;
   motion.packagePaths = request.packagePaths;
@@ -87,8 +87,10 @@ Result<Motion> readMotion(const MotionRequest& request) {
   FORETOUCH_CHECK(checkOptions(request, kind));
   if (kind == Kind::Model) return readModel(request);
   if (kind == Kind::Table) return readTable(request);
-  FORETOUCH_TRY(auto clip, readBvhFile(request.path, BvhOptions{request.scale}));
-  return Motion{std::move(clip), false};
+  Motion motion;
+  static_cast<void>(internal::settleFrame(request.scale, request.up, motion.frame));
+  FORETOUCH_TRY(motion.clip, readBvhFile(request.path, BvhOptions{motion.frame.metresPerUnit}));
+  return motion;
 }
 
 }  // namespace foretouch::tools

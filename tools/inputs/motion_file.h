@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ inline constexpr std::size_t kMaxJointTableBytes = std::size_t{256} << 20;
 
 struct MotionRequest {
   std::string path;
-  double scale = 1.0;                     ///< Metres per unit of the file.
-  UpAxis up = UpAxis::Y;                  ///< Of the file. Tables of joint positions ignore it.
+  std::optional<double> scale;            ///< Metres per unit, in place of what the file says.
+  std::optional<UpAxis> up;               ///< The same. Tables of joint positions ignore it.
   std::string animation;                  ///< Of a model; empty: its first.
   double rateHz = 30.0;                   ///< Sampling rate of a model's animation.
   std::string robot;                      ///< The URDF whose joints a table is about.
@@ -33,6 +34,7 @@ struct Motion {
   /// True: already turned from Z-up. The reader of models turns their roots, so that a joint that
   /// the clip leaves at rest matches the avatar of the same model; the placement turns BVH clips.
   bool isUpright = false;
+  FileFrame frame;  ///< Of BVH, which says nothing of itself: as asked.
 };
 
 /// Errors name the file or the option.

@@ -42,7 +42,7 @@ Result<PlayedClip> loadPlayedClip(const ClipRequest& request) {
       const auto steps,
       inFile(selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz), request.motionPath));
   return PlayedClip{std::move(avatar), std::move(clip), std::move(match).value(), steps,
-                    read.isUpright};
+                    read.isUpright,    read.frame};
 }
 
 std::vector<std::string> remarksOnClip(const Avatar& avatar, const Clip& clip,

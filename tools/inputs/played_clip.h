@@ -21,6 +21,7 @@ struct PlayedClip {
   JointMatch match;
   StepSelection steps;
   bool isUpright = false;  ///< As Motion::isUpright.
+  FileFrame frame{};       ///< Of the clip's file.
 };
 
 /// Errors name the file or option.

@@ -68,11 +68,20 @@ Result<Done> checkRadii(const QueryOptions& query, const std::string& pairsPath)
       "expected rules without pair radii at exact fidelity, found some in " + inQuotes(pairsPath));
 }
 
+/// The request with what its files say of themselves, which whoever repeats it can then give.
+ReplayRequest asRead(ReplayRequest request, const FileFrame& scene, const FileFrame& clip) {
+  request.sceneImport.scale = scene.metresPerUnit;
+  request.sceneImport.up = scene.up;
+  request.motionScale = clip.metresPerUnit;
+  request.motionUp = clip.up;
+  return request;
+}
+
 /// What nobody asks, and how to see it.
 std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) {
   std::string command =
       "foretouch avatar pairs " + request.avatarPath + " --clip " + request.motionPath;
-  if (request.motionScale != 1.0) command += fmt::format(" --clip-scale {}", request.motionScale);
+  if (request.motionScale != 1.0) command += fmt::format(" --clip-scale {}", *request.motionScale);
   if (!request.animation.empty()) command += " --animation " + request.animation;
   return fmt::format(
       "--self: {} of {} pairs of own links are left out, so nothing is said of them ({}); list "
@@ -82,12 +91,18 @@ std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) 
 
 }  // namespace
 
-Result<Scene> loadScene(const WorldRequest& request) {
+Result<Scene> loadScene(const WorldRequest& request, FileFrame& frame) {
   FORETOUCH_TRY(auto imported, importScene(request.scenePath, request.sceneImport));
+  frame = imported.frame;
   auto scene = Scene::build(std::move(imported.scene));
   if (!scene.ok()) return inFile(scene.error(), request.scenePath);
   giveBackFreeMemory();
   return scene;
+}
+
+Result<Scene> loadScene(const WorldRequest& request) {
+  FileFrame frame;
+  return loadScene(request, frame);
 }
 
 Result<QueryOptions> queryOptionsFor(const WorldRequest& request, const std::string& avatarPath,
@@ -105,16 +120,24 @@ Result<QueryOptions> queryOptionsFor(const WorldRequest& request, const std::str
 
 Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
   FORETOUCH_TRY(auto played, loadPlayedClip(request));
-  auto& [avatar, clip, match, steps, isUpright] = played;
-  FORETOUCH_TRY(auto scene, loadScene(request));
+  auto& [avatar, clip, match, steps, isUpright, clipFrame] = played;
+  FileFrame sceneFrame;
+  FORETOUCH_TRY(auto scene, loadScene(request, sceneFrame));
   FORETOUCH_TRY(auto query, queryOptionsFor(request, request.avatarPath, avatar, scene));
   if (request.asksSelf) {
     FORETOUCH_TRY(query.self, pairRulesFor(request, avatar, clip, match, request.motionPath));
     FORETOUCH_CHECK(checkRadii(query, request.pairsPath));
   }
-  return ReplayInputs{request,          std::move(scene), std::move(avatar),
-                      std::move(clip),  std::move(match), steps,
-                      std::move(query), isUpright};
+  return ReplayInputs{asRead(request, sceneFrame, clipFrame),
+                      std::move(scene),
+                      std::move(avatar),
+                      std::move(clip),
+                      std::move(match),
+                      steps,
+                      std::move(query),
+                      isUpright,
+                      sceneFrame,
+                      clipFrame};
 }
 
 std::optional<std::string> remarkOnMeshes(const QueryOptions& query,

@@ -22,7 +22,7 @@ namespace foretouch::tools {
 struct ReplayRequest : ClipRequest, WorldRequest {};
 
 struct ReplayInputs {
-  ReplayRequest request;
+  ReplayRequest request;  ///< With the units and axes that the files were read with.
   Scene scene;
   Avatar avatar;
   Clip clip;
@@ -30,6 +30,7 @@ struct ReplayInputs {
   StepSelection steps;
   QueryOptions query;      ///< As requested, completed from the avatar and the scene.
   bool isUpright = false;  ///< The reader turned the clip Y-up (Motion::isUpright).
+  FileFrame sceneFrame, clipFrame;
 
   [[nodiscard]] double timeOfStep(std::int64_t step) const {
     return static_cast<double>(step * steps.stride) * clip.frameTimeS;
@@ -39,7 +40,8 @@ struct ReplayInputs {
 /// Reads, checks and matches the inputs. Errors name the file or option.
 [[nodiscard]] Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request);
 
-/// Loads only the request's scene.
+/// Loads only the request's scene; `frame` becomes that of its file.
+[[nodiscard]] Result<Scene> loadScene(const WorldRequest& request, FileFrame& frame);
 [[nodiscard]] Result<Scene> loadScene(const WorldRequest& request);
 
 /// The options of queries about the avatar, which was read from `avatarPath`, with the surface or

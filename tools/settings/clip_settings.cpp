@@ -7,6 +7,7 @@
 #include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "tools/arguments.h"
+#include "tools/settings/frame_settings.h"
 #include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
@@ -92,22 +93,25 @@ Setting& addRateSetting(Settings& settings, ClipRequest& request, const char* he
 }
 
 void addClipReadingSettings(Settings& settings, ClipRequest& request) {
-  settings
-      .number("--clip-scale", "S", request.motionScale, kMetresPerUnit,
-              "Metres per unit of the clip: 0.01 for centimetres")
+  addUnit(settings, "--clip-scale", request.motionScale,
+          "Metres per unit of the clip: 0.01 for centimetres")
       .formerly("--scale")
       .in(kUnitsGroup)
       .inConfig("clip", "scale")
       .inHeader("scale")
       .inReport("motion's unit");
-  settings
-      .word<bool>("--clip-up", "y|z", request.placement.motionUpZ, {{"y", false}, {"z", true}},
-                  "Which axis of the clip points up")
-      .formerly("--motion-up")
-      .in(kUnitsGroup)
-      .inConfig("clip", "up")
-      .inHeader("motion_up")
-      .inReport("motion's up axis");
+  Setting& up =
+      addUpAxis(settings, "--clip-up", request.motionUp, "Which axis of the clip points up")
+          .formerly("--motion-up")
+          .in(kUnitsGroup)
+          .inConfig("clip", "up")
+          .inHeader("motion_up")
+          .inReport("motion's up axis");
+  up.take = [&request, take = up.take](const GivenValue& given) -> Result<Done> {
+    FORETOUCH_CHECK(take(given));
+    request.placement.motionUpZ = request.motionUp == UpAxis::Z;
+    return Done{};
+  };
   addSourceSettings(settings, request);
 }
 

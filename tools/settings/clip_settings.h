@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assets/avatar/joint_match.h"
+#include "assets/file_frame.h"
 #include "tools/settings/settings.h"
 
 namespace foretouch::tools {
@@ -16,11 +17,12 @@ struct ClipRequest {
   std::string avatarPath, motionPath;
   std::string mapPath;                    ///< Empty: matches joints by name alone.
   std::optional<double> rateHz;           ///< Empty: every frame.
-  double motionScale = 1.0;               ///< Metres per unit of the clip.
+  std::optional<double> motionScale;      ///< Metres per unit, in place of what the clip says.
+  std::optional<UpAxis> motionUp;         ///< In place of what the clip says.
   std::string animation;                  ///< For a motion that is a model.
   std::string robotPath;                  ///< For a motion that is a table of joint positions.
   std::vector<std::string> packagePaths;  ///< Folders of that robot's packages.
-  Placement placement;
+  Placement placement;                    ///< The option sets its motionUpZ too, for BVH.
 };
 
 inline constexpr char kClipHelp[] =

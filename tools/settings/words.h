@@ -1,15 +1,10 @@
 // tools/settings/words.h: the names of settings' values, for input and output.
 #pragma once
 
-#include "assets/import/imported_scene.h"
 #include "middleware/query_options.h"
 #include "tools/settings/settings.h"
 
 namespace foretouch::tools {
-
-[[nodiscard]] inline Words<UpAxis> upAxisWords() {
-  return {{"y", UpAxis::Y}, {"z", UpAxis::Z}};
-}
 
 [[nodiscard]] inline Words<Fidelity> fidelityWords() {
   Words<Fidelity> words;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/settings/frame_settings.h"
 #include "tools/settings/words.h"
 
 namespace foretouch::tools {
@@ -33,16 +34,12 @@ void addSkinSettings(Settings& settings, WorldRequest& request) {
     const std::size_t name = request.skinPath.rfind('/') + 1;
     return isSkinned(request) ? request.skinPath.substr(name) : std::string();
   };
-  settings
-      .number("--skin-scale", "S", request.skinImport.scale, kMetresPerUnit,
-              "Metres per unit of that model")
+  addUnit(settings, "--skin-scale", request.skinImport.scale, "Metres per unit of that model")
       .in(kTouchGroup)
       .inConfig("query", "skin_scale")
       .inHeader("skin_scale")
       .namedIf(isNamed);
-  settings
-      .word("--skin-up", "y|z", request.skinImport.up, upAxisWords(),
-            "Which axis of that model points up")
+  addUpAxis(settings, "--skin-up", request.skinImport.up, "Which axis of that model points up")
       .in(kTouchGroup)
       .inConfig("query", "skin_up")
       .inHeader("skin_up")
@@ -113,16 +110,12 @@ void addSceneSettings(Settings& settings, WorldRequest& request) {
       .inConfig("scene", "file")
       .inHeader("scene")
       .inReport("scene");
-  settings
-      .number("--scene-scale", "S", request.sceneImport.scale, kMetresPerUnit,
-              "Metres per unit of the scene")
+  addUnit(settings, "--scene-scale", request.sceneImport.scale, "Metres per unit of the scene")
       .in(kUnitsGroup)
       .inConfig("scene", "scale")
       .inHeader("scene_scale")
       .inReport("scene's unit");
-  settings
-      .word("--scene-up", "y|z", request.sceneImport.up, upAxisWords(),
-            "Which axis of the scene points up")
+  addUpAxis(settings, "--scene-up", request.sceneImport.up, "Which axis of the scene points up")
       .formerly("--up")
       .in(kUnitsGroup)
       .inConfig("scene", "up")

@@ -20,7 +20,6 @@ inline constexpr NumberRange kAboveZero{0.0, std::numeric_limits<double>::max()}
 inline constexpr NumberRange kAnyNumber{std::numeric_limits<double>::lowest(),
                                         std::numeric_limits<double>::max()};
 inline constexpr NumberRange kZeroOrAbove{0.0, std::numeric_limits<double>::max(), "", "", true};
-inline constexpr NumberRange kMetresPerUnit{0.0, std::numeric_limits<double>::max(), "", "m"};
 inline constexpr NumberRange kToleranceRange{kMinTolerance, kMaxTolerance, "metres", "m"};
 
 /// A scene and a query; each setting is legal by itself. Paths are ready to open; an empty one

@@ -62,8 +62,8 @@ class Scene:
     @staticmethod
     def load(
         path: _Path,
-        scale: float = 1.0,
-        up: str = "y",
+        scale: Optional[float] = None,
+        up: Optional[str] = None,
         *,
         importer: Optional[_Path] = None,
         time_limit_s: float = 300.0,

@@ -50,7 +50,10 @@ Result<ReplayRequest> settled(const Texts& texts) {
   UpAxis motionUp = UpAxis::Y;
   settle.into(motionUp, parseUpAxis("--motion-up", texts.motionUp));
   request.placement.motionUpZ = motionUp == UpAxis::Z;
-  settle.into(request.motionScale, parsePositive("--scale", texts.scale));
+  if (motionUp == UpAxis::Z) request.motionUp = motionUp;
+  double motionScale = 1.0;
+  settle.into(motionScale, parsePositive("--scale", texts.scale));
+  if (motionScale != 1.0) request.motionScale = motionScale;
   if (texts.rate != "all") {
     double rateHz = 0.0;
     settle.into(rateHz, parsePositive("--rate", texts.rate));

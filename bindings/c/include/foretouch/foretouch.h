@@ -124,12 +124,15 @@ FT_API ft_status ft_scene_arrays_init(ft_scene_arrays* arrays, size_t size);
  * (ft_scene_info). O(n log n). Errors: bad arrays, no finite triangle. */
 FT_API ft_status ft_scene_create(const ft_scene_arrays* arrays, ft_scene** scene);
 
-enum { FT_UP_Y = 0, FT_UP_Z = 1 };
+/* FT_UP_FILE: as the file itself says, else Y. */
+enum { FT_UP_FILE = -1, FT_UP_Y = 0, FT_UP_Z = 1 };
 
 typedef struct ft_import_options {
   uint32_t size;
-  int32_t up;                  /* of the file; FT_UP_Z: (x, y, z) becomes (x, z, -y) */
-  double scale;                /* metres per unit of the file, > 0; default 1 */
+  /* Of the file, in place of what it says itself; default FT_UP_FILE. Z: (x, y, z) becomes
+   * (x, z, -y). */
+  int32_t up;
+  double scale;                /* metres per unit, likewise; default 0: as the file says, else 1 */
   uint64_t memory_limit_bytes; /* of the importing process; default 8 GiB */
   double time_limit_s;         /* likewise; default 300 */
   /* Path of the program foretouch-import. NULL: $FORETOUCH_IMPORTER; else in the library's folder;
