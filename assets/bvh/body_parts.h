@@ -14,8 +14,7 @@ namespace foretouch {
 /// From the middle of the ankles to the head (without one: the neck, or the last joint of the
 /// torso), as the pose holds them; in the frame of the roots' parent, in its unit. Nothing if the
 /// names show no ankles or nothing above them.
-[[nodiscard]] std::optional<Eigen::Vector3d> footToHead(const Skeleton& skeleton,
-                                                        const Pose& pose);
+[[nodiscard]] std::optional<Eigen::Vector3d> footToHead(const Skeleton& skeleton, const Pose& pose);
 
 /// Pelvis, torso, neck and head: what stays free where a person goes. All links if the names show
 /// none of them.

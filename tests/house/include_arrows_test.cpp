@@ -66,16 +66,17 @@ const std::map<std::string, Rooms> kRooms = {
       {"settings", {""}},
       {"inputs", {"settings", ""}},
       {"audit", {"inputs", "settings", ""}},
+      {"setup", {"audit", "inputs", "settings", ""}},
       {"replay", {"inputs", "settings", ""}},
       {"stream", {"inputs", "settings", ""}},
       {"glb", {"replay", "inputs", "settings", ""}},
       {"sweep", {"glb", "inputs", "settings", ""}},
       {"log", {"stream", "replay", "inputs", "settings", ""}},
-      {"report", {"log", "audit", "replay", "inputs", "settings", ""}},
+      {"report", {"setup", "log", "audit", "replay", "inputs", "settings", ""}},
       {"view", {"report", "stream", "settings", ""}},
       {"commands",
-       {"view", "report", "log", "sweep", "glb", "stream", "replay", "audit", "inputs", "settings",
-        ""}}}},
+       {"view", "report", "log", "sweep", "glb", "stream", "replay", "setup", "audit", "inputs",
+        "settings", ""}}}},
 };
 
 /// Libraries that only these folders may include, by the include's first word.

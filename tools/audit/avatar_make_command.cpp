@@ -1,6 +1,5 @@
 #include "tools/audit/avatar_make_command.h"
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,11 +12,11 @@
 #include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/import/model_import.h"
-#include "assets/mesh/link_mesh.h"
 #include "assets/model/model_avatar.h"
 #include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/audit/audits.h"
+#include "tools/audit/avatar_files.h"
 #include "tools/audit/surface_audit.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/settings/frame_settings.h"
@@ -79,26 +78,10 @@ std::string describe(const ModelAvatar& made, std::size_t read) {
                                                             report.hullVolume)));
 }
 
-/// The file of the links' triangles: beside the avatar file, under its name.
-std::filesystem::path meshPathOf(const std::string& output) {
-  return std::filesystem::path(output).replace_extension(".mesh.glb");
-}
-
-/// The mesh first: an avatar file never refers to a missing one.
-Result<Done> writeBoth(const ModelAvatar& made, const std::string& output) {
-  FORETOUCH_CHECK(PendingFile::create(output));
-  if (made.report.triangles > 0) {
-    const std::string path = meshPathOf(output).string();
-    FORETOUCH_CHECK(writeLinkMeshes(made.avatar.skeleton(), made.surface, path));
-  }
-  FORETOUCH_CHECK(writeAvatarFile(made.avatar, output));
-  return Done{};
-}
-
 ExitCode makeFromModel(AskedOfModel asked) {
   asked.reading.urdfSurface = asked.visual ? UrdfSurface::Visual : UrdfSurface::Collision;
-  asked.making.meshFile = meshPathOf(asked.output).filename().string();
-  for (const std::string& output : {asked.output, meshPathOf(asked.output).string()}) {
+  asked.making.meshFile = meshFileOf(asked.output);
+  for (const std::string& output : {asked.output, meshPathOf(asked.output)}) {
     FORETOUCH_CHECK_OR(failed, checkIsNoInput(output, {asked.model}));
   }
   FORETOUCH_TRY_OR(failed, const auto model, importModel(asked.model, asked.reading));
@@ -106,7 +89,7 @@ ExitCode makeFromModel(AskedOfModel asked) {
   FORETOUCH_TRY_OR(failed, const auto made,
                    inFile(avatarFromModel(model, asked.making), asked.model));
   for (const std::string& note : made.report.notes) printNote(asked.model + ": " + note);
-  FORETOUCH_CHECK_OR(failed, writeBoth(made, asked.output));
+  FORETOUCH_CHECK_OR(failed, writeModelAvatar(made, asked.output));
 
   std::size_t read = 0;
   for (const ModelMesh& mesh : model.meshes) read += mesh.triangles.size();

@@ -10,6 +10,7 @@
 #include "tools/commands/serve_command.h"
 #include "tools/log/log_command.h"
 #include "tools/report/view_command.h"
+#include "tools/setup/setup_command.h"
 #include "tools/stream/listen_command.h"
 #include "tools/stream/publish_command.h"
 #include "tools/sweep/sweep_command.h"
@@ -27,7 +28,7 @@ Command movedCommand(const std::string& name, const std::string& now) {
 
 void addCommands(CLI::App& program, ExitCode& exit) {
   for (const auto command :
-       {demoCommand, replayCommand, viewCommand, serveCommand, publishCommand, listenCommand,
+       {demoCommand, setupCommand, replayCommand, viewCommand, serveCommand, publishCommand, listenCommand,
         avatarCommand, sceneCommand, sweepCommand, logCommand}) {
     addCommand(program, command(), exit);
   }

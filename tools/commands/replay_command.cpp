@@ -15,6 +15,7 @@
 #include "tools/inputs/policy_rules.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
+#include "tools/replay/place_doubts.h"
 #include "tools/report/replay_report.h"
 #include "tools/report/report_file.h"
 #include "tools/results_output.h"
@@ -290,6 +291,7 @@ Result<Done> runReplay(const ReplayJob& job,
   for (const std::string& remark : remarksOn(inputs)) printNote(remark);
 
   ReplaySummary summary(inputs);
+  PlaceDoubts doubts(inputs.avatar.skeleton());
   std::optional<ReplayReport> report;
   if (!job.report.path.empty()) report.emplace(inputs, job.report);
   ReplayGlb glb(inputs, job.glb);
@@ -301,6 +303,7 @@ Result<Done> runReplay(const ReplayJob& job,
     const auto done = replay(inputs, job.options, [&](const ReplayedStep& step) {
       file.write(step.line);
       summary.add(step);
+      doubts.add(step.answer);
       if (report) report->add(step);
       glb.add(step.answer);
       progress.advanceTo(step.answer.step + 1);
@@ -319,6 +322,7 @@ Result<Done> runReplay(const ReplayJob& job,
     }
   }
   tell(summary);
+  for (const std::string& remark : doubts.remarks()) printNote(remark);
   return Done{};
 }
 

@@ -16,31 +16,18 @@
 namespace foretouch::tools {
 namespace {
 
-enum class Kind { Bvh, Model, Table };
-
-/// Every file that is neither a table nor a model format with animations counts as BVH, whose
-/// reader gives the best error.
-Kind kindOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array kModels = {".glb", ".gltf", ".fbx", ".dae", ".x"};
-  if (std::find(kModels.begin(), kModels.end(), extension) != kModels.end()) return Kind::Model;
-  return extension == ".csv" ? Kind::Table : Kind::Bvh;
-}
-
-Result<Done> checkOptions(const MotionRequest& request, Kind kind) {
-  if (kind != Kind::Model && !request.animation.empty()) {
+Result<Done> checkOptions(const MotionRequest& request, MotionKind kind) {
+  if (kind != MotionKind::Model && !request.animation.empty()) {
     return Error::in("--animation", ErrorCode::Mismatch,
                      "expected a model (.glb, .gltf, .fbx, .dae, .x) as --motion, found " +
                          inQuotes(request.path));
   }
-  if (kind != Kind::Table && !request.robot.empty()) {
+  if (kind != MotionKind::Table && !request.robot.empty()) {
     return Error::in(
         "--robot", ErrorCode::Mismatch,
         "expected a table of joint positions (.csv) as --motion, found " + inQuotes(request.path));
   }
-  if (kind == Kind::Table && request.robot.empty()) {
+  if (kind == MotionKind::Table && request.robot.empty()) {
     return Error::in(request.path, ErrorCode::Mismatch,
                      "joint positions are about a robot: expected its URDF (--robot FILE)");
   }
@@ -70,6 +57,16 @@ Result<Motion> readTable(const MotionRequest& request) {
 
 }  // namespace
 
+MotionKind motionKindOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array kModels = {".glb", ".gltf", ".fbx", ".dae", ".x"};
+  if (std::find(kModels.begin(), kModels.end(), extension) != kModels.end())
+    return MotionKind::Model;
+  return extension == ".csv" ? MotionKind::Table : MotionKind::Bvh;
+}
+
 MotionRequest motionRequestOf(const ClipRequest& request) {
   MotionRequest motion;
   motion.path = request.motionPath;
@@ -83,10 +80,10 @@ MotionRequest motionRequestOf(const ClipRequest& request) {
 }
 
 Result<Motion> readMotion(const MotionRequest& request) {
-  const Kind kind = kindOf(request.path);
+  const MotionKind kind = motionKindOf(request.path);
   FORETOUCH_CHECK(checkOptions(request, kind));
-  if (kind == Kind::Model) return readModel(request);
-  if (kind == Kind::Table) return readTable(request);
+  if (kind == MotionKind::Model) return readModel(request);
+  if (kind == MotionKind::Table) return readTable(request);
   Motion motion;
   static_cast<void>(internal::settleFrame(request.scale, request.up, motion.frame));
   FORETOUCH_TRY(motion.clip, readBvhFile(request.path, BvhOptions{motion.frame.metresPerUnit}));

@@ -16,6 +16,11 @@ namespace foretouch::tools {
 
 inline constexpr std::size_t kMaxJointTableBytes = std::size_t{256} << 20;
 
+/// What the file's extension says that it is. Every file that is neither a table nor a model format
+/// with animations counts as BVH, whose reader gives the best error.
+enum class MotionKind { Bvh, Model, Table };
+[[nodiscard]] MotionKind motionKindOf(const std::string& path);
+
 struct MotionRequest {
   std::string path;
   std::optional<double> scale;            ///< Metres per unit, in place of what the file says.

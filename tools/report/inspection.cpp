@@ -12,6 +12,7 @@
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/bvh/bvh_avatar.h"
+#include "assets/import/scene_import.h"
 #include "assets/mesh/link_mesh.h"
 #include "assets/text_file.h"
 #include "lss/assert.h"
@@ -20,18 +21,22 @@
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/report/track_builder.h"
+#include "tools/setup/frame_checks.h"
+#include "tools/setup/standing.h"
 
 namespace foretouch::tools {
 
 struct Inspected {
   ReplayRequest request;
-  std::optional<Scene> scene;
+  std::optional<Level> level;
   std::optional<Avatar> avatar;
   std::optional<PlayedClip> played;  ///< Its avatar is the one above, if a file names one.
   bool isMadeUp = false;             ///< The avatar is made of the clip.
   std::vector<std::vector<Triangle>> triangles;  ///< Of links, if the avatar names meshes.
   std::vector<std::string> notes;
+  std::vector<PlacementCheck> frameChecks;  ///< Of units and axes.
 
+  [[nodiscard]] const Scene* scene() const { return level ? &level->scene() : nullptr; }
   [[nodiscard]] const Avatar* body() const {
     return played ? &played->avatar : avatar ? &*avatar : nullptr;
   }
@@ -51,7 +56,8 @@ Result<PlayedClip> loadClipAlone(const ClipRequest& request) {
   FORETOUCH_TRY(
       const auto steps,
       inFile(selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz), request.motionPath));
-  return PlayedClip{std::move(avatar), std::move(clip), std::move(match), steps, read.isUpright};
+  return PlayedClip{std::move(avatar), std::move(clip), std::move(match), steps,
+                    read.isUpright,    read.frame};
 }
 
 Result<Done> loadBody(Inspected& inspected) {
@@ -60,6 +66,8 @@ Result<Done> loadBody(Inspected& inspected) {
     inspected.isMadeUp = request.avatarPath.empty();
     FORETOUCH_TRY(inspected.played,
                   inspected.isMadeUp ? loadClipAlone(request) : loadPlayedClip(request));
+    const PlayedClip& played = *inspected.played;
+    inspected.frameChecks = clipFrameChecks(played.clip, played.frame, played.isUpright);
   } else if (!request.avatarPath.empty()) {
     FORETOUCH_TRY(inspected.avatar, readAvatarFile(request.avatarPath));
   }
@@ -83,18 +91,62 @@ void loadMeshes(Inspected& inspected) {
   }
 }
 
-Result<Pose> poseAt(const Inspected& inspected, std::int64_t index) {
+/// `isPlaced`: where the placement has it, or around the clip's origin.
+Result<Pose> poseAt(const Inspected& inspected, std::int64_t index, bool isPlaced = true) {
+  Placement placement = inspected.request.placement;
+  if (!isPlaced) placement = Placement{placement.motionUpZ, Eigen::Vector3d::Zero(), 0.0};
   const ReplayRequest& request = inspected.request;
   if (inspected.played) {
     const PlayedClip& played = *inspected.played;
-    return poseAtFrame({played.avatar, played.clip, played.match, request.placement,
-                        played.isUpright, request.motionPath},
-                       index * played.steps.stride);
+    return poseAtFrame(
+        {played.avatar, played.clip, played.match, placement, played.isUpright, request.motionPath},
+        index * played.steps.stride);
   }
   const Skeleton& skeleton = inspected.avatar->skeleton();
-  auto pose = validatedPose(skeleton, placed(skeleton, restPose(skeleton), request.placement));
+  auto pose = validatedPose(skeleton, placed(skeleton, restPose(skeleton), placement));
   if (!pose.ok()) return inFile(pose.error(), "--place");
   return pose;
+}
+
+/// As the level's sides are lost in a Scene, it is read here and not by loadScene().
+Result<Done> loadLevel(Inspected& inspected) {
+  const ReplayRequest& request = inspected.request;
+  FORETOUCH_TRY(auto imported, importScene(request.scenePath, request.sceneImport));
+  for (PlacementCheck& check : sceneFrameChecks(imported.scene, imported.frame)) {
+    inspected.frameChecks.push_back(std::move(check));
+  }
+  FORETOUCH_TRY(inspected.level,
+                inFile(Level::build(std::move(imported.scene)), request.scenePath));
+  return Done{};
+}
+
+/// Where the body stands, by the engine; where it stands wrong, also where it could.
+Result<std::vector<PlacementCheck>> checksOf(const Inspected& inspected) {
+  std::vector<PlacementCheck> checks = inspected.frameChecks;
+  const Avatar* const avatar = inspected.body();
+  if (!inspected.level || avatar == nullptr) return checks;
+  constexpr std::int64_t kPosesLookedAt = 24;
+  const std::int64_t poses = inspected.played ? inspected.played->steps.count + 1 : 1;
+  const std::int64_t stride = std::max<std::int64_t>(1, poses / kPosesLookedAt);
+  WalkingBody body{*avatar, {}};
+  for (std::int64_t i = 0; i < poses; i += stride) {
+    FORETOUCH_TRY(auto pose, poseAt(inspected, i, false));
+    body.poses.push_back(std::move(pose));
+  }
+  FORETOUCH_TRY(const auto walker, Walker::build(body, *inspected.level));
+  Placement place = inspected.request.placement;
+  place.motionUpZ = false;  // the poses are upright
+  const Standing standing = standingAt(walker, place);
+  // A body in a wrong unit is at home nowhere.
+  const bool isFrameRight =
+      std::all_of(checks.begin(), checks.end(),
+                  [](const PlacementCheck& check) { return check.tryThis.empty(); });
+  const auto better =
+      isFrameRight && isWrong(standing) ? bestStanding(walker, place) : std::nullopt;
+  for (PlacementCheck& check : checksOf(walker, standing, better ? &*better : nullptr)) {
+    checks.push_back(std::move(check));
+  }
+  return checks;
 }
 
 Result<Done> addTrack(const Inspected& inspected, const ReportOptions& options, TrackBuilder& track,
@@ -165,19 +217,6 @@ void addAvatarRows(const Inspected& inspected, const AlignedBox3d& action, ViewD
   }
 }
 
-/// The place of the action relative to the scene, which reveals a wrong unit or placement.
-void notePlacement(const SceneAudit& audit, const AlignedBox3d& action,
-                   std::vector<std::string>& notes) {
-  const AlignedBox3d scene(audit.boxMin, audit.boxMax);
-  const double apartM = scene.exteriorDistance(action);
-  if (apartM > 0.0) {
-    notes.push_back(
-        fmt::format("The avatar is never inside the scene's box: {:.3g} m lie between them; are "
-                    "units, axes and --place right?",
-                    apartM));
-  }
-}
-
 std::string titleOf(const ReplayRequest& request) {
   const std::string& body = request.motionPath.empty() ? request.avatarPath : request.motionPath;
   if (body.empty()) return fileName(request.scenePath);
@@ -187,7 +226,7 @@ std::string titleOf(const ReplayRequest& request) {
 std::vector<ViewRow> settingsOf(const Inspected& inspected) {
   const ReplayRequest& request = inspected.request;
   std::vector<ViewRow> rows;
-  if (inspected.scene) rows = sceneSettings(request);
+  if (inspected.scene() != nullptr) rows = sceneSettings(request);
   if (!request.avatarPath.empty()) rows.push_back({"avatar", fileName(request.avatarPath), ""});
   if (inspected.played) {
     for (ViewRow& row : clipSettings(request)) rows.push_back(std::move(row));
@@ -203,9 +242,7 @@ Result<std::shared_ptr<const Inspected>> inspect(const ReplayRequest& request) {
   auto inspected = std::make_shared<Inspected>();
   inspected->request = request;
   FORETOUCH_CHECK(loadBody(*inspected));
-  if (!request.scenePath.empty()) {
-    FORETOUCH_TRY(inspected->scene, loadScene(request));
-  }
+  if (!request.scenePath.empty()) FORETOUCH_CHECK(loadLevel(*inspected));
   loadMeshes(*inspected);
   return std::shared_ptr<const Inspected>(std::move(inspected));
 }
@@ -221,7 +258,9 @@ Result<ViewDocument> documentOf(const Inspected& inspected, const ReportOptions&
   AlignedBox3d action;
   if (const Avatar* const body = inspected.body()) {
     std::optional<Query> question;
-    if (inspected.scene) question = touchQuestion(*body, *inspected.scene, QueryOptions{});
+    if (inspected.scene() != nullptr) {
+      question = touchQuestion(*body, *inspected.scene(), QueryOptions{});
+    }
     TrackBuilder track(*body, std::move(question));
     FORETOUCH_CHECK(addTrack(inspected, options, track, document.notes, progress));
     action = track.box();
@@ -232,9 +271,9 @@ Result<ViewDocument> documentOf(const Inspected& inspected, const ReportOptions&
     avatar.track = track.finish();
     document.avatars.push_back(std::move(avatar));
   }
-  if (inspected.scene) {
-    addScene(*inspected.scene, request.scenePath, options.maxTriangles, action, document);
-    addSceneRows(*inspected.scene, document);
+  if (inspected.scene() != nullptr) {
+    addScene(*inspected.scene(), request.scenePath, options.maxTriangles, action, document);
+    addSceneRows(*inspected.scene(), document);
   }
   if (inspected.body() != nullptr) addAvatarRows(inspected, action, document);
   if (inspected.played) {
@@ -244,9 +283,7 @@ Result<ViewDocument> documentOf(const Inspected& inspected, const ReportOptions&
       document.notes.push_back(std::move(remark));
     }
   }
-  if (inspected.scene && !action.isEmpty()) {
-    notePlacement(inspected.scene->audit(), action, document.notes);
-  }
+  FORETOUCH_TRY(document.checks, checksOf(inspected));
   return document;
 }
 

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "articulated/try.h"
+#include "assets/import/model_import.h"
+#include "assets/json_writer.h"
 #include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/interrupt.h"
@@ -26,6 +28,7 @@ struct ViewJob {
   std::vector<std::string> files;  ///< Their names tell their role.
   ReplayRequest request;
   ReportOptions report;
+  bool json = false;
 };
 
 /// What a file can be, by its name alone.
@@ -48,17 +51,33 @@ FileRole roleOf(const std::string& path) {
   return FileRole::Unknown;
 }
 
-/// Assigns files without an option by their names.
+/// A model is a motion if it holds an animation, else a scene; one that holds neither animation nor
+/// triangles is left to the reader of scenes, which says so.
+Result<FileRole> roleOfModel(const std::string& file) {
+  FORETOUCH_TRY(const auto model, importModel(file));
+  const bool hasBones = std::any_of(model.meshes.begin(), model.meshes.end(),
+                                    [](const ModelMesh& mesh) { return !mesh.bones.empty(); });
+  if (model.animations.empty() && hasBones) {
+    return Error::in(file, ErrorCode::Mismatch,
+                     "is a body without an animation; expected --scene before it, or foretouch "
+                     "avatar mesh to make an avatar of it");
+  }
+  return model.animations.empty() ? FileRole::Scene : FileRole::Motion;
+}
+
+/// Assigns files without an option by their names, models by what is in them.
 Result<Done> assignFiles(const std::vector<std::string>& files, ReplayRequest& request) {
   for (const std::string& file : files) {
+    FileRole role = roleOf(file);
+    if (role == FileRole::Several) {
+      FORETOUCH_TRY(role, roleOfModel(file));
+    }
     std::string* place = nullptr;
-    switch (roleOf(file)) {
+    switch (role) {
       case FileRole::Scene: place = &request.scenePath; break;
       case FileRole::Avatar: place = &request.avatarPath; break;
       case FileRole::Motion: place = &request.motionPath; break;
       case FileRole::Several:
-        return Error::in(file, ErrorCode::Mismatch,
-                         "may be a scene or a motion; expected --scene or --motion before it");
       case FileRole::Unknown:
         return Error::in(file, ErrorCode::Mismatch,
                          "its name does not say what it is; expected --scene, --avatar or --motion "
@@ -88,7 +107,13 @@ Result<Done> check(ViewJob& job) {
   return Done{};
 }
 
-Result<Done> view(const ViewJob& job, std::vector<std::string>& notes) {
+/// What the page says, for those who read it elsewhere.
+struct Found {
+  std::vector<std::string> notes;
+  std::vector<PlacementCheck> checks;
+};
+
+Result<Done> view(const ViewJob& job, Found& found) {
   const ReplayRequest& request = job.request;
   const auto checked =
       checkOutput(job.report.path, {request.scenePath, request.avatarPath, request.motionPath,
@@ -99,18 +124,38 @@ Result<Done> view(const ViewJob& job, std::vector<std::string>& notes) {
   return writeReport(job.report.path, guard,
                      [&](const ReportProgress& progress) -> Result<ViewDocument> {
                        auto document = documentOf(*inspected, job.report, progress);
-                       if (document.ok()) notes = document.value().notes;
+                       if (document.ok()) {
+                         found = {document.value().notes, document.value().checks};
+                       }
                        return document;
                      });
 }
 
+std::string jsonOf(const Found& found, const std::string& report) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.key("checks");
+  writeChecks(found.checks, out);
+  out.field("notes", found.notes);
+  out.field("report", report);
+  out.endObject();
+  return text + "\n";
+}
+
 ExitCode run(ViewJob job) {
   FORETOUCH_CHECK_OR(failed, check(job));
-  std::vector<std::string> notes;
-  FORETOUCH_CHECK_OR(failed, view(job, notes));
-  for (const std::string& note : notes) printNote(note);
-  if (!isStandardOutput(job.report.path)) printOut("report: " + job.report.path + "\n");
-  return ExitCode::Done;
+  Found found;
+  FORETOUCH_CHECK_OR(failed, view(job, found));
+  const bool outIsTaken = isStandardOutput(job.report.path);
+  if (job.json) {
+    printOut(jsonOf(found, job.report.path));
+  } else {
+    for (const std::string& note : found.notes) printNote(note);
+    const std::string text = describe(found.checks);
+    outIsTaken ? printAside(text) : printOut(text + "report: " + job.report.path + "\n");
+  }
+  return areUsable(found.checks) ? ExitCode::Done : ExitCode::CheckSaysNo;
 }
 
 constexpr char kViewExamples[] = R"(Examples:
@@ -118,7 +163,8 @@ constexpr char kViewExamples[] = R"(Examples:
   foretouch view --scene kitchen.ply --up z --avatar a.avatar.json --motion walk.bvh --scale 0.01 \
       --place 1.5,0,-2,90 --output kitchen.html
 
-Nothing is asked of the motion: `foretouch replay --report` shows contacts.)";
+Prints whether unit, axis and place are right; exit code 1 says that one is wrong. Nothing is asked
+between poses: `foretouch replay --report` shows contacts.)";
 
 }  // namespace
 
@@ -126,8 +172,9 @@ Command viewCommand() {
   const auto job = std::make_shared<ViewJob>();
   job->report.path = "foretouch-view.html";
   Settings settings;
-  settings.list("files", "FILE", job->files,
-                "Scene (obj, ply, stl, off, 3ds), avatar (json) and clip (bvh, csv), any of them");
+  settings.list(
+      "files", "FILE", job->files,
+      "Scene, avatar (json) and clip, any of them; their names or contents tell which is which");
   addSceneSettings(settings, job->request);
   addAvatarSetting(settings, job->request);
   addMotionSetting(settings, job->request, "--motion", "CLIP");
@@ -136,6 +183,7 @@ Command viewCommand() {
   settings.whole(
       "--report-triangles", "N", job->report.maxTriangles, 1, kMostReportTriangles,
       "Of a heavier scene the report shows what is near the avatar, or a simplified form");
+  settings.flag("--json", job->json, "Print the checks as JSON").in(kOutputGroup);
   addRateSetting(settings, job->request,
                  "Poses per second to show of the clip; animations: 30 if all");
   addClipSettings(settings, job->request);

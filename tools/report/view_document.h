@@ -12,6 +12,7 @@
 
 #include "articulated/avatar.h"
 #include "tools/reported_contact.h"
+#include "tools/setup/placement_check.h"
 
 namespace foretouch::tools {
 
@@ -101,7 +102,8 @@ struct ViewDocument {
   ViewKind kind = ViewKind::Replay;
   std::string title;
   std::vector<ViewRow> settings, summary;
-  std::vector<std::string> notes;  ///< Sentences.
+  std::vector<std::string> notes;      ///< Sentences.
+  std::vector<PlacementCheck> checks;  ///< Of an inspection.
   std::optional<ViewScene> scene;  ///< Nothing if the document shows only an avatar.
   std::vector<ViewAvatar> avatars;
 };

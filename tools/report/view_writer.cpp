@@ -251,6 +251,10 @@ void writeView(const ViewDocument& document, const TextSink& sink) {
   writeRows(out, "settings", document.settings);
   writeRows(out, "summary", document.summary);
   out.field("notes", document.notes);
+  if (!document.checks.empty()) {
+    out.key("checks");
+    writeChecks(document.checks, out);
+  }
   if (document.scene) writeScene(out, *document.scene);
   out.list("avatars", document.avatars, [&](const ViewAvatar& avatar) { write(avatar, out); });
   if (document.kind == ViewKind::Live) {

@@ -99,11 +99,10 @@ Result<Done> takeProject(Subcommand& subcommand) {
   if (path.empty()) return Done{};
   FORETOUCH_TRY(const auto notes,
                 takeFromProject(path, subcommand.command.settings, [&](const Setting& setting) {
-                  return std::any_of(subcommand.typed.begin(), subcommand.typed.end(),
-                                     [&](const Typed& typed) {
-                                       return typed.setting == &setting &&
-                                              typed.option->count() > 0;
-                                     });
+                  return std::any_of(
+                      subcommand.typed.begin(), subcommand.typed.end(), [&](const Typed& typed) {
+                        return typed.setting == &setting && typed.option->count() > 0;
+                      });
                 }));
   printNote("settings from " + path);
   for (const std::string& note : notes) printNote(note);
@@ -160,10 +159,11 @@ void addCommand(CLI::App& program, Command command, ExitCode& exit) {
   const auto subcommand = std::make_shared<Subcommand>();
   subcommand->command = std::move(command);
   if (subcommand->command.takesProject) {
-    subcommand->command.settings.path(
-        "--project", "FILE", subcommand->project,
-        "Project file: what this command line does not say; foretouch.toml of the current folder "
-        "if the command line names no files")
+    subcommand->command.settings
+        .path("--project", "FILE", subcommand->project,
+              "Project file: what this command line does not say; foretouch.toml of the current "
+              "folder "
+              "if the command line names no files")
         .in(kInputGroup);
   }
   subcommand->app = app;

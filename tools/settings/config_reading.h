@@ -1,5 +1,5 @@
-// tools/settings/config_reading.h: tables of a TOML file read into settings. Only for configuration:
-// it includes toml++.
+// tools/settings/config_reading.h: tables of a TOML file read into settings. Only for
+// configuration: it includes toml++.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,6 @@ using WhichSettings = std::function<bool(const Setting&)>;
 void readTable(TomlSection& root, const char* table, TomlReading& reading, Settings& settings,
                const WhichSettings& which);
 /// The same for all; refuses every key that is none of theirs.
-void readWholeTable(TomlSection& root, const char* table, TomlReading& reading,
-                    Settings& settings);
+void readWholeTable(TomlSection& root, const char* table, TomlReading& reading, Settings& settings);
 
 }  // namespace foretouch::tools

@@ -1,10 +1,9 @@
 #include "tools/settings/file_mark.h"
 
 #define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <fstream>
 #include <vector>
+#include <xxhash.h>
 
 #include <fmt/format.h>
 

@@ -115,9 +115,9 @@ void ProjectReading::takeTable(const char* table) {
   if (!isAbout(table)) {
     const toml::node* const node = root_.find(table);
     if (node != nullptr && node->is_table() && node->as_table()->size() > 1) {
-      notes_.push_back(fmt::format(
-          "{}: nothing of [{}] was taken, because the command line names another file",
-          reading_.file, table));
+      notes_.push_back(
+          fmt::format("{}: nothing of [{}] was taken, because the command line names another file",
+                      reading_.file, table));
     }
     return;
   }
@@ -209,6 +209,13 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+std::string frameLines(std::optional<double> scale, std::optional<UpAxis> up) {
+  std::string text;
+  if (scale) text += "scale = " + tidyNumber(*scale) + "  # metres per unit\n";
+  if (up) text += std::string("up = \"") + (*up == UpAxis::Z ? "z" : "y") + "\"\n";
+  return text;
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> takeFromProject(
@@ -221,34 +228,28 @@ Result<std::vector<std::string>> takeFromProject(
 }
 
 Result<std::string> projectText(const Project& project, const std::string& folder) {
-  const auto mark = [&](const std::string& file) {
-    return markOfFile((std::filesystem::path(folder) / file).string());
-  };
   std::string text =
-      "# Made by foretouch setup: change it as you like (docs/formats.md, \"Project files\").\n"
-      "# Paths count from this file's folder. Options of a command line come before it.\n";
+      "# Made by foretouch setup; change it as you like (docs/formats.md, \"Project files\").\n"
+      "# Paths count from this file's folder. What a command line says comes first.\n";
   std::string marks;
-  const auto add = [&](const char* table, const std::string& file) -> Result<Done> {
-    FORETOUCH_TRY(const auto found, mark(file));
-    text += fmt::format("\n{}\nfile = {}\n",
-                        std::string(table) == "avatar" ? "[[avatar]]" : fmt::format("[{}]", table),
-                        quoted(file));
-    marks += fmt::format("{} = \"{}\"\n", table, found);
+  const auto add = [&](const char* table, const char* title,
+                       const std::string& file) -> Result<Done> {
+    text += fmt::format("\n{}\n", title);
+    if (file.empty()) return Done{};
+    FORETOUCH_TRY(const auto mark, markOfFile((std::filesystem::path(folder) / file).string()));
+    text += "file = " + quoted(file) + "\n";
+    marks += fmt::format("{} = \"{}\"\n", table, mark);
     return Done{};
   };
-  FORETOUCH_CHECK(add("scene", project.scene));
-  text += fmt::format("scale = {}  # metres per unit\nup = \"{}\"\n",
-                      tidyNumber(project.sceneScale), project.sceneUp);
-  if (!project.avatar.empty()) FORETOUCH_CHECK(add("avatar", project.avatar));
-  if (!project.clip.empty()) {
-    FORETOUCH_CHECK(add("clip", project.clip));
-    text += fmt::format("scale = {}  # metres per unit\nup = \"{}\"\n",
-                        tidyNumber(project.clipScale), project.clipUp);
-    if (!project.animation.empty()) text += "animation = " + quoted(project.animation) + "\n";
-    if (!project.jointMap.empty()) text += "map = " + quoted(project.jointMap) + "\n";
-    text += fmt::format("place = \"{}\"  # X,Y,Z,YAW: metres, degrees\n", project.place);
-  }
-  return text + "\n# The files as they were then: commands say when one has changed.\n[made]\n" +
+  FORETOUCH_CHECK(add("scene", "[scene]", project.scene));
+  text += frameLines(project.sceneScale, project.sceneUp);
+  if (!project.avatar.empty()) FORETOUCH_CHECK(add("avatar", "[[avatar]]", project.avatar));
+  FORETOUCH_CHECK(add("clip", "[clip]", project.clip));
+  text += frameLines(project.clipScale, project.clipUp);
+  if (!project.animation.empty()) text += "animation = " + quoted(project.animation) + "\n";
+  if (!project.jointMap.empty()) text += "map = " + quoted(project.jointMap) + "\n";
+  text += "place = " + quoted(project.place) + "  # X,Y,Z,YAW: metres, degrees\n";
+  return text + "\n# The files as they were: commands say when one has changed since.\n[made]\n" +
          marks;
 }
 

@@ -1,13 +1,15 @@
-// tools/settings/project_file.h: foretouch.toml, the project file: which scene, avatar and clip belong
-// together, how to read them, and where the body stands. Commands take from it what their command
-// line does not say; docs/formats.md, "Project files", has its keys.
+// tools/settings/project_file.h: foretouch.toml, the project file: which scene, avatar and clip
+// belong together, how to read them, and where the body stands. Commands take from it what their
+// command line does not say; docs/formats.md, "Project files", has its keys.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "articulated/result.h"
+#include "assets/file_frame.h"
 #include "tools/settings/settings.h"
 
 namespace foretouch::tools {
@@ -26,9 +28,9 @@ inline constexpr char kProjectName[] = "foretouch.toml";
 /// What `foretouch setup` writes. Paths as the project's folder sees them; empty: no such file.
 struct Project {
   std::string scene, avatar, clip, animation, jointMap;
-  double sceneScale = 1.0, clipScale = 1.0;
-  std::string sceneUp = "y", clipUp = "y";
-  std::string place;  ///< "X,Y,Z,YAW".
+  std::optional<double> sceneScale, clipScale;  ///< Metres per unit; nothing: as the file says.
+  std::optional<UpAxis> sceneUp, clipUp;        ///< The same.
+  std::string place;                            ///< "X,Y,Z,YAW".
 };
 
 /// The text of a new project file beside these files. `folder`: its own, "" for the current one.

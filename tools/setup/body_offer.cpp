@@ -75,9 +75,9 @@ Offer<double> byStature(double stature, bool isInMetres) {
   const auto isAdult = [](double tall) { return tall >= kShortestAdult && tall <= kTallestAdult; };
   if (isInMetres) {
     const double unit = forgottenUnit(stature);
-    return {unit, isAdult(stature),
-            fmt::format("its format says metres, and by its legs the body is {:.3g} m tall",
-                        stature)};
+    return {
+        unit, isAdult(stature),
+        fmt::format("its format says metres, and by its legs the body is {:.3g} m tall", stature)};
   }
   const Unit& unit = nearestUnit(stature, kUsualAdult);
   if (isAdult(stature * unit.metres)) {
@@ -159,8 +159,8 @@ Offer<UpAxis> upAxisOf(const Clip& clip, bool isUpright) {
   constexpr double kClearly = 0.7;  // within 45 degrees, on the average
   const bool isClear = up[axis] >= kClearly && axis != 0;
   const char* const name = axis == 0 ? "x" : axis == 1 ? "y" : "z";
-  const std::string reason = fmt::format("its feet and head lie along {}{}", name,
-                                         up[axis] < 0.0 ? ", head down" : "");
+  const std::string reason =
+      fmt::format("its feet and head lie along {}{}", name, up[axis] < 0.0 ? ", head down" : "");
   const UpAxis value = axis == 2 && !isUpright ? UpAxis::Z : UpAxis::Y;
   return {value, isClear && (!isUpright || axis == 1), reason};
 }

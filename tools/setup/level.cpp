@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "articulated/try.h"
-#include "assets/import/scene_import.h"
 #include "lss/index.h"
 
 namespace foretouch::tools {
@@ -55,11 +54,6 @@ Level::Level(Scene scene, std::vector<Vector3d> areas, Avatar point, Query query
       point_(std::move(point)),
       query_(std::move(query)),
       scratch_(std::make_unique<QueryScratch>()) {}
-
-Result<Level> Level::load(const WorldRequest& request) {
-  FORETOUCH_TRY(auto imported, importScene(request.scenePath, request.sceneImport));
-  return inFile(build(std::move(imported.scene)), request.scenePath);
-}
 
 Result<Level> Level::build(RawScene raw) {
   // A Scene sorts the vertices of its triangles, so their sides must be read before.

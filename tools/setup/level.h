@@ -11,7 +11,6 @@
 #include "articulated/result.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
-#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 
@@ -30,8 +29,6 @@ struct FloorSpot {
 
 class Level {
  public:
-  /// Errors name the file.
-  [[nodiscard]] static Result<Level> load(const WorldRequest& request);
   /// Errors: as Scene::build().
   [[nodiscard]] static Result<Level> build(RawScene raw);
 

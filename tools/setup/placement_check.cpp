@@ -1,6 +1,7 @@
 #include "tools/setup/placement_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -14,13 +15,14 @@ namespace {
 constexpr double kMostlyBacks = 0.5;
 /// Feet that are farther from the floor than a step is high.
 constexpr double kStepHigh = 0.3;
+/// A clip's usual pose stands this much higher or lower than its first at most (m).
+constexpr double kUsualRise = 0.04;
 
 std::string linksIn(const Walker& walker, const std::vector<Inside>& inside) {
   const Skeleton& skeleton = walker.body().avatar.skeleton();
   // The trunk first: it is what a person would name.
-  const auto trunk = std::find_if(inside.begin(), inside.end(), [&](const Inside& i) {
-    return walker.isTrunk(i.link);
-  });
+  const auto trunk = std::find_if(inside.begin(), inside.end(),
+                                  [&](const Inside& i) { return walker.isTrunk(i.link); });
   const Inside& first = trunk == inside.end() ? inside.front() : *trunk;
   std::string text = inQuotes(skeleton.name(first.link));
   if (inside.size() > 1) {
@@ -47,9 +49,8 @@ PlacementCheck startCheck(const Walker& walker, const Standing& standing) {
       std::any_of(standing.inside.begin(), standing.inside.end(),
                   [&](const Inside& inside) { return walker.isTrunk(inside.link); });
   return {"start", isTrunkIn ? CheckState::Bad : CheckState::Doubt,
-          fmt::format("at the first pose, {} start{} inside {}",
-                      linksIn(walker, standing.inside), standing.inside.size() > 1 ? "" : "s",
-                      objectsOf(walker, standing.inside)),
+          fmt::format("at the first pose, {} start{} inside {}", linksIn(walker, standing.inside),
+                      standing.inside.size() > 1 ? "" : "s", objectsOf(walker, standing.inside)),
           ""};
 }
 
@@ -80,10 +81,10 @@ PlacementCheck levelCheck(const Standing& standing) {
                         100.0 * standing.backs),
             ""};
   }
-  return {"level", CheckState::Good,
-          standing.seen == 0 ? "it stands in the scene; no surface is in sight of it"
-                             : "it stands in the scene's free space",
-          ""};
+  if (standing.seen == 0) {
+    return {"level", CheckState::Doubt, "no surface is in sight of it along any axis", ""};
+  }
+  return {"level", CheckState::Good, "it stands in the scene's free space", ""};
 }
 
 PlacementCheck pathCheck(const Standing& standing) {
@@ -91,21 +92,31 @@ PlacementCheck pathCheck(const Standing& standing) {
     return fmt::format("in {} of {} poses", count, standing.poses);
   };
   if (2 * standing.trunkInside > standing.poses) {
-    return {"path", CheckState::Bad, "its trunk is inside the scene's surfaces " +
-                                         of(standing.trunkInside), ""};
+    return {"path", CheckState::Bad,
+            "its trunk is inside the scene's surfaces " + of(standing.trunkInside), ""};
   }
   if (2 * standing.overVoid > standing.poses) {
     return {"path", CheckState::Bad, "no floor is below it " + of(standing.overVoid), ""};
   }
   if (standing.trunkInside + standing.overVoid > 0) {
-    std::string text = standing.trunkInside == 0 ? ""
-                                                 : "its trunk is inside the scene's surfaces " +
-                                                       of(standing.trunkInside);
+    std::string text = standing.trunkInside == 0
+                           ? ""
+                           : "its trunk is inside the scene's surfaces " + of(standing.trunkInside);
     if (standing.overVoid > 0) {
       text += (text.empty() ? "no floor is below it " : ", and no floor is below it ") +
               of(standing.overVoid);
     }
     return {"path", CheckState::Doubt, text, ""};
+  }
+  if (std::abs(standing.usualRise) > kUsualRise) {
+    Placement usual = standing.place;
+    usual.origin.y() -= standing.usualRise;
+    return {
+        "path", CheckState::Doubt,
+        fmt::format("in most poses its lowest point is {:.3g} m {} than in the first one, which "
+                    "may be a T-pose or in the air; this would put those on the floor",
+                    std::abs(standing.usualRise), standing.usualRise > 0 ? "higher" : "lower"),
+        "--place " + textOf(usual)};
   }
   return {"path", CheckState::Good,
           fmt::format("its trunk stays free in all {} poses that were looked at", standing.poses),
@@ -121,6 +132,11 @@ const char* toString(CheckState state) {
     case CheckState::Bad: return "bad";
   }
   return "?";
+}
+
+bool areUsable(const std::vector<PlacementCheck>& checks) {
+  return std::none_of(checks.begin(), checks.end(),
+                      [](const PlacementCheck& check) { return check.state == CheckState::Bad; });
 }
 
 bool isWrong(const Standing& standing) {
@@ -140,10 +156,11 @@ std::vector<PlacementCheck> checksOf(const Walker& walker, const Standing& stand
                                         levelCheck(standing), pathCheck(standing)};
   if (better == nullptr) return checks;
   // Once: all of them are about the same place.
-  const auto first =
-      std::find_if(checks.begin(), checks.end(),
-                   [](const PlacementCheck& check) { return check.state != CheckState::Good; });
-  if (first != checks.end()) first->tryThis = "--place " + textOf(better->place);
+  const auto first = std::find_if(checks.begin(), checks.end(), [](const PlacementCheck& check) {
+    return check.state != CheckState::Good;
+  });
+  if (first != checks.end() && first->tryThis.empty())
+    first->tryThis = "--place " + textOf(better->place);
   return checks;
 }
 

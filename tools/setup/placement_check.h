@@ -32,6 +32,9 @@ struct PlacementCheck {
 [[nodiscard]] std::vector<PlacementCheck> checksOf(const Walker& walker, const Standing& standing,
                                                    const Standing* better);
 
+/// True if nothing is wrong; doubts may be left.
+[[nodiscard]] bool areUsable(const std::vector<PlacementCheck>& checks);
+
 /// True if a better place should be looked for.
 [[nodiscard]] bool isWrong(const Standing& standing);
 

@@ -102,8 +102,7 @@ Offer<UpAxis> sceneUpAxisOf(const RawScene& raw) {
                         100.0 * (yFacesUp ? upY : upZ), yFacesUp ? "y" : "z", extent)};
   }
   if (yIsLow != zIsLow) {
-    return {yIsLow ? UpAxis::Y : UpAxis::Z, !isThing,
-            extent + ", and levels are lower than wide"};
+    return {yIsLow ? UpAxis::Y : UpAxis::Z, !isThing, extent + ", and levels are lower than wide"};
   }
   return {UpAxis::Y, false, extent + ", about as high as wide"};
 }
@@ -120,9 +119,8 @@ Offer<double> sceneUnitOf(const RawScene& raw) {
     if (size.y() * unit < kLowestLevel || size.maxCoeff() * unit < kSmallestLevel) continue;
     if (roomIn(raw, unit) < kEnoughRoom) continue;
     return {unit, false,
-            fmt::format("in {} {}, with room for a person", unit == 0.001 ? "millimetres"
-                                                                          : "centimetres",
-                        inMetres(unit))};
+            fmt::format("in {} {}, with room for a person",
+                        unit == 0.001 ? "millimetres" : "centimetres", inMetres(unit))};
   }
   return {1.0, false, "in metres " + inMetres(1.0) + "; no other unit leaves room for a person"};
 }

@@ -49,6 +49,7 @@ void walkThrough(const Walker& walker, Standing& standing) {
   const Skeleton& skeleton = walker.body().avatar.skeleton();
   const std::vector<LinkId> feet = feetOf(skeleton);
   standing.poses = walker.body().poses.size();
+  std::vector<double> lowest;
   for (std::size_t i = 0; i < standing.poses; ++i) {
     const Pose pose = walker.poseAt(i, standing.place);
     bool isTrunkIn = false, isLimbIn = false;
@@ -60,10 +61,15 @@ void walkThrough(const Walker& walker, Standing& standing) {
     standing.trunkInside += isTrunkIn ? 1 : 0;
     standing.limbsInside += isLimbIn ? 1 : 0;
     const BodyBox box = boxOf(walker.body().avatar, pose);
+    lowest.push_back(box.min.y());
     const Vector3d middle = 0.5 * (box.min + box.max);
     const double reach = 1.5 * box.size().y() + 0.5;
     standing.overVoid += walker.level().cast(middle, middle - Vector3d(0, reach, 0)) ? 0 : 1;
   }
+  const double first = lowest.front();
+  const auto median = lowest.begin() + static_cast<std::ptrdiff_t>(lowest.size() / 2);
+  std::nth_element(lowest.begin(), median, lowest.end());
+  standing.usualRise = *median - first;
 }
 
 /// How far the lowest point of the body is above a floor, or below one that it stands in.
@@ -140,11 +146,12 @@ class Search {
     const auto spots = walker_.level().floorSpots(kSpots, kSteepestFloor);
     const auto around = floorsAround(spots);
     const std::size_t most =
-        around.empty() ? 1 : std::max<std::size_t>(1, *std::max_element(around.begin(), around.end()));
+        around.empty() ? 1
+                       : std::max<std::size_t>(1, *std::max_element(around.begin(), around.end()));
     for (std::size_t i = 0; i < spots.size(); ++i) {
       // Half as much floor as anywhere is enough: then the nearest counts.
-      const double share = std::min(1.0, 2.0 * static_cast<double>(around[i]) /
-                                             static_cast<double>(most));
+      const double share =
+          std::min(1.0, 2.0 * static_cast<double>(around[i]) / static_cast<double>(most));
       tryAt(spots[i].p_W, share);
     }
     return best_;
@@ -195,8 +202,11 @@ Standing standingAt(const Walker& walker, const Placement& place) {
   const Pose pose = walker.poseAt(0, place);
   const BodyBox box = boxOf(walker.body().avatar, pose);
   const SceneAudit& audit = walker.level().scene().audit();
-  standing.isOutside = (box.min.array() > audit.boxMax.array()).any() ||
-                       (box.max.array() < audit.boxMin.array()).any();
+  const auto isBeside = [&](int axis) {
+    return box.min[axis] > audit.boxMax[axis] || box.max[axis] < audit.boxMin[axis];
+  };
+  // Above it is no outside: ground may be flat, and sky open.
+  standing.isOutside = isBeside(0) || isBeside(2) || box.max.y() < audit.boxMin.y();
   standing.inside = walker.insideAt(pose);
   findFloor(walker, pose, box, standing);
   // Two thirds up a standing body.

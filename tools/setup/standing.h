@@ -20,8 +20,9 @@ inline constexpr double kSteepestFloor = 0.61;
 /// A placement, judged by the engine: nothing in it is guessed from boxes.
 struct Standing {
   Placement place;
-  std::vector<Inside> inside;        ///< At the first pose.
-  std::optional<double> floorBelow;  ///< From the lowest point of the body down, metres; none: void.
+  std::vector<Inside> inside;  ///< At the first pose.
+  std::optional<double>
+      floorBelow;  ///< From the lowest point of the body down, metres; none: void.
   std::optional<double> floorAbove;  ///< A floor that the first pose is sunk below: how far.
   bool isOutside = false;            ///< The body is outside of the box around the scene.
   /// Of the surfaces that the chest sees along the axes, the share that shows its back.
@@ -29,6 +30,9 @@ struct Standing {
   std::size_t seen = 0;  ///< How many surfaces these are.
   // Of all poses looked at:
   std::size_t poses = 0, trunkInside = 0, limbsInside = 0, overVoid = 0;
+  /// How much higher the lowest point of the body is in the usual pose than in the first (m): a
+  /// clip that starts in a T-pose, or in the air.
+  double usualRise = 0.0;
 
   [[nodiscard]] bool standsFree() const {
     return inside.empty() && floorBelow && *floorBelow <= kStandsWithin;

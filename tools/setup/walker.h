@@ -32,7 +32,7 @@ struct Inside {
 
 /// What a body rests on after it sank.
 struct Rest {
-  double depth = 0.0;     ///< How far it sank, metres.
+  double depth = 0.0;  ///< How far it sank, metres.
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   TriangleId triangle = -1;
 };

@@ -1,0 +1,20 @@
+// tools/audit/avatar_files.h: the files of an avatar that is made of a model.
+#pragma once
+
+#include <string>
+
+#include "articulated/result.h"
+#include "assets/model/model_avatar.h"
+
+namespace foretouch::tools {
+
+/// The file of the links' triangles: beside the avatar file, under its name.
+[[nodiscard]] std::string meshPathOf(const std::string& avatarPath);
+/// As the avatar file names it: ModelAvatarOptions::meshFile.
+[[nodiscard]] std::string meshFileOf(const std::string& avatarPath);
+
+/// The mesh first: an avatar file never refers to a missing one. Made with
+/// ModelAvatarOptions::meshFile of the same path.
+[[nodiscard]] Result<Done> writeModelAvatar(const ModelAvatar& made, const std::string& avatarPath);
+
+}  // namespace foretouch::tools

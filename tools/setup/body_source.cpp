@@ -1,0 +1,146 @@
+#include "tools/setup/body_source.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "articulated/try.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/bvh/bvh_avatar.h"
+#include "assets/import/model_import.h"
+#include "assets/text_file.h"
+#include "tools/inputs/clip_pose.h"
+#include "tools/inputs/joint_map.h"
+#include "tools/inputs/motion_file.h"
+
+namespace foretouch::tools {
+namespace {
+
+bool isAvatarFile(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".json";
+}
+
+/// Every format that a reader of models may know, with an animation or without.
+bool isModelFile(const std::string& path) {
+  if (motionKindOf(path) == MotionKind::Model) return true;
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return motionKindOf(path) == MotionKind::Bvh && extension != ".bvh" && extension != ".BVH";
+}
+
+Result<Model> readModelOf(const std::string& path, const BodyRequest& request) {
+  ModelImportOptions options;
+  options.import.scale = request.scale;
+  options.import.up = request.up;
+  return importModel(path, options);
+}
+
+Result<Done> readModelBody(const std::string& path, const BodyRequest& request,
+                           const std::string& meshFile, BodySource& source) {
+  FORETOUCH_TRY(const auto model, readModelOf(path, request));
+  source.frame = model.frame;
+  source.isUpright = true;
+  const bool hasMesh = std::any_of(model.meshes.begin(), model.meshes.end(),
+                                   [](const ModelMesh& mesh) { return !mesh.triangles.empty(); });
+  if (!hasMesh) return Done{};  // a motion without a body
+  ModelAvatarOptions making;
+  making.meshFile = meshFile;
+  FORETOUCH_TRY(source.ofModel, inFile(avatarFromModel(model, making), path));
+  source.avatar = source.ofModel->avatar;
+  for (const std::string& note : model.notes) source.notes.push_back(path + ": " + note);
+  return Done{};
+}
+
+/// A model that holds no animation has no clip, which is no error here.
+Result<Done> readClip(const BodyRequest& request, BodySource& source) {
+  if (motionKindOf(request.motion) == MotionKind::Table) {
+    return Error::in(request.motion, ErrorCode::Mismatch,
+                     "expected a clip or a model: a table of joint positions is about a robot, for "
+                     "which foretouch avatar urdf makes the avatar");
+  }
+  if (motionKindOf(request.motion) != MotionKind::Model && isModelFile(request.motion)) {
+    source.notes.push_back(request.motion +
+                           ": its format holds no animation that can be read, so "
+                           "the body stands at rest");
+    return Done{};
+  }
+  MotionRequest motion;
+  motion.path = request.motion;
+  motion.scale = request.scale;
+  motion.up = request.up;
+  motion.animation = request.animation;
+  auto read = readMotion(motion);
+  if (!read.ok()) {
+    const bool isStill = read.error().code == ErrorCode::Empty && source.avatar;
+    if (!isStill || !request.animation.empty()) return read.error();
+    source.notes.push_back(request.motion + ": holds no animation, so the body stands at rest");
+    return Done{};
+  }
+  source.frame = read.value().frame;
+  source.isUpright = read.value().isUpright;
+  for (const std::string& note : read.value().clip.notes) {
+    source.notes.push_back(request.motion + ": " + note);
+  }
+  source.clip = std::move(read.value().clip);
+  return Done{};
+}
+
+}  // namespace
+
+Clip BodySource::clipOrRest() const {
+  if (clip) return *clip;
+  Clip still;
+  still.skeleton = avatar->skeleton();
+  still.frameTimeS = 1.0;
+  still.frames = {restPose(still.skeleton)};
+  const auto joints = static_cast<std::size_t>(still.skeleton.numJoints());
+  still.hasTranslation.assign(joints, true);
+  still.hasRotation.assign(joints, true);
+  still.endSites.resize(joints);
+  return still;
+}
+
+bool makesAvatar(const BodyRequest& request) {
+  return !isAvatarFile(request.avatar);
+}
+
+Result<BodySource> readBody(const BodyRequest& request, const std::string& meshFile) {
+  BodySource source;
+  if (isAvatarFile(request.avatar)) {
+    FORETOUCH_TRY(source.avatar, readAvatarFile(request.avatar));
+  } else {
+    const std::string& body = request.avatar.empty() ? request.motion : request.avatar;
+    if (isModelFile(body)) {
+      FORETOUCH_CHECK(readModelBody(body, request, meshFile, source));
+    }
+  }
+  if (!request.motion.empty()) FORETOUCH_CHECK(readClip(request, source));
+  if (!source.avatar) {
+    if (!source.clip) {
+      return Error::in(request.avatar, ErrorCode::Empty,
+                       "expected a model with triangles, or an avatar file (.json)");
+    }
+    FORETOUCH_TRY(source.avatar, inFile(avatarFromClip(*source.clip), request.motion));
+  }
+  return source;
+}
+
+Result<WalkingBody> walkingBody(const BodySource& source, const BodyRequest& request,
+                                std::size_t count) {
+  const Clip clip = source.clipOrRest();
+  const Avatar& avatar = *source.avatar;
+  const std::string& path = request.motion.empty() ? request.avatar : request.motion;
+  FORETOUCH_TRY(const auto match,
+                matchWithMap(avatar.skeleton(), clip.skeleton, request.map, path));
+  Placement upright;
+  upright.motionUpZ = request.up == UpAxis::Z;
+  const PlacedClip placed{avatar, clip, match, upright, source.isUpright, path};
+  WalkingBody body{avatar, {}};
+  const std::size_t stride = std::max<std::size_t>(1, (clip.frames.size() + count - 1) / count);
+  for (std::size_t frame = 0; frame < clip.frames.size(); frame += stride) {
+    FORETOUCH_TRY(auto pose, poseAtFrame(placed, static_cast<std::int64_t>(frame)));
+    body.poses.push_back(std::move(pose));
+  }
+  return body;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,49 @@
+// tools/setup/body_source.h: the body of a setup: the avatar that stands in the scene, and the
+// poses that its clip gives it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "articulated/clip.h"
+#include "articulated/result.h"
+#include "assets/file_frame.h"
+#include "assets/model/model_avatar.h"
+#include "tools/setup/walker.h"
+
+namespace foretouch::tools {
+
+/// Which files make the body; each may be empty but not both.
+struct BodyRequest {
+  std::string motion;  ///< A clip, or a model that holds one.
+  std::string avatar;  ///< An avatar file, or a model; empty: made of the motion's own body.
+  std::string animation, map;
+  std::optional<double> scale;  ///< Of both, in place of what they say; nothing: as they say.
+  std::optional<UpAxis> up;
+};
+
+/// A body, read with a unit and an axis.
+struct BodySource {
+  std::optional<Avatar> avatar;
+  std::optional<ModelAvatar> ofModel;  ///< If a model's triangles make the avatar.
+  std::optional<Clip> clip;            ///< Nothing: it stands at rest.
+  bool isUpright = false;              ///< The clip needs no turn.
+  FileFrame frame;
+  std::vector<std::string> notes;
+
+  /// The clip, or the avatar's rest pose as a clip of one frame.
+  [[nodiscard]] Clip clipOrRest() const;
+};
+
+/// Errors name the file. `meshFile`: for an avatar that is made of a model.
+[[nodiscard]] Result<BodySource> readBody(const BodyRequest& request, const std::string& meshFile);
+
+/// Whether the avatar must be written, because none of the files is one.
+[[nodiscard]] bool makesAvatar(const BodyRequest& request);
+
+/// The poses of at most `count` frames spread over the clip, Y-up, around its origin.
+[[nodiscard]] Result<WalkingBody> walkingBody(const BodySource& source, const BodyRequest& request,
+                                              std::size_t count);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,54 @@
+#include "tools/setup/frame_checks.h"
+
+#include <fmt/format.h>
+
+#include "tools/setup/body_offer.h"
+#include "tools/setup/scene_offer.h"
+
+namespace foretouch::tools {
+namespace {
+
+const char* wordOf(UpAxis up) {
+  return up == UpAxis::Z ? "z" : "y";
+}
+
+/// `offer`: by what the numbers would have to be multiplied once more.
+PlacementCheck unitCheck(const char* name, const char* option, const Offer<double>& offer,
+                         const FileFrame& frame) {
+  if (offer.value == 1.0) {
+    return {name, offer.isSure ? CheckState::Good : CheckState::Doubt, offer.reason, ""};
+  }
+  return {name, CheckState::Doubt, offer.reason,
+          fmt::format("{} {:.3g}", option, offer.value * frame.metresPerUnit)};
+}
+
+}  // namespace
+
+std::vector<PlacementCheck> sceneFrameChecks(const RawScene& raw, const FileFrame& frame) {
+  const Offer<UpAxis> up = sceneUpAxisOf(raw);
+  PlacementCheck axis{"scene's axis", CheckState::Good, up.reason, ""};
+  // A file that says its axis is believed, unless its floors speak clearly against it.
+  const bool isSaid = frame.declared.up && *frame.declared.up == frame.up;
+  if (up.value == UpAxis::Z && (up.isSure || !isSaid)) {
+    axis.state = CheckState::Doubt;
+    axis.tryThis = std::string("--scene-up ") + (frame.up == UpAxis::Z ? "y" : "z");
+  } else if (!up.isSure && !isSaid) {
+    axis.state = CheckState::Doubt;
+  }
+  return {unitCheck("scene's unit", "--scene-scale", sceneUnitOf(raw), frame), axis};
+}
+
+std::vector<PlacementCheck> clipFrameChecks(const Clip& clip, const FileFrame& frame,
+                                            bool isUpright) {
+  const Offer<UpAxis> up = upAxisOf(clip, isUpright);
+  PlacementCheck axis{"body's axis", up.isSure ? CheckState::Good : CheckState::Doubt, up.reason,
+                      ""};
+  if (!isUpright && up.value != frame.up) {
+    axis.state = CheckState::Doubt;
+    axis.tryThis = std::string("--clip-up ") + wordOf(up.value);
+  }
+  const bool isInMetres = frame.declared.metresPerUnit.has_value();
+  return {unitCheck("body's unit", "--clip-scale", unitOf(clip, isInMetres), frame), axis};
+}
+
+}  // namespace foretouch::tools

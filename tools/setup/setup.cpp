@@ -1,0 +1,231 @@
+#include "tools/setup/setup.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "articulated/quoted.h"
+#include "articulated/try.h"
+#include "assets/import/scene_import.h"
+#include "tools/setup/body_offer.h"
+#include "tools/setup/scene_offer.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// Among how many poses of a clip to look for room.
+constexpr std::size_t kPosesLookedAt = 24;
+
+template <typename Value>
+Finding<Value> saidByUser(Value value) {
+  return {{value, true, "as you said"}, false, true};
+}
+template <typename Value>
+Finding<Value> saidByFile(Value value, const char* format) {
+  return {{value, true, format}, true, false};
+}
+
+const char* whoSays(const DeclaredFrame& declared) {
+  return declared.isOfFormat ? "its format has no other" : "the file says so";
+}
+
+struct ReadScene {
+  RawScene raw;  ///< Metres, Y-up.
+  std::vector<std::string> notes;
+};
+
+void noteObjects(const SetupRequest& request, const RawScene& raw,
+                 std::vector<std::string>& notes) {
+  const std::vector<std::string>& names = raw.objectNames;
+  if (names.size() == 1) {
+    notes.push_back(
+        fmt::format("{}: is one object, {}, so --ignore cannot name its floor; ground "
+                    "contact is told by normal and height (--ground)",
+                    request.scene, inQuotes(names.front())));
+  }
+  const std::set<std::string> different(names.begin(), names.end());
+  if (different.size() < names.size()) {
+    notes.push_back(
+        fmt::format("{}: {} of {} objects share a name with another one, so --ignore "
+                    "means all of a name",
+                    request.scene, names.size() - different.size() + 1, names.size()));
+  }
+}
+
+Result<ImportedScene> importWith(const SetupRequest& request, std::optional<double> scale,
+                                 std::optional<UpAxis> up) {
+  SceneImportOptions options;
+  options.scale = scale;
+  options.up = up;
+  return importScene(request.scene, options);
+}
+
+/// Axis first: the unit of a level shows in its height.
+Result<RawScene> readScene(const SetupRequest& request, Setup& setup) {
+  FORETOUCH_TRY(auto imported, importWith(request, request.sceneScale, request.sceneUp));
+  const DeclaredFrame& declared = imported.frame.declared;
+  if (request.sceneUp) {
+    setup.sceneUp = saidByUser(*request.sceneUp);
+  } else if (declared.up) {
+    setup.sceneUp = saidByFile(*declared.up, whoSays(declared));
+  } else {
+    setup.sceneUp.offer = sceneUpAxisOf(imported.scene);
+    if (setup.sceneUp.offer.value == UpAxis::Z) {
+      FORETOUCH_TRY(imported, importWith(request, request.sceneScale, UpAxis::Z));
+    }
+  }
+  if (request.sceneScale) {
+    setup.sceneScale = saidByUser(*request.sceneScale);
+  } else if (declared.metresPerUnit) {
+    setup.sceneScale = saidByFile(*declared.metresPerUnit, whoSays(declared));
+  } else {
+    setup.sceneScale.offer = sceneUnitOf(imported.scene);
+    if (setup.sceneScale.offer.value != 1.0) {
+      FORETOUCH_TRY(imported,
+                    importWith(request, setup.sceneScale.offer.value, setup.sceneUp.offer.value));
+    }
+  }
+  noteObjects(request, imported.scene, setup.notes);
+  return std::move(imported.scene);
+}
+
+/// A file's own word counts, unless the body's size contradicts it: exporters forget to convert.
+Finding<double> bodyUnit(const BodyRequest& request, const BodySource& source) {
+  if (request.scale) return saidByUser(*request.scale);
+  const DeclaredFrame& declared = source.frame.declared;
+  const Clip clip = source.clipOrRest();
+  const bool isInMetres = declared.metresPerUnit.has_value();
+  Offer<double> offer = unitOf(clip, isInMetres);
+  if (!isInMetres) return {std::move(offer), false, false};
+  const bool isTrue = offer.value == 1.0;
+  offer.value *= *declared.metresPerUnit;
+  return {std::move(offer), isTrue, false};
+}
+
+Finding<UpAxis> bodyUpAxis(const BodyRequest& request, const BodySource& source) {
+  if (request.up) return saidByUser(*request.up);
+  const DeclaredFrame& declared = source.frame.declared;
+  Offer<UpAxis> offer = upAxisOf(source.clipOrRest(), declared.up.has_value());
+  if (!declared.up) return {std::move(offer), false, false};
+  offer.value = *declared.up;
+  return {std::move(offer), true, false};
+}
+
+/// First as the files say, to find unit and axis; then with these, if they are others.
+Result<Done> readBodyTwice(const SetupRequest& request, const std::string& meshFile, Setup& setup) {
+  FORETOUCH_TRY(setup.body, readBody(request.body, meshFile));
+  setup.bodyScale = bodyUnit(request.body, setup.body);
+  setup.bodyUp = bodyUpAxis(request.body, setup.body);
+  BodyRequest& body = setup.request.body;
+  if (!setup.bodyScale.isSaidByFile) body.scale = setup.bodyScale.offer.value;
+  if (!setup.bodyUp.isSaidByFile) body.up = setup.bodyUp.offer.value;
+  const FileFrame& frame = setup.body.frame;
+  if (setup.bodyScale.offer.value == frame.metresPerUnit && setup.bodyUp.offer.value == frame.up) {
+    return Done{};
+  }
+  FORETOUCH_TRY(setup.body, readBody(body, meshFile));
+  return Done{};
+}
+
+template <typename Value>
+PlacementCheck checkOf(const char* name, const Finding<Value>& finding, const std::string& value) {
+  return {name, finding.offer.isSure ? CheckState::Good : CheckState::Doubt,
+          value + ": " + finding.offer.reason, ""};
+}
+
+std::string unitInWords(double metres) {
+  const std::string name = nameOfUnit(metres);
+  return name.empty() ? fmt::format("{:g} m per unit", metres) : name;
+}
+
+std::string axisInWords(UpAxis up) {
+  return up == UpAxis::Z ? "z is up" : "y is up";
+}
+
+void addOffers(Setup& setup) {
+  setup.checks.push_back(
+      checkOf("scene's unit", setup.sceneScale, unitInWords(setup.sceneScale.offer.value)));
+  setup.checks.push_back(
+      checkOf("scene's axis", setup.sceneUp, axisInWords(setup.sceneUp.offer.value)));
+  setup.checks.push_back(
+      checkOf("body's unit", setup.bodyScale, unitInWords(setup.bodyScale.offer.value)));
+  setup.checks.push_back(
+      checkOf("body's axis", setup.bodyUp, axisInWords(setup.bodyUp.offer.value)));
+}
+
+void noteStillness(Setup& setup) {
+  const std::optional<Clip>& clip = setup.body.clip;
+  if (!clip) return;
+  const Pose& first = clip->frames.front();
+  const bool moves = std::any_of(clip->frames.begin(), clip->frames.end(), [&](const Pose& pose) {
+    for (std::size_t i = 0; i < pose.rotations.size(); ++i) {
+      if (!(pose.rotations[i].coeffs() == first.rotations[i].coeffs())) return true;
+      if (pose.translations[i] != first.translations[i]) return true;
+    }
+    return false;
+  });
+  if (moves) return;
+  setup.notes.push_back(setup.request.body.motion +
+                        ": never moves, so nothing can happen between its poses");
+}
+
+/// The user's place is judged and kept; without one, the best is taken.
+Result<Done> findPlace(RawScene raw, Setup& setup) {
+  FORETOUCH_TRY(const auto level, inFile(Level::build(std::move(raw)), setup.request.scene));
+  FORETOUCH_TRY(const auto body, walkingBody(setup.body, setup.request.body, kPosesLookedAt));
+  FORETOUCH_TRY(const auto walker, Walker::build(body, level));
+  const Placement wish = setup.request.place.value_or(Placement());
+  const Standing asked = standingAt(walker, wish);
+  const auto best = setup.request.place && !isWrong(asked) ? asked : bestStanding(walker, wish);
+  const bool takesBest = best && !setup.request.place;
+  const Standing& standing = takesBest ? *best : asked;
+  setup.place = standing.place;
+  setup.isPlaceFound = standing.standsFree();
+  for (PlacementCheck& check : checksOf(walker, standing, best && !takesBest ? &*best : nullptr)) {
+    setup.checks.push_back(std::move(check));
+  }
+  if (!best) {
+    setup.notes.push_back(setup.request.scene +
+                          (level.floorArea(kSteepestFloor) > 0.0
+                               ? ": has no floor with room for this body; is a unit wrong?"
+                               : ": has no floor: nothing in it is level; is its axis right?"));
+  }
+  return Done{};
+}
+
+}  // namespace
+
+bool Setup::isUsable() const {
+  return areUsable(checks);
+}
+
+Result<Setup> findSetup(const SetupRequest& request, const std::string& meshFile) {
+  Setup setup;
+  setup.request = request;
+  FORETOUCH_TRY(auto raw, readScene(request, setup));
+  FORETOUCH_CHECK(readBodyTwice(request, meshFile, setup));
+  addOffers(setup);
+  noteStillness(setup);
+  FORETOUCH_CHECK(findPlace(std::move(raw), setup));
+  return setup;
+}
+
+Project projectOf(const Setup& setup, const std::string& avatar) {
+  Project project;
+  project.scene = setup.request.scene;
+  project.avatar = avatar;
+  project.clip = setup.body.clip ? setup.request.body.motion : "";
+  project.animation = setup.request.body.animation;
+  project.jointMap = setup.request.body.map;
+  // What a file says of itself is not repeated: the file may be exported anew.
+  if (!setup.sceneScale.isSaidByFile) project.sceneScale = setup.sceneScale.offer.value;
+  if (!setup.sceneUp.isSaidByFile) project.sceneUp = setup.sceneUp.offer.value;
+  if (!setup.bodyScale.isSaidByFile) project.clipScale = setup.bodyScale.offer.value;
+  if (!setup.bodyUp.isSaidByFile) project.clipUp = setup.bodyUp.offer.value;
+  project.place = textOf(setup.place);
+  return project;
+}
+
+}  // namespace foretouch::tools

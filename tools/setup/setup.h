@@ -1,0 +1,63 @@
+// tools/setup/setup.h: what `foretouch setup` finds out about a scene and a body, and what it
+// offers.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "assets/import/imported_scene.h"
+#include "tools/settings/project_file.h"
+#include "tools/setup/body_source.h"
+#include "tools/setup/offer.h"
+#include "tools/setup/placement_check.h"
+#include "tools/setup/standing.h"
+
+namespace foretouch::tools {
+
+/// What the user has said; what is empty is for setup to find out.
+struct SetupRequest {
+  std::string scene;
+  BodyRequest body;
+  std::optional<double> sceneScale;
+  std::optional<UpAxis> sceneUp;
+  std::optional<Placement> place;
+};
+
+/// One answer, and whether it needs an option: a file that says its unit itself is read so.
+template <typename Value>
+struct Finding {
+  Offer<Value> offer;
+  bool isSaidByFile = false;
+  bool isSaidByUser = false;
+};
+
+/// All answers. `place` is the best one even if the body stands wrong there: the checks say so.
+struct Setup {
+  SetupRequest request;
+  Finding<double> sceneScale, bodyScale;
+  Finding<UpAxis> sceneUp, bodyUp;
+  Placement place;
+  bool isPlaceFound = false;
+  BodySource body;                     ///< Read with these answers.
+  std::vector<PlacementCheck> checks;  ///< Of units, axes and the place.
+  std::vector<std::string> notes;
+
+  /// Whether all is good or doubtful, and nothing wrong.
+  [[nodiscard]] bool isUsable() const;
+};
+
+/// Reads the files and settles what the user has not said. `meshFile`: for an avatar that is made
+/// of a model. Errors name the file. Some seconds at most beyond reading.
+[[nodiscard]] Result<Setup> findSetup(const SetupRequest& request, const std::string& meshFile);
+
+/// The project that holds its answers. `avatar`: the avatar's file.
+[[nodiscard]] Project projectOf(const Setup& setup, const std::string& avatar);
+
+/// For people: every answer with its reason, and the checks.
+[[nodiscard]] std::string describe(const Setup& setup);
+/// The fields of one JSON object.
+void writeSetup(const Setup& setup, JsonWriter& out);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,268 @@
+#include "tools/setup/setup_command.h"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "articulated/try.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/text_file.h"
+#include "tools/arguments.h"
+#include "tools/audit/avatar_files.h"
+#include "tools/settings/clip_settings.h"
+#include "tools/settings/frame_settings.h"
+#include "tools/settings/world_settings.h"
+#include "tools/setup/setup.h"
+
+namespace foretouch::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The values of all options.
+struct AskedSetup {
+  WorldRequest world;
+  ClipRequest clip;
+  std::string output = kProjectName;
+  bool yes = false, json = false;
+  bool givesPlace = false;
+};
+
+SetupRequest requestOf(const AskedSetup& asked) {
+  SetupRequest request;
+  request.scene = asked.world.scenePath;
+  request.sceneScale = asked.world.sceneImport.scale;
+  request.sceneUp = asked.world.sceneImport.up;
+  request.body = {asked.clip.motionPath, asked.clip.avatarPath,  asked.clip.animation,
+                  asked.clip.mapPath,    asked.clip.motionScale, asked.clip.motionUp};
+  if (asked.givesPlace) {
+    request.place = asked.clip.placement;
+    request.place->motionUpZ = false;
+  }
+  return request;
+}
+
+/// The avatar's file: as given, or a new one beside the project.
+std::string avatarPathOf(const AskedSetup& asked, const SetupRequest& request) {
+  if (!makesAvatar(request.body)) return request.body.avatar;
+  const std::string& body = request.body.avatar.empty() ? request.body.motion : request.body.avatar;
+  return (fs::path(asked.output).parent_path() / (fs::path(body).stem().string() + ".avatar.json"))
+      .string();
+}
+
+/// As the project's folder sees it. An absolute path stays one.
+std::string besideProject(const std::string& path, const std::string& project) {
+  if (path.empty() || fs::path(path).is_absolute()) return path;
+  const fs::path folder = fs::path(project).parent_path();
+  std::error_code failed;
+  const fs::path seen = fs::proximate(path, folder.empty() ? fs::path(".") : folder, failed);
+  return failed ? fs::absolute(path).string() : seen.string();
+}
+
+/// A file that is there already stays, under another name.
+Result<Done> keepOld(const std::string& path, std::vector<std::string>& written) {
+  std::error_code failed;
+  if (!fs::exists(path, failed)) return Done{};
+  const std::string old = path + "~";
+  fs::rename(path, old, failed);
+  if (failed) {
+    return Error::in(path, ErrorCode::FileUnwritable,
+                     "exists, and cannot be renamed to " + inQuotes(old));
+  }
+  written.push_back(old + " (what " + path + " was)");
+  return Done{};
+}
+
+Result<Done> writeText(const std::string& path, const std::string& text) {
+  FORETOUCH_TRY(auto file, PendingFile::create(path));
+  file.write(text);
+  return file.commit();
+}
+
+/// The avatar first: a project never names a missing file.
+Result<std::vector<std::string>> writeFiles(const AskedSetup& asked, const Setup& setup,
+                                            const std::string& avatarPath) {
+  std::vector<std::string> written;
+  if (makesAvatar(setup.request.body)) {
+    FORETOUCH_CHECK(keepOld(avatarPath, written));
+    FORETOUCH_CHECK(setup.body.ofModel ? writeModelAvatar(*setup.body.ofModel, avatarPath)
+                                       : writeAvatarFile(*setup.body.avatar, avatarPath));
+    written.push_back(avatarPath);
+  }
+  Project project = projectOf(setup, avatarPath);
+  for (std::string* const path :
+       {&project.scene, &project.avatar, &project.clip, &project.jointMap}) {
+    *path = besideProject(*path, asked.output);
+  }
+  FORETOUCH_CHECK(keepOld(asked.output, written));
+  FORETOUCH_TRY(const auto text,
+                projectText(project, fs::path(asked.output).parent_path().string()));
+  FORETOUCH_CHECK(writeText(asked.output, text));
+  written.push_back(asked.output);
+  return written;
+}
+
+/// What to type next. The project in the current folder needs no name.
+std::vector<std::string> nextCommands(const AskedSetup& asked, const Setup& setup) {
+  const std::string project = asked.output == kProjectName ? "" : " --project " + asked.output;
+  std::vector<std::string> next = {"foretouch view" + project};
+  if (setup.body.clip) {
+    next.push_back("foretouch replay" + project +
+                   " --rate 10 --output contacts.jsonl --report contacts.html");
+  }
+  return next;
+}
+
+bool isTerminal() {
+  return isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1;
+}
+
+/// The line that the user types; nothing at the end of input.
+std::optional<std::string> ask(const std::string& question) {
+  printOut(question);
+  std::cout.flush();
+  std::string line;
+  if (!std::getline(std::cin, line)) return std::nullopt;
+  return line;
+}
+
+/// Shows what was found; the user may answer an option in place of it, as often as needed. False:
+/// the user wants nothing written.
+Result<bool> talk(const AskedSetup& asked, SetupRequest request, const std::string& meshFile,
+                  Setup& setup) {
+  for (;;) {
+    printOut(describe(setup));
+    for (const std::string& note : setup.notes) printNote(note);
+    const auto line = ask("\nWrite " + asked.output +
+                          "? [Enter: yes; n: no; or an option to change, such as --clip-scale "
+                          "0.01 or --place 1,0,-2,90] ");
+    if (!line || *line == "n" || *line == "no") return false;
+    if (line->empty() || *line == "y" || *line == "yes") return true;
+    const std::size_t space = line->find(' ');
+    const std::string option = line->substr(0, space);
+    const std::string value = space == line->npos ? "" : line->substr(space + 1);
+    WorldRequest world;
+    ClipRequest clip;
+    Settings settings;
+    addSceneSettings(settings, world);
+    addClipSettings(settings, clip);
+    bool isKnown = false;
+    for (Setting& setting : settings) {
+      if (setting.name() != option) continue;
+      isKnown = true;
+      const auto taken = takeTyped(setting, {value});
+      if (!taken.ok()) printError(describe(taken.error()));
+    }
+    if (!isKnown) {
+      printError(option +
+                 ": expected --scene-scale, --scene-up, --clip-scale, --clip-up or --place");
+      continue;
+    }
+    if (world.sceneImport.scale) request.sceneScale = world.sceneImport.scale;
+    if (world.sceneImport.up) request.sceneUp = world.sceneImport.up;
+    if (clip.motionScale) request.body.scale = clip.motionScale;
+    if (clip.motionUp) request.body.up = clip.motionUp;
+    if (settings.isGiven("--place")) request.place = clip.placement;
+    FORETOUCH_TRY(setup, findSetup(request, meshFile));
+  }
+}
+
+std::string jsonOf(const Setup& setup, const std::vector<std::string>& written,
+                   const std::vector<std::string>& next) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  writeSetup(setup, out);
+  out.field("written", written);
+  out.field("next", next);
+  out.endObject();
+  return text + "\n";
+}
+
+std::string closingText(const std::vector<std::string>& written,
+                        const std::vector<std::string>& next) {
+  std::string text = "\n";
+  for (const std::string& file : written) text += "wrote " + file + "\n";
+  if (written.empty()) text += "nothing was written: --yes writes the project\n";
+  text += "next:\n";
+  for (const std::string& command : next) text += "  " + command + "\n";
+  return text;
+}
+
+ExitCode run(const AskedSetup& asked) {
+  const SetupRequest request = requestOf(asked);
+  const std::string avatarPath = avatarPathOf(asked, request);
+  const std::string meshFile = meshFileOf(avatarPath);
+  for (const std::string& output : {asked.output, avatarPath}) {
+    if (output == request.body.avatar) continue;
+    FORETOUCH_CHECK_OR(failed, checkIsNoInput(output, {request.scene, request.body.motion,
+                                                       request.body.avatar, request.body.map}));
+  }
+  FORETOUCH_TRY_OR(failed, auto setup, findSetup(request, meshFile));
+  bool writes = asked.yes;
+  const bool talks = !asked.yes && !asked.json && isTerminal();
+  if (talks) {
+    FORETOUCH_TRY_OR(failed, writes, talk(asked, request, meshFile, setup));
+  }
+  std::vector<std::string> written;
+  if (writes) {
+    FORETOUCH_TRY_OR(failed, written, writeFiles(asked, setup, avatarPath));
+  }
+  const auto next = nextCommands(asked, setup);
+  if (asked.json) {
+    printOut(jsonOf(setup, written, next));
+  } else {
+    if (!talks) {
+      printOut(describe(setup));
+      for (const std::string& note : setup.notes) printNote(note);
+    }
+    printOut(closingText(written, next));
+  }
+  return setup.isUsable() ? ExitCode::Done : ExitCode::CheckSaysNo;
+}
+
+constexpr char kSetupExamples[] = R"(Examples:
+  foretouch setup kitchen.ply walk.bvh
+  foretouch setup level.obj man.glb --yes
+  foretouch setup level.obj run.fbx --avatar man.fbx --yes --json
+
+What an option says is not asked again. Exit code 1 says that something is wrong, and what.)";
+
+}  // namespace
+
+Command setupCommand() {
+  const auto asked = std::make_shared<AskedSetup>();
+  Settings settings;
+  addSceneSettings(settings, asked->world);
+  Setting& scene = settings.of("--scene").required("a scene, and a clip or a model");
+  scene.option = "scene";
+  scene.value = "SCENE";
+  addMotionSetting(settings, asked->clip, "body", "CLIP|MODEL",
+                   "BVH clip, or model with or without an animation (glb, gltf, fbx, dae, x)")
+      .required("a clip or a model behind the scene");
+  settings
+      .path("--avatar", "FILE|MODEL", asked->clip.avatarPath,
+            "The body, if it is in another file: an avatar or a model; made of the clip if not "
+            "given")
+      .in(kInputGroup);
+  addClipSettings(settings, asked->clip);
+  settings.path("-o,--output", "FILE", asked->output, "Project file to write").in(kOutputGroup);
+  settings.flag("--yes", asked->yes, "Write what is offered, without asking").in(kOutputGroup);
+  settings.flag("--json", asked->json, "Print what is offered as JSON").in(kOutputGroup);
+  Command command{"setup",
+                  "Find unit, axis and place of a scene and a body, and write a project for them",
+                  kSetupExamples, std::move(settings)};
+  command.run = [asked](const Settings& given) {
+    asked->givesPlace = given.isGiven("--place");
+    return run(*asked);
+  };
+  return command;
+}
+
+}  // namespace foretouch::tools
