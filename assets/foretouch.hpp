@@ -14,6 +14,7 @@
 #include "assets/avatar/joint_match.h"
 #include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
+#include "assets/clip/clip_file.h"
 #include "assets/import/model_import.h"
 #include "assets/import/scene_import.h"
 #include "assets/mesh/link_mesh.h"

@@ -1,71 +1,27 @@
 #include "tools/inputs/motion_file.h"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <filesystem>
-#include <utility>
-
 #include "articulated/try.h"
-#include "assets/bvh/bvh_reader.h"
-#include "assets/import/model_import.h"
-#include "assets/model/model_clip.h"
-#include "assets/text_file.h"
 #include "tools/console.h"
 
 namespace foretouch::tools {
 namespace {
 
-enum class Kind { Bvh, Model, Table };
-
-/// Every file that is neither a table nor a model format with animations counts as BVH, whose
-/// reader gives the best error.
-Kind kindOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array kModels = {".glb", ".gltf", ".fbx", ".dae", ".x"};
-  if (std::find(kModels.begin(), kModels.end(), extension) != kModels.end()) return Kind::Model;
-  return extension == ".csv" ? Kind::Table : Kind::Bvh;
-}
-
-Result<Done> checkOptions(const MotionRequest& request, Kind kind) {
-  if (kind != Kind::Model && !request.animation.empty()) {
+Result<Done> checkOptions(const MotionRequest& request, ClipFormat format) {
+  if (format != ClipFormat::Model && !request.animation.empty()) {
     return Error::in("--animation", ErrorCode::Mismatch,
                      "expected a model (.glb, .gltf, .fbx, .dae, .x) as --motion, found " +
                          inQuotes(request.path));
   }
-  if (kind != Kind::Table && !request.robot.empty()) {
+  if (format != ClipFormat::JointTable && !request.robot.empty()) {
     return Error::in(
         "--robot", ErrorCode::Mismatch,
         "expected a table of joint positions (.csv) as --motion, found " + inQuotes(request.path));
   }
-  if (kind == Kind::Table && request.robot.empty()) {
+  if (format == ClipFormat::JointTable && request.robot.empty()) {
     return Error::in(request.path, ErrorCode::Mismatch,
                      "joint positions are about a robot: expected its URDF (--robot FILE)");
   }
   return Done{};
-}
-
-Result<Motion> readModel(const MotionRequest& request) {
-  ModelImportOptions options;
-  options.import.scale = request.scale;
-  options.import.up = request.up;
-  FORETOUCH_TRY(const auto model, importModel(request.path, options));
-  FORETOUCH_TRY(auto clip,
-                inFile(clipFromModel(model, {request.animation, request.rateHz}), request.path));
-  return Motion{std::move(clip), true};
-}
-
-Result<Motion> readTable(const MotionRequest& request) {
-  FORETOUCH_TRY(const auto text, readWholeFile(request.path, kMaxJointTableBytes));
-  ModelImportOptions options;
-  options.import.scale = request.scale;
-  options.import.up = UpAxis::Z;  // as `avatar urdf` reads it
-  options.packagePaths = request.packagePaths;
-  FORETOUCH_TRY(const auto robot, importModel(request.robot, options));
-  FORETOUCH_TRY(auto clip, inFile(clipFromJointPositions(robot, text, request.path), request.path));
-  return Motion{std::move(clip), true};
 }
 
 }  // namespace
@@ -83,12 +39,15 @@ MotionRequest motionRequestOf(const ClipRequest& request) {
 }
 
 Result<Motion> readMotion(const MotionRequest& request) {
-  const Kind kind = kindOf(request.path);
-  FORETOUCH_CHECK(checkOptions(request, kind));
-  if (kind == Kind::Model) return readModel(request);
-  if (kind == Kind::Table) return readTable(request);
-  FORETOUCH_TRY(auto clip, readBvhFile(request.path, BvhOptions{request.scale}));
-  return Motion{std::move(clip), false};
+  FORETOUCH_CHECK(checkOptions(request, clipFormatOf(request.path)));
+  ClipFileOptions options;
+  options.import.scale = request.scale;
+  options.import.up = request.up;
+  options.animation = request.animation;
+  options.rateHz = request.rateHz;
+  options.robot = request.robot;
+  options.packagePaths = request.packagePaths;
+  return readClipFile(request.path, options);
 }
 
 }  // namespace foretouch::tools
