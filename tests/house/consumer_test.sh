@@ -123,6 +123,13 @@ if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
     "$folder/play_clip-c" "$room/room.obj" "$room/dancer.avatar.json" "$room/dancer.bvh" 6 >"$folder/play-c.txt"
     cmp <(sort "$folder/play.txt") <(sort "$folder/play-c.txt")
   fi
+  # And Python, from the same copy. What is built with sanitizers cannot be loaded as it is.
+  packages=$prefix/lib/python3/dist-packages
+  if [ -d "$packages/foretouch" ] && [ -z "${7:-}" ]; then
+    PYTHONPATH=$packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$source/bindings/python/example/play_clip.py" \
+      "$room/room.obj" "$room/dancer.avatar.json" "$room/dancer.bvh" 6 >"$folder/play-python.txt"
+    cmp <(sort "$folder/play.txt") <(sort "$folder/play-python.txt")
+  fi
   # What cannot be read is said: the file, and what was expected.
   if "$folder/play/play_clip" "$folder/nowhere.obj" "$room/dancer.avatar.json" "$room/dancer.bvh" 2>"$folder/error.txt"; then
     echo "a scene that does not exist was read" >&2

@@ -32,8 +32,8 @@ def _cells(contact: Contact) -> str:
         # Of two own links the other takes the place of the scene's object.
         other = getattr(contact, "other", None) or contact.object or ""
         apart = -contact.penetration if contact.penetration else contact.separation
-        shown = [contact.link, contact.verdict.name.lower().replace("_", " "),
-                 f"{contact.toi:.6g}", other, f"{1e3 * (apart or 0.0):.3g}"]
+        shown = [contact.link, _words(contact.verdict), f"{contact.toi:.6g}", other,
+                 f"{1e3 * (apart or 0.0):.3g}"]
     return "".join(f"<td>{escape(text)}</td>" for text in shown)
 
 
@@ -52,7 +52,7 @@ def plot_steps(steps: Steps, axes: Optional[Any] = None, *,
             free = np.asarray(steps.free_until)[found, link]
             spans = [((i + f) * length, (1.0 - f) * length) for i, f in zip(found, free)]
             axes.broken_barh(spans, (row - 0.4, 0.8), color=colour, alpha=0.6,
-                             label=verdict.name.lower().replace("_", " ") if row == 0 else None)
+                             label=_words(verdict) if link == _first(verdicts, verdict) else None)
             if verdict == Verdict.CONTACT:
                 axes.plot([start for start, _ in spans], [row] * len(spans), "k|")
     axes.set_yticks(range(len(rows)), labels=[steps.link_names[link] for link in rows])
@@ -60,8 +60,18 @@ def plot_steps(steps: Steps, axes: Optional[Any] = None, *,
     axes.set_xlim(0.0, len(steps) * length)
     axes.set_xlabel("step" if seconds_per_step is None else "seconds")
     if len(rows) > 0:
-        axes.legend(loc="upper right")
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     return axes
+
+
+def _words(verdict: Verdict) -> str:
+    return verdict.name.lower().replace("_", " ")
+
+
+def _first(verdicts: Any, verdict: Verdict) -> int:
+    """The first link that has it in any step; -1 if none has."""
+    links = np.flatnonzero((verdicts == verdict).any(axis=0))
+    return int(links[0]) if len(links) > 0 else -1
 
 
 def _new_axes() -> Any:
