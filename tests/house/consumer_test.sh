@@ -115,6 +115,7 @@ play_in_cxx() {  # play_in_cxx NAME: with the copy in $prefix; what it prints go
 if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
   play_in_cxx play
   tail -n 1 "$folder/play.txt"
+  "$folder/play/game_loop"
   room=$prefix/share/foretouch/examples
   contacts=$(grep -c meets "$folder/play.txt")
   grep -qx "$contacts contacts in 136 steps" "$folder/play.txt"

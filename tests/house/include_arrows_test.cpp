@@ -316,13 +316,6 @@ TEST(IncludeArrows, PeersStayBehindTheirDoor) {
   EXPECT_EQ(seen.size(), rooms.size());
 }
 
-TEST(Readme, ShowsTheExampleThatIsBuiltAndRun) {
-  const fs::path root(FORETOUCH_SOURCE_DIR);
-  const std::string example = contentOf(root / "examples" / "cpp" / "play_clip.cpp");
-  ASSERT_FALSE(example.empty());
-  EXPECT_NE(contentOf(root / "README.md").find("```cpp\n" + example + "```"), std::string::npos);
-}
-
 // The judge may not share code with what it judges: only its own, the language's, and numbers of
 // many digits. These headers cost seconds in every source that sees them, so that few do.
 TEST(IncludeArrows, OracleSharesNoCodeWithTheProduct) {

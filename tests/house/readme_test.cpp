@@ -4,6 +4,7 @@
 #include <foretouch/foretouch.hpp>
 #include <iostream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,33 @@ TEST(Readme, FirstScreenShowsTheLinesThatAreRun) {
   EXPECT_EQ(lines.find("{{"), std::string::npos);
   const std::size_t first = readme.find("```");
   EXPECT_EQ(readme.substr(first, lines.size() + 10), "```cpp\n" + lines + "```");
+}
+
+TEST(Library, PageShowsTheProgramThatIsBuiltAndRun) {
+  const std::string root(FORETOUCH_SOURCE_DIR);
+  const std::string program = house::contentOf(root + "/examples/cpp/play_clip.cpp");
+  ASSERT_FALSE(program.empty());
+  EXPECT_NE(house::contentOf(root + "/docs/api.md").find("```cpp\n" + program + "```"),
+            std::string::npos);
+}
+
+/// The first block of C++ in a document, indented as it is in a function.
+std::string blockOf(const std::string& document) {
+  const std::string open = "```cpp\n";
+  const std::size_t from = document.find(open) + open.size();
+  std::istringstream lines(document.substr(from, document.find("```", from) - from));
+  std::string block;
+  for (std::string line; std::getline(lines, line);)
+    block += (line.empty() ? "" : "  ") + line + "\n";
+  return block;
+}
+
+TEST(GameLoop, PageShowsLinesOfTheProgramThatIsRun) {
+  const std::string root(FORETOUCH_SOURCE_DIR);
+  const std::string block = blockOf(house::contentOf(root + "/docs/game-loop.md"));
+  EXPECT_GT(std::count(block.begin(), block.end(), '\n'), 10);
+  EXPECT_NE(house::contentOf(root + "/examples/cpp/game_loop.cpp").find(block), std::string::npos)
+      << block;
 }
 
 }  // namespace
