@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from html import escape
+from importlib import import_module
 from typing import Any, Optional
 
 import numpy as np
@@ -76,7 +77,7 @@ def _first(verdicts: Any, verdict: Verdict) -> int:
 
 def _new_axes() -> Any:
     try:
-        from matplotlib import pyplot
+        pyplot: Any = import_module("matplotlib.pyplot")
     except ImportError as missing:
         raise ImportError("Steps.plot() draws with matplotlib, which is not installed "
                           "(Debian: python3-matplotlib)") from missing
