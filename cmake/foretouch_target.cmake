@@ -55,6 +55,13 @@ function(foretouch_compile_options target)
   endif()
 endfunction()
 
+# The headers under the name that they have for others, <foretouch/...>, without an installation: for
+# projects that add this one as a folder, and for the examples.
+set(foretouch_built_headers ${PROJECT_BINARY_DIR}/include)
+file(MAKE_DIRECTORY ${foretouch_built_headers}/foretouch)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/assets/foretouch.hpp
+     ${foretouch_built_headers}/foretouch/foretouch.hpp SYMBOLIC)
+
 # foretouch_library(<folder> [UNITY] HEADERS ... SOURCES ... LINKS ... PRIVATE_LINKS ...)
 # makes target foretouch_<folder>, alias foretouch::<folder>, installed and exported.
 function(foretouch_library folder)
@@ -75,13 +82,14 @@ function(foretouch_library folder)
   endif()
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/foretouch>)
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  if(NOT PROJECT_IS_TOP_LEVEL)
+    target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${foretouch_built_headers}>)
+  endif()
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${foretouch_built_headers}/foretouch/${folder} SYMBOLIC)
   target_link_libraries(${target} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
   foreach(header ${ARG_HEADERS})
     set_property(GLOBAL APPEND PROPERTY FORETOUCH_HEADERS ${folder}/${header})
-    get_filename_component(subfolder ${header} DIRECTORY)
-    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/foretouch/${folder}/${subfolder}
-            COMPONENT dev)
   endforeach()
   install(TARGETS ${target} EXPORT foretouchTargets
           ARCHIVE COMPONENT dev

@@ -67,6 +67,23 @@ Result<JointMatch> matchJoints(const Skeleton& avatar, const Skeleton& clip,
                        "); expected common names, or a joint map");
 }
 
+std::optional<double> suspiciousSize(const Skeleton& avatar, const Skeleton& clip,
+                                     const JointMatch& match) {
+  constexpr double kSuspiciousRatio = 2.0;  // people differ by less, centimetres and inches by more
+  double ofAvatar = 0.0;
+  double ofClip = 0.0;
+  for (JointId joint = 0; joint < avatar.numJoints(); ++joint) {
+    const JointId source = match.clipJointOf[slotOf(joint)];
+    if (source == kNoParent || avatar.parent(joint) == kNoParent) continue;
+    ofAvatar += avatar.restOffset(joint).norm();
+    ofClip += clip.restOffset(source).norm();
+  }
+  if (!(ofAvatar > 0.0 && ofClip > 0.0)) return std::nullopt;
+  const double ratio = ofClip / ofAvatar;
+  if (ratio <= kSuspiciousRatio && ratio >= 1.0 / kSuspiciousRatio) return std::nullopt;
+  return ratio;
+}
+
 Pose poseOfAvatar(const Skeleton& avatar, const Clip& clip, const JointMatch& match,
                   std::size_t frame) {
   FORETOUCH_ASSERT(frame < clip.frames.size());

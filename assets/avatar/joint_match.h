@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,11 @@ struct JointMatch {
 /// Error if no joint matches at all, or if `names` mentions a joint that neither side has.
 [[nodiscard]] Result<JointMatch> matchJoints(const Skeleton& avatar, const Skeleton& clip,
                                              const JointNameMap& names = {});
+
+/// How many times as long the clip's bones are as the avatar's, over the matched joints, if that is
+/// more than twice or less than half: a sign of a wrong unit. People differ by less.
+[[nodiscard]] std::optional<double> suspiciousSize(const Skeleton& avatar, const Skeleton& clip,
+                                                   const JointMatch& match);
 
 /// The clip's frame as a pose of the avatar. Joints without data keep the avatar's rest values; a
 /// joint without position channels keeps the avatar's rest offset. `frame` is within the clip.

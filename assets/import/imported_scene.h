@@ -17,7 +17,8 @@ struct SceneImportOptions {
   std::size_t memoryLimitBytes = std::size_t{8} << 30;  ///< Address space of the child.
   double timeLimitS = 300.0;                            ///< Wall and CPU time of the child.
   std::string importer;  ///< Path of foretouch-import; empty: $FORETOUCH_IMPORTER, else beside the
-                         ///< running program, else at its installation path.
+                         ///< running program, else where the package that it was built against
+                         ///< has it, else at its installation path.
 };
 
 /// The file's content besides triangles.

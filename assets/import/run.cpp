@@ -1,6 +1,7 @@
 #include "assets/import/run.h"
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -14,6 +15,7 @@
 #include <unistd.h>
 
 #include "articulated/try.h"
+#include "assets/import/packaged_importer.h"
 #include "assets/import/process.h"
 #include "assets/import/text.h"
 
@@ -24,6 +26,8 @@ namespace {
 constexpr std::size_t kMinMemoryBytes = std::size_t{64} << 20;
 constexpr double kMaxTimeS = 1e6;
 constexpr std::size_t kQuotedBytes = 200;
+// Constant-initialised: other sources' initialisers set it before main().
+std::atomic<const char*> packagedImporter{nullptr};
 
 std::string shortest(double number) {
   std::array<char, 32> text{};
@@ -106,6 +110,7 @@ std::vector<std::string> importerPlaces(const SceneImportOptions& options) {
     places.push_back((folder / "foretouch-import").string());
     places.push_back((folder.parent_path() / "libexec/foretouch/foretouch-import").string());
   }
+  if (const char* const place = packagedImporter) places.emplace_back(place);
   places.emplace_back(FORETOUCH_INSTALLED_IMPORTER);
   return places;
 }
@@ -194,6 +199,11 @@ Error failureOfRun(const std::string& path, const std::string& importer,
 }
 
 }  // namespace
+
+bool notePackagedImporter(const char* path) {
+  packagedImporter = path;
+  return true;
+}
 
 Error importError(const std::string& path, ErrorCode code, std::string message) {
   return Error::in(path, code, std::move(message));

@@ -8,6 +8,7 @@
 
 #include "articulated/result.h"
 #include "assets/import/imported_scene.h"
+#include "assets/import/packaged_importer.h"
 
 namespace foretouch {
 

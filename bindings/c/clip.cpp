@@ -4,7 +4,8 @@
 #include <utility>
 
 #include "articulated/try.h"
-#include "assets/bvh/bvh_reader.h"
+#include "assets/bvh/bvh_limits.h"
+#include "assets/clip/clip_file.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/import_options.h"
 #include "bindings/c/sized_struct.h"
@@ -15,13 +16,13 @@ namespace {
 ft_clip_options defaultClipOptions() {
   ft_clip_options options{};
   options.size = sizeof options;
-  options.scale = 1.0;
+  options.up = FT_UP_FILE;
   return options;
 }
 
 /// How to read a clip, and its placement.
 struct ClipReading {
-  BvhOptions bvh;
+  ClipFileOptions file;
   Placement placement;
 };
 
@@ -32,7 +33,9 @@ ft_status readClipOptions(const ft_clip_options* given, ClipReading& reading) {
   }
   std::optional<UpAxis> up;
   if (const auto s = readUpAxis(known.up, up); s != FT_OK) return s;
-  reading.bvh.scale = known.scale;
+  if (const auto s = readImportOptions(nullptr, reading.file.import); s != FT_OK) return s;
+  if (known.scale != 0.0) reading.file.import.scale = known.scale;
+  reading.file.import.up = up;
   reading.placement.motionUpZ = up == UpAxis::Z;
   reading.placement.yawDeg = known.yaw_deg;
   reading.placement.origin = Eigen::Map<const Eigen::Vector3d>(known.origin);
@@ -64,10 +67,12 @@ ft_status ft_clip_create_from_file(const char* path, const ft_avatar* avatar,
     if (const auto s = checked(avatar); s != FT_OK) return s;
     ClipReading reading;
     if (const auto s = readClipOptions(options, reading); s != FT_OK) return s;
-    FORETOUCH_TRY_OR(failure, auto read, readBvhFile(path, reading.bvh));
-    FORETOUCH_TRY_OR(failure, auto match,
-                     inFile(matchJoints(avatar->parts->avatar.skeleton(), read.skeleton), path));
-    *clip = new ft_clip{ft_clip::kMark, avatar->parts, std::move(read), std::move(match),
+    FORETOUCH_TRY_OR(failure, auto read, readClipFile(path, reading.file));
+    if (read.isUpright) reading.placement.motionUpZ = false;
+    FORETOUCH_TRY_OR(
+        failure, auto match,
+        inFile(matchJoints(avatar->parts->avatar.skeleton(), read.clip.skeleton), path));
+    *clip = new ft_clip{ft_clip::kMark, avatar->parts, std::move(read.clip), std::move(match),
                         reading.placement};
     return FT_OK;
   });

@@ -49,8 +49,9 @@ ft_import_options defaultImportOptions() {
 }
 
 ft_status readUpAxis(std::int32_t given, std::optional<UpAxis>& up) {
+  if (given == FT_UP_FILE) return FT_OK;
   if (given != FT_UP_Y && given != FT_UP_Z) {
-    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "up: expected FT_UP_Y or FT_UP_Z, found %d",
+    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "up: expected FT_UP_FILE, FT_UP_Y or FT_UP_Z, found %d",
                    given);
   }
   up = given == FT_UP_Z ? UpAxis::Z : UpAxis::Y;
@@ -64,9 +65,7 @@ ft_status readImportOptions(const ft_import_options* given, SceneImportOptions& 
       return status;
     }
   }
-  if (known.up != FT_UP_FILE) {
-    if (const auto status = readUpAxis(known.up, options.up); status != FT_OK) return status;
-  }
+  if (const auto status = readUpAxis(known.up, options.up); status != FT_OK) return status;
   if (known.scale != 0.0) options.scale = known.scale;
   options.memoryLimitBytes = known.memory_limit_bytes;
   options.timeLimitS = known.time_limit_s;

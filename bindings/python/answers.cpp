@@ -102,6 +102,11 @@ void defineArrays(py::class_<Holder>& type) {
 
 // ---- Step and Steps ----
 
+/// A function of the part that is written in Python, for notebooks.
+py::object notebook(const char* function) {
+  return py::module_::import("foretouch._notebook").attr(function);
+}
+
 std::vector<Contact> contacts(const Step& step) {
   std::vector<LinkId> reported;
   listReported(firstOf(step), step.answers->links(), reported);
@@ -210,12 +215,13 @@ void bindStep(py::module_& module) {
       .def_property_readonly("counters", &counterDict, "Work done, by kind.")
       .def(
           "__getitem__",
-          [](const Step& step, const py::object& link) {
+          [](const Step& step, const Shown<shown::Link>& link) {
             const auto id = linkOf(*step.answers->avatar, link, "link");
             return Contact{step.answers, step.step * step.answers->links() + std::size_t(id)};
           },
           py::arg("link"), "The Contact of a link, by name or index, clear ones included.")
       .def("__len__", [](const Step& step) { return step.answers->links(); })
+      .def("_repr_html_", [](const py::object& self) { return notebook("step_html")(self); })
       .def("__repr__", &stepText);
 }
 
@@ -234,6 +240,16 @@ void bindSteps(py::module_& module) {
             return Step{steps.answers, std::size_t(index < 0 ? index + count : index)};
           },
           py::arg("index"))
+      .def(
+          "plot",
+          [](const py::object& self, const Shown<shown::Axes>& axes,
+             const Shown<shown::Number>& secondsPerStep) -> Shown<shown::Axes> {
+            return notebook("plot_steps")(self, axes, py::arg("seconds_per_step") = secondsPerStep);
+          },
+          py::arg("axes") = py::none(), py::kw_only(), py::arg("seconds_per_step") = py::none(),
+          "Draws with matplotlib, on axes or on new ones, and returns these: over time, a row per\n"
+          "link that is not always clear; marks where contacts are made, bars for what follows\n"
+          "in the step.")
       .def("__len__", [](const Steps& steps) { return steps.answers->counters.size(); })
       .def("__repr__", [](const Steps& steps) {
         return "<foretouch.Steps: " + std::to_string(steps.answers->counters.size()) +

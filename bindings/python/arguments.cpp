@@ -163,6 +163,12 @@ std::vector<std::string> texts(py::handle given, const std::string& what) {
   return found;
 }
 
+UpAxis upAxis(py::handle given) {
+  static constexpr std::array<std::pair<const char*, UpAxis>, 2> kAxes{
+      {{"y", UpAxis::Y}, {"z", UpAxis::Z}}};
+  return oneOf(given, "up", kAxes);
+}
+
 py::dict mapping(py::handle given, const std::string& what) {
   if (py::isinstance<py::dict>(given)) return py::reinterpret_borrow<py::dict>(given);
   const py::object type = py::module_::import("collections.abc").attr("Mapping");

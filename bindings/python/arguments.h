@@ -13,8 +13,10 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
+#include "assets/import/imported_scene.h"
 #include "assets/near_names.h"
 #include "bindings/python/errors.h"
+#include "bindings/python/shown.h"
 
 namespace foretouch::python {
 
@@ -44,6 +46,9 @@ using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::force
 /// A list or tuple (of texts); refuses a single text, which Python would iterate letter by letter.
 [[nodiscard]] std::vector<py::object> items(py::handle given, const std::string& what);
 [[nodiscard]] std::vector<std::string> texts(py::handle given, const std::string& what);
+
+/// 'y' or 'z', of a file.
+[[nodiscard]] UpAxis upAxis(py::handle given);
 
 /// A dict, or another mapping as one.
 [[nodiscard]] py::dict mapping(py::handle given, const std::string& what);

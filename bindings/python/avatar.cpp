@@ -16,25 +16,25 @@ namespace {
 using Eigen::Vector3d;
 using SharedAvatar = std::shared_ptr<Avatar>;
 
-SharedAvatar loadAvatar(const py::object& file) {
+SharedAvatar loadAvatar(const Shown<shown::Path>& file) {
   const std::string from = path(file, "path");
   const py::gil_scoped_release free;
   return std::make_shared<Avatar>(valueOf(readAvatarFile(from), from));
 }
 
-void save(const Avatar& avatar, const py::object& file) {
+void save(const Avatar& avatar, const Shown<shown::Path>& file) {
   const std::string to = path(file, "path");
   const py::gil_scoped_release free;
   valueOf(writeAvatarFile(avatar, to), to);
 }
 
-SharedAvatar fromClip(const Clip& clip, const py::object& radiusScale) {
+SharedAvatar fromClip(const Clip& clip, const Shown<shown::Number>& radiusScale) {
   const BvhAvatarOptions options{number(radiusScale, "radius_scale")};
   return std::make_shared<Avatar>(valueOf(avatarFromClip(clip, options), "Avatar.from_clip"));
 }
 
-SharedAvatar fromBvh(const py::object& file, const py::object& scale,
-                     const py::object& radiusScale) {
+SharedAvatar fromBvh(const Shown<shown::Path>& file, const Shown<shown::Number>& scale,
+                     const Shown<shown::Number>& radiusScale) {
   const std::string from = path(file, "path");
   const BvhOptions options{number(scale, "scale")};
   const BvhAvatarOptions body{number(radiusScale, "radius_scale")};
@@ -43,8 +43,8 @@ SharedAvatar fromBvh(const py::object& file, const py::object& scale,
   return std::make_shared<Avatar>(valueOf(avatarFromClip(clip, body), from));
 }
 
-RawSkeleton skeletonFrom(const py::object& names, const py::object& parents,
-                         const py::object& offsets, const py::object& rotations) {
+RawSkeleton skeletonFrom(const Shown<shown::Texts>& names, const Shown<shown::Array>& parents,
+                         const Shown<shown::Array>& offsets, const Shown<shown::Array>& rotations) {
   const std::vector<std::string> name = texts(names, "names");
   const auto count = static_cast<py::ssize_t>(name.size());
   const Integers parent = integers(parents, "parents", {count});
@@ -89,9 +89,9 @@ std::vector<std::vector<Lss>> lssPerLinkFrom(const py::object& given) {
   return perLink;
 }
 
-SharedAvatar fromArrays(const py::object& names, const py::object& parents,
-                        const py::object& offsets, const py::object& rotations,
-                        const py::object& lss) {
+SharedAvatar fromArrays(const Shown<shown::Texts>& names, const Shown<shown::Array>& parents,
+                        const Shown<shown::Array>& offsets, const Shown<shown::Array>& rotations,
+                        const Shown<shown::Items>& lss) {
   const char* const what = "Avatar.from_arrays";
   auto skeleton = valueOf(Skeleton::build(skeletonFrom(names, parents, offsets, rotations)), what);
   return std::make_shared<Avatar>(
@@ -149,10 +149,15 @@ void bindAvatar(py::module_& module) {
            "Writes an avatar file; load() gives it back bit for bit.")
       .def(
           "link",
-          [](const Avatar& avatar, const py::object& name) { return linkOf(avatar, name, "name"); },
+          [](const Avatar& avatar, const Shown<shown::Link>& name) {
+            return linkOf(avatar, name, "name");
+          },
           py::arg("name"), "The index of a link.")
       .def(
-          "rest_pose", [](const Avatar& avatar) { return toPython(restPose(avatar.skeleton())); },
+          "rest_pose",
+          [](const Avatar& avatar) -> Shown<shown::Pose> {
+            return toPython(restPose(avatar.skeleton()));
+          },
           "The pose of the file, as a Pose.")
       .def_property_readonly("num_links", &Avatar::numLinks)
       .def_property_readonly("num_lss", &Avatar::numLss)

@@ -62,6 +62,10 @@ void refuse(ErrorCode code, const std::string& what, std::string message, std::i
   throw Failure(Error{code, what, -1, index, std::move(message)});
 }
 
+void warn(const char* words) {
+  if (PyErr_WarnEx(PyExc_UserWarning, words, 1) < 0) throw py::error_already_set();
+}
+
 py::str readable(const std::string& bytes) {
   auto text = py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(
       bytes.data(), static_cast<py::ssize_t>(bytes.size()), "backslashreplace"));

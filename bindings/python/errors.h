@@ -42,6 +42,9 @@ T valueOf(Result<T> result, const std::string& what) {
   return valueOf(inFile(std::move(result), what));
 }
 
+/// A UserWarning of one line. Throws if the caller wants warnings as exceptions.
+void warn(const char* words);
+
 /// Untrusted bytes as a Python text; bytes that are not UTF-8 become \xNN.
 [[nodiscard]] py::str readable(const std::string& bytes);
 

@@ -3,8 +3,11 @@
 
 PYBIND11_MODULE(_foretouch, module) {
   using namespace foretouch::python;
+  namespace py = pybind11;
   module.doc() = "The compiled half of foretouch: import foretouch instead.";
   module.attr("__version__") = FORETOUCH_VERSION;
+  // Where people find the classes, and help() says they are.
+  module.attr("__module__") = "foretouch";
   bindErrors(module);
   bindScene(module);
   bindAvatar(module);
@@ -18,4 +21,5 @@ PYBIND11_MODULE(_foretouch, module) {
   bindAnswers(module);
   bindQuery(module);
   bindSweep(module);
+  py::delattr(module, "__module__");
 }

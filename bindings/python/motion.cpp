@@ -10,8 +10,9 @@
 namespace foretouch::python {
 namespace {
 
-std::shared_ptr<Motion> createMotion(std::shared_ptr<Avatar> avatar, const py::object& start,
-                                     const py::object& end) {
+std::shared_ptr<Motion> createMotion(std::shared_ptr<Avatar> avatar,
+                                     const Shown<shown::Pose>& start,
+                                     const Shown<shown::Pose>& end) {
   const Skeleton& skeleton = avatar->skeleton();
   Pose from = poseFrom(skeleton, start, "start"), to = poseFrom(skeleton, end, "end");
   ChainMotion chain(skeleton, from, to);
@@ -28,7 +29,7 @@ void writeTransform(const LinkState& state, double* value) {
   for (const double last : {0.0, 0.0, 0.0, 1.0}) *value++ = last;
 }
 
-Numbers transforms(const Motion& motion, const py::object& t) {
+Numbers transforms(const Motion& motion, const Shown<shown::Instants>& t) {
   const Instants instants(t);
   const auto links = static_cast<py::ssize_t>(motion.chain.numLinks());
   Numbers array(instants.shapeWith({links, 4, 4}));
@@ -46,7 +47,7 @@ Numbers transforms(const Motion& motion, const py::object& t) {
   return array;
 }
 
-py::object poseAt(const Motion& motion, const py::object& t) {
+Shown<shown::PoseOrPoses> poseAt(const Motion& motion, const Shown<shown::Instants>& t) {
   const Instants instants(t);
   std::vector<Pose> poses(instants.values().size());
   for (std::size_t i = 0; i < poses.size(); ++i)

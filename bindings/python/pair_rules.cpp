@@ -54,8 +54,9 @@ Result<foretouch::PairRules> withKeywords(Result<foretouch::PairRules> made) {
   return error;
 }
 
-PairRules derive(SharedAvatar avatar, const py::object& usualPoses, const py::object& alwaysShare,
-                 bool pairRadii, const py::object& restSkin, const py::object& leaveOut) {
+PairRules derive(SharedAvatar avatar, const Shown<shown::Poses>& usualPoses,
+                 const Shown<shown::Number>& alwaysShare, bool pairRadii,
+                 const Shown<shown::Number>& restSkin, const Shown<shown::Items>& leaveOut) {
   PairRuleOptions options;
   options.alwaysShare = number(alwaysShare, "always_share");
   options.usePairRadii = pairRadii;
@@ -73,7 +74,8 @@ PairRules derive(SharedAvatar avatar, const py::object& usualPoses, const py::ob
   return {std::move(avatar), std::move(rules)};
 }
 
-PairRules exactly(SharedAvatar avatar, const py::object& leftOut, const py::object& radii) {
+PairRules exactly(SharedAvatar avatar, const Shown<shown::Items>& leftOut,
+                  const Shown<shown::Items>& radii) {
   std::vector<LeftOutPair> pairs;
   for (const py::object& one : items(leftOut, "left_out")) {
     const GivenPair pair = pairFrom(*avatar, one, "left_out", pairs.size(), 2, 3);
@@ -102,14 +104,14 @@ PairRules exactly(SharedAvatar avatar, const py::object& leftOut, const py::obje
   return {std::move(avatar), std::move(rules)};
 }
 
-PairRules load(const py::object& file, SharedAvatar avatar) {
+PairRules load(const Shown<shown::Path>& file, SharedAvatar avatar) {
   const std::string from = path(file, "path");
   const py::gil_scoped_release free;
   auto rules = valueOf(readPairsFile(from, *avatar), from);
   return {std::move(avatar), std::move(rules)};
 }
 
-void save(const PairRules& own, const py::object& file) {
+void save(const PairRules& own, const Shown<shown::Path>& file) {
   const std::string to = path(file, "path");
   const py::gil_scoped_release free;
   valueOf(writePairsFile(own.rules, *own.avatar, to), to);
@@ -135,7 +137,8 @@ py::list radiusList(const PairRules& own) {
   return list;
 }
 
-const char* reasonOf(const PairRules& own, const py::object& a, const py::object& b) {
+const char* reasonOf(const PairRules& own, const Shown<shown::Link>& a,
+                     const Shown<shown::Link>& b) {
   const LinkId first = linkOf(*own.avatar, a, "a"), second = linkOf(*own.avatar, b, "b");
   if (first == second) refuse(ErrorCode::OutOfRange, "b", "expected two different links");
   return toString(own.rules.reasonOf(first, second));

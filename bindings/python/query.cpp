@@ -120,10 +120,12 @@ py::array_t<bool> Query::touchesAt(const Motion& motion, const Instants& instant
 namespace {
 
 std::unique_ptr<Query> createQuery(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene,
-                                   py::object tolerance, py::object fidelity, py::object policies,
-                                   py::object ignore, py::object workBudget, py::object deadlineUs,
-                                   py::object scope, py::object surface, py::object selfPairs,
-                                   py::object passSeparating) {
+                                   Shown<shown::Number> tolerance, Shown<shown::Text> fidelity,
+                                   Shown<shown::Mapping> policies, Shown<shown::Items> ignore,
+                                   Shown<shown::Integer> workBudget,
+                                   Shown<shown::Number> deadlineUs, Shown<shown::Text> scope,
+                                   Shown<shown::Surface> surface, Shown<shown::PairRules> selfPairs,
+                                   Shown<shown::Truth> passSeparating) {
   const auto options = optionsFrom({tolerance, fidelity, policies, ignore, workBudget, deadlineUs,
                                     scope, surface, selfPairs, passSeparating},
                                    *avatar, *scene);
@@ -137,8 +139,8 @@ int threadsFrom(const py::object& given) {
 }
 
 /// From each pose to the next, or from each of `poses` to the one at the same place in `ends`.
-Steps many(Query& query, const py::object& poses, const py::object& ends,
-           const py::object& threads) {
+Steps many(Query& query, const Shown<shown::Poses>& poses, const Shown<shown::Poses>& ends,
+           const Shown<shown::Integer>& threads) {
   const Skeleton& skeleton = query.avatar()->skeleton();
   const int count = threadsFrom(threads);
   std::vector<Pose> from = posesFrom(skeleton, poses, "poses");
@@ -203,7 +205,7 @@ void bindQuery(py::module_& module) {
            "None for as many as the processor has. The answers are the same for any number.")
       .def(
           "touches_at",
-          [](Query& query, const Motion& motion, const py::object& t) {
+          [](Query& query, const Motion& motion, const Shown<shown::Instants>& t) {
             return query.touchesAt(motion, Instants(t));
           },
           py::arg("motion"), py::arg("t"),

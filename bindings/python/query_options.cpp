@@ -1,5 +1,7 @@
 #include "bindings/python/query_options.h"
 
+#include <array>
+#include <cstdio>
 #include <limits>
 
 #include "bindings/python/pair_rules.h"
@@ -123,6 +125,23 @@ void applyPolicies(const py::object& given, const Avatar& avatar, const Scene& s
                               static_cast<std::int32_t>(scene.objectNames().size()), options));
 }
 
+/// The library takes up to 1e7 m, for scenes of planets. Near a body nobody means more than this:
+/// who gives 1.0 took it for a share, or for millimetres.
+constexpr double kCoarseTolerance = 0.1;
+
+double toleranceFrom(py::handle given) {
+  const double tolerance = number(given, "tolerance");
+  if (tolerance > kCoarseTolerance && tolerance <= kMaxTolerance) {
+    std::array<char, 128> words{};
+    std::snprintf(words.data(), words.size(),
+                  "tolerance=%g is in metres: contacts may be reported that far before they are "
+                  "made; 0.001 is usual",
+                  tolerance);
+    warn(words.data());
+  }
+  return tolerance;
+}
+
 /// A surface of another avatar would cause reads out of bounds.
 std::optional<AvatarSurface> surfaceFrom(const py::object& given, const Avatar& avatar) {
   if (given.is_none()) return std::nullopt;
@@ -152,7 +171,7 @@ std::optional<foretouch::PairRules> rulesFrom(const py::object& given, const Ava
 
 QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar, const Scene& scene) {
   QueryOptions options;
-  options.tolerance = number(given.tolerance, "tolerance");
+  options.tolerance = toleranceFrom(given.tolerance);
   options.fidelity = oneOf(given.fidelity, "fidelity", kFidelities);
   options.ignored = ignoredFrom(given.ignore, avatar, scene);
   applyPolicies(given.policies, avatar, scene, options);

@@ -44,7 +44,8 @@ std::vector<Triangle> gathered(const Numbers& vertices, const Integers& corners)
 
 /// One object for all triangles, or one index each. Numbers objects without names, at most as many
 /// as there are triangles.
-void nameObjects(RawScene& raw, const py::object& objectOf, const py::object& objectNames) {
+void nameObjects(RawScene& raw, const Shown<shown::Array>& objectOf,
+                 const Shown<shown::Texts>& objectNames) {
   if (!objectNames.is_none()) raw.objectNames = texts(objectNames, "object_names");
   raw.objectOf.assign(raw.triangles.size(), 0);
   const auto count = static_cast<py::ssize_t>(raw.triangles.size());
@@ -71,8 +72,9 @@ void nameObjects(RawScene& raw, const py::object& objectOf, const py::object& ob
   }
 }
 
-SharedScene fromArrays(const py::object& vertices, const py::object& triangles,
-                       const py::object& objectOf, const py::object& objectNames) {
+SharedScene fromArrays(const Shown<shown::Array>& vertices, const Shown<shown::Array>& triangles,
+                       const Shown<shown::Array>& objectOf,
+                       const Shown<shown::Texts>& objectNames) {
   const Numbers points = numbers(vertices, "vertices", {kAny, 3});
   RawScene raw;
   raw.triangles = gathered(points, integers(triangles, "triangles", {kAny, 3}));
@@ -80,15 +82,14 @@ SharedScene fromArrays(const py::object& vertices, const py::object& triangles,
   return built(std::move(raw), "Scene.from_arrays");
 }
 
-SharedScene loadScene(const py::object& file, const py::object& scale, const py::object& up,
-                      const py::object& importer, const py::object& timeLimitS,
-                      const py::object& memoryLimitBytes) {
-  static constexpr std::array<std::pair<const char*, UpAxis>, 2> kAxes{
-      {{"y", UpAxis::Y}, {"z", UpAxis::Z}}};
+SharedScene loadScene(const Shown<shown::Path>& file, const Shown<shown::Number>& scale,
+                      const Shown<shown::Text>& up, const Shown<shown::Path>& importer,
+                      const Shown<shown::Number>& timeLimitS,
+                      const Shown<shown::Integer>& memoryLimitBytes) {
   const std::string from = path(file, "path");
   SceneImportOptions options;
   if (!scale.is_none()) options.scale = number(scale, "scale");
-  if (!up.is_none()) options.up = oneOf(up, "up", kAxes);
+  if (!up.is_none()) options.up = upAxis(up);
   options.importer = importerPlace(importer);
   options.timeLimitS = number(timeLimitS, "time_limit_s");
   options.memoryLimitBytes = static_cast<std::size_t>(

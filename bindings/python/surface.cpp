@@ -17,8 +17,8 @@ Surface built(std::shared_ptr<Avatar> avatar, TrianglesPerLink perLink, const st
   return {std::move(avatar), std::move(surface)};
 }
 
-Surface loadSurface(std::shared_ptr<Avatar> avatar, const py::object& avatarPath,
-                    const py::object& importer) {
+Surface loadSurface(std::shared_ptr<Avatar> avatar, const Shown<shown::Path>& avatarPath,
+                    const Shown<shown::Path>& importer) {
   const std::string beside = path(avatarPath, "avatar_path");
   ModelImportOptions options;
   options.import.importer = importerPlace(importer);
@@ -47,7 +47,7 @@ Surface fromTriangles(std::shared_ptr<Avatar> avatar, const py::object& given) {
   return built(std::move(avatar), std::move(perLink), "Surface.from_triangles");
 }
 
-Numbers trianglesOf(const Surface& surface, const py::object& link) {
+Numbers trianglesOf(const Surface& surface, const Shown<shown::Link>& link) {
   const std::vector<Triangle>& triangles =
       surface.triangles.triangles(linkOf(*surface.avatar, link, "link"));
   Numbers array(Shape{static_cast<py::ssize_t>(triangles.size()), 3, 3});

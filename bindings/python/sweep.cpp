@@ -70,8 +70,9 @@ Combined combined(const std::vector<const Motion*>& motions, LinkId link,
   return all;
 }
 
-SweptSurfaceOptions optionsFrom(const py::object& error, const py::object& side,
-                                const py::object& singlePrecision, const py::object& maxTriangles) {
+SweptSurfaceOptions optionsFrom(const Shown<shown::Number>& error, const Shown<shown::Text>& side,
+                                const Shown<shown::Truth>& singlePrecision,
+                                const Shown<shown::Integer>& maxTriangles) {
   static constexpr std::array<std::pair<const char*, SurfaceSide>, 2> kSides{
       {{"outer", SurfaceSide::Outer}, {"inner", SurfaceSide::Inner}}};
   SweptSurfaceOptions options;
@@ -106,9 +107,12 @@ GivenMotions motionsFrom(const py::object& given) {
   return found;
 }
 
-py::object sweptSurface(const py::object& motions, const py::object& link, const py::object& error,
-                        const py::object& side, const py::object& singlePrecision,
-                        const py::object& maxTriangles) {
+Shown<shown::SweptSurface> sweptSurface(const Shown<shown::Motions>& motions,
+                                        const Shown<shown::Link>& link,
+                                        const Shown<shown::Number>& error,
+                                        const Shown<shown::Text>& side,
+                                        const Shown<shown::Truth>& singlePrecision,
+                                        const Shown<shown::Integer>& maxTriangles) {
   const GivenMotions given = motionsFrom(motions);
   const Avatar& avatar = *given.motions[0]->avatar;
   const LinkId id = linkOf(avatar, link, "link");

@@ -129,5 +129,37 @@ TEST(Placed, TurnsZUpThenYawsThenMoves) {
   EXPECT_TRUE(validatedPose(skeleton, after).ok());
 }
 
+/// Hips, Spine and Head, each `length` above the one before.
+Skeleton trunkOf(double length) {
+  RawSkeleton raw;
+  for (const char* name : {"Hips", "Spine", "Head"}) {
+    raw.joints.push_back({name,
+                          static_cast<JointId>(raw.joints.size()) - 1,
+                          {0, length, 0},
+                          Quaternion::Identity()});
+  }
+  return Skeleton::build(raw).value();
+}
+
+TEST(SuspiciousSize, IsOfMatchedBonesMoreThanTwiceOrLessThanHalfAsLong) {
+  const Skeleton avatar = trunkOf(0.5);
+  for (const double times : {100.0, 39.37, 2.01, 0.49, 0.01}) {
+    const Skeleton clip = trunkOf(0.5 * times);
+    const auto ratio = suspiciousSize(avatar, clip, matchJoints(avatar, clip).value());
+    ASSERT_TRUE(ratio.has_value()) << times;
+    EXPECT_NEAR(*ratio, times, 1e-12 * times);
+  }
+  for (const double times : {2.0, 1.0, 0.5}) {
+    const Skeleton clip = trunkOf(0.5 * times);
+    EXPECT_FALSE(suspiciousSize(avatar, clip, matchJoints(avatar, clip).value())) << times;
+  }
+}
+
+TEST(SuspiciousSize, IsNotToldWithoutBones) {
+  const Skeleton avatar = trunkOf(0.5), flat = trunkOf(0.0), other = chainOf({"Hips", "Tail"});
+  EXPECT_FALSE(suspiciousSize(avatar, flat, matchJoints(avatar, flat).value()));
+  EXPECT_FALSE(suspiciousSize(avatar, other, matchJoints(avatar, other).value()));
+}
+
 }  // namespace
 }  // namespace foretouch

@@ -41,7 +41,7 @@ Model robot() {
   return model;
 }
 
-bool isNoted(const Clip& clip, const std::string& part) {
+bool tableIsNoted(const Clip& clip, const std::string& part) {
   for (const std::string& note : clip.notes) {
     if (note.find(part) != std::string::npos) return true;
   }
@@ -92,9 +92,9 @@ TEST(ClipFromJointPositions, NotesLimitsAndJointsThatDoNotMove) {
       clipFromJointPositions(robot(),
                              "time,shoulder,elbow,slide,weld\n0,-2.5,99,-0.125,1\n1,0,0,0,1\n", "a")
           .value();
-  EXPECT_TRUE(isNoted(clip, "by up to 0.5"));
-  EXPECT_TRUE(isNoted(clip, "'shoulder', 'slide'"));  // continuous joints have no limits
-  EXPECT_TRUE(isNoted(clip, "do not move are left out: 'weld'"));
+  EXPECT_TRUE(tableIsNoted(clip, "by up to 0.5"));
+  EXPECT_TRUE(tableIsNoted(clip, "'shoulder', 'slide'"));  // continuous joints have no limits
+  EXPECT_TRUE(tableIsNoted(clip, "do not move are left out: 'weld'"));
 }
 
 TEST(ClipFromJointPositions, BearsWhatSpreadsheetsWrite) {

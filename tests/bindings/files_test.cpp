@@ -134,6 +134,17 @@ TEST(CFiles, AvatarsBringTheirMeshesWhereTheyAreAskedFor) {
   EXPECT_EQ(full, nullptr);
 }
 
+TEST(CFiles, ClipsOfModelsAreReadByTheImporter) {
+  const test::TempFolder folder;
+  ft_avatar* made = nullptr;
+  ASSERT_EQ(ft_avatar_create_from_file(writeStick(folder).c_str(), nullptr, &made), FT_OK);
+  const test::AvatarHandle avatar(made);
+  ft_clip* clip = nullptr;
+  expectRefused(ft_clip_create_from_file((folder / "stick.glb").c_str(), made, nullptr, &clip),
+                FT_ERROR_EMPTY, {"stick.glb", "animation"});
+  EXPECT_EQ(clip, nullptr);
+}
+
 const char* const kClip =
     "HIERARCHY\nROOT stick\n{\n OFFSET 0 0 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation "
     "Xrotation Yrotation\n JOINT other\n {\n  OFFSET 10 0 0\n  CHANNELS 3 Zrotation Xrotation "

@@ -1,6 +1,11 @@
 #include <cstdio>
+#include <foretouch/middleware/query/query.h>
 
-#include "middleware/query/query.h"
+// In the sources headers are "lss/...": a name for one folder of one project, not for an include
+// path.
+#if __has_include("lss/lss.h") || __has_include("middleware/query/query.h")
+#error "expected only foretouch/ in the include path"
+#endif
 
 using namespace foretouch;
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs the build into a folder of its own and builds examples against it as somebody else's
-# projects would: the README's in C++ with find_package, the one in C with find_package and with
-# pkg-config.
+# Installs the build into a folder of its own and builds programs against it as somebody else's
+# projects would: the README's in C++ with find_package, those in C with find_package and with
+# pkg-config. They read files with the importer that lies in the same folder, wherever that is.
 #   consumer_test.sh CMAKE BUILD_FOLDER SOURCE_FOLDER CXX_COMPILER GENERATOR C_COMPILER [SANITIZERS]
 set -euo pipefail
 cmake=$1 build=$2 source=$3 cxx=$4 generator=$5 cc=$6
@@ -53,6 +53,21 @@ expect_no_reference() {  # expect_no_reference FILE...
   fi
 }
 
+# Nothing of ours but foretouch/ is in an include path, and headers find one another by that name.
+expect_own_names() {
+  local wrong header
+  wrong=$(find "$prefix/include" -mindepth 1 -maxdepth 1 ! -name foretouch; grep -rn '#include "' "$prefix/include" || true)
+  while read -r header; do
+    if [ ! -f "$prefix/include/$header" ]; then wrong+=" $header is included, and not installed"; fi
+  done < <(grep -rhoE '#include <foretouch/[^>]+' "$prefix/include" | sed 's/.*<//' | sort -u)
+  if [ -n "$wrong" ]; then
+    printf 'Installed headers:\n%s\n' "$wrong" >&2
+    exit 1
+  fi
+  [ "$(find "$prefix/include" -name '*.h' | wc -l)" -gt 50 ]
+}
+
+expect_own_names
 consume consumer "$source/tests/consumer" -DCMAKE_CXX_COMPILER="$cxx"
 expect_kernel_alone "$folder/consumer/consumer"
 products=()
@@ -79,6 +94,54 @@ if [ -f "$prefix/include/foretouch/foretouch.h" ]; then
   "$folder/swing-c" | cmp - "$folder/c.txt"
   printf 'v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n' >"$folder/scene.obj"
   "$folder/import-c" "$folder/scene.obj"
+
+  # C#, as Unity has it, where there is a compiler for it: the same question once more.
+  if command -v mcs >/dev/null && command -v mono >/dev/null && [ -z "${7:-}" ]; then
+    mcs -unsafe -define:FORETOUCH_TRY -out:"$folder/unity.exe" "$prefix/share/foretouch/c-example/Foretouch.cs"
+    mono "$folder/unity.exe" | cmp - <(head -n 1 "$folder/c.txt")
+  else
+    echo "left out: C#, which needs mcs and mono, and a library without sanitizers"
+  fi
+fi
+
+# Whole programs, from files to a loop: the one in C++ finds the importer of the copy that it was
+# built against, also of one that was moved, and nothing in the environment helps it.
+unset FORETOUCH_IMPORTER
+play_in_cxx() {  # play_in_cxx NAME: with the copy in $prefix; what it prints goes to NAME.txt
+  local room=$prefix/share/foretouch/examples
+  consume "$1" "$prefix/share/foretouch/cpp-example" -DCMAKE_CXX_COMPILER="$cxx"
+  "$folder/$1/play_clip" "$room/room.obj" "$room/dancer.avatar.json" "$room/dancer.bvh" 6 >"$folder/$1.txt"
+}
+if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
+  play_in_cxx play
+  tail -n 1 "$folder/play.txt"
+  "$folder/play/game_loop"
+  room=$prefix/share/foretouch/examples
+  contacts=$(grep -c meets "$folder/play.txt")
+  grep -qx "$contacts contacts in 136 steps" "$folder/play.txt"
+  # Of each step in any order: C lists the earliest first, C++ link by link.
+  if [ -x "$folder/play_clip-c" ]; then
+    "$folder/play_clip-c" "$room/room.obj" "$room/dancer.avatar.json" "$room/dancer.bvh" 6 >"$folder/play-c.txt"
+    cmp <(sort "$folder/play.txt") <(sort "$folder/play-c.txt")
+  fi
+  # And Python, from the same copy. What is built with sanitizers cannot be loaded as it is.
+  packages=$prefix/lib/python3/dist-packages
+  if [ -d "$packages/foretouch" ] && [ -z "${7:-}" ]; then
+    PYTHONPATH=$packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$source/bindings/python/example/play_clip.py" \
+      "$room/room.obj" "$room/dancer.avatar.json" "$room/dancer.bvh" 6 >"$folder/play-python.txt"
+    cmp <(sort "$folder/play.txt") <(sort "$folder/play-python.txt")
+  fi
+  # What cannot be read is said: the file, and what was expected.
+  if "$folder/play/play_clip" "$folder/nowhere.obj" "$room/dancer.avatar.json" "$room/dancer.bvh" 2>"$folder/error.txt"; then
+    echo "a scene that does not exist was read" >&2
+    exit 1
+  fi
+  grep -q 'nowhere.obj: cannot open the file' "$folder/error.txt"
+
+  prefix=$folder/moved
+  mv "$folder/prefix" "$prefix"
+  play_in_cxx play-moved
+  cmp "$folder/play.txt" "$folder/play-moved.txt"
 fi
 
 # The program works from where it was installed: it finds its importer and its example.

@@ -1,17 +1,15 @@
 // The six lines of README's first screen: they are these, and they find what they say.
 #include <algorithm>
 #include <filesystem>
+#include <foretouch/foretouch.hpp>
+#include <iostream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "articulated/motion.h"
-#include "assets/avatar/avatar_file.h"
-#include "assets/import/scene_import.h"
-#include "middleware/query/query.h"
-#include "middleware/scene/scene.h"
 #include "tests/house/source_files.h"
 
 namespace foretouch::test {
@@ -29,13 +27,8 @@ class InTheExampleFolder : public testing::Test {
 
 using ReadmesFirstScreen = InTheExampleFolder;
 
-TEST_F(ReadmesFirstScreen, FindsWhatIsBetweenTwoPoses) {
-  // The bundled dancer, who walks from one end of the room to the other in this step.
-  const Pose rest = restPose(readAvatarFile("dancer.avatar.json").value().skeleton());
-  Pose earlier = rest, later = rest;
-  earlier.translations[0].x() -= 5.0;
-  later.translations[0].x() += 5.0;
-  std::set<LinkId> stopped;
+int findsWhatIsBetween(const Avatar& dancer, const Scene& room, const Pose& earlier,
+                       const Pose& later, std::set<LinkId>& stopped) {
   const auto stop = [&](LinkId link, double t, const Eigen::Vector3d& normal) {
     EXPECT_TRUE(t > 0.0 && t < 1.0);
     EXPECT_NEAR(normal.norm(), 1.0, 1e-9);
@@ -43,14 +36,26 @@ TEST_F(ReadmesFirstScreen, FindsWhatIsBetweenTwoPoses) {
   };
   // clang-format off
   // README begins
-  const Scene room = Scene::build(importScene("room.obj").value().scene).value();
-  const Avatar dancer = readAvatarFile("dancer.avatar.json").value();
+  // dancer and room: read from files, or made of arrays, and checked once
   const ChainMotion motion(dancer.skeleton(), earlier, later);  // two tracked poses
-  const StepContacts step = firstContacts(dancer, motion, room).value();
-  for (const LinkContact& touch : step.links)
+  const Result<StepContacts> step = firstContacts(dancer, motion, room);
+  if (!step.ok()) { std::cerr << describe(step.error()) << '\n'; return 1; }
+  for (const LinkContact& touch : step.value().links)
     if (touch.verdict == Verdict::Contact) stop(touch.link, touch.toi, touch.nhat_SL_W);
   // README ends
   // clang-format on
+  return 0;
+}
+
+TEST_F(ReadmesFirstScreen, FindsWhatIsBetweenTwoPoses) {
+  // The bundled dancer, who walks from one end of the room to the other in this step.
+  const Avatar dancer = readAvatarFile("dancer.avatar.json").value();
+  const Scene room = Scene::build(importScene("room.obj").value().scene).value();
+  Pose earlier = restPose(dancer.skeleton()), later = earlier;
+  earlier.translations[0].x() -= 5.0;
+  later.translations[0].x() += 5.0;
+  std::set<LinkId> stopped;
+  EXPECT_EQ(findsWhatIsBetween(dancer, room, earlier, later, stopped), 0);
   EXPECT_GT(stopped.size(), 5u);
 }
 
@@ -76,6 +81,33 @@ TEST(Readme, FirstScreenShowsTheLinesThatAreRun) {
   EXPECT_EQ(lines.find("{{"), std::string::npos);
   const std::size_t first = readme.find("```");
   EXPECT_EQ(readme.substr(first, lines.size() + 10), "```cpp\n" + lines + "```");
+}
+
+TEST(Library, PageShowsTheProgramThatIsBuiltAndRun) {
+  const std::string root(FORETOUCH_SOURCE_DIR);
+  const std::string program = house::contentOf(root + "/examples/cpp/play_clip.cpp");
+  ASSERT_FALSE(program.empty());
+  EXPECT_NE(house::contentOf(root + "/docs/api.md").find("```cpp\n" + program + "```"),
+            std::string::npos);
+}
+
+/// The first block of C++ in a document, indented as it is in a function.
+std::string blockOf(const std::string& document) {
+  const std::string open = "```cpp\n";
+  const std::size_t from = document.find(open) + open.size();
+  std::istringstream lines(document.substr(from, document.find("```", from) - from));
+  std::string block;
+  for (std::string line; std::getline(lines, line);)
+    block += (line.empty() ? "" : "  ") + line + "\n";
+  return block;
+}
+
+TEST(GameLoop, PageShowsLinesOfTheProgramThatIsRun) {
+  const std::string root(FORETOUCH_SOURCE_DIR);
+  const std::string block = blockOf(house::contentOf(root + "/docs/game-loop.md"));
+  EXPECT_GT(std::count(block.begin(), block.end(), '\n'), 10);
+  EXPECT_NE(house::contentOf(root + "/examples/cpp/game_loop.cpp").find(block), std::string::npos)
+      << block;
 }
 
 }  // namespace

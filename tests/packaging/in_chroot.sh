@@ -42,9 +42,14 @@ if [ -n "$python" ]; then
   say "Python"
   install "$python" "$(of foretouch)"
   python3 -c 'import foretouch; print("foretouch", foretouch.__version__)'
-  for program in python-example/*.py; do
-    [ ! -f "$program" ] || python3 "$program"
-  done
+  python3 python-example/hand_through_railing.py
+  room=/usr/share/foretouch/examples
+  files=("$room/room.obj" "$room/dancer.avatar.json" "$room/dancer.bvh" 6)
+  python3 python-example/play_clip.py "${files[@]}" | sort >play-python.txt
+  say "whole programs, from files to a loop, in C++ and C"
+  by_cmake -S /usr/share/foretouch/cpp-example -B play
+  play/play_clip "${files[@]}" | sort | cmp - play-python.txt
+  c-example/play_clip "${files[@]}" | sort | cmp - play-python.txt
 else
   say "no package for Python among them"
 fi

@@ -9,29 +9,10 @@
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/text_file.h"
-#include "lss/index.h"
 #include "tools/console.h"
 #include "tools/inputs/joint_map.h"
 
 namespace foretouch::tools {
-namespace {
-
-/// Total length of the matched joints' offsets to matched parents, in the avatar and in the clip: a
-/// large difference between the two means a wrong unit.
-double sizeOfClipToAvatar(const Skeleton& avatar, const Clip& clip, const JointMatch& match) {
-  double ofAvatar = 0.0;
-  double ofClip = 0.0;
-  for (JointId joint = 0; joint < avatar.numJoints(); ++joint) {
-    const JointId source = match.clipJointOf[slotOf(joint)];
-    if (source == kNoParent || avatar.parent(joint) == kNoParent) continue;
-    ofAvatar += avatar.restOffset(joint).norm();
-    ofClip += clip.skeleton.restOffset(source).norm();
-  }
-  return ofAvatar > 0.0 && ofClip > 0.0 ? ofClip / ofAvatar : 1.0;
-}
-
-}  // namespace
-
 Result<PlayedClip> loadPlayedClip(const ClipRequest& request) {
   FORETOUCH_TRY(auto avatar, readAvatarFile(request.avatarPath));
   FORETOUCH_TRY(auto read, readMotion(motionRequestOf(request)));
@@ -70,12 +51,10 @@ std::vector<std::string> remarksOnClip(const Avatar& avatar, const Clip& clip,
 
 std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,
                                         const JointMatch& match, const std::string& motionPath) {
-  constexpr double kSuspiciousRatio = 2.0;  // people differ by less, centimetres and inches by more
-  const double ratio = sizeOfClipToAvatar(avatar.skeleton(), clip, match);
-  if (ratio <= kSuspiciousRatio && ratio >= 1.0 / kSuspiciousRatio) return std::nullopt;
-  return fmt::format(
-      "{}: its bones are {:.4g} times as long as the avatar's; is --clip-scale right?", motionPath,
-      ratio);
+  const auto ratio = suspiciousSize(avatar.skeleton(), clip.skeleton, match);
+  if (!ratio) return std::nullopt;
+  return fmt::format("{}: its bones are {:.4g} times as long as the avatar's; is --clip-scale right?",
+                     motionPath, *ratio);
 }
 
 std::string firstOf(const std::vector<std::string>& names) {

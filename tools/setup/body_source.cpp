@@ -22,9 +22,9 @@ bool isAvatarFile(const std::string& path) {
 
 /// Every format that a reader of models may know, with an animation or without.
 bool isModelFile(const std::string& path) {
-  if (motionKindOf(path) == MotionKind::Model) return true;
+  if (clipFormatOf(path) == ClipFormat::Model) return true;
   const std::string extension = std::filesystem::path(path).extension().string();
-  return motionKindOf(path) == MotionKind::Bvh && extension != ".bvh" && extension != ".BVH";
+  return clipFormatOf(path) == ClipFormat::Bvh && extension != ".bvh" && extension != ".BVH";
 }
 
 Result<Model> readModelOf(const std::string& path, const BodyRequest& request) {
@@ -52,12 +52,12 @@ Result<Done> readModelBody(const std::string& path, const BodyRequest& request,
 
 /// A model that holds no animation has no clip, which is no error here.
 Result<Done> readClip(const BodyRequest& request, BodySource& source) {
-  if (motionKindOf(request.motion) == MotionKind::Table) {
+  if (clipFormatOf(request.motion) == ClipFormat::JointTable) {
     return Error::in(request.motion, ErrorCode::Mismatch,
                      "expected a clip or a model: a table of joint positions is about a robot, for "
                      "which foretouch avatar urdf makes the avatar");
   }
-  if (motionKindOf(request.motion) != MotionKind::Model && isModelFile(request.motion)) {
+  if (clipFormatOf(request.motion) != ClipFormat::Model && isModelFile(request.motion)) {
     source.notes.push_back(request.motion +
                            ": its format holds no animation that can be read, so "
                            "the body stands at rest");

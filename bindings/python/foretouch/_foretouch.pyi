@@ -4,7 +4,7 @@ compares it with the module, name by name; `./run python-types` does so with myp
 import enum
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Optional, Union, overload
+from typing import Any, Optional, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -157,7 +157,16 @@ class PairRules:
 
 class Clip:
     @staticmethod
-    def load(path: _Path, scale: float = 1.0) -> Clip: ...
+    def load(
+        path: _Path,
+        scale: Optional[float] = None,
+        *,
+        up: Optional[str] = None,
+        animation: str = "",
+        rate_hz: float = 30.0,
+        robot: Optional[_Path] = None,
+        importer: Optional[_Path] = None,
+    ) -> Clip: ...
     def poses(
         self,
         avatar: Avatar,
@@ -296,6 +305,9 @@ class Steps:
     def normals(self) -> Doubles: ...
     @property
     def link_names(self) -> list[str]: ...
+    def plot(
+        self, axes: Optional[Any] = None, *, seconds_per_step: Optional[float] = None
+    ) -> Any: ...
     def __getitem__(self, index: int) -> Step: ...
     def __len__(self) -> int: ...
 

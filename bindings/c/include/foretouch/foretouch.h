@@ -253,14 +253,15 @@ FT_API ft_status ft_rotations_to_floats(const double* wxyz, size_t count, int32_
 typedef struct ft_clip_options {
   uint32_t size;
   int32_t up;       /* of the file, as in ft_import_options */
-  double scale;     /* metres per unit of the file, > 0; default 1 */
+  double scale;     /* likewise */
   double yaw_deg;   /* then turned about +Y, */
   double origin[3]; /* then moved. */
 } ft_clip_options;
 
 FT_API ft_status ft_clip_options_init(ft_clip_options* options, size_t size);
-/* Reads a BVH clip whose joints drive those of the avatar that have the same name; the others keep
- * their rest pose. Error if no name matches. `options` may be NULL. */
+/* Reads a BVH clip, or the first animation of a model (.glb, .gltf, .fbx, .dae, .x) in 30 poses a
+ * second. Its joints drive those of the avatar that have the same name; the others keep their rest
+ * pose. Error if no name matches. `options` may be NULL. */
 FT_API ft_status ft_clip_create_from_file(const char* path, const ft_avatar* avatar,
                                           const ft_clip_options* options, ft_clip** clip);
 

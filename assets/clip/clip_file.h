@@ -1,0 +1,46 @@
+// assets/clip/clip_file.h: clips from whatever file has one: BVH, an animated model, or a table of
+// a robot's joint positions. The file's extension decides (docs/formats.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "articulated/clip.h"
+#include "articulated/result.h"
+#include "assets/import/imported_scene.h"
+
+namespace foretouch {
+
+inline constexpr std::size_t kMaxJointTableBytes = std::size_t{256} << 20;
+
+enum class ClipFormat : std::uint8_t { Bvh, Model, JointTable };
+
+/// Every file that is neither a table nor a model format with animations counts as BVH, whose
+/// reader gives the best error.
+[[nodiscard]] ClipFormat clipFormatOf(const std::string& path);
+
+struct ClipFileOptions {
+  /// scale and up in place of what the file says; placed() turns BVH clips, and robots stand on z.
+  /// Limits and importer are those of models.
+  SceneImportOptions import;
+  std::string animation;                  ///< Of a model; empty: its first.
+  double rateHz = 30.0;                   ///< Sampling rate of a model's animation.
+  std::string robot;                      ///< The URDF whose joints a table is about.
+  std::vector<std::string> packagePaths;  ///< Folders of that URDF's packages.
+};
+
+struct ClipFile {
+  Clip clip;
+  /// True: already turned from Z-up. The reader of models turns their roots, so that a joint that
+  /// the clip leaves at rest matches the avatar of the same model.
+  bool isUpright = false;
+  FileFrame frame;  ///< Of BVH, which says nothing of itself: as asked.
+};
+
+/// Errors name the file. What the format does not need is ignored, but for a table's robot.
+[[nodiscard]] Result<ClipFile> readClipFile(const std::string& path,
+                                            const ClipFileOptions& options = {});
+
+}  // namespace foretouch
