@@ -12,6 +12,7 @@
 
 #include "articulated/avatar.h"
 #include "tools/reported_contact.h"
+#include "tools/touches/touch.h"
 
 namespace foretouch::tools {
 
@@ -97,6 +98,12 @@ struct ViewAvatar {
   std::vector<ViewSwept> swept;
 };
 
+struct ViewTouch {
+  std::size_t avatar = 0;
+  Touch touch;                      ///< On the document's clock, of the track's steps.
+  std::vector<std::uint32_t> rows;  ///< Its contacts among the avatar's, in their order.
+};
+
 struct ViewDocument {
   ViewKind kind = ViewKind::Replay;
   std::string title;
@@ -104,6 +111,7 @@ struct ViewDocument {
   std::vector<std::string> notes;  ///< Sentences.
   std::optional<ViewScene> scene;  ///< Nothing if the document shows only an avatar.
   std::vector<ViewAvatar> avatars;
+  std::optional<std::vector<ViewTouch>> touches;  ///< Of replays and logs, in listed order.
 };
 
 }  // namespace foretouch::tools
