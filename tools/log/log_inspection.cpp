@@ -7,11 +7,10 @@
 #include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "tools/progress.h"
+#include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
 namespace {
-
-constexpr double kUsPerS = 1e6;
 
 /// With a point, whole or not.
 std::string rateText(double rateHz) {

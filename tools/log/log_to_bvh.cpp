@@ -19,6 +19,7 @@
 #include "tools/console.h"
 #include "tools/log/bvh_text.h"
 #include "tools/settings/channel_names.h"
+#include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
 namespace {
@@ -117,7 +118,7 @@ Result<Pose> poseOf(const PoseMessage& message, const Skeleton& skeleton,
 
 /// Seconds between frames: the mean if all are equally far apart, else the most frequent.
 double spacingS(const std::vector<PoseMessage>& poses, std::vector<std::string>& notes) {
-  constexpr double kUsPerS = 1e6, kRoundingUs = 1.0;
+  constexpr double kRoundingUs = 1.0;
   if (poses.size() < 2) return 1.0;
   const auto steps = static_cast<double>(poses.size() - 1);
   const double meanUs = static_cast<double>(poses.back().utimeUs - poses.front().utimeUs) / steps;

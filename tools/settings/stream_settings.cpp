@@ -8,7 +8,6 @@
 namespace foretouch::tools {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 constexpr NumberRange kStepRange{1.0 / kUsPerS, static_cast<double>(kMostStepUs) / kUsPerS,
                                  "seconds", "s"};
 
