@@ -214,6 +214,7 @@ ViewDocument LogReport::document(const LogReplayReport& report, const LogReplayS
   for (ViewRow& row : rowsOf(report, summary)) document.summary.push_back(std::move(row));
   document.notes = report.remarks;
   noteFidelity(request.world.query.fidelity, document.notes);
+  noteGround(summary.touches(), request.world.ground, document.notes);
   noteWhatIsMissing(document.notes);
   double fromS = std::numeric_limits<double>::infinity();
   Eigen::AlignedBox3d action;

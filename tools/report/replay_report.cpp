@@ -119,6 +119,7 @@ Result<ViewDocument> ReplayReport::document(const ReplaySummary& summary,
   document.summary = rowsOf(summary);
   document.notes = remarksOn(inputs_);
   noteFidelity(request.query.fidelity, document.notes);
+  noteGround(summary.touches(), request.ground, document.notes);
   if (isFull_) {
     document.notes.push_back(
         fmt::format("The report shows the first {} of {} steps; the results file has them all.",

@@ -49,6 +49,13 @@ void addTouches(const std::vector<Touch>& touches, std::size_t avatar, ViewDocum
   std::stable_sort(all.begin(), all.end(), isBefore);
 }
 
+void noteGround(const TouchCounts& counts, const GroundRule& ground,
+                std::vector<std::string>& notes) {
+  if (ground.use != GroundUse::Ignore || counts.ground == 0) return;
+  notes.push_back("Touches of the ground are not listed (--ground ignore): " +
+                  std::to_string(counts.ground) + ". Their contacts are.");
+}
+
 std::vector<ViewRow> touchRows(const TouchCounts& counts, bool isOwnAsked) {
   std::vector<ViewRow> rows{
       {"touches", std::to_string(counts.touches),

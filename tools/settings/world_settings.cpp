@@ -179,8 +179,7 @@ void addTouchSettings(Settings& settings, WorldRequest& request) {
       .word("--ground", "apart|keep|ignore", ground.use, groundWords(),
             "Touches of the ground: counted apart, touches like any other, or not listed; no "
             "query depends on it")
-      .inHeader("ground")
-      .inReport("ground");
+      .inHeader("ground");
   settings
       .number("--ground-angle", "DEG", ground.angleDeg, kGroundAngleRange,
               "What counts as ground: where the contact's normal is so near to up")

@@ -44,12 +44,11 @@ std::string textOf(const StreamTouch& begun, const ContactsMessage& message) {
 std::string textOf(const StreamTouch& ended) {
   const Touch& touch = ended.touch;
   const double lastedS = static_cast<double>(touch.endUs - touch.beginUs) / kUsPerS;
-  if (touch.isOpen) {
-    return fmt::format("whether {} still touches {} is not known, after {:.3f} s",
-                       inQuotes(ended.linkName), inQuotes(touch.object), lastedS);
-  }
-  return fmt::format("{} leaves {} after {:.3f} s", inQuotes(ended.linkName),
-                     inQuotes(touch.object), lastedS);
+  // Of a tap only one instant is known.
+  const std::string after = lastedS > 0.0 ? fmt::format(" after {:.3f} s", lastedS) : "";
+  const std::string link = inQuotes(ended.linkName), object = inQuotes(touch.object);
+  if (!touch.isOpen) return fmt::format("{} leaves {}{}", link, object, after);
+  return fmt::format("whether {} still touches {} is not known{}", link, object, after);
 }
 
 }  // namespace

@@ -293,7 +293,7 @@ TEST(ReplayGlb, AnotherReaderFindsTheInBetweenMotionAtAndBetweenPoses) {
     const TempFolder folder;
     const tools::ReplayInputs inputs = chainInputs(6, 40, origin);
     tools::ReplayGlb glb(inputs, {folder / "out.glb", 100'000});
-    const auto written = glb.write();
+    const auto written = glb.write({});
     ASSERT_TRUE(written.ok()) << describe(written.error());
     EXPECT_TRUE(written.value().empty());
     GlbReader(contentOf(folder / "out.glb")).check();

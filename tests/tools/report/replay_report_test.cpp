@@ -138,6 +138,22 @@ TEST(ReplayReport, HoldsTheTouchesThatItsContactsMakeUp) {
   EXPECT_EQ(rows["touches_ground"], "0");
 }
 
+TEST(ReplayReport, SaysWhereTouchesOfTheGroundAreNotListed) {
+  // The hips rest on a floor that lies 1 cm above their lowest point.
+  ReplayInputs inputs = smallInputs(std::vector<double>(9, 0.0));
+  const Eigen::Vector3d a(-9, -0.09, -9), b(-9, -0.09, 9), c(9, -0.09, 0);
+  inputs.scene = Scene::build({{Triangle{{a, b, c}}}, {0}, {"floor"}}).value();
+  EXPECT_EQ(report(inputs).document["touches"][0]["ground"], true);
+  inputs.request.ground.use = GroundUse::Ignore;
+  const json document = report(inputs).document;
+  EXPECT_EQ(document["touches"], json::array());
+  EXPECT_EQ(document["avatars"][0]["contacts"].size(), 8u);
+  EXPECT_NE(document["notes"].dump().find("not listed (--ground ignore): 1."), std::string::npos)
+      << document["notes"];
+  inputs.request.ground.use = GroundUse::Keep;
+  EXPECT_EQ(report(inputs).document["touches"][0].count("ground"), 0u);
+}
+
 TEST(ReplayReport, HoldsTheTouchesOfTheStepsThatItShows) {
   ReportOptions options;
   options.maxContacts = 41;
