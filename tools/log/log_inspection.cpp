@@ -6,11 +6,12 @@
 
 #include "articulated/try.h"
 #include "assets/json_writer.h"
+#include "tools/microseconds.h"
 #include "tools/progress.h"
-#include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
 namespace {
+
 
 /// With a point, whole or not.
 std::string rateText(double rateHz) {

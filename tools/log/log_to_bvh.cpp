@@ -18,8 +18,8 @@
 #include "network/wire/codec.h"
 #include "tools/console.h"
 #include "tools/log/bvh_text.h"
+#include "tools/microseconds.h"
 #include "tools/settings/channel_names.h"
-#include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
 namespace {

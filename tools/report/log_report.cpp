@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/microseconds.h"
 #include "tools/report/view_touches.h"
-#include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
 namespace {

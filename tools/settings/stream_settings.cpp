@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "assets/json_writer.h"
+#include "tools/microseconds.h"
 #include "tools/settings/channel_names.h"
 
 namespace foretouch::tools {

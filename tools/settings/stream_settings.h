@@ -8,8 +8,6 @@
 
 namespace foretouch::tools {
 
-inline constexpr double kUsPerS = 1e6;  ///< Microseconds, in which streams count, per second.
-
 /// The ending of all four channels' names. `suffix` outlives the settings.
 Setting& addSuffixSetting(Settings& settings, std::string& suffix);
 

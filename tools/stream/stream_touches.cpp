@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "tools/settings/stream_settings.h"
+#include "tools/microseconds.h"
 #include "tools/stream/contacts_line.h"
 
 namespace foretouch::tools {

@@ -4,7 +4,7 @@
 
 #include "articulated/quoted.h"
 #include "assets/json_writer.h"
-#include "tools/settings/stream_settings.h"
+#include "tools/microseconds.h"
 #include "tools/touches/touch_json.h"
 
 namespace foretouch::tools {
