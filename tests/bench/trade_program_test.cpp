@@ -77,9 +77,10 @@ TEST_F(TradeProgram, RecommendsWhatHoldsWhenMeasuredAgain) {
                                       "--tolerance", "1e-06", "--output", at("again.jsonl")});
     ASSERT_EQ(again.exitCode, 0) << again.err;
     const std::string lines = contentOf(at("again.jsonl"));
+    const std::string kContact = "\"verdict\":\"contact\"";
     std::size_t contacts = 0;
-    for (std::size_t i = lines.find("\"contact\""); i != std::string::npos;
-         i = lines.find("\"contact\"", i + 1)) {
+    for (std::size_t i = lines.find(kContact); i != std::string::npos;
+         i = lines.find(kContact, i + 1)) {
       ++contacts;
     }
     EXPECT_GT(contacts, 0u);

@@ -94,7 +94,8 @@ export async function reportOf(setting, folder, name) {
 
 /** Every contact of a results file, with the step and the times that it belongs to. */
 export function resultsIn(path) {
-  const [header, ...steps] = readFileSync(path, "utf8").trimEnd().split("\n").map((line) => JSON.parse(line));
+  const [header, ...lines] = readFileSync(path, "utf8").trimEnd().split("\n").map((line) => JSON.parse(line));
+  const steps = lines.filter((line) => "step" in line);
   assert.equal(header.format, "foretouch-results");
   assert.equal(steps.length, header.steps);
   const contacts = steps.flatMap(({ step, t0, t1, contacts }) => contacts.map((contact) => ({ ...contact, step, t0, t1 })));

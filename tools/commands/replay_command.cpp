@@ -117,6 +117,7 @@ Settings replaySettings(AskedReplay& asked) {
   addClipOnlySettings(settings, asked);
   addQuerySettings(settings, asked.job.request);
   addReplayQuerySettings(settings, asked.job.request);
+  addTouchSettings(settings, asked.job.request);
   addOutputSettings(settings, asked);
   addComparisonSettings(settings, asked.job.options);
   settings.wholeOr("cores", "--threads", "N", asked.threads, kMaxThreads, "Threads")
@@ -267,9 +268,9 @@ ending. The results file is described in docs/formats.md. Of an event log that h
 verdicts as well, exit code 1 says that those found now are others.)";
 
 /// Nothing if there is no path.
-Result<Done> writeGlb(const ReplayGlb& glb, const std::string& path) {
+Result<Done> writeGlb(const ReplayGlb& glb, const ReplayTouches& touches, const std::string& path) {
   if (path.empty()) return Done{};
-  FORETOUCH_TRY(const auto notes, glb.write());
+  FORETOUCH_TRY(const auto notes, glb.write(touches.listed()));
   for (const std::string& note : notes) printNote(path + ": " + note);
   return Done{};
 }
@@ -292,6 +293,7 @@ Result<Done> runReplay(const ReplayJob& job,
 
   ReplaySummary summary(inputs);
   PlaceDoubts doubts(inputs.avatar.skeleton());
+  ReplayTouches touches(inputs);
   std::optional<ReplayReport> report;
   if (!job.report.path.empty()) report.emplace(inputs, job.report);
   ReplayGlb glb(inputs, job.glb);
@@ -305,14 +307,18 @@ Result<Done> runReplay(const ReplayJob& job,
       summary.add(step);
       doubts.add(step.answer);
       if (report) report->add(step);
-      glb.add(step.answer);
+      const std::vector<TouchRow>& begun = touches.add(step.answer);
+      if (!job.glb.path.empty()) glb.add(step.answer, begun);
       progress.advanceTo(step.answer.step + 1);
       return !guard.requested();
     });
     if (!done.ok()) return done.error();
     if (!guard.requested()) {
+      touches.finish();
+      summary.add(touches);
+      file.write(touches.lines());
       FORETOUCH_CHECK(file.commit());
-      FORETOUCH_CHECK(writeGlb(glb, job.glb.path));
+      FORETOUCH_CHECK(writeGlb(glb, touches, job.glb.path));
     }
     if (report && !guard.requested()) {
       const auto reported = writeReport(job.report.path, guard, [&](const ReportProgress& watch) {

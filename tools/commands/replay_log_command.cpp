@@ -8,6 +8,7 @@
 #include "assets/text_file.h"
 #include "tools/console.h"
 #include "tools/interrupt.h"
+#include "tools/log/log_touches.h"
 #include "tools/log/replay_log_summary.h"
 #include "tools/progress.h"
 #include "tools/report/log_report.h"
@@ -27,6 +28,7 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
   FORETOUCH_TRY(const auto inputs, loadLogReplayInputs(job.request));
 
   LogReplaySummary summary(inputs);
+  LogTouches touches(inputs);
   std::optional<LogReport> report;
   if (!job.report.path.empty()) report.emplace(inputs, job.report);
   const InterruptGuard guard;  // built first, destroyed last: removes the file before the signal
@@ -36,6 +38,7 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
   auto replayed = replayLog(inputs, [&](const AnsweredPose& answered) {
     file.write(contactsLine(answered.answer, Stamps::Without));
     summary.add(answered.answer, answered.avatar);
+    touches.add(answered);
     if (report) report->add(answered);
     if (answered.logBytes > 0) {
       progress.advanceTo(
@@ -45,6 +48,9 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
   });
   if (!replayed.ok() || guard.requested()) return replayed;
   for (const std::string& remark : replayed.value().remarks) printNote(remark);
+  touches.finish();
+  summary.add(touches.counts());
+  file.write(touches.lines());
   FORETOUCH_CHECK(file.commit());
   if (report) {
     const auto reported = writeReport(job.report.path, guard,

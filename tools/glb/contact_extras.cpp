@@ -5,6 +5,7 @@
 #include "assets/json_writer.h"
 #include "lss/index.h"
 #include "tools/contact_json.h"
+#include "tools/touches/touch_json.h"
 
 namespace foretouch::tools {
 namespace {
@@ -15,26 +16,34 @@ const std::string& objectOf(const LinkContact& contact, const Scene& scene) {
 
 }  // namespace
 
-std::string contactTitle(const ReportedContact& shown, const Skeleton& skeleton,
-                         const Scene& scene) {
-  return fmt::format("{} at {}, {:.3f} s", skeleton.name(shown.contact.link),
-                     objectOf(shown.contact, scene), shown.timeS);
+std::string contactTitle(const ShownTouch& shown, const Skeleton& skeleton, const Scene& scene) {
+  const ReportedContact& first = shown.first;
+  return fmt::format("{} at {}, {:.3f} s", skeleton.name(first.contact.link),
+                     objectOf(first.contact, scene), first.timeS);
 }
 
-nlohmann::json contactExtras(const ReportedContact& shown, const Skeleton& skeleton,
+nlohmann::json contactExtras(const ShownTouch& shown, const Skeleton& skeleton,
                              const Scene& scene) {
-  const std::string link = jsonString(skeleton.name(shown.contact.link));
-  const std::string object = jsonString(objectOf(shown.contact, scene));
+  const ReportedContact& first = shown.first;
+  const std::string link = jsonString(skeleton.name(first.contact.link));
+  const std::string object = jsonString(objectOf(first.contact, scene));
   ContactWords words;
   words.link = link;
   words.object = object;
-  words.timeS = shown.timeS;
+  words.timeS = first.timeS;
   std::string text;
   JsonWriter out(text);
   out.beginObject();
-  writeContact(shown.contact, words, out);
-  out.field("step", shown.step);
-  out.field("missed_by_poses", shown.missedByPoses);
+  writeContact(first.contact, words, out);
+  out.field("step", first.step);
+  out.field("missed_by_poses", first.missedByPoses);
+  TouchWords ofTouch;
+  ofTouch.link = link;
+  ofTouch.object = object;
+  out.key("touch");
+  out.beginObject();
+  writeTouch(shown.touch, ofTouch, out);
+  out.endObject();
   out.endObject();
   return nlohmann::json::parse(text);
 }

@@ -1,4 +1,4 @@
-// tools/glb/contact_extras.h: the data of a contact in a GLB.
+// tools/glb/contact_extras.h: the data of a touch in a GLB.
 #pragma once
 
 #include <string>
@@ -6,16 +6,17 @@
 #include <nlohmann/json.hpp>
 
 #include "middleware/scene/scene.h"
-#include "tools/reported_contact.h"
+#include "tools/glb/shown_touch.h"
 
 namespace foretouch::tools {
 
-/// "LeftHand at table, 1.003 s". Preconditions of both: touching (the contact has a triangle).
-[[nodiscard]] std::string contactTitle(const ReportedContact& shown, const Skeleton& skeleton,
+/// "LeftHand at table, 1.003 s". Precondition of both: with the scene (it has a triangle).
+[[nodiscard]] std::string contactTitle(const ShownTouch& shown, const Skeleton& skeleton,
                                        const Scene& scene);
 
-/// The fields of a results file (docs/formats.md, "Results"), `step` and `missed_by_poses`.
-[[nodiscard]] nlohmann::json contactExtras(const ReportedContact& shown, const Skeleton& skeleton,
+/// The fields of the first contact as in a results file (docs/formats.md, "Results"), `step`,
+/// `missed_by_poses`, and the touch's own as `touch`.
+[[nodiscard]] nlohmann::json contactExtras(const ShownTouch& shown, const Skeleton& skeleton,
                                            const Scene& scene);
 
 }  // namespace foretouch::tools

@@ -17,18 +17,16 @@ using nlohmann::json;
 constexpr GlbMaterial kRed{"contact", {0.80, 0.05, 0.03, 1.0}};
 constexpr GlbMaterial kAmber{"starts in contact", {0.90, 0.50, 0.02, 1.0}};
 
-/// How long (s) a first contact stays visible. One from the start is visible during its step,
-/// because the next step has its own.
+/// How long (s) a touch stays visible at least: a tap is over before anybody sees it.
 constexpr double kHoldS = 1.0;
 
-double endOf(const ReportedContact& shown, const Stage& stage) {
-  const double t1S = stage.inputs.timeOfStep(shown.step + 1);
-  if (shown.contact.verdict == Verdict::StartsInContact) return t1S;
-  return std::max(t1S, shown.timeS + kHoldS);
+double endOf(const ShownTouch& shown, const Stage& stage) {
+  const double lastS = stage.inputs.timeOfStep(shown.touch.lastStep + 1);
+  return std::max(lastS, shown.touch.beginS + kHoldS);
 }
 
-json markerNode(const ReportedContact& shown, const Stage& stage, std::size_t mesh) {
-  const LinkContact& contact = shown.contact;
+json markerNode(const ShownTouch& shown, const Stage& stage, std::size_t mesh) {
+  const LinkContact& contact = shown.first.contact;
   const Skeleton& skeleton = stage.inputs.avatar.skeleton();
   const Scene& scene = stage.inputs.scene;
   const auto turn = Quaternion::FromTwoVectors(Vector3d::UnitY(), contact.nhat_SL_W).normalized();
@@ -45,18 +43,18 @@ struct SweptLink {
   std::vector<Triangle> triangles;
   double certifiedError = 0.0;
 };
-std::optional<SweptLink> sweptBy(const Stage& stage, const ReportedContact& shown, double error,
+std::optional<SweptLink> sweptBy(const Stage& stage, const ShownTouch& shown, double error,
                                  std::size_t most) {
-  const auto step = static_cast<std::size_t>(shown.step);
+  const auto step = static_cast<std::size_t>(shown.first.step);
   const Avatar& avatar = stage.inputs.avatar;
   const ChainMotion motion(avatar.skeleton(), stage.poses[step], stage.poses[step + 1]);
   SweptSurfaceOptions options;
   options.error = error;
   SweptLink swept;
-  for (const Lss& lss : avatar.lss(shown.contact.link)) {
+  for (const Lss& lss : avatar.lss(shown.touch.link)) {
     options.maxTriangles = most - swept.triangles.size();
     auto builder = SweptSurfaceBuilder::create(lss, options);
-    if (!builder.ok() || !builder.value().add(motion, shown.contact.link, {}).ok()) return {};
+    if (!builder.ok() || !builder.value().add(motion, shown.touch.link, {}).ok()) return {};
     const auto surface = builder.value().finish();
     if (!surface.ok()) return {};
     swept.certifiedError = std::max(swept.certifiedError, surface.value().certifiedError);
@@ -70,16 +68,16 @@ std::optional<SweptLink> sweptBy(const Stage& stage, const ReportedContact& show
   return swept;
 }
 
-json sweepNode(const ReportedContact& shown, const Stage& stage, const SweptLink& swept,
+json sweepNode(const ShownTouch& shown, const Stage& stage, const SweptLink& swept,
                std::size_t mesh) {
-  const std::string& link = stage.inputs.avatar.skeleton().name(shown.contact.link);
-  const double t0S = stage.inputs.timeOfStep(shown.step);
-  const double t1S = stage.inputs.timeOfStep(shown.step + 1);
+  const std::string& link = stage.inputs.avatar.skeleton().name(shown.touch.link);
+  const double t0S = stage.inputs.timeOfStep(shown.first.step);
+  const double t1S = stage.inputs.timeOfStep(shown.first.step + 1);
   return {{"name", fmt::format("sweep of {}, {:.3f} to {:.3f} s", link, t0S, t1S)},
           {"mesh", mesh},
           {"extras",
            {{"link", link},
-            {"step", shown.step},
+            {"step", shown.first.step},
             {"t0", t0S},
             {"t1", t1S},
             {"certified_error", swept.certifiedError}}}};
@@ -87,10 +85,10 @@ json sweepNode(const ReportedContact& shown, const Stage& stage, const SweptLink
 
 }  // namespace
 
-std::vector<Appearance> addMarkers(const Stage& stage, const std::vector<ReportedContact>& contacts,
+std::vector<Appearance> addMarkers(const Stage& stage, const std::vector<ShownTouch>& touches,
                                    std::size_t parent, GlbContent& content) {
   std::vector<Appearance> appearances;
-  if (contacts.empty()) return appearances;
+  if (touches.empty()) return appearances;
   constexpr double kArrow = 0.1;  // of the avatar's extent
   const GlbMesh marker = markerMesh(kArrow * stage.extent);
   std::optional<std::size_t> first, fromStart;
@@ -104,16 +102,16 @@ std::vector<Appearance> addMarkers(const Stage& stage, const std::vector<Reporte
     return *mesh;
   };
   GltfDocument& document = content.document();
-  for (const ReportedContact& shown : contacts) {
+  for (const ShownTouch& shown : touches) {
     const std::size_t node =
-        document.add("nodes", markerNode(shown, stage, meshFor(shown.contact.verdict)));
+        document.add("nodes", markerNode(shown, stage, meshFor(shown.first.contact.verdict)));
     document.at("nodes", parent)["children"].push_back(node);
-    appearances.push_back({node, shown.timeS, endOf(shown, stage)});
+    appearances.push_back({node, shown.first.timeS, endOf(shown, stage)});
   }
   return appearances;
 }
 
-std::vector<Appearance> addSweeps(const Stage& stage, const std::vector<ReportedContact>& contacts,
+std::vector<Appearance> addSweeps(const Stage& stage, const std::vector<ShownTouch>& touches,
                                   std::size_t parent, GlbContent& content, TriangleBudget& budget,
                                   std::vector<std::string>& notes) {
   constexpr double kError = 0.01;    // of the avatar's extent
@@ -123,8 +121,8 @@ std::vector<Appearance> addSweeps(const Stage& stage, const std::vector<Reported
   std::optional<std::size_t> material;
   std::vector<Appearance> appearances;
   std::size_t leftOut = 0;
-  for (const ReportedContact& shown : contacts) {
-    if (shown.contact.verdict != Verdict::Contact) continue;
+  for (const ShownTouch& shown : touches) {
+    if (shown.first.contact.verdict != Verdict::Contact) continue;
     const auto swept = sweptBy(stage, shown, kError * stage.extent, own.left());
     if (!swept || swept->triangles.empty() || !own.take(swept->triangles.size())) {
       ++leftOut;
@@ -132,15 +130,15 @@ std::vector<Appearance> addSweeps(const Stage& stage, const std::vector<Reported
     }
     budget.take(swept->triangles.size());
     if (!material) material = content.addMaterial({"swept volume", {0.95, 0.45, 0.10, 0.30}});
-    const std::string& link = stage.inputs.avatar.skeleton().name(shown.contact.link);
+    const std::string& link = stage.inputs.avatar.skeleton().name(shown.touch.link);
     const std::size_t mesh =
         content.addMesh("sweep of " + link, {{meshOf(swept->triangles, stage.origin), *material}});
     const std::size_t node = document.add("nodes", sweepNode(shown, stage, *swept, mesh));
     document.at("nodes", parent)["children"].push_back(node);
-    appearances.push_back({node, stage.inputs.timeOfStep(shown.step), endOf(shown, stage)});
+    appearances.push_back({node, stage.inputs.timeOfStep(shown.first.step), endOf(shown, stage)});
   }
   if (leftOut > 0) {
-    notes.push_back(fmt::format("the swept volumes of {} contacts are left out", leftOut));
+    notes.push_back(fmt::format("the swept volumes of {} touches are left out", leftOut));
   }
   return appearances;
 }

@@ -1,6 +1,7 @@
 #include "tools/glb/replay_glb.h"
 
-#include <algorithm>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 /// Markers are costly to viewers, each an animated node.
-constexpr std::size_t kMostOfAVerdict = 5000;
+constexpr std::size_t kMostTouches = 5000;
 
 std::size_t addGroup(GltfDocument& document, std::size_t parent, const std::string& name) {
   const std::size_t node = document.add("nodes", {{"name", name}});
@@ -39,32 +40,43 @@ std::size_t addWorld(const Stage& stage, std::int64_t undecided, GltfDocument& d
 
 }  // namespace
 
-void ReplayGlb::add(const StepAnswer& answer) {
+void ReplayGlb::add(const StepAnswer& answer, const std::vector<TouchRow>& begun) {
   for (const LinkContact& contact : answer.contacts) {
-    if (contact.verdict == Verdict::Undecided) {
-      ++undecided_;
-      continue;
-    }
-    auto& kept = contact.verdict == Verdict::Contact ? contacts_ : startsInContact_;
-    if (kept.size() == kMostOfAVerdict) {
+    undecided_ += contact.verdict == Verdict::Undecided ? 1 : 0;
+  }
+  for (const TouchRow& row : begun) {
+    if (row.other >= 0) continue;  // own links have no place in the scene
+    if (first_.size() == kMostTouches) {
       ++notShown_;
       continue;
     }
-    const auto& missed = answer.missedByPoses;
-    kept.push_back({contact, answer.step, timeOf(contact, answer.t0S, answer.t1S), "",
-                    std::find(missed.begin(), missed.end(), contact.link) != missed.end()});
+    first_.push_back({*row.contact, answer.step, row.timeS, std::string(row.object), row.isMissed});
   }
 }
 
-Result<std::vector<std::string>> ReplayGlb::write() const {
+std::vector<ShownTouch> ReplayGlb::shownOf(const std::vector<Touch>& touches) const {
+  using Begin = std::tuple<std::int64_t, LinkId, std::string>;
+  std::map<Begin, const Touch*> beginning;
+  for (const Touch& touch : touches) {
+    if (touch.other < 0) beginning[{touch.firstStep, touch.link, touch.object}] = &touch;
+  }
+  std::vector<ShownTouch> shown;
+  for (const ReportedContact& first : first_) {
+    const auto found = beginning.find({first.step, first.contact.link, first.object});
+    // Those with the ground are not listed where they are ignored.
+    if (found != beginning.end()) shown.push_back({first, *found->second});
+  }
+  return shown;
+}
+
+Result<std::vector<std::string>> ReplayGlb::write(const std::vector<Touch>& touches) const {
   FORETOUCH_TRY(const auto stage, inFile(stageOf(inputs_), request_.path));
-  std::vector<ReportedContact> shown = contacts_;
-  shown.insert(shown.end(), startsInContact_.begin(), startsInContact_.end());
+  const std::vector<ShownTouch> shown = shownOf(touches);
 
   std::vector<std::string> notes;
   if (notShown_ > 0) {
-    notes.push_back(fmt::format("{} contacts are not shown: of each verdict the first {} are",
-                                notShown_, kMostOfAVerdict));
+    notes.push_back(
+        fmt::format("{} touches are not shown: the first {} are", notShown_, kMostTouches));
   }
   GlbContent content(fmt::format("foretouch {}", FORETOUCH_VERSION));
   GltfDocument& document = content.document();

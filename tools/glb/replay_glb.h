@@ -1,5 +1,5 @@
 // tools/glb/replay_glb.h: a replay as one animated GLB, for any viewer of glTF: the scene, the
-// avatar in its in-between motion, its contacts, and the sweeps of touching links (docs/formats.md,
+// avatar in its in-between motion, its touches, and the sweeps of touching links (docs/formats.md,
 // "A replay as GLB").
 #pragma once
 
@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "articulated/result.h"
+#include "tools/glb/shown_touch.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/results_writer.h"
-#include "tools/reported_contact.h"
+#include "tools/touches/touch_tracker.h"
 
 namespace foretouch::tools {
 
@@ -27,17 +28,19 @@ class ReplayGlb {
   ReplayGlb(const ReplayInputs& inputs, GlbRequest request)
       : inputs_(inputs), request_(std::move(request)) {}
 
-  /// Steps in order.
-  void add(const StepAnswer& answer);
+  /// Steps in order; `begun`: the contacts of this step that begin touches.
+  void add(const StepAnswer& answer, const std::vector<TouchRow>& begun);
 
-  /// Writes the file; returns what it leaves out, one sentence each. Errors: an unwritable file,
-  /// times that floats do not tell apart, more than a GLB can hold.
-  [[nodiscard]] Result<std::vector<std::string>> write() const;
+  /// `touches`: of all steps. Writes the file; returns what it leaves out, one sentence each.
+  /// Errors: an unwritable file, times that floats do not tell apart, more than a GLB can hold.
+  [[nodiscard]] Result<std::vector<std::string>> write(const std::vector<Touch>& touches) const;
 
  private:
+  [[nodiscard]] std::vector<ShownTouch> shownOf(const std::vector<Touch>& touches) const;
+
   const ReplayInputs& inputs_;
   GlbRequest request_;
-  std::vector<ReportedContact> contacts_, startsInContact_;
+  std::vector<ReportedContact> first_;  // each begins a touch
   std::int64_t undecided_ = 0, notShown_ = 0;
 };
 

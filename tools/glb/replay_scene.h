@@ -11,8 +11,8 @@
 #include "articulated/motion.h"
 #include "tools/glb/appearances.h"
 #include "tools/glb/glb_content.h"
+#include "tools/glb/shown_touch.h"
 #include "tools/inputs/replay_inputs.h"
-#include "tools/reported_contact.h"
 
 namespace foretouch::tools {
 
@@ -51,18 +51,18 @@ class TriangleBudget {
                                                      std::vector<std::string>& notes);
 
 /// A node below `parent` for every object of the scene, preferring triangles near the avatar's
-/// path; includes those of `contacts`.
-void addScene(const Stage& stage, const std::vector<ReportedContact>& contacts, std::size_t parent,
+/// path; includes those where a touch begins.
+void addScene(const Stage& stage, const std::vector<ShownTouch>& touches, std::size_t parent,
               GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes);
 
-/// A marker below `parent` for every contact: a ball at the point, an arrow along the normal.
+/// A marker below `parent` for every touch: a ball where it begins, an arrow along the normal.
 [[nodiscard]] std::vector<Appearance> addMarkers(const Stage& stage,
-                                                 const std::vector<ReportedContact>& contacts,
+                                                 const std::vector<ShownTouch>& touches,
                                                  std::size_t parent, GlbContent& content);
 
-/// The sweep of each contact's link during its step, below `parent`.
+/// The sweep of the link during the step in which a touch begins with a contact, below `parent`.
 [[nodiscard]] std::vector<Appearance> addSweeps(const Stage& stage,
-                                                const std::vector<ReportedContact>& contacts,
+                                                const std::vector<ShownTouch>& touches,
                                                 std::size_t parent, GlbContent& content,
                                                 TriangleBudget& budget,
                                                 std::vector<std::string>& notes);

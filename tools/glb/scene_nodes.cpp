@@ -39,11 +39,11 @@ std::map<ObjectId, std::vector<Triangle>> byObject(const Scene& scene,
 
 }  // namespace
 
-void addScene(const Stage& stage, const std::vector<ReportedContact>& contacts, std::size_t parent,
+void addScene(const Stage& stage, const std::vector<ShownTouch>& touches, std::size_t parent,
               GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes) {
   const Scene& scene = stage.inputs.scene;
   std::vector<TriangleId> touched;
-  for (const ReportedContact& shown : contacts) touched.push_back(shown.contact.triangle);
+  for (const ShownTouch& shown : touches) touched.push_back(shown.first.contact.triangle);
   const auto ids = nearestTriangles(scene, placesOn(stage), std::move(touched), budget.left());
   const std::size_t finite = scene.audit().triangles;
   if (ids.size() < finite) {

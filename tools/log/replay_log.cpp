@@ -204,6 +204,7 @@ std::string logHeaderLine(const LogReplayInputs& inputs) {
   addSuffixSetting(settings, request.suffix);
   addQuerySettings(settings, request.world);
   addReplayQuerySettings(settings, request.world);
+  addTouchSettings(settings, request.world);
   addStreamSettings(settings, request.policy);
   std::string text;
   JsonWriter out(text);
@@ -215,7 +216,10 @@ std::string logHeaderLine(const LogReplayInputs& inputs) {
                      "skin_up", "scene_scale", "up", "ignore"},
                     out);
   writeHeaderField(settings, "budget_us", out);  // also if there is none
-  writeHeaderFields(settings, {"max_step", "confirmations", "unmatched_at_rest"}, out);
+  writeHeaderFields(
+      settings,
+      {"max_step", "confirmations", "unmatched_at_rest", "ground", "ground_angle", "ground_height"},
+      out);
   out.key("avatars");
   out.beginArray();
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {

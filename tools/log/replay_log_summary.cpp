@@ -112,7 +112,10 @@ std::string LogReplaySummary::stream(const LogReplayReport& report) const {
 }
 
 std::string LogReplaySummary::verdicts() const {
-  std::string text = row("answers with contact", withContact_);
+  std::string text =
+      row("touches", touches_.touches, fmt::format("{} of them missed by poses", touches_.missed));
+  text += row("touches of the ground", touches_.ground);
+  text += row("answers with contact", withContact_);
   text += row("contacts", total_.contacts);
   text += row("starts in contact", total_.startsInContact);
   text += row("undecided", total_.undecided);

@@ -9,6 +9,7 @@
 
 #include "network/wire/messages.h"
 #include "tools/log/replay_log.h"
+#include "tools/touches/touch.h"
 
 namespace foretouch::tools {
 
@@ -20,6 +21,8 @@ class LogReplaySummary {
 
   /// `avatar` is its index in the request.
   void add(const ContactsMessage& answer, std::size_t avatar);
+  /// Of all answers, after the last one.
+  void add(const TouchCounts& touches) { touches_ = touches; }
 
   [[nodiscard]] std::string text(const LogReplayReport& report) const;
 
@@ -31,6 +34,7 @@ class LogReplaySummary {
     std::int64_t contacts = 0, startsInContact = 0, undecided = 0;
   };
   [[nodiscard]] const Counts& total() const { return total_; }
+  [[nodiscard]] const TouchCounts& touches() const { return touches_; }
   /// The time within which this share of the queries was answered.
   [[nodiscard]] double queryUs(double share) const;
 
@@ -43,6 +47,7 @@ class LogReplaySummary {
 
   const LogReplayInputs& inputs_;
   Counts total_;
+  TouchCounts touches_;
   std::vector<std::vector<Counts>> ofLink_;  // by avatar and link
   std::array<std::int64_t, kNumUndecidedReasons> reasons_{};
   std::int64_t withContact_ = 0;

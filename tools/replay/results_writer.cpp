@@ -62,6 +62,7 @@ std::string headerLine(const ReplayInputs& inputs) {
   addSceneSettings(settings, request);
   addQuerySettings(settings, request);
   addReplayQuerySettings(settings, request);
+  addTouchSettings(settings, request);
   std::string text;
   JsonWriter out(text);
   beginResults(out);
@@ -71,11 +72,13 @@ std::string headerLine(const ReplayInputs& inputs) {
   out.field("k", inputs.steps.stride);
   out.field("frame_time", inputs.clip.frameTimeS);
   out.field("steps", inputs.steps.count);
-  writeHeaderFields(settings,
-                    {"tolerance", "fidelity", "scale", "motion_up", "place", "scene_scale", "up",
-                     "ignore", "scope", "pass_separating", "budget_us", "policy", "leaves", "skin",
-                     "skin_scale", "skin_up", "animation", "robot"},
-                    out);
+  writeHeaderFields(
+      settings,
+      {"tolerance", "fidelity",     "scale",        "motion_up",       "place",     "scene_scale",
+       "up",        "ignore",       "scope",        "pass_separating", "budget_us", "policy",
+       "leaves",    "skin",         "skin_scale",   "skin_up",         "animation", "robot",
+       "ground",    "ground_angle", "ground_height"},
+      out);
   if (inputs.query.self) writeSelf(inputs, out);
   writeLinkNames(inputs.avatar, out);
   out.field("unmatched_joints", inputs.match.unmatchedAvatar);

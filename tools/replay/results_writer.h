@@ -22,6 +22,8 @@ struct StepAnswer {
   std::vector<LinkContact> contacts;  ///< Of the links of reported(), in its order.
   std::vector<LinkContact> objects;   ///< By object (StepContacts::perObject), if asked so.
   std::vector<PairContact> pairs;     ///< Of own links, if they are asked.
+  /// Of each of `objects` if they are asked, else of `contacts`: is it with the ground?
+  std::vector<bool> onGround;
   std::vector<LinkId> missedByPoses;  ///< Links in contact that touch nothing at either pose.
   QueryCounters counters;
   double latencyUs = 0.0;

@@ -34,6 +34,7 @@ Result<ReplayedStep> StepSolver::solve(std::int64_t step) {
   ReplayedStep replayed;
   replayed.answer = recorded(step, contacts, latencyUs);
   replayed.answer.missedByPoses = missedByPoses(motion, replayed.answer.contacts);
+  findGround(motion, replayed.answer);
   FORETOUCH_CHECK(inFile(addExtras(motion, contacts, replayed), inputs_.request.motionPath));
   replayed.line = format_.line(replayed.answer);
   return replayed;
@@ -77,6 +78,14 @@ std::vector<LinkId> StepSolver::missedByPoses(const ChainMotion& motion,
     }
   }
   return missed;
+}
+
+void StepSolver::findGround(const ChainMotion& motion, StepAnswer& answer) {
+  const bool isByObject = inputs_.query.scope == Scope::EveryObject;
+  ground_.beginStep(motion);
+  for (const LinkContact& contact : isByObject ? answer.objects : answer.contacts) {
+    answer.onGround.push_back(ground_.isGround(contact));
+  }
 }
 
 Result<Done> StepSolver::addExtras(const ChainMotion& motion, const StepContacts& contacts,

@@ -13,6 +13,7 @@
 #include "tools/replay/fidelity_comparison.h"
 #include "tools/replay/results_writer.h"
 #include "tools/replay/rigid_comparison.h"
+#include "tools/touches/ground.h"
 
 namespace foretouch::tools {
 
@@ -37,7 +38,11 @@ class StepSolver {
   /// `query`: of the inputs.
   StepSolver(const ReplayInputs& inputs, const Query& query, const StepFormat& format,
              const StepExtras& extras)
-      : inputs_(inputs), query_(query), format_(format), extras_(extras) {}
+      : inputs_(inputs),
+        query_(query),
+        format_(format),
+        extras_(extras),
+        ground_(inputs.avatar, inputs.scene, inputs.request.ground) {}
 
   [[nodiscard]] Result<ReplayedStep> solve(std::int64_t step);
 
@@ -47,6 +52,7 @@ class StepSolver {
                                     double latencyUs) const;
   [[nodiscard]] std::vector<LinkId> missedByPoses(const ChainMotion& motion,
                                                   const std::vector<LinkContact>& contacts);
+  void findGround(const ChainMotion& motion, StepAnswer& answer);
   [[nodiscard]] Result<Done> addExtras(const ChainMotion& motion, const StepContacts& contacts,
                                        ReplayedStep& replayed);
 
@@ -54,6 +60,7 @@ class StepSolver {
   const Query& query_;
   const StepFormat& format_;
   StepExtras extras_;
+  GroundTest ground_;
   QueryScratch scratch_;
   std::int64_t frame_ = -1;  // whose pose pose_ is
   Pose pose_;

@@ -75,7 +75,18 @@ double percentile(std::vector<float>& values, double share) {
 }
 
 ReplaySummary::ReplaySummary(const ReplayInputs& inputs)
-    : inputs_(inputs), ofLink_(countOf(inputs.avatar.numLinks())) {}
+    : inputs_(inputs),
+      ofLink_(countOf(inputs.avatar.numLinks())),
+      touchesOfLink_(countOf(inputs.avatar.numLinks())) {}
+
+void ReplaySummary::add(const ReplayTouches& touches) {
+  touches_ = touches.counts();
+  for (const Touch& touch : touches.listed()) {
+    LinkTouches& row = touchesOfLink_[slotOf(touch.link)];
+    row.counts.add(touch);
+    row.longestS = std::max(row.longestS, touch.endS - touch.beginS);
+  }
+}
 
 void ReplaySummary::add(const ReplayedStep& step) {
   const StepAnswer& answer = step.answer;
@@ -146,8 +157,8 @@ double ReplaySummary::latencyUs(double share) const {
 }
 
 std::string ReplaySummary::text(int threads) const {
-  return head(threads) + verdicts() + byLink() + byObject() + ownPairs() + rigid() + link() +
-         cost();
+  return head(threads) + headline() + touchTable(inputs_.avatar.skeleton(), touchesOfLink_) +
+         verdicts() + byLink() + byObject() + ownPairs() + rigid() + link() + cost();
 }
 
 std::string ReplaySummary::head(int threads) const {

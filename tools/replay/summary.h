@@ -10,8 +10,10 @@
 
 #include "middleware/query/query.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/replay/replay_touches.h"
 #include "tools/replay/rigid_comparison.h"
 #include "tools/replay/step_solver.h"
+#include "tools/replay/touch_words.h"
 
 namespace foretouch::tools {
 
@@ -26,6 +28,8 @@ class ReplaySummary {
   explicit ReplaySummary(const ReplayInputs& inputs);
 
   void add(const ReplayedStep& step);
+  /// Of all steps, after the last one.
+  void add(const ReplayTouches& touches);
 
   /// `threads` shared the machine during the measurements.
   [[nodiscard]] std::string text(int threads) const;
@@ -39,6 +43,10 @@ class ReplaySummary {
   struct Counts {
     std::int64_t contacts = 0, missedByPoses = 0, startsInContact = 0, undecided = 0;
   };
+  [[nodiscard]] const TouchCounts& touches() const { return touches_; }
+  /// touchHeadline() of them.
+  [[nodiscard]] std::string headline() const { return touchHeadline(inputs_, touches_); }
+  /// Contacts as the steps have them, one per link and step.
   [[nodiscard]] const Counts& total() const { return total_; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Of own links, where they were asked; what the poses miss is not counted.
@@ -71,6 +79,8 @@ class ReplaySummary {
   std::map<std::pair<LinkId, ObjectId>, Counts> ofObject_;
   std::map<std::pair<LinkId, LinkId>, Counts> ofPair_;
   std::vector<Counts> ofLink_;
+  TouchCounts touches_;
+  std::vector<LinkTouches> touchesOfLink_;
   std::vector<ReportedContact> firstMissed_;
   std::optional<RigidCounts> rigid_;
   std::optional<FidelityCounts> link_;

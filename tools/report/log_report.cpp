@@ -2,10 +2,14 @@
 #include "tools/microseconds.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "tools/microseconds.h"
+#include "tools/report/view_touches.h"
 
 namespace foretouch::tools {
 namespace {
@@ -39,8 +43,11 @@ std::vector<ViewRow> rowsOf(const LogReplayReport& report, const LogReplaySummar
 
 }  // namespace
 
-LogReport::Player::Player(const Avatar& avatar, const Scene& scene, const QueryOptions& options)
-    : surface(options.surface), track(avatar, touchQuestion(avatar, scene, options)) {}
+LogReport::Player::Player(const Avatar& avatar, const LogReplayInputs& inputs,
+                          const QueryOptions& options)
+    : surface(options.surface),
+      track(avatar, touchQuestion(avatar, inputs.scene, options)),
+      ground(avatar, inputs.scene, inputs.request.world.ground) {}
 
 LogReport::LogReport(const LogReplayInputs& inputs, const ReportOptions& options)
     : inputs_(inputs), options_(options), players_(inputs.avatars.size()) {}
@@ -48,8 +55,7 @@ LogReport::LogReport(const LogReplayInputs& inputs, const ReportOptions& options
 LogReport::Player& LogReport::playerOf(const AnsweredPose& answered) {
   std::unique_ptr<Player>& player = players_[answered.avatar];
   if (!player) {
-    player =
-        std::make_unique<Player>(inputs_.avatars[answered.avatar], inputs_.scene, answered.query);
+    player = std::make_unique<Player>(inputs_.avatars[answered.avatar], inputs_, answered.query);
   }
   return *player;
 }
@@ -93,6 +99,9 @@ void LogReport::addStep(const AnsweredPose& answered, Player& player) {
   const auto step = static_cast<std::uint32_t>(player.track.steps());
   const double t0S = player.track.timeS(from), t1S = player.track.timeS(to);
   player.track.addStep(from, to, answered.answer.queryUs);
+  if (from != player.lastTo) player.tracker.breakOff(player.touches);
+  player.lastTo = to;
+  const std::size_t firstRow = player.contacts.size();
   for (const AnsweredContact& found : answered.answer.contacts) {
     ReportedContact view = contactView(found.contact, inputs_.scene, step, t0S, t1S);
     const LinkId link = found.contact.link;
@@ -100,6 +109,36 @@ void LogReport::addStep(const AnsweredPose& answered, Player& player) {
                          !player.track.touches(from, link) && !player.track.touches(to, link);
     player.contacts.push_back(std::move(view));
   }
+  track(answered, firstRow, player);
+}
+
+/// The touches of the step whose contacts begin at `firstRow`.
+void LogReport::track(const AnsweredPose& answered, std::size_t firstRow, Player& player) const {
+  const ChainMotion motion(inputs_.avatars[answered.avatar].skeleton(), *answered.step.from,
+                           *answered.step.to);
+  player.ground.beginStep(motion);
+  TouchStep step;
+  step.step = static_cast<std::int64_t>(player.track.steps()) - 1;
+  for (std::size_t i = firstRow; i < player.contacts.size(); ++i) {
+    const ReportedContact& found = player.contacts[i];
+    TouchRow& row = step.rows.emplace_back();
+    row.contact = &found.contact;
+    row.object = found.object;
+    row.timeS = found.timeS;
+    row.isMissed = found.missedByPoses;
+    row.isGround = player.ground.isGround(found.contact);
+  }
+  std::vector<std::size_t> begun;
+  player.tracker.addStep(step, player.touches, begun);
+}
+
+/// Without those of the ground where these are ignored.
+std::vector<Touch> LogReport::listed(const std::vector<Touch>& touches) const {
+  std::vector<Touch> kept;
+  const bool isIgnored = inputs_.request.world.ground.use == GroundUse::Ignore;
+  std::copy_if(touches.begin(), touches.end(), std::back_inserter(kept),
+               [&](const Touch& touch) { return !isIgnored || !touch.isGround; });
+  return kept;
 }
 
 ViewAvatar LogReport::avatarOf(std::size_t index, double fromS, ViewDocument& document) {
@@ -116,6 +155,11 @@ ViewAvatar LogReport::avatarOf(std::size_t index, double fromS, ViewDocument& do
   view.contacts = std::move(player.contacts);
   for (double& timeS : view.track->poseTimesS) timeS -= fromS;
   for (ReportedContact& contact : view.contacts) contact.timeS -= fromS;
+  player.tracker.breakOff(player.touches);
+  for (Touch& touch : player.touches) {
+    touch.beginS -= fromS;
+    touch.endS -= fromS;
+  }
   return view;
 }
 
@@ -167,9 +211,11 @@ ViewDocument LogReport::document(const LogReplayReport& report, const LogReplayS
   document.kind = ViewKind::Log;
   document.title = fileName(request.logPath) + " in " + fileName(request.world.scenePath);
   document.settings = settings();
-  document.summary = rowsOf(report, summary);
+  document.summary = touchRows(summary.touches(), false);
+  for (ViewRow& row : rowsOf(report, summary)) document.summary.push_back(std::move(row));
   document.notes = report.remarks;
   noteFidelity(request.world.query.fidelity, document.notes);
+  noteGround(summary.touches(), request.world.ground, document.notes);
   noteWhatIsMissing(document.notes);
   double fromS = std::numeric_limits<double>::infinity();
   Eigen::AlignedBox3d action;
@@ -179,7 +225,9 @@ ViewDocument LogReport::document(const LogReplayReport& report, const LogReplayS
     action.extend(player->track.box());
   }
   for (std::size_t i = 0; i < players_.size(); ++i) {
-    if (players_[i]) document.avatars.push_back(avatarOf(i, fromS, document));
+    if (!players_[i]) continue;
+    document.avatars.push_back(avatarOf(i, fromS, document));
+    addTouches(listed(players_[i]->touches), document.avatars.size() - 1, document);
   }
   addScene(inputs_.scene, request.world.scenePath, options_.maxTriangles, action, document);
   addSwept({}, document, progress);

@@ -13,6 +13,8 @@
 #include "tools/report/swept_views.h"
 #include "tools/report/track_builder.h"
 #include "tools/report/view_document.h"
+#include "tools/touches/ground.h"
+#include "tools/touches/touch_tracker.h"
 
 namespace foretouch::tools {
 
@@ -40,13 +42,19 @@ class LogReport {
     std::vector<ReportedContact> contacts;
     double shiftS = 0.0;  ///< Added to the times of this timeline.
     std::int64_t moved = 0, leftOut = 0, acrossGaps = 0;
+    TouchTracker tracker{TouchScope::FirstOfLink};
+    GroundTest ground;
+    std::vector<Touch> touches;  // that have ended
+    std::uint32_t lastTo = 0;    // the pose that ended the last step
 
-    Player(const Avatar& avatar, const Scene& scene, const QueryOptions& options);
+    Player(const Avatar& avatar, const LogReplayInputs& inputs, const QueryOptions& options);
   };
 
   Player& playerOf(const AnsweredPose& answered);
   [[nodiscard]] bool hasRoom(const Player& player) const;
   void addStep(const AnsweredPose& answered, Player& player);
+  void track(const AnsweredPose& answered, std::size_t firstRow, Player& player) const;
+  [[nodiscard]] std::vector<Touch> listed(const std::vector<Touch>& touches) const;
   [[nodiscard]] ViewAvatar avatarOf(std::size_t index, double fromS, ViewDocument& document);
   void noteWhatIsMissing(std::vector<std::string>& notes) const;
   [[nodiscard]] std::vector<ViewRow> settings() const;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "tools/report/view_touches.h"
 
 namespace foretouch::tools {
 
@@ -13,7 +14,8 @@ ReplayReport::ReplayReport(const ReplayInputs& inputs, const ReportOptions& opti
     : inputs_(inputs),
       options_(options),
       track_(inputs.avatar, touchQuestion(inputs.avatar, inputs.scene, inputs.query)),
-      mostSteps_(static_cast<std::int64_t>(track_.capacity(options.maxRotations)) - 1) {}
+      mostSteps_(static_cast<std::int64_t>(track_.capacity(options.maxRotations)) - 1),
+      touches_(inputs) {}
 
 void ReplayReport::add(const ReplayedStep& step) {
   const StepAnswer& answer = step.answer;
@@ -21,6 +23,7 @@ void ReplayReport::add(const ReplayedStep& step) {
             contacts_.size() + shownOf(answer).size() + answer.pairs.size() > options_.maxContacts;
   if (isFull_) return;
   latenciesUs_.push_back(answer.latencyUs);
+  touches_.add(answer);
   for (const LinkContact& contact : shownOf(answer)) {
     ReportedContact view = contactView(contact, inputs_.scene, answer.step, answer.t0S, answer.t1S);
     view.missedByPoses =
@@ -66,7 +69,8 @@ std::vector<ViewRow> ReplayReport::settings() const {
 std::vector<ViewRow> ReplayReport::rowsOf(const ReplaySummary& summary) {
   const auto& total = summary.total();
   const auto text = [](std::int64_t number) { return std::to_string(number); };
-  std::vector<ViewRow> rows{
+  std::vector<ViewRow> rows = touchRows(summary.touches(), summary.inputs().query.self.has_value());
+  const std::vector<ViewRow> ofSteps{
       {"steps", text(summary.steps()), ""},
       {"steps with contact", text(summary.stepsWithContact()), ""},
       {"contacts", text(total.contacts), ""},
@@ -77,6 +81,7 @@ std::vector<ViewRow> ReplayReport::rowsOf(const ReplaySummary& summary) {
       {"latency of a step",
        fmt::format("p50 {:.1f} us, p99 {:.1f} us", summary.latencyUs(0.5), summary.latencyUs(0.99)),
        "the query, from two poses to all verdicts"}};
+  rows.insert(rows.end(), ofSteps.begin(), ofSteps.end());
   if (summary.inputs().query.scope == Scope::EveryObject) {
     const auto& ofObjects = summary.totalOfObjects();
     rows.push_back({"by object: contacts", text(ofObjects.contacts),
@@ -114,6 +119,7 @@ Result<ViewDocument> ReplayReport::document(const ReplaySummary& summary,
   document.summary = rowsOf(summary);
   document.notes = remarksOn(inputs_);
   noteFidelity(request.query.fidelity, document.notes);
+  noteGround(summary.touches(), request.ground, document.notes);
   if (isFull_) {
     document.notes.push_back(
         fmt::format("The report shows the first {} of {} steps; the results file has them all.",
@@ -129,6 +135,8 @@ Result<ViewDocument> ReplayReport::document(const ReplaySummary& summary,
   avatar.track = track_.finish();
   avatar.contacts = std::move(contacts_);
   document.avatars.push_back(std::move(avatar));
+  touches_.finish();
+  addTouches(touches_.listed(), 0, document);
   addScene(inputs_.scene, request.scenePath, options_.maxTriangles, action, document);
   addSwept({}, document, progress);
   return document;

@@ -6,6 +6,7 @@
 
 #include "articulated/result.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/replay/replay_touches.h"
 #include "tools/replay/step_solver.h"
 #include "tools/replay/summary.h"
 #include "tools/report/document_parts.h"
@@ -43,6 +44,7 @@ class ReplayReport {
   bool isFull_ = false;
   std::vector<double> latenciesUs_;  // one per kept step
   std::vector<ReportedContact> contacts_;
+  ReplayTouches touches_;  // of the kept steps
 };
 
 }  // namespace foretouch::tools

@@ -13,6 +13,7 @@
 #include "articulated/avatar.h"
 #include "tools/reported_contact.h"
 #include "tools/setup/placement_check.h"
+#include "tools/touches/touch.h"
 
 namespace foretouch::tools {
 
@@ -98,6 +99,12 @@ struct ViewAvatar {
   std::vector<ViewSwept> swept;
 };
 
+struct ViewTouch {
+  std::size_t avatar = 0;
+  Touch touch;                      ///< On the document's clock, of the track's steps.
+  std::vector<std::uint32_t> rows;  ///< Its contacts among the avatar's, in their order.
+};
+
 struct ViewDocument {
   ViewKind kind = ViewKind::Replay;
   std::string title;
@@ -106,6 +113,7 @@ struct ViewDocument {
   std::vector<PlacementCheck> checks;  ///< Of an inspection.
   std::optional<ViewScene> scene;  ///< Nothing if the document shows only an avatar.
   std::vector<ViewAvatar> avatars;
+  std::optional<std::vector<ViewTouch>> touches;  ///< Of replays and logs, in listed order.
 };
 
 }  // namespace foretouch::tools

@@ -6,6 +6,7 @@
 #include "assets/json_writer.h"
 #include "tools/contact_json.h"
 #include "tools/report/base64.h"
+#include "tools/touches/touch_json.h"
 
 namespace foretouch::tools {
 namespace {
@@ -237,6 +238,23 @@ void write(const ViewAvatar& avatar, Writer& out) {
   out.endObject();
 }
 
+void write(const ViewTouch& shown, Writer& out) {
+  const Touch& touch = shown.touch;
+  const std::string link = std::to_string(touch.link);
+  const std::string other = touch.other >= 0 ? std::to_string(touch.other) : "";
+  const std::string object = jsonString(touch.object, JsonPlace::Page);
+  TouchWords words;
+  words.link = link;
+  words.other = other;
+  words.object = object;
+  out.beginObject();
+  if (shown.avatar > 0) out.field("avatar", shown.avatar);
+  writeTouch(touch, words, out);
+  out.list("rows", shown.rows, [&](std::uint32_t row) { out.value(row); });
+  out.endObject();
+  out.handOnPieces();
+}
+
 }  // namespace
 
 void writeView(const ViewDocument& document, const TextSink& sink) {
@@ -257,6 +275,9 @@ void writeView(const ViewDocument& document, const TextSink& sink) {
   }
   if (document.scene) writeScene(out, *document.scene);
   out.list("avatars", document.avatars, [&](const ViewAvatar& avatar) { write(avatar, out); });
+  if (document.touches) {
+    out.list("touches", *document.touches, [&](const ViewTouch& touch) { write(touch, out); });
+  }
   if (document.kind == ViewKind::Live) {
     out.key("live");
     out.beginObject();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "middleware/query_options.h"
+#include "tools/settings/ground_rule.h"
 #include "tools/settings/settings.h"
 
 namespace foretouch::tools {
@@ -21,6 +22,10 @@ namespace foretouch::tools {
     words.emplace_back(toString(scope), scope);
   }
   return words;
+}
+
+[[nodiscard]] inline Words<GroundUse> groundWords() {
+  return {{"apart", GroundUse::Apart}, {"keep", GroundUse::Keep}, {"ignore", GroundUse::Ignore}};
 }
 
 }  // namespace foretouch::tools

@@ -188,4 +188,24 @@ void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
   addSelfSettings(settings, request);
 }
 
+void addTouchSettings(Settings& settings, WorldRequest& request) {
+  GroundRule& ground = request.ground;
+  const auto isAsked = [&ground] { return ground.use != GroundUse::Keep; };
+  settings
+      .word("--ground", "apart|keep|ignore", ground.use, groundWords(),
+            "Touches of the ground: counted apart, touches like any other, or not listed; no "
+            "query depends on it")
+      .inHeader("ground");
+  settings
+      .number("--ground-angle", "DEG", ground.angleDeg, kGroundAngleRange,
+              "What counts as ground: where the contact's normal is so near to up")
+      .inHeader("ground_angle")
+      .namedIf(isAsked);
+  settings
+      .number("--ground-height", "M", ground.heightM, kGroundHeightRange,
+              "And at most so far above the lowest point of the body")
+      .inHeader("ground_height")
+      .namedIf(isAsked);
+}
+
 }  // namespace foretouch::tools

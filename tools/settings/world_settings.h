@@ -8,6 +8,7 @@
 
 #include "assets/import/imported_scene.h"
 #include "middleware/query_options.h"
+#include "tools/settings/ground_rule.h"
 #include "tools/settings/policy_rule.h"
 #include "tools/settings/settings.h"
 
@@ -20,6 +21,8 @@ inline constexpr NumberRange kAboveZero{0.0, std::numeric_limits<double>::max()}
 inline constexpr NumberRange kAnyNumber{std::numeric_limits<double>::lowest(),
                                         std::numeric_limits<double>::max()};
 inline constexpr NumberRange kZeroOrAbove{0.0, std::numeric_limits<double>::max(), "", "", true};
+inline constexpr NumberRange kGroundAngleRange{0.0, 90.0, "degrees", "", true};
+inline constexpr NumberRange kGroundHeightRange{0.0, 1e6, "metres", "m", true};
 inline constexpr NumberRange kToleranceRange{kMinTolerance, kMaxTolerance, "metres", "m"};
 
 /// A scene and a query; each setting is legal by itself. Paths are ready to open; an empty one
@@ -39,6 +42,7 @@ struct WorldRequest {
   bool asksSelf =
       false;  ///< Own links, too: completes `query.self`, by the rules of the next file.
   std::string pairsPath;  ///< Empty: derived from the avatar and its motion.
+  GroundRule ground;      ///< Of touches; no query depends on it.
 };
 
 // Each adds its part of the table; `request` outlives the settings.
@@ -51,5 +55,7 @@ void addQuerySettings(Settings& settings, WorldRequest& request);
 /// read their files),
 /// --self.
 void addReplayQuerySettings(Settings& settings, WorldRequest& request);
+/// How touches are told of: --ground, --ground-angle and --ground-height.
+void addTouchSettings(Settings& settings, WorldRequest& request);
 
 }  // namespace foretouch::tools

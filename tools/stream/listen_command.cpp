@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,17 +22,22 @@
 #include "tools/stream/answer_tracker.h"
 #include "tools/stream/contacts_line.h"
 #include "tools/stream/stop_signal.h"
+#include "tools/stream/stream_touches.h"
+#include "tools/stream/touch_lines.h"
 
 namespace foretouch::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Bounds the memory: beyond so many avatars, forgets what the known ones touch.
+constexpr std::size_t kMostAvatars = 4096;
+
 /// The values of all options.
 struct ListenJob {
   std::string url, suffix;
   ChannelNames channels;  ///< With the suffix.
-  bool json = false, status = false;
+  bool json = false, status = false, each = false;
   int count = 0;                   ///< Ends after so many verdicts; 0: never.
   std::optional<double> timeoutS;  ///< Ends after so long without a verdict.
 };
@@ -82,15 +88,28 @@ class Listener {
     if (const auto missing = tracker_.take(contacts_)) printNote(*missing);
     ++verdicts_;
     heardAt_ = Clock::now();
-    print(job_.json ? contactsLine(contacts_, Stamps::With) : contactsText(contacts_));
+    if (job_.each && !job_.json) return print(contactsText(contacts_));
+    TouchEvents events;
+    touchesOf(contacts_.avatar).take(contacts_, {}, events);
+    if (!job_.json) return print(touchesText(contacts_, events));
+    std::string lines = contactsLine(contacts_, Stamps::With);
+    for (const StreamTouch& ended : events.ended) lines += endedTouchLine(ended);
+    for (const StreamTouch& begun : events.begun) lines += begunTouchLine(begun);
+    print(lines);
   }
-  void print(const std::string& line) {
-    printOut(line);
+  StreamTouches& touchesOf(std::int32_t avatar) {
+    if (touches_.size() >= kMostAvatars && touches_.count(avatar) == 0) touches_.clear();
+    return touches_[avatar];
+  }
+  void print(const std::string& lines) {
+    if (lines.empty()) return;
+    printOut(lines);
     isHeard_ = isHeard_ && outputArrived();
   }
 
   const ListenJob& job_;
   AnswerTracker tracker_;
+  std::map<std::int32_t, StreamTouches> touches_;  // by avatar; bounded by kMostAvatars
   ContactsMessage contacts_;
   StatusMessage status_;
   Clock::time_point heardAt_ = Clock::now();
@@ -131,6 +150,7 @@ ExitCode run(ListenJob job) {
 
 constexpr char kListenExamples[] = R"(Examples:
   foretouch listen
+  foretouch listen --each
   foretouch listen --json --status > verdicts.jsonl
   foretouch listen --count 100 --timeout 5
 
@@ -146,6 +166,8 @@ Command listenCommand() {
                 "Network to listen to; by default LCM_DEFAULT_URL, else this machine only");
   addSuffixSetting(settings, job->suffix);
   settings.flag("--json", job->json, "Lines of JSON instead of text");
+  settings.flag("--each", job->each,
+                "One line per verdict instead of one where a touch begins or ends");
   settings.flag("--status", job->status, "The service's heartbeats as well");
   settings
       .whole("--count", "N", job->count, 1, std::numeric_limits<int>::max(),
@@ -153,7 +175,8 @@ Command listenCommand() {
       .shown = [] { return std::string(); };
   settings.number("--timeout", "S", job->timeoutS, kAboveZero, "",
                   "End after so many seconds without a verdict");
-  Command command{"listen", "Print the verdicts that a service sends, as they arrive",
+  Command command{"listen",
+                  "Print what touches in the verdicts that a service sends, as they arrive",
                   kListenExamples, std::move(settings)};
   command.run = [job](const Settings&) { return run(*job); };
   return command;

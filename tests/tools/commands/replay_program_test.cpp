@@ -2,6 +2,7 @@
 #include <chrono>
 #include <csignal>
 #include <map>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_inputs.h"
 #include "tests/tools/small_world.h"
+#include "tests/tools/stream/stream_lines.h"
 #include "tools/inputs/example_folder.h"
 
 namespace foretouch::test {
@@ -19,17 +21,11 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<std::string> linesOf(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 /// The results file as it would be without its latency fields.
 std::string resultsWithoutLatency(const std::string& path) {
   std::string text;
-  for (const std::string& line : linesOf(contentOf(path))) text += withoutLatency(line) + "\n";
+  std::istringstream lines(contentOf(path));
+  for (std::string line; std::getline(lines, line);) text += withoutLatency(line) + "\n";
   return text;
 }
 

@@ -11,6 +11,7 @@
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_inputs.h"
 #include "tests/tools/small_world.h"
+#include "tests/tools/stream/stream_lines.h"
 
 namespace foretouch::test {
 namespace {
@@ -59,7 +60,9 @@ class Hands : public SmallWorld {
   [[nodiscard]] std::vector<json> lines() const {
     std::vector<json> lines;
     std::istringstream stream(contentOf(out));
-    for (std::string line; std::getline(stream, line);) lines.push_back(json::parse(line));
+    for (std::string line; std::getline(stream, line);) {
+      if (!isOfTouches(line)) lines.push_back(json::parse(line));
+    }
     return lines;
   }
   std::string out = folder / "out.jsonl";

@@ -1,6 +1,7 @@
 // tests/tools/log/stream_log_program_test.cpp: `foretouch publish --output`, `replay` of event
 // logs and `log convert`, from files to files.
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -116,6 +117,20 @@ TEST(ReplayOfALog, FindsWhatTheReplayOfTheClipFinds) {
   }
   EXPECT_GT(touching, 10);
   EXPECT_LT(touching, 59);
+  const auto touchesIn = [](const std::string& path) {
+    std::vector<std::string> touches;
+    std::istringstream lines(contentOf(path));
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind("{\"touch\":", 0) != 0) continue;
+      const json touch = json::parse(line)["touch"];
+      // A log answers the first pose by itself, so there the first contacts are one more.
+      touches.push_back(touch["link"].get<std::string>() + touch["begins"].get<std::string>() +
+                        touch["ends"].get<std::string>() + std::to_string(touch.count("missed")));
+    }
+    return touches;
+  };
+  EXPECT_EQ(touchesIn(world.folder / "log.jsonl"), touchesIn(clip));
+  EXPECT_GT(touchesIn(clip).size(), 5u);
 }
 
 TEST(ReplayOfALog, TellsALogByItsContent) {

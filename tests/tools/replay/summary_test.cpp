@@ -23,10 +23,14 @@ TEST(Percentile, IsTheValueAtTheNearestRank) {
 
 std::string summaryOf(const ReplayInputs& inputs, ReplaySummary& summary,
                       const ReplayOptions& options) {
+  ReplayTouches touches(inputs);
   EXPECT_TRUE(replay(inputs, options, [&](const ReplayedStep& step) {
                 summary.add(step);
+                touches.add(step.answer);
                 return true;
               }).ok());
+  touches.finish();
+  summary.add(touches);
   return summary.text(options.threads);
 }
 
@@ -38,6 +42,11 @@ TEST(ReplaySummary, CountsStepsLinksAndWhatThePosesMiss) {
   const ReplayInputs inputs = test::smallInputs({-0.25, 0.25, 0.75, 0.08, 0.08});
   ReplaySummary summary(inputs);
   const std::string text = summaryOf(inputs, summary, {});
+  EXPECT_TRUE(holds(text, "The man touches the wall 3 times. Checking the poses alone would miss "
+                          "2 of them.\n"))
+      << text;
+  EXPECT_TRUE(holds(text, "\nHips                                     2                 1"))
+      << text;
   EXPECT_TRUE(holds(text, "steps                          4\n")) << text;
   EXPECT_TRUE(holds(text, "link-steps                     8   2 links with an LSS\n")) << text;
   EXPECT_TRUE(holds(text, "steps with contact             3   75.0 %\n")) << text;

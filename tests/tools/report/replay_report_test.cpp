@@ -24,12 +24,16 @@ Reported report(const ReplayInputs& inputs, const ReportOptions& options = {}) {
   Reported reported;
   ReplayReport report(inputs, options);
   ReplaySummary summary(inputs);
+  ReplayTouches touches(inputs);
   EXPECT_TRUE(replay(inputs, {}, [&](const ReplayedStep& step) {
                 reported.lines.push_back(json::parse(step.line));
                 summary.add(step);
+                touches.add(step.answer);
                 report.add(step);
                 return true;
               }).ok());
+  touches.finish();
+  summary.add(touches);
   const auto document = report.document(summary, [](std::int64_t, std::int64_t) { return true; });
   EXPECT_TRUE(document.ok());
   reported.text = test::textOf(document.value());
@@ -95,6 +99,70 @@ TEST(ReplayReport, HoldsTheContactsOfTheResults) {
     touching += contacts[step].size();
   }
   EXPECT_GT(touching, 20u);
+}
+
+/// Of a document without own links: every contact is of one touch, and of the right one.
+void expectTouchesOfItsContacts(const json& document) {
+  const json& contacts = document["avatars"][0]["contacts"];
+  std::vector<int> taken(contacts.size());
+  for (const json& touch : document["touches"]) {
+    EXPECT_EQ(touch.count("avatar"), 0u);
+    EXPECT_EQ(touch["rows"].size(), touch["contacts"].get<std::size_t>());
+    for (const json& row : touch["rows"]) {
+      const json& contact = contacts.at(row.get<std::size_t>());
+      ++taken[row.get<std::size_t>()];
+      EXPECT_EQ(contact["link"], touch["link"]);
+      EXPECT_EQ(contact["object"], touch["object"]);
+      EXPECT_GE(contact["time"], touch["begin"]);
+      EXPECT_LE(contact["time"], touch["end"]);
+    }
+    const json& first = contacts.at(touch["rows"][0].get<std::size_t>());
+    EXPECT_EQ(first["step"], touch["steps"][0]);
+    EXPECT_EQ(first["time"], touch["begin"]);
+  }
+  EXPECT_EQ(taken, std::vector<int>(contacts.size(), 1));
+}
+
+TEST(ReplayReport, HoldsTheTouchesThatItsContactsMakeUp) {
+  const Reported reported = report(smallInputs(swing(100)));
+  const json& touches = reported.document["touches"];
+  expectTouchesOfItsContacts(reported.document);
+  EXPECT_GT(touches.size(), 20u);
+  EXPECT_LT(touches.size(), reported.document["avatars"][0]["contacts"].size());
+  std::map<std::string, std::string> rows;
+  for (const json& row : reported.document["summary"]) rows[row["name"]] = row["value"];
+  std::size_t missed = 0;
+  for (const json& touch : touches) missed += touch.value("missed", false) ? 1 : 0;
+  EXPECT_EQ(rows["touches"], std::to_string(touches.size()));
+  EXPECT_EQ(rows["touches_missed"], std::to_string(missed));
+  EXPECT_EQ(rows["touches_ground"], "0");
+}
+
+TEST(ReplayReport, SaysWhereTouchesOfTheGroundAreNotListed) {
+  // The hips rest on a floor that lies 1 cm above their lowest point.
+  ReplayInputs inputs = smallInputs(std::vector<double>(9, 0.0));
+  const Eigen::Vector3d a(-9, -0.09, -9), b(-9, -0.09, 9), c(9, -0.09, 0);
+  inputs.scene = Scene::build({{Triangle{{a, b, c}}}, {0}, {"floor"}}).value();
+  EXPECT_EQ(report(inputs).document["touches"][0]["ground"], true);
+  inputs.request.ground.use = GroundUse::Ignore;
+  const json document = report(inputs).document;
+  EXPECT_EQ(document["touches"], json::array());
+  EXPECT_EQ(document["avatars"][0]["contacts"].size(), 8u);
+  EXPECT_NE(document["notes"].dump().find("not listed (--ground ignore): 1."), std::string::npos)
+      << document["notes"];
+  inputs.request.ground.use = GroundUse::Keep;
+  EXPECT_EQ(report(inputs).document["touches"][0].count("ground"), 0u);
+}
+
+TEST(ReplayReport, HoldsTheTouchesOfTheStepsThatItShows) {
+  ReportOptions options;
+  options.maxContacts = 41;
+  const Reported reported = report(smallInputs(std::vector<double>(61, 0.02)), options);
+  expectTouchesOfItsContacts(reported.document);
+  ASSERT_EQ(reported.document["touches"].size(), 2u);
+  EXPECT_EQ(reported.document["touches"][1]["steps"], json({0, 19}));
+  EXPECT_EQ(reported.document["touches"][1]["ends"], "open");
+  EXPECT_EQ(reported.document["touches"][1]["begins"], "inside");
 }
 
 TEST(ReplayReport, HoldsThePosesThatWereAsked) {

@@ -146,6 +146,29 @@ json reportOfLog(const SmallWorld& world, const std::string& log) {
   return documentOf(page);
 }
 
+/// Every contact of every avatar is of one touch, which is of that avatar.
+void expectTouches(const json& document) {
+  std::vector<std::size_t> rows(document["avatars"].size());
+  double before = 0.0;
+  for (const json& touch : document["touches"]) {
+    const auto index = touch.value("avatar", std::size_t{0});
+    const json& contacts = document["avatars"].at(index)["contacts"];
+    for (const json& row : touch["rows"]) {
+      const json& contact = contacts.at(row.get<std::size_t>());
+      EXPECT_EQ(contact["link"], touch["link"]);
+      EXPECT_GE(contact["step"], touch["steps"][0]);
+      EXPECT_LE(contact["step"], touch["steps"][1]);
+      ++rows[index];
+    }
+    EXPECT_GE(touch["begin"].get<double>(), before);
+    before = touch["begin"];
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i], document["avatars"][i]["contacts"].size());
+    EXPECT_GT(rows[i], 0u);
+  }
+}
+
 TEST(LogReport, ShowsEachAvatarWithItsContacts) {
   const SmallWorld world;
   const json document = reportOfLog(world, logOfTwo(world, [](int, int) { return false; }));
@@ -179,6 +202,7 @@ TEST(LogReport, ShowsEachAvatarWithItsContacts) {
     EXPECT_EQ(at, avatar["contacts"].size());
     EXPECT_GT(at, 10u);
   }
+  expectTouches(document);
 }
 
 TEST(LogReport, DrawsNoMotionAcrossGaps) {

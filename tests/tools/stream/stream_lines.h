@@ -9,10 +9,18 @@
 
 namespace foretouch::test {
 
+/// Is it about touches, and not about one step or answer?
+inline bool isOfTouches(const std::string& line) {
+  return line.rfind("{\"touch", 0) == 0 || line.rfind("{\"summary\":", 0) == 0;
+}
+
+/// The header, the steps and the answers.
 inline std::vector<std::string> linesOf(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  for (std::string line; std::getline(stream, line);) {
+    if (!isOfTouches(line)) lines.push_back(line);
+  }
   return lines;
 }
 

@@ -1,0 +1,54 @@
+#include "tools/touches/touch_json.h"
+
+#include <array>
+#include <utility>
+
+namespace foretouch::tools {
+namespace {
+
+void writeRange(std::string_view name, const std::pair<std::int64_t, std::int64_t>& range,
+                JsonWriter& out) {
+  const std::array<std::int64_t, 2> ends{range.first, range.second};
+  out.list(name, ends, [&](std::int64_t end) { out.value(end); });
+}
+
+}  // namespace
+
+void writeTouch(const Touch& touch, const TouchWords& words, JsonWriter& out) {
+  out.rawField("link", words.link);
+  if (!words.other.empty()) out.rawField("other", words.other);
+  if (!words.object.empty()) out.rawField("object", words.object);
+  if (words.isOfStream) {
+    writeRange("utime", {touch.beginUs, touch.endUs}, out);
+    writeRange("sequence", {touch.firstStep, touch.lastStep}, out);
+  } else {
+    out.field("begin", touch.beginS);
+    out.field("end", touch.endS);
+    writeRange("steps", {touch.firstStep, touch.lastStep}, out);
+  }
+  out.field("begins", touch.beginsInside ? "inside" : "contact");
+  out.field("ends", touch.isOpen ? "open" : "left");
+  out.field("contacts", touch.contacts);
+  out.field("separation", touch.separation);
+  if (touch.startsAtAPose) out.field("penetration", touch.penetration);
+  if (touch.isGround) out.field("ground", true);
+  if (touch.isMissed) out.field("missed", true);
+}
+
+std::string touchSummaryLine(const TouchCounts& counts, std::int64_t steps, bool isOwnAsked) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.key("summary");
+  out.beginObject();
+  out.field("steps", steps);
+  out.field("touches", counts.touches);
+  out.field("touches_missed", counts.missed);
+  out.field("touches_ground", counts.ground);
+  if (isOwnAsked) out.field("touches_own", counts.own);
+  out.endObject();
+  out.endObject();
+  return text + "\n";
+}
+
+}  // namespace foretouch::tools
