@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "assets/import/assimp.h"
+#include "assets/import/fbx_pivots.h"
 #include "assets/import/text.h"
 
 namespace foretouch::internal {
@@ -41,6 +42,7 @@ class AssimpModel {
       cut_.push_back(trianglesOf(*scene_.mMeshes[i]));
     addMeshes();
     for (unsigned i = 0; i < scene_.mNumAnimations; ++i) addAnimation(*scene_.mAnimations[i]);
+    countPivotsOnce(builder_.model);
     noteSkipped();
   }
 
