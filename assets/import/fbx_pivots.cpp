@@ -1,5 +1,7 @@
 #include "assets/import/fbx_pivots.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <string_view>
@@ -56,7 +58,42 @@ void correctPost(const Chain& chain, ModelTrack& track) {
   for (auto& key : track.rotations) key.value = key.value * after;
 }
 
+/// Is a component 0 in all keys, but not at rest? Of rotations, those of the axis.
+template <typename Keys, typename Vector>
+bool lacksComponent(const Keys& keys, const Vector& valueOf, const Eigen::Vector3d& rest) {
+  constexpr double kSome = 1e-4;  // above what a turn about another axis leaves in single precision
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const bool isNothing = std::all_of(keys.begin(), keys.end(),
+                                       [&](const auto& key) { return valueOf(key)[i] == 0.0; });
+    if (isNothing && std::abs(rest[i]) > kSome) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+std::vector<std::string> nodesWithoutSomeCurve(const Model& model) {
+  std::vector<std::string> names;
+  for (const ModelAnimation& animation : model.animations) {
+    for (const ModelTrack& track : animation.tracks) {
+      const ModelNode& node = model.nodes[slotOf(track.node)];
+      const std::size_t tag = node.name.find(kTag);
+      if (tag == std::string::npos) continue;
+      const std::string part = node.name.substr(tag + kTag.size());
+      const Eigen::Vector3d turn = Quaternion(node.toParent.linear).vec();
+      const bool lacks =
+          (part == "Translation" && lacksComponent(
+                                        track.positions, [](const auto& key) { return key.value; },
+                                        node.toParent.translation)) ||
+          (part == "Rotation" &&
+           lacksComponent(
+               track.rotations, [](const auto& key) -> Eigen::Vector3d { return key.value.vec(); },
+               turn));
+      if (lacks) names.push_back(node.name.substr(0, tag));
+    }
+  }
+  return names;
+}
 
 void countPivotsOnce(Model& model) {
   std::map<std::int32_t, Chain> folded;

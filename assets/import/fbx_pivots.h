@@ -8,11 +8,18 @@
 // would count twice. That track takes the post-rotation itself, not its inverse.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "assets/model/model.h"
 
 namespace foretouch::internal {
 
 /// Folds a chain into its node where a track moves the node itself.
 void countPivotsOnce(Model& model);
+
+/// The nodes of chains whose tracks hold 0 throughout for a component that is not 0 at rest: assimp
+/// reads one without a curve so. By the name of the node that the chain belongs to.
+[[nodiscard]] std::vector<std::string> nodesWithoutSomeCurve(const Model& model);
 
 }  // namespace foretouch::internal

@@ -11,24 +11,36 @@ import { pathToFileURL } from 'node:url';
 
 const [threeFolder, file, animated, ...seconds] = process.argv.slice(2);
 const three = await import(pathToFileURL(`${threeFolder}/build/three.module.js`).href);
-const { FBXLoader } = await import(
-  pathToFileURL(`${threeFolder}/examples/jsm/loaders/FBXLoader.js`).href
-);
+const ofThree = (loader) => import(pathToFileURL(`${threeFolder}/examples/jsm/loaders/${loader}.js`).href);
+const { FBXLoader } = await ofThree('FBXLoader');
 
 // Pictures and cameras are of no interest, but the loader makes them.
 globalThis.document = { createElementNS: () => ({ addEventListener() {}, removeEventListener() {} }) };
 globalThis.window = { innerWidth: 1, innerHeight: 1 };
 console.warn = console.error = console.log = () => {};
 
-function read(path) {
+// Needs a parser of XML beside three, which we do not install: npm install @xmldom/xmldom.
+async function readCollada(path) {
+  const { DOMParser } = await import(
+    pathToFileURL(`${threeFolder}/../@xmldom/xmldom/lib/index.js`).href
+  );
+  globalThis.DOMParser = DOMParser;
+  const { ColladaLoader } = await ofThree('ColladaLoader');
+  const { scene } = new ColladaLoader().parse(readFileSync(path, 'utf8'), '');
+  scene.userData.unitScaleFactor = 100; // it is in metres already
+  return scene;
+}
+
+async function read(path) {
+  if (path.toLowerCase().endsWith('.dae')) return readCollada(path);
   const loader = new FBXLoader();
   loader.trimAnimationClips = true; // time 0 is where the file says that its animation starts
   const bytes = readFileSync(path);
   return loader.parse(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '');
 }
 
-const root = read(file);
-const { animations } = animated === '' ? root : read(animated);
+const root = await read(file);
+const { animations } = animated === '' ? root : await read(animated);
 
 function positions() {
   root.updateMatrixWorld(true);

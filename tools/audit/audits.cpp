@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "articulated/motion.h"
 #include "articulated/quoted.h"
 #include "assets/bvh/stature.h"
 #include "lss/index.h"
+#include "tools/inputs/first_pose.h"
 #include "tools/inputs/played_clip.h"
 
 namespace foretouch::tools {
@@ -42,29 +42,25 @@ std::string auditRow(const char* what, const std::string& value) {
   return fmt::format("  {:<25}{}\n", what, value);
 }
 
+std::string rowOf(const FileFrame& frame) {
+  const std::string text = foretouch::describe(frame);
+  return text.empty() ? "" : auditRow("the file itself", text);
+}
+
 AvatarAudit auditAvatar(const Avatar& avatar, const Pose& pose) {
   AvatarAudit audit;
   audit.links = avatar.numLinks();
   audit.lss = avatar.numLss();
   audit.smallestRadius = std::numeric_limits<double>::max();
-  std::vector<LinkState> states;
-  ChainMotion(avatar.skeleton(), pose, pose).statesAt(0.0, states);
-  Vector3d lower = Vector3d::Constant(std::numeric_limits<double>::max());
-  Vector3d upper = -lower;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     if (avatar.lss(link).empty()) audit.linksWithoutLss.push_back(avatar.skeleton().name(link));
     for (const Lss& lss : avatar.lss(link)) {
-      for (const Vector3d& end : {lss.a, lss.b}) {
-        const Vector3d p_W = states[slotOf(link)].pointAt(end);
-        lower = lower.cwiseMin((p_W.array() - lss.radius).matrix());
-        upper = upper.cwiseMax((p_W.array() + lss.radius).matrix());
-      }
       audit.smallestRadius = std::min(audit.smallestRadius, lss.radius);
       audit.largestRadius = std::max(audit.largestRadius, lss.radius);
       audit.volume += volume(lss);
     }
   }
-  audit.extent = upper - lower;
+  audit.extent = boxInPose(avatar, pose).sizes();
   if (!isTurnedFromZUp(avatar.skeleton())) audit.stature = statureOf(avatar.skeleton());
   return audit;
 }
