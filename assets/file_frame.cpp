@@ -49,6 +49,8 @@ FrameChange settleFrame(std::optional<double> metresPerUnit, std::optional<UpAxi
   }
   frame.metresPerUnit = unit;
   frame.up = axis;
+  frame.isUnitAsked = metresPerUnit.has_value();
+  frame.isUpAsked = up.has_value();
   return change;
 }
 

@@ -26,6 +26,7 @@ struct FileFrame {
   DeclaredFrame declared;
   double metresPerUnit = 1.0;
   UpAxis up = UpAxis::Y;
+  bool isUnitAsked = false, isUpAsked = false;  ///< By the options.
 };
 
 /// "says 0.01 m per unit and Z up; both applied"; empty if the file itself says nothing.

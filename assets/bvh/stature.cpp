@@ -22,4 +22,15 @@ std::optional<double> statureOf(const Skeleton& skeleton) {
   return legs.length / internal::kLegPerStature;
 }
 
+HeadAndFeet headAndFeetOf(const Skeleton& skeleton) {
+  const std::vector<internal::BodyRole> roles = internal::bodyRoles(skeleton);
+  HeadAndFeet found;
+  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+    const internal::BodyRole role = roles[slotOf(joint)];
+    if (role == internal::BodyRole::Head && found.head == kNoParent) found.head = joint;
+    if (role == internal::BodyRole::Foot) found.feet.push_back(joint);
+  }
+  return found;
+}
+
 }  // namespace foretouch

@@ -1,7 +1,8 @@
-// assets/bvh/stature.h: a person's height, from a skeleton.
+// assets/bvh/stature.h: a person's height, head and feet, from a skeleton.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "articulated/skeleton.h"
 
@@ -11,5 +12,12 @@ namespace foretouch {
 /// Nothing if the joints' names show no legs with knees and ankles: not a person, or one with joint
 /// names that docs/formats.md does not list.
 [[nodiscard]] std::optional<double> statureOf(const Skeleton& skeleton);
+
+/// By the joints' names.
+struct HeadAndFeet {
+  JointId head = kNoParent;   ///< kNoParent: no joint is called so.
+  std::vector<JointId> feet;  ///< Ankles.
+};
+[[nodiscard]] HeadAndFeet headAndFeetOf(const Skeleton& skeleton);
 
 }  // namespace foretouch

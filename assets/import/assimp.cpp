@@ -6,7 +6,6 @@
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 
-#include "assets/import/declared_frame.h"
 #include "assets/import/file_damage.h"
 #include "lss/index.h"
 #include "middleware/scene/raw_scene.h"
@@ -74,7 +73,7 @@ AssimpFile readWithAssimp(const std::string& path, Animations animations) {
   const int index = importer.GetPropertyInteger("importerIndex", -1);
   const aiImporterDesc* reader = index < 0 ? nullptr : importer.GetImporterInfo(slotOf(index));
   if (reader != nullptr && reader->mFileExtensions != nullptr) {
-    findFrame(reader->mFileExtensions, file);
+    file.frame = frameOf(*scene, reader->mFileExtensions);
   }
   return file;
 }

@@ -10,6 +10,7 @@
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 
+#include "assets/import/declared_frame.h"
 #include "assets/import/polygon.h"
 #include "assets/import/stream.h"
 #include "assets/model/model.h"
@@ -34,8 +35,7 @@ enum class Animations : bool { Skip, Read };
 /// triangles, or refuse sloppy but usable files. The importer does the necessary ones itself.
 struct AssimpFile {
   const aiScene* scene = nullptr;  ///< With a root node; never freed.
-  double metresPerUnit = 1.0;      ///< To multiply its numbers by.
-  FileFrame frame;                 ///< Of the numbers so multiplied.
+  ReadFrame frame;
 };
 [[nodiscard]] AssimpFile readWithAssimp(const std::string& path, Animations animations);
 

@@ -17,50 +17,58 @@ double asWritten(float number) {
 }
 
 /// FBX states both in its global settings (or means centimetres and Y), and assimp applies neither.
-void findFbxFrame(AssimpFile& file) {
-  const aiMetadata* const settings = file.scene->mMetaData;
-  if (settings == nullptr) return;
+ReadFrame fbxFrame(const aiScene& scene) {
+  ReadFrame read;
+  const aiMetadata* const settings = scene.mMetaData;
+  if (settings == nullptr) return read;
   float centimetres = 0.0F;
   if (settings->Get("UnitScaleFactor", centimetres) && std::isfinite(centimetres) &&
       centimetres > 0.0F) {
-    file.metresPerUnit = static_cast<double>(centimetres) / 100.0;
-    file.frame.metresPerUnit = asWritten(centimetres) / 100.0;
-    file.frame.declared.metresPerUnit = file.frame.metresPerUnit;
+    read.metresPerUnit = static_cast<double>(centimetres) / 100.0;
+    read.frame.metresPerUnit = asWritten(centimetres) / 100.0;
+    read.frame.declared.metresPerUnit = read.frame.metresPerUnit;
   }
   int axis = -1, sign = 0;
-  if (!settings->Get("UpAxis", axis) || !settings->Get("UpAxisSign", sign) || sign != 1) return;
-  if (axis == 1) file.frame.declared.up = UpAxis::Y;
-  if (axis == 2) file.frame.declared.up = UpAxis::Z;
+  if (!settings->Get("UpAxis", axis) || !settings->Get("UpAxisSign", sign) || sign != 1) {
+    return read;
+  }
+  if (axis == 1) read.frame.declared.up = UpAxis::Y;
+  if (axis == 2) read.frame.declared.up = UpAxis::Z;
+  return read;
 }
 
 /// Collada: assimp's root is the visual scene, which has no transform of its own, so that its
 /// matrix is what assimp applied: the unit, then the turn of a Z-up file.
-void findColladaFrame(AssimpFile& file) {
-  const aiMatrix4x4& root = file.scene->mRootNode->mTransformation;
+ReadFrame colladaFrame(const aiScene& scene) {
+  ReadFrame read;
+  const aiMatrix4x4& root = scene.mRootNode->mTransformation;
   const float unit = root.a1;
-  if (!std::isfinite(unit) || !(unit > 0.0F)) return;
+  if (!std::isfinite(unit) || !(unit > 0.0F)) return read;
   const aiMatrix4x4 yUp(unit, 0, 0, 0, 0, unit, 0, 0, 0, 0, unit, 0, 0, 0, 0, 1);
   const aiMatrix4x4 zUp(unit, 0, 0, 0, 0, 0, unit, 0, 0, -unit, 0, 0, 0, 0, 0, 1);
-  FileFrame& frame = file.frame;
+  FileFrame& frame = read.frame;
   if (root == zUp) {
     frame.declared.up = frame.up = UpAxis::Z;
   } else if (root == yUp) {
     frame.declared.up = UpAxis::Y;
   } else {
-    return;
+    return read;
   }
   frame.metresPerUnit = asWritten(unit);
   frame.declared.metresPerUnit = frame.metresPerUnit;
+  return read;
 }
 
 }  // namespace
 
-void findFrame(std::string_view extensions, AssimpFile& file) {
-  if (extensions == "fbx") findFbxFrame(file);
-  if (extensions.find("dae") != std::string_view::npos) findColladaFrame(file);
+ReadFrame frameOf(const aiScene& scene, std::string_view extensions) {
+  if (extensions == "fbx") return fbxFrame(scene);
+  if (extensions.find("dae") != std::string_view::npos) return colladaFrame(scene);
+  ReadFrame read;
   if (extensions.find("gltf") != std::string_view::npos) {
-    file.frame.declared = {1.0, UpAxis::Y, true};
+    read.frame.declared = {1.0, UpAxis::Y, true};
   }
+  return read;
 }
 
 }  // namespace foretouch::internal

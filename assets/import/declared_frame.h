@@ -4,12 +4,18 @@
 
 #include <string_view>
 
-#include "assets/import/assimp.h"
+#include <assimp/scene.h>
+
+#include "assets/file_frame.h"
 
 namespace foretouch::internal {
 
-/// Completes the frame and the unit of `file`. `extensions`: those of the reader that took it, as
-/// assimp lists them.
-void findFrame(std::string_view extensions, AssimpFile& file);
+struct ReadFrame {
+  double metresPerUnit = 1.0;  ///< To multiply the scene's numbers by.
+  FileFrame frame;             ///< Of the numbers so multiplied.
+};
+
+/// `extensions`: those of the reader that took the file, as assimp lists them.
+[[nodiscard]] ReadFrame frameOf(const aiScene& scene, std::string_view extensions);
 
 }  // namespace foretouch::internal

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "assets/import/assimp.h"
+#include "assets/import/fbx_pivots.h"
 #include "assets/import/text.h"
 
 namespace foretouch::internal {
@@ -33,7 +34,7 @@ Vector3d vectorOf(const aiVector3D& v) {
 class AssimpModel {
  public:
   AssimpModel(const AssimpFile& file, ModelBuilder& builder)
-      : scene_(*file.scene), unit_(file.metresPerUnit), builder_(builder) {}
+      : scene_(*file.scene), unit_(file.frame.metresPerUnit), builder_(builder) {}
 
   void build() {
     addNodes();
@@ -41,6 +42,11 @@ class AssimpModel {
       cut_.push_back(trianglesOf(*scene_.mMeshes[i]));
     addMeshes();
     for (unsigned i = 0; i < scene_.mNumAnimations; ++i) addAnimation(*scene_.mAnimations[i]);
+    countPivotsOnce(builder_.model);
+    for (const std::string& name : nodesWithoutSomeCurve(builder_.model)) {
+      builder_.note("the animation of " + quotedName(name) +
+                    " has no curve for a part of its translation or rotation, which becomes 0");
+    }
     noteSkipped();
   }
 
@@ -269,7 +275,7 @@ Model ModelBuilder::take() {
 Model readModel(const ModelQuestion& question) {
   const AssimpFile file = readWithAssimp(question.path, Animations::Read);
   ModelBuilder builder;
-  builder.model.frame = file.frame;
+  builder.model.frame = file.frame.frame;
   AssimpModel(file, builder).build();
   return builder.take();
 }

@@ -5,6 +5,7 @@
 #include <new>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "assets/import/model_stream.h"
 #include "assets/import/run.h"
@@ -47,20 +48,40 @@ void scaleLengths(Model& model, double scale) {
   }
 }
 
-/// At the roots, and in the animations that move them.
-void turnRoots(Model& model, internal::FrameChange::Turn by) {
+/// FBX files of one rig may have another axis each, and what other programs turn then is what
+/// stands directly in the scene. assimp's root above it, which nothing moves, is left alone for
+/// that.
+bool isBareRootOfFbx(const Model& model, const ModelNode& node) {
+  const DeclaredFrame& declared = model.frame.declared;
+  return declared.up && !declared.isOfFormat && node.parent < 0 && node.name == "RootNode" &&
+         node.toParent.linear.isIdentity(0.0) && node.toParent.translation.isZero(0.0);
+}
+
+/// Per node: does a turn of the scene go into its frame?
+std::vector<bool> topNodes(const Model& model) {
+  std::vector<bool> isBare, isTop;
+  for (const ModelNode& node : model.nodes) {
+    isBare.push_back(isBareRootOfFbx(model, node));
+    isTop.push_back(node.parent < 0 ? !isBare.back() : isBare[slotOf(node.parent)]);
+  }
+  return isTop;
+}
+
+/// At the top, and in the animations that move what is there.
+void turnTop(Model& model, internal::FrameChange::Turn by) {
   if (by == internal::FrameChange::Turn::None) return;
   const double sign = by == internal::FrameChange::Turn::FromZUp ? 1.0 : -1.0;
   Affine turn;
   turn.linear << 1, 0, 0, 0, 0, sign, 0, -sign, 0;
   const double half = std::sqrt(0.5);
   const Quaternion rotation(half, -sign * half, 0, 0);
-  for (ModelNode& node : model.nodes) {
-    if (node.parent < 0) node.toParent = turn * node.toParent;
+  const std::vector<bool> isTop = topNodes(model);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (isTop[i]) model.nodes[i].toParent = turn * model.nodes[i].toParent;
   }
   for (ModelAnimation& animation : model.animations) {
     for (ModelTrack& track : animation.tracks) {
-      if (model.nodes[slotOf(track.node)].parent >= 0) continue;
+      if (!isTop[slotOf(track.node)]) continue;
       for (auto& key : track.positions) key.value = turn * key.value;
       for (auto& key : track.rotations) key.value = rotation * key.value;
     }
@@ -92,7 +113,7 @@ Result<Model> importChecked(const std::string& path, const ModelImportOptions& o
   }
   const auto change = internal::settleFrame(options.import.scale, options.import.up, model.frame);
   if (change.scale != 1.0) scaleLengths(model, change.scale);
-  turnRoots(model, change.turn);
+  turnTop(model, change.turn);
   return Result<Model>(std::move(model));
 }
 

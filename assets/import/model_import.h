@@ -23,7 +23,7 @@ struct ModelImportOptions {
   std::vector<std::string> packagePaths;
 };
 
-/// The model, in metres and +Y up (the turn and the scale apply to roots' transforms and to
+/// The model, in metres and +Y up (the turn and the scale apply to the topmost transforms and to
 /// lengths, so that the frames of nodes are free of them). Never throws, never crashes with the
 /// file, never leaves a child process behind.
 [[nodiscard]] Result<Model> importModel(const std::string& path,

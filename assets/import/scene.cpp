@@ -92,8 +92,8 @@ bool sendScene(const std::string& path, ImportWriter& writer) {
   for (unsigned i = 0; i < model.scene->mNumMeshes; ++i) {
     model.meshes.push_back(trianglesOf(*model.scene->mMeshes[i]));
   }
-  placeAll(model, file.metresPerUnit);
-  writer.fileFrame(file.frame);
+  placeAll(model, file.frame.metresPerUnit);
+  writer.fileFrame(file.frame.frame);
   writePlaced(model, writer);
   return writer.finish();
 }

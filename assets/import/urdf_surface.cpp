@@ -32,7 +32,7 @@ FlatMesh flatten(const AssimpFile& file) {
   const auto nodes = nodesOf(*file.scene, kMaxModelNodes);
   std::vector<Affine> toFile;
   Affine toMetres;
-  toMetres.linear *= file.metresPerUnit;
+  toMetres.linear *= file.frame.metresPerUnit;
   for (const VisitedNode& visited : nodes) {
     const Affine& parent = visited.parent < 0 ? toMetres : toFile[slotOf(visited.parent)];
     toFile.push_back(parent * transformOf(visited.node->mTransformation));

@@ -86,6 +86,15 @@ Result<std::size_t> countFrames(const ModelAnimation& animation,
                                                  " Hz that is more frames than a clip may have");
 }
 
+/// Where files say which axis points up, a body and its animation may say different ones: then
+/// their roots differ by that turn, and the body must take the animation's.
+void markTurnedRoots(const Model& model, internal::FrameCollector& collector) {
+  if (!model.frame.declared.up || model.frame.declared.isOfFormat) return;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (model.nodes[i].parent < 0) collector.moves(static_cast<std::int32_t>(i), true);
+  }
+}
+
 }  // namespace
 
 Result<Clip> clipFromModel(const Model& model, const ModelClipOptions& options) {
@@ -96,6 +105,7 @@ Result<Clip> clipFromModel(const Model& model, const ModelClipOptions& options) 
   FORETOUCH_TRY(auto collector, internal::FrameCollector::create(model, count));
 
   for (const auto& track : tracks) collector.moves(track.node(), track.turns());
+  markTurnedRoots(model, collector);
   std::vector<Affine> frames = internal::restFrames(model);
   for (std::size_t i = 0; i < count; ++i) {
     const double timeS = static_cast<double>(i) / options.rateHz;

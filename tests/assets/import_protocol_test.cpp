@@ -1,4 +1,5 @@
 // The importer's stream: what the writer sends arrives, and nothing else is believed.
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -133,6 +134,48 @@ TEST(ImportReader, BreaksOffAtOnceOnGarbage) {
   EXPECT_EQ(stateAfter("Segmentation fault"), State::Broken);
   EXPECT_EQ(stateAfter("x"), State::Broken);
   EXPECT_EQ(stateAfter("FTIMPORT\x03"), State::Broken);  // another version
+}
+
+TEST(ImportReader, HandsOnWhatTheFileDeclares) {
+  std::string stream;
+  ImportWriter writer([&](std::string_view bytes) {
+    stream += bytes;
+    return true;
+  });
+  FileFrame said;
+  said.declared = {0.0254, UpAxis::Z, false};
+  said.metresPerUnit = 0.0254;
+  writer.totals({});
+  writer.fileFrame(said);
+  ASSERT_TRUE(writer.finish());
+  ImportReader reader;
+  ASSERT_EQ(reader.feed(stream), State::Complete);
+  EXPECT_EQ(reader.fileFrame().declared.metresPerUnit, 0.0254);
+  EXPECT_EQ(reader.fileFrame().declared.up, UpAxis::Z);
+  EXPECT_EQ(reader.fileFrame().metresPerUnit, 0.0254);
+  EXPECT_EQ(reader.fileFrame().up, UpAxis::Y);  // nobody has turned it
+}
+
+TEST(ImportReader, RefusesUnitsAndAxesThatCannotBe) {
+  const auto record = [](double declared, double unit, std::uint64_t ups, std::uint64_t format) {
+    std::string bytes(16, '\0');
+    std::memcpy(bytes.data(), &declared, 8);
+    std::memcpy(bytes.data() + 8, &unit, 8);
+    return frame(6, bytes + words({ups, format}));
+  };
+  const auto ups = [](std::uint64_t declared, std::uint64_t up) { return declared | up << 32; };
+  EXPECT_EQ(stateAfter(greeting() + record(0.0, 1.0, ups(0, 1), 0)), State::Reading);
+  EXPECT_EQ(stateAfter(greeting() + record(0.01, 0.01, ups(2, 2), 1)), State::Reading);
+  for (const double unit : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_EQ(stateAfter(greeting() + record(unit, 1.0, ups(1, 1), 0)), State::Broken) << unit;
+    EXPECT_EQ(stateAfter(greeting() + record(1.0, unit, ups(1, 1), 0)), State::Broken) << unit;
+  }
+  EXPECT_EQ(stateAfter(greeting() + record(1.0, 0.0, ups(1, 1), 0)), State::Broken);
+  EXPECT_EQ(stateAfter(greeting() + record(1.0, 1.0, ups(3, 1), 0)), State::Broken);
+  EXPECT_EQ(stateAfter(greeting() + record(1.0, 1.0, ups(1, 0), 0)), State::Broken);
+  EXPECT_EQ(stateAfter(greeting() + record(1.0, 1.0, ups(1, 3), 0)), State::Broken);
+  EXPECT_EQ(stateAfter(greeting() + record(1.0, 1.0, ups(1, 1), 2)), State::Broken);
+  EXPECT_EQ(stateAfter(greeting() + frame(6, "short")), State::Broken);
 }
 
 TEST(ImportReader, RefusesFramesOutOfOrder) {

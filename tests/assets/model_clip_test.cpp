@@ -252,7 +252,8 @@ TEST(ClipFromModel, DrivesTheAvatarOfAnotherFileOfTheSameRig) {
 TEST(ClipFromModel, SortsKeysAndLeavesOutWhatIsNone) {
   Model model = shifting();
   auto& track = model.animations[0].tracks[0];
-  track.positions = {{1.0, {1, 0, 0}}, {kNotANumber, {9, 9, 9}}, {0.0, {0, 0, 0}}, {0.5, {kNotANumber, 0, 0}}};
+  track.positions = {
+      {1.0, {1, 0, 0}}, {kNotANumber, {9, 9, 9}}, {0.0, {0, 0, 0}}, {0.5, {kNotANumber, 0, 0}}};
   track.rotations = {{0.0, Quaternion(0, 0, 0, 0)}, {0.0, Quaternion(2, 0, 0, 0)}};
   const Clip clip = clipFromModel(model, {"", 2.0}).value();
   ASSERT_EQ(clip.frames.size(), 3u);

@@ -150,8 +150,9 @@ TEST_F(ImportScene, SkipsAndCountsPointsAndLinesOncePerPlacement) {
   EXPECT_EQ(obj.report.skippedPrimitives, 2U);
 }
 
-TEST_F(ImportScene, ObeysTheUnitAndTheAxisOfCollada) {
-  const auto scene = written("z.dae", R"(<?xml version="1.0"?>
+/// A triangle as Collada; `axis`: its up_axis.
+std::string panelInCentimetres(const std::string& axis) {
+  std::string text = R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>
 <library_geometries><geometry id="g"><mesh>
@@ -163,10 +164,54 @@ TEST_F(ImportScene, ObeysTheUnitAndTheAxisOfCollada) {
 </mesh></geometry></library_geometries>
 <library_visual_scenes><visual_scene id="s"><node id="n" name="panel">
 <instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+  return text.replace(text.find("Z_UP"), 4, axis);
+}
+
+TEST_F(ImportScene, ObeysTheUnitAndTheAxisOfCollada) {
+  const auto scene = written("z.dae", panelInCentimetres("Z_UP"));
   ASSERT_EQ(scene.scene.triangles.size(), 1U);
   EXPECT_TRUE(cornersOf(scene, 0).isApprox(rows({0, 0, 0}, {1, 0, 0}, {0, 2, -1}), 1e-6))
       << cornersOf(scene, 0);
+  EXPECT_EQ(describe(scene.frame), "says 0.01 m per unit and Z up; both applied");
+}
+
+TEST_F(ImportScene, AppliesOnceWhatAnOptionRepeats) {
+  SceneImportOptions options = withImporter();
+  options.scale = 0.01;
+  options.up = UpAxis::Z;
+  const auto scene = written("z.dae", panelInCentimetres("Z_UP"), options);
+  const auto asItSays = written("z.dae", panelInCentimetres("Z_UP"));
+  ASSERT_EQ(scene.scene.triangles.size(), 1U);
+  EXPECT_EQ(cornersOf(scene, 0), cornersOf(asItSays, 0));
+}
+
+TEST_F(ImportScene, TakesAnOptionInPlaceOfWhatTheFileSays) {
+  SceneImportOptions options = withImporter();
+  options.up = UpAxis::Y;
+  options.scale = 1.0;
+  const auto flat = written("z.dae", panelInCentimetres("Z_UP"), options);
+  EXPECT_TRUE(cornersOf(flat, 0).isApprox(rows({0, 0, 0}, {100, 0, 0}, {0, 100, 200}), 1e-6))
+      << cornersOf(flat, 0);
+  EXPECT_EQ(describe(flat.frame), "says 0.01 m per unit and Z up; read otherwise, as asked");
+  // Files say Y_UP over vertices with Z up.
+  options = withImporter();
+  options.up = UpAxis::Z;
+  const auto turned = written("y.dae", panelInCentimetres("Y_UP"), options);
+  EXPECT_TRUE(cornersOf(turned, 0).isApprox(rows({0, 0, 0}, {1, 0, 0}, {0, 2, -1}), 1e-6))
+      << cornersOf(turned, 0);
+  EXPECT_EQ(describe(turned.frame),
+            "says 0.01 m per unit and Y up; the unit applied, the axis read otherwise, as asked");
+}
+
+TEST_F(ImportScene, SaysNothingForFilesThatSayNothing) {
+  const auto obj = written("t.obj", kTriangleObj);
+  EXPECT_FALSE(obj.frame.declared.metresPerUnit || obj.frame.declared.up);
+  EXPECT_EQ(describe(obj.frame), "");
+  const auto gltf = written("t.gltf", gltfWithNodes(R"([{"mesh":0}])"));
+  EXPECT_TRUE(gltf.frame.declared.isOfFormat);
+  EXPECT_EQ(gltf.frame.declared.metresPerUnit, 1.0);
+  EXPECT_EQ(describe(gltf.frame), "");
 }
 
 TEST_F(ImportScene, TurnsTheCentimetresOfFbxIntoMetres) {

@@ -74,7 +74,8 @@ bool feedConfig(const std::uint8_t* data, std::size_t size) {
           "queues are bounded");
   require(config.world.budgetUs >= 0 && config.world.budgetUs <= tools::kMostBudgetUs,
           "budgets are");
-  const double scale = config.world.sceneImport.scale, tolerance = config.world.query.tolerance;
+  const double scale = config.world.sceneImport.scale.value_or(1.0);
+  const double tolerance = config.world.query.tolerance;
   require(std::isfinite(scale) && scale > 0.0, "the scale is positive");
   require(tolerance >= kMinTolerance && tolerance <= kMaxTolerance, "the tolerance is legal");
   require(config.stream.maxStepUs >= 1 && config.stream.confirmations >= 1, "so is the policy");

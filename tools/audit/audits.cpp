@@ -10,7 +10,7 @@
 #include "articulated/quoted.h"
 #include "assets/bvh/stature.h"
 #include "lss/index.h"
-#include "tools/inputs/body_box.h"
+#include "tools/inputs/first_pose.h"
 #include "tools/inputs/played_clip.h"
 
 namespace foretouch::tools {
@@ -42,6 +42,11 @@ std::string auditRow(const char* what, const std::string& value) {
   return fmt::format("  {:<25}{}\n", what, value);
 }
 
+std::string rowOf(const FileFrame& frame) {
+  const std::string text = foretouch::describe(frame);
+  return text.empty() ? "" : auditRow("the file itself", text);
+}
+
 AvatarAudit auditAvatar(const Avatar& avatar, const Pose& pose) {
   AvatarAudit audit;
   audit.links = avatar.numLinks();
@@ -55,7 +60,7 @@ AvatarAudit auditAvatar(const Avatar& avatar, const Pose& pose) {
       audit.volume += volume(lss);
     }
   }
-  audit.extent = boxOf(avatar, pose).size();
+  audit.extent = boxInPose(avatar, pose).sizes();
   if (!isTurnedFromZUp(avatar.skeleton())) audit.stature = statureOf(avatar.skeleton());
   return audit;
 }

@@ -10,6 +10,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/pose.h"
+#include "assets/file_frame.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch::tools {
@@ -54,6 +55,9 @@ struct AvatarAudit {
 
 /// One aligned line of an audit.
 [[nodiscard]] std::string auditRow(const char* what, const std::string& value);
+
+/// A line of what the file says of its own unit and axis; empty if it says nothing.
+[[nodiscard]] std::string rowOf(const FileFrame& frame);
 
 /// The ten objects with the most triangles, aligned, the largest first.
 [[nodiscard]] std::string largestObjects(const Scene& scene);

@@ -13,6 +13,8 @@
 #include "assets/mesh/link_mesh.h"
 #include "tools/audit/audits.h"
 #include "tools/audit/surface_audit.h"
+#include "tools/inputs/clip_pose.h"
+#include "tools/inputs/first_pose.h"
 #include "tools/inputs/joint_map.h"
 #include "tools/inputs/motion_file.h"
 #include "tools/inputs/played_clip.h"
@@ -26,26 +28,31 @@ struct Findings {
   std::vector<std::string> doubts;
 };
 
-Result<Clip> readClip(const ClipRequest& asked) {
+Result<Motion> readClip(const ClipRequest& asked) {
   FORETOUCH_TRY(auto motion, readMotion(motionRequestOf(asked)));
   for (const std::string& note : motion.clip.notes) {
     printNote(asked.motionPath + ": " + note);
   }
-  return std::move(motion).clip;
+  const auto frame = remarkOnFrame(motion.frame, {"--clip-scale", "--clip-up"}, asked.motionPath);
+  if (frame) printNote(*frame);
+  return motion;
 }
 
 /// How the clip's joints match the avatar's, in words; `pose` becomes the first frame's, and a clip
 /// that seems to be in another unit adds a doubt. An error of code Mismatch, if nothing matches,
 /// fails the check.
-Result<std::string> matchOf(const ClipRequest& asked, const Avatar& avatar, const Clip& clip,
+Result<std::string> matchOf(const ClipRequest& asked, const Avatar& avatar, const Motion& motion,
                             Pose& pose, std::vector<std::string>& doubts) {
+  const Clip& clip = motion.clip;
   const auto match =
       matchWithMap(avatar.skeleton(), clip.skeleton, asked.mapPath, asked.motionPath);
   if (!match.ok()) return match.error();
-  auto first =
-      validatedPose(avatar.skeleton(), poseOfAvatar(avatar.skeleton(), clip, match.value(), 0));
+  auto first = poseAtFrame(
+      {avatar, clip, match.value(), asked.placement, motion.isUpright, asked.motionPath}, 0);
   if (!first.ok()) return first.error();
   pose = std::move(first).value();
+  const auto lying = remarkOnFirstPose(avatar, pose, motion.frame, asked.motionPath);
+  if (lying) printNote(*lying);
   const auto unit = remarkOnUnit(avatar, clip, match.value(), asked.motionPath);
   if (unit) doubts.push_back(*unit);
   const auto& [clipJointOf, unmatchedAvatar, unmatchedClip] = match.value();
@@ -63,8 +70,8 @@ Result<std::string> matchOf(const ClipRequest& asked, const Avatar& avatar, cons
 /// The match with the clip; `pose` becomes the first frame's, if there is a match.
 Result<Done> checkMotion(const ClipRequest& asked, const Avatar& avatar, Pose& pose,
                          Findings& findings) {
-  FORETOUCH_TRY(const auto clip, readClip(asked));
-  const auto match = matchOf(asked, avatar, clip, pose, findings.doubts);
+  FORETOUCH_TRY(const auto motion, readClip(asked));
+  const auto match = matchOf(asked, avatar, motion, pose, findings.doubts);
   if (match.ok()) {
     findings.text += match.value();
   } else if (match.error().code == ErrorCode::Mismatch) {

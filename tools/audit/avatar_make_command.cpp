@@ -18,6 +18,7 @@
 #include "tools/audit/audits.h"
 #include "tools/audit/avatar_files.h"
 #include "tools/audit/surface_audit.h"
+#include "tools/inputs/first_pose.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/settings/frame_settings.h"
 #include "tools/settings/world_settings.h"
@@ -86,6 +87,10 @@ ExitCode makeFromModel(AskedOfModel asked) {
   }
   FORETOUCH_TRY_OR(failed, const auto model, importModel(asked.model, asked.reading));
   for (const std::string& note : model.notes) printNote(asked.model + ": " + note);
+  if (const auto remark =
+          remarkOnFrame(model.frame, {"--model-scale", "--model-up"}, asked.model)) {
+    printNote(*remark);
+  }
   FORETOUCH_TRY_OR(failed, const auto made,
                    inFile(avatarFromModel(model, asked.making), asked.model));
   for (const std::string& note : made.report.notes) printNote(asked.model + ": " + note);
@@ -93,7 +98,8 @@ ExitCode makeFromModel(AskedOfModel asked) {
 
   std::size_t read = 0;
   for (const ModelMesh& mesh : model.meshes) read += mesh.triangles.size();
-  tell(made.avatar, asked.output, describe(made, read), "--model-scale", asked.isRobot);
+  tell(made.avatar, asked.output, describe(made, read) + rowOf(model.frame), "--model-scale",
+       asked.isRobot);
   return ExitCode::Done;
 }
 

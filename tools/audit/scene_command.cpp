@@ -11,6 +11,7 @@
 #include "assets/import/scene_import.h"
 #include "middleware/scene/scene.h"
 #include "tools/audit/audits.h"
+#include "tools/inputs/first_pose.h"
 #include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
@@ -27,13 +28,17 @@ std::string describe(const SceneImportReport& report) {
 ExitCode check(const WorldRequest& asked) {
   FORETOUCH_TRY_OR(failed, auto imported, importScene(asked.scenePath, asked.sceneImport));
   const SceneImportReport report = imported.report;
+  const FileFrame frame = imported.frame;
+  if (const auto remark = remarkOnFrame(frame, {"--scene-scale", "--scene-up"}, asked.scenePath)) {
+    printNote(*remark);
+  }
   // Builds the scene, not only measures it: a replay accepts every scene that passes here.
   FORETOUCH_TRY_OR(failed, const auto scene,
                    inFile(Scene::build(std::move(imported.scene)), asked.scenePath));
 
   const SceneAudit& audit = scene.audit();
-  printOut(asked.scenePath + "\n" + tools::describe(audit) + describe(report) + "\n" +
-           largestObjects(scene));
+  printOut(asked.scenePath + "\n" + tools::describe(audit) + describe(report) + rowOf(frame) +
+           "\n" + largestObjects(scene));
   const std::vector<std::string> doubts = doubtsAbout(audit);
   for (const std::string& doubt : doubts) printError(asked.scenePath + ": " + doubt);
   return doubts.empty() ? ExitCode::Done : ExitCode::CheckSaysNo;

@@ -17,6 +17,7 @@
 #include "middleware/query/work_budget.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
+#include "tools/inputs/first_pose.h"
 #include "tools/inputs/ignored_pairs.h"
 #include "tools/inputs/own_pairs.h"
 #include "tools/inputs/played_clip.h"
@@ -148,6 +149,25 @@ std::optional<std::string> remarkOnMeshes(const QueryOptions& query,
          "link fidelity";
 }
 
+namespace {
+
+/// What the options and the files say of units and axes, and whether the body stands then.
+void addFrameRemarks(const ReplayInputs& inputs, std::vector<std::string>& remarks) {
+  const ReplayRequest& request = inputs.request;
+  for (const auto& remark :
+       {remarkOnFrame(inputs.sceneFrame, {"--scene-scale", "--scene-up"}, request.scenePath),
+        remarkOnFrame(inputs.clipFrame, {"--clip-scale", "--clip-up"}, request.motionPath)}) {
+    if (remark) remarks.push_back(*remark);
+  }
+  const auto first = poseAtFrame(inputs, 0);
+  if (!first.ok()) return;  // the replay itself will say why
+  const auto lying =
+      remarkOnFirstPose(inputs.avatar, first.value(), inputs.clipFrame, request.motionPath);
+  if (lying) remarks.push_back(*lying);
+}
+
+}  // namespace
+
 std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
   const ReplayRequest& request = inputs.request;
   std::vector<std::string> remarks = remarksOnClip(inputs.avatar, inputs.clip, inputs.match,
@@ -161,6 +181,7 @@ std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
   }
   const auto meshes = remarkOnMeshes(inputs.query, request.avatarPath);
   if (meshes) remarks.push_back(*meshes);
+  addFrameRemarks(inputs, remarks);
   return remarks;
 }
 

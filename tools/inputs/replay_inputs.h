@@ -30,7 +30,7 @@ struct ReplayInputs {
   StepSelection steps;
   QueryOptions query;      ///< As requested, completed from the avatar and the scene.
   bool isUpright = false;  ///< The reader turned the clip Y-up (Motion::isUpright).
-  FileFrame sceneFrame, clipFrame;
+  FileFrame sceneFrame{}, clipFrame{};
 
   [[nodiscard]] double timeOfStep(std::int64_t step) const {
     return static_cast<double>(step * steps.stride) * clip.frameTimeS;

@@ -172,8 +172,13 @@ Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request) {
     FORETOUCH_TRY(auto avatar, readAvatarFile(numbered.path));
     avatars.push_back(std::move(avatar));
   }
-  FORETOUCH_TRY(auto scene, loadScene(request.world));
-  return LogReplayInputs{request, std::move(channels), std::move(scene), std::move(avatars)};
+  FileFrame frame;
+  FORETOUCH_TRY(auto scene, loadScene(request.world, frame));
+  LogReplayRequest asRead = request;  // for the first line of results
+  asRead.world.sceneImport.scale = frame.metresPerUnit;
+  asRead.world.sceneImport.up = frame.up;
+  return LogReplayInputs{std::move(asRead), std::move(channels), std::move(scene),
+                         std::move(avatars)};
 }
 
 Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSink& sink) {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "articulated/motion.h"
-#include "assets/bvh/body_parts.h"
 #include "assets/bvh/stature.h"
+#include "tools/inputs/first_pose.h"
 
 namespace foretouch::tools {
 namespace {
@@ -108,9 +108,9 @@ Vector3d meanUpright(const Clip& clip, std::size_t& found) {
   Vector3d sum = Vector3d::Zero();
   const std::size_t stride = std::max<std::size_t>(1, clip.frames.size() / kFramesLookedAt);
   for (std::size_t frame = 0; frame < clip.frames.size(); frame += stride) {
-    const auto up = footToHead(clip.skeleton, clip.frames[frame]);
-    if (!up || !(up->norm() > 0.0)) continue;
-    sum += up->normalized();
+    const auto stance = stanceOf(clip.skeleton, clip.frames[frame]);
+    if (!stance || !(stance->headFromFeet.norm() > 0.0)) continue;
+    sum += stance->headFromFeet.normalized();
     ++found;
   }
   return found == 0 ? sum : Vector3d(sum / static_cast<double>(found));

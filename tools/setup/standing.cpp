@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "assets/bvh/body_parts.h"
-#include "tools/inputs/body_box.h"
+#include "tools/inputs/first_pose.h"
 
 namespace foretouch::tools {
 namespace {
@@ -23,6 +23,11 @@ constexpr double kLowestPart = 0.15;
 constexpr std::size_t kSpots = 1500;
 /// Floor counts as around a spot within this distance (m), at about its height.
 constexpr double kAround = 3.0, kAboutItsHeight = 0.3;
+
+/// The middle of a body's ground plan, at its lowest point.
+Vector3d footOf(const Eigen::AlignedBox3d& box) {
+  return {box.center().x(), box.min().y(), box.center().z()};
+}
 
 /// As far as any surface of the level can be.
 double farAway(const Walker& walker) {
@@ -60,10 +65,10 @@ void walkThrough(const Walker& walker, Standing& standing) {
     }
     standing.trunkInside += isTrunkIn ? 1 : 0;
     standing.limbsInside += isLimbIn ? 1 : 0;
-    const BodyBox box = boxOf(walker.body().avatar, pose);
-    lowest.push_back(box.min.y());
-    const Vector3d middle = 0.5 * (box.min + box.max);
-    const double reach = 1.5 * box.size().y() + 0.5;
+    const Eigen::AlignedBox3d box = boxInPose(walker.body().avatar, pose);
+    lowest.push_back(box.min().y());
+    const Vector3d middle = box.center();
+    const double reach = 1.5 * box.sizes().y() + 0.5;
     standing.overVoid += walker.level().cast(middle, middle - Vector3d(0, reach, 0)) ? 0 : 1;
   }
   const double first = lowest.front();
@@ -73,7 +78,7 @@ void walkThrough(const Walker& walker, Standing& standing) {
 }
 
 /// How far the lowest point of the body is above a floor, or below one that it stands in.
-void findFloor(const Walker& walker, const Pose& pose, const BodyBox& box, Standing& standing) {
+void findFloor(const Walker& walker, const Pose& pose, const Eigen::AlignedBox3d& box, Standing& standing) {
   const double reach = farAway(walker);
   if (standing.inside.empty()) {
     const auto rest = walker.sink(pose, reach);
@@ -81,17 +86,17 @@ void findFloor(const Walker& walker, const Pose& pose, const BodyBox& box, Stand
     return;
   }
   // From the middle of the body down: a floor between there and the feet is one that it is sunk in.
-  const Vector3d middle = 0.5 * (box.min + box.max);
+  const Vector3d middle = box.center();
   const auto hit = walker.level().cast(middle, middle - Vector3d(0, reach, 0));
   if (!hit) return;
-  const double gap = hit->distance - 0.5 * box.size().y();
+  const double gap = hit->distance - 0.5 * box.sizes().y();
   (gap >= 0.0 ? standing.floorBelow : standing.floorAbove) = std::abs(gap);
 }
 
 /// The placement that brings the first pose's foot over `spot`, `above` it.
 Placement placeOver(const Walker& walker, const Vector3d& spot, double yawDeg, double above) {
   const Pose turned = walker.poseAt(0, {false, Vector3d::Zero(), yawDeg});
-  const Vector3d foot = boxOf(walker.body().avatar, turned).foot();
+  const Vector3d foot = footOf(boxInPose(walker.body().avatar, turned));
   return {false, spot - foot + Vector3d(0, above, 0), yawDeg};
 }
 
@@ -102,9 +107,9 @@ std::optional<Placement> letDown(const Walker& walker, const Vector3d& spot, dou
   const Pose raised = walker.poseAt(0, place);
   const auto rest = walker.sink(raised, 2.0 * kLift);
   if (!rest || rest->depth <= kGap) return std::nullopt;
-  const BodyBox box = boxOf(walker.body().avatar, raised);
-  const double lowest = box.min.y() - rest->depth;
-  if (rest->p_W.y() > lowest + kLowestPart * box.size().y()) return std::nullopt;
+  const Eigen::AlignedBox3d box = boxInPose(walker.body().avatar, raised);
+  const double lowest = box.min().y() - rest->depth;
+  if (rest->p_W.y() > lowest + kLowestPart * box.sizes().y()) return std::nullopt;
   // Rounded to millimetres, as people write it; up, so that it stays free.
   place.origin.y() = std::ceil(1e3 * (place.origin.y() - rest->depth + kGap)) / 1e3;
   for (const int axis : {0, 2}) place.origin[axis] = std::round(1e3 * place.origin[axis]) / 1e3;
@@ -160,15 +165,15 @@ class Search {
  private:
   /// Where the wish itself has the body, up to the floor there.
   void tryOwnSpot() {
-    const BodyBox box = boxOf(walker_.body().avatar, walker_.poseAt(0, wish_));
-    const Vector3d middle = 0.5 * (box.min + box.max);
+    const Eigen::AlignedBox3d box = boxInPose(walker_.body().avatar, walker_.poseAt(0, wish_));
+    const Vector3d middle = box.center();
     const auto hit = walker_.level().cast(middle, middle - Vector3d(0, farAway(walker_), 0));
     if (hit) tryAt({middle.x(), middle.y() - hit->distance, middle.z()}, 1.0);
   }
 
   void tryAt(const Vector3d& spot, double floorShare) {
-    const BodyBox box = boxOf(walker_.body().avatar, walker_.poseAt(0, wish_));
-    const double far = std::min(1.0, (spot - box.foot()).norm() / farAway(walker_));
+    const Eigen::AlignedBox3d box = boxInPose(walker_.body().avatar, walker_.poseAt(0, wish_));
+    const double far = std::min(1.0, (spot - footOf(box)).norm() / farAway(walker_));
     // Its cost is at least this: no need to look closer.
     const double least = 0.5 * (1.0 - floorShare) + 0.4 * far;
     if (best_ && least >= bestCost_) return;
@@ -200,17 +205,17 @@ Standing standingAt(const Walker& walker, const Placement& place) {
   Standing standing;
   standing.place = place;
   const Pose pose = walker.poseAt(0, place);
-  const BodyBox box = boxOf(walker.body().avatar, pose);
+  const Eigen::AlignedBox3d box = boxInPose(walker.body().avatar, pose);
   const SceneAudit& audit = walker.level().scene().audit();
   const auto isBeside = [&](int axis) {
-    return box.min[axis] > audit.boxMax[axis] || box.max[axis] < audit.boxMin[axis];
+    return box.min()[axis] > audit.boxMax[axis] || box.max()[axis] < audit.boxMin[axis];
   };
   // Above it is no outside: ground may be flat, and sky open.
-  standing.isOutside = isBeside(0) || isBeside(2) || box.max.y() < audit.boxMin.y();
+  standing.isOutside = isBeside(0) || isBeside(2) || box.max().y() < audit.boxMin.y();
   standing.inside = walker.insideAt(pose);
   findFloor(walker, pose, box, standing);
   // Two thirds up a standing body.
-  lookAround(walker, box.foot() + Vector3d(0, 0.67 * box.size().y(), 0), standing);
+  lookAround(walker, footOf(box) + Vector3d(0, 0.67 * box.sizes().y(), 0), standing);
   walkThrough(walker, standing);
   return standing;
 }

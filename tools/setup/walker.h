@@ -13,7 +13,6 @@
 #include "articulated/result.h"
 #include "assets/avatar/joint_match.h"
 #include "middleware/query/query.h"
-#include "tools/inputs/body_box.h"
 #include "tools/setup/level.h"
 
 namespace foretouch::tools {

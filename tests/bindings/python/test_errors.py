@@ -66,7 +66,7 @@ class Errors(unittest.TestCase):
         self.refused("scale: expected a number", Scene.load, room, "1")
         self.refused("scale: expected a number", Scene.load, room, True)
         self.refused("up: expected one of 'y', 'z', found 'x'", Scene.load, room, up="x")
-        self.refused("up: expected a text", Scene.load, room, up=None)
+        self.refused("up: expected a text", Scene.load, room, up=3)
         self.refused("memory_limit_bytes", Scene.load, room, memory_limit_bytes=-1)
         self.refused("memory limit", Scene.load, room, memory_limit_bytes=1)
         self.refused("memory_limit_bytes", Scene.load, room, memory_limit_bytes=1 << 70)

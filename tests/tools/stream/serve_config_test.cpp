@@ -47,8 +47,8 @@ TEST(ServeConfig, SmallestFileHasTheDefaults) {
   EXPECT_EQ(c.http, "");
   EXPECT_EQ(c.view, "");
   EXPECT_EQ(c.world.scenePath, "etc/room.glb");
-  EXPECT_EQ(c.world.sceneImport.scale, 1.0);
-  EXPECT_EQ(c.world.sceneImport.up, UpAxis::Y);
+  EXPECT_FALSE(c.world.sceneImport.scale.has_value());
+  EXPECT_FALSE(c.world.sceneImport.up.has_value());
   EXPECT_EQ(c.world.query.tolerance, 1e-3);
   EXPECT_EQ(c.world.query.fidelity, Fidelity::Link);
   EXPECT_TRUE(c.world.ignore.empty());
