@@ -73,9 +73,17 @@ std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,
   constexpr double kSuspiciousRatio = 2.0;  // people differ by less, centimetres and inches by more
   const double ratio = sizeOfClipToAvatar(avatar.skeleton(), clip, match);
   if (ratio <= kSuspiciousRatio && ratio >= 1.0 / kSuspiciousRatio) return std::nullopt;
-  return fmt::format(
-      "{}: its bones are {:.4g} times as long as the avatar's; is --clip-scale right?", motionPath,
-      ratio);
+  const std::size_t matched = match.clipJointOf.size() - match.unmatchedAvatar.size();
+  const std::string lead =
+      fmt::format("{}: its bones are {:.4g} times as long as the avatar's", motionPath, ratio);
+  // Bones between matched joints skip the others, so their lengths say little of the unit.
+  if (2 * matched < match.clipJointOf.size()) {
+    return lead + fmt::format(
+                      ", by the {} of {} joints that match; does --map say which belong "
+                      "together?",
+                      matched, match.clipJointOf.size());
+  }
+  return lead + fmt::format("; is --clip-scale right? {:.3g} times as much would fit", 1.0 / ratio);
 }
 
 std::string firstOf(const std::vector<std::string>& names) {

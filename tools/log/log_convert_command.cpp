@@ -97,7 +97,8 @@ Told toLog(const Conversion& asked) {
 }
 
 Told convert(const Conversion& asked, LogLoss& loss) {
-  const std::string extension = extensionOf(asked.output);
+  const bool isOut = asked.output == kStandardOutput;
+  const std::string extension = isOut ? ".jsonl" : extensionOf(asked.output);
   const bool isLog = isEventLog(asked.input);
   FORETOUCH_CHECK(checkIsNoInput(asked.output, {asked.input}));
   if (isLog && extension == ".jsonl" && !asked.avatar.empty()) {
@@ -144,8 +145,12 @@ Command logConvertCommand() {
   const auto asked = std::make_shared<Conversion>();
   Settings settings;
   settings.path("INPUT", "", asked->input, "Event log, or a clip as foretouch publish reads it")
+      .files("lcmlog bvh glb gltf fbx dae x csv")
       .required("an event log or a clip");
-  settings.path("-o,--output", "FILE", asked->output, "Ends in .bvh, .jsonl or .lcmlog").required();
+  settings
+      .output("-o,--output", "FILE", asked->output,
+              "Ends in .bvh, .jsonl or .lcmlog; - of a log: JSON lines on standard output")
+      .required();
   settings.text("--avatar", "ID|[ID=]FILE", asked->avatar,
                 "Of a log: whose poses, 1 if not given. Of a clip: the avatar file that it moves");
   addSuffixSetting(settings, asked->suffix);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lss/index.h"
 #include "middleware/query/query.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/rigid_comparison.h"
@@ -40,6 +41,7 @@ class ReplaySummary {
     std::int64_t contacts = 0, missedByPoses = 0, startsInContact = 0, undecided = 0;
   };
   [[nodiscard]] const Counts& total() const { return total_; }
+  [[nodiscard]] const Counts& ofLink(LinkId link) const { return ofLink_[slotOf(link)]; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Of own links, where they were asked; what the poses miss is not counted.
   [[nodiscard]] const Counts& totalOfPairs() const { return pairs_; }

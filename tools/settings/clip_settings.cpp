@@ -46,6 +46,7 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
       .inReport("animation")
       .namedIf([&request] { return !request.animation.empty(); });
   settings.path("--robot", "URDF", request.robotPath, "The robot that joint positions are about")
+      .files("urdf")
       .in(kInputGroup)
       .inHeader("robot")
       .inReport("robot")
@@ -54,6 +55,7 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
       .path("--map", "FILE", request.mapPath,
             R"(Joint names that differ: {"avatar joint": "clip joint"})")
       .in(kInputGroup)
+      .files("json")
       .inReport("joint map");
   settings
       .list("--package", "DIR", request.packagePaths,
@@ -66,6 +68,7 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
 Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* option,
                           const char* value, const char* help) {
   return settings.path(option, value, request.motionPath, help)
+      .files(kClipEndings)
       .in(kInputGroup)
       .inHeader("motion")
       .inReport("motion");
@@ -73,6 +76,7 @@ Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* 
 
 Setting& addAvatarSetting(Settings& settings, ClipRequest& request) {
   return settings.path("--avatar", "FILE", request.avatarPath, "Avatar file (see foretouch avatar)")
+      .files("json")
       .in(kInputGroup)
       .inReport("avatar");
 }

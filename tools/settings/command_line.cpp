@@ -27,6 +27,7 @@ struct Subcommand {
   Command command;
   const CLI::App* app = nullptr;
   std::deque<Typed> typed;
+  bool isQuiet = false;
 };
 
 /// With the former ones behind it, which help leaves out.
@@ -90,6 +91,7 @@ std::string missingIn(const Subcommand& subcommand) {
 }
 
 ExitCode runSubcommand(const Subcommand& subcommand) {
+  if (subcommand.isQuiet) keepQuiet();
   for (const Typed& typed : subcommand.typed) {
     FORETOUCH_CHECK_OR(failed, take(typed));
   }
@@ -130,6 +132,8 @@ void addCommand(CLI::App& program, Command command, ExitCode& exit) {
     typed.setting = &setting;
     addSetting(*app, typed);
   }
+  app->add_flag("-q,--quiet", subcommand->isQuiet, "No notes and no progress")
+      ->group(kGeneralGroup);
   app->callback([subcommand, &exit] { exit = runSubcommand(*subcommand); });
 }
 

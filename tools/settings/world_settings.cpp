@@ -24,6 +24,7 @@ void addSkinSettings(Settings& settings, WorldRequest& request) {
   settings
       .path("--skin", "BODY", request.skinPath,
             "Skinned fidelity: the model from which the avatar was made")
+      .files(kModelEndings)
       .in(kTouchGroup)
       .inHeader("skin")
       .inReport("skin")
@@ -92,6 +93,7 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
   settings
       .path("--pairs", "FILE", request.pairsPath,
             "With --self: the pair rules; not given: derived from the avatar and the clip's poses")
+      .files("json")
       .ofClips()
       .in(kTouchGroup)
       .needing("--self");
@@ -101,6 +103,7 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
 
 void addSceneSettings(Settings& settings, WorldRequest& request) {
   settings.path("--scene", "FILE", request.scenePath, "Scene: any mesh format that assimp reads")
+      .files(kModelEndings)
       .notEmpty()
       .in(kInputGroup)
       .inConfig("scene", "file")
@@ -181,6 +184,7 @@ void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
             "Tolerance, fidelity and what to ignore, link by link: [[policy]] tables "
             "(docs/formats.md)")
       .in(kTouchGroup)
+      .files("toml")
       .inHeader("policy")
       .inReport("policy")
       .namedIf([&request] { return !request.policies.empty(); })

@@ -23,6 +23,9 @@ inline constexpr NumberRange kZeroOrAbove{0.0, std::numeric_limits<double>::max(
 inline constexpr NumberRange kMetresPerUnit{0.0, std::numeric_limits<double>::max(), "", "m"};
 inline constexpr NumberRange kToleranceRange{kMinTolerance, kMaxTolerance, "metres", "m"};
 
+/// The usual formats of scenes and rigged models, for a shell that completes files.
+inline constexpr char kModelEndings[] = "obj ply stl off 3ds glb gltf fbx dae x";
+
 /// A scene and a query; each setting is legal by itself. Paths are ready to open; an empty one
 /// means: not requested.
 struct WorldRequest {
