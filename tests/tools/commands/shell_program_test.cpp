@@ -201,6 +201,15 @@ TEST(JsonAnswers, SayWhatTheTextsSay) {
       runForetouch({"sweep", "--avatar", man, "--motion", clip, "-o", mesh, "--json"}).out);
   EXPECT_GT(sweep["triangles"].get<int>(), 100);
   EXPECT_EQ(sweep["output"], mesh);
+
+  const std::string log = world.folder / "out.lcmlog";
+  const Json converted =
+      Json::parse(runForetouch({"log", "convert", clip, "--avatar", man, "-o", log, "--json"}).out);
+  EXPECT_EQ(converted["poses"], 4);
+  const Json recovered =
+      Json::parse(runForetouch({"log", "recover", log, "-o", log + "2", "--json"}).out);
+  EXPECT_EQ(recovered["bytes_lost"], 0);
+  EXPECT_EQ(recovered["events"], 4 + converted["skeletons"].get<int>());
 }
 
 TEST(StandardOutput, TakesEveryOutputThatIsADash) {
