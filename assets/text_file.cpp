@@ -148,7 +148,10 @@ Result<PendingFile> PendingFile::create(const std::string& path) {
     return Error::in(path, ErrorCode::FileUnwritable, "is a folder, expected a file to write");
   }
   Opened opened;
-  if (exists && !S_ISREG(status.st_mode)) {
+  if (path == "/dev/stdout") {
+    // Not the file behind it: a shell opened it, perhaps to append, and wants no other in its place.
+    opened.descriptor = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+  } else if (exists && !S_ISREG(status.st_mode)) {
     opened.descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
   } else {
     opened = openTemporary(target, exists ? status.st_mode & 0777 : 0666);

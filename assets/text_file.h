@@ -16,7 +16,8 @@ namespace foretouch {
 /// A file that appears under its name only once it is complete: goes to a temporary file in the
 /// same folder; commit() flushes and renames it. Without commit() it leaves nothing behind. Follows
 /// a symbolic link and replaces the file behind it, keeping its permissions. Writes directly to
-/// anything but a regular file (a pipe, /dev/stdout), because there is nothing to rename over.
+/// anything but a regular file (a pipe), because there is nothing to rename over, and to
+/// /dev/stdout, whatever that is.
 class PendingFile {
  public:
   static Result<PendingFile> create(const std::string& path);

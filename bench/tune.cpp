@@ -65,6 +65,7 @@ class Tuner {
     FORETOUCH_TRY(auto run, runOf(rateHz, steps));
     TunedRate rate;
     rate.rateHz = rateHz;
+    rate.takenHz = rateTaken(steps, inputs_.clip.frameTimeS);
     std::vector<TradeContender> contenders = contendersFor(rate.settings);
     FORETOUCH_TRY(auto result, runTrade(world_, surface_, run, contenders));
     std::vector<TradeRow>& rows = result.rows;
@@ -134,10 +135,18 @@ class Tuner {
   TradeWorld world_;
 };
 
+/// "30 Hz"; "33.33 Hz (--rate 30)" where no whole number of frames gives what was asked.
+std::string rateInWords(const TunedRate& rate) {
+  if (std::abs(rate.takenHz / rate.rateHz - 1.0) <= kRateSlack) {
+    return fmt::format("{:g} Hz", rate.rateHz);
+  }
+  return fmt::format("{:.4g} Hz (--rate {:g})", rate.takenHz, rate.rateHz);
+}
+
 BenchTable tableOf(const TunedRate& rate, double budgetUs) {
   BenchTable table{
       "tried_at_" + fmt::format("{:g}", rate.rateHz) + "_hz",
-      fmt::format("Tried at {:g} Hz, {} steps ({} links touch, {} start in contact)", rate.rateHz,
+      fmt::format("Tried at {}, {} steps ({} links touch, {} start in contact)", rateInWords(rate),
                   rate.settings.front().row.score.steps, rate.settings.front().row.score.contacts,
                   rate.settings.front().row.score.starts),
       {{"fidelity", "fidelity", 0},
@@ -200,14 +209,14 @@ std::optional<Recommendation> recommended(const std::vector<TunedSetting>& setti
 
 std::string recommendationText(const TunedRate& rate, double budgetUs) {
   if (!rate.recommendation) {
-    return fmt::format("At {:g} Hz: no setting can be recommended.", rate.rateHz);
+    return fmt::format("At {}: no setting can be recommended.", rateInWords(rate));
   }
   const TunedSetting& s = rate.settings[rate.recommendation->setting];
   std::string text = fmt::format(
-      "At {:g} Hz: --fidelity {} --tolerance {:g} --rate {:g}: p99 {:.1f} us, mean {:.1f} us, "
+      "At {}: --fidelity {} --tolerance {:g} --rate {:g}: p99 {:.1f} us, mean {:.1f} us, "
       "nothing missed of {} contacts, {} false; the poses alone miss {}.",
-      rate.rateHz, toString(s.fidelity), s.tolerance, rate.rateHz, s.row.us.p99, s.row.us.mean,
-      s.row.score.contacts, s.row.score.falseOnes, s.posesMissed);
+      rateInWords(rate), toString(s.fidelity), s.tolerance, rate.rateHz, s.row.us.p99,
+      s.row.us.mean, s.row.score.contacts, s.row.score.falseOnes, s.posesMissed);
   if (!rate.recommendation->isWithinBudget) {
     text += fmt::format(
         " None keeps to {0:g} us at the 99th percentile: this is as quick as any; add --budget-us "

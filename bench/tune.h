@@ -50,7 +50,8 @@ struct Recommendation {
 
 /// The trials at one rate, and their results.
 struct TunedRate {
-  double rateHz = 0.0;
+  double rateHz = 0.0;   ///< As asked.
+  double takenHz = 0.0;  ///< Poses per second that a whole number of frames gives.
   std::vector<TunedSetting> settings;
   std::optional<Recommendation> recommendation;
 };

@@ -5,6 +5,9 @@
 namespace foretouch::tools {
 namespace {
 
+// Of the process, as are its streams: whoever prints asks for it, and none of them has settings.
+bool isToldQuiet = false;
+
 /// File names and foreign text may contain line breaks and terminal sequences: one error is one
 /// line.
 std::string onOneLine(std::string text) {
@@ -22,6 +25,14 @@ void printLine(const char* lead, const std::string& text) {
 
 }  // namespace
 
+void keepQuiet() {
+  isToldQuiet = true;
+}
+
+bool isQuiet() {
+  return isToldQuiet;
+}
+
 void printError(const std::string& text) {
   printLine("foretouch: ", text);
 }
@@ -32,7 +43,7 @@ ExitCode failed(const Error& error) {
 }
 
 void printNote(const std::string& text) {
-  printLine("note: ", text);
+  if (!isToldQuiet) printLine("note: ", text);
 }
 
 void printAside(const std::string& text) {

@@ -13,6 +13,21 @@ enum class ExitCode : int {
   BadInput = 2,     ///< Bad use, bad input, or unwritable output.
 };
 
+struct ExitMeaning {
+  ExitCode code;
+  const char* text;
+};
+/// For help, manual pages and documents.
+inline constexpr ExitMeaning kExitMeanings[] = {
+    {ExitCode::Done, "Done, and every check says yes"},
+    {ExitCode::CheckSaysNo, "A check says no, or part of a damaged input is lost"},
+    {ExitCode::BadInput, "Bad use, bad input, or an output that cannot be written"},
+};
+
+/// From now on, no notes and no progress: --quiet.
+void keepQuiet();
+[[nodiscard]] bool isQuiet();
+
 /// One line on stderr, "foretouch: <file>:<line>: <what>"; replaces control characters.
 void printError(const std::string& text);
 /// The same for an Error; returns the program's exit code.

@@ -1,17 +1,19 @@
 #include "tools/help_page.h"
 
 #include <algorithm>
+#include <sstream>
+#include <utility>
 
 #include <CLI/CLI.hpp>
+
+#include "tools/console.h"
 
 namespace foretouch::tools {
 namespace {
 
-constexpr char kGeneral[] = "General";
-
 bool isGeneral(const CLI::App& app, const CLI::Option& option) {
   return &option == app.get_help_ptr() || &option == app.get_help_all_ptr() ||
-         &option == app.get_version_ptr() || option.get_group() == kGeneral;
+         &option == app.get_version_ptr() || option.get_group() == kGeneralGroup;
 }
 
 /// The short name and the first long one: those after it are former ones.
@@ -49,7 +51,7 @@ HelpGroup& groupOf(std::vector<HelpGroup>& groups, const std::string& title) {
 }
 
 void addOptions(const CLI::App& app, HelpPage& page) {
-  HelpGroup arguments{"Arguments", {}}, general{kGeneral, {}};
+  HelpGroup arguments{"Arguments", {}}, general{kGeneralGroup, {}};
   std::vector<HelpGroup> others;
   for (const CLI::Option* const option : app.get_options()) {
     if (option->get_group().empty()) continue;
@@ -66,8 +68,40 @@ void addOptions(const CLI::App& app, HelpPage& page) {
   if (!general.entries.empty()) page.groups.push_back(std::move(general));
 }
 
+HelpGroup exitCodes() {
+  HelpGroup group{"Exit codes", {}};
+  for (const ExitMeaning& meaning : kExitMeanings) {
+    HelpOption entry;
+    entry.names = std::to_string(static_cast<int>(meaning.code));
+    entry.text = meaning.text;
+    group.entries.push_back(entry);
+  }
+  return group;
+}
+
+std::vector<HelpBlock> blocksOf(const std::string& footer) {
+  std::istringstream lines(footer);
+  std::vector<HelpBlock> blocks;
+  HelpBlock block;
+  const auto end = [&] {
+    if (!block.text.empty()) blocks.push_back(std::exchange(block, {}));
+  };
+  for (std::string line; std::getline(lines, line);) {
+    const bool goesOn = !line.empty() && line.back() == '\\';
+    const bool isCommand = line.rfind("  ", 0) == 0;
+    if (line.empty() || line.back() == ':' || isCommand != block.isCommand) end();
+    block.isCommand = isCommand;
+    const std::size_t from = std::min(line.find_first_not_of(' '), line.size());
+    if (!block.text.empty() && block.text.back() != ' ') block.text += " ";
+    block.text += line.substr(from, line.size() - from - (goesOn ? 1 : 0));
+    if (isCommand && !goesOn) end();
+  }
+  end();
+  return blocks;
+}
+
 /// Before the options: whoever asks for a program's help looks for a command.
-void addCommands(const CLI::App& app, HelpPage& page) {
+void addCommandEntries(const CLI::App& app, HelpPage& page) {
   std::vector<HelpGroup> groups;
   for (const CLI::App* const command : app.get_subcommands({})) {
     if (command->get_group().empty()) continue;
@@ -90,7 +124,7 @@ std::string usageOf(const CLI::App& app, const HelpPage& page) {
         const std::string name = entry.value.empty() ? entry.names : entry.value;
         arguments += entry.isRequired ? " " + name : " [" + name + "]";
       } else if (entry.isRequired) {
-        required += " " + entry.names + " " + entry.value;
+        required += " " + entry.names.substr(entry.names.rfind(',') + 1) + " " + entry.value;
       }
     }
   }
@@ -113,8 +147,9 @@ HelpPage helpPageOf(const CLI::App& app) {
   page.purpose = app.get_description();
   addOptions(app, page);
   page.usage = usageOf(app, page);
-  addCommands(app, page);
-  page.footer = app.get_footer();
+  addCommandEntries(app, page);
+  if (app.get_parent() == nullptr) page.groups.push_back(exitCodes());
+  page.footer = blocksOf(app.get_footer());
   return page;
 }
 

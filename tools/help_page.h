@@ -11,6 +11,9 @@ class App;
 
 namespace foretouch::tools {
 
+/// The title of the commands about commands, and of what every command takes.
+inline constexpr char kHelpGroup[] = "Help", kGeneralGroup[] = "General";
+
 struct HelpOption {
   std::string names;        ///< "-o,--output"; of an argument: its name. No former names.
   std::string value;        ///< "FILE"; empty for a flag and an argument without a placeholder.
@@ -26,20 +29,26 @@ struct HelpGroup {
   std::vector<HelpOption> entries;
 };
 
+/// A paragraph, or a command to type: on one line, however long.
+struct HelpBlock {
+  bool isCommand = false;
+  std::string text;
+};
+
 struct HelpPage {
   std::string command;  ///< "foretouch avatar check"
   std::string purpose;
   std::string usage;
   std::vector<HelpGroup> groups;
-  /// Paragraphs and examples: a line that is indented is a command and goes on behind a backslash.
-  std::string footer;
+  std::vector<HelpBlock> footer;
 };
 
 /// The option_text() of an option that the program itself requires, later than the parser would.
 inline constexpr char kRequired[] = "required";
 
-/// Arguments first, then commands, then options by groups in the order of their first one,
-/// "General" last.
+/// Commands first, then arguments, then options by groups in the order of their first one,
+/// "General" last; the program itself ends with its exit codes. In a footer, an indented line is a
+/// command and goes on behind a backslash.
 [[nodiscard]] HelpPage helpPageOf(const CLI::App& app);
 
 /// "foretouch avatar check"

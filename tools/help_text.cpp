@@ -27,40 +27,31 @@ std::string entryText(const HelpOption& entry, std::size_t columns) {
   return line + wrapped(text, columns, kTextColumn, kTextColumn) + "\n";
 }
 
-/// A command that goes on behind backslashes, as one line of words.
-std::string wrappedCommand(const std::string& line, std::size_t columns) {
+/// An option stays with its value.
+std::string wrappedCommand(std::string line, std::size_t columns) {
   constexpr std::size_t kBegin = 2, kGoesOn = 6;
+  constexpr char kNoBreak = '\x01';
+  for (std::size_t at = line.find(" -"); at != std::string::npos; at = line.find(" -", at + 1)) {
+    const std::size_t blank = line.find(' ', at + 1);
+    if (blank != std::string::npos && line[blank + 1] != '-') line[blank] = kNoBreak;
+  }
   const std::string text = wrapped(line, columns - 2, kGoesOn, kBegin);
   std::string told = std::string(kBegin, ' ');
-  for (const char c : text) told += c == '\n' ? std::string(" \\\n") : std::string(1, c);
+  for (const char c : text) {
+    told += c == '\n' ? std::string(" \\\n") : std::string(1, c == kNoBreak ? ' ' : c);
+  }
   return told + "\n";
 }
 
-/// Paragraphs wrapped anew, commands by themselves.
-std::string footerText(const std::string& footer, std::size_t columns) {
-  std::istringstream lines(footer);
-  std::string text, paragraph, command;
-  const auto endParagraph = [&] {
-    if (!paragraph.empty()) text += wrapped(paragraph, columns, 0, 0) + "\n";
-    paragraph.clear();
-  };
-  for (std::string line; std::getline(lines, line);) {
-    const bool goesOn = !line.empty() && line.back() == '\\';
-    if (!command.empty() || line.rfind("  ", 0) == 0) {
-      endParagraph();
-      command += " " + (goesOn ? line.substr(0, line.size() - 1) : line);
-      if (goesOn) continue;
-      text += wrappedCommand(command, columns);
-      command.clear();
-    } else if (line.empty()) {
-      endParagraph();
-      text += "\n";
-    } else {
-      if (line.back() == ':') endParagraph();  // a title
-      paragraph += (paragraph.empty() ? "" : " ") + line;
-    }
+std::string footerText(const std::vector<HelpBlock>& footer, std::size_t columns) {
+  std::string text;
+  bool wasTitle = true;  // nothing stands between a title and what it is of
+  for (const HelpBlock& block : footer) {
+    if (!block.isCommand && !wasTitle) text += "\n";
+    text += block.isCommand ? wrappedCommand(block.text, columns)
+                            : wrapped(block.text, columns, 0, 0) + "\n";
+    wasTitle = !block.isCommand && block.text.back() == ':';
   }
-  endParagraph();
   return text;
 }
 

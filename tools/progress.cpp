@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/console.h"
+
 namespace foretouch::tools {
 
 std::string progressLine(const std::string& label, std::int64_t done, std::int64_t total,
@@ -26,7 +28,9 @@ std::string progressLine(const std::string& label, std::int64_t done, std::int64
 }
 
 ProgressBar::ProgressBar(std::string label, std::int64_t total)
-    : label_(std::move(label)), total_(total), visible_(::isatty(STDERR_FILENO) == 1) {}
+    : label_(std::move(label)),
+      total_(total),
+      visible_(!isQuiet() && ::isatty(STDERR_FILENO) == 1) {}
 
 void ProgressBar::advanceTo(std::int64_t done) {
   constexpr auto kBetweenDraws = std::chrono::milliseconds(100);

@@ -92,8 +92,9 @@ const CLI::App& commandNamed(const CLI::App& program, const std::vector<std::str
                              std::size_t& rest) {
   const CLI::App* app = &program;
   for (rest = 0; rest < words.size(); ++rest) {
-    const auto named = app->get_subcommands(
-        [&](const CLI::App* command) { return command->get_name() == words[rest]; });
+    const auto named = app->get_subcommands([&](const CLI::App* command) {
+      return isListed(*command) && command->get_name() == words[rest];
+    });
     if (named.empty()) break;
     app = named.front();
   }
@@ -121,7 +122,10 @@ std::string usageError(const CLI::App& program, const std::vector<std::string>& 
   } else if (const std::string over = firstOver(app, words, rest); !over.empty()) {
     text += "expected no argument " + inQuotes(over);
   } else {
-    text += parsersWords;
+    // "--scene: 1 required FILE missing"
+    const std::size_t missing = parsersWords.find(": 1 required ");
+    const bool isMissing = missing != std::string::npos;
+    text += isMissing ? parsersWords.substr(0, missing) + ": expected a value" : parsersWords;
   }
   return withHelpOf(app, text);
 }

@@ -59,8 +59,7 @@ Result<ClipFile> readClipFile(const std::string& path, const ClipFileOptions& op
     case ClipFormat::Bvh: break;
   }
   ClipFile file;
-  static_cast<void>(
-      internal::settleFrame(options.import.scale, options.import.up, file.frame));
+  static_cast<void>(internal::settleFrame(options.import.scale, options.import.up, file.frame));
   FORETOUCH_TRY(file.clip, readBvhFile(path, BvhOptions{file.frame.metresPerUnit}));
   return file;
 }

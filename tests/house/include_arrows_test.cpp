@@ -77,8 +77,8 @@ const std::map<std::string, Rooms> kRooms = {
       {"report", {"setup", "log", "audit", "replay", "touches", "inputs", "settings", ""}},
       {"view", {"report", "stream", "settings", ""}},
       {"commands",
-       {"view", "report", "log", "sweep", "glb", "stream", "replay", "setup", "touches", "audit", "inputs",
-        "settings", ""}}}},
+       {"view", "report", "log", "sweep", "glb", "stream", "replay", "setup", "touches", "audit",
+        "inputs", "settings", ""}}}},
 };
 
 /// Libraries that only these folders may include, by the include's first word.

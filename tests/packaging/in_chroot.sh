@@ -10,10 +10,14 @@ of() { find "$PWD/packages" -name "$1_*.deb"; }
 
 say "the program alone"
 install "$(of foretouch)"
-foretouch demo --output demo.jsonl >demo.txt
+foretouch demo --details --output demo.jsonl >demo.txt
 grep -q '"format":"foretouch-results"' demo.jsonl
 grep -E '^(steps|contacts) ' demo.txt
 test -f /usr/lib/systemd/system/foretouch.service
+test -s /usr/share/man/man1/foretouch-avatar-check.1
+test -s /usr/share/bash-completion/completions/foretouch
+test -s /usr/share/zsh/vendor-completions/_foretouch
+test -s /usr/share/fish/vendor_completions.d/foretouch.fish
 test ! -e /etc/systemd/system/multi-user.target.wants/foretouch.service
 test -f /usr/share/doc/foretouch/copyright
 

@@ -20,6 +20,7 @@
 #include "tools/audit/surface_audit.h"
 #include "tools/inputs/first_pose.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/results_output.h"
 #include "tools/settings/frame_settings.h"
 #include "tools/settings/world_settings.h"
 
@@ -45,7 +46,8 @@ void tell(const Avatar& avatar, const std::string& output, const std::string& mo
           const char* unitOption, bool isRobot = false) {
   AvatarAudit audit = auditAvatar(avatar, restPose(avatar.skeleton()));
   if (isRobot) audit.stature.reset();
-  printOut(output + "\n" + describe(audit, "rest pose") + more);
+  const std::string text = output + "\n" + describe(audit, "rest pose") + more;
+  isStandardOutput(output) ? printAside(text) : printOut(text);
   for (const std::string& doubt : doubtsAbout(audit, unitOption)) printNote(output + ": " + doubt);
 }
 
@@ -81,6 +83,10 @@ std::string describe(const ModelAvatar& made, std::size_t read) {
 
 ExitCode makeFromModel(AskedOfModel asked) {
   asked.reading.urdfSurface = asked.visual ? UrdfSurface::Visual : UrdfSurface::Collision;
+  if (asked.output == kStandardOutput) {
+    return failed(Error::in("--output", ErrorCode::Mismatch,
+                            "expected a file: the links' triangles go beside it"));
+  }
   asked.making.meshFile = meshFileOf(asked.output);
   for (const std::string& output : {asked.output, meshPathOf(asked.output)}) {
     FORETOUCH_CHECK_OR(failed, checkIsNoInput(output, {asked.model}));
@@ -104,7 +110,7 @@ ExitCode makeFromModel(AskedOfModel asked) {
 }
 
 void addOutput(Settings& settings, std::string& output) {
-  settings.path("-o,--output", "FILE", output, "Avatar file to write").required();
+  settings.output("-o,--output", "FILE", output, "Avatar file to write").required();
 }
 
 /// Settings of both kinds of models.
@@ -122,7 +128,7 @@ void addModelSettings(Settings& settings, AskedOfModel& asked, const char* scale
 Command avatarBvhCommand() {
   const auto asked = std::make_shared<AskedOfClip>();
   Settings settings;
-  settings.path("clip", "CLIP", asked->clip, "BVH clip").required("a BVH clip");
+  settings.path("clip", "CLIP", asked->clip, "BVH clip").files("bvh").required("a BVH clip");
   addOutput(settings, asked->output);
   settings
       .number("--clip-scale", "S", asked->reading.scale, kMetresPerUnit,
@@ -144,6 +150,7 @@ Command avatarMeshCommand() {
   settings
       .path("model", "BODY", asked->model,
             "Model: any format with bones or nodes that assimp reads")
+      .files(kModelEndings)
       .required("a rigged model");
   addModelSettings(settings, *asked, "Metres per unit of the model");
   Command command{"mesh", "Make an avatar from a rigged model: LSS that contain its triangles",
@@ -159,7 +166,7 @@ Command avatarUrdfCommand() {
   asked->reading.import.up = UpAxis::Z;
   asked->isRobot = true;
   Settings settings;
-  settings.path("robot", "ROBOT", asked->model, "URDF file").required("a URDF file");
+  settings.path("robot", "ROBOT", asked->model, "URDF file").files("urdf").required("a URDF file");
   addModelSettings(settings, *asked, "Metres per unit of the robot");
   settings.flag("--visual", asked->visual, "Use the visual meshes as the collision surface");
   settings.list("--package", "DIR", asked->reading.packagePaths,

@@ -17,6 +17,7 @@
 #include "assets/avatar/pairs_file.h"
 #include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
+#include "assets/json_writer.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
 #include "tools/arguments.h"
@@ -24,6 +25,7 @@
 #include "tools/inputs/joint_map.h"
 #include "tools/inputs/motion_file.h"
 #include "tools/inputs/own_pairs.h"
+#include "tools/results_output.h"
 #include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
@@ -42,6 +44,7 @@ struct AskedPairs {
   BvhAvatarOptions making;
   PairRuleOptions rules;
   std::vector<std::string> leftOut;
+  bool asJson = false;
 };
 
 bool isBvh(const std::string& path) {
@@ -125,6 +128,46 @@ std::string describe(const Avatar& avatar, const PairRules& rules, std::size_t p
          radiiTable(avatar, rules);
 }
 
+std::string pairsJson(const AskedPairs& asked, const Avatar& avatar, const PairRules& rules,
+                      std::size_t poses) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.field("avatar", asked.source);
+  out.field("pairs", rules.numPairs());
+  out.field("asked", rules.numAsked());
+  out.list("left_out", rules.leftOut(), [&](const LeftOutPair& pair) {
+    out.beginObject();
+    out.field("a", named(avatar, pair.a));
+    out.field("b", named(avatar, pair.b));
+    out.field("reason", toString(pair.reason));
+    out.endObject();
+  });
+  out.list("radii", rules.radii(), [&](const PairRadius& own) {
+    out.beginObject();
+    out.field("a", named(avatar, own.a));
+    out.field("lss_a", own.lssA);
+    out.field("b", named(avatar, own.b));
+    out.field("lss_b", own.lssB);
+    out.field("radius", own.radius);
+    out.endObject();
+  });
+  out.field("usual_poses", poses);
+  if (!asked.output.empty()) out.field("output", asked.output);
+  out.endObject();
+  return text + "\n";
+}
+
+/// Where the rules themselves take standard output, what is said of them goes to stderr.
+void tellOfPairs(const AskedPairs& asked, const Avatar& avatar, const PairRules& rules,
+                 std::size_t poses) {
+  const std::string text =
+      asked.asJson ? pairsJson(asked, avatar, rules, poses)
+                   : asked.source + "\n" + describe(avatar, rules, poses) +
+                         (asked.output.empty() ? "" : "\npairs: " + asked.output + "\n");
+  isStandardOutput(asked.output) ? printAside(text) : printOut(text);
+}
+
 ExitCode run(AskedPairs asked) {
   std::vector<std::string> inputs = asked.clips;
   inputs.insert(inputs.end(), {asked.source, asked.reading.mapPath, asked.reading.robotPath});
@@ -143,8 +186,7 @@ ExitCode run(AskedPairs asked) {
   if (!asked.output.empty()) {
     FORETOUCH_CHECK_OR(failed, writePairsFile(rules, avatar, asked.output));
   }
-  printOut(asked.source + "\n" + describe(avatar, rules, poses.size()) +
-           (asked.output.empty() ? "" : "\npairs: " + asked.output + "\n"));
+  tellOfPairs(asked, avatar, rules, poses.size());
   return ExitCode::Done;
 }
 
@@ -153,12 +195,16 @@ Settings pairsSettings(AskedPairs& asked) {
   settings
       .path("avatar", "AVATAR|CLIP", asked.source,
             "Avatar file, or a BVH clip: the avatar that foretouch avatar bvh makes of it")
+      .files("json bvh")
       .required("an avatar file or a BVH clip");
-  settings.path("-o,--output", "FILE", asked.output, "Pair rules to write, for replay --pairs");
-  settings.list(
-      "--clip", "CLIP", asked.clips,
-      "Poses that the avatar usually takes: BVH, animated model, or csv; may be repeated. "
-      "Not given: those of the clip that the avatar is made of");
+  settings.output("-o,--output", "FILE", asked.output, "Pair rules to write, for replay --pairs");
+  settings.asJson(asked.asJson);
+  settings
+      .list("--clip", "CLIP", asked.clips,
+            "Poses that the avatar usually takes: BVH, animated model, or csv; may be repeated. "
+            "Not given: those of the clip that the avatar is made of")
+      .files(kClipEndings)
+      .in(kInputGroup);
   settings.number("--always-share", "S", asked.rules.alwaysShare, kShareRange,
                   "Leave out links that touch in this share of the usual poses");
   settings.flag("--pair-radii", asked.rules.usePairRadii,

@@ -9,7 +9,9 @@
 
 #include "articulated/try.h"
 #include "assets/import/scene_import.h"
+#include "assets/json_writer.h"
 #include "middleware/scene/scene.h"
+#include "tools/audit/audit_json.h"
 #include "tools/audit/audits.h"
 #include "tools/inputs/first_pose.h"
 #include "tools/settings/world_settings.h"
@@ -25,7 +27,26 @@ std::string describe(const SceneImportReport& report) {
       "left out by import", report.skippedPrimitives, report.skippedFaces);
 }
 
-ExitCode check(const WorldRequest& asked) {
+/// The values of all options.
+struct AskedScene : WorldRequest {
+  bool asJson = false;
+};
+
+std::string sceneJson(const AskedScene& asked, const Scene& scene, const SceneImportReport& report,
+                      const std::vector<std::string>& doubts) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.field("scene", asked.scenePath);
+  writeFields(scene.audit(), out);
+  writeFields(report, out);
+  writeObjects(scene, out);
+  out.field("doubts", doubts);
+  out.endObject();
+  return text + "\n";
+}
+
+ExitCode check(const AskedScene& asked) {
   FORETOUCH_TRY_OR(failed, auto imported, importScene(asked.scenePath, asked.sceneImport));
   const SceneImportReport report = imported.report;
   const FileFrame frame = imported.frame;
@@ -37,9 +58,10 @@ ExitCode check(const WorldRequest& asked) {
                    inFile(Scene::build(std::move(imported.scene)), asked.scenePath));
 
   const SceneAudit& audit = scene.audit();
-  printOut(asked.scenePath + "\n" + tools::describe(audit) + describe(report) + rowOf(frame) +
-           "\n" + largestObjects(scene));
   const std::vector<std::string> doubts = doubtsAbout(audit);
+  printOut(asked.asJson ? sceneJson(asked, scene, report, doubts)
+                        : asked.scenePath + "\n" + tools::describe(audit) + describe(report) +
+                              rowOf(frame) + "\n" + largestObjects(scene));
   for (const std::string& doubt : doubts) printError(asked.scenePath + ": " + doubt);
   return doubts.empty() ? ExitCode::Done : ExitCode::CheckSaysNo;
 }
@@ -47,12 +69,13 @@ ExitCode check(const WorldRequest& asked) {
 }  // namespace
 
 Command sceneCommand() {
-  const auto asked = std::make_shared<WorldRequest>();
+  const auto asked = std::make_shared<AskedScene>();
   Settings settings;
   addSceneSettings(settings, *asked);
   Setting& scene = settings.of("--scene").required("a scene file");
   scene.option = "scene";
   scene.value = "SCENE";
+  settings.asJson(asked->asJson);
   Command check{"check", "Measure a scene; exit code 1 where its size or its triangles are amiss",
                 "Example:\n  foretouch scene check kitchen.ply --scene-up z", std::move(settings)};
   check.takesProject = true;

@@ -2,12 +2,15 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tools/audit/avatar_command.h"
 #include "tools/audit/scene_command.h"
+#include "tools/commands/completion_command.h"
 #include "tools/commands/demo_command.h"
 #include "tools/commands/replay_command.h"
 #include "tools/commands/serve_command.h"
+#include "tools/help_page.h"
 #include "tools/log/log_command.h"
 #include "tools/report/view_command.h"
 #include "tools/setup/setup_command.h"
@@ -26,14 +29,32 @@ Command movedCommand(const std::string& name, const std::string& now) {
   return moved;
 }
 
+/// All of the program's commands, as help lists them.
+std::vector<Command> allCommands() {
+  std::vector<Command> commands;
+  const auto add = [&](const char* group, Command command) {
+    command.group = group;
+    commands.push_back(std::move(command));
+  };
+  add("Start here", demoCommand());
+  add("Start here", setupCommand());
+  add("Start here", viewCommand());
+  add("Ask", replayCommand());
+  add("Ask", sweepCommand());
+  add("Live", serveCommand());
+  add("Live", publishCommand());
+  add("Live", listenCommand());
+  add("Files", avatarCommand());
+  add("Files", sceneCommand());
+  add("Files", logCommand());
+  add(kHelpGroup, completionCommand(allCommands));
+  commands.push_back(movedCommand("bench", "foretouch-bench"));
+  commands.push_back(movedCommand("tune", "foretouch-bench tune"));
+  return commands;
+}
+
 void addCommands(CLI::App& program, ExitCode& exit) {
-  for (const auto command :
-       {demoCommand, setupCommand, replayCommand, viewCommand, serveCommand, publishCommand, listenCommand,
-        avatarCommand, sceneCommand, sweepCommand, logCommand}) {
-    addCommand(program, command(), exit);
-  }
-  addCommand(program, movedCommand("bench", "foretouch-bench"), exit);
-  addCommand(program, movedCommand("tune", "foretouch-bench tune"), exit);
+  for (Command& command : allCommands()) addCommand(program, std::move(command), exit);
 }
 
 }  // namespace

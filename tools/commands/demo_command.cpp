@@ -10,21 +10,35 @@
 #include "articulated/try.h"
 #include "assets/text_file.h"
 #include "tools/audit/audits.h"
+#include "tools/commands/open_page.h"
 #include "tools/commands/replay_command.h"
 #include "tools/inputs/example_folder.h"
+#include "tools/results_output.h"
 
 namespace foretouch::tools {
 namespace {
 
 constexpr double kDemoRateHz = 10.0;
 
+/// The values of all options.
+struct AskedDemo {
+  std::string output = "foretouch-demo.jsonl", report;
+  bool details = false;
+};
+
+/// What everybody wants to know.
 std::string inWords(const ReplaySummary& summary) {
+  // Without the empty line that ends it.
+  const std::string headline = summary.headline();
+  return fmt::format(
+      "The bundled dancer moves through the bundled room, known only {:g} times a second.\n{}",
+      kDemoRateHz, headline.substr(0, headline.size() - 1));
+}
+
+/// The first of those that a check of the poses misses.
+std::string missedOnes(const ReplaySummary& summary) {
   const ReplayInputs& inputs = summary.inputs();
-  std::string text = fmt::format(
-      "\nIn plain words: the dancer is known only {:g} times a second. Foretouch followed the "
-      "motion\n"
-      "in between and found {} first contacts; looking at the poses alone would have missed {}.\n",
-      kDemoRateHz, summary.total().contacts, summary.total().missedByPoses);
+  std::string text = "\n";
   for (const ReportedContact& missed : summary.firstMissed()) {
     const LinkContact& contact = missed.contact;
     const auto object = static_cast<std::size_t>(inputs.scene.object(contact.triangle));
@@ -38,50 +52,63 @@ std::string inWords(const ReplaySummary& summary) {
   return text;
 }
 
+/// What the replay read, and its whole summary.
+std::string details(const ReplayJob& job, const ReplaySummary& summary) {
+  const ReplayInputs& inputs = summary.inputs();
+  const AvatarAudit avatar = auditAvatar(inputs.avatar, restPose(inputs.avatar.skeleton()));
+  return "\n" + job.request.scenePath + "\n" + describe(inputs.scene.audit()) + "\n" +
+         job.request.avatarPath + "\n" + describe(avatar, "rest pose") + "\n" +
+         summary.text(job.options.threads) + missedOnes(summary);
+}
+
 /// Beside the results, if they go to a file.
 std::string defaultReport(const std::string& output) {
   namespace fs = std::filesystem;
   std::error_code absent;
-  const bool isFile = !fs::is_other(fs::status(output, absent));
+  const bool isFile = output != kStandardOutput && !fs::is_other(fs::status(output, absent));
   return (isFile ? fs::path(output) : fs::path("foretouch-demo"))
       .replace_extension(".html")
       .string();
 }
 
-ExitCode runDemo(const std::string& output, const std::string& report) {
+ExitCode runDemo(const AskedDemo& asked) {
   FORETOUCH_TRY_OR(failed, const auto folder, exampleFolder());
   ReplayJob job;
   job.request.scenePath = folder + "/room.obj";
   job.request.avatarPath = folder + "/dancer.avatar.json";
   job.request.motionPath = folder + "/dancer.bvh";
   job.request.rateHz = kDemoRateHz;
-  job.outputPath = output;
-  job.report.path = report.empty() ? defaultReport(output) : report;
+  job.outputPath = asked.output;
+  job.report.path = asked.report.empty() ? defaultReport(asked.output) : asked.report;
   job.options.compareRigid = true;
   job.options.rays = true;
+  const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
   const auto done = runReplay(job, [&](const ReplaySummary& summary) {
-    const ReplayInputs& inputs = summary.inputs();
-    const AvatarAudit avatar = auditAvatar(inputs.avatar, restPose(inputs.avatar.skeleton()));
-    printOut(job.request.scenePath + "\n" + describe(inputs.scene.audit()) + "\n" +
-             job.request.avatarPath + "\n" + describe(avatar, "rest pose") + "\n" +
-             summary.text(job.options.threads) + inWords(summary) + "\nresults: " + output +
-             "\nreport:  " + job.report.path + "\n");
+    const std::string text = inWords(summary) + "page:    " + job.report.path +
+                             "   (open it in a browser)\nresults: " + job.outputPath + "\n" +
+                             (asked.details ? details(job, summary) : "");
+    outIsTaken ? printAside(text) : printOut(text);
   });
-  return done.ok() ? ExitCode::Done : failed(done.error());
+  if (!done.ok()) return failed(done.error());
+  offerToOpen(job.report.path);
+  return ExitCode::Done;
 }
 
 }  // namespace
 
 Command demoCommand() {
-  const auto output = std::make_shared<std::string>("foretouch-demo.jsonl");
-  const auto report = std::make_shared<std::string>();
+  const auto asked = std::make_shared<AskedDemo>();
   Settings settings;
-  settings.path("-o,--output", "FILE", *output, "Results, as lines of JSON");
-  settings.path("--report", "FILE", *report,
-                "The report, a page for a browser; beside the results if not given");
+  settings.output("-o,--output", "FILE", asked->output, "Results, as lines of JSON");
+  settings.output("--report", "FILE", asked->report,
+                  "The report, a page for a browser; beside the results if not given");
+  settings
+      .flag("--details", asked->details,
+            "Also say what was read, and what every link met, in how much time")
+      .in(kOutputGroup);
   Command command{"demo", "Replay the bundled dancer in the bundled room and say what was found",
                   "Example:\n  foretouch demo", std::move(settings)};
-  command.run = [output, report](const Settings&) { return runDemo(*output, *report); };
+  command.run = [asked](const Settings&) { return runDemo(*asked); };
   return command;
 }
 

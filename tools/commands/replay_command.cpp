@@ -16,6 +16,7 @@
 #include "tools/interrupt.h"
 #include "tools/progress.h"
 #include "tools/replay/place_doubts.h"
+#include "tools/replay/summary_json.h"
 #include "tools/report/replay_report.h"
 #include "tools/report/report_file.h"
 #include "tools/results_output.h"
@@ -30,7 +31,8 @@ struct AskedReplay {
   std::vector<std::string> avatars;  ///< For a log, numbered as parseNumberedAvatars() reads them.
   StreamPolicy stream;
   std::string suffix;
-  int threads = 0;  ///< 0: one per processor.
+  int threads = 0;      ///< 0: one per processor.
+  bool asJson = false;  ///< The summary.
 };
 
 void addInputSettings(Settings& settings, AskedReplay& asked) {
@@ -40,37 +42,37 @@ void addInputSettings(Settings& settings, AskedReplay& asked) {
   settings
       .list("--avatar", "[ID=]FILE", asked.avatars,
             "Avatar file (see foretouch avatar); of a log, its number before it, and repeated")
+      .files("json")
       .in(kInputGroup)
       .inConfig("avatar", "file")
       .required();
   addMotionSetting(settings, request, "--motion", "CLIP|LOG",
                    "BVH clip, animated model (glb, gltf, fbx, dae, x), joint positions (csv), or "
                    "event log (lcmlog)")
+      .files("bvh glb gltf fbx dae x csv lcmlog")
       .required();
 }
 
 void addOutputSettings(Settings& settings, AskedReplay& asked) {
-  settings.path("-o,--output", "FILE", asked.job.outputPath, "Results, as lines of JSON")
-      .in(kOutputGroup)
+  settings.output("-o,--output", "FILE", asked.job.outputPath, "Results, as lines of JSON")
       .required();
-  settings
-      .path("--report", "FILE", asked.job.report.path,
-            "The report: a page for a browser, all in one file")
-      .in(kOutputGroup);
+  settings.output("--report", "FILE", asked.job.report.path,
+                  "The report: a page for a browser, all in one file");
   settings
       .whole("--report-triangles", "N", asked.job.report.maxTriangles, 1, kMostReportTriangles,
              "Of a heavier scene the report shows what is near the action, or a simplified form")
       .in(kOutputGroup);
   settings
-      .path("--glb", "FILE", asked.job.glb.path,
-            "Also the replay as an animated GLB, for any viewer of glTF (docs/formats.md)")
-      .in(kOutputGroup)
+      .output("--glb", "FILE", asked.job.glb.path,
+              "Also the replay as an animated GLB, for any viewer of glTF (docs/formats.md)")
       .ofClips();
   settings
       .whole("--glb-triangles", "N", asked.job.glb.mostTriangles, 1, kMaxTriangles,
              "Triangles of that file at most")
       .in(kOutputGroup)
       .ofClips();
+  settings.asJson(asked.asJson).ofClips();
+  settings.of("--json").help = "Print the summary as one line of JSON (docs/formats.md)";
 }
 
 void addComparisonSettings(Settings& settings, ReplayOptions& options) {
@@ -217,10 +219,15 @@ ExitCode runClip(const AskedReplay& asked) {
   const int cores = static_cast<int>(
       std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(kMaxThreads)));
   job.options.threads = asked.threads == 0 ? cores : asked.threads;
-  const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
+  const std::string& report = job.report.path;
+  const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(report) ||
+                          isStandardOutput(job.glb.path);
   const auto done = runReplay(job, [&](const ReplaySummary& summary) {
-    const std::string text = summary.text(job.options.threads);
-    outIsTaken ? printAside(text) : printOut(text + placesOf(job.outputPath, job.report.path));
+    const int threads = job.options.threads;
+    std::string text = asked.asJson ? summaryLine(summary, threads, job.outputPath, report)
+                                    : summary.text(threads);
+    if (!asked.asJson && !outIsTaken) text += placesOf(job.outputPath, report);
+    outIsTaken ? printAside(text) : printOut(text);
   });
   return done.ok() ? ExitCode::Done : failed(done.error());
 }
@@ -290,6 +297,8 @@ Result<Done> runReplay(const ReplayJob& job,
   }
   FORETOUCH_TRY(const auto inputs, loadReplayInputs(request));
   for (const std::string& remark : remarksOn(inputs)) printNote(remark);
+  const auto rate = remarkOnRate(inputs.steps, inputs.clip.frameTimeS, request.rateHz);
+  if (rate) printNote(*rate);
 
   ReplaySummary summary(inputs);
   PlaceDoubts doubts(inputs.avatar.skeleton());

@@ -160,15 +160,18 @@ ExitCode run(const Settings& settings, ServeConfig& config) {
 
 /// First of all: options override the file.
 void addConfigSetting(Settings& settings, ServeConfig& config) {
-  settings.parsed(
-      "--config", "FILE",
-      [&config](const std::string& path) -> Result<Done> {
-        FORETOUCH_TRY(config,
-                      path.empty() ? Result<ServeConfig>(ServeConfig()) : readServeConfig(path));
-        return Done{};
-      },
-      [] { return std::string(); },
-      "TOML file that says all of this; options below replace what it says");
+  settings
+      .parsed(
+          "--config", "FILE",
+          [&config](const std::string& path) -> Result<Done> {
+            FORETOUCH_TRY(
+                config, path.empty() ? Result<ServeConfig>(ServeConfig()) : readServeConfig(path));
+            return Done{};
+          },
+          [] { return std::string(); },
+          "TOML file that says all of this; options below replace what it says")
+      .in(kInputGroup)
+      .files("toml");
 }
 
 constexpr char kServeExamples[] = R"(Examples:

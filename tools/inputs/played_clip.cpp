@@ -53,8 +53,18 @@ std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,
                                         const JointMatch& match, const std::string& motionPath) {
   const auto ratio = suspiciousSize(avatar.skeleton(), clip.skeleton, match);
   if (!ratio) return std::nullopt;
-  return fmt::format("{}: its bones are {:.4g} times as long as the avatar's; is --clip-scale right?",
-                     motionPath, *ratio);
+  const std::size_t matched = match.clipJointOf.size() - match.unmatchedAvatar.size();
+  const std::string lead =
+      fmt::format("{}: its bones are {:.4g} times as long as the avatar's", motionPath, *ratio);
+  // Bones between matched joints skip the others, so their lengths say little of the unit.
+  if (2 * matched < match.clipJointOf.size()) {
+    return lead + fmt::format(
+                      ", by the {} of {} joints that match; does --map say which belong "
+                      "together?",
+                      matched, match.clipJointOf.size());
+  }
+  return lead +
+         fmt::format("; is --clip-scale right? {:.3g} times as much would fit", 1.0 / *ratio);
 }
 
 std::string firstOf(const std::vector<std::string>& names) {

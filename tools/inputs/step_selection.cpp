@@ -9,6 +9,29 @@
 
 namespace foretouch::tools {
 
+double rateTaken(const StepSelection& steps, double frameTimeS) {
+  return 1.0 / (frameTimeS * static_cast<double>(steps.stride));
+}
+
+std::optional<std::string> remarkOnRate(const StepSelection& steps, double frameTimeS,
+                                        std::optional<double> rateHz) {
+  if (!rateHz) return std::nullopt;
+  const double taken = rateTaken(steps, frameTimeS);
+  const double share = taken / *rateHz - 1.0;
+  if (std::abs(share) <= kRateSlack) return std::nullopt;
+  const bool isMore = share > 0.0;
+  const std::string frames =
+      steps.stride == 1 ? "every frame" : fmt::format("one frame in {}", steps.stride);
+  std::string text = fmt::format(
+      "--rate {:.6g}: takes {} of a clip of {:.6g} a second: {:.5g} poses a second, {:.3g} % {} "
+      "than asked",
+      *rateHz, frames, 1.0 / frameTimeS, taken, 100.0 * std::abs(share), isMore ? "more" : "fewer");
+  if (!isMore) return text;
+  const StepSelection fewer{steps.stride + 1, 1};
+  return text +
+         fmt::format("; --rate {:.5g} would be at most as many", rateTaken(fewer, frameTimeS));
+}
+
 Result<StepSelection> selectSteps(std::size_t frames, double frameTimeS,
                                   std::optional<double> rateHz) {
   FORETOUCH_ASSERT(frameTimeS > 0.0 && (!rateHz || *rateHz > 0.0));

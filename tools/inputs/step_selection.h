@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "articulated/result.h"
 
@@ -18,6 +19,14 @@ struct StepSelection {
 /// A rate may exceed the clip's own by this share: people say 30 for 29.97, and a frame time
 /// printed with few digits is off by about as much. Beyond it, we would have to invent poses.
 inline constexpr double kRateSlack = 0.01;
+
+/// Poses per second that the steps take, of a clip with this frame time.
+[[nodiscard]] double rateTaken(const StepSelection& steps, double frameTimeS);
+
+/// What a rate asks for that no whole number of frames gives: which one it gets, and how many more
+/// or fewer poses these are. Nothing for a rate that it gets, within kRateSlack.
+[[nodiscard]] std::optional<std::string> remarkOnRate(const StepSelection& steps, double frameTimeS,
+                                                      std::optional<double> rateHz);
 
 /// stride = max(1, round(1 / (rate * frame time))); without a rate, every frame. Errors: a rate
 /// above the clip's own, and a clip without a whole step. Preconditions: frameTimeS and *rateHz are

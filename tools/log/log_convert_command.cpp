@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "assets/json_writer.h"
 #include "assets/text_file.h"
 #include "network/log/event_log.h"
 #include "tools/arguments.h"
@@ -34,6 +35,7 @@ namespace {
 /// The values of all options.
 struct Conversion {
   std::string input, output, avatar, suffix;
+  bool asJson = false;
 };
 
 std::string extensionOf(const std::string& path) {
@@ -43,8 +45,12 @@ std::string extensionOf(const std::string& path) {
   return extension;
 }
 
-/// A description of the output, for people.
-using Told = Result<std::string>;
+/// What the output holds: in words, and counted.
+struct Written {
+  std::string text;
+  std::vector<std::pair<const char*, std::int64_t>> counts;
+};
+using Told = Result<Written>;
 
 Told toJsonLines(const Conversion& asked, LogLoss& loss) {
   FORETOUCH_TRY(const auto channels, channelNames(asked.suffix));
@@ -61,9 +67,9 @@ Told toJsonLines(const Conversion& asked, LogLoss& loss) {
     return !guard.requested();
   };
   FORETOUCH_CHECK(readEvents(asked.input, loss, write));
-  if (guard.requested()) return std::string();
+  if (guard.requested()) return Written();
   FORETOUCH_CHECK(file.commit());
-  return fmt::format("{} events", events);
+  return Written{fmt::format("{} events", events), {{"events", events}}};
 }
 
 Told toBvh(const Conversion& asked, LogLoss& loss) {
@@ -77,7 +83,8 @@ Told toBvh(const Conversion& asked, LogLoss& loss) {
   FORETOUCH_TRY(auto file, PendingFile::create(asked.output));
   file.write(bvh.text);
   FORETOUCH_CHECK(file.commit());
-  return fmt::format("{} frames of avatar {}, in metres", bvh.frames, request.avatar);
+  return Written{fmt::format("{} frames of avatar {}, in metres", bvh.frames, request.avatar),
+                 {{"frames", static_cast<std::int64_t>(bvh.frames)}, {"avatar", request.avatar}}};
 }
 
 Told toLog(const Conversion& asked) {
@@ -92,12 +99,16 @@ Told toLog(const Conversion& asked) {
   options.sender.source = "foretouch log convert";
   options.sender.startUtimeUs = utimeNow();
   FORETOUCH_TRY(const auto report, publishToLog(request, options, asked.output));
-  return fmt::format("{} poses and {} skeletons of avatar {}", report.poses, report.skeletons,
-                     options.sender.avatar);
+  return Written{fmt::format("{} poses and {} skeletons of avatar {}", report.poses,
+                             report.skeletons, options.sender.avatar),
+                 {{"poses", static_cast<std::int64_t>(report.poses)},
+                  {"skeletons", static_cast<std::int64_t>(report.skeletons)},
+                  {"avatar", options.sender.avatar}}};
 }
 
 Told convert(const Conversion& asked, LogLoss& loss) {
-  const std::string extension = extensionOf(asked.output);
+  const bool isOut = asked.output == kStandardOutput;
+  const std::string extension = isOut ? ".jsonl" : extensionOf(asked.output);
   const bool isLog = isEventLog(asked.input);
   FORETOUCH_CHECK(checkIsNoInput(asked.output, {asked.input}));
   if (isLog && extension == ".jsonl" && !asked.avatar.empty()) {
@@ -118,6 +129,17 @@ Told convert(const Conversion& asked, LogLoss& loss) {
                   " is no event log, found " + inQuotes(asked.output));
 }
 
+std::string conversionJson(const Conversion& asked, const Written& written) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.field("input", asked.input);
+  out.field("output", asked.output);
+  for (const auto& [name, count] : written.counts) out.field(name, count);
+  out.endObject();
+  return text + "\n";
+}
+
 ExitCode run(const Conversion& asked) {
   LogLoss loss;
   const auto told = convert(asked, loss);
@@ -126,7 +148,8 @@ ExitCode run(const Conversion& asked) {
     printNote(asked.input + ": " + formatOf(loss.counts()));
   }
   if (!told.ok()) return failed(told.error());
-  const std::string text = asked.output + ": " + told.value() + "\n";
+  const std::string text = asked.asJson ? conversionJson(asked, told.value())
+                                        : asked.output + ": " + told.value().text + "\n";
   isStandardOutput(asked.output) ? printAside(text) : printOut(text);
   return loss.any() ? ExitCode::CheckSaysNo : ExitCode::Done;
 }
@@ -144,11 +167,16 @@ Command logConvertCommand() {
   const auto asked = std::make_shared<Conversion>();
   Settings settings;
   settings.path("INPUT", "", asked->input, "Event log, or a clip as foretouch publish reads it")
+      .files("lcmlog bvh glb gltf fbx dae x csv")
       .required("an event log or a clip");
-  settings.path("-o,--output", "FILE", asked->output, "Ends in .bvh, .jsonl or .lcmlog").required();
+  settings
+      .output("-o,--output", "FILE", asked->output,
+              "Ends in .bvh, .jsonl or .lcmlog; - of a log: JSON lines on standard output")
+      .required();
   settings.text("--avatar", "ID|[ID=]FILE", asked->avatar,
                 "Of a log: whose poses, 1 if not given. Of a clip: the avatar file that it moves");
   addSuffixSetting(settings, asked->suffix);
+  settings.asJson(asked->asJson);
   Command command{"convert", "Turn an event log into BVH or JSON, or a clip into a log",
                   kConvertExamples, std::move(settings)};
   command.run = [asked](const Settings&) { return run(*asked); };

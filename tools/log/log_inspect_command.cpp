@@ -72,8 +72,10 @@ Command commandOf(const char* name, const char* purpose, const char* example,
                   ExitCode (*run)(const AskedLogs&)) {
   const auto asked = std::make_shared<AskedLogs>();
   Settings settings;
-  settings.list("log", "LOG", asked->logs, "LCM event logs").required("an event log");
-  settings.flag("--json", asked->json, "One line of JSON a log, on stdout");
+  settings.list("log", "LOG", asked->logs, "LCM event logs")
+      .files("lcmlog")
+      .required("an event log");
+  settings.asJson(asked->json).help = "Print one line of JSON per log (docs/formats.md)";
   Command command{name, purpose, example, std::move(settings)};
   command.run = [asked, run](const Settings&) { return run(*asked); };
   return command;

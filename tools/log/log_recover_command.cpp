@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "assets/json_writer.h"
 #include "tools/log/log_inspection.h"
 #include "tools/progress.h"
 
@@ -17,7 +18,7 @@ namespace {
 /// The values of all options.
 struct Recovery {
   std::string log, output;
-  bool keepTail = false;
+  bool keepTail = false, asJson = false;
 };
 
 /// Copies the trustworthy events of the one into the other.
@@ -48,6 +49,24 @@ std::string summary(const Recovery& asked, const LogCounts& counts) {
   return text;
 }
 
+std::string recoveryJson(const Recovery& asked, const LogCounts& counts) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.field("log", asked.log);
+  out.field("output", asked.output);
+  out.field("events", counts.events);
+  out.field("unchecked_events", counts.uncheckedEvents);
+  out.field("bad_blocks", counts.badBlocks);
+  out.field("missing_blocks", counts.missingBlocks);
+  out.field("bad_events", counts.badEvents);
+  out.field("tail_events", counts.tailEvents);
+  out.field("tail_kept", asked.keepTail);
+  out.field("bytes_lost", counts.skippedBytes);
+  out.endObject();
+  return text + "\n";
+}
+
 ExitCode recover(const Recovery& asked) {
   LogReadOptions options;
   options.keepTail = asked.keepTail;
@@ -63,7 +82,7 @@ ExitCode recover(const Recovery& asked) {
     std::filesystem::remove(asked.output, ignored);
     return failed(counts.error());
   }
-  printOut(summary(asked, counts.value()));
+  printOut(asked.asJson ? recoveryJson(asked, counts.value()) : summary(asked, counts.value()));
   return ExitCode::Done;
 }
 
@@ -72,11 +91,12 @@ ExitCode recover(const Recovery& asked) {
 Command logRecoverCommand() {
   const auto asked = std::make_shared<Recovery>();
   Settings settings;
-  settings.path("log", "LOG", asked->log, "LCM event log").required("an event log");
-  settings.path("-o,--output", "FILE", asked->output, "The new log; an existing file is refused")
+  settings.path("log", "LOG", asked->log, "LCM event log").files("lcmlog").required("an event log");
+  settings.output("-o,--output", "FILE", asked->output, "The new log; an existing file is refused")
       .required();
   settings.flag("--keep-tail", asked->keepTail,
                 "Also what follows the last check sum: of a writer that was killed");
+  settings.asJson(asked->asJson);
   Command command{"recover", "Write every event that can be trusted into a new log with check sums",
                   "Example:\n  foretouch log recover torn.lcmlog -o whole.lcmlog --keep-tail",
                   std::move(settings)};

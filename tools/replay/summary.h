@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lss/index.h"
 #include "middleware/query/query.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/replay_touches.h"
@@ -48,6 +49,7 @@ class ReplaySummary {
   [[nodiscard]] std::string headline() const { return touchHeadline(inputs_, touches_); }
   /// Contacts as the steps have them, one per link and step.
   [[nodiscard]] const Counts& total() const { return total_; }
+  [[nodiscard]] const Counts& ofLink(LinkId link) const { return ofLink_[slotOf(link)]; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Of own links, where they were asked; what the poses miss is not counted.
   [[nodiscard]] const Counts& totalOfPairs() const { return pairs_; }

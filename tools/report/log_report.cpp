@@ -1,5 +1,4 @@
 #include "tools/report/log_report.h"
-#include "tools/microseconds.h"
 
 #include <algorithm>
 #include <iterator>

@@ -178,12 +178,14 @@ Command viewCommand() {
   addSceneSettings(settings, job->request);
   addAvatarSetting(settings, job->request);
   addMotionSetting(settings, job->request, "--motion", "CLIP");
-  settings.path("--output", "FILE", job->report.path,
-                "The report: a page for a browser, all in one file");
+  settings
+      .output("-o,--output", "FILE", job->report.path,
+              "The report: a page for a browser, all in one file")
+      .in(kOutputGroup);
   settings.whole(
       "--report-triangles", "N", job->report.maxTriangles, 1, kMostReportTriangles,
       "Of a heavier scene the report shows what is near the avatar, or a simplified form");
-  settings.flag("--json", job->json, "Print the checks as JSON").in(kOutputGroup);
+  settings.asJson(job->json);
   addRateSetting(settings, job->request,
                  "Poses per second to show of the clip; animations: 30 if all");
   addClipSettings(settings, job->request);

@@ -48,6 +48,7 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
       .inReport("animation")
       .namedIf([&request] { return !request.animation.empty(); });
   settings.path("--robot", "URDF", request.robotPath, "The robot that joint positions are about")
+      .files("urdf")
       .in(kInputGroup)
       .inConfig("clip", "robot")
       .inHeader("robot")
@@ -57,6 +58,7 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
       .path("--map", "FILE", request.mapPath,
             R"(Joint names that differ: {"avatar joint": "clip joint"})")
       .in(kInputGroup)
+      .files("json")
       .inConfig("clip", "map")
       .inReport("joint map");
   settings
@@ -72,6 +74,7 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
 Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* option,
                           const char* value, const char* help) {
   return settings.path(option, value, request.motionPath, help)
+      .files(kClipEndings)
       .in(kInputGroup)
       .inConfig("clip", "file")
       .inHeader("motion")
@@ -80,6 +83,7 @@ Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* 
 
 Setting& addAvatarSetting(Settings& settings, ClipRequest& request) {
   return settings.path("--avatar", "FILE", request.avatarPath, "Avatar file (see foretouch avatar)")
+      .files("json")
       .in(kInputGroup)
       .inConfig("avatar", "file")
       .inReport("avatar");

@@ -25,6 +25,8 @@ struct ClipRequest {
   Placement placement;                    ///< The option sets its motionUpZ too, for BVH.
 };
 
+/// What readMotion() reads, for a shell that completes files.
+inline constexpr char kClipEndings[] = "bvh glb gltf fbx dae x csv";
 inline constexpr char kClipHelp[] =
     "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)";
 

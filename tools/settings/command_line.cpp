@@ -30,6 +30,7 @@ struct Subcommand {
   std::string project;  ///< The value of --project.
   const CLI::App* app = nullptr;
   std::deque<Typed> typed;
+  bool isQuiet = false;
 };
 
 /// With the former ones behind it, which help leaves out.
@@ -123,6 +124,7 @@ std::string missingIn(const Subcommand& subcommand) {
 }
 
 ExitCode runSubcommand(Subcommand& subcommand) {
+  if (subcommand.isQuiet) keepQuiet();
   FORETOUCH_CHECK_OR(failed, takeProject(subcommand));
   for (const Typed& typed : subcommand.typed) {
     FORETOUCH_CHECK_OR(failed, take(typed));
@@ -159,12 +161,7 @@ void addCommand(CLI::App& program, Command command, ExitCode& exit) {
   const auto subcommand = std::make_shared<Subcommand>();
   subcommand->command = std::move(command);
   if (subcommand->command.takesProject) {
-    subcommand->command.settings
-        .path("--project", "FILE", subcommand->project,
-              "Project file: what this command line does not say; foretouch.toml of the current "
-              "folder "
-              "if the command line names no files")
-        .in(kInputGroup);
+    addProjectSetting(subcommand->command.settings, subcommand->project);
   }
   subcommand->app = app;
   for (Setting& setting : subcommand->command.settings) {
@@ -172,6 +169,8 @@ void addCommand(CLI::App& program, Command command, ExitCode& exit) {
     typed.setting = &setting;
     addSetting(*app, typed);
   }
+  app->add_flag("-q,--quiet", subcommand->isQuiet, "No notes and no progress")
+      ->group(kGeneralGroup);
   app->callback([subcommand, &exit] { exit = runSubcommand(*subcommand); });
 }
 

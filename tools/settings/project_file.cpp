@@ -200,7 +200,7 @@ Result<std::vector<std::string>> ProjectReading::take() {
 }
 
 /// A text of TOML.
-std::string quoted(const std::string& text) {
+std::string tomlText(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -227,6 +227,15 @@ Result<std::vector<std::string>> takeFromProject(
   return ProjectReading(project, settings, isTyped).take();
 }
 
+Setting& addProjectSetting(Settings& settings, std::string& path) {
+  return settings
+      .path("--project", "FILE", path,
+            "Project file: what this command line does not say; foretouch.toml of the current "
+            "folder if the command line names no files")
+      .files("toml")
+      .in(kInputGroup);
+}
+
 Result<std::string> projectText(const Project& project, const std::string& folder) {
   std::string text =
       "# Made by foretouch setup; change it as you like (docs/formats.md, \"Project files\").\n"
@@ -237,7 +246,7 @@ Result<std::string> projectText(const Project& project, const std::string& folde
     text += fmt::format("\n{}\n", title);
     if (file.empty()) return Done{};
     FORETOUCH_TRY(const auto mark, markOfFile((std::filesystem::path(folder) / file).string()));
-    text += "file = " + quoted(file) + "\n";
+    text += "file = " + tomlText(file) + "\n";
     marks += fmt::format("{} = \"{}\"\n", table, mark);
     return Done{};
   };
@@ -246,9 +255,9 @@ Result<std::string> projectText(const Project& project, const std::string& folde
   if (!project.avatar.empty()) FORETOUCH_CHECK(add("avatar", "[[avatar]]", project.avatar));
   FORETOUCH_CHECK(add("clip", "[clip]", project.clip));
   text += frameLines(project.clipScale, project.clipUp);
-  if (!project.animation.empty()) text += "animation = " + quoted(project.animation) + "\n";
-  if (!project.jointMap.empty()) text += "map = " + quoted(project.jointMap) + "\n";
-  text += "place = " + quoted(project.place) + "  # X,Y,Z,YAW: metres, degrees\n";
+  if (!project.animation.empty()) text += "animation = " + tomlText(project.animation) + "\n";
+  if (!project.jointMap.empty()) text += "map = " + tomlText(project.jointMap) + "\n";
+  text += "place = " + tomlText(project.place) + "  # X,Y,Z,YAW: metres, degrees\n";
   return text + "\n# The files as they were: commands say when one has changed since.\n[made]\n" +
          marks;
 }

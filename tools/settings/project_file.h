@@ -25,6 +25,9 @@ inline constexpr char kProjectName[] = "foretouch.toml";
     const std::string& path, Settings& settings,
     const std::function<bool(const Setting&)>& isTyped);
 
+/// --project.
+Setting& addProjectSetting(Settings& settings, std::string& path);
+
 /// What `foretouch setup` writes. Paths as the project's folder sees them; empty: no such file.
 struct Project {
   std::string scene, avatar, clip, animation, jointMap;

@@ -92,7 +92,7 @@ void addServeSettings(Settings& settings, ServeConfig& config) {
       "--avatar", "[ID=]FILE", {}, [] { return std::string(); },
       "Avatar file, and its ID in messages (1 if not given); may be repeated");
   avatars.kind = ValueKind::List;
-  avatars.in(kInputGroup);
+  avatars.in(kInputGroup).files("json");
   avatars.take = [&config](const GivenValue& given) {
     return takeAvatars(given.texts, config.avatars);
   };

@@ -84,6 +84,12 @@ Setting& Setting::ofLogs() {
   return *this;
 }
 
+Setting& Setting::files(const char* ofEndings) {
+  takesFiles = true;
+  endings = ofEndings;
+  return *this;
+}
+
 Setting& Setting::formerly(const char* name) {
   formerNames.emplace_back(name);
   return *this;

@@ -70,6 +70,8 @@ struct Setting {
   std::string noun;         ///< Of a required argument, for its error: "a scene file".
   std::string needs;        ///< Another option that this one requires.
   bool isPath = false;      ///< In a configuration, relative to that file's folder.
+  bool takesFiles = false;  ///< Paths, for a shell that completes them.
+  std::string endings;      ///< Of these files: "bvh glb"; empty: any.
   bool mayBeEmpty = true;   ///< For a text in a configuration.
   std::string valueIfNone;  ///< Not empty: the option's value is optional, and defaults to this.
   bool isOfClips = false, isOfLogs = false;  ///< In a replay: valid only for these.
@@ -95,6 +97,8 @@ struct Setting {
   Setting& ofLogs();
   /// A name that the option had: who still types it gets the same.
   Setting& formerly(const char* name);
+  /// A shell offers files with these endings, separated by blanks; none: with any.
+  Setting& files(const char* ofEndings = "");
   /// For words: only these are legal. Precondition: each is one of them.
   Setting& only(std::vector<std::string> some);
 };

@@ -159,10 +159,20 @@ Setting& Settings::text(const char* option, const char* value, std::string& plac
 Setting& Settings::path(const char* option, const char* value, std::string& place,
                         const char* help) {
   Setting& setting = text(option, value, place, help);
-  setting.isPath = true;
+  setting.isPath = setting.takesFiles = true;
   setting.told = [&place] { return nameOfFile(place); };
   setting.json = [&place] { return jsonString(std::filesystem::path(place).filename().string()); };
   return setting;
+}
+
+Setting& Settings::output(const char* option, const char* value, std::string& place,
+                          const char* help) {
+  Setting& setting = path(option, value, place, help);
+  setting.take = [&place](const GivenValue& given) -> Result<Done> {
+    place = given.texts.front() == "-" ? kStandardOutput : given.texts.front();
+    return Done{};
+  };
+  return setting.in(kOutputGroup);
 }
 
 Setting& Settings::list(const char* option, const char* value, std::vector<std::string>& place,
@@ -191,6 +201,11 @@ Setting& Settings::parsed(const char* option, const char* value,
   setting.shown = setting.told = std::move(shown);
   setting.json = [shown = setting.shown] { return jsonString(shown()); };
   return setting;
+}
+
+Setting& Settings::asJson(bool& place) {
+  return flag("--json", place, "Print what is found as one line of JSON (docs/formats.md)")
+      .in(kOutputGroup);
 }
 
 Setting& Settings::gone(const char* option, const char* text) {

@@ -32,6 +32,9 @@ struct NumberRange {
 template <typename Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
+/// Where "-" leads: PendingFile writes there what others write into a file.
+inline constexpr char kStandardOutput[] = "/dev/stdout";
+
 /// Settings in the order of help. References to them stay valid.
 class Settings {
  public:
@@ -79,12 +82,17 @@ class Settings {
                 std::vector<std::string> words = {});
   Setting& text(const char* option, const char* value, std::string& place, const char* help);
   Setting& path(const char* option, const char* value, std::string& place, const char* help);
+  /// A file to write; "-" is standard output.
+  Setting& output(const char* option, const char* value, std::string& place, const char* help);
   Setting& list(const char* option, const char* value, std::vector<std::string>& place,
                 const char* help);
   /// A text with a rule of its own: `take` fills the place, `shown` returns its content.
   Setting& parsed(const char* option, const char* value,
                   std::function<Result<Done>(const std::string&)> take,
                   std::function<std::string()> shown, const char* help);
+
+  /// --json: the one meaning that it has in this program.
+  Setting& asJson(bool& place);
 
   /// An option that is no more, or not yet: help leaves it out, and `text` is the error of a user
   /// who types it.

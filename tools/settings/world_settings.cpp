@@ -25,6 +25,7 @@ void addSkinSettings(Settings& settings, WorldRequest& request) {
   settings
       .path("--skin", "BODY", request.skinPath,
             "Skinned fidelity: the model from which the avatar was made")
+      .files(kModelEndings)
       .in(kTouchGroup)
       .inConfig("query", "skin")
       .inHeader("skin")
@@ -95,6 +96,7 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
   settings
       .path("--pairs", "FILE", request.pairsPath,
             "With --self: the pair rules; not given: derived from the avatar and the clip's poses")
+      .files("json")
       .ofClips()
       .in(kTouchGroup)
       .inConfig("query", "pairs")
@@ -105,6 +107,7 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
 
 void addSceneSettings(Settings& settings, WorldRequest& request) {
   settings.path("--scene", "FILE", request.scenePath, "Scene: any mesh format that assimp reads")
+      .files(kModelEndings)
       .notEmpty()
       .in(kInputGroup)
       .inConfig("scene", "file")
@@ -181,6 +184,7 @@ void addReplayQuerySettings(Settings& settings, WorldRequest& request) {
             "Tolerance, fidelity and what to ignore, link by link: [[policy]] tables "
             "(docs/formats.md)")
       .in(kTouchGroup)
+      .files("toml")
       .inHeader("policy")
       .inReport("policy")
       .namedIf([&request] { return !request.policies.empty(); })
@@ -195,15 +199,18 @@ void addTouchSettings(Settings& settings, WorldRequest& request) {
       .word("--ground", "apart|keep|ignore", ground.use, groundWords(),
             "Touches of the ground: counted apart, touches like any other, or not listed; no "
             "query depends on it")
+      .in(kOutputGroup)
       .inHeader("ground");
   settings
       .number("--ground-angle", "DEG", ground.angleDeg, kGroundAngleRange,
               "What counts as ground: where the contact's normal is so near to up")
+      .in(kOutputGroup)
       .inHeader("ground_angle")
       .namedIf(isAsked);
   settings
       .number("--ground-height", "M", ground.heightM, kGroundHeightRange,
               "And at most so far above the lowest point of the body")
+      .in(kOutputGroup)
       .inHeader("ground_height")
       .namedIf(isAsked);
 }

@@ -254,7 +254,7 @@ Command setupCommand() {
   addClipSettings(settings, asked->clip);
   settings.path("-o,--output", "FILE", asked->output, "Project file to write").in(kOutputGroup);
   settings.flag("--yes", asked->yes, "Write what is offered, without asking").in(kOutputGroup);
-  settings.flag("--json", asked->json, "Print what is offered as JSON").in(kOutputGroup);
+  settings.asJson(asked->json);
   Command command{"setup",
                   "Find unit, axis and place of a scene and a body, and write a project for them",
                   kSetupExamples, std::move(settings)};

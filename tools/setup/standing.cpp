@@ -78,7 +78,8 @@ void walkThrough(const Walker& walker, Standing& standing) {
 }
 
 /// How far the lowest point of the body is above a floor, or below one that it stands in.
-void findFloor(const Walker& walker, const Pose& pose, const Eigen::AlignedBox3d& box, Standing& standing) {
+void findFloor(const Walker& walker, const Pose& pose, const Eigen::AlignedBox3d& box,
+               Standing& standing) {
   const double reach = farAway(walker);
   if (standing.inside.empty()) {
     const auto rest = walker.sink(pose, reach);

@@ -71,6 +71,9 @@ Result<PlayedClip> loadWithRemarks(const ClipRequest& request) {
                      request.avatarPath, request.motionPath)) {
     printNote(remark);
   }
+  const auto rate =
+      remarkOnRate(played.value().steps, played.value().clip.frameTimeS, request.rateHz);
+  if (rate) printNote(*rate);
   return played;
 }
 
@@ -131,7 +134,7 @@ void addSendingSettings(Settings& settings, PublishJob& job) {
   settings.text("--url", "URL", job.url,
                 "Network to send to; by default LCM_DEFAULT_URL, else this machine only");
   addSuffixSetting(settings, job.suffix);
-  settings.path("-o,--output", "LOG", job.outputPath, "Write a new event log instead of sending");
+  settings.output("-o,--output", "LOG", job.outputPath, "Write a new event log instead of sending");
   settings.parsed(
       "--start", "US",
       [&job](const std::string& text) -> Result<Done> {

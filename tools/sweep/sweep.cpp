@@ -40,7 +40,8 @@ Result<std::vector<LinkId>> linksOf(const std::vector<std::string>& names, const
       std::vector<std::string> known;
       for (LinkId l = 0; l < avatar.numLinks(); ++l) known.push_back(skeleton.name(l));
       return optionError("--links", ErrorCode::UnknownName,
-                         "no link is called " + inQuotes(name) + didYouMean(name, known));
+                         "no link is called " + inQuotes(name) + didYouMean(name, known) +
+                             " (foretouch avatar check --links lists all)");
     }
     if (avatar.lss(*link).empty()) {
       return optionError("--links", ErrorCode::Empty,

@@ -11,10 +11,12 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "assets/json_writer.h"
 #include "tools/arguments.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
+#include "tools/results_output.h"
 #include "tools/settings/world_settings.h"
 #include "tools/sweep/surface_writer.h"
 #include "tools/sweep/sweep.h"
@@ -44,6 +46,7 @@ struct SweepJob {
   std::string output;
   MeshFormat format = MeshFormat::Obj;  ///< Of the output.
   bool inner = false;
+  bool asJson = false;  ///< What is said of it.
 };
 
 /// Derives the rest of the job from the options.
@@ -51,7 +54,10 @@ Result<Done> settle(SweepJob& job) {
   SweepRequest& request = job.request;
   request.links = job.links.empty() ? std::vector<std::string>{"all"} : namesIn(job.links);
   request.surface.side = job.inner ? SurfaceSide::Inner : SurfaceSide::Outer;
-  FORETOUCH_TRY(job.format, meshFormatOf(job.output));
+  // Of a stream no name says the format: the one that every tool reads.
+  if (job.output != kStandardOutput) {
+    FORETOUCH_TRY(job.format, meshFormatOf(job.output));
+  }
   const bool isGlb = job.format == MeshFormat::Glb;
   request.surface.bits = isGlb ? CoordinateBits::Single : CoordinateBits::Double;
   return checkIsNoInput(
@@ -62,6 +68,8 @@ void remarkOn(const SweepInputs& inputs) {
   for (const std::string& note : inputs.clip.notes) {
     printNote(inputs.request.motionPath + ": " + note);
   }
+  const auto rate = remarkOnRate(inputs.steps, inputs.clip.frameTimeS, inputs.request.rateHz);
+  if (rate) printNote(*rate);
   if (!inputs.match.unmatchedAvatar.empty()) {
     printNote(
         fmt::format("{}: {} of {} joints have no counterpart in the clip and keep their rest "
@@ -97,6 +105,31 @@ std::string report(const SweepInputs& inputs, const Sweep& sweep, std::size_t by
   return text;
 }
 
+std::string sweepJson(const SweepJob& job, const SweepInputs& inputs, const Sweep& sweep,
+                      std::size_t bytes, double tookS) {
+  const bool isOuter = inputs.request.surface.side == SurfaceSide::Outer;
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.field("avatar", inputs.request.avatarPath);
+  out.field("motion", inputs.request.motionPath);
+  out.field("from", inputs.fromS);
+  out.field("to", inputs.toS);
+  out.field("links", sweep.links.size());
+  out.field("side", isOuter ? "outer" : "inner");
+  out.field("triangles", sweep.triangles);
+  out.field("vertices", sweep.vertices);
+  out.field("pieces", sweep.pieces);
+  out.field("bytes", bytes);
+  out.field("certified_error", sweep.certifiedError);
+  if (isOuter) out.field("sampled_error", sweep.sampledError);
+  out.field("too_thin", sweep.vanished);
+  out.field("seconds", tookS);
+  out.field("output", job.output);
+  out.endObject();
+  return text + "\n";
+}
+
 Result<Done> runSweep(const SweepJob& job) {
   FORETOUCH_TRY(const auto inputs, loadSweepInputs(job.request));
   remarkOn(inputs);
@@ -118,10 +151,12 @@ Result<Done> runSweep(const SweepJob& job) {
       const auto bytes = writeSurfaces(sweep.value(), job.request.surface.side, job.format, file);
       if (!bytes.ok()) return bytes.error();
       FORETOUCH_CHECK(file.commit());
-      text = report(inputs, sweep.value(), bytes.value(), tookS);
+      text = job.asJson ? sweepJson(job, inputs, sweep.value(), bytes.value(), tookS)
+                        : report(inputs, sweep.value(), bytes.value(), tookS) +
+                              "\nmesh: " + job.output + "\n";
     }
   }
-  printOut(text);
+  isStandardOutput(job.output) ? printAside(text) : printOut(text);
   return Done{};
 }
 
@@ -159,11 +194,13 @@ Command sweepCommand() {
   settings.number("--error", "M", request.surface.error, kToleranceRange,
                   "Largest distance (m) between surface and swept volume");
   settings.flag("--inner", job->inner, "The surface inside the swept volume, not around it");
-  settings.path("-o,--output", "FILE", job->output, "Mesh to write: .obj, .ply or .glb")
-      .in(kOutputGroup)
+  settings
+      .output("-o,--output", "FILE", job->output,
+              "Mesh to write: .obj, .ply or .glb; -: as .obj on standard output")
       .required();
   settings.whole("--max-triangles", "N", request.surface.maxTriangles, 1, kMostTriangles,
                  "Give up beyond this many");
+  settings.asJson(job->asJson);
   addClipSettings(settings, request);
   Command command{
       "sweep", "Write what links of an avatar cover during a clip as a mesh with a certified error",
