@@ -1,4 +1,4 @@
-// Renderer, camera and lights. Draws on demand: a frame is asked for where something changed, and
+// Renderer and camera. Draws on demand: a frame is asked for where something changed, and
 // none is drawn otherwise.
 
 import * as THREE from "three";
@@ -6,6 +6,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { drawsBySoftware, whenDrawn } from "./gpu.js";
 import { Pace } from "./pace.js";
 import type { Palette } from "./palette.js";
+import { Upscaler } from "./upscaler.js";
 
 const fieldOfView = 38;
 const maxPixelRatio = 2;
@@ -14,6 +15,19 @@ const nearest = 0.02;
 /** After the last change the picture is drawn in full, milliseconds. */
 const stillMs = 300;
 
+/** A part of the picture, from left to right in [0, 1], and what to do before it is drawn. */
+export interface Part {
+  readonly from: number;
+  readonly to: number;
+  prepare(): void;
+}
+
+export interface FrameKind {
+  readonly isCoarse: boolean;
+  /** Of the scene; null for all of them. */
+  readonly maxTriangles: number | null;
+}
+
 export class Stage {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(fieldOfView, 1, nearest, 500);
@@ -21,10 +35,13 @@ export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
   private isAsked = false;
   private framesDrawn = 0;
-  private beforeFrame: (isCoarse: boolean) => void = () => {};
+  private beforeFrame: (kind: FrameKind) => readonly Part[] = () => [{ from: 0, to: 1, prepare: () => {} }];
 
   private readonly isSoftware = drawsBySoftware();
   private readonly pace = new Pace(this.isSoftware);
+  private readonly upscaler = new Upscaler();
+  /** Of the canvas' pixels, along each side, that the frame is drawn with. */
+  private share = 1;
   private isBusy = false;
   private isFine = false;
   private stillTimer = 0;
@@ -35,7 +52,6 @@ export class Stage {
     const canvas = this.renderer.domElement;
     canvas.setAttribute("aria-hidden", "true");
     host.prepend(canvas);
-    this.scene.add(...lights());
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
@@ -59,11 +75,11 @@ export class Stage {
 
   /** Pixels of a frame to one of the page. */
   get pixelRatio(): number {
-    return this.renderer.getPixelRatio();
+    return this.renderer.getPixelRatio() * this.share;
   }
 
-  /** Called before every frame, with whether it may be a coarse one. */
-  onFrame(update: (isCoarse: boolean) => void): void {
+  /** Called before every frame, with how coarse it may be; says in which parts it is drawn. */
+  onFrame(update: (kind: FrameKind) => readonly Part[]): void {
     this.beforeFrame = update;
   }
 
@@ -81,15 +97,50 @@ export class Stage {
   }
 
   private render(isFine: boolean): void {
-    const start = performance.now(), isCoarse = !isFine && this.pace.isCoarse;
+    const start = performance.now();
     this.isAsked = false;
     this.isBusy = true;
-    this.isFine = isFine || this.isFullAt(this.pace.share);
-    this.setPixelRatio(isFine ? this.fullRatio : this.screenRatio * this.pace.share);
-    this.beforeFrame(isCoarse);
-    this.renderer.render(this.scene, this.camera);
+    this.share = isFine ? 1 : this.pace.share;
+    this.isFine = isFine || this.isFullAt(this.share);
+    this.setPixelRatio(isFine ? this.fullRatio : this.screenRatio);
+    this.drawParts(isFine);
     ++this.framesDrawn;
     whenDrawn(this.renderer.getContext() as WebGL2RenderingContext, start, (took) => this.drawn(isFine, took));
+  }
+
+  private drawParts(isFine: boolean): void {
+    const isCoarse = !isFine && this.pace.isCoarse;
+    const parts = this.beforeFrame({ isCoarse, maxTriangles: isCoarse ? this.pace.maxTriangles : null });
+    const ratio = this.renderer.getPixelRatio();
+    // In whole pixels, of which a coarse picture has fewer.
+    const width = Math.round(this.share * this.canvas.width), height = Math.round(this.share * this.canvas.height);
+    this.renderer.setViewport(0, 0, width / ratio, height / ratio);
+    this.renderer.setScissorTest(true);
+    for (const { from, to, prepare } of parts) {
+      const left = Math.round(from * width), right = Math.round(to * width);
+      this.renderer.setScissor(left / ratio, 0, (right - left) / ratio, height / ratio);
+      prepare();
+      this.renderer.render(this.scene, this.camera);
+    }
+    this.renderer.setScissorTest(false);
+    if (this.share < 1) this.upscaler.spread(this.renderer, width, height);
+  }
+
+  /** What is seen now, drawn in full, as a picture that stays. */
+  picture(): HTMLCanvasElement {
+    this.share = 1;
+    this.setPixelRatio(this.fullRatio);
+    this.drawParts(true);
+    const copy = document.createElement("canvas");
+    copy.width = this.canvas.width;
+    copy.height = this.canvas.height;
+    copy.getContext("2d")?.drawImage(this.canvas, 0, 0);
+    return copy;
+  }
+
+  /** For what is drawn aside, before a frame. */
+  get drawer(): THREE.WebGLRenderer {
+    return this.renderer;
   }
 
   private drawn(wasFine: boolean, took: number): void {
@@ -141,13 +192,4 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     this.draw();
   }
-}
-
-function lights(): THREE.Light[] {
-  const sky = new THREE.HemisphereLight(0xffffff, 0xc4cad3, 1.9);
-  const sun = new THREE.DirectionalLight(0xffffff, 1.6);
-  sun.position.set(0.5, 1, 0.35);
-  const fill = new THREE.DirectionalLight(0xffffff, 0.5);
-  fill.position.set(-0.7, 0.3, -0.5);
-  return [sky, sun, fill];
 }
