@@ -43,7 +43,6 @@ function decodeValue(value: unknown): ViewDocument {
     avatars,
     touches: root.optional("touches")?.items().map((item) => decodeTouch(item, avatars)) ?? null,
     checks: (root.optional("checks")?.items() ?? []).map(decodeCheck),
-    command: root.optional("command")?.text() ?? "",
     events: kind === "live" ? eventsAddress(root) : null,
   };
 }

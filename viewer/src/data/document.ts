@@ -19,8 +19,6 @@ export interface ViewDocument {
   readonly touches: readonly RecordedTouch[] | null;
   /** Of inspections: what the program says about unit, axis and place. */
   readonly checks: readonly Check[];
-  /** What made the document, as typed in a shell; "" where it does not say. */
-  readonly command: string;
   /** Where live events come from; null where the document is no live one. */
   readonly events: string | null;
 }

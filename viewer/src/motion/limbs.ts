@@ -7,8 +7,8 @@ export type Limb = (typeof limbs)[number];
 
 const arm = /arm|hand|finger|thumb|index|middle|ring|pinky|little|elbow|wrist|clavicle|collar|shoulder|palm/;
 const leg = /leg|foot|feet|toe|knee|ankle|thigh|calf|shin|hip(?!s)|upleg/;
-const left = /left|^l(?=[A-Z_. ])|[_. ]l$|[_. ]l[_. ]/;
-const right = /right|^r(?=[A-Z_. ])|[_. ]r$|[_. ]r[_. ]/;
+const left = /left|^[lL](?=[A-Z][a-z]|[_. ])|[_. ][lL]$|[_. ][lL][_. ]/;
+const right = /right|^[rR](?=[A-Z][a-z]|[_. ])|[_. ][rR]$|[_. ][rR][_. ]/;
 
 /** By link. One whose name says nothing belongs where its parent does. */
 export function limbsOf(links: readonly Link[]): Limb[] {

@@ -1,7 +1,7 @@
 // Summary, settings and notes, as the document has them.
 
 import type { ViewDocument } from "../data/document.js";
-import { button, card, copyFrom, definitionTable, element } from "./dom.js";
+import { card, definitionTable, element } from "./dom.js";
 import { count } from "./words.js";
 
 export function summaryCard(view: ViewDocument): HTMLElement | null {
@@ -17,10 +17,6 @@ export function settingsCard(view: ViewDocument): HTMLElement | null {
   const lines = view.settings.map(({ name, value }) => [name, value] as const);
   fold.append(element("summary", { text: "Settings" }), definitionTable(lines));
   if (view.tool !== "") fold.append(element("p", { class: "quiet", text: `Made by ${view.tool}.` }));
-  if (view.command !== "") {
-    const copy = button("Copy the command", "Copy the command that made this", () => void copyFrom(copy, view.command));
-    fold.append(element("pre", { class: "command", text: view.command }), copy);
-  }
   fold.append(...quiet);
   return fold;
 }

@@ -14,8 +14,11 @@ const noBody = 1000;
 /** A square that no surface is over, metres. */
 const noWhere = 1e9;
 
-/** contactShade(p, nhat): how much of the light is left at a point of the view with that normal. */
-export const shadowFunction = `
+/**
+ * contactShade(nhat): how much of the light is left at a point of the view with that normal. A
+ * processor that draws looks up for every fragment, wherever the body is: in pictures that move once.
+ */
+export const shadowFunction = (isSoft: boolean): string => `
 varying vec3 shadowPosition;
 uniform sampler2D shadowHeights;
 uniform vec4 shadowSquare;
@@ -29,14 +32,18 @@ float contactShade(vec3 nhat) {
   float shade = 0.0;
   if (nhat.y > 0.25 && max(off.x, off.y) < 0.5) {
     float height = shadowPosition.y - shadowSquare.z, near = 0.022 * shadowSquare.w, far = 0.055 * shadowSquare.w;
+    ${isSoft ? softShade : "shade = 10.0 * shadeUnder(at, height);"}
+  }
+  return 1.0 - 0.046 * shade;
+}`;
+
+/** Around the point, near and far. */
+const softShade = `
     shade = 2.0 * shadeUnder(at, height);
     shade += shadeUnder(at + vec2(near, near), height) + shadeUnder(at + vec2(-near, near), height);
     shade += shadeUnder(at + vec2(near, -near), height) + shadeUnder(at + vec2(-near, -near), height);
     shade += shadeUnder(at + vec2(far, 0.0), height) + shadeUnder(at + vec2(-far, 0.0), height);
-    shade += shadeUnder(at + vec2(0.0, far), height) + shadeUnder(at + vec2(0.0, -far), height);
-  }
-  return 1.0 - 0.046 * shade;
-}`;
+    shade += shadeUnder(at + vec2(0.0, far), height) + shadeUnder(at + vec2(0.0, -far), height);`;
 
 export class ContactShadow {
   /** Left, front and floor of the square in the view's coordinates, and one over its side. */

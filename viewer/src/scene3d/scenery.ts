@@ -19,6 +19,8 @@ const toneRange = 0.1, warmthRange = 0.05;
 export class Scenery {
   readonly group = new THREE.Group();
   private readonly faces: THREE.ShaderMaterial;
+  /** For pictures that move where drawing is slow. */
+  private readonly quickFaces: THREE.ShaderMaterial;
   private readonly edges = new THREE.LineBasicMaterial();
 
   private readonly thin = new THREE.LineBasicMaterial();
@@ -30,7 +32,8 @@ export class Scenery {
     cutaway: Cutaway,
     shadow: ContactShadow,
   ) {
-    this.faces = facesMaterial(cutaway, shadow);
+    this.faces = facesMaterial(cutaway, shadow, true);
+    this.quickFaces = facesMaterial(cutaway, shadow, false);
     cutaway.applyTo(this.edges);
     cutaway.applyTo(this.thin);
     if (scene.indices.length === 0) return;
@@ -46,7 +49,10 @@ export class Scenery {
   set maxTriangles(most: number | null) {
     const count = this.scene.indices.length / 3;
     const coarse = most === null || count <= most ? null : this.coarse.get(most) ?? this.addCoarse(most);
-    if (this.fine !== null) this.fine.visible = coarse === null;
+    if (this.fine !== null) {
+      this.fine.visible = coarse === null;
+      (this.fine.children[0] as THREE.Mesh).material = most === null ? this.faces : this.quickFaces;
+    }
     for (const group of this.coarse.values()) group.visible = group === coarse;
   }
 
@@ -57,21 +63,21 @@ export class Scenery {
       const geometry = (this.fine?.children[0] as THREE.Mesh).geometry.clone();
       return geometry.setIndex(new THREE.BufferAttribute(index, 1));
     };
-    const group = new THREE.Group().add(new THREE.Mesh(over(triangles), this.faces), new THREE.LineSegments(over(lines), this.thin));
+    const group = new THREE.Group().add(new THREE.Mesh(over(triangles), this.quickFaces), new THREE.LineSegments(over(lines), this.thin));
     this.coarse.set(most, group);
     this.group.add(group);
     return group;
   }
 
   paint(palette: Palette): void {
-    setScreenColour(this.faces.uniforms["tone"].value as THREE.Color, palette.scene);
+    for (const faces of [this.faces, this.quickFaces]) setScreenColour(faces.uniforms["tone"].value as THREE.Color, palette.scene);
     this.edges.color.set(palette.sceneEdge);
     this.thin.color.set(palette.scene);
   }
 }
 
 /** Normals are those of the triangles, as seen from either side. */
-function facesMaterial(cutaway: Cutaway, shadow: ContactShadow): THREE.ShaderMaterial {
+function facesMaterial(cutaway: Cutaway, shadow: ContactShadow, isSoft: boolean): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
     vertexColors: true,
@@ -94,7 +100,7 @@ void main() {
     fragmentShader: `
 varying vec3 vTone;
 ${cutDeclarations}
-${shadowFunction}
+${shadowFunction(isSoft)}
 ${litFunction}
 void main() {
   ${cutTest}
