@@ -54,7 +54,7 @@ export function listenForKeys(model: Model, store: Store, actions: Actions): voi
 function isTyping(event: KeyboardEvent): boolean {
   const { target } = event;
   if (target instanceof HTMLSelectElement) return true;
-  if (target instanceof HTMLInputElement) return isText(target) ? event.key !== "Escape" : /^(Arrow|Home|End)/.test(event.key);
+  if (target instanceof HTMLInputElement) return isText(target) || /^(Arrow|Home|End)/.test(event.key);
   const isPressable = target instanceof HTMLButtonElement || (target instanceof HTMLElement && target.tagName === "SUMMARY");
   if (document.querySelector("dialog[open]") !== null) return event.key !== "?";
   return isPressable && event.key === " ";

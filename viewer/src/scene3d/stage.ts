@@ -15,7 +15,10 @@ const nearest = 0.02;
 /** After the last change the picture is drawn in full, milliseconds. */
 const stillMs = 300;
 
-/** A part of the picture, from left to right in [0, 1], and what to do before it is drawn. */
+/**
+ * A part of the picture, from left to right in [0, 1], and what to do before it is drawn. The middle
+ * of the sight is in the middle of every part.
+ */
 export interface Part {
   readonly from: number;
   readonly to: number;
@@ -42,6 +45,8 @@ export class Stage {
   private readonly upscaler = new Upscaler();
   /** Of the canvas' pixels, along each side, that the frame is drawn with. */
   private share = 1;
+  /** How far the middle of the sight is from the picture's, of its width: in the part drawn last. */
+  shift = 0;
   private isBusy = false;
   private isFine = false;
   private stillTimer = 0;
@@ -114,11 +119,12 @@ export class Stage {
     const ratio = this.renderer.getPixelRatio();
     // In whole pixels, of which a coarse picture has fewer.
     const width = Math.round(this.share * this.canvas.width), height = Math.round(this.share * this.canvas.height);
-    this.renderer.setViewport(0, 0, width / ratio, height / ratio);
     this.renderer.setScissorTest(true);
     for (const { from, to, prepare } of parts) {
       const left = Math.round(from * width), right = Math.round(to * width);
       this.renderer.setScissor(left / ratio, 0, (right - left) / ratio, height / ratio);
+      this.shift = (from + to - 1) / 2;
+      this.renderer.setViewport(Math.round(this.shift * width) / ratio, 0, width / ratio, height / ratio);
       prepare();
       this.renderer.render(this.scene, this.camera);
     }
@@ -173,13 +179,13 @@ export class Stage {
     const p = point.clone().project(this.camera);
     if (p.z > 1) return null;
     const { clientWidth, clientHeight } = this.canvas;
-    return [((p.x + 1) / 2) * clientWidth, ((1 - p.y) / 2) * clientHeight];
+    return [((p.x + 1) / 2 + this.shift) * clientWidth, ((1 - p.y) / 2) * clientHeight];
   }
 
   /** From the camera through a pixel of the canvas. */
   rayThrough(x: number, y: number): THREE.Ray {
     const { clientWidth, clientHeight } = this.canvas;
-    const at = new THREE.Vector2((x / clientWidth) * 2 - 1, 1 - (y / clientHeight) * 2);
+    const at = new THREE.Vector2((x / clientWidth - this.shift) * 2 - 1, 1 - (y / clientHeight) * 2);
     const caster = new THREE.Raycaster();
     caster.setFromCamera(at, this.camera);
     return caster.ray;

@@ -92,7 +92,7 @@ export class View3D {
     if (changes.has("theme")) this.paint();
     if (changes.has("shape")) this.staging.setShape();
     if (changes.has("contacts")) this.staging.setContacts();
-    if (changes.has("showsDiscrete")) this.showWipe(state.showsDiscrete && this.canCheck());
+    if (changes.has("showsDiscrete")) state.showsDiscrete && this.canCheck() ? this.wipe.show() : this.wipe.hide();
     this.stage.draw();
   }
 
@@ -118,15 +118,9 @@ export class View3D {
     if (contact === null || point === null) return;
     const at = this.screenOf(point);
     const { clientWidth, clientHeight } = this.stage.canvas;
-    const isCentral = at !== null && Math.abs(at[0] / clientWidth - 0.5) < 0.3 && Math.abs(at[1] / clientHeight - 0.5) < 0.3;
+    const isCentral = at !== null && Math.abs(at[0] / clientWidth - 0.5 - this.stage.shift) < 0.3 && Math.abs(at[1] / clientHeight - 0.5) < 0.3;
     const distance = this.stage.camera.position.distanceTo(this.local(point));
     if (!isCentral || distance > 5 * this.staging.radiusOf(contact.avatar)) this.frame(false);
-  }
-
-  private showWipe(isShown: boolean): void {
-    if (!isShown) return this.wipe.hide();
-    const point = this.store.state.contact?.point ?? null, at = point === null ? null : this.screenOf(point);
-    this.wipe.show(at === null ? null : at[0] / Math.max(1, this.stage.canvas.clientWidth));
   }
 
   private canCheck(): boolean {

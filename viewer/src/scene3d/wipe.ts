@@ -1,13 +1,12 @@
-// The divider between what a check of the poses sees (left) and what happened (right).
+// What a check of the poses sees (left) and what happened (right), side by side: the same sight in
+// both, and a divider between them that can be dragged.
 
 import { element } from "../panels/dom.js";
 import type { Part } from "./stage.js";
 
 /** Of the width, with the arrow keys. */
 const nudge = 0.05;
-const least = 0.02;
-/** Where it opens, of the width: a little left of the contact, and never near an edge. */
-const besidePoint = 0.035, mostLeft = 0.25, mostRight = 0.7;
+const least = 0.1;
 
 export class Wipe {
   private share = 0.5;
@@ -42,10 +41,8 @@ export class Wipe {
     this.hide();
   }
 
-  /** `point`: where on the picture's width the contact is, if one is chosen; it stays on the side of the truth. */
-  show(point: number | null): void {
+  show(): void {
     this.node.hidden = false;
-    if (point !== null) this.moveTo(Math.min(mostRight, Math.max(mostLeft, point - besidePoint)));
   }
 
   hide(): void {

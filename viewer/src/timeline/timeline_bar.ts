@@ -1,5 +1,6 @@
 // What stands above the timeline: what its colours mean, what is looked for, and how it is zoomed.
 
+import { walkTouches } from "../panels/choosing.js";
 import { element, button } from "../panels/dom.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
@@ -25,7 +26,7 @@ export interface Zooming {
 export function timelineBar(model: Model, store: Store, zooming: Zooming, hint: HTMLElement): HTMLElement {
   const title = model.knowsTouches ? "Touches" : "Contacts";
   return element("div", { class: "timeline-bar" },
-    element("h2", { text: title }), legendOf(model), searchOf(store), groupingOf(zooming), ...groundOf(model, store), hint,
+    element("h2", { text: title }), legendOf(model), searchOf(model, store), groupingOf(zooming), ...groundOf(model, store), hint,
     element("div", { class: "group" },
       button("−", "Show more time", () => zooming.out()),
       button("+", "Show less time", () => zooming.in()),
@@ -47,12 +48,20 @@ function legendOf(model: Model): HTMLElement {
   return legend;
 }
 
-function searchOf(store: Store): HTMLElement {
+function searchOf(model: Model, store: Store): HTMLElement {
   const search = element("input", { class: "search", label: "Search links and objects" });
   search.type = "search";
   search.placeholder = "search";
-  search.title = "Links and objects whose names have these words (/)";
+  search.title = "Links and objects whose names have these words (/); Enter goes to the next touch";
   search.addEventListener("input", () => store.set({ search: search.value }));
+  search.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") walkTouches(store, model, event.shiftKey ? -1 : 1);
+    if (event.key !== "Escape") return;
+    // A browser would empty the field.
+    event.preventDefault();
+    event.stopPropagation();
+    search.blur();
+  });
   return search;
 }
 
