@@ -10,6 +10,8 @@ import type { Store } from "../state.js";
 /** Statuses, one a second. */
 const kept = 180;
 const height = 130;
+/** Seconds: a plot of a moment says nothing. */
+const leastSpan = 20;
 
 export class LatencyPlot {
   readonly node: HTMLElement;
@@ -60,7 +62,7 @@ export class LatencyPlot {
       height,
       cursor: { show: false },
       legend: { show: true, live: false },
-      scales: { x: { time: false }, y: { range: (_, __, most) => [0, Math.max(1, most) * 1.1] } },
+      scales: { x: { time: false, range: (_, first) => [Math.min(-leastSpan, first ?? 0), 0] }, y: { range: (_, __, most) => [0, Math.max(1, most) * 1.1] } },
       axes: [
         { ...axis, values: (_, splits) => splits.map((second) => `${second.toFixed(0)} s`), size: 24 },
         { ...axis, values: (_, splits) => splits.map((value) => microseconds(value)), size: 58 },
