@@ -9,7 +9,7 @@ interface Roundness {
 }
 export const round: Roundness = { around: 20, rings: 6 };
 /** For pictures that move where drawing is slow. */
-export const roundEnough: Roundness = { around: 10, rings: 3 };
+export const roundEnough: Roundness = { around: 8, rings: 2 };
 
 /** Vertices with normals, and the link that each belongs to. */
 export interface Surface {

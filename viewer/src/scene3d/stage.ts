@@ -12,8 +12,11 @@ const fieldOfView = 38;
 const maxPixelRatio = 2;
 /** Metres; what the camera can come as close as. */
 const nearest = 0.02;
-/** After the last change the picture is drawn in full, milliseconds. */
-const stillMs = 300;
+/** After the last change the picture is drawn in full, and where that is not smooth yet once more: milliseconds. */
+const stillMs = 300, smoothMs = 1200;
+
+/** How a frame is drawn: as coarsely as it must be, in the screen's pixels, or with more of them. */
+enum Finish { Quick, Full, Smooth }
 
 /**
  * A part of the picture, from left to right in [0, 1], and what to do before it is drawn. The middle
@@ -98,19 +101,25 @@ export class Stage {
     if (this.isAsked) return;
     this.isAsked = true;
     window.clearTimeout(this.stillTimer);
-    if (!this.isBusy) requestAnimationFrame(() => this.render(false));
+    if (!this.isBusy) requestAnimationFrame(() => this.render(Finish.Quick));
   }
 
-  private render(isFine: boolean): void {
+  private render(finish: Finish): void {
     const start = performance.now();
     this.isAsked = false;
     this.isBusy = true;
-    this.share = isFine ? 1 : this.pace.share;
-    this.isFine = isFine || this.isFullAt(this.share);
-    this.setPixelRatio(isFine ? this.fullRatio : this.screenRatio);
-    this.drawParts(isFine);
+    this.share = finish === Finish.Quick ? this.pace.share : 1;
+    this.isFine = this.isLast(finish);
+    this.setPixelRatio(finish === Finish.Smooth ? this.fullRatio : this.screenRatio);
+    this.drawParts(finish !== Finish.Quick);
     ++this.framesDrawn;
-    whenDrawn(this.renderer.getContext() as WebGL2RenderingContext, start, (took) => this.drawn(isFine, took));
+    whenDrawn(this.renderer.getContext() as WebGL2RenderingContext, start, (took) => this.drawn(finish, took));
+  }
+
+  /** Whether drawing once more would make the picture no better. */
+  private isLast(finish: Finish): boolean {
+    const isFull = finish !== Finish.Quick || !this.pace.isCoarse;
+    return finish === Finish.Smooth || (isFull && this.fullRatio === this.screenRatio);
   }
 
   private drawParts(isFine: boolean): void {
@@ -149,11 +158,14 @@ export class Stage {
     return this.renderer;
   }
 
-  private drawn(wasFine: boolean, took: number): void {
+  /** In two goes: a person who walks from touch to touch does not wait for the last, slow one. */
+  private drawn(finish: Finish, took: number): void {
     this.isBusy = false;
-    if (!wasFine) this.pace.took(took);
-    if (this.isAsked) requestAnimationFrame(() => this.render(false));
-    else if (!this.isFine) this.stillTimer = window.setTimeout(() => this.render(true), stillMs);
+    if (finish === Finish.Quick) this.pace.took(took);
+    if (this.isAsked) return void requestAnimationFrame(() => this.render(Finish.Quick));
+    if (this.isFine) return;
+    const isCoarse = finish === Finish.Quick && this.pace.isCoarse;
+    this.stillTimer = window.setTimeout(() => this.render(isCoarse ? Finish.Full : Finish.Smooth), isCoarse ? stillMs : smoothMs);
   }
 
   /** The renderer makes its buffers anew even where nothing changes. */
@@ -168,10 +180,6 @@ export class Stage {
   /** Of a picture that stands still. Twice as fine a one is smooth where edges are not smoothed. */
   private get fullRatio(): number {
     return this.isSoftware ? maxPixelRatio : this.screenRatio;
-  }
-
-  private isFullAt(share: number): boolean {
-    return this.screenRatio * share === this.fullRatio;
   }
 
   /** Where a point of the view is on the canvas, in CSS pixels; null behind the camera. */
