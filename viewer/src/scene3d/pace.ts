@@ -14,6 +14,7 @@ const levels: readonly Level[] = [
   { share: 0.6, maxTriangles: 12000 },
   { share: 0.5, maxTriangles: 12000 },
   { share: 0.4, maxTriangles: 6000 },
+  { share: 0.33, maxTriangles: 6000 },
   { share: 0.3, maxTriangles: 3000 },
 ];
 /** Two frames in a row that take longer are too slow; that many that take less are quick: milliseconds. Thirty a second take 33. */

@@ -16,19 +16,21 @@ export interface Strip {
   readonly touches: readonly Touch[];
   readonly whole: Window;
   readonly window: Window;
-  readonly time: number;
   readonly gutter: number;
   readonly width: number;
 }
 
 export class Overview {
-  readonly node = element("canvas", { class: "overview", title: "The whole clip: drag to move what is shown below" });
+  private readonly canvas = element("canvas", { class: "overview", title: "The whole clip: drag to move what is shown below" });
+  /** Over the canvas, which stays as it is while only time goes on. */
+  private readonly now = element("div", { class: "now" });
+  readonly node = element("div", { class: "whole" }, this.canvas, this.now);
   private strip: Strip | null = null;
 
   constructor(moveTo: (middle: number) => void, zoom: (factor: number, anchor: number) => void) {
-    this.node.setAttribute("role", "img");
-    this.node.setAttribute("aria-label", "How much touches over the whole clip");
-    new Gestures(this.node, {
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", "How much touches over the whole clip");
+    new Gestures(this.canvas, {
       click: (x) => moveTo(this.timeAt(x)),
       drag: (_, x) => moveTo(this.timeAt(x)),
       zoom: (factor, x) => zoom(factor, this.timeAt(x)),
@@ -40,7 +42,7 @@ export class Overview {
 
   draw(strip: Strip, palette: Palette): void {
     this.strip = strip;
-    const context = sized(this.node, height);
+    const context = sized(this.canvas, height);
     if (context === null) return;
     const { whole, window, gutter, width } = strip;
     const span = Math.max(1, width - gutter), xOf = (time: number): number => gutter + ((time - whole.t0) / (whole.t1 - whole.t0)) * span;
@@ -55,16 +57,21 @@ export class Overview {
     context.globalAlpha = 1;
     context.fillStyle = palette.grid;
     context.fillRect(gutter, height - 1, span, 1);
-    context.strokeStyle = palette.ink;
-    context.fillStyle = palette.ink;
     if (window.t1 - window.t0 < 0.999 * (whole.t1 - whole.t0)) {
+      context.strokeStyle = context.fillStyle = palette.ink;
       const x0 = xOf(window.t0), x1 = Math.max(x0 + 3, xOf(window.t1));
       context.globalAlpha = 0.12;
       context.fillRect(x0, 0, x1 - x0, height);
       context.globalAlpha = 1;
       context.strokeRect(x0 + 0.5, 0.5, x1 - x0 - 1, height - 1);
     }
-    context.fillRect(xOf(strip.time) - 0.75, 0, 1.5, height);
+  }
+
+  showTime(time: number): void {
+    if (this.strip === null) return;
+    const { whole, gutter, width } = this.strip;
+    const x = gutter + ((time - whole.t0) / (whole.t1 - whole.t0)) * Math.max(1, width - gutter);
+    this.now.style.transform = `translateX(${(x - 0.75).toFixed(2)}px)`;
   }
 
   private timeAt(x: number): number {

@@ -267,13 +267,14 @@ export class Timeline {
       folded: this.folded, xOf: (time) => this.xOf(time),
     });
     this.overview.draw({
-      touches: this.shownTouches(), whole: this.whole(), window: this.window, time: this.store.state.time,
+      touches: this.shownTouches(), whole: this.whole(), window: this.window,
       gutter: this.gutter(), width: this.width - reach,
     }, palettes[theme]);
   }
 
   private movePlayhead(): void {
     const x = this.xOf(this.store.state.time);
+    this.overview.showTime(this.store.state.time);
     this.playhead.hidden = x < this.gutter() - 1 || x > this.width + 1;
     this.playhead.style.transform = `translateX(${(x - 0.75).toFixed(2)}px)`;
   }
