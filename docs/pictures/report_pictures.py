@@ -8,8 +8,8 @@ from smaller_png import shrink
 WIDTH, HEIGHT, MOST_BYTES = 1200, 820, 120_000
 # The 3D view of the report, for README's first screen.
 VIEW = """(() => {
-  const { left, top, width, height } = document.getElementById('view').getBoundingClientRect();
-  return [left, top, width, height].map(Math.round);
+  const { left, top, right, bottom } = document.getElementById('view').getBoundingClientRect();
+  return [left, top, right, bottom].map(Math.round);
 })()"""
 
 # The left hand through the railing's bars, which neither pose shows.
