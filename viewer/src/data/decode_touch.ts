@@ -1,6 +1,9 @@
 import type { Avatar, Check, RecordedTouch } from "./document.js";
 import type { Reader } from "./reader.js";
 
+/** What rounding may put the end of a touch before its begin, seconds. */
+const rounding = 1e-6;
+
 export function decodeTouch(item: Reader, avatars: readonly Avatar[]): RecordedTouch {
   const avatar = item.optional("avatar")?.index(avatars.length) ?? 0;
   if (avatars[avatar] === undefined) item.fail("is of an avatar, but there is none");
@@ -13,7 +16,7 @@ export function decodeTouch(item: Reader, avatars: readonly Avatar[]): RecordedT
     object: item.optional("object")?.text() ?? (other === null ? "" : links[other].name),
     other,
     begin,
-    end: item.field("end").number(begin),
+    end: Math.max(begin, item.field("end").number(begin - rounding)),
     begins: item.optional("begins")?.oneOf(["contact", "inside"] as const) ?? "contact",
     ends: item.optional("ends")?.oneOf(["left", "open"] as const) ?? "left",
     isGround: item.optional("ground")?.flag() ?? false,
