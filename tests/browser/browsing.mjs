@@ -7,6 +7,8 @@ import { playwrightOf } from "./setting.mjs";
 
 /** WebGL by software: machines that test have no graphics card. */
 const softwareWebGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+/** What a browser does by itself where there is no graphics card: a processor draws, and puts the page together without WebGL. */
+export const noGraphicsCard = ["--enable-unsafe-swiftshader"];
 export const noWebGL = ["--disable-gpu", "--disable-3d-apis"];
 /** Long enough for a loaded machine: nothing here is judged by the clock. */
 export const patience = 60000;

@@ -1,11 +1,11 @@
 // What the pages cost: size, time until something is seen, frames a second, memory, and how late a
 // live contact is. Figures, not a test; rendering is by software.
-//   node tests/browser/measure.mjs [the options of run.mjs; --only demo,dance,live]
+//   node tests/browser/measure.mjs [the options of run.mjs; --only demo,dance,long,live]
 
 import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { loadavg, tmpdir } from "node:os";
 import { join } from "node:path";
-import { Browsing, noWebGL } from "./browsing.mjs";
+import { Browsing, noGraphicsCard, noWebGL } from "./browsing.mjs";
 import { delaysSeen, percentiles, watchDelays } from "./live_delays.mjs";
 import { ranInNamespace } from "./namespace.mjs";
 import { liveClip, reportOf, run } from "./programs.mjs";
@@ -13,7 +13,7 @@ import { serve, viewAddress } from "./service.mjs";
 import { missingFor, settingFrom } from "./setting.mjs";
 import { documentIn } from "./view_document.mjs";
 
-const playedMs = 10000;
+const playedMs = 10000, walkedTouches = 20;
 /** Functions of a profile that are printed. */
 const printedFunctions = 6;
 
@@ -27,7 +27,7 @@ async function measureAll() {
   const isAsked = (name) => setting.only?.includes(name) ?? true;
   console.log(`load ${loadavg().map((value) => value.toFixed(1)).join(" ")}`);
   try {
-    for (const name of ["demo", "dance"]) if (isAsked(name)) await measureReport(folder, name);
+    for (const name of ["demo", "dance", "long"]) if (isAsked(name)) await measureReport(folder, name);
     if (isAsked("live")) await measureLive("3D by software");
     if (isAsked("live")) await measureLive("without 3D", noWebGL);
   } finally {
@@ -41,7 +41,7 @@ async function measureReport(folder, name) {
   const { scene } = documentIn(path);
   const triangles = Buffer.byteLength(scene.indices.u32, "base64") / 12;
   console.log(`${name}: ${(statSync(path).size / 1e6).toFixed(1)} MB, ${triangles} of ${scene.triangles_in_file} triangles`);
-  const browsing = await Browsing.start(setting);
+  const browsing = await Browsing.start(setting, noGraphicsCard);
   const { page } = await browsing.visit({ isOwn: () => true });
   const profiler = await page.context().newCDPSession(page);
   await profiler.send("Profiler.enable");
@@ -54,12 +54,28 @@ async function measureReport(folder, name) {
   await page.waitForFunction(() => window.foretouch.state().frames > 0);
   console.log(`  loaded ${parsed}, ready ${ready}, first frame ${since()}; of it`);
   printProfile(await profiler.send("Profiler.stop"));
+  console.log(`  next touch on the screen: ${percentiles(await nextTouches(page))}`);
   await page.evaluate(() => window.foretouch.seek(window.foretouch.state().start));
   await profiler.send("Profiler.start");
   console.log(`  ${(await framesPerSecond(page)).toFixed(1)} frames a second while playing at 1400x900; of ${playedMs / 1000} s`);
   printProfile(await profiler.send("Profiler.stop"));
   await printMemory(browsing.browser, profiler);
   await browsing.end();
+}
+
+/** From the key to the first frame that shows it, milliseconds. */
+async function nextTouches(page) {
+  return page.evaluate(async (count) => {
+    const times = [], pause = (ms) => new Promise((done) => setTimeout(done, ms));
+    for (let i = 0; i < count; ++i) {
+      const { frames } = window.foretouch.state(), start = performance.now();
+      document.dispatchEvent(new KeyboardEvent("keydown", { key: "]" }));
+      while (window.foretouch.state().frames === frames) await pause(1);
+      times.push(performance.now() - start);
+      await pause(600);
+    }
+    return times;
+  }, walkedTouches);
 }
 
 async function framesPerSecond(page) {

@@ -30,6 +30,15 @@ export const clips = {
     const played = await recordedClip(setting, folder, dataFile(setting, "mocap/bandai1_dance-short_normal_001.bvh"), 0.01);
     return { scene, played: [...played, "--place", "1,0.02,-1"] };
   },
+  /** A minute at 120 poses a second: a clip there and back again. */
+  async long(setting, folder) {
+    const [head, frames] = readFileSync(dataFile(setting, "mocap/cmu_01_01_playground_jumps.bvh"), "utf8").split(/(?<=Frame Time:.*\n)/);
+    const there = frames.trim().split("\n"), both = [...there, ...there.slice().reverse()], wanted = 7200;
+    const lines = Array.from({ length: wanted }, (_, i) => both[i % both.length]), motion = join(folder, "long.bvh");
+    writeFileSync(motion, head.replace(/Frames:.*/, `Frames: ${wanted}`) + lines.join("\n") + "\n");
+    const scene = ["--scene", dataFile(setting, "scenes/kitchen_fatihrmutfak.ply"), "--up", "z"];
+    return { scene, played: [...(await recordedClip(setting, folder, motion, 0.056444)), "--place", "0.9,0.02,0.6"] };
+  },
   async robot(setting, folder) {
     const model = dataFile(setting, "avatars/robot_expressive.glb"), avatar = join(folder, "robot.avatar.json"), scale = "0.3";
     await run(setting.program, ["avatar", "mesh", model, "--scale", scale, "--output", avatar]);

@@ -8,6 +8,7 @@ import { coloursOf, countAround, differenceAt, isAvatarColour, isContactColour, 
 import { reportOf } from "./programs.mjs";
 import { shownNumbers } from "./shown_numbers.mjs";
 import { clickBars } from "./timeline_clicks.mjs";
+import { documentIn } from "./view_document.mjs";
 
 export async function* casesOf(context) {
   for (const name of ["demo", "kick"]) {
@@ -19,7 +20,7 @@ export async function* casesOf(context) {
     yield [`${name}: scrubbing moves the avatar on the screen`, () => report.scrubbing()];
     yield [`${name}: a click on the timeline goes there`, () => report.timeline()];
     yield [`${name}: keys go from contact to contact`, () => report.keys()];
-    yield [`${name}: the discrete check counts as the summary does`, () => report.discreteCheck()];
+    yield [`${name}: the check of the poses counts as the document and the summary do`, () => report.discreteCheck()];
     yield [`${name}: the histogram's percentiles are the summary's`, () => report.percentiles()];
     yield [`${name}: all controls can be reached`, () => report.controls()];
     yield [`${name}: dark`, () => report.dark()];
@@ -124,30 +125,47 @@ class OpenedReport {
     const count = await page.evaluate(() => (window.foretouch.selectContact(0), window.foretouch.state().contacts));
     const walk = Math.min(20, count - 1);
     for (let i = 1; i <= walk; ++i) {
-      await page.keyboard.press("]");
+      await page.keyboard.press("}");
       assert.equal(await selected(), i);
     }
     for (let i = walk - 1; i >= 0; --i) {
-      await page.keyboard.press("[");
+      await page.keyboard.press("{");
       assert.equal(await selected(), i);
     }
-    await page.keyboard.press("[");
+    await page.keyboard.press("{");
     assert.equal(await selected(), 0, "there is none before the first");
     const middle = await page.evaluate((i) => window.foretouch.contact(i).at, Math.floor(count / 2));
     await page.keyboard.press("Escape");
     assert.equal(await selected(), -1);
     await page.evaluate((time) => window.foretouch.seek(time - 1e-6), middle);
-    await page.keyboard.press("]");
+    await page.keyboard.press("}");
     assert.equal(await page.evaluate(() => window.foretouch.contact(window.foretouch.selected()).at), middle, "the next one from the time shown");
+    await this.walkTouches();
+  }
+
+  /** Of a report without touches each contact is one. */
+  async walkTouches() {
+    const { page } = this;
+    const count = await page.evaluate(() => (window.foretouch.selectTouch(0), window.foretouch.state().touches));
+    for (let i = 1; i <= Math.min(10, count - 1); ++i) {
+      await page.keyboard.press("]");
+      assert.equal(await page.evaluate(() => window.foretouch.selectedTouch()), i);
+    }
   }
 
   async discreteCheck() {
-    const [, contacts, missed] = /of (\d+) contacts, (\d+) \(.*\) touch nothing at either pose/.exec(this.report.printed);
+    const document = documentIn(this.report.page);
+    const begun = document.avatars.flatMap(({ contacts }) => contacts).filter(({ verdict }) => verdict === "contact");
+    const missed = begun.filter((contact) => contact.missed_by_poses).length;
+    const touches = (document.touches ?? []).filter(({ other }) => other === undefined);
+    const words = document.touches === undefined
+      ? `sees ${begun.length - missed} of ${begun.length} contacts`
+      : `sees ${touches.filter((touch) => !touch.missed).length} of ${touches.length} touches`;
     await this.page.keyboard.press("d");
     assert.equal(await this.page.evaluate(() => window.foretouch.state().showsDiscrete), true);
-    await this.page.getByText(`sees ${contacts - missed} of ${contacts} contacts`).waitFor();
+    await this.page.getByText(words).waitFor();
     await this.pixels.whole(this.page, this.shot("discrete"));
-    await this.page.getByRole("button", { name: "What a check at the poses alone would have seen (D)" }).click();
+    await this.page.getByRole("button", { name: "What a check of the poses alone would have seen, beside what happened (D)" }).click();
     assert.equal(await this.page.evaluate(() => window.foretouch.state().showsDiscrete), false);
     const row = this.page.locator("table.pairs tr", { has: this.page.getByText("missed by poses", { exact: true }) });
     assert.match(await row.locator("td").first().innerText(), new RegExp(`^${missed}\\b`));

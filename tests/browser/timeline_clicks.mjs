@@ -6,22 +6,25 @@ const wanted = 6;
 /** A whole pixel is in the middle of such a bar. */
 const minBarPixels = 1.8;
 
-/** Clicks the bars of some contacts that are wide enough to be hit; returns how many. */
+/** Clicks the bars of some touches that are wide enough to be hit; returns how many. */
 export async function clickBars(page) {
   await page.keyboard.press("Escape");
+  await page.getByLabel("Rows of the timeline").selectOption("link");
   const axis = await axisOf(page);
-  const contacts = await page.evaluate(() => Array.from({ length: window.foretouch.state().contacts }, (_, index) => {
-    const { link, avatar, at, span } = window.foretouch.contact(index);
-    return { index, row: 1e6 * avatar + link, at, end: span.t1 };
+  const touches = await page.evaluate(() => Array.from({ length: window.foretouch.state().touches }, (_, index) => {
+    const { link, avatar, begin, end, rows } = window.foretouch.touch(index);
+    return { index, row: 1e6 * avatar + link, begin, end, at: rows.length > 0 ? window.foretouch.contact(rows[0]).at : begin };
   }));
-  const rows = [...new Set(contacts.map(({ row }) => row))].sort((a, b) => a - b);
-  const wide = contacts.filter(({ at, end }) => end - at > minBarPixels * axis.secondsPerPixel);
+  const rows = [...new Set(touches.map(({ row }) => row))].sort((a, b) => a - b);
+  const middleOf = ({ begin, end }) => 0.5 * (begin + end);
+  const isAlone = (one) => touches.every((other) => other === one || other.row !== one.row || other.begin > middleOf(one) || other.end < middleOf(one));
+  const wide = touches.filter((touch) => touch.end - touch.begin > minBarPixels * axis.secondsPerPixel && isAlone(touch));
   assert.ok(wide.length > 0, "no bar is wide enough");
   const chosen = new Set(Array.from({ length: wanted }, (_, i) => wide[Math.floor(((i + 0.5) * wide.length) / wanted)]));
-  for (const { index, row, at, end } of chosen) {
-    await clickRow(page, rows.indexOf(row), rows.length, Math.round(axis.xOf(0.5 * (at + end))));
-    assert.equal(await page.evaluate(() => window.foretouch.selected()), index);
-    assert.equal(await page.evaluate(() => window.foretouch.state().time), at);
+  for (const touch of chosen) {
+    await clickRow(page, rows.indexOf(touch.row), rows.length, Math.round(axis.xOf(middleOf(touch))));
+    assert.equal(await page.evaluate(() => window.foretouch.selectedTouch()), touch.index);
+    assert.equal(await page.evaluate(() => window.foretouch.state().time), touch.at);
   }
   return chosen.size;
 }

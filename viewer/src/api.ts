@@ -1,11 +1,13 @@
 // window.foretouch: the page's small interface, for tests and for those who embed the page.
 
 import type { Contact } from "./contacts/contact.js";
+import type { Touch } from "./contacts/touch.js";
 import type { Vector } from "./data/document.js";
 import type { Clip } from "./motion/clip.js";
 import { Posture } from "./motion/clip.js";
+import { placeOption } from "./motion/placing.js";
 import type { Model } from "./model.js";
-import { choose } from "./panels/choosing.js";
+import { chooseContact, chooseTouch } from "./panels/choosing.js";
 import type { View3D } from "./scene3d/view.js";
 import type { Store } from "./state.js";
 
@@ -18,6 +20,14 @@ export interface Foretouch {
   seek(seconds: number): void;
   /** Of all avatars' contacts in order of time (equal times in the document's order). */
   selectContact(index: number): void;
+  /** Of the touches in order of their begin; a document without touches has one for each contact. */
+  selectTouch(index: number): void;
+  /** What the page knows of a touch, its contacts as indices. */
+  touch(index: number): Omit<Touch, "rows"> & { readonly rows: number[] };
+  /** Index of the chosen touch; -1 where none is. */
+  selectedTouch(): number;
+  /** Inspections: the option that puts the body where it was clicked to; null where nobody has clicked. */
+  placeOption(): string | null;
   /** What the page knows of a contact: the document's own numbers. */
   contact(index: number): Contact;
   /** Index of the selected contact; -1 where none is. */
@@ -32,10 +42,12 @@ export interface PageState {
   readonly start: number;
   readonly end: number;
   readonly contacts: number;
+  readonly touches: number;
   readonly isPlaying: boolean;
   readonly showsDiscrete: boolean;
   readonly showsGhosts: boolean;
   readonly showsSwept: boolean;
+  readonly shape: string;
   readonly theme: string;
   readonly has3D: boolean;
   /** Frames of the 3D view drawn so far: none are drawn where nothing changes. */
@@ -64,7 +76,17 @@ export function publish(ready: Promise<void>, page: () => Page | null, error: ()
     ready,
     transformAt: (avatar, link, time) => transformAt(open().model.clips[avatar], link, time),
     seek: (time) => open().store.set({ time, isPlaying: false, follows: false }),
-    selectContact: (index) => choose(open().store, contactAt(open(), index)),
+    selectContact: (index) => chooseContact(open().store, open().model, contactAt(open(), index)),
+    selectTouch: (index) => chooseTouch(open().store, open().model, touchAt(open(), index)),
+    touch: (index) => plainTouch(open(), index),
+    selectedTouch: () => {
+      const { model, store } = open();
+      return store.state.touch === null ? -1 : model.touches.indexOf(store.state.touch);
+    },
+    placeOption: () => {
+      const { place } = open().store.state;
+      return place === null ? null : placeOption(place);
+    },
     contact: (index) => ({ ...contactAt(open(), index) }),
     selected: () => {
       const { model, store } = open();
@@ -77,6 +99,15 @@ export function publish(ready: Promise<void>, page: () => Page | null, error: ()
 
 function contactAt({ model }: Page, index: number): Contact {
   return model.contacts[index] ?? fail(`there is no contact ${index}`);
+}
+
+function touchAt({ model }: Page, index: number): Touch {
+  return model.touches[index] ?? fail(`there is no touch ${index}`);
+}
+
+function plainTouch(page: Page, index: number): ReturnType<Foretouch["touch"]> {
+  const touch = touchAt(page, index);
+  return { ...touch, rows: touch.rows.map((row) => page.model.contacts.indexOf(row)) };
 }
 
 function transformAt(clip: Clip | undefined, link: number, time: number): number[] {
@@ -93,10 +124,12 @@ function stateOf(page: Page | null, error: string | null): PageState {
     start: page?.model.start ?? 0,
     end: page?.model.end ?? 0,
     contacts: page?.model.contacts.length ?? 0,
+    touches: page?.model.touches.length ?? 0,
     isPlaying: state?.isPlaying ?? false,
     showsDiscrete: state?.showsDiscrete ?? false,
     showsGhosts: state?.showsGhosts ?? false,
     showsSwept: state?.showsSwept ?? false,
+    shape: state?.shape ?? "lss",
     theme: state?.theme ?? "light",
     has3D: page?.view !== null && page?.view !== undefined,
     frames: page?.view?.frames ?? 0,

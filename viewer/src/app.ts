@@ -1,26 +1,33 @@
 // Puts the page together: model, state, view, timeline and panels, each told of what changes.
 
+import { keepAddress } from "./address_bar.js";
 import { mostTelling } from "./contacts/telling.js";
-import type { ViewDocument } from "./data/document.js";
+import type { Check, ViewDocument } from "./data/document.js";
 import { Feed } from "./live/feed.js";
+import { LatencyPlot } from "./live/latency_plot.js";
 import { LiveCard } from "./live/live_card.js";
+import { TouchesNow } from "./live/touches_now.js";
 import { Model } from "./model.js";
 import { Posture } from "./motion/clip.js";
 import { Caption } from "./panels/caption.js";
 import { checklistCard, checksOf } from "./panels/checklist.js";
-import { ContactTable } from "./panels/contact_table.js";
 import { Details } from "./panels/details.js";
 import { byId, element } from "./panels/dom.js";
 import { showHeadline } from "./panels/headline.js";
 import { Help } from "./panels/help.js";
 import { Histogram } from "./panels/histogram.js";
+import { Legend } from "./panels/legend.js";
+import { PlaceCard } from "./panels/place_card.js";
+import { addSharing } from "./panels/sharing.js";
 import { notesCard, settingsCard, summaryCard } from "./panels/tables.js";
+import { TouchTable } from "./panels/touch_table.js";
 import { Transport } from "./panels/transport.js";
 import type { Page } from "./api.js";
 import { listenForKeys } from "./keys.js";
 import { Player } from "./player.js";
 import { boundsOfPosture } from "./scene3d/bounds.js";
 import { View3D } from "./scene3d/view.js";
+import type { Change, Shape } from "./state.js";
 import { Store } from "./state.js";
 import { keepTheme, preferredTheme } from "./theme.js";
 import { Timeline } from "./timeline/timeline.js";
@@ -32,7 +39,9 @@ export function showDocument(document: ViewDocument): Page {
   showHeadline(model);
   const view = makeView(model, store);
   addControls(model, store);
-  addPanels(model, store);
+  addPanels(model, store, view);
+  addSharing(model, store, view);
+  keepAddress(model, store);
   const player = new Player(model, store);
   if (model.isLive) startFeed(model, store, player);
   connectView(view, model, store);
@@ -42,22 +51,32 @@ export function showDocument(document: ViewDocument): Page {
 function initialStore(model: Model): Store {
   const telling = mostTelling(model.contacts, model.clips);
   const contact = model.contacts[telling] ?? null;
-  const hasLss = model.avatars.some((avatar) => avatar.lss.length > 0);
   return new Store({
     time: contact?.at ?? model.start,
     isPlaying: false,
     speed: 1,
     contact,
-    link: null,
+    touch: contact === null ? null : model.touchOf(contact),
+    link: contact === null ? null : { avatar: contact.avatar, link: contact.link },
     showsDiscrete: false,
     showsGhosts: contact !== null,
     showsSwept: model.avatars.some((avatar) => avatar.swept.length > 0),
     cutsAway: true,
     tracks: true,
-    shape: hasLss ? "lss" : "mesh",
+    shape: openingShape(model),
     theme: preferredTheme(),
     follows: model.isLive,
+    search: "",
+    showsGround: true,
+    place: null,
   });
+}
+
+/** The surface that was asked: a document has meshes where contacts are those of meshes. */
+function openingShape(model: Model): Shape {
+  const hasMeshes = model.avatars.some((avatar) => avatar.meshes.length > 0);
+  const hasLss = model.avatars.some((avatar) => avatar.lss.length > 0);
+  return hasMeshes && (model.document.kind !== "inspection" || !hasLss) ? "mesh" : "lss";
 }
 
 /** Without WebGL everything else still works. */
@@ -75,25 +94,27 @@ function connectView(view: View3D | null, model: Model, store: Store): void {
   const help = new Help();
   byId("help").addEventListener("click", () => help.toggle());
   byId("frame").addEventListener("click", () => view?.frame(false));
-  listenForKeys(model, store, { frame: () => view?.frame(false), help: () => help.toggle() });
+  byId("everything").hidden = model.document.kind !== "inspection";
+  byId("everything").addEventListener("click", () => view?.frame(false, "everything"));
+  listenForKeys(model, store, { frame: (scope) => view?.frame(false, scope), help: () => help.toggle() });
   if (view === null) return;
-  view.showLabels();
-  view.frame(true);
+  view.open();
   let isFramed = !model.isLive;
   store.subscribe((changes) => {
     view.update(changes);
     if (changes.has("contact")) view.keepInSight();
     if (!isFramed && model.clips.some((clip) => clip.hasPose)) {
       isFramed = true;
-      view.frame(true);
+      view.open();
     }
   });
 }
 
 function addControls(model: Model, store: Store): void {
   const caption = new Caption(model, store);
+  const legend = new Legend(model, store);
   byId("caption").append(caption.node);
-  byId("legend").append(caption.legend);
+  byId("legend").append(legend.node);
   const transport = new Transport(model, store);
   const timeline = new Timeline(model, store);
   const hasTime = model.isLive || model.end > model.start;
@@ -102,30 +123,31 @@ function addControls(model: Model, store: Store): void {
   store.subscribe((changes) => {
     transport.update(changes);
     timeline.update(changes);
-    if (!model.isLive || changes.size > 1 || !changes.has("time")) caption.update();
+    if (model.isLive && changes.size === 1 && changes.has("time")) return;
+    caption.update();
+    legend.update();
   });
 }
 
-function addPanels(model: Model, store: Store): void {
+function addPanels(model: Model, store: Store, view3d: View3D | null): void {
   const panels = byId("panels"), view = model.document;
   const isInspection = view.kind === "inspection";
-  if (isInspection) panels.append(inspectionCard(model));
+  if (isInspection) addInspection(model, store, view3d, panels);
   const details = isInspection ? null : new Details(model, store);
   if (details !== null) panels.append(details.node);
-  for (const node of [notesCard(view), summaryCard(view)]) if (node !== null) panels.append(node);
+  for (const node of [summaryCard(view), notesCard(view)]) if (node !== null) panels.append(node);
   const histogram = makeHistogram(model, store);
   if (histogram !== null) panels.append(histogram.node);
   histogram?.draw();
-  const table = isInspection ? null : new ContactTable(model, store);
+  const table = isInspection ? null : new TouchTable(model, store);
   if (table !== null) panels.append(table.node);
   const settings = settingsCard(view);
   if (settings !== null) panels.append(settings);
   store.subscribe((changes) => {
     if (changes.has("theme")) histogram?.draw();
-    if (changes.has("contact") || changes.has("link") || changes.has("contacts")) {
-      details?.update();
-      table?.update();
-    }
+    const matters: Change[] = ["contact", "touch", "link", "contacts"];
+    if (matters.some((change) => changes.has(change))) details?.update();
+    if (changes.has("search") || changes.has("showsGround") || matters.some((change) => changes.has(change))) table?.update();
   });
 }
 
@@ -134,7 +156,18 @@ function makeHistogram(model: Model, store: Store): Histogram | null {
   return latencies.some((value) => value > 0) ? new Histogram(latencies, store) : null;
 }
 
-function inspectionCard(model: Model): HTMLElement {
+function addInspection(model: Model, store: Store, view: View3D | null, panels: HTMLElement): void {
+  const { checks } = model.document;
+  panels.append(checklistCard(checks.length > 0 ? checks : measuredChecks(model)));
+  if (view === null || model.avatars.length === 0 || model.document.scene.indices.length === 0) return;
+  const place = new PlaceCard(model, store, () => view.frame(false));
+  panels.append(place.node);
+  store.subscribe((changes) => {
+    if (changes.has("place")) place.update();
+  });
+}
+
+function measuredChecks(model: Model): Check[] {
   const avatars = model.avatars.flatMap((avatar, i) => {
     const clip = model.clips[i];
     if (!clip.hasPose) return [];
@@ -142,15 +175,19 @@ function inspectionCard(model: Model): HTMLElement {
     posture.moveTo(model.start);
     return [{ name: avatar.name, bounds: boundsOfPosture(avatar, posture.world) }];
   });
-  return checklistCard(checksOf(avatars, model.document.scene.bounds));
+  return checksOf(avatars, model.document.scene.bounds);
 }
 
 function startFeed(model: Model, store: Store, player: Player): void {
-  const card = new LiveCard();
-  byId("panels").prepend(card.node);
-  const feed = new Feed(model.document.events ?? "/events", model, store, () => {
+  const card = new LiveCard(), plot = new LatencyPlot(store), now = new TouchesNow(model, store, byId("view"));
+  byId("panels").prepend(now.node, plot.node, card.node);
+  const feed: Feed = new Feed(model.document.events ?? "/events", model, store, () => {
     card.update(feed);
+    plot.add(feed.state.status);
     player.wake();
+  }, (begun) => now.begun(begun));
+  store.subscribe((changes) => {
+    if (changes.has("contacts") || changes.has("avatars")) now.showBodies();
   });
   card.update(feed);
   feed.start();

@@ -1,12 +1,12 @@
 // The keyboard.
 
 import type { Model } from "./model.js";
-import { chooseNeighbour } from "./panels/choosing.js";
+import { walkContacts, walkTouches } from "./panels/choosing.js";
 import { speeds, togglePlaying, toggleShape } from "./panels/transport.js";
 import type { Store } from "./state.js";
 
 interface Actions {
-  frame(): void;
+  frame(scope: "body" | "everything"): void;
   help(): void;
 }
 
@@ -20,8 +20,12 @@ export function listenForKeys(model: Model, store: Store, actions: Actions): voi
     store.set({ [name]: !store.state[name] });
   const keys: Record<string, (event: KeyboardEvent) => void> = {
     " ": () => togglePlaying(store, model),
-    "[": () => chooseNeighbour(store, model, -1),
-    "]": () => chooseNeighbour(store, model, 1),
+    "[": () => walkTouches(store, model, -1),
+    "]": () => walkTouches(store, model, 1),
+    "{": () => walkContacts(store, model, -1),
+    "}": () => walkContacts(store, model, 1),
+    Home: () => seek(store, model.start),
+    End: () => seek(store, model.end),
     ArrowLeft: (event) => move(model, store, -1, event.shiftKey),
     ArrowRight: (event) => move(model, store, 1, event.shiftKey),
     "-": () => changeSpeed(store, -1),
@@ -32,8 +36,9 @@ export function listenForKeys(model: Model, store: Store, actions: Actions): voi
     c: flip("cutsAway"),
     t: flip("tracks"),
     l: () => toggleShape(store),
-    f: () => actions.frame(),
-    Escape: () => store.set({ contact: null, link: null }),
+    f: (event) => actions.frame(event.shiftKey ? "everything" : "body"),
+    "/": () => document.querySelector<HTMLInputElement>("input.search")?.focus(),
+    Escape: () => store.set({ contact: null, touch: null, link: null, place: null }),
     "?": () => actions.help(),
   };
   document.addEventListener("keydown", (event) => {
@@ -49,7 +54,7 @@ export function listenForKeys(model: Model, store: Store, actions: Actions): voi
 function isTyping(event: KeyboardEvent): boolean {
   const { target } = event;
   if (target instanceof HTMLSelectElement) return true;
-  if (target instanceof HTMLInputElement) return event.key.startsWith("Arrow");
+  if (target instanceof HTMLInputElement) return isText(target) || /^(Arrow|Home|End)/.test(event.key);
   const isPressable = target instanceof HTMLButtonElement || (target instanceof HTMLElement && target.tagName === "SUMMARY");
   if (document.querySelector("dialog[open]") !== null) return event.key !== "?";
   return isPressable && event.key === " ";
@@ -65,6 +70,14 @@ function move(model: Model, store: Store, direction: -1 | 1, toPose: boolean): v
   const pose = direction > 0 ? span.t1 : isAtStart ? clip.poseTimeAt(time - 0.5 * step) : span.t0;
   const next = toPose ? pose : time + direction * nudge * step;
   store.set({ time: Math.min(model.end, Math.max(model.start, next)), isPlaying: false, follows: false });
+}
+
+function isText({ type }: HTMLInputElement): boolean {
+  return type === "search" || type === "text";
+}
+
+function seek(store: Store, time: number): void {
+  store.set({ time, isPlaying: false, follows: false });
 }
 
 function changeSpeed(store: Store, by: number): void {

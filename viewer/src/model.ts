@@ -3,7 +3,11 @@
 import type { Avatar, ViewDocument } from "./data/document.js";
 import type { Contact } from "./contacts/contact.js";
 import { allContacts, longestStep } from "./contacts/contact.js";
+import type { Touch, TouchCount } from "./contacts/touch.js";
+import { countTouches, matches, mergedTouches, recordedTouches, touchOfRow } from "./contacts/touch.js";
 import type { Clip } from "./motion/clip.js";
+import type { Place } from "./motion/placing.js";
+import { placeFrom } from "./motion/placing.js";
 import { RecordedClip } from "./motion/recorded_clip.js";
 import { LiveClip } from "./live/live_clip.js";
 
@@ -13,6 +17,9 @@ export class Model {
   private readonly avatarList: Avatar[];
   private readonly clipList: Clip[];
   private contactList: Contact[];
+  private touchList: Touch[];
+  private touchOfContact = new Map<Contact, Touch>();
+  private shown: { search: string; showsGround: boolean; of: Touch[]; touches: readonly Touch[] } | null = null;
   private longest: number;
   private zero: number | null = null;
 
@@ -20,6 +27,7 @@ export class Model {
     this.avatarList = [...document.avatars];
     this.clipList = document.avatars.map(clipOf);
     this.contactList = allContacts(this.avatars, this.clips);
+    this.touchList = this.touchesOf(this.contactList);
     this.longest = longestStep(this.contactList);
   }
 
@@ -49,13 +57,58 @@ export class Model {
     return this.contactList;
   }
 
+  /** In order of their begin. */
+  get touches(): readonly Touch[] {
+    return this.touchList;
+  }
+
+  /** False for documents that have but contacts, each of which then stands for itself. */
+  get knowsTouches(): boolean {
+    return this.isLive || this.document.touches !== null;
+  }
+
+  /** Those that a search and the choice of the ground leave. */
+  shownTouches(search: string, showsGround: boolean): readonly Touch[] {
+    const { shown } = this;
+    if (shown !== null && shown.search === search && shown.showsGround === showsGround && shown.of === this.touchList) return shown.touches;
+    const isAll = search.trim() === "" && showsGround;
+    const touches = isAll ? this.touchList : this.touchList.filter((touch) => (showsGround || !touch.isGround) && matches(touch, search.trim()));
+    this.shown = { search, showsGround, of: this.touchList, touches };
+    return touches;
+  }
+
+  countTouches(): TouchCount {
+    return countTouches(this.touchList);
+  }
+
+  /** The touch that a contact is a row of. */
+  touchOf(contact: Contact): Touch | null {
+    if (this.touchOfContact.size === 0) {
+      for (const touch of this.touchList) for (const row of touch.rows) this.touchOfContact.set(row, touch);
+    }
+    return this.touchOfContact.get(contact) ?? null;
+  }
+
+  private touchesOf(contacts: readonly Contact[]): Touch[] {
+    const { touches } = this.document;
+    this.touchOfContact = new Map();
+    if (this.isLive) return mergedTouches(contacts);
+    return touches === null ? contacts.map(touchOfRow) : recordedTouches(touches, this.avatars, contacts);
+  }
+
   replaceContacts(contacts: Contact[]): void {
     this.contactList = contacts;
+    this.touchList = this.touchesOf(contacts);
     this.longest = longestStep(contacts);
   }
 
   get longestStep(): number {
     return this.longest;
+  }
+
+  /** Where the clip stands now, as the document's settings say. */
+  get place(): Place {
+    return placeFrom(this.document.settings.find(({ name }) => name === "placed at")?.value ?? "");
   }
 
   /** Of all clips that have poses; 0 where none has. */

@@ -2,6 +2,8 @@
 // in one go are told once.
 
 import type { Contact } from "./contacts/contact.js";
+import type { Touch } from "./contacts/touch.js";
+import type { Place } from "./motion/placing.js";
 
 export type Theme = "light" | "dark";
 export type Shape = "lss" | "mesh";
@@ -16,8 +18,11 @@ export interface ViewState {
   time: number;
   isPlaying: boolean;
   speed: number;
+  touch: Touch | null;
+  /** A row of the touch; null where the document carries none of them. */
   contact: Contact | null;
   link: LinkChoice | null;
+  /** Beside what happened, what a check of the poses alone sees. */
   showsDiscrete: boolean;
   showsGhosts: boolean;
   showsSwept: boolean;
@@ -28,6 +33,11 @@ export interface ViewState {
   theme: Theme;
   /** Live only: whether time follows the stream. */
   follows: boolean;
+  /** What is looked for: touches whose names have all these words. */
+  search: string;
+  showsGround: boolean;
+  /** Inspections: where the body would stand; null where nobody has clicked. */
+  place: Place | null;
 }
 
 export type Change = keyof ViewState | "contacts" | "avatars";

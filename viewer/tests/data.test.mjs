@@ -8,11 +8,13 @@ import { allContacts, contactsAt, firstAfter, longestStep } from "../build/conta
 import { discreteCount, isSeenAtPose, touchingLinks } from "../build/contacts/discrete.js";
 import { mostTelling } from "../build/contacts/telling.js";
 import { RecordedClip } from "../build/motion/recorded_clip.js";
-import { rowsOf, ticks, zoomed } from "../build/timeline/rows.js";
-import { f32, f64, inspection, live, pageWith, replay, stepEvent, u16, u32 } from "./fixture.mjs";
+import { matches, mergedTouches, recordedTouches, touchOfRow } from "../build/contacts/touch.js";
+import { densityOf, nearestTouch, rowsOf, ticks, zoomed } from "../build/timeline/rows.js";
+import { f32, f64, inspection, live, pageWith, replay, stepEvent, u16, u32, withTouches } from "./fixture.mjs";
 
 const whole = replay({ seconds: 2, rate: 10 });
-const copy = () => structuredClone(whole);
+const touched = withTouches(whole);
+const copy = () => structuredClone(touched);
 const decoded = (value) => decodeDocument(JSON.stringify(value));
 
 test("documents of every kind are read", () => {
@@ -71,6 +73,12 @@ const wrong = [
   ["contact without a point", (v) => delete v.avatars[0].contacts[0].point, /no "point"/],
   ["short vector", (v) => (v.avatars[0].contacts[0].normal = [1, 2]), /is not three numbers/],
   ["text for a number", (v) => (v.avatars[0].id = "0"), /avatars\[0\]\.id is not a whole number/],
+  ["touch of no link", (v) => (v.touches[0].link = 16), /touches\[0\]\.link/],
+  ["touch of no avatar", (v) => (v.touches[0].avatar = 1), /touches\[0\]\.avatar/],
+  ["touch that ends before it begins", (v) => (v.touches[0].end = -9), /touches\[0\]\.end/],
+  ["touch of no contact", (v) => (v.touches[0].rows = [1e6]), /rows\[0\]/],
+  ["touch that begins otherwise", (v) => (v.touches[0].begins = "late"), /begins is none of/],
+  ["check of no state", (v) => (v.checks = [{ name: "a", state: "fine", text: "b" }]), /state is none of/],
   ["list for an object", (v) => (v.scene = []), /scene is not an object/],
 ];
 for (const [name, harm, sentence] of wrong) {
@@ -155,10 +163,64 @@ test("contacts hold from when they are met to the end of their step; missed ones
   assert.equal(contacts[mostTelling(contacts, clips)].missedByPoses, true);
 });
 
-test("the timeline's rows, ticks and windows", () => {
-  const view = decoded(whole), clips = view.avatars.map((avatar) => new RecordedClip(avatar.links, avatar.track));
-  const rows = rowsOf(allContacts(view.avatars, clips), view.avatars);
-  assert.equal(rows.reduce((sum, row) => sum + row.contacts.length, 0), whole.avatars[0].contacts.length);
+function shown(value) {
+  const view = decoded(value), clips = view.avatars.map((avatar) => new RecordedClip(avatar.links, avatar.track));
+  return { view, contacts: allContacts(view.avatars, clips) };
+}
+
+test("touches have their contacts, whatever order the page has those in", () => {
+  const { view, contacts } = shown(touched);
+  const touches = recordedTouches(view.touches, view.avatars, contacts);
+  assert.equal(touches.length, touched.touches.length);
+  assert.ok(touches.length > 3 && touches.length < contacts.length, "some touches last longer than a step");
+  touches.forEach((touch, i) => {
+    assert.deepEqual(touch.rows.map(({ row }) => row), touched.touches[i].rows);
+    assert.ok(touch.rows.every((row) => row.link === touch.link && row.object === touch.object && row.at >= touch.begin - 1e-9 && row.at <= touch.end));
+    assert.equal(touch.isMissed, touched.touches[i].missed ?? false);
+  });
+});
+
+test("the contacts of a stream are the same touches", () => {
+  const { view, contacts } = shown(touched);
+  const ends = (touch) => [touch.link, touch.object, touch.begin.toFixed(6), touch.end.toFixed(6), touch.rows.length];
+  const merged = mergedTouches(contacts.filter(({ verdict }) => verdict !== "undecided"));
+  assert.deepEqual(merged.map(ends).sort(), recordedTouches(view.touches, view.avatars, contacts).map(ends).sort());
+});
+
+test("a search finds every word in the link's or the object's name", () => {
+  const touch = { linkName: "mixamorig:LeftHand", object: "floor_lamp" };
+  for (const search of ["", "hand", "LAMP", "left lamp", "lamp left"]) assert.ok(matches(touch, search), search);
+  for (const search of ["foot", "left table"]) assert.ok(!matches(touch, search), search);
+});
+
+test("the timeline's rows, by limb, by link, by object and all", () => {
+  const { view, contacts } = shown(touched);
+  const touches = recordedTouches(view.touches, view.avatars, contacts), none = new Set();
+  const sum = (rows) => rows.filter((row) => !row.isHeading).reduce((count, row) => count + row.touches.length, 0);
+  for (const grouping of ["limb", "link", "object", "all"]) assert.equal(sum(rowsOf(touches, view.avatars, grouping, none)), touches.length, grouping);
+  assert.equal(rowsOf(touches, view.avatars, "all", none).length, 16);
+  assert.ok(rowsOf(touches, view.avatars, "link", none).every((row) => row.touches.length > 0));
+  const byLimb = rowsOf(touches, view.avatars, "limb", none), headings = byLimb.filter((row) => row.isHeading);
+  assert.equal(headings.reduce((count, row) => count + row.touches.length, 0), touches.length);
+  const folded = rowsOf(touches, view.avatars, "limb", new Set([headings[0].group]));
+  assert.equal(folded.length, byLimb.length - byLimb.filter((row) => !row.isHeading && row.group === headings[0].group).length);
+});
+
+test("a bar is hit where it is, and the shorter of two", () => {
+  const touch = (begin, end) => ({ ...touchOfRow({ at: begin, span: { t0: begin, t1: end }, verdict: "contact" }) });
+  const row = { touches: [touch(1, 9), touch(2, 3)] };
+  assert.equal(nearestTouch(row, 5, 0.1), row.touches[0]);
+  assert.equal(nearestTouch(row, 2.5, 0.1), row.touches[1]);
+  assert.equal(nearestTouch(row, 9.05, 0.1), row.touches[0]);
+  assert.equal(nearestTouch(row, 9.2, 0.1), null);
+});
+
+test("the overview counts what touches when", () => {
+  const density = densityOf([{ begin: 0, end: 0.4 }, { begin: 3.2, end: 5.1 }, { begin: 3.9, end: 3.9 }], { t0: 0, t1: 10 }, 10);
+  assert.deepEqual([...density], [1, 0, 0, 2, 1, 1, 0, 0, 0, 0]);
+});
+
+test("the timeline's ticks and windows", () => {
   assert.deepEqual(ticks({ t0: 0, t1: 1 }, 5).times.map((t) => t.toFixed(1)), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
   assert.ok(ticks({ t0: 0, t1: 1e-9 }, 10).times.length < 20);
   const window = zoomed({ t0: 0, t1: 10 }, 0.5, 2, { t0: 0, t1: 10 });

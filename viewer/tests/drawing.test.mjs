@@ -5,24 +5,31 @@ import test from "node:test";
 import { coarsened } from "../build/scene3d/coarse.js";
 import { Pace } from "../build/scene3d/pace.js";
 
-test("slow frames are drawn with fewer pixels, quick ones with more again", () => {
+test("slow frames are drawn with fewer pixels and triangles, quick ones with more again", () => {
   const pace = new Pace();
   const tell = (milliseconds, times) => Array.from({ length: times }, () => pace.took(milliseconds));
-  assert.deepEqual([pace.share, pace.isCoarse], [1, false]);
-  tell(90, 1);
+  assert.deepEqual([pace.share, pace.isCoarse, pace.maxTriangles], [1, false, null]);
   tell(40, 1);
-  tell(90, 1);
+  tell(20, 1);
+  tell(40, 1);
   assert.equal(pace.share, 1, "one slow frame says nothing");
-  tell(90, 1);
+  tell(40, 1);
   assert.deepEqual([pace.share, pace.isCoarse], [0.75, true]);
-  tell(200, 20);
-  assert.equal(pace.share, 0.35, "there is a coarsest");
-  tell(40, 100);
-  assert.equal(pace.share, 0.35, "neither slow nor quick: it stays");
+  const shares = [], triangles = [];
+  for (let i = 0; i < 20; ++i) {
+    tell(200, 2);
+    shares.push(pace.share);
+    triangles.push(pace.maxTriangles);
+  }
+  assert.ok(shares.every((share, i) => i === 0 || share <= shares[i - 1]) && triangles.every((most, i) => i === 0 || most <= triangles[i - 1]));
+  const coarsest = shares[shares.length - 1];
+  assert.ok(coarsest > 0 && coarsest < 0.5, "there is a coarsest");
+  tell(20, 100);
+  assert.equal(pace.share, coarsest, "neither slow nor quick: it stays");
   tell(10, 30);
-  assert.equal(pace.share, 0.5);
-  tell(10, 200);
-  assert.deepEqual([pace.share, pace.isCoarse], [1, false]);
+  assert.ok(pace.share > coarsest);
+  tell(10, 300);
+  assert.deepEqual([pace.share, pace.isCoarse, pace.maxTriangles], [1, false, null]);
 });
 
 /** A square of `side` metres in 2 n² triangles, and beside it a thread a millimetre thick. */

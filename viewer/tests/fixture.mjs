@@ -264,6 +264,33 @@ function common(kind, title) {
   };
 }
 
+/** The document with the touches that its contacts are: each as long as the steps after it start in contact. */
+export function withTouches(document) {
+  const [{ contacts, track, links }] = document.avatars;
+  const pose = (name) => new Uint32Array(new Uint8Array(Buffer.from(track.steps[name].u32, "base64")).buffer);
+  const times = new Float64Array(new Uint8Array(Buffer.from(track.pose_times.f64, "base64")).buffer);
+  const to = pose("to"), touches = [];
+  contacts.forEach((contact, row) => {
+    if (contact.verdict === "undecided") return;
+    const known = touches.find((one) => one.link === contact.link && one.object === contact.object && one.steps[1] === contact.step - 1);
+    const end = times[to[contact.step]];
+    if (known !== undefined && contact.verdict === "starts_in_contact") {
+      known.steps[1] = contact.step;
+      known.end = end;
+      known.rows.push(row);
+      delete known.missed;
+      return;
+    }
+    const begins = contact.verdict === "contact" ? "contact" : "inside";
+    const touch = { link: contact.link, object: contact.object, begin: contact.time, end, steps: [contact.step, contact.step], begins, ends: "left", rows: [row] };
+    if (contact.missed_by_poses === true) touch.missed = true;
+    if (/Foot$/.test(links[contact.link].name)) touch.ground = true;
+    touches.push(touch);
+  });
+  touches.sort((a, b) => a.begin - b.begin || a.link - b.link);
+  return { ...document, touches };
+}
+
 /** The page with a document in it. */
 export function pageWith(template, text) {
   const place = '<script type="application/json" id="foretouch-view">';

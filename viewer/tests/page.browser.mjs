@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
-import { inspection, pageWith, replay } from "./fixture.mjs";
+import { inspection, pageWith, replay, withTouches } from "./fixture.mjs";
 import { serveLive } from "./live_server.mjs";
 import { decodePng } from "./png.mjs";
 
@@ -21,12 +21,12 @@ const launch = (args = software) => chromium.launch({ executablePath: process.en
 let browser = await launch();
 let files = 0;
 
-async function open(text, { width = 1400, height = 900, theme = "light", expectsErrors = false } = {}) {
+async function open(text, { width = 1400, height = 900, theme = "light", expectsErrors = false, fragment = "" } = {}) {
   const path = join(folder, `${++files}.html`);
   writeFileSync(path, pageWith(template, text));
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: theme, offline: true });
   const complaints = listen(page);
-  await page.goto(pathToFileURL(path).href);
+  await page.goto(pathToFileURL(path).href + fragment);
   await page.evaluate(() => window.foretouch.ready);
   await settled(page);
   if (!expectsErrors) assert.deepEqual(complaints, []);
@@ -138,7 +138,7 @@ const tests = {
     await page.keyboard.press("s");
     assert.equal(await page.evaluate(() => window.foretouch.state().showsSwept), false);
     await page.keyboard.press("?");
-    assert.ok(await page.getByText("previous, next contact").isVisible());
+    assert.ok(await page.getByText("previous, next touch").isVisible());
     await page.keyboard.press("Escape");
     await page.close();
   },
@@ -160,10 +160,163 @@ const tests = {
     assert.equal(await page.evaluate(() => window.foretouch.selected()), 0);
     await page.keyboard.press("Escape");
     const box = await page.locator("canvas.bars").boundingBox();
-    const gutter = Math.min(132, Math.round(box.width * 0.26));
+    const gutter = Math.min(150, Math.round(box.width * 0.26));
     const first = document.avatars[0].contacts[0].time;
     await page.mouse.click(box.x + gutter + (first / 4) * (box.width - gutter - 8) + 2, box.y + box.height - 11);
     assert.equal(await page.evaluate(() => window.foretouch.selected()), 0);
+    await page.close();
+  },
+
+  async "touches are walked, told and listed; their contacts are the rows of one"() {
+    const touched = withTouches(document), { page } = await open(JSON.stringify(touched));
+    const missed = touched.touches.filter((touch) => touch.missed).length;
+    const headline = `The walker touches the room ${touched.touches.length} times. Checking the poses alone would miss ${missed} of them.`;
+    assert.equal(await page.locator("#headline").innerText(), headline);
+    await page.evaluate(() => window.foretouch.selectTouch(0));
+    for (let i = 1; i < touched.touches.length; ++i) {
+      await page.keyboard.press("]");
+      assert.equal(await page.evaluate(() => window.foretouch.selectedTouch()), i);
+    }
+    const long = touched.touches.findIndex((touch) => touch.rows.length > 1);
+    await page.evaluate((i) => window.foretouch.selectTouch(i), long);
+    const { rows } = await page.evaluate((i) => window.foretouch.touch(i), long);
+    assert.equal(await page.evaluate(() => window.foretouch.selected()), rows[0]);
+    await page.keyboard.press("}");
+    assert.equal(await page.evaluate(() => window.foretouch.selected()), rows[0] + 1);
+    await page.getByText("Table of touches").click();
+    await page.locator(".touch-table tbody tr").nth(touched.touches.length - 1).waitFor();
+    assert.equal(await page.locator(".touch-table tbody tr").count(), touched.touches.length);
+    const download = page.waitForEvent("download");
+    await page.getByRole("button", { name: "Save the table as a file" }).click();
+    const csv = readFileSync(await (await download).path(), "utf8").trimEnd().split("\r\n");
+    assert.equal(csv.length, touched.touches.length + 1);
+    assert.ok(csv[1].startsWith(`${touched.touches[0].begin},`), csv[1]);
+    await page.close();
+  },
+
+  async "a search leaves what it names, on the timeline and for the keys"() {
+    const { page } = await open(JSON.stringify(withTouches(document)));
+    await page.keyboard.press("/");
+    await page.keyboard.type("railing");
+    await page.keyboard.press("Escape");
+    await page.evaluate(() => window.foretouch.seek(0));
+    for (let i = 0; i < 3; ++i) {
+      await page.keyboard.press("]");
+      assert.equal(await page.evaluate(() => window.foretouch.touch(window.foretouch.selectedTouch()).object), "railing");
+    }
+    await page.locator("input.search").fill("nobody at all");
+    await page.locator("input.search").press("Escape");
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("]");
+    assert.equal(await page.evaluate(() => window.foretouch.selectedTouch()), -1);
+    await page.close();
+  },
+
+  async "an instant has an address, which survives a reload"() {
+    const touched = JSON.stringify(withTouches(document)), { page } = await open(touched);
+    await page.evaluate(() => window.foretouch.selectTouch(3));
+    const { begin } = await page.evaluate(() => window.foretouch.touch(3));
+    await page.waitForFunction((t) => location.hash.includes(`t=${t}`), Number(begin.toFixed(6)));
+    const fragment = await page.evaluate(() => location.hash);
+    assert.match(fragment, /&link=RightHand&object=railing$/);
+    await page.reload();
+    await page.evaluate(() => window.foretouch.ready);
+    assert.equal(await page.evaluate(() => window.foretouch.selectedTouch()), 3);
+    await page.close();
+    const other = await open(touched, { fragment: "#t=0.123456&link=Head" });
+    assert.equal(await other.page.evaluate(() => window.foretouch.state().time), 0.123456);
+    await other.page.evaluate((hash) => (location.hash = hash), fragment);
+    await other.page.waitForFunction(() => window.foretouch.selectedTouch() === 3);
+    await other.page.evaluate(() => (location.hash = "#t=<script>&link=%%%"));
+    assert.equal(await other.page.evaluate(() => window.foretouch.selectedTouch()), 3, "nonsense goes nowhere");
+    await other.page.close();
+  },
+
+  async "check and truth share the picture, and the divider moves"() {
+    const { page } = await open(text);
+    const whole = await shoot(page, "truth");
+    await page.keyboard.press("d");
+    const both = await shoot(page, "check-and-truth");
+    const { x, y, width, height } = await page.locator("#view canvas").first().boundingBox();
+    const handle = await page.locator(".wipe-handle").boundingBox();
+    const divider = handle.x + handle.width / 2;
+    const differing = (from, to) => {
+      let found = 0;
+      for (let py = Math.round(y + 40); py < y + height - 60; py += 5) for (let px = Math.round(from); px < to; px += 5) {
+        const a = whole.at(px, py), b = both.at(px, py);
+        if (Math.max(...[0, 1, 2].map((i) => Math.abs(a[i] - b[i]))) > 40) ++found;
+      }
+      return found;
+    };
+    assert.ok(differing(x, divider - 20) > 100, "left of it another picture");
+    const { time } = await page.evaluate(() => window.foretouch.state());
+    const hips = await page.evaluate((t) => window.foretouch.transformAt(0, 0, t).slice(9), time);
+    assert.ok((await countAround(page, both, hips, 6, isBlue)) > 100, "the body of the truth is where the page says");
+    const [px] = await page.evaluate((p) => window.foretouch.screenOf(p), hips);
+    assert.ok(x + px > divider, "right of it");
+    const middle = y + height / 2;
+    await page.mouse.move(divider, middle);
+    await page.mouse.down();
+    await page.mouse.move(x + 0.7 * width, middle, { steps: 4 });
+    await page.mouse.up();
+    await settled(page);
+    const moved = await page.locator(".wipe-handle").boundingBox();
+    assert.ok(Math.abs(moved.x + moved.width / 2 - (x + 0.7 * width)) < 3);
+    await page.close();
+  },
+
+  async "the surface that was asked is shown first"() {
+    const value = structuredClone(document), cube = { positions: document.scene.positions, indices: document.scene.indices };
+    value.avatars[0].meshes = [{ link: 0, ...cube }];
+    const { page } = await open(JSON.stringify(value));
+    assert.equal(await page.evaluate(() => window.foretouch.state().shape), "mesh");
+    await page.keyboard.press("l");
+    assert.equal(await page.evaluate(() => window.foretouch.state().shape), "lss");
+    await page.close();
+  },
+
+  async "a picture is saved as a PNG, in full and with its sentence"() {
+    const { page } = await open(text);
+    const download = page.waitForEvent("download");
+    await page.getByRole("button", { name: "Save the view as a PNG" }).click();
+    const image = decodePng(readFileSync(await (await download).path()));
+    const { width, height } = await page.locator("#view canvas").first().boundingBox();
+    assert.ok(image.width >= width && image.height > height);
+    const colours = new Set();
+    for (let py = 60; py < image.height; py += 23) for (let px = 0; px < image.width; px += 23) colours.add([...image.at(px, py)].join());
+    assert.ok(colours.size > 40, `${colours.size} colours`);
+    await page.close();
+  },
+
+  async "a click on the floor gives the place that puts the feet there"() {
+    const { page } = await open(JSON.stringify({ ...inspection(), settings: [{ name: "placed at", value: "0, 0, 0 m, turned by 0 degrees" }] }));
+    assert.equal(await page.evaluate(() => window.foretouch.placeOption()), null);
+    const click = async (point) => {
+      const [px, py] = await page.evaluate((p) => window.foretouch.screenOf(p), point);
+      const { x, y } = await page.locator("#view canvas").first().boundingBox();
+      await page.mouse.click(x + px, y + py);
+      const words = await page.evaluate(() => window.foretouch.placeOption());
+      return /^--place (.*)$/.exec(words)[1].split(",").map(Number);
+    };
+    const hips = (await page.evaluate(() => window.foretouch.transformAt(0, 0, 0))).slice(9);
+    const target = [0.4, 0, 1.4], [dx, dy, dz, yaw] = await click(target);
+    // The feet are under the hips, give or take half a stride.
+    assert.ok(Math.hypot(hips[0] + dx - target[0], hips[2] + dz - target[2]) < 0.35, `${dx}, ${dz}`);
+    assert.ok(Math.abs(dy) < 0.1 && yaw === 0);
+    const turned = await click([target[0], 0, target[2] + 0.6]);
+    assert.ok(Math.abs(turned[3] + 90) <= 12, `from +x to +z: ${turned[3]}`);
+    await shoot(page, "placing");
+    await page.keyboard.press("Escape");
+    assert.equal(await page.evaluate(() => window.foretouch.placeOption()), null);
+    await page.close();
+  },
+
+  async "verdicts of the program stand in place of the page's own, with what to try"() {
+    const checks = [{ name: "Place", state: "bad", text: "The trunk is inside a wall.", try: "--place 1,0,-2" }];
+    const { page } = await open(JSON.stringify({ ...inspection(), checks }));
+    assert.ok(await page.getByText("The trunk is inside a wall.").isVisible());
+    assert.ok(await page.getByText("--place 1,0,-2", { exact: true }).isVisible());
+    assert.equal(await page.getByText("the size of a person").count(), 0);
     await page.close();
   },
 
@@ -222,6 +375,9 @@ const tests = {
     assert.ok(end - time < 1, `the page is ${end - time} s behind`);
     assert.ok(await page.getByText("Connected", { exact: true }).isVisible());
     assert.ok(await page.getByText("answered", { exact: true }).isVisible());
+    await page.locator(".event").waitFor({ state: "visible" });
+    await page.getByText("RightHand × railing").first().waitFor();
+    await page.locator(".uplot").first().waitFor();
     await page.screenshot(shots === null ? {} : { path: join(shots, "live.png") });
     await page.evaluate(() => window.foretouch.seek(1));
     await page.waitForTimeout(500);

@@ -7,6 +7,8 @@ import type { Clip, Span } from "../motion/clip.js";
 export interface Contact extends ContactFields {
   /** Index into the page's avatars. */
   readonly avatar: number;
+  /** Index into the avatar's contacts; -1 in a stream. */
+  readonly row: number;
   readonly step: number;
   readonly linkName: string;
   /** When it is met; for an undecided one until when the link is free. Seconds. */
@@ -26,21 +28,22 @@ export function contactOf(
   linkName: string,
   span: Span,
   recorded: RecordedContact,
+  row = -1,
 ): Contact {
   const u = recorded.toi ?? recorded.freeUntil ?? 0;
   // Rounding must not show a contact after its step; before it may lie one of a step that a stream
   // has not sent.
   const at = Math.min(span.t1, recorded.time ?? span.t0 + u * (span.t1 - span.t0));
-  return { ...recorded, avatar, linkName, at, span };
+  return { ...recorded, avatar, row, linkName, at, span };
 }
 
 /** In order of time; contacts of the same time keep the document's order. */
 export function allContacts(avatars: readonly Avatar[], clips: readonly Clip[]): Contact[] {
   const contacts = avatars.flatMap((avatar, index) =>
-    avatar.contacts.flatMap((recorded) => {
+    avatar.contacts.flatMap((recorded, row) => {
       const span = clips[index].spanOf(recorded.step);
       if (span === null) return [];
-      return [contactOf(index, avatar.links[recorded.link].name, span, recorded)];
+      return [contactOf(index, avatar.links[recorded.link].name, span, recorded, row)];
     }),
   );
   return contacts.sort((a, b) => a.at - b.at);
@@ -69,5 +72,5 @@ export function contactsAt(contacts: readonly Contact[], time: number, longestSt
 
 /** Of the whole list: what contactsAt() has to look back over. */
 export function longestStep(contacts: readonly Contact[]): number {
-  return contacts.reduce((longest, c) => Math.max(longest, c.span.t1 - c.at), 0);
+  return contacts.reduce((longest, c) => Math.max(longest, c.span.t1 - Math.min(c.at, c.span.t0)), 0);
 }

@@ -1,9 +1,10 @@
 // What a check at the poses alone would have seen: the avatar jumps from pose to pose, and only
 // links that touch something at a pose itself light up.
 
-import type { TouchingAtPoses, Track } from "../data/document.js";
+import type { Avatar, TouchingAtPoses, Track } from "../data/document.js";
 import { lastAtMost } from "../motion/clip.js";
 import type { Contact } from "./contact.js";
+import { firstAfter } from "./contact.js";
 
 export interface DiscreteCount {
   readonly seen: number;
@@ -29,6 +30,16 @@ export function touchingLinks(track: Track | null, time: number): ReadonlySet<nu
 
 function linksAtPose(touching: TouchingAtPoses, pose: number): Uint16Array {
   return touching.links.subarray(touching.first[pose], touching.first[pose + 1]);
+}
+
+/** Contacts that a check at the pose shown at `time` would report, of all avatars. */
+export function seenAtPoses(
+  { contacts, avatars, longestStep }: { contacts: readonly Contact[]; avatars: readonly Avatar[]; longestStep: number },
+  time: number,
+): Contact[] {
+  // A step that ends or begins at the latest pose lies within its own length of `time`, on either side.
+  const from = firstAfter(contacts, time - 2 * longestStep - 1e-9), to = firstAfter(contacts, time + 2 * longestStep);
+  return contacts.slice(from, to).filter((contact) => isSeenAtPose(contact, avatars[contact.avatar].track, time));
 }
 
 /** Whether a check at the pose shown at `time` would report this contact. */

@@ -4,6 +4,7 @@ import type { Kind, SummaryLine, ViewDocument } from "./document.js";
 import { Malformed, Reader } from "./reader.js";
 import { decodeAvatar } from "./decode_avatar.js";
 import { decodeScene, emptyScene } from "./decode_scene.js";
+import { decodeCheck, decodeTouch } from "./decode_touch.js";
 
 export const formatName = "foretouch-view";
 export const formatVersion = 1;
@@ -27,6 +28,7 @@ function decodeValue(value: unknown): ViewDocument {
   requireFormat(root);
   const kind = root.field("kind").oneOf(kinds);
   const scene = root.optional("scene");
+  const avatars = (root.optional("avatars")?.items() ?? []).map(decodeAvatar);
   return {
     kind,
     title: root.field("title").text(),
@@ -38,7 +40,9 @@ function decodeValue(value: unknown): ViewDocument {
     summary: (root.optional("summary")?.items() ?? []).map(decodeSummaryLine),
     notes: (root.optional("notes")?.items() ?? []).map((note) => note.text()),
     scene: scene === null ? emptyScene : decodeScene(scene),
-    avatars: (root.optional("avatars")?.items() ?? []).map(decodeAvatar),
+    avatars,
+    touches: root.optional("touches")?.items().map((item) => decodeTouch(item, avatars)) ?? null,
+    checks: (root.optional("checks")?.items() ?? []).map(decodeCheck),
     events: kind === "live" ? eventsAddress(root) : null,
   };
 }

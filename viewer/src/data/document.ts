@@ -15,6 +15,10 @@ export interface ViewDocument {
   readonly notes: readonly string[];
   readonly scene: Scene;
   readonly avatars: readonly Avatar[];
+  /** Null where the document has none: then every contact stands for itself. */
+  readonly touches: readonly RecordedTouch[] | null;
+  /** Of inspections: what the program says about unit, axis and place. */
+  readonly checks: readonly Check[];
   /** Where live events come from; null where the document is no live one. */
   readonly events: string | null;
 }
@@ -134,6 +138,36 @@ export interface ContactFields {
 
 export interface RecordedContact extends ContactFields {
   readonly step: number;
+}
+
+/** A link and an object (or another link of the same avatar) from first contact to where it ends. */
+export interface RecordedTouch {
+  readonly avatar: number;
+  readonly link: number;
+  /** Of own links: the other one's name. */
+  readonly object: string;
+  /** The other own link; null where it touches the scene. */
+  readonly other: number | null;
+  readonly begin: number;
+  readonly end: number;
+  /** "inside": it touched already when somebody first looked. */
+  readonly begins: "contact" | "inside";
+  /** "open": it still touches when nobody looks any more. */
+  readonly ends: "left" | "open";
+  readonly isGround: boolean;
+  /** No pose that was asked for lies in it. */
+  readonly isMissed: boolean;
+  /** Indices into the avatar's contacts. */
+  readonly rows: readonly number[];
+}
+
+/** One verdict of an inspection, and what to try where it is no good one. */
+export interface Check {
+  readonly name: string;
+  readonly state: "good" | "doubt" | "bad";
+  readonly text: string;
+  /** An option to copy; "" for none. */
+  readonly remedy: string;
 }
 
 /** Contains every point that the link's LSS reach during the step, at most `error` metres off. */

@@ -4,6 +4,7 @@
 import type { Contact } from "../contacts/contact.js";
 import { contactOf } from "../contacts/contact.js";
 import type { StatusEvent, StepEvent } from "../data/events.js";
+import type { Touch } from "../contacts/touch.js";
 import { decodeDocument } from "../data/decode.js";
 import { decodeStatus, decodeStep, UnknownAvatar } from "../data/events.js";
 import type { Model } from "../model.js";
@@ -46,6 +47,7 @@ export class Feed {
     private readonly model: Model,
     private readonly store: Store,
     private readonly onState: () => void,
+    private readonly onTouch: (begun: readonly Touch[]) => void,
   ) {}
 
   start(): void {
@@ -124,6 +126,8 @@ export class Feed {
     if (kept.length === this.contacts.length && fresh.length === 0) return;
     this.contacts = [...kept, ...fresh].sort((a, b) => a.at - b.at);
     this.model.replaceContacts([...this.contacts]);
+    const isFresh = new Set(fresh);
+    this.onTouch(this.model.touches.filter(({ rows, isUndecided }) => !isUndecided && isFresh.has(rows[0])));
     this.store.listChanged("contacts");
   }
 

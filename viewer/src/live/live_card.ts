@@ -51,14 +51,14 @@ export class LiveCard {
       const value = status[name];
       if (value !== undefined) lines.push([name, count(value)]);
     }
-    const percentiles = (name: "query" | "answer"): void => {
-      const p50 = status[`${name}_p50_us`], p99 = status[`${name}_p99_us`];
-      if (p50 !== undefined && p99 !== undefined) lines.push([`${name}, half below`, microseconds(p50), `99 in 100 below ${microseconds(p99)}`]);
-    };
-    percentiles("query");
-    percentiles("answer");
+    for (const name of ["query", "answer"] as const) {
+      for (const share of ["p50", "p99"] as const) {
+        const value = status[`${name}_${share}_us`];
+        if (value !== undefined) lines.push([`${name} ${share}`, microseconds(value)]);
+      }
+    }
     lines.push(["last query", microseconds(lastQueryUs), `${microseconds(lastAddedUs)} added by the stream`]);
-    lines.push(["steps", count(steps), skipped > 0 ? `${count(skipped)} of them not sent to this page` : ""]);
+    lines.push(["steps", count(steps), skipped > 0 ? `${count(skipped)} of them were not sent, so that this page keeps up` : ""]);
     this.body.replaceChildren(definitionTable(lines));
     if (complaint !== "") this.body.append(element("p", { class: "complaint", text: `Not shown: ${complaint}` }));
   }

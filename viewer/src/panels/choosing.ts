@@ -1,13 +1,17 @@
-// Choosing a contact, from wherever it is chosen: time goes to it and stands still.
+// Choosing a touch or one of its contacts, from wherever it is chosen: time goes there and stands
+// still.
 
 import type { Contact } from "../contacts/contact.js";
 import { firstAfter } from "../contacts/contact.js";
+import type { Touch } from "../contacts/touch.js";
+import { firstTouchAfter } from "../contacts/touch.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
 
-export function choose(store: Store, contact: Contact): void {
+export function chooseContact(store: Store, model: Model, contact: Contact): void {
   store.set({
     contact,
+    touch: model.touchOf(contact),
     link: { avatar: contact.avatar, link: contact.link },
     time: contact.at,
     isPlaying: false,
@@ -15,12 +19,35 @@ export function choose(store: Store, contact: Contact): void {
   });
 }
 
-/** The contact before (-1) or after (1) the chosen one, or else the time shown. */
-export function chooseNeighbour(store: Store, model: Model, direction: -1 | 1): void {
-  const { contacts } = model;
-  const chosen = store.state.contact === null ? -1 : contacts.indexOf(store.state.contact);
-  const after = firstAfter(contacts, store.state.time);
-  const fromTime = direction > 0 ? after : after - 1;
-  const next = chosen >= 0 ? chosen + direction : fromTime;
-  if (contacts[next] !== undefined) choose(store, contacts[next]);
+export function chooseTouch(store: Store, model: Model, touch: Touch): void {
+  const contact = touch.rows.find((row) => row.point !== null) ?? touch.rows[0] ?? null;
+  store.set({
+    touch,
+    contact,
+    link: { avatar: touch.avatar, link: touch.link },
+    time: Math.min(model.end, contact?.at ?? touch.begin),
+    isPlaying: false,
+    follows: false,
+  });
+}
+
+/** The touch before (-1) or after (1) the chosen one, or else the time shown, of those that are shown. */
+export function walkTouches(store: Store, model: Model, direction: -1 | 1): void {
+  const { touch, time, search, showsGround } = store.state;
+  const touches = model.shownTouches(search, showsGround);
+  const chosen = touch === null ? -1 : touches.indexOf(touch);
+  const next = chosen >= 0 ? chosen + direction : neighbour(firstTouchAfter(touches, time), direction);
+  if (touches[next] !== undefined) chooseTouch(store, model, touches[next]);
+}
+
+/** As walkTouches(), from one contact of all steps to the next. */
+export function walkContacts(store: Store, model: Model, direction: -1 | 1): void {
+  const { contacts } = model, { contact, time } = store.state;
+  const chosen = contact === null ? -1 : contacts.indexOf(contact);
+  const next = chosen >= 0 ? chosen + direction : neighbour(firstAfter(contacts, time), direction);
+  if (contacts[next] !== undefined) chooseContact(store, model, contacts[next]);
+}
+
+function neighbour(after: number, direction: -1 | 1): number {
+  return direction > 0 ? after : after - 1;
 }

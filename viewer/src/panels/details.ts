@@ -5,8 +5,13 @@ import type { Contact } from "../contacts/contact.js";
 import { verdictNames } from "../contacts/contact.js";
 import type { Model } from "../model.js";
 import type { LinkChoice, Store } from "../state.js";
-import { definitionTable, element } from "./dom.js";
-import { length, seconds, tally, vector } from "./words.js";
+import type { Touch } from "../contacts/touch.js";
+import { chooseContact } from "./choosing.js";
+import { button, definitionTable, element } from "./dom.js";
+import { count, length, plural, seconds, tally, vector } from "./words.js";
+
+/** Of one touch, in the list of its contacts. */
+const maxRows = 40;
 
 type Line = readonly [string, string, string?];
 
@@ -24,19 +29,54 @@ export class Details {
   }
 
   update(): void {
-    const { contact, link } = this.store.state;
+    const { contact, touch, link } = this.store.state, { knowsTouches } = this.model;
     const title = this.node.querySelector("h2");
-    if (title !== null) title.textContent = contact === null && link !== null ? "Link" : "Contact";
-    this.body.replaceChildren(...this.content(contact, link));
+    const isLink = contact === null && touch === null && link !== null;
+    if (title !== null) title.textContent = isLink ? "Link" : knowsTouches ? "Touch" : "Contact";
+    this.body.replaceChildren(...this.content(contact, knowsTouches ? touch : null, link));
   }
 
-  private content(contact: Contact | null, link: LinkChoice | null): Node[] {
+  private content(contact: Contact | null, touch: Touch | null, link: LinkChoice | null): Node[] {
+    if (touch !== null) return this.ofTouch(touch, contact);
     if (contact !== null) return this.ofContact(contact);
     if (link !== null) return this.ofLink(link);
-    const hint = this.model.contacts.length === 0
+    const hint = this.model.touches.length === 0
       ? "No contact was found."
-      : "Choose a contact in the view, on the timeline or in the table.";
+      : `Choose a ${this.model.knowsTouches ? "touch" : "contact"} in the view, on the timeline or in the table.`;
     return [element("p", { class: "quiet", text: hint })];
+  }
+
+  private ofTouch(touch: Touch, contact: Contact | null): Node[] {
+    const zero = this.model.timeZero;
+    const parts: Node[] = [element("p", { class: "who" },
+      element("span", { class: `swatch ${touch.isGround ? "ground" : touch.begins === "inside" ? "starts_in_contact" : "contact"}` }),
+      element("strong", { text: touch.linkName }),
+      element("span", { text: touch.object === "" ? "" : ` × ${touch.object}` }),
+    )];
+    if (touch.isMissed === true) parts.push(element("p", { class: "badge", text: "A check of the poses misses it" }));
+    parts.push(definitionTable([
+      ["begins", seconds(touch.begin - zero), touch.begins === "inside" ? "it touched already when somebody first looked" : ""],
+      ["ends", seconds(touch.end - zero), touch.ends === "open" ? "it still touches" : `after ${seconds(touch.end - touch.begin)}`],
+      ...(touch.isGround ? [["ground", "yes", "it stands on what it touches"] as const] : []),
+    ]));
+    if (touch.rows.length > 0) parts.push(this.rowsOf(touch, contact));
+    if (contact !== null) parts.push(element("h3", { text: `The contact in step ${count(contact.step)}` }), definitionTable(this.linesOf(contact)));
+    return parts;
+  }
+
+  /** The contacts of a touch, step by step. */
+  private rowsOf(touch: Touch, chosen: Contact | null): HTMLElement {
+    const zero = this.model.timeZero;
+    const fold = element("details", {}, element("summary", { text: `Step by step: ${plural(touch.rows.length, "contact")}` }));
+    const list = element("div", { class: "steps" }, ...touch.rows.slice(0, maxRows).map((row) => {
+      const at = seconds(row.at - zero);
+      const jump = button(at, `Show step ${row.step}: ${verdictNames[row.verdict]} at ${at}`, () => chooseContact(this.store, this.model, row), "link");
+      if (row === chosen) jump.setAttribute("aria-current", "true");
+      return jump;
+    }));
+    if (touch.rows.length > maxRows) list.append(element("span", { class: "quiet", text: `and ${count(touch.rows.length - maxRows)} more` }));
+    fold.append(list);
+    return fold;
   }
 
   private ofContact(contact: Contact): Node[] {
@@ -45,7 +85,7 @@ export class Details {
       element("strong", { text: contact.linkName }),
       element("span", { text: contact.object === null ? "" : ` × ${contact.object}` }),
     );
-    const badge = element("p", { class: "badge", text: "A discrete check misses it" });
+    const badge = element("p", { class: "badge", text: "A check of the poses misses it" });
     const parts: Node[] = [heading];
     if (contact.missedByPoses === true) parts.push(badge);
     parts.push(definitionTable(this.linesOf(contact)));
@@ -83,6 +123,10 @@ export class Details {
       ["LSS", radii.length === 0 ? "none" : `${radii.length}, radius ${radii.slice(0, 4).join(", ")}`],
       ["contacts", tally(contacts)],
     ];
+    if (this.model.knowsTouches) {
+      const touches = this.model.touches.filter((touch) => touch.avatar === avatar && touch.link === link);
+      lines.push(["touches", count(touches.length)]);
+    }
     if (discrete !== null) lines.push(["seen at poses", `${discrete.seen} of ${discrete.all}`]);
     return [element("p", { class: "who" }, element("strong", { text: one.links[link].name })), definitionTable(lines)];
   }

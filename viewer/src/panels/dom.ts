@@ -1,5 +1,10 @@
 // Elements with text. Texts of a document are untrusted: they become text nodes and nothing else.
 
+import { meaningOf } from "./glossary.js";
+
+/** Until then a download has begun, and a person has read one word: milliseconds. */
+const keepFileMs = 60000, saidMs = 1200;
+
 interface Parts {
   readonly class?: string;
   readonly text?: string;
@@ -45,11 +50,38 @@ export function definitionTable(lines: readonly (readonly [string, string, strin
   for (const [name, value, note] of lines) {
     const cell = element("td", { text: value });
     if (note !== undefined && note !== "") cell.append(element("small", { text: note }));
-    const heading = element("th", { text: name });
+    const heading = element("th", {}, explained(name));
     heading.scope = "row";
     table.append(element("tr", {}, heading, cell));
   }
   return table;
+}
+
+/** A word, with its meaning where the page knows one. */
+export function explained(word: string): HTMLElement {
+  const meaning = meaningOf(word);
+  return element("span", meaning === "" ? { text: word } : { class: "explained", text: word, title: meaning });
+}
+
+/** Hands a file to the person, as a download. */
+export function offerFile(name: string, content: Blob): void {
+  const link = element("a");
+  link.href = URL.createObjectURL(content);
+  link.download = name;
+  link.click();
+  window.setTimeout(() => URL.revokeObjectURL(link.href), keepFileMs);
+}
+
+/** Puts a text on the clipboard, and says so in place of the button's own text for a moment. */
+export async function copyFrom(node: HTMLElement, text: string): Promise<void> {
+  const before = node.textContent ?? "";
+  try {
+    await navigator.clipboard.writeText(text);
+    node.textContent = "Copied";
+  } catch {
+    window.prompt("Copy this:", text);
+  }
+  window.setTimeout(() => (node.textContent = before), saidMs);
 }
 
 /** Touches the page only where the text is another one. */

@@ -3,7 +3,7 @@
 import { discreteCount } from "../contacts/discrete.js";
 import type { Model } from "../model.js";
 import { byId } from "./dom.js";
-import { plural, tally } from "./words.js";
+import { count, personOf, placeOf, plural, tally } from "./words.js";
 
 export function showHeadline(model: Model): void {
   byId("title").textContent = model.document.title;
@@ -14,10 +14,27 @@ export function showHeadline(model: Model): void {
 function headline(model: Model): string {
   if (model.document.kind === "inspection") return "Is this the right unit, the right axis and the right place?";
   if (model.isLive) return "Live: what the service answers, as it answers it.";
-  if (model.contacts.length === 0) return "No contact in the whole clip.";
+  if (model.touches.length === 0 && model.contacts.length === 0) return "No contact in the whole clip.";
+  return model.knowsTouches ? ofTouches(model) : ofContacts(model);
+}
+
+function ofTouches(model: Model): string {
+  const { all, missed, ground } = model.countTouches();
+  const who = model.avatars.length > 1 ? "The bodies touch" : `The ${personOf(model.avatars[0]?.name ?? "")} touches`;
+  const ofGround = ground === 0 ? "" : ground === all ? ", always the ground" : `, ${count(ground)} of them the ground`;
+  const met = `${who} the ${placeOf(model.document.scene.name)} ${times(all)}${ofGround}.`;
+  if (missed === 0) return met;
+  return `${met} Checking the poses alone would miss ${missed === all ? (all === 1 ? "it" : "all of them") : `${count(missed)} of them`}.`;
+}
+
+/** "137 times". */
+function times(number: number): string {
+  return number === 1 ? "once" : number === 2 ? "twice" : plural(number, "time");
+}
+
+/** Of a document that has but the contacts of single steps. */
+function ofContacts(model: Model): string {
   const discrete = discreteCount(model.contacts);
   if (discrete === null || discrete.seen === discrete.all) return `${tally(model.contacts)}.`;
-  const missed = discrete.all - discrete.seen;
-  const touching = missed === 1 ? "touches" : "touch";
-  return `${tally(model.contacts)}. ${plural(missed, "contact")} ${touching} nothing at either pose: a discrete check misses ${missed === 1 ? "it" : "them"}.`;
+  return `${tally(model.contacts)}. Checking the poses alone would miss ${count(discrete.all - discrete.seen)} of the ${plural(discrete.all, "contact")}.`;
 }

@@ -10,23 +10,43 @@ export function summaryCard(view: ViewDocument): HTMLElement | null {
 }
 
 export function settingsCard(view: ViewDocument): HTMLElement | null {
-  if (view.settings.length === 0) return null;
+  const quiet = notesOfPage(view);
+  if (view.settings.length === 0 && quiet.length === 0) return null;
   const fold = element("details", { class: "card" });
   fold.open = true;
   const lines = view.settings.map(({ name, value }) => [name, value] as const);
   fold.append(element("summary", { text: "Settings" }), definitionTable(lines));
   if (view.tool !== "") fold.append(element("p", { class: "quiet", text: `Made by ${view.tool}.` }));
+  fold.append(...quiet);
   return fold;
 }
 
-/** Never folded: what was left out decides what the picture means. */
+/** What the person should know of what was asked; what only the page leaves out is a quiet line under the settings. */
 export function notesCard(view: ViewDocument): HTMLElement | null {
-  const notes = [...reductionNotes(view), ...view.notes];
+  const notes = view.notes.filter((note) => !isOfPage(note));
   if (notes.length === 0) return null;
-  const list = element("ul", {}, ...notes.map((text) => element("li", { text })));
-  const node = card("Notes", list);
+  const node = card("Notes", listOf(notes));
   node.classList.add("notes");
   return node;
+}
+
+function listOf(notes: readonly string[]): HTMLElement {
+  return element("ul", {}, ...notes.map((text) => element("li", { text })));
+}
+
+/** Limits of the page, which say nothing of the answers. */
+const ofPage = [
+  /^(The )?[Ss]wept surfaces /, /That is for the page alone/, /^The avatar's [\d,]+ triangles are shown simplified/,
+];
+
+function isOfPage(note: string): boolean {
+  return ofPage.some((pattern) => pattern.test(note));
+}
+
+function notesOfPage(view: ViewDocument): HTMLElement[] {
+  const notes = [...reductionNotes(view), ...view.notes.filter(isOfPage)];
+  if (notes.length === 0) return [];
+  return [element("div", { class: "of-page quiet" }, element("h3", { text: "What the page leaves out" }), listOf(notes))];
 }
 
 function reductionNotes(view: ViewDocument): string[] {

@@ -3,7 +3,7 @@
 import { discreteCount } from "../contacts/discrete.js";
 import type { Model } from "../model.js";
 import type { Change, Store, ViewState } from "../state.js";
-import { chooseNeighbour } from "./choosing.js";
+import { walkTouches } from "./choosing.js";
 import { button, element } from "./dom.js";
 import { seconds } from "./words.js";
 
@@ -28,12 +28,13 @@ export class Transport {
     private readonly store: Store,
   ) {
     this.play = button("▶", "Play (space)", () => togglePlaying(store, model), "primary");
-    this.live = button("Live", "Follow the stream", () => store.set({ follows: true, contact: null, isPlaying: false }));
+    this.live = button("Live", "Follow the stream", () => store.set({ follows: true, contact: null, touch: null, isPlaying: false }));
     this.live.hidden = !model.isLive;
     this.makeScrubber();
     this.makeSpeed();
-    const previous = button("⟨", "Previous contact ([)", () => chooseNeighbour(store, model, -1));
-    const next = button("⟩", "Next contact (])", () => chooseNeighbour(store, model, 1));
+    const word = model.knowsTouches ? "touch" : "contact";
+    const previous = button("⟨", `Previous ${word} ([)`, () => walkTouches(store, model, -1));
+    const next = button("⟩", `Next ${word} (])`, () => walkTouches(store, model, 1));
     previous.hidden = next.hidden = model.document.kind === "inspection";
     const moves = element("div", { class: "group" }, previous, this.play, next, this.live);
     this.node.append(moves, this.scrubber, this.clock, this.speed, this.makeToggles());
@@ -86,13 +87,13 @@ export class Transport {
       group.append(node);
     };
     const hasSwept = this.model.avatars.some((avatar) => avatar.swept.length > 0);
-    if (discreteCount(this.model.contacts) !== null) add("showsDiscrete", "Discrete check", "What a check at the poses alone would have seen (D)");
-    if (this.model.contacts.length > 0) add("showsGhosts", "Ghosts", "The pose before the step and the pose asked for (G)");
+    if (discreteCount(this.model.contacts) !== null) add("showsDiscrete", "Check | truth", "What a check of the poses alone would have seen, beside what happened (D)");
+    if (this.model.contacts.length > 0) add("showsGhosts", "Ghosts", "The pose before the step and the pose asked for, translucent (G)");
     if (hasSwept) add("showsSwept", "Swept volume", "Certified surface of what the link sweeps in the step (S)");
     if (this.model.document.scene.indices.length > 0) add("cutsAway", "Cut away", "Leave out what hides the avatar (C)");
     if (this.model.avatars.length > 0 || this.model.isLive) add("tracks", "Track", "The camera goes along with the avatar while time runs (T)");
     if (this.model.avatars.some((avatar) => avatar.meshes.length > 0 && avatar.lss.length > 0)) {
-      this.shape = button("LSS", "The avatar's LSS instead of its meshes (L)", () => toggleShape(this.store), "toggle");
+      this.shape = button("Capsules", "The capsules (LSS) that cover the links, instead of their meshes (L)", () => toggleShape(this.store), "toggle");
       group.append(this.shape);
     }
     return group;
@@ -111,6 +112,6 @@ export function togglePlaying(store: Store, model: Model): void {
     isPlaying,
     follows: false,
     ...(isPlaying && isAtEnd ? { time: model.start } : {}),
-    ...(isPlaying ? { contact: null } : {}),
+    ...(isPlaying ? { contact: null, touch: null } : {}),
   });
 }

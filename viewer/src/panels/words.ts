@@ -1,6 +1,7 @@
 // Numbers as people read them.
 
 import type { Contact } from "../contacts/contact.js";
+import type { Touch } from "../contacts/touch.js";
 import type { Vector, Verdict } from "../data/document.js";
 
 export function seconds(value: number): string {
@@ -40,6 +41,25 @@ export function plural(value: number, one: string, many = `${one}s`): string {
   return `${count(value)} ${value === 1 ? one : many}`;
 }
 
+/** What people call who moves, and where: other names of files make no sentence ("the walk touches"). */
+const persons = /^([a-z]*(er|man|woman|girl|boy|robot|person|body|figure|avatar|fox|hero|guy|arm))$/i;
+const places = /^(room|kitchen|office|dungeon|city|hall|house|flat|garden|cell|tunnel|street|stairs|level|lab|studio|shop|gym|stage)$/i;
+
+/** A file's name as a word of a sentence: "dancer" of "dancer.avatar.json". */
+export function personOf(fileName: string): string {
+  return wordOf(fileName, persons) ?? "body";
+}
+
+/** As personOf(): "room" of "room.obj". */
+export function placeOf(fileName: string): string {
+  return wordOf(fileName, places) ?? "scene";
+}
+
+function wordOf(fileName: string, kind: RegExp): string | null {
+  const words = fileName.split(".")[0].split(/[_\- ]/).filter((word) => kind.test(word));
+  return words[0]?.toLowerCase() ?? null;
+}
+
 /** One sentence or two that say what happened. */
 export function story(contact: Contact, timeZero: number): string {
   const object = contact.object ?? "the scene";
@@ -51,14 +71,24 @@ export function story(contact: Contact, timeZero: number): string {
   if (contact.verdict === "starts_in_contact") {
     return `${contact.linkName} is in contact with ${object} when the step begins, at ${from}.`;
   }
-  const touch = `${contact.linkName} meets ${object} at ${at}.`;
-  if (contact.missedByPoses !== true) return `${touch} The step goes from ${from} to ${to}.`;
+  const met = `${contact.linkName} meets ${object} at ${at}.`;
+  if (contact.missedByPoses !== true) return `${met} The step goes from ${from} to ${to}.`;
   const isAtPose = at === from || at === to;
   if (isAtPose && (contact.separation ?? 0) > 0) return `${nearPose(contact, object, at, at === from)} At both poses, ${from} and ${to}, a gap is left: ${unseen}.`;
-  return `${touch} At both poses, ${from} and ${to}, it touches nothing: ${unseen}.`;
+  return `${met} At both poses, ${from} and ${to}, it touches nothing: ${unseen}.`;
 }
 
-const unseen = "a check at the poses sees no contact";
+/** Of a touch over several steps: from when to when. */
+export function storyOfTouch(touch: Touch, timeZero: number): string {
+  const object = touch.object === "" ? "the scene" : touch.object;
+  const from = seconds(touch.begin - timeZero), to = seconds(touch.end - timeZero);
+  const begins = touch.begins === "inside" ? `touches ${object} already at ${from}` : `touches ${object} from ${from}`;
+  const ends = touch.ends === "open" ? ", and still when the clip ends" : ` to ${to}`;
+  const fate = touch.isMissed === true ? " No pose lies in between: a check of the poses misses it." : "";
+  return `${touch.linkName} ${begins}${ends}.${fate}`;
+}
+
+const unseen = "a check of the poses sees no contact";
 
 /** Met at a pose itself, as far as digits show: what is met is the tolerance, not the surface. */
 function nearPose({ linkName, separation }: Contact, object: string, at: string, isAfter: boolean): string {

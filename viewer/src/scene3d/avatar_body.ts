@@ -2,23 +2,27 @@
 // blending. Ghosts share its vertices.
 
 import * as THREE from "three";
-import type { Avatar } from "../data/document.js";
+import type { Avatar, LinkMesh } from "../data/document.js";
 import { transformSize } from "../motion/chain.js";
 import type { Shape } from "../state.js";
-import { appendCapsule, emptySurface } from "./capsule.js";
+import { appendCapsule, emptySurface, round, roundEnough } from "./capsule.js";
+import { bodyCell, coarsened } from "./coarse.js";
+import { setScreenColour } from "./shading.js";
 
 /** In the stencil where an avatar itself is seen. */
 export const bodyStencil = 1;
+/** Of all its links' meshes together, where drawing is slow. */
+const maxCoarseTriangles = 8000;
 
 /** Vertices of a whole avatar, each moved by its link alone; in the other shape where it has but that. */
-export function bodyGeometry(avatar: Avatar, shape: Shape): THREE.BufferGeometry {
+export function bodyGeometry(avatar: Avatar, shape: Shape, isCoarse: boolean): THREE.BufferGeometry {
   const isMesh = avatar.lss.length === 0 || (shape === "mesh" && avatar.meshes.length > 0);
-  return isMesh ? meshGeometry(avatar) : capsuleGeometry(avatar);
+  return isMesh ? meshGeometry(isCoarse ? coarseMeshes(avatar.meshes) : avatar.meshes) : capsuleGeometry(avatar, isCoarse);
 }
 
-function capsuleGeometry(avatar: Avatar): THREE.BufferGeometry {
+function capsuleGeometry(avatar: Avatar, isCoarse: boolean): THREE.BufferGeometry {
   const surface = emptySurface();
-  for (const lss of avatar.lss) appendCapsule(surface, lss);
+  for (const lss of avatar.lss) appendCapsule(surface, lss, isCoarse ? roundEnough : round);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(surface.positions, 3));
   geometry.setAttribute("normal", new THREE.Float32BufferAttribute(surface.normals, 3));
@@ -26,13 +30,22 @@ function capsuleGeometry(avatar: Avatar): THREE.BufferGeometry {
   return withLinks(geometry, surface.links);
 }
 
-function meshGeometry(avatar: Avatar): THREE.BufferGeometry {
-  const vertices = avatar.meshes.reduce((sum, mesh) => sum + mesh.positions.length / 3, 0);
+function coarseMeshes(meshes: readonly LinkMesh[]): readonly LinkMesh[] {
+  const triangles = meshes.reduce((sum, { indices }) => sum + indices.length / 3, 0);
+  if (triangles <= maxCoarseTriangles) return meshes;
+  return meshes.map((mesh) => {
+    const share = Math.max(12, (maxCoarseTriangles * mesh.indices.length) / (3 * triangles));
+    return { ...mesh, indices: coarsened(mesh.positions, mesh.indices, share, bodyCell).triangles };
+  });
+}
+
+function meshGeometry(meshes: readonly LinkMesh[]): THREE.BufferGeometry {
+  const vertices = meshes.reduce((sum, mesh) => sum + mesh.positions.length / 3, 0);
   const positions = new Float32Array(3 * vertices);
   const links = new Uint16Array(vertices);
   const indices: number[] = [];
   let first = 0;
-  for (const mesh of avatar.meshes) {
+  for (const mesh of meshes) {
     positions.set(mesh.positions, 3 * first);
     links.fill(mesh.link, first, first + mesh.positions.length / 3);
     for (const index of mesh.indices) indices.push(first + index);
@@ -47,22 +60,14 @@ function meshGeometry(avatar: Avatar): THREE.BufferGeometry {
 
 function withLinks(geometry: THREE.BufferGeometry, links: ArrayLike<number>): THREE.BufferGeometry {
   const skinIndex = new Uint16Array(4 * links.length);
-  const skinWeight = new Float32Array(4 * links.length);
-  for (let i = 0; i < links.length; ++i) {
-    skinIndex[4 * i] = links[i];
-    skinWeight[4 * i] = 1;
-  }
+  for (let i = 0; i < links.length; ++i) skinIndex[4 * i] = links[i];
   geometry.setAttribute("skinIndex", new THREE.BufferAttribute(skinIndex, 4));
-  geometry.setAttribute("skinWeight", new THREE.BufferAttribute(skinWeight, 4));
-  const colours = new THREE.BufferAttribute(new Float32Array(3 * links.length).fill(1), 3);
-  geometry.setAttribute("color", colours);
   return geometry;
 }
 
 export class AvatarBody {
   readonly mesh: THREE.SkinnedMesh;
   private readonly bones: THREE.Bone[];
-  private shownColours: string[] = [];
 
   constructor(geometry: THREE.BufferGeometry, links: number, material: THREE.Material) {
     this.bones = Array.from({ length: links }, () => {
@@ -71,16 +76,14 @@ export class AvatarBody {
       bone.matrixWorldAutoUpdate = false;
       return bone;
     });
-    this.mesh = new THREE.SkinnedMesh(geometry, material);
     // Bones carry world transforms: the mesh itself stays where it is.
-    const inverses = this.bones.map(() => new THREE.Matrix4());
-    this.mesh.bind(new THREE.Skeleton(this.bones, inverses), new THREE.Matrix4());
-    this.mesh.frustumCulled = false;
+    const skeleton = new THREE.Skeleton(this.bones, this.bones.map(() => new THREE.Matrix4()));
+    this.mesh = skinned(geometry, material, skeleton);
   }
 
-  set geometry(geometry: THREE.BufferGeometry) {
-    this.mesh.geometry = geometry;
-    this.shownColours = [];
+  /** The same body, moved by the same bones, in another material. */
+  double(material: THREE.Material): THREE.SkinnedMesh {
+    return skinned(this.mesh.geometry, material, this.mesh.skeleton);
   }
 
   /** World transforms of all links; `origin` is the world's point that the view has at zero. */
@@ -95,18 +98,36 @@ export class AvatarBody {
       );
     });
   }
+}
 
-  /** Gives every link its colour; costs nothing where none has changed. */
+/** A mesh whose bones move it; nobody asks how far it reaches. */
+export function skinned(geometry: THREE.BufferGeometry, material: THREE.Material, skeleton: THREE.Skeleton): THREE.SkinnedMesh {
+  const mesh = new THREE.SkinnedMesh(geometry, material);
+  mesh.bind(skeleton, new THREE.Matrix4());
+  mesh.frustumCulled = false;
+  // Asked for to sort what is drawn, and worked out vertex by vertex where it is not there.
+  mesh.boundingSphere = new THREE.Sphere();
+  return mesh;
+}
+
+/** A colour a link, for the shader of links. */
+export class LinkColours {
+  readonly texture: THREE.DataTexture;
+  private shown: string[] = [];
+
+  constructor(links: number) {
+    this.texture = new THREE.DataTexture(new Float32Array(4 * links), links, 1, THREE.RGBAFormat, THREE.FloatType);
+  }
+
+  /** Costs nothing where none has changed. */
   paint(colours: readonly string[]): void {
-    if (colours.every((colour, link) => colour === this.shownColours[link])) return;
-    this.shownColours = [...colours];
-    const rgb = colours.map((colour) => new THREE.Color(colour));
-    const attribute = this.mesh.geometry.getAttribute("color") as THREE.BufferAttribute;
-    const links = this.mesh.geometry.getAttribute("skinIndex");
-    for (let i = 0; i < attribute.count; ++i) {
-      const colour = rgb[links.getX(i)];
-      attribute.setXYZ(i, colour.r, colour.g, colour.b);
-    }
-    attribute.needsUpdate = true;
+    if (colours.every((colour, link) => colour === this.shown[link])) return;
+    this.shown = [...colours];
+    const data = this.texture.image.data as Float32Array, colour = new THREE.Color();
+    colours.forEach((text, link) => {
+      setScreenColour(colour, text);
+      data.set([colour.r, colour.g, colour.b, 1], 4 * link);
+    });
+    this.texture.needsUpdate = true;
   }
 }

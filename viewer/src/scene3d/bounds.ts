@@ -2,6 +2,7 @@
 
 import type { Avatar, Bounds, Vector } from "../data/document.js";
 import { pointAt, transformSize } from "../motion/chain.js";
+import { limbsOf } from "../motion/limbs.js";
 
 /** A box is asked for every frame: some vertices of a mesh have to do. */
 const maxVerticesOfBox = 500;
@@ -48,4 +49,33 @@ export function boundsOfPosture(avatar: Avatar, world: Float64Array): Bounds {
     avatar.links.forEach((_, link) => include(pointAt(world, transformSize * link, [0, 0, 0]), 0));
   }
   return bounds;
+}
+
+/** Parts of a body this near to its lowest point stand on what it stands on: of its height. */
+const soleShare = 0.08;
+
+/** The middle of what a body stands on, at its lowest height. */
+export function footOf(avatar: Avatar, world: Float64Array): Vector {
+  const balls = avatar.lss.flatMap(({ link, a, b, radius }) =>
+    [a, b].map((end) => ({ at: pointAt(world, transformSize * link, end), radius })));
+  const points = balls.length > 0 ? balls : avatar.links.map((_, link) => ({ at: pointAt(world, transformSize * link, [0, 0, 0]), radius: 0 }));
+  const lows = points.map(({ at, radius }) => at[1] - radius), low = Math.min(...lows);
+  const reach = soleShare * (Math.max(...lows) - low) + 1e-3;
+  const soles = points.filter((_, i) => lows[i] <= low + reach);
+  const mean = (axis: 0 | 2): number => soles.reduce((sum, { at }) => sum + at[axis], 0) / soles.length;
+  return [mean(0), low, mean(2)];
+}
+
+/** Where a body looks, over the ground: across the line from its right side to its left. */
+export function facingOf(avatar: Avatar, world: Float64Array): Vector {
+  const limbs = limbsOf(avatar.links), sum = { left: [0, 0, 0], right: [0, 0, 0] }, count = { left: 0, right: 0 };
+  limbs.forEach((limb, link) => {
+    const side = limb.startsWith("left") ? "left" : limb.startsWith("right") ? "right" : null;
+    if (side === null) return;
+    ++count[side];
+    pointAt(world, transformSize * link, [0, 0, 0]).forEach((value, axis) => (sum[side][axis] += value));
+  });
+  if (count.left === 0 || count.right === 0) return [0, 0, 1];
+  const [x, , z] = sum.left.map((value, axis) => value / count.left - sum.right[axis] / count.right);
+  return [-z, 0, x];
 }

@@ -2,8 +2,14 @@
 
 import type { Lss, Vector } from "../data/document.js";
 
-const segmentsAround = 20;
-const ringsPerCap = 6;
+/** How many corners a surface has: around, and from the rim of a cap to its pole. */
+interface Roundness {
+  readonly around: number;
+  readonly rings: number;
+}
+export const round: Roundness = { around: 20, rings: 6 };
+/** For pictures that move where drawing is slow. */
+export const roundEnough: Roundness = { around: 8, rings: 2 };
 
 /** Vertices with normals, and the link that each belongs to. */
 export interface Surface {
@@ -18,7 +24,7 @@ export function emptySurface(): Surface {
 }
 
 /** Appends the surface of one LSS, in its link's frame. */
-export function appendCapsule(surface: Surface, lss: Lss): void {
+export function appendCapsule(surface: Surface, lss: Lss, { around: segments, rings: ringsPerCap }: Roundness): void {
   const { axis, side, other } = frameAlong(lss);
   const first = surface.links.length;
   const rings = 2 * (ringsPerCap + 1);
@@ -27,8 +33,8 @@ export function appendCapsule(surface: Surface, lss: Lss): void {
     const centre = isFirstCap ? lss.a : lss.b;
     const step = isFirstCap ? ring - ringsPerCap : ring - ringsPerCap - 1;
     const latitude = (step / ringsPerCap) * (Math.PI / 2);
-    for (let segment = 0; segment <= segmentsAround; ++segment) {
-      const around = (segment / segmentsAround) * 2 * Math.PI;
+    for (let segment = 0; segment <= segments; ++segment) {
+      const around = (segment / segments) * 2 * Math.PI;
       const c = Math.cos(latitude) * Math.cos(around), s = Math.cos(latitude) * Math.sin(around);
       for (let i = 0; i < 3; ++i) {
         const normal = axis[i] * Math.sin(latitude) + side[i] * c + other[i] * s;
@@ -38,13 +44,13 @@ export function appendCapsule(surface: Surface, lss: Lss): void {
       surface.links.push(lss.link);
     }
   }
-  appendQuads(surface.indices, first, rings);
+  appendQuads(surface.indices, first, rings, segments);
 }
 
-function appendQuads(indices: number[], first: number, rings: number): void {
-  const row = segmentsAround + 1;
+function appendQuads(indices: number[], first: number, rings: number, segments: number): void {
+  const row = segments + 1;
   for (let ring = 0; ring + 1 < rings; ++ring) {
-    for (let segment = 0; segment < segmentsAround; ++segment) {
+    for (let segment = 0; segment < segments; ++segment) {
       const a = first + ring * row + segment, b = a + 1, c = a + row, d = c + 1;
       indices.push(a, b, c, b, d, c);
     }

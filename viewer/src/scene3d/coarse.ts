@@ -1,8 +1,8 @@
 // The scene in fewer triangles, over the same vertices, for pictures that move where drawing is
 // slow: vertices of one cell of a grid become one. What is thinner than a cell stays as lines.
 
-/** Metres; doubled until few enough triangles are left. */
-const smallestCell = 0.03;
+/** Of scenes and of an avatar's meshes, metres; doubled until few enough triangles are left. */
+export const sceneCell = 0.03, bodyCell = 0.008;
 const maxDoublings = 8;
 
 export interface CoarseSurface {
@@ -13,7 +13,7 @@ export interface CoarseSurface {
 }
 
 /** O(vertices + triangles) a doubling. */
-export function coarsened(positions: Float32Array, indices: Uint32Array, maxTriangles: number): CoarseSurface {
+export function coarsened(positions: Float32Array, indices: Uint32Array, maxTriangles: number, smallestCell = sceneCell): CoarseSurface {
   let cell = smallestCell, surface = merged(indices, representatives(positions, cell));
   for (let i = 0; i < maxDoublings && surface.triangles.length / 3 > maxTriangles; ++i) {
     cell *= 2;

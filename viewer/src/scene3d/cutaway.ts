@@ -4,39 +4,46 @@
 import * as THREE from "three";
 
 export class Cutaway {
-  private readonly focus = { value: new THREE.Vector3() };
+  /** Unit direction from the camera to the focus, and how far that is; in the camera's coordinates. */
+  private readonly line = { value: new THREE.Vector4(0, 0, -1, 1) };
   private readonly radius = { value: 0 };
 
   /** `focus` in the view's coordinates; a radius of 0 cuts nothing. Metres. */
   aim(camera: THREE.Camera, focus: THREE.Vector3, radius: number): void {
-    this.focus.value.copy(focus).applyMatrix4(camera.matrixWorldInverse);
+    const seen = focus.clone().applyMatrix4(camera.matrixWorldInverse), distance = seen.length();
+    seen.divideScalar(Math.max(1e-9, distance));
+    this.line.value.set(seen.x, seen.y, seen.z, distance);
     this.radius.value = radius;
+  }
+
+  /** For shaders that take cutDeclarations and cutTest themselves, with a varying "cutPosition" in the view's coordinates. */
+  get uniforms(): Record<string, THREE.IUniform> {
+    return { cutLine: this.line, cutRadius: this.radius };
   }
 
   applyTo(material: THREE.Material): void {
     material.onBeforeCompile = (shader) => {
-      shader.uniforms["cutFocus"] = this.focus;
-      shader.uniforms["cutRadius"] = this.radius;
+      Object.assign(shader.uniforms, this.uniforms);
       shader.vertexShader = shader.vertexShader
         .replace("#include <common>", "#include <common>\nvarying vec3 cutPosition;")
         .replace("#include <project_vertex>", "#include <project_vertex>\ncutPosition = mvPosition.xyz;");
       shader.fragmentShader = shader.fragmentShader
-        .replace("#include <common>", `#include <common>\n${declarations}`)
-        .replace("#include <clipping_planes_fragment>", `#include <clipping_planes_fragment>\n${test}`);
+        .replace("#include <common>", `#include <common>\n${cutDeclarations}`)
+        .replace("#include <clipping_planes_fragment>", `#include <clipping_planes_fragment>\n${cutTest}`);
     };
   }
 }
 
-const declarations = `
+export const cutDeclarations = `
 varying vec3 cutPosition;
-uniform vec3 cutFocus;
+uniform vec4 cutLine;
 uniform float cutRadius;`;
 
-const test = `
+export const cutTest = `
 if (cutRadius > 0.0) {
-  float cutDistance = length(cutFocus);
-  vec3 cutAxis = cutFocus / cutDistance;
-  float cutAlong = dot(cutPosition, cutAxis);
-  float cutAside = length(cutPosition - cutAlong * cutAxis);
-  if (cutAlong < cutDistance - cutRadius && cutAside < 0.8 * cutRadius * cutAlong / cutDistance + 0.05) discard;
+  float cutAlong = dot(cutPosition, cutLine.xyz);
+  if (cutAlong < cutLine.w - cutRadius) {
+    float cutReach = 0.8 * cutRadius * cutAlong / cutLine.w + 0.05;
+    if (dot(cutPosition, cutPosition) - cutAlong * cutAlong < cutReach * cutReach && cutReach > 0.0) discard;
+  }
 }`;

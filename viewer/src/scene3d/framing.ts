@@ -43,22 +43,24 @@ export interface Subject {
 
 export function sightOf(subject: Subject, camera: THREE.PerspectiveCamera, occluders: Occluders): Sight {
   const distance = distanceFor(subject.radius, camera);
-  let best: Sight | null = null, bestScore = -Infinity;
-  for (const elevation of elevations) {
-    for (let i = 0; i < directions; ++i) {
-      const azimuth = (2 * Math.PI * (i + 0.5)) / directions;
-      const towards = new THREE.Vector3(
-        Math.cos(elevation) * Math.sin(azimuth), Math.sin(elevation), Math.cos(elevation) * Math.cos(azimuth),
-      );
-      const position = subject.centre.clone().addScaledVector(towards, distance);
-      const score = liking(subject, towards, elevation) - hiding(subject, position, occluders);
-      if (score > bestScore) {
-        best = { target: subject.centre.clone(), position };
-        bestScore = score;
-      }
-    }
+  const candidates = elevations.flatMap((elevation) => Array.from({ length: directions }, (_, i) => {
+    const azimuth = (2 * Math.PI * (i + 0.5)) / directions;
+    const towards = new THREE.Vector3(
+      Math.cos(elevation) * Math.sin(azimuth), Math.sin(elevation), Math.cos(elevation) * Math.cos(azimuth),
+    );
+    return { towards, liked: liking(subject, towards, elevation) };
+  }));
+  // What is hidden only takes away from what is liked: once the best one found is liked more than
+  // what is left, looking on is of no use.
+  candidates.sort((a, b) => b.liked - a.liked);
+  let best = subject.centre.clone().addScaledVector(candidates[0].towards, distance), bestScore = -Infinity;
+  for (const { towards, liked } of candidates) {
+    if (liked <= bestScore) break;
+    const position = subject.centre.clone().addScaledVector(towards, distance);
+    const score = liked - hiding(subject, position, occluders);
+    if (score > bestScore) [best, bestScore] = [position, score];
   }
-  return best ?? { target: subject.centre.clone(), position: new THREE.Vector3(distance, distance, distance) };
+  return { target: subject.centre.clone(), position: best };
 }
 
 /** So that a ball of `radius` fits the narrower side of the picture. */

@@ -4,6 +4,7 @@
 import * as THREE from "three";
 import { AvatarBody, bodyStencil } from "./avatar_body.js";
 import type { Palette } from "./palette.js";
+import { linkMaterial, setScreenColour } from "./shading.js";
 
 export type GhostName = "before" | "asked" | "atContact";
 const opacities: Record<GhostName, number> = { before: 0.3, asked: 0.5, atContact: 0.5 };
@@ -12,8 +13,9 @@ const hint = 0.22;
 
 /** One translucent avatar. Its depth is drawn first, so that links do not show through each other. */
 export class Ghost {
-  private readonly bodies: readonly AvatarBody[];
-  private readonly colours: readonly THREE.MeshLambertMaterial[];
+  private readonly meshes: readonly THREE.SkinnedMesh[];
+  private readonly body: AvatarBody;
+  private readonly colours: readonly THREE.ShaderMaterial[];
 
   constructor(
     private readonly name: GhostName,
@@ -24,37 +26,33 @@ export class Ghost {
     const beside = ghostMaterial(opacities[name], THREE.NotEqualStencilFunc);
     const before = ghostMaterial(hint * opacities[name], THREE.EqualStencilFunc);
     this.colours = [beside, before];
-    this.bodies = [depthMaterial(), beside, before].map((material, i) => {
-      const body = new AvatarBody(geometry, links, material);
-      body.mesh.renderOrder = i === 0 ? 2 : 3;
-      parent.add(body.mesh);
-      return body;
-    });
+    this.body = new AvatarBody(geometry, links, depthMaterial());
+    this.meshes = [this.body.mesh, this.body.double(beside), this.body.double(before)];
+    this.meshes.forEach((mesh, i) => (mesh.renderOrder = i === 0 ? 2 : 3));
+    parent.add(...this.meshes);
     this.hide();
   }
 
   show(world: Float64Array, origin: readonly number[]): void {
-    for (const body of this.bodies) {
-      body.place(world, origin);
-      body.mesh.visible = true;
-    }
+    this.body.place(world, origin);
+    for (const mesh of this.meshes) mesh.visible = true;
   }
 
   hide(): void {
-    for (const body of this.bodies) body.mesh.visible = false;
+    for (const mesh of this.meshes) mesh.visible = false;
   }
 
   set geometry(geometry: THREE.BufferGeometry) {
-    for (const body of this.bodies) body.geometry = geometry;
+    for (const mesh of this.meshes) mesh.geometry = geometry;
   }
 
   paint(palette: Palette): void {
-    for (const material of this.colours) material.color.set(palette[this.name]);
+    for (const material of this.colours) setScreenColour(material.uniforms["colour"].value as THREE.Color, palette[this.name]);
   }
 }
 
-function ghostMaterial(opacity: number, where: THREE.StencilFunc): THREE.MeshLambertMaterial {
-  return new THREE.MeshLambertMaterial({
+function ghostMaterial(opacity: number, where: THREE.StencilFunc): THREE.ShaderMaterial {
+  return linkMaterial("one", {
     transparent: true,
     opacity,
     depthWrite: false,
@@ -64,8 +62,8 @@ function ghostMaterial(opacity: number, where: THREE.StencilFunc): THREE.MeshLam
   });
 }
 
-function depthMaterial(): THREE.MeshBasicMaterial {
-  return new THREE.MeshBasicMaterial({
+function depthMaterial(): THREE.ShaderMaterial {
+  return linkMaterial("one", {
     transparent: true,
     colorWrite: false,
     polygonOffset: true,

@@ -6,13 +6,8 @@ import type { Contact } from "../contacts/contact.js";
 import type { Vector, Verdict } from "../data/document.js";
 import type { Palette } from "./palette.js";
 
-/** What a marker looks like, in the order that the shader knows. */
-export enum MarkerState {
-  Hidden = 0,
-  Dim = 1,
-  Lit = 2,
-  Chosen = 3,
-}
+/** What a marker looks like, as the shader knows it. */
+const dim = 1, lit = 2, chosen = 3;
 
 const shapes: Record<Verdict, number> = { contact: 0, starts_in_contact: 1, undecided: 2 };
 const maxArrows = 512;
@@ -25,20 +20,20 @@ const shaftRadius = 0.035, headRadius = 0.11, headLength = 0.36;
 
 export class Markers {
   readonly group = new THREE.Group();
-  private readonly material: THREE.ShaderMaterial;
-  private readonly points: THREE.Points;
+  private readonly material = pointMaterial();
+  /** Where contacts begin, over the whole clip: as they are from first to last. */
+  private readonly traces: THREE.Points;
+  private readonly current: THREE.Points;
   private readonly shafts: THREE.InstancedMesh;
   private readonly heads: THREE.InstancedMesh;
   private readonly arrowMaterial = new THREE.MeshBasicMaterial();
-  private contacts: readonly Contact[] = [];
   private thicknessOf: (contact: Contact) => number = () => unhidden;
   private palette: Palette | null = null;
+  private shown: readonly Contact[] = [];
 
   constructor() {
-    this.material = pointMaterial();
-    this.points = new THREE.Points(new THREE.BufferGeometry(), this.material);
-    this.points.frustumCulled = false;
-    this.points.renderOrder = 10;
+    this.traces = points(this.material, 9);
+    this.current = points(this.material, 10);
     const shaft = new THREE.CylinderGeometry(shaftRadius, shaftRadius, 1 - headLength, 12);
     shaft.translate(0, (1 - headLength) / 2, 0);
     const head = new THREE.ConeGeometry(headRadius, headLength, 20);
@@ -50,38 +45,42 @@ export class Markers {
       arrows.frustumCulled = false;
       arrows.renderOrder = 4;
     }
-    this.group.add(this.points, this.shafts, this.heads);
+    this.group.add(this.traces, this.current, this.shafts, this.heads);
   }
 
   /** `origin` is the world's point that the view has at zero; thickness in metres of the link that a marker may hide. */
   setContacts(contacts: readonly Contact[], origin: Vector, thicknessOf: (contact: Contact) => number): void {
-    this.contacts = contacts;
     this.thicknessOf = thicknessOf;
-    const thickness = Float32Array.from(contacts, (contact) => Math.min(unhidden, thicknessOf(contact)));
-    const positions = new Float32Array(3 * contacts.length);
-    const shape = new Float32Array(contacts.length);
-    contacts.forEach((contact, i) => {
-      for (let axis = 0; axis < 3; ++axis) {
-        positions[3 * i + axis] = (contact.point ?? origin)[axis] - origin[axis];
-      }
-      shape[i] = shapes[contact.verdict];
-    });
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-    geometry.setAttribute("shape", new THREE.BufferAttribute(shape, 1));
-    geometry.setAttribute("thickness", new THREE.BufferAttribute(thickness, 1));
-    geometry.setAttribute("state", new THREE.BufferAttribute(new Float32Array(contacts.length), 1));
-    this.points.geometry.dispose();
-    this.points.geometry = geometry;
+    // What starts in contact goes on from the step before: as a trace it only hides where contacts begin.
+    const begun = contacts.filter(({ verdict, point }) => verdict !== "starts_in_contact" && point !== null);
+    this.fill(this.traces, begun, origin, () => dim);
   }
 
-  setStates(stateOf: (contact: Contact) => MarkerState): void {
-    const states = this.points.geometry.getAttribute("state") as THREE.BufferAttribute | undefined;
-    if (states === undefined) return;
-    this.contacts.forEach((contact, i) => {
-      states.setX(i, contact.point === null ? MarkerState.Hidden : stateOf(contact));
-    });
-    states.needsUpdate = true;
+  /** The contacts that hold now, and the chosen one. */
+  setCurrent(held: readonly Contact[], one: Contact | null, origin: Vector): void {
+    const now = one === null || held.includes(one) ? [...held] : [...held, one];
+    const isSame = now.length === this.shown.length && now.every((contact, i) => contact === this.shown[i]);
+    if (isSame && now.length === 0) return;
+    this.shown = now;
+    this.fill(this.current, now.filter(({ point }) => point !== null), origin, (contact) => (contact === one ? chosen : lit));
+  }
+
+  set hasTraces(isShown: boolean) {
+    this.traces.visible = isShown;
+  }
+
+  private fill(target: THREE.Points, contacts: readonly Contact[], origin: Vector, stateOf: (contact: Contact) => number): void {
+    const places = contacts.flatMap(({ point }) => (point ?? origin).map((value, axis) => value - origin[axis]));
+    const geometry = new THREE.BufferGeometry();
+    const add = (name: string, of: (contact: Contact) => number): void => {
+      geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(contacts, of), 1));
+    };
+    geometry.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(places), 3));
+    add("shape", ({ verdict }) => shapes[verdict]);
+    add("thickness", (contact) => Math.min(unhidden, this.thicknessOf(contact)));
+    add("state", stateOf);
+    target.geometry.dispose();
+    target.geometry = geometry;
   }
 
   /** Arrows of `length` metres from scene towards link. */
@@ -122,6 +121,13 @@ export class Markers {
   }
 }
 
+function points(material: THREE.Material, order: number): THREE.Points {
+  const made = new THREE.Points(new THREE.BufferGeometry(), material);
+  made.frustumCulled = false;
+  made.renderOrder = order;
+  return made;
+}
+
 function pointMaterial(): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     transparent: true,
@@ -150,7 +156,6 @@ void main() {
   gl_PointSize = size * pixelRatio;
   // A link that the marker would hide is seen through it.
   vHollow = state > 1.5 && thickness * focal / gl_Position.w < 1.4 * size ? 1.0 : 0.0;
-  if (state < 0.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`,
     // Distance from the edge of a disc, a square and a triangle that fill the point.
     fragmentShader: `

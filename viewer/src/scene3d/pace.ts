@@ -1,10 +1,24 @@
 // How finely moving pictures are drawn: more coarsely where frames take long, so that time and
 // words on the page do not wait for them. A picture that stands still is drawn in full.
 
-/** Of the full resolution, by level. From the second on the scene is drawn coarsely, too. */
-const shares = [1, 0.75, 0.5, 0.35];
-/** Two frames in a row that take longer are too slow; that many that take less are quick: milliseconds. */
-const slowMs = 80, quickMs = 25;
+interface Level {
+  /** Of the full resolution. */
+  readonly share: number;
+  /** Of the scene; null for all of them. */
+  readonly maxTriangles: number | null;
+}
+
+const levels: readonly Level[] = [
+  { share: 1, maxTriangles: null },
+  { share: 0.75, maxTriangles: 30000 },
+  { share: 0.6, maxTriangles: 12000 },
+  { share: 0.5, maxTriangles: 12000 },
+  { share: 0.4, maxTriangles: 6000 },
+  { share: 0.33, maxTriangles: 6000 },
+  { share: 0.3, maxTriangles: 3000 },
+];
+/** Two frames in a row that take longer are too slow; that many that take less are quick: milliseconds. Thirty a second take 33. */
+const slowMs = 30, quickMs = 12;
 const slowInARow = 2, quickInARow = 30;
 
 export class Pace {
@@ -14,12 +28,16 @@ export class Pace {
 
   /** Where drawing is known to be slow it begins coarsely. */
   constructor(isSlow = false) {
-    this.level = isSlow ? 1 : 0;
+    this.level = isSlow ? 2 : 0;
   }
 
   /** Of the full resolution. */
   get share(): number {
-    return shares[this.level];
+    return levels[this.level].share;
+  }
+
+  get maxTriangles(): number | null {
+    return levels[this.level].maxTriangles;
   }
 
   get isCoarse(): boolean {
@@ -35,7 +53,7 @@ export class Pace {
   }
 
   private go(by: 1 | -1): void {
-    this.level = Math.min(shares.length - 1, Math.max(0, this.level + by));
+    this.level = Math.min(levels.length - 1, Math.max(0, this.level + by));
     this.slow = this.quick = 0;
   }
 }

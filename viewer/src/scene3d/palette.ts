@@ -18,6 +18,8 @@ export interface Palette {
   readonly atContact: string;
   readonly swept: string;
   readonly halo: string;
+  /** Of touches that are ground contact. */
+  readonly ground: string;
   readonly ink: string;
   readonly faint: string;
   readonly verdicts: Record<Verdict, string>;
@@ -31,9 +33,9 @@ const verdicts: Record<Verdict, string> = {
 
 export const palettes: Record<Theme, Palette> = {
   light: {
-    background: "#f3f4f6",
-    scene: "#d9dce1",
-    sceneEdge: "#a9afb9",
+    background: "#e9eff5",
+    scene: "#d8d0c4",
+    sceneEdge: "#a59d91",
     grid: "#b4bac4",
     avatar: "#3f86c6",
     avatarHeld: "#9fb6cb",
@@ -44,14 +46,15 @@ export const palettes: Record<Theme, Palette> = {
     atContact: "#d55e00",
     swept: "#e69f00",
     halo: "#ffffff",
+    ground: "#c9c2b6",
     ink: "#1d2530",
     faint: "#6b7584",
     verdicts,
   },
   dark: {
-    background: "#14181e",
-    scene: "#77828f",
-    sceneEdge: "#a3adba",
+    background: "#12171e",
+    scene: "#867f76",
+    sceneEdge: "#b3aca2",
     grid: "#4a535f",
     avatar: "#56b4e9",
     avatarHeld: "#4d6577",
@@ -62,6 +65,7 @@ export const palettes: Record<Theme, Palette> = {
     atContact: "#f0772b",
     swept: "#f0b93a",
     halo: "#14181e",
+    ground: "#5d574f",
     ink: "#e7ebf0",
     faint: "#98a2b0",
     verdicts: { contact: "#f0772b", starts_in_contact: "#dd94bd", undecided: "#f0b93a" },

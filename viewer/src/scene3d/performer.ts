@@ -5,46 +5,65 @@ import type { Avatar, Bounds, Vector } from "../data/document.js";
 import type { Clip, Instant } from "../motion/clip.js";
 import { Posture } from "../motion/clip.js";
 import type { Shape } from "../state.js";
-import { AvatarBody, bodyGeometry, bodyStencil } from "./avatar_body.js";
+import { AvatarBody, bodyGeometry, bodyStencil, LinkColours } from "./avatar_body.js";
 import { boundsOfPosture } from "./bounds.js";
 import type { GhostName } from "./ghosts.js";
 import { Ghost } from "./ghosts.js";
 import type { Palette } from "./palette.js";
+import { linkMaterial } from "./shading.js";
 
 export class Performer {
   readonly group = new THREE.Group();
   readonly posture: Posture;
   instant: Instant = { step: -1, u: 0 };
-  private readonly geometries = new Map<Shape, THREE.BufferGeometry>();
+  private readonly geometries = new Map<string, THREE.BufferGeometry>();
   private readonly body: AvatarBody;
+  private readonly colours: LinkColours;
   private readonly ghosts: Record<GhostName, Ghost>;
   private readonly ghostPosture: Posture;
+  private shown: THREE.BufferGeometry;
+  private isCoarse = false;
 
   constructor(
     readonly avatar: Avatar,
     readonly clip: Clip,
-    shape: Shape,
+    private shape: Shape,
     private readonly origin: Vector,
   ) {
     this.posture = new Posture(clip);
     this.ghostPosture = new Posture(clip);
-    const geometry = this.geometryOf(shape), links = avatar.links.length;
-    const material = new THREE.MeshLambertMaterial({
-      vertexColors: true,
-      stencilWrite: true,
-      stencilRef: bodyStencil,
-      stencilZPass: THREE.ReplaceStencilOp,
-    });
-    this.body = new AvatarBody(geometry, links, material);
+    this.shown = this.geometryNow();
+    const links = avatar.links.length;
+    this.colours = new LinkColours(links);
+    const material = linkMaterial("links", { stencilWrite: true, stencilRef: bodyStencil, stencilZPass: THREE.ReplaceStencilOp });
+    material.uniforms["colours"].value = this.colours.texture;
+    this.body = new AvatarBody(this.shown, links, material);
     this.group.add(this.body.mesh);
-    const ghost = (name: GhostName): Ghost => new Ghost(name, geometry, links, this.group);
+    const ghost = (name: GhostName): Ghost => new Ghost(name, this.shown, links, this.group);
     this.ghosts = { before: ghost("before"), asked: ghost("asked"), atContact: ghost("atContact") };
     this.group.visible = clip.hasPose;
   }
 
+  get mesh(): THREE.SkinnedMesh {
+    return this.body.mesh;
+  }
+
   setShape(shape: Shape): void {
-    const geometry = this.geometryOf(shape);
-    this.body.geometry = geometry;
+    this.shape = shape;
+    this.refresh();
+  }
+
+  /** In fewer triangles, for pictures that move. */
+  setCoarse(isCoarse: boolean): void {
+    this.isCoarse = isCoarse;
+    this.refresh();
+  }
+
+  private refresh(): void {
+    const geometry = this.geometryNow();
+    if (geometry === this.shown) return;
+    this.shown = geometry;
+    this.body.mesh.geometry = geometry;
     for (const ghost of Object.values(this.ghosts)) ghost.geometry = geometry;
   }
 
@@ -65,10 +84,19 @@ export class Performer {
     this.ghosts[name].show(this.ghostPosture.world, this.origin);
   }
 
+  /** Shows a ghost with these world transforms. */
+  showGhostAt(name: GhostName, world: Float64Array): void {
+    this.ghosts[name].show(world, this.origin);
+  }
+
+  hideGhosts(): void {
+    for (const ghost of Object.values(this.ghosts)) ghost.hide();
+  }
+
   /** `touching` in the colour of contacts; where the pose is held, all paler. */
   paint(palette: Palette, touching: ReadonlySet<number>, chosen: number | null): void {
     const isHeld = this.instant.step < 0 && this.clip.start < this.clip.end;
-    this.body.paint(
+    this.colours.paint(
       this.avatar.links.map((_, link) => {
         if (touching.has(link)) return palette.touching;
         if (link === chosen) return palette.chosenLink;
@@ -86,11 +114,11 @@ export class Performer {
     return boundsOfPosture(this.avatar, this.posture.world);
   }
 
-  private geometryOf(shape: Shape): THREE.BufferGeometry {
-    const known = this.geometries.get(shape);
+  private geometryNow(): THREE.BufferGeometry {
+    const key = `${this.shape} ${this.isCoarse}`, known = this.geometries.get(key);
     if (known !== undefined) return known;
-    const geometry = bodyGeometry(this.avatar, shape);
-    this.geometries.set(shape, geometry);
+    const geometry = bodyGeometry(this.avatar, this.shape, this.isCoarse);
+    this.geometries.set(key, geometry);
     return geometry;
   }
 }

@@ -1,8 +1,9 @@
 // Which link or contact is under the pointer.
 
 import * as THREE from "three";
-import type { Avatar, Vector } from "../data/document.js";
+import type { Avatar, Scene, Vector } from "../data/document.js";
 import { pointAt, transformSize } from "../motion/chain.js";
+import { rayMeets } from "./occluders.js";
 
 export interface Hit {
   readonly link: number;
@@ -36,6 +37,24 @@ export function pickLink(
     }
   }
   return best;
+}
+
+/** Where a ray of the view first meets the scene, and the normal there, turned towards where it comes from. */
+export function pickScene(scene: Scene, ray: THREE.Ray): { at: THREE.Vector3; normal: THREE.Vector3 } | null {
+  const { positions, indices } = scene, corners = new Float32Array(9);
+  let nearest = Infinity;
+  const normal = new THREE.Vector3();
+  for (let t = 0; t + 2 < indices.length; t += 3) {
+    for (let i = 0; i < 9; ++i) corners[i] = positions[3 * indices[t + Math.floor(i / 3)] + (i % 3)];
+    const distance = rayMeets(corners, 0, ray.origin, ray.direction);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    const [a, b, c] = [0, 3, 6].map((i) => new THREE.Vector3().fromArray(corners, i));
+    normal.copy(b.sub(a).cross(c.sub(a))).normalize();
+  }
+  if (nearest === Infinity) return null;
+  if (normal.dot(ray.direction) > 0) normal.negate();
+  return { at: ray.at(nearest, new THREE.Vector3()), normal };
 }
 
 /** Along the ray, to where it is nearest to the segment, if that is within the radius. */

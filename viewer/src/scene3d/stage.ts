@@ -1,4 +1,4 @@
-// Renderer, camera and lights. Draws on demand: a frame is asked for where something changed, and
+// Renderer and camera. Draws on demand: a frame is asked for where something changed, and
 // none is drawn otherwise.
 
 import * as THREE from "three";
@@ -6,13 +6,33 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { drawsBySoftware, whenDrawn } from "./gpu.js";
 import { Pace } from "./pace.js";
 import type { Palette } from "./palette.js";
+import { Upscaler } from "./upscaler.js";
 
 const fieldOfView = 38;
 const maxPixelRatio = 2;
 /** Metres; what the camera can come as close as. */
 const nearest = 0.02;
-/** After the last change the picture is drawn in full, milliseconds. */
-const stillMs = 300;
+/** After the last change the picture is drawn in full, and where that is not smooth yet once more: milliseconds. */
+const stillMs = 300, smoothMs = 1200;
+
+/** How a frame is drawn: as coarsely as it must be, in the screen's pixels, or with more of them. */
+enum Finish { Quick, Full, Smooth }
+
+/**
+ * A part of the picture, from left to right in [0, 1], and what to do before it is drawn. The middle
+ * of the sight is in the middle of every part.
+ */
+export interface Part {
+  readonly from: number;
+  readonly to: number;
+  prepare(): void;
+}
+
+export interface FrameKind {
+  readonly isCoarse: boolean;
+  /** Of the scene; null for all of them. */
+  readonly maxTriangles: number | null;
+}
 
 export class Stage {
   readonly scene = new THREE.Scene();
@@ -21,10 +41,15 @@ export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
   private isAsked = false;
   private framesDrawn = 0;
-  private beforeFrame: (isCoarse: boolean) => void = () => {};
+  private beforeFrame: (kind: FrameKind) => readonly Part[] = () => [{ from: 0, to: 1, prepare: () => {} }];
 
   private readonly isSoftware = drawsBySoftware();
   private readonly pace = new Pace(this.isSoftware);
+  private readonly upscaler = new Upscaler();
+  /** Of the canvas' pixels, along each side, that the frame is drawn with. */
+  private share = 1;
+  /** How far the middle of the sight is from the picture's, of its width: in the part drawn last. */
+  shift = 0;
   private isBusy = false;
   private isFine = false;
   private stillTimer = 0;
@@ -35,7 +60,6 @@ export class Stage {
     const canvas = this.renderer.domElement;
     canvas.setAttribute("aria-hidden", "true");
     host.prepend(canvas);
-    this.scene.add(...lights());
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
@@ -59,11 +83,11 @@ export class Stage {
 
   /** Pixels of a frame to one of the page. */
   get pixelRatio(): number {
-    return this.renderer.getPixelRatio();
+    return this.renderer.getPixelRatio() * this.share;
   }
 
-  /** Called before every frame, with whether it may be a coarse one. */
-  onFrame(update: (isCoarse: boolean) => void): void {
+  /** Called before every frame, with how coarse it may be; says in which parts it is drawn. */
+  onFrame(update: (kind: FrameKind) => readonly Part[]): void {
     this.beforeFrame = update;
   }
 
@@ -77,26 +101,71 @@ export class Stage {
     if (this.isAsked) return;
     this.isAsked = true;
     window.clearTimeout(this.stillTimer);
-    if (!this.isBusy) requestAnimationFrame(() => this.render(false));
+    if (!this.isBusy) requestAnimationFrame(() => this.render(Finish.Quick));
   }
 
-  private render(isFine: boolean): void {
-    const start = performance.now(), isCoarse = !isFine && this.pace.isCoarse;
+  private render(finish: Finish): void {
+    const start = performance.now();
     this.isAsked = false;
     this.isBusy = true;
-    this.isFine = isFine || this.isFullAt(this.pace.share);
-    this.setPixelRatio(isFine ? this.fullRatio : this.screenRatio * this.pace.share);
-    this.beforeFrame(isCoarse);
-    this.renderer.render(this.scene, this.camera);
+    this.share = finish === Finish.Quick ? this.pace.share : 1;
+    this.isFine = this.isLast(finish);
+    this.setPixelRatio(finish === Finish.Smooth ? this.fullRatio : this.screenRatio);
+    this.drawParts(finish !== Finish.Quick);
     ++this.framesDrawn;
-    whenDrawn(this.renderer.getContext() as WebGL2RenderingContext, start, (took) => this.drawn(isFine, took));
+    whenDrawn(this.renderer.getContext() as WebGL2RenderingContext, start, (took) => this.drawn(finish, took));
   }
 
-  private drawn(wasFine: boolean, took: number): void {
+  /** Whether drawing once more would make the picture no better. */
+  private isLast(finish: Finish): boolean {
+    const isFull = finish !== Finish.Quick || !this.pace.isCoarse;
+    return finish === Finish.Smooth || (isFull && this.fullRatio === this.screenRatio);
+  }
+
+  private drawParts(isFine: boolean): void {
+    const isCoarse = !isFine && this.pace.isCoarse;
+    const parts = this.beforeFrame({ isCoarse, maxTriangles: isCoarse ? this.pace.maxTriangles : null });
+    const ratio = this.renderer.getPixelRatio();
+    // In whole pixels, of which a coarse picture has fewer.
+    const width = Math.round(this.share * this.canvas.width), height = Math.round(this.share * this.canvas.height);
+    this.renderer.setScissorTest(true);
+    for (const { from, to, prepare } of parts) {
+      const left = Math.round(from * width), right = Math.round(to * width);
+      this.renderer.setScissor(left / ratio, 0, (right - left) / ratio, height / ratio);
+      this.shift = (from + to - 1) / 2;
+      this.renderer.setViewport(Math.round(this.shift * width) / ratio, 0, width / ratio, height / ratio);
+      prepare();
+      this.renderer.render(this.scene, this.camera);
+    }
+    this.renderer.setScissorTest(false);
+    if (this.share < 1) this.upscaler.spread(this.renderer, width, height);
+  }
+
+  /** What is seen now, drawn in full, as a picture that stays. */
+  picture(): HTMLCanvasElement {
+    this.share = 1;
+    this.setPixelRatio(this.fullRatio);
+    this.drawParts(true);
+    const copy = document.createElement("canvas");
+    copy.width = this.canvas.width;
+    copy.height = this.canvas.height;
+    copy.getContext("2d")?.drawImage(this.canvas, 0, 0);
+    return copy;
+  }
+
+  /** For what is drawn aside, before a frame. */
+  get drawer(): THREE.WebGLRenderer {
+    return this.renderer;
+  }
+
+  /** In two goes: a person who walks from touch to touch does not wait for the last, slow one. */
+  private drawn(finish: Finish, took: number): void {
     this.isBusy = false;
-    if (!wasFine) this.pace.took(took);
-    if (this.isAsked) requestAnimationFrame(() => this.render(false));
-    else if (!this.isFine) this.stillTimer = window.setTimeout(() => this.render(true), stillMs);
+    if (finish === Finish.Quick) this.pace.took(took);
+    if (this.isAsked) return void requestAnimationFrame(() => this.render(Finish.Quick));
+    if (this.isFine) return;
+    const isCoarse = finish === Finish.Quick && this.pace.isCoarse;
+    this.stillTimer = window.setTimeout(() => this.render(isCoarse ? Finish.Full : Finish.Smooth), isCoarse ? stillMs : smoothMs);
   }
 
   /** The renderer makes its buffers anew even where nothing changes. */
@@ -113,22 +182,18 @@ export class Stage {
     return this.isSoftware ? maxPixelRatio : this.screenRatio;
   }
 
-  private isFullAt(share: number): boolean {
-    return this.screenRatio * share === this.fullRatio;
-  }
-
   /** Where a point of the view is on the canvas, in CSS pixels; null behind the camera. */
   screenOf(point: THREE.Vector3): [number, number] | null {
     const p = point.clone().project(this.camera);
     if (p.z > 1) return null;
     const { clientWidth, clientHeight } = this.canvas;
-    return [((p.x + 1) / 2) * clientWidth, ((1 - p.y) / 2) * clientHeight];
+    return [((p.x + 1) / 2 + this.shift) * clientWidth, ((1 - p.y) / 2) * clientHeight];
   }
 
   /** From the camera through a pixel of the canvas. */
   rayThrough(x: number, y: number): THREE.Ray {
     const { clientWidth, clientHeight } = this.canvas;
-    const at = new THREE.Vector2((x / clientWidth) * 2 - 1, 1 - (y / clientHeight) * 2);
+    const at = new THREE.Vector2((x / clientWidth - this.shift) * 2 - 1, 1 - (y / clientHeight) * 2);
     const caster = new THREE.Raycaster();
     caster.setFromCamera(at, this.camera);
     return caster.ray;
@@ -141,13 +206,4 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     this.draw();
   }
-}
-
-function lights(): THREE.Light[] {
-  const sky = new THREE.HemisphereLight(0xffffff, 0xc4cad3, 1.9);
-  const sun = new THREE.DirectionalLight(0xffffff, 1.6);
-  sun.position.set(0.5, 1, 0.35);
-  const fill = new THREE.DirectionalLight(0xffffff, 0.5);
-  fill.position.set(-0.7, 0.3, -0.5);
-  return [sky, sun, fill];
 }

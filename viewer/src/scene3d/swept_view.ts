@@ -4,6 +4,7 @@ import * as THREE from "three";
 import type { Avatar, SweptSurface, Vector } from "../data/document.js";
 import type { Contact } from "../contacts/contact.js";
 import type { Palette } from "./palette.js";
+import { facetMaterial, setScreenColour } from "./shading.js";
 
 /** More surfaces at once than this hide what they are to show. */
 const maxShown = 12;
@@ -12,12 +13,7 @@ export class SweptView {
   readonly group = new THREE.Group();
   private readonly surfaces = new Map<string, SweptSurface>();
   private readonly geometries = new Map<string, THREE.BufferGeometry>();
-  private readonly material = new THREE.MeshLambertMaterial({
-    transparent: true,
-    opacity: 0.3,
-    depthWrite: false,
-    flatShading: true,
-  });
+  private readonly material = facetMaterial(0.36);
   private shown = "";
 
   constructor(avatars: readonly Avatar[]) {
@@ -54,7 +50,7 @@ export class SweptView {
   }
 
   paint(palette: Palette): void {
-    this.material.color.set(palette.swept);
+    setScreenColour(this.material.uniforms["colour"].value as THREE.Color, palette.swept);
   }
 
   private geometryOf(name: string, surface: SweptSurface): THREE.BufferGeometry {

@@ -1,6 +1,6 @@
-// How bars look: colour and pattern by verdict, so that neither is needed alone.
+// How bars look: colour and pattern by how a touch begins, so that neither is needed alone.
 
-import type { Contact } from "../contacts/contact.js";
+import type { Touch } from "../contacts/touch.js";
 import type { Verdict } from "../data/document.js";
 import type { Palette } from "../scene3d/palette.js";
 
@@ -14,21 +14,21 @@ export class BarPainter {
     private readonly palette: Palette,
   ) {}
 
-  /** `isHollow`: a discrete check does not see it. */
-  bar(contact: Contact, x0: number, x1: number, y: number, height: number, isHollow: boolean): void {
+  /** `isHollow`: a check of the poses does not see it. */
+  bar(touch: Touch, x0: number, x1: number, y: number, height: number, isHollow: boolean): void {
     const { context } = this;
     const width = Math.max(minBarWidth, x1 - x0);
-    const colour = this.palette.verdicts[contact.verdict];
+    const verdict = verdictOf(touch), colour = touch.isGround ? this.palette.ground : this.palette.verdicts[verdict];
     context.strokeStyle = colour;
     context.lineWidth = 1;
     if (isHollow) {
       context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
       return;
     }
-    context.fillStyle = this.fill(contact.verdict, colour);
+    context.fillStyle = touch.isGround ? colour : this.fill(verdict, colour);
     context.fillRect(x0, y, width, height);
-    if (contact.verdict !== "contact" && width > 2 * minBarWidth) context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
-    if (contact.verdict === "contact" && width > 8) {
+    if (verdict !== "contact" && width > 2 * minBarWidth) context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
+    if (verdict === "contact" && !touch.isGround && width > 8) {
       context.fillStyle = this.palette.ink;
       context.fillRect(x0, y - 2, 2, height + 4);
     }
@@ -43,6 +43,12 @@ export class BarPainter {
     this.hatches.set(verdict, pattern);
     return pattern;
   }
+}
+
+/** What the pattern of a bar says. */
+export function verdictOf(touch: Touch): Verdict {
+  if (touch.isUndecided) return "undecided";
+  return touch.begins === "inside" ? "starts_in_contact" : "contact";
 }
 
 const tile = 6;

@@ -2,34 +2,48 @@
 
 export interface Gesture {
   click(x: number, y: number): void;
-  drag(dx: number): void;
+  /** By `dx`, to `x`. */
+  drag(dx: number, x: number): void;
   /** Below 1 comes closer; `x` stays where it is. */
   zoom(factor: number, x: number): void;
   hover(x: number, y: number): void;
+  leave(): void;
+  /** Whether a wheel over this place scrolls what is around the canvas. */
+  scrolls(x: number): boolean;
 }
 
 /** Less is a click, CSS pixels. */
 const slack = 4;
+/** A line of a wheel that counts in lines, pixels. */
+const linePixels = 16;
+/** Of what a wheel's pixels do to a zoom; a pinch on a trackpad comes in smaller ones. */
+const wheelGain = 0.002, pinchGain = 0.01;
 
 export class Gestures {
   private readonly pointers = new Map<number, { x: number; y: number }>();
   private hasMoved = false;
 
-  /** Where the wheel is not taken without ctrl, it scrolls the page. */
   constructor(
     canvas: HTMLCanvasElement,
     private readonly gesture: Gesture,
-    takesWheel: boolean,
   ) {
     canvas.addEventListener("pointerdown", (event) => this.down(canvas, event));
     canvas.addEventListener("pointermove", (event) => this.move(event));
     canvas.addEventListener("pointerup", (event) => this.up(event));
     canvas.addEventListener("pointercancel", (event) => this.pointers.delete(event.pointerId));
-    canvas.addEventListener("wheel", (event) => {
-      if (!takesWheel && !event.ctrlKey && !event.metaKey) return;
-      event.preventDefault();
-      gesture.zoom(Math.exp(event.deltaY * 0.002), event.offsetX);
-    }, { passive: false });
+    canvas.addEventListener("pointerleave", () => gesture.leave());
+    canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+  }
+
+  /** The wheel zooms at the pointer; with shift, or sideways on a trackpad, it moves. */
+  private wheel(event: WheelEvent): void {
+    const { offsetX, ctrlKey, shiftKey } = event;
+    if (this.gesture.scrolls(offsetX) && !ctrlKey) return;
+    event.preventDefault();
+    const scale = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? linePixels : 1;
+    const dx = scale * event.deltaX, dy = scale * event.deltaY;
+    if (!ctrlKey && (shiftKey || Math.abs(dx) > Math.abs(dy))) this.gesture.drag(-(dx || dy), offsetX);
+    else this.gesture.zoom(Math.exp(dy * (ctrlKey ? pinchGain : wheelGain)), offsetX);
   }
 
   private down(canvas: HTMLCanvasElement, event: PointerEvent): void {
@@ -45,7 +59,7 @@ export class Gestures {
     if (!this.hasMoved && Math.abs(dx) < slack) return;
     this.hasMoved = true;
     const other = [...this.pointers].find(([id]) => id !== event.pointerId)?.[1];
-    if (other === undefined) this.gesture.drag(dx);
+    if (other === undefined) this.gesture.drag(dx, event.offsetX);
     else this.pinch(before.x, event.offsetX, other.x);
     this.pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
   }

@@ -1,31 +1,95 @@
-// Rows and bars of the timeline, without drawing: a row a link with contacts, a bar a contact.
+// Rows and windows of the timeline, without drawing: a row a link or an object, a bar a touch.
 
-import type { Contact } from "../contacts/contact.js";
+import type { Touch } from "../contacts/touch.js";
 import type { Avatar } from "../data/document.js";
+import { limbs, limbsOf, shortNames } from "../motion/limbs.js";
+
+export const groupings = ["limb", "link", "object", "all"] as const;
+/** Links with touches, by limb or in their order; objects; all links. */
+export type Grouping = (typeof groupings)[number];
 
 export interface Row {
+  /** A heading stands for all rows up to the next heading. */
+  readonly isHeading: boolean;
+  readonly name: string;
+  /** As the document has it. */
+  readonly fullName: string;
+  /** Of a heading: its group; of others the group that they are in. */
+  readonly group: string;
+  /** -1 where the row is none of a link. */
   readonly avatar: number;
   readonly link: number;
-  readonly name: string;
-  /** In order of time. */
-  readonly contacts: readonly Contact[];
+  /** In order of their begin. */
+  readonly touches: readonly Touch[];
 }
 
-/** In the order of avatars and their links. */
-export function rowsOf(contacts: readonly Contact[], avatars: readonly Avatar[]): Row[] {
-  const byLink = new Map<string, Contact[]>();
-  for (const contact of contacts) {
-    const key = `${contact.avatar}:${contact.link}`;
-    const row = byLink.get(key);
-    if (row === undefined) byLink.set(key, [contact]);
-    else row.push(contact);
+/** Without the rows of `folded` groups. */
+export function rowsOf(
+  touches: readonly Touch[],
+  avatars: readonly Avatar[],
+  grouping: Grouping,
+  folded: ReadonlySet<string>,
+): Row[] {
+  if (grouping === "object") return rowsOfObjects(touches);
+  const rows = rowsOfLinks(touches, avatars).filter((row) => grouping === "all" || row.touches.length > 0);
+  return grouping === "limb" ? byGroup(rows, folded) : rows;
+}
+
+function gathered(touches: readonly Touch[], keyOf: (touch: Touch) => string): Map<string, Touch[]> {
+  const groups = new Map<string, Touch[]>();
+  for (const touch of touches) {
+    const key = keyOf(touch), group = groups.get(key);
+    if (group === undefined) groups.set(key, [touch]);
+    else group.push(touch);
   }
-  const rows = [...byLink.values()].map((row): Row => {
-    const { avatar, link, linkName } = row[0];
-    const name = avatars.length > 1 ? `${avatars[avatar].name}: ${linkName}` : linkName;
-    return { avatar, link, name, contacts: row };
+  return groups;
+}
+
+function rowsOfObjects(touches: readonly Touch[]): Row[] {
+  const groups = gathered(touches, ({ object }) => object);
+  const rows = [...groups].map(([object, group]): Row => {
+    const name = object === "" ? "(no name)" : object;
+    return { isHeading: false, name, fullName: name, group: "", avatar: -1, link: -1, touches: group };
   });
-  return rows.sort((a, b) => a.avatar - b.avatar || a.link - b.link);
+  return rows.sort((a, b) => b.touches.length - a.touches.length);
+}
+
+function rowsOfLinks(touches: readonly Touch[], avatars: readonly Avatar[]): Row[] {
+  const groups = gathered(touches, ({ avatar, link }) => `${avatar}:${link}`);
+  return avatars.flatMap(({ links, name: body }, avatar) => {
+    const short = shortNames(links.map(({ name }) => name)), limbOf = limbsOf(links);
+    const before = avatars.length > 1 ? `${body}: ` : "";
+    return links.map((one, link): Row => ({
+      isHeading: false,
+      name: before + short[link],
+      fullName: before + one.name,
+      group: before + limbOf[link],
+      avatar,
+      link,
+      touches: groups.get(`${avatar}:${link}`) ?? [],
+    }));
+  });
+}
+
+function byGroup(rows: readonly Row[], folded: ReadonlySet<string>): Row[] {
+  const groups = [...new Set(rows.map(({ group }) => group))];
+  const place = (group: string): number => limbs.findIndex((limb) => group.endsWith(limb));
+  const bodyOf = (group: string): string => group.slice(0, group.length - (limbs[place(group)] ?? "").length);
+  groups.sort((a, b) => bodyOf(a).localeCompare(bodyOf(b)) || place(a) - place(b));
+  return groups.flatMap((group) => {
+    const members = rows.filter((row) => row.group === group);
+    const touches = members.flatMap((row) => row.touches).sort((a, b) => a.begin - b.begin);
+    const heading: Row = { isHeading: true, name: group, fullName: group, group, avatar: -1, link: -1, touches };
+    return folded.has(group) ? [heading] : [heading, ...members];
+  });
+}
+
+/** How many touches are under way in each of `bins` parts of the window. */
+export function densityOf(touches: readonly Touch[], { t0, t1 }: Window, bins: number): Float32Array {
+  const density = new Float32Array(bins), perSecond = bins / Math.max(1e-9, t1 - t0);
+  const binOf = (time: number): number => Math.min(bins - 1, Math.max(0, Math.floor((time - t0) * perSecond)));
+  for (const { begin, end } of touches) for (let bin = binOf(begin); bin <= binOf(end); ++bin) ++density[bin];
+  return density;
 }
 
 /** The times that the timeline shows, and where on its width. */
@@ -64,12 +128,13 @@ export function ticks({ t0, t1 }: Window, most: number): { readonly times: numbe
   return { times, digits: Math.max(0, Math.min(6, Math.ceil(-Math.log10(step) - 1e-9))) };
 }
 
-/** The contact of a row whose bar is nearest to `time`, if it is within `reach` seconds. */
-export function nearestContact(row: Row, time: number, reach: number): Contact | null {
-  let best: Contact | null = null, bestDistance = reach;
-  for (const contact of row.contacts) {
-    const distance = Math.max(contact.at - time, time - contact.span.t1, 0);
-    if (distance < bestDistance || (distance === 0 && best === null)) [best, bestDistance] = [contact, distance];
+/** The touch of a row whose bar is nearest to `time`, if it is within `reach` seconds; the shorter of two that are met. */
+export function nearestTouch(row: Row, time: number, reach: number): Touch | null {
+  let best: Touch | null = null, bestDistance = reach;
+  for (const touch of row.touches) {
+    const distance = Math.max(touch.begin - time, time - touch.end, 0);
+    const isShorter = best !== null && distance === bestDistance && touch.end - touch.begin < best.end - best.begin;
+    if (distance < bestDistance || isShorter || (distance === 0 && best === null)) [best, bestDistance] = [touch, distance];
   }
   return best;
 }

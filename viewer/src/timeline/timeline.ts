@@ -1,37 +1,47 @@
-// The timeline: a row a link, a bar a contact from when it is met to the end of its step. Click
-// goes there, drag moves, wheel and pinch zoom.
+// The timeline: a row a link or an object, a bar a touch from its begin to its end. Click goes
+// there, drag moves, the wheel zooms at the pointer; above it the whole clip.
 
-import type { Contact } from "../contacts/contact.js";
-import { verdictNames } from "../contacts/contact.js";
+import type { Touch } from "../contacts/touch.js";
 import { lastAtMost } from "../motion/clip.js";
 import type { Model } from "../model.js";
-import { choose } from "../panels/choosing.js";
-import { button, element } from "../panels/dom.js";
-import { plural, seconds } from "../panels/words.js";
+import { chooseTouch } from "../panels/choosing.js";
+import { element, setText } from "../panels/dom.js";
+import { plural } from "../panels/words.js";
 import { palettes } from "../scene3d/palette.js";
 import type { Change, Store } from "../state.js";
-import { BarPainter } from "./bars.js";
 import { Gestures } from "./gestures.js";
-import type { Row, Window } from "./rows.js";
-import { moved, nearestContact, rowsOf, ticks, zoomed } from "./rows.js";
+import { drawLanes, rowHeight } from "./lanes.js";
+import { Overview } from "./overview.js";
+import type { Grouping, Row, Window } from "./rows.js";
+import { moved, nearestTouch, rowsOf, ticks, zoomed } from "./rows.js";
+import { sized } from "./sized.js";
+import { Splitter } from "./splitter.js";
+import { timelineBar } from "./timeline_bar.js";
+import { linesOfRow, linesOfTouch, Tip } from "./tip.js";
 
-const rowHeight = 22, barHeight = 12, axisHeight = 26;
-const maxGutter = 132, gutterShare = 0.26;
+const axisHeight = 26;
+const maxGutter = 150, gutterShare = 0.26;
 /** Beside a bar, CSS pixels. */
 const reach = 8;
 const zoomStep = 0.6;
 /** How often the window of a stream moves without new contacts, milliseconds. */
 const liveWindowMs = 250;
+/** Room for what a stream has not brought yet. */
+const rowsOfLive = 6;
 
 export class Timeline {
-  readonly node = element("section", { class: "timeline", label: "Timeline of contacts" });
+  readonly node = element("section", { class: "timeline", label: "Timeline of touches" });
   private readonly axis = element("canvas", { class: "axis" });
   private readonly canvas = element("canvas", { class: "bars" });
   private readonly scroll = element("div", { class: "scroll" }, this.canvas);
   /** Over both canvases, which stay as they are while only time goes on. */
   private readonly playhead = element("div", { class: "playhead" });
   private readonly hint = element("p", { class: "hint" });
+  private readonly tip = new Tip();
+  private readonly overview: Overview;
   private rows: Row[] = [];
+  private readonly folded = new Set<string>();
+  private grouping: Grouping = "limb";
   private window: Window;
   /** Of the canvases, CSS pixels: asked for once a drawing, for each asking lays the page out anew. */
   private width = 0;
@@ -45,29 +55,39 @@ export class Timeline {
     private readonly store: Store,
   ) {
     this.window = this.whole();
-    this.rows = rowsOf(model.contacts, model.avatars);
-    this.node.append(this.makeBar(), element("div", { class: "tracks" }, this.axis, this.scroll, this.playhead));
-    for (const canvas of [this.axis, this.canvas]) {
-      canvas.setAttribute("role", "img");
-      new Gestures(canvas, {
-        click: (x, y) => this.click(x, canvas === this.axis ? -1 : y),
-        drag: (dx) => this.move(-dx * this.secondsPerPixel()),
-        zoom: (factor, x) => this.zoom(factor, this.timeAt(x)),
-        hover: (x, y) => this.hover(x, canvas === this.axis ? -1 : y),
-      }, canvas === this.axis);
-    }
+    this.overview = new Overview(
+      (middle) => this.move(middle - (this.window.t0 + this.window.t1) / 2),
+      (factor, anchor) => this.zoom(factor, anchor),
+    );
+    const splitter = new Splitter(this.scroll, rowHeight, () => Math.max(this.rows.length, model.isLive ? rowsOfLive : 0));
+    const tracks = element("div", { class: "tracks" }, this.axis, this.scroll, this.playhead);
+    this.node.append(splitter.node, this.makeBar(), this.overview.node, tracks);
+    document.body.append(this.tip.node);
+    this.listen(this.axis, true);
+    this.listen(this.canvas, false);
+    this.refreshRows();
+    splitter.fit();
     new ResizeObserver(() => this.draw()).observe(this.node);
   }
 
   update(changes: ReadonlySet<Change>): void {
-    if (changes.has("contacts")) this.rows = rowsOf(this.model.contacts, this.model.avatars);
+    if (changes.has("contacts") || changes.has("search") || changes.has("showsGround")) this.refreshRows();
     const before = this.window;
     if (this.model.isLive) this.followStream(changes.has("contacts"));
     else if (changes.has("time")) this.followTime();
-    if (changes.has("contact")) this.showRow();
+    if (changes.has("touch")) this.showRow();
     const isTimeAlone = changes.size === 1 && changes.has("time") && this.window === before;
     if (isTimeAlone) this.movePlayhead();
     else this.draw();
+  }
+
+  private refreshRows(): void {
+    this.rows = rowsOf(this.shownTouches(), this.model.avatars, this.grouping, this.folded);
+  }
+
+  private shownTouches(): readonly Touch[] {
+    const { search, showsGround } = this.store.state;
+    return this.model.shownTouches(search, showsGround);
   }
 
   /** The window of a stream grows with it: at once where there are new contacts, else now and then. */
@@ -80,12 +100,12 @@ export class Timeline {
   }
 
   /** Scrolls to the row of what is chosen. */
-  showRow(): void {
-    const { contact } = this.store.state;
-    const row = this.rows.findIndex((one) => one.link === contact?.link && one.avatar === contact.avatar);
+  private showRow(): void {
+    const { touch } = this.store.state;
+    const row = touch === null ? -1 : this.rows.findIndex((one) => !one.isHeading && one.touches.includes(touch));
     const top = row * rowHeight, { scrollTop, clientHeight } = this.scroll;
     const isSeen = top >= scrollTop && top + rowHeight <= scrollTop + clientHeight;
-    if (row >= 0 && !isSeen) this.scroll.scrollTop = top - (clientHeight - rowHeight) / 2;
+    if (row >= 0 && !isSeen) this.scroll.scrollTop = rowHeight * Math.round((top - (clientHeight - rowHeight) / 2) / rowHeight);
   }
 
   private whole(): Window {
@@ -102,20 +122,28 @@ export class Timeline {
 
   private makeBar(): HTMLElement {
     const middle = (): number => this.store.state.time;
-    const legend = element("span", { class: "verdicts" });
-    for (const verdict of ["contact", "starts_in_contact", "undecided"] as const) {
-      const count = this.model.contacts.filter((contact) => contact.verdict === verdict).length;
-      if (count === 0 && !this.model.isLive) continue;
-      const text = this.model.isLive ? verdictNames[verdict] : `${count} ${verdictNames[verdict]}`;
-      legend.append(element("span", { class: `swatch ${verdict}` }), element("span", { text }));
-    }
-    return element("div", { class: "timeline-bar" }, element("h2", { text: "Contacts over time" }), legend, this.hint,
-      element("div", { class: "group" },
-        button("−", "Show more time", () => this.zoom(1 / zoomStep, middle())),
-        button("+", "Show less time", () => this.zoom(zoomStep, middle())),
-        button("Fit", "Show the whole clip", () => this.show(this.whole())),
-      ),
-    );
+    return timelineBar(this.model, this.store, {
+      in: () => this.zoom(zoomStep, middle()),
+      out: () => this.zoom(1 / zoomStep, middle()),
+      all: () => this.show(this.whole()),
+      group: (grouping) => {
+        this.grouping = grouping;
+        this.refreshRows();
+        this.draw();
+      },
+    }, this.hint);
+  }
+
+  private listen(canvas: HTMLCanvasElement, isAxis: boolean): void {
+    canvas.setAttribute("role", "img");
+    new Gestures(canvas, {
+      click: (x, y) => this.click(x, isAxis ? -1 : y),
+      drag: (dx, x) => (isAxis ? this.seek(x) : this.move(-dx * this.secondsPerPixel())),
+      zoom: (factor, x) => this.zoom(factor, this.timeAt(x)),
+      hover: (x, y) => this.hover(canvas, x, y, isAxis),
+      leave: () => this.tip.hide(),
+      scrolls: (x) => !isAxis && x < this.gutter(),
+    });
   }
 
   private show(window: Window): void {
@@ -147,28 +175,43 @@ export class Timeline {
     return this.gutter() + (time - this.window.t0) / this.secondsPerPixel();
   }
 
-  private contactAt(x: number, y: number): Contact | null {
+  private touchAt(x: number, y: number): Touch | null {
     const row = this.rows[Math.floor(y / rowHeight)];
     if (y < 0 || row === undefined || x < this.gutter()) return null;
-    return nearestContact(row, this.timeAt(x), reach * this.secondsPerPixel());
+    return nearestTouch(row, this.timeAt(x), reach * this.secondsPerPixel());
   }
 
   private click(x: number, y: number): void {
-    const contact = this.contactAt(x, y);
-    if (contact !== null) return choose(this.store, contact);
-    const row = this.rows[Math.floor(y / rowHeight)];
-    if (y >= 0 && row !== undefined && x < this.gutter()) {
-      return this.store.set({ link: { avatar: row.avatar, link: row.link }, contact: null });
-    }
-    const { start, end } = this.model;
-    const time = Math.min(end, Math.max(start, this.timeAt(x)));
-    this.store.set({ time, contact: null, isPlaying: false, follows: false });
+    const row = y < 0 ? undefined : this.rows[Math.floor(y / rowHeight)];
+    if (row !== undefined && x < this.gutter()) return this.clickName(row);
+    const touch = this.touchAt(x, y);
+    if (touch !== null) chooseTouch(this.store, this.model, touch);
+    else this.seek(x);
   }
 
-  private hover(x: number, y: number): void {
-    const contact = this.contactAt(x, y);
-    this.canvas.style.cursor = contact === null ? "default" : "pointer";
-    this.canvas.title = contact === null ? "" : `${contact.linkName}: ${verdictNames[contact.verdict]} at ${seconds(contact.at - this.model.timeZero)}`;
+  private seek(x: number): void {
+    const { start, end } = this.model;
+    const time = Math.min(end, Math.max(start, this.timeAt(x)));
+    this.store.set({ time, contact: null, touch: null, isPlaying: false, follows: false });
+  }
+
+  private clickName(row: Row): void {
+    if (row.link >= 0) return this.store.set({ link: { avatar: row.avatar, link: row.link }, contact: null, touch: null });
+    if (!row.isHeading) return;
+    if (!this.folded.delete(row.group)) this.folded.add(row.group);
+    this.refreshRows();
+    this.draw();
+  }
+
+  private hover(canvas: HTMLCanvasElement, x: number, y: number, isAxis: boolean): void {
+    const row = isAxis ? undefined : this.rows[Math.floor(y / rowHeight)];
+    const touch = isAxis ? null : this.touchAt(x, y);
+    const isName = row !== undefined && x < this.gutter();
+    canvas.style.cursor = touch !== null || isName ? "pointer" : "default";
+    const word = this.model.knowsTouches ? "touch" : "contact";
+    const lines = isName ? linesOfRow(row, word) : touch === null ? [] : linesOfTouch(touch, this.model.timeZero, this.model.knowsTouches);
+    const { left, top } = canvas.getBoundingClientRect();
+    this.tip.show(lines, left + x, top + y);
   }
 
   private draw(): void {
@@ -176,15 +219,15 @@ export class Timeline {
     this.isAsked = true;
     requestAnimationFrame(() => {
       this.isAsked = false;
-      this.width = this.axis.clientWidth;
+      this.width = this.canvas.clientWidth;
       this.drawAxis();
       this.drawRows();
       this.movePlayhead();
       if (this.isNew) this.showRow();
       this.isNew = false;
-      const words = plural(this.rows.length, "link");
-      this.hint.textContent = words;
-      this.canvas.setAttribute("aria-label", `Timeline of contacts: ${words}. The table of contacts has them in words.`);
+      const words = plural(this.rows.filter((row) => !row.isHeading).length, this.grouping === "object" ? "object" : "link");
+      setText(this.hint, words);
+      this.canvas.setAttribute("aria-label", `Timeline: ${words}. The table has them in words.`);
       this.axis.setAttribute("aria-label", "Time axis");
     });
   }
@@ -216,73 +259,23 @@ export class Timeline {
   }
 
   private drawRows(): void {
-    const height = Math.max(1, this.rows.length) * rowHeight;
-    const context = sized(this.canvas, height);
+    const context = sized(this.canvas, Math.max(1, this.rows.length) * rowHeight);
     if (context === null) return;
-    const { theme, showsDiscrete, contact: chosen } = this.store.state;
-    const palette = palettes[theme], painter = new BarPainter(context, palette);
-    context.font = "12px system-ui, sans-serif";
-    context.textBaseline = "middle";
-    this.rows.forEach((row, index) => {
-      const y = index * rowHeight;
-      context.fillStyle = palette.grid;
-      context.globalAlpha = 0.5;
-      context.fillRect(0, y + rowHeight - 1, this.width, 1);
-      context.globalAlpha = 1;
-      this.drawName(context, row, y, row.link === chosen?.link && row.avatar === chosen.avatar ? palette.ink : palette.faint);
-      this.drawBars(context, painter, row, y, showsDiscrete, chosen, palette.ink);
+    const { theme, showsDiscrete, touch } = this.store.state;
+    drawLanes(context, palettes[theme], {
+      rows: this.rows, window: this.window, width: this.width, gutter: this.gutter(), chosen: touch, showsDiscrete,
+      folded: this.folded, xOf: (time) => this.xOf(time),
     });
-    if (this.rows.length === 0) {
-      context.fillStyle = palette.faint;
-      context.fillText("no contacts", this.gutter(), rowHeight / 2);
-    }
-  }
-
-  private drawName(context: CanvasRenderingContext2D, row: Row, y: number, colour: string): void {
-    context.save();
-    context.beginPath();
-    context.rect(0, y, this.gutter() - 8, rowHeight);
-    context.clip();
-    context.fillStyle = colour;
-    context.fillText(row.name, 2, y + rowHeight / 2);
-    context.restore();
-  }
-
-  private drawBars(
-    context: CanvasRenderingContext2D, painter: BarPainter, row: Row, y: number,
-    showsDiscrete: boolean, chosen: Contact | null, ink: string,
-  ): void {
-    context.save();
-    context.beginPath();
-    context.rect(this.gutter() - 1, y, this.width, rowHeight);
-    context.clip();
-    const top = y + (rowHeight - barHeight) / 2;
-    for (const contact of row.contacts) {
-      if (contact.span.t1 < this.window.t0 || contact.at > this.window.t1) continue;
-      const x0 = this.xOf(contact.at), x1 = this.xOf(contact.span.t1);
-      painter.bar(contact, x0, x1, top, barHeight, showsDiscrete && contact.missedByPoses === true);
-      if (contact !== chosen) continue;
-      context.strokeStyle = ink;
-      context.lineWidth = 2;
-      context.strokeRect(x0 - 2, top - 3, Math.max(3, x1 - x0) + 4, barHeight + 6);
-    }
-    context.restore();
+    this.overview.draw({
+      touches: this.shownTouches(), whole: this.whole(), window: this.window,
+      gutter: this.gutter(), width: this.width - reach,
+    }, palettes[theme]);
   }
 
   private movePlayhead(): void {
     const x = this.xOf(this.store.state.time);
+    this.overview.showTime(this.store.state.time);
     this.playhead.hidden = x < this.gutter() - 1 || x > this.width + 1;
     this.playhead.style.transform = `translateX(${(x - 0.75).toFixed(2)}px)`;
   }
-}
-
-/** The canvas cleared and as sharp as the screen; null where it cannot be drawn on. */
-function sized(canvas: HTMLCanvasElement, height: number): CanvasRenderingContext2D | null {
-  const ratio = window.devicePixelRatio, width = canvas.clientWidth;
-  canvas.style.height = `${height}px`;
-  canvas.width = Math.round(width * ratio);
-  canvas.height = Math.round(height * ratio);
-  const context = canvas.getContext("2d");
-  context?.scale(ratio, ratio);
-  return context;
 }

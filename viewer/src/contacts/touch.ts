@@ -1,0 +1,125 @@
+// Touches: a link and an object from their first contact to where it ends, over all steps. The
+// contacts of the single steps are the rows of a touch.
+
+import type { Avatar, RecordedTouch } from "../data/document.js";
+import type { Contact } from "./contact.js";
+
+export interface Touch {
+  readonly avatar: number;
+  readonly link: number;
+  readonly linkName: string;
+  /** "" where it is not known. */
+  readonly object: string;
+  readonly isOwn: boolean;
+  readonly begin: number;
+  readonly end: number;
+  readonly begins: "contact" | "inside";
+  readonly ends: "left" | "open";
+  readonly isGround: boolean;
+  /** A check of the poses alone sees nothing of it; null where nobody looked. */
+  readonly isMissed: boolean | null;
+  readonly isUndecided: boolean;
+  /** In order of time; those that the document carries. */
+  readonly rows: readonly Contact[];
+}
+
+/** Of the document, in its order: by begin. `contacts` as allContacts() has them. */
+export function recordedTouches(
+  recorded: readonly RecordedTouch[],
+  avatars: readonly Avatar[],
+  contacts: readonly Contact[],
+): Touch[] {
+  const byRow = new Map(contacts.map((contact) => [`${contact.avatar}:${contact.row}`, contact]));
+  const touches = recorded.map((touch): Touch => {
+    const rows = touch.rows.flatMap((row) => byRow.get(`${touch.avatar}:${row}`) ?? []);
+    return {
+      ...touch,
+      rows,
+      linkName: avatars[touch.avatar].links[touch.link].name,
+      isOwn: touch.other !== null,
+      isUndecided: false,
+    };
+  });
+  return touches.sort((a, b) => a.begin - b.begin);
+}
+
+/** Where a document knows no touches, each contact is one. */
+export function touchOfRow(contact: Contact): Touch {
+  return {
+    avatar: contact.avatar,
+    link: contact.link,
+    linkName: contact.linkName,
+    object: contact.object ?? "",
+    isOwn: false,
+    begin: contact.at,
+    end: contact.span.t1,
+    begins: contact.verdict === "starts_in_contact" ? "inside" : "contact",
+    ends: "left",
+    isGround: false,
+    isMissed: contact.verdict === "contact" ? contact.missedByPoses : null,
+    isUndecided: contact.verdict === "undecided",
+    rows: [contact],
+  };
+}
+
+/**
+ * Of a stream: contacts of one link and one object in steps that follow each other are one touch
+ * if each of them but the first starts in contact. `contacts` in order of time.
+ */
+export function mergedTouches(contacts: readonly Contact[]): Touch[] {
+  const touches: Grown[] = [], latest = new Map<string, Grown>();
+  for (const contact of contacts) {
+    const key = `${contact.avatar}:${contact.link}:${contact.object ?? ""}`;
+    const known = latest.get(key);
+    const isNext = known !== undefined && contact.verdict === "starts_in_contact" && contact.step - known.lastStep <= 1;
+    const touch = isNext ? known : { ...touchOfRow(contact), rows: [], lastStep: contact.step };
+    if (!isNext) {
+      touches.push(touch);
+      latest.set(key, touch);
+    }
+    touch.rows.push(contact);
+    touch.end = contact.span.t1;
+    touch.lastStep = contact.step;
+  }
+  return touches;
+}
+
+/** A touch while its rows are gathered. */
+interface Grown extends Touch {
+  end: number;
+  rows: Contact[];
+  lastStep: number;
+}
+
+/** Index of the first touch that begins later than `time`; their number where there is none. */
+export function firstTouchAfter(touches: readonly Touch[], time: number): number {
+  let low = 0, high = touches.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (touches[middle].begin <= time) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** What a person looks for: every word occurs in the name of the link or of the object. */
+export function matches(touch: Touch, search: string): boolean {
+  const names = `${touch.linkName} ${touch.object}`.toLowerCase();
+  return search.toLowerCase().split(/\s+/).every((word) => names.includes(word));
+}
+
+export interface TouchCount {
+  readonly all: number;
+  readonly missed: number;
+  readonly ground: number;
+}
+
+/** Of touches with the scene: touches of own links are another question. */
+export function countTouches(touches: readonly Touch[]): TouchCount {
+  const ofScene = touches.filter((touch) => !touch.isOwn);
+  return {
+    all: ofScene.length,
+    missed: ofScene.filter((touch) => touch.isMissed === true).length,
+    ground: ofScene.filter((touch) => touch.isGround).length,
+  };
+}

@@ -1,0 +1,90 @@
+// The touches as a table: what the timeline and the view show, in words, and as a file.
+
+import type { Touch } from "../contacts/touch.js";
+import type { Model } from "../model.js";
+import type { Store } from "../state.js";
+import { chooseTouch } from "./choosing.js";
+import { csvOf, type Cells } from "./csv.js";
+import { button, element, explained, offerFile } from "./dom.js";
+import { count, length, seconds } from "./words.js";
+
+const rowsPerPage = 50;
+const columns = ["begin", "lasts", "link", "object", "begins", "separation", "at poses"];
+
+export class TouchTable {
+  readonly node = element("details", { class: "card touch-table" });
+  private readonly body = element("tbody");
+  private readonly place = element("span", { class: "quiet" });
+  private page = 0;
+
+  constructor(
+    private readonly model: Model,
+    private readonly store: Store,
+  ) {
+    const word = model.knowsTouches ? "touches" : "contacts";
+    const head = element("tr", {}, ...columns.map((name) => element("th", {}, explained(name))));
+    head.querySelectorAll("th").forEach((cell) => (cell.scope = "col"));
+    const table = element("table", { class: "rows", label: `All ${word}` }, element("thead", {}, head), this.body);
+    const pages = element("div", { class: "pages" },
+      button("‹", `Earlier ${word}`, () => this.turn(-1)), this.place, button("›", `Later ${word}`, () => this.turn(1)),
+      button("CSV", "Save the table as a file", () => this.save()),
+    );
+    this.node.append(element("summary", { text: `Table of ${word}` }), element("div", { class: "scroll" }, table), pages);
+    this.node.addEventListener("toggle", () => this.update());
+  }
+
+  update(): void {
+    if (!this.node.open) return;
+    const { touch } = this.store.state;
+    const chosen = touch === null ? -1 : this.touches().indexOf(touch);
+    if (chosen >= 0) this.page = Math.floor(chosen / rowsPerPage);
+    this.fill();
+  }
+
+  private touches(): readonly Touch[] {
+    return this.model.shownTouches(this.store.state.search, this.store.state.showsGround);
+  }
+
+  private turn(pages: number): void {
+    this.page += pages;
+    this.fill();
+  }
+
+  private fill(): void {
+    const touches = this.touches();
+    this.page = Math.max(0, Math.min(Math.floor(Math.max(0, touches.length - 1) / rowsPerPage), this.page));
+    const first = this.page * rowsPerPage, last = Math.min(first + rowsPerPage, touches.length);
+    this.place.textContent = touches.length === 0 ? "none" : `${count(first + 1)} to ${count(last)} of ${count(touches.length)}`;
+    this.body.replaceChildren(...touches.slice(first, last).map((touch) => this.row(touch)));
+  }
+
+  private row(touch: Touch): HTMLTableRowElement {
+    const at = seconds(touch.begin - this.model.timeZero);
+    const jump = button(at, `Show the ${this.model.knowsTouches ? "touch" : "contact"} of ${touch.linkName} at ${at}`, () => chooseTouch(this.store, this.model, touch), "link");
+    const row = element("tr", {}, element("td", {}, jump), ...this.texts(touch).map((text) => element("td", { text })));
+    if (touch === this.store.state.touch) row.setAttribute("aria-selected", "true");
+    return row;
+  }
+
+  private texts(touch: Touch): string[] {
+    const { separation } = touch.rows[0] ?? { separation: null };
+    const lasts = `${seconds(touch.end - touch.begin)}${touch.ends === "open" ? " +" : ""}`;
+    const begins = touch.isUndecided ? "undecided" : touch.begins === "inside" ? "inside" : "contact";
+    const atPoses = touch.isMissed === null ? "" : touch.isMissed ? "missed" : "seen";
+    return [lasts, touch.linkName, touch.object, touch.isGround ? `${begins}, ground` : begins, separation === null ? "" : length(separation), atPoses];
+  }
+
+  /** In seconds and metres, with a dot, in full. */
+  private save(): void {
+    const zero = this.model.timeZero;
+    const head = ["begin_s", "end_s", "avatar", "link", "object", "begins", "ends", "ground", "missed", "separation_m", "x_m", "y_m", "z_m"];
+    const lines = this.touches().map((touch): Cells => {
+      const row = touch.rows[0], point = row?.point ?? [null, null, null];
+      return [
+        touch.begin - zero, touch.end - zero, this.model.avatars[touch.avatar].name, touch.linkName, touch.object,
+        touch.isUndecided ? "undecided" : touch.begins, touch.ends, touch.isGround, touch.isMissed, row?.separation ?? null, ...point,
+      ];
+    });
+    offerFile(`${this.model.document.title}.csv`, new Blob([csvOf([head, ...lines])], { type: "text/csv" }));
+  }
+}

@@ -1,0 +1,91 @@
+// What stands above the timeline: what its colours mean, what is looked for, and how it is zoomed.
+
+import { walkTouches } from "../panels/choosing.js";
+import { element, button } from "../panels/dom.js";
+import type { Model } from "../model.js";
+import type { Store } from "../state.js";
+import type { Grouping } from "./rows.js";
+import { groupings } from "./rows.js";
+import { verdictOf } from "./bars.js";
+
+const groupingNames: Record<Grouping, string> = { limb: "by limb", link: "by link", object: "by object", all: "all links" };
+const beginnings = { contact: "contact", starts_in_contact: "touching already", undecided: "undecided" } as const;
+const meanings = {
+  contact: "Begins with a contact between two poses.",
+  starts_in_contact: "It touched already when somebody first looked.",
+  undecided: "The step's budget ended before it was known.",
+} as const;
+
+export interface Zooming {
+  in(): void;
+  out(): void;
+  all(): void;
+  group(grouping: Grouping): void;
+}
+
+export function timelineBar(model: Model, store: Store, zooming: Zooming, hint: HTMLElement): HTMLElement {
+  const title = model.knowsTouches ? "Touches" : "Contacts";
+  return element("div", { class: "timeline-bar" },
+    element("h2", { text: title }), legendOf(model), searchOf(model, store), groupingOf(zooming), ...groundOf(model, store), hint,
+    element("div", { class: "group" },
+      button("−", "Show more time", () => zooming.out()),
+      button("+", "Show less time", () => zooming.in()),
+      button("Fit", "Show the whole clip", () => zooming.all()),
+    ),
+  );
+}
+
+function legendOf(model: Model): HTMLElement {
+  const legend = element("span", { class: "verdicts" });
+  for (const verdict of ["contact", "starts_in_contact", "undecided"] as const) {
+    const count = model.touches.filter((touch) => !touch.isGround && verdictOf(touch) === verdict).length;
+    if (count === 0 && !model.isLive) continue;
+    const text = model.isLive ? beginnings[verdict] : `${count} ${beginnings[verdict]}`;
+    legend.append(element("span", { class: `swatch ${verdict}` }), element("span", { text, title: meanings[verdict] }));
+  }
+  const { ground } = model.countTouches();
+  if (ground > 0) legend.append(element("span", { class: "swatch ground" }), element("span", { text: `${ground} ground`, title: "Touches that stand on the ground." }));
+  return legend;
+}
+
+function searchOf(model: Model, store: Store): HTMLElement {
+  const search = element("input", { class: "search", label: "Search links and objects" });
+  search.type = "search";
+  search.placeholder = "search";
+  search.title = "Links and objects whose names have these words (/); Enter goes to the next touch";
+  search.addEventListener("input", () => store.set({ search: search.value }));
+  search.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") walkTouches(store, model, event.shiftKey ? -1 : 1);
+    if (event.key !== "Escape") return;
+    // A browser would empty the field.
+    event.preventDefault();
+    event.stopPropagation();
+    search.blur();
+  });
+  return search;
+}
+
+function groupingOf(zooming: Zooming): HTMLElement {
+  const select = element("select", { label: "Rows of the timeline" });
+  for (const grouping of groupings) {
+    const option = element("option", { text: groupingNames[grouping] });
+    option.value = grouping;
+    select.append(option);
+  }
+  select.addEventListener("change", () => {
+    const chosen = groupings.find((grouping) => grouping === select.value);
+    if (chosen !== undefined) zooming.group(chosen);
+  });
+  return select;
+}
+
+function groundOf(model: Model, store: Store): HTMLElement[] {
+  if (model.countTouches().ground === 0) return [];
+  const node = button("Ground", "Show touches that are ground contact, too", () => store.set({ showsGround: !store.state.showsGround }));
+  const show = (): void => node.setAttribute("aria-pressed", String(store.state.showsGround));
+  store.subscribe((changes) => {
+    if (changes.has("showsGround")) show();
+  });
+  show();
+  return [node];
+}

@@ -1,0 +1,50 @@
+// Words beside the pointer: what a bar or a name on the timeline stands for.
+
+import type { Touch } from "../contacts/touch.js";
+import { element } from "../panels/dom.js";
+import { plural, seconds } from "../panels/words.js";
+import type { Row } from "./rows.js";
+
+/** From the pointer, CSS pixels. */
+const offset = 14;
+
+export class Tip {
+  readonly node = element("div", { class: "tip" });
+
+  constructor() {
+    this.node.setAttribute("role", "tooltip");
+    this.node.hidden = true;
+  }
+
+  /** Beside a place of the window; nothing where there are no lines. */
+  show(lines: readonly string[], x: number, y: number): void {
+    this.node.hidden = lines.length === 0;
+    if (lines.length === 0) return;
+    this.node.replaceChildren(...lines.map((text, i) => element(i === 0 ? "strong" : "span", { text })));
+    const { offsetWidth, offsetHeight } = this.node;
+    const left = Math.min(x + offset, window.innerWidth - offsetWidth - offset);
+    const top = Math.max(offset, y - offsetHeight - offset);
+    this.node.style.transform = `translate(${Math.max(offset, left)}px, ${top}px)`;
+  }
+
+  hide(): void {
+    this.show([], 0, 0);
+  }
+}
+
+export function linesOfTouch(touch: Touch, timeZero: number, knowsTouches: boolean): string[] {
+  const from = seconds(touch.begin - timeZero), to = seconds(touch.end - timeZero);
+  const lines = [`${touch.linkName}${touch.object === "" ? "" : ` × ${touch.object}`}`];
+  if (touch.isUndecided) return [...lines, `free until ${from}; until ${to} not decided`];
+  lines.push(`${from} to ${touch.ends === "open" ? `${to}, and still touching` : to}`);
+  if (touch.begins === "inside") lines.push(knowsTouches ? "it touched already when somebody first looked" : "the step starts in contact");
+  if (touch.isGround) lines.push("stands on the ground");
+  if (touch.isMissed === true) lines.push("a check of the poses alone misses it");
+  return lines;
+}
+
+export function linesOfRow(row: Row, word: string): string[] {
+  if (row.touches.length === 0) return [row.fullName, "touches nothing"];
+  const missed = row.touches.filter((touch) => touch.isMissed === true).length;
+  return [row.fullName, `${plural(row.touches.length, word, word === "touch" ? "touches" : "contacts")}${missed > 0 ? `, ${missed} missed by a check of the poses` : ""}`];
+}
