@@ -42,7 +42,6 @@ TEST(BenchLeaf, SaysNoWhereAnAnswerIsNotItsLabel) {
 TEST(BenchLeaf, EndsWithTwoOnBadUse) {
   const TempFolder folder;
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {},
            {"leaf"},
            {"leaf", "--generated", "-1"},
            {"leaf", "--generated", "99999999999"},

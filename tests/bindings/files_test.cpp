@@ -216,10 +216,10 @@ TEST(CFiles, BadClipsAreRefused) {
                 FT_ERROR_NULL_ARGUMENT, {"avatar"});
   for (int which = 0; which < 4; ++which) {
     auto options = test::initialised(ft_clip_options_init);
-    if (which == 0) options.scale = 0;
+    if (which == 0) options.scale = -1;
     if (which == 1) options.yaw_deg = std::nan("");
     if (which == 2) options.origin[1] = 1e8;
-    if (which == 3) options.up = -1;
+    if (which == 3) options.up = -2;
     expectRefused(ft_clip_create_from_file(good.c_str(), avatar, &options, &clip),
                   FT_ERROR_OUT_OF_RANGE, {});
   }

@@ -28,11 +28,12 @@ struct AskedDemo {
 
 /// What everybody wants to know.
 std::string inWords(const ReplaySummary& summary) {
-  // Without the empty line that ends it.
+  // Touches of the room, and of its ground; --details has the rest.
   const std::string headline = summary.headline();
+  const std::size_t second = headline.find('\n', headline.find('\n') + 1);
   return fmt::format(
       "The bundled dancer moves through the bundled room, known only {:g} times a second.\n{}",
-      kDemoRateHz, headline.substr(0, headline.size() - 1));
+      kDemoRateHz, headline.substr(0, headline[second - 1] == '\n' ? second : second + 1));
 }
 
 /// The first of those that a check of the poses misses.

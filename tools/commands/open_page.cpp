@@ -46,12 +46,17 @@ void open(std::string path) {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
   }
+  // A session of its own: the terminal's end does not end it.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
   std::string opener = kOpener;
   char* const words[] = {opener.data(), path.data(), nullptr};
   pid_t child = 0;
-  if (::posix_spawnp(&child, kOpener, &files, nullptr, words, environ) != 0) {
+  if (::posix_spawnp(&child, kOpener, &files, &attributes, words, environ) != 0) {
     printNote(opener + " cannot be started");
   }
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
 }
 

@@ -301,7 +301,7 @@ Result<Done> runReplay(const ReplayJob& job,
   if (rate) printNote(*rate);
 
   ReplaySummary summary(inputs);
-  PlaceDoubts doubts(inputs.avatar.skeleton());
+  PlaceDoubts doubts(inputs.avatar.skeleton(), inputs.query.self.has_value());
   ReplayTouches touches(inputs);
   std::optional<ReplayReport> report;
   if (!job.report.path.empty()) report.emplace(inputs, job.report);

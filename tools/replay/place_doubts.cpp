@@ -9,8 +9,8 @@
 
 namespace foretouch::tools {
 
-PlaceDoubts::PlaceDoubts(const Skeleton& skeleton)
-    : isTrunk_(countOf(skeleton.numJoints()), false) {
+PlaceDoubts::PlaceDoubts(const Skeleton& skeleton, bool asksSelf)
+    : isTrunk_(countOf(skeleton.numJoints()), false), asksSelf_(asksSelf) {
   for (const LinkId link : trunkOf(skeleton)) isTrunk_[slotOf(link)] = true;
 }
 
@@ -33,7 +33,7 @@ std::vector<std::string> PlaceDoubts::remarks() const {
         "floor? foretouch view says where it stands, and where it could",
         trunkSteps_, steps_));
   }
-  if (steps_ > 0 && !cameNear_) {
+  if (steps_ > 0 && !cameNear_ && !asksSelf_) {
     remarks.push_back(
         "nothing of the scene ever came near the body: does it stand elsewhere? foretouch view "
         "says where it stands, and where it could");

@@ -13,7 +13,8 @@ namespace foretouch::tools {
 
 class PlaceDoubts {
  public:
-  explicit PlaceDoubts(const Skeleton& skeleton);
+  /// `asksSelf`: own links are asked, so a scene that nothing comes near may be meant.
+  PlaceDoubts(const Skeleton& skeleton, bool asksSelf);
 
   void add(const StepAnswer& answer);
 
@@ -23,6 +24,7 @@ class PlaceDoubts {
 
  private:
   std::vector<bool> isTrunk_;  ///< Per link.
+  bool asksSelf_ = false;
   std::size_t steps_ = 0, trunkSteps_ = 0;
   bool cameNear_ = false;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/settings/frame_settings.h"
 #include "tools/settings/serve_settings.h"
 
 namespace foretouch::tools {
@@ -10,6 +11,7 @@ namespace {
 /// As a configuration spells it.
 std::string inToml(const Setting& setting) {
   if (!setting.mayBeEmpty && setting.shown().empty()) return "required";
+  if (setting.shown() == kAsFileSays) return kAsFileSays;
   if (setting.kind == ValueKind::Flag) {
     return setting.words.empty() ? "`false`" : "`\"" + setting.shown() + "\"`";
   }

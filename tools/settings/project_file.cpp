@@ -20,19 +20,22 @@
 namespace foretouch::tools {
 namespace {
 
-/// Every setting that a project may hold: those of a service, and of commands that play a clip.
+/// Every setting that a project may hold: those of commands that play a clip, and those that only
+/// services have.
 struct AllSettings {
   ServeConfig serve;
   ClipRequest clip;
-  WorldRequest replay;
-  Settings settings;
+  WorldRequest world;
+  Settings played, served;
 
   AllSettings() {
-    addServeSettings(settings, serve);
-    addReplayQuerySettings(settings, replay);
-    addMotionSetting(settings, clip, "--motion", "CLIP");
-    addRateSetting(settings, clip);
-    addClipSettings(settings, clip);
+    addSceneSettings(played, world);
+    addQuerySettings(played, world);
+    addReplayQuerySettings(played, world);
+    addMotionSetting(played, clip, "--motion", "CLIP");
+    addRateSetting(played, clip);
+    addClipSettings(played, clip);
+    addServeSettings(served, serve);
   }
 };
 
@@ -78,8 +81,11 @@ class ProjectReading {
 void ProjectReading::checkAll() {
   root_.allowOnly({"scene", "avatar", "clip", "query", "policy", "service", "stream", "made"});
   AllSettings all;
-  for (const char* const table : {"scene", "clip", "query", "service", "stream"}) {
-    readWholeTable(root_, table, reading_, all.settings);
+  for (const char* const table : {"scene", "clip", "query"}) {
+    readWholeTable(root_, table, reading_, all.played);
+  }
+  for (const char* const table : {"service", "stream"}) {
+    readWholeTable(root_, table, reading_, all.served);
   }
   root_.table("made").allowOnly({"scene", "avatar", "clip"});
 }
@@ -263,11 +269,9 @@ Result<std::string> projectText(const Project& project, const std::string& folde
 }
 
 std::string projectTable() {
-  AllSettings all;
-  Settings ofServices;
-  addServeSettings(ofServices, all.serve);
-  return configRows(all.settings, {"clip", "query"}, [&](const Setting& setting) {
-    return std::none_of(ofServices.begin(), ofServices.end(), [&](const Setting& served) {
+  const AllSettings all;
+  return configRows(all.played, {"clip", "query"}, [&](const Setting& setting) {
+    return std::none_of(all.served.begin(), all.served.end(), [&](const Setting& served) {
       return served.table == setting.table && served.key == setting.key;
     });
   });

@@ -77,7 +77,7 @@ Offer<double> byStature(double stature, bool isInMetres) {
     const double unit = forgottenUnit(stature);
     return {
         unit, isAdult(stature),
-        fmt::format("its format says metres, and by its legs the body is {:.3g} m tall", stature)};
+        fmt::format("as the file says, by its legs the body is {:.3g} m tall", stature)};
   }
   const Unit& unit = nearestUnit(stature, kUsualAdult);
   if (isAdult(stature * unit.metres)) {
@@ -96,7 +96,7 @@ Offer<double> bySize(double size, bool isInMetres) {
   if (isInMetres) {
     const double unit = forgottenUnit(size);
     return {unit, unit == 1.0 && size >= kSmallestBody,
-            fmt::format("its format says metres, and it is {:.3g} m long", size)};
+            fmt::format("as the file says, it is {:.3g} m long", size)};
   }
   const double unit = size <= kLargestBody ? 1.0 : guessedUnit(size);
   return {unit, false,

@@ -119,7 +119,10 @@ PlacementCheck pathCheck(const Standing& standing) {
         "--place " + textOf(usual)};
   }
   return {"path", CheckState::Good,
-          fmt::format("its trunk stays free in all {} poses that were looked at", standing.poses),
+          standing.poses == 1
+              ? std::string("its trunk is free in its one pose")
+              : fmt::format("its trunk stays free in all {} poses that were looked at",
+                            standing.poses),
           ""};
 }
 

@@ -198,8 +198,8 @@ TEST(ReplayOfALog, KeepsAvatarsApart) {
 TEST(ReplayOfALog, RefusesByNameWhatMakesNoSense) {
   const LoggedWorld world;
   const std::vector<std::vector<std::string>> ofClips = {
-      {"--rate", "10"},      {"--place", "0,0,0"}, {"--scale", "1"},
-      {"--motion-up", "y"},  {"--map", "m"},       {"--animation", "Walk"},
+      {"--rate", "10"},      {"--place", "0,0,0"}, {"--clip-scale", "1"},
+      {"--clip-up", "y"},  {"--map", "m"},       {"--animation", "Walk"},
       {"--robot", "r"},      {"--threads", "2"},   {"--rays"},
       {"--compare-rigid"},   {"--compare-link"},   {"--scope", "links"},
       {"--pass-separating"}, {"--package", "p"}};

@@ -10,6 +10,7 @@
 #include "network/service/service.h"
 #include "tests/support/temp_folder.h"
 #include "tools/settings/clip_settings.h"
+#include "tools/settings/project_file.h"
 #include "tools/settings/serve_settings.h"
 #include "tools/settings/stream_settings.h"
 #include "tools/settings/world_settings.h"
@@ -144,16 +145,24 @@ TEST(Settings, NumbersAreWrittenTidily) {
   EXPECT_EQ(tidyNumber(86400), "86400");
 }
 
-/// What stands in docs/formats.md is made by the table, between two marks.
-TEST(Settings, TheDocumentOfConfigurationsHoldsTheTable) {
+/// What docs/formats.md holds between two marks.
+std::string heldBetween(const std::string& begin, const std::string& end) {
   const std::string text = test::contentOf(std::string(FORETOUCH_SOURCE_DIR) + "/docs/formats.md");
-  const std::string begin = "<!-- made of the settings: begin -->\n";
-  const std::string end = "<!-- made of the settings: end -->\n";
   const std::size_t from = text.find(begin), to = text.find(end);
-  ASSERT_NE(from, std::string::npos);
-  ASSERT_NE(to, std::string::npos);
-  const std::string held = text.substr(from + begin.size(), to - from - begin.size());
+  if (from == std::string::npos || to == std::string::npos) return "no marks";
+  return text.substr(from + begin.size(), to - from - begin.size());
+}
+
+TEST(Settings, TheDocumentOfConfigurationsHoldsTheTable) {
+  const std::string held =
+      heldBetween("<!-- made of the settings: begin -->\n", "<!-- made of the settings: end -->\n");
   EXPECT_TRUE(held == configTable()) << "docs/formats.md should hold:\n" << configTable();
+}
+
+TEST(Settings, TheDocumentOfProjectsHoldsTheTable) {
+  const std::string held =
+      heldBetween("<!-- project settings: begin -->\n", "<!-- project settings: end -->\n");
+  EXPECT_TRUE(held == projectTable()) << "docs/formats.md should hold:\n" << projectTable();
 }
 
 }  // namespace

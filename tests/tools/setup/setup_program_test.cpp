@@ -1,0 +1,210 @@
+// `foretouch setup` as a user runs it: on the bundled example, and on real clips in real levels,
+// where the judge's own distances decide whether the body is free and on a floor.
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "articulated/motion.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/avatar/joint_match.h"
+#include "assets/clip/clip_file.h"
+#include "assets/import/scene_import.h"
+#include "judge/distance.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+#include "tests/tools/program_run.h"
+#include "tests/tools/small_world.h"
+
+namespace foretouch::test {
+namespace {
+
+using nlohmann::json;
+
+const std::string kExample = FORETOUCH_EXAMPLE_FOLDER;
+
+json setupIn(const TempFolder& folder, const std::string& scene, const std::string& body,
+             int exitCode = 0) {
+  const Ended ended = runForetouch(
+      {"setup", scene, body, "--yes", "--json", "--output", folder / "foretouch.toml"});
+  EXPECT_EQ(ended.exitCode, exitCode) << ended.err << ended.out;
+  return json::parse(ended.out, nullptr, false);
+}
+
+std::string stateOf(const json& answer, const std::string& name) {
+  for (const json& check : answer["checks"]) {
+    if (check["name"] == name) return check["state"];
+  }
+  return "no such check";
+}
+
+TEST(SetupProgram, TheExampleNeedsThreeCommands) {
+  const TempFolder folder;
+  const json answer = setupIn(folder, kExample + "/room.obj", kExample + "/dancer.bvh");
+  EXPECT_EQ(answer["scene"]["scale"]["value"], 1.0);
+  EXPECT_EQ(answer["scene"]["up"]["value"], "y");
+  EXPECT_EQ(answer["body"]["scale"]["value"], 1.0);
+  EXPECT_EQ(answer["body"]["up"]["value"], "y");
+  for (const char* const name : {"start", "floor", "level", "path"}) {
+    EXPECT_NE(stateOf(answer, name), "bad") << name;
+  }
+  const std::string project = folder / "foretouch.toml";
+  const Ended view =
+      runForetouch({"view", "--project", project, "--output", folder / "v.html", "--json"});
+  EXPECT_EQ(view.exitCode, 0) << view.err << view.out;
+  const Ended replay = runForetouch(
+      {"replay", "--project", project, "--rate", "10", "--output", folder / "contacts.jsonl"});
+  EXPECT_EQ(replay.exitCode, 0) << replay.err;
+  EXPECT_NE(replay.err.find("settings from"), std::string::npos) << "never in silence";
+}
+
+TEST(SetupProgram, WithoutYesNothingIsWritten) {
+  const TempFolder folder;
+  const Ended ended = runForetouch({"setup", kExample + "/room.obj", kExample + "/dancer.bvh",
+                                    "--output", folder / "foretouch.toml"});
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.out.find("nothing was written"), std::string::npos) << ended.out;
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(SetupProgram, WhatWasThereIsKept) {
+  const TempFolder folder;
+  folder.write("foretouch.toml", "mine");
+  static_cast<void>(setupIn(folder, kExample + "/room.obj", kExample + "/dancer.bvh"));
+  EXPECT_EQ(contentOf(folder / "foretouch.toml~"), "mine");
+}
+
+TEST(SetupProgram, APlaceThatIsWrongIsKeptAndSaid) {
+  const TempFolder folder;
+  const Ended ended = runForetouch({"setup", kExample + "/room.obj", kExample + "/dancer.bvh",
+                                    "--json", "--place", "100,0,100"});
+  EXPECT_EQ(ended.exitCode, 1) << ended.err;
+  const json answer = json::parse(ended.out, nullptr, false);
+  EXPECT_EQ(answer["place"][0], 100.0);
+  EXPECT_EQ(stateOf(answer, "floor"), "bad");
+  EXPECT_NE(ended.out.find("--place "), std::string::npos) << "and where it could stand";
+}
+
+TEST(SetupProgram, ABodyThatNeverMovesAndASceneWithoutAFloorAreSaid) {
+  const TempFolder folder;
+  folder.write("wall.obj", "o wall\nv 0 -2 -2\nv 0 2 -2\nv 0 2 2\nf 1 2 3\n");
+  folder.write("still.bvh", clipAlongX({0.5, 0.5, 0.5}));
+  const json answer = setupIn(folder, folder / "wall.obj", folder / "still.bvh", 1);
+  const std::string notes = answer["notes"].dump();
+  EXPECT_NE(notes.find("never moves"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("no floor"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("one object"), std::string::npos) << notes;
+  EXPECT_FALSE(answer["place_found"]);
+}
+
+TEST(SetupProgram, BadFilesAreNamed) {
+  const TempFolder folder;
+  folder.write("broken.bvh", "HIERARCHY\nnonsense\n");
+  const Ended broken = runForetouch({"setup", kExample + "/room.obj", folder / "broken.bvh"});
+  EXPECT_EQ(broken.exitCode, 2);
+  EXPECT_NE(broken.err.find("broken.bvh:2"), std::string::npos) << broken.err;
+  const Ended missing = runForetouch({"setup", folder / "no.obj", kExample + "/dancer.bvh"});
+  EXPECT_EQ(missing.exitCode, 2);
+  EXPECT_NE(missing.err.find("no.obj"), std::string::npos) << missing.err;
+}
+
+/// Least distance of a pose's surface to the scene, and the height of its lowest point; by the
+/// judge's formulas, over every triangle.
+struct JudgedPose {
+  double separation = std::numeric_limits<double>::max(), lowest = separation,
+         highest = -separation;
+  double heightOfNearest = 0.0;
+};
+
+JudgedPose judged(const Avatar& avatar, const Pose& pose, const RawScene& scene) {
+  JudgedPose result;
+  std::vector<LinkState> states;
+  ChainMotion(avatar.skeleton(), pose, pose).statesAt(0.0, states);
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    for (const Lss& lss : avatar.lss(link)) {
+      const Eigen::Vector3d a = states[static_cast<std::size_t>(link)].pointAt(lss.a);
+      const Eigen::Vector3d b = states[static_cast<std::size_t>(link)].pointAt(lss.b);
+      result.lowest = std::min({result.lowest, a.y() - lss.radius, b.y() - lss.radius});
+      result.highest = std::max({result.highest, a.y() + lss.radius, b.y() + lss.radius});
+      for (const Triangle& triangle : scene.triangles) {
+        const auto closest = oracle::closestPoints<double>(
+            oracle::Vec3<double>(a), oracle::Vec3<double>(b),
+            {oracle::Vec3<double>(triangle.vertices[0]), oracle::Vec3<double>(triangle.vertices[1]),
+             oracle::Vec3<double>(triangle.vertices[2])});
+        if (closest.distance - lss.radius < result.separation) {
+          result.separation = closest.distance - lss.radius;
+          result.heightOfNearest = closest.onTriangle.y;
+        }
+      }
+    }
+  }
+  return result;
+}
+
+struct RealCase {
+  const char* scene;
+  const char* clip;
+  double clipScale;
+  const char *sceneUp, *clipUp;
+};
+
+class SetupOfRealFiles : public testing::TestWithParam<RealCase> {};
+
+TEST_P(SetupOfRealFiles, IsRightFreeAndOnAFloor) {
+  const RealCase& given = GetParam();
+  FORETOUCH_REQUIRE_SHARED(scene, given.scene);
+  FORETOUCH_REQUIRE_SHARED(clip, given.clip);
+  const TempFolder folder;
+  const json answer = setupIn(folder, *scene, *clip);
+  EXPECT_EQ(answer["scene"]["scale"]["value"], 1.0);
+  EXPECT_EQ(answer["scene"]["up"]["value"], given.sceneUp);
+  EXPECT_EQ(answer["body"]["scale"]["value"], given.clipScale);
+  EXPECT_EQ(answer["body"]["up"]["value"], given.clipUp);
+  ASSERT_TRUE(answer["place_found"]);
+
+  SceneImportOptions options;
+  if (answer["scene"]["up"]["value"] == "z") options.up = UpAxis::Z;
+  const auto level = importScene(*scene, options);
+  ASSERT_TRUE(level.ok());
+  ClipFileOptions reading;
+  reading.import.scale = given.clipScale;
+  const auto read = readClipFile(*clip, reading);
+  const std::string avatarPath =
+      folder / (std::filesystem::path(*clip).stem().string() + ".avatar.json");
+  const auto avatar = readAvatarFile(avatarPath);
+  ASSERT_TRUE(read.ok() && avatar.ok());
+  const Skeleton& skeleton = avatar.value().skeleton();
+  const auto match = matchJoints(skeleton, read.value().clip.skeleton);
+  ASSERT_TRUE(match.ok());
+  const json& place = answer["place"];
+  const Pose pose =
+      placed(skeleton, poseOfAvatar(skeleton, read.value().clip, match.value(), 0),
+             {std::string(given.clipUp) == "z",
+              {place[0].get<double>(), place[1].get<double>(), place[2].get<double>()},
+              place[3].get<double>()});
+  const JudgedPose found = judged(avatar.value(), pose, level.value().scene);
+  EXPECT_GT(found.separation, 0.0) << "free";
+  EXPECT_LE(found.separation, 0.02) << "on a floor";
+  EXPECT_LE(found.heightOfNearest, found.lowest + 0.2 * (found.highest - found.lowest))
+      << "and it is the feet that are near something";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , SetupOfRealFiles,
+    testing::Values(
+        RealCase{"scenes/dungeon.obj", "mocap/bandai1_kick_normal_001.bvh", 0.01, "y", "y"},
+        RealCase{"scenes/dungeon.obj", "mocap/mocapbank.bvh", 0.01, "y", "y"},
+        RealCase{"scenes/nav_test.obj", "mocap/cmu_01_01_playground_jumps.bvh", 0.0564, "y", "y"},
+        RealCase{"scenes/undulating.obj", "mocap/makehuman_zombieWalk1.bvh", 0.1, "y", "z"},
+        RealCase{"scenes/kitchen_fatihrmutfak.ply", "mocap/freebvh_mixamorig.bvh", 0.01, "z", "y"},
+        RealCase{"scenes/cpr_office.dae", "mocap/bandai1_punch_normal_001.bvh", 0.01, "z", "y"},
+        RealCase{"scenes/cpr_obstacle_world.stl", "mocap/pybvh_YXZ_crlf.bvh", 0.01, "z", "y"},
+        RealCase{"scenes/munich_city.ply", "mocap/cmu_jumping_jacks.bvh", 0.0564, "z", "y"},
+        RealCase{"scenes/collision-world.glb", "mocap/bandai1_slash_normal_001.bvh", 0.01, "y",
+                 "y"}));
+
+}  // namespace
+}  // namespace foretouch::test
