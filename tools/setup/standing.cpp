@@ -117,17 +117,12 @@ std::optional<Placement> letDown(const Walker& walker, const Vector3d& spot, dou
   return place;
 }
 
-/// Square metres of floor around each spot, up to a factor: how many others are near it.
-std::vector<std::size_t> floorsAround(const std::vector<FloorSpot>& spots) {
-  std::vector<std::size_t> around(spots.size(), 0);
-  for (std::size_t i = 0; i < spots.size(); ++i) {
-    for (const FloorSpot& other : spots) {
-      const Vector3d way = other.p_W - spots[i].p_W;
-      const bool isNear = std::hypot(way.x(), way.z()) <= kAround;
-      around[i] += isNear && std::abs(way.y()) <= kAboutItsHeight ? 1 : 0;
-    }
-  }
-  return around;
+/// Square metres of floor around a point, up to a factor: how many spots are near it.
+std::ptrdiff_t floorAround(const std::vector<FloorSpot>& spots, const Vector3d& p_W) {
+  return std::count_if(spots.begin(), spots.end(), [&](const FloorSpot& spot) {
+    const Vector3d way = spot.p_W - p_W;
+    return std::hypot(way.x(), way.z()) <= kAround && std::abs(way.y()) <= kAboutItsHeight;
+  });
 }
 
 /// Smaller is better, 0 best; a fault of one kind outweighs the next.
@@ -148,28 +143,27 @@ class Search {
   std::optional<Standing> best() {
     const Standing own = standingAt(walker_, wish_);
     if (own.standsFree()) take(own, 0.0);
+    spots_ = walker_.level().floorSpots(kSpots, kSteepestFloor);
+    for (const FloorSpot& spot : spots_) around_.push_back(floorAround(spots_, spot.p_W));
+    if (!around_.empty()) most_ = *std::max_element(around_.begin(), around_.end());
     tryOwnSpot();
-    const auto spots = walker_.level().floorSpots(kSpots, kSteepestFloor);
-    const auto around = floorsAround(spots);
-    const std::size_t most =
-        around.empty() ? 1
-                       : std::max<std::size_t>(1, *std::max_element(around.begin(), around.end()));
-    for (std::size_t i = 0; i < spots.size(); ++i) {
-      // Half as much floor as anywhere is enough: then the nearest counts.
-      const double share =
-          std::min(1.0, 2.0 * static_cast<double>(around[i]) / static_cast<double>(most));
-      tryAt(spots[i].p_W, share);
-    }
+    for (std::size_t i = 0; i < spots_.size(); ++i) tryAt(spots_[i].p_W, shareOf(around_[i]));
     return best_;
   }
 
  private:
+  /// Half as much floor as anywhere is enough: then the nearest counts.
+  [[nodiscard]] double shareOf(std::ptrdiff_t around) const {
+    return std::min(1.0, 2.0 * static_cast<double>(around) / static_cast<double>(most_));
+  }
+
   /// Where the wish itself has the body, up to the floor there.
   void tryOwnSpot() {
-    const Eigen::AlignedBox3d box = boxInPose(walker_.body().avatar, walker_.poseAt(0, wish_));
-    const Vector3d middle = box.center();
+    const Vector3d middle = boxInPose(walker_.body().avatar, walker_.poseAt(0, wish_)).center();
     const auto hit = walker_.level().cast(middle, middle - Vector3d(0, farAway(walker_), 0));
-    if (hit) tryAt({middle.x(), middle.y() - hit->distance, middle.z()}, 1.0);
+    if (!hit) return;
+    const Vector3d spot(middle.x(), middle.y() - hit->distance, middle.z());
+    tryAt(spot, shareOf(floorAround(spots_, spot)));
   }
 
   void tryAt(const Vector3d& spot, double floorShare) {
@@ -196,6 +190,9 @@ class Search {
 
   const Walker& walker_;
   const Placement& wish_;
+  std::vector<FloorSpot> spots_;
+  std::vector<std::ptrdiff_t> around_;  ///< Per spot: how many others are near it.
+  std::ptrdiff_t most_ = 1;             ///< Of these.
   std::optional<Standing> best_;
   double bestCost_ = std::numeric_limits<double>::max();
 };
