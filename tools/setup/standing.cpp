@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 
 /// A body is let down from this far above a floor (m): over small steps and carpets, below tables.
 constexpr double kLift = 0.25;
-/// Feet are put this far above what they would touch (m): more than a usual tolerance.
-constexpr double kGap = 0.005;
+/// Feet are put this far above what they would touch (m): more than a usual tolerance, and little, so
+/// that they still meet the ground where they step.
+constexpr double kGap = 0.002;
 /// What carries a body touches it in the lowest part of its height.
 constexpr double kLowestPart = 0.15;
 /// How many spots of the level's floors to try.

@@ -169,8 +169,10 @@ const tests = {
 
   async "touches are walked, told and listed; their contacts are the rows of one"() {
     const touched = withTouches(document), { page } = await open(JSON.stringify(touched));
-    const missed = touched.touches.filter((touch) => touch.missed).length;
-    const headline = `The walker touches the room ${touched.touches.length} times. Checking the poses alone would miss ${missed} of them.`;
+    const met = touched.touches.filter((touch) => !touch.ground);
+    const missed = met.filter((touch) => touch.missed).length, ground = touched.touches.length - met.length;
+    const besides = ground === 0 ? "" : `, and the ground ${ground === 1 ? "once" : ground === 2 ? "twice" : `${ground} times`} besides`;
+    const headline = `The walker touches the room ${met.length} times${besides}. Checking the poses alone would miss ${missed} of ${ground === 0 ? "them" : `the ${met.length}`}.`;
     assert.equal(await page.locator("#headline").innerText(), headline);
     await page.evaluate(() => window.foretouch.selectTouch(0));
     for (let i = 1; i < touched.touches.length; ++i) {

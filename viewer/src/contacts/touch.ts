@@ -109,17 +109,20 @@ export function matches(touch: Touch, search: string): boolean {
 }
 
 export interface TouchCount {
+  /** Without the ground. */
   readonly all: number;
+  /** Of these. */
   readonly missed: number;
   readonly ground: number;
 }
 
-/** Of touches with the scene: touches of own links are another question. */
+/** As the program counts: touches of own links are another question, and the ground is counted apart. */
 export function countTouches(touches: readonly Touch[]): TouchCount {
   const ofScene = touches.filter((touch) => !touch.isOwn);
+  const met = ofScene.filter((touch) => !touch.isGround);
   return {
-    all: ofScene.length,
-    missed: ofScene.filter((touch) => touch.isMissed === true).length,
-    ground: ofScene.filter((touch) => touch.isGround).length,
+    all: met.length,
+    missed: met.filter((touch) => touch.isMissed === true).length,
+    ground: ofScene.length - met.length,
   };
 }

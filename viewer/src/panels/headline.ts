@@ -21,10 +21,11 @@ function headline(model: Model): string {
 function ofTouches(model: Model): string {
   const { all, missed, ground } = model.countTouches();
   const who = model.avatars.length > 1 ? "The bodies touch" : `The ${personOf(model.avatars[0]?.name ?? "")} touches`;
-  const ofGround = ground === 0 ? "" : ground === all ? ", always the ground" : `, ${count(ground)} of them the ground`;
-  const met = `${who} the ${placeOf(model.document.scene.name)} ${times(all)}${ofGround}.`;
+  const place = placeOf(model.document.scene.name);
+  if (all === 0) return `${who} ${ground === 0 ? "nothing of" : "nothing but the ground of"} the ${place}.`;
+  const met = `${who} the ${place} ${times(all)}${ground === 0 ? "" : `, and the ground ${times(ground)} besides`}.`;
   if (missed === 0) return met;
-  return `${met} Checking the poses alone would miss ${missed === all ? (all === 1 ? "it" : "all of them") : `${count(missed)} of them`}.`;
+  return `${met} Checking the poses alone would miss ${missed === all ? (all === 1 ? "it" : "all of them") : `${count(missed)} of ${ground === 0 ? "them" : `the ${count(all)}`}`}.`;
 }
 
 /** "137 times". */

@@ -4,9 +4,16 @@ import type { ViewDocument } from "../data/document.js";
 import { card, definitionTable, element } from "./dom.js";
 import { count } from "./words.js";
 
+/** Rows that programs read by name, as people call them. */
+const rowNames = new Map([
+  ["touches_missed", "missed by poses"],
+  ["touches_ground", "of the ground"],
+  ["touches_own", "of own links"],
+]);
+
 export function summaryCard(view: ViewDocument): HTMLElement | null {
   if (view.summary.length === 0) return null;
-  return card("Summary", definitionTable(view.summary.map(({ name, value, note }) => [name, value, note])));
+  return card("Summary", definitionTable(view.summary.map(({ name, value, note }) => [rowNames.get(name) ?? name, value, note])));
 }
 
 export function settingsCard(view: ViewDocument): HTMLElement | null {
