@@ -157,7 +157,7 @@ class OpenedReport {
     const document = documentIn(this.report.page);
     const begun = document.avatars.flatMap(({ contacts }) => contacts).filter(({ verdict }) => verdict === "contact");
     const missed = begun.filter((contact) => contact.missed_by_poses).length;
-    const touches = (document.touches ?? []).filter(({ other }) => other === undefined);
+    const touches = (document.touches ?? []).filter(({ other, ground }) => other === undefined && !ground);
     const words = document.touches === undefined
       ? `sees ${begun.length - missed} of ${begun.length} contacts`
       : `sees ${touches.filter((touch) => !touch.missed).length} of ${touches.length} touches`;

@@ -6,9 +6,9 @@ import { count } from "./words.js";
 
 /** Rows that programs read by name, as people call them. */
 const rowNames = new Map([
-  ["touches_missed", "missed by poses"],
-  ["touches_ground", "of the ground"],
-  ["touches_own", "of own links"],
+  ["touches_missed", "touches missed"],
+  ["touches_ground", "touches of the ground"],
+  ["touches_own", "touches of own links"],
 ]);
 
 export function summaryCard(view: ViewDocument): HTMLElement | null {
