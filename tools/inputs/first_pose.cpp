@@ -9,6 +9,7 @@
 #include "articulated/motion.h"
 #include "assets/bvh/stature.h"
 #include "lss/index.h"
+#include "tools/settings/frame_settings.h"
 
 namespace foretouch::tools {
 namespace {
@@ -29,10 +30,6 @@ std::optional<UpAxis> axisThatStands(const Stance& stance, UpAxis readWith) {
                                          : Vector3d(v.x(), -v.z(), v.y())};
   if (turned.isUpright()) return other;
   return std::nullopt;
-}
-
-const char* wordOf(UpAxis up) {
-  return up == UpAxis::Z ? "z" : "y";
 }
 
 }  // namespace

@@ -20,6 +20,11 @@ inline constexpr NumberRange kMetresPerUnit{0.0, std::numeric_limits<double>::ma
 /// In help, for one that is not given.
 inline constexpr char kAsFileSays[] = "as the file says";
 
+/// As options and configurations spell it.
+[[nodiscard]] inline const char* wordOf(UpAxis up) {
+  return up == UpAxis::Z ? "z" : "y";
+}
+
 inline Setting& addUnit(Settings& settings, const char* option, std::optional<double>& place,
                         const char* help) {
   Setting& setting = settings.number(option, "S", place, kMetresPerUnit, "", help);
@@ -31,7 +36,7 @@ inline Setting& addUnit(Settings& settings, const char* option, std::optional<do
 
 inline Setting& addUpAxis(Settings& settings, const char* option, std::optional<UpAxis>& place,
                           const char* help) {
-  const auto word = [&place]() -> std::string { return place == UpAxis::Z ? "z" : "y"; };
+  const auto word = [&place]() -> std::string { return wordOf(place.value_or(UpAxis::Y)); };
   Setting& setting = settings.word<std::optional<UpAxis>>(
       option, "y|z", place, {{"y", UpAxis::Y}, {"z", UpAxis::Z}}, help);
   setting.shown = [&place, word] { return place ? word() : std::string(kAsFileSays); };

@@ -14,6 +14,7 @@
 #include "tools/settings/config_reading.h"
 #include "tools/settings/config_table.h"
 #include "tools/settings/file_mark.h"
+#include "tools/settings/frame_settings.h"
 #include "tools/settings/numbered_avatars.h"
 #include "tools/settings/serve_settings.h"
 
@@ -218,7 +219,7 @@ std::string tomlText(const std::string& text) {
 std::string frameLines(std::optional<double> scale, std::optional<UpAxis> up) {
   std::string text;
   if (scale) text += "scale = " + tidyNumber(*scale) + "  # metres per unit\n";
-  if (up) text += std::string("up = \"") + (*up == UpAxis::Z ? "z" : "y") + "\"\n";
+  if (up) text += std::string("up = \"") + wordOf(*up) + "\"\n";
   return text;
 }
 

@@ -45,17 +45,13 @@ const Unit& nearestUnit(double size, double wanted) {
   });
 }
 
-/// The largest side of the skeleton at rest.
-double sizeOf(const Skeleton& skeleton) {
+/// Of the box around all joints.
+Vector3d sizeOf(const Skeleton& skeleton, const Pose& pose) {
   std::vector<LinkState> states;
-  const Pose rest = restPose(skeleton);
-  ChainMotion(skeleton, rest, rest).statesAt(0.0, states);
-  Vector3d lower = states.front().p_WL, upper = lower;
-  for (const LinkState& state : states) {
-    lower = lower.cwiseMin(state.p_WL);
-    upper = upper.cwiseMax(state.p_WL);
-  }
-  return (upper - lower).maxCoeff();
+  ChainMotion(skeleton, pose, pose).statesAt(0.0, states);
+  Eigen::AlignedBox3d box;
+  for (const LinkState& state : states) box.extend(state.p_WL);
+  return box.sizes();
 }
 
 /// No known unit: the one of the usual adult, to two digits.
@@ -75,9 +71,8 @@ Offer<double> byStature(double stature, bool isInMetres) {
   const auto isAdult = [](double tall) { return tall >= kShortestAdult && tall <= kTallestAdult; };
   if (isInMetres) {
     const double unit = forgottenUnit(stature);
-    return {
-        unit, isAdult(stature),
-        fmt::format("as the file says, by its legs the body is {:.3g} m tall", stature)};
+    return {unit, isAdult(stature),
+            fmt::format("as the file says, by its legs the body is {:.3g} m tall", stature)};
   }
   const Unit& unit = nearestUnit(stature, kUsualAdult);
   if (isAdult(stature * unit.metres)) {
@@ -117,15 +112,7 @@ Vector3d meanUpright(const Clip& clip, std::size_t& found) {
 }
 
 Offer<UpAxis> byShape(const Clip& clip) {
-  std::vector<LinkState> states;
-  const Pose& pose = clip.frames.front();
-  ChainMotion(clip.skeleton, pose, pose).statesAt(0.0, states);
-  Vector3d lower = states.front().p_WL, upper = lower;
-  for (const LinkState& state : states) {
-    lower = lower.cwiseMin(state.p_WL);
-    upper = upper.cwiseMax(state.p_WL);
-  }
-  const Vector3d size = upper - lower;
+  const Vector3d size = sizeOf(clip.skeleton, clip.frames.front());
   const bool isZ = size.z() > 1.5 * size.y();
   return {isZ ? UpAxis::Z : UpAxis::Y, false,
           fmt::format("its joints' names show no feet and head; it is {:.3g} x {:.3g} x {:.3g} of "
@@ -144,7 +131,8 @@ std::string nameOfUnit(double metres) {
 
 Offer<double> unitOf(const Clip& clip, bool isInMetres) {
   const auto stature = statureOf(clip.skeleton);
-  return stature ? byStature(*stature, isInMetres) : bySize(sizeOf(clip.skeleton), isInMetres);
+  if (stature) return byStature(*stature, isInMetres);
+  return bySize(sizeOf(clip.skeleton, restPose(clip.skeleton)).maxCoeff(), isInMetres);
 }
 
 Offer<UpAxis> upAxisOf(const Clip& clip, bool isUpright) {

@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "tools/settings/frame_settings.h"
 #include "tools/setup/body_offer.h"
 #include "tools/setup/scene_offer.h"
 
 namespace foretouch::tools {
 namespace {
-
-const char* wordOf(UpAxis up) {
-  return up == UpAxis::Z ? "z" : "y";
-}
 
 /// `offer`: by what the numbers would have to be multiplied once more.
 PlacementCheck unitCheck(const char* name, const char* option, const Offer<double>& offer,
@@ -31,7 +28,8 @@ std::vector<PlacementCheck> sceneFrameChecks(const RawScene& raw, const FileFram
   const bool isSaid = frame.declared.up && *frame.declared.up == frame.up;
   if (up.value == UpAxis::Z && (up.isSure || !isSaid)) {
     axis.state = CheckState::Doubt;
-    axis.tryThis = std::string("--scene-up ") + (frame.up == UpAxis::Z ? "y" : "z");
+    axis.tryThis =
+        std::string("--scene-up ") + wordOf(frame.up == UpAxis::Z ? UpAxis::Y : UpAxis::Z);
   } else if (!up.isSure && !isSaid) {
     axis.state = CheckState::Doubt;
   }

@@ -118,12 +118,12 @@ PlacementCheck pathCheck(const Standing& standing) {
                     std::abs(standing.usualRise), standing.usualRise > 0 ? "higher" : "lower"),
         "--place " + textOf(usual)};
   }
-  return {"path", CheckState::Good,
-          standing.poses == 1
-              ? std::string("its trunk is free in its one pose")
-              : fmt::format("its trunk stays free in all {} poses that were looked at",
-                            standing.poses),
-          ""};
+  return {
+      "path", CheckState::Good,
+      standing.poses == 1
+          ? std::string("its trunk is free in its one pose")
+          : fmt::format("its trunk stays free in all {} poses that were looked at", standing.poses),
+      ""};
 }
 
 }  // namespace

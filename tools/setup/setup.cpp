@@ -9,6 +9,7 @@
 #include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "assets/import/scene_import.h"
+#include "tools/settings/frame_settings.h"
 #include "tools/setup/body_offer.h"
 #include "tools/setup/scene_offer.h"
 
@@ -30,11 +31,6 @@ Finding<Value> saidByFile(Value value, const char* format) {
 const char* whoSays(const DeclaredFrame& declared) {
   return declared.isOfFormat ? "its format has no other" : "the file says so";
 }
-
-struct ReadScene {
-  RawScene raw;  ///< Metres, Y-up.
-  std::vector<std::string> notes;
-};
 
 void noteObjects(const SetupRequest& request, const RawScene& raw,
                  std::vector<std::string>& notes) {
@@ -141,7 +137,7 @@ std::string unitInWords(double metres) {
 }
 
 std::string axisInWords(UpAxis up) {
-  return up == UpAxis::Z ? "z is up" : "y is up";
+  return std::string(wordOf(up)) + " is up";
 }
 
 void addOffers(Setup& setup) {
@@ -206,6 +202,7 @@ Result<Setup> findSetup(const SetupRequest& request, const std::string& meshFile
   setup.request = request;
   FORETOUCH_TRY(auto raw, readScene(request, setup));
   FORETOUCH_CHECK(readBodyTwice(request, meshFile, setup));
+  setup.notes.insert(setup.notes.end(), setup.body.notes.begin(), setup.body.notes.end());
   addOffers(setup);
   noteStillness(setup);
   FORETOUCH_CHECK(findPlace(std::move(raw), setup));

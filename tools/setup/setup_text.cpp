@@ -1,13 +1,10 @@
 #include <fmt/format.h>
 
+#include "tools/settings/frame_settings.h"
 #include "tools/setup/setup.h"
 
 namespace foretouch::tools {
 namespace {
-
-const char* wordOf(UpAxis up) {
-  return up == UpAxis::Z ? "z" : "y";
-}
 
 template <typename Value>
 void writeFinding(const char* name, const Finding<Value>& finding, const std::string& value,

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "assets/bvh/body_parts.h"
 #include "tools/inputs/first_pose.h"
 
 namespace foretouch::tools {
@@ -15,8 +14,8 @@ using Eigen::Vector3d;
 
 /// A body is let down from this far above a floor (m): over small steps and carpets, below tables.
 constexpr double kLift = 0.25;
-/// Feet are put this far above what they would touch (m): more than a usual tolerance, and little, so
-/// that they still meet the ground where they step.
+/// Feet are put this far above what they would touch (m): more than a usual tolerance, and little,
+/// so that they still meet the ground where they step.
 constexpr double kGap = 0.002;
 /// What carries a body touches it in the lowest part of its height.
 constexpr double kLowestPart = 0.15;
@@ -52,17 +51,14 @@ void lookAround(const Walker& walker, const Vector3d& chest, Standing& standing)
 
 /// The whole clip at this place.
 void walkThrough(const Walker& walker, Standing& standing) {
-  const Skeleton& skeleton = walker.body().avatar.skeleton();
-  const std::vector<LinkId> feet = feetOf(skeleton);
   standing.poses = walker.body().poses.size();
   std::vector<double> lowest;
   for (std::size_t i = 0; i < standing.poses; ++i) {
     const Pose pose = walker.poseAt(i, standing.place);
     bool isTrunkIn = false, isLimbIn = false;
     for (const Inside& inside : walker.insideAt(pose)) {
-      const bool isFoot = std::find(feet.begin(), feet.end(), inside.link) != feet.end();
       isTrunkIn = isTrunkIn || walker.isTrunk(inside.link);
-      isLimbIn = isLimbIn || !isFoot;
+      isLimbIn = isLimbIn || !walker.isFoot(inside.link);
     }
     standing.trunkInside += isTrunkIn ? 1 : 0;
     standing.limbsInside += isLimbIn ? 1 : 0;
@@ -139,7 +135,11 @@ constexpr std::array<double, 4> kTurns = {0.0, 90.0, 180.0, 270.0};
 
 class Search {
  public:
-  Search(const Walker& walker, const Placement& wish) : walker_(walker), wish_(wish) {}
+  Search(const Walker& walker, const Placement& wish)
+      : walker_(walker),
+        wish_(wish),
+        wished_(boxInPose(walker.body().avatar, walker.poseAt(0, wish))),
+        far_(farAway(walker)) {}
 
   std::optional<Standing> best() {
     const Standing own = standingAt(walker_, wish_);
@@ -160,18 +160,17 @@ class Search {
 
   /// Where the wish itself has the body, up to the floor there.
   void tryOwnSpot() {
-    const Vector3d middle = boxInPose(walker_.body().avatar, walker_.poseAt(0, wish_)).center();
-    const auto hit = walker_.level().cast(middle, middle - Vector3d(0, farAway(walker_), 0));
+    const Vector3d middle = wished_.center();
+    const auto hit = walker_.level().cast(middle, middle - Vector3d(0, far_, 0));
     if (!hit) return;
     const Vector3d spot(middle.x(), middle.y() - hit->distance, middle.z());
     tryAt(spot, shareOf(floorAround(spots_, spot)));
   }
 
   void tryAt(const Vector3d& spot, double floorShare) {
-    const Eigen::AlignedBox3d box = boxInPose(walker_.body().avatar, walker_.poseAt(0, wish_));
-    const double far = std::min(1.0, (spot - footOf(box)).norm() / farAway(walker_));
+    const double distance = std::min(1.0, (spot - footOf(wished_)).norm() / far_);
     // Its cost is at least this: no need to look closer.
-    const double least = 0.5 * (1.0 - floorShare) + 0.4 * far;
+    const double least = 0.5 * (1.0 - floorShare) + 0.4 * distance;
     if (best_ && least >= bestCost_) return;
     for (const double turn : kTurns) {
       const auto place = letDown(walker_, spot, std::fmod(wish_.yawDeg + turn, 360.0));
@@ -191,6 +190,8 @@ class Search {
 
   const Walker& walker_;
   const Placement& wish_;
+  const Eigen::AlignedBox3d wished_;  ///< The first pose, where the wish has it.
+  const double far_;                  ///< As far as any surface can be.
   std::vector<FloorSpot> spots_;
   std::vector<std::ptrdiff_t> around_;  ///< Per spot: how many others are near it.
   std::ptrdiff_t most_ = 1;             ///< Of these.

@@ -15,6 +15,7 @@ Walker::Walker(const WalkingBody& body, const Level& level, Query query)
       level_(&level),
       query_(std::move(query)),
       trunk_(trunkOf(body.avatar.skeleton())),
+      feet_(feetOf(body.avatar.skeleton())),
       scratch_(std::make_unique<QueryScratch>()) {}
 
 Result<Walker> Walker::build(const WalkingBody& body, const Level& level) {
@@ -52,6 +53,10 @@ std::optional<Rest> Walker::sink(const Pose& pose, double depth) const {
 
 bool Walker::isTrunk(LinkId link) const {
   return std::find(trunk_.begin(), trunk_.end(), link) != trunk_.end();
+}
+
+bool Walker::isFoot(LinkId link) const {
+  return std::find(feet_.begin(), feet_.end(), link) != feet_.end();
 }
 
 }  // namespace foretouch::tools

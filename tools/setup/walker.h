@@ -43,7 +43,6 @@ class Walker {
 
   [[nodiscard]] const WalkingBody& body() const { return *body_; }
   [[nodiscard]] const Level& level() const { return *level_; }
-  [[nodiscard]] const std::vector<LinkId>& trunk() const { return trunk_; }
 
   [[nodiscard]] Pose poseAt(std::size_t index, const Placement& place) const;
   /// All links that start inside a surface.
@@ -52,6 +51,7 @@ class Walker {
   /// in contact.
   [[nodiscard]] std::optional<Rest> sink(const Pose& pose, double depth) const;
   [[nodiscard]] bool isTrunk(LinkId link) const;
+  [[nodiscard]] bool isFoot(LinkId link) const;
 
  private:
   Walker(const WalkingBody& body, const Level& level, Query query);
@@ -59,7 +59,7 @@ class Walker {
   const WalkingBody* body_;
   const Level* level_;
   Query query_;
-  std::vector<LinkId> trunk_;
+  std::vector<LinkId> trunk_, feet_;
   std::unique_ptr<QueryScratch> scratch_;
 };
 
