@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "articulated/quoted.h"
+#include "articulated/try.h"
 #include "lss/index.h"
 
 namespace foretouch {
@@ -32,7 +33,7 @@ Pose restPose(const Skeleton& skeleton) {
   return pose;
 }
 
-Result<Pose> validatedPose(const Skeleton& skeleton, Pose pose) {
+Result<Done> validate(const Skeleton& skeleton, Pose& pose) {
   const auto n = countOf(skeleton.numJoints());
   if (pose.rotations.size() != n || pose.translations.size() != n) {
     return Error::of(ErrorCode::Mismatch, "a pose has " + std::to_string(pose.rotations.size()) +
@@ -42,7 +43,7 @@ Result<Pose> validatedPose(const Skeleton& skeleton, Pose pose) {
                                               std::to_string(n) + " joints");
   }
   for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-    Quaternion& rotation = pose.rotations[slotOf(j)];
+    const Quaternion& rotation = pose.rotations[slotOf(j)];
     const Eigen::Vector3d& translation = pose.translations[slotOf(j)];
     if (!rotation.coeffs().allFinite() || !translation.allFinite()) {
       return poseError(ErrorCode::NonFinite, skeleton, j,
@@ -52,14 +53,18 @@ Result<Pose> validatedPose(const Skeleton& skeleton, Pose pose) {
       return poseError(ErrorCode::OutOfRange, skeleton, j,
                        "has a translation beyond 1e7 m; is the unit right?");
     }
-    const auto unit = unitQuaternion(rotation);
-    if (!unit) {
+    if (!unitQuaternion(rotation)) {
       return poseError(ErrorCode::OutOfRange, skeleton, j,
                        "has a rotation of norm " + std::to_string(rotation.norm()) +
                            "; expected 1 within 0.001");
     }
-    rotation = *unit;
   }
+  for (Quaternion& rotation : pose.rotations) rotation = *unitQuaternion(rotation);
+  return Done{};
+}
+
+Result<Pose> validatedPose(const Skeleton& skeleton, Pose pose) {
+  FORETOUCH_CHECK(validate(skeleton, pose));
   return pose;
 }
 

@@ -1,8 +1,9 @@
 // articulated/pose.h: the place of every joint at one instant.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "articulated/skeleton.h"
 
@@ -22,5 +23,7 @@ struct Pose {
 /// quaternion norms within kMaxQuaternionNormError) and renormalises its rotations.
 /// Error::index is the offending joint.
 [[nodiscard]] Result<Pose> validatedPose(const Skeleton& skeleton, Pose pose);
+/// The same check and renormalisation in place, without a copy; `pose` is unchanged on error.
+Result<Done> validate(const Skeleton& skeleton, Pose& pose);
 
 }  // namespace foretouch

@@ -46,6 +46,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"", {"scene", "surface", "exact"}},
       {"ladder", {"", "scene"}},
       {"query", {"ladder", "", "exact", "surface", "lanes", "scene"}},
+      {"solid", {"query", "", "scene"}},
       {"reference", {"query", "", "exact", "surface", "scene"}}}},
     {"assets",
      {{"", {}},

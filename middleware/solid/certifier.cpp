@@ -1,0 +1,189 @@
+#include "middleware/solid/certifier.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "articulated/try.h"
+#include "lss/hull.h"
+#include "lss/index.h"
+#include "lss/separation.h"
+#include "middleware/query/link_query.h"
+#include "middleware/query/scratch_parts.h"
+#include "middleware/query/work_meter.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Of the gap with which a link or a pair begins: how near it may come, if that is less than the
+/// tolerance. So whatever is apart gets a true answer.
+constexpr double kStartShare = 0.5;
+/// Where a cut leaves the pair that was met: this share of the skin apart, or of the gap that it
+/// began with if that is less.
+constexpr double kCutSkin = 0.5, kCutGap = 0.95;
+constexpr int kBisections = 14;
+/// Without a hit to look at: this share of what is proven free.
+constexpr double kFreeShare = 0.9;
+
+Hull axisOf(const Lss& lss, const LinkState& state) {
+  return Hull::segment(state.pointAt(lss.a), state.pointAt(lss.b));
+}
+
+}  // namespace
+
+double ownRadii(const QueryPlan& plan, LinkId link, std::int32_t lss, LinkId other,
+                std::int32_t otherLss) {
+  const std::int32_t i = plan.table.first(link) + lss, j = plan.table.first(other) + otherLss;
+  return plan.self.radiusShare(std::min(i, j), std::max(i, j)) *
+         (plan.table[i].radius + plan.table[j].radius);
+}
+
+Result<Certifier> Certifier::build(const Avatar& avatar, const Scene& scene,
+                                   const SolidOptions& options) {
+  QueryOptions asked;
+  asked.tolerance = options.tolerance;
+  asked.ignored = options.ignored;
+  asked.self = options.self;
+  asked.scope = options.self ? Scope::EveryLink : Scope::FirstOfAvatar;
+  asked.passSeparating = true;
+  FORETOUCH_TRY(auto plan, QueryPlan::make(avatar, scene, asked));
+  return Certifier(std::make_shared<QueryPlan>(std::move(plan)), options.skin);
+}
+
+Certifier::Certifier(std::shared_ptr<QueryPlan> plan, double skin)
+    : plan_(std::move(plan)), query_(plan_), skin_(skin) {}
+
+void Certifier::beginTick(std::uint64_t work) {
+  workLeft_ = work;
+  workDone_ = 0;
+  queries_ = 0;
+}
+
+void Certifier::spend(std::uint64_t work) {
+  workDone_ += work;
+  workLeft_ -= std::min(work, workLeft_);
+}
+
+Certified Certifier::certify(const Pose& from, const Pose& to, Pose& reached) {
+  Certified answer = ask(from, to);
+  if (answer.isClear) {
+    reached = to;
+    return answer;
+  }
+  if (!(answer.share > 0.0)) {
+    reached = from;
+    return answer;
+  }
+  motion_.poseAt(answer.share, reached);
+  // The way to that pose is the proven one but for rounding, which the proof's margin covers where
+  // it is not absurdly small beside the coordinates.
+  if (roundingOfMotion() > 0.25 * answer.clearance) {
+    const Certified again = ask(from, reached);
+    if (!again.isClear) {
+      answer.share = 0.0;
+      answer.clearance = 0.0;
+      reached = from;
+    }
+  }
+  return answer;
+}
+
+bool Certifier::isClear(const Pose& from, const Pose& to) {
+  return ask(from, to).isClear;
+}
+
+Certified Certifier::ask(const Pose& from, const Pose& to) {
+  Certified answer;
+  if (workLeft_ == 0) {
+    answer.isOverBudget = true;
+    return answer;
+  }
+  plan_->options.workBudget = workLeft_;
+  motion_.assign(plan_->avatar.skeleton(), from, to);
+  query_.answer(motion_, scratch_, step_);
+  ++queries_;
+  spend(WorkMeter::workOf(step_.counters));
+
+  double free = 1.0;
+  const auto look = [&](const LinkContact& contact, LinkId other, std::int32_t otherLss) {
+    if (contact.verdict == Verdict::Clear) return;
+    if (contact.reason == UndecidedReason::WorkBudget) answer.isOverBudget = true;
+    if (contact.verdict == Verdict::StartsInContact) answer.isInside = true;
+    const bool isTouch = contact.verdict != Verdict::Undecided;
+    if (contact.freeUntil > free || (contact.freeUntil == free && (!isTouch || answer.hasHit))) {
+      return;
+    }
+    free = contact.freeUntil;
+    answer.hasHit = isTouch;
+    if (isTouch) answer.hit = {contact.link, contact.lss, contact.triangle, other, otherLss};
+  };
+  bool areAllClear = true;
+  for (const LinkContact& contact : step_.links) {
+    areAllClear = areAllClear && contact.verdict == Verdict::Clear;
+    look(contact, kNoParent, -1);
+  }
+  for (const PairContact& contact : step_.pairs) {
+    areAllClear = areAllClear && contact.verdict == Verdict::Clear;
+    look(contact, contact.other, contact.otherLss);
+  }
+  if (plan_->self.isAsked() && !step_.arePairsAnswered) {
+    areAllClear = false;
+    free = 0.0;
+  }
+  answer.clearance = kFloorShare * toleranceUsed();
+  answer.isClear = areAllClear;
+  answer.share = areAllClear ? 1.0 : 0.0;
+  if (!areAllClear && free > 0.0) cut(answer, free);
+  return answer;
+}
+
+/// Goes back from the first contact until the pair that meets there is well apart.
+void Certifier::cut(Certified& answer, double toi) {
+  if (!answer.hasHit) {
+    answer.share = kFreeShare * toi;
+    return;
+  }
+  evaluator_.reset(motion_);
+  const double wanted = std::min(kCutSkin * skin_, kCutGap * gapOf(answer.hit, 0.0));
+  double apart = 0.0, near = toi;
+  if (gapOf(answer.hit, toi) >= wanted) apart = toi;
+  for (int i = 0; i < kBisections && apart < near; ++i) {
+    const double middle = 0.5 * (apart + near);
+    (gapOf(answer.hit, middle) >= wanted ? apart : near) = middle;
+  }
+  answer.share = apart;
+}
+
+/// Of the pair of LSS, or of LSS and triangle, at `t` of the motion; a lower bound.
+double Certifier::gapOf(const SolidHit& hit, double t) {
+  const Lss& lss = plan_->avatar.lss(hit.link)[slotOf(hit.lss)];
+  const Hull axis = axisOf(lss, evaluator_.stateAt(hit.link, t));
+  if (hit.other == kNoParent) {
+    const Hull triangle = Hull::of(plan_->scene.triangle(hit.triangle));
+    return separation(axis, triangle).lower() - lss.radius;
+  }
+  const Lss& other = plan_->avatar.lss(hit.other)[slotOf(hit.otherLss)];
+  const double radii = ownRadii(*plan_, hit.link, hit.lss, hit.other, hit.otherLss);
+  return separation(axis, axisOf(other, evaluator_.stateAt(hit.other, t))).lower() - radii;
+}
+
+/// The least of all links in the last answer.
+double Certifier::toleranceUsed() {
+  double least = plan_->tolerances.least;
+  for (const double own : scratch_.parts().lanes.tolerances) {
+    if (own > 0.0) least = std::min(least, own);
+  }
+  return least;
+}
+
+/// Of any point of the avatar, wherever the motion places it.
+double Certifier::roundingOfMotion() const {
+  double most = 0.0;
+  for (std::int32_t i = 0; i < plan_->table.size(); ++i) {
+    const auto& entry = plan_->table[i];
+    const double rho = std::max(entry.rhoA, entry.rhoB);
+    most = std::max(most, motion_.bounds(entry.link).positionRoundingAt(rho));
+  }
+  return 4.0 * most;
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,81 @@
+// middleware/solid/certifier.h: proves small motions of a solid avatar clear, or cuts them where
+// they meet something. Metres in W. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "articulated/motion.h"
+#include "articulated/pose.h"
+#include "middleware/query/query.h"
+#include "middleware/query/query_plan.h"
+#include "middleware/solid/solid_options.h"
+
+namespace foretouch::internal {
+
+/// What stopped a motion.
+struct SolidHit {
+  LinkId link = 0;
+  std::int32_t lss = -1;
+  TriangleId triangle = -1;
+  LinkId other = kNoParent;  ///< An own link instead of the scene.
+  std::int32_t otherLss = -1;
+};
+
+struct Certified {
+  bool isClear = false;   ///< The whole motion.
+  double share = 0.0;     ///< How much of it is proven, and far enough from what it meets.
+  bool isInside = false;  ///< It begins in contact.
+  bool isOverBudget = false;
+  bool hasHit = false;
+  SolidHit hit;
+  double clearance = 0.0;  ///< Proven lower bound on the separation over the share.
+};
+
+/// What counts of the radii of two LSS of different links (PairRadius).
+[[nodiscard]] double ownRadii(const QueryPlan& plan, LinkId link, std::int32_t lss, LinkId other,
+                              std::int32_t otherLss);
+
+/// For one thread. Allocates nothing once grown.
+class Certifier {
+ public:
+  static Result<Certifier> build(const Avatar& avatar, const Scene& scene,
+                                 const SolidOptions& options);
+
+  [[nodiscard]] const QueryPlan& plan() const { return *plan_; }
+  [[nodiscard]] const Avatar& avatar() const { return plan_->avatar; }
+  [[nodiscard]] const Scene& scene() const { return plan_->scene; }
+
+  /// Begins a tick with so much work to spend.
+  void beginTick(std::uint64_t work);
+  [[nodiscard]] std::uint64_t workLeft() const { return workLeft_; }
+  [[nodiscard]] std::uint64_t workDone() const { return workDone_; }
+  [[nodiscard]] std::uint32_t queries() const { return queries_; }
+  void spend(std::uint64_t work);
+
+  /// Asks the motion from one validated pose to another. `reached` becomes `to` if it is clear,
+  /// else the last pose of the share. Precondition: `reached` is neither of the two.
+  Certified certify(const Pose& from, const Pose& to, Pose& reached);
+  /// As certify(), but keeps the whole motion or nothing of it.
+  [[nodiscard]] bool isClear(const Pose& from, const Pose& to);
+
+ private:
+  explicit Certifier(std::shared_ptr<QueryPlan> plan, double skin);
+  [[nodiscard]] Certified ask(const Pose& from, const Pose& to);
+  void cut(Certified& answer, double toi);
+  [[nodiscard]] double gapOf(const SolidHit& hit, double t);
+  [[nodiscard]] double toleranceUsed();
+  [[nodiscard]] double roundingOfMotion() const;
+
+  std::shared_ptr<QueryPlan> plan_;  // the query's; only the budget in it changes
+  Query query_;
+  double skin_;
+  QueryScratch scratch_;
+  StepContacts step_;
+  ChainMotion motion_;
+  MotionEvaluator evaluator_;
+  std::uint64_t workLeft_ = 0, workDone_ = 0;
+  std::uint32_t queries_ = 0;
+};
+
+}  // namespace foretouch::internal

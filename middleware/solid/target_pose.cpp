@@ -1,0 +1,42 @@
+#include "middleware/solid/target_pose.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "articulated/try.h"
+#include "lss/index.h"
+#include "middleware/solid/tree_pose.h"
+
+namespace foretouch::internal {
+
+Result<Done> TargetPose::take(const SolidTarget& given, const Pose* shown) {
+  const auto n = countOf(skeleton_.numJoints());
+  if (given.isTracked != nullptr && given.isTracked->size() != n) {
+    return Error::in("isTracked", ErrorCode::Mismatch,
+                     "expected one flag per joint: " + std::to_string(n));
+  }
+  candidate_ = given.pose;
+  FORETOUCH_CHECK(validate(skeleton_, candidate_));
+  std::swap(pose_, last_);
+  std::swap(states_, lastStates_);
+  const bool hadLast = std::exchange(hasLast_, true);
+  std::swap(pose_, candidate_);
+  isLost_.assign(n, 0);
+  for (std::size_t j = 0; given.isTracked != nullptr && j < n; ++j) {
+    if ((*given.isTracked)[j] != 0) continue;
+    isLost_[j] = 1;
+    const auto joint = static_cast<JointId>(j);
+    const Pose* const kept = shown != nullptr ? shown : hadLast ? &last_ : nullptr;
+    pose_.rotations[j] = kept != nullptr ? kept->rotations[j] : skeleton_.restRotation(joint);
+    pose_.translations[j] = kept != nullptr ? kept->translations[j] : skeleton_.restOffset(joint);
+  }
+  placeLinks(skeleton_, pose_, states_);
+  largestStep_ = 0.0;
+  for (std::size_t j = 0; hadLast && j < n; ++j) {
+    largestStep_ = std::max(largestStep_, (states_[j].p_WL - lastStates_[j].p_WL).norm());
+  }
+  return Done{};
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,71 @@
+#include "middleware/solid/visual_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lss/index.h"
+#include "middleware/solid/tree_pose.h"
+
+namespace foretouch::internal {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+/// Of an LSS that is a point or a line, and has no area (m^2).
+constexpr double kLeastArea = 1e-6;
+/// Of joints without a surface (m^2 per rad^2): far below what counts, far above rounding.
+constexpr double kLeastStiffness = 1e-6;
+
+double areaOf(const Lss& lss) {
+  return 2.0 * kPi * lss.radius * ((lss.b - lss.a).norm() + 2.0 * lss.radius) + kLeastArea;
+}
+
+}  // namespace
+
+VisualBody::VisualBody(const Avatar& avatar, const std::vector<double>& visibility) {
+  double sum = 0.0;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    for (const Lss& lss : avatar.lss(link)) {
+      const double weight = 0.5 * areaOf(lss) * visibility[slotOf(link)];
+      points_.push_back({link, lss.a, weight});
+      points_.push_back({link, lss.b, weight});
+      sum += 2.0 * weight;
+    }
+  }
+  stiffness_.assign(countOf(avatar.numLinks()), kLeastStiffness);
+  for (Point& point : points_) {
+    point.weight /= sum;
+    stiffness_[slotOf(point.link)] += 2.0 * point.weight * kTwistLever * kTwistLever;
+  }
+}
+
+void VisualBody::place(const std::vector<LinkState>& states,
+                       std::vector<Eigen::Vector3d>& places) const {
+  places.resize(points_.size());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    places[k] = states[slotOf(points_[k].link)].pointAt(points_[k].p_L);
+  }
+}
+
+double VisualBody::merit(const Pose& pose, const std::vector<LinkState>& states, const Pose& target,
+                         const std::vector<Eigen::Vector3d>& wanted) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const Point& point = points_[k];
+    sum += point.weight * (states[slotOf(point.link)].pointAt(point.p_L) - wanted[k]).squaredNorm();
+  }
+  for (std::size_t j = 0; j < stiffness_.size(); ++j) {
+    sum += stiffness_[j] * turnBetween(pose.rotations[j], target.rotations[j]).squaredNorm();
+  }
+  return sum;
+}
+
+double VisualBody::farthest(const std::vector<Eigen::Vector3d>& one,
+                            const std::vector<Eigen::Vector3d>& other) {
+  double most = 0.0;
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    most = std::max(most, (one[k] - other[k]).squaredNorm());
+  }
+  return std::sqrt(most);
+}
+
+}  // namespace foretouch::internal
