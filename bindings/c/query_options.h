@@ -8,6 +8,8 @@ namespace foretouch::c {
 
 [[nodiscard]] ft_query_options defaultQueryOptions();
 
+[[nodiscard]] ft_status readIgnored(const ft_ignored_pair* given, std::size_t count,
+                                    std::vector<IgnoredPair>& ignored);
 /// Checks everything that needs no query; NULL: the defaults.
 [[nodiscard]] ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& avatar,
                                          const Scene& scene, QueryOptions& options);
