@@ -18,5 +18,6 @@ void bindPairContact(pybind11::module_& module);
 void bindAnswers(pybind11::module_& module);
 void bindQuery(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);
+void bindSolid(pybind11::module_& module);
 
 }  // namespace foretouch::python

@@ -21,5 +21,6 @@ PYBIND11_MODULE(_foretouch, module) {
   bindAnswers(module);
   bindQuery(module);
   bindSweep(module);
+  bindSolid(module);
   py::delattr(module, "__module__");
 }
