@@ -146,8 +146,7 @@ bool Follower::stepFreely(const FollowRequest& request, double far, Certifier& c
     part_.assign(skeleton_, shown, request.target);
     part_.poseAt(left_ / far, tried_);
   }
-  const Outcome outcome =
-      show(request, isWhole ? request.target : tried_, certifier, shown, tick);
+  const Outcome outcome = show(request, isWhole ? request.target : tried_, certifier, shown, tick);
   if (outcome == Outcome::Clear) return false;
   hasDirectFailed_ = true;
   trust_ = std::max(0.5 * trust_, 0.5 * kLeastTrust);
@@ -166,8 +165,8 @@ Certified Follower::ask(const Pose& from, const Pose& to, Certifier& certifier, 
 }
 
 /// Certifies the motion, and shows what is proven of it, if that is nearer to the target.
-Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to,
-                                 Certifier& certifier, Pose& shown, SolidTick& tick) {
+Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, Certifier& certifier,
+                                 Pose& shown, SolidTick& tick) {
   const Certified answer = ask(shown, to, certifier, tick);
   if (answer.isClear) {
     placeLinks(skeleton_, reached_, triedStates_);
@@ -244,14 +243,13 @@ void Follower::findReach() {
   const auto& points = body_.points();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto link = slotOf(points[k].link);
-    const double step =
-        (free_.twists[link].at(places_[k] - origin_) + pull_.drifts[link]).norm();
+    const double step = (free_.twists[link].at(places_[k] - origin_) + pull_.drifts[link]).norm();
     reach_[link] = std::max(reach_[link], step);
   }
   hotReach_.resize(n);
   for (std::size_t link = 0; link < n; ++link) {
-    reach_[link] = options_.skin + std::min(trust_, kReachOfStep * reach_[link] + kReachMore) +
-                   kReachMargin;
+    reach_[link] =
+        options_.skin + std::min(trust_, kReachOfStep * reach_[link] + kReachMore) + kReachMargin;
     hotReach_[link] = hotFor_[link] != 0 ? reach_[link] : -1.0;
   }
 }
@@ -274,8 +272,7 @@ void Follower::gather(Certifier& certifier, SolidTick& tick) {
   if (options_.self) own_.append(certifier.plan(), states_, reach_, hotFor_, rows_);
   ++tick.counters.iterations;
   tick.counters.features += static_cast<std::uint32_t>(rows_.size());
-  certifier.spend(kIterationWork + kRowWork * rows_.size() +
-                  WorkMeter::workOf(features_.counters));
+  certifier.spend(kIterationWork + kRowWork * rows_.size() + WorkMeter::workOf(features_.counters));
 }
 
 void Follower::setBounds(bool mayPush) {
@@ -332,8 +329,7 @@ double Follower::sizeOf(const TreeStep& step) const {
   const auto& points = body_.points();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto link = slotOf(points[k].link);
-    const Eigen::Vector3d moved =
-        step.twists[link].at(places_[k] - origin_) + pull_.drifts[link];
+    const Eigen::Vector3d moved = step.twists[link].at(places_[k] - origin_) + pull_.drifts[link];
     most = std::max(most, moved.squaredNorm());
   }
   most = std::sqrt(most);
@@ -393,7 +389,8 @@ bool Follower::hasPushes() const {
 }
 
 void Follower::keepHot() {
-  for (std::uint8_t& ticks : hotFor_) ticks -= ticks != 0 ? 1 : 0;
+  for (std::uint8_t& ticks : hotFor_)
+    ticks = ticks != 0 ? static_cast<std::uint8_t>(ticks - 1) : ticks;
   for (const ContactRow& row : rows_) {
     if (!(row.push > 0.0)) continue;
     hotFor_[slotOf(row.link)] = kHotTicks;

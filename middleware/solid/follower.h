@@ -69,8 +69,8 @@ class Follower {
   [[nodiscard]] double meritOf(const FollowRequest& request, const Pose& pose);
   void gather(Certifier& certifier, SolidTick& tick);
   void setBounds(bool mayPush);
-  [[nodiscard]] bool propose(const FollowRequest& request, const QueryPlan& plan,
-                             const Pose& shown, double most, SolidTick& tick);
+  [[nodiscard]] bool propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
+                             double most, SolidTick& tick);
   void solve(SolidTick& tick);
   [[nodiscard]] bool tryShare(const FollowRequest& request, const Pose& shown, double share);
   [[nodiscard]] double sizeOf(const TreeStep& step) const;

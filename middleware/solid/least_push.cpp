@@ -117,8 +117,8 @@ void LeastPush::take(const TreeInertia& inertia, const Eigen::Vector3d& origin,
   const WayPart* const ways = ways_.data();
   for (std::size_t k = 0; k <= i; ++k) {
     product(i, k) = product(k, i) =
-        TreeInertia::product(ways + taken.wayBegin, ways + taken.wayEnd,
-                             ways + taken_[k].wayBegin, ways + taken_[k].wayEnd);
+        TreeInertia::product(ways + taken.wayBegin, ways + taken.wayEnd, ways + taken_[k].wayBegin,
+                             ways + taken_[k].wayEnd);
   }
   product(i, i) *= 1.0 + kCompliance;
 }

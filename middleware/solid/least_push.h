@@ -39,7 +39,7 @@ class LeastPush {
 
  private:
   struct Taken {
-    std::size_t row;           // of all
+    std::size_t row;  // of all
     std::size_t wayBegin, wayEnd;
     Vector6d onLink, onOther;  // wrench of a unit push
     double free;               // the row's excess at the free step
@@ -56,7 +56,9 @@ class LeastPush {
   void findPushes();
   [[nodiscard]] double slackOf(std::size_t i) const;
   bool solvePushing();
-  [[nodiscard]] double& product(std::size_t i, std::size_t k) { return products_[i * kMostRows + k]; }
+  [[nodiscard]] double& product(std::size_t i, std::size_t k) {
+    return products_[i * kMostRows + k];
+  }
   [[nodiscard]] double product(std::size_t i, std::size_t k) const {
     return products_[i * kMostRows + k];
   }

@@ -19,8 +19,7 @@ OwnFeatures::OwnFeatures(const QueryPlan& plan) {
 }
 
 void OwnFeatures::append(const QueryPlan& plan, const std::vector<LinkState>& states,
-                         const std::vector<double>& reach,
-                         const std::vector<std::uint8_t>& isHot,
+                         const std::vector<double>& reach, const std::vector<std::uint8_t>& isHot,
                          std::vector<ContactRow>& rows) const {
   for (const Asked& pair : pairs_) {
     if (isHot[slotOf(pair.a)] == 0 && isHot[slotOf(pair.b)] == 0) continue;

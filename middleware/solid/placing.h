@@ -1,5 +1,5 @@
-// middleware/solid/placing.h: the nearest free place for an avatar that would begin inside something.
-// Metres in W. Not installed.
+// middleware/solid/placing.h: the nearest free place for an avatar that would begin inside
+// something. Metres in W. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace foretouch::internal {
 
-/// Tries the pose itself, then moved on a grid, nearest first: up and to the sides, not down through
-/// a floor. A search that one tick's work does not finish goes on in the next. Free is not outside:
-/// a body inside a closed cupboard touches nothing.
+/// Tries the pose itself, then moved on a grid, nearest first: up and to the sides, not down
+/// through a floor. A search that one tick's work does not finish goes on in the next. Free is not
+/// outside: a body inside a closed cupboard touches nothing.
 class Placing {
  public:
   explicit Placing(const SolidOptions& options);
