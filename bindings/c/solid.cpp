@@ -76,6 +76,7 @@ ft_solid_tick tickOf(const SolidTick& tick) {
   c.state = static_cast<std::int32_t>(tick.state);
   c.limit = static_cast<std::int32_t>(tick.limit);
   c.is_certified = tick.isCertified ? 1 : 0;
+  c.has_appeared = tick.hasAppeared ? 1 : 0;
   c.deviation = tick.deviation;
   c.lift = tick.lift;
   c.clearance = tick.clearance;

@@ -123,12 +123,18 @@ void bindSolidTick(py::module_& module) {
       .def_property_readonly("is_certified", field(&foretouch::SolidTick::isCertified),
                              "Whether nothing is touched on the whole way from the pose shown "
                              "before: proven.")
+      .def_property_readonly(
+          "has_appeared", field(&foretouch::SolidTick::hasAppeared),
+          "Whether it appeared where its way begins: its first place, one after\n"
+          "it was inside, or a snap. The only breaks of what is shown.")
       .def_property_readonly("deviation", field(&foretouch::SolidTick::deviation),
                              "Of shown from tracked, the largest of all links.")
       .def_property_readonly("lift", field(&foretouch::SolidTick::lift),
                              "How far the target was lifted.")
-      .def_property_readonly("clearance", field(&foretouch::SolidTick::clearance),
-                             "Lower bound on the separation on the whole way.")
+      .def_property_readonly(
+          "clearance", field(&foretouch::SolidTick::clearance),
+          "Lower bound on the separation on the whole way; infinite if it did not\n"
+          "move, 0 if not certified.")
       .def_property_readonly("snap_in", &snapInOf,
                              "Seconds until it snaps, if nothing changes; None: it does not.")
       .def_property_readonly("joints", &jointsOf, "uint8, to be compared with SolidJointState.")
@@ -139,7 +145,8 @@ void bindSolidTick(py::module_& module) {
                              "Poses: the way from the pose shown before, piece by piece; the last\n"
                              "is `shown`. Empty if it did not move.")
       .def_property_readonly("times", &timesOf,
-                             "(k,), when each pose of the way is reached, in (0, 1] of the tick.")
+                             "(k,), when each pose of the way is reached, in (0, 1] of the tick\n"
+                             "(0: it appeared there).")
       .def_property_readonly("counters", &countersOf, "Work done, by kind.")
       .def("__repr__", &textOfTick);
 }

@@ -56,6 +56,7 @@ void expectSame(const WholeTick& c, const SolidTick& cxx, const Scene& scene) {
   EXPECT_EQ(c.tick.state, static_cast<int>(cxx.state));
   EXPECT_EQ(c.tick.limit, static_cast<int>(cxx.limit));
   EXPECT_EQ(c.tick.is_certified, cxx.isCertified ? 1 : 0);
+  EXPECT_EQ(c.tick.has_appeared, cxx.hasAppeared ? 1 : 0);
   EXPECT_EQ(c.tick.deviation, cxx.deviation);
   EXPECT_EQ(c.tick.lift, cxx.lift);
   EXPECT_EQ(c.tick.clearance, cxx.clearance);
@@ -199,7 +200,8 @@ TEST(CSolid, WaysEndWithTheShownPose) {
     if (whole.tick.way_count == 0) continue;
     ++moved;
     EXPECT_GT(whole.tick.clearance, 0.0);
-    EXPECT_EQ(whole.wayTimes.back(), 1.0);
+    EXPECT_EQ(whole.tick.has_appeared, frame == 0 ? 1 : 0);
+    EXPECT_EQ(whole.wayTimes.front() == 0.0, frame == 0);
     const auto last = static_cast<std::ptrdiff_t>(whole.rotations.size());
     EXPECT_EQ(std::vector<double>(whole.wayRotations.end() - last, whole.wayRotations.end()),
               whole.rotations);

@@ -90,11 +90,17 @@ typedef struct ft_solid_tick {
   int32_t state; /* FT_SOLID_PLACING to _SNAPPED */
   int32_t limit;
   /* 1: on the whole way from the pose shown before, the avatar touches nothing but what is ignored.
-   * 0: only while placing, at a snap, or where the scene was changed around it. */
+   * 0: while placing, or where the scene was changed around it. */
   int32_t is_certified;
-  double deviation;       /* of shown from tracked, the largest of all links */
-  double lift;            /* how far the target was lifted */
-  double clearance;       /* lower bound on the separation on the whole way; 0 if not certified */
+  /* 1: it appeared where its way begins, which is free, but no way leads there: its first place,
+   * one after it was inside, or a snap. The only breaks of what is shown. */
+  int32_t has_appeared;
+  int32_t reserved; /* 0 */
+  double deviation; /* of shown from tracked, the largest of all links */
+  double lift;      /* how far the target was lifted */
+  /* Lower bound on the separation on the whole way; infinite if it did not move, 0 if not
+   * certified. */
+  double clearance;
   double snap_in_s;       /* seconds until it snaps, if nothing changes; below 0: it does not */
   uint64_t joint_count;   /* ft_solid_joints() */
   uint64_t contact_count; /* ft_solid_contacts() */
@@ -149,9 +155,10 @@ FT_API ft_status ft_solid_joints(const ft_solid* solid, ft_solid_joint* joints, 
 FT_API ft_status ft_solid_contacts(const ft_solid* solid, ft_solid_contact* contacts,
                                    size_t capacity, size_t* required);
 /* The way of the last tick, piece by piece: the pose that piece `index` ends with, otherwise like
- * ft_avatar_rest_pose(), and in *time (may be NULL) when it is reached, in (0, 1] of the tick. Each
- * piece is a motion as ft_query_step() answers them, from the pose before it (the first: the one
- * shown before); the last ends with the shown pose. FT_ERROR_OUT_OF_RANGE if there are not as many.
+ * ft_avatar_rest_pose(), and in *time (may be NULL) when it is reached, in (0, 1] of the tick (0:
+ * it appeared there). Each piece is a motion as ft_query_step() answers them, from the pose before
+ * it (the first: the one shown before); the last ends with the shown pose. FT_ERROR_OUT_OF_RANGE if
+ * there are not as many.
  */
 FT_API ft_status ft_solid_way(const ft_solid* solid, size_t index, double* time, double* rotations,
                               double* translations, size_t capacity, size_t* required);
