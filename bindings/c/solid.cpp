@@ -5,6 +5,7 @@
 #include "articulated/try.h"
 #include "bindings/c/sized_struct.h"
 #include "bindings/c/solid_handle.h"
+#include "bindings/snake_case.h"
 #include "lss/index.h"
 
 namespace foretouch::c {
@@ -32,8 +33,10 @@ ft_status checkedTick(const ft_solid* solid) {
   return failure(FT_ERROR_NO_STEP, kNoIndex, "expected ft_solid_follow() to be answered before");
 }
 
-ft_status solidFailure(const Error& error) {
-  return failure(withNamesOfC(error));
+/// An error about an option or argument names it as C does.
+ft_status solidFailure(Error error) {
+  error.file = snakeCase(error.file);
+  return failure(error);
 }
 
 /// What an exception left half written is made anew, and goes on from where it was.

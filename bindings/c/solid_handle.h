@@ -40,7 +40,5 @@ namespace foretouch::c {
 [[nodiscard]] ft_solid_options defaultSolidOptions();
 /// NULL: the usual ones. The library itself checks the values.
 [[nodiscard]] ft_status readSolidOptions(const ft_solid_options* given, SolidOptions& options);
-/// An error about an option names it as C does.
-[[nodiscard]] Error withNamesOfC(Error error);
 
 }  // namespace foretouch::c

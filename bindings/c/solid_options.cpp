@@ -1,7 +1,4 @@
 // bindings/c/solid_options.cpp: ft_solid_options as the library's.
-#include <array>
-#include <utility>
-
 #include "bindings/c/query_options.h"
 #include "bindings/c/sized_struct.h"
 #include "bindings/c/solid_handle.h"
@@ -100,26 +97,6 @@ ft_status readSolidOptions(const ft_solid_options* given, SolidOptions& options)
   if (const auto s = checked(known.self); s != FT_OK) return s;
   options.self = known.self->rules;
   return FT_OK;
-}
-
-Error withNamesOfC(Error error) {
-  constexpr std::array<std::pair<const char*, const char*>, 12> kNames{
-      {{"catchUp", "catch_up"},
-       {"mostLift", "most_lift"},
-       {"mostDeviation", "most_deviation"},
-       {"mostLimbDeviation", "most_limb_deviation"},
-       {"snapNotice", "snap_notice"},
-       {"aroundPerTick", "around_per_tick"},
-       {"aroundInAll", "around_in_all"},
-       {"placingReach", "placing_reach"},
-       {"workBudget", "work_budget"},
-       {"maySnap", "may_snap"},
-       {"dtS", "dt_s"},
-       {"isTracked", "is_tracked"}}};
-  for (const auto& [known, name] : kNames) {
-    if (error.file == known) error.file = name;
-  }
-  return error;
 }
 
 }  // namespace foretouch::c

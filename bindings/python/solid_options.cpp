@@ -5,6 +5,7 @@
 
 #include "bindings/python/query_options.h"
 #include "bindings/python/solid.h"
+#include "bindings/snake_case.h"
 #include "lss/index.h"
 
 namespace foretouch::python {
@@ -69,21 +70,10 @@ SolidOptions solidOptionsFrom(const GivenSolidOptions& given, const Avatar& avat
 }
 
 Error withKeywordsOfSolid(Error error) {
-  constexpr std::array<std::pair<const char*, const char*>, 10> kKeywords{
-      {{"catchUp", "catch_up"},
-       {"mostLift", "most_lift"},
-       {"mostDeviation", "most_deviation"},
-       {"mostLimbDeviation", "most_limb_deviation"},
-       {"snapNotice", "snap_notice"},
-       {"aroundPerTick", "around_per_tick"},
-       {"aroundInAll", "around_in_all"},
-       {"placingReach", "placing_reach"},
-       {"self", "self_pairs"},
-       {"dtS", "dt"}}};
-  for (const auto& [known, keyword] : kKeywords) {
-    if (error.file == known) error.file = keyword;
-  }
+  error.file = snakeCase(error.file);
+  if (error.file == "self") error.file = "self_pairs";
   if (error.file == "ignored") error.file = "ignore";
+  if (error.file == "dt_s") error.file = "dt";
   return error;
 }
 

@@ -235,7 +235,7 @@ class Caller {
     if (random_.chance(0.1)) made.visibility_count = count();
     if (random_.chance(0.1)) made.ignored = maybe(ignored_.data());
     if (random_.chance(0.1)) made.ignored_count = count();
-    if (random_.chance(0.1)) made.work_budget = static_cast<std::uint64_t>(random_.below(1000));
+    made.work_budget = static_cast<std::uint64_t>(random_.below(1000));  // a tick is soon over
     return made;
   }
   void playSolid(test::SmallWorld& world) {
