@@ -7,14 +7,14 @@ import numpy as np
 import foretouch
 from foretouch import SolidState
 
-from concepts import BLUE, FAINT, GREEN, INK, ORANGE, RED, WOOD, Picture
+from concepts import BLUE, GREEN, INK, ORANGE, RED, WOOD, Picture
 from table_and_cup import Plane
 
 NAME = "solid-tick.svg"
 LINKS = ["UpperArm", "ForeArm", "Hand"]
 DT = 1 / 90
-DEEP = 0.055  # metres that the tracked hand is in the table at last
-SWEEP = 0.10  # metres along the table, in the last part of the story
+SWEEP = 0.08  # radians of the shoulder, in the last part of the story
+ARROW = 6  # pushes are drawn so many times as long as they are
 TICKS = 60
 
 
@@ -50,9 +50,9 @@ class Story:
 
     def pose(self, down, along):
         rest = self.avatar.rest_pose()
-        rest.rotations[0] = about_z(-0.30 * down + SWEEP * along)
-        rest.rotations[1] = about_z(0.16 * down)
-        rest.translations[0, 0] += 0.03 * along
+        rest.rotations[0] = about_z(-0.42 * down + SWEEP * along)
+        rest.rotations[1] = about_z(0.24 * down)
+        rest.translations[0, 0] += 0.04 * along
         return rest
 
     def still(self, pose):
@@ -65,7 +65,7 @@ class Story:
 
 
 def draw(p, story):
-    plane, tick = Plane(70, 352, 900), story.tick
+    plane, tick = Plane(70, 384, 900), story.tick
     plane.draw_table(p, 24, 696)
     p.box(24, plane.table + 13, 672, 24, "none", WOOD, 0.12)
     plane.draw_arm(p, story, story.still(story.tracked), 0, ORANGE, 0.18)
@@ -73,7 +73,8 @@ def draw(p, story):
     for contact in tick.contacts:
         at = plane.at(contact.point)
         p.dot(at, 4, RED)
-        tip = (at[0] + 900 * contact.push * contact.normal[0], at[1] - 900 * contact.push * contact.normal[1])
+        long = ARROW * plane.scale * contact.push
+        tip = (at[0] + long * contact.normal[0], at[1] - long * contact.normal[1])
         p.arrow(at, tip, RED, 2.4)
     p.text(24, 34, "One tick: the tracked hand is in the table, the shown one stays on it", INK, size=16, weight="bold")
     p.text(396, 76, "tracked", ORANGE, weight="bold")
@@ -82,14 +83,14 @@ def draw(p, story):
     p.text(396, 147, f"comes out: {tick.state.name.lower()}, {1e3 * tick.deviation:.0f} mm off", INK, size=13)
     p.text(396, 180, "push", RED, weight="bold")
     pushes = sum(contact.push for contact in tick.contacts)
-    p.text(396, 199, f"how hard the user presses, here {1e3 * pushes:.1f} mm in all:", INK, size=13)
-    p.text(396, 216, "times a stiffness, the force for haptics", INK, size=13)
+    p.text(396, 199, f"how hard the user presses, here {1e3 * pushes:.1f} mm in all", INK, size=13)
+    p.text(396, 216, f"(arrows: {ARROW} times as long); times a stiffness,", INK, size=13)
+    p.text(396, 233, "the force for haptics", INK, size=13)
     p.text(690, plane.table + 30, "table", WOOD, "end", weight="bold")
-    p.text(24, plane.table + 62, "the way since the tick before is proven free: at every instant of it,", GREEN)
-    p.text(24, plane.table + 81, f"everything is at least {1e3 * tick.clearance:.2f} mm apart", GREEN)
+    p.text(24, plane.table + 64, "The way since the tick before is proven free: at every instant of it, all links", GREEN)
+    p.text(24, plane.table + 82, f"are at least {1e3 * tick.clearance:.2f} mm from the table.", GREEN)
     for i, (link, off) in enumerate(zip(LINKS, tick.link_deviation)):
-        p.text(452 + 84 * i, plane.table + 62, link, FAINT, "start", 12)
-        p.text(452 + 84 * i, plane.table + 81, f"{1e3 * off:.0f} mm off", INK, "start", 13)
+        p.text(24 + 172 * i, plane.table + 108, f"{link}: {1e3 * off:.0f} mm off", INK, "start", 13)
 
 
 def check(story):
@@ -109,7 +110,7 @@ def check(story):
 def drawn():
     story = Story()
     check(story)
-    picture = Picture(720, 450, "One tick: the tracked hand is in the table, the shown one stays on it")
+    picture = Picture(720, 512, "One tick: the tracked hand is in the table, the shown one stays on it")
     draw(picture, story)
     return picture
 
