@@ -233,12 +233,13 @@ TEST(CMemory, RunningOutInASolidAvatarIsAnErrorAndLeavesItWhereItWas) {
   below.translations[0].y() = -0.5;
   const test::PoseArrays beyond(below);
   const ft_pose target = beyond.view();
-  std::vector<double> numbers(12), shown(12);
-  std::vector<ft_solid_contact> contacts(100);
+  std::vector<double> shown(12);
+  auto options = test::initialised(ft_solid_options_init);
+  options.placing_reach = 0.2;  // the places to look at are soon listed
   test::SolidHandle solid;
   const int failed = failingOneByOne([&] {
     const std::int64_t until = std::exchange(callsUntilFailure, -1);
-    solid = test::makeSolid(world.scene, world.avatar);  // a fresh one, which has to grow
+    solid = test::makeSolid(world.scene, world.avatar, &options);  // it has to grow
     ft_solid_tick tick{};
     tick.size = sizeof tick;
     const ft_pose above = poses[0].view();
@@ -259,7 +260,7 @@ TEST(CMemory, RunningOutInASolidAvatarIsAnErrorAndLeavesItWhereItWas) {
   const int made = failingOneByOne([&] {
     ft_solid* another = nullptr;
     const ft_status status =
-        ft_solid_create(world.scene.get(), world.avatar.get(), nullptr, &another);
+        ft_solid_create(world.scene.get(), world.avatar.get(), &options, &another);
     EXPECT_EQ(another != nullptr, status == FT_OK);
     ft_solid_destroy(another);
     return status;

@@ -224,6 +224,7 @@ class Caller {
   ft_solid_options solidOptions() {
     ft_solid_options made = test::initialised(ft_solid_options_init);
     made.size = sizeOr(sizeof made);
+    made.placing_reach = 0.2;  // the places to look at are soon listed
     for (double* option : {&made.skin, &made.tolerance, &made.catch_up, &made.up[1],
                            &made.most_lift, &made.patience, &made.placing_reach}) {
       if (random_.chance(0.05)) *option = number();

@@ -2,6 +2,7 @@
 // does in them; and what ft_solid_* adds holds by itself.
 #include <cmath>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/bindings/same_answers.h"
@@ -313,6 +314,27 @@ TEST(CSolid, ATickThatFailsChangesNothing) {
     EXPECT_EQ(one.rotations, other.rotations);
     EXPECT_EQ(one.tick.work, other.tick.work);
   }
+}
+
+/// The shown rotations of all ticks.
+std::vector<double> shownBy(const SolidWorld& world) {
+  std::vector<double> shown;
+  const auto solid = test::makeSolid(world.scene, world.avatar);
+  for (int frame = 0; frame <= 300; frame += 2) {
+    const auto whole = test::follow(solid.get(), test::armPose(world.avatarOfCxx, frame / 90.0));
+    shown.insert(shown.end(), whole.rotations.begin(), whole.rotations.end());
+  }
+  return shown;
+}
+
+TEST(CSolid, ThreadsThatShareASceneAndAnAvatarGetTheTicksOfOne) {
+  const SolidWorld world;
+  std::vector<std::vector<double>> shown(4);
+  std::vector<std::thread> threads;
+  for (auto& one : shown) threads.emplace_back([&] { one = shownBy(world); });
+  for (std::thread& thread : threads) thread.join();
+  const auto alone = shownBy(world);
+  for (const auto& one : shown) EXPECT_EQ(one, alone);
 }
 
 }  // namespace
