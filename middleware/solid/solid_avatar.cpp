@@ -10,6 +10,7 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/solid/certifier.h"
+#include "middleware/solid/floor_lift.h"
 #include "middleware/solid/follower.h"
 #include "middleware/solid/placing.h"
 #include "middleware/solid/solid_way.h"
@@ -101,6 +102,7 @@ class SolidAvatar::Parts {
         certifier_(std::move(certifier)),
         follower_(std::move(follower)),
         target_(avatar),
+        lift_(avatar, options_),
         placing_(options_),
         around_(avatar, options_) {}
 
@@ -112,11 +114,16 @@ class SolidAvatar::Parts {
     certifier_.beginTick(options_.workBudget);
     internal::beginTick(tick);
     isAround_ = false;
+    if (lift_.isAny()) {
+      tick.lift = lift_.update(target_.states(), given.dtS);
+      target_.moveRoots(tick.lift * options_.up);
+    }
     if (!isPlaced_) place(tick);
     if (isPlaced_) {
       before_ = shown_;
       move(given.dtS, tick);
     }
+    lift_.remember(follower_.rows());
     finish(given.dtS, tick);
     return Done{};
   }
@@ -167,6 +174,7 @@ class SolidAvatar::Parts {
     follower_.reset();
     placing_.reset();
     around_.reset();
+    lift_.reset();
     stuckS_ = awayS_ = 0.0;
     mustSayPlace_ = false;
   }
@@ -373,6 +381,7 @@ class SolidAvatar::Parts {
   internal::Certifier certifier_;
   internal::Follower follower_;
   internal::TargetPose target_;
+  internal::FloorLift lift_;
   internal::Placing placing_;
   internal::WayAround around_;
   Pose shown_, before_, towards_, reached_;
