@@ -1,5 +1,5 @@
-// A hand that stays on a table: the tracked hand presses 6 cm into it, slides along, goes down
-// beyond its edge, and comes back. Prints what is shown of it, at 90 Hz.
+// A hand that stays on a table: the tracked hand goes 6 cm too deep, sweeps along and over the edge,
+// comes back and leaves. Prints what is shown of it, at 90 Hz.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -60,7 +60,7 @@ Pose trackedAt(double t, const Skeleton& skeleton) {
   Pose pose = restPose(skeleton);
   const double down = ramp(t, 0.0, 0.8) - ramp(t, 4.2, 5.0);
   const double along = ramp(t, 1.2, 2.4) - ramp(t, 3.2, 4.2);
-  pose.translations[0] = {-0.5 + 0.6 * along, kTop + 0.3 - 0.1 * down, 0.0};
+  pose.translations[0] = {-0.5 + 0.6 * along, kTop + 0.3 - 0.13 * down, 0.0};
   pose.rotations[0] = Eigen::AngleAxisd(-0.35 - 0.35 * down, Eigen::Vector3d::UnitZ());
   pose.rotations[1] = Eigen::AngleAxisd(0.4 * down, Eigen::Vector3d::UnitZ());
   return made(validatedPose(skeleton, std::move(pose)));

@@ -1,5 +1,5 @@
-/* A hand that stays on a table: the tracked hand presses 6 cm into it, slides along, goes down
- * beyond its edge, and comes back. Prints what is shown of it, at 90 Hz.
+/* A hand that stays on a table: the tracked hand goes 6 cm too deep, sweeps along and over the edge,
+ * comes back and leaves. Prints what is shown of it, at 90 Hz.
  *   cc solid_hand.c -lforetouch -lm */
 #include <foretouch/solid.h>
 #include <math.h>
@@ -85,7 +85,7 @@ static void track(double t, double* rotations, double* translations) {
   const double down = ramp(t, 0.0, 0.8) - ramp(t, 4.2, 5.0);
   const double along = ramp(t, 1.2, 2.4) - ramp(t, 3.2, 4.2);
   translations[0] = -0.5 + 0.6 * along;
-  translations[1] = TOP + 0.3 - 0.1 * down;
+  translations[1] = TOP + 0.3 - 0.13 * down;
   translations[2] = 0.0;
   translations[3] = 0.25;
   translations[4] = translations[5] = 0.0;

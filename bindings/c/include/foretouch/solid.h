@@ -63,7 +63,7 @@ FT_API ft_status ft_solid_create(const ft_scene* scene, const ft_avatar* avatar,
 
 enum {
   FT_SOLID_PLACING = 0,   /* no free place found yet: shown is tracked, and nothing is proven */
-  FT_SOLID_EQUAL = 1,     /* shown is tracked, bit for bit (lost joints apart) */
+  FT_SOLID_EQUAL = 1,     /* shown is tracked, bit for bit (lost joints and the lift apart) */
   FT_SOLID_FOLLOWING = 2, /* touches nothing, and catches up */
   FT_SOLID_SLIDING = 3,   /* surfaces keep it from the tracked pose, and it moved */
   FT_SOLID_HELD = 4,      /* surfaces keep it from the tracked pose, and it stays */
