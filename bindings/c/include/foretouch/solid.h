@@ -43,7 +43,7 @@ typedef struct ft_solid_options {
   /* Motions tried for a way around, per tick and per target; 0: never. Defaults 32 and 2000. */
   int32_t around_per_tick, around_in_all;
   int32_t reserved;         /* 0 */
-  uint64_t work_budget;     /* per tick, in evaluations of a pair (about 10 ns), at least 1 */
+  uint64_t work_budget;     /* per tick, in evaluations of a pair: >= 1; default 200,000 */
   const double* visibility; /* one per link, 0 to 1e6: how much its error counts beyond its area; */
   size_t visibility_count;  /* none: hands 4, trunk and head 30, all others 1, by their names */
   const uint8_t* feet;      /* one per link: 1 for those that FT_SOLID_FLOOR_LIFT listens to; */
