@@ -31,8 +31,7 @@ std::vector<ft_near_feature> featuresOf(const NearHandle& near) {
   EXPECT_EQ(ft_near_features(near.get(), nullptr, 0, &count), FT_OK) << ft_last_error();
   std::vector<ft_near_feature> features(count);
   for (ft_near_feature& feature : features) feature.size = sizeof feature;
-  EXPECT_EQ(ft_near_features(near.get(), features.data(), count, &count), FT_OK)
-      << ft_last_error();
+  EXPECT_EQ(ft_near_features(near.get(), features.data(), count, &count), FT_OK) << ft_last_error();
   return features;
 }
 
@@ -60,8 +59,7 @@ TEST(CNear, AnswersAreThoseOfTheLibrary) {
     const ft_pose view = pose.view();
     std::vector<double> reach(5, 0.3);
     reach[2] = -1.0;
-    ASSERT_EQ(ft_near_ask(near.get(), &view, reach.data(), reach.size()), FT_OK)
-        << ft_last_error();
+    ASSERT_EQ(ft_near_ask(near.get(), &view, reach.data(), reach.size()), FT_OK) << ft_last_error();
 
     const NearQuery query = NearQuery::build(avatar, scene, {{1, 2}}).value();
     NearScratch scratch;
@@ -129,8 +127,7 @@ TEST(CNear, RefusesBadArgumentsByName) {
   for (const double bad : {std::nan(""), 1.1e7, std::numeric_limits<double>::infinity()}) {
     test::expectRefused(ft_near_ask(near.get(), &pose, &bad, 1), FT_ERROR_OUT_OF_RANGE, {"reach"});
   }
-  test::expectRefused(ft_near_ask(near.get(), nullptr, reach, 1), FT_ERROR_NULL_ARGUMENT,
-                      {"pose"});
+  test::expectRefused(ft_near_ask(near.get(), nullptr, reach, 1), FT_ERROR_NULL_ARGUMENT, {"pose"});
   ASSERT_EQ(ft_near_ask(near.get(), &pose, reach, 1), FT_OK) << ft_last_error();
   EXPECT_TRUE(featuresOf(near).empty());
 }
