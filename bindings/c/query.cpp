@@ -9,9 +9,7 @@
 #include "lss/index.h"
 
 namespace foretouch::c {
-namespace {
 
-/// Reads and checks a pose. Reuses `pose`: allocates nothing once it has grown.
 ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skeleton, Pose& pose) {
   ft_pose known{};
   if (const auto s = readStruct(given, name, known); s != FT_OK) return s;
@@ -36,6 +34,8 @@ ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skele
   FORETOUCH_TRY_OR(failure, pose, inFile(validatedPose(skeleton, std::move(pose)), name));
   return FT_OK;
 }
+
+namespace {
 
 /// Answers query.from to query.to into query.next.
 void answerNext(ft_query& query) {

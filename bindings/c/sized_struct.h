@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 #include "bindings/c/status.h"
 
@@ -37,6 +39,24 @@ template <typename Struct>
 template <typename Struct>
 [[nodiscard]] ft_status writeStruct(Struct* given, const char* name, const Struct& known) {
   return internal::write(given, name, &known, sizeof(Struct));
+}
+
+/// Writes `count` structs, at(i) the i-th; the first one's size applies to all. Precondition: there
+/// is room, and at least one.
+template <typename Struct, typename At>
+[[nodiscard]] ft_status writeStructs(Struct* given, const char* name, std::size_t count,
+                                     const At& at) {
+  std::size_t stride = 0;
+  if (const auto s = readSize(given, name, stride); s != FT_OK) return s;
+  const auto size = static_cast<std::uint32_t>(stride);
+  auto* place = reinterpret_cast<unsigned char*>(given);
+  for (std::size_t i = 0; i < count; ++i, place += stride) {
+    std::memcpy(place, &size, sizeof size);
+    const Struct known = at(i);
+    const auto s = writeStruct(reinterpret_cast<Struct*>(place), name, known);
+    if (s != FT_OK) return s;
+  }
+  return FT_OK;
 }
 
 /// The body of a struct's ft_*_init().

@@ -57,16 +57,6 @@ void addIgnored(const py::object& given, const std::string& what, const Avatar& 
   }
 }
 
-std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,
-                                     const Scene& scene) {
-  std::vector<IgnoredPair> ignored;
-  std::size_t place = 0;
-  for (const py::object& one : items(given, "ignore")) {
-    addIgnored(one, "ignore[" + std::to_string(place++) + "]", avatar, scene, ignored);
-  }
-  return ignored;
-}
-
 // ---- policies ----
 
 bool boolean(py::handle given, const std::string& what) {
@@ -168,6 +158,16 @@ std::optional<foretouch::PairRules> rulesFrom(const py::object& given, const Ava
 }
 
 }  // namespace
+
+std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,
+                                     const Scene& scene) {
+  std::vector<IgnoredPair> ignored;
+  std::size_t place = 0;
+  for (const py::object& one : items(given, "ignore")) {
+    addIgnored(one, "ignore[" + std::to_string(place++) + "]", avatar, scene, ignored);
+  }
+  return ignored;
+}
 
 QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar, const Scene& scene) {
   QueryOptions options;

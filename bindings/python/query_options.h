@@ -1,6 +1,8 @@
 // bindings/python/query_options.h: the keywords of a query as the library's options.
 #pragma once
 
+#include <vector>
+
 #include "bindings/python/arguments.h"
 #include "middleware/query/query.h"
 
@@ -15,5 +17,9 @@ struct GivenOptions {
 /// Looks up the names of links and objects. The library itself checks the values.
 [[nodiscard]] QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar,
                                        const Scene& scene);
+
+/// A list of links, and of pairs of a link and an object.
+[[nodiscard]] std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,
+                                                   const Scene& scene);
 
 }  // namespace foretouch::python
