@@ -60,8 +60,8 @@ ft_contact contactOf(PairContact contact, const Scene& scene) {
 /// Writes `count` contacts; `at(i)` returns the i-th. Precondition: there is room.
 template <typename At>
 ft_status fillContacts(const Scene& scene, std::size_t count, const At& at, ft_contact* contacts) {
-  return writeStructs(contacts, "ft_contact", count,
-                      [&](std::size_t i) { return contactOf(at(i), scene); });
+  const auto contact = [&](std::size_t i) { return contactOf(at(i), scene); };
+  return writeStructs("ft_contact", count, contact, contacts);
 }
 
 /// The same with the check for room.

@@ -36,6 +36,7 @@ enum class Mark : std::uint64_t {
   Query = 0x0079726575746600u,
   PairRules = 0x0072696170746600u,
   Near = 0x007261656e746600u,
+  Solid = 0x0064696c6f746600u,
 };
 
 }  // namespace foretouch::c
@@ -144,10 +145,13 @@ void destroy(const char* function, Handle* handle) noexcept {
   delete handle;
 }
 
-/// Reads and checks a pose. Reuses `pose`: allocates nothing once it has grown.
+/// Copies a pose of C arrays, unchecked but for its number of joints. `name`: of the argument.
+/// Reuses `pose`: allocates nothing once it has grown.
+[[nodiscard]] ft_status copyPose(const ft_pose* given, const char* name, const Skeleton& skeleton,
+                                 Pose& pose);
+/// The same, and checks it.
 [[nodiscard]] ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skeleton,
                                  Pose& pose);
-
 /// Writes a validated pose to C arrays; either may be NULL.
 [[nodiscard]] ft_status writePose(const Pose& pose, double* rotations, double* translations,
                                   std::size_t capacity, std::size_t* required);

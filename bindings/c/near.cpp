@@ -119,9 +119,10 @@ ft_status ft_near_features(const ft_near* near_query, ft_near_feature* features,
     const auto& found = near_query->near.features;
     const Room room = roomFor(found.size(), features, capacity, required, "features");
     if (room.status != FT_OK || room.isAsking || found.empty()) return room.status;
-    return writeStructs(features, "ft_near_feature", found.size(), [&](std::size_t i) {
+    const auto feature = [&](std::size_t i) {
       return nearFeatureOf(found[i], near_query->question.scene());
-    });
+    };
+    return writeStructs("ft_near_feature", found.size(), feature, features);
   });
 }
 

@@ -10,7 +10,7 @@
 
 namespace foretouch::c {
 
-ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skeleton, Pose& pose) {
+ft_status copyPose(const ft_pose* given, const char* name, const Skeleton& skeleton, Pose& pose) {
   ft_pose known{};
   if (const auto s = readStruct(given, name, known); s != FT_OK) return s;
   const auto joints = countOf(skeleton.numJoints());
@@ -31,6 +31,11 @@ ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skele
       pose.translations[j] = Eigen::Map<const Eigen::Vector3d>(known.translations + 3 * j);
     }
   }
+  return FT_OK;
+}
+
+ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skeleton, Pose& pose) {
+  if (const auto s = copyPose(given, name, skeleton, pose); s != FT_OK) return s;
   FORETOUCH_TRY_OR(failure, pose, inFile(validatedPose(skeleton, std::move(pose)), name));
   return FT_OK;
 }

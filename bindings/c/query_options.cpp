@@ -118,8 +118,7 @@ ft_status checkedSurface(const AvatarParts& avatar, const QueryOptions& options)
 
 ft_status readIgnored(const ft_ignored_pair* given, std::size_t count,
                       std::vector<IgnoredPair>& ignored) {
-  const auto s = neededArray(given, count, kMaxIgnoredPairs, "ignored");
-  if (s != FT_OK) return s;
+  if (const auto s = neededArray(given, count, kMaxIgnoredPairs, "ignored"); s != FT_OK) return s;
   ignored.reserve(count);
   for (std::size_t i = 0; i < count; ++i) ignored.push_back({given[i].link, given[i].object});
   return FT_OK;
@@ -153,9 +152,8 @@ ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& ava
     return s;
   }
   if (const auto s = readFidelity(known.fidelity, kNoIndex, options.fidelity); s != FT_OK) return s;
-  if (const auto s = readIgnored(known.ignored, known.ignored_count, options.ignored); s != FT_OK) {
-    return s;
-  }
+  const auto ignored = readIgnored(known.ignored, known.ignored_count, options.ignored);
+  if (ignored != FT_OK) return ignored;
   if (const auto s = readPolicies(known, options); s != FT_OK) return s;
   options.tolerance = known.tolerance;
   options.workBudget = known.work_budget;

@@ -41,20 +41,20 @@ template <typename Struct>
   return internal::write(given, name, &known, sizeof(Struct));
 }
 
-/// Writes `count` structs, at(i) the i-th; the first one's size applies to all. Precondition: there
-/// is room, and at least one.
+/// Writes `count` structs, the i-th from `at(i)`, into an array whose first element's size applies
+/// to all. Precondition: there is room.
 template <typename Struct, typename At>
-[[nodiscard]] ft_status writeStructs(Struct* given, const char* name, std::size_t count,
-                                     const At& at) {
+[[nodiscard]] ft_status writeStructs(const char* name, std::size_t count, const At& at,
+                                     Struct* array) {
   std::size_t stride = 0;
-  if (const auto s = readSize(given, name, stride); s != FT_OK) return s;
+  if (const ft_status status = readSize(array, name, stride); status != FT_OK) return status;
   const auto size = static_cast<std::uint32_t>(stride);
-  auto* place = reinterpret_cast<unsigned char*>(given);
+  auto* place = reinterpret_cast<unsigned char*>(array);
   for (std::size_t i = 0; i < count; ++i, place += stride) {
     std::memcpy(place, &size, sizeof size);
     const Struct known = at(i);
-    const auto s = writeStruct(reinterpret_cast<Struct*>(place), name, known);
-    if (s != FT_OK) return s;
+    const auto status = writeStruct(reinterpret_cast<Struct*>(place), name, known);
+    if (status != FT_OK) return status;
   }
   return FT_OK;
 }

@@ -22,5 +22,6 @@ PYBIND11_MODULE(_foretouch, module) {
   bindQuery(module);
   bindNear(module);
   bindSweep(module);
+  bindSolid(module);
   py::delattr(module, "__module__");
 }

@@ -59,11 +59,6 @@ void addIgnored(const py::object& given, const std::string& what, const Avatar& 
 
 // ---- policies ----
 
-bool boolean(py::handle given, const std::string& what) {
-  if (!PyBool_Check(given.ptr())) refuse(ErrorCode::Mismatch, what, "expected a bool");
-  return given.ptr() == Py_True;
-}
-
 /// What a policy sets for its link, or for its link with its objects.
 void readPolicy(py::handle given, const std::string& what, ObjectPolicy& policy) {
   for (const auto& [key, value] : mapping(given, what)) {
@@ -145,18 +140,6 @@ std::optional<AvatarSurface> surfaceFrom(const py::object& given, const Avatar& 
   return surface.triangles;
 }
 
-std::optional<foretouch::PairRules> rulesFrom(const py::object& given, const Avatar& avatar) {
-  if (given.is_none()) return std::nullopt;
-  if (!py::isinstance<PairRules>(given)) {
-    refuse(ErrorCode::Mismatch, "self_pairs", "expected a foretouch.PairRules");
-  }
-  const auto& own = given.cast<const PairRules&>();
-  if (own.avatar->identity() != avatar.identity()) {
-    refuse(ErrorCode::Mismatch, "self_pairs", "expected the rules of this avatar");
-  }
-  return own.rules;
-}
-
 }  // namespace
 
 std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,
@@ -167,6 +150,23 @@ std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avat
     addIgnored(one, "ignore[" + std::to_string(place++) + "]", avatar, scene, ignored);
   }
   return ignored;
+}
+
+bool boolean(py::handle given, const std::string& what) {
+  if (!PyBool_Check(given.ptr())) refuse(ErrorCode::Mismatch, what, "expected a bool");
+  return given.ptr() == Py_True;
+}
+
+std::optional<foretouch::PairRules> rulesFrom(const py::object& given, const Avatar& avatar) {
+  if (given.is_none()) return std::nullopt;
+  if (!py::isinstance<PairRules>(given)) {
+    refuse(ErrorCode::Mismatch, "self_pairs", "expected a foretouch.PairRules");
+  }
+  const auto& own = given.cast<const PairRules&>();
+  if (own.avatar->identity() != avatar.identity()) {
+    refuse(ErrorCode::Mismatch, "self_pairs", "expected the rules of this avatar");
+  }
+  return own.rules;
 }
 
 QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar, const Scene& scene) {

@@ -189,6 +189,31 @@ class SweptSurface(NamedTuple):
     pieces: int
 
 
+class SolidContact(NamedTuple):
+    """A place where a surface holds a solid avatar from its tracked pose. Metres, world frame."""
+
+    link: str
+    link_id: int
+    lss: int
+    """Which of the link's LSS."""
+    triangle: Optional[int]
+    """Of the scene; None if another own link is touched."""
+    object: Optional[str]
+    """The name of the triangle's object."""
+    other: Optional[str]
+    """That own link."""
+    point: Doubles
+    """(3,), on the surface that is touched."""
+    normal: Doubles
+    """(3,), unit, from that surface to the link."""
+    gap: float
+    push: float
+    """How hard the tracked pose presses, >= 0 (m). Times a stiffness (N/m) it is the force along
+    `normal` with which a haptic device holds the hand."""
+    slip_speed: float
+    """Of the link's point along the surface, m/s."""
+
+
 class Policy(TypedDict, total=False):
     """What one link has for itself, or with one object. What is missing is as for all links."""
 
