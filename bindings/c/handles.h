@@ -14,6 +14,7 @@
 #include "articulated/pose.h"
 #include "assets/avatar/joint_match.h"
 #include "bindings/c/status.h"
+#include "middleware/query/near_features.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
 #include "middleware/surface/avatar_surface.h"
@@ -34,6 +35,7 @@ enum class Mark : std::uint64_t {
   Clip = 0x0070696c43746600u,
   Query = 0x0079726575746600u,
   PairRules = 0x0072696170746600u,
+  Near = 0x007261656e746600u,
   Solid = 0x0064696c6f746600u,
 };
 
@@ -96,6 +98,23 @@ struct ft_query {
   bool hasStep = false;
   std::vector<foretouch::LinkState> states;
   foretouch::Pose pose;
+};
+
+/// For one thread.
+struct ft_near {
+  static constexpr auto kMark = foretouch::c::Mark::Near;
+  static constexpr const char* kName = "near_query";
+  foretouch::c::Mark mark = kMark;
+  std::shared_ptr<const foretouch::c::AvatarParts> avatar;
+  foretouch::NearQuery question;
+  foretouch::NearDetail detail = foretouch::NearDetail::Reduced;
+  foretouch::NearScratch scratch;
+  foretouch::ChainMotion still;  // of the pose that is asked
+  foretouch::Pose pose;
+  std::vector<foretouch::LinkState> states;
+  std::vector<double> reach;
+  foretouch::NearFeatures near;
+  bool hasAnswer = false;
 };
 
 namespace foretouch::c {

@@ -19,6 +19,7 @@ from foretouch._types import (
     LinkLike,
     LinkPairLike,
     Lss,
+    NearFeatures,
     PairRadius,
     PairRadiusLike,
     Policy,
@@ -353,6 +354,18 @@ class Query:
         threads: Optional[int] = None,
     ) -> Steps: ...
     def touches_at(self, motion: Motion, t: npt.ArrayLike) -> npt.NDArray[np.bool_]: ...
+    @property
+    def avatar(self) -> Avatar: ...
+    @property
+    def scene(self) -> Scene: ...
+
+class NearQuery:
+    def __init__(
+        self, avatar: Avatar, scene: Scene, *, ignore: Iterable[IgnoredLike] = ()
+    ) -> None: ...
+    def answer(
+        self, pose: PoseLike, reach: npt.ArrayLike, *, detail: str = "reduced"
+    ) -> NearFeatures: ...
     @property
     def avatar(self) -> Avatar: ...
     @property

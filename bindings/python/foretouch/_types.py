@@ -62,6 +62,30 @@ class Poses(Sequence[Pose]):
         return f"<foretouch.Poses: {len(self)} poses of {self.rotations.shape[1]} joints>"
 
 
+class NearFeatures(NamedTuple):
+    """The k places where links are near the scene, by link, LSS, gap and triangle. Metres, world."""
+
+    links: npt.NDArray[np.int32]
+    """(k,), as the next two."""
+    lss: npt.NDArray[np.int32]
+    """Which of the link's LSS."""
+    triangles: npt.NDArray[np.int32]
+    features: list[str]
+    """'face', 'edge' or 'vertex' of the triangle."""
+    along: Doubles
+    """(k,), of the axis' nearest point: from its end a (0) to b (1)."""
+    gaps: Doubles
+    """(k,), lower bounds on the separation; below 0 where the two overlap."""
+    points: Doubles
+    """(k, 3), on the triangles."""
+    on_links: Doubles
+    """(k, 3), on the LSS."""
+    normals: Doubles
+    """(k, 3), unit, from the scene to the link; 0 where the two meet without one."""
+    had_more: list[int]
+    """Links near more than a reduced answer keeps: the nearest are here."""
+
+
 class ContactPoint(NamedTuple):
     """Two points, one of each side, that are near when a contact is made. Metres, world frame."""
 
