@@ -1,6 +1,6 @@
 /* foretouch.h: Foretouch in C99 and C++: what an articulated body meets between two poses, when,
- * where and along which normal. One page about its use: docs/c-api.md. An avatar that passes through
- * nothing: foretouch/solid.h.
+ * where and along which normal. One page about its use: docs/c-api.md. A header of its own has the
+ * avatar that passes through nothing: foretouch/solid.h.
  *
  * Units and frames. Metres, radians, doubles; right-handed world W, +Y up; t is normalised, 0 at
  * the earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. To convert
