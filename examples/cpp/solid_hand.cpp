@@ -1,5 +1,5 @@
-// A hand that stays on a table: the tracked hand goes 6 cm too deep, sweeps along and over the edge,
-// comes back and leaves. Prints what is shown of it, at 90 Hz.
+// A hand that stays on a table: the tracked hand goes 6 cm too deep, sweeps along and over the
+// edge, comes back and leaves. Prints what is shown of it, at 90 Hz.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

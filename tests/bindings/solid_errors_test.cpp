@@ -10,8 +10,8 @@ namespace {
 using test::expectRefused;
 using test::refuse;
 
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-constexpr auto kNegative = static_cast<std::size_t>(-1);
+constexpr double kSolidNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr auto kSolidNegative = static_cast<std::size_t>(-1);
 
 struct Making {
   test::SmallWorld world;
@@ -38,17 +38,17 @@ void refuseNumber(double ft_solid_options::*option, const char* name,
 TEST(CSolidErrors, OfNumbers) {
   EXPECT_EQ(Making().make(), FT_OK);
   const double inf = std::numeric_limits<double>::infinity();
-  refuseNumber(&ft_solid_options::skin, "skin", {0.0, -1.0, 0.2, inf, kNotANumber});
-  refuseNumber(&ft_solid_options::tolerance, "tolerance", {0.0, 1e-3 + 1e-9, kNotANumber});
-  refuseNumber(&ft_solid_options::catch_up, "catch_up", {0.0, -1.0, inf, kNotANumber});
-  refuseNumber(&ft_solid_options::most_lift, "most_lift", {-0.1, 1.5, kNotANumber});
-  refuseNumber(&ft_solid_options::most_deviation, "most_deviation", {0.0, inf, kNotANumber});
+  refuseNumber(&ft_solid_options::skin, "skin", {0.0, -1.0, 0.2, inf, kSolidNaN});
+  refuseNumber(&ft_solid_options::tolerance, "tolerance", {0.0, 1e-3 + 1e-9, kSolidNaN});
+  refuseNumber(&ft_solid_options::catch_up, "catch_up", {0.0, -1.0, inf, kSolidNaN});
+  refuseNumber(&ft_solid_options::most_lift, "most_lift", {-0.1, 1.5, kSolidNaN});
+  refuseNumber(&ft_solid_options::most_deviation, "most_deviation", {0.0, inf, kSolidNaN});
   refuseNumber(&ft_solid_options::most_limb_deviation, "most_limb_deviation",
-               {0.0, inf, kNotANumber});
-  refuseNumber(&ft_solid_options::patience, "patience", {-1.0, inf, kNotANumber});
-  refuseNumber(&ft_solid_options::snap_notice, "snap_notice", {-1.0, inf, kNotANumber});
-  refuseNumber(&ft_solid_options::placing_reach, "placing_reach", {-1.0, inf, kNotANumber});
-  for (const double y : {0.0, 2.0, kNotANumber}) {
+               {0.0, inf, kSolidNaN});
+  refuseNumber(&ft_solid_options::patience, "patience", {-1.0, inf, kSolidNaN});
+  refuseNumber(&ft_solid_options::snap_notice, "snap_notice", {-1.0, inf, kSolidNaN});
+  refuseNumber(&ft_solid_options::placing_reach, "placing_reach", {-1.0, inf, kSolidNaN});
+  for (const double y : {0.0, 2.0, kSolidNaN}) {
     refuse<Making>([&](Making& m) { m.options.up[1] = y; }, FT_ERROR_OUT_OF_RANGE, {"up"});
   }
 }
@@ -69,7 +69,7 @@ TEST(CSolidErrors, OfWholeNumbers) {
 }
 
 TEST(CSolidErrors, OfArrays) {
-  static const double visibility[2] = {1.0, 1.0}, none[1] = {0.0}, bad[1] = {kNotANumber};
+  static const double visibility[2] = {1.0, 1.0}, none[1] = {0.0}, bad[1] = {kSolidNaN};
   static const std::uint8_t feet[2] = {1, 0};
   static const ft_ignored_pair ignored[1] = {{0, 1}};
   const auto withVisibility = [](const double* values, std::size_t count) {
@@ -79,7 +79,8 @@ TEST(CSolidErrors, OfArrays) {
   refuse<Making>(withVisibility(none, 1), FT_ERROR_OUT_OF_RANGE, {"visibility"});
   refuse<Making>(withVisibility(bad, 1), FT_ERROR_OUT_OF_RANGE, {"visibility"});
   refuse<Making>(withVisibility(nullptr, 1), FT_ERROR_NULL_ARGUMENT, {"visibility"});
-  refuse<Making>(withVisibility(visibility, kNegative), FT_ERROR_LIMIT_EXCEEDED, {"visibility"});
+  refuse<Making>(withVisibility(visibility, kSolidNegative), FT_ERROR_LIMIT_EXCEEDED,
+                 {"visibility"});
   const auto withFeet = [](const std::uint8_t* values, std::size_t count) {
     return [=](Making& m) { m.options.feet = values, m.options.feet_count = count; };
   };
@@ -90,7 +91,7 @@ TEST(CSolidErrors, OfArrays) {
   };
   refuse<Making>(withIgnored(ignored, 1), FT_ERROR_OUT_OF_RANGE, {"ignored"});
   refuse<Making>(withIgnored(nullptr, 1), FT_ERROR_NULL_ARGUMENT, {"ignored"});
-  refuse<Making>(withIgnored(ignored, kNegative), FT_ERROR_LIMIT_EXCEEDED, {"ignored"});
+  refuse<Making>(withIgnored(ignored, kSolidNegative), FT_ERROR_LIMIT_EXCEEDED, {"ignored"});
 }
 
 TEST(CSolidErrors, OfRulesOfAnotherAvatar) {
@@ -140,7 +141,7 @@ struct Following {
 
 TEST(CSolidErrors, OfTicks) {
   EXPECT_EQ(Following().make(), FT_OK);
-  for (const double dt : {0.0, -1.0, 10.1, kNotANumber}) {
+  for (const double dt : {0.0, -1.0, 10.1, kSolidNaN}) {
     refuse<Following>([&](Following& f) { f.dt = dt; }, FT_ERROR_OUT_OF_RANGE,
                       {"ft_solid_follow", "dt_s"});
   }
@@ -186,7 +187,7 @@ TEST(CSolidErrors, OfRoomAndSizes) {
 
 TEST(CSolidErrors, OfPlacesToBeginAt) {
   Following f;
-  const double nowhere[3] = {0, kNotANumber, 0};
+  const double nowhere[3] = {0, kSolidNaN, 0};
   const ft_pose bad = test::SmallWorld::poseOf(test::SmallWorld::kIdentity, nowhere);
   expectRefused(ft_solid_reset_at(f.solid.get(), &bad), FT_ERROR_NON_FINITE, {"place"});
   expectRefused(ft_solid_reset_at(f.solid.get(), nullptr), FT_ERROR_NULL_ARGUMENT, {"place"});

@@ -1,6 +1,6 @@
-/* A hand that stays on a table: the tracked hand goes 6 cm too deep, sweeps along and over the edge,
- * comes back and leaves. Prints what is shown of it, at 90 Hz.
- *   cc solid_hand.c -lforetouch -lm */
+/* A hand that stays on a table: the tracked hand goes 6 cm too deep, sweeps along and over the
+ * edge, comes back and leaves. Prints what is shown of it, at 90 Hz. cc solid_hand.c -lforetouch
+ * -lm */
 #include <foretouch/solid.h>
 #include <math.h>
 #include <stdio.h>

@@ -47,8 +47,8 @@ extern "C" {
 
 /* ---- Versions ---- */
 
-/* Of this header and solid.h. Every new function or field increments it; programs built with an older header
- * still work. A change that would break them changes the library's soname instead. */
+/* Of this header and solid.h. Every new function or field increments it; programs built with an
+ * older header still work. A change that would break them changes the library's soname instead. */
 #define FT_ABI_VERSION 2
 
 /* Of the library that runs: "0.1.0", a text that lives for ever, and its FT_ABI_VERSION. */
