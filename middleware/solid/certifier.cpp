@@ -44,8 +44,7 @@ Result<Certifier> Certifier::build(const Avatar& avatar, const Scene& scene,
   asked.ignored = options.ignored;
   asked.self = options.self;
   asked.scope = options.self ? Scope::EveryLink : Scope::FirstOfAvatar;
-  asked.passSeparating = true;
-  FORETOUCH_TRY(auto plan, QueryPlan::make(avatar, scene, asked));
+  FORETOUCH_TRY(auto plan, QueryPlan::make(avatar, scene, asked, kStartShare));
   return Certifier(std::make_shared<QueryPlan>(std::move(plan)), options.skin);
 }
 

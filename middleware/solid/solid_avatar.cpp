@@ -136,9 +136,11 @@ class SolidAvatar::Parts {
     }
     const internal::VisualBody& body = follower_.body();
     body.place(target_.states(), wanted_);
-    body.place(target_.lastStates(), lastWanted_);
-    const double step =
-        target_.hasLast() ? internal::VisualBody::farthest(wanted_, lastWanted_) : 0.0;
+    double step = 0.0;
+    if (target_.hasLast()) {
+      body.place(target_.lastStates(), lastWanted_);
+      step = internal::VisualBody::farthest(wanted_, lastWanted_);
+    }
     follower_.follow({target_.pose(), wanted_, step, step + options_.catchUp * dtS}, certifier_,
                      shown_, tick);
   }

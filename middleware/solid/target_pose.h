@@ -24,7 +24,7 @@ class TargetPose {
 
   [[nodiscard]] const Pose& pose() const { return pose_; }
   [[nodiscard]] bool isLost(JointId joint) const { return isLost_[slotOf(joint)] != 0; }
-  /// Where it places the links, and where the last target did.
+  /// Where it places the links, and where the last target did (which there must be).
   [[nodiscard]] const std::vector<LinkState>& states();
   [[nodiscard]] const std::vector<LinkState>& lastStates();
   [[nodiscard]] bool hasLast() const { return hasLast_; }
