@@ -25,7 +25,7 @@ class FeelMeter {
         links_(solidLinks(actor.avatar)),
         judge_(stage.judged, plainBody(actor.avatar)),
         trunk_(stage.judged, plainBody(actor.avatar, links_.trunk)),
-        audit_(stage, actor.avatar) {
+        audit_(stage.judged, actor.avatar) {
     audit_.begin(run.name);
   }
 

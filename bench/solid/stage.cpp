@@ -99,26 +99,6 @@ Result<SolidActor> loadActor(const std::string& path) {
   return actor;
 }
 
-oracle::PlainPose plainPose(const Pose& pose) {
-  oracle::PlainPose result;
-  for (const Quaternion& q : pose.rotations) result.rotations.push_back(plain(q));
-  for (const Eigen::Vector3d& p : pose.translations) result.translations.push_back(plain(p));
-  return result;
-}
-
-oracle::WayBody plainBody(const Avatar& avatar, const std::vector<bool>& links) {
-  oracle::WayBody body;
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    body.parents.push_back(avatar.skeleton().parent(link));
-    body.capsules.emplace_back();
-    if (!links.empty() && !links[slotOf(link)]) continue;
-    for (const Lss& lss : avatar.lss(link)) {
-      body.capsules.back().push_back({{plain(lss.a), plain(lss.b)}, lss.radius});
-    }
-  }
-  return body;
-}
-
 std::vector<Pose> trackedPoses(const SolidActor& actor, const Placement& place, double rateHz,
                                double fromS, double seconds) {
   const Skeleton& skeleton = actor.avatar.skeleton();

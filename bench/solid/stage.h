@@ -9,7 +9,8 @@
 #include "articulated/clip.h"
 #include "articulated/result.h"
 #include "assets/avatar/joint_match.h"
-#include "judge/way_judge.h"
+#include "bench/solid/plain_body.h"
+#include "judge/scene.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch::tools {
@@ -36,10 +37,6 @@ inline constexpr double kActorHeight = 1.65;
                                            bool isUpZ);
 /// Errors name the file; Empty if it has fewer than two frames or no extent.
 [[nodiscard]] Result<SolidActor> loadActor(const std::string& path);
-
-[[nodiscard]] oracle::PlainPose plainPose(const Pose& pose);
-/// `links`: of these alone, one per link; empty: of all.
-[[nodiscard]] oracle::WayBody plainBody(const Avatar& avatar, const std::vector<bool>& links = {});
 
 /// The clip's poses at `place`, `rateHz` of them per second from `fromS` on for `seconds`, in
 /// between frames by the in-between motion. Stops where the clip ends.

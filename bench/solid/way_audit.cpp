@@ -35,9 +35,9 @@ void WayTally::add(const WayTally& other) {
   }
 }
 
-WayAudit::WayAudit(const SolidStage& stage, const Avatar& avatar,
+WayAudit::WayAudit(const oracle::Scene& scene, const Avatar& avatar,
                    const std::vector<std::array<int, 2>>& ownPairs)
-    : judge_(stage.judged, bodyWith(avatar, ownPairs)) {}
+    : judge_(scene, bodyWith(avatar, ownPairs)) {}
 
 void WayAudit::begin(std::string name) {
   name_ = std::move(name);

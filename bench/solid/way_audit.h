@@ -2,12 +2,13 @@
 // alone: free, continuous, and no clearance beyond the truth.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "bench/solid/stage.h"
+#include "bench/solid/plain_body.h"
 #include "middleware/solid/solid_tick.h"
 
 namespace foretouch::tools {
@@ -27,11 +28,11 @@ struct WayTally {
   void add(const WayTally& other);
 };
 
-/// Judges tick by tick. The stage must outlive it.
+/// Judges tick by tick. The scene must outlive it.
 class WayAudit {
  public:
   /// `ownPairs`: of links that must not meet.
-  WayAudit(const SolidStage& stage, const Avatar& avatar,
+  WayAudit(const oracle::Scene& scene, const Avatar& avatar,
            const std::vector<std::array<int, 2>>& ownPairs = {});
 
   /// `name`: of the run, for findings. The next tick is the first.
