@@ -194,7 +194,7 @@ void LaneLink::collect(double t, const PosedLink& posed, double reach,
     const HitRange hits{lanes_.first[slotOf(lss)], lanes_.first[slotOf(lss) + 1]};
     if (hits.begin == hits.end) continue;
     if (meter_.isLimited() && meter_.isPartSpent(counters)) break;
-    findNear(scene_, endsOf(lss, posed), radiusOf(lss), reach, hits, lanes_, counters);
+    findNear(scene_, endsOf(lss, posed), radiusOf(lss), reach, hits, lanes_, lanes_.near, counters);
     const NearTriangles& near = lanes_.near;
     for (std::size_t k = 0; k < near.count; ++k) {
       if (scratch_.ignored.has(scene_, near.id[k])) continue;
@@ -221,9 +221,8 @@ bool LaneLink::advanceLss(std::int32_t lss, float& best, QueryCounters& counters
   if (begin == end) return true;
   if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
   const LssTable::Entry& entry = table_[lss];
-  const LssPolynomials polynomials = plan_.blends
-                                         ? lanes_.parts.skin.polynomials(lss)
-                                         : polynomialsOf(entry, motion_, lanes_.nodes());
+  const LssPolynomials polynomials = plan_.blends ? lanes_.parts.skin.polynomials(lss)
+                                                  : polynomialsOf(entry, motion_, lanes_.nodes());
   const LaneLss lane = laneLss(polynomials, entry.radius);
   float origin[3];
   for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);

@@ -115,15 +115,7 @@ Result<Done> checked(const Avatar& avatar, const Scene& scene, const QueryOption
   }
   FORETOUCH_CHECK(checkedSurfaces(avatar, options));
   FORETOUCH_CHECK(checkedSelf(avatar, options));
-  const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
-  for (const IgnoredPair& pair : options.ignored) {
-    if (pair.link < 0 || pair.link >= avatar.numLinks() ||
-        pair.object < IgnoredPair::kEveryObject || pair.object >= numObjects) {
-      return Error{ErrorCode::OutOfRange, "ignored", -1, pair.link,
-                   "expected a link of the avatar and an object of the scene"};
-    }
-  }
-  return Done{};
+  return checkedIgnored(avatar, scene, options.ignored);
 }
 
 /// Keeps the scene.
@@ -153,6 +145,19 @@ LinkPlan planOf(const Avatar& avatar, const QueryOptions& options, LinkId link) 
 }
 
 }  // namespace
+
+Result<Done> checkedIgnored(const Avatar& avatar, const Scene& scene,
+                            const std::vector<IgnoredPair>& ignored) {
+  const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
+  for (const IgnoredPair& pair : ignored) {
+    if (pair.link < 0 || pair.link >= avatar.numLinks() ||
+        pair.object < IgnoredPair::kEveryObject || pair.object >= numObjects) {
+      return Error{ErrorCode::OutOfRange, "ignored", -1, pair.link,
+                   "expected a link of the avatar and an object of the scene"};
+    }
+  }
+  return Done{};
+}
 
 Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
                                   const QueryOptions& options) {

@@ -68,4 +68,8 @@ struct QueryPlan {
                                 const QueryOptions& options);
 };
 
+/// Every pair names a link of the avatar, and an object of the scene or all of them.
+[[nodiscard]] Result<Done> checkedIgnored(const Avatar& avatar, const Scene& scene,
+                                          const std::vector<IgnoredPair>& ignored);
+
 }  // namespace foretouch::internal
