@@ -75,8 +75,7 @@ void addOutputSettings(Settings& settings, AskedReplay& asked) {
              "Triangles of that file at most")
       .in(kOutputGroup)
       .ofClips();
-  settings
-      .output("--bvh", "FILE", asked.bvhPath, "Also what the solid avatar shows, as a BVH clip")
+  settings.output("--bvh", "FILE", asked.bvhPath, "Also what the solid avatar shows, as a BVH clip")
       .needing("--solid")
       .ofClips();
   settings.asJson(asked.asJson).ofClips();

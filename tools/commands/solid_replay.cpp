@@ -84,12 +84,13 @@ class Extras {
   void add(const PlayedTick& tick) {
     if (track_) track_->add(tick);
   }
-  Result<Done> write(const SolidSummary& summary, const InterruptGuard& guard) {
+  Result<Done> write(const SolidSummary& summary, const std::string& header,
+                     const InterruptGuard& guard) {
     if (!track_) return Done{};
     track_->finish();
     if (!job_.bvhPath.empty()) FORETOUCH_CHECK(writeBvh(inputs_, *track_, job_.bvhPath));
     if (!job_.glb.path.empty()) {
-      FORETOUCH_TRY(const auto notes, writeSolidGlb(inputs_, *track_, job_.glb));
+      FORETOUCH_TRY(const auto notes, writeSolidGlb(inputs_, *track_, header, job_.glb));
       for (const std::string& note : notes) printNote(job_.glb.path + ": " + note);
     }
     if (job_.report.path.empty()) return Done{};
@@ -117,13 +118,12 @@ Result<Done> checkSolidTogether(const Settings& settings, const WorldRequest& re
   if (request.query.fidelity != Fidelity::Link) {
     return Error::in("--fidelity", ErrorCode::Mismatch,
                      std::string("expected link with --solid, found ") +
-                         toString(request.query.fidelity) +
-                         ": what is solid are the links' LSS");
+                         toString(request.query.fidelity) + ": what is solid are the links' LSS");
   }
   if (request.query.scope != Scope::EveryLink) {
-    return Error::in("--scope", ErrorCode::Mismatch,
-                     std::string("expected links with --solid, found ") +
-                         toString(request.query.scope));
+    return Error::in(
+        "--scope", ErrorCode::Mismatch,
+        std::string("expected links with --solid, found ") + toString(request.query.scope));
   }
   if (!request.policies.empty()) {
     return Error::in("--policy", ErrorCode::Mismatch,
@@ -160,7 +160,7 @@ Result<Done> runSolidReplay(const SolidReplayJob& job,
     if (!guard.requested()) {
       file.write(lines.last(summary.fields()));
       FORETOUCH_CHECK(file.commit());
-      FORETOUCH_CHECK(extras.write(summary, guard));
+      FORETOUCH_CHECK(extras.write(summary, header, guard));
     }
   }
   tell(summary);

@@ -43,7 +43,7 @@ void ShownTrack::addPose(double timeS, const Pose& pose, std::int64_t tick, bool
 
 void ShownTrack::add(const PlayedTick& tick) {
   const double length = tickS(inputs_), beginS = tick.timeS - length;
-  const bool isCurve = tick.answer.isCertified && !tick.start && !poses_.empty();
+  const bool isCurve = tick.answer.isCertified && tick.start() == nullptr && !poses_.empty();
   if (isCurve) {
     for (std::size_t i = 0; i < tick.numPieces(); ++i) {
       const double t = tick.timeOfPiece(i);

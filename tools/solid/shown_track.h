@@ -28,8 +28,8 @@ struct ShownContact : ReportedContact {
 };
 
 struct ShownTouchOf {
-  Touch touch;               ///< Its steps are those of the track.
-  std::size_t first = 0;     ///< The contact that begins it.
+  Touch touch;            ///< Its steps are those of the track.
+  std::size_t first = 0;  ///< The contact that begins it.
   double mostPush = 0.0;
 };
 

@@ -20,8 +20,7 @@ namespace {
 constexpr double kShares[] = {0.125, 1e-3};
 
 bool mayBeUnproven(const SolidRecord& record) {
-  return record.state == SolidState::Placing || record.state == SolidState::Snapped ||
-         record.limit == SolidLimit::Inside;
+  return record.state == SolidState::Placing || record.limit == SolidLimit::Inside;
 }
 
 std::string meets(const Avatar& avatar, const Scene& scene, const StepContacts& step) {
@@ -105,7 +104,7 @@ std::string SolidCheck::faultOf(const SolidRecord& record) {
   if (record.tick > 0 && !(record.timeS > lastTimeS_)) return "its time does not ascend";
   lastTimeS_ = record.timeS;
   if (!record.isCertified && !mayBeUnproven(record)) {
-    return fmt::format("it is not certified, but {}, where only placing and snapping is not",
+    return fmt::format("it is not certified, but {}: only what is placing, or inside, is not",
                        toString(record.state));
   }
   if (record.isCertified && record.state == SolidState::Placing) {
@@ -129,9 +128,10 @@ std::string SolidCheck::faultOfBegin(const SolidRecord& record) const {
     return record.start || !record.way.empty() ? "it has a way, although it has no place yet" : "";
   }
   const bool begins = !shown_ || record.state == SolidState::Snapped;
+  const bool mayBegin = begins || wasInside_;
   if (begins && !record.start) return "expected the pose where the curve begins, found none";
-  if (!begins && record.start) return "the curve begins anew, although nothing says that it may";
-  if (!begins && !record.way.empty() && record.from != markOfPose(*shown_)) {
+  if (!mayBegin && record.start) return "the curve begins anew, although nothing says that it may";
+  if (!record.start && !record.way.empty() && record.from != markOfPose(*shown_)) {
     return "its way does not begin at the pose that was shown before, bit for bit";
   }
   return "";
@@ -150,7 +150,6 @@ std::string SolidCheck::faultOfWay(const SolidRecord& record) {
   Pose from = record.start ? *record.start : *shown_;
   if (record.start) {
     ++checked_.begins;
-    // Where it snaps to is not claimed to be free, but the next motion that begins there is.
     const std::string fault = record.isCertified ? faultOfMotion(from, from) : "";
     if (!fault.empty()) return "where the curve begins, " + fault;
   }
@@ -161,6 +160,7 @@ std::string SolidCheck::faultOfWay(const SolidRecord& record) {
     from = to;
   }
   shown_ = std::move(from);
+  wasInside_ = record.limit == SolidLimit::Inside;
   return "";
 }
 

@@ -22,9 +22,9 @@ struct SolidFinding {
 
 struct CheckedSolid {
   std::int64_t ticks = 0, certified = 0, notCertified = 0;
-  std::int64_t motions = 0;   ///< Proven clear again; single poses included.
-  std::int64_t begins = 0;    ///< How often the curve begins.
-  double leastTolerance = 0;  ///< The smallest with which a motion had to be asked.
+  std::int64_t motions = 0;             ///< Proven clear again; single poses included.
+  std::int64_t begins = 0;              ///< How often the curve begins.
+  double leastTolerance = 0;            ///< The smallest with which a motion had to be asked.
   std::optional<SolidFinding> finding;  ///< The first; what follows is not looked at.
 
   [[nodiscard]] bool isSound() const { return !finding; }
@@ -63,6 +63,7 @@ class SolidCheck {
   ChainMotion motion_;
   CheckedSolid checked_;
   std::optional<Pose> shown_;  // nothing while it has no place
+  bool wasInside_ = false;
   double lastTimeS_ = 0.0;
 };
 

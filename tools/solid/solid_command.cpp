@@ -41,10 +41,11 @@ Result<std::string> fileOf(const char* option, const std::string& asked, const s
   }
   const auto found = markOfFile(path);
   if (!found.ok()) {
-    return Error::in(output, ErrorCode::FileNotFound,
-                     fmt::format("names {}, which is neither beside it nor here: {} FILE says where "
-                                 "it is",
-                                 inQuotes(name), option));
+    return Error::in(
+        output, ErrorCode::FileNotFound,
+        fmt::format("names {}, which is neither beside it nor here: {} FILE says where "
+                    "it is",
+                    inQuotes(name), option));
   }
   if (found.value() == mark) return path;
   return Error::in(path, ErrorCode::Mismatch,
@@ -85,10 +86,10 @@ Result<CheckedSolid> checkedFile(const AskedSolidCheck& asked) {
     return checked;
   }
   WorldRequest world;
-  FORETOUCH_TRY(world.scenePath, fileOf("--scene", asked.scene, header.scene, header.sceneMark,
-                                        asked.output));
-  FORETOUCH_TRY(const auto avatarPath, fileOf("--avatar", asked.avatar, header.avatar,
-                                              header.avatarMark, asked.output));
+  FORETOUCH_TRY(world.scenePath,
+                fileOf("--scene", asked.scene, header.scene, header.sceneMark, asked.output));
+  FORETOUCH_TRY(const auto avatarPath,
+                fileOf("--avatar", asked.avatar, header.avatar, header.avatarMark, asked.output));
   world.sceneImport.scale = header.sceneScale;
   world.sceneImport.up = header.sceneUp;
   FORETOUCH_TRY(const auto scene, loadScene(world));

@@ -146,14 +146,12 @@ Result<std::string> SolidLines::header() {
   out.field("k", inputs_.steps.stride);
   out.field("frame_time", inputs_.clip.frameTimeS);
   out.field("ticks", ticksOf(inputs_));
-  writeHeaderFields(settings,
-                    {"scale", "motion_up", "place", "scene_scale", "up", "ignore", "animation",
-                     "robot"},
-                    out);
+  writeHeaderFields(
+      settings,
+      {"scale", "motion_up", "place", "scene_scale", "up", "ignore", "animation", "robot"}, out);
   writeOptions(options_, inputs_.avatar, out);
   if (options_.self) {
-    out.rawField("self",
-                 nlohmann::json::parse(formatPairs(*options_.self, inputs_.avatar)).dump());
+    out.rawField("self", nlohmann::json::parse(formatPairs(*options_.self, inputs_.avatar)).dump());
   }
   writeLinkNames(inputs_.avatar, out);
   out.field("unmatched_joints", inputs_.match.unmatchedAvatar);
@@ -174,8 +172,8 @@ std::string SolidLines::line(const PlayedTick& played) {
   out.field("lift", answer.lift);
   out.field("clearance", played.numPieces() > 0 && answer.isCertified ? answer.clearance : 0.0);
   if (answer.snapInS >= 0.0) out.field("snap_in", answer.snapInS);
-  if (played.start) {
-    writePose("start", *played.start, out);
+  if (const Pose* const start = played.start()) {
+    writePose("start", *start, out);
   } else if (!shownMark_.empty() && played.numPieces() > 0) {
     out.field("from", shownMark_);
   }

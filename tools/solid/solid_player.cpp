@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 /// An error about an option of the library is one about the option that sets it.
 Error withOptionNames(Error error) {
   static const std::map<std::string, std::string> kOptions = {
-      {"skin", "--solid-skin"},    {"tolerance", "--tolerance"}, {"catchUp", "--catch-up"},
+      {"skin", "--solid-skin"},      {"tolerance", "--tolerance"},  {"catchUp", "--catch-up"},
       {"aroundPerTick", "--around"}, {"workBudget", "--budget-us"}, {"dtS", "--rate"}};
   const auto found = kOptions.find(error.file);
   if (found != kOptions.end()) error.file = found->second;
@@ -44,18 +44,6 @@ bool PlayedTick::isShownTracked() const {
   return areSamePoses(answer.shown, tracked);
 }
 
-void CurveBegins::take(PlayedTick& tick) {
-  const SolidTick& answer = tick.answer;
-  const bool isPlaced = answer.state != SolidState::Placing;
-  const bool begins = isPlaced && (!isPlaced_ || answer.state == SolidState::Snapped);
-  isPlaced_ = isPlaced;
-  tick.start.reset();
-  tick.firstPiece = isPlaced ? 0 : answer.numWay;
-  if (!begins) return;
-  tick.start = answer.numWay == 0 ? answer.shown : answer.way.front();
-  tick.firstPiece = std::min<std::size_t>(1, answer.numWay);
-}
-
 SolidOptions solidOptionsOf(const SolidRequest& request, const ReplayInputs& inputs,
                             bool hasTolerance) {
   constexpr double kToleranceOfSkin = 0.25;
@@ -79,7 +67,6 @@ Result<Done> playSolid(const ReplayInputs& inputs, const SolidOptions& options,
   auto built = SolidAvatar::build(inputs.avatar, inputs.scene, options);
   if (!built.ok()) return withOptionNames(built.error());
   SolidAvatar& solid = built.value();
-  CurveBegins begins;
   PlayedTick played;
   for (std::int64_t tick = 0; tick < ticksOf(inputs); ++tick) {
     played.tick = tick;
@@ -89,7 +76,6 @@ Result<Done> playSolid(const ReplayInputs& inputs, const SolidOptions& options,
     const auto followed = solid.follow({played.tracked, tickS(inputs)}, played.answer);
     if (!followed.ok()) return withOptionNames(followed.error());
     played.latencyUs = microsecondsFrom(start);
-    begins.take(played);
     if (!sink(played)) return Done{};
   }
   return Done{};

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 
 #include "articulated/result.h"
 #include "middleware/solid/solid_avatar.h"
@@ -18,28 +17,20 @@ struct PlayedTick {
   double timeS = 0.0;     ///< Of its pose since the clip's first frame.
   Pose tracked;
   SolidTick answer;
-  /// Where the shown curve begins anew in this tick: at its first place, after Placing, or where it
-  /// has Snapped. No motion leads there.
-  std::optional<Pose> start;
-  /// How many poses of `answer.way` no motion leads to: 1 if `start` is the first of them.
-  std::size_t firstPiece = 0;
   double latencyUs = 0.0;
 
+  /// Where the shown curve begins anew in this tick (SolidTick::hasAppeared); null: nowhere.
+  [[nodiscard]] const Pose* start() const {
+    return answer.hasAppeared && answer.numWay > 0 ? &answer.way.front() : nullptr;
+  }
   /// The poses that motions lead to, one after the other.
-  [[nodiscard]] std::size_t numPieces() const { return answer.numWay - firstPiece; }
-  [[nodiscard]] const Pose& piece(std::size_t i) const { return answer.way[firstPiece + i]; }
-  [[nodiscard]] double timeOfPiece(std::size_t i) const { return answer.times[firstPiece + i]; }
+  [[nodiscard]] std::size_t numPieces() const { return answer.numWay - firstPiece(); }
+  [[nodiscard]] const Pose& piece(std::size_t i) const { return answer.way[firstPiece() + i]; }
+  [[nodiscard]] double timeOfPiece(std::size_t i) const { return answer.times[firstPiece() + i]; }
   [[nodiscard]] bool isShownTracked() const;
-};
-
-/// Of one avatar's shown poses: from two ticks, one after the other, to where the curve begins.
-class CurveBegins {
- public:
-  /// Completes `start` and `firstPiece`.
-  void take(PlayedTick& tick);
 
  private:
-  bool isPlaced_ = false;
+  [[nodiscard]] std::size_t firstPiece() const { return start() == nullptr ? 0 : 1; }
 };
 
 /// Bit for bit, -0 and 0 told apart.
@@ -64,7 +55,9 @@ using TickSink = std::function<bool(const PlayedTick&)>;
   return inputs.steps.count + 1;
 }
 /// Seconds from one to the next.
-[[nodiscard]] inline double tickS(const ReplayInputs& inputs) { return inputs.timeOfStep(1); }
+[[nodiscard]] inline double tickS(const ReplayInputs& inputs) {
+  return inputs.timeOfStep(1);
+}
 
 /// Plays every pose that the inputs select. Errors: options that a solid avatar refuses, by the
 /// names of the command's options; poses beyond the legal coordinates; poses so far apart in time

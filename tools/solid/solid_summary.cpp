@@ -28,8 +28,8 @@ double shiftBetween(const Skeleton& skeleton, const Pose& from, const Pose& to) 
   const ChainMotion motion(skeleton, from, to);
   double most = 0.0;
   for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
-    most = std::max(most,
-                    (motion.stateAt(joint, 1.0).p_WL - motion.stateAt(joint, 0.0).p_WL).norm());
+    most =
+        std::max(most, (motion.stateAt(joint, 1.0).p_WL - motion.stateAt(joint, 0.0).p_WL).norm());
   }
   return most;
 }
@@ -73,8 +73,8 @@ void SolidSummary::add(const PlayedTick& tick) {
     clearance_ = clearance_ < 0.0 ? answer.clearance : std::min(clearance_, answer.clearance);
   }
   if (answer.state == SolidState::Placing) return;
-  if (tick.start && !isPlaced_) {
-    placingShift_ = shiftBetween(inputs_.avatar.skeleton(), tick.tracked, *tick.start);
+  if (tick.start() != nullptr && !isPlaced_) {
+    placingShift_ = shiftBetween(inputs_.avatar.skeleton(), tick.tracked, *tick.start());
     isPlaced_ = true;
   }
   const auto deviationOf = [&](LinkId link) {
@@ -93,8 +93,7 @@ Deviations SolidSummary::deviations(const std::vector<float>& all) {
 }
 
 double SolidSummary::keptS() const {
-  const std::int64_t kept =
-      of(SolidState::Sliding) + of(SolidState::Held) + of(SolidState::Around);
+  const std::int64_t kept = of(SolidState::Sliding) + of(SolidState::Held) + of(SolidState::Around);
   return static_cast<double>(kept) * tickS(inputs_);
 }
 
@@ -142,9 +141,11 @@ std::string SolidSummary::text() const {
     text += fmt::format("first place            {:.3g} mm from the tracked pose\n",
                         kMmPerM * placingShift_);
   }
-  if (lift_ > 0.0) text += fmt::format("lifted off the floor   {:.3g} mm at most\n", kMmPerM * lift_);
+  if (lift_ > 0.0)
+    text += fmt::format("lifted off the floor   {:.3g} mm at most\n", kMmPerM * lift_);
   text += fmt::format(
-      "queries a tick         {:.3g}\nlatency of a tick, us  p50 {:.1f}   p99 {:.1f}   max {:.1f}\n",
+      "queries a tick         {:.3g}\nlatency of a tick, us  p50 {:.1f}   p99 {:.1f}   max "
+      "{:.1f}\n",
       queriesPerTick(), latencyUs(0.5), latencyUs(0.99), latencyUs(1.0));
   return text;
 }
