@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "assets/avatar/pairs_file.h"
 #include "lss/index.h"
