@@ -19,8 +19,9 @@ constexpr int kMostIterations = 8, kMostFruitless = 4;
 constexpr double kLeastTrust = 0.01, kMostTrust = 0.05, kTrustOfStep = 1.5;
 /// Below this a step is not worth a motion: the avatar rests (m).
 constexpr double kSettled = 2e-5;
-/// A step below this is the tick's last (m).
-constexpr double kEnough = 3e-4;
+/// A tick ends with a step below this share of the tracked one, and at most this long (m): the rest
+/// waits for the next tick. A still target is followed until the avatar rests.
+constexpr double kEnoughOfStep = 0.1, kMostEnough = 1e-3;
 constexpr std::uint8_t kHotTicks = 8;
 /// How far to look beyond the skin: the free step, and what it may be off.
 constexpr double kReachOfStep = 1.2, kReachMore = 3e-3, kReachMargin = 2e-3;
@@ -87,8 +88,10 @@ bool Follower::goStraight(const Pose& target, Certifier& certifier, Pose& shown,
 void Follower::follow(const FollowRequest& request, Certifier& certifier, Pose& shown,
                       SolidTick& tick) {
   trust_ = std::clamp(kTrustOfStep * request.trackedStep, kLeastTrust, kMostTrust);
+  enough_ = std::clamp(kEnoughOfStep * request.trackedStep, kSettled, kMostEnough);
   left_ = request.budget;
   fruitless_ = 0;
+  hasMoved_ = false;
   rows_.clear();
   hasDirectFailed_ = cutClearance_ >= 0.0;
   if (hasDirectFailed_) {
@@ -125,13 +128,13 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   if (!hasPushes() && far <= left_ && (!hasDirectFailed_ || size_ <= trust_)) {
     return stepFreely(request, far, certifier, shown, tick);
   }
-  if (!hasStep) return false;
+  if (!hasStep || (hasMoved_ && size_ < enough_)) return false;
   const bool isShort = size_ > most;
   const double moved = std::min(size_, most);
   const Outcome outcome = show(request, tried_, certifier, shown, tick);
   if (outcome != Outcome::Clear) return ++fruitless_ < kMostFruitless;
   if (isShort && trust_ < size_) trust_ = std::min(2.0 * trust_, kMostTrust);
-  if (left_ > kSettled) return moved >= kEnough;
+  if (left_ > kSettled) return moved >= enough_;
   if (isShort) tick.limit = SolidLimit::CatchUp;
   return false;
 }
@@ -174,6 +177,7 @@ Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, C
     left_ -= VisualBody::farthest(places_, triedPlaces_);
     appendPiece(reached_, answer.clearance, tick);
     shown = reached_;
+    hasMoved_ = true;
     return Outcome::Clear;
   }
   if (!(answer.share > 0.0)) return Outcome::Stuck;
@@ -193,6 +197,7 @@ bool Follower::showCut(const FollowRequest& request, double clearance, Pose& sho
   left_ -= VisualBody::farthest(places_, triedPlaces_);
   appendPiece(reached_, clearance, tick);
   shown = reached_;
+  hasMoved_ = true;
   return true;
 }
 

@@ -106,7 +106,8 @@ class Follower {
 
   // Of the current tick.
   double trust_ = 0.0, left_ = 0.0;
-  bool hasDirectFailed_ = false, isOver_ = false;
+  double enough_ = 0.0;
+  bool hasDirectFailed_ = false, hasMoved_ = false, isOver_ = false;
   double cutClearance_ = -1.0;  // of reached_, where goStraight() was cut; < 0: it was not
   int fruitless_ = 0;
 

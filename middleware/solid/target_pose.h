@@ -19,12 +19,14 @@ class TargetPose {
   /// or at first their rest pose. Errors: as validatedPose(), and of a wrong number of flags; then
   /// nothing has changed.
   Result<Done> take(const SolidTarget& given, const Pose* shown);
+  /// Moves all of it, but for lost roots, which stay where they are shown.
+  void moveRoots(const Eigen::Vector3d& by);
   /// Forgets the last target.
   void reset() { isAny_ = hasLast_ = false; }
 
   [[nodiscard]] const Pose& pose() const { return pose_; }
   [[nodiscard]] bool isLost(JointId joint) const { return isLost_[slotOf(joint)] != 0; }
-  /// Where it places the links, and where the last target did.
+  /// Where it places the links, and where the last target did (which there must be).
   [[nodiscard]] const std::vector<LinkState>& states();
   [[nodiscard]] const std::vector<LinkState>& lastStates();
   [[nodiscard]] bool hasLast() const { return hasLast_; }
