@@ -298,6 +298,7 @@ void Follower::setBounds(bool mayPush) {
 /// False: there is none, or none worth a motion.
 bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                        double most, SolidTick& tick) {
+  push_.begin();
   setBounds(true);
   for (int attempt = 0; attempt <= kCorrections; ++attempt) {
     solve(tick);
