@@ -31,6 +31,7 @@ struct AskedReplay {
   std::vector<std::string> avatars;  ///< For a log, numbered as parseNumberedAvatars() reads them.
   StreamPolicy stream;
   std::string suffix;
+  StreamSolidRequest solid;
   int threads = 0;      ///< 0: one per processor.
   bool asJson = false;  ///< The summary.
 };
@@ -113,6 +114,14 @@ void addLogSettings(Settings& settings, AskedReplay& asked) {
   }
 }
 
+/// Of logs only.
+void addReplaySolidSettings(Settings& settings, AskedReplay& asked) {
+  addStreamSolidSettings(settings, asked.solid);
+  for (Setting& setting : settings) {
+    if (setting.group == kSolidGroup) setting.ofLogs();
+  }
+}
+
 Settings replaySettings(AskedReplay& asked) {
   Settings settings;
   addInputSettings(settings, asked);
@@ -126,6 +135,7 @@ Settings replaySettings(AskedReplay& asked) {
       .in(kEffortGroup)
       .ofClips();
   addLogSettings(settings, asked);
+  addReplaySolidSettings(settings, asked);
   return settings;
 }
 
@@ -235,9 +245,10 @@ ExitCode runClip(const AskedReplay& asked) {
 ExitCode runLog(const AskedReplay& asked) {
   FORETOUCH_TRY_OR(failed, auto avatars, parseNumberedAvatars("--avatar", asked.avatars));
   const ReplayRequest& given = asked.job.request;
-  const LogReplayJob job{{given.motionPath, given, std::move(avatars), asked.stream, asked.suffix},
-                         asked.job.outputPath,
-                         asked.job.report};
+  const LogReplayJob job{
+      {given.motionPath, given, std::move(avatars), asked.stream, asked.suffix, asked.solid},
+      asked.job.outputPath,
+      asked.job.report};
   const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
   const auto replayed = runLogReplay(job, [&](const std::string& text) {
     outIsTaken ? printAside(text) : printOut(text + placesOf(job.outputPath, job.report.path));
