@@ -21,6 +21,7 @@
 #include "assets/model/model_avatar.h"
 #include "assets/model/model_clip.h"
 #include "middleware/object_policies.h"
+#include "middleware/query/near_features.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_pool.h"
 #include "middleware/scene/scene.h"

@@ -11,7 +11,15 @@ namespace foretouch {
 
 enum class FeatureKind : std::uint8_t { Vertex, Edge, Face };
 
+/// A feature of a triangle: vertex `index`, or edge `index` from there to the next vertex; 0 for
+/// the face.
+struct FeaturePlace {
+  FeatureKind kind;
+  int index;
+};
+
 /// The vertex, else the edge, within 1e-9 of the triangle's size of `point`; else the face. Metres.
+[[nodiscard]] FeaturePlace featurePlaceAt(const Triangle& triangle, const Eigen::Vector3d& point);
 [[nodiscard]] FeatureKind featureAt(const Triangle& triangle, const Eigen::Vector3d& point);
 
 /// "vertex", "edge", "face".

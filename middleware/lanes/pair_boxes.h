@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lss/index.h"
 #include "tessellation/swept_boxes.h"
 
 namespace foretouch::internal {
@@ -13,6 +14,11 @@ struct AskedPairs {
   std::int32_t blocks = 0;          ///< Of SweptBoxes::kPadding LSS each.
   std::vector<std::uint16_t> bits;  ///< Row after row, `blocks` per LSS; only j > i.
   std::size_t numPairs = 0;         ///< Bits that are set.
+
+  [[nodiscard]] bool has(std::int32_t i, std::int32_t j) const {
+    constexpr std::int32_t kBlock = SweptBoxes::kPadding;
+    return (bits[countOf(i * blocks + j / kBlock)] >> (j % kBlock) & 1U) != 0;
+  }
 };
 
 struct LssIndexPair {

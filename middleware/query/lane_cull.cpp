@@ -47,7 +47,7 @@ bool LaneCull::collect(double begin, double end, bool areAllAsked, QueryCounters
   }
   walk(slab.boxes, counters);
   if (lanes.hits.empty()) return false;
-  sortHits();
+  lanes.sortByBox(countOf(table.size()));
   return true;
 }
 
@@ -78,22 +78,6 @@ void LaneCull::sweepSkin(QueryCounters& counters) const {
       skin.addBox(lss, margin, lanes.slab().boxes);
       ++counters.partSteps;
     }
-  }
-}
-
-/// By LSS, otherwise in the order of the walk (counting sort).
-void LaneCull::sortHits() const {
-  LaneScratch& lanes = scratch.lanes;
-  const auto count = static_cast<std::size_t>(table.size());
-  lanes.first.assign(count + 2, 0);
-  for (const LeafHit& hit : lanes.hits) ++lanes.first[hit.box + 2U];
-  for (std::size_t i = 2; i < count + 2; ++i) lanes.first[i] += lanes.first[i - 1];
-  lanes.leaf.resize(lanes.hits.size() + kMaxLanes);
-  lanes.triangles.resize(lanes.hits.size());
-  for (const LeafHit& hit : lanes.hits) {
-    const std::uint32_t place = lanes.first[hit.box + 1U]++;
-    lanes.leaf[place] = static_cast<std::int32_t>(hit.leaf);
-    lanes.triangles[place] = hit.triangles;
   }
 }
 

@@ -30,7 +30,6 @@ struct LaneCull {
  private:
   void walk(const SweptBoxes& swept, QueryCounters& counters) const;
   void sweepSkin(QueryCounters& counters) const;
-  void sortHits() const;
 };
 
 }  // namespace foretouch::internal

@@ -21,6 +21,8 @@ namespace {
 /// Lanes report certain contact within this share of the tolerance. The scalar code must agree; its
 /// rounding is far below the rest.
 constexpr double kCertainShare = 1.0 - 0x1p-10;
+/// Past what doubles take for within the tolerance.
+constexpr double kBeyond = 1.0 + 0x1p-10;
 /// No pair is certainly in contact.
 constexpr float kNeverCertain = -1.0F;
 /// Steps of a cluster before its triangles: if the cluster is done by then, up to eight triangles
@@ -72,18 +74,36 @@ LinkContact LaneLink::undone(LinkId link) const {
   return undecidedContact(link, begin_, UndecidedReason::WorkBudget);
 }
 
-LinkContact LaneLink::answer(LinkId link, float limit, QueryCounters& counters) {
+void LaneLink::prepare(LinkId link) {
   link_ = link;
-  const bool hasTriangles = plan_.of(link).surface != nullptr || plan_.of(link).skin != nullptr;
   scratch_.ignored.collect(body_.ignored(), link);
   for (const IgnoredPair& pair : lanes_.touched) {
     if (pair.link == link) scratch_.ignored.add(pair.object);
   }
   if (!plan_.margins.empty() || !lanes_.tolerances.empty()) useTolerance(toleranceOf(link));
+}
+
+bool LaneLink::hasTriangles() const {
+  return plan_.of(link_).surface != nullptr || plan_.of(link_).skin != nullptr;
+}
+
+LinkContact LaneLink::answerAtStart(LinkId link, QueryCounters& counters) {
+  prepare(link);
+  tolerances_.contact = kNeverCertain;
+  // Nothing that may be within the tolerance goes on.
+  tolerances_.handOver = floatAbove(kBeyond * tolerance_);
+  float best = kBegin;
+  const LinkContact contact = answerBefore(link, best, counters, true);
+  useTolerance(tolerance_);
+  return contact;
+}
+
+LinkContact LaneLink::answer(LinkId link, float limit, QueryCounters& counters) {
+  prepare(link);
   // A triangle that touches an LSS may still miss the triangles in it.
-  tolerances_.contact = hasTriangles ? kNeverCertain : floatBelow(kCertainShare * tolerance_);
+  tolerances_.contact = hasTriangles() ? kNeverCertain : floatBelow(kCertainShare * tolerance_);
   float best = limit;
-  if (hasTriangles && begin_ == 0.0) {
+  if (hasTriangles() && begin_ == 0.0) {
     // The triangles that a link inside furniture touches at once settle it, whatever it sweeps
     // afterwards.
     best = kBegin;
@@ -104,8 +124,10 @@ LinkContact LaneLink::answer(LinkId link, float limit, QueryCounters& counters) 
 }
 
 /// Looks for nothing later than `best`, and lowers it by certain contacts. Of a mesh or a skin: if
-/// `best` is the step's beginning, tests for contact then, else looks after it.
-LinkContact LaneLink::answerBefore(LinkId link, float& best, QueryCounters& counters) {
+/// `best` is the step's beginning, tests for contact then, else looks after it. `startAlone`:
+/// `best` is the step's beginning, and nothing after it counts.
+LinkContact LaneLink::answerBefore(LinkId link, float& best, QueryCounters& counters,
+                                   bool startAlone) {
   scratch_.candidates.clear();
   const std::int32_t firstLss = table_.first(link);
   for (std::int32_t lss = firstLss; lss < table_.first(link + 1); ++lss) {
@@ -135,6 +157,10 @@ LinkContact LaneLink::answerBefore(LinkId link, float& best, QueryCounters& coun
       &scratch_.states};
   const bool atStart = best == kBegin && begin_ == 0.0;
   if (asked.skin != nullptr) return skinContact(query, atStart, counters);
+  if (asked.surface == nullptr && startAlone) {
+    const auto contact = contactAtStart(query, candidates, counters);
+    return contact ? *contact : clearContact(link);
+  }
   if (asked.surface == nullptr) return backtrack(query, candidates, counters);
   return surfaceContact(query, atStart, counters);
 }
@@ -194,7 +220,7 @@ void LaneLink::collect(double t, const PosedLink& posed, double reach,
     const HitRange hits{lanes_.first[slotOf(lss)], lanes_.first[slotOf(lss) + 1]};
     if (hits.begin == hits.end) continue;
     if (meter_.isLimited() && meter_.isPartSpent(counters)) break;
-    findNear(scene_, endsOf(lss, posed), radiusOf(lss), reach, hits, lanes_, counters);
+    findNear(scene_, endsOf(lss, posed), radiusOf(lss), reach, hits, lanes_, lanes_.near, counters);
     const NearTriangles& near = lanes_.near;
     for (std::size_t k = 0; k < near.count; ++k) {
       if (scratch_.ignored.has(scene_, near.id[k])) continue;
@@ -221,9 +247,8 @@ bool LaneLink::advanceLss(std::int32_t lss, float& best, QueryCounters& counters
   if (begin == end) return true;
   if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
   const LssTable::Entry& entry = table_[lss];
-  const LssPolynomials polynomials = plan_.blends
-                                         ? lanes_.parts.skin.polynomials(lss)
-                                         : polynomialsOf(entry, motion_, lanes_.nodes());
+  const LssPolynomials polynomials = plan_.blends ? lanes_.parts.skin.polynomials(lss)
+                                                  : polynomialsOf(entry, motion_, lanes_.nodes());
   const LaneLss lane = laneLss(polynomials, entry.radius);
   float origin[3];
   for (int k = 0; k < 3; ++k) origin[k] = static_cast<float>(polynomials.origin[k]);

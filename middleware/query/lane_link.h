@@ -31,14 +31,20 @@ class LaneLink final : private Neighbours {
   /// Looks for nothing later than `limit`. Undecided for want of work: free until the span's begin
   /// or later.
   [[nodiscard]] LinkContact answer(LinkId link, float limit, QueryCounters& counters);
+  /// Of a span that begins with the step: the nearest contact at t = 0, if the link begins within
+  /// its tolerance, else Clear, which says nothing of later.
+  [[nodiscard]] LinkContact answerAtStart(LinkId link, QueryCounters& counters);
 
   [[nodiscard]] double timeOf(float u) const;
   [[nodiscard]] float lanesTimeOf(double t) const;
 
  private:
+  void prepare(LinkId link);
   void useTolerance(double tolerance);
   [[nodiscard]] double toleranceOf(LinkId link) const;
-  [[nodiscard]] LinkContact answerBefore(LinkId link, float& best, QueryCounters& counters);
+  [[nodiscard]] bool hasTriangles() const;
+  [[nodiscard]] LinkContact answerBefore(LinkId link, float& best, QueryCounters& counters,
+                                         bool startAlone = false);
   [[nodiscard]] LinkContact undone(LinkId link) const;
   [[nodiscard]] LinkContact surfaceContact(const LinkQuery& query, bool atStart,
                                            QueryCounters& counters);

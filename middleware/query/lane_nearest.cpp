@@ -5,8 +5,8 @@
 
 namespace foretouch::internal {
 
-void findNear(const Scene& scene, const AxisEnds& ends, double radius, double reach, HitRange hits,
-              LaneScratch& scratch, QueryCounters& counters) {
+void findNear(const Scene& scene, const AxisEnds& ends, double radius, double reach, HitRange range,
+              const LeafHits& hits, NearTriangles& near, QueryCounters& counters) {
   const FlatBvh& bvh = scene.parts().bvh;
   const Eigen::Vector3d& treeOrigin = scene.parts().origin;
   // Floats resolve what is near the LSS.
@@ -14,12 +14,12 @@ void findNear(const Scene& scene, const AxisEnds& ends, double radius, double re
   const Eigen::Vector3d origin_W = treeOrigin + origin.cast<double>();
   const Eigen::Vector3d a = ends.a - origin_W, b = ends.b - origin_W;
   const StillLss lss = stillLss(a.data(), b.data(), radius, bvh.vertexRounding());
-  const LeafChoice choice{bvh.leaves(), bvh.clusters(), scratch.leaf.data() + hits.begin,
-                          scratch.triangles.data() + hits.begin, hits.end - hits.begin};
-  findNearTriangles(lss, floatAbove(reach), choice, origin.data(), scratch.near);
+  const LeafChoice choice{bvh.leaves(), bvh.clusters(), hits.leaf.data() + range.begin,
+                          hits.triangles.data() + range.begin, range.end - range.begin};
+  findNearTriangles(lss, floatAbove(reach), choice, origin.data(), near);
   counters.clusterSteps += choice.count;
-  counters.candidates += scratch.near.looked;
-  counters.laneSteps += scratch.near.looked;
+  counters.candidates += near.looked;
+  counters.laneSteps += near.looked;
 }
 
 }  // namespace foretouch::internal

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lss/index.h"
+#include "middleware/query/leaving.h"
 
 namespace foretouch::internal {
 namespace {
@@ -12,9 +13,6 @@ namespace {
 constexpr double kShareOfWhole = 0.875;
 constexpr std::uint64_t kSlabWork = 2048;
 constexpr int kMostHalvings = 6;
-
-/// Of the separation that a link began with, how near it may come when it leaves.
-constexpr double kPassShare = 0.25;
 
 /// The work was spent before the answer.
 bool isSpent(const LinkContact& contact) {
@@ -38,7 +36,9 @@ void LaneQuery::run(StepContacts& step) {
   findWhoIsAsked(step);
   lanes_.touched.clear();
   lanes_.tolerances.clear();
-  if (plan_.options.passSeparating) lanes_.tolerances.assign(countOf(body_.numLinks()), 0.0);
+  if (plan_.options.passSeparating || plan_.startShare > 0.0) {
+    lanes_.tolerances.assign(countOf(body_.numLinks()), 0.0);
+  }
   const int slabs =
       slabsOf(plan_.blends ? plan_.blends->carried() : table_, motion_, plan_.tolerances.least);
   if (meter_.isLimited()) {
@@ -88,16 +88,26 @@ bool LaneQuery::answerSlab(StepContacts& step) {
 
 /// The link's first contact in the current slab, beyond the one that it begins with and leaves.
 LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters) {
+  if (plan_.startShare > 0.0 && begin_ == 0.0 && !(lanes_.tolerances[slotOf(link)] > 0.0)) {
+    const LinkContact start = link_.answerAtStart(link, counters);
+    if (start.verdict != Verdict::Clear && !mayLeave(start, plan_.startShare)) return start;
+  }
   const LinkContact contact = link_.answer(link, limit, counters);
-  if (!plan_.options.passSeparating || !mayPass(contact)) return contact;
-  lanes_.tolerances[slotOf(link)] = kPassShare * contact.separation;
-  return link_.answer(link, limit, counters);
+  if (!plan_.options.passSeparating || !recedes(contact)) return contact;
+  return mayLeave(contact, kPassShare) ? link_.answer(link, limit, counters) : contact;
 }
 
-/// It begins apart, and its witness point does not approach the scene's.
-bool LaneQuery::mayPass(const LinkContact& contact) const {
+/// The link begins apart, and goes on with a tolerance of its own.
+bool LaneQuery::mayLeave(const LinkContact& contact, double share) {
   if (contact.verdict != Verdict::Contact || contact.toi != 0.0) return false;
-  if (!(kPassShare * contact.separation >= kMinTolerance)) return false;
+  double& own = lanes_.tolerances[slotOf(contact.link)];
+  own = leavingTolerance(contact.separation, plan_.of(contact.link).tolerance, share);
+  return own > 0.0;
+}
+
+/// At the start, its witness point does not approach the scene's.
+bool LaneQuery::recedes(const LinkContact& contact) const {
+  if (contact.verdict != Verdict::Contact || contact.toi != 0.0) return false;
   const LinkState state = motion_.stateAt(contact.link, 0.0);
   return state.velocityOf(contact.p_WLink).dot(contact.nhat_SL_W) >= 0.0;
 }

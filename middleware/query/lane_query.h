@@ -33,7 +33,8 @@ class LaneQuery {
   void beginSlab(int slab, int count);
   [[nodiscard]] bool answerSlab(StepContacts& step);
   [[nodiscard]] LinkContact answer(LinkId link, float limit, QueryCounters& counters);
-  [[nodiscard]] bool mayPass(const LinkContact& contact) const;
+  [[nodiscard]] bool mayLeave(const LinkContact& contact, double share);
+  [[nodiscard]] bool recedes(const LinkContact& contact) const;
   void answerObjects(LinkId link, StepContacts& step);
   void runInHalves(StepContacts& step, int slab, int slabs);
   [[nodiscard]] bool answerOpen(StepContacts& step);

@@ -10,6 +10,7 @@
 #include "articulated/chain_nodes.h"
 #include "middleware/lanes/lss_pairs.h"
 #include "middleware/lanes/near_triangles.h"
+#include "middleware/query/leaf_hits.h"
 #include "middleware/query/part_pairs.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/flat_bvh.h"
@@ -29,12 +30,8 @@ struct SlabScratch {
   std::uint64_t lastUse = 0;
 };
 
-struct LaneScratch {
-  std::vector<LeafHit> hits;  // of all LSS, in the order of the walk
-  // The hits by LSS; `first`: where those of an LSS begin.
-  std::vector<std::uint32_t> first;
-  std::vector<std::int32_t> leaf;  // padded by kMaxLanes
-  std::vector<std::uint8_t> triangles;
+/// The hits are those of the LSS' boxes.
+struct LaneScratch : LeafHits {
   PairLanes pairs;
   std::vector<LeafPart> leafParts;    // of the current LSS
   std::vector<std::uint32_t> order;   // of the clusters, by time

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "articulated/try.h"
+#include "middleware/query/leaving.h"
 #include "middleware/scene/flat_bvh_lanes.h"
 #include "middleware/scene/scene_parts.h"
 
@@ -61,6 +62,24 @@ Result<Done> checkedSurfaces(const Avatar& avatar, const QueryOptions& options) 
   return Done{};
 }
 
+Result<Done> checkedStartShare(const QueryPlan& plan, bool areLinksInLanes) {
+  if (plan.startShare == 0.0) return Done{};
+  const auto refused = [](ErrorCode code, std::string text) {
+    return Error::in("startShare", code, std::move(text));
+  };
+  if (!(plan.startShare > 0.0 && plan.startShare <= kMostStartShare)) {
+    return refused(ErrorCode::OutOfRange, "expected 0 to 0.5");
+  }
+  if (!areLinksInLanes) {
+    return refused(ErrorCode::Mismatch,
+                   std::string("expected 0 at fidelity ") + toString(plan.options.fidelity));
+  }
+  if (plan.options.passSeparating) {
+    return refused(ErrorCode::Mismatch, "expected 0 with passSeparating, which it includes");
+  }
+  return Done{};
+}
+
 /// What only lanes answer, link by link.
 Result<Done> checkedLanes(const QueryPlan& plan) {
   const QueryOptions& options = plan.options;
@@ -69,6 +88,7 @@ Result<Done> checkedLanes(const QueryPlan& plan) {
     return Error::in("passSeparating", ErrorCode::Mismatch,
                      std::string("expected false at fidelity ") + toString(options.fidelity));
   }
+  FORETOUCH_CHECK(checkedStartShare(plan, areLinksInLanes));
   if (options.scope != Scope::EveryObject) return Done{};
   if (!areLinksInLanes) {
     return Error::in(
@@ -115,15 +135,7 @@ Result<Done> checked(const Avatar& avatar, const Scene& scene, const QueryOption
   }
   FORETOUCH_CHECK(checkedSurfaces(avatar, options));
   FORETOUCH_CHECK(checkedSelf(avatar, options));
-  const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
-  for (const IgnoredPair& pair : options.ignored) {
-    if (pair.link < 0 || pair.link >= avatar.numLinks() ||
-        pair.object < IgnoredPair::kEveryObject || pair.object >= numObjects) {
-      return Error{ErrorCode::OutOfRange, "ignored", -1, pair.link,
-                   "expected a link of the avatar and an object of the scene"};
-    }
-  }
-  return Done{};
+  return checkedIgnored(avatar, scene, options.ignored);
 }
 
 /// Keeps the scene.
@@ -154,11 +166,25 @@ LinkPlan planOf(const Avatar& avatar, const QueryOptions& options, LinkId link) 
 
 }  // namespace
 
+Result<Done> checkedIgnored(const Avatar& avatar, const Scene& scene,
+                            const std::vector<IgnoredPair>& ignored) {
+  const auto numObjects = static_cast<ObjectId>(scene.objectNames().size());
+  for (const IgnoredPair& pair : ignored) {
+    if (pair.link < 0 || pair.link >= avatar.numLinks() ||
+        pair.object < IgnoredPair::kEveryObject || pair.object >= numObjects) {
+      return Error{ErrorCode::OutOfRange, "ignored", -1, pair.link,
+                   "expected a link of the avatar and an object of the scene"};
+    }
+  }
+  return Done{};
+}
+
 Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
-                                  const QueryOptions& options) {
+                                  const QueryOptions& options, double startShare) {
   FORETOUCH_CHECK(checked(avatar, scene, options));
   QueryPlan plan{avatar, scene, options,         {},      LssTable(avatar), nullptr, {}, {},
                  false,  {},    cullerOf(scene), nullptr, nullptr};
+  plan.startShare = startShare;
   plan.tolerances = {kMaxTolerance, kMinTolerance};
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     plan.links.push_back(planOf(avatar, plan.options, link));

@@ -58,14 +58,23 @@ struct QueryPlan {
   std::shared_ptr<const TriangleCuller> culler;  // the scene's
   std::shared_ptr<const LeafProver> leafProver;  // null
   std::shared_ptr<const StepProver> stepProver;  // null
+  /// Above 0: a link, or a pair of own links, that begins within its tolerance without touching is
+  /// not stopped there, whichever way it moves. Its tolerance is then this share of its separation
+  /// at t = 0, if that is less, and not below kMinTolerance (docs/guarantees.md 13).
+  double startShare = 0.0;
 
   [[nodiscard]] const LinkPlan& of(LinkId link) const { return links[slotOf(link)]; }
   /// What lanes move: the links' own LSS, or those around clusters of a skin.
   [[nodiscard]] const LssTable& laneTable() const { return blends ? blends->table() : table; }
 
-  /// As Query::build().
+  /// As Query::build(). Errors as there, and a `startShare` that is not 0 to kMostStartShare, or
+  /// above 0 with passSeparating or where not every link has a surface of its own in lanes.
   static Result<QueryPlan> make(const Avatar& avatar, const Scene& scene,
-                                const QueryOptions& options);
+                                const QueryOptions& options, double startShare = 0.0);
 };
+
+/// Every pair names a link of the avatar, and an object of the scene or all of them.
+[[nodiscard]] Result<Done> checkedIgnored(const Avatar& avatar, const Scene& scene,
+                                          const std::vector<IgnoredPair>& ignored);
 
 }  // namespace foretouch::internal

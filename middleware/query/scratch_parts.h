@@ -31,6 +31,12 @@ struct SelfCurve {
   AxisCurve curve;
 };
 
+/// Two links that left where they began, and their tolerance since.
+struct LeftPair {
+  LinkId link, other;
+  double tolerance;
+};
+
 /// Memory of queries about own links.
 struct SelfScratch {
   std::vector<NodeFrame> frames;
@@ -39,6 +45,7 @@ struct SelfScratch {
   std::vector<PlanePair> pairs;                        // that planes have left open
   std::vector<AxisBounds> boundsOfOne, boundsOfOther;  // per LSS of both links of a pair
   std::vector<SelfCurve> curves;                       // of LSS of these, as far as needed
+  std::vector<LeftPair> left;
 };
 
 /// Memory that one thread's queries reuse.

@@ -1,6 +1,7 @@
 #include "middleware/query/self_query.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 #include "lss/index.h"
@@ -9,6 +10,7 @@
 #include "middleware/query/backtracking.h"
 #include "middleware/query/lane_backtracking.h"
 #include "middleware/query/lane_cull.h"
+#include "middleware/query/leaving.h"
 #include "middleware/scene/scene_parts.h"
 #include "tessellation/point_rounding.h"
 
@@ -53,6 +55,7 @@ SelfQuery::SelfQuery(const QueryPlan& plan, const ChainMotion& motion, const Wor
 
 void SelfQuery::run(StepContacts& step) {
   const int slabs = slabsOf(table_, motion_, plan_.tolerances.least);
+  own_.left.clear();
   for (int slab = 0; slab < slabs; ++slab) {
     begin_ = static_cast<double>(slab) / slabs;
     end_ = static_cast<double>(slab + 1) / slabs;
@@ -187,37 +190,89 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   double times[kNodes];
   for (int k = 0; k < kNodes; ++k) times[k] = scratch_.lanes.nodes().instant(k);
   const LinkParts other = partsOf(other_, own_.boundsOfOther);
-  const LinkQuery query{partsOf(one_, own_.boundsOfOne),
-                        plan_.scene,
-                        Pieces{kNodePieces, times, end_},
-                        std::min(plan_.of(one_.link).tolerance, plan_.of(other_.link).tolerance),
-                        meter_,
-                        nullptr,
-                        scratch_.evaluator,
-                        *this,
-                        &other,
-                        frame};
+  LinkQuery query{partsOf(one_, own_.boundsOfOne),
+                  plan_.scene,
+                  Pieces{kNodePieces, times, end_},
+                  tolerance(),
+                  meter_,
+                  nullptr,
+                  scratch_.evaluator,
+                  *this,
+                  &other,
+                  frame};
   const bool areMeshes = query.isExact() || other.surface != nullptr;
   const bool mayStart = begin_ == 0.0 && std::any_of(pairs, pairs + count, [](const PlanePair& p) {
                           return (p.open & 1U) != 0;
                         });
   const bool areNodesFine = pointRounding(scratch_.lanes.nodes().bounds(), 0.0) <= kStartRounding;
   if (mayStart && areNodesFine && !areMeshes) {
-    if (const auto contact = contactAtStart(query, step.counters)) {
+    const auto contact = contactAtStart(query, step.counters);
+    if (contact && !mayLeave(query, *contact, step.counters)) {
       return keep(*contact, kNoParent, step);
     }
   }
   prepareSide(one_, frame, own_.boundsOfOne);
   prepareSide(other_, frame, own_.boundsOfOther);
+  PairContact contact = contactFrom(query, pairs, count, step.counters);
+  if (mayLeave(query, contact, step.counters)) {
+    contact = contactFrom(query, pairs, count, step.counters);
+  }
+  if (contact.verdict != Verdict::Clear) keep(contact, frame, step);
+}
+
+/// Of the pair at hand; null if it has not left.
+const LeftPair* SelfQuery::leftPair() const {
+  const auto found = std::find_if(own_.left.begin(), own_.left.end(), [this](const LeftPair& pair) {
+    return pair.link == one_.link && pair.other == other_.link;
+  });
+  return found != own_.left.end() ? &*found : nullptr;
+}
+
+/// Of the pair at hand: the smaller one of both links, unless they began within it and left.
+double SelfQuery::tolerance() const {
+  const LeftPair* const left = leftPair();
+  return left != nullptr ? left->tolerance
+                         : std::min(plan_.of(one_.link).tolerance, plan_.of(other_.link).tolerance);
+}
+
+/// The pair began within its tolerance, and goes on with another one.
+bool SelfQuery::mayLeave(LinkQuery& query, const PairContact& contact, QueryCounters& counters) {
+  if (plan_.startShare == 0.0 || contact.verdict != Verdict::Contact) return false;
+  if (leftPair() != nullptr) return false;
+  const double separation =
+      contact.toi == 0.0 ? contact.separation : startSeparation(query, counters);
+  const double own = leavingTolerance(separation, query.tolerance, plan_.startShare);
+  if (!(own > 0.0)) return false;
+  own_.left.push_back({one_.link, other_.link, own});
+  query.tolerance = own;
+  return true;
+}
+
+/// Of the two links' LSS at t = 0: planes may have closed the piece that begins there.
+double SelfQuery::startSeparation(const LinkQuery& query, QueryCounters& counters) {
+  StateCache states(query, counters);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t i = table_.first(one_.link); i < table_.first(one_.link + 1); ++i) {
+    for (std::int32_t j = table_.first(other_.link); j < table_.first(other_.link + 1); ++j) {
+      if (!self_.asked().has(i, j)) continue;
+      const Candidate candidate = candidateOf({i, j}, kEveryPiece);
+      least = std::min(least, pairOf(query, candidate, states.at(0.0), counters).estimate());
+    }
+  }
+  return least;
+}
+
+/// In the query's frame.
+PairContact SelfQuery::contactFrom(const LinkQuery& query, const PlanePair* pairs,
+                                   std::size_t count, QueryCounters& counters) {
   scratch_.candidates.clear();
   for (std::size_t k = 0; k < count; ++k) {
     scratch_.candidates.push_back(candidateOf({pairs[k].i, pairs[k].j}, pairs[k].open));
   }
-  advanceAlongCurves(query, step.counters);
-  if (scratch_.candidates.empty()) return;
-  const PairContact contact = areMeshes ? meshContact(query, step.counters)
-                                        : backtrack(query, scratch_.candidates, step.counters);
-  if (contact.verdict != Verdict::Clear) keep(contact, frame, step);
+  advanceAlongCurves(query, counters);
+  if (scratch_.candidates.empty()) return PairContact{clearContact(one_.link)};
+  const bool areMeshes = query.isExact() || query.other->surface != nullptr;
+  return areMeshes ? meshContact(query, counters) : backtrack(query, scratch_.candidates, counters);
 }
 
 /// Of the triangles of both links, or of the LSS of one that has none.

@@ -42,6 +42,13 @@ class SelfQuery final : private Neighbours {
   void dropClosed();
   void answerPairs(StepContacts& step);
   void answerPair(std::size_t first, std::size_t count, StepContacts& step);
+  [[nodiscard]] const LeftPair* leftPair() const;
+  [[nodiscard]] double tolerance() const;
+  [[nodiscard]] bool mayLeave(LinkQuery& query, const PairContact& contact,
+                              QueryCounters& counters);
+  [[nodiscard]] double startSeparation(const LinkQuery& query, QueryCounters& counters);
+  [[nodiscard]] PairContact contactFrom(const LinkQuery& query, const PlanePair* pairs,
+                                        std::size_t count, QueryCounters& counters);
   [[nodiscard]] std::optional<PairContact> contactAtStart(const LinkQuery& query,
                                                           QueryCounters& counters);
   [[nodiscard]] MovingHull atFirstNode(LinkId of, std::int32_t lss, double radiusShare) const;

@@ -145,4 +145,10 @@ Result<const internal::EmbreeTriangles*> internal::SceneParts::embreeTriangles()
   return static_cast<const EmbreeTriangles*>(embreeTriangles_.get());
 }
 
+const internal::FlatEdges& internal::SceneParts::flatEdges() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (flatEdges_ == nullptr) flatEdges_ = std::make_unique<FlatEdges>(triangles, finiteIds);
+  return *flatEdges_;
+}
+
 }  // namespace foretouch

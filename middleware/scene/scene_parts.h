@@ -8,6 +8,7 @@
 
 #include "middleware/scene/embree_triangles.h"
 #include "middleware/scene/flat_bvh.h"
+#include "middleware/scene/flat_edges.h"
 #include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
@@ -23,10 +24,13 @@ struct SceneParts {
 
   /// Builds them on first use: most programs never need them.
   [[nodiscard]] Result<const EmbreeTriangles*> embreeTriangles() const;
+  /// Likewise.
+  [[nodiscard]] const FlatEdges& flatEdges() const;
 
  private:
   mutable std::mutex mutex_;
   mutable std::unique_ptr<EmbreeTriangles> embreeTriangles_;
+  mutable std::unique_ptr<FlatEdges> flatEdges_;
 };
 
 }  // namespace foretouch::internal

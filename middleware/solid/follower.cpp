@@ -1,24 +1,405 @@
 #include "middleware/solid/follower.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
+#include "articulated/try.h"
+#include "lss/hull.h"
+#include "lss/index.h"
+#include "lss/separation.h"
+#include "middleware/query/work_meter.h"
 #include "middleware/solid/solid_way.h"
-#include "middleware/solid/tree_pose.h"
 
 namespace foretouch::internal {
+namespace {
 
-Follower::Follower(const Avatar& avatar, const SolidOptions& options)
-    : body_(avatar, options.visibility) {}
+// Where each comes from: solid.md 6.
+constexpr int kMostIterations = 8, kMostFruitless = 4;
+constexpr double kLeastTrust = 0.01, kMostTrust = 0.05, kTrustOfStep = 1.5;
+/// Below this a step is not worth a motion: the avatar rests (m).
+constexpr double kSettled = 2e-5;
+/// A tick ends with a step below this share of the tracked one, and at most this long (m): the rest
+/// waits for the next tick. A still target is followed until the avatar rests.
+constexpr double kEnoughOfStep = 0.1, kMostEnough = 1e-3;
+constexpr std::uint8_t kHotTicks = 8;
+/// How far to look beyond the skin: the free step, and what it may be off.
+constexpr double kReachOfStep = 1.2, kReachMore = 3e-3, kReachMargin = 2e-3;
+/// In the rest zone, from this share of the skin to the skin, rows forbid to approach, and push
+/// nothing. Below it, they push back towards the second share.
+constexpr double kRest = 0.3, kBackTo = 0.6, kBackShare = 0.5, kMostBack = 5e-3;
+/// A step must leave rows that push this share of their gap, unless they stay in the rest zone.
+constexpr double kKeptGap = 0.9;
+constexpr int kHalvings = 4, kCorrections = 2;
+constexpr double kFalls = 1.0 - 1e-9;
+/// Work of an iteration without its features, and of one feature, in evaluations in lanes.
+constexpr std::uint64_t kIterationWork = 400, kRowWork = 4;
 
-void Follower::reset() {}
+}  // namespace
 
-void Follower::follow(const Pose& target, double /*budget*/, double /*dtS*/, Certifier& certifier,
-                      Pose& shown, SolidTick& tick) {
-  if (isSamePose(shown, target)) return;
-  const Certified answer = certifier.certify(shown, target, reached_);
-  if (answer.share > 0.0) {
+Result<Follower> Follower::build(const Avatar& avatar, const Scene& scene,
+                                 const SolidOptions& options, const Certifier& certifier) {
+  FORETOUCH_TRY(auto near, NearQuery::build(avatar, scene, options.ignored));
+  return Follower(avatar, options, certifier, std::move(near));
+}
+
+Follower::Follower(const Avatar& avatar, const SolidOptions& options, const Certifier& certifier,
+                   NearQuery near)
+    : options_(options),
+      skeleton_(avatar.skeleton()),
+      body_(avatar, options.visibility),
+      near_(std::move(near)),
+      own_(certifier.plan()) {
+  inertia_.reset(skeleton_.parents());
+  const auto n = countOf(skeleton_.numJoints());
+  hotFor_.assign(n, 0);
+  isSeen_.assign(n, 0);
+  for (const VisualBody::Point& point : body_.points()) isSeen_[slotOf(point.link)] = 1;
+  for (std::size_t j = n; j-- > 0;) {
+    const JointId parent = skeleton_.parents()[j];
+    if (isSeen_[j] != 0 && parent != kNoParent) isSeen_[slotOf(parent)] = 1;
+  }
+  change_.resize(n);
+}
+
+void Follower::reset() {
+  std::fill(hotFor_.begin(), hotFor_.end(), std::uint8_t{0});
+  rows_.clear();
+}
+
+bool Follower::isAnyHot() const {
+  return std::any_of(hotFor_.begin(), hotFor_.end(), [](std::uint8_t t) { return t != 0; });
+}
+
+bool Follower::goStraight(const Pose& target, Certifier& certifier, Pose& shown, SolidTick& tick) {
+  rows_.clear();
+  cutClearance_ = -1.0;
+  if (isSamePose(shown, target)) return true;
+  const Certified answer = ask(shown, target, certifier, tick);
+  if (!answer.isClear) {
+    if (answer.share > 0.0) cutClearance_ = answer.clearance;
+    return false;
+  }
+  appendPiece(reached_, answer.clearance, tick);
+  shown = reached_;
+  return true;
+}
+
+void Follower::follow(const FollowRequest& request, Certifier& certifier, Pose& shown,
+                      SolidTick& tick) {
+  trust_ = std::clamp(kTrustOfStep * request.trackedStep, kLeastTrust, kMostTrust);
+  enough_ = std::clamp(kEnoughOfStep * request.trackedStep, kSettled, kMostEnough);
+  left_ = request.budget;
+  fruitless_ = 0;
+  hasMoved_ = false;
+  rows_.clear();
+  hasDirectFailed_ = cutClearance_ >= 0.0;
+  if (hasDirectFailed_) {
+    merit_ = meritOf(request, shown);
+    (void)showCut(request, cutClearance_, shown, tick);
+    cutClearance_ = -1.0;
+  }
+  isOver_ = false;
+  for (int i = 0; i < kMostIterations && !isOver_; ++i) {
+    if (!iterate(request, certifier, shown, tick)) break;
+  }
+  keepHot();
+}
+
+/// One step; false if the tick is over.
+bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose& shown,
+                       SolidTick& tick) {
+  rows_.clear();
+  if (isSamePose(shown, request.target)) return false;
+  if (certifier.workLeft() == 0) {
+    tick.limit = SolidLimit::Budget;
+    return false;
+  }
+  placeLinks(skeleton_, shown, states_);
+  body_.place(states_, places_);
+  const double far = VisualBody::farthest(places_, request.wanted);
+  merit_ = body_.merit(shown, states_, request.target, request.wanted);
+  if (!isAnyHot()) return stepFreely(request, far, certifier, shown, tick);
+
+  aim(request, shown);
+  gather(certifier, tick);
+  const double most = std::min(trust_, left_);
+  const bool hasStep = propose(request, certifier.plan(), shown, most, tick);
+  if (!hasPushes() && far <= left_ && (!hasDirectFailed_ || size_ <= trust_)) {
+    return stepFreely(request, far, certifier, shown, tick);
+  }
+  if (!hasStep || (hasMoved_ && size_ < enough_)) return false;
+  const bool isShort = size_ > most;
+  const double moved = std::min(size_, most);
+  const Outcome outcome = show(request, tried_, certifier, shown, tick);
+  if (outcome != Outcome::Clear) return ++fruitless_ < kMostFruitless;
+  if (isShort && trust_ < size_) trust_ = std::min(2.0 * trust_, kMostTrust);
+  if (left_ > kSettled) return moved >= enough_;
+  if (isShort) tick.limit = SolidLimit::CatchUp;
+  return false;
+}
+
+/// Nothing holds the avatar: straight to the target, or as far as the budget goes.
+bool Follower::stepFreely(const FollowRequest& request, double far, Certifier& certifier,
+                          Pose& shown, SolidTick& tick) {
+  const bool isWhole = far <= left_;
+  if (!isWhole) {
+    tick.limit = SolidLimit::CatchUp;
+    if (!(left_ > kSettled)) return false;
+    part_.assign(skeleton_, shown, request.target);
+    part_.poseAt(left_ / far, tried_);
+  }
+  const Outcome outcome = show(request, isWhole ? request.target : tried_, certifier, shown, tick);
+  if (outcome == Outcome::Clear) return false;
+  hasDirectFailed_ = true;
+  trust_ = std::max(0.5 * trust_, 0.5 * kLeastTrust);
+  return outcome == Outcome::Cut || ++fruitless_ < kMostFruitless;
+}
+
+Certified Follower::ask(const Pose& from, const Pose& to, Certifier& certifier, SolidTick& tick) {
+  const Certified answer = certifier.certify(from, to, reached_);
+  if (answer.isOverBudget) tick.limit = SolidLimit::Budget;
+  isOver_ = answer.isOverBudget || answer.isInside;
+  if (answer.hasHit) {
+    hotFor_[slotOf(answer.hit.link)] = kHotTicks;
+    if (answer.hit.other != kNoParent) hotFor_[slotOf(answer.hit.other)] = kHotTicks;
+  }
+  return answer;
+}
+
+/// Certifies the motion, and shows what is proven of it, if that is nearer to the target.
+Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, Certifier& certifier,
+                                 Pose& shown, SolidTick& tick) {
+  const Certified answer = ask(shown, to, certifier, tick);
+  if (answer.isClear) {
+    placeLinks(skeleton_, reached_, triedStates_);
+    body_.place(triedStates_, triedPlaces_);
+    left_ -= VisualBody::farthest(places_, triedPlaces_);
     appendPiece(reached_, answer.clearance, tick);
     shown = reached_;
+    hasMoved_ = true;
+    return Outcome::Clear;
+  }
+  if (!(answer.share > 0.0)) return Outcome::Stuck;
+  return showCut(request, answer.clearance, shown, tick) ? Outcome::Cut : Outcome::Stuck;
+}
+
+/// A piece that was cut is part of a way on which the merit falls in the end, perhaps not at once.
+bool Follower::showCut(const FollowRequest& request, double clearance, Pose& shown,
+                       SolidTick& tick) {
+  placeLinks(skeleton_, reached_, triedStates_);
+  if (!(body_.merit(reached_, triedStates_, request.target, request.wanted) < kFalls * merit_)) {
+    return false;
+  }
+  placeLinks(skeleton_, shown, states_);
+  body_.place(states_, places_);
+  body_.place(triedStates_, triedPlaces_);
+  left_ -= VisualBody::farthest(places_, triedPlaces_);
+  appendPiece(reached_, clearance, tick);
+  shown = reached_;
+  hasMoved_ = true;
+  return true;
+}
+
+double Follower::meritOf(const FollowRequest& request, const Pose& pose) {
+  placeLinks(skeleton_, pose, triedStates_);
+  return body_.merit(pose, triedStates_, request.target, request.wanted);
+}
+
+/// The step that would reach the target to first order if nothing were in the way.
+void Follower::aim(const FollowRequest& request, const Pose& shown) {
+  const std::vector<JointId>& parents = skeleton_.parents();
+  const std::size_t n = parents.size();
+  origin_ = states_[0].p_WL;
+  pull_.forces.assign(n, Vector6d::Zero());
+  pull_.torques.resize(n);
+  pull_.drifts.resize(n);
+  inertia_.begin();
+  for (std::size_t j = 0; j < n; ++j) {
+    const Eigen::Vector3d turn = turnBetween(shown.rotations[j], request.target.rotations[j]);
+    const double stiffness = body_.stiffness()[j];
+    if (parents[j] == kNoParent) {
+      pull_.torques[j] = stiffness * turn;
+      pull_.drifts[j].setZero();
+    } else {
+      const auto parent = slotOf(parents[j]);
+      change_.shift[j] = request.target.translations[j] - shown.translations[j];
+      pull_.torques[j] = stiffness * (states_[parent].R_WL * turn);
+      pull_.drifts[j] = pull_.drifts[parent] + states_[parent].R_WL * change_.shift[j];
+    }
+    inertia_.setOrigin(static_cast<JointId>(j), states_[j].p_WL - origin_);
+  }
+  const auto& points = body_.points();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto link = slotOf(points[k].link);
+    const Eigen::Vector3d x = places_[k] - origin_;
+    const Eigen::Vector3d error = request.wanted[k] - places_[k] - pull_.drifts[link];
+    pull_.forces[link] += points[k].weight * wrench(x, error);
+    inertia_.addPoint(points[k].link, x, points[k].weight);
+  }
+  inertia_.factor(body_.stiffness());
+  inertia_.solve(pull_.forces, pull_.torques, free_.turns, free_.shifts, free_.twists);
+}
+
+/// How far to look for surfaces around each link, and around those that are in contact.
+void Follower::findReach() {
+  const std::size_t n = hotFor_.size();
+  reach_.assign(n, 0.0);
+  const auto& points = body_.points();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto link = slotOf(points[k].link);
+    const double step = (free_.twists[link].at(places_[k] - origin_) + pull_.drifts[link]).norm();
+    reach_[link] = std::max(reach_[link], step);
+  }
+  hotReach_.resize(n);
+  for (std::size_t link = 0; link < n; ++link) {
+    reach_[link] =
+        options_.skin + std::min(trust_, kReachOfStep * reach_[link] + kReachMore) + kReachMargin;
+    hotReach_[link] = hotFor_[link] != 0 ? reach_[link] : -1.0;
+  }
+}
+
+void Follower::gather(Certifier& certifier, SolidTick& tick) {
+  findReach();
+  near_.answer(states_, hotReach_, nearScratch_, features_);
+  for (const NearFeature& feature : features_.features) {
+    if (feature.nhat_SL_W.squaredNorm() == 0.0) continue;
+    ContactRow row;
+    row.link = feature.link;
+    row.lss = feature.lss;
+    row.triangle = feature.triangle;
+    row.x = feature.p_WLink;
+    row.y = feature.p_WScene;
+    row.n = feature.nhat_SL_W;
+    row.gap = feature.gap;
+    rows_.push_back(row);
+  }
+  if (options_.self) own_.append(certifier.plan(), states_, reach_, hotFor_, rows_);
+  ++tick.counters.iterations;
+  tick.counters.features += static_cast<std::uint32_t>(rows_.size());
+  certifier.spend(kIterationWork + kRowWork * rows_.size() + WorkMeter::workOf(features_.counters));
+}
+
+void Follower::setBounds(bool mayPush) {
+  const double skin = options_.skin;
+  for (ContactRow& row : rows_) {
+    row.bias = 0.0;
+    if (row.gap >= skin) {
+      row.bound = skin - row.gap;
+    } else if (row.gap >= kRest * skin || !mayPush) {
+      row.bound = 0.0;
+    } else {
+      row.bound = std::min(kBackShare * (kBackTo * skin - row.gap), kMostBack);
+    }
+  }
+}
+
+/// Finds a step that brings the avatar nearer to the target and keeps the gaps that push: `tried_`.
+/// False: there is none, or none worth a motion.
+bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
+                       double most, SolidTick& tick) {
+  setBounds(true);
+  for (int attempt = 0; attempt <= kCorrections; ++attempt) {
+    solve(tick);
+    if (size_ < kSettled) return false;
+    double share = std::min(1.0, most / size_);
+    const bool isLast = attempt == kCorrections;
+    for (int halving = 0; halving <= (isLast ? kHalvings : 0); ++halving) {
+      const bool isNearer = tryShare(request, shown, share);
+      if (isNearer && keepsGaps(plan)) return true;
+      if (isLast) share *= 0.5;
+    }
+    if (!isLast) correctFor(plan, share);
+  }
+  setBounds(false);
+  solve(tick);
+  if (size_ < kSettled) return false;
+  double share = std::min(1.0, most / size_);
+  for (int halving = 0; halving <= kHalvings; ++halving, share *= 0.5) {
+    if (tryShare(request, shown, share) && keepsGaps(plan)) return true;
+  }
+  return false;
+}
+
+void Follower::solve(SolidTick& tick) {
+  step_ = free_;
+  const std::size_t taken = push_.solve(inertia_, pull_, origin_, rows_, step_);
+  tick.counters.rows += static_cast<std::uint32_t>(taken);
+  size_ = sizeOf(step_);
+}
+
+/// The farthest that the whole step moves any point, a joint's turn counted by its lever.
+double Follower::sizeOf(const TreeStep& step) const {
+  double most = 0.0;
+  const auto& points = body_.points();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto link = slotOf(points[k].link);
+    const Eigen::Vector3d moved = step.twists[link].at(places_[k] - origin_) + pull_.drifts[link];
+    most = std::max(most, moved.squaredNorm());
+  }
+  most = std::sqrt(most);
+  for (std::size_t j = 0; j < isSeen_.size(); ++j) {
+    if (isSeen_[j] != 0) most = std::max(most, kTwistLever * step.turns[j].norm());
+  }
+  return most;
+}
+
+bool Follower::tryShare(const FollowRequest& request, const Pose& shown, double share) {
+  for (std::size_t j = 0; j < step_.turns.size(); ++j) {
+    change_.turn[j] = step_.turns[j];
+    if (skeleton_.parents()[j] == kNoParent) change_.shift[j] = step_.shifts[j];
+  }
+  moveBy(skeleton_, shown, states_, change_, share, tried_);
+  placeLinks(skeleton_, tried_, triedStates_);
+  return body_.merit(tried_, triedStates_, request.target, request.wanted) < kFalls * merit_;
+}
+
+/// At the pose that is tried: a lower bound, of the LSS and the triangle, or of the two LSS.
+double Follower::triedGapOf(const QueryPlan& plan, const ContactRow& row) const {
+  const auto axisOf = [&](LinkId link, std::int32_t lss) {
+    const Lss& own = plan.avatar.lss(link)[slotOf(lss)];
+    const LinkState& state = triedStates_[slotOf(link)];
+    return Hull::segment(state.pointAt(own.a), state.pointAt(own.b));
+  };
+  const Hull axis = axisOf(row.link, row.lss);
+  if (row.other == kNoParent) {
+    return separation(axis, Hull::of(plan.scene.triangle(row.triangle))).lower() -
+           plan.avatar.lss(row.link)[slotOf(row.lss)].radius;
+  }
+  return separation(axis, axisOf(row.other, row.otherLss)).lower() -
+         ownRadii(plan, row.link, row.lss, row.other, row.otherLss);
+}
+
+bool Follower::keepsGaps(const QueryPlan& plan) const {
+  return std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
+    if (!(row.push > 0.0)) return true;
+    return triedGapOf(plan, row) >= std::min(kKeptGap * row.gap, kRest * options_.skin);
+  });
+}
+
+/// What the surfaces' curvature took of the gaps at the share that was tried, the next solution
+/// keeps away from.
+void Follower::correctFor(const QueryPlan& plan, double share) {
+  for (ContactRow& row : rows_) {
+    if (!(row.push > 0.0)) continue;
+    const double wanted = std::min(row.gap, kRest * options_.skin);
+    const double gap = triedGapOf(plan, row);
+    if (gap < wanted) row.bias += (wanted - gap) / share;
+  }
+}
+
+bool Follower::hasPushes() const {
+  return std::any_of(rows_.begin(), rows_.end(),
+                     [](const ContactRow& row) { return row.push > 0.0; });
+}
+
+void Follower::keepHot() {
+  for (std::uint8_t& ticks : hotFor_)
+    ticks = ticks != 0 ? static_cast<std::uint8_t>(ticks - 1) : ticks;
+  for (const ContactRow& row : rows_) {
+    if (!(row.push > 0.0)) continue;
+    hotFor_[slotOf(row.link)] = kHotTicks;
+    if (row.other != kNoParent) hotFor_[slotOf(row.other)] = kHotTicks;
   }
 }
 

@@ -3,31 +3,116 @@
 // installed.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "middleware/query/near_features.h"
 #include "middleware/solid/certifier.h"
+#include "middleware/solid/contact_row.h"
+#include "middleware/solid/least_push.h"
+#include "middleware/solid/own_features.h"
 #include "middleware/solid/solid_options.h"
 #include "middleware/solid/solid_tick.h"
+#include "middleware/solid/tree_inertia.h"
+#include "middleware/solid/tree_pose.h"
 #include "middleware/solid/visual_body.h"
 
 namespace foretouch::internal {
 
+/// What a tick is asked to do.
+struct FollowRequest {
+  const Pose& target;
+  const std::vector<Eigen::Vector3d>& wanted;  ///< The body's points at the target.
+  double trackedStep;  ///< How far the farthest point of the target moved since the last tick (m).
+  double budget;       ///< How far any shown point may move in this tick (m).
+};
+
 /// For one thread; keeps its memory.
 class Follower {
  public:
-  Follower(const Avatar& avatar, const SolidOptions& options);
+  static Result<Follower> build(const Avatar& avatar, const Scene& scene,
+                                const SolidOptions& options, const Certifier& certifier);
 
-  /// Moves `shown` as near to `target` as it gets in this tick. `budget`: how far any point may
-  /// move (m). Appends the way to the tick, and says its contacts.
-  void follow(const Pose& target, double budget, double dtS, Certifier& certifier, Pose& shown,
-              SolidTick& tick);
+  /// Moves `shown` as near to the target as it gets in this tick. Appends the way to the tick.
+  void follow(const FollowRequest& request, Certifier& certifier, Pose& shown, SolidTick& tick);
+  /// Asks the whole motion to the target, as the first thing in a tick that touches nothing; true:
+  /// it is clear, and shown. If false, follow() goes on from there.
+  [[nodiscard]] bool goStraight(const Pose& target, Certifier& certifier, Pose& shown,
+                                SolidTick& tick);
   /// Forgets contacts.
   void reset();
+
   [[nodiscard]] const VisualBody& body() const { return body_; }
+  /// The rows of the tick's last step, by link and LSS, with their pushes; places are from before
+  /// that step. Empty if nothing was near.
+  [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
+  /// Whether links were in contact lately, so that follow() will look around them.
+  [[nodiscard]] bool isAnyHot() const;
 
  private:
+  Follower(const Avatar& avatar, const SolidOptions& options, const Certifier& certifier,
+           NearQuery near);
+
+  enum class Outcome : std::uint8_t { Clear, Cut, Stuck };
+  [[nodiscard]] Outcome show(const FollowRequest& request, const Pose& to, Certifier& certifier,
+                             Pose& shown, SolidTick& tick);
+  [[nodiscard]] Certified ask(const Pose& from, const Pose& to, Certifier& certifier,
+                              SolidTick& tick);
+  [[nodiscard]] bool showCut(const FollowRequest& request, double clearance, Pose& shown,
+                             SolidTick& tick);
+  [[nodiscard]] bool iterate(const FollowRequest& request, Certifier& certifier, Pose& shown,
+                             SolidTick& tick);
+  [[nodiscard]] bool stepFreely(const FollowRequest& request, double far, Certifier& certifier,
+                                Pose& shown, SolidTick& tick);
+  void aim(const FollowRequest& request, const Pose& shown);
+  void findReach();
+  [[nodiscard]] double meritOf(const FollowRequest& request, const Pose& pose);
+  void gather(Certifier& certifier, SolidTick& tick);
+  void setBounds(bool mayPush);
+  [[nodiscard]] bool propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
+                             double most, SolidTick& tick);
+  void solve(SolidTick& tick);
+  [[nodiscard]] bool tryShare(const FollowRequest& request, const Pose& shown, double share);
+  [[nodiscard]] double sizeOf(const TreeStep& step) const;
+  [[nodiscard]] bool keepsGaps(const QueryPlan& plan) const;
+  void correctFor(const QueryPlan& plan, double share);
+  [[nodiscard]] double triedGapOf(const QueryPlan& plan, const ContactRow& row) const;
+  [[nodiscard]] bool hasPushes() const;
+  void keepHot();
+
+  SolidOptions options_;
+  Skeleton skeleton_;
   VisualBody body_;
-  Pose reached_;
+  NearQuery near_;
+  OwnFeatures own_;
+  TreeInertia inertia_;
+  LeastPush push_;
+  NearScratch nearScratch_;
+  NearFeatures features_;
+
+  // Of the current iteration.
+  std::vector<LinkState> states_, triedStates_;
+  std::vector<Eigen::Vector3d> places_, triedPlaces_;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  TreePull pull_;
+  TreeStep free_, step_;
+  PoseStep change_;
+  std::vector<double> reach_, hotReach_;
+  std::vector<ContactRow> rows_;
+  Pose tried_, reached_;
+  ChainMotion part_;
+  double merit_ = 0.0;
+  double size_ = 0.0;  // of the whole step that was solved for
+
+  // Of the current tick.
+  double trust_ = 0.0, left_ = 0.0;
+  double enough_ = 0.0;
+  bool hasDirectFailed_ = false, hasMoved_ = false, isOver_ = false;
+  double cutClearance_ = -1.0;  // of reached_, where goStraight() was cut; < 0: it was not
+  int fruitless_ = 0;
+
+  std::vector<std::uint8_t> hotFor_;  // per link: ticks for which it counts as in contact
+  std::vector<std::uint8_t> isSeen_;  // per joint: points are on its link or below
 };
 
 }  // namespace foretouch::internal

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "lss/index.h"
 #include "middleware/solid/certifier.h"
 #include "middleware/solid/follower.h"
+#include "middleware/solid/placing.h"
 #include "middleware/solid/solid_way.h"
 #include "middleware/solid/target_pose.h"
 #include "middleware/solid/tree_pose.h"
@@ -84,11 +86,13 @@ SolidOptions completed(const Avatar& avatar, SolidOptions options) {
 
 class SolidAvatar::Parts {
  public:
-  Parts(const Avatar& avatar, SolidOptions options, internal::Certifier certifier)
+  Parts(const Avatar& avatar, SolidOptions options, internal::Certifier certifier,
+        internal::Follower follower)
       : options_(std::move(options)),
         certifier_(std::move(certifier)),
+        follower_(std::move(follower)),
         target_(avatar),
-        follower_(avatar, options_) {}
+        placing_(options_) {}
 
   Result<Done> follow(const SolidTarget& given, SolidTick& tick) {
     if (!(given.dtS > 0.0 && given.dtS <= kLongestTick)) {
@@ -96,22 +100,17 @@ class SolidAvatar::Parts {
     }
     FORETOUCH_CHECK(target_.take(given, isPlaced_ ? &shown_ : nullptr));
     certifier_.beginTick(options_.workBudget);
-    internal::beginWay(tick);
-    tick.contacts.clear();
-    tick.limit = SolidLimit::None;
-    tick.snapInS = -1.0;
-    tick.counters = {};
-    if (!isPlaced_) place();
-    if (isPlaced_) {
-      follower_.follow(target_.pose(), budgetFor(given.dtS), given.dtS, certifier_, shown_, tick);
-    }
-    finish(tick);
+    internal::beginTick(tick);
+    if (!isPlaced_) place(tick);
+    if (isPlaced_) move(given.dtS, tick);
+    finish(given.dtS, tick);
     return Done{};
   }
 
   void reset() {
-    isPlaced_ = false;
+    isPlaced_ = wasEqual_ = false;
     follower_.reset();
+    placing_.reset();
     target_.reset();
   }
 
@@ -120,43 +119,118 @@ class SolidAvatar::Parts {
   [[nodiscard]] const internal::Certifier& certifier() const { return certifier_; }
 
  private:
-  void place() {
-    if (!certifier_.isClear(target_.pose(), target_.pose())) return;
-    shown_ = target_.pose();
-    isPlaced_ = true;
+  [[nodiscard]] const Skeleton& skeleton() const { return certifier_.avatar().skeleton(); }
+
+  void place(SolidTick& tick) {
+    isPlaced_ = placing_.search(skeleton(), target_.pose(), certifier_, shown_);
+    tick.counters.placingQueries = certifier_.queries();
+    if (!isPlaced_) return;
+    tick.hasAppeared = true;
+    internal::appendPiece(shown_, std::numeric_limits<double>::infinity(), tick);
   }
 
-  [[nodiscard]] double budgetFor(double dtS) const {
-    return target_.largestStep() + options_.catchUp * dtS;
+  void move(double dtS, SolidTick& tick) {
+    before_ = shown_;
+    if (wasEqual_ && !follower_.isAnyHot()) {
+      if (follower_.goStraight(target_.pose(), certifier_, shown_, tick)) return;
+    }
+    const internal::VisualBody& body = follower_.body();
+    body.place(target_.states(), wanted_);
+    double step = 0.0;
+    if (target_.hasLast()) {
+      body.place(target_.lastStates(), lastWanted_);
+      step = internal::VisualBody::farthest(wanted_, lastWanted_);
+    }
+    follower_.follow({target_.pose(), wanted_, step, step + options_.catchUp * dtS}, certifier_,
+                     shown_, tick);
   }
 
-  void finish(SolidTick& tick) {
+  void finish(double dtS, SolidTick& tick) {
     tick.shown = isPlaced_ ? shown_ : target_.pose();
     tick.isCertified = isPlaced_;
-    if (!isPlaced_) tick.clearance = 0.0;
+    wasEqual_ = isPlaced_ && internal::isSamePose(shown_, target_.pose());
     if (!isPlaced_) {
+      tick.clearance = 0.0;
       tick.state = SolidState::Placing;
-    } else if (internal::isSamePose(shown_, target_.pose())) {
+    } else if (wasEqual_) {
       tick.state = SolidState::Equal;
+    } else if (!hasPushes()) {
+      tick.state = SolidState::Following;
     } else {
-      tick.state = tick.numWay == 0 ? SolidState::Held : SolidState::Following;
+      tick.state = tick.numWay == 0 ? SolidState::Held : SolidState::Sliding;
     }
-    tick.times.resize(tick.numWay);
-    for (std::size_t i = 0; i < tick.numWay; ++i) {
-      tick.times[i] = static_cast<double>(i + 1) / static_cast<double>(tick.numWay);
-    }
+    internal::spreadTimes(tick);
     tick.counters.queries = certifier_.queries();
     tick.counters.work = certifier_.workDone();
-    tick.linkDeviation.assign(countOf(certifier_.avatar().numLinks()), 0.0);
-    tick.joints.assign(countOf(certifier_.avatar().numLinks()), SolidJointState::Free);
+    report(dtS, tick);
+  }
+
+  [[nodiscard]] bool hasPushes() const {
+    const auto& rows = follower_.rows();
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const internal::ContactRow& row) { return row.push > 0.0; });
+  }
+
+  /// What holds each joint, and how far it is from where its tracker says.
+  void report(double dtS, SolidTick& tick) {
+    const std::size_t n = countOf(certifier_.avatar().numLinks());
+    tick.linkDeviation.assign(n, 0.0);
+    tick.joints.assign(n, SolidJointState::Free);
+    tick.deviation = 0.0;
+    for (std::size_t j = 0; j < n; ++j) {
+      if (target_.isLost(static_cast<JointId>(j))) tick.joints[j] = SolidJointState::Lost;
+    }
+    if (!isPlaced_ || wasEqual_) return;
+    internal::placeLinks(skeleton(), shown_, states_);
+    const auto& points = follower_.body().points();
+    for (const internal::VisualBody::Point& point : points) {
+      const auto link = slotOf(point.link);
+      const double off =
+          (states_[link].pointAt(point.p_L) - target_.states()[link].pointAt(point.p_L)).norm();
+      tick.linkDeviation[link] = std::max(tick.linkDeviation[link], off);
+      tick.deviation = std::max(tick.deviation, off);
+    }
+    if (!hasPushes()) return;
+    internal::placeLinks(skeleton(), before_, statesBefore_);
+    for (const internal::ContactRow& row : follower_.rows()) {
+      if (row.push > 0.0) reportRow(row, dtS, tick);
+    }
+  }
+
+  void reportRow(const internal::ContactRow& row, double dtS, SolidTick& tick) {
+    SolidContact contact;
+    contact.link = row.link;
+    contact.lss = row.lss;
+    contact.triangle = row.triangle;
+    contact.other = row.other;
+    contact.p_W = row.y;
+    contact.nhat_W = row.n;
+    contact.gap = row.gap;
+    contact.push = row.push;
+    const LinkState &now = states_[slotOf(row.link)], &then = statesBefore_[slotOf(row.link)];
+    const Eigen::Vector3d p_L = now.R_WL.transpose() * (row.x - now.p_WL);
+    Eigen::Vector3d slip = now.pointAt(p_L) - then.pointAt(p_L);
+    slip -= row.n * row.n.dot(slip);
+    contact.slipSpeed = slip.norm() / dtS;
+    tick.contacts.push_back(contact);
+    const auto state = tick.numWay == 0 ? SolidJointState::Held : SolidJointState::Sliding;
+    for (const LinkId link : {row.link, row.other}) {
+      if (link != kNoParent && tick.joints[slotOf(link)] == SolidJointState::Free) {
+        tick.joints[slotOf(link)] = state;
+      }
+    }
   }
 
   SolidOptions options_;
   internal::Certifier certifier_;
-  internal::TargetPose target_;
   internal::Follower follower_;
-  Pose shown_;
+  internal::TargetPose target_;
+  internal::Placing placing_;
+  Pose shown_, before_;
+  std::vector<LinkState> states_, statesBefore_;
+  std::vector<Eigen::Vector3d> wanted_, lastWanted_;
   bool isPlaced_ = false;
+  bool wasEqual_ = false;  // shown_ is the last target, bit for bit
 };
 
 Result<SolidAvatar> SolidAvatar::build(const Avatar& avatar, const Scene& scene,
@@ -164,7 +238,9 @@ Result<SolidAvatar> SolidAvatar::build(const Avatar& avatar, const Scene& scene,
   SolidOptions whole = completed(avatar, options);
   FORETOUCH_CHECK(checked(avatar, whole));
   FORETOUCH_TRY(auto certifier, internal::Certifier::build(avatar, scene, whole));
-  return SolidAvatar(std::make_unique<Parts>(avatar, std::move(whole), std::move(certifier)));
+  FORETOUCH_TRY(auto follower, internal::Follower::build(avatar, scene, whole, certifier));
+  return SolidAvatar(
+      std::make_unique<Parts>(avatar, std::move(whole), std::move(certifier), std::move(follower)));
 }
 
 SolidAvatar::SolidAvatar(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}

@@ -79,9 +79,11 @@ struct SolidTick {
   SolidState state = SolidState::Placing;
   SolidLimit limit = SolidLimit::None;
   /// Proven: on the whole way from the pose shown before to this one, the avatar touches nothing
-  /// (of what is not ignored). False: only while Placing, Snapped, or where the scene was changed
-  /// around it.
+  /// (of what is not ignored). False: while Placing, or where the scene was changed around it.
   bool isCertified = false;
+  /// It appeared at `way.front()`, which is proven free, but no way leads there: its first place, a
+  /// place after it was inside, or a snap. The only breaks of the shown curve.
+  bool hasAppeared = false;
   double deviation = 0.0;  ///< The largest of all links.
   double lift = 0.0;       ///< How far FloorPolicy::Lift has lifted the target.
   /// The largest distance of a point of a link's axes from where its tracker says, the lift not
@@ -90,12 +92,14 @@ struct SolidTick {
   std::vector<SolidJointState> joints;  ///< One per joint.
   std::vector<SolidContact> contacts;   ///< By link, LSS, triangle, other.
   /// The way from the pose shown before: every piece is a chain motion (articulated/motion.h) from
-  /// the pose before it. `way.back()` is `shown`; `times` says when each is reached, in (0, 1] of
-  /// the tick. Empty if the avatar did not move. Only the first numWay count.
+  /// the pose before it, bit for bit. The last one is `shown`; `times` says when each is reached,
+  /// in (0, 1] of the tick (0: where it appeared). Only the first `numWay` count; 0: it did not
+  /// move.
   std::vector<Pose> way;
   std::vector<double> times;
   std::size_t numWay = 0;
-  /// Proven lower bound on the separation at every instant of the way (m), 0 if not certified.
+  /// Proven lower bound on the separation at every instant of the way (m); infinite if it did not
+  /// move, 0 if not certified.
   double clearance = 0.0;
   double snapInS = -1.0;  ///< Seconds until the avatar snaps, if nothing changes; < 0: it does not.
   SolidCounters counters;

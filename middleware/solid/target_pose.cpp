@@ -20,23 +20,29 @@ Result<Done> TargetPose::take(const SolidTarget& given, const Pose* shown) {
   FORETOUCH_CHECK(validate(skeleton_, candidate_));
   std::swap(pose_, last_);
   std::swap(states_, lastStates_);
-  const bool hadLast = std::exchange(hasLast_, true);
+  areLastPlaced_ = std::exchange(arePlaced_, false);
+  hasLast_ = std::exchange(isAny_, true);
   std::swap(pose_, candidate_);
   isLost_.assign(n, 0);
   for (std::size_t j = 0; given.isTracked != nullptr && j < n; ++j) {
     if ((*given.isTracked)[j] != 0) continue;
     isLost_[j] = 1;
     const auto joint = static_cast<JointId>(j);
-    const Pose* const kept = shown != nullptr ? shown : hadLast ? &last_ : nullptr;
+    const Pose* const kept = shown != nullptr ? shown : hasLast_ ? &last_ : nullptr;
     pose_.rotations[j] = kept != nullptr ? kept->rotations[j] : skeleton_.restRotation(joint);
     pose_.translations[j] = kept != nullptr ? kept->translations[j] : skeleton_.restOffset(joint);
   }
-  placeLinks(skeleton_, pose_, states_);
-  largestStep_ = 0.0;
-  for (std::size_t j = 0; hadLast && j < n; ++j) {
-    largestStep_ = std::max(largestStep_, (states_[j].p_WL - lastStates_[j].p_WL).norm());
-  }
   return Done{};
+}
+
+const std::vector<LinkState>& TargetPose::states() {
+  if (!std::exchange(arePlaced_, true)) placeLinks(skeleton_, pose_, states_);
+  return states_;
+}
+
+const std::vector<LinkState>& TargetPose::lastStates() {
+  if (hasLast_ && !std::exchange(areLastPlaced_, true)) placeLinks(skeleton_, last_, lastStates_);
+  return lastStates_;
 }
 
 }  // namespace foretouch::internal

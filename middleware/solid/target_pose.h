@@ -20,20 +20,22 @@ class TargetPose {
   /// nothing has changed.
   Result<Done> take(const SolidTarget& given, const Pose* shown);
   /// Forgets the last target.
-  void reset() { hasLast_ = false; }
+  void reset() { isAny_ = hasLast_ = false; }
 
   [[nodiscard]] const Pose& pose() const { return pose_; }
   [[nodiscard]] bool isLost(JointId joint) const { return isLost_[slotOf(joint)] != 0; }
-  /// Of any joint's origin, from the last target to this one (m); 0 for the first.
-  [[nodiscard]] double largestStep() const { return largestStep_; }
+  /// Where it places the links, and where the last target did (which there must be).
+  [[nodiscard]] const std::vector<LinkState>& states();
+  [[nodiscard]] const std::vector<LinkState>& lastStates();
+  [[nodiscard]] bool hasLast() const { return hasLast_; }
 
  private:
   Skeleton skeleton_;
   Pose pose_, last_, candidate_;
   std::vector<std::uint8_t> isLost_;
   std::vector<LinkState> states_, lastStates_;
-  double largestStep_ = 0.0;
-  bool hasLast_ = false;
+  bool isAny_ = false, hasLast_ = false;
+  bool arePlaced_ = false, areLastPlaced_ = false;  // states, found when somebody asks
 };
 
 }  // namespace foretouch::internal

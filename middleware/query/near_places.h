@@ -1,0 +1,56 @@
+// middleware/query/near_places.h: where one LSS, standing still, is near one triangle. Metres, W.
+// Not installed.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "lss/triangle.h"
+#include "middleware/query/near_features.h"
+#include "middleware/scene/flat_edges.h"
+
+namespace foretouch::internal {
+
+/// An LSS where it stands.
+struct StandingLss {
+  LinkId link;
+  std::int32_t lss;
+  Eigen::Vector3d a, b;
+  double radius;
+  double reach;     ///< How far is near.
+  double rounding;  ///< Of the two ends.
+};
+
+/// Between which parts of the two a place is.
+enum class NearPart : std::uint8_t { Whole, EndA, EndB, Edge0, Edge1, Edge2 };
+
+/// A feature before its gap is proven.
+struct NearPlace {
+  NearFeature feature;
+  double distance = 0.0;  ///< Of the axis, as computed.
+  NearPart part = NearPart::Whole;
+  /// The surface has a corner there, or its face holds an end of the axis; else something nearer
+  /// stands for it.
+  bool stands = true;
+
+  [[nodiscard]] bool isAtEnd() const { return feature.along == 0.0 || feature.along == 1.0; }
+};
+
+/// Of one pair; none if the closest points are farther apart than the reach.
+struct NearPlaces {
+  static constexpr int kMost = 6;
+  NearPlace place[kMost];
+  int count = 0;
+};
+void findPlaces(const StandingLss& lss, const Triangle& triangle, TriangleId id,
+                const FlatEdges& flat, NearPlaces& places);
+
+/// The closest points alone.
+[[nodiscard]] NearPlace closestPlace(const StandingLss& lss, const Triangle& triangle,
+                                     TriangleId id, const FlatEdges& flat);
+
+/// A lower bound on the separation at the place.
+[[nodiscard]] double provenGap(const StandingLss& lss, const Triangle& triangle, NearPart part);
+
+}  // namespace foretouch::internal

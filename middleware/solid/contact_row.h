@@ -1,0 +1,30 @@
+// middleware/solid/contact_row.h: one half-space that a small step of a pose must stay in: the gap
+// between two features does not close faster than it may. Metres. Not installed.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "articulated/skeleton.h"
+#include "middleware/scene/triangle_id.h"
+
+namespace foretouch::internal {
+
+/// n.(motion of x on `link`) - n.(motion of y on `other`) >= bound.
+struct ContactRow {
+  LinkId link = 0;
+  std::int32_t lss = -1;
+  TriangleId triangle = -1;                     ///< Of the scene, which rests; or:
+  LinkId other = kNoParent;                     ///< an own link,
+  std::int32_t otherLss = -1;                   ///< and its LSS.
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< On the link's surface, in W.
+  Eigen::Vector3d y = Eigen::Vector3d::Zero();  ///< On the surface that is touched, in W.
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();  ///< Unit, from y to x.
+  double gap = 0.0;
+  double bound = 0.0;  ///< Of the step along n.
+  double bias = 0.0;   ///< Added to the bound: what the surfaces' curvature takes.
+  double push = 0.0;   ///< The multiplier, >= 0.
+};
+
+}  // namespace foretouch::internal

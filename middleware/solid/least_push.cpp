@@ -1,0 +1,196 @@
+#include "middleware/solid/least_push.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+#include "lss/index.h"
+
+namespace foretouch::internal {
+namespace {
+
+constexpr int kRounds = 8;
+/// Rows of one LSS that one round takes up: its two ends.
+constexpr int kRowsPerLss = 2;
+/// A row counts as kept within this (m): a thousandth of the least skin.
+constexpr double kKept = 1e-8;
+/// Share of a row's own product: two plates nearer than two skins have pushes all the same.
+constexpr double kCompliance = 1e-4;
+
+}  // namespace
+
+double LeastPush::excess(const ContactRow& row, const TreeStep& step, const TreePull& pull,
+                         const Eigen::Vector3d& origin) const {
+  const auto link = slotOf(row.link);
+  double along = row.n.dot(step.twists[link].at(row.x - origin) + pull.drifts[link]);
+  if (row.other != kNoParent) {
+    const auto other = slotOf(row.other);
+    along -= row.n.dot(step.twists[other].at(row.y - origin) + pull.drifts[other]);
+  }
+  return along - row.bound - row.bias;
+}
+
+std::size_t LeastPush::solve(TreeInertia& inertia, const TreePull& pull,
+                             const Eigen::Vector3d& origin, std::vector<ContactRow>& rows,
+                             TreeStep& step) {
+  taken_.clear();
+  ways_.clear();
+  products_.resize(kMostRows * kMostRows);
+  isTaken_.assign(rows.size(), 0);
+  frees_.resize(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].push = 0.0;
+    frees_[i] = excess(rows[i], step, pull, origin);
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    if (!takeViolated(inertia, pull, origin, rows, step)) break;
+    findPushes();
+    forces_ = pull.forces;
+    for (const Taken& taken : taken_) {
+      if (!(taken.push > 0.0)) continue;
+      const ContactRow& row = rows[taken.row];
+      forces_[slotOf(row.link)] += taken.push * taken.onLink;
+      if (row.other != kNoParent) forces_[slotOf(row.other)] += taken.push * taken.onOther;
+    }
+    inertia.solve(forces_, pull.torques, step.turns, step.shifts, step.twists);
+  }
+  for (const Taken& taken : taken_) rows[taken.row].push = taken.push;
+  return taken_.size();
+}
+
+/// Takes up the rows that the step breaks most, a few per LSS; false if there is none.
+bool LeastPush::takeViolated(const TreeInertia& inertia, const TreePull& pull,
+                             const Eigen::Vector3d& origin, const std::vector<ContactRow>& rows,
+                             const TreeStep& step) {
+  bool isAnyTaken = false;
+  std::size_t begin = 0;
+  while (begin < rows.size()) {
+    std::size_t end = begin + 1;
+    while (end < rows.size() && rows[end].link == rows[begin].link &&
+           rows[end].lss == rows[begin].lss) {
+      ++end;
+    }
+    std::array<std::size_t, kRowsPerLss> worst{};
+    std::array<double, kRowsPerLss> by{};
+    by.fill(-kKept);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (isTaken_[i] != 0) continue;
+      const double excessHere = excess(rows[i], step, pull, origin);
+      if (excessHere < by[0]) {
+        by[1] = by[0];
+        worst[1] = worst[0];
+        by[0] = excessHere;
+        worst[0] = i;
+      } else if (excessHere < by[1]) {
+        by[1] = excessHere;
+        worst[1] = i;
+      }
+    }
+    for (std::size_t k = 0; k < kRowsPerLss && by[k] < -kKept; ++k) {
+      if (taken_.size() == kMostRows) return isAnyTaken;
+      take(inertia, origin, rows[worst[k]], worst[k]);
+      isAnyTaken = true;
+    }
+    begin = end;
+  }
+  return isAnyTaken;
+}
+
+void LeastPush::take(const TreeInertia& inertia, const Eigen::Vector3d& origin,
+                     const ContactRow& row, std::size_t index) {
+  Taken taken;
+  taken.row = index;
+  taken.onLink = wrench(row.x - origin, row.n);
+  taken.onOther = row.other == kNoParent ? Vector6d(Vector6d::Zero())
+                                         : Vector6d(-wrench(row.y - origin, row.n));
+  taken.free = frees_[index];
+  taken.push = 0.0;
+  taken.isPushing = false;
+  taken.wayBegin = ways_.size();
+  inertia.appendWay(row.link, taken.onLink, row.other, taken.onOther, ways_);
+  taken.wayEnd = ways_.size();
+  const std::size_t i = taken_.size();
+  taken_.push_back(taken);
+  isTaken_[index] = 1;
+  const WayPart* const ways = ways_.data();
+  for (std::size_t k = 0; k <= i; ++k) {
+    product(i, k) = product(k, i) =
+        TreeInertia::product(ways + taken.wayBegin, ways + taken.wayEnd, ways + taken_[k].wayBegin,
+                             ways + taken_[k].wayEnd);
+  }
+  product(i, i) *= 1.0 + kCompliance;
+}
+
+double LeastPush::slackOf(std::size_t i) const {
+  double slack = taken_[i].free;
+  for (std::size_t k = 0; k < taken_.size(); ++k) slack += product(i, k) * taken_[k].push;
+  return slack;
+}
+
+/// min 1/2 p A p + free p over p >= 0, exactly: the active set of [Lawson74] 23.3 on A, which is
+/// positive definite. Goes on from the pushes of the round before.
+void LeastPush::findPushes() {
+  const std::size_t mostSteps = 3 * taken_.size() + 10;
+  for (std::size_t step = 0; step < mostSteps; ++step) {
+    std::size_t worst = taken_.size();
+    double by = -0.1 * kKept;
+    for (std::size_t i = 0; i < taken_.size(); ++i) {
+      if (taken_[i].isPushing) continue;
+      const double slack = slackOf(i);
+      if (slack < by) {
+        by = slack;
+        worst = i;
+      }
+    }
+    if (worst == taken_.size()) return;
+    taken_[worst].isPushing = true;
+    while (!solvePushing()) {
+    }
+  }
+}
+
+/// Moves the pushes towards those that hold all pushing rows exactly; false if one had to be let go
+/// on the way.
+bool LeastPush::solvePushing() {
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
+  std::array<std::size_t, kMostRows> place{};
+  Eigen::Index n = 0;
+  for (std::size_t i = 0; i < taken_.size(); ++i) {
+    if (taken_[i].isPushing) place[static_cast<std::size_t>(n++)] = i;
+  }
+  if (n == 0) return true;
+  Square A(n, n);
+  Column free(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::size_t row = place[static_cast<std::size_t>(i)];
+    free[i] = -taken_[row].free;
+    for (Eigen::Index k = 0; k < n; ++k) A(i, k) = product(row, place[static_cast<std::size_t>(k)]);
+  }
+  const Eigen::LLT<Square> factors(A);
+  factors.solveInPlace(free);
+  double share = 1.0;
+  Eigen::Index stops = -1;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (free[i] > 0.0) continue;
+    const double now = taken_[place[static_cast<std::size_t>(i)]].push;
+    const double here = now > 0.0 ? now / (now - free[i]) : 0.0;
+    if (stops < 0 || here < share) {
+      share = here;
+      stops = i;
+    }
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Taken& taken = taken_[place[static_cast<std::size_t>(i)]];
+    taken.push += share * (free[i] - taken.push);
+  }
+  if (stops < 0) return true;
+  Taken& gone = taken_[place[static_cast<std::size_t>(stops)]];
+  gone.push = 0.0;
+  gone.isPushing = false;
+  return false;
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,76 @@
+#include "middleware/solid/placing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace foretouch::internal {
+namespace {
+
+/// The grid (m), to the sides and up; and how far the asked pose may move before the search begins
+/// anew.
+constexpr double kAside = 0.1, kUp = 0.05, kSamePlace = 0.1;
+
+}  // namespace
+
+Placing::Placing(const SolidOptions& options) {
+  const Eigen::Vector3d& up = options.up;
+  Eigen::Index least = 0;
+  up.cwiseAbs().minCoeff(&least);
+  const Eigen::Vector3d side = up.cross(Eigen::Vector3d::Unit(least)).normalized();
+  const Eigen::Vector3d front = up.cross(side);
+  const double reach = options.placingReach;
+  const int aside = static_cast<int>(std::floor(reach / kAside));
+  const int upward = static_cast<int>(std::floor(reach / kUp));
+  struct Offset {
+    std::int64_t squared;  // in units of the finer grid
+    int x, y, z;
+  };
+  std::vector<Offset> sorted;
+  constexpr std::int64_t kRatio = 2;  // kAside / kUp
+  for (int x = -aside; x <= aside; ++x) {
+    for (int y = -aside; y <= aside; ++y) {
+      for (int z = 0; z <= upward; ++z) {
+        const std::int64_t squared =
+            kRatio * kRatio * (std::int64_t{x} * x + std::int64_t{y} * y) + std::int64_t{z} * z;
+        if (static_cast<double>(squared) * kUp * kUp <= reach * reach) {
+          sorted.push_back({squared, x, y, z});
+        }
+      }
+    }
+  }
+  std::sort(sorted.begin(), sorted.end(), [](const Offset& a, const Offset& b) {
+    return std::tie(a.squared, a.z, a.x, a.y) < std::tie(b.squared, b.z, b.x, b.y);
+  });
+  offsets_.reserve(sorted.size());
+  for (const Offset& offset : sorted) {
+    offsets_.push_back(kAside * (offset.x * side + offset.y * front) + kUp * offset.z * up);
+  }
+}
+
+bool Placing::search(const Skeleton& skeleton, const Pose& asked, Certifier& certifier,
+                     Pose& place) {
+  const Eigen::Vector3d at = asked.translations[0];
+  if (next_ == 0 || (at - begunAt_).norm() > kSamePlace) {
+    next_ = 0;
+    begunAt_ = at;
+  }
+  place = asked;
+  for (; certifier.workLeft() > 0; ++next_) {
+    if (next_ == offsets_.size()) {
+      next_ = 0;
+      return false;
+    }
+    for (std::size_t j = 0; j < place.translations.size(); ++j) {
+      if (skeleton.parents()[j] != kNoParent) continue;
+      place.translations[j] = asked.translations[j] + offsets_[next_];
+    }
+    if (certifier.isClear(place, place)) {
+      next_ = 0;
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace foretouch::internal

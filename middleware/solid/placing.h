@@ -1,0 +1,35 @@
+// middleware/solid/placing.h: the nearest free place for an avatar that would begin inside
+// something. Metres in W. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "middleware/solid/certifier.h"
+#include "middleware/solid/solid_options.h"
+
+namespace foretouch::internal {
+
+/// Tries the pose itself, then moved on a grid, nearest first: up and to the sides, not down
+/// through a floor. A search that one tick's work does not finish goes on in the next. Free is not
+/// outside: a body inside a closed cupboard touches nothing.
+class Placing {
+ public:
+  explicit Placing(const SolidOptions& options);
+
+  /// Forgets how far the search is.
+  void reset() { next_ = 0; }
+  /// Goes on searching around `asked`; true: `place` is free. Spends at most the tick's work, and
+  /// leaves none if it found nothing.
+  [[nodiscard]] bool search(const Skeleton& skeleton, const Pose& asked, Certifier& certifier,
+                            Pose& place);
+
+ private:
+  std::vector<Eigen::Vector3d> offsets_;
+  std::size_t next_ = 0;
+  Eigen::Vector3d begunAt_ = Eigen::Vector3d::Zero();  // the first root's place
+};
+
+}  // namespace foretouch::internal
