@@ -77,6 +77,7 @@ void SolidStream::tick(const StreamStep& step, SolidMessage& answer) {
   if (!done.ok() && tick_.joints.empty()) return wait(step, answer);
   if (!done.ok()) {
     tick_.numWay = 0;
+    tick_.hasAppeared = false;
     tick_.state = tick_.isCertified ? SolidState::Held : tick_.state;
     tick_.contacts.clear();
     tick_.counters = {};
@@ -84,6 +85,7 @@ void SolidStream::tick(const StreamStep& step, SolidMessage& answer) {
   answer.state = tick_.state;
   answer.limit = tick_.limit;
   answer.isCertified = tick_.isCertified;
+  answer.hasAppeared = tick_.hasAppeared;
   answer.deviation = tick_.deviation;
   answer.lift = tick_.lift;
   answer.clearance = tick_.clearance;
@@ -98,7 +100,7 @@ void SolidStream::tick(const StreamStep& step, SolidMessage& answer) {
 void SolidStream::wait(const StreamStep& step, SolidMessage& answer) const {
   answer.state = SolidState::Placing;
   answer.limit = SolidLimit::None;
-  answer.isCertified = false;
+  answer.isCertified = answer.hasAppeared = false;
   answer.deviation = answer.lift = answer.clearance = 0.0;
   answer.snapInUs = -1;
   answer.linkDeviation.assign(isTracked_.size(), 0.0);
@@ -131,20 +133,19 @@ void SolidStream::fillHead(const StreamStep& step, SolidMessage& answer) const {
 }
 
 void SolidStream::fillWay(SolidMessage& answer) const {
-  if (tick_.numWay == 0 || tick_.numWay > kMaxSolidPoses) {
-    const bool hasMoved = tick_.numWay > 0;
+  const std::size_t numWay = tick_.numWay;
+  if (numWay == 0 || numWay > kMaxSolidPoses) {
     answer.way.resize(1);
     answer.way.front() = tick_.shown;
-    answer.times.assign(1, hasMoved ? 1.0 : 0.0);
-    if (!hasMoved) return;
-    answer.isCertified = false;
+    answer.times.assign(1, numWay == 0 ? 0.0 : 1.0);
     answer.clearance = 0.0;
+    if (numWay > 0) answer.isCertified = false;
     return;
   }
-  answer.way.resize(tick_.numWay);
-  for (std::size_t i = 0; i < tick_.numWay; ++i) answer.way[i] = tick_.way[i];
+  answer.way.resize(numWay);
+  std::copy_n(tick_.way.begin(), numWay, answer.way.begin());
   answer.times.assign(tick_.times.begin(),
-                      tick_.times.begin() + static_cast<std::ptrdiff_t>(tick_.numWay));
+                      tick_.times.begin() + static_cast<std::ptrdiff_t>(numWay));
 }
 
 void SolidStream::fillContacts(SolidMessage& answer) const {

@@ -54,7 +54,8 @@ Reject checkHead(const solid_t& wire) {
       std::all_of(lengths.begin(), lengths.end(), [](double x) { return x >= 0; });
   const bool isKnown = wire.kind >= 0 && wire.kind <= kLastSolidKind && wire.state >= 0 &&
                        wire.state < kNumSolidStates && wire.limit >= 0 &&
-                       wire.limit < kNumSolidLimits && (wire.certified == 0 || wire.certified == 1);
+                       wire.limit < kNumSolidLimits && (wire.certified == 0 || wire.certified == 1) &&
+                       (wire.appeared == 0 || wire.appeared == 1);
   if (!isInside || !isKnown) return Reject::OutOfRange;
   const bool isWithinLimits = wire.num_joints >= 1 && countOf(wire.num_joints) <= kMaxSolidJoints &&
                               wire.num_poses >= 1 && countOf(wire.num_poses) <= kMaxSolidPoses &&
@@ -78,6 +79,7 @@ void readHead(const solid_t& wire, SolidMessage& message) {
   message.state = static_cast<SolidState>(wire.state);
   message.limit = static_cast<SolidLimit>(wire.limit);
   message.isCertified = wire.certified != 0;
+  message.hasAppeared = wire.appeared != 0;
   message.deviation = wire.deviation;
   message.lift = wire.lift;
   message.clearance = wire.clearance;
@@ -109,9 +111,9 @@ Reject readJoints(const solid_t& wire, SolidMessage& message) {
   return Reject::None;
 }
 
-/// In (0, 1], one after the other; a single pose may be there from the beginning.
+/// In [0, 1], one after the other.
 bool areTimes(const std::vector<double>& times) {
-  double last = times.size() == 1 ? -1.0 : 0.0;
+  double last = -1.0;
   for (const double time : times) {
     if (!(time > last && time >= 0.0 && time <= 1.0)) return false;
     last = time;
@@ -208,6 +210,7 @@ void writeHead(const SolidMessage& message, solid_t& wire) {
   wire.state = static_cast<std::int8_t>(message.state);
   wire.limit = static_cast<std::int8_t>(message.limit);
   wire.certified = message.isCertified ? 1 : 0;
+  wire.appeared = message.hasAppeared ? 1 : 0;
   wire.deviation = message.deviation;
   wire.lift = message.lift;
   wire.clearance = message.clearance;

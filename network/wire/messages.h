@@ -123,13 +123,14 @@ struct SolidMessage {
 
   SolidState state = SolidState::Placing;
   SolidLimit limit = SolidLimit::None;
-  bool isCertified = false;
-  double deviation = 0.0, lift = 0.0, clearance = 0.0;
+  bool isCertified = false, hasAppeared = false;
+  double deviation = 0.0, lift = 0.0;
+  double clearance = 0.0;  ///< 0 if it is not certified, or did not move.
   std::int64_t snapInUs = -1;
   std::vector<SolidJointState> joints;  ///< One per joint.
   std::vector<double> linkDeviation;    ///< One per link.
   /// At least one pose, the last of which is shown, and when each is reached, in (0, 1] of the
-  /// step. A single one at time 0: the avatar did not move, or appeared there.
+  /// step; at 0 where it appeared, or if it did not move.
   std::vector<Pose> way;
   std::vector<double> times;
   std::vector<ShownContact> contacts;

@@ -112,7 +112,7 @@ constexpr Field kSolidFields[] = {
     fixed(kInt32 + 3 * kInt64),               // avatar, session, sequence, utime
     fixed(kInt8 + 3 * kInt64),                // kind, lost, step_us, avatar_hash
     fixed(3 * kDouble + kInt64),              // skin, tolerance, catch_up, work_budget
-    fixed(3 * kInt8 + 3 * kDouble + kInt64),  // state, limit, certified, lengths, snap_in_us
+    fixed(4 * kInt8 + 3 * kDouble + kInt64),  // state to appeared, lengths, snap_in_us
     count(),
     list(kByte + kDouble),  // joint_states, link_deviation
     count(),

@@ -216,6 +216,7 @@ SolidMessage randomSolidMessage(Random& random, int numJoints, int numPoses, int
   message.state = static_cast<SolidState>(random.below(kNumSolidStates));
   message.limit = static_cast<SolidLimit>(random.below(kNumSolidLimits));
   message.isCertified = random.chance(0.8);
+  message.hasAppeared = random.chance(0.1);
   message.snapInUs = random.chance(0.7) ? -1 : integer(random);
   for (int i = 0; i < numJoints; ++i) {
     message.joints.push_back(static_cast<SolidJointState>(random.below(kNumSolidJointStates)));
@@ -223,7 +224,7 @@ SolidMessage randomSolidMessage(Random& random, int numJoints, int numPoses, int
   }
   for (int i = 0; i < numPoses; ++i) {
     Pose& pose = message.way.emplace_back();
-    message.times.push_back(numPoses == 1 && random.chance(0.5) ? 0.0 : (i + 1.0) / numPoses);
+    message.times.push_back(i == 0 && random.chance(0.5) ? 0.0 : (i + 1.0) / numPoses);
     for (int k = 0; k < numJoints; ++k) {
       pose.rotations.push_back(random.chance(0.1) ? Quaternion(1.0, -0.0, 0.0, -0.0)
                                                   : Quaternion(random.rotation()));

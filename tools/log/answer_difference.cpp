@@ -124,6 +124,7 @@ Fields answerOf(const SolidMessage& message) {
   Fields fields{{"state", toString(message.state)},
                 {"limit", toString(message.limit)},
                 {"certificate", message.isCertified ? "true" : "false"},
+                {"break of the way", message.hasAppeared ? "true" : "false"},
                 {"number of poses on the way", std::to_string(message.way.size())}};
   for (std::size_t i = 0; i < message.way.size(); ++i) {
     addPose(i, message.times[i], message.way[i], fields);

@@ -102,6 +102,7 @@ void writeSolid(const SolidMessage& message, Stamps stamps, JsonWriter& out) {
   out.field("state", toString(message.state));
   out.field("limit", toString(message.limit));
   out.field("certified", message.isCertified);
+  if (message.hasAppeared) out.field("appeared", true);
   out.field("deviation", message.deviation);
   out.field("lift", message.lift);
   out.field("clearance", message.clearance);

@@ -93,7 +93,7 @@ Sample solidSample(Random& random) {
   const auto square = [](int count, std::size_t size) {
     return static_cast<std::size_t>(count) * size;
   };
-  const std::size_t joints = kHead + 28 + 25 + 32 + 35;
+  const std::size_t joints = kHead + 28 + 25 + 32 + 36;
   const std::size_t poses = joints + 4 + square(countAt(sample, joints), 1 + 8);
   const std::size_t contacts =
       poses + 4 + square(countAt(sample, poses), 8) + square(numPoses * numJoints, 7 * 8);
