@@ -17,7 +17,6 @@ namespace foretouch::tools {
 inline constexpr char kInputGroup[] = "Input";
 inline constexpr char kUnitsGroup[] = "Units, axes and place";
 inline constexpr char kTouchGroup[] = "What touches";
-inline constexpr char kSolidGroup[] = "Solid avatar";
 inline constexpr char kOutputGroup[] = "Output";
 inline constexpr char kComparisonGroup[] = "Comparison";
 inline constexpr char kEffortGroup[] = "Effort";

@@ -7,6 +7,9 @@
 
 namespace foretouch::tools {
 
+/// Title in help (tools/settings/setting.h has the others).
+inline constexpr char kSolidGroup[] = "Solid avatar";
+
 /// Each setting is legal by itself. What depends on an avatar, its world or other settings
 /// (`ignored`, `self`, `workBudget`) stays as it is.
 struct SolidRequest {
