@@ -49,7 +49,8 @@ std::vector<StreamSolver> solversOf(std::int32_t avatars, bool areSolid = false)
   std::vector<StreamSolver> solvers;
   for (std::int32_t id = 0; id < avatars; ++id) {
     solvers.push_back(StreamSolver::make(id, smallAvatar(), scene, {}, {}).value());
-    if (areSolid) EXPECT_TRUE(solvers.back().makeSolid({}).ok());
+    const bool isMade = !areSolid || solvers.back().makeSolid({}).ok();
+    EXPECT_TRUE(isMade);
   }
   return solvers;
 }
