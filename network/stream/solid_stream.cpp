@@ -88,7 +88,8 @@ void SolidStream::tick(const StreamStep& step, SolidMessage& answer) {
   answer.hasAppeared = tick_.hasAppeared;
   answer.deviation = tick_.deviation;
   answer.lift = tick_.lift;
-  answer.clearance = tick_.clearance;
+  // Infinite where no motion was asked.
+  answer.clearance = std::isfinite(tick_.clearance) ? tick_.clearance : 0.0;
   answer.snapInUs = snapInUs(tick_.snapInS);
   answer.joints = tick_.joints;
   answer.linkDeviation = tick_.linkDeviation;
@@ -138,8 +139,9 @@ void SolidStream::fillWay(SolidMessage& answer) const {
     answer.way.resize(1);
     answer.way.front() = tick_.shown;
     answer.times.assign(1, numWay == 0 ? 0.0 : 1.0);
+    if (numWay == 0) return;
+    answer.isCertified = false;
     answer.clearance = 0.0;
-    if (numWay > 0) answer.isCertified = false;
     return;
   }
   answer.way.resize(numWay);
