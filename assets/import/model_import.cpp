@@ -9,6 +9,7 @@
 
 #include "assets/import/model_stream.h"
 #include "assets/import/run.h"
+#include "assets/import/side_files.h"
 #include "lss/index.h"
 
 namespace foretouch {
@@ -101,7 +102,8 @@ Result<Model> importChecked(const std::string& path, const ModelImportOptions& o
   }
   internal::ModelReader reader;
   if (const auto error =
-          internal::runImporter(path, options.import, argumentsFor(path, options), reader)) {
+          internal::runImporter(path, options.import, argumentsFor(path, options),
+                                internal::foldersBeside(path, options.packagePaths), reader)) {
     return *error;
   }
   Model model = reader.take();

@@ -6,6 +6,7 @@
 
 #include "assets/import/protocol.h"
 #include "assets/import/run.h"
+#include "assets/import/side_files.h"
 #include "assets/import/text.h"
 
 namespace foretouch {
@@ -34,7 +35,9 @@ void place(RawScene& scene, const internal::FrameChange& change) {
 
 Result<ImportedScene> importChecked(const std::string& path, const SceneImportOptions& options) {
   internal::ImportReader reader;
-  if (const auto error = internal::runImporter(path, options, {path}, reader)) return *error;
+  if (const auto error =
+          internal::runImporter(path, options, {path}, internal::foldersBeside(path, {}), reader))
+    return *error;
   ImportedScene imported = reader.take();
   imported.frame = reader.fileFrame();
   if (imported.scene.triangles.empty()) {

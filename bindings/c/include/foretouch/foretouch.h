@@ -133,8 +133,8 @@ typedef struct ft_import_options {
    * (x, z, -y). */
   int32_t up;
   double scale;                /* metres per unit, likewise; default 0: as the file says, else 1 */
-  uint64_t memory_limit_bytes; /* of the importing process; default 8 GiB */
-  double time_limit_s;         /* likewise; default 300 */
+  uint64_t memory_limit_bytes; /* of the importing process; default 8 GiB, at most half of the machine's */
+  double time_limit_s;         /* likewise; default 60 */
   /* Path of the program foretouch-import. NULL: $FORETOUCH_IMPORTER; else in the library's folder;
    * else in libexec/foretouch of the library's prefix, beside the running program, and where
    * Foretouch was installed. */
