@@ -113,6 +113,9 @@ Result<Model> importChecked(const std::string& path, const ModelImportOptions& o
                        "expected triangles, spheres, capsules or animations, found none" +
                            (model.notes.empty() ? "" : " (" + model.notes.front() + ")"));
   }
+  if (const std::string weakness = importerWeakness(); !weakness.empty()) {
+    model.notes.push_back(weakness);
+  }
   const auto change = internal::settleFrame(options.import.scale, options.import.up, model.frame);
   if (change.scale != 1.0) scaleLengths(model, change.scale);
   turnTop(model, change.turn);

@@ -133,17 +133,6 @@ std::vector<std::string> importerPlaces(const SceneImportOptions& options) {
   return places;
 }
 
-Result<std::string> findImporter(const std::string& path, const SceneImportOptions& options) {
-  std::string tried;
-  for (const std::string& place : importerPlaces(options)) {
-    if (isProgram(place)) return place;
-    tried += (tried.empty() ? "" : ", ") + place;
-  }
-  return importError(path, ErrorCode::FileNotFound,
-                     "expected the program foretouch-import at " + tried +
-                         "; the environment variable FORETOUCH_IMPORTER may name it");
-}
-
 /// The last line that is not empty, in brackets: assertions and loaders explain there why they
 /// ended.
 std::string lastWords(const std::string& errorOutput) {
@@ -219,6 +208,17 @@ Error failureOfRun(const std::string& path, const std::string& importer,
 }
 
 }  // namespace
+
+Result<std::string> findImporter(const std::string& path, const SceneImportOptions& options) {
+  std::string tried;
+  for (const std::string& place : importerPlaces(options)) {
+    if (isProgram(place)) return place;
+    tried += (tried.empty() ? "" : ", ") + place;
+  }
+  return importError(path, ErrorCode::FileNotFound,
+                     "expected the program foretouch-import at " + tried +
+                         "; the environment variable FORETOUCH_IMPORTER may name it");
+}
 
 bool notePackagedImporter(const char* path) {
   packagedImporter = path;

@@ -4,10 +4,12 @@
 #include <new>
 #include <system_error>
 
+#include "assets/import/cage.h"
 #include "assets/import/protocol.h"
 #include "assets/import/run.h"
 #include "assets/import/side_files.h"
 #include "assets/import/text.h"
+#include "lss/sanitizer.h"
 
 namespace foretouch {
 namespace {
@@ -53,6 +55,10 @@ Result<ImportedScene> importChecked(const std::string& path, const SceneImportOp
 }
 
 }  // namespace
+
+std::string importerWeakness() {
+  return internal::kUnderSanitizer ? "" : internal::weaknessOf(internal::partsOfThisKernel());
+}
 
 Result<ImportedScene> importScene(const std::string& path, const SceneImportOptions& options) {
   try {
