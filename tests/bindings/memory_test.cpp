@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <string_view>
 
 #include "tests/bindings/c_world.h"
 #include "tests/middleware/random_scene.h"
@@ -124,6 +125,48 @@ TEST(CMemory, RunningOutWhileAnAvatarIsMadeIsAnError) {
     return status;
   });
   EXPECT_GT(failed, 10);
+}
+
+TEST(CMemory, RunningOutWhileASceneIsMadeIsAnError) {
+  const World world;
+  const test::SceneArrays arrays(world.raw);
+  const ft_scene_arrays view = arrays.view();
+  const int failed = failingOneByOne([&] {
+    ft_scene* scene = nullptr;
+    const ft_status status = ft_scene_create(&view, &scene);
+    EXPECT_EQ(scene != nullptr, status == FT_OK);
+    ft_scene_destroy(scene);
+    return status;
+  });
+  EXPECT_GT(failed, 5);
+}
+
+TEST(CMemory, RunningOutWhileAnAvatarOrItsRulesAreReadIsAnError) {
+  constexpr std::string_view kText =
+      R"({"format":"foretouch-avatar","version":1,"links":[
+{"name":"a","parent":null,"offset":[0,0,0],"lss":[{"a":[0,0,0],"b":[0,0,0],"radius":0.1}]},
+{"name":"b","parent":"a","offset":[1,0,0],"lss":[{"a":[0,0,0],"b":[1,0,0],"radius":0.1}]},
+{"name":"c","parent":"b","offset":[1,0,0],"lss":[{"a":[0,0,0],"b":[0,0,0],"radius":0.1}]}]})";
+  const int read = failingOneByOne([&] {
+    ft_avatar* avatar = nullptr;
+    const ft_status status =
+        ft_avatar_create_from_text(kText.data(), kText.size(), "text", &avatar);
+    EXPECT_EQ(avatar != nullptr, status == FT_OK);
+    ft_avatar_destroy(avatar);
+    return status;
+  });
+  EXPECT_GT(read, 20);
+  ft_avatar* made = nullptr;
+  ASSERT_EQ(ft_avatar_create_from_text(kText.data(), kText.size(), "text", &made), FT_OK);
+  const test::AvatarHandle avatar(made);
+  const int ruled = failingOneByOne([&] {
+    ft_pair_rules* rules = nullptr;
+    const ft_status status = ft_pair_rules_create(avatar.get(), nullptr, &rules);
+    EXPECT_EQ(rules != nullptr, status == FT_OK);
+    ft_pair_rules_destroy(rules);
+    return status;
+  });
+  EXPECT_GT(ruled, 5);
 }
 
 TEST(CMemory, RunningOutInAQueryIsAnErrorAndLeavesItUsable) {
