@@ -5,5 +5,5 @@
 int main(int count, char** words) {
   char copy[64] = "";
   if (std::strlen(words[count - 1]) < sizeof copy) std::strcpy(copy, words[count - 1]);
-  std::printf("%s\n", copy);
+  std::printf("%d %s\n", count, copy);
 }

@@ -16,7 +16,8 @@ namespace {
 
 Scene floorBelow() {
   RawScene raw;
-  raw.triangles = {{{{-9, 0.5, -9}, {9, 0.5, -9}, {0, 0.5, 9}}}};
+  raw.triangles.push_back(
+      {{Eigen::Vector3d(-9, 0.5, -9), Eigen::Vector3d(9, 0.5, -9), Eigen::Vector3d(0, 0.5, 9)}});
   raw.objectOf = {0};
   raw.objectNames = {"floor"};
   return Scene::build(std::move(raw)).value();
