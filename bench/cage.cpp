@@ -75,13 +75,32 @@ std::string instancesOfInstances() {
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}]})";
 }
 
-double secondsSince(std::chrono::steady_clock::time_point begin) {
+double secondsFrom(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Milliseconds of one import; the answer is read and checked as importScene() does.
-Result<double> timed(const std::string& importer, const std::string& path, bool isCaged) {
+/// Of this process and of its ended children, in milliseconds.
+double processorMs() {
+  double ms = 0.0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage used{};
+    getrusage(who, &used);
+    for (const timeval& time : {used.ru_utime, used.ru_stime}) {
+      ms += 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
+    }
+  }
+  return ms;
+}
+
+struct ImportCost {
+  double ms = 0.0, processorMs = 0.0;
+};
+
+/// One import; the answer is read and checked as importScene() does.
+Result<ImportCost> costOfImport(const std::string& importer, const std::string& path,
+                                bool isCaged) {
   const SceneImportOptions usual;
+  const double before = processorMs();
   const auto begin = std::chrono::steady_clock::now();
   internal::ProcessLimits limits{usual.memoryLimitBytes, usual.timeLimitS, {}};
   const std::string folder = fs::path(path).parent_path().string();
@@ -91,33 +110,42 @@ Result<double> timed(const std::string& importer, const std::string& path, bool 
       internal::runLimited(importer, {path}, std::move(limits), [&](std::string_view bytes) {
         return reader.feed(bytes) == internal::FrameReader::State::Reading;
       });
-  const double ms = 1e3 * secondsSince(begin);
-  if (reader.state() == internal::FrameReader::State::Complete) return ms;
+  const ImportCost cost{1e3 * secondsFrom(begin), processorMs() - before};
+  if (reader.state() == internal::FrameReader::State::Complete) return cost;
   return Error::in(path, ErrorCode::ImportFailed,
                    "expected a complete answer of the importer: " + end.errorOutput);
 }
 
-BenchTable costTable(std::vector<double> free, std::vector<double> caged, int triangles) {
-  std::vector<double> added;
-  for (std::size_t i = 0; i < free.size(); ++i) added.push_back(caged[i] - free[i]);
-  const auto median = [](std::vector<double> values) {
-    return percentilesOf(std::move(values)).p50;
-  };
-  return {"cost",
-          "An import with and without the cage, in turns",
-          {{"triangles", "triangles", 0},
-           {"free_ms", "without (ms)", 2},
-           {"caged_ms", "in the cage (ms)", 2},
-           {"added_ms", "added, median of the pairs (ms)", 2}},
-          {{BenchCell(triangles), BenchCell(median(free)), BenchCell(median(caged)),
-            BenchCell(median(added))}}};
+double medianOf(const std::vector<ImportCost>& costs, double ImportCost::*part) {
+  std::vector<double> values;
+  for (const ImportCost& cost : costs) values.push_back(cost.*part);
+  return percentilesOf(std::move(values)).p50;
+}
+
+BenchTable costTable(const std::vector<ImportCost>& free, const std::vector<ImportCost>& caged,
+                     int triangles) {
+  std::vector<ImportCost> added;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    added.push_back({caged[i].ms - free[i].ms, caged[i].processorMs - free[i].processorMs});
+  }
+  return {
+      "cost",
+      "An import with and without the cage, in turns",
+      {{"triangles", "triangles", 0},
+       {"free_ms", "without (ms)", 2},
+       {"caged_ms", "in the cage (ms)", 2},
+       {"added_ms", "added, median of the pairs (ms)", 2},
+       {"added_processor_ms", "of processor time (ms)", 2}},
+      {{BenchCell(triangles), BenchCell(medianOf(free, &ImportCost::ms)),
+        BenchCell(medianOf(caged, &ImportCost::ms)), BenchCell(medianOf(added, &ImportCost::ms)),
+        BenchCell(medianOf(added, &ImportCost::processorMs))}}};
 }
 
 /// Of the largest child so far: the last, if it is a hostile one.
 BenchTable hostileTable(const std::string& path) {
   const auto begin = std::chrono::steady_clock::now();
   const auto result = importScene(path);
-  const double seconds = secondsSince(begin);
+  const double seconds = secondsFrom(begin);
   rusage children{};
   getrusage(RUSAGE_CHILDREN, &children);
   std::error_code unknown;
@@ -142,10 +170,10 @@ Result<BenchReport> measureCage(const CageRequest& request) {
   const BenchFolder folder;
   FORETOUCH_TRY(const auto strip, folder.write("strip.obj", stripOf(request.triangles)));
   FORETOUCH_TRY(const auto importer, internal::findImporter(strip, {}));
-  std::vector<double> free, caged;
+  std::vector<ImportCost> free, caged;
   for (int i = 0; i <= request.repeats; ++i) {
-    FORETOUCH_TRY(const double without, timed(importer, strip, false));
-    FORETOUCH_TRY(const double with, timed(importer, strip, true));
+    FORETOUCH_TRY(const ImportCost without, costOfImport(importer, strip, false));
+    FORETOUCH_TRY(const ImportCost with, costOfImport(importer, strip, true));
     if (i == 0) continue;  // fills the caches of files
     free.push_back(without);
     caged.push_back(with);

@@ -42,14 +42,23 @@ struct BuildLeaf : BuildNode {
 
 constexpr std::size_t kEmbreeAlignment = 16;
 
+/// Null without memory. Embree goes on, and says so at the end: so do the callbacks, without the
+/// node.
+template <typename Node>
+Node* newNode(RTCThreadLocalAllocator allocator) {
+  void* const place = rtcThreadLocalAlloc(allocator, sizeof(Node), kEmbreeAlignment);
+  return place == nullptr ? nullptr : new (place) Node;
+}
+
 void* createNode(RTCThreadLocalAllocator allocator, unsigned numChildren, void*) {
-  auto* node =
-      new (rtcThreadLocalAlloc(allocator, sizeof(BuildInner), kEmbreeAlignment)) BuildInner;
+  auto* node = newNode<BuildInner>(allocator);
+  if (node == nullptr) return nullptr;
   node->numChildren = numChildren;
   return static_cast<BuildNode*>(node);
 }
 
 void setChildren(void* node, void** children, unsigned count, void*) {
+  if (node == nullptr) return;
   auto* inner = static_cast<BuildInner*>(static_cast<BuildNode*>(node));
   for (unsigned i = 0; i < count; ++i) {
     inner->children[i] = static_cast<const BuildNode*>(children[i]);
@@ -57,13 +66,15 @@ void setChildren(void* node, void** children, unsigned count, void*) {
 }
 
 void setBounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
+  if (node == nullptr) return;
   auto* inner = static_cast<BuildInner*>(static_cast<BuildNode*>(node));
   for (unsigned i = 0; i < count; ++i) inner->bounds[i] = *bounds[i];
 }
 
 void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
                  size_t count, void*) {
-  auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(BuildLeaf), kEmbreeAlignment)) BuildLeaf;
+  auto* leaf = newNode<BuildLeaf>(allocator);
+  if (leaf == nullptr) return nullptr;
   leaf->numChildren = 0;
   leaf->size = static_cast<unsigned>(count);
   for (size_t i = 0; i < count; ++i) leaf->primitives[i] = primitives[i].primID;
@@ -275,6 +286,8 @@ Result<FlatBvh> FlatBvh::build(const std::vector<Triangle>& triangles,
   FORETOUCH_ASSERT(!ids.empty());
   FORETOUCH_TRY(auto device, newEmbreeDevice());
   const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> tree(rtcNewBVH(device.get()));
+  FORETOUCH_CHECK(embreeStatus(device.get(), "making room for the scene's tree"));
+  if (tree == nullptr) return Error::of(ErrorCode::DeviceFailed, "Embree made no tree");
   std::vector<RTCBuildPrimitive> primitives = primitivesOf(triangles, ids, origin);
   const RTCBuildArguments arguments = argumentsOf(tree.get(), primitives);
   const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));

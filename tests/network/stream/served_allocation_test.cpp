@@ -42,7 +42,7 @@ Bytes served(StreamSolver& solver, const Bytes& pose) {
 }
 
 StreamSolver followed(const Scene& scene) {
-  auto solver = StreamSolver::make(1, smallAvatar(), scene, {}, {}).value();
+  auto solver = StreamSolver::make(0, smallAvatar(), scene, {}, {}).value();
   EXPECT_EQ(solver.take(skeletonMessage(smallSkeleton())), Reject::None);
   return solver;
 }
