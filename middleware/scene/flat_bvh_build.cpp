@@ -1,5 +1,6 @@
 // FlatBvh::build(): Embree's tree, and its copy into flat arrays.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <new>
@@ -42,16 +43,18 @@ struct BuildLeaf : BuildNode {
 
 constexpr std::size_t kEmbreeAlignment = 16;
 
-/// Null without memory. Embree goes on, and says so at the end: so do the callbacks, without the
-/// node.
+/// Null without memory, which `hasShortage` (an atomic bool) then tells: Embree goes on without the
+/// node, and so do the callbacks.
 template <typename Node>
-Node* newNode(RTCThreadLocalAllocator allocator) {
+Node* newNode(RTCThreadLocalAllocator allocator, void* hasShortage) {
   void* const place = rtcThreadLocalAlloc(allocator, sizeof(Node), kEmbreeAlignment);
-  return place == nullptr ? nullptr : new (place) Node;
+  if (place != nullptr) return new (place) Node{};
+  *static_cast<std::atomic<bool>*>(hasShortage) = true;
+  return nullptr;
 }
 
-void* createNode(RTCThreadLocalAllocator allocator, unsigned numChildren, void*) {
-  auto* node = newNode<BuildInner>(allocator);
+void* createNode(RTCThreadLocalAllocator allocator, unsigned numChildren, void* hasShortage) {
+  auto* node = newNode<BuildInner>(allocator, hasShortage);
   if (node == nullptr) return nullptr;
   node->numChildren = numChildren;
   return static_cast<BuildNode*>(node);
@@ -72,8 +75,8 @@ void setBounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
 }
 
 void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
-                 size_t count, void*) {
-  auto* leaf = newNode<BuildLeaf>(allocator);
+                 size_t count, void* hasShortage) {
+  auto* leaf = newNode<BuildLeaf>(allocator, hasShortage);
   if (leaf == nullptr) return nullptr;
   leaf->numChildren = 0;
   leaf->size = static_cast<unsigned>(count);
@@ -102,7 +105,8 @@ std::vector<RTCBuildPrimitive> primitivesOf(const std::vector<Triangle>& triangl
   return primitives;
 }
 
-RTCBuildArguments argumentsOf(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitives) {
+RTCBuildArguments argumentsOf(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitives,
+                              std::atomic<bool>& hasShortage) {
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
   arguments.maxBranchingFactor = kBvhWidth;
@@ -118,6 +122,7 @@ RTCBuildArguments argumentsOf(RTCBVH tree, std::vector<RTCBuildPrimitive>& primi
   arguments.setNodeChildren = setChildren;
   arguments.setNodeBounds = setBounds;
   arguments.createLeaf = createLeaf;
+  arguments.userPtr = &hasShortage;
   return arguments;
 }
 
@@ -159,6 +164,7 @@ class FlatBvhBuilder {
   }
 
   Result<Done> flatten(const BuildNode& root, const RTCBounds& rootBounds) {
+    if (!isWhole(&root)) return Error::of(ErrorCode::DeviceFailed, "Embree built no whole root");
     const std::uint32_t rootIndex = addNode();
     if (root.numChildren == 0) {
       setChild(rootIndex, 0, rootBounds, root, 1);
@@ -173,6 +179,9 @@ class FlatBvhBuilder {
                          "expected a tree of at most " + std::to_string(kMaxBvhDepth) + " levels");
       }
       for (unsigned i = 0; i < next.node->numChildren; ++i) {
+        if (!isWhole(next.node->children[i])) {
+          return Error::of(ErrorCode::DeviceFailed, "Embree built a part of the scene's tree");
+        }
         setChild(next.index, i, next.node->bounds[i], *next.node->children[i], next.depth + 1);
       }
     }
@@ -188,6 +197,16 @@ class FlatBvhBuilder {
     std::uint32_t index;
     int depth;
   };
+
+  /// Without memory Embree may leave a part out, and say nothing.
+  [[nodiscard]] bool isWhole(const BuildNode* node) const {
+    if (node == nullptr || node->numChildren > kBvhWidth) return false;
+    if (node->numChildren > 0) return true;
+    const auto& leaf = static_cast<const BuildLeaf&>(*node);
+    return leaf.size >= 1 && leaf.size <= kBvhWidth &&
+           std::all_of(leaf.primitives, leaf.primitives + leaf.size,
+                       [&](unsigned primitive) { return primitive < ids_.size(); });
+  }
 
   std::uint32_t addNode() {
     BvhNode node{};
@@ -289,9 +308,13 @@ Result<FlatBvh> FlatBvh::build(const std::vector<Triangle>& triangles,
   FORETOUCH_CHECK(embreeStatus(device.get(), "making room for the scene's tree"));
   if (tree == nullptr) return Error::of(ErrorCode::DeviceFailed, "Embree made no tree");
   std::vector<RTCBuildPrimitive> primitives = primitivesOf(triangles, ids, origin);
-  const RTCBuildArguments arguments = argumentsOf(tree.get(), primitives);
+  std::atomic<bool> hasShortage{false};
+  const RTCBuildArguments arguments = argumentsOf(tree.get(), primitives, hasShortage);
   const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
   FORETOUCH_CHECK(embreeStatus(device.get(), "building the scene's tree"));
+  if (hasShortage) {
+    return Error::of(ErrorCode::DeviceFailed, "Embree had no memory for the scene's tree");
+  }
   if (root == nullptr) return Error::of(ErrorCode::DeviceFailed, "Embree built no tree");
   const RTCBounds rootBounds = boundsOf(primitives);
   primitives = {};  // makes room for the flat arrays
