@@ -14,8 +14,8 @@ struct CageRequest {
   std::string command;  ///< As typed in.
 };
 
-/// Imports a file of so many triangles with and without the cage, in turns, and a file of 3 kB whose
-/// nodes place one another's instances. Errors name the file or the importer.
+/// Imports a file of so many triangles with and without the cage, in turns, and a file of 3 kB
+/// whose nodes place one another's instances. Errors name the file or the importer.
 [[nodiscard]] Result<BenchReport> measureCage(const CageRequest& request);
 
 }  // namespace foretouch::tools

@@ -163,7 +163,8 @@ void bindScene(py::module_& module) {
           py::arg("time_limit_s") = usual.timeLimitS,
           py::arg("memory_limit_bytes") = usual.memoryLimitBytes,
           "OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process (the\n"
-          "program foretouch-import; docs/python.md says where it is looked for). scale: metres per\n"
+          "program foretouch-import; docs/python.md says where it is looked for). scale: metres "
+          "per\n"
           "unit of the file; up: 'y' or 'z'; both in place of what the file says itself.")
       .def_property_readonly("num_triangles", &Scene::numTriangles)
       .def_property_readonly("triangles", &triangleArray,
