@@ -1,5 +1,6 @@
 /* foretouch.h: Foretouch in C99 and C++: what an articulated body meets between two poses, when,
- * where and along which normal. One page about its use: docs/c-api.md.
+ * where and along which normal. One page about its use: docs/c-api.md. A header of its own has the
+ * avatar that passes through nothing: foretouch/solid.h.
  *
  * Units and frames. Metres, radians, doubles; right-handed world W, +Y up; t is normalised, 0 at
  * the earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. To convert
@@ -46,7 +47,7 @@ extern "C" {
 
 /* ---- Versions ---- */
 
-/* Of this header. Every new function or field increments it; programs built with an older header
+/* Of this header and solid.h. Every new function or field increments it; programs built with an older header
  * still work. A change that would break them changes the library's soname instead. */
 #define FT_ABI_VERSION 2
 
