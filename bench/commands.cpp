@@ -10,6 +10,7 @@
 #include "bench/memory_command.h"
 #include "bench/peers_command.h"
 #include "bench/scaling_command.h"
+#include "bench/solid_command.h"
 #include "bench/stream_command.h"
 #include "bench/trade_command.h"
 #include "bench/tune_command.h"
@@ -29,6 +30,7 @@ void addBenchCommands(CLI::App& program, ExitCode& exit) {
   addBenchViewCommand(program, exit);
   addBenchDeadlineCommand(program, exit);
   addBenchTradeCommand(program, exit);
+  addBenchSolidCommand(program, exit);
   addTuneCommand(program, exit);
 }
 

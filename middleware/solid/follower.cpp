@@ -125,7 +125,7 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   gather(certifier, tick);
   const double most = std::min(trust_, left_);
   const bool hasStep = propose(request, certifier.plan(), shown, most, tick);
-  if (!hasPushes() && far <= left_ && (!hasDirectFailed_ || size_ <= trust_)) {
+  if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
     return stepFreely(request, far, certifier, shown, tick);
   }
   if (!hasStep || (hasMoved_ && size_ < enough_)) return false;

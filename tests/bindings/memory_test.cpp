@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "tests/bindings/c_world.h"
+#include "tests/bindings/solid_world.h"
 #include "tests/middleware/random_scene.h"
 
 namespace {
@@ -187,6 +187,85 @@ TEST(CMemory, IsNotAskedForOnceItHasGrown) {
     EXPECT_EQ(ft_motion_pose(query.get(), 0.5, rotations.data(), nullptr, 5, nullptr), FT_OK);
   }
   EXPECT_EQ(allocations - before, 0u);
+}
+
+/// Ticks of one round: the arm presses, sweeps along, lifts, and goes back.
+void playRound(ft_solid* solid, const std::vector<test::PoseArrays>& poses,
+               std::vector<double>& numbers, std::vector<ft_solid_contact>& contacts) {
+  for (const test::PoseArrays& arrays : poses) {
+    const ft_pose pose = arrays.view();
+    ft_solid_tick tick{};
+    tick.size = sizeof tick;
+    EXPECT_EQ(ft_solid_follow(solid, &pose, nullptr, 1.0 / 90.0, &tick), FT_OK);
+    EXPECT_EQ(ft_solid_shown(solid, numbers.data(), nullptr, 3, nullptr), FT_OK);
+    contacts[0].size = sizeof(ft_solid_contact);
+    EXPECT_EQ(ft_solid_contacts(solid, contacts.data(), contacts.size(), nullptr), FT_OK);
+  }
+}
+
+std::vector<test::PoseArrays> roundOf(const Avatar& avatar, int step) {
+  std::vector<test::PoseArrays> poses;
+  for (int frame = 0; frame <= 300; frame += step) {
+    poses.emplace_back(test::armPose(avatar, frame / 90.0));
+  }
+  return poses;
+}
+
+TEST(CMemory, IsNotAskedForByASolidAvatarOnceItHasGrown) {
+  const test::SolidWorld world;
+  const auto solid = test::makeSolid(world.scene, world.avatar);
+  const auto poses = roundOf(world.avatarOfCxx, 1);
+  std::vector<double> numbers(12);
+  std::vector<ft_solid_contact> contacts(100);
+  std::uint64_t before = 0;
+  for (int round = 0; round < 4; ++round) {
+    before = allocations;
+    playRound(solid.get(), poses, numbers, contacts);
+  }
+  EXPECT_EQ(allocations - before, 0u);
+}
+
+/// Whatever runs out, the next tick goes on from what was shown: nothing appears elsewhere.
+TEST(CMemory, RunningOutInASolidAvatarIsAnErrorAndLeavesItWhereItWas) {
+  const test::SolidWorld world;
+  const auto poses = roundOf(world.avatarOfCxx, 30);
+  Pose below = test::armPose(world.avatarOfCxx, 0.0);
+  below.translations[0].y() = -0.5;
+  const test::PoseArrays beyond(below);
+  const ft_pose target = beyond.view();
+  std::vector<double> shown(12);
+  auto options = test::initialised(ft_solid_options_init);
+  options.placing_reach = 0.2;  // the places to look at are soon listed
+  test::SolidHandle solid;
+  const int failed = failingOneByOne([&] {
+    const std::int64_t until = std::exchange(callsUntilFailure, -1);
+    solid = test::makeSolid(world.scene, world.avatar, &options);  // it has to grow
+    ft_solid_tick tick{};
+    tick.size = sizeof tick;
+    const ft_pose above = poses[0].view();
+    EXPECT_EQ(ft_solid_follow(solid.get(), &above, nullptr, 1.0 / 90.0, &tick), FT_OK);
+    callsUntilFailure = until;
+    const ft_status status = ft_solid_follow(solid.get(), &target, nullptr, 1.0 / 90.0, &tick);
+    if (status == FT_OK) return status;
+    const std::int64_t after = std::exchange(callsUntilFailure, -1);
+    EXPECT_EQ(ft_solid_shown(solid.get(), nullptr, shown.data(), 3, nullptr), FT_OK);
+    EXPECT_EQ(shown[1], poses[0].translations[1]);
+    EXPECT_EQ(ft_solid_follow(solid.get(), &target, nullptr, 1.0 / 90.0, &tick), FT_OK);
+    EXPECT_NE(tick.state, FT_SOLID_EQUAL) << "it is behind the table";
+    EXPECT_EQ(tick.is_certified, 1);
+    callsUntilFailure = after;
+    return static_cast<ft_status>(FT_ERROR_OUT_OF_MEMORY);
+  });
+  EXPECT_GT(failed, 1);
+  const int made = failingOneByOne([&] {
+    ft_solid* another = nullptr;
+    const ft_status status =
+        ft_solid_create(world.scene.get(), world.avatar.get(), &options, &another);
+    EXPECT_EQ(another != nullptr, status == FT_OK);
+    ft_solid_destroy(another);
+    return status;
+  });
+  EXPECT_GT(made, 10);
 }
 
 }  // namespace
