@@ -33,7 +33,7 @@ struct AskedReplay {
   std::vector<std::string> avatars;  ///< For a log, numbered as parseNumberedAvatars() reads them.
   StreamPolicy stream;
   std::string suffix;
-  SolidRequest solid;
+  StreamSolidRequest solid;
   std::string bvhPath;  ///< Of what a solid avatar shows; empty: none.
   int threads = 0;      ///< 0: one per processor.
   bool asJson = false;  ///< The summary.
@@ -108,12 +108,11 @@ void addClipOnlySettings(Settings& settings, AskedReplay& asked) {
   }
 }
 
-/// A log says by itself what a service showed.
-void addSolidReplaySettings(Settings& settings, SolidRequest& solid) {
-  addSolidSettings(settings, solid);
-  for (const char* const option :
-       {"--solid", "--solid-skin", "--catch-up", "--floor", "--snap", "--around"}) {
-    settings.of(option).ofClips();
+/// Own links and budgets have options of their own in a clip.
+void addSolidReplaySettings(Settings& settings, StreamSolidRequest& solid) {
+  addStreamSolidSettings(settings, solid);
+  for (const char* const option : {"--solid-self", "--solid-budget-us"}) {
+    settings.of(option).ofLogs();
   }
 }
 
@@ -252,9 +251,10 @@ ExitCode runClip(const AskedReplay& asked) {
 ExitCode runLog(const AskedReplay& asked) {
   FORETOUCH_TRY_OR(failed, auto avatars, parseNumberedAvatars("--avatar", asked.avatars));
   const ReplayRequest& given = asked.job.request;
-  const LogReplayJob job{{given.motionPath, given, std::move(avatars), asked.stream, asked.suffix},
-                         asked.job.outputPath,
-                         asked.job.report};
+  const LogReplayJob job{
+      {given.motionPath, given, std::move(avatars), asked.stream, asked.suffix, asked.solid},
+      asked.job.outputPath,
+      asked.job.report};
   const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
   const auto replayed = runLogReplay(job, [&](const std::string& text) {
     outIsTaken ? printAside(text) : printOut(text + placesOf(job.outputPath, job.report.path));
@@ -264,8 +264,8 @@ ExitCode runLog(const AskedReplay& asked) {
 }
 
 ExitCode runSolid(const Settings& settings, const AskedReplay& asked) {
-  SolidReplayJob job{asked.job.request,    asked.solid,   settings.isGiven("--tolerance"),
-                     asked.job.outputPath, asked.bvhPath, asked.job.report,
+  SolidReplayJob job{asked.job.request,    asked.solid.solid, settings.isGiven("--tolerance"),
+                     asked.job.outputPath, asked.bvhPath,     asked.job.report,
                      asked.job.glb};
   job.request.avatarPath = asked.avatars.front();
   job.hasTolerance = job.hasTolerance || job.request.query.tolerance != kDefaultTolerance;
@@ -284,7 +284,7 @@ ExitCode run(const Settings& settings, AskedReplay& asked) {
   const bool isLog = isEventLog(asked.job.request.motionPath);
   FORETOUCH_CHECK_OR(failed, checkOptions(settings, asked, isLog));
   FORETOUCH_CHECK_OR(failed, readPolicies(asked.job.request));
-  if (asked.solid.isAsked) {
+  if (asked.solid.solid.isAsked && !isLog) {
     FORETOUCH_CHECK_OR(failed, checkSolidTogether(settings, asked.job.request));
     return runSolid(settings, asked);
   }

@@ -113,6 +113,7 @@ struct ViewAvatar {
   std::optional<ViewTrack> tracked;
   std::optional<ViewSolid> solid;
   std::vector<ViewPush> pushes;  ///< Of a solid avatar: one per contact.
+  bool isLiveSolid = false;      ///< Of kind Live: events will say what is shown.
   std::vector<ViewSwept> swept;
 };
 

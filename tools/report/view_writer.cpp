@@ -246,6 +246,7 @@ void write(const ViewAvatar& avatar, Writer& out) {
   if (avatar.track) writeTrack(out, "track", *avatar.track);
   if (avatar.tracked) writeTrack(out, "tracked", *avatar.tracked);
   if (avatar.solid) writeSolid(out, *avatar.solid);
+  if (avatar.isLiveSolid) out.field("is_solid", true);
   std::size_t contact = 0;
   out.list("contacts", avatar.contacts, [&](const ReportedContact& found) {
     const bool hasPush = contact < avatar.pushes.size();

@@ -151,5 +151,6 @@ function clipOf(avatar: Avatar): Clip {
 }
 
 function trackedOf(avatar: Avatar): Clip | null {
+  if (avatar.isLiveSolid) return new LiveClip(avatar.links);
   return avatar.tracked === null ? null : new RecordedClip(avatar.links, avatar.tracked);
 }

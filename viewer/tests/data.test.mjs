@@ -170,6 +170,23 @@ test("live events are read, and refused where they are wrong", () => {
   assert.throws(() => decodeStatus("nonsense"), { name: "Malformed" });
 });
 
+test("live events of a solid avatar say what is shown, and are refused where they do not", () => {
+  const document = live();
+  document.avatars[0].is_solid = true;
+  const { avatars } = decoded(document);
+  const plain = stepEvent(0.2, 0.3, 3);
+  const solid = { state: "sliding", limit: "catch-up", certified: true, deviation: 0.03, lift: 0, clearance: 0.001, snap_in: 0.2 };
+  const event = { ...plain, shown_from: plain.from, shown_to: plain.to.map((value, i) => (i === 4 ? value + 0.03 : value)), solid };
+  const { shown, to } = decodeStep(JSON.stringify(event), avatars);
+  assert.equal(shown.state, "sliding");
+  assert.equal(shown.snapIn, 0.2);
+  assert.ok(Math.abs(shown.to.translations[0] - to.translations[0] - 0.03) < 1e-12);
+  for (const harm of [{ shown_from: [1] }, { shown_to: null }, { solid: null }, { solid: { ...solid, state: "liquid" } }, { solid: { ...solid, deviation: -1 } }]) {
+    assert.throws(() => decodeStep(JSON.stringify({ ...event, ...harm }), avatars), { name: "Malformed" });
+  }
+  assert.equal(decodeStep(JSON.stringify(event), decoded(live()).avatars).shown, null);
+});
+
 test("contacts hold from when they are met to the end of their step; missed ones are counted", () => {
   const view = decoded(whole), clips = view.avatars.map((avatar) => new RecordedClip(avatar.links, avatar.track));
   const contacts = allContacts(view.avatars, clips), longest = longestStep(contacts);

@@ -23,6 +23,7 @@ export function decodeAvatar(reader: Reader): Avatar {
     track,
     tracked: tracked === null ? null : decodeTrack(tracked, links.length),
     solid: solid === null ? null : decodeSolid(solid),
+    isLiveSolid: reader.optional("is_solid")?.flag() ?? false,
     contacts: (reader.optional("contacts")?.items() ?? []).map((item) => ({
       ...decodeContact(item, links.length),
       step: item.field("step").index(steps),

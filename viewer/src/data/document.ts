@@ -73,6 +73,8 @@ export interface Avatar {
   /** Of a solid avatar: where its tracker says that it is. */
   readonly tracked: Track | null;
   readonly solid: Solid | null;
+  /** Of a live view: its events say what a solid avatar shows. */
+  readonly isLiveSolid: boolean;
   readonly contacts: readonly RecordedContact[];
   readonly swept: readonly SweptSurface[];
 }
