@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bench/cage_command.h"
 #include "bench/deadline_command.h"
 #include "bench/documents_command.h"
 #include "bench/extremes_command.h"
@@ -29,6 +30,7 @@ void addBenchCommands(CLI::App& program, ExitCode& exit) {
   addBenchStreamCommands(program, exit);
   addBenchViewCommand(program, exit);
   addBenchDeadlineCommand(program, exit);
+  addBenchCageCommand(program, exit);
   addBenchTradeCommand(program, exit);
   addBenchSolidCommand(program, exit);
   addTuneCommand(program, exit);

@@ -51,6 +51,7 @@ void findPlaces(const StandingLss& lss, const Triangle& triangle, TriangleId id,
                                      TriangleId id, const FlatEdges& flat);
 
 /// A lower bound on the separation at the place.
-[[nodiscard]] double provenGap(const StandingLss& lss, const Triangle& triangle, NearPart part);
+[[nodiscard]] double provenGap(const StandingLss& lss, const Triangle& triangle,
+                               const NearPlace& place);
 
 }  // namespace foretouch::internal

@@ -149,7 +149,7 @@ class NearSearch {
       const NearPlace place =
           internal::closestPlace(lss, plan_.scene.triangle(id), id, *plan_.flat);
       if (place.feature.gap > lss.reach &&
-          internal::provenGap(lss, plan_.scene.triangle(id), place.part) > lss.reach) {
+          internal::provenGap(lss, plan_.scene.triangle(id), place) > lss.reach) {
         continue;
       }
       if (found.empty()) {
@@ -184,7 +184,7 @@ class NearSearch {
     for (const NearPlace& place : found) {
       NearFeature feature = place.feature;
       feature.gap = internal::provenGap(lss[slotOf(feature.lss)],
-                                        plan_.scene.triangle(feature.triangle), place.part);
+                                        plan_.scene.triangle(feature.triangle), place);
       near_.features.push_back(feature);
     }
     std::sort(near_.features.begin() + static_cast<std::ptrdiff_t>(range.first),

@@ -165,12 +165,14 @@ double Certifier::gapOf(const SolidHit& hit, double t) {
   return separation(axis, axisOf(other, evaluator_.stateAt(hit.other, t))).lower() - radii;
 }
 
-/// The least of all links in the last answer.
+/// The least of all links and pairs in the last answer.
 double Certifier::toleranceUsed() {
   double least = plan_->tolerances.least;
   for (const double own : scratch_.parts().lanes.tolerances) {
     if (own > 0.0) least = std::min(least, own);
   }
+  if (!plan_->self.isAsked()) return least;
+  for (const LeftPair& pair : scratch_.parts().self.left) least = std::min(least, pair.tolerance);
   return least;
 }
 

@@ -10,16 +10,26 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/solid/certifier.h"
+#include "middleware/solid/floor_lift.h"
 #include "middleware/solid/follower.h"
 #include "middleware/solid/placing.h"
 #include "middleware/solid/solid_way.h"
 #include "middleware/solid/target_pose.h"
 #include "middleware/solid/tree_pose.h"
+#include "middleware/solid/way_around.h"
 
 namespace foretouch {
 namespace {
 
 constexpr double kLongestTick = 10.0;
+// When a way around is looked for (solid.md 6): farther than this from the target (m), and moving
+// by less than this share of it for so long (s, ticks).
+constexpr double kFarEnough = 0.05, kProgress = 0.02, kStuckFor = 0.05;
+constexpr int kStuckTicks = 3;
+/// After the target was found inside something.
+constexpr int kTicksToLookAgain = 8;
+/// A walk shorter than this waits for the next tick (m).
+constexpr double kLeastWalk = 1e-4;
 
 Result<Done> inRange(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return Done{};
@@ -92,7 +102,9 @@ class SolidAvatar::Parts {
         certifier_(std::move(certifier)),
         follower_(std::move(follower)),
         target_(avatar),
-        placing_(options_) {}
+        lift_(avatar, options_),
+        placing_(options_),
+        around_(avatar, options_) {}
 
   Result<Done> follow(const SolidTarget& given, SolidTick& tick) {
     if (!(given.dtS > 0.0 && given.dtS <= kLongestTick)) {
@@ -101,17 +113,50 @@ class SolidAvatar::Parts {
     FORETOUCH_CHECK(target_.take(given, isPlaced_ ? &shown_ : nullptr));
     certifier_.beginTick(options_.workBudget);
     internal::beginTick(tick);
+    isAround_ = false;
     if (!isPlaced_) place(tick);
-    if (isPlaced_) move(given.dtS, tick);
+    if (isPlaced_) {
+      before_ = shown_;
+      move(given.dtS, tick);
+    }
+    lift_.remember(follower_.rows());
     finish(given.dtS, tick);
     return Done{};
   }
 
   void reset() {
-    isPlaced_ = wasEqual_ = false;
-    follower_.reset();
-    placing_.reset();
+    isPlaced_ = wasEqual_ = isInside_ = false;
+    forget();
     target_.reset();
+  }
+
+  Result<Done> reset(const Pose& given) {
+    Pose place = given;
+    FORETOUCH_CHECK(inFile(validate(skeleton(), place), "place"));
+    certifier_.beginTick(options_.workBudget);
+    if (!certifier_.isClear(place, place)) {
+      return Error::in("place", ErrorCode::Mismatch,
+                       "expected a pose that touches nothing: the avatar begins there");
+    }
+    reset();
+    shown_ = place;
+    isPlaced_ = mustSayPlace_ = true;
+    return Done{};
+  }
+
+  Result<Done> changeScene(const Scene& scene) {
+    const Avatar& avatar = certifier_.avatar();
+    FORETOUCH_TRY(auto certifier, internal::Certifier::build(avatar, scene, options_));
+    FORETOUCH_TRY(auto follower, internal::Follower::build(avatar, scene, options_, certifier));
+    certifier_ = std::move(certifier);
+    follower_ = std::move(follower);
+    forget();
+    wasEqual_ = false;
+    if (!isPlaced_) return Done{};
+    certifier_.beginTick(options_.workBudget);
+    isInside_ = !certifier_.isClear(shown_, shown_);
+    if (isInside_) isPlaced_ = false;
+    return Done{};
   }
 
   [[nodiscard]] const SolidOptions& options() const { return options_; }
@@ -121,16 +166,38 @@ class SolidAvatar::Parts {
  private:
   [[nodiscard]] const Skeleton& skeleton() const { return certifier_.avatar().skeleton(); }
 
+  void forget() {
+    follower_.reset();
+    placing_.reset();
+    around_.reset();
+    lift_.reset();
+    stuckS_ = awayS_ = 0.0;
+    mustSayPlace_ = false;
+  }
+
+  /// The first place, or the nearest to where the scene has closed around it.
   void place(SolidTick& tick) {
-    isPlaced_ = placing_.search(skeleton(), target_.pose(), certifier_, shown_);
+    const Pose asked = isInside_ ? shown_ : target_.pose();
+    Pose found;
+    isPlaced_ = placing_.search(skeleton(), asked, certifier_, found);
     tick.counters.placingQueries = certifier_.queries();
-    if (!isPlaced_) return;
+    if (!isPlaced_) {
+      if (isInside_) tick.limit = SolidLimit::Inside;
+      return;
+    }
+    shown_ = found;
+    isInside_ = false;
+    appear(tick);
+  }
+
+  void appear(SolidTick& tick) {
     tick.hasAppeared = true;
     internal::appendPiece(shown_, std::numeric_limits<double>::infinity(), tick);
   }
 
   void move(double dtS, SolidTick& tick) {
-    before_ = shown_;
+    if (std::exchange(mustSayPlace_, false)) appear(tick);
+    if (lift_.isAny() && goUnlifted(dtS, tick)) return;
     if (wasEqual_ && !follower_.isAnyHot()) {
       if (follower_.goStraight(target_.pose(), certifier_, shown_, tick)) return;
     }
@@ -141,28 +208,130 @@ class SolidAvatar::Parts {
       body.place(target_.lastStates(), lastWanted_);
       step = internal::VisualBody::farthest(wanted_, lastWanted_);
     }
-    follower_.follow({target_.pose(), wanted_, step, step + options_.catchUp * dtS}, certifier_,
-                     shown_, tick);
+    const double budget = step + options_.catchUp * dtS;
+    if (around_.isStale(shown_, wanted_)) around_.reset();
+    if (around_.hasWay() && walkAround(budget, tick)) return;
+    follower_.follow({target_.pose(), wanted_, step, budget}, certifier_, shown_, tick);
+    if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
+  }
+
+  /// Lifts the target, unless the tracked pose itself is in reach: then it is shown.
+  bool goUnlifted(double dtS, SolidTick& tick) {
+    const double lift = lift_.update(target_.states(), dtS);
+    if (!(lift > 0.0)) return false;
+    const internal::VisualBody& body = follower_.body();
+    const double far =
+        body.farthestMove(skeleton(), shown_, target_.pose(), states_, statesBefore_);
+    if (far <= options_.catchUp * dtS &&
+        follower_.goStraight(target_.pose(), certifier_, shown_, tick)) {
+      return true;
+    }
+    tick.lift = lift;
+    target_.moveRoots(lift * options_.up);
+    return false;
+  }
+
+  /// On along the way that was found; false if it is no longer free.
+  bool walkAround(double budget, SolidTick& tick) {
+    const internal::VisualBody& body = follower_.body();
+    isAround_ = true;
+    while (around_.hasWay() && budget > kLeastWalk) {
+      around_.next(body, shown_, budget, towards_);
+      const internal::Certified answer = certifier_.certify(shown_, towards_, reached_);
+      if (!answer.isClear) {
+        if (answer.isOverBudget) {
+          tick.limit = SolidLimit::Budget;
+          return true;
+        }
+        around_.reset();
+        isAround_ = tick.numWay != 0;
+        return isAround_;
+      }
+      budget -= body.farthestMove(skeleton(), shown_, reached_, states_, statesBefore_);
+      shown_ = reached_;
+      internal::appendPiece(shown_, answer.clearance, tick);
+      around_.arrived(shown_);
+    }
+    if (around_.hasWay()) tick.limit = SolidLimit::CatchUp;
+    if (!around_.hasWay()) around_.reset();
+    return true;
+  }
+
+  /// Held away from the target: is there a way around, or has the time come to snap?
+  void lookFurther(double dtS, SolidTick& tick) {
+    const internal::VisualBody& body = follower_.body();
+    internal::placeLinks(skeleton(), shown_, states_);
+    double far = 0.0;
+    LinkId farthest = 0;
+    double farOfRoots = 0.0;
+    const std::vector<JointId>& parents = skeleton().parents();
+    for (std::size_t k = 0; k < body.points().size(); ++k) {
+      const auto& point = body.points()[k];
+      const double off = (states_[slotOf(point.link)].pointAt(point.p_L) - wanted_[k]).norm();
+      if (off > far) {
+        far = off;
+        farthest = point.link;
+      }
+    }
+    for (std::size_t j = 0; j < parents.size(); ++j) {
+      if (parents[j] != kNoParent) continue;
+      farOfRoots = std::max(farOfRoots, (states_[j].p_WL - target_.states()[j].p_WL).norm());
+    }
+    const double moved = body.farthestMove(skeleton(), before_, shown_, statesBefore_, states_);
+    const bool isStuck = far > kFarEnough && moved < kProgress * far;
+    stuckS_ = isStuck ? stuckS_ + dtS : 0.0;
+    stuckTicks_ = isStuck ? stuckTicks_ + 1 : 0;
+    if (!isStuck) lookAt_ = 0;
+    const bool isAway = farOfRoots > options_.mostDeviation || far > options_.mostLimbDeviation;
+    awayS_ = isAway ? awayS_ + dtS : 0.0;
+    const bool wantsAround = options_.aroundPerTick > 0 && !around_.hasFailed() &&
+                             stuckS_ >= kStuckFor && stuckTicks_ >= std::max(kStuckTicks, lookAt_);
+    const bool wantsSnap = options_.maySnap && awayS_ > options_.patience;
+    if (!wantsAround && !wantsSnap) return;
+    const std::uint32_t before = certifier_.queries();
+    if (!certifier_.isClear(target_.pose(), target_.pose())) {
+      lookAt_ = stuckTicks_ + kTicksToLookAgain;
+      if (wantsSnap) awayS_ = std::min(awayS_, options_.patience);
+      return;
+    }
+    if (wantsAround) {
+      around_.search(body, shown_, target_.pose(), wanted_, farthest,
+                     static_cast<std::uint32_t>(options_.aroundPerTick), certifier_);
+    }
+    tick.counters.aroundQueries += certifier_.queries() - before;
+    if (!wantsSnap || around_.hasWay()) return;
+    if (options_.aroundPerTick > 0 && !around_.hasFailed()) {
+      awayS_ = std::min(awayS_, options_.patience + 0.5 * options_.snapNotice);
+    }
+    tick.snapInS = std::max(0.0, options_.patience + options_.snapNotice - awayS_);
+    if (tick.snapInS > 0.0) return;
+    shown_ = target_.pose();
+    forget();
+    tick.numWay = 0;
+    tick.clearance = std::numeric_limits<double>::infinity();
+    hasSnapped_ = true;
+    appear(tick);
   }
 
   void finish(double dtS, SolidTick& tick) {
-    tick.shown = isPlaced_ ? shown_ : target_.pose();
+    tick.shown = isPlaced_ || isInside_ ? shown_ : target_.pose();
     tick.isCertified = isPlaced_;
     wasEqual_ = isPlaced_ && internal::isSamePose(shown_, target_.pose());
-    if (!isPlaced_) {
-      tick.clearance = 0.0;
-      tick.state = SolidState::Placing;
-    } else if (wasEqual_) {
-      tick.state = SolidState::Equal;
-    } else if (!hasPushes()) {
-      tick.state = SolidState::Following;
-    } else {
-      tick.state = tick.numWay == 0 ? SolidState::Held : SolidState::Sliding;
-    }
+    if (!isPlaced_) tick.clearance = 0.0;
+    tick.state = stateOf(tick);
     internal::spreadTimes(tick);
     tick.counters.queries = certifier_.queries();
     tick.counters.work = certifier_.workDone();
     report(dtS, tick);
+  }
+
+  [[nodiscard]] SolidState stateOf(const SolidTick& tick) {
+    if (!isPlaced_) return SolidState::Placing;
+    if (std::exchange(hasSnapped_, false)) return SolidState::Snapped;
+    if (wasEqual_) return SolidState::Equal;
+    if (isAround_) return SolidState::Around;
+    if (tick.numWay == 0) return SolidState::Held;
+    return hasPushes() ? SolidState::Sliding : SolidState::Following;
   }
 
   [[nodiscard]] bool hasPushes() const {
@@ -225,10 +394,17 @@ class SolidAvatar::Parts {
   internal::Certifier certifier_;
   internal::Follower follower_;
   internal::TargetPose target_;
+  internal::FloorLift lift_;
   internal::Placing placing_;
-  Pose shown_, before_;
+  internal::WayAround around_;
+  Pose shown_, before_, towards_, reached_;
   std::vector<LinkState> states_, statesBefore_;
   std::vector<Eigen::Vector3d> wanted_, lastWanted_;
+  double stuckS_ = 0.0, awayS_ = 0.0;
+  int stuckTicks_ = 0, lookAt_ = 0;
+  bool isAround_ = false, hasSnapped_ = false;
+  bool isInside_ = false;      // the scene that was changed has shown_ inside
+  bool mustSayPlace_ = false;  // shown_ was given as a place, and no tick has said so yet
   bool isPlaced_ = false;
   bool wasEqual_ = false;  // shown_ is the last target, bit for bit
 };
@@ -256,12 +432,12 @@ void SolidAvatar::reset() {
   parts_->reset();
 }
 
-Result<Done> SolidAvatar::reset(const Pose& /*place*/) {
-  return Done{};
+Result<Done> SolidAvatar::reset(const Pose& place) {
+  return parts_->reset(place);
 }
 
-Result<Done> SolidAvatar::changeScene(const Scene& /*scene*/) {
-  return Done{};
+Result<Done> SolidAvatar::changeScene(const Scene& scene) {
+  return parts_->changeScene(scene);
 }
 
 const Avatar& SolidAvatar::avatar() const {

@@ -15,7 +15,7 @@ namespace foretouch {
 /// The numbers are those of the C API and the wire.
 enum class SolidState : std::uint8_t {
   Placing = 0,  ///< No free place is found yet: `shown` is the tracked pose, and nothing is proven.
-  Equal = 1,    ///< Shown is tracked, bit for bit (lost joints apart).
+  Equal = 1,    ///< Shown is tracked, bit for bit (lost joints and the lift apart).
   Following = 2,  ///< On its way to the tracked pose, touching nothing: catching up.
   Sliding = 3,    ///< Surfaces keep it from the tracked pose, and it moved.
   Held = 4,       ///< Surfaces keep it from the tracked pose, and it stays where it is.

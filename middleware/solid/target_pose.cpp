@@ -35,6 +35,14 @@ Result<Done> TargetPose::take(const SolidTarget& given, const Pose* shown) {
   return Done{};
 }
 
+void TargetPose::moveRoots(const Eigen::Vector3d& by) {
+  if (by.isZero(0.0)) return;
+  for (std::size_t j = 0; j < pose_.translations.size(); ++j) {
+    if (skeleton_.parents()[j] == kNoParent && isLost_[j] == 0) pose_.translations[j] += by;
+  }
+  arePlaced_ = false;
+}
+
 const std::vector<LinkState>& TargetPose::states() {
   if (!std::exchange(arePlaced_, true)) placeLinks(skeleton_, pose_, states_);
   return states_;

@@ -19,6 +19,8 @@ class TargetPose {
   /// or at first their rest pose. Errors: as validatedPose(), and of a wrong number of flags; then
   /// nothing has changed.
   Result<Done> take(const SolidTarget& given, const Pose* shown);
+  /// Moves all of it, but for lost roots, which stay where they are shown.
+  void moveRoots(const Eigen::Vector3d& by);
   /// Forgets the last target.
   void reset() { isAny_ = hasLast_ = false; }
 

@@ -68,4 +68,18 @@ double VisualBody::farthest(const std::vector<Eigen::Vector3d>& one,
   return std::sqrt(most);
 }
 
+double VisualBody::farthestMove(const Skeleton& skeleton, const Pose& one, const Pose& other,
+                                std::vector<LinkState>& atOne,
+                                std::vector<LinkState>& atOther) const {
+  placeLinks(skeleton, one, atOne);
+  placeLinks(skeleton, other, atOther);
+  double most = 0.0;
+  for (const Point& point : points_) {
+    const auto link = slotOf(point.link);
+    most =
+        std::max(most, (atOne[link].pointAt(point.p_L) - atOther[link].pointAt(point.p_L)).norm());
+  }
+  return most;
+}
+
 }  // namespace foretouch::internal

@@ -43,6 +43,11 @@ class VisualBody {
   [[nodiscard]] static double farthest(const std::vector<Eigen::Vector3d>& one,
                                        const std::vector<Eigen::Vector3d>& other);
 
+  /// The largest distance of a point's places at two poses. `atOne`, `atOther`: memory.
+  [[nodiscard]] double farthestMove(const Skeleton& skeleton, const Pose& one, const Pose& other,
+                                    std::vector<LinkState>& atOne,
+                                    std::vector<LinkState>& atOther) const;
+
  private:
   std::vector<Point> points_;
   std::vector<double> stiffness_;

@@ -72,13 +72,14 @@ const std::map<std::string, Rooms> kRooms = {
       {"setup", {"audit", "inputs", "settings", ""}},
       {"replay", {"touches", "inputs", "settings", ""}},
       {"stream", {"touches", "inputs", "settings", ""}},
-      {"glb", {"replay", "touches", "inputs", "settings", ""}},
+      {"solid", {"replay", "touches", "inputs", "settings", ""}},
+      {"glb", {"solid", "replay", "touches", "inputs", "settings", ""}},
       {"sweep", {"glb", "inputs", "settings", ""}},
       {"log", {"stream", "replay", "touches", "inputs", "settings", ""}},
-      {"report", {"setup", "log", "audit", "replay", "touches", "inputs", "settings", ""}},
+      {"report", {"solid", "setup", "log", "audit", "replay", "touches", "inputs", "settings", ""}},
       {"view", {"report", "stream", "settings", ""}},
       {"commands",
-       {"view", "report", "log", "sweep", "glb", "stream", "replay", "setup", "touches", "audit",
+       {"view", "report", "log", "sweep", "glb", "solid", "stream", "replay", "setup", "touches", "audit",
         "inputs", "settings", ""}}}},
 };
 
@@ -94,8 +95,9 @@ const std::map<std::string, std::set<std::string>> kLibraries = {
     {"tinyxml.h", {"assets"}},
     {"console_bridge", {"assets"}},
     {"lcm", {"network"}},
-    // Generated from network/wire/lcm; and what others include, in the example in C++.
-    {"foretouch", {"network", "examples"}},
+    // Generated from network/wire/lcm; and what others include, in the example in C++ and from one
+    // header of C to the next.
+    {"foretouch", {"network", "examples", "bindings"}},
     {"xxhash.h", {"network", "tools"}},
     {"boost", {"judge", "middleware"}},
     {"quadmath.h", {"judge"}},

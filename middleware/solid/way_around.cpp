@@ -1,0 +1,238 @@
+#include "middleware/solid/way_around.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lss/index.h"
+#include "middleware/solid/tree_pose.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// A target that has moved farther than this (m) is another one.
+constexpr double kSameTarget = 0.05;
+/// Of trials: those that grow straight towards the other tree.
+constexpr double kStraight = 0.2;
+/// How far a joint turns from where it is shown or tracked (rad), nearest the trunk and farther
+/// out.
+constexpr double kTurnOfFirst = 2.0, kTurnOfOthers = 1.2;
+/// How far the whole body moves aside (m), where it is the body that looks for a way.
+constexpr double kAside = 0.6;
+/// Joints of a limb whose turn is tried: of fingers and toes it changes little.
+constexpr int kMostJoints = 4;
+/// Of what is seen of the avatar: more belongs to the trunk.
+constexpr double kShareOfLimb = 0.25;
+/// Nodes of one tree.
+constexpr std::size_t kMostNodes = 400;
+/// A cut that advances less than this (m) is not worth a node.
+constexpr double kLeastAdvance = 0.01;
+
+Quaternion turned(const Quaternion& q, const Eigen::Vector3d& by) {
+  const double angle = by.norm();
+  if (!(angle > 1e-9)) return q;
+  return (Eigen::Quaterniond(Eigen::AngleAxisd(angle, by / angle)) * Eigen::Quaterniond(q))
+      .normalized();
+}
+
+}  // namespace
+
+WayAround::WayAround(const Avatar& avatar, const SolidOptions& options)
+    : skeleton_(avatar.skeleton()), most_(static_cast<std::uint32_t>(options.aroundInAll)) {}
+
+void WayAround::reset() {
+  isBegun_ = hasFailed_ = false;
+  way_.clear();
+  next_ = 0;
+}
+
+bool WayAround::isStale(const Pose& shown, const std::vector<Eigen::Vector3d>& wanted) const {
+  if (!isBegun_) return false;
+  if (VisualBody::farthest(wanted, wanted_) > kSameTarget) return true;
+  return way_.empty() && !isSamePose(shown, from_);
+}
+
+/// splitmix64 (Steele, Lea, Flood, OOPSLA 2014): the standard's distributions differ.
+double WayAround::uniform(double low, double high) {
+  random_ += 0x9E3779B97F4A7C15u;
+  std::uint64_t z = random_;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  z ^= z >> 31;
+  return low + (high - low) * static_cast<double>(z >> 11) * 0x1p-53;
+}
+
+void WayAround::begin(const VisualBody& body, const Pose& shown, const Pose& target,
+                      const std::vector<Eigen::Vector3d>& wanted, LinkId farthest) {
+  isBegun_ = true;
+  hasFailed_ = false;
+  spent_ = 0;
+  random_ = 0;
+  turn_ = 0;
+  way_.clear();
+  next_ = 0;
+  from_ = shown;
+  wanted_ = wanted;
+  chooseLimb(body, farthest);
+  for (Tree& tree : trees_) tree.count = 0;
+  add(body, trees_[0], -1, shown);
+  add(body, trees_[1], -1, target);
+}
+
+/// The joints that lead to the farthest link, up to the trunk; of the trunk itself: the root.
+void WayAround::chooseLimb(const VisualBody& body, LinkId farthest) {
+  const std::vector<JointId>& parents = skeleton_.parents();
+  std::vector<double> below(parents.size(), 0.0);
+  for (const VisualBody::Point& point : body.points()) below[slotOf(point.link)] += point.weight;
+  for (std::size_t j = parents.size(); j-- > 0;) {
+    if (parents[j] != kNoParent) below[slotOf(parents[j])] += below[j];
+  }
+  isMoved_.assign(parents.size(), 0);
+  JointId root = farthest;
+  for (JointId j = farthest; j != kNoParent; j = parents[slotOf(j)]) {
+    root = j;
+    if (below[slotOf(j)] < kShareOfLimb) isMoved_[slotOf(j)] = 1;
+  }
+  if (below[slotOf(farthest)] >= kShareOfLimb) isMoved_[slotOf(root)] = 1;
+}
+
+std::size_t WayAround::add(const VisualBody& body, Tree& tree, std::int32_t parent,
+                           const Pose& pose) {
+  if (tree.nodes.size() == tree.count) tree.nodes.emplace_back();
+  Node& node = tree.nodes[tree.count];
+  node.pose = pose;
+  node.parent = parent;
+  placeLinks(skeleton_, pose, states_);
+  body.place(states_, node.places);
+  return tree.count++;
+}
+
+/// A pose between the shown one and the target, but for the limb, which is anywhere.
+void WayAround::sample(const Pose& shown, const Pose& target) {
+  const double share = uniform(0.0, 1.0);
+  part_.assign(skeleton_, shown, target);
+  part_.poseAt(share, sampled_);
+  const bool isOfTarget = uniform(0.0, 1.0) < 0.5;
+  int turns = 0;
+  for (std::size_t j = 0; j < isMoved_.size() && turns < kMostJoints; ++j) {
+    if (isMoved_[j] == 0) continue;
+    const double most = turns == 0 ? kTurnOfFirst : kTurnOfOthers;
+    const double x = uniform(-most, most), y = uniform(-most, most), z = uniform(-most, most);
+    const Quaternion& base = isOfTarget ? target.rotations[j] : shown.rotations[j];
+    ++turns;
+    if (skeleton_.parents()[j] != kNoParent) {
+      sampled_.rotations[j] = turned(base, {x, y, z});
+      continue;
+    }
+    sampled_.translations[j] += Eigen::Vector3d(x, y, z) * (kAside / most);
+  }
+}
+
+std::size_t WayAround::nearest(const Tree& tree) const {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < tree.count; ++i) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < sampledPlaces_.size(); ++k) {
+      sum += (tree.nodes[i].places[k] - sampledPlaces_[k]).squaredNorm();
+    }
+    if (sum < least) {
+      least = sum;
+      best = i;
+    }
+  }
+  return best;
+}
+
+void WayAround::search(const VisualBody& body, const Pose& shown, const Pose& target,
+                       const std::vector<Eigen::Vector3d>& wanted, LinkId farthest,
+                       std::uint32_t motions, Certifier& certifier) {
+  if (hasFailed_ || hasWay()) return;
+  if (!isBegun_) begin(body, shown, target, wanted, farthest);
+  const std::uint32_t before = certifier.queries();
+  while (certifier.queries() - before < motions && certifier.workLeft() > 0) {
+    const Tree& from = trees_[turn_];
+    if (from.count >= kMostNodes || spent_ >= most_) {
+      hasFailed_ = true;
+      return;
+    }
+    const std::uint32_t asked = certifier.queries();
+    // The target may have moved a little: the way leads to where it was.
+    sample(from_, trees_[1].nodes[0].pose);
+    if (uniform(0.0, 1.0) < kStraight) sampled_ = trees_[1 - turn_].nodes[0].pose;
+    placeLinks(skeleton_, sampled_, states_);
+    body.place(states_, sampledPlaces_);
+    const bool isDone = grow(body, certifier);
+    spent_ += certifier.queries() - asked;
+    if (isDone) return;
+    turn_ = 1 - turn_;
+  }
+}
+
+/// One tree towards the sample, the other towards what the first one has reached; true: they met.
+bool WayAround::grow(const VisualBody& body, Certifier& certifier) {
+  Tree &one = trees_[turn_], &other = trees_[1 - turn_];
+  const auto extend = [&](Tree& tree, std::size_t from, const Pose& to, bool& isThere) {
+    const Certified answer = certifier.certify(tree.nodes[from].pose, to, reached_);
+    isThere = answer.isClear;
+    if (!(answer.share > 0.0) || tree.count >= kMostNodes) return from;
+    const std::size_t added = add(body, tree, static_cast<std::int32_t>(from), reached_);
+    const double advance = VisualBody::farthest(tree.nodes[from].places, tree.nodes[added].places);
+    if (isThere || advance > kLeastAdvance) return added;
+    --tree.count;
+    return from;
+  };
+  bool isThere = false;
+  const std::size_t here = extend(one, nearest(one), sampled_, isThere);
+  if (here + 1 != one.count || here == 0) return false;  // nothing new
+  sampled_ = one.nodes[here].pose;
+  sampledPlaces_ = one.nodes[here].places;
+  const std::size_t there = extend(other, nearest(other), sampled_, isThere);
+  if (!isThere) return false;
+  finish(turn_ == 0 ? here : there, turn_ == 0 ? there : here, certifier);
+  return true;
+}
+
+/// The way from root to root, by as few motions as are clear.
+void WayAround::finish(std::size_t here, std::size_t there, Certifier& certifier) {
+  way_.clear();
+  for (auto i = static_cast<std::int32_t>(here); i >= 0; i = trees_[0].nodes[slotOf(i)].parent) {
+    way_.push_back(trees_[0].nodes[slotOf(i)].pose);
+  }
+  std::reverse(way_.begin(), way_.end());
+  // The other tree's end is the same pose.
+  for (auto i = trees_[1].nodes[there].parent; i >= 0; i = trees_[1].nodes[slotOf(i)].parent) {
+    way_.push_back(trees_[1].nodes[slotOf(i)].pose);
+  }
+  short_.clear();
+  short_.push_back(way_.front());
+  for (std::size_t i = 0; i + 1 < way_.size();) {
+    std::size_t to = way_.size() - 1;
+    while (to > i + 1 && !certifier.isClear(way_[i], way_[to])) --to;
+    short_.push_back(way_[to]);
+    i = to;
+  }
+  way_.swap(short_);
+  next_ = 1;
+}
+
+void WayAround::next(const VisualBody& body, const Pose& shown, double budget, Pose& towards) {
+  const Pose& to = way_[next_];
+  placeLinks(skeleton_, shown, states_);
+  body.place(states_, sampledPlaces_);
+  placeLinks(skeleton_, to, states_);
+  std::vector<Eigen::Vector3d>& places = trees_[0].nodes[0].places;
+  body.place(states_, places);
+  const double far = VisualBody::farthest(sampledPlaces_, places);
+  if (far <= budget) {
+    towards = to;
+    return;
+  }
+  part_.assign(skeleton_, shown, to);
+  part_.poseAt(budget / far, towards);
+}
+
+void WayAround::arrived(const Pose& shown) {
+  if (isSamePose(shown, way_[next_])) ++next_;
+}
+
+}  // namespace foretouch::internal
