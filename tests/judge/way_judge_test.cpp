@@ -117,7 +117,7 @@ PlainPose ballAt(double x) {
 
 TEST(WayJudge, SeesWhatIsPassedBetweenTwoOfTheLeastInstants) {
   // A sheet of 1 cm, edge on to fifty instants over 20 m: they are 40 cm apart.
-  const Scene scene({Triangle{Vec3d(7.77, -1, -1), Vec3d(7.77, 1, -1), Vec3d(7.77, 0, 1)}});
+  const Scene scene({Triangle{Vec3d(7.55, -1, -1), Vec3d(7.55, 1, -1), Vec3d(7.55, 0, 1)}});
   WayJudge judge(scene, ball());
   const WayReading reading = judge.along(ballAt(0.0), ballAt(20.0), 0.02);
   EXPECT_LT(reading.least, -0.02);
