@@ -1,5 +1,5 @@
-// examples/make_example.cpp: writes the bundled scene, clip and avatar: room.obj, dancer.bvh and
-// dancer.avatar.json. The same bytes on every run.
+// examples/make_example.cpp: writes the bundled scenes, clips and avatars: room.obj, dancer.bvh and
+// dancer.avatar.json; desk.obj, hand.bvh and hand.avatar.json. The same bytes on every run.
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -12,6 +12,7 @@
 #include "examples/choreography.h"
 #include "examples/dancer_body.h"
 #include "examples/furniture.h"
+#include "examples/hand.h"
 #include "examples/obj_writer.h"
 #include "examples/posture.h"
 #include "examples/room.h"
@@ -28,19 +29,35 @@ std::string roomText() {
   return objText(mesh.objects());
 }
 
-std::string clipText(const Avatar& dancer) {
-  const Choreography choreography;
+std::string deskText() {
+  MeshBuilder mesh;
+  addDesk(mesh);
+  return objText(mesh.objects());
+}
+
+template <typename PoseAt>
+std::string clipText(const Avatar& body, double durationS, const PoseAt& poseAt) {
   std::vector<Pose> frames;
-  const auto last = std::lround(Choreography::kDurationS * kFramesPerS);
+  const auto last = std::lround(durationS * kFramesPerS);
   for (long frame = 0; frame <= last; ++frame) {
-    const double timeS = static_cast<double>(frame) / kFramesPerS;
-    frames.push_back(poseOf(dancer.skeleton(), choreography.at(timeS)));
+    frames.push_back(poseAt(static_cast<double>(frame) / kFramesPerS));
   }
   std::vector<Eigen::Vector3d> tips;
-  for (LinkId link = 0; link < dancer.numLinks(); ++link) {
-    tips.push_back(dancer.lss(link).front().b);
+  for (LinkId link = 0; link < body.numLinks(); ++link) {
+    tips.push_back(body.lss(link).front().b);
   }
-  return bvhText(dancer.skeleton(), tips, frames, 1.0 / kFramesPerS);
+  return bvhText(body.skeleton(), tips, frames, 1.0 / kFramesPerS);
+}
+
+std::string danceText(const Avatar& dancer) {
+  const Choreography choreography;
+  return clipText(dancer, Choreography::kDurationS,
+                  [&](double timeS) { return poseOf(dancer.skeleton(), choreography.at(timeS)); });
+}
+
+std::string pressText(const Avatar& arm) {
+  return clipText(arm, kHandDurationS,
+                  [&](double timeS) { return handPoseAt(arm.skeleton(), timeS); });
 }
 
 bool write(const std::string& path, const std::string& text) {
@@ -53,15 +70,22 @@ bool write(const std::string& path, const std::string& text) {
   return static_cast<bool>(file);
 }
 
-int run(const std::string& folder) {
-  const auto dancer = dancerAvatar();
-  if (!dancer.ok()) {
-    std::fprintf(stderr, "%s\n", describe(dancer.error()).c_str());
-    return 1;
+bool writeBody(const Result<Avatar>& body, const std::string& path) {
+  if (!body.ok()) {
+    std::fprintf(stderr, "%s\n", describe(body.error()).c_str());
+    return false;
   }
-  const bool written = write(folder + "/room.obj", roomText()) &&
-                       write(folder + "/dancer.bvh", clipText(dancer.value())) &&
-                       write(folder + "/dancer.avatar.json", formatAvatar(dancer.value()));
+  return write(path, formatAvatar(body.value()));
+}
+
+int run(const std::string& folder) {
+  const auto dancer = dancerAvatar(), arm = handAvatar();
+  const bool written = writeBody(dancer, folder + "/dancer.avatar.json") &&
+                       writeBody(arm, folder + "/hand.avatar.json") &&
+                       write(folder + "/room.obj", roomText()) &&
+                       write(folder + "/desk.obj", deskText()) &&
+                       write(folder + "/dancer.bvh", danceText(dancer.value())) &&
+                       write(folder + "/hand.bvh", pressText(arm.value()));
   return written ? 0 : 1;
 }
 

@@ -182,6 +182,11 @@ class PlaceMaker {
 
   [[nodiscard]] const LocalPair& pair() const { return pair_; }
 
+  /// The difference of its points has a direction.
+  [[nodiscard]] bool isApart(const Spot& spot) const {
+    return std::sqrt(spot.squared) > kNoisyDifference * pair_.extent();
+  }
+
   void make(NearPart part, const Spot& spot, NearPlace& place) const {
     NearFeature& feature = place.feature;
     feature.link = lss_.link;
@@ -300,21 +305,31 @@ NearPlace closestPlace(const StandingLss& lss, const Triangle& triangle, Triangl
 }
 
 void findPlaces(const StandingLss& lss, const Triangle& triangle, TriangleId id,
-                const FlatEdges& flat, NearPlaces& places) {
+                const FlatEdges& flat, const NearFilter* filter, NearPlaces& places) {
   places.count = 0;
   const PlaceMaker maker(lss, triangle, id, flat);
   const Spots spots(maker.pair());
   const double within = lss.radius + lss.reach, squared = within * within;
-  NearPlace& closest = places.place[places.count];
-  maker.make(NearPart::Whole, spots.whole, closest);
-  if (closest.distance > within && provenGap(lss, triangle, closest) > lss.reach) return;
-  ++places.count;
-  const auto offer = [&](NearPart part, const Spot& spot) {
-    if (spot.squared > squared) return;
+  const Spot& whole = spots.whole;
+  const auto make = [&](NearPart part, const Spot& spot) {
+    if (filter != nullptr && maker.isApart(spot) &&
+        !filter->mayWin(spot.onAxis - spot.onTriangle, spot.along, std::sqrt(spot.squared))) {
+      return;
+    }
     maker.make(part, spot, places.place[places.count++]);
   };
+  make(NearPart::Whole, whole);
+  if (whole.squared > squared) {
+    // Rounding may have put it there.
+    if (places.count == 1 && provenGap(lss, triangle, places.place[0]) > lss.reach) {
+      places.count = 0;
+    }
+    return;
+  }
   if (!(maker.pair().squaredAxis() > 0.0)) return;
-  const Spot& whole = spots.whole;
+  const auto offer = [&](NearPart part, const Spot& spot) {
+    if (spot.squared <= squared) make(part, spot);
+  };
   if (whole.along != 0.0) offer(NearPart::EndA, spots.endA);
   if (whole.along != 1.0) offer(NearPart::EndB, spots.endB);
   for (const int k : {0, 1, 2}) {

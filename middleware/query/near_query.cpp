@@ -126,7 +126,8 @@ class NearSearch {
       const TriangleId id = scratch_.near.id[k];
       if (scratch_.ignored.has(plan_.scene, id)) continue;
       ++near_.counters.advancements;
-      internal::findPlaces(lss, plan_.scene.triangle(id), id, *plan_.flat, places);
+      internal::findPlaces(lss, plan_.scene.triangle(id), id, *plan_.flat,
+                           isReduced ? &scratch_.reduction : nullptr, places);
       for (int p = 0; p < places.count; ++p) {
         if (isReduced) {
           scratch_.reduction.offer(places.place[p]);

@@ -67,6 +67,24 @@ class Page {
     line(name + "_sum", "", number(values.sumUs() * kSecondsPerUs));
     line(name + "_count", "", std::to_string(values.count()));
   }
+  /// Of one metric, `value` of each avatar.
+  template <typename Value>
+  void ofAvatars(const std::string& name, const std::string& help, const char* type,
+                 const SolidCounts& solids, const Value& value) {
+    head(name, help, type);
+    for (const SolidCount& solid : solids.avatars) line(name, labelOf(solid), value(solid));
+  }
+  /// Only the states that occurred.
+  void states(const std::string& name, const std::string& help, const SolidCounts& solids) {
+    head(name, help, "counter");
+    for (const SolidCount& solid : solids.avatars) {
+      for (std::size_t i = 0; i < kNumSolidStates; ++i) {
+        if (solid.poses[i] == 0) continue;
+        line(name, labelOf(solid) + ",state=" + quoted(toString(static_cast<SolidState>(i))),
+             std::to_string(solid.poses[i]));
+      }
+    }
+  }
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
@@ -77,6 +95,9 @@ class Page {
     text_ += name;
     if (!labels.empty()) text_ += "{" + labels + "}";
     text_ += " " + value + "\n";
+  }
+  static std::string labelOf(const SolidCount& solid) {
+    return "avatar=" + quoted(std::to_string(solid.avatar));
   }
   std::string text_;
 };
@@ -114,10 +135,28 @@ void addWire(Page& page, const ServiceCounts& counts) {
                counts.wire.otherChannels);
 }
 
+void addSolids(Page& page, const SolidCounts& solids) {
+  if (solids.avatars.empty()) return;
+  page.states("foretouch_solid_poses_total", "Poses that a solid avatar showed, by its state.",
+              solids);
+  page.ofAvatars("foretouch_solid_uncertified_total", "Of these, those whose way was not proven.",
+                 "counter", solids,
+                 [](const SolidCount& solid) { return std::to_string(solid.uncertified); });
+  page.ofAvatars("foretouch_solid_deviation_metres",
+                 "How far the last shown pose was from the tracked one.", "gauge", solids,
+                 [](const SolidCount& solid) { return number(solid.deviation); });
+  page.ofAvatars("foretouch_solid_queries_total", "Motions asked for solid avatars.", "counter",
+                 solids, [](const SolidCount& solid) { return std::to_string(solid.queries); });
+  page.ofAvatars("foretouch_solid_work_total", "Work done for them, in evaluations in lanes.",
+                 "counter", solids,
+                 [](const SolidCount& solid) { return std::to_string(solid.work); });
+  page.histogram("foretouch_solid_seconds", "What a solid avatar took for one pose.", solids.times);
+}
+
 }  // namespace
 
 std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
-                        const AnswerTimes& times) {
+                        const AnswerTimes& times, const SolidCounts& solids) {
   Page page;
   page.info("foretouch_build_info", "What is running.",
             "build=" + quoted(facts.build) + ",scene=" + quoted(facts.scene));
@@ -131,6 +170,7 @@ std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
                  "From receiving a pose to having sent its answer.", times.latency);
   page.histogram("foretouch_query_seconds", "Of the answers' latency, the query alone.",
                  times.query);
+  addSolids(page, solids);
   return page.text();
 }
 

@@ -9,6 +9,6 @@
 namespace foretouch {
 
 [[nodiscard]] std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
-                                      const AnswerTimes& times);
+                                      const AnswerTimes& times, const SolidCounts& solids = {});
 
 }  // namespace foretouch

@@ -35,6 +35,7 @@ struct ServedStream {
 /// One thread's reusable memory.
 struct Desk {
   ContactsMessage answer;
+  SolidMessage shown;
   Bytes payload;
 };
 
@@ -43,8 +44,9 @@ struct Channels {
       : skeleton(kSkeletonChannel + suffix),
         pose(kPoseChannel + suffix),
         contacts(kContactsChannel + suffix),
+        solid(kSolidChannel + suffix),
         status(kStatusChannel + suffix) {}
-  std::string skeleton, pose, contacts, status;
+  std::string skeleton, pose, contacts, solid, status;
 };
 
 std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
@@ -65,7 +67,7 @@ std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
   if (options.statusEvery < milliseconds(1)) {
     return refused(ErrorCode::OutOfRange, "expected a status at most every millisecond");
   }
-  // Of the four names, FORETOUCH_SKELETON and FORETOUCH_CONTACTS are the longest.
+  // Of the names, FORETOUCH_SKELETON and FORETOUCH_CONTACTS are the longest.
   if (Channels(options.suffix).skeleton.size() > kMaxChannelBytes) {
     return refused(ErrorCode::LimitExceeded, "expected a suffix that leaves channel names within " +
                                                  std::to_string(kMaxChannelBytes) +
@@ -115,6 +117,7 @@ struct Service::Impl {
   std::unordered_map<std::int32_t, std::size_t> indexOf;  // of an avatar's id: its stream
   MailRoom room;
   ServiceCounter counter;
+  SolidCounter solidCounter;
   std::optional<Journal> journal;
 
   mutable std::mutex mutex;  // of the next members
@@ -250,10 +253,27 @@ struct Service::Impl {
     isCounted = true;
     counter.answeredPose(static_cast<double>(sentUtimeUs - mail.receiveUtimeUs),
                          desk.answer.queryUs);
+    SolidStream* const solid = stream.solver.solid();
+    if (solid != nullptr) show(stream, *solid, mail, desk);
     StepObserver* const observer = parts.observer;
-    if (observer != nullptr && observer->wants(stream.index)) {
-      observer->observe(stream.index, stream.solver.lastStep(), desk.answer);
+    if (observer == nullptr || !observer->wants(stream.index)) return;
+    if (solid == nullptr) {
+      observer->observe(stream.index, stream.solver.lastStep(), desk.answer, nullptr);
+    } else {
+      const ShownStep shown{solid->shownBefore(), desk.shown};
+      observer->observe(stream.index, stream.solver.lastStep(), desk.answer, &shown);
     }
+  }
+
+  /// After the answer has gone out, so that it waits for nothing new.
+  void show(ServedStream& stream, SolidStream& solid, const Mail& mail, Desk& desk) {
+    solid.follow(stream.solver.lastStep(), desk.shown);
+    desk.shown.receiveUtimeUs = mail.receiveUtimeUs;
+    desk.shown.sendUtimeUs = parts.clock->utimeUs();
+    encode(desk.shown, desk.payload);
+    publish(channels.solid, desk.payload);
+    record(desk.shown.sendUtimeUs, channels.solid, desk.payload);
+    solidCounter.shown(stream.index, desk.shown);
   }
 
   void addUp(ServedStream& stream) {
@@ -427,6 +447,10 @@ ServiceCounts Service::counts() const {
 
 AnswerTimes Service::times() const {
   return impl_->counter.times();
+}
+
+SolidCounts Service::solidCounts() const {
+  return impl_->solidCounter.counts();
 }
 
 const ServiceFacts& Service::facts() const {

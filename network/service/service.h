@@ -8,6 +8,8 @@
 // journal, if there is one. Nothing waits for a disk or for the network: the service counts an
 // answer that the system does not take, and does not send it again. An observer, if there is one,
 // sees each step after its answer went out, in the thread that answered it.
+// Where an avatar is solid (StreamSolver::makeSolid), its thread shows it after it has sent the
+// answer: one solid_t per accepted pose.
 //
 // At every moment: received = answered + rejected + waiting.
 #pragma once
@@ -24,6 +26,7 @@
 #include "network/service/clock.h"
 #include "network/service/journal.h"
 #include "network/service/service_counts.h"
+#include "network/service/solid_counts.h"
 #include "network/stream/step_observer.h"
 #include "network/stream/stream_solver.h"
 #include "network/wire/messages.h"
@@ -37,7 +40,7 @@ inline constexpr std::size_t kMaxServiceQueue = 65536;
 struct ServiceOptions {
   int workers = 1;           ///< 1 to kMaxServiceWorkers.
   std::size_t queue = 256;   ///< Poses that may wait per avatar; 1 to kMaxServiceQueue.
-  std::string suffix;        ///< Of all four channels.
+  std::string suffix;        ///< Of all channels.
   std::string build, scene;  ///< For the status.
   std::chrono::milliseconds statusEvery{1000};   ///< At least 1.
   std::chrono::milliseconds stuckAfter{10'000};  ///< A thread without progress for this long is
@@ -81,6 +84,8 @@ class Service {
   [[nodiscard]] ServiceCounts counts() const;
   /// Of all answers since the start.
   [[nodiscard]] AnswerTimes times() const;
+  /// Of solid avatars, since the start.
+  [[nodiscard]] SolidCounts solidCounts() const;
   [[nodiscard]] const ServiceFacts& facts() const;
   [[nodiscard]] ServiceHealth health() const;
   /// Why the service cannot continue: its receiver is gone, or memory has run out.

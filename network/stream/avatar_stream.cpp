@@ -193,6 +193,7 @@ void AvatarStream::Impl::describe(const PoseMessage& message, const internal::Po
   step.skeletonHash = message.skeletonHash;
   step.lost = place.lost;
   step.unknown = &unknown;
+  step.unknownJoints = &to.reasons;
 }
 
 }  // namespace foretouch

@@ -47,6 +47,8 @@ struct StreamStep {
   /// Per link: why it is undecided whatever the query finds; None: the query decides. Never Gap:
   /// `kind` applies that to all links that would be clear.
   const std::vector<UndecidedReason>* unknown = nullptr;
+  /// Per joint of the later pose: why it is not known; None: it is.
+  const std::vector<UndecidedReason>* unknownJoints = nullptr;
 };
 
 struct StreamCounts {

@@ -4,7 +4,24 @@
 
 namespace foretouch {
 
-void StepBatch::add(const StreamStep& step, const ContactsMessage& answer) {
+namespace {
+
+void copySolid(const ShownStep& shown, WatchedSolid& solid) {
+  const SolidMessage& answer = shown.answer;
+  solid.from = shown.from;
+  solid.to = answer.shown();
+  solid.state = answer.state;
+  solid.limit = answer.limit;
+  solid.isCertified = answer.isCertified;
+  solid.deviation = answer.deviation;
+  solid.lift = answer.lift;
+  solid.clearance = answer.clearance;
+  solid.snapInUs = answer.snapInUs;
+}
+
+}  // namespace
+
+void StepBatch::add(const StreamStep& step, const ContactsMessage& answer, const ShownStep* shown) {
   newest_.from = *step.from;
   newest_.to = *step.to;
   newest_.kind = answer.kind;
@@ -15,6 +32,8 @@ void StepBatch::add(const StreamStep& step, const ContactsMessage& answer) {
   newest_.queryUs = answer.queryUs;
   const auto serviceUs = static_cast<double>(answer.sendUtimeUs - answer.receiveUtimeUs);
   newest_.addedUs = std::max(0.0, serviceUs - answer.queryUs);
+  newest_.isSolid = shown != nullptr;
+  if (shown != nullptr) copySolid(*shown, newest_.solid);
   const std::size_t room = kMaxBatchContacts - contacts_.size();
   const std::size_t taken = std::min(room, answer.contacts.size());
   for (std::size_t i = 0; i < taken; ++i) contacts_.push_back(answer.contacts[i].contact);

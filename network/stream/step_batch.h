@@ -8,6 +8,7 @@
 
 #include "articulated/pose.h"
 #include "network/stream/avatar_stream.h"
+#include "network/stream/step_observer.h"
 #include "network/wire/messages.h"
 
 namespace foretouch {
@@ -22,6 +23,16 @@ struct BatchedStep {
   std::size_t endOfContacts = 0;
 };
 
+/// What a solid avatar showed in a step.
+struct WatchedSolid {
+  Pose from, to;
+  SolidState state = SolidState::Placing;
+  SolidLimit limit = SolidLimit::None;
+  bool isCertified = false;
+  double deviation = 0.0, lift = 0.0, clearance = 0.0;
+  std::int64_t snapInUs = -1;
+};
+
 struct WatchedStep {
   Pose from, to;  ///< Parent-relative, of the avatar's joints.
   StepKind kind = StepKind::First;
@@ -29,12 +40,14 @@ struct WatchedStep {
   std::int64_t utimeFromUs = 0, utimeToUs = 0;
   double queryUs = 0.0;
   double addedUs = 0.0;  ///< From receiving the pose to publishing its answer, less the query.
+  bool isSolid = false;  ///< `solid` counts.
+  WatchedSolid solid;
 };
 
 class StepBatch {
  public:
-  /// Adds a step after the others.
-  void add(const StreamStep& step, const ContactsMessage& answer);
+  /// Adds a step after the others. `shown`: null if the avatar is not solid.
+  void add(const StreamStep& step, const ContactsMessage& answer, const ShownStep* shown);
   /// Keeps its memory.
   void clear();
 

@@ -9,16 +9,23 @@
 
 namespace foretouch {
 
+/// What a solid avatar shows at the end of a step. Its joints are the avatar's.
+struct ShownStep {
+  const Pose& from;  ///< What it showed before.
+  const SolidMessage& answer;
+};
+
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
   /// Whether to observe the next step of the service's avatar `avatar` (an index). From any thread;
   /// an atomic load.
   [[nodiscard]] virtual bool wants(std::size_t avatar) const noexcept = 0;
-  /// One thread at a time per avatar, after its answer was sent. Must copy what it needs later, and
+  /// One thread at a time per avatar, after its answer was sent. `shown`: null if the avatar is not
+  /// solid. Must copy what it needs later, and
   /// must never wait: it delays the avatar's next answer.
-  virtual void observe(std::size_t avatar, const StreamStep& step,
-                       const ContactsMessage& answer) noexcept = 0;
+  virtual void observe(std::size_t avatar, const StreamStep& step, const ContactsMessage& answer,
+                       const ShownStep* shown) noexcept = 0;
 };
 
 }  // namespace foretouch

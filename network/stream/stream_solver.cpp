@@ -49,6 +49,12 @@ Result<StreamSolver> StreamSolver::make(std::int32_t id, const Avatar& avatar, c
   return StreamSolver(id, std::move(query), std::move(stream));
 }
 
+Result<Done> StreamSolver::makeSolid(const SolidOptions& options) {
+  FORETOUCH_TRY(auto solid, SolidStream::make(id_, avatar(), query_.scene(), options));
+  solid_.emplace(std::move(solid));
+  return Done{};
+}
+
 Reject StreamSolver::take(const SkeletonMessage& message) {
   return message.avatar == id_ ? stream_.take(message) : Reject::UnknownAvatar;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
 #include "network/stream/avatar_stream.h"
+#include "network/stream/solid_stream.h"
 #include "network/wire/messages.h"
 
 namespace foretouch {
@@ -36,6 +38,12 @@ class StreamSolver {
   ///     two poses that arrived; it does not claim that nothing was touched before.
   [[nodiscard]] Reject take(const PoseMessage& message, ContactsMessage& answer);
 
+  /// From now on there is a solid avatar beside the answers. Errors: as SolidStream::make().
+  Result<Done> makeSolid(const SolidOptions& options);
+  /// Null: there is none. Give it lastStep() once for each answered pose, after take().
+  [[nodiscard]] SolidStream* solid() { return solid_ ? &*solid_ : nullptr; }
+  [[nodiscard]] const SolidStream* solid() const { return solid_ ? &*solid_ : nullptr; }
+
   [[nodiscard]] std::int32_t id() const { return id_; }
   [[nodiscard]] const Avatar& avatar() const { return query_.avatar(); }
   [[nodiscard]] const StreamCounts& counts() const { return stream_.counts(); }
@@ -55,6 +63,7 @@ class StreamSolver {
   std::int32_t id_ = 0;
   Query query_;
   AvatarStream stream_;
+  std::optional<SolidStream> solid_;
   /// At skinned fidelity, per link: the links that move its triangles.
   std::vector<std::vector<LinkId>> movedBy_;
   StreamStep lastStep_;

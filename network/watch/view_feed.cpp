@@ -57,8 +57,8 @@ bool ViewFeed::wants(std::size_t avatar) const noexcept {
   return boxes_[avatar].wish.load(std::memory_order_relaxed) != Wish::None;
 }
 
-void ViewFeed::observe(std::size_t avatar, const StreamStep& step,
-                       const ContactsMessage& answer) noexcept {
+void ViewFeed::observe(std::size_t avatar, const StreamStep& step, const ContactsMessage& answer,
+                       const ShownStep* shown) noexcept {
   Box& box = boxes_[avatar];
   Wish one = Wish::One;
   const bool isOnlyOne = box.wish.load(std::memory_order_relaxed) == Wish::One &&
@@ -68,7 +68,7 @@ void ViewFeed::observe(std::size_t avatar, const StreamStep& step,
     if (!batch) batch = box.empty.take();
     if (!batch) batch = std::make_unique<StepBatch>();
     if (isOnlyOne) batch->clear();  // a sample replaces earlier ones
-    batch->add(step, answer);
+    batch->add(step, answer, shown);
     box.full.put(std::move(batch));
   } catch (...) {
     box.numFailed.fetch_add(1, std::memory_order_relaxed);

@@ -228,7 +228,7 @@ contacts_t& scratch() {
   return wire;
 }
 
-/// Of receive_utime, send_utime and query_us.
+/// Of receive_utime, send_utime and query_us; in a solid_t solid_us.
 constexpr std::size_t kStampBytes = 2 * sizeof(std::int64_t) + sizeof(double);
 
 }  // namespace
@@ -256,9 +256,9 @@ void encode(const ContactsMessage& message, Bytes& payload) {
   toBytes(PayloadType::Contacts, wire, payload);
 }
 
-ByteView verdictBytes(ByteView contactsPayload) {
-  if (contactsPayload.size < kStampBytes) return {};
-  return {contactsPayload.data, contactsPayload.size - kStampBytes};
+ByteView verdictBytes(ByteView payload) {
+  if (payload.size < kStampBytes) return {};
+  return {payload.data, payload.size - kStampBytes};
 }
 
 }  // namespace foretouch

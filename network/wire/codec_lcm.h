@@ -1,4 +1,4 @@
-// network/wire/codec_lcm.h: shared by the four codecs: conversion between bytes and lcm-gen types,
+// network/wire/codec_lcm.h: shared by the codecs: conversion between bytes and lcm-gen types,
 // and the legal ranges of numbers. For the codec's sources only.
 #pragma once
 

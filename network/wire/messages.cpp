@@ -5,6 +5,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "lss/index.h"
+
 namespace foretouch {
 namespace {
 
@@ -56,6 +58,16 @@ std::int64_t skeletonHash(const RawSkeleton& skeleton) {
     bytes.add(joint.rotation.z());
   }
   return bytes.hash();
+}
+
+RawSkeleton rawSkeleton(const Skeleton& skeleton) {
+  RawSkeleton raw;
+  raw.joints.reserve(countOf(skeleton.numJoints()));
+  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+    raw.joints.push_back({skeleton.name(joint), skeleton.parent(joint), skeleton.restOffset(joint),
+                          skeleton.restRotation(joint)});
+  }
+  return raw;
 }
 
 }  // namespace foretouch

@@ -11,15 +11,17 @@
 
 #include "articulated/skeleton.h"
 #include "middleware/query/query.h"
+#include "middleware/solid/solid_tick.h"
 
 namespace foretouch {
 
 inline constexpr std::int16_t kMessageVersion = 1;
 
-/// Channels; a second instance may add a suffix to all four.
+/// Channels; a second instance may add a suffix to all of them.
 inline constexpr char kSkeletonChannel[] = "FORETOUCH_SKELETON";
 inline constexpr char kPoseChannel[] = "FORETOUCH_POSE";
 inline constexpr char kContactsChannel[] = "FORETOUCH_CONTACTS";
+inline constexpr char kSolidChannel[] = "FORETOUCH_SOLID";
 inline constexpr char kStatusChannel[] = "FORETOUCH_STATUS";
 /// Of a whole channel name, suffix included, in bytes (LCM_MAX_CHANNEL_NAME_LENGTH).
 inline constexpr std::size_t kMaxChannelBytes = 63;
@@ -97,6 +99,50 @@ struct ContactsMessage {
   double queryUs = 0.0;
 };
 
+/// Limits of a solid_t: the largest fits into kMaxMessageBytes.
+inline constexpr std::size_t kMaxSolidJoints = 512, kMaxSolidPoses = 64, kMaxSolidContacts = 256;
+
+/// What holds the shown pose from the tracked one at one place.
+struct ShownContact {
+  SolidContact contact;
+  std::string linkName;
+  std::string otherName;  ///< Of the object, or of the own link, that is touched.
+};
+
+/// What a solid avatar shows at one pose. Poses are of the avatar's joints, bit for bit as proven.
+struct SolidMessage {
+  std::int32_t avatar = 0;
+  std::int64_t session = 0, sequence = 0;
+  std::int64_t utimeUs = 0;  ///< Capture.
+  StepKind kind = StepKind::First;
+  std::int64_t lost = 0;
+  std::int64_t stepUs = 0;      ///< The time from the pose before, as the avatar was told.
+  std::int64_t avatarHash = 0;  ///< skeletonHash() of the avatar's skeleton.
+  double skin = 0.0, tolerance = 0.0, catchUp = 0.0;
+  std::int64_t workBudget = 0;
+
+  SolidState state = SolidState::Placing;
+  SolidLimit limit = SolidLimit::None;
+  bool isCertified = false, hasAppeared = false;
+  double deviation = 0.0, lift = 0.0;
+  double clearance = 0.0;  ///< 0 if it is not certified, or did not move.
+  std::int64_t snapInUs = -1;
+  std::vector<SolidJointState> joints;  ///< One per joint.
+  std::vector<double> linkDeviation;    ///< One per link.
+  /// At least one pose, the last of which is shown, and when each is reached, in (0, 1] of the
+  /// step; at 0 where it appeared, or if it did not move.
+  std::vector<Pose> way;
+  std::vector<double> times;
+  std::vector<ShownContact> contacts;
+  std::int32_t contactsLeftOut = 0;  ///< Beyond kMaxSolidContacts.
+  SolidCounters counters;
+
+  std::int64_t receiveUtimeUs = 0, sendUtimeUs = 0;
+  double solidUs = 0.0;
+
+  [[nodiscard]] const Pose& shown() const { return way.back(); }
+};
+
 struct StatusMessage {
   std::int64_t utimeUs = 0, startUtimeUs = 0;
   std::string build, scene;
@@ -115,5 +161,7 @@ struct StatusMessage {
 /// Of names, parents and rest pose, as defined in docs/formats.md ("Skeleton hash"): XXH64 over the
 /// joints in order. Two skeletons with the same hash count as the same.
 [[nodiscard]] std::int64_t skeletonHash(const RawSkeleton& skeleton);
+/// The authoring form of a validated skeleton.
+[[nodiscard]] RawSkeleton rawSkeleton(const Skeleton& skeleton);
 
 }  // namespace foretouch

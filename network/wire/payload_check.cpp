@@ -4,6 +4,7 @@
 #include <foretouch/contacts_t.hpp>
 #include <foretouch/pose_t.hpp>
 #include <foretouch/skeleton_t.hpp>
+#include <foretouch/solid_t.hpp>
 #include <foretouch/status_t.hpp>
 
 #include "lss/index.h"
@@ -47,6 +48,7 @@ struct Field {
     Fixed,  ///< `size` bytes.
     Count,  ///< An int32 up to kMaxListed: the length of the next lists.
     List,   ///< `size` bytes, as often as the last count says.
+    Table,  ///< The same, as often as the last count times the one before says.
     Text,   ///< At most `size` bytes and its NUL, after their number.
     Texts,  ///< As often as the last count says.
   };
@@ -64,6 +66,9 @@ constexpr Field count() {
 }
 constexpr Field list(std::size_t size) {
   return {Field::Kind::List, size};
+}
+constexpr Field table(std::size_t size) {
+  return {Field::Kind::Table, size};
 }
 constexpr Field text() {
   return {Field::Kind::Text, kMaxTextBytes};
@@ -103,6 +108,25 @@ constexpr Field kContactsFields[] = {
     list(kInt32 + 2 * kByte),      // link_triangles, link_features, scene_features
     fixed(2 * kInt64 + kDouble)};  // receive_utime, send_utime, query_us
 
+constexpr Field kSolidFields[] = {
+    fixed(kInt32 + 3 * kInt64),               // avatar, session, sequence, utime
+    fixed(kInt8 + 3 * kInt64),                // kind, lost, step_us, avatar_hash
+    fixed(3 * kDouble + kInt64),              // skin, tolerance, catch_up, work_budget
+    fixed(4 * kInt8 + 3 * kDouble + kInt64),  // state to appeared, lengths, snap_in_us
+    count(),
+    list(kByte + kDouble),  // joint_states, link_deviation
+    count(),
+    list(kDouble),             // times
+    table((4 + 3) * kDouble),  // rotations, translations
+    count(),
+    list(kInt32),                  // links
+    texts(kMaxNameBytes),          // link_names
+    list(2 * kInt32),              // lss, triangles
+    texts(kMaxTextBytes),          // objects
+    list(kInt32 + 9 * kDouble),    // others, points, normals, gap, push, slip_speed
+    fixed(kInt32 + 7 * kInt64),    // contacts_left_out, counters
+    fixed(2 * kInt64 + kDouble)};  // receive_utime, send_utime, solid_us
+
 constexpr Field kStatusFields[] = {
     fixed(2 * kInt64),  // utime, start_utime
     text(),             // build
@@ -133,17 +157,27 @@ Reject checkCount(Cursor& cursor, std::size_t& counted) {
   return Reject::None;
 }
 
-/// `counted`: the last count before this field.
-Reject checkField(const Field& field, Cursor& cursor, std::size_t& counted) {
+/// The last count before a field, and the one before that.
+struct Counts {
+  std::size_t last = 0, before = 0;
+};
+
+Reject checkField(const Field& field, Cursor& cursor, Counts& counts) {
+  const auto skip = [&](std::size_t bytes) {
+    return cursor.skip(bytes) ? Reject::None : Reject::Length;
+  };
   switch (field.kind) {
-    case Field::Kind::Fixed: return cursor.skip(field.size) ? Reject::None : Reject::Length;
-    case Field::Kind::List:
-      return cursor.skip(counted * field.size) ? Reject::None : Reject::Length;
-    case Field::Kind::Count: return checkCount(cursor, counted);
+    case Field::Kind::Fixed: return skip(field.size);
+    case Field::Kind::List: return skip(counts.last * field.size);
+    case Field::Kind::Table: return skip(counts.last * counts.before * field.size);
+    case Field::Kind::Count: {
+      counts.before = counts.last;
+      return checkCount(cursor, counts.last);
+    }
     case Field::Kind::Text: return checkText(cursor, field.size);
     case Field::Kind::Texts: {
       Reject reject = Reject::None;
-      for (std::size_t i = 0; i < counted && reject == Reject::None; ++i) {
+      for (std::size_t i = 0; i < counts.last && reject == Reject::None; ++i) {
         reject = checkText(cursor, field.size);
       }
       return reject;
@@ -154,9 +188,9 @@ Reject checkField(const Field& field, Cursor& cursor, std::size_t& counted) {
 
 template <std::size_t n>
 Reject checkFields(const Field (&fields)[n], Cursor cursor) {
-  std::size_t counted = 0;
+  Counts counts;
   for (const Field& field : fields) {
-    const Reject reject = checkField(field, cursor, counted);
+    const Reject reject = checkField(field, cursor, counts);
     if (reject != Reject::None) return reject;
   }
   return cursor.left() == 0 ? Reject::None : Reject::Length;
@@ -167,6 +201,7 @@ std::int64_t fingerprintOf(PayloadType type) {
     case PayloadType::Skeleton: return skeleton_t::getHash();
     case PayloadType::Pose: return pose_t::getHash();
     case PayloadType::Contacts: return contacts_t::getHash();
+    case PayloadType::Solid: return solid_t::getHash();
     case PayloadType::Status: return status_t::getHash();
   }
   return 0;
@@ -187,6 +222,7 @@ Reject checkPayload(PayloadType type, ByteView payload) {
     case PayloadType::Skeleton: return checkFields(kSkeletonFields, cursor);
     case PayloadType::Pose: return checkFields(kPoseFields, cursor);
     case PayloadType::Contacts: return checkFields(kContactsFields, cursor);
+    case PayloadType::Solid: return checkFields(kSolidFields, cursor);
     case PayloadType::Status: return checkFields(kStatusFields, cursor);
   }
   return Reject::Length;

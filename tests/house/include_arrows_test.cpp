@@ -72,13 +72,14 @@ const std::map<std::string, Rooms> kRooms = {
       {"setup", {"audit", "inputs", "settings", ""}},
       {"replay", {"touches", "inputs", "settings", ""}},
       {"stream", {"touches", "inputs", "settings", ""}},
-      {"glb", {"replay", "touches", "inputs", "settings", ""}},
+      {"solid", {"replay", "touches", "inputs", "settings", ""}},
+      {"glb", {"solid", "replay", "touches", "inputs", "settings", ""}},
       {"sweep", {"glb", "inputs", "settings", ""}},
       {"log", {"stream", "replay", "touches", "inputs", "settings", ""}},
-      {"report", {"setup", "log", "audit", "replay", "touches", "inputs", "settings", ""}},
+      {"report", {"solid", "setup", "log", "audit", "replay", "touches", "inputs", "settings", ""}},
       {"view", {"report", "stream", "settings", ""}},
       {"commands",
-       {"view", "report", "log", "sweep", "glb", "stream", "replay", "setup", "touches", "audit",
+       {"view", "report", "log", "sweep", "glb", "solid", "stream", "replay", "setup", "touches", "audit",
         "inputs", "settings", ""}}}},
 };
 

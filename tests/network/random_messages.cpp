@@ -98,6 +98,24 @@ AnsweredContact contact(Random& random, LinkId link, Verdict verdict) {
   return answered;
 }
 
+ShownContact shown(Random& random, int numJoints) {
+  ShownContact shown;
+  SolidContact& contact = shown.contact;
+  contact.link = random.below(numJoints);
+  contact.lss = random.below(3) - 1;
+  const bool isOwn = numJoints > 1 && random.chance(0.2);
+  if (isOwn) contact.other = (contact.link + 1) % numJoints;
+  if (!isOwn) contact.triangle = random.below(99);
+  contact.p_W = place(random);
+  contact.nhat_W = random.direction();
+  contact.gap = random.uniform(-1e-3, 5e-3);
+  contact.push = random.magnitude(1e-9, 1.0);
+  contact.slipSpeed = random.magnitude(1e-9, 10.0);
+  shown.linkName = name(random, contact.link);
+  shown.otherName = text(random, 30);
+  return shown;
+}
+
 template <typename T>
 void shuffle(Random& random, std::vector<T>& list) {
   for (std::size_t i = list.size(); i > 1; --i) {
@@ -177,6 +195,47 @@ ContactsMessage randomContactsMessage(Random& random, int numLinks) {
   message.receiveUtimeUs = integer(random);
   message.sendUtimeUs = integer(random);
   message.queryUs = random.magnitude(1e-3, 1e9);
+  return message;
+}
+
+SolidMessage randomSolidMessage(Random& random, int numJoints, int numPoses, int numContacts) {
+  SolidMessage message;
+  message.avatar = random.below(1'000'000) - 500'000;
+  for (std::int64_t* const count :
+       {&message.session, &message.sequence, &message.utimeUs, &message.lost, &message.stepUs,
+        &message.workBudget, &message.receiveUtimeUs, &message.sendUtimeUs}) {
+    *count = integer(random);
+  }
+  message.kind = static_cast<StepKind>(random.below(3));
+  message.avatarHash = anyHash(random);
+  for (double* const length :
+       {&message.skin, &message.tolerance, &message.catchUp, &message.deviation, &message.lift,
+        &message.clearance, &message.solidUs}) {
+    *length = random.chance(0.2) ? 0.0 : random.magnitude(1e-9, 1e3);
+  }
+  message.state = static_cast<SolidState>(random.below(kNumSolidStates));
+  message.limit = static_cast<SolidLimit>(random.below(kNumSolidLimits));
+  message.isCertified = random.chance(0.8);
+  message.hasAppeared = random.chance(0.1);
+  message.snapInUs = random.chance(0.7) ? -1 : integer(random);
+  for (int i = 0; i < numJoints; ++i) {
+    message.joints.push_back(static_cast<SolidJointState>(random.below(kNumSolidJointStates)));
+    message.linkDeviation.push_back(random.chance(0.5) ? 0.0 : random.magnitude(1e-9, 2.0));
+  }
+  for (int i = 0; i < numPoses; ++i) {
+    Pose& pose = message.way.emplace_back();
+    message.times.push_back(i == 0 && random.chance(0.5) ? 0.0 : (i + 1.0) / numPoses);
+    for (int k = 0; k < numJoints; ++k) {
+      pose.rotations.push_back(random.chance(0.1) ? Quaternion(1.0, -0.0, 0.0, -0.0)
+                                                  : Quaternion(random.rotation()));
+      pose.translations.push_back(place(random));
+    }
+  }
+  for (int i = 0; i < numContacts; ++i) message.contacts.push_back(shown(random, numJoints));
+  message.contactsLeftOut = random.chance(0.9) ? 0 : random.below(1000);
+  message.counters.queries = static_cast<std::uint32_t>(random.below(100));
+  message.counters.rows = std::numeric_limits<std::uint32_t>::max();
+  message.counters.work = static_cast<std::uint64_t>(integer(random));
   return message;
 }
 

@@ -12,6 +12,9 @@ namespace foretouch::test {
 /// that decoding gives: the identity, zero.
 [[nodiscard]] PoseMessage randomPoseMessage(Random& random, int numJoints);
 [[nodiscard]] ContactsMessage randomContactsMessage(Random& random, int numLinks);
+/// Rotations are unit up to rounding: decoding keeps them.
+[[nodiscard]] SolidMessage randomSolidMessage(Random& random, int numJoints, int numPoses,
+                                              int numContacts);
 [[nodiscard]] StatusMessage randomStatusMessage(Random& random, int numReasons);
 
 }  // namespace foretouch::test

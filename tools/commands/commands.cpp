@@ -14,6 +14,7 @@
 #include "tools/log/log_command.h"
 #include "tools/report/view_command.h"
 #include "tools/setup/setup_command.h"
+#include "tools/solid/solid_command.h"
 #include "tools/stream/listen_command.h"
 #include "tools/stream/publish_command.h"
 #include "tools/sweep/sweep_command.h"
@@ -47,6 +48,7 @@ std::vector<Command> allCommands() {
   add("Files", avatarCommand());
   add("Files", sceneCommand());
   add("Files", logCommand());
+  add("Files", solidCommand());
   add(kHelpGroup, completionCommand(allCommands));
   commands.push_back(movedCommand("bench", "foretouch-bench"));
   commands.push_back(movedCommand("tune", "foretouch-bench tune"));

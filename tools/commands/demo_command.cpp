@@ -12,6 +12,7 @@
 #include "tools/audit/audits.h"
 #include "tools/commands/open_page.h"
 #include "tools/commands/replay_command.h"
+#include "tools/commands/solid_replay.h"
 #include "tools/inputs/example_folder.h"
 #include "tools/results_output.h"
 
@@ -23,7 +24,7 @@ constexpr double kDemoRateHz = 10.0;
 /// The values of all options.
 struct AskedDemo {
   std::string output = "foretouch-demo.jsonl", report;
-  bool details = false;
+  bool details = false, isSolid = false;
 };
 
 /// What everybody wants to know.
@@ -72,8 +73,44 @@ std::string defaultReport(const std::string& output) {
       .string();
 }
 
+/// What everybody wants to know of a solid dancer.
+std::string inWords(const SolidSummary& summary) {
+  constexpr double kMmPerM = 1e3;
+  return fmt::format(
+      "The bundled dancer moves through the bundled room and passes through nothing: {} of {} ways "
+      "from pose to pose are proven to touch nothing (but for the string curtain and the plant, "
+      "which "
+      "give way).\nSurfaces keep the dancer from the tracked "
+      "pose for {:.2g} s, a link by {:.2g} mm in the mean.\n",
+      summary.certified(), summary.ticks(), summary.keptS(), kMmPerM * summary.ofAll().mean);
+}
+
+/// Every pose of the clip, as a tracker sends them.
+ExitCode runSolidDemo(const AskedDemo& asked, const std::string& folder) {
+  SolidReplayJob job;
+  job.request.scenePath = folder + "/room.obj";
+  job.request.avatarPath = folder + "/dancer.avatar.json";
+  job.request.motionPath = folder + "/dancer.bvh";
+  // Whoever enters a room pushes its string curtain and leaves aside.
+  job.request.ignore = {"*:string_curtain,*:plant"};
+  job.solid.isAsked = true;
+  job.outputPath = asked.output;
+  job.report.path = asked.report.empty() ? defaultReport(asked.output) : asked.report;
+  const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
+  const auto done = runSolidReplay(job, [&](const SolidSummary& summary) {
+    const std::string text = inWords(summary) + "page:    " + job.report.path +
+                             "   (open it in a browser)\nresults: " + job.outputPath + "\n" +
+                             (asked.details ? "\n" + summary.text() : "");
+    outIsTaken ? printAside(text) : printOut(text);
+  });
+  if (!done.ok()) return failed(done.error());
+  offerToOpen(job.report.path);
+  return ExitCode::Done;
+}
+
 ExitCode runDemo(const AskedDemo& asked) {
   FORETOUCH_TRY_OR(failed, const auto folder, exampleFolder());
+  if (asked.isSolid) return runSolidDemo(asked, folder);
   ReplayJob job;
   job.request.scenePath = folder + "/room.obj";
   job.request.avatarPath = folder + "/dancer.avatar.json";
@@ -107,8 +144,12 @@ Command demoCommand() {
       .flag("--details", asked->details,
             "Also say what was read, and what every link met, in how much time")
       .in(kOutputGroup);
+  settings
+      .flag("--solid", asked->isSolid,
+            "The dancer passes through nothing: shown poses instead of contacts")
+      .in(kOutputGroup);
   Command command{"demo", "Replay the bundled dancer in the bundled room and say what was found",
-                  "Example:\n  foretouch demo", std::move(settings)};
+                  "Examples:\n  foretouch demo\n  foretouch demo --solid", std::move(settings)};
   command.run = [asked](const Settings&) { return runDemo(*asked); };
   return command;
 }

@@ -12,6 +12,7 @@
 #include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/commands/replay_log_command.h"
+#include "tools/commands/solid_replay.h"
 #include "tools/inputs/policy_rules.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
@@ -20,6 +21,7 @@
 #include "tools/report/replay_report.h"
 #include "tools/report/report_file.h"
 #include "tools/results_output.h"
+#include "tools/settings/solid_settings.h"
 #include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
@@ -31,6 +33,8 @@ struct AskedReplay {
   std::vector<std::string> avatars;  ///< For a log, numbered as parseNumberedAvatars() reads them.
   StreamPolicy stream;
   std::string suffix;
+  StreamSolidRequest solid;
+  std::string bvhPath;  ///< Of what a solid avatar shows; empty: none.
   int threads = 0;      ///< 0: one per processor.
   bool asJson = false;  ///< The summary.
 };
@@ -71,6 +75,9 @@ void addOutputSettings(Settings& settings, AskedReplay& asked) {
              "Triangles of that file at most")
       .in(kOutputGroup)
       .ofClips();
+  settings.output("--bvh", "FILE", asked.bvhPath, "Also what the solid avatar shows, as a BVH clip")
+      .needing("--solid")
+      .ofClips();
   settings.asJson(asked.asJson).ofClips();
   settings.of("--json").help = "Print the summary as one line of JSON (docs/formats.md)";
 }
@@ -101,6 +108,14 @@ void addClipOnlySettings(Settings& settings, AskedReplay& asked) {
   }
 }
 
+/// Own links and budgets have options of their own in a clip.
+void addSolidReplaySettings(Settings& settings, StreamSolidRequest& solid) {
+  addStreamSolidSettings(settings, solid);
+  for (const char* const option : {"--solid-self", "--solid-budget-us"}) {
+    settings.of(option).ofLogs();
+  }
+}
+
 /// Settings of logs only.
 void addLogSettings(Settings& settings, AskedReplay& asked) {
   addSuffixSetting(settings, asked.suffix);
@@ -120,6 +135,7 @@ Settings replaySettings(AskedReplay& asked) {
   addQuerySettings(settings, asked.job.request);
   addReplayQuerySettings(settings, asked.job.request);
   addTouchSettings(settings, asked.job.request);
+  addSolidReplaySettings(settings, asked.solid);
   addOutputSettings(settings, asked);
   addComparisonSettings(settings, asked.job.options);
   settings.wholeOr("cores", "--threads", "N", asked.threads, kMaxThreads, "Threads")
@@ -235,9 +251,10 @@ ExitCode runClip(const AskedReplay& asked) {
 ExitCode runLog(const AskedReplay& asked) {
   FORETOUCH_TRY_OR(failed, auto avatars, parseNumberedAvatars("--avatar", asked.avatars));
   const ReplayRequest& given = asked.job.request;
-  const LogReplayJob job{{given.motionPath, given, std::move(avatars), asked.stream, asked.suffix},
-                         asked.job.outputPath,
-                         asked.job.report};
+  const LogReplayJob job{
+      {given.motionPath, given, std::move(avatars), asked.stream, asked.suffix, asked.solid},
+      asked.job.outputPath,
+      asked.job.report};
   const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
   const auto replayed = runLogReplay(job, [&](const std::string& text) {
     outIsTaken ? printAside(text) : printOut(text + placesOf(job.outputPath, job.report.path));
@@ -246,10 +263,31 @@ ExitCode runLog(const AskedReplay& asked) {
   return replayed.value().agrees() ? ExitCode::Done : ExitCode::CheckSaysNo;
 }
 
+ExitCode runSolid(const Settings& settings, const AskedReplay& asked) {
+  SolidReplayJob job{asked.job.request,    asked.solid.solid, settings.isGiven("--tolerance"),
+                     asked.job.outputPath, asked.bvhPath,     asked.job.report,
+                     asked.job.glb};
+  job.request.avatarPath = asked.avatars.front();
+  job.hasTolerance = job.hasTolerance || job.request.query.tolerance != kDefaultTolerance;
+  const std::string& report = job.report.path;
+  const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(report) ||
+                          isStandardOutput(job.glb.path) || isStandardOutput(job.bvhPath);
+  const auto done = runSolidReplay(job, [&](const SolidSummary& summary) {
+    std::string text = asked.asJson ? summary.jsonLine(job.outputPath, report) : summary.text();
+    if (!asked.asJson && !outIsTaken) text += placesOf(job.outputPath, report);
+    outIsTaken ? printAside(text) : printOut(text);
+  });
+  return done.ok() ? ExitCode::Done : failed(done.error());
+}
+
 ExitCode run(const Settings& settings, AskedReplay& asked) {
   const bool isLog = isEventLog(asked.job.request.motionPath);
   FORETOUCH_CHECK_OR(failed, checkOptions(settings, asked, isLog));
   FORETOUCH_CHECK_OR(failed, readPolicies(asked.job.request));
+  if (asked.solid.solid.isAsked && !isLog) {
+    FORETOUCH_CHECK_OR(failed, checkSolidTogether(settings, asked.job.request));
+    return runSolid(settings, asked);
+  }
   FORETOUCH_CHECK_OR(failed, checkTogether(asked.job));
   return isLog ? runLog(asked) : runClip(asked);
 }
@@ -267,6 +305,8 @@ constexpr char kReplayExamples[] = R"(Examples:
       --pairs man.pairs.json --output contacts.jsonl
   foretouch replay --scene room.obj --avatar man.json --motion dance.bvh --scope objects \
       --pass-separating --output contacts.jsonl
+  foretouch replay --scene room.obj --avatar man.json --motion dance.bvh --solid \
+      --output shown.jsonl --report shown.html
   foretouch replay --scene cell.dae --avatar arm.json --motion log.csv --robot arm.urdf \
       --output contacts.jsonl
 

@@ -15,6 +15,7 @@
 #include "tools/report/report_file.h"
 #include "tools/results_output.h"
 #include "tools/stream/contacts_line.h"
+#include "tools/stream/solid_text.h"
 
 namespace foretouch::tools {
 
@@ -37,6 +38,7 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
   ProgressBar progress("replay", 100);
   auto replayed = replayLog(inputs, [&](const AnsweredPose& answered) {
     file.write(contactsLine(answered.answer, Stamps::Without));
+    if (answered.solid != nullptr) file.write(solidLine(*answered.solid, Stamps::Without));
     summary.add(answered.answer, answered.avatar);
     touches.add(answered);
     if (report) report->add(answered);

@@ -74,7 +74,7 @@ Result<std::optional<MetricsServer>> openHttp(const ServeConfig& config, const S
   FORETOUCH_TRY(const auto address, parseHttpAddress("--http", config.http));
   MetricsServer::Pages pages;
   pages.metrics = [&service] {
-    return metricsText(service.facts(), service.counts(), service.times());
+    return metricsText(service.facts(), service.counts(), service.times(), service.solidCounts());
   };
   pages.health = [&service] { return service.health(); };
   FORETOUCH_TRY(

@@ -36,7 +36,11 @@ nlohmann::json contactExtras(const ShownTouch& shown, const Skeleton& skeleton,
   out.beginObject();
   writeContact(first.contact, words, out);
   out.field("step", first.step);
-  out.field("missed_by_poses", first.missedByPoses);
+  if (shown.push) {
+    out.field("push", *shown.push);
+  } else {
+    out.field("missed_by_poses", first.missedByPoses);
+  }
   TouchWords ofTouch;
   ofTouch.link = link;
   ofTouch.object = object;

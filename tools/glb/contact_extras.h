@@ -15,7 +15,7 @@ namespace foretouch::tools {
                                        const Scene& scene);
 
 /// The fields of the first contact as in a results file (docs/formats.md, "Results"), `step`,
-/// `missed_by_poses`, and the touch's own as `touch`.
+/// `missed_by_poses` (of a solid avatar `push` instead), and the touch's own as `touch`.
 [[nodiscard]] nlohmann::json contactExtras(const ShownTouch& shown, const Skeleton& skeleton,
                                            const Scene& scene);
 

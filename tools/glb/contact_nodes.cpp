@@ -21,7 +21,7 @@ constexpr GlbMaterial kAmber{"starts in contact", {0.90, 0.50, 0.02, 1.0}};
 constexpr double kHoldS = 1.0;
 
 double endOf(const ShownTouch& shown, const Stage& stage) {
-  const double lastS = stage.inputs.timeOfStep(shown.touch.lastStep + 1);
+  const double lastS = shown.untilS.value_or(stage.inputs.timeOfStep(shown.touch.lastStep + 1));
   return std::max(lastS, shown.touch.beginS + kHoldS);
 }
 

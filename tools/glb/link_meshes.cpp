@@ -11,6 +11,7 @@ namespace {
 
 constexpr GlbMaterial kSolid{"LSS", {0.16, 0.36, 0.70, 1.0}};
 constexpr GlbMaterial kVeil{"LSS around a mesh", {0.16, 0.36, 0.70, 0.25}};
+constexpr GlbMaterial kGhost{"tracked", {0.85, 0.55, 0.10, 0.30}};
 constexpr GlbMaterial kMesh{"mesh of a link", {0.55, 0.58, 0.62, 1.0}};
 
 /// The materials of the document, each added on first use.
@@ -78,6 +79,28 @@ std::vector<std::size_t> addLinkMeshes(const Stage& stage, GlbContent& content,
   if (stage.inputs.query.fidelity == Fidelity::Skinned) {
     notes.emplace_back("the skin is not shown, but the LSS and meshes of links");
   }
+  return meshes;
+}
+
+std::vector<std::size_t> addGhostMeshes(const Stage& stage, GlbContent& content,
+                                        TriangleBudget& budget, std::vector<std::string>& notes) {
+  const Avatar& avatar = stage.inputs.avatar;
+  const std::size_t material = content.addMaterial(kGhost);
+  std::size_t leftOut = 0;
+  std::vector<std::size_t> meshes;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    GlbMesh volume;
+    for (const Lss& lss : avatar.lss(link)) {
+      const bool fits = budget.take(trianglesOfLss());
+      if (fits) appendLss(lss, volume);
+      leftOut += fits ? 0 : 1;
+    }
+    meshes.push_back(volume.triangles() == 0
+                         ? kNoMesh
+                         : content.addMesh("tracked " + avatar.skeleton().name(link),
+                                           {{std::move(volume), material}}));
+  }
+  if (leftOut > 0) notes.push_back(fmt::format("{} LSS of the tracked body are left out", leftOut));
   return meshes;
 }
 

@@ -19,16 +19,15 @@ using nlohmann::json;
 /// Markers are costly to viewers, each an animated node.
 constexpr std::size_t kMostTouches = 5000;
 
+}  // namespace
+
 std::size_t addGroup(GltfDocument& document, std::size_t parent, const std::string& name) {
   const std::size_t node = document.add("nodes", {{"name", name}});
   document.at("nodes", parent)["children"].push_back(node);
   return node;
 }
 
-/// The node of the world W. Has the settings of the replay, like the results' first line.
-std::size_t addWorld(const Stage& stage, std::int64_t undecided, GltfDocument& document) {
-  json extras = json::parse(headerLine(stage.inputs));
-  extras["undecided"] = undecided;
+std::size_t addWorld(const Stage& stage, json extras, GltfDocument& document) {
   const std::size_t node =
       document.add("nodes", {{"name", "foretouch replay"}, {"extras", std::move(extras)}});
   if (!stage.origin.isZero()) {
@@ -37,8 +36,6 @@ std::size_t addWorld(const Stage& stage, std::int64_t undecided, GltfDocument& d
   document.show(node);
   return node;
 }
-
-}  // namespace
 
 void ReplayGlb::add(const StepAnswer& answer, const std::vector<TouchRow>& begun) {
   for (const LinkContact& contact : answer.contacts) {
@@ -64,7 +61,7 @@ std::vector<ShownTouch> ReplayGlb::shownOf(const std::vector<Touch>& touches) co
   for (const ReportedContact& first : first_) {
     const auto found = beginning.find({first.step, first.contact.link, first.object});
     // Those with the ground are not listed where they are ignored.
-    if (found != beginning.end()) shown.push_back({first, *found->second});
+    if (found != beginning.end()) shown.push_back({first, *found->second, {}, {}});
   }
   return shown;
 }
@@ -82,7 +79,10 @@ Result<std::vector<std::string>> ReplayGlb::write(const std::vector<Touch>& touc
   GltfDocument& document = content.document();
   GlbAnimation animation("replay");
   TriangleBudget budget(request_.mostTriangles);
-  const std::size_t world = addWorld(stage, undecided_, document);
+  // Has the settings of the replay, like the results' first line.
+  json extras = json::parse(headerLine(inputs_));
+  extras["undecided"] = undecided_;
+  const std::size_t world = addWorld(stage, std::move(extras), document);
   const std::vector<std::size_t> meshes = addLinkMeshes(stage, content, budget, notes);
   const std::size_t avatar = addGroup(document, world, "avatar");
   addAvatar({inputs_.avatar, stage.poses, stage.timesS}, meshes, avatar, stage.origin, content,

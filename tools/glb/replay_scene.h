@@ -27,6 +27,16 @@ struct Stage {
 
 /// Computes every pose; error if one is out of range or floats do not tell its time.
 [[nodiscard]] Result<Stage> stageOf(const ReplayInputs& inputs);
+/// Of other poses than the clip's, at least two, with their times.
+[[nodiscard]] Result<Stage> stageOf(const ReplayInputs& inputs, std::vector<Pose> poses,
+                                    std::vector<double> timesS);
+
+/// The node of the world W; `extras` are its own.
+[[nodiscard]] std::size_t addWorld(const Stage& stage, nlohmann::json extras,
+                                   GltfDocument& document);
+/// A node below `parent` that only holds others.
+[[nodiscard]] std::size_t addGroup(GltfDocument& document, std::size_t parent,
+                                   const std::string& name);
 
 /// Triangles that may still be added.
 class TriangleBudget {
@@ -49,6 +59,12 @@ class TriangleBudget {
 [[nodiscard]] std::vector<std::size_t> addLinkMeshes(const Stage& stage, GlbContent& content,
                                                      TriangleBudget& budget,
                                                      std::vector<std::string>& notes);
+
+/// The same of a body that is only hinted at: the LSS of every link, transparent, in the colour of
+/// what was tracked.
+[[nodiscard]] std::vector<std::size_t> addGhostMeshes(const Stage& stage, GlbContent& content,
+                                                      TriangleBudget& budget,
+                                                      std::vector<std::string>& notes);
 
 /// A node below `parent` for every object of the scene, preferring triangles near the avatar's
 /// path; includes those where a touch begins.

@@ -1,6 +1,8 @@
 // tools/glb/shown_touch.h: a touch with the contact that begins it, which is where a GLB shows it.
 #pragma once
 
+#include <optional>
+
 #include "tools/reported_contact.h"
 #include "tools/touches/touch.h"
 
@@ -9,6 +11,8 @@ namespace foretouch::tools {
 struct ShownTouch {
   ReportedContact first;
   Touch touch;
+  std::optional<double> untilS;  ///< When it ends to be shown; else by its steps.
+  std::optional<double> push;    ///< Of a solid avatar (m).
 };
 
 }  // namespace foretouch::tools

@@ -50,12 +50,19 @@ double extentOf(const Stage& stage) {
 }  // namespace
 
 Result<Stage> stageOf(const ReplayInputs& inputs) {
-  Stage stage{inputs, {}, {}};
+  std::vector<Pose> poses;
+  std::vector<double> timesS;
   for (std::int64_t step = 0; step <= inputs.steps.count; ++step) {
     FORETOUCH_TRY(auto pose, poseAtFrame(inputs, step * inputs.steps.stride));
-    stage.poses.push_back(std::move(pose));
-    stage.timesS.push_back(inputs.timeOfStep(step));
+    poses.push_back(std::move(pose));
+    timesS.push_back(inputs.timeOfStep(step));
   }
+  return stageOf(inputs, std::move(poses), std::move(timesS));
+}
+
+Result<Stage> stageOf(const ReplayInputs& inputs, std::vector<Pose> poses,
+                      std::vector<double> timesS) {
+  Stage stage{inputs, std::move(poses), std::move(timesS)};
   FORETOUCH_CHECK(checkTimes(stage.timesS));
   stage.origin = originFor(stage);
   stage.extent = extentOf(stage);

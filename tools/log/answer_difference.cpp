@@ -82,7 +82,80 @@ std::string differenceIn(const Fields& recorded, const Fields& replayed) {
   return "";
 }
 
+Fields optionsOf(const SolidMessage& message) {
+  return {{"skin", numberText(message.skin)},
+          {"tolerance", numberText(message.tolerance)},
+          {"catch-up", numberText(message.catchUp)},
+          {"work budget", std::to_string(message.workBudget)},
+          {"avatar hash", std::to_string(message.avatarHash)},
+          {"kind", toString(message.kind)},
+          {"length of the step", std::to_string(message.stepUs)},
+          {"number of joints", std::to_string(message.joints.size())}};
+}
+
+void addPose(std::size_t place, double time, const Pose& pose, Fields& fields) {
+  fields.push_back({fmt::format("time of pose {} on the way", place), numberText(time)});
+  for (std::size_t joint = 0; joint < pose.rotations.size(); ++joint) {
+    const std::string of = fmt::format(" of joint {} in pose {} on the way", joint, place);
+    const Quaternion& q = pose.rotations[joint];
+    fields.push_back(
+        {"rotation" + of, fmt::format("[{}, {}, {}, {}]", numberText(q.w()), numberText(q.x()),
+                                      numberText(q.y()), numberText(q.z()))});
+    fields.push_back({"translation" + of, textOf(pose.translations[joint])});
+  }
+}
+
+void addContact(std::size_t place, const ShownContact& shown, Fields& fields) {
+  const SolidContact& contact = shown.contact;
+  const std::string of = fmt::format(" of contact {}", place);
+  fields.push_back({"link" + of, inQuotes(shown.linkName)});
+  fields.push_back({"LSS" + of, std::to_string(contact.lss)});
+  fields.push_back({"triangle" + of, std::to_string(contact.triangle)});
+  fields.push_back({"other side" + of, inQuotes(shown.otherName)});
+  fields.push_back({"point" + of, textOf(contact.p_W)});
+  fields.push_back({"normal" + of, textOf(contact.nhat_W)});
+  fields.push_back({"gap" + of, numberText(contact.gap)});
+  fields.push_back({"push" + of, numberText(contact.push)});
+  fields.push_back({"slip speed" + of, numberText(contact.slipSpeed)});
+}
+
+/// All fields that are not options. What says more comes first.
+Fields answerOf(const SolidMessage& message) {
+  Fields fields{{"state", toString(message.state)},
+                {"limit", toString(message.limit)},
+                {"certificate", message.isCertified ? "true" : "false"},
+                {"break of the way", message.hasAppeared ? "true" : "false"},
+                {"number of poses on the way", std::to_string(message.way.size())}};
+  for (std::size_t i = 0; i < message.way.size(); ++i) {
+    addPose(i, message.times[i], message.way[i], fields);
+  }
+  fields.push_back({"deviation", numberText(message.deviation)});
+  fields.push_back({"lift", numberText(message.lift)});
+  fields.push_back({"clearance", numberText(message.clearance)});
+  fields.push_back({"time until it snaps", std::to_string(message.snapInUs)});
+  for (std::size_t i = 0; i < message.joints.size(); ++i) {
+    fields.push_back({fmt::format("state of joint {}", i), toString(message.joints[i])});
+    fields.push_back(
+        {fmt::format("deviation of link {}", i), numberText(message.linkDeviation[i])});
+  }
+  fields.push_back({"number of contacts", std::to_string(message.contacts.size())});
+  for (std::size_t i = 0; i < message.contacts.size(); ++i) {
+    addContact(i, message.contacts[i], fields);
+  }
+  fields.push_back({"number of queries", std::to_string(message.counters.queries)});
+  fields.push_back({"work", std::to_string(message.counters.work)});
+  return fields;
+}
+
 }  // namespace
+
+std::string firstDifference(const SolidMessage& recorded, const SolidMessage& replayed) {
+  const std::string options = differenceIn(optionsOf(recorded), optionsOf(replayed));
+  if (!options.empty()) return options;
+  const std::string difference = differenceIn(answerOf(recorded), answerOf(replayed));
+  return fmt::format("{}, at {} us", difference.empty() ? "their bytes alone differ" : difference,
+                     replayed.utimeUs);
+}
 
 std::string firstDifference(const ContactsMessage& recorded, const ContactsMessage& replayed) {
   const std::string options = differenceIn(optionsOf(recorded), optionsOf(replayed));

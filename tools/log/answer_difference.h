@@ -12,5 +12,8 @@ namespace foretouch::tools {
 /// them differs, reports that instead of a verdict, without the step.
 [[nodiscard]] std::string firstDifference(const ContactsMessage& recorded,
                                           const ContactsMessage& replayed);
+/// The same of what a solid avatar shows.
+[[nodiscard]] std::string firstDifference(const SolidMessage& recorded,
+                                          const SolidMessage& replayed);
 
 }  // namespace foretouch::tools

@@ -15,24 +15,57 @@ bool sameBytes(ByteView a, ByteView b) {
   return a.size == b.size && std::equal(a.data, a.data + a.size, b.data);
 }
 
-std::string nameOf(std::int32_t avatar, std::int64_t session, std::int64_t sequence) {
-  return fmt::format("avatar {}, session {}, pose {}", avatar, session, sequence);
+using AnswerKey = std::tuple<std::int32_t, std::int64_t, std::int64_t>;
+
+std::string nameOf(const AnswerKey& key) {
+  return fmt::format("avatar {}, session {}, pose {}", std::get<0>(key), std::get<1>(key),
+                     std::get<2>(key));
+}
+
+AnswerKey keyOf(const ContactsMessage& message) {
+  return {message.avatar, message.session, message.sequenceTo};
+}
+
+AnswerKey keyOf(const SolidMessage& message) {
+  return {message.avatar, message.session, message.sequence};
+}
+
+template <typename Message>
+std::string differenceOfAnswers(ByteView recorded, ByteView replayed) {
+  Message before, now;
+  const bool isReadable =
+      decode(recorded, before) == Reject::None && decode(replayed, now) == Reject::None;
+  return isReadable ? firstDifference(before, now) : std::string("the two cannot be read");
 }
 
 }  // namespace
 
 void JournalCheck::addRecorded(const ContactsMessage& message, ByteView payload) {
-  ++recorded_;
-  const Key key{message.avatar, message.session, message.sequenceTo};
-  const auto replayed = pair(key, payload, recordedOnly_, replayedOnly_);
-  lastRecorded_[message.avatar] = order_;
-  if (replayed) compare(message, payload, *replayed);
+  addRecorded(keyOf(message), payload);
+}
+
+void JournalCheck::addRecorded(const SolidMessage& message, ByteView payload) {
+  addRecorded(keyOf(message), payload);
 }
 
 void JournalCheck::addReplayed(const ContactsMessage& message, ByteView payload) {
-  const Key key{message.avatar, message.session, message.sequenceTo};
+  addReplayed(keyOf(message), payload);
+}
+
+void JournalCheck::addReplayed(const SolidMessage& message, ByteView payload) {
+  addReplayed(keyOf(message), payload);
+}
+
+void JournalCheck::addRecorded(const Key& key, ByteView payload) {
+  ++recorded_;
+  const auto replayed = pair(key, payload, recordedOnly_, replayedOnly_);
+  lastRecorded_[std::get<0>(key)] = order_;
+  if (replayed) compare(key, payload, *replayed);
+}
+
+void JournalCheck::addReplayed(const Key& key, ByteView payload) {
   const auto recorded = pair(key, payload, replayedOnly_, recordedOnly_);
-  if (recorded) compare(message, *recorded, payload);
+  if (recorded) compare(key, *recorded, payload);
 }
 
 void JournalCheck::endIsOpen() {
@@ -61,19 +94,20 @@ std::optional<Bytes> JournalCheck::pair(const Key& key, ByteView payload, Queues
   return other;
 }
 
-void JournalCheck::compare(const ContactsMessage& message, ByteView recorded, ByteView replayed) {
+void JournalCheck::compare(const Key& key, ByteView recorded, ByteView replayed) {
   if (sameBytes(verdictBytes(recorded), verdictBytes(replayed))) {
     ++equal_;
     return;
   }
   if (first_) return;
-  ContactsMessage before, now;
-  const bool isReadable =
-      decode(recorded, before) == Reject::None && decode(replayed, now) == Reject::None;
-  const std::string text =
-      isReadable ? tools::firstDifference(before, now) : std::string("the two cannot be read");
-  first_ = Difference{order_, nameOf(message.avatar, message.session, message.sequenceTo) +
-                                  " is answered differently: " + text};
+  const char* const what =
+      kind_ == AnswerKind::Contacts ? " is answered differently: " : " is shown differently: ";
+  first_ = Difference{order_, nameOf(key) + what + differenceOf(recorded, replayed)};
+}
+
+std::string JournalCheck::differenceOf(ByteView recorded, ByteView replayed) const {
+  return kind_ == AnswerKind::Contacts ? differenceOfAnswers<ContactsMessage>(recorded, replayed)
+                                       : differenceOfAnswers<SolidMessage>(recorded, replayed);
 }
 
 std::optional<JournalCheck::Difference> JournalCheck::firstOf(const Queues& queues,
@@ -82,16 +116,19 @@ std::optional<JournalCheck::Difference> JournalCheck::firstOf(const Queues& queu
   for (const auto& [key, waiting] : queues) {
     const std::int64_t order = waiting.front().order;
     if (first && first->order <= order) continue;
-    first = Difference{order,
-                       nameOf(std::get<0>(key), std::get<1>(key), std::get<2>(key)) + " " + what};
+    first = Difference{order, nameOf(key) + " " + what};
   }
   return first;
 }
 
 std::optional<std::string> JournalCheck::firstDifference() const {
   std::optional<Difference> first = first_;
-  for (const auto& other : {firstOf(recordedOnly_, "is answered in the log, and not here"),
-                            firstOf(replayedOnly_, "is answered here, and not in the log")}) {
+  const bool isSolid = kind_ == AnswerKind::Solid;
+  for (const auto& other :
+       {firstOf(recordedOnly_, isSolid ? "is shown in the log, and not here"
+                                       : "is answered in the log, and not here"),
+        firstOf(replayedOnly_, isSolid ? "is shown here, and not in the log"
+                                       : "is answered here, and not in the log")}) {
     if (other && (!first || other->order < first->order)) first = other;
   }
   if (!first) return std::nullopt;

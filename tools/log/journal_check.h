@@ -14,14 +14,21 @@
 
 namespace foretouch::tools {
 
+/// What is compared.
+enum class AnswerKind : std::uint8_t { Contacts, Solid };
+
 /// Compares verdictBytes() by avatar, session and sequence; several answers to one sequence (a
 /// sender without sessions) in their order. Keeps answers without a counterpart so far.
 class JournalCheck {
  public:
+  explicit JournalCheck(AnswerKind kind = AnswerKind::Contacts) : kind_(kind) {}
+
   /// Adds an answer from the log. `message` is the decoded `payload`.
   void addRecorded(const ContactsMessage& message, ByteView payload);
+  void addRecorded(const SolidMessage& message, ByteView payload);
   /// Adds an answer of the replay.
   void addReplayed(const ContactsMessage& message, ByteView payload);
+  void addReplayed(const SolidMessage& message, ByteView payload);
 
   /// The log was cut off: each avatar's replayed answers after its last recorded one are not
   /// missing, but beyond the log's end. Call after all answers are added.
@@ -54,9 +61,13 @@ class JournalCheck {
 
   /// Takes the counterpart of an answer out of `others`, or leaves the answer in `own`.
   std::optional<Bytes> pair(const Key& key, ByteView payload, Queues& own, Queues& others);
-  void compare(const ContactsMessage& message, ByteView recorded, ByteView replayed);
+  void addRecorded(const Key& key, ByteView payload);
+  void addReplayed(const Key& key, ByteView payload);
+  void compare(const Key& key, ByteView recorded, ByteView replayed);
+  [[nodiscard]] std::string differenceOf(ByteView recorded, ByteView replayed) const;
   [[nodiscard]] static std::optional<Difference> firstOf(const Queues& queues, const char* what);
 
+  AnswerKind kind_;
   Queues recordedOnly_, replayedOnly_;
   std::optional<Difference> first_;
   std::map<std::int32_t, std::int64_t> lastRecorded_;  // by avatar: the order

@@ -19,6 +19,7 @@
 #include "tools/replay/results_writer.h"
 #include "tools/settings/stream_settings.h"
 #include "tools/settings/world_settings.h"
+#include "tools/stream/stream_solid.h"
 
 namespace foretouch::tools {
 namespace {
@@ -36,26 +37,52 @@ Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
                   inFile(StreamSolver::make(inputs.request.avatars[i].id, inputs.avatars[i],
                                             inputs.scene, options, inputs.request.policy),
                          path));
+    FORETOUCH_CHECK(makeSolid(inputs.request.solid, path, solver));
     solvers.push_back(std::move(solver));
   }
   return solvers;
 }
 
-/// Does the log have any answer? Only then do answers of the replay wait for theirs.
-Result<bool> holdsAnswers(const std::string& path, const std::string& channel) {
+/// Which answers a log has at all. Only then do those of the replay wait for theirs.
+struct HeldAnswers {
+  bool contacts = false, solids = false;
+};
+
+/// Reads no further than it must.
+Result<HeldAnswers> answersIn(const std::string& path, const ChannelNames& channels,
+                              bool wantsSolids) {
   FORETOUCH_TRY(auto log, EventLogReader::open(path));
   LogEvent event;
-  for (;;) {
+  HeldAnswers held;
+  while (!held.contacts || (wantsSolids && !held.solids)) {
     FORETOUCH_TRY(const auto more, log.next(event));
-    if (!more) return false;
-    if (event.channel == channel) return true;
+    if (!more) break;
+    held.contacts = held.contacts || event.channel == channels.contacts;
+    held.solids = held.solids || event.channel == channels.solid;
   }
+  return held;
+}
+
+/// What decides the shown poses; nothing if there are none.
+void writeSolidFields(const StreamSolidRequest& request, JsonWriter& out) {
+  if (!request.solid.isAsked) return;
+  const SolidOptions& options = request.solid.options;
+  out.key("solid");
+  out.beginObject();
+  out.field("skin", options.skin);
+  out.field("catch_up", options.catchUp);
+  out.field("floor", toString(options.floor));
+  out.field("snap", options.maySnap);
+  out.field("around", options.aroundPerTick);
+  out.field("self", request.stopsItself);
+  out.field("budget_us", request.budgetUs);
+  out.endObject();
 }
 
 /// One replay: the events of a log, one by one.
 class LogReplay {
  public:
-  LogReplay(const LogReplayInputs& inputs, std::vector<StreamSolver> solvers, bool compares)
+  LogReplay(const LogReplayInputs& inputs, std::vector<StreamSolver> solvers, HeldAnswers compares)
       : inputs_(inputs), solvers_(std::move(solvers)), compares_(compares) {
     for (std::size_t i = 0; i < solvers_.size(); ++i) indexOf_[solvers_[i].id()] = i;
   }
@@ -65,9 +92,14 @@ class LogReplay {
     if (event.channel == inputs_.channels.pose) return takePose(event);
     if (event.channel == inputs_.channels.skeleton) takeSkeleton(event);
     if (event.channel == inputs_.channels.contacts) takeRecorded(event);
+    if (event.channel == inputs_.channels.solid) takeRecordedSolid(event);
     return std::nullopt;
   }
   [[nodiscard]] const ContactsMessage& answer() const { return answer_; }
+  /// What is shown at the same pose; null: the avatar is not solid.
+  [[nodiscard]] const SolidMessage* shown(std::size_t avatar) const {
+    return solvers_[avatar].solid() == nullptr ? nullptr : &shown_;
+  }
   [[nodiscard]] const StreamSolver& solver(std::size_t avatar) const { return solvers_[avatar]; }
 
   LogReplayReport finish(const LogCounts& log) {
@@ -76,7 +108,7 @@ class LogReplay {
       auto remark = remarkOnMeshes(solvers_[i].options(), inputs_.request.avatars[i].path);
       if (remark) report_.remarks.push_back(std::move(*remark));
     }
-    if (log.isTruncated || log.tailEvents > 0) report_.journal.endIsOpen();
+    if (log.isTruncated || log.tailEvents > 0) closeAtEnd();
     for (const StreamSolver& solver : solvers_) {
       const StreamCounts& counts = solver.counts();
       report_.lost += static_cast<std::int64_t>(counts.lost);
@@ -88,6 +120,11 @@ class LogReplay {
   }
 
  private:
+  void closeAtEnd() {
+    report_.journal.endIsOpen();
+    report_.solids.endIsOpen();
+  }
+
   void reject(Reject reason) { ++report_.rejects[slotOf(reason)]; }
 
   StreamSolver* solverOf(std::int32_t avatar) {
@@ -112,11 +149,19 @@ class LogReplay {
     ++report_.poses;
     if (solver->take(pose_, answer_) != Reject::None) return std::nullopt;  // counted by the stream
     ++report_.answers;
-    if (compares_) {
+    if (compares_.contacts) {
       encode(answer_, payload_);
       report_.journal.addReplayed(answer_, payload_);
     }
+    if (solver->solid() != nullptr) show(*solver);
     return indexOf_.at(pose_.avatar);
+  }
+
+  void show(StreamSolver& solver) {
+    solver.solid()->follow(solver.lastStep(), shown_);
+    if (!compares_.solids) return;
+    encode(shown_, payload_);
+    report_.solids.addReplayed(shown_, payload_);
   }
 
   void takeSkeleton(const LogEvent& event) {
@@ -136,14 +181,25 @@ class LogReplay {
     }
   }
 
+  void takeRecordedSolid(const LogEvent& event) {
+    if (!inputs_.request.solid.solid.isAsked) {
+      ++report_.solidsNotAsked;
+    } else if (decode(event.payload, recordedSolid_) != Reject::None) {
+      ++report_.unreadableAnswers;
+    } else if (solverOf(recordedSolid_.avatar) != nullptr) {
+      report_.solids.addRecorded(recordedSolid_, event.payload);
+    }
+  }
+
   const LogReplayInputs& inputs_;
   std::vector<StreamSolver> solvers_;
-  bool compares_;
+  HeldAnswers compares_;
   std::map<std::int32_t, std::size_t> indexOf_;
   LogReplayReport report_;
   SkeletonMessage skeleton_;
   PoseMessage pose_;
   ContactsMessage answer_, recorded_;
+  SolidMessage shown_, recordedSolid_;
   Bytes payload_;
 };
 
@@ -184,7 +240,8 @@ Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request) {
 Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSink& sink) {
   const std::string& path = inputs.request.logPath;
   FORETOUCH_TRY(auto solvers, solversFor(inputs));
-  FORETOUCH_TRY(const auto compares, holdsAnswers(path, inputs.channels.contacts));
+  FORETOUCH_TRY(const auto compares,
+                answersIn(path, inputs.channels, inputs.request.solid.solid.isAsked));
   FORETOUCH_TRY(auto log, EventLogReader::open(path));
   LogReplay replay(inputs, std::move(solvers), compares);
   LogEvent event;
@@ -194,8 +251,8 @@ Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSin
     const auto avatar = replay.take(event);
     if (!avatar) continue;
     const StreamSolver& solver = replay.solver(*avatar);
-    if (!sink({replay.answer(), *avatar, solver.lastStep(), solver.options(), log.position(),
-               log.size()})) {
+    if (!sink({replay.answer(), replay.shown(*avatar), *avatar, solver.lastStep(), solver.options(),
+               log.position(), log.size()})) {
       break;
     }
   }
@@ -225,6 +282,7 @@ std::string logHeaderLine(const LogReplayInputs& inputs) {
       settings,
       {"max_step", "confirmations", "unmatched_at_rest", "ground", "ground_angle", "ground_height"},
       out);
+  writeSolidFields(request.solid, out);
   out.key("avatars");
   out.beginArray();
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {

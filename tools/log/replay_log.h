@@ -20,6 +20,7 @@
 #include "tools/log/journal_check.h"
 #include "tools/settings/channel_names.h"
 #include "tools/settings/numbered_avatars.h"
+#include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
 
@@ -32,6 +33,7 @@ struct LogReplayRequest {
   std::vector<NumberedAvatar> avatars;
   StreamPolicy policy;
   std::string suffix;
+  StreamSolidRequest solid;
 };
 
 struct LogReplayInputs {
@@ -55,16 +57,20 @@ struct LogReplayReport {
   std::map<std::int32_t, std::int64_t> others;
   std::int64_t unreadableAnswers = 0;  ///< In the log: nothing can be equal to them.
   JournalCheck journal;
+  JournalCheck solids{AnswerKind::Solid};  ///< Of the shown poses, if solid avatars are asked for.
+  std::int64_t solidsNotAsked = 0;         ///< Shown poses in the log otherwise.
 
   /// The replay contradicts nothing in the log.
   [[nodiscard]] bool agrees() const {
-    return unreadableAnswers == 0 && (!journal.hasRecord() || journal.isEqual());
+    return unreadableAnswers == 0 && (!journal.hasRecord() || journal.isEqual()) &&
+           (!solids.hasRecord() || solids.isEqual());
   }
 };
 
 /// A pose of the log and its answer; valid only during the sink's call.
 struct AnsweredPose {
   const ContactsMessage& answer;
+  const SolidMessage* solid;              ///< What is shown; null: the avatar is not solid.
   std::size_t avatar;                     ///< Its index in the request.
   const StreamStep& step;                 ///< The step that the pose ended.
   const QueryOptions& query;              ///< The options of the query.

@@ -29,6 +29,19 @@ std::string damage(const LogCounts& log) {
   return text;
 }
 
+/// "N of N verdicts equal the journal's"; empty if the log has none.
+std::string compared(const JournalCheck& journal, const char* what, std::int64_t answers) {
+  if (!journal.hasRecord()) return "";
+  std::string text =
+      fmt::format("{} of {} {} equal the journal's, byte for byte\n", journal.equal(),
+                  std::max(answers - journal.beyondEnd(), journal.recorded()), what);
+  if (journal.beyondEnd() > 0) {
+    text += fmt::format("{} more are beyond the end of the log, which was cut off\n",
+                        journal.beyondEnd());
+  }
+  return text;
+}
+
 }  // namespace
 
 LogReplaySummary::LogReplaySummary(const LogReplayInputs& inputs) : inputs_(inputs) {
@@ -69,19 +82,18 @@ std::string LogReplaySummary::comparison(const LogReplayReport& report) {
   if (report.unreadableAnswers > 0) {
     text += fmt::format("{} of the log's verdicts cannot be read\n", report.unreadableAnswers);
   }
-  const JournalCheck& journal = report.journal;
-  if (journal.hasRecord()) {
-    const std::int64_t compared = report.answers - journal.beyondEnd();
-    text += fmt::format("{} of {} verdicts equal the journal's, byte for byte\n", journal.equal(),
-                        std::max(compared, journal.recorded()));
+  text += compared(report.journal, "verdicts", report.answers);
+  text += compared(report.solids, "shown poses", report.answers);
+  if (report.solidsNotAsked > 0) {
+    text += fmt::format("the log also has {} shown poses: --solid compares them\n",
+                        report.solidsNotAsked);
   }
-  if (journal.hasRecord() && journal.beyondEnd() > 0) {
-    text += fmt::format("{} more are beyond the end of the log, which was cut off\n",
-                        journal.beyondEnd());
+  for (const JournalCheck* journal : {&report.journal, &report.solids}) {
+    const auto difference =
+        journal->hasRecord() ? journal->firstDifference() : std::optional<std::string>();
+    if (difference) text += "first: " + *difference + "\n";
   }
-  const auto difference =
-      journal.hasRecord() ? journal.firstDifference() : std::optional<std::string>();
-  return text.empty() ? "" : "\n" + text + (difference ? "first: " + *difference + "\n" : "");
+  return text.empty() ? "" : "\n" + text;
 }
 
 std::string LogReplaySummary::head() const {

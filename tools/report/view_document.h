@@ -89,6 +89,19 @@ struct ViewSwept {
   double error = 0.0;  ///< Largest distance from the swept volume.
 };
 
+/// Of a solid avatar, one per tick.
+struct ViewSolid {
+  std::vector<double> timesS;         ///< Increasing.
+  std::vector<std::uint16_t> states;  ///< SolidState.
+  std::vector<double> deviations;     ///< The largest of all links (m).
+};
+
+/// Of a solid avatar's contact.
+struct ViewPush {
+  double push = 0.0;       ///< Metres.
+  double slipSpeed = 0.0;  ///< Metres per second.
+};
+
 struct ViewAvatar {
   std::int32_t id = 0;
   std::string name;
@@ -96,6 +109,11 @@ struct ViewAvatar {
   std::vector<ViewLinkMesh> meshes;
   std::optional<ViewTrack> track;
   std::vector<ReportedContact> contacts;  ///< `step`: an index of the track's steps.
+  /// Of a solid avatar: `track` is what is shown, this is what was tracked.
+  std::optional<ViewTrack> tracked;
+  std::optional<ViewSolid> solid;
+  std::vector<ViewPush> pushes;  ///< Of a solid avatar: one per contact.
+  bool isLiveSolid = false;      ///< Of kind Live: events will say what is shown.
   std::vector<ViewSwept> swept;
 };
 
@@ -111,7 +129,7 @@ struct ViewDocument {
   std::vector<ViewRow> settings, summary;
   std::vector<std::string> notes;      ///< Sentences.
   std::vector<PlacementCheck> checks;  ///< Of an inspection.
-  std::optional<ViewScene> scene;  ///< Nothing if the document shows only an avatar.
+  std::optional<ViewScene> scene;      ///< Nothing if the document shows only an avatar.
   std::vector<ViewAvatar> avatars;
   std::optional<std::vector<ViewTouch>> touches;  ///< Of replays and logs, in listed order.
 };

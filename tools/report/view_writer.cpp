@@ -158,8 +158,8 @@ void writeLinks(Writer& out, const Avatar& avatar) {
   out.endArray();
 }
 
-void writeTrack(Writer& out, const ViewTrack& track) {
-  out.key("track");
+void writeTrack(Writer& out, const char* name, const ViewTrack& track) {
+  out.key(name);
   out.beginObject();
   out.array("pose_times", track.poseTimesS);
   out.array("rotations", track.rotations);
@@ -185,8 +185,17 @@ void writeTrack(Writer& out, const ViewTrack& track) {
   out.endObject();
 }
 
+void writeSolid(Writer& out, const ViewSolid& solid) {
+  out.key("solid");
+  out.beginObject();
+  out.array("times", solid.timesS);
+  out.array("states", solid.states);
+  out.array("deviations", solid.deviations);
+  out.endObject();
+}
+
 /// The fields of a results file, with the step before them and the touches at the poses after them.
-void write(const ReportedContact& found, Writer& out) {
+void write(const ReportedContact& found, const ViewPush* push, Writer& out) {
   const std::string link = std::to_string(found.contact.link);
   const std::string object = jsonString(found.object, JsonPlace::Page);
   ContactWords words;
@@ -199,9 +208,11 @@ void write(const ReportedContact& found, Writer& out) {
   out.beginObject();
   out.field("step", found.step);
   writeContact(found.contact, words, out);
-  if (isOwn) {
-    out.field("object", found.object);
-  } else if (found.contact.verdict == Verdict::Contact) {
+  if (isOwn) out.field("object", found.object);
+  if (push != nullptr) {
+    out.field("push", push->push);
+    out.field("slip", push->slipSpeed);
+  } else if (!isOwn && found.contact.verdict == Verdict::Contact) {
     out.field("missed_by_poses", found.missedByPoses);
   }
   out.endObject();
@@ -232,8 +243,16 @@ void write(const ViewAvatar& avatar, Writer& out) {
   out.field("name", avatar.name);
   writeLinks(out, *avatar.avatar);
   if (!avatar.meshes.empty()) out.list("meshes", avatar.meshes, writeOne);
-  if (avatar.track) writeTrack(out, *avatar.track);
-  out.list("contacts", avatar.contacts, writeOne);
+  if (avatar.track) writeTrack(out, "track", *avatar.track);
+  if (avatar.tracked) writeTrack(out, "tracked", *avatar.tracked);
+  if (avatar.solid) writeSolid(out, *avatar.solid);
+  if (avatar.isLiveSolid) out.field("is_solid", true);
+  std::size_t contact = 0;
+  out.list("contacts", avatar.contacts, [&](const ReportedContact& found) {
+    const bool hasPush = contact < avatar.pushes.size();
+    write(found, hasPush ? &avatar.pushes[contact] : nullptr, out);
+    ++contact;
+  });
   out.list("swept", avatar.swept, writeOne);
   out.endObject();
 }

@@ -11,11 +11,13 @@ namespace foretouch::tools {
 
 Result<ChannelNames> channelNames(const std::string& suffix) {
   const ChannelNames names{kSkeletonChannel + suffix, kPoseChannel + suffix,
-                           kContactsChannel + suffix, kStatusChannel + suffix};
+                           kContactsChannel + suffix, kSolidChannel + suffix,
+                           kStatusChannel + suffix};
   const bool isPrintable =
       std::all_of(suffix.begin(), suffix.end(), [](char c) { return c > ' ' && c <= '~'; });
-  const std::size_t longest = std::max(
-      {names.skeleton.size(), names.pose.size(), names.contacts.size(), names.status.size()});
+  const std::size_t longest =
+      std::max({names.skeleton.size(), names.pose.size(), names.contacts.size(), names.solid.size(),
+                names.status.size()});
   if (isPrintable && longest <= kMaxChannelBytes) return names;
   return Error::in("--suffix", ErrorCode::OutOfRange,
                    "expected printable ASCII without spaces, at most " +

@@ -64,7 +64,7 @@ std::string configTable() {
   ServeConfig config;
   Settings settings;
   addServeSettings(settings, config);
-  return configRows(settings, {"service", "scene", "query", "stream"},
+  return configRows(settings, {"service", "scene", "query", "stream", "solid"},
                     [](const Setting&) { return true; });
 }
 

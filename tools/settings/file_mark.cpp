@@ -9,6 +9,11 @@
 
 namespace foretouch::tools {
 
+std::string markOfText(std::string_view text, std::string_view before) {
+  const auto seed = XXH64(before.data(), before.size(), 0);
+  return fmt::format("{:016x}", XXH64(text.data(), text.size(), seed));
+}
+
 Result<std::string> markOfFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return Error::in(path, ErrorCode::FileNotFound, "cannot be opened");

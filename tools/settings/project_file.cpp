@@ -80,12 +80,13 @@ class ProjectReading {
 
 /// Everything but [[avatar]] and [[policy]], whose readers check them.
 void ProjectReading::checkAll() {
-  root_.allowOnly({"scene", "avatar", "clip", "query", "policy", "service", "stream", "made"});
+  root_.allowOnly(
+      {"scene", "avatar", "clip", "query", "policy", "service", "stream", "solid", "made"});
   AllSettings all;
   for (const char* const table : {"scene", "clip", "query"}) {
     readWholeTable(root_, table, reading_, all.played);
   }
-  for (const char* const table : {"service", "stream"}) {
+  for (const char* const table : {"service", "stream", "solid"}) {
     readWholeTable(root_, table, reading_, all.served);
   }
   root_.table("made").allowOnly({"scene", "avatar", "clip"});
@@ -195,7 +196,7 @@ void ProjectReading::takePolicies() {
 
 Result<std::vector<std::string>> ProjectReading::take() {
   checkAll();
-  for (const char* const table : {"scene", "clip", "query", "service", "stream"}) {
+  for (const char* const table : {"scene", "clip", "query", "service", "stream", "solid"}) {
     takeTable(table);
   }
   for (Setting& setting : settings_) {

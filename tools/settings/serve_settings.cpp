@@ -103,6 +103,7 @@ void addServeSettings(Settings& settings, ServeConfig& config) {
   fidelity.value = "link|exact";
   fidelity.help = "What touches: the links' LSS (link) or their meshes (exact)";
   addStreamSettings(settings, config.stream);
+  addStreamSolidSettings(settings, config.solid);
 }
 
 }  // namespace foretouch::tools

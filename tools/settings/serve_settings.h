@@ -11,6 +11,7 @@
 #include "network/stream/stream_policy.h"
 #include "network/wire/wire.h"
 #include "tools/settings/numbered_avatars.h"
+#include "tools/settings/stream_settings.h"
 #include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
@@ -35,6 +36,7 @@ struct ServeConfig {
   std::string view;        ///< kDefaultView: the address of the live view.
   WorldRequest world;      ///< Fidelity: link or exact.
   StreamPolicy stream;
+  StreamSolidRequest solid;
   std::vector<NumberedAvatar> avatars;  ///< At least one; ids differ.
 };
 

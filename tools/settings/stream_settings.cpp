@@ -28,7 +28,29 @@ void addMaxStep(Settings& settings, std::int64_t& maxStepUs) {
   setting.in(kStreamGroup).inConfig("stream", "max_step_s").inHeader("max_step");
 }
 
+/// Half a minute per pose: slower is not a stream.
+constexpr std::int64_t kMostSolidBudgetUs = 30'000'000;
+
 }  // namespace
+
+void addStreamSolidSettings(Settings& settings, StreamSolidRequest& request) {
+  addSolidSettings(settings, request.solid);
+  settings
+      .flag("--solid-self", request.stopsItself,
+            "Own links stop each other, too, but those that touch when the avatar is at rest")
+      .in(kSolidGroup)
+      .inConfig("solid", "self")
+      .inReport("own links stop each other")
+      .needing("--solid")
+      .told = [&request] { return request.solid.isAsked && request.stopsItself ? "yes" : ""; };
+  settings
+      .whole("--solid-budget-us", "US", request.budgetUs, 1, kMostSolidBudgetUs,
+             "Work that one shown pose may cost, at 100 evaluations per us; the rest of its way "
+             "waits for the next")
+      .in(kSolidGroup)
+      .inConfig("solid", "budget_us")
+      .needing("--solid");
+}
 
 Setting& addSuffixSetting(Settings& settings, std::string& suffix) {
   return settings

@@ -1,14 +1,27 @@
 // tools/settings/stream_settings.h: how to treat a stream of poses, live or from its log.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "network/stream/stream_policy.h"
 #include "tools/settings/settings.h"
+#include "tools/settings/solid_settings.h"
 
 namespace foretouch::tools {
 
-/// The ending of all four channels' names. `suffix` outlives the settings.
+/// A solid avatar for each avatar of a stream. Each setting is legal by itself.
+struct StreamSolidRequest {
+  SolidRequest solid;
+  bool stopsItself = false;      ///< Own links stop each other, too.
+  std::int64_t budgetUs = 2000;  ///< Time per pose, converted to SolidOptions::workBudget.
+};
+
+/// Those of addSolidSettings(), --solid-self and --solid-budget-us. `request` outlives the
+/// settings.
+void addStreamSolidSettings(Settings& settings, StreamSolidRequest& request);
+
+/// The ending of all channels' names. `suffix` outlives the settings.
 Setting& addSuffixSetting(Settings& settings, std::string& suffix);
 
 /// --max-step, --confirmations and --unmatched-at-rest. `policy` outlives the settings.

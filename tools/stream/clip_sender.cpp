@@ -10,16 +10,6 @@
 namespace foretouch::tools {
 namespace {
 
-RawSkeleton rawOf(const Skeleton& skeleton) {
-  RawSkeleton raw;
-  raw.joints.reserve(countOf(skeleton.numJoints()));
-  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
-    raw.joints.push_back({skeleton.name(joint), skeleton.parent(joint), skeleton.restOffset(joint),
-                          skeleton.restRotation(joint)});
-  }
-  return raw;
-}
-
 double stepLengthS(const PlacedClip& placed, const StepSelection& steps) {
   return static_cast<double>(steps.stride) * placed.clip.frameTimeS;
 }
@@ -33,7 +23,7 @@ ClipSender::ClipSender(const PlacedClip& placed, const StepSelection& steps,
   skeleton_.session = options.startUtimeUs;
   skeleton_.source = options.source;
   skeleton_.rateHz = 1.0 / stepLengthS(placed, steps);
-  skeleton_.skeleton = rawOf(placed.avatar.skeleton());
+  skeleton_.skeleton = rawSkeleton(placed.avatar.skeleton());
   skeleton_.hash = skeletonHash(skeleton_.skeleton);
 }
 

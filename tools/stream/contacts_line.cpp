@@ -79,6 +79,10 @@ std::int64_t utimeOf(std::int64_t fromUs, std::int64_t toUs, double toi) {
   return fromUs + static_cast<std::int64_t>(whole) - (isRoundedUp ? 1 : 0);
 }
 
+std::string hashText(std::int64_t hash) {
+  return fmt::format("{:016x}", static_cast<std::uint64_t>(hash));
+}
+
 void writeContacts(const ContactsMessage& message, Stamps stamps, JsonWriter& out) {
   out.beginObject();
   out.field("avatar", message.avatar);

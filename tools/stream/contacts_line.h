@@ -15,6 +15,9 @@ namespace foretouch::tools {
 /// which differ between runs.
 enum class Stamps { With, Without };
 
+/// As text: beyond the range of JSON numbers in some readers.
+[[nodiscard]] std::string hashText(std::int64_t hash);
+
 /// An answer and a heartbeat as one object each.
 void writeContacts(const ContactsMessage& message, Stamps stamps, JsonWriter& out);
 void writeStatus(const StatusMessage& message, JsonWriter& out);

@@ -2,11 +2,10 @@
 
 #include <cstdint>
 
-#include <fmt/format.h>
-
 #include "assets/json_writer.h"
 #include "network/wire/codec.h"
 #include "tools/stream/contacts_line.h"
+#include "tools/stream/solid_text.h"
 
 namespace foretouch::tools {
 namespace {
@@ -16,11 +15,6 @@ void writeRotation(const Quaternion& q, JsonWriter& out) {
   out.beginArray();
   for (const double value : {q.w(), q.x(), q.y(), q.z()}) out.value(value);
   out.endArray();
-}
-
-/// Beyond the range of JSON numbers in some readers.
-std::string hashText(std::int64_t hash) {
-  return fmt::format("{:016x}", static_cast<std::uint64_t>(hash));
 }
 
 void write(const SkeletonMessage& message, JsonWriter& out) {
@@ -74,6 +68,11 @@ void write(const ContactsMessage& message, JsonWriter& out) {
   writeContacts(message, Stamps::With, out);
 }
 
+void write(const SolidMessage& message, JsonWriter& out) {
+  out.key("solid");
+  writeSolid(message, Stamps::With, out);
+}
+
 void write(const StatusMessage& message, JsonWriter& out) {
   out.key("status");
   writeStatus(message, out);
@@ -92,6 +91,7 @@ void writeContent(const LogEvent& event, const ChannelNames& channels, JsonWrite
   if (event.channel == channels.pose) return writeMessage<PoseMessage>(event, out);
   if (event.channel == channels.skeleton) return writeMessage<SkeletonMessage>(event, out);
   if (event.channel == channels.contacts) return writeMessage<ContactsMessage>(event, out);
+  if (event.channel == channels.solid) return writeMessage<SolidMessage>(event, out);
   if (event.channel == channels.status) return writeMessage<StatusMessage>(event, out);
   out.field("bytes", event.payload.size());
 }

@@ -21,6 +21,7 @@
 #include "tools/settings/world_settings.h"
 #include "tools/stream/answer_tracker.h"
 #include "tools/stream/contacts_line.h"
+#include "tools/stream/solid_text.h"
 #include "tools/stream/stop_signal.h"
 #include "tools/stream/stream_touches.h"
 #include "tools/stream/touch_lines.h"
@@ -46,7 +47,7 @@ Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
   const auto url = parseUdpmUrl(job.url);
   if (!url.ok()) return inFile(url.error(), "--url");
   FORETOUCH_CHECK(testMulticast(url.value()));
-  std::vector<std::string> channels{job.channels.contacts};
+  std::vector<std::string> channels{job.channels.contacts, job.channels.solid};
   if (job.status) channels.push_back(job.channels.status);
   auto receiver = openUdpmReceiver(url.value(), channels);
   if (!receiver.ok()) return inFile(receiver.error(), "--url");
@@ -60,17 +61,13 @@ class Listener {
 
   void take(const WireMessage& message) {
     if (isDone()) return;
-    const bool isStatus = message.channel == job_.channels.status;
-    const Reject reject =
-        isStatus ? decode(message.payload, status_) : decode(message.payload, contacts_);
-    if (reject != Reject::None) {
-      if (rejected_++ == 0) {
-        printNote(fmt::format("{}: a message that cannot be read ({})", message.channel,
-                              toString(reject)));
-      }
-      return;
+    if (message.channel == job_.channels.status) {
+      if (read(message, status_)) print(job_.json ? statusLine(status_) : statusText(status_));
+    } else if (message.channel == job_.channels.solid) {
+      if (read(message, shown_)) printSolid();
+    } else if (read(message, contacts_)) {
+      printContacts();
     }
-    isStatus ? print(job_.json ? statusLine(status_) : statusText(status_)) : printContacts();
   }
 
   [[nodiscard]] bool isDone() const { return job_.count > 0 && verdicts_ >= job_.count; }
@@ -84,6 +81,21 @@ class Listener {
   [[nodiscard]] std::int64_t rejected() const { return rejected_; }
 
  private:
+  /// False if the message cannot be read: says so once.
+  template <typename Message>
+  bool read(const WireMessage& arrived, Message& message) {
+    const Reject reject = decode(arrived.payload, message);
+    if (reject != Reject::None && rejected_++ == 0) {
+      printNote(
+          fmt::format("{}: a message that cannot be read ({})", arrived.channel, toString(reject)));
+    }
+    return reject == Reject::None;
+  }
+  void printSolid() {
+    if (job_.json) return print(solidLine(shown_, Stamps::With));
+    const bool isNews = news_.isNews(shown_);
+    if (job_.each || isNews) print(solidText(shown_));
+  }
   void printContacts() {
     if (const auto missing = tracker_.take(contacts_)) printNote(*missing);
     ++verdicts_;
@@ -111,6 +123,8 @@ class Listener {
   AnswerTracker tracker_;
   std::map<std::int32_t, StreamTouches> touches_;  // by avatar; bounded by kMostAvatars
   ContactsMessage contacts_;
+  SolidMessage shown_;
+  SolidNews news_;
   StatusMessage status_;
   Clock::time_point heardAt_ = Clock::now();
   std::int64_t verdicts_ = 0, rejected_ = 0;
@@ -154,8 +168,9 @@ constexpr char kListenExamples[] = R"(Examples:
   foretouch listen --json --status > verdicts.jsonl
   foretouch listen --count 100 --timeout 5
 
-The lines of --json are described in docs/formats.md. With --count, exit code 1 says that so many
-verdicts did not come.)";
+Of a solid avatar (serve --solid) it also prints where the state of what is shown changes. The lines
+of --json are described in docs/formats.md. With --count, exit code 1 says that so many verdicts did
+not come.)";
 
 }  // namespace
 

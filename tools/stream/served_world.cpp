@@ -6,6 +6,7 @@
 #include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/stream/stream_solid.h"
 
 namespace foretouch::tools {
 namespace {
@@ -14,8 +15,10 @@ Result<StreamSolver> loadAvatar(const ServeConfig& config, const NumberedAvatar&
                                 const Scene& scene) {
   FORETOUCH_TRY(const auto avatar, readAvatarFile(served.path));
   FORETOUCH_TRY(auto query, queryOptionsFor(config.world, served.path, avatar, scene));
-  auto solver = StreamSolver::make(served.id, avatar, scene, query, config.stream);
-  if (!solver.ok()) return inFile(solver.error(), served.path);
+  FORETOUCH_TRY(
+      auto solver,
+      inFile(StreamSolver::make(served.id, avatar, scene, query, config.stream), served.path));
+  FORETOUCH_CHECK(makeSolid(config.solid, served.path, solver));
   return solver;
 }
 

@@ -30,6 +30,7 @@ ViewAvatar viewOf(const NumberedAvatar& served, const StreamSolver& solver,
   avatar.id = solver.id();
   avatar.name = fileName(served.path);
   avatar.avatar = &solver.avatar();
+  avatar.isLiveSolid = solver.solid() != nullptr;
   const QueryOptions& query = solver.options();
   if (query.fidelity == Fidelity::Exact && query.surface) {
     avatar.meshes = linkMeshes(trianglesOf(*query.surface), notes);

@@ -35,6 +35,23 @@ void writePose(const char* name, const Pose& pose, JsonWriter& out) {
   out.endArray();
 }
 
+void writeSolidStep(const WatchedSolid& solid, JsonWriter& out) {
+  writePose("shown_from", solid.from, out);
+  writePose("shown_to", solid.to, out);
+  out.key("solid");
+  out.beginObject();
+  out.field("state", toString(solid.state));
+  out.field("limit", toString(solid.limit));
+  out.field("certified", solid.isCertified);
+  out.field("deviation", solid.deviation);
+  out.field("lift", solid.lift);
+  out.field("clearance", solid.clearance);
+  if (solid.snapInUs >= 0) {
+    out.field("snap_in", static_cast<double>(solid.snapInUs) * kSecondsPerUs);
+  }
+  out.endObject();
+}
+
 SharedText shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
 }
@@ -102,6 +119,7 @@ std::string LiveEvents::stepFields(std::size_t avatar) const {
   out.field("added_us", step.addedUs);
   writePose("from", step.from, out);
   writePose("to", step.to, out);
+  if (step.isSolid) writeSolidStep(step.solid, out);
   return text;
 }
 

@@ -59,7 +59,7 @@ function initialStore(model: Model): Store {
     touch: contact === null ? null : model.touchOf(contact),
     link: contact === null ? null : { avatar: contact.avatar, link: contact.link },
     showsDiscrete: false,
-    showsGhosts: contact !== null,
+    showsGhosts: contact !== null || model.isSolid,
     showsSwept: model.avatars.some((avatar) => avatar.swept.length > 0),
     cutsAway: true,
     tracks: true,

@@ -16,6 +16,7 @@ const secondsOfDay = 86400;
 export class Model {
   private readonly avatarList: Avatar[];
   private readonly clipList: Clip[];
+  private readonly trackedList: (Clip | null)[];
   private contactList: Contact[];
   private touchList: Touch[];
   private touchOfContact = new Map<Contact, Touch>();
@@ -26,6 +27,7 @@ export class Model {
   constructor(readonly document: ViewDocument) {
     this.avatarList = [...document.avatars];
     this.clipList = document.avatars.map(clipOf);
+    this.trackedList = document.avatars.map(trackedOf);
     this.contactList = allContacts(this.avatars, this.clips);
     this.touchList = this.touchesOf(this.contactList);
     this.longest = longestStep(this.contactList);
@@ -40,11 +42,21 @@ export class Model {
     return this.clipList;
   }
 
+  /** One an avatar: of a solid one where its tracker says that it is, null of others. */
+  get tracked(): readonly (Clip | null)[] {
+    return this.trackedList;
+  }
+
+  get isSolid(): boolean {
+    return this.trackedList.some((clip) => clip !== null);
+  }
+
   /** Takes those whose id is new, after those that are known; whether there were any. */
   join(avatars: readonly Avatar[]): boolean {
     const fresh = avatars.filter(({ id }) => this.avatarList.every((known) => known.id !== id));
     this.avatarList.push(...fresh);
     this.clipList.push(...fresh.map(clipOf));
+    this.trackedList.push(...fresh.map(trackedOf));
     return fresh.length > 0;
   }
 
@@ -136,4 +148,9 @@ export class Model {
 
 function clipOf(avatar: Avatar): Clip {
   return avatar.track === null ? new LiveClip(avatar.links) : new RecordedClip(avatar.links, avatar.track);
+}
+
+function trackedOf(avatar: Avatar): Clip | null {
+  if (avatar.isLiveSolid) return new LiveClip(avatar.links);
+  return avatar.tracked === null ? null : new RecordedClip(avatar.links, avatar.tracked);
 }

@@ -27,6 +27,37 @@ test("documents of every kind are read", () => {
   assert.equal(decoded(live()).events, "/events");
 });
 
+/** As a solid avatar's report has it: what is shown, and beside it what was tracked. */
+const solid = () => {
+  const value = copy(), [avatar] = value.avatars;
+  avatar.tracked = structuredClone(avatar.track);
+  avatar.solid = { times: f64([0, 1, 2]), states: u16([1, 3, 4]), deviations: f64([0, 0.02, 0.5]) };
+  Object.assign(avatar.contacts[0], { push: 0.01, slip: 0.3 });
+  delete avatar.contacts[0].missed_by_poses;
+  return value;
+};
+
+test("a solid avatar has two bodies, a state a tick, and pushes", () => {
+  const view = decoded(solid()), [avatar] = view.avatars;
+  assert.deepEqual([...avatar.solid.states], [1, 3, 4]);
+  assert.equal(avatar.solid.deviations[2], 0.5);
+  assert.deepEqual([...avatar.tracked.poseTimes], [...avatar.track.poseTimes]);
+  assert.equal(avatar.contacts[0].push, 0.01);
+  assert.equal(avatar.contacts[1].push, null);
+  const other = decoded(whole).avatars[0];
+  assert.equal(other.tracked, null);
+  assert.equal(other.solid, null);
+  const wrongly = (change, says) => {
+    const value = solid();
+    change(value.avatars[0]);
+    assert.throws(() => decoded(value), says);
+  };
+  wrongly((a) => (a.solid.states = u16([1, 3, 7])), /solid\.states.* names number 7/);
+  wrongly((a) => (a.solid.states = u16([1, 3])), /solid\.states/);
+  wrongly((a) => (a.solid.times = f64([0, 2, 1])), /does not increase/);
+  wrongly((a) => delete a.tracked.rotations, /rotations/);
+});
+
 test("unknown keys are ignored, and what may be absent may be", () => {
   const value = copy();
   value.fromTheFuture = { a: 1 };
@@ -137,6 +168,23 @@ test("live events are read, and refused where they are wrong", () => {
   }
   assert.deepEqual(decodeStatus('{"answered":5,"query_p50_us":null}'), { answered: 5 });
   assert.throws(() => decodeStatus("nonsense"), { name: "Malformed" });
+});
+
+test("live events of a solid avatar say what is shown, and are refused where they do not", () => {
+  const document = live();
+  document.avatars[0].is_solid = true;
+  const { avatars } = decoded(document);
+  const plain = stepEvent(0.2, 0.3, 3);
+  const solid = { state: "sliding", limit: "catch-up", certified: true, deviation: 0.03, lift: 0, clearance: 0.001, snap_in: 0.2 };
+  const event = { ...plain, shown_from: plain.from, shown_to: plain.to.map((value, i) => (i === 4 ? value + 0.03 : value)), solid };
+  const { shown, to } = decodeStep(JSON.stringify(event), avatars);
+  assert.equal(shown.state, "sliding");
+  assert.equal(shown.snapIn, 0.2);
+  assert.ok(Math.abs(shown.to.translations[0] - to.translations[0] - 0.03) < 1e-12);
+  for (const harm of [{ shown_from: [1] }, { shown_to: null }, { solid: null }, { solid: { ...solid, state: "liquid" } }, { solid: { ...solid, deviation: -1 } }]) {
+    assert.throws(() => decodeStep(JSON.stringify({ ...event, ...harm }), avatars), { name: "Malformed" });
+  }
+  assert.equal(decodeStep(JSON.stringify(event), decoded(live()).avatars).shown, null);
 });
 
 test("contacts hold from when they are met to the end of their step; missed ones are counted", () => {

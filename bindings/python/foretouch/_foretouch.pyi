@@ -83,7 +83,7 @@ class Scene:
         up: Optional[str] = None,
         *,
         importer: Optional[_Path] = None,
-        time_limit_s: float = 300.0,
+        time_limit_s: float = 60.0,
         memory_limit_bytes: int = 8589934592,
     ) -> Scene: ...
     @property

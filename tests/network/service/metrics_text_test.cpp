@@ -112,5 +112,36 @@ TEST(MetricsText, EscapesLabels) {
   read(text);
 }
 
+TEST(MetricsText, SaysWhatSolidAvatarsShow) {
+  SolidCounter counter;
+  SolidMessage message;
+  message.avatar = 4;
+  message.state = SolidState::Held;
+  message.isCertified = true;
+  message.deviation = 0.25;
+  message.counters.queries = 3;
+  message.counters.work = 100;
+  message.solidUs = 40.0;
+  counter.shown(2, message);
+  message.state = SolidState::Placing;
+  message.isCertified = false;
+  counter.shown(2, message);
+  const Page page = read(metricsText({}, {}, {}, counter.counts()));
+  const auto value = [&](const std::string& name) {
+    const auto found = page.values.find(name);
+    return found == page.values.end() ? "none" : found->second;
+  };
+  EXPECT_EQ(value("foretouch_solid_poses_total{avatar=\"4\",state=\"held\"}"), "1");
+  EXPECT_EQ(value("foretouch_solid_poses_total{avatar=\"4\",state=\"placing\"}"), "1");
+  EXPECT_EQ(value("foretouch_solid_poses_total{avatar=\"4\",state=\"equal\"}"), "none");
+  EXPECT_EQ(value("foretouch_solid_uncertified_total{avatar=\"4\"}"), "1");
+  EXPECT_EQ(value("foretouch_solid_deviation_metres{avatar=\"4\"}"), "0.25");
+  EXPECT_EQ(value("foretouch_solid_queries_total{avatar=\"4\"}"), "6");
+  EXPECT_EQ(value("foretouch_solid_work_total{avatar=\"4\"}"), "200");
+  EXPECT_EQ(value("foretouch_solid_seconds_count"), "2");
+  EXPECT_EQ(page.types.at("foretouch_solid_poses_total"), "counter");
+  EXPECT_EQ(read(metricsText({}, {}, {})).types.count("foretouch_solid_poses_total"), 0U);
+}
+
 }  // namespace
 }  // namespace foretouch

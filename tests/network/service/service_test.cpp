@@ -44,11 +44,13 @@ Scene farWall() {
   return Scene::build(raw).value();
 }
 
-std::vector<StreamSolver> solversOf(std::int32_t avatars) {
+std::vector<StreamSolver> solversOf(std::int32_t avatars, bool areSolid = false) {
   const Scene scene = farWall();
   std::vector<StreamSolver> solvers;
   for (std::int32_t id = 0; id < avatars; ++id) {
     solvers.push_back(StreamSolver::make(id, smallAvatar(), scene, {}, {}).value());
+    const bool isMade = !areSolid || solvers.back().makeSolid({}).ok();
+    EXPECT_TRUE(isMade);
   }
   return solvers;
 }
@@ -97,14 +99,15 @@ std::uint64_t rejectsFor(const ServiceCounts& counts, Reject reason) {
 class Stage {
  public:
   explicit Stage(std::int32_t avatars = 1, ServiceOptions options = {}, bool isRecorded = false,
-                 StepObserver* observer = nullptr) {
+                 StepObserver* observer = nullptr, bool areSolid = false) {
     ServiceParts parts;
     parts.receiver = std::make_unique<test::FakeReceiver>(inbox);
     parts.publisher = std::make_unique<test::FakePublisher>(outbox);
     if (isRecorded) parts.journal = std::make_unique<test::FakeSink>(book);
     parts.clock = &clock;
     parts.observer = observer;
-    service_.emplace(Service::start(solversOf(avatars), std::move(parts), options).value());
+    service_.emplace(
+        Service::start(solversOf(avatars, areSolid), std::move(parts), options).value());
   }
   Service& service() { return *service_; }
 
@@ -242,6 +245,63 @@ TEST(Service, AnswersEveryAcceptedPoseOnceAndInOrderOnAnyNumberOfWorkers) {
   }
 }
 
+/// The shown poses that were sent, by avatar, without what differs between runs.
+std::map<std::int32_t, std::vector<Bytes>> shownByAvatar(const std::vector<Bytes>& payloads) {
+  std::map<std::int32_t, std::vector<Bytes>> shown;
+  for (const Bytes& payload : payloads) {
+    SolidMessage message;
+    EXPECT_EQ(decode(payload, message), Reject::None);
+    shown[message.avatar].push_back(verdictsIn(payload));
+  }
+  return shown;
+}
+
+// Each accepted pose is shown once, after its answer; the journal has both; the answers are those
+// without a solid avatar, and no byte depends on the workers.
+TEST(Service, ShowsEveryAcceptedPoseOnceAfterItsAnswer) {
+  constexpr std::int32_t kAvatars = 3;
+  const std::vector<Sent> sent = mixedStreams(kAvatars, 600, 5);
+  const auto expected = verdictsOneByOne(sent, kAvatars);
+  std::map<std::int32_t, std::vector<Bytes>> first;
+  for (const int workers : {1, 3}) {
+    SCOPED_TRACE(workers);
+    Stage stage(kAvatars, withWorkers(workers), true, nullptr, true);
+    for (const Sent& message : sent) stage.inbox->send(message.channel, message.payload);
+    ASSERT_TRUE(stage.settles(posesIn(sent)));
+    stage.service().stop();
+    EXPECT_TRUE(same(verdictsByAvatar(stage.outbox->on(kContacts)), expected));
+    const auto shown = shownByAvatar(stage.outbox->on(kSolidChannel));
+    if (first.empty()) first = shown;
+    EXPECT_TRUE(same(shown, first));
+    for (const auto& [avatar, verdicts] : expected) {
+      EXPECT_EQ(shown.at(avatar).size(), verdicts.size());
+    }
+    // In the journal: pose, answer, what is shown.
+    std::map<std::int32_t, std::int64_t> answered;
+    std::size_t inJournal = 0;
+    for (const test::Recorded& event : stage.book->events()) {
+      if (event.channel == kContacts) {
+        const ContactsMessage answer = answerIn(event.payload);
+        answered[answer.avatar] = answer.sequenceTo;
+      } else if (event.channel == kSolidChannel) {
+        SolidMessage message;
+        ASSERT_EQ(decode(event.payload, message), Reject::None);
+        EXPECT_EQ(answered[message.avatar], message.sequence);
+        ++inJournal;
+      }
+    }
+    EXPECT_EQ(inJournal, stage.outbox->on(kSolidChannel).size());
+    const SolidCounts counts = stage.service().solidCounts();
+    ASSERT_EQ(counts.avatars.size(), 3U);
+    std::uint64_t poses = 0;
+    for (const SolidCount& count : counts.avatars) {
+      for (const std::uint64_t ofState : count.poses) poses += ofState;
+    }
+    EXPECT_EQ(poses, inJournal);
+    EXPECT_EQ(counts.times.count(), inJournal);
+  }
+}
+
 /// Keeps what it is shown of the avatars that it wants.
 class Onlooker final : public StepObserver {
  public:
@@ -254,8 +314,8 @@ class Onlooker final : public StepObserver {
   [[nodiscard]] bool wants(std::size_t avatar) const noexcept override {
     return avatar != kUnwanted;
   }
-  void observe(std::size_t avatar, const StreamStep& step,
-               const ContactsMessage& answer) noexcept override {
+  void observe(std::size_t avatar, const StreamStep& step, const ContactsMessage& answer,
+               const ShownStep* /*shown*/) noexcept override {
     EXPECT_EQ(answer.avatar, static_cast<std::int32_t>(avatar));
     shown[avatar].push_back({answer.sequenceTo, answer.contacts.size(),
                              step.from->translations[0].x(), step.to->translations[0].x()});
@@ -507,7 +567,7 @@ class Straggler final : public StepObserver {
   explicit Straggler(const std::atomic<int>& seen) : seen_(seen) {}
   [[nodiscard]] bool wants(std::size_t /*avatar*/) const noexcept override { return seen_ == 0; }
   void observe(std::size_t /*avatar*/, const StreamStep& /*step*/,
-               const ContactsMessage& /*answer*/) noexcept override {
+               const ContactsMessage& /*answer*/, const ShownStep* /*shown*/) noexcept override {
     EXPECT_TRUE(eventually([&] { return seen_ > 0; }));
   }
 

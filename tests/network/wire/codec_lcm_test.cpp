@@ -3,6 +3,7 @@
 #include <foretouch/contacts_t.hpp>
 #include <foretouch/pose_t.hpp>
 #include <foretouch/skeleton_t.hpp>
+#include <foretouch/solid_t.hpp>
 #include <foretouch/status_t.hpp>
 #include <string>
 
@@ -233,6 +234,84 @@ TEST(CodecAgainstLcmGen, RefusesListsAndTextsBeyondTheLimits) {
   EXPECT_EQ(rejectOf(kMaxTextBytes, kMaxNameBytes), Reject::None);
   EXPECT_EQ(rejectOf(kMaxTextBytes + 1, kMaxNameBytes), Reject::Limit);
   EXPECT_EQ(rejectOf(kMaxTextBytes, kMaxNameBytes + 1), Reject::Limit);
+}
+
+TEST(CodecAgainstLcmGen, ReadsOurSolidMessages) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const SolidMessage m =
+        test::randomSolidMessage(random, 1 + random.below(9), 1 + random.below(4), random.below(5));
+    Bytes bytes;
+    encode(m, bytes);
+    solid_t w;
+    ASSERT_EQ(w.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
+              static_cast<int>(bytes.size()));
+    EXPECT_TRUE(w.version == 1 && w.avatar == m.avatar && w.sequence == m.sequence &&
+                w.utime == m.utimeUs && w.avatar_hash == m.avatarHash &&
+                w.state == static_cast<int>(m.state) && same(w.deviation, m.deviation) &&
+                same(w.clearance, m.clearance) && w.snap_in_us == m.snapInUs &&
+                same(w.times, m.times) && same(w.solid_us, m.solidUs));
+    for (std::size_t i = 0; i < m.way.size(); ++i) {
+      const auto rotation = [&](auto part) { return listOf(m.way[i].rotations, part); };
+      EXPECT_TRUE(same(w.rotation_w[i], rotation([](const Quaternion& q) { return q.w(); })));
+      EXPECT_TRUE(same(w.rotation_z[i], rotation([](const Quaternion& q) { return q.z(); })));
+      EXPECT_TRUE(same(w.translation_y[i], listOf(m.way[i].translations, [](const auto& p) {
+                         return static_cast<double>(p.y());
+                       })));
+    }
+    const auto part = [&](auto field) { return listOf(m.contacts, field); };
+    EXPECT_TRUE(same(w.push, part([](const ShownContact& c) { return c.contact.push; })));
+    EXPECT_TRUE(same(w.others, part([](const ShownContact& c) { return c.contact.other; })));
+    EXPECT_TRUE(same(w.objects, part([](const ShownContact& c) { return c.otherName; })));
+    EXPECT_EQ(lcmBytes(w), bytes);
+  }
+}
+
+// What no encoder of ours writes.
+TEST(CodecAgainstLcmGen, RefusesSolidMessagesBeyondTheirLimits) {
+  const auto after = [](int numJoints, int numPoses, int numContacts) {
+    Random random(1);
+    const SolidMessage small = test::randomSolidMessage(random, 1, 1, 1);
+    Bytes bytes;
+    encode(small, bytes);
+    solid_t w;
+    EXPECT_GT(w.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+    const auto joints = static_cast<std::size_t>(numJoints);
+    const auto poses = static_cast<std::size_t>(numPoses);
+    w.num_joints = numJoints;
+    w.joint_states.resize(joints, 0);
+    w.link_deviation.resize(joints, 0.0);
+    w.num_poses = numPoses;
+    w.times.clear();
+    for (int i = 0; i < numPoses; ++i) w.times.push_back((i + 1.0) / numPoses);
+    w.rotation_w.assign(poses, std::vector<double>(joints, 1.0));
+    for (auto* const rows : {&w.rotation_x, &w.rotation_y, &w.rotation_z, &w.translation_x,
+                             &w.translation_y, &w.translation_z}) {
+      rows->assign(poses, std::vector<double>(joints, 0.0));
+    }
+    const auto contacts = static_cast<std::size_t>(numContacts);
+    w.num_contacts = numContacts;
+    w.links.resize(contacts, 0);
+    w.link_names.resize(contacts, "a");
+    w.lss.resize(contacts, 0);
+    w.triangles.assign(contacts, 0);
+    w.objects.resize(contacts, "o");
+    w.others.assign(contacts, -1);
+    for (auto* const list : {&w.point_x, &w.point_y, &w.point_z, &w.normal_x, &w.normal_y,
+                             &w.normal_z, &w.gap, &w.push, &w.slip_speed}) {
+      list->assign(contacts, 0.0);
+    }
+    SolidMessage decoded;
+    return decode(lcmBytes(w), decoded);
+  };
+  EXPECT_EQ(after(1, 1, 1), Reject::None);
+  EXPECT_EQ(after(512, 64, 256), Reject::None);
+  EXPECT_EQ(after(513, 1, 0), Reject::Limit);
+  EXPECT_EQ(after(0, 1, 0), Reject::Limit);
+  EXPECT_EQ(after(1, 65, 0), Reject::Limit);
+  EXPECT_EQ(after(1, 0, 0), Reject::Limit);
+  EXPECT_EQ(after(1, 1, 257), Reject::Limit);
 }
 
 }  // namespace

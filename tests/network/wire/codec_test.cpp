@@ -55,6 +55,9 @@ TEST(Codec, MessagesSurviveTheWireBitForBit) {
   expectRoundTrips<PoseMessage>([](Random& r) { return test::randomPoseMessage(r, r.below(80)); });
   expectRoundTrips<ContactsMessage>(
       [](Random& r) { return test::randomContactsMessage(r, r.below(40)); });
+  expectRoundTrips<SolidMessage>([](Random& r) {
+    return test::randomSolidMessage(r, 1 + r.below(40), 1 + r.below(6), r.below(20));
+  });
   expectRoundTrips<StatusMessage>(
       [](Random& r) { return test::randomStatusMessage(r, r.below(20)); });
 }
@@ -69,6 +72,15 @@ TEST(Codec, LargestMessagesSurvive) {
   ContactsMessage contacts;
   EXPECT_EQ(decode(bytesOf(test::randomContactsMessage(random, kMaxJoints)), contacts),
             Reject::None);
+  SolidMessage solid =
+      test::randomSolidMessage(random, kMaxSolidJoints, kMaxSolidPoses, kMaxSolidContacts);
+  for (ShownContact& shown : solid.contacts) {
+    shown.linkName.assign(kMaxNameBytes, 'n');
+    shown.otherName.assign(kMaxTextBytes, 'o');
+  }
+  const Bytes bytes = bytesOf(solid);
+  EXPECT_LE(bytes.size(), kMaxMessageBytes);
+  EXPECT_EQ(decode(bytes, solid), Reject::None);
 }
 
 TEST(Codec, PosesIntoReusedMemoryAllocateNothing) {
@@ -422,6 +434,137 @@ TEST(DecodeContacts, VerdictsAreAllButStampsAndTimeTaken) {
   const Bytes other = bytesOf(message);
   EXPECT_FALSE(std::equal(verdicts.data, verdicts.data + verdicts.size, other.data()));
   EXPECT_EQ(verdictBytes(ByteView(bytes.data(), 23)).size, 0u);
+}
+
+// --- solid_t
+
+/// Two joints, two poses on the way, a contact with the scene and one of the own links.
+SolidMessage twoPoses() {
+  SolidMessage message;
+  message.state = SolidState::Sliding;
+  message.isCertified = true;
+  message.joints = {SolidJointState::Free, SolidJointState::Sliding};
+  message.linkDeviation = {0.0, 0.01};
+  const Pose pose{{Quaternion::Identity(), Quaternion(0.6, 0.8, 0.0, 0.0)},
+                  {Eigen::Vector3d(0.0, 1.0, 0.0), Eigen::Vector3d(0.0, 0.4, -0.0)}};
+  message.way = {pose, pose};
+  message.times = {0.5, 1.0};
+  message.contacts.resize(2);
+  for (ShownContact& shown : message.contacts) {
+    shown.linkName = "Hand";
+    shown.otherName = "table";
+    shown.contact.link = 1;
+    shown.contact.nhat_W = {0.0, 1.0, 0.0};
+  }
+  message.contacts[0].contact.triangle = 3;
+  message.contacts[1].contact.other = 0;
+  return message;
+}
+
+template <typename Change>
+Reject solidAfter(Change change) {
+  return rejectAfter(twoPoses(), change);
+}
+
+TEST(DecodeSolid, AcceptsTheMessageThatIsChangedBelow) {
+  EXPECT_EQ(solidAfter([](SolidMessage&) {}), Reject::None);
+}
+
+TEST(DecodeSolid, KeepsEveryBitOfPosesThatAreUnit) {
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    const SolidMessage message = test::randomSolidMessage(random, 5, 3, 0);
+    SolidMessage decoded;
+    ASSERT_EQ(decode(bytesOf(message), decoded), Reject::None);
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t j = 0; j < 5; ++j) {
+        ASSERT_EQ(decoded.way[k].rotations[j].coeffs(), message.way[k].rotations[j].coeffs());
+        ASSERT_EQ(decoded.way[k].translations[j], message.way[k].translations[j]);
+      }
+    }
+  }
+}
+
+TEST(DecodeSolid, RefusesCodesThatDoNotExist) {
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.state = static_cast<SolidState>(7); }),
+            Reject::OutOfRange);
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.limit = static_cast<SolidLimit>(4); }),
+            Reject::OutOfRange);
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.kind = static_cast<StepKind>(3); }),
+            Reject::OutOfRange);
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.joints[1] = static_cast<SolidJointState>(4); }),
+            Reject::OutOfRange);
+}
+
+TEST(DecodeSolid, RefusesTimesThatDoNotAscendToOne) {
+  for (const auto& times : {std::vector<double>{0.5, 0.5},
+                            {0.6, 0.5},
+                            {0.5, 1.0000001},
+                            {-0.5, 1.0},
+                            {0.5, kNaN}}) {
+    EXPECT_EQ(solidAfter([&](SolidMessage& m) { m.times = times; }), Reject::OutOfRange);
+  }
+  EXPECT_EQ(solidAfter([](SolidMessage& m) {
+              m.way.resize(1);
+              m.times = {0.0};
+            }),
+            Reject::None);
+}
+
+TEST(DecodeSolid, RefusesPosesThatAreNone) {
+  for (const double bad : {kNaN, kInfinity, -kInfinity}) {
+    EXPECT_EQ(solidAfter([&](SolidMessage& m) { m.way[0].rotations[1].x() = bad; }),
+              Reject::NonFinite);
+    EXPECT_EQ(solidAfter([&](SolidMessage& m) { m.way[1].translations[0].z() = bad; }),
+              Reject::NonFinite);
+  }
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.way[0].rotations[0].w() = 1.0011; }),
+            Reject::NonUnit);
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.way[0].translations[0].x() = 1.0000001e7; }),
+            Reject::OutOfRange);
+}
+
+TEST(DecodeSolid, RefusesContactsOfNothing) {
+  const auto after = [](auto change) {
+    return solidAfter([&](SolidMessage& m) { change(m.contacts[0].contact); });
+  };
+  EXPECT_EQ(after([](SolidContact& c) { c.link = 2; }), Reject::BadIndex);
+  EXPECT_EQ(after([](SolidContact& c) { c.link = -1; }), Reject::BadIndex);
+  EXPECT_EQ(after([](SolidContact& c) { c.lss = -2; }), Reject::BadIndex);
+  EXPECT_EQ(after([](SolidContact& c) { c.triangle = -1; }), Reject::BadIndex);
+  EXPECT_EQ(after([](SolidContact& c) { c.other = 0; }), Reject::BadIndex);  // both
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.contacts[1].contact.other = 1; }),
+            Reject::BadIndex);  // itself
+  EXPECT_EQ(after([](SolidContact& c) { c.gap = kNaN; }), Reject::NonFinite);
+  EXPECT_EQ(after([](SolidContact& c) { c.push = kInfinity; }), Reject::NonFinite);
+  EXPECT_EQ(after([](SolidContact& c) { c.p_W.y() = kNaN; }), Reject::NonFinite);
+  EXPECT_EQ(after([](SolidContact& c) { c.nhat_W.y() = kNaN; }), Reject::NonFinite);
+  EXPECT_EQ(after([](SolidContact& c) { c.nhat_W *= 1.001; }), Reject::OutOfRange);
+  EXPECT_EQ(after([](SolidContact& c) { c.push = -1e-9; }), Reject::OutOfRange);
+  EXPECT_EQ(after([](SolidContact& c) { c.slipSpeed = -1e-9; }), Reject::OutOfRange);
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.contacts[0].linkName = "\xff"; }), Reject::BadName);
+}
+
+TEST(DecodeSolid, RefusesNumbersOutOfRange) {
+  for (auto SolidMessage::*const field :
+       {&SolidMessage::skin, &SolidMessage::tolerance, &SolidMessage::catchUp,
+        &SolidMessage::deviation, &SolidMessage::lift, &SolidMessage::clearance,
+        &SolidMessage::solidUs}) {
+    EXPECT_EQ(solidAfter([&](SolidMessage& m) { m.*field = kNaN; }), Reject::NonFinite);
+    EXPECT_EQ(solidAfter([&](SolidMessage& m) { m.*field = -1e-9; }), Reject::OutOfRange);
+  }
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.linkDeviation[1] = kNaN; }), Reject::NonFinite);
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.linkDeviation[1] = -1.0; }), Reject::OutOfRange);
+  for (auto SolidMessage::*const field :
+       {&SolidMessage::session, &SolidMessage::sequence, &SolidMessage::utimeUs,
+        &SolidMessage::lost, &SolidMessage::stepUs, &SolidMessage::workBudget,
+        &SolidMessage::receiveUtimeUs, &SolidMessage::sendUtimeUs}) {
+    for (const std::int64_t bad : {std::int64_t{-1}, kTooLarge}) {
+      EXPECT_EQ(solidAfter([&](SolidMessage& m) { m.*field = bad; }), Reject::OutOfRange);
+    }
+  }
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.snapInUs = -2; }), Reject::OutOfRange);
+  EXPECT_EQ(solidAfter([](SolidMessage& m) { m.contactsLeftOut = -1; }), Reject::OutOfRange);
 }
 
 // --- status_t

@@ -86,6 +86,22 @@ Sample contactsSample(Random& random) {
   return sample;
 }
 
+Sample solidSample(Random& random) {
+  Sample sample{PayloadType::Solid, {}, {}, {}};
+  const int numJoints = 1 + random.below(4), numPoses = 1 + random.below(3);
+  encode(test::randomSolidMessage(random, numJoints, numPoses, random.below(4)), sample.bytes);
+  const auto square = [](int count, std::size_t size) {
+    return static_cast<std::size_t>(count) * size;
+  };
+  const std::size_t joints = kHead + 28 + 25 + 32 + 36;
+  const std::size_t poses = joints + 4 + square(countAt(sample, joints), 1 + 8);
+  const std::size_t contacts =
+      poses + 4 + square(countAt(sample, poses), 8) + square(numPoses * numJoints, 7 * 8);
+  const int n = countAt(sample, contacts);
+  textsAt(sample, textsAt(sample, contacts + 4 + square(n, 4), n) + square(n, 8), n);
+  return sample;
+}
+
 Sample statusSample(Random& random) {
   Sample sample{PayloadType::Status, {}, {}, {}};
   encode(test::randomStatusMessage(random, 1 + random.below(6)), sample.bytes);
@@ -102,6 +118,7 @@ std::vector<Sample> samples() {
     all.push_back(skeletonSample(random));
     all.push_back(poseSample(random));
     all.push_back(contactsSample(random));
+    all.push_back(solidSample(random));
     all.push_back(statusSample(random));
   }
   return all;
@@ -112,11 +129,13 @@ Reject decodeAny(PayloadType type, ByteView bytes) {
   static SkeletonMessage skeleton;
   static PoseMessage pose;
   static ContactsMessage contacts;
+  static SolidMessage solid;
   static StatusMessage status;
   switch (type) {
     case PayloadType::Skeleton: return decode(bytes, skeleton);
     case PayloadType::Pose: return decode(bytes, pose);
     case PayloadType::Contacts: return decode(bytes, contacts);
+    case PayloadType::Solid: return decode(bytes, solid);
     case PayloadType::Status: return decode(bytes, status);
   }
   return Reject::Length;

@@ -130,6 +130,52 @@ TEST(JournalCheck, NamesTheFieldAndBothValues) {
             lead + "the triangle of 'Arm' is 13 in the log, 12 here" + where);
 }
 
+SolidMessage showing(std::int64_t sequence) {
+  SolidMessage message;
+  message.avatar = 1;
+  message.session = 9;
+  message.sequence = sequence;
+  message.utimeUs = 1000 * sequence;
+  message.skin = 0.002;
+  message.state = SolidState::Held;
+  message.joints = {SolidJointState::Free};
+  message.linkDeviation = {0.25};
+  message.way = {{{Quaternion::Identity()}, {Eigen::Vector3d(0.0, 1.0, 0.0)}}};
+  message.times = {0.0};
+  return message;
+}
+
+TEST(JournalCheck, ComparesShownPosesAndNamesTheFieldAndBothValues) {
+  const auto first = [](const std::function<void(SolidMessage&)>& change) {
+    JournalCheck check(AnswerKind::Solid);
+    for (std::int64_t i = 1; i < 5; ++i) {
+      SolidMessage recorded = showing(i);
+      recorded.solidUs = 7.0 * static_cast<double>(i);  // differs in every run
+      recorded.sendUtimeUs = i;
+      if (i == 3) change(recorded);
+      Bytes before, now;
+      encode(recorded, before);
+      encode(showing(i), now);
+      check.addReplayed(showing(i), now);
+      check.addRecorded(recorded, before);
+    }
+    EXPECT_EQ(check.recorded(), 4);
+    return check.firstDifference().value_or("none");
+  };
+  const std::string lead = "avatar 1, session 9, pose 3 is shown differently: ";
+  EXPECT_EQ(first([](SolidMessage&) {}), "none");
+  EXPECT_EQ(first([](SolidMessage& m) { m.skin = 0.004; }),
+            lead + "the skin is 0.004 in the log, 0.002 here");
+  EXPECT_EQ(first([](SolidMessage& m) { m.state = SolidState::Sliding; }),
+            lead + "the state is sliding in the log, held here, at 3000 us");
+  EXPECT_EQ(first([](SolidMessage& m) { m.way[0].translations[0].z() = -0.0; }),
+            lead +
+                "the translation of joint 0 in pose 0 on the way is [0, 1, -0] in the log, "
+                "[0, 1, 0] here, at 3000 us");
+  EXPECT_EQ(first([](SolidMessage& m) { m.counters.queries = 2; }),
+            lead + "the number of queries is 2 in the log, 0 here, at 3000 us");
+}
+
 // Whatever differs, it is told in few words.
 TEST(JournalCheck, IsBriefAboutLargeAnswers) {
   ContactsMessage recorded = answer(7), replayed = recorded;

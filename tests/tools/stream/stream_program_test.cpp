@@ -135,6 +135,15 @@ class StreamPrograms : public testing::Test {
     EXPECT_GT(touching, 5);
   }
 
+  /// What stands under this name among lines of JSON.
+  static std::vector<json> eventsOf(const std::string& lines, const std::string& name) {
+    std::vector<json> events;
+    for (const std::string& line : linesOf(lines)) {
+      if (line.rfind("{\"" + name + "\":", 0) == 0) events.push_back(json::parse(line)[name]);
+    }
+    return events;
+  }
+
   static void expectEndsInOrder(ProgramRun& service) {
     service.send(SIGTERM);
     const Ended ended = service.ended();
@@ -179,6 +188,48 @@ TEST_F(StreamPrograms, AnswerARecordedClipInARealKitchenAsItsReplayDoes) {
   const Ended made = runForetouch({"avatar", "bvh", *clip, "--scale", "0.01", "-o", stage_.avatar});
   ASSERT_EQ(made.exitCode, 0) << made.err;
   runOnce({"--speed", "4"});
+}
+
+// The answers are those without a solid avatar; what is shown is certified, and its journal repeats
+// it, with the same options only.
+TEST_F(StreamPrograms, ShowASolidAvatarThatItsJournalRepeats) {
+  const std::vector<std::string> replayed = replayedClip();
+  const std::string journal = folder_ / "journal.lcmlog", lines = folder_ / "again.jsonl";
+  const auto serving = service({"--solid", "--log", journal});
+  const auto listening = listener(replayed.size());
+  ASSERT_EQ(runForetouch(publishWords({"--url", kUrl, "--speed", "4"})).exitCode, 0);
+  const Ended heard = listening->ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  EXPECT_EQ(heard.err, "");
+  expectReplayed(answersIn(heard.out), replayed);
+  expectEndsInOrder(*serving);
+  const std::vector<json> shown = eventsOf(heard.out, "solid");
+  // The listener leaves with the last answer; what is shown there comes after it.
+  ASSERT_GE(shown.size() + 1, replayed.size());
+  std::size_t certified = 0;
+  for (const json& one : shown) certified += one["certified"].get<bool>() ? 1 : 0;
+  EXPECT_GT(certified, shown.size() / 2);
+
+  const auto again = [&](const Words& more) {
+    return runForetouch(
+        joined(joined({"replay", "--avatar", stage_.avatar, "--motion", journal, "--output", lines},
+                      stage_.ofScene),
+               more));
+  };
+  const std::string all = std::to_string(replayed.size());
+  const Ended equal = again({"--solid"});
+  EXPECT_EQ(equal.exitCode, 0) << equal.out << equal.err;
+  EXPECT_TRUE(holds(equal.out, all + " of " + all + " verdicts equal the journal's")) << equal.out;
+  EXPECT_TRUE(holds(equal.out, all + " of " + all + " shown poses equal the journal's"))
+      << equal.out;
+  EXPECT_EQ(eventsOf(contentOf(lines), "solid").size(), replayed.size());
+  const Ended other = again({"--solid", "--solid-skin", "0.004"});
+  EXPECT_EQ(other.exitCode, 1) << other.out << other.err;
+  EXPECT_TRUE(holds(other.out, "is shown differently: the skin is 0.002 in the log, 0.004 here"))
+      << other.out;
+  const Ended without = again({});
+  EXPECT_EQ(without.exitCode, 0) << without.out << without.err;
+  EXPECT_TRUE(holds(without.out, "the log also has " + all + " shown poses")) << without.out;
 }
 
 TEST_F(StreamPrograms, AreRecordedByLcmLogger) {

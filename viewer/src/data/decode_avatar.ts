@@ -1,8 +1,9 @@
-import type { Avatar, Link, LinkMesh, Lss, SweptSurface } from "./document.js";
+import type { Avatar, Link, LinkMesh, Lss, Solid, SweptSurface } from "./document.js";
+import { solidStates } from "./document.js";
 import type { Reader } from "./reader.js";
 import { decodeContact } from "./decode_contact.js";
 import { decodePlacedMesh } from "./decode_scene.js";
-import { decodeTrack } from "./decode_track.js";
+import { decodeTrack, increasing } from "./decode_track.js";
 
 /** Links are named by 16 bits where a check at the poses lists them. */
 const maxLinks = 65536;
@@ -12,6 +13,7 @@ export function decodeAvatar(reader: Reader): Avatar {
   const trackReader = reader.optional("track");
   const track = trackReader === null ? null : decodeTrack(trackReader, links.length);
   const steps = track?.from.length ?? 0;
+  const tracked = reader.optional("tracked"), solid = reader.optional("solid");
   return {
     id: reader.field("id").count(),
     name: reader.field("name").text(),
@@ -19,6 +21,9 @@ export function decodeAvatar(reader: Reader): Avatar {
     lss: (reader.optional("lss")?.items() ?? []).map((item) => decodeLss(item, links.length)),
     meshes: (reader.optional("meshes")?.items() ?? []).map((item) => decodeMesh(item, links.length)),
     track,
+    tracked: tracked === null ? null : decodeTrack(tracked, links.length),
+    solid: solid === null ? null : decodeSolid(solid),
+    isLiveSolid: reader.optional("is_solid")?.flag() ?? false,
     contacts: (reader.optional("contacts")?.items() ?? []).map((item) => ({
       ...decodeContact(item, links.length),
       step: item.field("step").index(steps),
@@ -26,6 +31,15 @@ export function decodeAvatar(reader: Reader): Avatar {
     swept: (reader.optional("swept")?.items() ?? []).map((item) =>
       decodeSwept(item, links.length, steps),
     ),
+  };
+}
+
+function decodeSolid(reader: Reader): Solid {
+  const times = increasing(reader.field("times"));
+  return {
+    times,
+    states: reader.field("states").typedIndices("u16", solidStates.length, times.length),
+    deviations: reader.field("deviations").typed("f64", times.length),
   };
 }
 

@@ -22,6 +22,8 @@ export function decodeContact(item: Reader, links: number): ContactFields {
     triangle: present(item, "triangle")?.number() ?? null,
     object: present(item, "object")?.text() ?? null,
     missedByPoses: present(item, "missed_by_poses")?.flag() ?? null,
+    push: present(item, "push")?.number(0) ?? null,
+    slip: present(item, "slip")?.number() ?? null,
   };
   if (isDecided && contact.toi === null) item.fail('has no "toi"');
   if (isDecided && contact.point === null) item.fail('has no "point"');

@@ -25,7 +25,7 @@ export function decodeTrack(reader: Reader, links: number): Track {
   };
 }
 
-function increasing(reader: Reader): Float64Array {
+export function increasing(reader: Reader): Float64Array {
   const times = reader.typed("f64");
   for (let i = 1; i < times.length; ++i) {
     if (!(times[i] > times[i - 1])) reader.fail(`does not increase at pose ${i}`);

@@ -68,10 +68,30 @@ export interface Avatar {
   readonly links: readonly Link[];
   readonly lss: readonly Lss[];
   readonly meshes: readonly LinkMesh[];
+  /** Of a solid avatar: what is shown. */
   readonly track: Track | null;
+  /** Of a solid avatar: where its tracker says that it is. */
+  readonly tracked: Track | null;
+  readonly solid: Solid | null;
+  /** Of a live view: its events say what a solid avatar shows. */
+  readonly isLiveSolid: boolean;
   readonly contacts: readonly RecordedContact[];
   readonly swept: readonly SweptSurface[];
 }
+
+/** Of a solid avatar, tick by tick. */
+export interface Solid {
+  /** Increasing, seconds. */
+  readonly times: Float64Array;
+  /** Indices into `solidStates`. */
+  readonly states: Uint16Array;
+  /** How far any link is from where its tracker says, at most; metres. */
+  readonly deviations: Float64Array;
+}
+
+/** By their numbers. */
+export const solidStates = ["placing", "equal", "following", "sliding", "held", "around", "snapped"] as const;
+export type SolidState = (typeof solidStates)[number];
 
 /** Parents come before their children; -1 is the world. */
 export interface Link {
@@ -134,6 +154,9 @@ export interface ContactFields {
   readonly triangle: number | null;
   readonly object: string | null;
   readonly missedByPoses: boolean | null;
+  /** Of a solid avatar: how hard the tracked pose presses, metres; and how fast the link slips, m/s. */
+  readonly push: number | null;
+  readonly slip: number | null;
 }
 
 export interface RecordedContact extends ContactFields {

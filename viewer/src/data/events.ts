@@ -1,6 +1,7 @@
 // Live events, decoded: as little trusted as the document.
 
-import type { Avatar, ContactFields } from "./document.js";
+import type { Avatar, ContactFields, SolidState } from "./document.js";
+import { solidStates } from "./document.js";
 import type { LocalPose } from "../motion/chain.js";
 import { emptyPose } from "../motion/chain.js";
 import { normalise } from "../motion/quaternion.js";
@@ -8,6 +9,19 @@ import { decodeContact } from "./decode_contact.js";
 import { Malformed, Reader } from "./reader.js";
 
 export type StepKind = "consecutive" | "first" | "across-gap";
+
+/** What a solid avatar shows in a step. */
+export interface ShownStep {
+  readonly from: LocalPose;
+  readonly to: LocalPose;
+  readonly state: SolidState;
+  readonly limit: string;
+  readonly isCertified: boolean;
+  /** Metres, of the farthest link from where its tracker says. */
+  readonly deviation: number;
+  /** Seconds until it snaps; null if it does not. */
+  readonly snapIn: number | null;
+}
 
 export interface StepEvent {
   /** Index into the document's avatars. */
@@ -19,6 +33,8 @@ export interface StepEvent {
   readonly lost: number;
   readonly from: LocalPose;
   readonly to: LocalPose;
+  /** Null: the avatar is not solid. */
+  readonly shown: ShownStep | null;
   readonly contacts: readonly ContactFields[];
   readonly queryUs: number;
   readonly addedUs: number;
@@ -65,10 +81,24 @@ export function decodeStep(text: string, avatars: readonly Avatar[]): StepEvent 
     lost: event.optional("lost")?.number(0) ?? 0,
     from: decodePose(event.field("from"), links),
     to: decodePose(event.field("to"), links),
+    shown: avatars[avatar].isLiveSolid ? decodeShown(event, links) : null,
     contacts: (event.optional("contacts")?.items() ?? []).map((item) => decodeContact(item, links)),
     queryUs: event.optional("query_us")?.number() ?? 0,
     addedUs: event.optional("added_us")?.number() ?? 0,
     skipped: event.optional("skipped")?.number(0) ?? 0,
+  };
+}
+
+function decodeShown(event: Reader, links: number): ShownStep {
+  const solid = event.field("solid");
+  return {
+    from: decodePose(event.field("shown_from"), links),
+    to: decodePose(event.field("shown_to"), links),
+    state: solid.field("state").oneOf(solidStates),
+    limit: solid.optional("limit")?.text() ?? "none",
+    isCertified: solid.field("certified").flag(),
+    deviation: solid.field("deviation").number(0),
+    snapIn: solid.optional("snap_in")?.number(0) ?? null,
   };
 }
 

@@ -3,11 +3,13 @@
 
 import type { Contact } from "../contacts/contact.js";
 import { contactOf } from "../contacts/contact.js";
-import type { StatusEvent, StepEvent } from "../data/events.js";
+import type { ShownStep, StatusEvent, StepEvent } from "../data/events.js";
 import type { Touch } from "../contacts/touch.js";
 import { decodeDocument } from "../data/decode.js";
 import { decodeStatus, decodeStep, UnknownAvatar } from "../data/events.js";
 import type { Model } from "../model.js";
+import type { LocalPose } from "../motion/chain.js";
+import type { Span } from "../motion/clip.js";
 import type { Store } from "../state.js";
 import { LiveClip } from "./live_clip.js";
 import { servedDocument } from "./served.js";
@@ -25,6 +27,8 @@ export interface FeedState {
   readonly latest: Contact | null;
   readonly lastQueryUs: number;
   readonly lastAddedUs: number;
+  /** Of solid avatars: what each showed last, by its index. */
+  readonly shown: ReadonlyMap<number, ShownStep>;
   /** Of the last malformed event; "" where there was none. */
   readonly complaint: string;
 }
@@ -36,7 +40,7 @@ const askAgainMs = 1000;
 export class Feed {
   state: FeedState = {
     connection: "connecting", status: {}, steps: 0, skipped: 0, lost: 0, contacts: 0, latest: null,
-    lastQueryUs: 0, lastAddedUs: 0, complaint: "",
+    lastQueryUs: 0, lastAddedUs: 0, shown: new Map(), complaint: "",
   };
   private contacts: Contact[] = [];
   private source: EventSource | null = null;
@@ -57,6 +61,12 @@ export class Feed {
     source.addEventListener("step", (event) => this.guarded(() => this.takeStep(decodeStep(String(event.data), this.model.avatars))));
     source.addEventListener("status", (event) => this.guarded(() => this.set({ status: decodeStatus(String(event.data)) })));
     source.addEventListener("error", () => this.retry());
+  }
+
+  /** For people: of one of several avatars, its number. */
+  nameOf(avatar: number): string {
+    const { avatars } = this.model;
+    return avatars.length > 1 ? `body ${avatars[avatar].id}` : "body";
   }
 
   /** The browser reconnects by itself, unless the server refused: then we do. */
@@ -98,8 +108,9 @@ export class Feed {
     if (!(clip instanceof LiveClip)) return;
     // A first pose has no step before it: it is held for no time at all.
     const span = { t0: event.t0, t1: Math.max(event.t1, event.t0 + 1e-6) };
-    if (event.skipped > 0) bridge(clip, event);
-    const step = clip.add({ ...span, from: event.from, to: event.to });
+    const tracked = this.model.tracked[event.avatar];
+    if (tracked instanceof LiveClip) takePoses(tracked, event, span, event);
+    const step = takePoses(clip, event, span, event.shown ?? event);
     const links = this.model.avatars[event.avatar].links;
     const fresh = event.contacts.map((fields) => contactOf(event.avatar, links[fields.link].name, span, { ...fields, step }));
     this.count(event, fresh);
@@ -117,6 +128,7 @@ export class Feed {
       latest: fresh[fresh.length - 1] ?? latest,
       lastQueryUs: event.queryUs,
       lastAddedUs: event.addedUs,
+      shown: event.shown === null ? this.state.shown : new Map(this.state.shown).set(event.avatar, event.shown),
     });
   }
 
@@ -137,8 +149,14 @@ export class Feed {
   }
 }
 
+/** The number of the step. */
+function takePoses(clip: LiveClip, event: StepEvent, span: Span, { from, to }: { from: LocalPose; to: LocalPose }): number {
+  if (event.skipped > 0) bridge(clip, event.t0, from);
+  return clip.add({ ...span, from, to });
+}
+
 /** Steps that were answered but not sent: straight over them, rather than standing still. */
-function bridge(clip: LiveClip, event: StepEvent): void {
+function bridge(clip: LiveClip, t1: number, to: LocalPose): void {
   const from = clip.latestPose;
-  if (from !== null && event.t0 > clip.end) clip.add({ t0: clip.end, t1: event.t0, from, to: event.from });
+  if (from !== null && t1 > clip.end) clip.add({ t0: clip.end, t1, from, to });
 }

@@ -3,7 +3,8 @@
 import type { Contact } from "../contacts/contact.js";
 import type { StatusName } from "../data/events.js";
 import { card, definitionTable, element } from "../panels/dom.js";
-import { count, microseconds } from "../panels/words.js";
+import { count, length, microseconds } from "../panels/words.js";
+import type { ShownStep } from "../data/events.js";
 import type { Feed } from "./feed.js";
 
 const connectionWords = {
@@ -47,6 +48,7 @@ export class LiveCard {
     this.contactsShown = feed.state.contacts;
     const { status, steps, skipped, contacts, latest, lastQueryUs, lastAddedUs, complaint } = feed.state;
     const lines: [string, string, string?][] = [["contacts", count(contacts), latest === null ? "" : `the latest: ${nameOf(latest)}`]];
+    for (const [avatar, shown] of feed.state.shown) lines.unshift([`shown ${feed.nameOf(avatar)}`, shown.state, wordsOfShown(shown)]);
     for (const name of counters) {
       const value = status[name];
       if (value !== undefined) lines.push([name, count(value)]);
@@ -62,6 +64,13 @@ export class LiveCard {
     this.body.replaceChildren(definitionTable(lines));
     if (complaint !== "") this.body.append(element("p", { class: "complaint", text: `Not shown: ${complaint}` }));
   }
+}
+
+function wordsOfShown({ state, limit, isCertified, deviation, snapIn }: ShownStep): string {
+  const far = state === "equal" ? "where it is tracked" : state === "placing" ? "no free place yet" : `${length(deviation)} from where it is tracked`;
+  const why = limit === "none" ? "" : `, ${limit}`;
+  const proof = isCertified || state === "placing" ? "" : ", not certified";
+  return `${far}${why}${proof}${snapIn === null ? "" : `, snaps in ${snapIn.toFixed(2)} s`}`;
 }
 
 function nameOf({ linkName, object }: Contact): string {

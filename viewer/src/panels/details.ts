@@ -103,6 +103,8 @@ export class Details {
       contact.freeUntil === null ? null : ["free until", contact.freeUntil.toFixed(4), "0 to 1 within the step"],
       contact.separation === null ? null : ["separation", length(contact.separation), "at the time of impact"],
       contact.penetration === null ? null : ["penetration", length(contact.penetration)],
+      contact.push === null ? null : ["push", length(contact.push), "how hard the tracked pose presses; times a stiffness it is a force"],
+      contact.slip === null ? null : ["slips by", `${length(contact.slip)} a second`, "along the surface"],
       contact.normal === null ? null : ["normal", vector(contact.normal, 3), "from the scene to the link"],
       contact.point === null ? null : ["on the scene", `${vector(contact.point)} m`],
       contact.onLink === null ? null : ["on the link", `${vector(contact.onLink)} m`],

@@ -3,7 +3,7 @@
 import { discreteCount } from "../contacts/discrete.js";
 import type { Model } from "../model.js";
 import { byId } from "./dom.js";
-import { count, personOf, placeOf, plural, tally } from "./words.js";
+import { count, length, personOf, placeOf, plural, tally } from "./words.js";
 
 export function showHeadline(model: Model): void {
   byId("title").textContent = model.document.title;
@@ -14,8 +14,18 @@ export function showHeadline(model: Model): void {
 function headline(model: Model): string {
   if (model.document.kind === "inspection") return "Is this the right unit, the right axis and the right place?";
   if (model.isLive) return "Live: what the service answers, as it answers it.";
+  if (model.isSolid) return ofSolid(model);
   if (model.touches.length === 0 && model.contacts.length === 0) return "No contact in the whole clip.";
   return model.knowsTouches ? ofTouches(model) : ofContacts(model);
+}
+
+/** Nothing is passed through; how far that keeps the body from where it was tracked. */
+function ofSolid(model: Model): string {
+  const { all, ground } = model.countTouches();
+  const who = `The ${personOf(model.avatars[0]?.name ?? "")} passes through nothing of the ${placeOf(model.document.scene.name)}`;
+  const most = model.avatars.reduce((far, { solid }) => Array.from(solid?.deviations ?? []).reduce((a, b) => Math.max(a, b), far), 0);
+  const kept = all + ground === 0 ? "" : ` Surfaces hold it ${times(all + ground)}, at most ${length(most)} from where it was tracked.`;
+  return `${who}.${kept}`;
 }
 
 function ofTouches(model: Model): string {

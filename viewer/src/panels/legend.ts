@@ -45,7 +45,8 @@ export class Legend {
     return [
       ...this.bodies(),
       this.entry("touching", "link in contact", "A link that touches something at this instant.", true),
-      ...(model.isLive ? [] : [
+      ...(model.isSolid ? [this.entry("tracked", "tracked body", "Where the tracker says that the body is, as far as surfaces keep the shown one from it.", state.showsGhosts)] : []),
+      ...(model.isLive || model.isSolid ? [] : [
         this.entry("before", "pose before", meaningOf("pose before"), state.showsGhosts && hasStep && isStill),
         this.entry("asked", "pose asked for", meaningOf("pose asked for"), (state.showsGhosts && hasStep && isStill) || (state.showsDiscrete && !state.isPlaying)),
         this.entry("at-contact", "pose at the contact", "The body where it first touches.", state.showsGhosts && isElsewhere && isStill),
@@ -58,7 +59,8 @@ export class Legend {
   }
 
   private bodies(): Entry[] {
-    return this.model.avatars.length === 0 ? [] : [this.entry("avatar", "body", "The body at the instant that the clock shows.", true)];
+    const name = this.model.isSolid ? "shown body" : "body";
+    return this.model.avatars.length === 0 ? [] : [this.entry("avatar", name, "The body at the instant that the clock shows.", true)];
   }
 
   private entry(key: string, name: string, meaning: string, isDrawn: boolean): Entry {

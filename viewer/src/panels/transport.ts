@@ -88,7 +88,8 @@ export class Transport {
     };
     const hasSwept = this.model.avatars.some((avatar) => avatar.swept.length > 0);
     if (discreteCount(this.model.contacts) !== null) add("showsDiscrete", "Check | truth", "What a check of the poses alone would have seen, beside what happened (D)");
-    if (this.model.contacts.length > 0) add("showsGhosts", "Ghosts", "The pose before the step and the pose asked for, translucent (G)");
+    if (this.model.isSolid) add("showsGhosts", "Ghost", "Where the tracker says that the body is, translucent (G)");
+    else if (this.model.contacts.length > 0) add("showsGhosts", "Ghosts", "The pose before the step and the pose asked for, translucent (G)");
     if (hasSwept) add("showsSwept", "Swept volume", "Certified surface of what the link sweeps in the step (S)");
     if (this.model.document.scene.indices.length > 0) add("cutsAway", "Cut away", "Leave out what hides the avatar (C)");
     if (this.model.avatars.length > 0 || this.model.isLive) add("tracks", "Track", "The camera goes along with the avatar while time runs (T)");

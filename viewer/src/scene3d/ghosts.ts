@@ -1,13 +1,13 @@
-// Ghosts: the pose before a step, the pose that was asked for, and the pose at the contact. Where the
-// avatar itself is seen they are only hinted at, so that it keeps its colour.
+// Ghosts: the pose before a step, the pose that was asked for, the pose at the contact, and of a solid
+// avatar the one that its tracker says. Where the avatar itself is seen they are only hinted at, so that it keeps its colour.
 
 import * as THREE from "three";
 import { AvatarBody, bodyStencil } from "./avatar_body.js";
 import type { Palette } from "./palette.js";
 import { linkMaterial, setScreenColour } from "./shading.js";
 
-export type GhostName = "before" | "asked" | "atContact";
-const opacities: Record<GhostName, number> = { before: 0.3, asked: 0.5, atContact: 0.5 };
+export type GhostName = "before" | "asked" | "atContact" | "tracked";
+const opacities: Record<GhostName, number> = { before: 0.3, asked: 0.5, atContact: 0.5, tracked: 0.5 };
 /** Of a ghost's opacity, in front of the avatar. */
 const hint = 0.22;
 

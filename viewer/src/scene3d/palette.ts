@@ -16,6 +16,8 @@ export interface Palette {
   readonly before: string;
   readonly asked: string;
   readonly atContact: string;
+  /** Of a solid avatar: where its tracker says that it is. */
+  readonly tracked: string;
   readonly swept: string;
   readonly halo: string;
   /** Of touches that are ground contact. */
@@ -44,6 +46,7 @@ export const palettes: Record<Theme, Palette> = {
     before: "#8a93a1",
     asked: "#009e73",
     atContact: "#d55e00",
+    tracked: "#e69f00",
     swept: "#e69f00",
     halo: "#ffffff",
     ground: "#c9c2b6",
@@ -63,6 +66,7 @@ export const palettes: Record<Theme, Palette> = {
     before: "#98a2b0",
     asked: "#1fc297",
     atContact: "#f0772b",
+    tracked: "#f0b93a",
     swept: "#f0b93a",
     halo: "#14181e",
     ground: "#5d574f",

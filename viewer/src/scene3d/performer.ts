@@ -12,6 +12,13 @@ import { Ghost } from "./ghosts.js";
 import type { Palette } from "./palette.js";
 import { linkMaterial } from "./shading.js";
 
+/** Of world transforms: nearer than this nobody sees two bodies, metres and shares of an axis. */
+const seen = 1e-3;
+
+function isAlmostSame(a: Float64Array, b: Float64Array): boolean {
+  return a.every((value, i) => Math.abs(value - b[i]) < seen);
+}
+
 export class Performer {
   readonly group = new THREE.Group();
   readonly posture: Posture;
@@ -21,6 +28,7 @@ export class Performer {
   private readonly colours: LinkColours;
   private readonly ghosts: Record<GhostName, Ghost>;
   private readonly ghostPosture: Posture;
+  private readonly trackedPosture: Posture | null;
   private shown: THREE.BufferGeometry;
   private isCoarse = false;
 
@@ -29,9 +37,12 @@ export class Performer {
     readonly clip: Clip,
     private shape: Shape,
     private readonly origin: Vector,
+    /** Of a solid avatar: where its tracker says that it is; `clip` is what is shown. */
+    private readonly tracked: Clip | null = null,
   ) {
     this.posture = new Posture(clip);
     this.ghostPosture = new Posture(clip);
+    this.trackedPosture = tracked === null ? null : new Posture(tracked);
     this.shown = this.geometryNow();
     const links = avatar.links.length;
     this.colours = new LinkColours(links);
@@ -40,7 +51,7 @@ export class Performer {
     this.body = new AvatarBody(this.shown, links, material);
     this.group.add(this.body.mesh);
     const ghost = (name: GhostName): Ghost => new Ghost(name, this.shown, links, this.group);
-    this.ghosts = { before: ghost("before"), asked: ghost("asked"), atContact: ghost("atContact") };
+    this.ghosts = { before: ghost("before"), asked: ghost("asked"), atContact: ghost("atContact"), tracked: ghost("tracked") };
     this.group.visible = clip.hasPose;
   }
 
@@ -72,6 +83,19 @@ export class Performer {
     if (!this.clip.hasPose) return;
     this.instant = this.posture.moveTo(time);
     this.body.place(this.posture.world, this.origin);
+  }
+
+  get isSolid(): boolean {
+    return this.tracked !== null;
+  }
+
+  /** Shows where the tracker says that the body is; hides it where that is what is shown. */
+  showTracked(time: number): void {
+    const { tracked, trackedPosture } = this;
+    if (tracked === null || trackedPosture === null || !tracked.hasPose) return;
+    trackedPosture.moveTo(time);
+    if (isAlmostSame(trackedPosture.world, this.posture.world)) this.ghosts.tracked.hide();
+    else this.ghosts.tracked.show(trackedPosture.world, this.origin);
   }
 
   /** Shows the ghost at `u` of a step; hides it where `u` is null. */

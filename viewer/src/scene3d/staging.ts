@@ -42,9 +42,9 @@ export class Staging {
 
   /** Avatars that have no performer yet get one. */
   join(): void {
-    const { avatars, clips } = this.model, { shape, theme } = this.store.state;
+    const { avatars, clips, tracked } = this.model, { shape, theme } = this.store.state;
     for (let i = this.performers.length; i < avatars.length; ++i) {
-      const performer = new Performer(avatars[i], clips[i], shape, this.origin);
+      const performer = new Performer(avatars[i], clips[i], shape, this.origin, tracked[i]);
       performer.paintGhosts(palettes[theme]);
       this.performers.push(performer);
       this.group.add(performer.group);
@@ -134,6 +134,11 @@ export class Staging {
 
   private poseGhosts(performer: Performer, index: number): void {
     const { state } = this.store;
+    if (performer.isSolid) {
+      if (state.showsGhosts) performer.showTracked(state.time);
+      else performer.hideGhosts();
+      return;
+    }
     const chosen = state.contact !== null && state.contact.avatar === index ? state.contact : null;
     const step = chosen?.step ?? performer.instant.step;
     const isShown = state.showsGhosts && !state.showsDiscrete && !state.isPlaying && !state.follows && step >= 0;

@@ -9,6 +9,7 @@ import { element, setText } from "../panels/dom.js";
 import { plural } from "../panels/words.js";
 import { palettes } from "../scene3d/palette.js";
 import type { Change, Store } from "../state.js";
+import { DeviationPlot } from "./deviation.js";
 import { Gestures } from "./gestures.js";
 import { drawLanes, rowHeight } from "./lanes.js";
 import { Overview } from "./overview.js";
@@ -33,6 +34,8 @@ export class Timeline {
   readonly node = element("section", { class: "timeline", label: "Timeline of touches" });
   private readonly axis = element("canvas", { class: "axis" });
   private readonly canvas = element("canvas", { class: "bars" });
+  /** Of the first solid avatar; null where there is none. */
+  private readonly deviation: DeviationPlot | null;
   private readonly scroll = element("div", { class: "scroll" }, this.canvas);
   /** Over both canvases, which stay as they are while only time goes on. */
   private readonly playhead = element("div", { class: "playhead" });
@@ -60,11 +63,14 @@ export class Timeline {
       (factor, anchor) => this.zoom(factor, anchor),
     );
     const splitter = new Splitter(this.scroll, rowHeight, () => Math.max(this.rows.length, model.isLive ? rowsOfLive : 0));
-    const tracks = element("div", { class: "tracks" }, this.axis, this.scroll, this.playhead);
+    const solid = model.avatars.find((avatar) => avatar.solid !== null)?.solid ?? null;
+    this.deviation = solid === null ? null : new DeviationPlot(solid);
+    const tracks = element("div", { class: "tracks" }, this.axis, ...(this.deviation === null ? [] : [this.deviation.canvas]), this.scroll, this.playhead);
     this.node.append(splitter.node, this.makeBar(), this.overview.node, tracks);
     document.body.append(this.tip.node);
     this.listen(this.axis, true);
     this.listen(this.canvas, false);
+    this.listenToDeviation();
     this.refreshRows();
     splitter.fit();
     new ResizeObserver(() => this.draw()).observe(this.node);
@@ -143,6 +149,22 @@ export class Timeline {
       hover: (x, y) => this.hover(canvas, x, y, isAxis),
       leave: () => this.tip.hide(),
       scrolls: (x) => !isAxis && x < this.gutter(),
+    });
+  }
+
+  private listenToDeviation(): void {
+    const { deviation } = this;
+    if (deviation === null) return;
+    new Gestures(deviation.canvas, {
+      click: (x) => this.seek(x),
+      drag: (_, x) => this.seek(x),
+      zoom: (factor, x) => this.zoom(factor, this.timeAt(x)),
+      hover: (x, y) => {
+        const { left, top } = deviation.canvas.getBoundingClientRect();
+        this.tip.show(x < this.gutter() ? [] : deviation.linesAt(this.timeAt(x), this.model.timeZero), left + x, top + y);
+      },
+      leave: () => this.tip.hide(),
+      scrolls: () => false,
     });
   }
 
@@ -266,6 +288,7 @@ export class Timeline {
       rows: this.rows, window: this.window, width: this.width, gutter: this.gutter(), chosen: touch, showsDiscrete,
       folded: this.folded, xOf: (time) => this.xOf(time),
     });
+    this.deviation?.draw({ window: this.window, width: this.width, gutter: this.gutter(), xOf: (time) => this.xOf(time) }, palettes[theme]);
     this.overview.draw({
       touches: this.shownTouches(), whole: this.whole(), window: this.window,
       gutter: this.gutter(), width: this.width - reach,

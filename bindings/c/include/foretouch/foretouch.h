@@ -135,8 +135,9 @@ typedef struct ft_import_options {
    * (x, z, -y). */
   int32_t up;
   double scale;                /* metres per unit, likewise; default 0: as the file says, else 1 */
-  uint64_t memory_limit_bytes; /* of the importing process; default 8 GiB */
-  double time_limit_s;         /* likewise; default 300 */
+  /* Of the importing process; default 8 GiB. At most half of the machine's memory is used. */
+  uint64_t memory_limit_bytes;
+  double time_limit_s;         /* likewise; default 60 */
   /* Path of the program foretouch-import. NULL: $FORETOUCH_IMPORTER; else in the library's folder;
    * else in libexec/foretouch of the library's prefix, beside the running program, and where
    * Foretouch was installed. */
@@ -145,8 +146,8 @@ typedef struct ft_import_options {
 
 FT_API ft_status ft_import_options_init(ft_import_options* options, size_t size);
 
-/* Reads any mesh format that assimp reads, in a child process under limits: a file that crashes the
- * importer is an error here. `options` may be NULL. */
+/* Reads OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process: a file that
+ * crashes the importer is an error here. `options` may be NULL. */
 FT_API ft_status ft_scene_create_from_file(const char* path, const ft_import_options* options,
                                            ft_scene** scene);
 

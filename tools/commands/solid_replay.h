@@ -1,0 +1,36 @@
+// tools/commands/solid_replay.h: `foretouch replay --solid`.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "articulated/result.h"
+#include "tools/glb/replay_glb.h"
+#include "tools/inputs/replay_inputs.h"
+#include "tools/report/document_parts.h"
+#include "tools/settings/solid_settings.h"
+#include "tools/solid/solid_summary.h"
+
+namespace foretouch::tools {
+
+/// A solid replay with checked options.
+struct SolidReplayJob {
+  ReplayRequest request;
+  SolidRequest solid;
+  bool hasTolerance = false;  ///< Somebody has asked for the request's; else it follows the skin.
+  std::string outputPath, bvhPath;
+  ReportOptions report;
+  GlbRequest glb;
+};
+
+/// Runs a job: remarks on stderr, shown poses to the output file, page, GLB and BVH to their own,
+/// and the summary to `tell`. Each file appears once it is complete; after an error or a signal,
+/// which ends the program, not at all.
+[[nodiscard]] Result<Done> runSolidReplay(const SolidReplayJob& job,
+                                          const std::function<void(const SolidSummary&)>& tell);
+
+/// Refuses what a solid avatar cannot honour of a replay's settings.
+[[nodiscard]] Result<Done> checkSolidTogether(const Settings& settings,
+                                              const WorldRequest& request);
+
+}  // namespace foretouch::tools

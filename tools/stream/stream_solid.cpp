@@ -1,0 +1,29 @@
+#include "tools/stream/stream_solid.h"
+
+#include <algorithm>
+
+#include "articulated/try.h"
+#include "middleware/query/work_budget.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// So that a cut leaves room to back off.
+constexpr double kToleranceOfGap = 0.25;
+
+}  // namespace
+
+Result<Done> makeSolid(const StreamSolidRequest& request, const std::string& avatarPath,
+                       StreamSolver& solver) {
+  if (!request.solid.isAsked) return Done{};
+  SolidOptions options = request.solid.options;
+  options.tolerance = std::min(options.tolerance, kToleranceOfGap * options.skin);
+  options.ignored = solver.options().ignored;
+  options.workBudget = workBudget(static_cast<double>(request.budgetUs));
+  if (request.stopsItself) {
+    FORETOUCH_TRY(options.self, inFile(PairRules::derive(solver.avatar(), {}), avatarPath));
+  }
+  return inFile(solver.makeSolid(options), avatarPath);
+}
+
+}  // namespace foretouch::tools
