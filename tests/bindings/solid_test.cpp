@@ -80,7 +80,7 @@ void expectSame(const WholeTick& c, const SolidTick& cxx, const Scene& scene) {
 }
 
 /// How often a tick had each state.
-struct Seen {
+struct SeenStates {
   int equal = 0, apart = 0;
   void count(const ft_solid_tick& tick) {
     equal += tick.state == FT_SOLID_EQUAL;
@@ -89,9 +89,9 @@ struct Seen {
   }
 };
 
-Seen playBeside(const SolidWorld& world, ft_solid* c, SolidAvatar& cxx,
-                const std::vector<std::uint8_t>* lostBetween = nullptr) {
-  Seen seen;
+SeenStates playBeside(const SolidWorld& world, ft_solid* c, SolidAvatar& cxx,
+                      const std::vector<std::uint8_t>* lostBetween = nullptr) {
+  SeenStates seen;
   SolidTick tick;
   for (int frame = 0; frame <= 300; ++frame) {
     SCOPED_TRACE("frame " + std::to_string(frame));
@@ -111,7 +111,7 @@ Seen playBeside(const SolidWorld& world, ft_solid* c, SolidAvatar& cxx,
 TEST(CSolid, TicksAreThoseOfTheLibrary) {
   const SolidWorld world;
   auto cxx = SolidAvatar::build(world.avatarOfCxx, world.sceneOfCxx).value();
-  const Seen seen = playBeside(world, test::makeSolid(world.scene, world.avatar).get(), cxx);
+  const SeenStates seen = playBeside(world, test::makeSolid(world.scene, world.avatar).get(), cxx);
   EXPECT_GT(seen.equal, 60);
   EXPECT_GT(seen.apart, 60);
 }
