@@ -31,7 +31,8 @@ struct WayBody {
 /// How densely a piece of a way is looked at.
 struct WayLooks {
   int instants = 50;      ///< At least so many, both ends included.
-  double spacing = 5e-3;  ///< And so many that no end of a capsule moves farther between two (m).
+  double spacing = 5e-3;  ///< And so many that an end of a capsule moves about so far between
+                          ///< two (m), by nine first looks; at most kMost.
   static constexpr int kMost = 4000;
 };
 
