@@ -24,6 +24,7 @@
 #include "network/service/clock.h"
 #include "network/service/journal.h"
 #include "network/service/service_counts.h"
+#include "network/stream/speaker_gate.h"
 #include "network/stream/step_observer.h"
 #include "network/stream/stream_solver.h"
 #include "network/wire/messages.h"
@@ -37,11 +38,14 @@ inline constexpr std::size_t kMaxServiceQueue = 65536;
 struct ServiceOptions {
   int workers = 1;           ///< 1 to kMaxServiceWorkers.
   std::size_t queue = 256;   ///< Poses that may wait per avatar; 1 to kMaxServiceQueue.
-  std::string suffix;        ///< Of all four channels.
+  std::string suffix;        ///< Of all channels.
   std::string build, scene;  ///< For the status.
   std::chrono::milliseconds statusEvery{1000};   ///< At least 1.
   std::chrono::milliseconds stuckAfter{10'000};  ///< A thread without progress for this long is
                                                  ///< stuck.
+  std::chrono::milliseconds unacceptedAfter{10'000};  ///< Poses that come for so long, and none of
+                                                      ///< them accepted, are ill health.
+  SpeakerPolicy speaker;
   JournalOptions journal;
 };
 
@@ -58,8 +62,10 @@ struct ServiceParts {
 [[nodiscard]] std::vector<std::string> receivedChannels(const std::string& suffix);
 
 struct ServiceHealth {
-  bool isWell = true;
-  std::string text;  ///< "ok" and the time of the last pose, or what is wrong; lines.
+  bool isWell = true;  ///< It can answer, and what comes is accepted.
+  std::string text;    ///< "ok" and the time of the last pose, or what is wrong; lines. Those that
+                       ///< begin "degraded:" tell of a log that misses events, and harm no answer.
+  bool isAlive = true;  ///< It can answer: what a watchdog asks. No sender can make this false.
 };
 
 class Service {

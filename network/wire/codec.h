@@ -34,12 +34,14 @@ struct ByteView {
 [[nodiscard]] Reject decode(ByteView payload, PoseMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, ContactsMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, StatusMessage& message);
+[[nodiscard]] Reject decode(ByteView payload, SpeakerMessage& message);
 
 /// Replaces `payload`. Precondition (asserted): counts and texts within the limits.
 void encode(const SkeletonMessage& message, Bytes& payload);
 void encode(const PoseMessage& message, Bytes& payload);
 void encode(const ContactsMessage& message, Bytes& payload);
 void encode(const StatusMessage& message, Bytes& payload);
+void encode(const SpeakerMessage& message, Bytes& payload);
 
 /// The part of an encoded contacts_t that depends only on poses, scene and options: all but the two
 /// stamps and the query's time at its end (24 bytes). A replay repeats it byte for byte.

@@ -42,6 +42,9 @@ class Descriptor {
 /// needed again if that interface went away. Returns errno, 0 for joined.
 int joinGroup(int fd, const UdpmUrl& url);
 
+/// Bytes of datagrams that may wait, bookkeeping left out; 0: the system does not say.
+[[nodiscard]] std::size_t receiveBufferOf(int fd);
+
 /// Waits until there is something to read. False: nothing within the time, or interrupted.
 [[nodiscard]] bool waitReadable(int fd, int timeoutMs);
 

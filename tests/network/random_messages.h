@@ -13,5 +13,6 @@ namespace foretouch::test {
 [[nodiscard]] PoseMessage randomPoseMessage(Random& random, int numJoints);
 [[nodiscard]] ContactsMessage randomContactsMessage(Random& random, int numLinks);
 [[nodiscard]] StatusMessage randomStatusMessage(Random& random, int numReasons);
+[[nodiscard]] SpeakerMessage randomSpeakerMessage(Random& random);
 
 }  // namespace foretouch::test

@@ -11,7 +11,8 @@ namespace foretouch::tools {
 
 Result<ChannelNames> channelNames(const std::string& suffix) {
   const ChannelNames names{kSkeletonChannel + suffix, kPoseChannel + suffix,
-                           kContactsChannel + suffix, kStatusChannel + suffix};
+                           kContactsChannel + suffix, kStatusChannel + suffix,
+                           kSpeakerChannel + suffix};
   const bool isPrintable =
       std::all_of(suffix.begin(), suffix.end(), [](char c) { return c > ' ' && c <= '~'; });
   const std::size_t longest = std::max(

@@ -7,9 +7,9 @@
 
 namespace foretouch::tools {
 
-/// The four channels of network/wire/messages.h, each with the suffix.
+/// The channels of network/wire/messages.h, each with the suffix.
 struct ChannelNames {
-  std::string skeleton, pose, contacts, status;
+  std::string skeleton, pose, contacts, status, speaker;
 };
 
 /// Errors name --suffix: a name beyond kMaxChannelBytes, bytes that are not printable ASCII.

@@ -36,6 +36,17 @@ Result<Done> takeAvatars(const std::vector<std::string>& texts,
   return Done{};
 }
 
+Result<Done> takeSenders(const std::vector<std::string>& texts, ServeConfig& config) {
+  std::vector<Network> networks;
+  for (const std::string& text : texts) {
+    FORETOUCH_TRY(const auto network, parseNetwork(text));
+    networks.push_back(network);
+  }
+  config.senders = std::move(networks);
+  config.senderTexts = texts;
+  return Done{};
+}
+
 void addNetworkSettings(Settings& settings, ServeConfig& config) {
   settings
       .text(
@@ -53,6 +64,15 @@ void addNetworkSettings(Settings& settings, ServeConfig& config) {
           "Whose receiver reads datagrams; use liblcm only on networks that you trust")
       .in(kNetworkGroup)
       .inConfig("service", "receiver");
+  Setting& senders = settings.list(
+      "--senders", "NETWORK", config.senderTexts,
+      "Take messages only of this machine and of these networks, as 10.0.0.0/24; may be repeated. "
+      "By default this machine at a ttl of 0, else everybody");
+  senders.take = [&config](const GivenValue& given) { return takeSenders(given.texts, config); };
+  senders.in(kNetworkGroup).inConfig("service", "senders");
+  addTakeoverSetting(settings, config.service.speaker.takeoverUs)
+      .in(kNetworkGroup)
+      .inConfig("service", "takeover_s");
 }
 
 void addServiceSettings(Settings& settings, ServeConfig& config) {

@@ -29,7 +29,10 @@ enum class ReceiverKind : std::uint8_t {
 struct ServeConfig {
   std::string url = kDefaultUrl;  ///< Not empty; the wire checks the rest.
   ReceiverKind receiver = ReceiverKind::Own;
-  ServiceOptions service;  ///< Workers, queue and suffix.
+  /// Whose datagrams are taken; empty: see openUdpmReceiver().
+  std::vector<Network> senders;
+  std::vector<std::string> senderTexts;
+  ServiceOptions service;  ///< Workers, queue, suffix and takeover.
   std::string log;         ///< The file that records events.
   std::string http;        ///< "127.0.0.1:9464": the address of the metrics.
   std::string view;        ///< kDefaultView: the address of the live view.

@@ -1,6 +1,7 @@
 // tools/settings/stream_settings.h: how to treat a stream of poses, live or from its log.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "network/stream/stream_policy.h"
@@ -8,8 +9,12 @@
 
 namespace foretouch::tools {
 
-/// The ending of all four channels' names. `suffix` outlives the settings.
+/// The ending of all channels' names. `suffix` outlives the settings.
 Setting& addSuffixSetting(Settings& settings, std::string& suffix);
+
+/// How long an avatar's sender must be silent before another one may speak for it (us). Live only:
+/// a log holds no more than the messages of who spoke.
+Setting& addTakeoverSetting(Settings& settings, std::int64_t& takeoverUs);
 
 /// --max-step, --confirmations and --unmatched-at-rest. `policy` outlives the settings.
 void addStreamSettings(Settings& settings, StreamPolicy& policy);

@@ -55,6 +55,7 @@ TEST(Codec, MessagesSurviveTheWireBitForBit) {
   expectRoundTrips<PoseMessage>([](Random& r) { return test::randomPoseMessage(r, r.below(80)); });
   expectRoundTrips<ContactsMessage>(
       [](Random& r) { return test::randomContactsMessage(r, r.below(40)); });
+  expectRoundTrips<SpeakerMessage>([](Random& r) { return test::randomSpeakerMessage(r); });
   expectRoundTrips<StatusMessage>(
       [](Random& r) { return test::randomStatusMessage(r, r.below(20)); });
 }

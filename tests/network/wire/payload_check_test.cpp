@@ -94,6 +94,12 @@ Sample statusSample(Random& random) {
   return sample;
 }
 
+Sample speakerSample(Random& random) {
+  Sample sample{PayloadType::Speaker, {}, {}, {}};
+  encode(test::randomSpeakerMessage(random), sample.bytes);
+  return sample;
+}
+
 /// A few of every type.
 std::vector<Sample> samples() {
   std::vector<Sample> all;
@@ -103,6 +109,7 @@ std::vector<Sample> samples() {
     all.push_back(poseSample(random));
     all.push_back(contactsSample(random));
     all.push_back(statusSample(random));
+    all.push_back(speakerSample(random));
   }
   return all;
 }
@@ -113,11 +120,13 @@ Reject decodeAny(PayloadType type, ByteView bytes) {
   static PoseMessage pose;
   static ContactsMessage contacts;
   static StatusMessage status;
+  static SpeakerMessage speaker;
   switch (type) {
     case PayloadType::Skeleton: return decode(bytes, skeleton);
     case PayloadType::Pose: return decode(bytes, pose);
     case PayloadType::Contacts: return decode(bytes, contacts);
     case PayloadType::Status: return decode(bytes, status);
+    case PayloadType::Speaker: return decode(bytes, speaker);
   }
   return Reject::Length;
 }
@@ -219,7 +228,8 @@ TEST(PayloadCheck, RefusesForeignFingerprintsAndVersions) {
       EXPECT_EQ(decodeAny(sample.type, bytes), i < 8 ? Reject::Fingerprint : Reject::Version);
     }
     for (const PayloadType other :
-         {PayloadType::Skeleton, PayloadType::Pose, PayloadType::Contacts, PayloadType::Status}) {
+         {PayloadType::Skeleton, PayloadType::Pose, PayloadType::Contacts, PayloadType::Status,
+          PayloadType::Speaker}) {
       if (other == sample.type) continue;
       EXPECT_EQ(decodeAny(other, sample.bytes), Reject::Fingerprint);
     }
