@@ -35,8 +35,7 @@ bool MailRoom::isRepeated(const Box& box, const Mail& mail) {
     return waiting->kind == MailKind::Skeleton;
   });
   return last != box.mail.rend() && (*last)->skeleton.hash == mail.skeleton.hash &&
-         (*last)->sender == mail.sender &&
-         (*last)->skeleton.session == mail.skeleton.session &&
+         (*last)->sender == mail.sender && (*last)->skeleton.session == mail.skeleton.session &&
          (*last)->skeleton.generation == mail.skeleton.generation;
 }
 

@@ -55,9 +55,9 @@ class MailRoom {
   /// worker.
   Posted post(std::size_t avatar, std::unique_ptr<Mail>& mail);
 
-  /// From now on a pose for the avatar is refused at once, and takes nobody's place, unless its hash
-  /// is one of these, or that of a skeleton that waits or is being handled. Without a call of this,
-  /// every pose is taken.
+  /// From now on a pose for the avatar is refused at once, and takes nobody's place, unless its
+  /// hash is one of these, or that of a skeleton that waits or is being handled. Without a call of
+  /// this, every pose is taken.
   void know(std::size_t avatar, const std::vector<std::int64_t>& hashes);
 
   enum class Taken : std::uint8_t { Mail, Lead, Nothing, Closed };

@@ -32,7 +32,7 @@ struct ServedStream {
   std::size_t index = 0;
   std::uint64_t lost = 0, gaps = 0, vastGaps = 0;  // of the solver's counts, already added up
   std::vector<std::int64_t> known{}, nowKnown{};   // hashes that the mail room knows of; scratch
-  bool isBroken = false;             // an exception left its state unknown: it answers nothing more
+  bool isBroken = false;  // an exception left its state unknown: it answers nothing more
 };
 
 /// One thread's reusable memory.

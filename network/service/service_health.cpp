@@ -49,8 +49,8 @@ ServiceHealth healthOf(const ServiceState& state, const ServiceOptions& options)
   if (health.isWell) health.text = "ok\n";
   addJournal(state, options, health);
   const double ago = static_cast<double>(state.nowUtimeUs - state.lastPoseUtimeUs) * kSPerUs;
-  health.text += state.lastPoseUtimeUs == 0 ? "no pose yet\n"
-                                            : "last pose " + secondsText(ago) + " ago\n";
+  health.text +=
+      state.lastPoseUtimeUs == 0 ? "no pose yet\n" : "last pose " + secondsText(ago) + " ago\n";
   return health;
 }
 

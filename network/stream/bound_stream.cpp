@@ -14,9 +14,10 @@ constexpr std::int64_t kUsPerS = 1'000'000;
 Reject sessionFault(std::int64_t session, std::int64_t receiveUtimeUs) {
   // A session of 0 or less is as good as any; the difference of others fits.
   if (session <= 0 || session <= receiveUtimeUs) return Reject::None;
-  const auto ahead = static_cast<std::uint64_t>(session) - static_cast<std::uint64_t>(receiveUtimeUs);
+  const auto ahead =
+      static_cast<std::uint64_t>(session) - static_cast<std::uint64_t>(receiveUtimeUs);
   return ahead > static_cast<std::uint64_t>(kMostSessionAheadUs) ? Reject::FutureSession
-                                                                : Reject::None;
+                                                                 : Reject::None;
 }
 
 BoundStream::BoundStream(StreamSolver solver, const SpeakerPolicy& policy)
@@ -88,9 +89,8 @@ void BoundStream::keep(const Heard& heard, std::int64_t hash) {
       return gate_->isSpeaker(said.sender) ? std::pair(1, said.receiveUtimeUs)
                                            : std::pair(0, said.receiveUtimeUs);
     };
-    place = std::min_element(said_.begin(), said_.end(), [&](const Said& x, const Said& y) {
-      return age(x) < age(y);
-    });
+    place = std::min_element(said_.begin(), said_.end(),
+                             [&](const Said& x, const Said& y) { return age(x) < age(y); });
   }
   place->sender = heard.sender;
   place->hash = hash;

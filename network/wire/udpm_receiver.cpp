@@ -114,7 +114,7 @@ class UdpmReceiver : public Receiver {
                const std::vector<Network>& senders)
       : url_(url),
         socket_(std::move(socket)),
-        filter_(url.ttl, senders),
+        filter_(url, senders),
         reassembler_(channels),
         lastSign_(SteadyClock::now()) {}
 

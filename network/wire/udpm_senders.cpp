@@ -9,11 +9,15 @@
 #include <string_view>
 #include <utility>
 
+#include "network/wire/udpm_socket.h"
+
 namespace foretouch {
 namespace {
 
 constexpr int kAddressBits = 32;
-constexpr std::uint32_t kLoopbackFirstByte = 127;
+constexpr Network kLoopback{0x7f000000, 8};  // 127.0.0.0/8
+constexpr Network kLinkLocalGroups{0xe0000000,
+                                   24};  // 224.0.0.0/24: Linux takes 0.0.0.0 from outside
 /// A flood of strangers costs one look at the interfaces per second.
 constexpr std::chrono::seconds kReadEvery{1};
 /// An address that was ours may be another machine's by now.
@@ -31,9 +35,9 @@ bool contains(const Network& network, std::uint32_t address) {
 
 Result<Network> parseNetwork(const std::string& text) {
   const auto refused = [&] {
-    return Error::of(ErrorCode::OutOfRange,
-                     "expected an IPv4 network as 10.0.0.0/24, or one address, found '" + text +
-                         "'");
+    return Error::of(
+        ErrorCode::OutOfRange,
+        "expected an IPv4 network as 10.0.0.0/24, or one address, found '" + text + "'");
   };
   const std::size_t slash = text.find('/');
   in_addr address{};
@@ -41,25 +45,26 @@ Result<Network> parseNetwork(const std::string& text) {
   Network network{ntohl(address.s_addr), kAddressBits};
   if (slash != std::string::npos) {
     const std::string_view bits = std::string_view(text).substr(slash + 1);
-    const auto [end, fault] =
-        std::from_chars(bits.data(), bits.data() + bits.size(), network.bits);
+    const auto [end, fault] = std::from_chars(bits.data(), bits.data() + bits.size(), network.bits);
     if (fault != std::errc() || end != bits.data() + bits.size()) return refused();
     if (network.bits < 0 || network.bits > kAddressBits) return refused();
   }
   // 10.0.0.7/24 is a slip: of the address, or of the number of bits.
   if ((network.address & ~maskOf(network.bits)) != 0) {
     return Error::of(ErrorCode::OutOfRange, "expected a network whose bits after the first " +
-                                                std::to_string(network.bits) +
-                                                " are 0, found '" + text + "'");
+                                                std::to_string(network.bits) + " are 0, found '" +
+                                                text + "'");
   }
   return network;
 }
 
-SenderFilter::SenderFilter(int ttl, std::vector<Network> networks)
-    : takesAll_(ttl > 0 && networks.empty()), networks_(std::move(networks)) {}
+SenderFilter::SenderFilter(const UdpmUrl& url, std::vector<Network> networks)
+    : takesAll_(url.ttl > 0 && networks.empty()),
+      takesUnnamed_(!contains(kLinkLocalGroups, ntohl(addressOf(url).sin_addr.s_addr))),
+      networks_(std::move(networks)) {}
 
 bool SenderFilter::isOwn(std::uint32_t address) const {
-  return (address >> 24) == kLoopbackFirstByte ||
+  return contains(kLoopback, address) || (address == INADDR_ANY && takesUnnamed_) ||
          std::binary_search(own_.begin(), own_.end(), address);
 }
 

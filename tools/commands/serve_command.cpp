@@ -36,9 +36,10 @@ constexpr milliseconds kLookEvery{500};
 /// A burst that does not fit is lost: better said at the start than counted later.
 void tellReceiveBuffer(std::size_t asked, std::size_t given) {
   if (given == 0 || given >= asked) return;
-  printNote(fmt::format("the system gives a receive buffer of {} bytes, not {}: bursts of more are "
-                        "lost (kernel_drops). To allow it: sysctl net.core.rmem_max={}",
-                        given, asked, asked));
+  printNote(
+      fmt::format("the system gives a receive buffer of {} bytes, not {}: bursts of more are "
+                  "lost (kernel_drops). To allow it: sysctl net.core.rmem_max={}",
+                  given, asked, asked));
 }
 
 /// Tests the network before use, and opens it.
@@ -47,10 +48,9 @@ Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   FORETOUCH_CHECK(testMulticast(url));
   const std::vector<std::string> channels = receivedChannels(config.service.suffix);
   const bool isOwn = config.receiver == ReceiverKind::Own;
-  FORETOUCH_TRY(auto receiver,
-                inFile(isOwn ? openUdpmReceiver(url, channels, config.senders)
-                             : openLcmReceiver(config.url, channels),
-                       config.url));
+  FORETOUCH_TRY(auto receiver, inFile(isOwn ? openUdpmReceiver(url, channels, config.senders)
+                                            : openLcmReceiver(config.url, channels),
+                                      config.url));
   tellReceiveBuffer(url.receiveBufferBytes, receiver->receiveBufferBytes());
   FORETOUCH_TRY(auto publisher, inFile(openUdpmPublisher(url), config.url));
   parts.receiver = std::move(receiver);

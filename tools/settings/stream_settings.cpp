@@ -55,9 +55,10 @@ Setting& addSuffixSetting(Settings& settings, std::string& suffix) {
 }
 
 Setting& addTakeoverSetting(Settings& settings, std::int64_t& takeoverUs) {
-  return addSeconds(settings, "--takeover", takeoverUs, kTakeoverRange,
-                    "An avatar's sender that has been silent for so long may be replaced by another "
-                    "address or port");
+  return addSeconds(
+      settings, "--takeover", takeoverUs, kTakeoverRange,
+      "An avatar's sender that has been silent for so long may be replaced by another "
+      "address or port");
 }
 
 void addStreamSettings(Settings& settings, StreamPolicy& policy) {

@@ -227,9 +227,8 @@ TEST(PayloadCheck, RefusesForeignFingerprintsAndVersions) {
       bytes[i] ^= 0x10;
       EXPECT_EQ(decodeAny(sample.type, bytes), i < 8 ? Reject::Fingerprint : Reject::Version);
     }
-    for (const PayloadType other :
-         {PayloadType::Skeleton, PayloadType::Pose, PayloadType::Contacts, PayloadType::Status,
-          PayloadType::Speaker}) {
+    for (const PayloadType other : {PayloadType::Skeleton, PayloadType::Pose, PayloadType::Contacts,
+                                    PayloadType::Status, PayloadType::Speaker}) {
       if (other == sample.type) continue;
       EXPECT_EQ(decodeAny(other, sample.bytes), Reject::Fingerprint);
     }
