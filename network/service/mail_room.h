@@ -32,6 +32,7 @@ struct Mail {
   Bytes payload;  ///< As it came.
   std::int64_t receiveUtimeUs = 0;
   UdpmSender sender;
+  std::int64_t sentUtimeUs = 0;  ///< By its signature; 0: not signed.
 };
 
 /// Different skeletons that wait for one avatar: more than a few mean that somebody floods. The

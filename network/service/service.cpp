@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "network/service/mail_room.h"
+#include "network/service/message_seal.h"
 #include "network/service/service_health.h"
 #include "network/service/service_status.h"
 #include "network/service/thread_beat.h"
@@ -32,6 +33,7 @@ struct ServedStream {
   std::size_t index = 0;
   std::uint64_t lost = 0, gaps = 0, vastGaps = 0;  // of the solver's counts, already added up
   std::vector<std::int64_t> known{}, nowKnown{};   // hashes that the mail room knows of; scratch
+  ReplayGuard skeletons{}, poses{};                // of the receiving thread
   bool isBroken = false;  // an exception left its state unknown: it answers nothing more
 };
 
@@ -97,6 +99,7 @@ struct Service::Impl final : StreamRecord {
         parts(std::move(surroundings)),
         channels(chosen.suffix),
         room(solvers.size(), chosen.queue, static_cast<std::size_t>(chosen.workers)),
+        seal(chosen.key, *parts.clock),
         threadBeats(static_cast<std::size_t>(chosen.workers) + 1) {
     facts = {shortened(chosen.build), shortened(chosen.scene), solvers.size(), chosen.workers,
              parts.clock->utimeUs()};
@@ -114,6 +117,7 @@ struct Service::Impl final : StreamRecord {
   std::vector<ServedStream> streams;
   std::unordered_map<std::int32_t, std::size_t> indexOf;  // of an avatar's id: its stream
   MailRoom room;
+  internal::MessageSeal seal;
   ServiceCounter counter;
   std::optional<Journal> journal;
 
@@ -191,16 +195,19 @@ struct Service::Impl final : StreamRecord {
   void sort(WireMessage& message, std::unique_ptr<Mail>& mail) {
     mail->receiveUtimeUs = message.receiveUtimeUs;
     mail->sender = message.sender;
+    mail->sentUtimeUs = 0;
     if (message.channel == channels.pose) {
       counter.receivedPose(message.receiveUtimeUs);
       mail->kind = MailKind::Pose;
-      const Reject reject = decode(message.payload, mail->pose);
+      Reject reject = seal.open(message, mail->sentUtimeUs);
+      if (reject == Reject::None) reject = decode(message.payload, mail->pose);
       if (reject != Reject::None) return counter.rejectedPose(reject);
       post(mail->pose.avatar, mail->pose.session, message, mail);
     } else if (message.channel == channels.skeleton) {
       counter.receivedSkeleton();
       mail->kind = MailKind::Skeleton;
-      const Reject reject = decode(message.payload, mail->skeleton);
+      Reject reject = seal.open(message, mail->sentUtimeUs);
+      if (reject == Reject::None) reject = decode(message.payload, mail->skeleton);
       if (reject != Reject::None) return counter.rejectedSkeleton(reject);
       post(mail->skeleton.avatar, mail->skeleton.session, message, mail);
     }
@@ -214,7 +221,12 @@ struct Service::Impl final : StreamRecord {
     if (known == indexOf.end()) return reject(kind, Reject::UnknownAvatar);
     const Reject future = sessionFault(session, message.receiveUtimeUs);
     if (future != Reject::None) return reject(kind, future);
-    const ServedStream& served = streams[known->second];
+    ServedStream& served = streams[known->second];
+    ReplayGuard& guard = kind == MailKind::Pose ? served.poses : served.skeletons;
+    if (seal.isAsked()) {
+      const Reject old = guard.take(mail->sentUtimeUs, message.receiveUtimeUs);
+      if (old != Reject::None) return reject(kind, old);
+    }
     if (kind == MailKind::Pose && !served.stream.mayPass(message.sender, message.receiveUtimeUs)) {
       return reject(kind, Reject::OtherSender);
     }
@@ -302,10 +314,14 @@ struct Service::Impl final : StreamRecord {
   }
   void leftOut() override { counter.leftOut(); }
 
-  void publish(const std::string& channel, const Bytes& payload) {
+  /// Leaves the payload as it was.
+  void publish(const std::string& channel, Bytes& payload) {
+    const std::size_t size = payload.size();
+    seal.sign(channel, payload);
     const bool isSent =
         payload.size() <= kMaxMessageBytes && parts.publisher->publish(channel, payload);
     if (!isSent) counter.failedPublish();
+    payload.resize(size);
   }
 
   void record(std::int64_t utimeUs, const std::string& channel, ByteView payload) {

@@ -27,6 +27,7 @@
 #include "network/stream/speaker_gate.h"
 #include "network/stream/step_observer.h"
 #include "network/stream/stream_solver.h"
+#include "network/wire/message_key.h"
 #include "network/wire/messages.h"
 #include "network/wire/wire.h"
 
@@ -46,6 +47,9 @@ struct ServiceOptions {
   std::chrono::milliseconds unacceptedAfter{10'000};  ///< Poses that come for so long, and none of
                                                       ///< them accepted, are ill health.
   SpeakerPolicy speaker;
+  /// Messages without its signature are refused, and what the service says is signed. None: what is
+  /// signed is taken as if it were not.
+  std::optional<MessageKey> key;
   JournalOptions journal;
 };
 

@@ -34,10 +34,6 @@ bool switchOn(int fd, int option) {
 
 }  // namespace
 
-Descriptor::~Descriptor() {
-  if (fd_ >= 0) close(fd_);
-}
-
 std::string toString(const UdpmUrl& url) {
   return "udpm://" + url.group + ":" + std::to_string(url.port) + "?ttl=" + std::to_string(url.ttl);
 }

@@ -75,7 +75,8 @@ std::string logPathIn(const std::string& given) {
 
 Result<Done> openLog(const ServeConfig& config, ServiceParts& parts) {
   if (config.log.empty()) return Done{};
-  FORETOUCH_TRY(parts.journal, createLogSink(config.log));
+  FORETOUCH_TRY(parts.journal, createLogSink(config.log, config.logLimits,
+                                             kSkeletonChannel + config.service.suffix));
   return Done{};
 }
 
@@ -216,6 +217,9 @@ Result<Done> serve(const ServeConfig& given) {
   ServiceOptions options = config.service;
   options.build = "foretouch " FORETOUCH_VERSION " " FORETOUCH_BUILD_TYPE;
   options.scene = config.world.scenePath;
+  if (!config.keyPath.empty()) {
+    FORETOUCH_TRY(options.key, inFile(MessageKey::read(config.keyPath), "--key"));
+  }
   const std::string line = describe(config, world);
   StopSignal stop;
   FORETOUCH_TRY(auto service, Service::start(std::move(world.avatars), std::move(parts), options));

@@ -9,6 +9,9 @@
 namespace foretouch::tools {
 namespace {
 
+constexpr std::int64_t kMostLogBytes = std::int64_t{1} << 50;
+constexpr int kMostLogFiles = 10'000;
+
 /// No address at all, or one that `parse` accepts.
 Setting& addAddress(Settings& settings, const char* option, const char* value, std::string& place,
                     Result<HttpAddress> (*parse)(const std::string&, const std::string&),
@@ -70,6 +73,11 @@ void addNetworkSettings(Settings& settings, ServeConfig& config) {
       "By default this machine at a ttl of 0, else everybody");
   senders.take = [&config](const GivenValue& given) { return takeSenders(given.texts, config); };
   senders.in(kNetworkGroup).inConfig("service", "senders");
+  addKeySetting(
+      settings, config.keyPath,
+      "Key of 32 hexadecimal digits: refuse messages that are not signed with it, and sign "
+      "the answers")
+      .inConfig("service", "key");
   addTakeoverSetting(settings, config.service.speaker.takeoverUs)
       .in(kNetworkGroup)
       .inConfig("service", "takeover_s");
@@ -93,6 +101,16 @@ void addServiceSettings(Settings& settings, ServeConfig& config) {
             "per run")
       .in(kOutputGroup)
       .inConfig("service", "log");
+  settings
+      .whole("--log-bytes", "N", config.logLimits.bytes, 0, kMostLogBytes,
+             "Begin another log file after so many bytes, NAME.2.lcmlog and so on; 0: never")
+      .in(kOutputGroup)
+      .inConfig("service", "log_bytes");
+  settings
+      .whole("--log-files", "N", config.logLimits.files, 1, kMostLogFiles,
+             "With --log-bytes: keep so many files, and remove the oldest")
+      .in(kOutputGroup)
+      .inConfig("service", "log_files");
   addAddress(settings, "--http", "ADDRESS:PORT", config.http, parseHttpAddress,
              "Address at which to serve /metrics and /healthz")
       .in(kOutputGroup)

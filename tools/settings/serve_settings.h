@@ -32,11 +32,13 @@ struct ServeConfig {
   /// Whose datagrams are taken; empty: see openUdpmReceiver().
   std::vector<Network> senders;
   std::vector<std::string> senderTexts;
+  std::string keyPath;     ///< Of the key that messages are signed with.
   ServiceOptions service;  ///< Workers, queue, suffix and takeover.
   std::string log;         ///< The file that records events.
-  std::string http;        ///< "127.0.0.1:9464": the address of the metrics.
-  std::string view;        ///< kDefaultView: the address of the live view.
-  WorldRequest world;      ///< Fidelity: link or exact.
+  LogLimits logLimits;
+  std::string http;    ///< "127.0.0.1:9464": the address of the metrics.
+  std::string view;    ///< kDefaultView: the address of the live view.
+  WorldRequest world;  ///< Fidelity: link or exact.
   StreamPolicy stream;
   std::vector<NumberedAvatar> avatars;  ///< At least one; ids differ.
 };

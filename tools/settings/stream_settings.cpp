@@ -54,6 +54,10 @@ Setting& addSuffixSetting(Settings& settings, std::string& suffix) {
       .inReport("suffix");
 }
 
+Setting& addKeySetting(Settings& settings, std::string& path, const char* help) {
+  return settings.path("--key", "FILE", path, help).in(kNetworkGroup);
+}
+
 Setting& addTakeoverSetting(Settings& settings, std::int64_t& takeoverUs) {
   return addSeconds(
       settings, "--takeover", takeoverUs, kTakeoverRange,

@@ -15,6 +15,7 @@
 
 #include "articulated/try.h"
 #include "network/wire/codec.h"
+#include "network/wire/message_key.h"
 #include "network/wire/wire.h"
 #include "tools/settings/channel_names.h"
 #include "tools/settings/stream_settings.h"
@@ -35,7 +36,8 @@ constexpr std::size_t kMostAvatars = 4096;
 
 /// The values of all options.
 struct ListenJob {
-  std::string url, suffix;
+  std::string url, suffix, keyPath;
+  std::optional<MessageKey> key;
   ChannelNames channels;  ///< With the suffix.
   bool json = false, status = false, each = false;
   int count = 0;                   ///< Ends after so many verdicts; 0: never.
@@ -61,8 +63,7 @@ class Listener {
   void take(const WireMessage& message) {
     if (isDone()) return;
     const bool isStatus = message.channel == job_.channels.status;
-    const Reject reject =
-        isStatus ? decode(message.payload, status_) : decode(message.payload, contacts_);
+    const Reject reject = read(message, isStatus);
     if (reject != Reject::None) {
       if (rejected_++ == 0) {
         printNote(fmt::format("{}: a message that cannot be read ({})", message.channel,
@@ -84,6 +85,20 @@ class Listener {
   [[nodiscard]] std::int64_t rejected() const { return rejected_; }
 
  private:
+  [[nodiscard]] Reject read(const WireMessage& message, bool isStatus) {
+    SignedPayload opened{withoutSignature(message.payload), 0};
+    if (job_.key) {
+      const Reject reject = job_.key->open(message.channel, message.payload, opened);
+      if (reject != Reject::None) return reject;
+    }
+    const Reject reject =
+        isStatus ? decode(opened.content, status_) : decode(opened.content, contacts_);
+    if (reject != Reject::None || !job_.key) return reject;
+    // Answers of several avatars may overtake one another.
+    const std::int32_t topic = isStatus ? -1 : contacts_.avatar;
+    if (guards_.size() >= kMostAvatars && guards_.count(topic) == 0) return Reject::Limit;
+    return guards_[topic].take(opened.sentUtimeUs, message.receiveUtimeUs);
+  }
   void printContacts() {
     if (const auto missing = tracker_.take(contacts_)) printNote(*missing);
     ++verdicts_;
@@ -110,6 +125,7 @@ class Listener {
   const ListenJob& job_;
   AnswerTracker tracker_;
   std::map<std::int32_t, StreamTouches> touches_;  // by avatar; bounded by kMostAvatars
+  std::map<std::int32_t, ReplayGuard> guards_;     // by avatar; -1: of the status
   ContactsMessage contacts_;
   StatusMessage status_;
   Clock::time_point heardAt_ = Clock::now();
@@ -144,6 +160,9 @@ Result<ExitCode> listen(const ListenJob& job) {
 ExitCode run(ListenJob job) {
   FORETOUCH_TRY_OR(failed, job.channels, channelNames(job.suffix));
   job.url = urlOrDefault(job.url);
+  if (!job.keyPath.empty()) {
+    FORETOUCH_TRY_OR(failed, job.key, inFile(MessageKey::read(job.keyPath), "--key"));
+  }
   const auto ended = listen(job);
   return ended.ok() ? ended.value() : failed(ended.error());
 }
@@ -165,6 +184,8 @@ Command listenCommand() {
   settings.text("--url", "URL", job->url,
                 "Network to listen to; by default LCM_DEFAULT_URL, else this machine only");
   addSuffixSetting(settings, job->suffix);
+  addKeySetting(settings, job->keyPath,
+                "Key of 32 hexadecimal digits: refuse messages that are not signed with it");
   settings.flag("--json", job->json, "Lines of JSON instead of text");
   settings.flag("--each", job->each,
                 "One line per verdict instead of one where a touch begins or ends");
