@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include <fmt/format.h>
+
 #include "assets/json_writer.h"
 #include "network/wire/codec.h"
 #include "tools/stream/contacts_line.h"
