@@ -134,7 +134,9 @@ TEST(ContactFields, AreReadByThePage) {
                                       "export function decodeContact", "return contact");
   const std::string interface =
       between("viewer/src/data/document.ts", "export interface ContactFields {", "\n}");
-  Names inJson{"time", "missed_by_poses"}, inCode{"time", "missedByPoses"};
+  // And what a solid avatar adds.
+  Names inJson{"time", "missed_by_poses", "push", "slip"};
+  Names inCode{"time", "missedByPoses", "push", "slip"};
   for (const ContactField& field : kContactFields) {
     // The page shows no mesh's features.
     const auto use = field.use;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "assets/avatar/pairs_file.h"
 #include "lss/index.h"
@@ -21,6 +22,21 @@ constexpr double kShares[] = {0.125, 1e-3};
 
 bool mayBeUnproven(const SolidRecord& record) {
   return record.state == SolidState::Placing || record.limit == SolidLimit::Inside;
+}
+
+/// Whether one pose is the other, lifted: the same but for the place of its roots.
+bool isLifted(const Skeleton& skeleton, const Pose& tracked, const Pose& shown, double lift) {
+  constexpr double kRounding = 1e-9;
+  Pose put = tracked;
+  bool isUp = lift > 0.0;
+  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+    if (skeleton.parent(joint) != kNoParent) continue;
+    const Eigen::Vector3d by =
+        shown.translations[slotOf(joint)] - tracked.translations[slotOf(joint)];
+    isUp = isUp && (by - lift * Eigen::Vector3d::UnitY()).norm() < kRounding;
+    put.translations[slotOf(joint)] = shown.translations[slotOf(joint)];
+  }
+  return isUp && areSamePoses(put, shown);
 }
 
 std::string meets(const Avatar& avatar, const Scene& scene, const StepContacts& step) {
@@ -117,7 +133,8 @@ std::string SolidCheck::faultOf(const SolidRecord& record) {
   std::string fault = faultOfBegin(record);
   if (fault.empty()) fault = faultOfWay(record);
   if (!fault.empty()) return fault;
-  if (record.state == SolidState::Equal && record.tracked) {
+  if (record.state == SolidState::Equal && record.tracked &&
+      !isLifted(avatar_.skeleton(), *record.tracked, *shown_, record.lift)) {
     return "it is equal, but what is shown is not what was tracked";
   }
   return "";

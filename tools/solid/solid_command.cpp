@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/json_writer.h"

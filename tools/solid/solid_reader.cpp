@@ -169,6 +169,7 @@ SolidRecord readRecord(SolidFields& fields, std::size_t joints) {
   fields.word("limit", kNumSolidLimits, record.limit);
   fields.flag("certified", record.isCertified);
   fields.number("deviation", record.deviation);
+  fields.number("lift", record.lift);
   fields.number("clearance", record.clearance);
   fields.numbers("deviations", record.deviations);
   readOptionalPose("start", fields, joints, record.start);

@@ -41,7 +41,7 @@ struct SolidRecord {
   SolidState state = SolidState::Placing;
   SolidLimit limit = SolidLimit::None;
   bool isCertified = false;
-  double deviation = 0.0, clearance = 0.0;
+  double deviation = 0.0, lift = 0.0, clearance = 0.0;
   std::vector<double> deviations;
   std::optional<Pose> start;
   std::string from;

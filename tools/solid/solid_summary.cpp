@@ -12,14 +12,14 @@
 namespace foretouch::tools {
 namespace {
 
-/// Links whose errors people see most but that no trunk is: by the weights of their names.
+/// By the weights of their names: hands count 4, the trunk 30, all others 1 (solid_options.h).
 std::vector<LinkId> handsOf(const Avatar& avatar) {
+  constexpr double kOther = 1.0, kBelowTrunk = 10.0;
   const std::vector<double> visibility = visibilityByName(avatar);
-  const double trunk = *std::max_element(visibility.begin(), visibility.end());
   std::vector<LinkId> hands;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     const double own = visibility[slotOf(link)];
-    if (own > 1.0 && own < trunk && !avatar.lss(link).empty()) hands.push_back(link);
+    if (own > kOther && own < kBelowTrunk && !avatar.lss(link).empty()) hands.push_back(link);
   }
   return hands;
 }

@@ -27,6 +27,37 @@ test("documents of every kind are read", () => {
   assert.equal(decoded(live()).events, "/events");
 });
 
+/** As a solid avatar's report has it: what is shown, and beside it what was tracked. */
+const solid = () => {
+  const value = copy(), [avatar] = value.avatars;
+  avatar.tracked = structuredClone(avatar.track);
+  avatar.solid = { times: f64([0, 1, 2]), states: u16([1, 3, 4]), deviations: f64([0, 0.02, 0.5]) };
+  Object.assign(avatar.contacts[0], { push: 0.01, slip: 0.3 });
+  delete avatar.contacts[0].missed_by_poses;
+  return value;
+};
+
+test("a solid avatar has two bodies, a state a tick, and pushes", () => {
+  const view = decoded(solid()), [avatar] = view.avatars;
+  assert.deepEqual([...avatar.solid.states], [1, 3, 4]);
+  assert.equal(avatar.solid.deviations[2], 0.5);
+  assert.deepEqual([...avatar.tracked.poseTimes], [...avatar.track.poseTimes]);
+  assert.equal(avatar.contacts[0].push, 0.01);
+  assert.equal(avatar.contacts[1].push, null);
+  const other = decoded(whole).avatars[0];
+  assert.equal(other.tracked, null);
+  assert.equal(other.solid, null);
+  const wrongly = (change, says) => {
+    const value = solid();
+    change(value.avatars[0]);
+    assert.throws(() => decoded(value), says);
+  };
+  wrongly((a) => (a.solid.states = u16([1, 3, 7])), /solid\.states.* names number 7/);
+  wrongly((a) => (a.solid.states = u16([1, 3])), /solid\.states/);
+  wrongly((a) => (a.solid.times = f64([0, 2, 1])), /does not increase/);
+  wrongly((a) => delete a.tracked.rotations, /rotations/);
+});
+
 test("unknown keys are ignored, and what may be absent may be", () => {
   const value = copy();
   value.fromTheFuture = { a: 1 };

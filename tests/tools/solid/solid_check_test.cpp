@@ -149,6 +149,10 @@ TEST_F(SolidFile, WithAFlagSetIsFound) {
   ticks[1].answer.state = SolidState::Equal;
   ticks[1].tracked = at(0.3, 0.0);
   EXPECT_NE(faultOf(ticks).find("1: it is equal, but"), std::string::npos);
+  ticks[1].tracked = at(-0.4, -0.03);  // below the floor, and lifted
+  EXPECT_NE(faultOf(ticks).find("1: it is equal, but"), std::string::npos);
+  ticks[1].answer.lift = 0.03;
+  EXPECT_EQ(faultOf(ticks), "");
   ticks = around();
   ticks[2].answer.deviation = 0.25;
   EXPECT_NE(faultOf(ticks).find("2: its deviation"), std::string::npos);

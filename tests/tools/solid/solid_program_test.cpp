@@ -213,5 +213,13 @@ TEST_F(SolidReplay, ShowsBothBodiesOnThePageAndInTheGlb) {
   }
 }
 
+TEST_F(SolidReplay, DemoHasADancerWhoPassesThroughNothing) {
+  const Ended ended = runForetouch({"demo", "--solid", "--output", out_});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.out.find("passes through nothing: 817 of 817 ways"), std::string::npos)
+      << ended.out;
+  EXPECT_NE(contentOf(world_.folder / "shown.html").find("\"solid\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace foretouch::test
