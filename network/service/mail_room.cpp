@@ -78,7 +78,7 @@ MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail)
   const std::lock_guard lock(mutex_);
   if (isClosed_) return Posted::Closed;
   Box& box = boxes_[avatar];
-  if (!isWanted(box, *mail)) return Posted::Unwanted;
+  if (!isWanted(box, *mail)) return box.known.empty() ? Posted::TooEarly : Posted::Unwanted;
   if (isRepeated(box, *mail)) return Posted::Kept;
   const MailKind kind = mail->kind;
   const bool dropped = makeRoom(box, kind);

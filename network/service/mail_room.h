@@ -49,7 +49,8 @@ class MailRoom {
     Kept,             ///< Nothing was dropped; also a skeleton that repeats a waiting one.
     DroppedPose,      ///< The oldest waiting pose was dropped.
     DroppedSkeleton,  ///< The oldest waiting skeleton was dropped.
-    Unwanted,         ///< A pose whose skeleton nobody has said: see know().
+    Unwanted,         ///< A pose of another skeleton than those that are known: see know().
+    TooEarly,         ///< The same before any is.
     Closed,           ///< The room takes no more mail.
   };
   /// Takes the mail and leaves an empty one in `mail` for the next message. Never waits for a

@@ -237,6 +237,7 @@ struct Service::Impl final : StreamRecord {
     switch (room.post(known->second, mail)) {
       case MailRoom::Posted::Kept: return;
       case MailRoom::Posted::Unwanted: return reject(kind, Reject::SkeletonMismatch);
+      case MailRoom::Posted::TooEarly: return reject(kind, Reject::UnknownSkeleton);
       default: return reject(kind, Reject::Overrun);
     }
   }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <random>
 #include <string>
 #include <thread>
@@ -160,7 +161,7 @@ class SlowClients {
   }
   void openAnother() {
     open();
-    connections_.erase(connections_.begin());
+    connections_.pop_front();
   }
 
  private:
@@ -169,7 +170,7 @@ class SlowClients {
     connections_.back().send("G");
   }
   std::uint16_t port_;
-  std::vector<Connection> connections_;
+  std::deque<Connection> connections_;
 };
 
 // Whoever waits for the slow ones waits until their time is over: so the answer shows who waited.

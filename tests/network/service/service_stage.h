@@ -22,16 +22,6 @@ inline const std::string kContacts = kContactsChannel;
 inline const std::string kPoses = kPoseChannel;
 inline const std::string kSkeletons = kSkeletonChannel;
 
-/// A wall across x = 1.
-inline Scene farWall() {
-  RawScene raw;
-  raw.objectNames = {"wall"};
-  const Eigen::Vector3d a(1.0, -5.0, -5.0), b(1.0, 9.0, -5.0), c(1.0, 0.0, 9.0);
-  raw.triangles.push_back(Triangle{{a, b, c}});
-  raw.objectOf = {0};
-  return Scene::build(raw).value();
-}
-
 inline std::vector<StreamSolver> solversOf(std::int32_t avatars, bool areSolid = false) {
   const Scene scene = farWall();
   std::vector<StreamSolver> solvers;

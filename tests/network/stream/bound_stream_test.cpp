@@ -21,17 +21,8 @@ using test::smallSkeleton;
 constexpr std::int64_t kNowUs = 1'700'000'000'000'000, kSecondUs = 1'000'000;
 constexpr UdpmSender kTrue{0x0100007f, 1000}, kOther{0x0100007f, 2000}, kThird{0x0200000a, 1000};
 
-Scene emptyRoom() {
-  RawScene raw;
-  raw.objectNames = {"wall"};
-  const Eigen::Vector3d a(1.0, -5.0, -5.0), b(1.0, 9.0, -5.0), c(1.0, 0.0, 9.0);
-  raw.triangles.push_back(Triangle{{a, b, c}});
-  raw.objectOf = {0};
-  return Scene::build(raw).value();
-}
-
 StreamSolver newSolver() {
-  return StreamSolver::make(0, smallAvatar(), emptyRoom(), {}, {}).value();
+  return StreamSolver::make(0, smallAvatar(), test::farWall(), {}, {}).value();
 }
 
 /// A stream, what it records, and a time that the test sets.
