@@ -25,4 +25,5 @@
 #include "middleware/query/query.h"
 #include "middleware/query/query_pool.h"
 #include "middleware/scene/scene.h"
+#include "middleware/solid/solid_avatar.h"
 #include "middleware/surface/avatar_surface.h"

@@ -3,14 +3,15 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
-#include <memory>
 #include <new>
+#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
+
+#include <climits>
 
 #include "lss/assert.h"
 #include "lss/index.h"
@@ -58,11 +59,37 @@ Result<std::string> readAll(int descriptor, const std::string& path, std::size_t
   }
 }
 
-/// The file behind symbolic links; the path itself if nothing is there yet.
-std::string resolved(const std::string& path) {
-  const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
-                                                         &std::free);
-  return real ? std::string(real.get()) : path;
+std::string folderOf(const std::string& path) {
+  const std::size_t slash = path.find_last_of('/');
+  return slash == std::string::npos ? "./" : path.substr(0, slash + 1);
+}
+
+/// In a folder that everybody may write to, such as /tmp, a link of somebody else is a trap: it
+/// leads to a file of ours. open() refuses to follow it where fs.protected_symlinks is set; reading
+/// the link, as we must, is always allowed.
+bool isOfAStranger(const struct stat& link, const std::string& path) {
+  struct stat folder {};
+  if (::stat(folderOf(path).c_str(), &folder) != 0) return true;
+  const bool isShared = (folder.st_mode & S_IWOTH) != 0 && (folder.st_mode & S_ISVTX) != 0;
+  return isShared && link.st_uid != ::geteuid() && link.st_uid != folder.st_uid;
+}
+
+/// The file behind the links that the path's last name stands for; the path itself if there is
+/// none, or nothing yet. Nothing if one of the links is another user's trap. Links before the last
+/// name are left to the kernel, which has the same rule for them.
+std::optional<std::string> resolved(std::string path) {
+  constexpr int kMostLinks = 40;  // as the kernel; one more fails in open()
+  for (int i = 0; i < kMostLinks; ++i) {
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) != 0 || !S_ISLNK(status.st_mode)) break;
+    if (isOfAStranger(status, path)) return std::nullopt;
+    std::string next(PATH_MAX, '\0');
+    const ssize_t length = ::readlink(path.c_str(), next.data(), next.size());
+    if (length <= 0) break;
+    next.resize(countOf(length));
+    path = next.front() == '/' ? next : folderOf(path) + next;
+  }
+  return path;
 }
 
 struct Opened {
@@ -89,9 +116,7 @@ Opened openTemporary(const std::string& target, mode_t mode) {
 /// The rename is on the disk only once the folder is. Not every file system can do this, and the
 /// file is complete either way, so a failure is not an error.
 void syncFolderOf(const std::string& target) {
-  const std::size_t slash = target.find_last_of('/');
-  const std::string folder = slash == std::string::npos ? "." : target.substr(0, slash + 1);
-  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const Descriptor descriptor(::open(folderOf(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (descriptor.get() >= 0) static_cast<void>(::fsync(descriptor.get()));
 }
 
@@ -141,7 +166,13 @@ PendingFile::~PendingFile() {
 }
 
 Result<PendingFile> PendingFile::create(const std::string& path) {
-  const std::string target = resolved(path);
+  const std::optional<std::string> followed = resolved(path);
+  if (!followed) {
+    return Error::in(path, ErrorCode::FileUnwritable,
+                     "is another user's link in a folder that all may write to; expected a file of "
+                     "yours, or a new name");
+  }
+  const std::string& target = *followed;
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) {
@@ -149,7 +180,8 @@ Result<PendingFile> PendingFile::create(const std::string& path) {
   }
   Opened opened;
   if (path == "/dev/stdout") {
-    // Not the file behind it: a shell opened it, perhaps to append, and wants no other in its place.
+    // Not the file behind it: a shell opened it, perhaps to append, and wants no other in its
+    // place.
     opened.descriptor = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
   } else if (exists && !S_ISREG(status.st_mode)) {
     opened.descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);

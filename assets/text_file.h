@@ -15,7 +15,8 @@ namespace foretouch {
 
 /// A file that appears under its name only once it is complete: goes to a temporary file in the
 /// same folder; commit() flushes and renames it. Without commit() it leaves nothing behind. Follows
-/// a symbolic link and replaces the file behind it, keeping its permissions. Writes directly to
+/// a symbolic link and replaces the file behind it, keeping its permissions; refuses another user's
+/// link in a sticky folder that all may write to (/tmp). Writes directly to
 /// anything but a regular file (a pipe), because there is nothing to rename over, and to
 /// /dev/stdout, whatever that is.
 class PendingFile {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bench/cage_command.h"
 #include "bench/deadline_command.h"
 #include "bench/documents_command.h"
 #include "bench/extremes_command.h"
@@ -10,6 +11,7 @@
 #include "bench/memory_command.h"
 #include "bench/peers_command.h"
 #include "bench/scaling_command.h"
+#include "bench/solid_command.h"
 #include "bench/stream_command.h"
 #include "bench/trade_command.h"
 #include "bench/tune_command.h"
@@ -28,7 +30,9 @@ void addBenchCommands(CLI::App& program, ExitCode& exit) {
   addBenchStreamCommands(program, exit);
   addBenchViewCommand(program, exit);
   addBenchDeadlineCommand(program, exit);
+  addBenchCageCommand(program, exit);
   addBenchTradeCommand(program, exit);
+  addBenchSolidCommand(program, exit);
   addTuneCommand(program, exit);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lss/clearance.h"
 #include "lss/closest_features.h"
 #include "lss/index.h"
 #include "lss/segment_triangle.h"
@@ -154,6 +155,16 @@ Separation separation(const Hull& one, const Hull& other) {
     tryDirection(local, -result.featureNormal, result);
   }
   return result;
+}
+
+double clearanceAlong(const Hull& one, const Hull& other, const Eigen::Vector3d& direction) {
+  const LocalHulls local = localOf(one, other);
+  Separation result;
+  result.numOne = one.count;
+  result.numOther = other.count;
+  result.clearance.fill(-local.slack);
+  tryDirection(local, direction, result);
+  return result.lower();
 }
 
 }  // namespace foretouch

@@ -1,12 +1,16 @@
 #include "assets/import/assimp.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <array>
+#include <string_view>
 
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 
 #include "assets/import/file_damage.h"
+#include "assets/import/memory_budget.h"
+#include "assets/import/model_files.h"
+#include "assets/import/text.h"
 #include "lss/index.h"
 #include "middleware/scene/raw_scene.h"
 
@@ -38,7 +42,33 @@ void addFace(const aiMesh& mesh, const aiFace& face, MeshTriangles& out) {
   }
 }
 
-void setUp(Assimp::Importer& importer, Animations animations) {
+/// The formats that docs/formats.md names. assimp has some fifty readers, and each is a way in for
+/// a file that somebody made to harm.
+constexpr std::array<std::string_view, 12> kFormats{
+    ".obj", ".stl", ".ply", ".gltf", ".glb", ".dae", ".fbx", ".3ds", ".off", ".x", ".iqm", ".bvh"};
+
+bool isOurs(const aiImporterDesc* reader) {
+  if (reader == nullptr || reader->mFileExtensions == nullptr) return false;
+  const std::string_view extensions = reader->mFileExtensions;
+  const std::string first = "." + std::string(extensions.substr(0, extensions.find(' ')));
+  // Of its two readers of glTF, the one of version 1 has the name without a number.
+  if (first == ".gltf" && std::string_view(reader->mName).find("glTF2") == std::string_view::npos) {
+    return false;
+  }
+  return std::find(kFormats.begin(), kFormats.end(), first) != kFormats.end();
+}
+
+void keepOurFormatsAlone(Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i > 0; --i) {
+    if (!isOurs(importer.GetImporterInfo(i - 1))) {
+      importer.UnregisterLoader(importer.GetImporter(i - 1));
+    }
+  }
+}
+
+void setUp(Assimp::Importer& importer, const std::string& path, Animations animations) {
+  keepOurFormatsAlone(importer);
+  importer.SetIOHandler(new ModelFiles(path));  // the importer's own from here on
   // Otherwise files with bones and no mesh get a mesh of bones, a surface that nobody drew.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   // Parts that we do not read cannot fail.
@@ -52,9 +82,9 @@ AssimpFile readWithAssimp(const std::string& path, Animations animations) {
   // Never destroyed: assimp frees its tree recursively, and a deep tree read without error must not
   // crash afterwards.
   Assimp::Importer& importer = *new Assimp::Importer;
-  setUp(importer, animations);
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (!importer.IsExtensionSupported(extension)) {
+  setUp(importer, path, animations);
+  const std::string extension = lowerExtensionOf(path);
+  if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
     throw Failure{ImportFailure::UnknownFormat, extension};
   }
   if (const auto damage = hopelessDamageOf(path)) throw Failure{ImportFailure::Refused, *damage};
@@ -64,7 +94,9 @@ AssimpFile readWithAssimp(const std::string& path, Animations animations) {
     // assimp catches its own failed allocations and reports their name.
     const bool outOfMemory = reason.find("bad_alloc") != std::string::npos;
     const auto damage = damageOf(path);  // a false count may have taken the memory
-    if (outOfMemory && !damage) throw Failure{ImportFailure::OutOfMemory, reason};
+    if (outOfMemory && !damage) {
+      throw Failure{ImportFailure::OutOfMemory, std::to_string(grantedMemory())};
+    }
     throw Failure{ImportFailure::Refused, damage.value_or(reason)};
   }
   if (scene->mRootNode == nullptr) throw Failure{ImportFailure::Refused, "no root node"};

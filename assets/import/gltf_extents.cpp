@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "articulated/quoted.h"
+#include "assets/import/side_files.h"
 
 namespace foretouch::internal {
 namespace {
@@ -88,10 +89,14 @@ class Extents {
       return;
     }
     const std::string name = decodedUri(uri);
+    const std::string path = (std::filesystem::path(sources_.folder) / name).string();
     std::error_code unknown;
-    const auto bytes =
-        std::filesystem::file_size(std::filesystem::path(sources_.folder) / name, unknown);
-    if (unknown) {
+    const auto bytes = std::filesystem::file_size(path, unknown);
+    if (!unknown &&
+        !isSideFile((std::filesystem::path(sources_.folder) / "model").string(), path)) {
+      faults_.add(placed("buffers", i, "uri"),
+                  std::string("expected ") + kSideFileRule + ", found " + inQuotes(name));
+    } else if (unknown) {
       faults_.add(placed("buffers", i, "uri"), "expected a file beside this one, found " +
                                                    inQuotes(name) + ": " + unknown.message());
     } else {

@@ -14,8 +14,10 @@ struct SceneImportOptions {
   /// Metres per unit of the file, in place of what the file says. Finite, > 0.
   std::optional<double> scale;
   std::optional<UpAxis> up;  ///< Of the file, in place of what the file says.
-  std::size_t memoryLimitBytes = std::size_t{8} << 30;  ///< Address space of the child.
-  double timeLimitS = 300.0;                            ///< Wall and CPU time of the child.
+  /// Address space of the child. At most half of the machine's memory is used, and for a small file
+  /// no more than 1 GB: 990 MB, and 256 bytes for each byte that is read.
+  std::size_t memoryLimitBytes = std::size_t{8} << 30;
+  double timeLimitS = 60.0;  ///< Wall and CPU time of the child.
   std::string importer;  ///< Path of foretouch-import; empty: $FORETOUCH_IMPORTER, else beside the
                          ///< running program, else where the package that it was built against
                          ///< has it, else at its installation path.

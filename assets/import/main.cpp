@@ -13,6 +13,8 @@
 #include <unistd.h>
 
 #include "assets/import/assimp.h"
+#include "assets/import/cage.h"
+#include "assets/import/memory_budget.h"
 #include "assets/import/model.h"
 #include "assets/import/model_stream.h"
 #include "assets/import/scene.h"
@@ -54,7 +56,7 @@ int answer(Send send) {
   } catch (const Failure& failure) {
     writer.fail(failure.kind, failure.text);
   } catch (const std::bad_alloc&) {
-    writer.fail(ImportFailure::OutOfMemory, "");
+    writer.fail(ImportFailure::OutOfMemory, std::to_string(grantedMemory()));
   } catch (const std::exception& error) {
     writer.fail(ImportFailure::Refused, error.what());
   }
@@ -80,6 +82,8 @@ std::optional<ModelQuestion> modelQuestion(int argc, char** argv) {
 }
 
 int run(int argc, char** argv) {
+  closeCageBehindUs();
+  grantMemoryFor(0);
   const auto question = modelQuestion(argc, argv);
   if (question.has_value()) {
     return answer<ModelWriter>([&](ModelWriter& writer) { return sendModel(*question, writer); });

@@ -9,6 +9,7 @@
 
 #include "assets/import/model_stream.h"
 #include "assets/import/run.h"
+#include "assets/import/side_files.h"
 #include "lss/index.h"
 
 namespace foretouch {
@@ -101,7 +102,8 @@ Result<Model> importChecked(const std::string& path, const ModelImportOptions& o
   }
   internal::ModelReader reader;
   if (const auto error =
-          internal::runImporter(path, options.import, argumentsFor(path, options), reader)) {
+          internal::runImporter(path, options.import, argumentsFor(path, options),
+                                internal::foldersBeside(path, options.packagePaths), reader)) {
     return *error;
   }
   Model model = reader.take();
@@ -110,6 +112,9 @@ Result<Model> importChecked(const std::string& path, const ModelImportOptions& o
     return importError(path, ErrorCode::Empty,
                        "expected triangles, spheres, capsules or animations, found none" +
                            (model.notes.empty() ? "" : " (" + model.notes.front() + ")"));
+  }
+  if (const std::string weakness = importerWeakness(); !weakness.empty()) {
+    model.notes.push_back(weakness);
   }
   const auto change = internal::settleFrame(options.import.scale, options.import.up, model.frame);
   if (change.scale != 1.0) scaleLengths(model, change.scale);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <fcntl.h>
 #include <poll.h>
@@ -97,7 +98,9 @@ struct Channels {
 struct ChildPlan {
   const char* program;
   char* const* arguments;
+  char* const* environment;
   rlim_t addressSpaceBytes, cpuSeconds;
+  Cage* cage;
   int nullInput, output, errors, exec;
   pid_t parent;
 };
@@ -111,13 +114,32 @@ bool limitTo(decltype(RLIMIT_CPU) resource, rlim_t soft, rlim_t hard) {
 
 bool setLimits(const ChildPlan& plan) {
   return limitTo(RLIMIT_CORE, 0, 0) && (kUnderSanitizer || limitTo(RLIMIT_FSIZE, 0, 0)) &&
+         (kUnderSanitizer || limitTo(RLIMIT_NPROC, 0, 0)) &&
          limitTo(RLIMIT_NOFILE, kMaxOpenFiles, kMaxOpenFiles) &&
          // SIGXCPU at the soft limit distinguishes a timeout from other deaths; a second later,
          // SIGKILL.
          limitTo(RLIMIT_CPU, plan.cpuSeconds, plan.cpuSeconds + 1) &&
-         prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
          // Last: from here on, as a copy of a large parent, we may get no more pages.
          (kUnderSanitizer || limitTo(RLIMIT_AS, plan.addressSpaceBytes, plan.addressSpaceBytes));
+}
+
+/// Where memory ends, this process shall die and not its parent. A system without /proc has another
+/// way or none.
+void volunteerForTheKernel() {
+  // The file of a process that may not be dumped belongs to root; execve() makes it dumpable
+  // anyway.
+  prctl(PR_SET_DUMPABLE, 1, 0, 0, 0);
+  const int fd = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  if (fd < 0) return;
+  constexpr std::string_view kFirst = "1000";
+  static_cast<void>(!write(fd, kFirst.data(), kFirst.size()));
+  close(fd);
+}
+
+/// Files before limits, as more may be open than those allow; calls last, as they end the setting.
+bool enterCage(const ChildPlan& plan) {
+  return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && plan.cage->closeFiles() &&
+         setLimits(plan) && plan.cage->closeCalls();
 }
 
 /// The host's handlers must not run in the child, and signals that it ignores or blocks must work
@@ -148,8 +170,9 @@ void resetSignals() {
   // Otherwise a model file's exploit could use descriptors that the host forgot to mark. Old
   // kernels lack the call; then the host's marks must do.
   close_range(STDERR_FILENO + 1, UINT_MAX, CLOSE_RANGE_CLOEXEC);
-  if (!ready || !setLimits(plan)) reportAndExit(plan.exec);
-  execve(plan.program, plan.arguments, environ);
+  volunteerForTheKernel();
+  if (!ready || !enterCage(plan)) reportAndExit(plan.exec);
+  execve(plan.program, plan.arguments, plan.environment);
   reportAndExit(plan.exec);
 }
 
@@ -222,18 +245,34 @@ class Child {
   int status_ = 0;
 };
 
+/// Nothing of the host's but where libraries are, without which a program may not start: tokens and
+/// passwords are often kept there.
+std::vector<std::string> childsEnvironment() {
+  const char* const libraries = std::getenv("LD_LIBRARY_PATH");
+  if (libraries == nullptr) return {};
+  return {std::string("LD_LIBRARY_PATH=") + libraries};
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 /// Forks with every signal blocked, so that no handler of the host runs in the child. -1 with errno
 /// set if that fails.
-pid_t start(const std::string& program, std::vector<std::string> arguments,
-            const ProcessLimits& limits, const Channels& channels) {
-  arguments.insert(arguments.begin(), program);  // a copy: execve() wants them writable
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
+pid_t start(const std::string& program, std::vector<std::string> arguments, ProcessLimits limits,
+            const Channels& channels) {
+  arguments.insert(arguments.begin(), program);  // copies: execve() wants them writable
+  std::vector<std::string> environment = childsEnvironment();
+  const std::vector<char*> argv = pointersTo(arguments), envp = pointersTo(environment);
   const ChildPlan plan{program.c_str(),
                        argv.data(),
+                       kUnderSanitizer ? environ : envp.data(),
                        static_cast<rlim_t>(limits.addressSpaceBytes),
                        static_cast<rlim_t>(std::max(1.0, std::ceil(limits.seconds))),
+                       &limits.cage,
                        channels.nullInput.get(),
                        channels.output.writeEnd.get(),
                        channels.errors.writeEnd.get(),

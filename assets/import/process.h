@@ -8,16 +8,18 @@
 #include <string_view>
 #include <vector>
 
+#include "assets/import/cage.h"
 #include "lss/sanitizer.h"
 
 namespace foretouch::internal {
 
 /// The sanitizers' runtimes reserve terabytes of address space, write files as they start, and turn
-/// deaths by signal into exits: under them (kUnderSanitizer), the address space and the size of
-/// files are not limited.
+/// deaths by signal into exits: under them (kUnderSanitizer), there is no cage, and neither the
+/// address space nor the size of files nor the number of processes is limited.
 struct ProcessLimits {
   std::size_t addressSpaceBytes = 0;
   double seconds = 0.0;  ///< Of wall time, and (rounded up) of CPU time.
+  Cage cage = {};        ///< None by default.
 };
 
 /// How the process ended.

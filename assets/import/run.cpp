@@ -1,5 +1,6 @@
 #include "assets/import/run.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -33,6 +34,23 @@ std::string shortest(double number) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%g", number);
   return text.data();
+}
+
+/// Half of the machine's is left to everybody else, whatever the caller allows.
+std::size_t memoryFor(const SceneImportOptions& options) {
+  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || bytes <= 0) return options.memoryLimitBytes;
+  const std::size_t half = static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(bytes);
+  return std::min(options.memoryLimitBytes, std::max(half, kMinMemoryBytes));
+}
+
+/// The model itself, and where its parts may lie.
+Cage cageFor(const std::string& importer, const std::string& path,
+             std::vector<std::string> folders) {
+  if (kUnderSanitizer) return {};
+  folders.push_back(path);
+  const char* const libraries = std::getenv("LD_LIBRARY_PATH");
+  return Cage(importer, folders, libraries == nullptr ? "" : libraries);
 }
 
 std::string errorText(int error) {
@@ -115,17 +133,6 @@ std::vector<std::string> importerPlaces(const SceneImportOptions& options) {
   return places;
 }
 
-Result<std::string> findImporter(const std::string& path, const SceneImportOptions& options) {
-  std::string tried;
-  for (const std::string& place : importerPlaces(options)) {
-    if (isProgram(place)) return place;
-    tried += (tried.empty() ? "" : ", ") + place;
-  }
-  return importError(path, ErrorCode::FileNotFound,
-                     "expected the program foretouch-import at " + tried +
-                         "; the environment variable FORETOUCH_IMPORTER may name it");
-}
-
 /// The last line that is not empty, in brackets: assertions and loaders explain there why they
 /// ended.
 std::string lastWords(const std::string& errorOutput) {
@@ -149,10 +156,12 @@ Error reportedFailure(const std::string& path, const SceneImportOptions& options
     case ImportFailure::TooLarge:
       return importError(path, ErrorCode::LimitExceeded, "the model is too large: " + text);
     case ImportFailure::OutOfMemory:
-      return importError(path, ErrorCode::ImportCrashed,
-                         "the importer ran out of its memory limit of " +
-                             std::to_string(options.memoryLimitBytes) +
-                             " bytes: the model is too large, or its counts lie");
+      // It says which limit: its own grows with the bytes that it has read.
+      return importError(
+          path, ErrorCode::ImportCrashed,
+          "the importer ran out of its memory limit of " +
+              (text.empty() ? std::to_string(memoryFor(options)) : text) +
+              " bytes: the model is too large for its file's size, or its counts lie");
     case ImportFailure::None:
     case ImportFailure::Refused: break;
   }
@@ -200,6 +209,17 @@ Error failureOfRun(const std::string& path, const std::string& importer,
 
 }  // namespace
 
+Result<std::string> findImporter(const std::string& path, const SceneImportOptions& options) {
+  std::string tried;
+  for (const std::string& place : importerPlaces(options)) {
+    if (isProgram(place)) return place;
+    tried += (tried.empty() ? "" : ", ") + place;
+  }
+  return importError(path, ErrorCode::FileNotFound,
+                     "expected the program foretouch-import at " + tried +
+                         "; the environment variable FORETOUCH_IMPORTER may name it");
+}
+
 bool notePackagedImporter(const char* path) {
   packagedImporter = path;
   return true;
@@ -210,12 +230,14 @@ Error importError(const std::string& path, ErrorCode code, std::string message) 
 }
 
 std::optional<Error> runImporter(const std::string& path, const SceneImportOptions& options,
-                                 const std::vector<std::string>& arguments, FrameReader& reader) {
+                                 const std::vector<std::string>& arguments,
+                                 const std::vector<std::string>& folders, FrameReader& reader) {
   if (auto error = badOption(path, options)) return error;
   if (auto error = badPath(path)) return error;
   FORETOUCH_TRY(const auto importer, findImporter(path, options));
   const ProcessEnd end = runLimited(
-      importer, arguments, {options.memoryLimitBytes, options.timeLimitS},
+      importer, arguments,
+      {memoryFor(options), options.timeLimitS, cageFor(importer, path, folders)},
       [&](std::string_view bytes) { return reader.feed(bytes) == FrameReader::State::Reading; });
   if (reader.state() == FrameReader::State::Complete) return std::nullopt;
   return failureOfRun(path, importer, options, reader, end);

@@ -4,9 +4,12 @@
 #include <new>
 #include <system_error>
 
+#include "assets/import/cage.h"
 #include "assets/import/protocol.h"
 #include "assets/import/run.h"
+#include "assets/import/side_files.h"
 #include "assets/import/text.h"
+#include "lss/sanitizer.h"
 
 namespace foretouch {
 namespace {
@@ -34,7 +37,9 @@ void place(RawScene& scene, const internal::FrameChange& change) {
 
 Result<ImportedScene> importChecked(const std::string& path, const SceneImportOptions& options) {
   internal::ImportReader reader;
-  if (const auto error = internal::runImporter(path, options, {path}, reader)) return *error;
+  if (const auto error =
+          internal::runImporter(path, options, {path}, internal::foldersBeside(path, {}), reader))
+    return *error;
   ImportedScene imported = reader.take();
   imported.frame = reader.fileFrame();
   if (imported.scene.triangles.empty()) {
@@ -50,6 +55,10 @@ Result<ImportedScene> importChecked(const std::string& path, const SceneImportOp
 }
 
 }  // namespace
+
+std::string importerWeakness() {
+  return internal::kUnderSanitizer ? "" : internal::weaknessOf(internal::partsOfThisKernel());
+}
 
 Result<ImportedScene> importScene(const std::string& path, const SceneImportOptions& options) {
   try {

@@ -21,4 +21,10 @@ namespace foretouch {
 [[nodiscard]] Result<ImportedScene> importScene(const std::string& path,
                                                 const SceneImportOptions& options = {});
 
+/// The child may read the model, its parts beside it and the system's libraries, and nothing else;
+/// it may write nothing, start no program, and reach no other process and no network. Where this
+/// kernel lacks what holds it there: in one sentence, what code that a file makes it run could
+/// still do. Else empty.
+[[nodiscard]] std::string importerWeakness();
+
 }  // namespace foretouch

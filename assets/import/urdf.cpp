@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "assets/import/assimp.h"
+#include "assets/import/memory_budget.h"
 #include "assets/import/model.h"
 #include "assets/import/text.h"
 #include "assets/import/urdf_surface.h"
@@ -183,6 +184,7 @@ Model readUrdf(const ModelQuestion& question) {
                                                                 : ImportFailure::Refused,
                   text.error().message};
   }
+  grantMemoryFor(text.value().size());
   const UrdfText reduced = readUrdfText(text.value());
   const auto robot = parse(reduced.xml, text.value());
   ModelBuilder builder;

@@ -6,6 +6,7 @@
 
 #include "articulated/avatar.h"
 #include "assets/import/assimp.h"
+#include "assets/import/side_files.h"
 #include "assets/import/text.h"
 #include "lss/index.h"
 #include "middleware/scene/raw_scene.h"
@@ -182,6 +183,12 @@ const FlatMesh* UrdfSurface::meshOf(const std::string& reference, const std::str
   const std::string path = find(reference);
   if (path.empty()) {
     builder_.note(about + " was not found");
+    return nullptr;
+  }
+  if (!isWithin(foldersBeside(question_.path, question_.packagePaths), path)) {
+    builder_.note(about +
+                  " is not read: it is neither beside the file nor in its package, nor in a "
+                  "folder of packages that was named");
     return nullptr;
   }
   auto found = meshes_.find(path);

@@ -1,5 +1,4 @@
 // bindings/c/answer.cpp: the answer of a query's last step.
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -61,17 +60,8 @@ ft_contact contactOf(PairContact contact, const Scene& scene) {
 /// Writes `count` contacts; `at(i)` returns the i-th. Precondition: there is room.
 template <typename At>
 ft_status fillContacts(const Scene& scene, std::size_t count, const At& at, ft_contact* contacts) {
-  std::size_t stride = 0;
-  if (const auto s = readSize(contacts, "ft_contact", stride); s != FT_OK) return s;
-  const auto size = static_cast<std::uint32_t>(stride);
-  auto* place = reinterpret_cast<unsigned char*>(contacts);
-  for (std::size_t i = 0; i < count; ++i, place += stride) {
-    std::memcpy(place, &size, sizeof size);
-    const ft_contact contact = contactOf(at(i), scene);
-    const auto s = writeStruct(reinterpret_cast<ft_contact*>(place), "ft_contact", contact);
-    if (s != FT_OK) return s;
-  }
-  return FT_OK;
+  const auto contact = [&](std::size_t i) { return contactOf(at(i), scene); };
+  return writeStructs("ft_contact", count, contact, contacts);
 }
 
 /// The same with the check for room.

@@ -14,6 +14,7 @@
 #include "articulated/pose.h"
 #include "assets/avatar/joint_match.h"
 #include "bindings/c/status.h"
+#include "middleware/query/near_features.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
 #include "middleware/surface/avatar_surface.h"
@@ -34,6 +35,8 @@ enum class Mark : std::uint64_t {
   Clip = 0x0070696c43746600u,
   Query = 0x0079726575746600u,
   PairRules = 0x0072696170746600u,
+  Near = 0x007261656e746600u,
+  Solid = 0x0064696c6f746600u,
 };
 
 }  // namespace foretouch::c
@@ -97,6 +100,23 @@ struct ft_query {
   foretouch::Pose pose;
 };
 
+/// For one thread.
+struct ft_near {
+  static constexpr auto kMark = foretouch::c::Mark::Near;
+  static constexpr const char* kName = "near_query";
+  foretouch::c::Mark mark = kMark;
+  std::shared_ptr<const foretouch::c::AvatarParts> avatar;
+  foretouch::NearQuery question;
+  foretouch::NearDetail detail = foretouch::NearDetail::Reduced;
+  foretouch::NearScratch scratch;
+  foretouch::ChainMotion still;  // of the pose that is asked
+  foretouch::Pose pose;
+  std::vector<foretouch::LinkState> states;
+  std::vector<double> reach;
+  foretouch::NearFeatures near;
+  bool hasAnswer = false;
+};
+
 namespace foretouch::c {
 
 /// Refuses NULL and handles of another kind.
@@ -125,6 +145,13 @@ void destroy(const char* function, Handle* handle) noexcept {
   delete handle;
 }
 
+/// Copies a pose of C arrays, unchecked but for its number of joints. `name`: of the argument.
+/// Reuses `pose`: allocates nothing once it has grown.
+[[nodiscard]] ft_status copyPose(const ft_pose* given, const char* name, const Skeleton& skeleton,
+                                 Pose& pose);
+/// The same, and checks it.
+[[nodiscard]] ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skeleton,
+                                 Pose& pose);
 /// Writes a validated pose to C arrays; either may be NULL.
 [[nodiscard]] ft_status writePose(const Pose& pose, double* rotations, double* translations,
                                   std::size_t capacity, std::size_t* required);

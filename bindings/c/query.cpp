@@ -9,10 +9,8 @@
 #include "lss/index.h"
 
 namespace foretouch::c {
-namespace {
 
-/// Reads and checks a pose. Reuses `pose`: allocates nothing once it has grown.
-ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skeleton, Pose& pose) {
+ft_status copyPose(const ft_pose* given, const char* name, const Skeleton& skeleton, Pose& pose) {
   ft_pose known{};
   if (const auto s = readStruct(given, name, known); s != FT_OK) return s;
   const auto joints = countOf(skeleton.numJoints());
@@ -33,9 +31,16 @@ ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skele
       pose.translations[j] = Eigen::Map<const Eigen::Vector3d>(known.translations + 3 * j);
     }
   }
+  return FT_OK;
+}
+
+ft_status readPose(const ft_pose* given, const char* name, const Skeleton& skeleton, Pose& pose) {
+  if (const auto s = copyPose(given, name, skeleton, pose); s != FT_OK) return s;
   FORETOUCH_TRY_OR(failure, pose, inFile(validatedPose(skeleton, std::move(pose)), name));
   return FT_OK;
 }
+
+namespace {
 
 /// Answers query.from to query.to into query.next.
 void answerNext(ft_query& query) {

@@ -47,16 +47,6 @@ ft_status readPassSeparating(std::int32_t given, bool& passSeparating) {
   return FT_OK;
 }
 
-ft_status readIgnored(const ft_query_options& given, QueryOptions& options) {
-  const auto s = neededArray(given.ignored, given.ignored_count, kMaxIgnoredPairs, "ignored");
-  if (s != FT_OK) return s;
-  options.ignored.reserve(given.ignored_count);
-  for (std::size_t i = 0; i < given.ignored_count; ++i) {
-    options.ignored.push_back({given.ignored[i].link, given.ignored[i].object});
-  }
-  return FT_OK;
-}
-
 ft_status readPolicies(const ft_query_options& given, QueryOptions& options) {
   constexpr auto kMost = countOf(kMaxJoints);
   const auto s = neededArray(given.policies, given.policy_count, kMost, "policies");
@@ -126,6 +116,14 @@ ft_status checkedSurface(const AvatarParts& avatar, const QueryOptions& options)
 
 }  // namespace
 
+ft_status readIgnored(const ft_ignored_pair* given, std::size_t count,
+                      std::vector<IgnoredPair>& ignored) {
+  if (const auto s = neededArray(given, count, kMaxIgnoredPairs, "ignored"); s != FT_OK) return s;
+  ignored.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) ignored.push_back({given[i].link, given[i].object});
+  return FT_OK;
+}
+
 ft_query_options defaultQueryOptions() {
   const QueryOptions defaults;
   ft_query_options options{};
@@ -154,7 +152,8 @@ ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& ava
     return s;
   }
   if (const auto s = readFidelity(known.fidelity, kNoIndex, options.fidelity); s != FT_OK) return s;
-  if (const auto s = readIgnored(known, options); s != FT_OK) return s;
+  const auto ignored = readIgnored(known.ignored, known.ignored_count, options.ignored);
+  if (ignored != FT_OK) return ignored;
   if (const auto s = readPolicies(known, options); s != FT_OK) return s;
   options.tolerance = known.tolerance;
   options.workBudget = known.work_budget;

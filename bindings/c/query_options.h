@@ -1,6 +1,9 @@
 // bindings/c/query_options.h: a query's options, from C.
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "bindings/c/handles.h"
 #include "bindings/c/sized_struct.h"
 
@@ -11,5 +14,9 @@ namespace foretouch::c {
 /// Checks everything that needs no query; NULL: the defaults.
 [[nodiscard]] ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& avatar,
                                          const Scene& scene, QueryOptions& options);
+
+/// Checks their number alone.
+[[nodiscard]] ft_status readIgnored(const ft_ignored_pair* given, std::size_t count,
+                                    std::vector<IgnoredPair>& ignored);
 
 }  // namespace foretouch::c

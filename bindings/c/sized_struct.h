@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 #include "bindings/c/status.h"
 
@@ -37,6 +39,24 @@ template <typename Struct>
 template <typename Struct>
 [[nodiscard]] ft_status writeStruct(Struct* given, const char* name, const Struct& known) {
   return internal::write(given, name, &known, sizeof(Struct));
+}
+
+/// Writes `count` structs, the i-th from `at(i)`, into an array whose first element's size applies
+/// to all. Precondition: there is room.
+template <typename Struct, typename At>
+[[nodiscard]] ft_status writeStructs(const char* name, std::size_t count, const At& at,
+                                     Struct* array) {
+  std::size_t stride = 0;
+  if (const ft_status status = readSize(array, name, stride); status != FT_OK) return status;
+  const auto size = static_cast<std::uint32_t>(stride);
+  auto* place = reinterpret_cast<unsigned char*>(array);
+  for (std::size_t i = 0; i < count; ++i, place += stride) {
+    std::memcpy(place, &size, sizeof size);
+    const Struct known = at(i);
+    const auto status = writeStruct(reinterpret_cast<Struct*>(place), name, known);
+    if (status != FT_OK) return status;
+  }
+  return FT_OK;
 }
 
 /// The body of a struct's ft_*_init().

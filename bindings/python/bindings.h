@@ -17,6 +17,8 @@ void bindContact(pybind11::module_& module);
 void bindPairContact(pybind11::module_& module);
 void bindAnswers(pybind11::module_& module);
 void bindQuery(pybind11::module_& module);
+void bindNear(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);
+void bindSolid(pybind11::module_& module);
 
 }  // namespace foretouch::python

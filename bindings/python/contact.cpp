@@ -1,13 +1,12 @@
 // bindings/python/contact.cpp: foretouch.Contact and Verdict.
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdio>
 #include <type_traits>
 
 #include "bindings/python/answers.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
+#include "bindings/python/int_enum.h"
 #include "middleware/exact/feature.h"
 
 namespace foretouch::python {
@@ -17,15 +16,8 @@ using Eigen::Vector3d;
 
 PyObject* verdictType = nullptr;  // borrowed from the module
 
-/// "contact" as a member of an enumeration is CONTACT.
-std::string upperCase(std::string word) {
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return word;
-}
-
 py::object verdictOf(const LinkContact& contact) {
-  return py::reinterpret_borrow<py::object>(verdictType)(static_cast<int>(contact.verdict));
+  return memberOf(verdictType, contact.verdict);
 }
 
 const foretouch::PairContact& pairOf(const PairContact& contact) {
@@ -219,15 +211,7 @@ void bindPairContact(py::module_& module) {
 }
 
 void bindVerdict(py::module_& module) {
-  py::dict members;
-  for (const Verdict verdict :
-       {Verdict::Clear, Verdict::Contact, Verdict::StartsInContact, Verdict::Undecided}) {
-    members[py::str(upperCase(toString(verdict)))] = static_cast<int>(verdict);
-  }
-  const py::object type = py::module_::import("enum").attr("IntEnum")(
-      "Verdict", members, py::arg("module") = "foretouch._foretouch");
-  module.attr("Verdict") = type;
-  verdictType = type.ptr();
+  verdictType = addIntEnum(module, "Verdict", membersOf<Verdict>(4));
 }
 
 }  // namespace foretouch::python

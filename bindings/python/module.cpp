@@ -20,6 +20,8 @@ PYBIND11_MODULE(_foretouch, module) {
   bindPairContact(module);
   bindAnswers(module);
   bindQuery(module);
+  bindNear(module);
   bindSweep(module);
+  bindSolid(module);
   py::delattr(module, "__module__");
 }

@@ -57,22 +57,7 @@ void addIgnored(const py::object& given, const std::string& what, const Avatar& 
   }
 }
 
-std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,
-                                     const Scene& scene) {
-  std::vector<IgnoredPair> ignored;
-  std::size_t place = 0;
-  for (const py::object& one : items(given, "ignore")) {
-    addIgnored(one, "ignore[" + std::to_string(place++) + "]", avatar, scene, ignored);
-  }
-  return ignored;
-}
-
 // ---- policies ----
-
-bool boolean(py::handle given, const std::string& what) {
-  if (!PyBool_Check(given.ptr())) refuse(ErrorCode::Mismatch, what, "expected a bool");
-  return given.ptr() == Py_True;
-}
 
 /// What a policy sets for its link, or for its link with its objects.
 void readPolicy(py::handle given, const std::string& what, ObjectPolicy& policy) {
@@ -155,6 +140,23 @@ std::optional<AvatarSurface> surfaceFrom(const py::object& given, const Avatar& 
   return surface.triangles;
 }
 
+}  // namespace
+
+std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,
+                                     const Scene& scene) {
+  std::vector<IgnoredPair> ignored;
+  std::size_t place = 0;
+  for (const py::object& one : items(given, "ignore")) {
+    addIgnored(one, "ignore[" + std::to_string(place++) + "]", avatar, scene, ignored);
+  }
+  return ignored;
+}
+
+bool boolean(py::handle given, const std::string& what) {
+  if (!PyBool_Check(given.ptr())) refuse(ErrorCode::Mismatch, what, "expected a bool");
+  return given.ptr() == Py_True;
+}
+
 std::optional<foretouch::PairRules> rulesFrom(const py::object& given, const Avatar& avatar) {
   if (given.is_none()) return std::nullopt;
   if (!py::isinstance<PairRules>(given)) {
@@ -166,8 +168,6 @@ std::optional<foretouch::PairRules> rulesFrom(const py::object& given, const Ava
   }
   return own.rules;
 }
-
-}  // namespace
 
 QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar, const Scene& scene) {
   QueryOptions options;

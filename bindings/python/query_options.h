@@ -1,10 +1,22 @@
 // bindings/python/query_options.h: the keywords of a query as the library's options.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "bindings/python/arguments.h"
 #include "middleware/query/query.h"
 
 namespace foretouch::python {
+
+[[nodiscard]] bool boolean(py::handle given, const std::string& what);
+/// Links, and pairs of a link and an object, by name or index.
+[[nodiscard]] std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,
+                                                   const Scene& scene);
+/// None, or the rules of this avatar.
+[[nodiscard]] std::optional<foretouch::PairRules> rulesFrom(const py::object& given,
+                                                            const Avatar& avatar);
 
 /// As given, unchecked.
 struct GivenOptions {

@@ -162,8 +162,9 @@ void bindScene(py::module_& module) {
           py::arg("up") = py::none(), py::kw_only(), py::arg("importer") = py::none(),
           py::arg("time_limit_s") = usual.timeLimitS,
           py::arg("memory_limit_bytes") = usual.memoryLimitBytes,
-          "Any mesh format that assimp reads, in a child process under limits (the program\n"
-          "foretouch-import; docs/python.md says where it is looked for). scale: metres per\n"
+          "OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process (the\n"
+          "program foretouch-import; docs/python.md says where it is looked for). scale: metres "
+          "per\n"
           "unit of the file; up: 'y' or 'z'; both in place of what the file says itself.")
       .def_property_readonly("num_triangles", &Scene::numTriangles)
       .def_property_readonly("triangles", &triangleArray,

@@ -7,8 +7,10 @@ example=$(realpath "$(dirname "$program")/../share/foretouch/examples")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 python3 "$pictures/concepts.py"
-PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$(realpath "$(dirname "$program")/../lib/python3/dist-packages")" \
-  /usr/bin/python3 "$pictures/table_and_cup.py"  # numpy is that of Debian's own Python
+for picture in table_and_cup solid_tick; do
+  PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$(realpath "$(dirname "$program")/../lib/python3/dist-packages")" \
+    /usr/bin/python3 "$pictures/$picture.py"  # numpy is that of Debian's own Python
+done
 cd "$work"
 "$program" demo --output demo.jsonl --report demo.html >/dev/null
 inputs=(--scene "$example/room.obj" --avatar "$example/dancer.avatar.json" --motion "$example/dancer.bvh")

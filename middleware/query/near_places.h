@@ -37,20 +37,34 @@ struct NearPlace {
   [[nodiscard]] bool isAtEnd() const { return feature.along == 0.0 || feature.along == 1.0; }
 };
 
+/// Knows places that cannot win.
+class NearFilter {
+ public:
+  /// False: a place at this distance, which is not 0, with this difference of its two points would
+  /// be for nothing.
+  [[nodiscard]] virtual bool mayWin(const Eigen::Vector3d& difference, double along,
+                                    double distance) const = 0;
+
+ protected:
+  ~NearFilter() = default;
+};
+
 /// Of one pair; none if the closest points are farther apart than the reach.
 struct NearPlaces {
   static constexpr int kMost = 6;
   NearPlace place[kMost];
   int count = 0;
 };
+/// `filter`: what may be left out; or null.
 void findPlaces(const StandingLss& lss, const Triangle& triangle, TriangleId id,
-                const FlatEdges& flat, NearPlaces& places);
+                const FlatEdges& flat, const NearFilter* filter, NearPlaces& places);
 
 /// The closest points alone.
 [[nodiscard]] NearPlace closestPlace(const StandingLss& lss, const Triangle& triangle,
                                      TriangleId id, const FlatEdges& flat);
 
 /// A lower bound on the separation at the place.
-[[nodiscard]] double provenGap(const StandingLss& lss, const Triangle& triangle, NearPart part);
+[[nodiscard]] double provenGap(const StandingLss& lss, const Triangle& triangle,
+                               const NearPlace& place);
 
 }  // namespace foretouch::internal

@@ -126,7 +126,8 @@ class NearSearch {
       const TriangleId id = scratch_.near.id[k];
       if (scratch_.ignored.has(plan_.scene, id)) continue;
       ++near_.counters.advancements;
-      internal::findPlaces(lss, plan_.scene.triangle(id), id, *plan_.flat, places);
+      internal::findPlaces(lss, plan_.scene.triangle(id), id, *plan_.flat,
+                           isReduced ? &scratch_.reduction : nullptr, places);
       for (int p = 0; p < places.count; ++p) {
         if (isReduced) {
           scratch_.reduction.offer(places.place[p]);
@@ -149,7 +150,7 @@ class NearSearch {
       const NearPlace place =
           internal::closestPlace(lss, plan_.scene.triangle(id), id, *plan_.flat);
       if (place.feature.gap > lss.reach &&
-          internal::provenGap(lss, plan_.scene.triangle(id), place.part) > lss.reach) {
+          internal::provenGap(lss, plan_.scene.triangle(id), place) > lss.reach) {
         continue;
       }
       if (found.empty()) {
@@ -184,7 +185,7 @@ class NearSearch {
     for (const NearPlace& place : found) {
       NearFeature feature = place.feature;
       feature.gap = internal::provenGap(lss[slotOf(feature.lss)],
-                                        plan_.scene.triangle(feature.triangle), place.part);
+                                        plan_.scene.triangle(feature.triangle), place);
       near_.features.push_back(feature);
     }
     std::sort(near_.features.begin() + static_cast<std::ptrdiff_t>(range.first),

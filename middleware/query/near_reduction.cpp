@@ -61,8 +61,9 @@ void NearReduction::begin(const Scene& scene, const StandingLss& lss, const Eige
   places_.clear();
 }
 
-std::size_t NearReduction::binOf(const NearPlace& place) const {
-  const Vector3d n = toBins_ * place.feature.nhat_SL_W;
+/// The bin of faces; that of the rest is the next. The direction may have any length.
+std::size_t NearReduction::binsOf(const Vector3d& direction_W, double along) const {
+  const Vector3d n = toBins_ * direction_W;
   int axis = 0;
   const double largest = n.cwiseAbs().maxCoeff(&axis);
   const auto thirdOf = [&](int other) -> std::size_t {
@@ -71,14 +72,25 @@ std::size_t NearReduction::binOf(const NearPlace& place) const {
   };
   const std::size_t side = 2 * slotOf(axis) + (n[axis] < 0.0 ? 1 : 0);
   std::size_t quarter = 0;
-  for (const double bound : kQuarterBounds) quarter += place.feature.along > bound ? 1 : 0;
+  for (const double bound : kQuarterBounds) quarter += along > bound ? 1 : 0;
   const std::size_t direction = (side * 3 + thirdOf(axis + 1)) * 3 + thirdOf(axis + 2);
-  return (direction * kQuarters + quarter) * kKinds + (isFace(place) ? 0 : 1);
+  return (direction * kQuarters + quarter) * kKinds;
+}
+
+bool NearReduction::mayWin(const Vector3d& difference, double along, double distance) const {
+  const Vector3d direction = difference / distance;  // as in the place, so that both share a bin
+  const std::size_t bin = binsOf(direction, along);
+  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+    const std::uint16_t slot = slots_[bin + kind];
+    if (slot == 0 || !(places_[slot - 1U].distance < distance)) return true;
+  }
+  return false;
 }
 
 void NearReduction::offer(const NearPlace& place) {
   if (!place.stands) return;
-  std::uint16_t& slot = slots_[binOf(place)];
+  const std::size_t bin = binsOf(place.feature.nhat_SL_W, place.feature.along);
+  std::uint16_t& slot = slots_[bin + (isFace(place) ? 0 : 1)];
   if (slot == 0) {
     places_.push_back(place);
     slot = static_cast<std::uint16_t>(places_.size());

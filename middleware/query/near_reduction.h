@@ -20,7 +20,7 @@ namespace foretouch::internal {
 
 /// Keeps the nearest place in each bin, and of these the ones that no nearer one stands for. The
 /// result is a function of the set of places that were offered. Fixed memory.
-class NearReduction {
+class NearReduction final : public NearFilter {
  public:
   /// Six faces of a cube, three by three on each; quarters of the axis; faces, and the rest.
   static constexpr std::size_t kDirections = 54, kQuarters = 4, kKinds = 2;
@@ -30,11 +30,14 @@ class NearReduction {
   /// that a motion of all does not change the answer.
   void begin(const Scene& scene, const StandingLss& lss, const Eigen::Matrix3d& R_WL);
   void offer(const NearPlace& place);
+  /// False: both bins that it could be in have a nearer one.
+  [[nodiscard]] bool mayWin(const Eigen::Vector3d& difference, double along,
+                            double distance) const override;
   /// Appends what is left. O(bins^2) at most, few in practice.
   void finish(std::vector<NearPlace>& left);
 
  private:
-  [[nodiscard]] std::size_t binOf(const NearPlace& place) const;
+  [[nodiscard]] std::size_t binsOf(const Eigen::Vector3d& direction_W, double along) const;
   void accept(bool faces);
   [[nodiscard]] bool isStoodFor(const NearPlace& place) const;
   [[nodiscard]] bool isKeptAbove(const NearPlace& place) const;

@@ -1,5 +1,6 @@
 // FlatBvh::build(): Embree's tree, and its copy into flat arrays.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <new>
@@ -42,14 +43,25 @@ struct BuildLeaf : BuildNode {
 
 constexpr std::size_t kEmbreeAlignment = 16;
 
-void* createNode(RTCThreadLocalAllocator allocator, unsigned numChildren, void*) {
-  auto* node =
-      new (rtcThreadLocalAlloc(allocator, sizeof(BuildInner), kEmbreeAlignment)) BuildInner;
+/// Null without memory, which `hasShortage` (an atomic bool) then tells: Embree goes on without the
+/// node, and so do the callbacks.
+template <typename Node>
+Node* newNode(RTCThreadLocalAllocator allocator, void* hasShortage) {
+  void* const place = rtcThreadLocalAlloc(allocator, sizeof(Node), kEmbreeAlignment);
+  if (place != nullptr) return new (place) Node{};
+  *static_cast<std::atomic<bool>*>(hasShortage) = true;
+  return nullptr;
+}
+
+void* createNode(RTCThreadLocalAllocator allocator, unsigned numChildren, void* hasShortage) {
+  auto* node = newNode<BuildInner>(allocator, hasShortage);
+  if (node == nullptr) return nullptr;
   node->numChildren = numChildren;
   return static_cast<BuildNode*>(node);
 }
 
 void setChildren(void* node, void** children, unsigned count, void*) {
+  if (node == nullptr) return;
   auto* inner = static_cast<BuildInner*>(static_cast<BuildNode*>(node));
   for (unsigned i = 0; i < count; ++i) {
     inner->children[i] = static_cast<const BuildNode*>(children[i]);
@@ -57,13 +69,15 @@ void setChildren(void* node, void** children, unsigned count, void*) {
 }
 
 void setBounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
+  if (node == nullptr) return;
   auto* inner = static_cast<BuildInner*>(static_cast<BuildNode*>(node));
   for (unsigned i = 0; i < count; ++i) inner->bounds[i] = *bounds[i];
 }
 
 void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
-                 size_t count, void*) {
-  auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(BuildLeaf), kEmbreeAlignment)) BuildLeaf;
+                 size_t count, void* hasShortage) {
+  auto* leaf = newNode<BuildLeaf>(allocator, hasShortage);
+  if (leaf == nullptr) return nullptr;
   leaf->numChildren = 0;
   leaf->size = static_cast<unsigned>(count);
   for (size_t i = 0; i < count; ++i) leaf->primitives[i] = primitives[i].primID;
@@ -91,7 +105,8 @@ std::vector<RTCBuildPrimitive> primitivesOf(const std::vector<Triangle>& triangl
   return primitives;
 }
 
-RTCBuildArguments argumentsOf(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitives) {
+RTCBuildArguments argumentsOf(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitives,
+                              std::atomic<bool>& hasShortage) {
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
   arguments.maxBranchingFactor = kBvhWidth;
@@ -107,6 +122,7 @@ RTCBuildArguments argumentsOf(RTCBVH tree, std::vector<RTCBuildPrimitive>& primi
   arguments.setNodeChildren = setChildren;
   arguments.setNodeBounds = setBounds;
   arguments.createLeaf = createLeaf;
+  arguments.userPtr = &hasShortage;
   return arguments;
 }
 
@@ -148,6 +164,7 @@ class FlatBvhBuilder {
   }
 
   Result<Done> flatten(const BuildNode& root, const RTCBounds& rootBounds) {
+    if (!isWhole(&root)) return Error::of(ErrorCode::DeviceFailed, "Embree built no whole root");
     const std::uint32_t rootIndex = addNode();
     if (root.numChildren == 0) {
       setChild(rootIndex, 0, rootBounds, root, 1);
@@ -162,6 +179,9 @@ class FlatBvhBuilder {
                          "expected a tree of at most " + std::to_string(kMaxBvhDepth) + " levels");
       }
       for (unsigned i = 0; i < next.node->numChildren; ++i) {
+        if (!isWhole(next.node->children[i])) {
+          return Error::of(ErrorCode::DeviceFailed, "Embree built a part of the scene's tree");
+        }
         setChild(next.index, i, next.node->bounds[i], *next.node->children[i], next.depth + 1);
       }
     }
@@ -177,6 +197,16 @@ class FlatBvhBuilder {
     std::uint32_t index;
     int depth;
   };
+
+  /// Without memory Embree may leave a part out, and say nothing.
+  [[nodiscard]] bool isWhole(const BuildNode* node) const {
+    if (node == nullptr || node->numChildren > kBvhWidth) return false;
+    if (node->numChildren > 0) return true;
+    const auto& leaf = static_cast<const BuildLeaf&>(*node);
+    return leaf.size >= 1 && leaf.size <= kBvhWidth &&
+           std::all_of(leaf.primitives, leaf.primitives + leaf.size,
+                       [&](unsigned primitive) { return primitive < ids_.size(); });
+  }
 
   std::uint32_t addNode() {
     BvhNode node{};
@@ -275,10 +305,16 @@ Result<FlatBvh> FlatBvh::build(const std::vector<Triangle>& triangles,
   FORETOUCH_ASSERT(!ids.empty());
   FORETOUCH_TRY(auto device, newEmbreeDevice());
   const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> tree(rtcNewBVH(device.get()));
+  FORETOUCH_CHECK(embreeStatus(device.get(), "making room for the scene's tree"));
+  if (tree == nullptr) return Error::of(ErrorCode::DeviceFailed, "Embree made no tree");
   std::vector<RTCBuildPrimitive> primitives = primitivesOf(triangles, ids, origin);
-  const RTCBuildArguments arguments = argumentsOf(tree.get(), primitives);
+  std::atomic<bool> hasShortage{false};
+  const RTCBuildArguments arguments = argumentsOf(tree.get(), primitives, hasShortage);
   const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
   FORETOUCH_CHECK(embreeStatus(device.get(), "building the scene's tree"));
+  if (hasShortage) {
+    return Error::of(ErrorCode::DeviceFailed, "Embree had no memory for the scene's tree");
+  }
   if (root == nullptr) return Error::of(ErrorCode::DeviceFailed, "Embree built no tree");
   const RTCBounds rootBounds = boundsOf(primitives);
   primitives = {};  // makes room for the flat arrays

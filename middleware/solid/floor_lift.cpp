@@ -14,7 +14,7 @@ constexpr double kWindowS = 1.0;
 /// m/s: too slow for anybody to notice.
 constexpr double kSpeed = 0.05;
 /// How far from where a foot was held the floor is taken to go on (m), to the side.
-constexpr double kFloorReach = 0.4;
+constexpr double kFloorReach = 0.2;
 
 }  // namespace
 
@@ -49,7 +49,8 @@ double FloorLift::asked(const std::vector<LinkState>& target) const {
         const Eigen::Vector3d from = state.pointAt(end) - floor.y;
         if ((from - up_ * up_.dot(from)).norm() > kFloorReach) continue;
         const double missing = skin_ + lss.radius - floor.n.dot(from);
-        most = std::max(most, missing / floor.n.dot(up_));
+        const double lift = missing / floor.n.dot(up_);
+        if (lift <= most_) most = std::max(most, lift);  // more is a step, not a calibration
       }
     }
   }

@@ -125,7 +125,7 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   gather(certifier, tick);
   const double most = std::min(trust_, left_);
   const bool hasStep = propose(request, certifier.plan(), shown, most, tick);
-  if (!hasPushes() && far <= left_ && (!hasDirectFailed_ || size_ <= trust_)) {
+  if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
     return stepFreely(request, far, certifier, shown, tick);
   }
   if (!hasStep || (hasMoved_ && size_ < enough_)) return false;
@@ -298,6 +298,7 @@ void Follower::setBounds(bool mayPush) {
 /// False: there is none, or none worth a motion.
 bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                        double most, SolidTick& tick) {
+  push_.begin();
   setBounds(true);
   for (int attempt = 0; attempt <= kCorrections; ++attempt) {
     solve(tick);

@@ -18,6 +18,10 @@ constexpr int kRowsPerLss = 2;
 constexpr double kKept = 1e-8;
 /// Share of a row's own product: two plates nearer than two skins have pushes all the same.
 constexpr double kCompliance = 1e-4;
+/// Rows that do not push are kept within this, so that those taken up are.
+constexpr double kKeptInside = 0.1 * kKept;
+/// Solutions by blocks, and how many of them may not be better than the best.
+constexpr int kMostBlocks = 20, kBlockPatience = 3;
 
 }  // namespace
 
@@ -32,20 +36,26 @@ double LeastPush::excess(const ContactRow& row, const TreeStep& step, const Tree
   return along - row.bound - row.bias;
 }
 
+void LeastPush::begin() {
+  taken_.clear();
+  ways_.clear();
+  isTaken_.clear();
+}
+
 std::size_t LeastPush::solve(TreeInertia& inertia, const TreePull& pull,
                              const Eigen::Vector3d& origin, std::vector<ContactRow>& rows,
                              TreeStep& step) {
-  taken_.clear();
-  ways_.clear();
   products_.resize(kMostRows * kMostRows);
-  isTaken_.assign(rows.size(), 0);
+  isTaken_.resize(rows.size(), 0);
   frees_.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].push = 0.0;
     frees_[i] = excess(rows[i], step, pull, origin);
   }
+  for (Taken& taken : taken_) taken.free = frees_[taken.row];
   for (int round = 0; round < kRounds; ++round) {
-    if (!takeViolated(inertia, pull, origin, rows, step)) break;
+    const bool isAnyTaken = takeViolated(inertia, pull, origin, rows, step);
+    if (!isAnyTaken && (round > 0 || taken_.empty())) break;
     findPushes();
     forces_ = pull.forces;
     for (const Taken& taken : taken_) {
@@ -129,13 +139,51 @@ double LeastPush::slackOf(std::size_t i) const {
   return slack;
 }
 
-/// min 1/2 p A p + free p over p >= 0, exactly: the active set of [Lawson74] 23.3 on A, which is
-/// positive definite. Goes on from the pushes of the round before.
+/// min 1/2 p A p + free p over p >= 0, exactly; A is positive definite. Goes on from what pushed
+/// before.
 void LeastPush::findPushes() {
+  if (!exchangeBlocks()) exchangeOneByOne();
+}
+
+/// Block pivoting ([Kim11], REFERENCES.md): whatever is on the wrong side changes sides, all at
+/// once. Nearly always done in a few solutions; false if it was not.
+bool LeastPush::exchangeBlocks() {
+  std::size_t fewest = taken_.size() + 1;
+  int patience = kBlockPatience;
+  for (int solution = 0; solution < kMostBlocks; ++solution) {
+    std::size_t wrong = solveAsEquations();
+    for (Taken& taken : taken_) {
+      const auto i = static_cast<std::size_t>(&taken - taken_.data());
+      taken.push = taken.isPushing ? wanted_[i] : 0.0;
+    }
+    for (std::size_t i = 0; i < taken_.size(); ++i) {
+      isWrong_[i] = taken_[i].isPushing ? !(wanted_[i] > 0.0) : slackOf(i) < -kKeptInside;
+      if (isWrong_[i] != 0 && !taken_[i].isPushing) ++wrong;
+    }
+    if (wrong == 0) return true;
+    if (wrong < fewest) {
+      fewest = wrong;
+      patience = kBlockPatience;
+    } else if (--patience < 0) {
+      return false;
+    }
+    for (std::size_t i = 0; i < taken_.size(); ++i) {
+      if (isWrong_[i] != 0) taken_[i].isPushing = !taken_[i].isPushing;
+    }
+  }
+  return false;
+}
+
+/// The active set of [Lawson74] 23.3, which always ends.
+void LeastPush::exchangeOneByOne() {
+  for (Taken& taken : taken_) {
+    taken.push = 0.0;
+    taken.isPushing = false;
+  }
   const std::size_t mostSteps = 3 * taken_.size() + 10;
   for (std::size_t step = 0; step < mostSteps; ++step) {
     std::size_t worst = taken_.size();
-    double by = -0.1 * kKept;
+    double by = -kKeptInside;
     for (std::size_t i = 0; i < taken_.size(); ++i) {
       if (taken_[i].isPushing) continue;
       const double slack = slackOf(i);
@@ -146,50 +194,64 @@ void LeastPush::findPushes() {
     }
     if (worst == taken_.size()) return;
     taken_[worst].isPushing = true;
-    while (!solvePushing()) {
+    while (!goTowardsEquations()) {
     }
   }
 }
 
-/// Moves the pushes towards those that hold all pushing rows exactly; false if one had to be let go
-/// on the way.
-bool LeastPush::solvePushing() {
+/// Finds the pushes that hold all pushing rows exactly: wanted_. Returns how many are not above 0.
+std::size_t LeastPush::solveAsEquations() {
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
   using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
   std::array<std::size_t, kMostRows> place{};
   Eigen::Index n = 0;
+  wanted_.assign(taken_.size(), 0.0);
+  isWrong_.assign(taken_.size(), 0);
   for (std::size_t i = 0; i < taken_.size(); ++i) {
     if (taken_[i].isPushing) place[static_cast<std::size_t>(n++)] = i;
   }
-  if (n == 0) return true;
+  if (n == 0) return 0;
   Square A(n, n);
-  Column free(n);
+  Column push(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const std::size_t row = place[static_cast<std::size_t>(i)];
-    free[i] = -taken_[row].free;
-    for (Eigen::Index k = 0; k < n; ++k) A(i, k) = product(row, place[static_cast<std::size_t>(k)]);
+    push[i] = -taken_[row].free;
+    for (Eigen::Index k = 0; k <= i; ++k) {
+      A(i, k) = product(row, place[static_cast<std::size_t>(k)]);
+    }
   }
-  const Eigen::LLT<Square> factors(A);
-  factors.solveInPlace(free);
-  double share = 1.0;
-  Eigen::Index stops = -1;
+  const Eigen::LLT<Square, Eigen::Lower> factors(A);
+  factors.solveInPlace(push);
+  std::size_t wrong = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (free[i] > 0.0) continue;
-    const double now = taken_[place[static_cast<std::size_t>(i)]].push;
-    const double here = now > 0.0 ? now / (now - free[i]) : 0.0;
-    if (stops < 0 || here < share) {
+    wanted_[place[static_cast<std::size_t>(i)]] = push[i];
+    if (!(push[i] > 0.0)) ++wrong;
+  }
+  return wrong;
+}
+
+/// Moves the pushes towards those of the equations; false if one had to be let go on the way.
+bool LeastPush::goTowardsEquations() {
+  if (solveAsEquations() == 0) {
+    for (std::size_t i = 0; i < taken_.size(); ++i) taken_[i].push = wanted_[i];
+    return true;
+  }
+  double share = 1.0;
+  std::size_t stops = taken_.size();
+  for (std::size_t i = 0; i < taken_.size(); ++i) {
+    if (!taken_[i].isPushing || wanted_[i] > 0.0) continue;
+    const double now = taken_[i].push;
+    const double here = now > 0.0 ? now / (now - wanted_[i]) : 0.0;
+    if (stops == taken_.size() || here < share) {
       share = here;
       stops = i;
     }
   }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    Taken& taken = taken_[place[static_cast<std::size_t>(i)]];
-    taken.push += share * (free[i] - taken.push);
+  for (std::size_t i = 0; i < taken_.size(); ++i) {
+    if (taken_[i].isPushing) taken_[i].push += share * (wanted_[i] - taken_[i].push);
   }
-  if (stops < 0) return true;
-  Taken& gone = taken_[place[static_cast<std::size_t>(stops)]];
-  gone.push = 0.0;
-  gone.isPushing = false;
+  taken_[stops].push = 0.0;
+  taken_[stops].isPushing = false;
   return false;
 }
 

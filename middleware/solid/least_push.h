@@ -31,9 +31,11 @@ class LeastPush {
   /// At most so many rows push at once; the certificate of the step sees to all others.
   static constexpr std::size_t kMostRows = 64;
 
+  /// Forgets the rows that solve() has taken up: their places, or the inertia, are others now.
+  void begin();
   /// `step` is the free one on entry, and the constrained one on return; rows get their pushes.
-  /// `origin`: of the inertia's coordinates. Returns how many rows it took up. The same answer
-  /// whatever the rows' order but for rounding.
+  /// `origin`: of the inertia's coordinates. Returns how many rows it has taken up since begin();
+  /// since then, only bounds may have changed.
   std::size_t solve(TreeInertia& inertia, const TreePull& pull, const Eigen::Vector3d& origin,
                     std::vector<ContactRow>& rows, TreeStep& step);
 
@@ -54,8 +56,11 @@ class LeastPush {
   void take(const TreeInertia& inertia, const Eigen::Vector3d& origin, const ContactRow& row,
             std::size_t index);
   void findPushes();
+  [[nodiscard]] bool exchangeBlocks();
+  void exchangeOneByOne();
   [[nodiscard]] double slackOf(std::size_t i) const;
-  bool solvePushing();
+  std::size_t solveAsEquations();
+  [[nodiscard]] bool goTowardsEquations();
   [[nodiscard]] double& product(std::size_t i, std::size_t k) {
     return products_[i * kMostRows + k];
   }
@@ -66,9 +71,9 @@ class LeastPush {
   std::vector<Taken> taken_;
   std::vector<WayPart> ways_;
   std::vector<double> products_;  // J M^-1 J^T of the taken rows
-  std::vector<double> wanted_;    // pushes that solve the pushing rows as equations
+  std::vector<double> wanted_;    // of the taken rows: pushes that hold the pushing ones exactly
   std::vector<double> frees_;     // of all rows, at the free step
-  std::vector<std::uint8_t> isTaken_;
+  std::vector<std::uint8_t> isTaken_, isWrong_;
   std::vector<Vector6d> forces_;
 };
 

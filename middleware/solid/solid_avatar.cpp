@@ -114,10 +114,6 @@ class SolidAvatar::Parts {
     certifier_.beginTick(options_.workBudget);
     internal::beginTick(tick);
     isAround_ = false;
-    if (lift_.isAny()) {
-      tick.lift = lift_.update(target_.states(), given.dtS);
-      target_.moveRoots(tick.lift * options_.up);
-    }
     if (!isPlaced_) place(tick);
     if (isPlaced_) {
       before_ = shown_;
@@ -201,6 +197,7 @@ class SolidAvatar::Parts {
 
   void move(double dtS, SolidTick& tick) {
     if (std::exchange(mustSayPlace_, false)) appear(tick);
+    if (lift_.isAny() && goUnlifted(dtS, tick)) return;
     if (wasEqual_ && !follower_.isAnyHot()) {
       if (follower_.goStraight(target_.pose(), certifier_, shown_, tick)) return;
     }
@@ -216,6 +213,22 @@ class SolidAvatar::Parts {
     if (around_.hasWay() && walkAround(budget, tick)) return;
     follower_.follow({target_.pose(), wanted_, step, budget}, certifier_, shown_, tick);
     if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
+  }
+
+  /// Lifts the target, unless the tracked pose itself is in reach: then it is shown.
+  bool goUnlifted(double dtS, SolidTick& tick) {
+    const double lift = lift_.update(target_.states(), dtS);
+    if (!(lift > 0.0)) return false;
+    const internal::VisualBody& body = follower_.body();
+    const double far =
+        body.farthestMove(skeleton(), shown_, target_.pose(), states_, statesBefore_);
+    if (far <= options_.catchUp * dtS &&
+        follower_.goStraight(target_.pose(), certifier_, shown_, tick)) {
+      return true;
+    }
+    tick.lift = lift;
+    target_.moveRoots(lift * options_.up);
+    return false;
   }
 
   /// On along the way that was found; false if it is no longer free.

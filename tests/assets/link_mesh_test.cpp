@@ -2,9 +2,13 @@
 #include "assets/mesh/link_mesh.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <fcntl.h>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -239,16 +243,23 @@ TEST_F(LinkMeshes, ImportEachFileOnce) {
   }
   const Skeleton skeleton = Skeleton::build(raw).value();
   ASSERT_TRUE(writeLinkMeshes(skeleton, surfaces, folder_ / "b.glb").ok());
-  // An importer that works once: it may write no file, but take one away.
-  folder_.write("ticket", "1");
+  // An importer that works once: it takes a line from a pipe that holds one good one.
+  const std::string recorded = std::string(FORETOUCH_TEST_IMPORTER) + " --model '" +
+                               (folder_ / "b.glb") + "' > '" + (folder_ / "answer") + "'";
+  ASSERT_EQ(std::system(recorded.c_str()), 0);
+  const std::string tickets = folder_ / "tickets";
+  ASSERT_EQ(mkfifo(tickets.c_str(), 0600), 0);
+  const int held = ::open(tickets.c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_EQ(::write(held, "good\nused\n", 10), 10);
   ModelImportOptions options;
-  options.import.importer =
-      folder_.script("once", "rm '" + (folder_ / "ticket") +
-                                 "' || exit 1; exec " FORETOUCH_TEST_IMPORTER " \"$@\"");
+  options.import.importer = folder_.script(
+      "once", "read ticket < '" + tickets + "'; [ \"$ticket\" = good ] || exit 1; exec cat '" +
+                  (folder_ / "answer") + "'");
   const Avatar avatar = avatarOf(skeleton, surfaces, "b.glb");
   const auto loaded = loadLinkMeshes(avatar, folder_ / "a.avatar.json", options);
   EXPECT_TRUE(loaded.ok()) << describe(loaded.error());
   EXPECT_FALSE(loadLinkMeshes(avatar, folder_ / "a.avatar.json", options).ok());
+  ::close(held);
 }
 
 /// The avatar of a model that refers to the model itself.

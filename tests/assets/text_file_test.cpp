@@ -110,6 +110,39 @@ TEST_F(PendingFileTest, FollowsASymbolicLink) {
   EXPECT_EQ(readBack(file("real")), "new");
 }
 
+TEST_F(PendingFileTest, FollowsLinksOfLinksToAFileThatIsNotThereYet) {
+  fs::create_directory(file("folder"));
+  fs::create_symlink("folder/second", file("first"));
+  fs::create_symlink("../real", file("folder/second"));
+  auto pending = PendingFile::create(file("first"));
+  ASSERT_TRUE(pending.ok());
+  pending.value().write("new");
+  ASSERT_TRUE(pending.value().commit().ok());
+  EXPECT_EQ(readBack(file("real")), "new");
+}
+
+TEST_F(PendingFileTest, RefusesAStrangersLinkInASharedFolder) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can make a link of somebody else";
+  const auto linkIn = [&](const std::string& folder, mode_t mode, uid_t owner) {
+    fs::create_directory(file(folder));
+    ::chmod(file(folder).c_str(), mode);
+    writeText(file("mine"), "old");
+    const std::string link = file(folder + "/report.html");
+    fs::create_symlink(file("mine"), link);
+    EXPECT_EQ(::lchown(link.c_str(), owner, owner), 0);
+    return link;
+  };
+  constexpr uid_t kStranger = 12345;
+  const auto refused = PendingFile::create(linkIn("shared", 01777, kStranger));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::FileUnwritable);
+  EXPECT_NE(refused.error().message.find("another user's link"), std::string::npos);
+  EXPECT_EQ(readBack(file("mine")), "old");
+  // Our own there, and a stranger's where we let nobody in.
+  EXPECT_TRUE(PendingFile::create(linkIn("own", 01777, ::geteuid())).ok());
+  EXPECT_TRUE(PendingFile::create(linkIn("private", 0755, kStranger)).ok());
+}
+
 TEST_F(PendingFileTest, MovedFromItOwnsNothing) {
   auto pending = PendingFile::create(file("out"));
   ASSERT_TRUE(pending.ok());

@@ -125,6 +125,38 @@ TEST_F(ImportUrdf, FindsPackagesAboveItsOwnFolder) {
   EXPECT_EQ(trianglesOf(model.value()), 1U);
 }
 
+TEST_F(ImportUrdf, ReadsMeshesOfItsPackageAndThoseBesideItAlone) {
+  for (const char* const name : {"ws/robot/urdf", "ws/other/meshes", "elsewhere", "ws/.keys"}) {
+    makeFolder(name);
+  }
+  folder_.write("ws/robot/package.xml", "<package/>");
+  for (const char* const name :
+       {"ws/other/meshes/t.obj", "elsewhere/t.obj", "ws/.keys/t.obj", "ws/robot/t.obj"}) {
+    folder_.write(name, kTriangleObj);
+  }
+  const auto trianglesBy = [&](const std::string& reference, const ModelImportOptions& options) {
+    const std::string path = folder_.write(
+        "ws/robot/urdf/r.urdf", robot(linkWith("<mesh filename=\"" + reference + "\"/>", "a") +
+                                      linkWith(kSphere, "b") + joint("fixed", "a", "b")));
+    const auto model = importModel(path, options);
+    EXPECT_TRUE(model.ok()) << describe(model.error());
+    if (!model.ok()) return std::size_t{0};
+    EXPECT_EQ(trianglesOf(model.value()) == 0, mentions(model.value().notes, "is not read"));
+    return trianglesOf(model.value());
+  };
+  ModelImportOptions options = withModelImporter();
+  EXPECT_EQ(trianglesBy("package://robot/t.obj", options), 1U);
+  EXPECT_EQ(trianglesBy("../t.obj", options), 1U);
+  EXPECT_EQ(trianglesBy("package://other/meshes/t.obj", options), 1U);
+  const std::string outside = folder_ / "elsewhere/t.obj";
+  for (const std::string& bad : {outside, "file://" + outside, std::string("../../.keys/t.obj"),
+                                 std::string("../../../elsewhere/t.obj")}) {
+    EXPECT_EQ(trianglesBy(bad, options), 0U) << bad;
+  }
+  options.packagePaths = {folder_ / "elsewhere"};
+  EXPECT_EQ(trianglesBy(outside, options), 1U);
+}
+
 TEST_F(ImportUrdf, AppliesAMeshsScaleBeforeItsOrigin) {
   folder_.write("t.obj", kTriangleObj);
   const Model model = imported(linkWith("<mesh filename=\"t.obj\" scale=\"2 -3 1\"/>", "a",

@@ -1,7 +1,7 @@
-// The binary interface of version 1 on x86-64, in numbers: programs are compiled against them, so
+// The binary interface on x86-64, in numbers: programs are compiled against them, so
 // these lines only ever get company.
 #include <cstddef>
-#include <foretouch/foretouch.h>
+#include <foretouch/solid.h>
 
 #include <gtest/gtest.h>
 
@@ -171,10 +171,72 @@ AT(ft_counters, nodes, 8);
 AT(ft_counters, hierarchy_tests, 64);
 AT(ft_counters, rung_tests, 96);
 
+static_assert(sizeof(ft_solid_options) == 184);
+AT(ft_solid_options, floor, 4);
+AT(ft_solid_options, skin, 8);
+AT(ft_solid_options, tolerance, 16);
+AT(ft_solid_options, catch_up, 24);
+AT(ft_solid_options, up, 32);
+AT(ft_solid_options, most_lift, 56);
+AT(ft_solid_options, most_deviation, 64);
+AT(ft_solid_options, most_limb_deviation, 72);
+AT(ft_solid_options, patience, 80);
+AT(ft_solid_options, snap_notice, 88);
+AT(ft_solid_options, placing_reach, 96);
+AT(ft_solid_options, may_snap, 104);
+AT(ft_solid_options, around_per_tick, 108);
+AT(ft_solid_options, around_in_all, 112);
+AT(ft_solid_options, reserved, 116);
+AT(ft_solid_options, work_budget, 120);
+AT(ft_solid_options, visibility, 128);
+AT(ft_solid_options, visibility_count, 136);
+AT(ft_solid_options, feet, 144);
+AT(ft_solid_options, feet_count, 152);
+AT(ft_solid_options, ignored, 160);
+AT(ft_solid_options, ignored_count, 168);
+AT(ft_solid_options, self, 176);
+
+static_assert(sizeof(ft_solid_tick) == 112);
+AT(ft_solid_tick, state, 4);
+AT(ft_solid_tick, limit, 8);
+AT(ft_solid_tick, is_certified, 12);
+AT(ft_solid_tick, has_appeared, 16);
+AT(ft_solid_tick, reserved, 20);
+AT(ft_solid_tick, deviation, 24);
+AT(ft_solid_tick, lift, 32);
+AT(ft_solid_tick, clearance, 40);
+AT(ft_solid_tick, snap_in_s, 48);
+AT(ft_solid_tick, joint_count, 56);
+AT(ft_solid_tick, contact_count, 64);
+AT(ft_solid_tick, way_count, 72);
+AT(ft_solid_tick, queries, 80);
+AT(ft_solid_tick, iterations, 84);
+AT(ft_solid_tick, features, 88);
+AT(ft_solid_tick, rows, 92);
+AT(ft_solid_tick, around_queries, 96);
+AT(ft_solid_tick, placing_queries, 100);
+AT(ft_solid_tick, work, 104);
+
+static_assert(sizeof(ft_solid_joint) == 16);
+AT(ft_solid_joint, state, 4);
+AT(ft_solid_joint, deviation, 8);
+
+static_assert(sizeof(ft_solid_contact) == 96);
+AT(ft_solid_contact, link, 4);
+AT(ft_solid_contact, lss, 8);
+AT(ft_solid_contact, triangle, 12);
+AT(ft_solid_contact, object, 16);
+AT(ft_solid_contact, other, 20);
+AT(ft_solid_contact, point, 24);
+AT(ft_solid_contact, normal, 48);
+AT(ft_solid_contact, gap, 72);
+AT(ft_solid_contact, push, 80);
+AT(ft_solid_contact, slip_speed, 88);
+
 namespace {
 
 TEST(CLayout, IsWhatProgramsWereCompiledAgainst) {
-  EXPECT_EQ(FT_ABI_VERSION, 1);  // a field or a function more: count up, and add its lines above
+  EXPECT_EQ(FT_ABI_VERSION, 2);  // a field or a function more: count up, and add its lines above
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "tests/bindings/c_world.h"
+#include "tests/bindings/solid_world.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {
@@ -21,7 +21,7 @@ class Caller {
   explicit Caller(std::uint64_t seed) : random_(seed) {}
 
   void callSomething(test::SmallWorld& world, ft_query* query) {
-    switch (random_.below(10)) {
+    switch (random_.below(11)) {
       case 0: makeScene(); break;
       case 1: makeAvatar(); break;
       case 2: makeQuery(world); break;
@@ -31,6 +31,7 @@ class Caller {
       case 6: convert(); break;
       case 7: askScene(world); break;
       case 8: makeRules(world, query); break;
+      case 9: playSolid(world); break;
       default: setOptions(query); break;
     }
   }
@@ -218,6 +219,64 @@ class Caller {
     fillNumbers();
     const ft_pose from = pose(), to = pose();
     take(ft_query_step(maybe(query), random_.chance(0.3) ? nullptr : &from, maybe(&to)));
+  }
+
+  ft_solid_options solidOptions() {
+    ft_solid_options made = test::initialised(ft_solid_options_init);
+    made.size = sizeOr(sizeof made);
+    made.placing_reach = 0.2;  // the places to look at are soon listed
+    for (double* option : {&made.skin, &made.tolerance, &made.catch_up, &made.up[1],
+                           &made.most_lift, &made.patience, &made.placing_reach}) {
+      if (random_.chance(0.05)) *option = number();
+    }
+    if (random_.chance(0.1)) made.floor = index();
+    if (random_.chance(0.1)) made.may_snap = index();
+    if (random_.chance(0.1)) made.around_per_tick = index();
+    if (random_.chance(0.1)) made.visibility = maybe(numbers_.data());
+    if (random_.chance(0.1)) made.visibility_count = count();
+    if (random_.chance(0.1)) made.ignored = maybe(ignored_.data());
+    if (random_.chance(0.1)) made.ignored_count = count();
+    made.work_budget = static_cast<std::uint64_t>(random_.below(1000));  // a tick is soon over
+    return made;
+  }
+  void playSolid(test::SmallWorld& world) {
+    fillNumbers();
+    for (ft_ignored_pair& pair : ignored_) pair = {index(), index()};
+    const ft_solid_options made = solidOptions();
+    const ft_avatar* avatar = maybe(world.avatar.get());
+    if (random_.chance(0.1)) avatar = reinterpret_cast<const ft_avatar*>(world.scene.get());
+    ft_solid* solid = nullptr;
+    const ft_status status =
+        ft_solid_create(maybe(world.scene.get()), avatar, maybe(&made), &solid);
+    take(status);
+    ASSERT_EQ(solid != nullptr, status == FT_OK);
+    if (solid == nullptr) return;
+    const test::SolidHandle owner(solid);
+    for (int i = 0; i < 4; ++i) tickSolid(world, solid);
+  }
+  void tickSolid(test::SmallWorld& world, ft_solid* solid) {
+    fillNumbers();
+    const ft_pose given = pose(), good = random_.chance(0.5) ? world.up() : world.lowered();
+    const std::uint8_t flags[1] = {static_cast<std::uint8_t>(random_.below(3))};
+    ft_solid_tick tick{};
+    tick.size = sizeOr(sizeof tick);
+    take(ft_solid_follow(maybe(solid), random_.chance(0.6) ? &good : maybe(&given), maybe(flags),
+                         random_.chance(0.7) ? 0.01 : number(), maybe(&tick)));
+    ft_solid_joint joint{};
+    joint.size = sizeOr(sizeof joint);
+    std::array<ft_solid_contact, kRoom> contacts{};
+    contacts[0].size = sizeOr(sizeof(ft_solid_contact));
+    std::size_t required = 0;
+    const auto capacity = static_cast<std::size_t>(random_.below(2));
+    take(ft_solid_joints(solid, maybe(&joint), capacity, maybe(&required)));
+    take(ft_solid_contacts(solid, maybe(contacts.data()), kRoom, maybe(&required)));
+    take(ft_solid_shown(solid, maybe(numbers_.data()), maybe(numbers_.data() + 4), capacity,
+                        maybe(&required)));
+    take(ft_solid_way(solid, static_cast<std::size_t>(index()), nullptr, maybe(numbers_.data()),
+                      nullptr, capacity, nullptr));
+    if (random_.chance(0.1)) take(ft_solid_reset(maybe(solid)));
+    if (random_.chance(0.1)) take(ft_solid_reset_at(solid, random_.chance(0.5) ? &good : &given));
+    if (random_.chance(0.1)) take(ft_solid_change_scene(solid, maybe(world.scene.get())));
   }
 
   void readAnswers(ft_query* query) {

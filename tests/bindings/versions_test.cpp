@@ -1,6 +1,7 @@
 // Programs that are older or newer than the library.
 #include <algorithm>
 #include <cstring>
+#include <foretouch/solid.h>
 #include <limits>
 #include <string>
 #include <vector>
@@ -140,6 +141,7 @@ TEST(CVersions, EveryStructOfInputsHasItsDefaults) {
   expectDefaultsOf(ft_pose_init);
   expectDefaultsOf(ft_clip_options_init);
   expectDefaultsOf(ft_query_options_init);
+  expectDefaultsOf(ft_solid_options_init);
   EXPECT_EQ(test::initialised(ft_query_options_init).work_budget,
             std::numeric_limits<std::uint64_t>::max());
   EXPECT_EQ(test::initialised(ft_query_options_init).deadline_us,

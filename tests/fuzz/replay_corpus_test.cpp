@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/fuzz/fuzz_inputs.h"
+#include "tests/fuzz/import_inputs.h"
 
 namespace foretouch::fuzz {
 namespace {
@@ -24,6 +25,13 @@ TEST(FuzzCorpus, PairRulesKeepThePromises) {
   const CorpusCounts counts = replayCorpus("pairs", feedPairs, AlsoFeed::EveryBeginning);
   EXPECT_GE(counts.accepted, 3);
   EXPECT_GE(counts.refused, 3);
+}
+
+TEST(FuzzCorpus, ImportersAnswersKeepThePromises) {
+  const CorpusCounts counts =
+      replayCorpus("import_stream", feedImportStream, AlsoFeed::EveryBeginning);
+  EXPECT_GE(counts.accepted, 2);
+  EXPECT_GE(counts.refused, 4);
 }
 
 }  // namespace

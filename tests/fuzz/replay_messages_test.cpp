@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/fuzz/config_inputs.h"
+#include "tests/fuzz/http_inputs.h"
 #include "tests/fuzz/message_inputs.h"
 #include "tests/fuzz/replay_corpus.h"
+#include "tests/fuzz/text_inputs.h"
 
 namespace foretouch::fuzz {
 namespace {
@@ -22,6 +24,27 @@ TEST(FuzzCorpus, ConfigurationsKeepThePromises) {
   const CorpusCounts counts = replayCorpus("config", feedConfig, AlsoFeed::LastByteMissing);
   EXPECT_GE(counts.accepted, 3);
   EXPECT_GE(counts.refused, 3);
+}
+
+TEST(FuzzCorpus, TextsOfPeopleKeepThePromises) {
+  const CorpusCounts tables = replayCorpus("csv", feedJointTable, AlsoFeed::EveryBeginning);
+  EXPECT_GE(tables.accepted, 3);
+  EXPECT_GE(tables.refused, 4);
+  const CorpusCounts maps = replayCorpus("joint_map", feedJointMap, AlsoFeed::EveryBeginning);
+  EXPECT_GE(maps.accepted, 2);
+  EXPECT_GE(maps.refused, 3);
+  const CorpusCounts urls = replayCorpus("url", feedUrl, AlsoFeed::EveryBeginning);
+  EXPECT_GE(urls.accepted, 4);
+  EXPECT_GE(urls.refused, 3);
+  const CorpusCounts projects = replayCorpus("project", feedProject, AlsoFeed::LastByteMissing);
+  EXPECT_GE(projects.accepted, 1);
+  EXPECT_GE(projects.refused, 3);
+}
+
+TEST(FuzzCorpus, RequestsKeepThePromises) {
+  const CorpusCounts counts = replayCorpus("http", feedHttp, AlsoFeed::LastByteMissing);
+  EXPECT_GE(counts.accepted, 1);
+  EXPECT_GE(counts.refused, 5);
 }
 
 }  // namespace

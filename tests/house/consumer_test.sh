@@ -83,6 +83,7 @@ if [ -f "$prefix/include/foretouch/foretouch.h" ]; then
   # The same question, the same answer.
   cmp "$folder/cxx.txt" <(head -n 1 "$folder/c.txt")
   "$folder/swing/table"
+  "$folder/swing/solid_hand" | tee "$folder/solid-hand.txt"
 
   library=$(dirname "$(find "$prefix" -name libforetouch.so)")
   read -ra flags <<<"$(PKG_CONFIG_PATH=$library/pkgconfig pkg-config --cflags --libs foretouch)"
@@ -116,6 +117,7 @@ if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
   play_in_cxx play
   tail -n 1 "$folder/play.txt"
   "$folder/play/game_loop"
+  if [ -f "$folder/solid-hand.txt" ]; then "$folder/play/solid_hand" | cmp - "$folder/solid-hand.txt"; fi
   room=$prefix/share/foretouch/examples
   contacts=$(grep -c meets "$folder/play.txt")
   grep -qx "$contacts contacts in 136 steps" "$folder/play.txt"

@@ -95,8 +95,9 @@ const std::map<std::string, std::set<std::string>> kLibraries = {
     {"tinyxml.h", {"assets"}},
     {"console_bridge", {"assets"}},
     {"lcm", {"network"}},
-    // Generated from network/wire/lcm; and what others include, in the example in C++.
-    {"foretouch", {"network", "examples"}},
+    // Generated from network/wire/lcm; and what others include, in the example in C++ and from one
+    // header of C to the next.
+    {"foretouch", {"network", "examples", "bindings"}},
     {"xxhash.h", {"network", "tools"}},
     {"boost", {"judge", "middleware"}},
     {"quadmath.h", {"judge"}},

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -91,10 +92,11 @@ TEST(Library, PageShowsTheProgramThatIsBuiltAndRun) {
             std::string::npos);
 }
 
-/// The first block of C++ in a document, indented as it is in a function.
-std::string blockOf(const std::string& document) {
+/// The first block of C++ below a heading of a document, indented as it is in a function.
+std::string blockOf(const std::string& document, const std::string& heading) {
   const std::string open = "```cpp\n";
-  const std::size_t from = document.find(open) + open.size();
+  const std::size_t from =
+      document.find(open, document.find("\n## " + heading + "\n")) + open.size();
   std::istringstream lines(document.substr(from, document.find("```", from) - from));
   std::string block;
   for (std::string line; std::getline(lines, line);)
@@ -102,12 +104,16 @@ std::string blockOf(const std::string& document) {
   return block;
 }
 
-TEST(GameLoop, PageShowsLinesOfTheProgramThatIsRun) {
+TEST(GameLoop, PageShowsLinesOfTheProgramsThatAreRun) {
   const std::string root(FORETOUCH_SOURCE_DIR);
-  const std::string block = blockOf(house::contentOf(root + "/docs/game-loop.md"));
-  EXPECT_GT(std::count(block.begin(), block.end(), '\n'), 10);
-  EXPECT_NE(house::contentOf(root + "/examples/cpp/game_loop.cpp").find(block), std::string::npos)
-      << block;
+  const std::string page = house::contentOf(root + "/docs/game-loop.md");
+  for (const auto& [heading, program] :
+       {std::pair{"The loop", "game_loop.cpp"}, std::pair{"A solid hand", "solid_hand.cpp"}}) {
+    const std::string block = blockOf(page, heading);
+    EXPECT_GT(std::count(block.begin(), block.end(), '\n'), 10);
+    EXPECT_NE(house::contentOf(root + "/examples/cpp/" + program).find(block), std::string::npos)
+        << block;
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "judge/heights.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {
@@ -19,31 +20,12 @@ oracle::Box boxOfAll(const oracle::Scene& scene) {
   return box;
 }
 
-/// Where the vertical line through (x, z) meets the triangle, seen from above.
-std::optional<double> heightAt(const oracle::Triangle& t, double x, double z) {
-  const auto e1 = t[1] - t[0], e2 = t[2] - t[0];
-  const double area = e1.x * e2.z - e1.z * e2.x;
-  if (!(std::abs(area) > 1e-9)) return std::nullopt;
-  const double px = x - t[0].x, pz = z - t[0].z;
-  const double u = (px * e2.z - pz * e2.x) / area, v = (e1.x * pz - e1.z * px) / area;
-  if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0)) return std::nullopt;
-  return t[0].y + u * e1.y + v * e2.y;
-}
-
 std::optional<Placement> drawPlacement(Random& random, const SweepClip& clip,
                                        const SweepScene& scene, const oracle::Box& bounds) {
   const double x = random.uniform(bounds.low.x, bounds.high.x);
   const double z = random.uniform(bounds.low.z, bounds.high.z);
-  std::vector<int> below;
-  const oracle::Box column{{x, bounds.low.y, z}, {x, bounds.high.y, z}};
-  const auto all = static_cast<std::size_t>(scene.oracle.numTriangles());
-  if (!scene.oracle.collect(column, all, below)) return std::nullopt;
-  std::vector<double> heights;
-  for (const int id : below) {
-    if (const auto y = heightAt(scene.oracle.triangle(id), x, z)) heights.push_back(*y);
-  }
+  const std::vector<double> heights = oracle::heightsAt(scene.oracle, x, z);
   if (heights.empty()) return std::nullopt;
-  std::sort(heights.begin(), heights.end());
   // Half of the time the lowest surface, a floor mostly; else any, a table's top or a roof.
   const int level = random.chance(0.5) ? 0 : random.below(static_cast<int>(heights.size()));
   Placement placement;

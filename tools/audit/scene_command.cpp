@@ -48,6 +48,7 @@ std::string sceneJson(const AskedScene& asked, const Scene& scene, const SceneIm
 
 ExitCode check(const AskedScene& asked) {
   FORETOUCH_TRY_OR(failed, auto imported, importScene(asked.scenePath, asked.sceneImport));
+  if (const std::string weak = importerWeakness(); !weak.empty()) printNote(weak);
   const SceneImportReport report = imported.report;
   const FileFrame frame = imported.frame;
   if (const auto remark = remarkOnFrame(frame, {"--scene-scale", "--scene-up"}, asked.scenePath)) {

@@ -106,7 +106,9 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
 }  // namespace
 
 void addSceneSettings(Settings& settings, WorldRequest& request) {
-  settings.path("--scene", "FILE", request.scenePath, "Scene: any mesh format that assimp reads")
+  settings
+      .path("--scene", "FILE", request.scenePath,
+            "Scene: OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM")
       .files(kModelEndings)
       .notEmpty()
       .in(kInputGroup)

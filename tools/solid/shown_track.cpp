@@ -115,19 +115,22 @@ void ShownTrack::addContacts(const PlayedTick& tick) {
     (goesOn ? still : touches_).push_back(std::move(open));
   }
   open_ = std::move(still);
-  for (const ShownContact& contact : found) {
+  for (ShownContact& contact : found) {
     auto open = std::find_if(open_.begin(), open_.end(), [&](const ShownTouchOf& one) {
       return isSamePair(contact, one.touch);
     });
     if (open == open_.end()) {
       open_.push_back({begun(contact), contacts_.size(), contact.push});
     } else {
+      // It goes on from the tick before: shown from the begin of its step.
+      contact.contact.toi = contact.contact.freeUntil = 0.0;
       Touch& touch = open->touch;
       touch.endS = contact.timeS;
       touch.lastStep = contact.step;
       touch.separation = std::min(touch.separation, contact.contact.separation);
       ++touch.contacts;
       open->mostPush = std::max(open->mostPush, contact.push);
+      contact.timeS = timesS_[steps_.back().from];
     }
     contacts_.push_back(contact);
   }

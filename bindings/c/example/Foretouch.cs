@@ -1,4 +1,5 @@
-// Foretouch.cs: Foretouch in C#, for Unity on Linux: scene and avatar of arrays, a step, its contacts.
+// Foretouch.cs: Foretouch in C#, for Unity on Linux: scene and avatar of arrays, a step, its contacts;
+// and Follow(), to show a body that passes through nothing.
 // Arrays are Unity's: metres, left-handed, +Y up, quaternions x, y, z, w. Copy libforetouch.so into
 // Assets/Plugins/x86_64 and tick "Allow 'unsafe' Code" in the player's settings.
 // Without Unity: mcs -unsafe -define:FORETOUCH_TRY Foretouch.cs && mono Foretouch.exe
@@ -35,6 +36,22 @@ public unsafe sealed class Foretouch : IDisposable {
     public fixed double normal[3];
     public int triangle, obj, lss, linkTriangle, linkFeature, sceneFeature;
   }
+  [StructLayout(LayoutKind.Sequential)]
+  public struct SolidTick {
+    public uint size; public int state, limit, isCertified, hasAppeared, reserved;
+    public double deviation, lift, clearance, snapInS;
+    public ulong jointCount, contactCount, wayCount;
+    public uint queries, iterations, features, rows, aroundQueries, placingQueries;
+    public ulong work;
+  }
+  [StructLayout(LayoutKind.Sequential)]
+  public struct SolidContact {
+    public uint size; public int link, lss, triangle, obj, other;
+    public fixed double point[3];
+    public fixed double normal[3];
+    public double gap, push, slipSpeed;
+  }
+  public const int Placing = 0, Equal = 1, Following = 2, Sliding = 3, Held = 4, Around = 5, Snapped = 6;
   public const int Clear = 0, Touches = 1, StartsInContact = 2, Undecided = 3;
 
   const string Lib = "foretouch";
@@ -52,13 +69,26 @@ public unsafe sealed class Foretouch : IDisposable {
   [DllImport(Lib)] static extern int ft_query_step(IntPtr query, Pose* from, Pose* to);
   [DllImport(Lib)] static extern int ft_query_contacts(IntPtr query, [In, Out] Contact[] contacts, ulong capacity, out ulong required);
   [DllImport(Lib)] static extern void ft_query_destroy(IntPtr query);
+  [DllImport(Lib)] static extern int ft_rotations_to_floats(double[] wxyz, ulong count, int axes, float[] xyzw);
+  [DllImport(Lib, EntryPoint = "ft_positions_to_floats")]
+  static extern int ft_array_to_floats(double[] positions, ulong count, int axes, float[] xyz);
+  [DllImport(Lib)] static extern int ft_solid_create(IntPtr scene, IntPtr avatar, IntPtr options, out IntPtr solid);
+  [DllImport(Lib)] static extern int ft_solid_follow(IntPtr solid, Pose* tracked, byte* isTracked, double dtS, ref SolidTick tick);
+  [DllImport(Lib)] static extern int ft_solid_shown(IntPtr solid, double[] rotations, double[] translations, ulong capacity, out ulong required);
+  [DllImport(Lib)] static extern int ft_solid_contacts(IntPtr solid, [In, Out] SolidContact[] contacts, ulong capacity, out ulong required);
+  [DllImport(Lib)] static extern int ft_solid_reset(IntPtr solid);
+  [DllImport(Lib)] static extern void ft_solid_destroy(IntPtr solid);
 
-  IntPtr scene, avatar, query;
+  IntPtr scene, avatar, query, solid;
   readonly int joints;
   readonly double[] rotations, translations;
   bool hasBegun;
   /// Of the last step, the earliest first; Step() says how many count.
   public readonly Contact[] contacts;
+  /// Of the last Follow(): localRotation and localPosition of each joint, to draw; and where surfaces
+  /// hold the body, of which contactCount of the tick count.
+  public readonly float[] shownRotations, shownPositions;
+  public SolidContact[] pushes = new SolidContact[16];
 
   static string TextAt(byte* text) {
     int length = 0;
@@ -83,7 +113,9 @@ public unsafe sealed class Foretouch : IDisposable {
     rotations = new double[4 * joints];
     translations = new double[3 * joints];
     contacts = new Contact[joints];
-    Must(ft_check_abi(1));
+    shownRotations = new float[4 * joints];
+    shownPositions = new float[3 * joints];
+    Must(ft_check_abi(2));
     try {
       MakeScene(vertices, triangles);
       MakeAvatar(names, parents, offsets, lss, lssLinks);
@@ -130,11 +162,15 @@ public unsafe sealed class Foretouch : IDisposable {
     return lss;
   }
 
+  void ReadPose(float[] xyzw, float[] xyz) {
+    Must(ft_rotations_from_floats(xyzw, (ulong)joints, UnityAxes, rotations));
+    Must(ft_positions_from_floats(xyz, (ulong)joints, UnityAxes, translations));
+  }
+
   /// To where the joints are now (their localRotation and localPosition; roots: in the world) from
   /// where the last step ended. Returns how many of contacts there are. The first call only begins.
   public int Step(float[] xyzw, float[] xyz) {
-    Must(ft_rotations_from_floats(xyzw, (ulong)joints, UnityAxes, rotations));
-    Must(ft_positions_from_floats(xyz, (ulong)joints, UnityAxes, translations));
+    ReadPose(xyzw, xyz);
     fixed (double* rotation = rotations) fixed (double* translation = translations) {
       var pose = new Pose {
         size = (uint)sizeof(Pose), jointCount = (uint)joints, rotations = rotation, translations = translation
@@ -147,8 +183,39 @@ public unsafe sealed class Foretouch : IDisposable {
     return (int)count;
   }
 
-  /// After tracking was lost: the next pose begins anew.
-  public void Restart() { hasBegun = false; }
+  /// Shows the body as near to where its joints are tracked as surfaces let it: shownRotations,
+  /// shownPositions and pushes. seconds: since the last call. Nothing that is shown passes through
+  /// anything. tracked: per joint, false if its tracker is lost; null: none is.
+  public SolidTick Follow(float[] xyzw, float[] xyz, double seconds, bool[] tracked = null) {
+    if (solid == IntPtr.Zero) Must(ft_solid_create(scene, avatar, IntPtr.Zero, out solid));
+    ReadPose(xyzw, xyz);
+    var tick = new SolidTick { size = (uint)sizeof(SolidTick) };
+    byte* flags = stackalloc byte[joints];
+    for (int j = 0; j < joints; ++j) flags[j] = (byte)(tracked == null || tracked[j] ? 1 : 0);
+    fixed (double* rotation = rotations) fixed (double* translation = translations) {
+      var pose = new Pose {
+        size = (uint)sizeof(Pose), jointCount = (uint)joints, rotations = rotation, translations = translation
+      };
+      Must(ft_solid_follow(solid, &pose, flags, seconds, ref tick));
+    }
+    ReadShown((int)tick.contactCount);
+    return tick;
+  }
+
+  void ReadShown(int count) {
+    Must(ft_solid_shown(solid, rotations, translations, (ulong)joints, out ulong all));
+    Must(ft_rotations_to_floats(rotations, (ulong)joints, UnityAxes, shownRotations));
+    Must(ft_array_to_floats(translations, (ulong)joints, UnityAxes, shownPositions));
+    if (count > pushes.Length) pushes = new SolidContact[2 * count];
+    pushes[0].size = (uint)sizeof(SolidContact);
+    Must(ft_solid_contacts(solid, pushes, (ulong)pushes.Length, out all));
+  }
+
+  /// After tracking was lost, or a teleport: the next pose begins anew.
+  public void Restart() {
+    hasBegun = false;
+    if (solid != IntPtr.Zero) Must(ft_solid_reset(solid));
+  }
 
   /// Unity's coordinates of contact.pointScene, pointLink or normal.
   public static float[] ToUnity(double* xyz) {
@@ -158,10 +225,11 @@ public unsafe sealed class Foretouch : IDisposable {
   }
 
   public void Dispose() {
+    ft_solid_destroy(solid);
     ft_query_destroy(query);
     ft_avatar_destroy(avatar);
     ft_scene_destroy(scene);
-    query = avatar = scene = IntPtr.Zero;
+    solid = query = avatar = scene = IntPtr.Zero;
   }
 }
 
@@ -183,9 +251,23 @@ static class Program {
         Console.WriteLine("contact at t = {0:F4}, {1:F2} mm from pole", body.contacts[0].toi,
                           1000 * body.contacts[0].separation);
         // From the pole, which is at +z, to the forearm.
-        return n[0] > 0 && n[2] < 0 ? 0 : 1;
+        if (n[0] <= 0 || n[2] >= 0) return 1;
       }
+      return StaysAtThePole(body, elbow) ? 0 : 1;
     }
+  }
+
+  // Into the pole, beyond it and back: it presses somewhere, and is back in the end.
+  static bool StaysAtThePole(Foretouch body, float[] elbow) {
+    var tick = new Foretouch.SolidTick();
+    bool pressed = false, proven = true;
+    for (int frame = 0; frame <= 180; ++frame) {
+      float half = 0.5f * 1.5708f * (1 - Math.Abs(frame / 90f - 1));
+      tick = body.Follow(new float[] { 0, -(float)Math.Sin(half), 0, (float)Math.Cos(half) }, elbow, 1 / 90.0);
+      proven &= tick.isCertified == 1;
+      pressed |= tick.state != Foretouch.Equal && tick.contactCount > 0 && body.pushes[0].push > 0;
+    }
+    return proven && pressed && tick.state == Foretouch.Equal;
   }
 }
 #endif

@@ -19,6 +19,7 @@ from foretouch._types import (
     LinkLike,
     LinkPairLike,
     Lss,
+    NearFeatures,
     PairRadius,
     PairRadiusLike,
     Policy,
@@ -28,6 +29,7 @@ from foretouch._types import (
     Poses,
     PosesLike,
     SceneAudit,
+    SolidContact,
     SweptSurface,
 )
 
@@ -51,6 +53,21 @@ class Verdict(enum.IntEnum):
     STARTS_IN_CONTACT = 2
     UNDECIDED = 3
 
+class SolidState(enum.IntEnum):
+    PLACING = 0
+    EQUAL = 1
+    FOLLOWING = 2
+    SLIDING = 3
+    HELD = 4
+    AROUND = 5
+    SNAPPED = 6
+
+class SolidJointState(enum.IntEnum):
+    FREE = 0
+    SLIDING = 1
+    HELD = 2
+    LOST = 3
+
 class Scene:
     @staticmethod
     def from_arrays(
@@ -66,7 +83,7 @@ class Scene:
         up: Optional[str] = None,
         *,
         importer: Optional[_Path] = None,
-        time_limit_s: float = 300.0,
+        time_limit_s: float = 60.0,
         memory_limit_bytes: int = 8589934592,
     ) -> Scene: ...
     @property
@@ -337,6 +354,86 @@ class Query:
         threads: Optional[int] = None,
     ) -> Steps: ...
     def touches_at(self, motion: Motion, t: npt.ArrayLike) -> npt.NDArray[np.bool_]: ...
+    @property
+    def avatar(self) -> Avatar: ...
+    @property
+    def scene(self) -> Scene: ...
+
+class NearQuery:
+    def __init__(
+        self, avatar: Avatar, scene: Scene, *, ignore: Iterable[IgnoredLike] = ()
+    ) -> None: ...
+    def answer(
+        self, pose: PoseLike, reach: npt.ArrayLike, *, detail: str = "reduced"
+    ) -> NearFeatures: ...
+    @property
+    def avatar(self) -> Avatar: ...
+    @property
+    def scene(self) -> Scene: ...
+
+class SolidTick:
+    @property
+    def shown(self) -> Pose: ...
+    @property
+    def state(self) -> SolidState: ...
+    @property
+    def limit(self) -> Optional[str]: ...
+    @property
+    def is_certified(self) -> bool: ...
+    @property
+    def has_appeared(self) -> bool: ...
+    @property
+    def deviation(self) -> float: ...
+    @property
+    def lift(self) -> float: ...
+    @property
+    def clearance(self) -> float: ...
+    @property
+    def snap_in(self) -> Optional[float]: ...
+    @property
+    def joints(self) -> npt.NDArray[np.uint8]: ...
+    @property
+    def link_deviation(self) -> Doubles: ...
+    @property
+    def contacts(self) -> list[SolidContact]: ...
+    @property
+    def way(self) -> Poses: ...
+    @property
+    def times(self) -> Doubles: ...
+    @property
+    def counters(self) -> dict[str, int]: ...
+
+class SolidAvatar:
+    def __init__(
+        self,
+        avatar: Avatar,
+        scene: Scene,
+        *,
+        skin: float = 0.002,
+        tolerance: float = 0.0005,
+        catch_up: float = 2.0,
+        visibility: Optional[Mapping[LinkLike, float]] = None,
+        floor: str = "lift",
+        feet: Optional[Sequence[LinkLike]] = None,
+        up: npt.ArrayLike = (0.0, 1.0, 0.0),
+        most_lift: float = 0.1,
+        most_deviation: float = 0.5,
+        most_limb_deviation: float = 0.35,
+        patience: float = 0.7,
+        may_snap: bool = False,
+        snap_notice: float = 0.25,
+        around_per_tick: int = 32,
+        around_in_all: int = 2000,
+        placing_reach: float = 2.0,
+        ignore: Iterable[IgnoredLike] = (),
+        self_pairs: Optional[PairRules] = None,
+        work_budget: int = 200000,
+    ) -> None: ...
+    def follow(
+        self, tracked: PoseLike, dt: float, is_tracked: Optional[npt.ArrayLike] = None
+    ) -> SolidTick: ...
+    def reset(self, place: Optional[PoseLike] = None) -> None: ...
+    def change_scene(self, scene: Scene) -> None: ...
     @property
     def avatar(self) -> Avatar: ...
     @property

@@ -62,6 +62,30 @@ class Poses(Sequence[Pose]):
         return f"<foretouch.Poses: {len(self)} poses of {self.rotations.shape[1]} joints>"
 
 
+class NearFeatures(NamedTuple):
+    """The k places where links are near the scene, by link, LSS, gap and triangle. Metres, world."""
+
+    links: npt.NDArray[np.int32]
+    """(k,), as the next two."""
+    lss: npt.NDArray[np.int32]
+    """Which of the link's LSS."""
+    triangles: npt.NDArray[np.int32]
+    features: list[str]
+    """'face', 'edge' or 'vertex' of the triangle."""
+    along: Doubles
+    """(k,), of the axis' nearest point: from its end a (0) to b (1)."""
+    gaps: Doubles
+    """(k,), lower bounds on the separation; below 0 where the two overlap."""
+    points: Doubles
+    """(k, 3), on the triangles."""
+    on_links: Doubles
+    """(k, 3), on the LSS."""
+    normals: Doubles
+    """(k, 3), unit, from the scene to the link; 0 where the two meet without one."""
+    had_more: list[int]
+    """Links near more than a reduced answer keeps: the nearest are here."""
+
+
 class ContactPoint(NamedTuple):
     """Two points, one of each side, that are near when a contact is made. Metres, world frame."""
 
@@ -163,6 +187,31 @@ class SweptSurface(NamedTuple):
     times: Doubles
     """(v,): when the link is there: the motion's number plus t."""
     pieces: int
+
+
+class SolidContact(NamedTuple):
+    """A place where a surface holds a solid avatar from its tracked pose. Metres, world frame."""
+
+    link: str
+    link_id: int
+    lss: int
+    """Which of the link's LSS."""
+    triangle: Optional[int]
+    """Of the scene; None if another own link is touched."""
+    object: Optional[str]
+    """The name of the triangle's object."""
+    other: Optional[str]
+    """That own link."""
+    point: Doubles
+    """(3,), on the surface that is touched."""
+    normal: Doubles
+    """(3,), unit, from that surface to the link."""
+    gap: float
+    push: float
+    """How hard the tracked pose presses, >= 0 (m). Times a stiffness (N/m) it is the force along
+    `normal` with which a haptic device holds the hand."""
+    slip_speed: float
+    """Of the link's point along the surface, m/s."""
 
 
 class Policy(TypedDict, total=False):

@@ -1,5 +1,6 @@
-"""The picture of docs/ that the package draws is what it answers today."""
+"""The pictures of docs/ that the package draws are what it answers today."""
 
+import importlib
 import re
 import sys
 import unittest
@@ -10,19 +11,25 @@ FOLDER = SOURCE / "docs" / "pictures"
 NUMBER = re.compile(r"-?\d+\.\d+")
 
 
-def drawn():
+def drawn(name):
     sys.path.insert(0, str(FOLDER))
     try:
-        import table_and_cup
+        picture = importlib.import_module(name)
     finally:
         sys.path.remove(str(FOLDER))
-    return table_and_cup.drawn().svg(), (FOLDER / table_and_cup.NAME).read_text(encoding="utf-8")
+    return picture.drawn().svg(), (FOLDER / picture.NAME).read_text(encoding="utf-8")
 
 
-class TableAndCup(unittest.TestCase):
-    def test_is_drawn_from_todays_answers(self):
+class Pictures(unittest.TestCase):
+    def test_of_a_table_and_a_cup(self):
+        self.expect_todays_answers("table_and_cup")
+
+    def test_of_a_tick_of_a_solid_avatar(self):
+        self.expect_todays_answers("solid_tick")
+
+    def expect_todays_answers(self, name):
         """To the last digit: processors with other vectors may round another way."""
-        today, kept = drawn()
+        today, kept = drawn(name)
         self.assertEqual(NUMBER.sub("#", today), NUMBER.sub("#", kept))
         for now, then in zip(NUMBER.findall(today), NUMBER.findall(kept)):
             self.assertEqual(len(now.split(".")[1]), len(then.split(".")[1]))

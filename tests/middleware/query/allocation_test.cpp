@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "lss/simd.h"
+#include "middleware/query/near_features.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_pool.h"
 #include "middleware/reference/reference_query.h"
@@ -62,6 +63,32 @@ std::uint64_t inSteadyState(const std::vector<test::RandomBody>& bodies, const S
   }
   EXPECT_GT(contacts, bodies.size());
   return test::numAllocations() - before;
+}
+
+TEST_F(Allocations, OfNearQueriesAreNone) {
+  Random random(5);
+  const Scene scene = Scene::build(test::clutter(random, 800, 3, Vector3d::Zero())).value();
+  const test::RandomBody body = test::bodyInClutter(random, 8, Vector3d::Zero());
+  const NearQuery query = NearQuery::build(body.avatar, scene, {{1, 0}}).value();
+  NearScratch scratch;
+  NearFeatures near;
+  for (const Simd simd : supportedSimd()) {
+    ASSERT_TRUE(useSimd(simd));
+    std::uint64_t before = 0;
+    std::size_t found = 0;
+    for (int round = 0; round < 3; ++round) {
+      before = test::numAllocations();
+      for (const NearDetail detail : {NearDetail::Reduced, NearDetail::All, NearDetail::Nearest}) {
+        for (const double reach : {0.01, 0.4}) {
+          query.answer(body.from, reach, scratch, near, detail);
+          found += near.features.size();
+        }
+      }
+    }
+    EXPECT_GT(found, 100U);
+    EXPECT_EQ(test::numAllocations() - before, 0U) << toString(simd);
+  }
+  useSimd(std::nullopt);
 }
 
 TEST_F(Allocations, OfQueriesAtLinkFidelityAreNone) {

@@ -237,6 +237,262 @@ TEST_P(NearFeaturesTest, OfAFlatBoardDoNotDependOnItsTriangles) {
   EXPECT_GT(vertices, 5U);
 }
 
+/// The clutter's triangles in another order; `to[i]`: where triangle i went.
+RawScene shuffled(const RawScene& raw, Random& random, std::vector<TriangleId>& to) {
+  RawScene other;
+  other.objectNames = raw.objectNames;
+  std::vector<std::size_t> from(raw.triangles.size());
+  for (std::size_t i = 0; i < from.size(); ++i) from[i] = i;
+  for (std::size_t i = from.size(); i > 1; --i) {
+    std::swap(from[i - 1], from[slotOf(random.below(static_cast<int>(i)))]);
+  }
+  to.resize(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    other.triangles.push_back(raw.triangles[from[i]]);
+    other.objectOf.push_back(raw.objectOf[from[i]]);
+    to[from[i]] = static_cast<TriangleId>(i);
+  }
+  return other;
+}
+
+TEST_P(NearFeaturesTest, DoNotDependOnTheOrderOfTheTriangles) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const RawScene raw = test::clutter(random, 400, 3, Vector3d::Zero());
+    const test::RandomBody body = test::bodyInClutter(random, 5, Vector3d::Zero());
+    std::vector<TriangleId> to;
+    const Scene scene = Scene::build(raw).value();
+    const Scene other = Scene::build(shuffled(raw, random, to)).value();
+    const auto states = statesOf(body.avatar, body.from);
+    for (const NearDetail detail : {NearDetail::Reduced, NearDetail::Nearest}) {
+      const auto near = nearOf(NearQuery::build(body.avatar, scene).value(), states, 0.3, detail);
+      const auto same = nearOf(NearQuery::build(body.avatar, other).value(), states, 0.3, detail);
+      expectSame(near, same, 0.0);
+      if (HasFatalFailure()) return;
+      for (const NearFeature& feature : near.features) {
+        const Triangle& triangle = scene.triangle(feature.triangle);
+        EXPECT_TRUE(std::any_of(same.features.begin(), same.features.end(), [&](const auto& f) {
+          return other.triangle(f.triangle).vertices == triangle.vertices && f.gap == feature.gap;
+        }));
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 1000U);
+}
+
+TEST_P(NearFeaturesTest, MoveWithTheSceneAndTheBody) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    RawScene raw = test::clutter(random, 300, 1, Vector3d::Zero());
+    const test::RandomBody body = test::bodyInClutter(random, 5, Vector3d::Zero());
+    const Eigen::Matrix3d R = random.rotation().toRotationMatrix();
+    const Vector3d p = random.inBox(3.0);
+    auto states = statesOf(body.avatar, body.from);
+    const Scene scene = Scene::build(raw).value();
+    const Scene other = Scene::build(moved(raw, R, p)).value();
+    const auto near = nearOf(NearQuery::build(body.avatar, scene).value(), states, 0.2);
+    for (LinkState& state : states) {
+      state.R_WL = R * state.R_WL;
+      state.p_WL = R * state.p_WL + p;
+    }
+    const auto same = nearOf(NearQuery::build(body.avatar, other).value(), states, 0.2);
+    expectSame(near, same, 1e-9, R, p);
+    if (HasFatalFailure()) return;
+    compared += near.features.size();
+  }
+  EXPECT_GT(compared, 400U);
+}
+
+TEST_P(NearFeaturesTest, NearestIsTheNearestOfAll) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Scene scene = Scene::build(test::clutter(random, 300, 3, Vector3d::Zero())).value();
+    const test::RandomBody body = test::bodyInClutter(random, 6, Vector3d::Zero());
+    const auto states = statesOf(body.avatar, body.from);
+    const NearQuery query = NearQuery::build(body.avatar, scene).value();
+    const auto nearest = nearOf(query, states, 0.4, NearDetail::Nearest);
+    const auto reduced = nearOf(query, states, 0.4);
+    for (LinkId link = 0; link < body.avatar.numLinks(); ++link) {
+      double least = 1e9;
+      for (const Lss& lss : body.avatar.lss(link)) {
+        for (TriangleId id = 0; id < static_cast<TriangleId>(scene.numTriangles()); ++id) {
+          least = std::min(least, separationOf(lss, states[slotOf(link)], scene.triangle(id)));
+        }
+      }
+      const NearRange& range = nearest.links[slotOf(link)];
+      ASSERT_EQ(range.count, least <= 0.4 ? 1U : 0U);
+      if (range.count == 0) continue;
+      EXPECT_NEAR(nearest.features[range.first].gap, least, 1e-9);
+      EXPECT_LE(nearest.features[range.first].gap, least);
+      // A reduced answer has it, or a face that stands for it.
+      double kept = 1e9;
+      const NearRange& left = reduced.links[slotOf(link)];
+      for (std::size_t i = 0; i < left.count; ++i) {
+        kept = std::min(kept, reduced.features[left.first + i].gap);
+      }
+      EXPECT_LE(kept, least + 1e-4);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 150U);
+}
+
+/// A box of 1 m by 2 cm by 1 m, its top at y = 0, each side cut into cells.
+RawScene tableTop(int cells) {
+  RawScene raw;
+  raw.objectNames = {"table"};
+  const double half = 0.5, thick = 0.02;
+  const auto addSide = [&](const Vector3d& corner, const Vector3d& u, const Vector3d& v) {
+    const auto at = [&](int i, int j) {
+      // The same sums for both sides of an edge, so that they share vertices bit for bit.
+      const auto mix = [&](int axis) {
+        return corner[axis] + u[axis] * i / cells + v[axis] * j / cells;
+      };
+      return Vector3d(mix(0), mix(1), mix(2));
+    };
+    for (int i = 0; i < cells; ++i) {
+      for (int j = 0; j < cells; ++j) {
+        raw.triangles.push_back({{at(i, j), at(i + 1, j), at(i + 1, j + 1)}});
+        raw.triangles.push_back({{at(i, j), at(i + 1, j + 1), at(i, j + 1)}});
+      }
+    }
+  };
+  const Vector3d x(1, 0, 0), y(0, thick, 0), z(0, 0, 1);
+  const Vector3d low(-half, -thick, -half), high(half, 0, half);
+  addSide(low, x, z);
+  addSide(low + y, x, z);
+  addSide(low, x, y);
+  addSide(low + z, x, y);
+  addSide(low, y, z);
+  addSide(low + x, y, z);
+  raw.objectOf.assign(raw.triangles.size(), 0);
+  return raw;
+}
+
+TEST_P(NearFeaturesTest, OfATableAreItsFacesAndItsRim) {
+  const Lss lss{{0.0, 0.0, 0.0}, {0.25, 0.0, 0.0}, 0.04};
+  const Avatar avatar = single(lss);
+  for (const int cells : {1, 16}) {
+    const Scene scene = Scene::build(tableTop(cells)).value();
+    const NearQuery query = NearQuery::build(avatar, scene).value();
+    const auto at = [&](double x, double y) {
+      LinkState state;
+      state.p_WL = {x, y, 0.013};
+      return nearOf(query, {state}, 0.01);
+    };
+    // On the table: both ends, and no edge of the tiles.
+    const NearFeatures on = at(-0.1, 0.045);
+    ASSERT_EQ(on.features.size(), 2U) << described(on);
+    for (const NearFeature& f : on.features) {
+      EXPECT_EQ(f.feature, FeatureKind::Face);
+      EXPECT_NEAR(f.gap, 0.005, 1e-12);
+    }
+    // Across the rim: one end, and the rim where the axis crosses it.
+    const NearFeatures across = at(0.4, 0.045);
+    ASSERT_EQ(across.features.size(), 2U) << described(across);
+    const auto rim = std::find_if(across.features.begin(), across.features.end(),
+                                  [](const auto& f) { return f.feature == FeatureKind::Edge; });
+    ASSERT_NE(rim, across.features.end()) << described(across);
+    EXPECT_NEAR(rim->p_WScene.x(), 0.5, 1e-12);
+    EXPECT_NEAR(rim->along, 0.4, 1e-9);
+    // Beside it: the rim's side.
+    EXPECT_FALSE(at(0.545, -0.01).features.empty());
+  }
+}
+
+TEST_P(NearFeaturesTest, OfAPoleAreItsEdges) {
+  // A square pole of 1 cm along y, cut into many pieces: its edges stay.
+  RawScene raw;
+  raw.objectNames = {"pole"};
+  const double side = 0.005;
+  const Vector3d corners[] = {
+      {-side, 0, -side}, {side, 0, -side}, {side, 0, side}, {-side, 0, side}};
+  for (int k = 0; k < 4; ++k) {
+    for (int j = -50; j < 50; ++j) {
+      const Vector3d low(0, 0.01 * j, 0), high(0, 0.01 * (j + 1), 0);
+      const Vector3d &p = corners[k], &q = corners[(k + 1) % 4];
+      raw.triangles.push_back({{p + low, q + low, q + high}});
+      raw.triangles.push_back({{p + low, q + high, p + high}});
+    }
+  }
+  raw.objectOf.assign(raw.triangles.size(), 0);
+  const Scene scene = Scene::build(raw).value();
+  const Avatar avatar = single({{0.0, 0.0, -0.1}, {0.0, 0.0, 0.1}, 0.03});
+  const NearQuery query = NearQuery::build(avatar, scene).value();
+  LinkState state;
+  state.p_WL = {0.04, 0.1234, 0.0};
+  // Along z, beside a face of the pole that is narrower than the axis: its two edges.
+  const NearFeatures near = nearOf(query, {state}, 0.01);
+  std::size_t edges = 0;
+  for (const NearFeature& f : near.features) {
+    if (f.feature != FeatureKind::Edge) continue;
+    ++edges;
+    EXPECT_NEAR(std::abs(f.p_WScene.z()), side, 1e-12);
+    EXPECT_NEAR(f.p_WScene.y(), 0.1234, 1e-12);
+    EXPECT_NEAR(f.gap, 0.005, 1e-12);
+  }
+  EXPECT_GE(edges, 1U) << described(near);
+  EXPECT_LE(near.features.size(), 2U) << described(near);
+}
+
+TEST_P(NearFeaturesTest, OfAnAxisThroughATriangleOverlap) {
+  const Scene scene = Scene::build(board(1, 1.0)).value();
+  const Avatar avatar = single({{0.0, -0.1, 0.0}, {0.0, 0.2, 0.0}, 0.04});
+  LinkState state;
+  state.p_WL = {0.1, 0.0, 0.2};
+  const auto near =
+      nearOf(NearQuery::build(avatar, scene).value(), {state}, 0.01, NearDetail::Nearest);
+  ASSERT_EQ(near.features.size(), 1U);
+  const NearFeature& f = near.features[0];
+  EXPECT_NEAR(f.gap, -0.04, 1e-12);
+  EXPECT_LE(f.gap, -0.04);
+  EXPECT_NEAR((f.nhat_SL_W - Vector3d(0, 1, 0)).norm(), 0.0, 1e-12);  // its longer part is above
+  EXPECT_NEAR(f.along, 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR((f.p_WScene - state.p_WL).norm(), 0.0, 1e-12);
+}
+
+TEST_P(NearFeaturesTest, OfTrianglesWithoutAreaAndOfBareLinks) {
+  RawScene raw;
+  raw.objectNames = {"odd"};
+  const Vector3d p(0.3, 0.0, 0.0), q(0.3, 0.5, 0.0);
+  raw.triangles = {{{p, p, p}}, {{p, q, 0.5 * (p + q)}}, {{p, p, q}}};
+  raw.objectOf = {0, 0, 0};
+  const Scene scene = Scene::build(raw).value();
+  RawSkeleton skeleton;
+  skeleton.joints = {RawJoint{"bare"}, RawJoint{"ball", 0}};
+  const Avatar avatar = Avatar::build(Skeleton::build(skeleton).value(),
+                                      {{}, {{Vector3d::Zero(), Vector3d::Zero(), 0.1}}})
+                            .value();
+  const NearQuery query = NearQuery::build(avatar, scene).value();
+  const auto all = nearOf(query, {LinkState(), LinkState()}, 0.3, NearDetail::All);
+  EXPECT_EQ(all.features.size(), 3U);
+  const auto near = nearOf(query, {LinkState(), LinkState()}, 0.3);
+  ASSERT_GE(near.features.size(), 1U);
+  EXPECT_EQ(near.links[0].count, 0U);
+  for (const NearFeature& f : near.features) {
+    EXPECT_EQ(f.link, 1);
+    EXPECT_NEAR(f.gap, 0.2, 1e-12);
+    EXPECT_NE(f.feature, FeatureKind::Face);
+  }
+}
+
+TEST(NearQueries, RefuseIgnoredPairsOfNobody) {
+  const Scene scene = Scene::build(board(1, 1.0)).value();
+  const Avatar avatar = single({{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, 0.04});
+  for (const IgnoredPair& pair : {IgnoredPair{1, 0}, IgnoredPair{0, 1}, IgnoredPair{-1, 0}}) {
+    const auto query = NearQuery::build(avatar, scene, {pair});
+    ASSERT_FALSE(query.ok());
+    EXPECT_EQ(query.error().file, "ignored");
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryWidth, NearFeaturesTest, testing::ValuesIn(supportedSimd()),
                          [](const auto& width) { return toString(width.param); });
 

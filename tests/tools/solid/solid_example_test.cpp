@@ -30,7 +30,7 @@ struct Shown {
 };
 
 std::optional<Shown> shown(const std::string& scene, const std::string& body,
-                           const std::string& rate) {
+                           const std::string& rate, const std::string& ignored = "") {
   const TempFolder folder;
   const std::string out = folder / "shown.jsonl";
   std::vector<std::string> arguments{"replay",

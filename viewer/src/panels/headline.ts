@@ -24,8 +24,8 @@ function ofSolid(model: Model): string {
   const { all, ground } = model.countTouches();
   const who = `The ${personOf(model.avatars[0]?.name ?? "")} passes through nothing of the ${placeOf(model.document.scene.name)}`;
   const most = model.avatars.reduce((far, { solid }) => Array.from(solid?.deviations ?? []).reduce((a, b) => Math.max(a, b), far), 0);
-  const kept = all + ground === 0 ? "" : `. Surfaces hold it ${times(all + ground)}`;
-  return `${who}${kept}, at most ${length(most)} from where it was tracked.`;
+  const kept = all + ground === 0 ? "" : ` Surfaces hold it ${times(all + ground)}, at most ${length(most)} from where it was tracked.`;
+  return `${who}.${kept}`;
 }
 
 function ofTouches(model: Model): string {

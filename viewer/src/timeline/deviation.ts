@@ -48,7 +48,8 @@ export class DeviationPlot {
       const x0 = strip.xOf(times[i - 1]), x1 = strip.xOf(times[i]);
       tall = Math.max(tall, deviations[i]);
       if (x1 < drawnTo + 0.5 && i < last) continue;
-      const from = Math.max(drawnTo, x0), wide = Math.max(1, x1 - from);
+      // On whole pixels: what is drawn side by side shows no gaps.
+      const from = Math.round(Math.max(drawnTo, x0)), wide = Math.max(1, Math.round(x1) - from);
       context.fillStyle = colourOf(solidStates[states[i]], palette);
       context.fillRect(from, height - band - 1, wide, band);
       context.fillStyle = palette.tracked;

@@ -1,5 +1,6 @@
 /* foretouch.h: Foretouch in C99 and C++: what an articulated body meets between two poses, when,
- * where and along which normal. One page about its use: docs/c-api.md.
+ * where and along which normal. One page about its use: docs/c-api.md. A header of its own has the
+ * avatar that passes through nothing: foretouch/solid.h.
  *
  * Units and frames. Metres, radians, doubles; right-handed world W, +Y up; t is normalised, 0 at
  * the earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. To convert
@@ -46,9 +47,9 @@ extern "C" {
 
 /* ---- Versions ---- */
 
-/* Of this header. Every new function or field increments it; programs built with an older header
+/* Of this header and solid.h. Every new function or field increments it; programs built with an older header
  * still work. A change that would break them changes the library's soname instead. */
-#define FT_ABI_VERSION 1
+#define FT_ABI_VERSION 2
 
 /* Of the library that runs: "0.1.0", a text that lives for ever, and its FT_ABI_VERSION. */
 FT_API const char* ft_version(void);
@@ -59,6 +60,7 @@ typedef struct ft_avatar ft_avatar;
 typedef struct ft_clip ft_clip;
 typedef struct ft_pair_rules ft_pair_rules;
 typedef struct ft_query ft_query;
+typedef struct ft_near ft_near;
 
 typedef int32_t ft_status;
 enum {
@@ -133,8 +135,9 @@ typedef struct ft_import_options {
    * (x, z, -y). */
   int32_t up;
   double scale;                /* metres per unit, likewise; default 0: as the file says, else 1 */
-  uint64_t memory_limit_bytes; /* of the importing process; default 8 GiB */
-  double time_limit_s;         /* likewise; default 300 */
+  /* Of the importing process; default 8 GiB. At most half of the machine's memory is used. */
+  uint64_t memory_limit_bytes;
+  double time_limit_s;         /* likewise; default 60 */
   /* Path of the program foretouch-import. NULL: $FORETOUCH_IMPORTER; else in the library's folder;
    * else in libexec/foretouch of the library's prefix, beside the running program, and where
    * Foretouch was installed. */
@@ -143,8 +146,8 @@ typedef struct ft_import_options {
 
 FT_API ft_status ft_import_options_init(ft_import_options* options, size_t size);
 
-/* Reads any mesh format that assimp reads, in a child process under limits: a file that crashes the
- * importer is an error here. `options` may be NULL. */
+/* Reads OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process: a file that
+ * crashes the importer is an error here. `options` may be NULL. */
 FT_API ft_status ft_scene_create_from_file(const char* path, const ft_import_options* options,
                                            ft_scene** scene);
 
@@ -564,6 +567,62 @@ typedef struct ft_counters {
 
 FT_API ft_status ft_query_counters(const ft_query* query, ft_counters* counters);
 FT_API void ft_query_destroy(ft_query* query);
+
+/* ---- Near: what is a body near to at one pose? ---- */
+
+enum {
+  FT_NEAR_REDUCED = 0, /* what a solver of contacts needs: at most 256 features per link */
+  FT_NEAR_ALL = 1,     /* every LSS and triangle within reach */
+  FT_NEAR_NEAREST = 2  /* the nearest feature of each link */
+};
+
+typedef struct ft_near_options {
+  uint32_t size;
+  int32_t detail; /* default FT_NEAR_REDUCED */
+  const ft_ignored_pair* ignored;
+  size_t ignored_count;
+} ft_near_options;
+
+FT_API ft_status ft_near_options_init(ft_near_options* options, size_t size);
+/* Of the links' LSS; `options` may be NULL. For one thread. The first of a scene finds the edges
+ * over which its surfaces go on flat: they are no features. */
+FT_API ft_status ft_near_create(const ft_scene* scene, const ft_avatar* avatar,
+                                const ft_near_options* options, ft_near** near_query);
+
+/* Finds what is within `reach` of the links at `pose`: metres, one per link, at most 1e7; below 0:
+ * the link is not asked. Allocates nothing once memory has grown. A call that fails leaves the last
+ * answer, if its arguments were wrong. */
+FT_API ft_status ft_near_ask(ft_near* near_query, const ft_pose* pose, const double* reach,
+                             size_t reach_count);
+
+/* One place where an LSS of a link is near the scene. In arrays, the first element's size applies
+ * to all, and the library sets the others'. */
+typedef struct ft_near_feature {
+  uint32_t size;
+  int32_t link, lss;
+  int32_t triangle, object;
+  int32_t feature;       /* of the triangle: FT_FEATURE_* */
+  double along;          /* of the axis' nearest point, from its end a (0) to b (1) */
+  double gap;            /* lower bound on the separation, metres; below 0 where they overlap */
+  double point_scene[3]; /* on the triangle, W */
+  double point_link[3];  /* on the LSS's surface, W */
+  double normal[3];      /* unit, from the scene to the link, W; 0 if the two meet without one */
+} ft_near_feature;
+
+/* Where a link's features are among all. */
+typedef struct ft_near_range {
+  uint64_t first, count;
+  int32_t had_more; /* 1: more were near than FT_NEAR_REDUCED keeps; these are the nearest */
+  int32_t reserved; /* 0 */
+} ft_near_range;
+
+/* Of the last ft_near_ask(), by link, LSS, gap and triangle. FT_ERROR_NO_STEP if there was none. */
+FT_API ft_status ft_near_features(const ft_near* near_query, ft_near_feature* features,
+                                  size_t capacity, size_t* required);
+/* One per link, in order. */
+FT_API ft_status ft_near_ranges(const ft_near* near_query, ft_near_range* ranges, size_t capacity,
+                                size_t* required);
+FT_API void ft_near_destroy(ft_near* near_query);
 
 #ifdef __cplusplus
 }

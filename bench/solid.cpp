@@ -1,0 +1,188 @@
+#include "bench/solid.h"
+
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "articulated/try.h"
+#include "bench/machine.h"
+#include "bench/solid/busy_places.h"
+#include "bench/solid/feel.h"
+#include "bench/solid/feel_tables.h"
+#include "bench/solid/followers.h"
+#include "tools/inputs/example_folder.h"
+#include "tools/progress.h"
+
+namespace foretouch::tools {
+namespace {
+
+struct StageFile {
+  const char* name;
+  const char* file;
+  bool isUpZ;
+};
+/// Units are metres in all; the office says itself that z is up.
+constexpr StageFile kStageFiles[] = {{"kitchen", "scenes/kitchen_fatihrmutfak.ply", true},
+                                     {"office", "scenes/cpr_office.dae", false},
+                                     {"collision-world", "scenes/collision-world.glb", false},
+                                     {"undulating", "scenes/undulating.obj", false}};
+constexpr const char* kClips[] = {"bandai1_kick_normal_001.bvh",
+                                  "bandai1_punch_normal_001.bvh",
+                                  "bandai1_dance-short_normal_001.bvh",
+                                  "cmu_01_01_playground_jumps.bvh",
+                                  "fair_dab.bvh",
+                                  "cmu_jumping_jacks.bvh"};
+/// Of the way that holds back.
+constexpr double kHoldSkin = 4e-3;
+
+struct Cast {
+  std::vector<SolidActor> actors;
+  std::vector<SolidStage> stages;
+  std::vector<std::string> leftOut;
+};
+
+bool isThere(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
+Result<std::string> stagePath(const SolidBenchRequest& request, const std::string& name,
+                              bool& isUpZ) {
+  isUpZ = false;
+  if (name == "room") {
+    FORETOUCH_TRY(const auto folder, exampleFolder());
+    return folder + "/room.obj";
+  }
+  for (const StageFile& stage : kStageFiles) {
+    if (name != stage.name) continue;
+    isUpZ = stage.isUpZ;
+    return request.dataFolder + "/" + stage.file;
+  }
+  return Error::in("--scenes", ErrorCode::UnknownName,
+                   "expected kitchen, office, collision-world, undulating or room, found " + name);
+}
+
+Result<Cast> loadCast(const SolidBenchRequest& request) {
+  Cast cast;
+  std::vector<std::string> scenes = request.scenes, clips;
+  if (scenes.empty()) scenes = {"kitchen", "office", "room"};
+  for (const std::string& name : scenes) {
+    bool isUpZ = false;
+    FORETOUCH_TRY(const auto path, stagePath(request, name, isUpZ));
+    if (!isThere(path)) {
+      cast.leftOut.push_back(name);
+      continue;
+    }
+    FORETOUCH_TRY(auto stage, loadStage(name, path, isUpZ));
+    cast.stages.push_back(std::move(stage));
+  }
+  for (const std::string& name : request.clips) {
+    clips.push_back(isThere(name) ? name : request.dataFolder + "/mocap/" + name);
+  }
+  if (request.clips.empty()) {
+    for (const char* name : kClips) clips.push_back(request.dataFolder + "/mocap/" + name);
+  }
+  for (const std::string& path : clips) {
+    if (!isThere(path)) {
+      cast.leftOut.push_back(path);
+      continue;
+    }
+    FORETOUCH_TRY(auto actor, loadActor(path));
+    cast.actors.push_back(std::move(actor));
+  }
+  if (cast.actors.empty()) {
+    FORETOUCH_TRY(const auto folder, exampleFolder());
+    FORETOUCH_TRY(auto actor, loadActor(folder + "/dancer.bvh"));
+    cast.actors.push_back(std::move(actor));
+  }
+  return cast;
+}
+
+/// One scene at one rate: all clips at all of their places, by each follower.
+class SceneRun {
+ public:
+  SceneRun(const SolidBenchRequest& request, const SolidStage& stage)
+      : request_(request), stage_(stage) {}
+
+  Result<Done> add(const SolidActor& actor, double rateHz) {
+    BusyPlaceRequest places;
+    places.count = request_.places;
+    places.seconds = std::min(request_.seconds, actor.clip.durationS());
+    places.seed = request_.seed;
+    for (const BusyPlace& place : busyPlaces(stage_, actor, places)) {
+      const auto tracked =
+          trackedPoses(actor, place.placement, rateHz, place.fromS, places.seconds);
+      FeelRun run{fmt::format("{} in {} at {:g} Hz, seed {}", actor.name, stage_.name, rateHz,
+                              request_.seed),
+                  rateHz, request_.options.tolerance, request_.options.catchUp};
+      FORETOUCH_TRY(auto solid, solidFollower(actor.avatar, stage_.scene, request_.options));
+      FORETOUCH_TRY(const auto bySolid, feel(stage_, actor, tracked, run, *solid));
+      FORETOUCH_TRY(auto hold, holdingFollower(actor.avatar, stage_.scene, kHoldSkin));
+      run.tolerance = kHoldSkin;
+      FORETOUCH_TRY(const auto byHold, feel(stage_, actor, tracked, run, *hold));
+      solid_.add(bySolid);
+      hold_.add(byHold);
+      ++places_;
+    }
+    return Done{};
+  }
+
+  [[nodiscard]] const FeelTally& solid() const { return solid_; }
+  [[nodiscard]] const FeelTally& hold() const { return hold_; }
+  [[nodiscard]] int places() const { return places_; }
+
+ private:
+  const SolidBenchRequest& request_;
+  const SolidStage& stage_;
+  FeelTally solid_, hold_;
+  int places_ = 0;
+};
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+Result<SolidBench> measureSolid(const SolidBenchRequest& request) {
+  FORETOUCH_TRY(const auto cast, loadCast(request));
+  SolidBench bench;
+  BenchReport& report = bench.report;
+  report.kind = "solid";
+  report.title = "A solid avatar: what is shown passes through nothing";
+  report.command = request.command;
+  report.date = dateNow();
+  report.machine = machineFacts();
+  FeelTables tables;
+  ProgressBar progress("solid", static_cast<std::int64_t>(cast.stages.size() * cast.actors.size() *
+                                                          request.ratesHz.size()));
+  std::int64_t done = 0;
+  for (const SolidStage& stage : cast.stages) {
+    for (const double rateHz : request.ratesHz) {
+      SceneRun run(request, stage);
+      for (const SolidActor& actor : cast.actors) {
+        FORETOUCH_CHECK(run.add(actor, rateHz));
+        progress.advanceTo(++done);
+      }
+      if (run.places() == 0) continue;
+      tables.add({stage.name, rateHz, run.places(), "hold"}, run.hold());
+      tables.add({stage.name, rateHz, run.places(), "solid"}, run.solid());
+      bench.violations += run.solid().way.violations();
+      for (const std::string& finding : run.solid().way.findings) report.notes.push_back(finding);
+    }
+  }
+  tables.appendTo(report);
+  std::vector<std::string> clips;
+  for (const SolidActor& actor : cast.actors) clips.push_back(actor.name);
+  report.workload = {{"clips", listed(clips)},
+                     {"skin", fmt::format("{:g} m", request.options.skin)},
+                     {"tolerance", fmt::format("{:g} m", request.options.tolerance)}};
+  if (!cast.leftOut.empty()) report.workload.emplace_back("absent", listed(cast.leftOut));
+  return bench;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,35 @@
+// bench/solid/plain_body.h: an avatar and its poses in the judge's plain form.
+#pragma once
+
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/pose.h"
+#include "bench/judged.h"
+#include "judge/way_judge.h"
+#include "lss/index.h"
+
+namespace foretouch::tools {
+
+inline oracle::PlainPose plainPose(const Pose& pose) {
+  oracle::PlainPose result;
+  for (const Quaternion& q : pose.rotations) result.rotations.push_back(plain(q));
+  for (const Eigen::Vector3d& p : pose.translations) result.translations.push_back(plain(p));
+  return result;
+}
+
+/// `links`: of these alone, one per link; empty: of all.
+inline oracle::WayBody plainBody(const Avatar& avatar, const std::vector<bool>& links = {}) {
+  oracle::WayBody body;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    body.parents.push_back(avatar.skeleton().parent(link));
+    body.capsules.emplace_back();
+    if (!links.empty() && !links[slotOf(link)]) continue;
+    for (const Lss& lss : avatar.lss(link)) {
+      body.capsules.back().push_back({{plain(lss.a), plain(lss.b)}, lss.radius});
+    }
+  }
+  return body;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,252 @@
+// bindings/c/solid.cpp: ft_solid.
+#include <memory>
+#include <utility>
+
+#include "articulated/try.h"
+#include "bindings/c/sized_struct.h"
+#include "bindings/c/solid_handle.h"
+#include "bindings/snake_case.h"
+#include "lss/index.h"
+
+namespace foretouch::c {
+namespace {
+
+static_assert(static_cast<int>(SolidState::Placing) == FT_SOLID_PLACING);
+static_assert(static_cast<int>(SolidState::Equal) == FT_SOLID_EQUAL);
+static_assert(static_cast<int>(SolidState::Following) == FT_SOLID_FOLLOWING);
+static_assert(static_cast<int>(SolidState::Sliding) == FT_SOLID_SLIDING);
+static_assert(static_cast<int>(SolidState::Held) == FT_SOLID_HELD);
+static_assert(static_cast<int>(SolidState::Around) == FT_SOLID_AROUND);
+static_assert(static_cast<int>(SolidState::Snapped) == FT_SOLID_SNAPPED);
+static_assert(static_cast<int>(SolidJointState::Free) == FT_SOLID_JOINT_FREE);
+static_assert(static_cast<int>(SolidJointState::Sliding) == FT_SOLID_JOINT_SLIDING);
+static_assert(static_cast<int>(SolidJointState::Held) == FT_SOLID_JOINT_HELD);
+static_assert(static_cast<int>(SolidJointState::Lost) == FT_SOLID_JOINT_LOST);
+static_assert(static_cast<int>(SolidLimit::None) == FT_SOLID_LIMIT_NONE);
+static_assert(static_cast<int>(SolidLimit::Budget) == FT_SOLID_LIMIT_BUDGET);
+static_assert(static_cast<int>(SolidLimit::CatchUp) == FT_SOLID_LIMIT_CATCH_UP);
+static_assert(static_cast<int>(SolidLimit::Inside) == FT_SOLID_LIMIT_INSIDE);
+
+ft_status checkedTick(const ft_solid* solid) {
+  if (const auto s = checked(solid); s != FT_OK) return s;
+  if (solid->hasTick) return FT_OK;
+  return failure(FT_ERROR_NO_STEP, kNoIndex, "expected ft_solid_follow() to be answered before");
+}
+
+/// An error about an option or argument names it as C does.
+ft_status solidFailure(Error error) {
+  error.file = snakeCase(error.file);
+  return failure(error);
+}
+
+/// What an exception left half written is made anew, and goes on from where it was.
+ft_status mended(ft_solid& solid) {
+  if (!solid.isSuspect) return FT_OK;
+  FORETOUCH_TRY_OR(solidFailure, auto made,
+                   SolidAvatar::build(solid.avatar->avatar, solid.scene, solid.solid.options()));
+  // Refused if the scene was changed around it: then it begins at the next pose.
+  if (solid.hasLast && !made.reset(solid.last).ok()) solid.hasLast = false;
+  solid.solid = std::move(made);
+  solid.isSuspect = false;
+  return FT_OK;
+}
+
+/// Calls a function of the solid avatar that may throw half-way.
+template <typename Call>
+ft_status change(ft_solid& solid, const char* place, const Call& call) {
+  if (const auto s = mended(solid); s != FT_OK) return s;
+  solid.isSuspect = true;
+  const Result<Done> done = inFile(call(solid.solid), place);
+  solid.isSuspect = false;
+  return done.ok() ? ft_status{FT_OK} : solidFailure(done.error());
+}
+
+void copyTracked(const std::uint8_t* given, std::size_t joints, std::vector<std::uint8_t>& flags) {
+  flags.clear();
+  if (given != nullptr) flags.assign(given, given + joints);
+}
+
+/// Of the tick that is done. Cannot fail: `last` has its size from the beginning.
+void takeTick(ft_solid& solid) {
+  std::swap(solid.tick, solid.next);
+  solid.hasTick = true;
+  solid.hasLast = solid.tick.state != SolidState::Placing;
+  if (solid.hasLast) solid.last = solid.tick.shown;
+}
+
+ft_solid_tick tickOf(const SolidTick& tick) {
+  ft_solid_tick c{};
+  c.state = static_cast<std::int32_t>(tick.state);
+  c.limit = static_cast<std::int32_t>(tick.limit);
+  c.is_certified = tick.isCertified ? 1 : 0;
+  c.has_appeared = tick.hasAppeared ? 1 : 0;
+  c.deviation = tick.deviation;
+  c.lift = tick.lift;
+  c.clearance = tick.clearance;
+  c.snap_in_s = tick.snapInS;
+  c.joint_count = tick.joints.size();
+  c.contact_count = tick.contacts.size();
+  c.way_count = tick.numWay;
+  c.queries = tick.counters.queries;
+  c.iterations = tick.counters.iterations;
+  c.features = tick.counters.features;
+  c.rows = tick.counters.rows;
+  c.around_queries = tick.counters.aroundQueries;
+  c.placing_queries = tick.counters.placingQueries;
+  c.work = tick.counters.work;
+  return c;
+}
+
+ft_solid_joint jointOf(const SolidTick& tick, std::size_t joint) {
+  ft_solid_joint c{};
+  c.state = static_cast<std::int32_t>(tick.joints[joint]);
+  c.deviation = tick.linkDeviation[joint];
+  return c;
+}
+
+ft_solid_contact solidContactOf(const SolidContact& contact, const Scene& scene) {
+  ft_solid_contact c{};
+  c.link = contact.link;
+  c.lss = contact.lss;
+  c.triangle = contact.triangle;
+  c.object = contact.triangle < 0 ? -1 : scene.object(contact.triangle);
+  c.other = contact.other;
+  Eigen::Map<Eigen::Vector3d>(c.point) = contact.p_W;
+  Eigen::Map<Eigen::Vector3d>(c.normal) = contact.nhat_W;
+  c.gap = contact.gap;
+  c.push = contact.push;
+  c.slip_speed = contact.slipSpeed;
+  return c;
+}
+
+}  // namespace
+}  // namespace foretouch::c
+
+using namespace foretouch;
+using namespace foretouch::c;
+
+ft_status ft_solid_create(const ft_scene* scene, const ft_avatar* avatar,
+                          const ft_solid_options* options, ft_solid** solid) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = cleared(solid); s != FT_OK) return s;
+    if (const auto s = checked(scene); s != FT_OK) return s;
+    if (const auto s = checked(avatar); s != FT_OK) return s;
+    SolidOptions read;
+    if (const auto s = readSolidOptions(options, read); s != FT_OK) return s;
+    FORETOUCH_TRY_OR(solidFailure, auto made,
+                     SolidAvatar::build(avatar->parts->avatar, scene->scene, read));
+    *solid = new ft_solid(avatar->parts, scene->scene, std::move(made));
+    return FT_OK;
+  });
+}
+
+ft_status ft_solid_follow(ft_solid* solid, const ft_pose* tracked, const uint8_t* is_tracked,
+                          double dt_s, ft_solid_tick* tick) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(solid); s != FT_OK) return s;
+    std::size_t size = 0;
+    if (const auto s = readSize(tick, "ft_solid_tick", size); s != FT_OK) return s;
+    const Skeleton& skeleton = solid->avatar->avatar.skeleton();
+    if (const auto s = copyPose(tracked, "tracked", skeleton, solid->given); s != FT_OK) return s;
+    copyTracked(is_tracked, countOf(skeleton.numJoints()), solid->isTracked);
+    const SolidTarget target{solid->given, dt_s,
+                             is_tracked == nullptr ? nullptr : &solid->isTracked};
+    const auto s = change(*solid, "tracked",
+                          [&](SolidAvatar& avatar) { return avatar.follow(target, solid->next); });
+    if (s != FT_OK) return s;
+    takeTick(*solid);
+    return writeStruct(tick, "ft_solid_tick", tickOf(solid->tick));
+  });
+}
+
+ft_status ft_solid_shown(const ft_solid* solid, double* rotations, double* translations,
+                         size_t capacity, size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checkedTick(solid); s != FT_OK) return s;
+    return writePose(solid->tick.shown, rotations, translations, capacity, required);
+  });
+}
+
+ft_status ft_solid_joints(const ft_solid* solid, ft_solid_joint* joints, size_t capacity,
+                          size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checkedTick(solid); s != FT_OK) return s;
+    const std::size_t count = solid->tick.joints.size();
+    const Room room = roomFor(count, joints, capacity, required, "joints");
+    if (room.status != FT_OK || room.isAsking) return room.status;
+    const auto at = [&](std::size_t i) { return jointOf(solid->tick, i); };
+    return writeStructs("ft_solid_joint", count, at, joints);
+  });
+}
+
+ft_status ft_solid_contacts(const ft_solid* solid, ft_solid_contact* contacts, size_t capacity,
+                            size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checkedTick(solid); s != FT_OK) return s;
+    const auto& all = solid->tick.contacts;
+    const Room room = roomFor(all.size(), contacts, capacity, required, "contacts");
+    if (room.status != FT_OK || room.isAsking || all.empty()) return room.status;
+    const auto at = [&](std::size_t i) { return solidContactOf(all[i], solid->scene); };
+    return writeStructs("ft_solid_contact", all.size(), at, contacts);
+  });
+}
+
+ft_status ft_solid_way(const ft_solid* solid, size_t index, double* time, double* rotations,
+                       double* translations, size_t capacity, size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checkedTick(solid); s != FT_OK) return s;
+    const SolidTick& tick = solid->tick;
+    if (index >= tick.numWay) {
+      return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex,
+                     "index: expected a piece of the way, which has %zu, found %zu", tick.numWay,
+                     index);
+    }
+    const auto s = writePose(tick.way[index], rotations, translations, capacity, required);
+    if (s == FT_OK && time != nullptr) *time = tick.times[index];
+    return s;
+  });
+}
+
+ft_status ft_solid_reset(ft_solid* solid) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(solid); s != FT_OK) return s;
+    const auto s = change(*solid, "", [](SolidAvatar& avatar) -> Result<Done> {
+      avatar.reset();
+      return Done{};
+    });
+    if (s == FT_OK) solid->hasLast = solid->hasTick = false;
+    return s;
+  });
+}
+
+ft_status ft_solid_reset_at(ft_solid* solid, const ft_pose* place) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(solid); s != FT_OK) return s;
+    const Skeleton& skeleton = solid->avatar->avatar.skeleton();
+    if (const auto s = readPose(place, "place", skeleton, solid->given); s != FT_OK) return s;
+    const auto s =
+        change(*solid, "place", [&](SolidAvatar& avatar) { return avatar.reset(solid->given); });
+    if (s != FT_OK) return s;
+    solid->hasTick = false;
+    solid->hasLast = true;
+    std::swap(solid->last, solid->given);
+    return FT_OK;
+  });
+}
+
+ft_status ft_solid_change_scene(ft_solid* solid, const ft_scene* scene) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(solid); s != FT_OK) return s;
+    if (const auto s = checked(scene); s != FT_OK) return s;
+    const auto s = change(*solid, "scene",
+                          [&](SolidAvatar& avatar) { return avatar.changeScene(scene->scene); });
+    if (s != FT_OK) return s;
+    solid->scene = scene->scene;
+    solid->hasTick = false;
+    return FT_OK;
+  });
+}
+
+void ft_solid_destroy(ft_solid* solid) {
+  destroy(__func__, solid);
+}

@@ -1,0 +1,44 @@
+// bindings/c/solid_handle.h: the struct behind ft_solid.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bindings/c/handles.h"
+#include "bindings/c/include/foretouch/solid.h"
+#include "middleware/solid/solid_avatar.h"
+
+/// For one thread. Computes a tick beside the last one, which it replaces once done.
+struct ft_solid {
+  static constexpr auto kMark = foretouch::c::Mark::Solid;
+  static constexpr const char* kName = "solid";
+  ft_solid(std::shared_ptr<const foretouch::c::AvatarParts> ofAvatar, foretouch::Scene inScene,
+           foretouch::SolidAvatar made)
+      : avatar(std::move(ofAvatar)),
+        scene(std::move(inScene)),
+        solid(std::move(made)),
+        last(restPose(avatar->avatar.skeleton())) {}
+
+  foretouch::c::Mark mark = kMark;
+  std::shared_ptr<const foretouch::c::AvatarParts> avatar;
+  foretouch::Scene scene;
+  foretouch::SolidAvatar solid;
+  bool isSuspect = false;  // an exception left `solid` half written
+  foretouch::Pose last;    // that it goes on from
+  bool hasLast = false;
+  foretouch::Pose given;
+  std::vector<std::uint8_t> isTracked;
+  foretouch::SolidTick tick, next;
+  bool hasTick = false;
+};
+
+namespace foretouch::c {
+
+/// As SolidOptions has them.
+[[nodiscard]] ft_solid_options defaultSolidOptions();
+/// NULL: the usual ones. The library itself checks the values.
+[[nodiscard]] ft_status readSolidOptions(const ft_solid_options* given, SolidOptions& options);
+
+}  // namespace foretouch::c

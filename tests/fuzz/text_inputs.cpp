@@ -1,0 +1,107 @@
+#include "tests/fuzz/text_inputs.h"
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "assets/model/joint_table.h"
+#include "network/wire/wire.h"
+#include "tests/fuzz/promise.h"
+#include "tools/inputs/joint_map.h"
+#include "tools/settings/clip_settings.h"
+#include "tools/settings/project_file.h"
+#include "tools/settings/serve_settings.h"
+#include "tools/settings/world_settings.h"
+
+namespace foretouch::fuzz {
+namespace {
+
+std::string textIn(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+void checkReason(const Error& error) {
+  require(!error.message.empty(), "an error says what is wrong");
+  for (const char c : describe(error)) {
+    require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f, "errors can be shown");
+  }
+}
+
+/// A file without a name on any disk.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string_view bytes) : fd_(memfd_create("input", MFD_CLOEXEC)) {
+    require(
+        fd_ >= 0 && write(fd_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()),
+        "there is memory for the input");
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() { close(fd_); }
+  [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(fd_); }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+bool feedJointTable(const std::uint8_t* data, std::size_t size) {
+  const auto table = internal::parseJointTable(textIn(data, size));
+  if (!table.ok()) {
+    checkReason(table.error());
+    return false;
+  }
+  const internal::JointTable& read = table.value();
+  require(
+      std::set<std::string>(read.joints.begin(), read.joints.end()).size() == read.joints.size(),
+      "names differ");
+  require(read.rows.size() >= 2 && read.lines.size() == read.rows.size(), "every row has a line");
+  require(std::isfinite(read.frameTimeS) && read.frameTimeS > 0.0, "time goes on");
+  for (const std::vector<double>& row : read.rows) {
+    require(row.size() == read.joints.size(), "every joint has a value");
+    for (const double value : row) require(std::isfinite(value), "values are finite");
+  }
+  return true;
+}
+
+bool feedJointMap(const std::uint8_t* data, std::size_t size) {
+  const auto map = tools::parseJointMap(textIn(data, size), "input");
+  if (map.ok()) return true;
+  checkReason(map.error());
+  require(map.error().file == "input", "an error names its file");
+  return false;
+}
+
+bool feedUrl(const std::uint8_t* data, std::size_t size) {
+  const std::string text = textIn(data, size);
+  const auto url = parseUdpmUrl(text);
+  if (url.ok()) {
+    require(!url.value().group.empty() && url.value().port != 0, "a URL leads somewhere");
+    require(url.value().ttl >= 0 && url.value().ttl <= 255, "its reach is one");
+  } else {
+    checkReason(url.error());
+  }
+  const auto address = tools::parseHttpAddress("--http", text);
+  if (!address.ok()) checkReason(address.error());
+  const auto view = tools::parseViewAddress("--view", text);
+  require(address.ok() || !view.ok(), "an address of the page is one of HTTP");
+  return url.ok() || address.ok();
+}
+
+bool feedProject(const std::uint8_t* data, std::size_t size) {
+  const MemoryFile file(textIn(data, size));
+  tools::WorldRequest world;
+  tools::Settings settings;
+  tools::addSceneSettings(settings, world);
+  const auto taken =
+      tools::takeFromProject(file.path(), settings, [](const tools::Setting&) { return false; });
+  if (taken.ok()) return true;
+  checkReason(taken.error());
+  return false;
+}
+
+}  // namespace foretouch::fuzz
