@@ -117,7 +117,8 @@ struct LogWriteOptions {
 /// blocks whole.
 class EventLogWriter {
  public:
-  /// Creates a new file; an existing one is an error, never overwritten.
+  /// Creates a new file that its owner alone can read; an existing one is an error, never
+  /// overwritten.
   static Result<EventLogWriter> create(const std::string& path,
                                        const LogWriteOptions& options = {});
   EventLogWriter(EventLogWriter&&) noexcept;

@@ -201,8 +201,8 @@ Result<EventLogWriter> EventLogWriter::create(const std::string& path,
                     std::to_string(kMaxLogBlockBytes);
     return error;
   }
-  constexpr int kReadableByAll = 0644;
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kReadableByAll);
+  constexpr int kOwnersAlone = 0600;  // how a person moves is that person's affair
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kOwnersAlone);
   if (file < 0) {
     error.code = ErrorCode::FileUnwritable;
     error.message = errno == EEXIST ? "exists already: a log is never written over another file"

@@ -1,6 +1,8 @@
-// network/service/bounded_http.h: cpp-httplib within bounds: limits on a request's bytes and total
-// time, one request per connection, a few threads, and a bounded number of connections that wait
-// for one. GET and HEAD only. Not installed: it exposes cpp-httplib.
+// network/service/bounded_http.h: cpp-httplib's handlers behind a server within bounds. One thread
+// reads all requests and sends all responses, and waits for nobody: a slow client costs the others
+// nothing. Only complete requests reach a handler, in that thread. One request per connection;
+// limits on its bytes and time, on the connections, and on those of one address, whose oldest
+// unfinished one makes way for a new one. GET and HEAD only. Not installed: it exposes cpp-httplib.
 #pragma once
 
 #include <atomic>
@@ -8,18 +10,29 @@
 #include <cstdint>
 #include <functional>
 #include <httplib.h>
+#include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "articulated/result.h"
+#include "network/wire/descriptor.h"
 
 namespace foretouch::internal {
 
 struct HttpBounds {
   std::size_t requestBytes = 4096;  ///< Headers included.
-  int requestMs = 1000;             ///< From the wait for its first byte to its last byte.
-  int responseMs = 0;               ///< More time, for the response.
+  int requestMs = 1000;             ///< From accepting the connection to the last byte.
+  int responseMs = 1000;            ///< More time, for the response.
 };
+
+/// Connections at a time, and of one address.
+inline constexpr std::size_t kMaxHttpConnections = 128;
+inline constexpr std::size_t kMaxHttpPerAddress = kMaxHttpConnections / 2;
+
+/// Whether the request names a host that is not this machine: a stranger's name that leads here
+/// (DNS rebinding), or several names. A request of no browser may name none.
+[[nodiscard]] bool namesForeignHost(const httplib::Request& request);
 
 class BoundedHttp final : public httplib::Server {
  public:
@@ -28,9 +41,13 @@ class BoundedHttp final : public httplib::Server {
   BoundedHttp& operator=(const BoundedHttp&) = delete;
   ~BoundedHttp() override;  ///< As end().
 
-  /// Called after each request, in the thread that answered it; `isAnswered`: whether that
-  /// succeeded. Returns true if it now owns the socket. Must not throw. Set before start().
-  std::function<bool(socket_t, bool isAnswered)> takeOver;
+  /// Takes a socket whose response was sent; false: it did not.
+  using Taker = std::function<bool(socket_t)>;
+  /// Called after a request was handled, in the same thread: who takes the socket afterwards;
+  /// empty: it is closed. Set before start().
+  std::function<Taker()> takerOfLast;
+  /// A response that is part of this text refers to it instead of copying it. Before start().
+  void share(std::shared_ptr<const std::string> text) { shared_.push_back(std::move(text)); }
 
   /// Starts to serve. `host`: a numeric address or "localhost"; other names are errors, because
   /// their resolver would decide which network we serve. Port 0: any free one. Errors begin "cannot
@@ -42,11 +59,24 @@ class BoundedHttp final : public httplib::Server {
   [[nodiscard]] std::uint16_t port() const { return static_cast<std::uint16_t>(port_); }
 
  private:
-  bool process_and_close_socket(socket_t socket) override;
+  struct Client;
+  class MemoryStream;
+  void run();
+  void wait();
+  void admit();
+  bool makePlace(const std::string& address);
+  void serve(Client& client);
+  void read(Client& client);
+  void handle(Client& client);
+  void send(Client& client);
 
   const HttpBounds bounds_;
-  std::atomic<bool> isStopping_{false}, hasEnded_{false};
+  std::atomic<bool> isStopping_{false};
   int port_ = 0;
+  Descriptor wake_;
+  std::vector<std::shared_ptr<const std::string>> shared_;
+  std::vector<std::unique_ptr<Client>> clients_;  // of the thread
+  bool isAccepting_ = true;                       // the system has descriptors
   std::thread thread_;
 };
 

@@ -7,25 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "articulated/try.h"
-#include "network/log/event_log.h"
 #include "network/service/thread_beat.h"
 
 namespace foretouch {
 namespace {
-
-class LogSink final : public JournalSink {
- public:
-  explicit LogSink(EventLogWriter writer) : writer_(std::move(writer)) {}
-  Result<Done> write(std::int64_t utimeUs, const std::string& channel, ByteView payload) override {
-    return writer_.write(utimeUs, channel, payload);
-  }
-  Result<Done> flush() override { return writer_.flush(); }
-  Result<Done> close() override { return writer_.close(); }
-
- private:
-  EventLogWriter writer_;
-};
 
 struct Event {
   std::int64_t utimeUs = 0;
@@ -60,11 +45,6 @@ struct EventList {
 
 }  // namespace
 
-Result<std::unique_ptr<JournalSink>> createLogSink(const std::string& path) {
-  FORETOUCH_TRY(auto writer, EventLogWriter::create(path));
-  return std::unique_ptr<JournalSink>(std::make_unique<LogSink>(std::move(writer)));
-}
-
 struct Journal::Impl {
   std::unique_ptr<JournalSink> sink;
   JournalOptions options;
@@ -74,7 +54,8 @@ struct Journal::Impl {
   std::condition_variable changed;
   EventList waiting;
   std::string lastFailure;
-  bool isClosing = false;
+  bool isClosing = false, isDone = false;
+  bool isAbandoned = false;  // `failed` may be gone
 
   EventList written;  // of the thread
   bool isFlushed = true;
@@ -83,11 +64,9 @@ struct Journal::Impl {
 
   void note(const Result<Done>& done) {
     if (done.ok()) return;
-    {
-      const std::lock_guard lock(mutex);
-      lastFailure = describe(done.error());
-    }
-    failed();
+    const std::lock_guard lock(mutex);
+    lastFailure = describe(done.error());
+    if (!isAbandoned) failed();
   }
 
   void write() {
@@ -124,10 +103,13 @@ struct Journal::Impl {
       flushAt = std::chrono::steady_clock::now() + options.flushEvery;
     }
     note(sink->close());
+    const std::lock_guard lock(mutex);
+    isDone = true;
+    changed.notify_all();
   }
 };
 
-Journal::Journal(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Journal::Journal(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Journal::Journal(Journal&&) noexcept = default;
 Journal& Journal::operator=(Journal&& other) noexcept {
   if (this != &other) {
@@ -142,12 +124,12 @@ Journal::~Journal() {
 
 Result<Journal> Journal::start(std::unique_ptr<JournalSink> sink, const JournalOptions& options,
                                std::function<void()> failed) {
-  auto impl = std::make_unique<Impl>();
+  auto impl = std::make_shared<Impl>();
   impl->sink = std::move(sink);
   impl->options = options;
   impl->failed = std::move(failed);
   try {
-    impl->thread = std::thread([&journal = *impl] { journal.run(); });
+    impl->thread = std::thread([journal = impl] { journal->run(); });
   } catch (const std::system_error& e) {
     return Error::of(ErrorCode::LimitExceeded,
                      std::string("cannot start the thread that writes the log: ") + e.what());
@@ -173,12 +155,21 @@ void Journal::add(std::int64_t utimeUs, const std::string& channel, ByteView pay
 
 void Journal::close() {
   if (!impl_ || !impl_->thread.joinable()) return;
+  std::size_t left = 0;
   {
-    const std::lock_guard lock(impl_->mutex);
+    std::unique_lock lock(impl_->mutex);
     impl_->isClosing = true;
-    impl_->changed.notify_one();
+    impl_->changed.notify_all();
+    impl_->changed.wait_for(lock, impl_->options.closeWithin, [&] { return impl_->isDone; });
+    if (!impl_->isDone) {
+      left = impl_->waiting.count + 1;  // and what the thread has in hand
+      impl_->isAbandoned = true;
+      impl_->lastFailure = "the log did not take what waited for it in time, and is not closed";
+    }
   }
-  impl_->thread.join();
+  if (left == 0) return impl_->thread.join();
+  impl_->thread.detach();  // it shares what it needs
+  for (; left > 0; --left) impl_->failed();
 }
 
 std::int64_t Journal::idleMs() const {

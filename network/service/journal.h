@@ -26,13 +26,22 @@ class JournalSink {
   virtual Result<Done> close() = 0;
 };
 
-/// A new event log (EventLogWriter); an existing file is an error.
-[[nodiscard]] Result<std::unique_ptr<JournalSink>> createLogSink(const std::string& path);
+struct LogLimits {
+  std::uint64_t bytes = 0;  ///< Of one file, before the next one begins; 0: no limit.
+  int files = 8;            ///< That stay; the oldest goes when another one begins. At least 1.
+};
+
+/// A new event log (EventLogWriter); an existing file is an error. Beyond the limit it goes on in
+/// "today.2.lcmlog" and so on, each with the last skeletons at its begin, and removes the oldest
+/// of those that it made. `skeletonChannel`: whose payloads these are.
+[[nodiscard]] Result<std::unique_ptr<JournalSink>> createLogSink(
+    const std::string& path, const LogLimits& limits = {}, const std::string& skeletonChannel = "");
 
 struct JournalOptions {
   std::size_t maxEvents = 1u << 16;  ///< Waiting for the disk.
   std::size_t maxBytes = 64u << 20;  ///< Waiting payloads, in total.
   std::chrono::milliseconds flushEvery{100};
+  std::chrono::milliseconds closeWithin{5000};  ///< Then a disk that stalls keeps the rest.
 };
 
 class Journal {
@@ -43,11 +52,12 @@ class Journal {
                                std::function<void()> failed);
   Journal(Journal&&) noexcept;
   Journal& operator=(Journal&&) noexcept;
-  ~Journal();  ///< As close().
+  ~Journal();  ///< As close(). Calls `failed` no more.
 
   /// Never waits for the disk. Writes events in the order of the calls, also across threads.
   void add(std::int64_t utimeUs, const std::string& channel, ByteView payload);
-  /// Writes everything that waits, and closes the log.
+  /// Writes everything that waits, and closes the log; if that takes longer than
+  /// JournalOptions::closeWithin, leaves it to its thread, and counts what waits as failed.
   void close();
   /// Milliseconds since the writing thread last made progress.
   [[nodiscard]] std::int64_t idleMs() const;
@@ -56,8 +66,8 @@ class Journal {
 
  private:
   struct Impl;
-  explicit Journal(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  explicit Journal(std::shared_ptr<Impl> impl);
+  std::shared_ptr<Impl> impl_;  // the thread's as well
 };
 
 }  // namespace foretouch

@@ -11,6 +11,23 @@ MailRoom::MailRoom(std::size_t avatars, std::size_t poses, std::size_t handlers)
   ready_.reserve(avatars);
 }
 
+bool MailRoom::isWanted(const Box& box, const Mail& mail) {
+  if (mail.kind != MailKind::Pose || !box.isSelective) return true;
+  const std::int64_t hash = mail.pose.skeletonHash;
+  if (std::find(box.known.begin(), box.known.end(), hash) != box.known.end()) return true;
+  if (box.handled == hash) return true;
+  return box.skeletons > 0 &&
+         std::any_of(box.mail.begin(), box.mail.end(), [&](const auto& waiting) {
+           return waiting->kind == MailKind::Skeleton && waiting->skeleton.hash == hash;
+         });
+}
+
+void MailRoom::know(std::size_t avatar, const std::vector<std::int64_t>& hashes) {
+  const std::lock_guard lock(mutex_);
+  boxes_[avatar].isSelective = true;
+  boxes_[avatar].known = hashes;
+}
+
 /// Senders repeat their skeleton every second. A copy of the last waiting one would change nothing.
 bool MailRoom::isRepeated(const Box& box, const Mail& mail) {
   if (mail.kind != MailKind::Skeleton) return false;
@@ -18,7 +35,7 @@ bool MailRoom::isRepeated(const Box& box, const Mail& mail) {
     return waiting->kind == MailKind::Skeleton;
   });
   return last != box.mail.rend() && (*last)->skeleton.hash == mail.skeleton.hash &&
-         (*last)->skeleton.session == mail.skeleton.session &&
+         (*last)->sender == mail.sender && (*last)->skeleton.session == mail.skeleton.session &&
          (*last)->skeleton.generation == mail.skeleton.generation;
 }
 
@@ -61,6 +78,7 @@ MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail)
   const std::lock_guard lock(mutex_);
   if (isClosed_) return Posted::Closed;
   Box& box = boxes_[avatar];
+  if (!isWanted(box, *mail)) return box.known.empty() ? Posted::TooEarly : Posted::Unwanted;
   if (isRepeated(box, *mail)) return Posted::Kept;
   const MailKind kind = mail->kind;
   const bool dropped = makeRoom(box, kind);
@@ -91,6 +109,7 @@ MailRoom::Taken MailRoom::takeNow(std::size_t& avatar, std::unique_ptr<Mail>& ma
   keep(std::exchange(mail, std::move(box.mail.front())));
   box.mail.erase(box.mail.begin());
   --(mail->kind == MailKind::Pose ? box.poses : box.skeletons);
+  if (mail->kind == MailKind::Skeleton) box.handled = mail->skeleton.hash;
   return Taken::Mail;
 }
 
@@ -115,6 +134,7 @@ void MailRoom::finish(std::size_t avatar) {
   const std::lock_guard lock(mutex_);
   Box& box = boxes_[avatar];
   box.isHandled = false;
+  box.handled.reset();
   --handled_;
   if (!box.mail.empty()) makeReady(avatar);
   if (isClosed_ && handled_ == 0) changed_.notify_all();

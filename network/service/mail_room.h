@@ -13,10 +13,12 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "network/wire/codec.h"
 #include "network/wire/messages.h"
+#include "network/wire/wire.h"
 
 namespace foretouch {
 
@@ -29,6 +31,8 @@ struct Mail {
   PoseMessage pose;
   Bytes payload;  ///< As it came.
   std::int64_t receiveUtimeUs = 0;
+  UdpmSender sender;
+  std::int64_t sentUtimeUs = 0;  ///< By its signature; 0: not signed.
 };
 
 /// Different skeletons that wait for one avatar: more than a few mean that somebody floods. The
@@ -45,11 +49,18 @@ class MailRoom {
     Kept,             ///< Nothing was dropped; also a skeleton that repeats a waiting one.
     DroppedPose,      ///< The oldest waiting pose was dropped.
     DroppedSkeleton,  ///< The oldest waiting skeleton was dropped.
+    Unwanted,         ///< A pose of another skeleton than those that are known: see know().
+    TooEarly,         ///< The same before any is.
     Closed,           ///< The room takes no more mail.
   };
   /// Takes the mail and leaves an empty one in `mail` for the next message. Never waits for a
   /// worker.
   Posted post(std::size_t avatar, std::unique_ptr<Mail>& mail);
+
+  /// From now on a pose for the avatar is refused at once, and takes nobody's place, unless its
+  /// hash is one of these, or that of a skeleton that waits or is being handled. Without a call of
+  /// this, every pose is taken.
+  void know(std::size_t avatar, const std::vector<std::int64_t>& hashes);
 
   enum class Taken : std::uint8_t { Mail, Lead, Nothing, Closed };
   /// Exchanges `mail` for the next mail of an avatar that nobody handles; waits up to `wait` for
@@ -72,7 +83,11 @@ class MailRoom {
     std::size_t poses = 0, skeletons = 0;
     bool isReady = false;    // in ready_
     bool isHandled = false;  // by a thread, now
+    bool isSelective = false;
+    std::vector<std::int64_t> known;
+    std::optional<std::int64_t> handled;  // the hash of the skeleton that a thread handles now
   };
+  static bool isWanted(const Box& box, const Mail& mail);
   static bool isRepeated(const Box& box, const Mail& mail);
   bool makeRoom(Box& box, MailKind kind);
   std::unique_ptr<Mail> emptyMail();

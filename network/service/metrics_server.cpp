@@ -8,6 +8,18 @@
 namespace foretouch {
 namespace {
 
+using Handled = httplib::Server::HandlerResponse;
+
+/// A page of a stranger, in a browser on this machine, must not read what this machine says to
+/// itself. An address that others reach has other names, and hides nothing.
+Handled checked(const httplib::Request& request, httplib::Response& response) {
+  const bool isRead = request.method == "GET" || request.method == "HEAD";
+  if (isRead && !internal::namesForeignHost(request)) return Handled::Unhandled;
+  response.status = isRead ? 403 : 405;
+  if (!isRead) response.set_header("Allow", "GET, HEAD");
+  return Handled::Handled;
+}
+
 void addPages(httplib::Server& server, MetricsServer::Pages pages) {
   server.Get("/metrics", [page = std::move(pages.metrics)](const httplib::Request&,
                                                            httplib::Response& response) {
@@ -24,7 +36,7 @@ void addPages(httplib::Server& server, MetricsServer::Pages pages) {
 }  // namespace
 
 struct MetricsServer::Impl {
-  internal::BoundedHttp server{internal::HttpBounds{kMaxRequestBytes, kRequestMs, 0}};
+  internal::BoundedHttp server{internal::HttpBounds{kMaxRequestBytes, kRequestMs, kRequestMs}};
 };
 
 MetricsServer::MetricsServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -36,6 +48,7 @@ Result<MetricsServer> MetricsServer::start(const std::string& host, std::uint16_
                                            Pages pages) {
   auto impl = std::make_unique<Impl>();
   addPages(impl->server, std::move(pages));
+  if (isLoopback(host)) impl->server.set_pre_routing_handler(checked);
   FORETOUCH_CHECK(impl->server.start("metrics", host, port));
   return MetricsServer(std::move(impl));
 }

@@ -114,6 +114,9 @@ void addPoses(Page& page, const ServiceCounts& counts) {
                counts.lost);
   page.counter("foretouch_answers_across_gap_total", "Answers that claim nothing to be clear.",
                counts.gaps);
+  page.counter("foretouch_vast_gaps_total",
+               "Answers across more than a million poses, which do not count as lost.",
+               counts.vastGaps);
   page.gauge("foretouch_last_pose_timestamp_seconds", "When the last pose arrived; 0 before any.",
              number(static_cast<double>(counts.lastPoseUtimeUs) * kSecondsPerUs));
   page.counter("foretouch_skeletons_received_total", "Skeletons that arrived.", counts.skeletons);
@@ -126,8 +129,13 @@ void addWire(Page& page, const ServiceCounts& counts) {
                counts.publishFailures);
   page.counter("foretouch_journal_failures_total", "Events that could not be recorded.",
                counts.journalFailures);
+  page.counter("foretouch_refusals_unrecorded_total",
+               "Refused messages that the log leaves out, beyond some per second.",
+               counts.unrecorded);
   page.counter("foretouch_datagrams_received_total", "Datagrams that were read.",
                counts.wire.datagrams);
+  page.counter("foretouch_datagrams_foreign_total", "Datagrams of senders that are not heard.",
+               counts.wire.foreign);
   page.faults("foretouch_datagrams_faulty_total", "Datagrams that were no messages.", counts.wire);
   page.counter("foretouch_datagrams_dropped_total", "Datagrams that the system dropped unread.",
                counts.wire.kernelDrops);

@@ -12,8 +12,11 @@
 #include <utility>
 
 #include "network/service/mail_room.h"
+#include "network/service/message_seal.h"
+#include "network/service/service_health.h"
 #include "network/service/service_status.h"
 #include "network/service/thread_beat.h"
+#include "network/stream/bound_stream.h"
 
 namespace foretouch {
 namespace {
@@ -26,10 +29,12 @@ constexpr int kReceiveWaitMs = 100;
 constexpr milliseconds kBeatEvery{500};
 
 struct ServedStream {
-  StreamSolver solver;
+  BoundStream stream;
   std::size_t index = 0;
-  std::uint64_t lost = 0, gaps = 0;  // the part of the solver's counts already added up
-  bool isBroken = false;             // an exception left its state unknown: it answers nothing more
+  std::uint64_t lost = 0, gaps = 0, vastGaps = 0;  // of the solver's counts, already added up
+  std::vector<std::int64_t> known{}, nowKnown{};   // hashes that the mail room knows of; scratch
+  ReplayGuard skeletons{}, poses{};                // of the receiving thread
+  bool isBroken = false;  // an exception left its state unknown: it answers nothing more
 };
 
 /// One thread's reusable memory.
@@ -45,8 +50,9 @@ struct Channels {
         pose(kPoseChannel + suffix),
         contacts(kContactsChannel + suffix),
         solid(kSolidChannel + suffix),
-        status(kStatusChannel + suffix) {}
-  std::string skeleton, pose, contacts, solid, status;
+        status(kStatusChannel + suffix),
+        speaker(kSpeakerChannel + suffix) {}
+  std::string skeleton, pose, contacts, solid, status, speaker;
 };
 
 std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
@@ -82,11 +88,6 @@ std::string shortened(std::string text) {
   return text;
 }
 
-std::string seconds(double value) {
-  std::string text = std::to_string(value);
-  return text.substr(0, text.find('.') + 4) + " s";
-}
-
 }  // namespace
 
 std::vector<std::string> receivedChannels(const std::string& suffix) {
@@ -94,18 +95,20 @@ std::vector<std::string> receivedChannels(const std::string& suffix) {
   return {channels.skeleton, channels.pose};
 }
 
-struct Service::Impl {
+struct Service::Impl final : StreamRecord {
   Impl(std::vector<StreamSolver> solvers, ServiceParts surroundings, const ServiceOptions& chosen)
       : options(chosen),
         parts(std::move(surroundings)),
         channels(chosen.suffix),
         room(solvers.size(), chosen.queue, static_cast<std::size_t>(chosen.workers)),
+        seal(chosen.key, *parts.clock),
         threadBeats(static_cast<std::size_t>(chosen.workers) + 1) {
     facts = {shortened(chosen.build), shortened(chosen.scene), solvers.size(), chosen.workers,
              parts.clock->utimeUs()};
     for (StreamSolver& solver : solvers) {
       indexOf.emplace(solver.id(), streams.size());
-      streams.push_back({std::move(solver), streams.size()});
+      room.know(streams.size(), {});
+      streams.push_back({BoundStream(std::move(solver), chosen.speaker), streams.size()});
     }
   }
 
@@ -116,6 +119,7 @@ struct Service::Impl {
   std::vector<ServedStream> streams;
   std::unordered_map<std::int32_t, std::size_t> indexOf;  // of an avatar's id: its stream
   MailRoom room;
+  internal::MessageSeal seal;
   ServiceCounter counter;
   SolidCounter solidCounter;
   std::optional<Journal> journal;
@@ -193,27 +197,49 @@ struct Service::Impl {
 
   void sort(WireMessage& message, std::unique_ptr<Mail>& mail) {
     mail->receiveUtimeUs = message.receiveUtimeUs;
+    mail->sender = message.sender;
+    mail->sentUtimeUs = 0;
     if (message.channel == channels.pose) {
       counter.receivedPose(message.receiveUtimeUs);
       mail->kind = MailKind::Pose;
-      const Reject reject = decode(message.payload, mail->pose);
+      Reject reject = seal.open(message, mail->sentUtimeUs);
+      if (reject == Reject::None) reject = decode(message.payload, mail->pose);
       if (reject != Reject::None) return counter.rejectedPose(reject);
-      post(mail->pose.avatar, message, mail);
+      post(mail->pose.avatar, mail->pose.session, message, mail);
     } else if (message.channel == channels.skeleton) {
       counter.receivedSkeleton();
       mail->kind = MailKind::Skeleton;
-      const Reject reject = decode(message.payload, mail->skeleton);
+      Reject reject = seal.open(message, mail->sentUtimeUs);
+      if (reject == Reject::None) reject = decode(message.payload, mail->skeleton);
       if (reject != Reject::None) return counter.rejectedSkeleton(reject);
-      post(mail->skeleton.avatar, message, mail);
+      post(mail->skeleton.avatar, mail->skeleton.session, message, mail);
     }
   }
 
-  void post(std::int32_t id, WireMessage& message, std::unique_ptr<Mail>& mail) {
+  /// What has no chance to be accepted takes no place from what has.
+  void post(std::int32_t id, std::int64_t session, WireMessage& message,
+            std::unique_ptr<Mail>& mail) {
     const MailKind kind = mail->kind;
     const auto known = indexOf.find(id);
     if (known == indexOf.end()) return reject(kind, Reject::UnknownAvatar);
+    const Reject future = sessionFault(session, message.receiveUtimeUs);
+    if (future != Reject::None) return reject(kind, future);
+    ServedStream& served = streams[known->second];
+    ReplayGuard& guard = kind == MailKind::Pose ? served.poses : served.skeletons;
+    if (seal.isAsked()) {
+      const Reject old = guard.take(mail->sentUtimeUs, message.receiveUtimeUs);
+      if (old != Reject::None) return reject(kind, old);
+    }
+    if (kind == MailKind::Pose && !served.stream.mayPass(message.sender, message.receiveUtimeUs)) {
+      return reject(kind, Reject::OtherSender);
+    }
     mail->payload.swap(message.payload);
-    if (room.post(known->second, mail) != MailRoom::Posted::Kept) reject(kind, Reject::Overrun);
+    switch (room.post(known->second, mail)) {
+      case MailRoom::Posted::Kept: return;
+      case MailRoom::Posted::Unwanted: return reject(kind, Reject::SkeletonMismatch);
+      case MailRoom::Posted::TooEarly: return reject(kind, Reject::UnknownSkeleton);
+      default: return reject(kind, Reject::Overrun);
+    }
   }
 
   void reject(MailKind kind, Reject reason) {
@@ -227,8 +253,8 @@ struct Service::Impl {
     bool isCounted = false;
     const bool done = guarded("answering", [&] {
       if (mail.kind == MailKind::Pose) return answer(stream, mail, desk, isCounted);
-      record(mail.receiveUtimeUs, channels.skeleton, mail.payload);
-      const Reject reason = stream.solver.take(mail.skeleton);
+      const Reject reason = stream.stream.take(heard(mail), mail.skeleton, *this);
+      tellKnown(stream);
       if (reason != Reject::None) counter.rejectedSkeleton(reason);
     });
     if (done) return;
@@ -237,9 +263,9 @@ struct Service::Impl {
   }
 
   void answer(ServedStream& stream, const Mail& mail, Desk& desk, bool& isCounted) {
-    record(mail.receiveUtimeUs, channels.pose, mail.payload);
-    const Reject reason = stream.solver.take(mail.pose, desk.answer);
+    const Reject reason = stream.stream.take(heard(mail), mail.pose, desk.answer, *this);
     addUp(stream);
+    tellKnown(stream);
     if (reason != Reject::None) {
       isCounted = true;
       return counter.rejectedPose(reason);
@@ -253,21 +279,22 @@ struct Service::Impl {
     isCounted = true;
     counter.answeredPose(static_cast<double>(sentUtimeUs - mail.receiveUtimeUs),
                          desk.answer.queryUs);
-    SolidStream* const solid = stream.solver.solid();
+    SolidStream* const solid = stream.stream.solid();
     if (solid != nullptr) show(stream, *solid, mail, desk);
     StepObserver* const observer = parts.observer;
     if (observer == nullptr || !observer->wants(stream.index)) return;
+    const StreamStep& step = stream.stream.solver().lastStep();
     if (solid == nullptr) {
-      observer->observe(stream.index, stream.solver.lastStep(), desk.answer, nullptr);
+      observer->observe(stream.index, step, desk.answer, nullptr);
     } else {
       const ShownStep shown{solid->shownBefore(), desk.shown};
-      observer->observe(stream.index, stream.solver.lastStep(), desk.answer, &shown);
+      observer->observe(stream.index, step, desk.answer, &shown);
     }
   }
 
   /// After the answer has gone out, so that it waits for nothing new.
   void show(ServedStream& stream, SolidStream& solid, const Mail& mail, Desk& desk) {
-    solid.follow(stream.solver.lastStep(), desk.shown);
+    solid.follow(stream.stream.solver().lastStep(), desk.shown);
     desk.shown.receiveUtimeUs = mail.receiveUtimeUs;
     desk.shown.sendUtimeUs = parts.clock->utimeUs();
     encode(desk.shown, desk.payload);
@@ -277,19 +304,49 @@ struct Service::Impl {
   }
 
   void addUp(ServedStream& stream) {
-    const StreamCounts& counts = stream.solver.counts();
+    const StreamCounts& counts = stream.stream.solver().counts();
     if (counts.lost == stream.lost && counts.gaps == stream.gaps) return;
     counter.lostPoses(counts.lost - std::exchange(stream.lost, counts.lost),
-                      counts.gaps - std::exchange(stream.gaps, counts.gaps));
+                      counts.gaps - std::exchange(stream.gaps, counts.gaps),
+                      counts.vastGaps - std::exchange(stream.vastGaps, counts.vastGaps));
   }
 
-  void publish(const std::string& channel, const Bytes& payload) {
+  static Heard heard(const Mail& mail) { return {mail.sender, mail.receiveUtimeUs, mail.payload}; }
+
+  /// Poses of skeletons that nobody has said need not wait.
+  void tellKnown(ServedStream& stream) {
+    stream.stream.listKnownHashes(stream.nowKnown);
+    if (stream.known == stream.nowKnown) return;
+    stream.known = stream.nowKnown;
+    room.know(stream.index, stream.known);
+  }
+
+  // What the streams record.
+
+  void speaker(const SpeakerMessage& message) override {
+    Bytes payload;
+    encode(message, payload);
+    record(message.utimeUs, channels.speaker, payload);
+  }
+  void skeleton(ByteView payload, std::int64_t receiveUtimeUs) override {
+    record(receiveUtimeUs, channels.skeleton, payload);
+  }
+  void pose(ByteView payload, std::int64_t receiveUtimeUs) override {
+    record(receiveUtimeUs, channels.pose, payload);
+  }
+  void leftOut() override { counter.leftOut(); }
+
+  /// Leaves the payload as it was.
+  void publish(const std::string& channel, Bytes& payload) {
+    const std::size_t size = payload.size();
+    seal.sign(channel, payload);
     const bool isSent =
         payload.size() <= kMaxMessageBytes && parts.publisher->publish(channel, payload);
     if (!isSent) counter.failedPublish();
+    payload.resize(size);
   }
 
-  void record(std::int64_t utimeUs, const std::string& channel, const Bytes& payload) {
+  void record(std::int64_t utimeUs, const std::string& channel, ByteView payload) {
     if (journal) journal->add(utimeUs, channel, payload);
   }
 
@@ -332,34 +389,24 @@ struct Service::Impl {
   }
 
   [[nodiscard]] ServiceHealth health() const {
-    ServiceHealth health;
-    const auto unwell = [&](const std::string& line) {
-      health.isWell = false;
-      health.text += line + "\n";
-    };
+    internal::ServiceState state;
     {
       const std::lock_guard lock(mutex);
-      if (failure) unwell("failed: " + describe(*failure));
+      state.failure = failure;
     }
-    const auto check = [&](const std::string& thread, std::int64_t idleMs) {
-      if (idleMs <= options.stuckAfter.count()) return;
-      unwell("stuck: " + thread + " has not got on for " +
-             seconds(static_cast<double>(idleMs) * 1e-3));
-    };
-    check("receiving", receiverBeat.idleMs());
-    check("the status", statusBeat.idleMs());
+    state.threads = {{"receiving", receiverBeat.idleMs()}, {"the status", statusBeat.idleMs()}};
     for (std::size_t i = 0; i < threadBeats.size(); ++i) {
-      check("thread " + std::to_string(i), threadBeats[i].idleMs());
+      state.threads.push_back({"thread " + std::to_string(i), threadBeats[i].idleMs()});
     }
-    if (journal) check("the log", journal->idleMs());
-    if (health.isWell) health.text = "ok\n";
-    const std::int64_t last = counter.counts().lastPoseUtimeUs;
-    health.text += last == 0
-                       ? "no pose yet\n"
-                       : "last pose " +
-                             seconds(static_cast<double>(parts.clock->utimeUs() - last) * 1e-6) +
-                             " ago\n";
-    return health;
+    const ServiceCounts counts = counter.counts();
+    state.unacceptedMs = counter.unacceptedMs(options.unacceptedAfter.count());
+    state.hasJournal = journal.has_value();
+    if (journal) state.journalIdleMs = journal->idleMs();
+    if (journal) state.journalFailure = journal->lastFailure();
+    state.journalFailures = counts.journalFailures;
+    state.lastPoseUtimeUs = counts.lastPoseUtimeUs;
+    state.nowUtimeUs = parts.clock->utimeUs();
+    return internal::healthOf(state, options);
   }
 
   // Starting and stopping.

@@ -27,8 +27,10 @@
 #include "network/service/journal.h"
 #include "network/service/service_counts.h"
 #include "network/service/solid_counts.h"
+#include "network/stream/speaker_gate.h"
 #include "network/stream/step_observer.h"
 #include "network/stream/stream_solver.h"
+#include "network/wire/message_key.h"
 #include "network/wire/messages.h"
 #include "network/wire/wire.h"
 
@@ -45,6 +47,12 @@ struct ServiceOptions {
   std::chrono::milliseconds statusEvery{1000};   ///< At least 1.
   std::chrono::milliseconds stuckAfter{10'000};  ///< A thread without progress for this long is
                                                  ///< stuck.
+  std::chrono::milliseconds unacceptedAfter{10'000};  ///< Poses that come for so long, and none of
+                                                      ///< them accepted, are ill health.
+  SpeakerPolicy speaker;
+  /// Messages without its signature are refused, and what the service says is signed. None: what is
+  /// signed is taken as if it were not.
+  std::optional<MessageKey> key;
   JournalOptions journal;
 };
 
@@ -61,8 +69,10 @@ struct ServiceParts {
 [[nodiscard]] std::vector<std::string> receivedChannels(const std::string& suffix);
 
 struct ServiceHealth {
-  bool isWell = true;
-  std::string text;  ///< "ok" and the time of the last pose, or what is wrong; lines.
+  bool isWell = true;   ///< It can answer, and what comes is accepted.
+  std::string text;     ///< "ok" and the time of the last pose, or what is wrong; lines. Those that
+                        ///< begin "degraded:" tell of a log that misses events, and harm no answer.
+  bool isAlive = true;  ///< It can answer: what a watchdog asks. No sender can make this false.
 };
 
 class Service {

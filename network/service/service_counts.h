@@ -28,10 +28,12 @@ struct ServiceCounts {
   std::uint64_t waiting = 0;   ///< In the mailboxes, or in work.
   std::uint64_t lost = 0;      ///< Poses that never came, by the gaps in sequence.
   std::uint64_t gaps = 0;      ///< Answers across a gap.
+  std::uint64_t vastGaps = 0;  ///< Of them, across more than kMostCountedLost poses: not in `lost`.
   std::uint64_t skeletons = 0;
   RejectCounts rejects{};          ///< Of poses.
   RejectCounts skeletonRejects{};  ///< Of skeletons.
   std::uint64_t publishFailures = 0, journalFailures = 0;
+  std::uint64_t unrecorded = 0;  ///< Refused messages that the log leaves out on purpose.
   WireCounts wire;
   std::int64_t lastPoseUtimeUs = 0;  ///< When the last pose arrived; 0: none has.
 
@@ -52,7 +54,11 @@ class ServiceCounter {
   void answeredPose(double latencyUs, double queryUs);
   void receivedSkeleton();
   void rejectedSkeleton(Reject reason);
-  void lostPoses(std::uint64_t lost, std::uint64_t gaps);
+  void lostPoses(std::uint64_t lost, std::uint64_t gaps, std::uint64_t vastGaps);
+  void leftOut();
+  /// How long poses for avatars of the service have come and none was accepted; 0 if one was since
+  /// the last refusal, or if none has come for `idleMs`.
+  [[nodiscard]] std::int64_t unacceptedMs(std::int64_t idleMs) const;
   void failedPublish();
   void failedJournal();
   void wire(const WireCounts& counts);
@@ -67,6 +73,9 @@ class ServiceCounter {
   mutable std::mutex mutex_;
   ServiceCounts counts_;
   AnswerTimes all_, recent_;
+  // Of refused poses since the last accepted one (steady clock, ms).
+  bool isUnaccepted_ = false;
+  std::int64_t firstRefusedMs_ = 0, lastRefusedMs_ = 0;
 };
 
 }  // namespace foretouch

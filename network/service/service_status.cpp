@@ -13,6 +13,7 @@ void addReasons(const ServiceCounts& counts, std::vector<StatusMessage::Count>& 
   for (std::size_t i = 0; i < kNumRejects; ++i) {
     add(toString(static_cast<Reject>(i)), counts.rejects[i] + counts.skeletonRejects[i]);
   }
+  add("datagram-foreign", counts.wire.foreign);
   for (std::size_t i = 0; i < kNumDatagramFaults; ++i) {
     add(std::string("datagram-") + toString(static_cast<DatagramFault>(i)),
         i == 0 ? 0 : counts.wire.faults[i]);

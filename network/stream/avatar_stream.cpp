@@ -1,6 +1,6 @@
 #include "network/stream/avatar_stream.h"
 
-#include <limits>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -85,24 +85,34 @@ class SkeletonRun {
 
 }  // namespace
 
+/// A skeleton that a sender has said, and the poses of it.
+struct KnownSkeleton {
+  KnownSkeleton(const SkeletonStamp& order, const Skeleton& avatar, bool unmatchedAtRest)
+      : stamp(order), assembly(avatar, unmatchedAtRest) {}
+  SkeletonStamp stamp;
+  internal::PoseAssembly assembly;
+};
+
 struct AvatarStream::Impl {
   Impl(const Avatar& avatar, const StreamPolicy& streamPolicy)
-      : policy(streamPolicy),
-        skeleton(avatar.skeleton()),
-        timeline(streamPolicy),
-        assembly(avatar.skeleton(), streamPolicy.unmatchedAtRest) {}
+      : policy(streamPolicy), skeleton(avatar.skeleton()), timeline(streamPolicy) {}
 
   [[nodiscard]] Reject takeSkeleton(const SkeletonMessage& message);
   [[nodiscard]] Reject takePose(const PoseMessage& message, StreamStep& step);
+  [[nodiscard]] Reject takeOther(const PoseMessage& message, StreamStep& step);
+  void accept(const PoseMessage& message, const internal::PosePlace& place, StreamStep& step);
   void describe(const PoseMessage& message, const internal::PosePlace& place, StreamStep& step);
 
   StreamPolicy policy;
   Skeleton skeleton;
-  bool hasSkeleton = false;
-  SkeletonStamp inUse;
+  std::optional<KnownSkeleton> inUse;
+  /// The next one, until its first pose comes (isNext); else the one that was in use before.
+  std::optional<KnownSkeleton> other;
+  bool isNext = false;
+  bool isNewSpeaker = false;
+  bool leftTrace = false;
   SkeletonRun oldSkeletons;
   internal::StreamTimeline timeline;
-  internal::PoseAssembly assembly;
   std::vector<UndecidedReason> unknown;
 };
 
@@ -118,6 +128,7 @@ Result<AvatarStream> AvatarStream::make(const Avatar& avatar, const StreamPolicy
 
 Reject AvatarStream::take(const SkeletonMessage& message) {
   const Reject reject = impl_->takeSkeleton(message);
+  impl_->leftTrace = reject == Reject::OldSession || reject == Reject::OldGeneration;
   if (reject != Reject::None) ++counts_.rejects[slotOf(reject)];
   return reject;
 }
@@ -127,28 +138,50 @@ Reject AvatarStream::Impl::takeSkeleton(const SkeletonMessage& message) {
   if (!built.ok()) return rejectOf(built.error(), message.skeleton);
   if (message.hash != skeletonHash(message.skeleton)) return Reject::BadHash;
   const SkeletonStamp stamp{message.session, message.generation, message.hash};
-  if (hasSkeleton && message.hash == inUse.hash) {
-    if (orderOf(inUse, stamp) == Reject::None) inUse = stamp;
+  if (inUse && message.hash == inUse->stamp.hash) {
+    if (orderOf(inUse->stamp, stamp) == Reject::None) inUse->stamp = stamp;
     oldSkeletons.clear();
     return Reject::None;
   }
   const auto match = matchJoints(skeleton, built.value());
   if (!match.ok()) return Reject::NoMatch;
-  const Reject order = hasSkeleton ? orderOf(inUse, stamp) : Reject::None;
+  const Reject order = inUse && !isNewSpeaker ? orderOf(inUse->stamp, stamp) : Reject::None;
   if (order != Reject::None &&
       !oldSkeletons.completes(stamp, message.sendUtimeUs, policy.confirmations)) {
     return order;
   }
-  inUse = stamp;
-  hasSkeleton = true;
   oldSkeletons.clear();
-  timeline.end();
-  assembly.use(match.value(), built.value().numJoints());
+  // Said again before its first pose, or while it is the one before: its poses are still good.
+  const bool isKnown = other && other->stamp.hash == message.hash;
+  std::optional<KnownSkeleton>& place = inUse ? other : inUse;
+  if (!isKnown) {
+    place.emplace(stamp, skeleton, policy.unmatchedAtRest);
+    place->assembly.use(match.value(), built.value().numJoints());
+  }
+  place->stamp = stamp;
+  isNext = other.has_value();
   return Reject::None;
+}
+
+bool AvatarStream::leftTrace() const {
+  return impl_->leftTrace;
+}
+
+void AvatarStream::changeSpeaker() {
+  impl_->isNewSpeaker = true;
+  impl_->oldSkeletons.clear();
+}
+
+std::array<std::optional<std::int64_t>, 2> AvatarStream::knownHashes() const {
+  std::array<std::optional<std::int64_t>, 2> hashes;
+  if (impl_->inUse) hashes[0] = impl_->inUse->stamp.hash;
+  if (impl_->other) hashes[1] = impl_->other->stamp.hash;
+  return hashes;
 }
 
 Reject AvatarStream::take(const PoseMessage& message, StreamStep& step) {
   ++counts_.poses;
+  impl_->leftTrace = false;
   const Reject reject = impl_->takePose(message, step);
   if (reject != Reject::None) {
     ++counts_.rejects[slotOf(reject)];
@@ -157,30 +190,64 @@ Reject AvatarStream::take(const PoseMessage& message, StreamStep& step) {
   ++counts_.accepted;
   if (step.kind == StepKind::First) ++counts_.timelines;
   if (step.kind == StepKind::AcrossGap) ++counts_.gaps;
-  const auto lost = static_cast<std::uint64_t>(step.lost);
-  const std::uint64_t room = std::numeric_limits<std::uint64_t>::max() - counts_.lost;
-  counts_.lost += lost < room ? lost : room;
+  if (step.lost > kMostCountedLost) {
+    ++counts_.vastGaps;
+  } else {
+    counts_.lost += static_cast<std::uint64_t>(step.lost);
+  }
   return Reject::None;
 }
 
 Reject AvatarStream::Impl::takePose(const PoseMessage& message, StreamStep& step) {
-  if (!hasSkeleton) return Reject::UnknownSkeleton;
-  if (message.skeletonHash != inUse.hash) return Reject::SkeletonMismatch;
-  const Reject content = assembly.check(message);
+  using internal::Beginning;
+  if (!inUse) return Reject::UnknownSkeleton;
+  if (message.skeletonHash != inUse->stamp.hash) return takeOther(message, step);
+  const Reject content = inUse->assembly.check(message);
   if (content != Reject::None) return content;
   const internal::PosePlace place =
-      timeline.place({message.session, message.sequence, message.utimeUs});
+      timeline.place({message.session, message.sequence, message.utimeUs},
+                     isNewSpeaker ? Beginning::Speaker : Beginning::None);
+  leftTrace = place.reject != Reject::Duplicate;
   if (place.reject != Reject::None) return place.reject;
-  oldSkeletons.clear();
-  assembly.assemble(message, place.isSession);
-  describe(message, place, step);
+  accept(message, place, step);
   return Reject::None;
+}
+
+/// A pose of the skeleton that is said to be the next one, or of the one before: the latter are of
+/// a sender whose skeleton another one has replaced, and bring it back if they go on.
+Reject AvatarStream::Impl::takeOther(const PoseMessage& message, StreamStep& step) {
+  using internal::Beginning;
+  if (!other || message.skeletonHash != other->stamp.hash) return Reject::SkeletonMismatch;
+  const Reject content = other->assembly.check(message);
+  if (content != Reject::None) return content;
+  const internal::PoseStamp stamp{message.session, message.sequence, message.utimeUs};
+  internal::PosePlace place;
+  if (isNewSpeaker) {
+    place = timeline.place(stamp, Beginning::Speaker);
+  } else {
+    place = isNext ? timeline.place(stamp, Beginning::Skeleton) : timeline.placeOfPrevious(stamp);
+  }
+  leftTrace = place.reject != Reject::Duplicate;
+  if (place.reject != Reject::None) return place.reject;
+  std::swap(inUse, other);
+  isNext = false;
+  place.isSession = true;
+  accept(message, place, step);
+  return Reject::None;
+}
+
+void AvatarStream::Impl::accept(const PoseMessage& message, const internal::PosePlace& place,
+                                StreamStep& step) {
+  oldSkeletons.clear();
+  isNewSpeaker = false;
+  inUse->assembly.assemble(message, place.isSession);
+  describe(message, place, step);
 }
 
 void AvatarStream::Impl::describe(const PoseMessage& message, const internal::PosePlace& place,
                                   StreamStep& step) {
-  const internal::PoseAssembly::Known& to = assembly.later();
-  const auto& from = place.kind == StepKind::First ? to : assembly.earlier();
+  const internal::PoseAssembly::Known& to = inUse->assembly.later();
+  const auto& from = place.kind == StepKind::First ? to : inUse->assembly.earlier();
   internal::findUnknownLinks(skeleton, from.reasons, to.reasons, unknown);
   step.kind = place.kind;
   step.from = &from.pose;

@@ -11,8 +11,10 @@
 //
 // The stream refuses and counts messages that do not continue the timeline. A new timeline begins
 // with
-//   - a skeleton of another hash (of a later session, or of the same session and a later
-//     generation; or any other, sent StreamPolicy::confirmations times in a row),
+//   - the first pose of another skeleton (said of a later session, or of the same session and a
+//     later generation; or any other, said StreamPolicy::confirmations times in a row),
+//   - the last of so many poses in a row of the skeleton that was in use before,
+//   - the first pose of another speaker (changeSpeaker()),
 //   - a pose of a later session,
 //   - the last of StreamPolicy::confirmations poses in a row that continue one another but not the
 //     timeline (a clock that was set, a sender without sessions that was restarted): one odd stamp
@@ -21,8 +23,10 @@
 // docs/streaming.md, "What is accepted", has the whole table.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "articulated/avatar.h"
@@ -33,6 +37,9 @@
 #include "network/wire/reject.h"
 
 namespace foretouch {
+
+/// A sender that skips more poses at once has set its numbers, or lies: they do not count as lost.
+inline constexpr std::int64_t kMostCountedLost = 1'000'000;
 
 /// The step that an accepted pose ends. Valid until the stream takes the next message.
 struct StreamStep {
@@ -56,6 +63,7 @@ struct StreamCounts {
   std::uint64_t accepted = 0;   ///< Each ends a step.
   std::uint64_t lost = 0;       ///< Poses between accepted ones of one timeline.
   std::uint64_t gaps = 0;       ///< Steps AcrossGap.
+  std::uint64_t vastGaps = 0;   ///< Of them, across more than kMostCountedLost poses.
   std::uint64_t timelines = 0;  ///< Begun.
   RejectCounts rejects{};       ///< Of poses and skeletons.
 };
@@ -68,11 +76,21 @@ class AvatarStream {
   AvatarStream& operator=(AvatarStream&&) noexcept;
   ~AvatarStream();
 
-  /// None if the skeleton is now in use (or was already).
+  /// None if the skeleton is in use already, or will be from its first accepted pose on.
   [[nodiscard]] Reject take(const SkeletonMessage& message);
   /// None if it accepts the pose; `step` is then the step that it ends. Allocates nothing.
   [[nodiscard]] Reject take(const PoseMessage& message, StreamStep& step);
 
+  /// From now on, until a pose is accepted, messages are another sender's: order and clock of the
+  /// last one prove nothing about them. A skeleton is then never too old, and a pose begins a
+  /// timeline. Still answers no pose twice.
+  void changeSpeaker();
+
+  /// Whether the last message, if it was refused, may decide about later ones: it counts into a run
+  /// that begins a timeline. A stream without the others answers alike.
+  [[nodiscard]] bool leftTrace() const;
+  /// Of the skeletons whose poses may be accepted: the one in use, and another one.
+  [[nodiscard]] std::array<std::optional<std::int64_t>, 2> knownHashes() const;
   [[nodiscard]] const StreamCounts& counts() const { return counts_; }
 
  private:

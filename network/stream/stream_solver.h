@@ -3,6 +3,7 @@
 // all run it, so their answers are equal, byte for byte.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -44,9 +45,17 @@ class StreamSolver {
   [[nodiscard]] SolidStream* solid() { return solid_ ? &*solid_ : nullptr; }
   [[nodiscard]] const SolidStream* solid() const { return solid_ ? &*solid_ : nullptr; }
 
+  /// As AvatarStream.
+  void changeSpeaker() { stream_.changeSpeaker(); }
+
   [[nodiscard]] std::int32_t id() const { return id_; }
   [[nodiscard]] const Avatar& avatar() const { return query_.avatar(); }
   [[nodiscard]] const StreamCounts& counts() const { return stream_.counts(); }
+  /// As AvatarStream.
+  [[nodiscard]] bool leftTrace() const { return stream_.leftTrace(); }
+  [[nodiscard]] std::array<std::optional<std::int64_t>, 2> knownHashes() const {
+    return stream_.knownHashes();
+  }
   [[nodiscard]] const QueryOptions& options() const { return query_.options(); }
   /// The step that the last answered pose ended; valid until the next take().
   [[nodiscard]] const StreamStep& lastStep() const { return lastStep_; }

@@ -24,16 +24,16 @@ bool mayStartOver(Reject reject) {
 
 }  // namespace
 
-PosePlace StreamTimeline::place(const PoseStamp& stamp) {
+PosePlace StreamTimeline::place(const PoseStamp& stamp, Beginning beginning) {
   PosePlace place;
-  place.reject = refusal(stamp);
+  place.reject = refusal(stamp, beginning);
   const bool isConfirmed = mayStartOver(place.reject) && completesRun(stamp);
   if (place.reject == Reject::OutOfOrder && stamp.utimeUs > last_.utimeUs) isContradicted_ = true;
   if (isConfirmed) place.reject = Reject::None;
   if (place.reject != Reject::None) return place;
 
   place.isSession = !hasLast_ || stamp.session != last_.session;
-  if (isConfirmed || isEnded_ || place.isSession) {
+  if (isConfirmed || beginning != Beginning::None || place.isSession) {
     place.kind = StepKind::First;
     place.from = stamp;
   } else {
@@ -45,16 +45,32 @@ PosePlace StreamTimeline::place(const PoseStamp& stamp) {
   return place;
 }
 
-Reject StreamTimeline::refusal(const PoseStamp& stamp) const {
+PosePlace StreamTimeline::placeOfPrevious(const PoseStamp& stamp) {
+  PosePlace place;
+  if (isAnswered(stamp)) {
+    place.reject = Reject::Duplicate;
+  } else if (!completesRun(stamp)) {
+    place.reject = Reject::SkeletonMismatch;
+  } else {
+    place.isSession = true;
+    place.from = stamp;
+    accept(stamp);
+  }
+  return place;
+}
+
+Reject StreamTimeline::refusal(const PoseStamp& stamp, Beginning beginning) const {
   if (!hasLast_) return Reject::None;
   if (isAnswered(stamp)) return Reject::Duplicate;
+  if (beginning == Beginning::Speaker) return Reject::None;
   if (stamp.session != last_.session) {
     return stamp.session < last_.session ? Reject::OldSession : Reject::None;
   }
   if (stamp.sequence <= last_.sequence) return Reject::OutOfOrder;
   if (stamp.utimeUs <= last_.utimeUs) return Reject::StaleStamp;
-  // A timeline that has ended begins no step, however long.
-  return !isEnded_ && isTooLate(last_, stamp) ? Reject::FutureStamp : Reject::None;
+  // Where a timeline begins there is no step that could be too long.
+  const bool isStep = beginning == Beginning::None;
+  return isStep && isTooLate(last_, stamp) ? Reject::FutureStamp : Reject::None;
 }
 
 bool StreamTimeline::isAnswered(const PoseStamp& stamp) const {
@@ -80,7 +96,7 @@ bool StreamTimeline::completesRun(const PoseStamp& stamp) {
 void StreamTimeline::accept(const PoseStamp& stamp) {
   last_ = stamp;
   hasLast_ = true;
-  isEnded_ = isContradicted_ = false;
+  isContradicted_ = false;
   run_ = 0;
   answered_[numAnswered_ % kAnsweredKept] = stamp;
   ++numAnswered_;

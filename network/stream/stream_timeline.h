@@ -31,20 +31,28 @@ struct PosePlace {
   bool isSession = false;  ///< The first pose, or the first of another session.
 };
 
+/// Why a pose, if accepted, begins a timeline whatever its stamp.
+enum class Beginning : std::uint8_t {
+  None,      ///< It does not.
+  Skeleton,  ///< The first of another skeleton, at any capture time after the last one.
+  Speaker,   ///< The first of another speaker, whose numbers and clock are another's.
+};
+
 class StreamTimeline {
  public:
   explicit StreamTimeline(const StreamPolicy& policy) : policy_(policy) {}
 
   /// Decides; an accepted pose becomes the last one.
-  [[nodiscard]] PosePlace place(const PoseStamp& stamp);
-  /// The next accepted pose ends no motion. Still remembers the answered poses.
-  void end() { isEnded_ = true; }
+  [[nodiscard]] PosePlace place(const PoseStamp& stamp, Beginning beginning = Beginning::None);
+  /// Decides about a pose of the skeleton that was in use before: SkeletonMismatch, unless it
+  /// completes a run of refused poses; then it begins a timeline.
+  [[nodiscard]] PosePlace placeOfPrevious(const PoseStamp& stamp);
 
   /// Remembers this many of the poses answered last, so that none is answered again.
   static constexpr std::size_t kAnsweredKept = 256;
 
  private:
-  [[nodiscard]] Reject refusal(const PoseStamp& stamp) const;
+  [[nodiscard]] Reject refusal(const PoseStamp& stamp, Beginning beginning) const;
   [[nodiscard]] bool isAnswered(const PoseStamp& stamp) const;
   [[nodiscard]] bool isTooLate(const PoseStamp& from, const PoseStamp& to) const;
   [[nodiscard]] bool completesRun(const PoseStamp& stamp);
@@ -52,7 +60,7 @@ class StreamTimeline {
 
   StreamPolicy policy_;
   PoseStamp last_;
-  bool hasLast_ = false, isEnded_ = false;
+  bool hasLast_ = false;
   /// A lower sequence came with a later capture time: the sender was restarted, or does not count
   /// poses.
   bool isContradicted_ = false;

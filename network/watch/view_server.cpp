@@ -33,7 +33,7 @@ std::optional<std::string> onlyHeader(const Request& request, const char* name) 
 /// browser.
 bool isOurs(const Request& request) {
   const auto host = onlyHeader(request, "Host");
-  if (!host || !isLoopbackHost(*host)) return false;
+  if (!host || host->empty() || internal::namesForeignHost(request)) return false;
   const auto origin = onlyHeader(request, "Origin");
   if (!origin || (request.has_header("Origin") && !isOwnOrigin(*origin, *host))) return false;
   // Browsers send this even without an Origin. Other sites may link to the page itself.
@@ -58,18 +58,30 @@ Handled checked(const Request& request, Response& response) {
   return Handled::Handled;
 }
 
-httplib::Headers safetyHeaders() {
+/// The page's own policy, which names the hashes of its script and style; without one, nothing
+/// runs.
+std::string policyOf(const std::string& page) {
+  const std::string begin = "<meta http-equiv=\"Content-Security-Policy\" content=\"";
+  const std::size_t at = page.find(begin);
+  const std::size_t end = at == std::string::npos ? at : page.find('"', at + begin.size());
+  const std::string own = end == std::string::npos
+                              ? "default-src 'none'; base-uri 'none'; form-action 'none'"
+                              : page.substr(at + begin.size(), end - at - begin.size());
+  return own + "; frame-ancestors 'none'";
+}
+
+httplib::Headers safetyHeaders(const std::string& page) {
   return {{"Cache-Control", "no-store"},
           {"X-Content-Type-Options", "nosniff"},
           {"Referrer-Policy", "no-referrer"},
           {"Cross-Origin-Resource-Policy", "same-origin"},
-          {"Content-Security-Policy",
-           "default-src 'self' 'unsafe-inline' data: blob:; connect-src 'self'; base-uri 'none'; "
-           "form-action 'none'; frame-ancestors 'none'"}};
+          {"Content-Security-Policy", policyOf(page)}};
 }
 
-void serveText(httplib::Server& server, const char* path, std::string content, const char* type) {
+void serveText(internal::BoundedHttp& server, const char* path, std::string content,
+               const char* type) {
   const auto text = std::make_shared<const std::string>(std::move(content));
+  server.share(text);
   server.Get(path, [text, type](const Request&, Response& response) {
     if (text->empty()) return response.set_content("", type);
     response.set_content_provider(
@@ -123,14 +135,16 @@ Result<ViewServer> ViewServer::start(const std::string& host, std::uint16_t port
   FORETOUCH_TRY(auto audience, Audience::start(std::move(pages.events), options));
   auto impl = std::make_unique<Impl>(std::move(audience));
   internal::BoundedHttp& server = impl->server;
-  server.set_default_headers(safetyHeaders());
+  server.set_default_headers(safetyHeaders(pages.page));
   server.set_pre_routing_handler(checked);
   serveText(server, "/", std::move(pages.page), "text/html; charset=utf-8");
   serveText(server, "/view.json", std::move(pages.document), "application/json");
   serveEvents(server, impl->audience);
-  server.takeOver = [](socket_t socket, bool isAnswered) {
+  server.takerOfLast = []() -> internal::BoundedHttp::Taker {
     std::optional<Audience::Seat> seat = std::exchange(seatInHand, std::nullopt);
-    return seat && isAnswered && seat->take(socket);
+    if (!seat) return {};
+    const auto held = std::make_shared<Audience::Seat>(std::move(*seat));
+    return [held](socket_t socket) { return held->take(socket); };
   };
   FORETOUCH_CHECK(server.start("the view", host, port));
   return ViewServer(std::move(impl));

@@ -35,6 +35,7 @@ struct ByteView {
 [[nodiscard]] Reject decode(ByteView payload, ContactsMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, SolidMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, StatusMessage& message);
+[[nodiscard]] Reject decode(ByteView payload, SpeakerMessage& message);
 
 /// Replaces `payload`. Precondition (asserted): counts and texts within the limits.
 void encode(const SkeletonMessage& message, Bytes& payload);
@@ -42,6 +43,7 @@ void encode(const PoseMessage& message, Bytes& payload);
 void encode(const ContactsMessage& message, Bytes& payload);
 void encode(const SolidMessage& message, Bytes& payload);
 void encode(const StatusMessage& message, Bytes& payload);
+void encode(const SpeakerMessage& message, Bytes& payload);
 
 /// The part of an encoded contacts_t or solid_t that depends only on poses, scene and options: all
 /// but the two stamps and the time that it took, at its end (24 bytes). A replay repeats it byte

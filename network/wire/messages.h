@@ -23,6 +23,8 @@ inline constexpr char kPoseChannel[] = "FORETOUCH_POSE";
 inline constexpr char kContactsChannel[] = "FORETOUCH_CONTACTS";
 inline constexpr char kSolidChannel[] = "FORETOUCH_SOLID";
 inline constexpr char kStatusChannel[] = "FORETOUCH_STATUS";
+/// Of logs only.
+inline constexpr char kSpeakerChannel[] = "FORETOUCH_SPEAKER";
 /// Of a whole channel name, suffix included, in bytes (LCM_MAX_CHANNEL_NAME_LENGTH).
 inline constexpr std::size_t kMaxChannelBytes = 63;
 
@@ -156,6 +158,14 @@ struct StatusMessage {
   std::int64_t publishFailures = 0, journalFailures = 0, kernelDrops = 0;
   double latencyP50Us = 0.0, latencyP99Us = 0.0, latencyMaxUs = 0.0;
   double queryP50Us = 0.0, queryP99Us = 0.0, queryMaxUs = 0.0;
+};
+
+/// What a service's log holds of an avatar from here on comes from another sender.
+struct SpeakerMessage {
+  std::int32_t avatar = 0;
+  std::int64_t utimeUs = 0;   ///< Receipt of its first message.
+  std::uint32_t address = 0;  ///< IPv4, in host byte order.
+  std::uint16_t port = 0;     ///< UDP, in host byte order.
 };
 
 /// Of names, parents and rest pose, as defined in docs/formats.md ("Skeleton hash"): XXH64 over the

@@ -5,6 +5,7 @@
 #include <foretouch/pose_t.hpp>
 #include <foretouch/skeleton_t.hpp>
 #include <foretouch/solid_t.hpp>
+#include <foretouch/speaker_t.hpp>
 #include <foretouch/status_t.hpp>
 
 #include "lss/index.h"
@@ -138,6 +139,9 @@ constexpr Field kStatusFields[] = {
     list(kInt64),                      // counts
     fixed(3 * kInt64 + 6 * kDouble)};  // failures and drops, latencies
 
+constexpr Field kSpeakerFields[] = {
+    fixed(kInt32 + kInt64 + 2 * kInt32)};  // avatar, utime, address, port
+
 Reject checkText(Cursor& cursor, std::size_t limit) {
   std::int32_t length = 0;  // with its NUL
   if (!cursor.read(length) || length < 1) return Reject::Length;
@@ -203,6 +207,7 @@ std::int64_t fingerprintOf(PayloadType type) {
     case PayloadType::Contacts: return contacts_t::getHash();
     case PayloadType::Solid: return solid_t::getHash();
     case PayloadType::Status: return status_t::getHash();
+    case PayloadType::Speaker: return speaker_t::getHash();
   }
   return 0;
 }
@@ -224,6 +229,7 @@ Reject checkPayload(PayloadType type, ByteView payload) {
     case PayloadType::Contacts: return checkFields(kContactsFields, cursor);
     case PayloadType::Solid: return checkFields(kSolidFields, cursor);
     case PayloadType::Status: return checkFields(kStatusFields, cursor);
+    case PayloadType::Speaker: return checkFields(kSpeakerFields, cursor);
   }
   return Reject::Length;
 }

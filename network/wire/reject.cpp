@@ -26,6 +26,10 @@ const char* toString(Reject reject) {
     case Reject::StaleStamp: return "stale-stamp";
     case Reject::FutureStamp: return "future-stamp";
     case Reject::OldSession: return "old-session";
+    case Reject::FutureSession: return "future-session";
+    case Reject::OtherSender: return "other-sender";
+    case Reject::Unauthenticated: return "unauthenticated";
+    case Reject::Replayed: return "replayed";
     case Reject::Overrun: return "overrun";
   }
   return "none";

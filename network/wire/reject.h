@@ -29,11 +29,16 @@ enum class Reject : std::uint8_t {
   UnknownSkeleton,   ///< A pose before any skeleton.
   SkeletonMismatch,  ///< A pose of another skeleton than the one in use.
   // About its place in the stream.
-  Duplicate,    ///< The same session, sequence and capture time again.
-  OutOfOrder,   ///< Older than a pose that has been answered.
-  StaleStamp,   ///< A later sequence with a capture time that is not later.
-  FutureStamp,  ///< Captured longer than StreamPolicy::maxStepUs after the last pose.
-  OldSession,   ///< From a sender that has been restarted since.
+  Duplicate,      ///< The same session, sequence and capture time again.
+  OutOfOrder,     ///< Older than a pose that has been answered.
+  StaleStamp,     ///< A later sequence with a capture time that is not later.
+  FutureStamp,    ///< Captured longer than StreamPolicy::maxStepUs after the last pose.
+  OldSession,     ///< From a sender that has been restarted since.
+  FutureSession,  ///< Of a sender that says it starts more than a day after the message arrived.
+  // About who says it.
+  OtherSender,      ///< Not from the address and port that speak for the avatar.
+  Unauthenticated,  ///< Without the code that the key makes, or with another one.
+  Replayed,         ///< With a right code, and old, or of a time that is not now.
   // About the service.
   Overrun,  ///< The oldest waiting pose when the queue was full.
 };

@@ -13,10 +13,6 @@ namespace {
 // The largest message with its bookkeeping fits several times: makeWay() always finds another one.
 static_assert(2 * (kMaxMessageBytes + kMaxFragments * 64) < kMaxPartialBytes);
 
-bool isSameSender(const UdpmSender& a, const UdpmSender& b) {
-  return a.address == b.address && a.port == b.port;
-}
-
 bool isRecent(std::int64_t thenUs, std::int64_t nowUs) {
   // The clock may also have been set back.
   return nowUs - thenUs <= kMaxFragmentPauseUs && thenUs - nowUs <= kMaxFragmentPauseUs;
@@ -42,7 +38,7 @@ UdpmReassembler::UdpmReassembler(const std::vector<std::string>& channels)
     : channels_(channels.begin(), channels.end()) {}
 
 bool UdpmReassembler::isSame(const Key& a, const Key& b) {
-  return a.sequence == b.sequence && isSameSender(a.sender, b.sender);
+  return a.sequence == b.sequence && a.sender == b.sender;
 }
 
 bool UdpmReassembler::isWanted(std::string_view channel) const {
@@ -212,10 +208,11 @@ void UdpmReassembler::remember(const Key& key, DatagramFault fault, std::int64_t
 void UdpmReassembler::deliver(const UdpmSender& sender, WireMessage message,
                               std::vector<WireMessage>& messages) {
   ++counts_.messages;
+  message.sender = sender;
   messages.push_back(std::move(message));
-  if (known_[lastKnown_].lastTake == 0 || !isSameSender(known_[lastKnown_].sender, sender)) {
+  if (known_[lastKnown_].lastTake == 0 || known_[lastKnown_].sender != sender) {
     auto entry = std::find_if(known_.begin(), known_.end(), [&](const KnownSender& known) {
-      return known.lastTake != 0 && isSameSender(known.sender, sender);
+      return known.lastTake != 0 && known.sender == sender;
     });
     if (entry == known_.end()) {
       entry = std::min_element(
@@ -230,7 +227,7 @@ void UdpmReassembler::deliver(const UdpmSender& sender, WireMessage message,
 bool UdpmReassembler::isKnown(const UdpmSender& sender) const {
   for (const KnownSender& known : known_) {
     if (known.lastTake == 0) return false;  // filled from the front
-    if (isSameSender(known.sender, sender)) return true;
+    if (known.sender == sender) return true;
   }
   return false;
 }
@@ -242,11 +239,11 @@ void UdpmReassembler::makeWay(const UdpmSender& newcomer, const Partial* kept) {
     if (!slot || &*slot == kept) continue;
     const UdpmSender& sender = slot->key.sender;
     // The newcomer's message counts as well.
-    int ofSender = isSameSender(sender, newcomer) ? 1 : 0;
+    int ofSender = sender == newcomer ? 1 : 0;
     int ofAddress = sender.address == newcomer.address ? 1 : 0;
     for (const Slot& other : slots_) {
       if (!other) continue;
-      ofSender += isSameSender(other->key.sender, sender) ? 1 : 0;
+      ofSender += other->key.sender == sender ? 1 : 0;
       ofAddress += other->key.sender.address == sender.address ? 1 : 0;
     }
     const std::tuple rank{ofSender, !isKnown(sender), ofAddress, takes_ - slot->lastTake};

@@ -42,11 +42,6 @@ inline constexpr std::int64_t kMaxFragmentPauseUs = 1'000'000;
 inline constexpr std::size_t kMaxFinished = 64;
 inline constexpr std::size_t kMaxKnownSenders = 64;
 
-struct UdpmSender {
-  std::uint32_t address = 0;
-  std::uint16_t port = 0;
-};
-
 class UdpmReassembler {
  public:
   /// Delivers messages on these channels only.

@@ -12,6 +12,7 @@
 #include "lss/index.h"
 #include "network/wire/messages.h"
 #include "network/wire/udpm_reassembly.h"
+#include "network/wire/udpm_senders.h"
 #include "network/wire/udpm_socket.h"
 #include "network/wire/wire.h"
 
@@ -109,9 +110,11 @@ bool isPassing(int errorNumber) {
 
 class UdpmReceiver : public Receiver {
  public:
-  UdpmReceiver(const UdpmUrl& url, Descriptor socket, const std::vector<std::string>& channels)
+  UdpmReceiver(const UdpmUrl& url, Descriptor socket, const std::vector<std::string>& channels,
+               const std::vector<Network>& senders)
       : url_(url),
         socket_(std::move(socket)),
+        filter_(url, senders),
         reassembler_(channels),
         lastSign_(SteadyClock::now()) {}
 
@@ -130,8 +133,14 @@ class UdpmReceiver : public Receiver {
 
   [[nodiscard]] WireCounts counts() const override {
     WireCounts counts = reassembler_.counts();
+    counts.datagrams += foreign_;
+    counts.foreign = foreign_;
     counts.kernelDrops = kernelDrops_;
     return counts;
+  }
+
+  [[nodiscard]] std::size_t receiveBufferBytes() const override {
+    return receiveBufferOf(socket_.get());
   }
 
  private:
@@ -143,16 +152,21 @@ class UdpmReceiver : public Receiver {
       return socketError(url_, "cannot receive", errno);
     }
     std::int64_t now = 0;
+    lastSign_ = SteadyClock::now();
     for (std::size_t i = 0; i < countOf(count); ++i) {
       std::int64_t utimeUs = 0;
       std::uint32_t drops = lastDrops_;
       batch_.readNotes(i, utimeUs, drops);
       kernelDrops_ += drops - lastDrops_;  // of 32 bits, which wrap
       lastDrops_ = drops;
+      const UdpmSender sender = batch_.sender(i);
+      if (!filter_.takes(ntohl(sender.address), lastSign_)) {
+        ++foreign_;
+        continue;
+      }
       if (utimeUs == 0) utimeUs = now = now != 0 ? now : utimeNow();
-      reassembler_.take(batch_.sender(i), batch_.datagram(i), utimeUs, messages);
+      reassembler_.take(sender, batch_.datagram(i), utimeUs, messages);
     }
-    lastSign_ = SteadyClock::now();
     return true;
   }
 
@@ -165,24 +179,26 @@ class UdpmReceiver : public Receiver {
 
   const UdpmUrl url_;
   const Descriptor socket_;
+  SenderFilter filter_;
   UdpmReassembler reassembler_;
   Batch batch_;
   SteadyClock::time_point lastSign_;  ///< Last datagram, or last attempt to join without one.
-  std::uint64_t kernelDrops_ = 0;
+  std::uint64_t kernelDrops_ = 0, foreign_ = 0;
   std::uint32_t lastDrops_ = 0;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<Receiver>> openUdpmReceiver(const UdpmUrl& url,
-                                                   const std::vector<std::string>& channels) {
+                                                   const std::vector<std::string>& channels,
+                                                   const std::vector<Network>& senders) {
   for (const std::string& channel : channels) {
     if (isLegalChannel(channel)) continue;
     return Error::of(ErrorCode::OutOfRange,
                      "channel: expected 1 to 63 bytes of printable ASCII, found '" + channel + "'");
   }
   FORETOUCH_TRY(auto socket, openListeningSocket(url));
-  return std::unique_ptr<Receiver>(new UdpmReceiver(url, std::move(socket), channels));
+  return std::unique_ptr<Receiver>(new UdpmReceiver(url, std::move(socket), channels, senders));
 }
 
 }  // namespace foretouch

@@ -34,10 +34,6 @@ bool switchOn(int fd, int option) {
 
 }  // namespace
 
-Descriptor::~Descriptor() {
-  if (fd_ >= 0) close(fd_);
-}
-
 std::string toString(const UdpmUrl& url) {
   return "udpm://" + url.group + ":" + std::to_string(url.port) + "?ttl=" + std::to_string(url.ttl);
 }
@@ -87,6 +83,9 @@ Result<Descriptor> openListeningSocket(const UdpmUrl& url) {
   const std::size_t most = std::numeric_limits<int>::max();
   setBuffer(fd, SO_RCVBUFFORCE, SO_RCVBUF,
             static_cast<int>(std::min(url.receiveBufferBytes, most)));
+  // Else Linux delivers the groups that any program on this machine has joined on this port.
+  const int off = 0;
+  setsockopt(fd, IPPROTO_IP, IP_MULTICAST_ALL, &off, sizeof off);
   switchOn(fd, SO_TIMESTAMPNS);
   switchOn(fd, SO_RXQ_OVFL);
   // To the group, not to any address: datagrams to this machine alone are not for us.
@@ -108,6 +107,13 @@ Result<Descriptor> openSendingSocket(const UdpmUrl& url) {
   }
   setBuffer(fd, SO_SNDBUFFORCE, SO_SNDBUF, kSendBufferBytes);
   return socket;
+}
+
+std::size_t receiveBufferOf(int fd) {
+  int bytes = 0;
+  socklen_t size = sizeof bytes;
+  if (getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &bytes, &size) != 0 || bytes < 0) return 0;
+  return static_cast<std::size_t>(bytes) / 2;  // Linux counts its bookkeeping and says the double
 }
 
 bool waitReadable(int fd, int timeoutMs) {

@@ -3,28 +3,12 @@
 
 #include <netinet/in.h>
 #include <string>
-#include <utility>
 
 #include "articulated/result.h"
+#include "network/wire/descriptor.h"
 #include "network/wire/wire.h"
 
 namespace foretouch {
-
-/// Owns a file descriptor.
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  ~Descriptor();
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 /// "udpm://239.255.76.67:7667?ttl=0".
 [[nodiscard]] std::string toString(const UdpmUrl& url);
@@ -41,6 +25,9 @@ class Descriptor {
 /// Joins the group on the interface that the route to it names now. Harmless if already joined;
 /// needed again if that interface went away. Returns errno, 0 for joined.
 int joinGroup(int fd, const UdpmUrl& url);
+
+/// Bytes of datagrams that may wait, bookkeeping left out; 0: the system does not say.
+[[nodiscard]] std::size_t receiveBufferOf(int fd);
 
 /// Waits until there is something to read. False: nothing within the time, or interrupted.
 [[nodiscard]] bool waitReadable(int fd, int timeoutMs);

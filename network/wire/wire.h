@@ -15,11 +15,23 @@
 
 namespace foretouch {
 
+/// Where a datagram came from, in network byte order.
+struct UdpmSender {
+  std::uint32_t address = 0;
+  std::uint16_t port = 0;
+
+  friend bool operator==(const UdpmSender& x, const UdpmSender& y) {
+    return x.address == y.address && x.port == y.port;
+  }
+  friend bool operator!=(const UdpmSender& x, const UdpmSender& y) { return !(x == y); }
+};
+
 /// One whole message as it arrived.
 struct WireMessage {
   std::string channel;
   Bytes payload;
   std::int64_t receiveUtimeUs = 0;  ///< The kernel's stamp if there is one.
+  UdpmSender sender{};              ///< All 0: not known (liblcm does not say).
 };
 
 /// "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=2097152", as LCM writes it.
@@ -34,8 +46,17 @@ inline constexpr char kDefaultUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 /// that does not exist.
 [[nodiscard]] Result<UdpmUrl> parseUdpmUrl(const std::string& url);
 
+/// An IPv4 network: its first address in host byte order, and how many leading bits name it.
+struct Network {
+  std::uint32_t address = 0;
+  int bits = 0;
+};
+/// "10.0.0.0/24", or one address. Errors: anything else, or bits set after the leading ones.
+[[nodiscard]] Result<Network> parseNetwork(const std::string& text);
+
 struct WireCounts {
   std::uint64_t datagrams = 0;
+  std::uint64_t foreign = 0;        ///< From senders that are not to be heard: refused unread.
   std::uint64_t messages = 0;       ///< Whole ones on a wanted channel.
   std::uint64_t otherChannels = 0;  ///< Whole ones, or first fragments, on others.
   std::uint64_t kernelDrops = 0;    ///< Datagrams that the system dropped unread (SO_RXQ_OVFL).
@@ -50,6 +71,8 @@ class Receiver {
   /// to `timeoutMs`. An error is final (the socket is gone); a link that is down is not an error.
   virtual Result<Done> receive(std::vector<WireMessage>& messages, int timeoutMs) = 0;
   [[nodiscard]] virtual WireCounts counts() const = 0;
+  /// What the system gave of UdpmUrl::receiveBufferBytes; 0: not known.
+  [[nodiscard]] virtual std::size_t receiveBufferBytes() const { return 0; }
 };
 
 /// Limits on unfinished messages and on their bytes together, bookkeeping included.
@@ -58,11 +81,14 @@ inline constexpr std::size_t kMaxPartialBytes = 16u << 20;
 
 /// Messages on exactly these channels, by our own reader. Memory is bounded whatever arrives: one
 /// receive buffer, at most kMaxPartialMessages unfinished messages in kMaxPartialBytes.
+/// With a ttl of 0 it takes datagrams of this machine only; `senders`, if there are any, says whose
+/// others it takes, at any ttl.
 /// Errors: a channel that is not legal, no socket, no multicast route.
 [[nodiscard]] Result<std::unique_ptr<Receiver>> openUdpmReceiver(
-    const UdpmUrl& url, const std::vector<std::string>& channels);
-/// The same by liblcm. Two crafted datagrams can crash its receiving thread: for trusted networks
-/// only.
+    const UdpmUrl& url, const std::vector<std::string>& channels,
+    const std::vector<Network>& senders = {});
+/// The same by liblcm, from everybody. Two crafted datagrams can crash its receiving thread: for
+/// trusted networks only.
 [[nodiscard]] Result<std::unique_ptr<Receiver>> openLcmReceiver(
     const std::string& url, const std::vector<std::string>& channels);
 

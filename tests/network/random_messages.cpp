@@ -262,4 +262,13 @@ StatusMessage randomStatusMessage(Random& random, int numReasons) {
   return message;
 }
 
+SpeakerMessage randomSpeakerMessage(Random& random) {
+  SpeakerMessage message;
+  message.avatar = random.below(1000);
+  message.utimeUs = integer(random);
+  message.address = random.chance(0.2) ? 0xffffffffU : static_cast<std::uint32_t>(integer(random));
+  message.port = static_cast<std::uint16_t>(random.below(65536));
+  return message;
+}
+
 }  // namespace foretouch::test

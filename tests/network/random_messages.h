@@ -16,5 +16,6 @@ namespace foretouch::test {
 [[nodiscard]] SolidMessage randomSolidMessage(Random& random, int numJoints, int numPoses,
                                               int numContacts);
 [[nodiscard]] StatusMessage randomStatusMessage(Random& random, int numReasons);
+[[nodiscard]] SpeakerMessage randomSpeakerMessage(Random& random);
 
 }  // namespace foretouch::test

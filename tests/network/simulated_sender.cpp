@@ -85,7 +85,7 @@ class Script {
   void start() {
     sender_.lives.emplace_back();
     motion_.emplace(random_, body_, moves_, drifts_);
-    session_ = sender_.hasSessions ? clockUs() * 16 + setup_.sender : 0;
+    session_ = sender_.hasSessions ? clockUs() / 16 * 16 + setup_.sender : 0;
     generation_ = 0;
     sequence_ = random_.chance(0.5) ? 0 : below(random_, 1'000'000);
     if (random_.chance(0.3 * faults_.changedSkeleton)) said_.joints[0].offset += random_.inBox(0.1);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "middleware/scene/scene.h"
 #include "network/wire/messages.h"
 
 namespace foretouch::test {
@@ -29,6 +30,16 @@ inline Avatar smallAvatar() {
   const Lss bone{{0.0, 0.0, 0.0}, {0.0, 0.3, 0.0}, 0.05};
   return Avatar::build(Skeleton::build(smallSkeleton()).value(), {{bone}, {bone}, {bone}, {bone}})
       .value();
+}
+
+/// A wall across x = 1.
+inline Scene farWall() {
+  RawScene raw;
+  raw.objectNames = {"wall"};
+  const Eigen::Vector3d a(1.0, -5.0, -5.0), b(1.0, 9.0, -5.0), c(1.0, 0.0, 9.0);
+  raw.triangles.push_back(Triangle{{a, b, c}});
+  raw.objectOf = {0};
+  return Scene::build(raw).value();
 }
 
 inline SkeletonMessage skeletonMessage(const RawSkeleton& skeleton, std::int64_t session = 1,

@@ -33,15 +33,25 @@ using std::chrono::milliseconds;
 /// Notices a failure of the service after this long.
 constexpr milliseconds kLookEvery{500};
 
+/// A burst that does not fit is lost: better said at the start than counted later.
+void tellReceiveBuffer(std::size_t asked, std::size_t given) {
+  if (given == 0 || given >= asked) return;
+  printNote(
+      fmt::format("the system gives a receive buffer of {} bytes, not {}: bursts of more are "
+                  "lost (kernel_drops). To allow it: sysctl net.core.rmem_max={}",
+                  given, asked, asked));
+}
+
 /// Tests the network before use, and opens it.
 Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   FORETOUCH_TRY(const auto url, inFile(parseUdpmUrl(config.url), "--url"));
   FORETOUCH_CHECK(testMulticast(url));
   const std::vector<std::string> channels = receivedChannels(config.service.suffix);
-  FORETOUCH_TRY(auto receiver,
-                inFile(config.receiver == ReceiverKind::Own ? openUdpmReceiver(url, channels)
-                                                            : openLcmReceiver(config.url, channels),
-                       config.url));
+  const bool isOwn = config.receiver == ReceiverKind::Own;
+  FORETOUCH_TRY(auto receiver, inFile(isOwn ? openUdpmReceiver(url, channels, config.senders)
+                                            : openLcmReceiver(config.url, channels),
+                                      config.url));
+  tellReceiveBuffer(url.receiveBufferBytes, receiver->receiveBufferBytes());
   FORETOUCH_TRY(auto publisher, inFile(openUdpmPublisher(url), config.url));
   parts.receiver = std::move(receiver);
   parts.publisher = std::move(publisher);
@@ -65,7 +75,8 @@ std::string logPathIn(const std::string& given) {
 
 Result<Done> openLog(const ServeConfig& config, ServiceParts& parts) {
   if (config.log.empty()) return Done{};
-  FORETOUCH_TRY(parts.journal, createLogSink(config.log));
+  FORETOUCH_TRY(parts.journal, createLogSink(config.log, config.logLimits,
+                                             kSkeletonChannel + config.service.suffix));
   return Done{};
 }
 
@@ -123,7 +134,7 @@ void waitForEnd(const Service& service, const ServiceManager& manager, StopSigna
   const milliseconds every = std::min(kLookEvery, manager.aliveEvery().value_or(kLookEvery));
   while (!stop.wait(every) && !service.failure()) {
     journal.look(service);
-    if (manager.aliveEvery() && service.health().isWell) manager.alive();
+    if (manager.aliveEvery() && service.health().isAlive) manager.alive();
   }
 }
 
@@ -153,6 +164,10 @@ ExitCode run(const Settings& settings, ServeConfig& config) {
   if (config.avatars.empty()) {
     return failed({ErrorCode::Empty, "--avatar", -1, -1,
                    "expected at least one avatar, here or by --config"});
+  }
+  if (config.receiver == ReceiverKind::Liblcm && !config.senders.empty()) {
+    return failed({ErrorCode::Mismatch, "--senders", -1, -1,
+                   "liblcm does not say who sent a message; expected --receiver own"});
   }
   const auto served = serve(config);
   return served.ok() ? ExitCode::Done : failed(served.error());
@@ -202,6 +217,9 @@ Result<Done> serve(const ServeConfig& given) {
   ServiceOptions options = config.service;
   options.build = "foretouch " FORETOUCH_VERSION " " FORETOUCH_BUILD_TYPE;
   options.scene = config.world.scenePath;
+  if (!config.keyPath.empty()) {
+    FORETOUCH_TRY(options.key, inFile(MessageKey::read(config.keyPath), "--key"));
+  }
   const std::string line = describe(config, world);
   StopSignal stop;
   FORETOUCH_TRY(auto service, Service::start(std::move(world.avatars), std::move(parts), options));

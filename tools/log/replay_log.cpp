@@ -93,6 +93,7 @@ class LogReplay {
     if (event.channel == inputs_.channels.skeleton) takeSkeleton(event);
     if (event.channel == inputs_.channels.contacts) takeRecorded(event);
     if (event.channel == inputs_.channels.solid) takeRecordedSolid(event);
+    if (event.channel == inputs_.channels.speaker) takeSpeaker(event);
     return std::nullopt;
   }
   [[nodiscard]] const ContactsMessage& answer() const { return answer_; }
@@ -171,6 +172,14 @@ class LogReplay {
     ++report_.skeletons;
     if (solver == nullptr) return reject(unreadable);
     static_cast<void>(solver->take(skeleton_));  // counted by the stream
+  }
+
+  /// An unreadable one shows where an answer then differs.
+  void takeSpeaker(const LogEvent& event) {
+    SpeakerMessage message;
+    if (decode(event.payload, message) != Reject::None) return;
+    StreamSolver* const solver = solverOf(message.avatar);
+    if (solver != nullptr) solver->changeSpeaker();
   }
 
   void takeRecorded(const LogEvent& event) {

@@ -9,7 +9,7 @@ namespace foretouch::tools {
 
 /// The channels of network/wire/messages.h, each with the suffix.
 struct ChannelNames {
-  std::string skeleton, pose, contacts, solid, status;
+  std::string skeleton, pose, contacts, solid, status, speaker;
 };
 
 /// Errors name --suffix: a name beyond kMaxChannelBytes, bytes that are not printable ASCII.

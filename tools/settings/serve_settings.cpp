@@ -9,6 +9,9 @@
 namespace foretouch::tools {
 namespace {
 
+constexpr std::int64_t kMostLogBytes = std::int64_t{1} << 50;
+constexpr int kMostLogFiles = 10'000;
+
 /// No address at all, or one that `parse` accepts.
 Setting& addAddress(Settings& settings, const char* option, const char* value, std::string& place,
                     Result<HttpAddress> (*parse)(const std::string&, const std::string&),
@@ -36,6 +39,17 @@ Result<Done> takeAvatars(const std::vector<std::string>& texts,
   return Done{};
 }
 
+Result<Done> takeSenders(const std::vector<std::string>& texts, ServeConfig& config) {
+  std::vector<Network> networks;
+  for (const std::string& text : texts) {
+    FORETOUCH_TRY(const auto network, parseNetwork(text));
+    networks.push_back(network);
+  }
+  config.senders = std::move(networks);
+  config.senderTexts = texts;
+  return Done{};
+}
+
 void addNetworkSettings(Settings& settings, ServeConfig& config) {
   settings
       .text(
@@ -53,6 +67,20 @@ void addNetworkSettings(Settings& settings, ServeConfig& config) {
           "Whose receiver reads datagrams; use liblcm only on networks that you trust")
       .in(kNetworkGroup)
       .inConfig("service", "receiver");
+  Setting& senders = settings.list(
+      "--senders", "NETWORK", config.senderTexts,
+      "Take messages only of this machine and of these networks, as 10.0.0.0/24; may be repeated. "
+      "By default this machine at a ttl of 0, else everybody");
+  senders.take = [&config](const GivenValue& given) { return takeSenders(given.texts, config); };
+  senders.in(kNetworkGroup).inConfig("service", "senders");
+  addKeySetting(
+      settings, config.keyPath,
+      "Key of 32 hexadecimal digits: refuse messages that are not signed with it, and sign "
+      "the answers")
+      .inConfig("service", "key");
+  addTakeoverSetting(settings, config.service.speaker.takeoverUs)
+      .in(kNetworkGroup)
+      .inConfig("service", "takeover_s");
 }
 
 void addServiceSettings(Settings& settings, ServeConfig& config) {
@@ -73,6 +101,16 @@ void addServiceSettings(Settings& settings, ServeConfig& config) {
             "per run")
       .in(kOutputGroup)
       .inConfig("service", "log");
+  settings
+      .whole("--log-bytes", "N", config.logLimits.bytes, 0, kMostLogBytes,
+             "Begin another log file after so many bytes, NAME.2.lcmlog and so on; 0: never")
+      .in(kOutputGroup)
+      .inConfig("service", "log_bytes");
+  settings
+      .whole("--log-files", "N", config.logLimits.files, 1, kMostLogFiles,
+             "With --log-bytes: keep so many files, and remove the oldest")
+      .in(kOutputGroup)
+      .inConfig("service", "log_files");
   addAddress(settings, "--http", "ADDRESS:PORT", config.http, parseHttpAddress,
              "Address at which to serve /metrics and /healthz")
       .in(kOutputGroup)

@@ -30,11 +30,16 @@ enum class ReceiverKind : std::uint8_t {
 struct ServeConfig {
   std::string url = kDefaultUrl;  ///< Not empty; the wire checks the rest.
   ReceiverKind receiver = ReceiverKind::Own;
-  ServiceOptions service;  ///< Workers, queue and suffix.
+  /// Whose datagrams are taken; empty: see openUdpmReceiver().
+  std::vector<Network> senders;
+  std::vector<std::string> senderTexts;
+  std::string keyPath;     ///< Of the key that messages are signed with.
+  ServiceOptions service;  ///< Workers, queue, suffix and takeover.
   std::string log;         ///< The file that records events.
-  std::string http;        ///< "127.0.0.1:9464": the address of the metrics.
-  std::string view;        ///< kDefaultView: the address of the live view.
-  WorldRequest world;      ///< Fidelity: link or exact.
+  LogLimits logLimits;
+  std::string http;    ///< "127.0.0.1:9464": the address of the metrics.
+  std::string view;    ///< kDefaultView: the address of the live view.
+  WorldRequest world;  ///< Fidelity: link or exact.
   StreamPolicy stream;
   StreamSolidRequest solid;
   std::vector<NumberedAvatar> avatars;  ///< At least one; ids differ.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "assets/json_writer.h"
+#include "network/stream/speaker_gate.h"
 #include "tools/microseconds.h"
 #include "tools/settings/channel_names.h"
 
@@ -11,21 +12,23 @@ namespace {
 
 constexpr NumberRange kStepRange{1.0 / kUsPerS, static_cast<double>(kMostStepUs) / kUsPerS,
                                  "seconds", "s"};
+constexpr NumberRange kTakeoverRange{0.0, static_cast<double>(kMostTakeoverUs) / kUsPerS, "seconds",
+                                     "s", true};
 
-/// Microseconds in the policy; seconds for people.
-void addMaxStep(Settings& settings, std::int64_t& maxStepUs) {
-  Setting& setting = settings.parsed("--max-step", "S", {}, {},
-                                     "Refuse a pose captured later than this after the last one");
+/// Microseconds in the place; seconds for people.
+Setting& addSeconds(Settings& settings, const char* option, std::int64_t& placeUs,
+                    const NumberRange& range, const char* help) {
+  Setting& setting = settings.parsed(option, "S", {}, {}, help);
   setting.kind = ValueKind::Number;
-  setting.legal = kStepRange.inWords();
-  setting.take = [&maxStepUs](const GivenValue& given) -> Result<Done> {
-    if (!kStepRange.contains(given.number)) return notLegal(kStepRange.inWords(), given);
-    maxStepUs = std::llround(given.number * kUsPerS);
+  setting.legal = range.inWords();
+  setting.take = [&placeUs, range](const GivenValue& given) -> Result<Done> {
+    if (!range.contains(given.number)) return notLegal(range.inWords(), given);
+    placeUs = std::llround(given.number * kUsPerS);
     return Done{};
   };
   setting.shown =
-      setting.json = [&maxStepUs] { return numberText(static_cast<double>(maxStepUs) / kUsPerS); };
-  setting.in(kStreamGroup).inConfig("stream", "max_step_s").inHeader("max_step");
+      setting.json = [&placeUs] { return numberText(static_cast<double>(placeUs) / kUsPerS); };
+  return setting.in(kStreamGroup);
 }
 
 /// Half a minute per pose: slower is not a stream.
@@ -73,8 +76,22 @@ Setting& addSuffixSetting(Settings& settings, std::string& suffix) {
       .inReport("suffix");
 }
 
+Setting& addKeySetting(Settings& settings, std::string& path, const char* help) {
+  return settings.path("--key", "FILE", path, help).in(kNetworkGroup);
+}
+
+Setting& addTakeoverSetting(Settings& settings, std::int64_t& takeoverUs) {
+  return addSeconds(
+      settings, "--takeover", takeoverUs, kTakeoverRange,
+      "An avatar's sender that has been silent for so long may be replaced by another "
+      "address or port");
+}
+
 void addStreamSettings(Settings& settings, StreamPolicy& policy) {
-  addMaxStep(settings, policy.maxStepUs);
+  addSeconds(settings, "--max-step", policy.maxStepUs, kStepRange,
+             "Refuse a pose captured later than this after the last one")
+      .inConfig("stream", "max_step_s")
+      .inHeader("max_step");
   settings
       .whole("--confirmations", "N", policy.confirmations, 1, kMostConfirmations,
              "Poses in a row that confirm an unexpected new timeline")

@@ -24,6 +24,13 @@ void addStreamSolidSettings(Settings& settings, StreamSolidRequest& request);
 /// The ending of all channels' names. `suffix` outlives the settings.
 Setting& addSuffixSetting(Settings& settings, std::string& suffix);
 
+/// --key: a file with the key that messages are signed with. `path` outlives the settings.
+Setting& addKeySetting(Settings& settings, std::string& path, const char* help);
+
+/// How long an avatar's sender must be silent before another one may speak for it (us). Live only:
+/// a log holds no more than the messages of who spoke.
+Setting& addTakeoverSetting(Settings& settings, std::int64_t& takeoverUs);
+
 /// --max-step, --confirmations and --unmatched-at-rest. `policy` outlives the settings.
 void addStreamSettings(Settings& settings, StreamPolicy& policy);
 

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include <fmt/format.h>
+
 #include "assets/json_writer.h"
 #include "network/wire/codec.h"
 #include "tools/stream/contacts_line.h"
@@ -73,6 +75,18 @@ void write(const SolidMessage& message, JsonWriter& out) {
   writeSolid(message, Stamps::With, out);
 }
 
+void write(const SpeakerMessage& message, JsonWriter& out) {
+  constexpr unsigned kByteBits = 8, kLowByte = 0xff;
+  const auto byte = [&](unsigned i) { return message.address >> (kByteBits * i) & kLowByte; };
+  out.key("speaker");
+  out.beginObject();
+  out.field("avatar", message.avatar);
+  out.field("utime", message.utimeUs);
+  out.field("address", fmt::format("{}.{}.{}.{}", byte(3), byte(2), byte(1), byte(0)));
+  out.field("port", message.port);
+  out.endObject();
+}
+
 void write(const StatusMessage& message, JsonWriter& out) {
   out.key("status");
   writeStatus(message, out);
@@ -92,6 +106,7 @@ void writeContent(const LogEvent& event, const ChannelNames& channels, JsonWrite
   if (event.channel == channels.skeleton) return writeMessage<SkeletonMessage>(event, out);
   if (event.channel == channels.contacts) return writeMessage<ContactsMessage>(event, out);
   if (event.channel == channels.solid) return writeMessage<SolidMessage>(event, out);
+  if (event.channel == channels.speaker) return writeMessage<SpeakerMessage>(event, out);
   if (event.channel == channels.status) return writeMessage<StatusMessage>(event, out);
   out.field("bytes", event.payload.size());
 }

@@ -15,6 +15,7 @@
 
 #include "articulated/try.h"
 #include "network/wire/codec.h"
+#include "network/wire/message_key.h"
 #include "network/wire/wire.h"
 #include "tools/settings/channel_names.h"
 #include "tools/settings/stream_settings.h"
@@ -36,7 +37,8 @@ constexpr std::size_t kMostAvatars = 4096;
 
 /// The values of all options.
 struct ListenJob {
-  std::string url, suffix;
+  std::string url, suffix, keyPath;
+  std::optional<MessageKey> key;
   ChannelNames channels;  ///< With the suffix.
   bool json = false, status = false, each = false;
   int count = 0;                   ///< Ends after so many verdicts; 0: never.
@@ -54,6 +56,10 @@ Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
   return receiver;
 }
 
+/// What a sender's messages are guarded by, each with its avatar.
+enum Topic : std::uint8_t { kStatusTopic, kContactsTopic, kSolidTopic };
+constexpr std::size_t kMostGuards = 2 * kMostAvatars + 1;
+
 /// Prints messages as they arrive, line by line.
 class Listener {
  public:
@@ -61,13 +67,20 @@ class Listener {
 
   void take(const WireMessage& message) {
     if (isDone()) return;
-    if (message.channel == job_.channels.status) {
-      if (read(message, status_)) print(job_.json ? statusLine(status_) : statusText(status_));
-    } else if (message.channel == job_.channels.solid) {
-      if (read(message, shown_)) printSolid();
-    } else if (read(message, contacts_)) {
-      printContacts();
+    const bool isStatus = message.channel == job_.channels.status;
+    const bool isSolid = message.channel == job_.channels.solid;
+    const Reject reject = isStatus  ? read(message, status_, kStatusTopic)
+                          : isSolid ? read(message, shown_, kSolidTopic)
+                                    : read(message, contacts_, kContactsTopic);
+    if (reject != Reject::None) {
+      if (rejected_++ == 0) {
+        printNote(fmt::format("{}: a message that cannot be read ({})", message.channel,
+                              toString(reject)));
+      }
+      return;
     }
+    if (isStatus) return print(job_.json ? statusLine(status_) : statusText(status_));
+    isSolid ? printSolid() : printContacts();
   }
 
   [[nodiscard]] bool isDone() const { return job_.count > 0 && verdicts_ >= job_.count; }
@@ -81,15 +94,24 @@ class Listener {
   [[nodiscard]] std::int64_t rejected() const { return rejected_; }
 
  private:
-  /// False if the message cannot be read: says so once.
+  [[nodiscard]] static std::int32_t avatarOf(const StatusMessage& /*message*/) { return -1; }
   template <typename Message>
-  bool read(const WireMessage& arrived, Message& message) {
-    const Reject reject = decode(arrived.payload, message);
-    if (reject != Reject::None && rejected_++ == 0) {
-      printNote(
-          fmt::format("{}: a message that cannot be read ({})", arrived.channel, toString(reject)));
+  [[nodiscard]] static std::int32_t avatarOf(const Message& message) {
+    return message.avatar;
+  }
+  template <typename Message>
+  [[nodiscard]] Reject read(const WireMessage& arrived, Message& message, Topic topic) {
+    SignedPayload opened{withoutSignature(arrived.payload), 0};
+    if (job_.key) {
+      const Reject reject = job_.key->open(arrived.channel, arrived.payload, opened);
+      if (reject != Reject::None) return reject;
     }
-    return reject == Reject::None;
+    const Reject reject = decode(opened.content, message);
+    if (reject != Reject::None || !job_.key) return reject;
+    // Answers of several avatars may overtake one another.
+    const std::pair<Topic, std::int32_t> guarded{topic, avatarOf(message)};
+    if (guards_.size() >= kMostGuards && guards_.count(guarded) == 0) return Reject::Limit;
+    return guards_[guarded].take(opened.sentUtimeUs, arrived.receiveUtimeUs);
   }
   void printSolid() {
     if (job_.json) return print(solidLine(shown_, Stamps::With));
@@ -122,6 +144,7 @@ class Listener {
   const ListenJob& job_;
   AnswerTracker tracker_;
   std::map<std::int32_t, StreamTouches> touches_;  // by avatar; bounded by kMostAvatars
+  std::map<std::pair<Topic, std::int32_t>, ReplayGuard> guards_;  // by topic and avatar
   ContactsMessage contacts_;
   SolidMessage shown_;
   SolidNews news_;
@@ -158,6 +181,9 @@ Result<ExitCode> listen(const ListenJob& job) {
 ExitCode run(ListenJob job) {
   FORETOUCH_TRY_OR(failed, job.channels, channelNames(job.suffix));
   job.url = urlOrDefault(job.url);
+  if (!job.keyPath.empty()) {
+    FORETOUCH_TRY_OR(failed, job.key, inFile(MessageKey::read(job.keyPath), "--key"));
+  }
   const auto ended = listen(job);
   return ended.ok() ? ended.value() : failed(ended.error());
 }
@@ -180,6 +206,8 @@ Command listenCommand() {
   settings.text("--url", "URL", job->url,
                 "Network to listen to; by default LCM_DEFAULT_URL, else this machine only");
   addSuffixSetting(settings, job->suffix);
+  addKeySetting(settings, job->keyPath,
+                "Key of 32 hexadecimal digits: refuse messages that are not signed with it");
   settings.flag("--json", job->json, "Lines of JSON instead of text");
   settings.flag("--each", job->each,
                 "One line per verdict instead of one where a touch begins or ends");

@@ -13,6 +13,7 @@
 #include "assets/text_file.h"
 #include "network/log/event_log.h"
 #include "network/service/clock.h"
+#include "network/wire/message_key.h"
 #include "network/wire/wire.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/settings/numbered_avatars.h"
@@ -27,7 +28,7 @@ namespace {
 struct PublishJob {
   ClipRequest request;
   PublishOptions options;
-  std::string url, suffix, outputPath;
+  std::string url, suffix, outputPath, keyPath;
   std::optional<std::int64_t> startUtimeUs;  ///< Of a log's first pose.
 };
 
@@ -44,6 +45,7 @@ Result<Done> checkTogether(const PublishJob& job) {
   if (job.options.loop) return refuse("--loop", kNotWithLog);
   if (job.options.speed != PublishOptions().speed) return refuse("--speed", kNotWithLog);
   if (!job.url.empty()) return refuse("--url", kNotWithLog);
+  if (!job.keyPath.empty()) return refuse("--key", kNotWithLog);
   return Done{};
 }
 
@@ -83,14 +85,24 @@ Result<PublishReport> publishLive(const PublishJob& job) {
   if (!url.ok()) return inFile(url.error(), "--url");
   FORETOUCH_CHECK(testMulticast(url.value()));
   FORETOUCH_TRY(const auto publisher, inFile(openUdpmPublisher(url.value()), "--url"));
+  std::optional<MessageKey> key;
+  if (!job.keyPath.empty()) {
+    FORETOUCH_TRY(key, inFile(MessageKey::read(job.keyPath), "--key"));
+  }
+  Bytes sealed;
+  std::int64_t lastSignedUs = 0;
+  const auto send = [&](const std::string& channel, ByteView payload, std::int64_t) {
+    if (!key) return Result<bool>(publisher->publish(channel, payload));
+    sealed.assign(payload.data, payload.data + payload.size);
+    lastSignedUs = std::max(utimeNow(), lastSignedUs + 1);
+    key->sign(channel, lastSignedUs, sealed);
+    return Result<bool>(publisher->publish(channel, sealed));
+  };
   StopSignal stop;
   LivePace pace([&stop] { return stop.wait(std::chrono::milliseconds(0)); });
   PublishOptions options = job.options;
   options.sender.startUtimeUs = pace.utimeUs();
-  auto sent = publishClip(placedIn(played, job.request), played.steps, options, pace,
-                          [&](const std::string& channel, ByteView payload, std::int64_t) {
-                            return Result<bool>(publisher->publish(channel, payload));
-                          });
+  auto sent = publishClip(placedIn(played, job.request), played.steps, options, pace, send);
   if (sent.ok() && sent.value().late > 0) {
     printNote(fmt::format("{} of {} poses were sent more than {} ms late, the latest by {:.1f} ms",
                           sent.value().late, sent.value().poses, PublishReport::kLateUs / 1000,
@@ -134,6 +146,7 @@ void addSendingSettings(Settings& settings, PublishJob& job) {
   settings.text("--url", "URL", job.url,
                 "Network to send to; by default LCM_DEFAULT_URL, else this machine only");
   addSuffixSetting(settings, job.suffix);
+  addKeySetting(settings, job.keyPath, "Key of 32 hexadecimal digits to sign messages with");
   settings.output("-o,--output", "LOG", job.outputPath, "Write a new event log instead of sending");
   settings.parsed(
       "--start", "US",

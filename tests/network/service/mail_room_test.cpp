@@ -66,6 +66,35 @@ TEST(MailRoom, BoundsSkeletonsToo) {
   EXPECT_EQ(stamps.back(), 100);
 }
 
+TEST(MailRoom, RefusesPosesOfSkeletonsThatNobodyHasSaid) {
+  MailRoom room(1, 3);
+  const auto pose = [&](std::int64_t hash) {
+    auto mail = std::make_unique<Mail>();
+    mail->pose.skeletonHash = hash;
+    return room.post(0, mail);
+  };
+  EXPECT_EQ(pose(7), Posted::Kept);  // not asked yet
+  drain(room);
+  room.know(0, {});
+  EXPECT_EQ(pose(7), Posted::TooEarly);
+  EXPECT_EQ(post(room, 0, MailKind::Skeleton, 7), Posted::Kept);
+  EXPECT_EQ(pose(7), Posted::Kept);  // its skeleton waits
+  std::size_t avatar = 0;
+  auto mail = std::make_unique<Mail>();
+  ASSERT_EQ(take(room, avatar, mail), Taken::Mail);
+  ASSERT_EQ(mail->kind, MailKind::Skeleton);
+  EXPECT_EQ(pose(7), Posted::Kept);  // ... is being handled
+  room.know(0, {5, 7});
+  room.finish(0);
+  EXPECT_EQ(pose(5), Posted::Kept);
+  EXPECT_EQ(pose(6), Posted::Unwanted);
+  EXPECT_EQ(drain(room).size(), 3U);
+  // A skeleton that was refused is nobody's.
+  EXPECT_EQ(post(room, 0, MailKind::Skeleton, 6), Posted::Kept);
+  drain(room);
+  EXPECT_EQ(pose(6), Posted::Unwanted);
+}
+
 TEST(MailRoom, TakesASkeletonThatRepeatsTheLastWaitingOneOnce) {
   MailRoom room(1, 3);
   EXPECT_EQ(post(room, 0, MailKind::Skeleton, 1), Posted::Kept);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <random>
 #include <string>
 #include <thread>
@@ -135,6 +136,53 @@ TEST_F(Metrics, OutliveThoseWhoDripBytes) {
   }
   EXPECT_FALSE(isOpen);
   expectAnswers();
+}
+
+TEST_F(Metrics, AreReadByNoPageOfAStranger) {
+  const auto withHosts = [&](const std::string& hosts) {
+    return statusOf(asked(port(), "GET /healthz HTTP/1.1\r\n" + hosts + "\r\n"));
+  };
+  EXPECT_EQ(withHosts(""), 200);  // no browser
+  for (const char* host : {"localhost", "127.0.0.1:9464", "[::1]:9464"}) {
+    EXPECT_EQ(withHosts("Host: " + std::string(host) + "\r\n"), 200) << host;
+  }
+  for (const char* host : {"example.org", "127.0.0.1.example.org", "10.0.0.1", "localhost."}) {
+    EXPECT_EQ(withHosts("Host: " + std::string(host) + "\r\n"), 403) << host;
+  }
+  EXPECT_EQ(withHosts("Host: localhost\r\nHost: localhost\r\n"), 403);
+  EXPECT_EQ(asked_, 0);
+}
+
+/// Connections that say a byte and then nothing, opened again whenever one is closed.
+class SlowClients {
+ public:
+  SlowClients(std::uint16_t port, std::size_t count) : port_(port) {
+    for (std::size_t i = 0; i < count; ++i) open();
+  }
+  void openAnother() {
+    open();
+    connections_.pop_front();
+  }
+
+ private:
+  void open() {
+    connections_.emplace_back(port_);
+    connections_.back().send("G");
+  }
+  std::uint16_t port_;
+  std::deque<Connection> connections_;
+};
+
+// Whoever waits for the slow ones waits until their time is over: so the answer shows who waited.
+TEST_F(Metrics, DoNotWaitForSlowClients) {
+  for (const std::size_t count : {24, 63, 64, 200}) {
+    SCOPED_TRACE(count);
+    SlowClients slow(port(), count);
+    for (int i = 0; i < 20; ++i) {
+      expectAnswers();
+      slow.openAnother();
+    }
+  }
 }
 
 TEST_F(Metrics, EndWithConnectionsOpen) {

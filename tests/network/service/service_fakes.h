@@ -65,9 +65,10 @@ class Gate {
 /// Arriving messages.
 class Inbox {
  public:
-  void send(const std::string& channel, Bytes payload, std::int64_t receiveUtimeUs = 1) {
+  void send(const std::string& channel, Bytes payload, std::int64_t receiveUtimeUs = 1,
+            const UdpmSender& sender = {}) {
     const std::lock_guard lock(mutex_);
-    messages_.push_back({channel, std::move(payload), receiveUtimeUs});
+    messages_.push_back({channel, std::move(payload), receiveUtimeUs, sender});
     changed_.notify_all();
   }
   void die() {

@@ -16,71 +16,27 @@
 
 #include "middleware/query/work_budget.h"
 #include "network/wire/codec.h"
-#include "tests/network/service/service_fakes.h"
+#include "tests/network/service/service_stage.h"
 #include "tests/network/small_stream.h"
 
 namespace foretouch {
 namespace {
 
-using test::Book;
+using test::answerIn;
+using test::bytesOf;
 using test::eventually;
-using test::Inbox;
+using test::kContacts;
+using test::kPoses;
+using test::kSkeletons;
 using test::kStepUs;
-using test::Outbox;
+using test::poseOf;
+using test::rejectsFor;
+using test::skeletonOf;
 using test::smallAvatar;
 using test::smallSkeleton;
-
-const std::string kContacts = kContactsChannel;
-const std::string kPoses = kPoseChannel;
-const std::string kSkeletons = kSkeletonChannel;
-
-/// A wall across x = 1.
-Scene farWall() {
-  RawScene raw;
-  raw.objectNames = {"wall"};
-  const Eigen::Vector3d a(1.0, -5.0, -5.0), b(1.0, 9.0, -5.0), c(1.0, 0.0, 9.0);
-  raw.triangles.push_back(Triangle{{a, b, c}});
-  raw.objectOf = {0};
-  return Scene::build(raw).value();
-}
-
-std::vector<StreamSolver> solversOf(std::int32_t avatars, bool areSolid = false) {
-  const Scene scene = farWall();
-  std::vector<StreamSolver> solvers;
-  for (std::int32_t id = 0; id < avatars; ++id) {
-    solvers.push_back(StreamSolver::make(id, smallAvatar(), scene, {}, {}).value());
-    const bool isMade = !areSolid || solvers.back().makeSolid({}).ok();
-    EXPECT_TRUE(isMade);
-  }
-  return solvers;
-}
-
-template <typename Message>
-Bytes bytesOf(const Message& message) {
-  Bytes payload;
-  encode(message, payload);
-  return payload;
-}
-
-Bytes skeletonOf(std::int32_t avatar) {
-  SkeletonMessage message = test::skeletonMessage(smallSkeleton());
-  message.avatar = avatar;
-  return bytesOf(message);
-}
-
-/// Back and forth across the wall.
-Bytes poseOf(std::int32_t avatar, std::int64_t sequence) {
-  PoseMessage message = test::nthPose(sequence);
-  message.avatar = avatar;
-  message.translations[0].translation = {0.4 * static_cast<double>(sequence % 4 + avatar), 1, 0};
-  return bytesOf(message);
-}
-
-ContactsMessage answerIn(const Bytes& payload) {
-  ContactsMessage answer;
-  EXPECT_EQ(decode(payload, answer), Reject::None);
-  return answer;
-}
+using test::solversOf;
+using test::Stage;
+using test::withWorkers;
 
 Bytes verdictsIn(const Bytes& payload) {
   const ByteView view = verdictBytes(payload);
@@ -89,53 +45,6 @@ Bytes verdictsIn(const Bytes& payload) {
 
 bool addUp(const ServiceCounts& counts) {
   return counts.received == counts.answered + counts.rejected() + counts.waiting;
-}
-
-std::uint64_t rejectsFor(const ServiceCounts& counts, Reject reason) {
-  return counts.rejects[static_cast<std::size_t>(reason)];
-}
-
-/// A service with all that surrounds it.
-class Stage {
- public:
-  explicit Stage(std::int32_t avatars = 1, ServiceOptions options = {}, bool isRecorded = false,
-                 StepObserver* observer = nullptr, bool areSolid = false) {
-    ServiceParts parts;
-    parts.receiver = std::make_unique<test::FakeReceiver>(inbox);
-    parts.publisher = std::make_unique<test::FakePublisher>(outbox);
-    if (isRecorded) parts.journal = std::make_unique<test::FakeSink>(book);
-    parts.clock = &clock;
-    parts.observer = observer;
-    service_.emplace(
-        Service::start(solversOf(avatars, areSolid), std::move(parts), options).value());
-  }
-  Service& service() { return *service_; }
-
-  void sendSkeletons(std::int32_t avatars) {
-    for (std::int32_t id = 0; id < avatars; ++id) inbox->send(kSkeletons, skeletonOf(id));
-  }
-  /// True once as many poses have come and each has its fate.
-  bool settles(std::uint64_t received) {
-    return eventually([&] {
-      const ServiceCounts counts = service_->counts();
-      return counts.received == received && counts.waiting == 0;
-    });
-  }
-
-  test::FakeClock clock;
-  std::shared_ptr<Inbox> inbox = std::make_shared<Inbox>();
-  std::shared_ptr<Outbox> outbox = std::make_shared<Outbox>();
-  std::shared_ptr<Book> book = std::make_shared<Book>();
-
- private:
-  std::optional<Service> service_;
-};
-
-ServiceOptions withWorkers(int workers, std::size_t queue = 10'000) {
-  ServiceOptions options;
-  options.workers = workers;
-  options.queue = queue;
-  return options;
 }
 
 struct Sent {
@@ -663,8 +572,8 @@ TEST(Service, NamesAThreadThatDoesNotGetOn) {
 TEST(Service, RefusesWhatItCannotServe) {
   const auto refused = [](std::vector<StreamSolver> solvers, const ServiceOptions& options) {
     ServiceParts parts;
-    parts.receiver = std::make_unique<test::FakeReceiver>(std::make_shared<Inbox>());
-    parts.publisher = std::make_unique<test::FakePublisher>(std::make_shared<Outbox>());
+    parts.receiver = std::make_unique<test::FakeReceiver>(std::make_shared<test::Inbox>());
+    parts.publisher = std::make_unique<test::FakePublisher>(std::make_shared<test::Outbox>());
     const auto service = Service::start(std::move(solvers), std::move(parts), options);
     return service.ok() ? std::string() : service.error().message;
   };

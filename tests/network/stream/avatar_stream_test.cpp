@@ -104,7 +104,8 @@ TEST_F(Stream, BeginsATimelineWithAnotherSkeleton) {
   RawSkeleton grown = skeleton_;
   grown.joints[2].offset.y() = 0.5;
   ASSERT_EQ(say(grown, 1, 1), Reject::None);
-  EXPECT_EQ(take(nthPose(1)), Reject::SkeletonMismatch);
+  ASSERT_EQ(take(nthPose(1)), Reject::None);  // until a pose of the new one comes
+  EXPECT_EQ(step_.kind, StepKind::Consecutive);
   skeleton_ = grown;
   ASSERT_EQ(take(2, 2 * kStepUs), Reject::None);
   EXPECT_EQ(step_.kind, StepKind::First);
@@ -112,6 +113,61 @@ TEST_F(Stream, BeginsATimelineWithAnotherSkeleton) {
   EXPECT_EQ(step_.sequenceFrom, 2);
   EXPECT_EQ(step_.utimeFromUs, 2 * kStepUs);
   EXPECT_EQ(step_.lost, 0);
+}
+
+TEST_F(Stream, IsNotStoppedByASkeletonThatNobodyUses) {
+  follow(5);
+  RawSkeleton spoofed = skeleton_;
+  spoofed.joints[2].offset.y() = 0.5;
+  ASSERT_EQ(say(spoofed, kMost, 0), Reject::None);
+  for (std::int64_t n = 6; n < 20; ++n) {
+    ASSERT_EQ(take(nthPose(n)), Reject::None);
+    EXPECT_EQ(step_.kind, StepKind::Consecutive);
+  }
+}
+
+TEST_F(Stream, ReturnsToTheSkeletonWhosePosesGoOn) {
+  follow(5);
+  RawSkeleton spoofed = skeleton_;
+  spoofed.joints[2].offset.y() = 0.5;
+  ASSERT_EQ(say(spoofed, 1000, 0), Reject::None);
+  ASSERT_EQ(take(poseMessage(spoofed, 0, kStepUs, 1000)), Reject::None);
+  EXPECT_EQ(take(nthPose(6)), Reject::SkeletonMismatch);
+  EXPECT_EQ(take(nthPose(6)), Reject::SkeletonMismatch);  // copies count once
+  EXPECT_EQ(take(nthPose(7)), Reject::SkeletonMismatch);
+  ASSERT_EQ(take(nthPose(8)), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::First);
+  ASSERT_EQ(take(nthPose(9)), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::Consecutive);
+  EXPECT_EQ(take(nthPose(9)), Reject::Duplicate);
+}
+
+TEST_F(Stream, FollowsAnotherSpeakerWhateverItsNumbersAre) {
+  follow(5);
+  stream_.changeSpeaker();
+  EXPECT_EQ(take(nthPose(5)), Reject::Duplicate);
+  ASSERT_EQ(take(0, -7, -3), Reject::None);  // an older session, an earlier clock
+  EXPECT_EQ(step_.kind, StepKind::First);
+  EXPECT_EQ(take(0, -8, -4), Reject::OldSession);  // of one speaker, order counts again
+  RawSkeleton other = skeleton_;
+  other.joints[2].offset.y() = 0.5;
+  EXPECT_EQ(say(other, -9), Reject::OldSession);
+  stream_.changeSpeaker();
+  ASSERT_EQ(say(other, -9), Reject::None);
+  ASSERT_EQ(take(poseMessage(other, 0, 0, -9)), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::First);
+}
+
+TEST_F(Stream, CountsALeapOfNumbersApart) {
+  follow(0);
+  ASSERT_EQ(take(1'000'001, kStepUs), Reject::None);
+  EXPECT_EQ(stream_.counts().lost, 1'000'000U);
+  EXPECT_EQ(stream_.counts().vastGaps, 0U);
+  ASSERT_EQ(take(kMost, 2 * kStepUs), Reject::None);
+  EXPECT_EQ(step_.kind, StepKind::AcrossGap);
+  EXPECT_EQ(stream_.counts().lost, 1'000'000U);
+  EXPECT_EQ(stream_.counts().vastGaps, 1U);
+  EXPECT_EQ(stream_.counts().gaps, 2U);
 }
 
 TEST_F(Stream, RefusesOldSkeletons) {

@@ -1,9 +1,13 @@
 // A sample of the simulation, and proof that it finds what is broken. At length: ./run simulate.
 #include "tests/network/stream/stream_simulation.h"
 
+#include <algorithm>
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "tests/network/stream/stream_attack.h"
 
 namespace foretouch::test {
 namespace {
@@ -93,6 +97,39 @@ INSTANTIATE_TEST_SUITE_P(All, BrokenRules, testing::ValuesIn(kMutations),
                            }
                            return name;
                          });
+
+TEST(StreamAttack, StopsNoTrueSender) {
+  std::map<Standpoint, AttackTally> tallies;
+  for (std::uint64_t seed = 0; seed < 2 * kSeeds; ++seed) {
+    const AttackRun run = attack(seed);
+    tallies[run.standpoint].add(run.tally);
+    for (const std::string& violation : run.violations) {
+      ADD_FAILURE() << "seed " << seed << ": " << violation
+                    << "\nagain: ./run simulate --adversary --first " << seed << " --seeds 1";
+    }
+  }
+  ASSERT_EQ(tallies.size(), 3U);
+  for (const auto& [standpoint, tally] : tallies) {
+    EXPECT_LE(tally.longestRun, mostStopped(standpoint));
+    EXPECT_GT(tally.truePoses, 10 * kSeeds);
+    EXPECT_GT(tally.hostile, tally.seeds / 2);
+  }
+  EXPECT_GT(tallies[Standpoint::OtherSenders].hostile, tallies[Standpoint::OtherSenders].truePoses);
+  // The attacks have an effect where one is possible, so none would not be for want of trying.
+  EXPECT_GT(tallies[Standpoint::SameSender].unanswered, 100U);
+  EXPECT_GT(tallies[Standpoint::SameSender].hostileAnswered, 100U);
+  EXPECT_GT(tallies[Standpoint::Before].takeovers, 10U);
+}
+
+TEST(StreamAttack, StopsSendersWhereNobodyIsBound) {
+  std::uint64_t longest = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const AttackRun run = attack(seed, /*isBound=*/false);
+    if (run.standpoint == Standpoint::OtherSenders)
+      longest = std::max(longest, run.tally.longestRun);
+  }
+  EXPECT_GT(longest, 10U);
+}
 
 }  // namespace
 }  // namespace foretouch::test

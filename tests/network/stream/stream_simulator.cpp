@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tests/network/stream/stream_attack.h"
 #include "tests/network/stream/stream_simulation.h"
 
 namespace {
@@ -17,10 +18,14 @@ namespace {
 using foretouch::kNumRejects;
 using foretouch::kNumUndecidedReasons;
 using foretouch::Verdict;
+using foretouch::test::attack;
+using foretouch::test::AttackRun;
+using foretouch::test::AttackTally;
 using foretouch::test::Mutation;
 using foretouch::test::SimulationOptions;
 using foretouch::test::SimulationRun;
 using foretouch::test::SimulationTally;
+using foretouch::test::Standpoint;
 
 double percent(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
@@ -79,6 +84,7 @@ void printCounts(const SimulationTally& all) {
 
 struct Arguments {
   std::uint64_t seeds = 1000, first = 0;
+  bool isAttacked = false;
   SimulationOptions options;
 };
 
@@ -103,11 +109,16 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
   CLI::App app{"Streams over a faulty network, each answer judged by an independent oracle"};
   app.add_option("--seeds", a.seeds, "How many runs")->check(CLI::PositiveNumber);
   app.add_option("--first", a.first, "The first seed");
+  auto* const adversary =
+      app.add_flag("--adversary", a.isAttacked,
+                   "One true sender each, and an adversary that wants no pose of it answered");
   const auto* const lossOption =
       app.add_option("--loss", loss, "Share of messages lost; drawn by the seed if not given")
-          ->check(CLI::Range(0.0, 1.0));
+          ->check(CLI::Range(0.0, 1.0))
+          ->excludes(adversary);
   app.add_option("--break", mutation, "Break this rule on purpose, which must be found")
-      ->check(CLI::IsMember(mutationNames()));
+      ->check(CLI::IsMember(mutationNames()))
+      ->excludes(adversary);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -131,12 +142,53 @@ void printViolations(std::uint64_t seed, const SimulationRun& run,
   std::printf("\n");
 }
 
+const char* wordOf(Standpoint standpoint) {
+  switch (standpoint) {
+    case Standpoint::OtherSenders: return "other senders";
+    case Standpoint::Before: return "before it starts";
+    case Standpoint::SameSender: return "its own address";
+  }
+  return "";
+}
+
+/// Returns the exit code.
+int runAttacks(const Arguments& arguments) {
+  std::map<Standpoint, AttackTally> tallies;
+  std::uint64_t failed = 0;
+  for (std::uint64_t i = 0; i < arguments.seeds; ++i) {
+    const auto seed = static_cast<unsigned long long>(arguments.first + i);
+    const AttackRun run = attack(seed);
+    tallies[run.standpoint].add(run.tally);
+    if (run.violations.empty()) continue;
+    ++failed;
+    for (const std::string& violation : run.violations) {
+      std::printf("seed %llu: %s\n", seed, violation.c_str());
+    }
+    std::printf("  again: ./run simulate --adversary --first %llu --seeds 1\n", seed);
+  }
+  std::printf("%-18s %8s %10s %11s %12s %10s\n", "datagrams come from", "seeds", "true poses",
+              "unanswered", "most in a row", "hostile");
+  for (const auto& [standpoint, tally] : tallies) {
+    std::printf("%-19s %8llu %10llu %11llu %13llu %10llu\n", wordOf(standpoint),
+                static_cast<unsigned long long>(tally.seeds),
+                static_cast<unsigned long long>(tally.truePoses),
+                static_cast<unsigned long long>(tally.unanswered),
+                static_cast<unsigned long long>(tally.longestRun),
+                static_cast<unsigned long long>(tally.hostile));
+  }
+  std::printf("%llu seeds: %llu with a broken promise\n",
+              static_cast<unsigned long long>(arguments.seeds),
+              static_cast<unsigned long long>(failed));
+  return failed == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   int code = 0;
   const auto arguments = parse(argc, argv, code);
   if (!arguments) return code;
+  if (arguments->isAttacked) return runAttacks(*arguments);
   constexpr std::uint64_t kMostShown = 10;
   const auto start = std::chrono::steady_clock::now();
   Rows rows;

@@ -117,6 +117,49 @@ TEST_F(View, IsAPageAndItsDocument) {
   }
 }
 
+TEST_F(View, RunsOnlyTheScriptThatThePageNames) {
+  start();  // a page that names none
+  const std::string none = test::get(port(), "/");
+  EXPECT_NE(none.find("Content-Security-Policy: default-src 'none'; base-uri 'none'; form-action "
+                      "'none'; frame-ancestors 'none'\r\n"),
+            std::string::npos)
+      << none;
+  ViewServer::Pages pages;
+  pages.page =
+      "<head><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "
+      "'sha256-abc='\"></head>";
+  pages.events = std::make_unique<FakeSource>(stage_);
+  const auto server = ViewServer::start("127.0.0.1", 0, std::move(pages));
+  ASSERT_TRUE(server.ok());
+  for (const char* path : {"/", "/view.json", "/none"}) {
+    const std::string got = test::get(server.value().port(), path);
+    EXPECT_NE(got.find("Content-Security-Policy: default-src 'none'; script-src 'sha256-abc='; "
+                       "frame-ancestors 'none'\r\n"),
+              std::string::npos)
+        << got;
+    EXPECT_EQ(got.find("unsafe-inline"), std::string::npos);
+  }
+}
+
+// Clients that ask for much and read nothing hold up nobody.
+TEST_F(View, WaitsForNoClientThatDoesNotRead) {
+  ViewServer::Pages pages;
+  pages.page = "<p>seen</p>";
+  pages.document = std::string(std::size_t{32} << 20, 'x');
+  pages.events = std::make_unique<FakeSource>(stage_);
+  const auto server = ViewServer::start("127.0.0.1", 0, std::move(pages));
+  ASSERT_TRUE(server.ok());
+  std::vector<Connection> deaf;
+  for (int i = 0; i < 63; ++i) {
+    deaf.emplace_back(server.value().port(), 4096);
+    deaf.back().send("GET /view.json HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  }
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(statusOf(test::get(server.value().port(), "/")), 200);
+  // And whoever reads gets all of it.
+  const std::string whole = test::get(server.value().port(), "/view.json");
+  EXPECT_GT(whole.size(), std::size_t{32} << 20);
+}
+
 TEST_F(View, ReadsOnly) {
   start();
   for (const char* path : {"/", "/view.json", "/events"}) {

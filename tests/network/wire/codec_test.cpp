@@ -58,6 +58,7 @@ TEST(Codec, MessagesSurviveTheWireBitForBit) {
   expectRoundTrips<SolidMessage>([](Random& r) {
     return test::randomSolidMessage(r, 1 + r.below(40), 1 + r.below(6), r.below(20));
   });
+  expectRoundTrips<SpeakerMessage>([](Random& r) { return test::randomSpeakerMessage(r); });
   expectRoundTrips<StatusMessage>(
       [](Random& r) { return test::randomStatusMessage(r, r.below(20)); });
 }

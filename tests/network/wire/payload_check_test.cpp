@@ -110,6 +110,12 @@ Sample statusSample(Random& random) {
   return sample;
 }
 
+Sample speakerSample(Random& random) {
+  Sample sample{PayloadType::Speaker, {}, {}, {}};
+  encode(test::randomSpeakerMessage(random), sample.bytes);
+  return sample;
+}
+
 /// A few of every type.
 std::vector<Sample> samples() {
   std::vector<Sample> all;
@@ -120,6 +126,7 @@ std::vector<Sample> samples() {
     all.push_back(contactsSample(random));
     all.push_back(solidSample(random));
     all.push_back(statusSample(random));
+    all.push_back(speakerSample(random));
   }
   return all;
 }
@@ -131,12 +138,14 @@ Reject decodeAny(PayloadType type, ByteView bytes) {
   static ContactsMessage contacts;
   static SolidMessage solid;
   static StatusMessage status;
+  static SpeakerMessage speaker;
   switch (type) {
     case PayloadType::Skeleton: return decode(bytes, skeleton);
     case PayloadType::Pose: return decode(bytes, pose);
     case PayloadType::Contacts: return decode(bytes, contacts);
     case PayloadType::Solid: return decode(bytes, solid);
     case PayloadType::Status: return decode(bytes, status);
+    case PayloadType::Speaker: return decode(bytes, speaker);
   }
   return Reject::Length;
 }
@@ -237,8 +246,8 @@ TEST(PayloadCheck, RefusesForeignFingerprintsAndVersions) {
       bytes[i] ^= 0x10;
       EXPECT_EQ(decodeAny(sample.type, bytes), i < 8 ? Reject::Fingerprint : Reject::Version);
     }
-    for (const PayloadType other :
-         {PayloadType::Skeleton, PayloadType::Pose, PayloadType::Contacts, PayloadType::Status}) {
+    for (const PayloadType other : {PayloadType::Skeleton, PayloadType::Pose, PayloadType::Contacts,
+                                    PayloadType::Status, PayloadType::Speaker}) {
       if (other == sample.type) continue;
       EXPECT_EQ(decodeAny(other, sample.bytes), Reject::Fingerprint);
     }

@@ -1,4 +1,6 @@
+#include <cstdint>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -51,6 +53,25 @@ TEST(ParseUdpmUrl, NamesThePartThatIsWrong) {
   says("udpm://239.255.76.67:7667?recv_buf_size=99999999999999999999", "recv_buf_size:");
   says("udpm://239.255.76.67:7667?TTL=1", "found 'TTL'");
   says("udpm://239.255.76.67:7667?ttl=1&&ttl=1", "found ''");
+}
+
+TEST(Network, IsAnAddressAndItsLeadingBits) {
+  const auto read = [](const std::string& text) {
+    const auto network = parseNetwork(text);
+    EXPECT_TRUE(network.ok()) << text;
+    return network.ok() ? std::pair(network.value().address, network.value().bits)
+                        : std::pair(std::uint32_t{0}, -1);
+  };
+  EXPECT_EQ(read("10.0.0.0/24"), std::pair(0x0a000000U, 24));
+  EXPECT_EQ(read("10.1.2.3"), std::pair(0x0a010203U, 32));
+  EXPECT_EQ(read("10.1.2.3/32"), std::pair(0x0a010203U, 32));
+  EXPECT_EQ(read("0.0.0.0/0"), std::pair(0U, 0));
+  for (const std::string bad : {"", "10.0.0/24", "10.0.0.0/", "10.0.0.0/33", "10.0.0.0/-1",
+                                "10.0.0.0/8x", "ten", "10.0.0.7/24", "::1/128", "1.0.0.0/0"}) {
+    const auto network = parseNetwork(bad);
+    ASSERT_FALSE(network.ok()) << bad;
+    EXPECT_NE(network.error().message.find("'" + bad + "'"), std::string::npos);
+  }
 }
 
 }  // namespace

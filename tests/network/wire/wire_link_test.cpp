@@ -68,11 +68,14 @@ class OtherMachine {
     isOver_ = true;
     thread_.join();
   }
-  /// Plugs a new cable in: `here` in this namespace, `there` in the other one.
-  bool plug() {
+  /// Plugs a new cable in: `here` in this namespace, `there` in the other one, which then has
+  /// `address`, or none if that is empty.
+  bool plug(const std::string& address = "10.77.0.1/24") {
     const std::string there = std::to_string(threadId_);
+    const std::string named = address.empty() ? "true" : "ip addr add " + address + " dev there";
     return isIsolated_ && type("ip link add here type veth peer name there netns " + there) &&
-           type("ip addr add 10.77.0.2/24 dev here && " + std::string(kUpHere)) && run(kSetUpThere);
+           type("ip addr add 10.77.0.2/24 dev here && " + std::string(kUpHere)) &&
+           run(named + " && " + kSetUpThere);
   }
   bool upAgain() { return type(kUpHere); }
 
@@ -81,7 +84,7 @@ class OtherMachine {
       "ip link set here up && ip link set here multicast on && "
       "ip route replace 239.255.76.67/32 dev here";
   static constexpr char kSetUpThere[] =
-      "ip addr add 10.77.0.1/24 dev there && ip link set there up && "
+      "ip link set there up && "
       "ip link set there multicast on && ip route replace 224.0.0.0/4 dev there";
 
   /// In the other namespace.
@@ -149,6 +152,75 @@ TEST_F(WireLink, AReceiverOutlivesItsLinkAndItsInterface) {
     nothingComes("without the interface");
     ASSERT_TRUE(other.plug());
     comes("with another interface");
+  }
+  type("ip link del here");
+}
+
+/// What came, by who is heard.
+struct Came {
+  std::size_t messages = 0;
+  std::uint64_t foreign = 0;
+};
+
+/// Waits until enough came or was refused.
+Came cameTo(Receiver& receiver) {
+  constexpr std::uint64_t kEnough = 20;
+  std::vector<WireMessage> messages;
+  const auto deadline = test::Clock::now() + test::kPatience;
+  while (messages.size() + receiver.counts().foreign < kEnough && test::Clock::now() < deadline) {
+    EXPECT_TRUE(receiver.receive(messages, 20).ok());
+  }
+  return {messages.size(), receiver.counts().foreign};
+}
+
+// The default address is this machine's own affair, whatever its route for multicast is.
+TEST_F(WireLink, AtTtl0NobodyElseIsHeard) {
+  for (const std::string address : {"10.77.0.1/24", "10.77.0.2/24", ""}) {
+    SCOPED_TRACE(address);
+    OtherMachine other;
+    if (!other.plug(address)) GTEST_SKIP() << "no veth links here";
+    const auto receiver = test::receiverOf({"POSE"});
+    const auto own = test::publisherTo();
+    ASSERT_TRUE(own->publish("POSE", Bytes{2}));
+    std::vector<WireMessage> messages;
+    ASSERT_TRUE(test::receiveCount(*receiver, messages, 1));
+    EXPECT_EQ(messages.size(), 1U);
+    EXPECT_EQ(messages[0].payload, Bytes{2});
+    messages.clear();
+    for (int i = 0; i < 20; ++i) ASSERT_TRUE(receiver->receive(messages, 20).ok());
+    EXPECT_TRUE(messages.empty());
+    // Under our own address or none, the system itself refuses it.
+    if (address == "10.77.0.1/24") {
+      EXPECT_GE(receiver->counts().foreign, 20U);
+      EXPECT_EQ(receiver->counts().datagrams, receiver->counts().foreign + 1);
+    }
+    type("ip link del here");
+  }
+}
+
+TEST_F(WireLink, HearsTheNetworksThatAreNamed) {
+  OtherMachine other;
+  if (!other.plug()) GTEST_SKIP() << "no veth links here";
+  UdpmUrl away;
+  away.ttl = 1;
+  const auto heard = [&](const UdpmUrl& url, const std::string& network) {
+    const auto receiver =
+        test::valueOf(openUdpmReceiver(url, {"POSE"}, {test::valueOf(parseNetwork(network))}));
+    return cameTo(*receiver);
+  };
+  for (const UdpmUrl& url : {UdpmUrl(), away}) {
+    for (const std::string network : {"10.77.0.0/24", "10.77.0.1", "0.0.0.0/0"}) {
+      SCOPED_TRACE(network);
+      const Came came = heard(url, network);
+      EXPECT_GE(came.messages, 20U);
+      EXPECT_EQ(came.foreign, 0U);
+    }
+    for (const std::string network : {"10.77.1.0/24", "10.77.0.0/32", "10.77.0.2"}) {
+      SCOPED_TRACE(network);
+      const Came came = heard(url, network);
+      EXPECT_EQ(came.messages, 0U);
+      EXPECT_GE(came.foreign, 20U);
+    }
   }
   type("ip link del here");
 }

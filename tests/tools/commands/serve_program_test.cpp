@@ -175,6 +175,12 @@ TEST(ServeProgram, RefusesBadOptionsByName) {
       {{"--scope", "objects"}, "--scope: is not possible: of a stream every link is answered"},
       {{"--pass-separating"},
        "--pass-separating: is not possible: a stream goes from pose to pose"},
+      {{"--senders", "10.0.0.7/24"}, "--senders: expected a network whose bits after the first 24"},
+      {{"--senders", "::1"}, "--senders: expected an IPv4 network as 10.0.0.0/24"},
+      {{"--senders", "10.0.0.0/24", "--receiver", "liblcm"}, "--senders: liblcm does not say who"},
+      {{"--takeover", "-1"}, "--takeover: expected"},
+      {{"--key", world.folder / "none.key"}, "none.key"},
+      {{"--log-files", "0"}, "--log-files: expected"},
       {{"--config", world.folder / "none.toml"}, "none.toml"},
   };
   for (const auto& [options, expected] : trials) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <sys/stat.h>
 #include <thread>
 #include <vector>
 
@@ -77,17 +78,20 @@ class StreamPrograms : public testing::Test {
   }
 
   /// A service that says that it is ready.
-  [[nodiscard]] std::unique_ptr<ProgramRun> service(const Words& more = {}) const {
-    auto run = std::make_unique<ProgramRun>(serveWords(more));
+  [[nodiscard]] std::unique_ptr<ProgramRun> service(const Words& more = {},
+                                                    const Words& environment = {}) const {
+    auto run = std::make_unique<ProgramRun>(serveWords(more), environment);
     EXPECT_TRUE(waitFor([&] { return holds(run->outSoFar(), "ready\n"); })) << run->errSoFar();
     return run;
   }
 
   /// A listener that has heard the service's heartbeat: from now on it hears its answers.
-  [[nodiscard]] std::unique_ptr<ProgramRun> listener(std::size_t answers) const {
+  [[nodiscard]] std::unique_ptr<ProgramRun> listener(std::size_t answers,
+                                                     const Words& more = {}) const {
     auto run =
-        std::make_unique<ProgramRun>(Words{"listen", "--json", "--status", "--url", kUrl, "--count",
-                                           std::to_string(answers), "--timeout", "30"});
+        std::make_unique<ProgramRun>(joined({"listen", "--json", "--status", "--url", kUrl,
+                                             "--count", std::to_string(answers), "--timeout", "30"},
+                                            more));
     EXPECT_TRUE(waitFor([&] { return holds(run->outSoFar(), "\"status\""); })) << run->errSoFar();
     return run;
   }
@@ -334,6 +338,79 @@ TEST_F(StreamPrograms, GoOnWhereTheLogCannotGrow) {
   EXPECT_TRUE(holds(ended.err, journal)) << ended.err;
   EXPECT_FALSE(holds(ended.out + ended.err, " 0 events not recorded")) << ended.out;
   EXPECT_EQ(runForetouch({"log", "check", journal}).exitCode, 0);
+}
+
+// Every write to the log comes short, fails, or stalls for an hour (write_shim.c): answers go on,
+// and the service ends when it is told to.
+TEST_F(StreamPrograms, AnswerWhateverTheDiskDoes) {
+  if (std::string(FORETOUCH_SANITIZED) != "") GTEST_SKIP() << "a sanitizer wants to be first";
+  const std::vector<std::string> replayed = replayedClip();
+  for (const std::string fault : {"none", "short", "full", "stall"}) {
+    SCOPED_TRACE(fault);
+    const std::string journal = folder_ / (fault + ".lcmlog");
+    const auto serving = service(
+        {"--log", journal},
+        {std::string("LD_PRELOAD=") + FORETOUCH_WRITE_SHIM, "FORETOUCH_WRITE_FAULT=" + fault});
+    const auto listening = listener(replayed.size());
+    ASSERT_EQ(runForetouch(publishWords({"--url", kUrl, "--speed", "8"})).exitCode, 0);
+    const Ended heard = listening->ended();
+    EXPECT_EQ(heard.exitCode, 0) << heard.err;
+    expectReplayed(answersIn(heard.out), replayed);
+    serving->send(SIGTERM);
+    const Ended ended = serving->ended();
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    const bool isWhole = fault == "none" || fault == "short";
+    EXPECT_EQ(holds(ended.out, ", 0 events not recorded"), isWhole) << ended.out;
+    if (!isWhole) continue;
+    const Ended again = replayedLog(journal);
+    EXPECT_EQ(again.exitCode, 0) << again.out << again.err;
+  }
+}
+
+TEST_F(StreamPrograms, SignWhatTheySayAndHearNothingElse) {
+  const std::vector<std::string> replayed = replayedClip();
+  const Words key{"--key", folder_.write("key", "000102030405060708090a0b0c0d0e0f\n")};
+  const Words otherKey{"--key", folder_.write("other", "100102030405060708090a0b0c0d0e0f\n")};
+  for (const Words& words : {key, otherKey}) {
+    ASSERT_EQ(::chmod(words[1].c_str(), 0600), 0);
+  }
+  const std::string journal = folder_ / "journal.lcmlog";
+  const auto serving = service(joined(key, {"--log", journal}));
+  const auto listening = listener(replayed.size(), key);
+  for (const Words& words : {Words{}, otherKey}) {
+    ASSERT_EQ(runForetouch(publishWords(joined({"--url", kUrl, "--speed", "0"}, words))).exitCode,
+              0);
+  }
+  ASSERT_EQ(runForetouch(publishWords(joined({"--url", kUrl, "--speed", "8"}, key))).exitCode, 0);
+  const Ended heard = listening->ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  EXPECT_EQ(heard.err, "");
+  expectReplayed(answersIn(heard.out), replayed);
+  EXPECT_TRUE(holds(heard.out, "\"unauthenticated\"")) << heard.out;
+  expectEndsInOrder(*serving);
+  EXPECT_EQ(replayedLog(journal).exitCode, 0);
+}
+
+// Somebody else on this machine publishes for the same avatar, again and again, each time as a
+// later session: none of it is answered while the first one speaks.
+TEST_F(StreamPrograms, AreBoundToWhoSpeaksFirst) {
+  const std::vector<std::string> replayed = replayedClip();
+  const std::string journal = folder_ / "journal.lcmlog";
+  const auto serving = service({"--log", journal});
+  const auto listening = listener(replayed.size());
+  ProgramRun speaker(publishWords({"--url", kUrl, "--speed", "1"}));
+  ASSERT_TRUE(waitFor([&] { return answersIn(listening->outSoFar()).size() > 5; }));
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(runForetouch(publishWords({"--url", kUrl, "--speed", "0"})).exitCode, 0);
+  }
+  EXPECT_LT(answersIn(listening->outSoFar()).size(), replayed.size());  // it still speaks
+  EXPECT_EQ(speaker.ended().exitCode, 0);
+  const Ended heard = listening->ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  expectReplayed(answersIn(heard.out), replayed);
+  EXPECT_TRUE(holds(heard.out, "\"other-sender\"")) << heard.out;
+  expectEndsInOrder(*serving);
+  EXPECT_EQ(replayedLog(journal).exitCode, 0);
 }
 
 TEST_F(StreamPrograms, EndWhenToldTo) {

@@ -1,0 +1,57 @@
+#include "network/service/service_health.h"
+
+namespace foretouch::internal {
+namespace {
+
+constexpr double kSPerMs = 1e-3, kSPerUs = 1e-6;
+
+std::string secondsText(double value) {
+  const std::string text = std::to_string(value);
+  return text.substr(0, text.find('.') + 4) + " s";
+}
+
+std::string secondsOf(std::int64_t ms) {
+  return secondsText(static_cast<double>(ms) * kSPerMs);
+}
+
+/// What ails the log harms no answer: nobody should end a service for it.
+void addJournal(const ServiceState& state, const ServiceOptions& options, ServiceHealth& health) {
+  if (!state.hasJournal) return;
+  if (state.journalIdleMs > options.stuckAfter.count()) {
+    health.text += "degraded: the log has not got on for " + secondsOf(state.journalIdleMs) + "\n";
+  }
+  if (state.journalFailures > 0) {
+    health.text += "degraded: " + std::to_string(state.journalFailures) +
+                   " events are not in the log: " + state.journalFailure + "\n";
+  }
+}
+
+}  // namespace
+
+ServiceHealth healthOf(const ServiceState& state, const ServiceOptions& options) {
+  ServiceHealth health;
+  if (state.failure) {
+    health.isAlive = false;
+    health.text += "failed: " + describe(*state.failure) + "\n";
+  }
+  for (const ServiceState::Thread& thread : state.threads) {
+    if (thread.idleMs <= options.stuckAfter.count()) continue;
+    health.isAlive = false;
+    health.text +=
+        "stuck: " + thread.name + " has not got on for " + secondsOf(thread.idleMs) + "\n";
+  }
+  health.isWell = health.isAlive;
+  if (state.unacceptedMs >= options.unacceptedAfter.count()) {
+    health.isWell = false;
+    health.text += "refusing: poses have come for " + secondsOf(state.unacceptedMs) +
+                   ", and none was accepted\n";
+  }
+  if (health.isWell) health.text = "ok\n";
+  addJournal(state, options, health);
+  const double ago = static_cast<double>(state.nowUtimeUs - state.lastPoseUtimeUs) * kSPerUs;
+  health.text +=
+      state.lastPoseUtimeUs == 0 ? "no pose yet\n" : "last pose " + secondsText(ago) + " ago\n";
+  return health;
+}
+
+}  // namespace foretouch::internal

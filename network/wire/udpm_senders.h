@@ -1,0 +1,41 @@
+// network/wire/udpm_senders.h: whose datagrams a receiver takes: by the address that they come
+// from. Not installed.
+//
+// Linux drops datagrams that come from outside under one of the machine's own addresses (martians),
+// and to most groups those from 0.0.0.0, which is what lo's own have (ip_mc_validate_source in
+// net/ipv4/route.c). So such an address means this machine. An address is no proof beyond that:
+// docs/streaming.md, "Who is believed".
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "network/wire/wire.h"
+
+namespace foretouch {
+
+/// Addresses in host byte order.
+class SenderFilter {
+ public:
+  /// A ttl of 0 means this machine alone; `networks` replace that, and this machine is always among
+  /// them. A ttl above 0 without `networks`: everybody.
+  SenderFilter(const UdpmUrl& url, std::vector<Network> networks);
+
+  using Time = std::chrono::steady_clock::time_point;
+  /// Whether to take a datagram from here. Asks the system for its own addresses every ten seconds,
+  /// and when a stranger comes, then at most once a second.
+  [[nodiscard]] bool takes(std::uint32_t address, Time now);
+
+ private:
+  [[nodiscard]] bool isOwn(std::uint32_t address) const;
+  void readOwn(Time now);
+
+  bool takesAll_, takesUnnamed_;
+  std::vector<Network> networks_;
+  std::vector<std::uint32_t> own_;  // sorted
+  bool hasRead_ = false;
+  Time readAt_;
+};
+
+}  // namespace foretouch
