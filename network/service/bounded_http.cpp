@@ -29,6 +29,8 @@ constexpr int kBacklog = 512;
 constexpr int kPollMs = 50;
 /// A response that gets on is not cut off for a newcomer.
 constexpr milliseconds kStalledAfter{1000};
+/// Then the others have their turn: megabytes to one client would be milliseconds for all.
+constexpr std::size_t kMostSentPerTurn = std::size_t{256} << 10;
 constexpr char kEndOfHeaders[] = "\r\n\r\n";
 
 /// Part of a response: of a shared text, or of its own.
@@ -264,9 +266,10 @@ void BoundedHttp::handle(Client& client) {
 }
 
 void BoundedHttp::send(Client& client) {
-  while (client.segment < client.response.size()) {
+  for (std::size_t turn = 0; client.segment < client.response.size();) {
+    if (turn >= kMostSentPerTurn) return;
     const Segment& segment = client.response[client.segment];
-    const std::size_t left = segment.size - client.sent;
+    const std::size_t left = std::min(segment.size - client.sent, kMostSentPerTurn - turn);
     const char* const from = segment.owner->data() + segment.offset + client.sent;
     const ssize_t some =
         left == 0 ? 0 : ::send(client.socket.get(), from, left, MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -277,6 +280,7 @@ void BoundedHttp::send(Client& client) {
       return;
     }
     client.sent += countOf(some);
+    turn += countOf(some);
     client.movedAt = SteadyClock::now();
     if (client.sent < segment.size) continue;
     ++client.segment;

@@ -1,5 +1,6 @@
 #include "network/service/journal.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <system_error>
@@ -57,7 +58,8 @@ struct Journal::Impl {
   bool isClosing = false, isDone = false;
   bool isAbandoned = false;  // `failed` may be gone
 
-  EventList written;  // of the thread
+  EventList written;                   // of the thread
+  std::atomic<std::size_t> inHand{0};  // of them
   bool isFlushed = true;
   ThreadBeat beat;
   std::thread thread;
@@ -73,6 +75,7 @@ struct Journal::Impl {
     for (std::size_t i = 0; i < written.count; ++i) {
       const Event& event = written.events[i];
       note(sink->write(event.utimeUs, event.channel, event.payload));
+      --inHand;
       beat.beat();
     }
     if (written.count > 0) isFlushed = false;
@@ -90,6 +93,7 @@ struct Journal::Impl {
     std::unique_lock lock(mutex);
     changed.wait_until(lock, until, [&] { return waiting.count > 0 || isClosing; });
     std::swap(waiting, written);
+    inHand = written.count;
     return written.count > 0 || !isClosing;
   }
 
@@ -162,7 +166,7 @@ void Journal::close() {
     impl_->changed.notify_all();
     impl_->changed.wait_for(lock, impl_->options.closeWithin, [&] { return impl_->isDone; });
     if (!impl_->isDone) {
-      left = impl_->waiting.count + 1;  // and what the thread has in hand
+      left = impl_->waiting.count + impl_->inHand + 1;  // and the closing
       impl_->isAbandoned = true;
       impl_->lastFailure = "the log did not take what waited for it in time, and is not closed";
     }

@@ -118,7 +118,9 @@ std::uint64_t MessageKey::codeOf(std::string_view channel, ByteView bytes) const
       EVP_MAC_update(state.get(), bytes.data, bytes.size) == 1 &&
       EVP_MAC_final(state.get(), code.data(), &size, code.size()) == 1;
   if (!isDone) throw std::bad_alloc();  // the only reason that is left
-  return numberAt(code.data());
+  std::uint64_t number = 0;             // its bytes come with the lowest first
+  for (auto byte = code.rbegin(); byte != code.rend(); ++byte) number = number << 8 | *byte;
+  return number;
 }
 
 void MessageKey::sign(std::string_view channel, std::int64_t utimeUs, Bytes& payload) const {
