@@ -90,6 +90,11 @@ bool Certifier::isClear(const Pose& from, const Pose& to) {
   return ask(from, to).isClear;
 }
 
+double Certifier::clearanceAt(const Pose& place) {
+  const Certified answer = ask(place, place);
+  return answer.isClear ? answer.clearance : 0.0;
+}
+
 Certified Certifier::ask(const Pose& from, const Pose& to) {
   Certified answer;
   if (workLeft_ == 0) {

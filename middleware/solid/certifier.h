@@ -58,6 +58,9 @@ class Certifier {
   Certified certify(const Pose& from, const Pose& to, Pose& reached);
   /// As certify(), but keeps the whole motion or nothing of it.
   [[nodiscard]] bool isClear(const Pose& from, const Pose& to);
+  /// The clearance of a place: of the avatar while it stands still there. 0: it touches something,
+  /// or the tick's work is spent.
+  [[nodiscard]] double clearanceAt(const Pose& place);
 
  private:
   explicit Certifier(std::shared_ptr<QueryPlan> plan, double skin);

@@ -30,7 +30,7 @@ constexpr double kReachOfStep = 1.2, kReachMore = 3e-3, kReachMargin = 2e-3;
 constexpr double kRest = 0.3, kBackTo = 0.6, kBackShare = 0.5, kMostBack = 5e-3;
 /// A step must leave rows that push this share of their gap, unless they stay in the rest zone.
 constexpr double kKeptGap = 0.9;
-constexpr int kHalvings = 4, kCorrections = 2;
+constexpr int kHalvings = 4, kDoublings = 3, kCorrections = 2;
 constexpr double kFalls = 1.0 - 1e-9;
 /// Work of an iteration without its features, and of one feature, in evaluations in lanes.
 constexpr std::uint64_t kIterationWork = 400, kRowWork = 4;
@@ -307,7 +307,10 @@ bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, cons
     const bool isLast = attempt == kCorrections;
     for (int halving = 0; halving <= (isLast ? kHalvings : 0); ++halving) {
       const bool isNearer = tryShare(request, shown, share);
-      if (isNearer && keepsGaps(plan)) return true;
+      if (isNearer && keepsGaps(plan)) {
+        goFarther(request, plan, shown, share, most);
+        return true;
+      }
       if (isLast) share *= 0.5;
     }
     if (!isLast) correctFor(plan, share);
@@ -320,6 +323,24 @@ bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, cons
     if (tryShare(request, shown, share) && keepsGaps(plan)) return true;
   }
   return false;
+}
+
+/// Where the target rests, steps of this method become shorter by a constant share: twice the step
+/// is tried as long as that is nearer to the target.
+void Follower::goFarther(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
+                         double share, double most) {
+  if (enough_ > kSettled) return;
+  for (int doubling = 0; doubling < kDoublings; ++doubling) {
+    if (2.0 * share * size_ > most) return;
+    nearer_ = tried_;
+    const double merit = triedMerit_;
+    const bool isNearer = tryShare(request, shown, 2.0 * share);
+    if (!isNearer || triedMerit_ >= kFalls * merit || !keepsGaps(plan)) {
+      tried_ = nearer_;
+      return;
+    }
+    share *= 2.0;
+  }
 }
 
 void Follower::solve(SolidTick& tick) {
@@ -352,7 +373,8 @@ bool Follower::tryShare(const FollowRequest& request, const Pose& shown, double 
   }
   moveBy(skeleton_, shown, states_, change_, share, tried_);
   placeLinks(skeleton_, tried_, triedStates_);
-  return body_.merit(tried_, triedStates_, request.target, request.wanted) < kFalls * merit_;
+  triedMerit_ = body_.merit(tried_, triedStates_, request.target, request.wanted);
+  return triedMerit_ < kFalls * merit_;
 }
 
 /// At the pose that is tried: a lower bound, of the LSS and the triangle, or of the two LSS.

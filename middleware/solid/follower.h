@@ -71,6 +71,8 @@ class Follower {
   void setBounds(bool mayPush);
   [[nodiscard]] bool propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                              double most, SolidTick& tick);
+  void goFarther(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
+                 double share, double most);
   void solve(SolidTick& tick);
   [[nodiscard]] bool tryShare(const FollowRequest& request, const Pose& shown, double share);
   [[nodiscard]] double sizeOf(const TreeStep& step) const;
@@ -99,9 +101,9 @@ class Follower {
   PoseStep change_;
   std::vector<double> reach_, hotReach_;
   std::vector<ContactRow> rows_;
-  Pose tried_, reached_;
+  Pose tried_, nearer_, reached_;
   ChainMotion part_;
-  double merit_ = 0.0;
+  double merit_ = 0.0, triedMerit_ = 0.0;
   double size_ = 0.0;  // of the whole step that was solved for
 
   // Of the current tick.

@@ -192,7 +192,7 @@ class SolidAvatar::Parts {
 
   void appear(SolidTick& tick) {
     tick.hasAppeared = true;
-    internal::appendPiece(shown_, std::numeric_limits<double>::infinity(), tick);
+    internal::appendPiece(shown_, certifier_.clearanceAt(shown_), tick);
   }
 
   void move(double dtS, SolidTick& tick) {
