@@ -13,13 +13,16 @@ constexpr double kAside = 0.1, kUp = 0.05, kSamePlace = 0.1;
 
 }  // namespace
 
-Placing::Placing(const SolidOptions& options) {
-  const Eigen::Vector3d& up = options.up;
+Placing::Placing(const SolidOptions& options) : up_(options.up), reach_(options.placingReach) {}
+
+/// Nearest first; at equal distances the lower one.
+void Placing::listOffsets() {
+  const Eigen::Vector3d& up = up_;
   Eigen::Index least = 0;
   up.cwiseAbs().minCoeff(&least);
   const Eigen::Vector3d side = up.cross(Eigen::Vector3d::Unit(least)).normalized();
   const Eigen::Vector3d front = up.cross(side);
-  const double reach = options.placingReach;
+  const double reach = reach_;
   const int aside = static_cast<int>(std::floor(reach / kAside));
   const int upward = static_cast<int>(std::floor(reach / kUp));
   struct Offset {
@@ -56,6 +59,11 @@ bool Placing::search(const Skeleton& skeleton, const Pose& asked, Certifier& cer
     begunAt_ = at;
   }
   place = asked;
+  if (next_ == 0) {
+    if (certifier.isClear(place, place)) return true;
+    if (offsets_.empty()) listOffsets();
+    next_ = 1;  // the first one is no offset
+  }
   for (; certifier.workLeft() > 0; ++next_) {
     if (next_ == offsets_.size()) {
       next_ = 0;

@@ -27,7 +27,11 @@ class Placing {
                             Pose& place);
 
  private:
-  std::vector<Eigen::Vector3d> offsets_;
+  void listOffsets();
+
+  Eigen::Vector3d up_;
+  double reach_;
+  std::vector<Eigen::Vector3d> offsets_;  // listed when somebody searches
   std::size_t next_ = 0;
   Eigen::Vector3d begunAt_ = Eigen::Vector3d::Zero();  // the first root's place
 };

@@ -14,19 +14,10 @@
 #include "articulated/result.h"
 #include "middleware/scene/scene.h"
 #include "middleware/solid/solid_options.h"
+#include "middleware/solid/solid_target.h"
 #include "middleware/solid/solid_tick.h"
 
 namespace foretouch {
-
-/// Where the tracker says that the avatar is.
-struct SolidTarget {
-  const Pose& pose;
-  double dtS;  ///< Seconds since the last target, > 0 and at most 10.
-  /// One per joint: 0 if its tracker lost it, so that its place in `pose` means nothing (but must
-  /// be finite). Null: all are tracked. A lost joint keeps its place on its parent; a lost root
-  /// stays where it is.
-  const std::vector<std::uint8_t>* isTracked = nullptr;
-};
 
 /// One avatar's shown pose, its scene and its memory. For one thread; any number of them may share
 /// an Avatar and a Scene. The answers depend on the sequence of targets and the options only, not

@@ -2,11 +2,14 @@
 // their place on their parents. Not installed.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "articulated/motion.h"
 #include "articulated/result.h"
-#include "middleware/solid/solid_avatar.h"
+#include "lss/index.h"
+#include "middleware/solid/solid_target.h"
 
 namespace foretouch::internal {
 
