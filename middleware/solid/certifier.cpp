@@ -20,7 +20,8 @@ constexpr double kStartShare = 0.5;
 /// Where a cut leaves the pair that was met: this share of the skin apart, or of the gap that it
 /// began with if that is less.
 constexpr double kCutSkin = 0.5, kCutGap = 0.95;
-constexpr int kBisections = 14;
+constexpr int kMostSections = 40;
+constexpr double kCutResolution = 1e-13;
 /// Without a hit to look at: this share of what is proven free.
 constexpr double kFreeShare = 0.9;
 
@@ -148,11 +149,28 @@ void Certifier::cut(Certified& answer, double toi) {
   }
   evaluator_.reset(motion_);
   const double wanted = std::min(kCutSkin * skin_, kCutGap * gapOf(answer.hit, 0.0));
+  // False position, which keeps its bracket ([Dowell71], REFERENCES.md): to the last bits, so that
+  // the place of the cut depends on the pair alone, not on how the query's floats round.
   double apart = 0.0, near = toi;
-  if (gapOf(answer.hit, toi) >= wanted) apart = toi;
-  for (int i = 0; i < kBisections && apart < near; ++i) {
-    const double middle = 0.5 * (apart + near);
-    (gapOf(answer.hit, middle) >= wanted ? apart : near) = middle;
+  double overApart = gapOf(answer.hit, 0.0) - wanted, overNear = gapOf(answer.hit, toi) - wanted;
+  if (overNear >= 0.0) apart = toi;
+  int side = 0;
+  for (int i = 0; i < kMostSections && near - apart > kCutResolution * toi; ++i) {
+    const double between = overApart > overNear ? overApart / (overApart - overNear) : 0.5;
+    const double t = apart + std::clamp(between, 0.0, 1.0) * (near - apart);
+    const double middle = t > apart && t < near ? t : 0.5 * (apart + near);
+    const double over = gapOf(answer.hit, middle) - wanted;
+    if (over >= 0.0) {
+      apart = middle;
+      overApart = over;
+      if (side > 0) overNear *= 0.5;  // kept twice
+      side = 1;
+    } else {
+      near = middle;
+      overNear = over;
+      if (side < 0) overApart *= 0.5;
+      side = -1;
+    }
   }
   answer.share = apart;
 }

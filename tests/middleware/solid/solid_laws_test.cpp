@@ -82,7 +82,6 @@ TEST(SolidLaws, WhereTheDirectWayIsFreeItIsTakenBitForBit) {
 }
 
 TEST(SolidLaws, AStillTargetIsFollowedByAStillBody) {
-  FORETOUCH_NOT_KEPT_YET("the body still moves 30 ticks after the target stands still in a wall");
   for (const double depth : {0.02, 0.1, 0.25}) {
     SolidRunner run(wallAt(-0.65 + depth));
     for (int i = 0; i <= 45; ++i) run.follow(reaching(run, kPi / 2 * i / 45));
@@ -287,7 +286,6 @@ TEST(SolidLaws, AFirstPoseInsideIsPlacedOutsideOrTold) {
 }
 
 TEST(SolidLaws, ASceneThatClosesAroundTheBodyIsTold) {
-  FORETOUCH_NOT_KEPT_YET("changeScene() does nothing");
   SolidRunner run(wallAt(-1.5));
   run.follow(run.rest());
   RawScene closed = wallAt(0.0);
