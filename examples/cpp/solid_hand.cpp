@@ -11,7 +11,7 @@
 using namespace foretouch;
 
 template <typename T>
-T made(Result<T> result) {
+T orExit(Result<T> result) {
   if (!result.ok()) {
     std::cerr << describe(result.error()) << '\n';
     std::exit(1);
@@ -37,7 +37,7 @@ Scene table() {
     board.triangles.push_back({{{corner(f[0]), corner(f[2]), corner(f[3])}}});
     board.objectOf.insert(board.objectOf.end(), {0, 0});
   }
-  return made(Scene::build(board));
+  return orExit(Scene::build(board));
 }
 
 /// A forearm, tracked at its elbow, with a hand.
@@ -46,7 +46,7 @@ Avatar forearm() {
   bones.joints.push_back({"LeftForeArm", kNoParent, {0, 0, 0}, Quaternion::Identity()});
   bones.joints.push_back({"LeftHand", 0, {0.25, 0, 0}, Quaternion::Identity()});
   const Lss arm{{0, 0, 0}, {0.25, 0, 0}, 0.04}, hand{{0, 0, 0}, {0.15, 0, 0}, 0.03};
-  return made(Avatar::build(made(Skeleton::build(bones)), {{arm}, {hand}}));
+  return orExit(Avatar::build(orExit(Skeleton::build(bones)), {{arm}, {hand}}));
 }
 
 /// 0 before `begin`, 1 after `end` (seconds), smoothly.
@@ -63,7 +63,7 @@ Pose trackedAt(double t, const Skeleton& skeleton) {
   pose.translations[0] = {-0.5 + 0.6 * along, kTop + 0.3 - 0.13 * down, 0.0};
   pose.rotations[0] = Eigen::AngleAxisd(-0.35 - 0.35 * down, Eigen::Vector3d::UnitZ());
   pose.rotations[1] = Eigen::AngleAxisd(0.4 * down, Eigen::Vector3d::UnitZ());
-  return made(validatedPose(skeleton, std::move(pose)));
+  return orExit(validatedPose(skeleton, std::move(pose)));
 }
 
 /// The tip of the hand, in the world.
@@ -87,7 +87,7 @@ void print(double t, const Pose& tracked, const SolidTick& tick) {
 int main() {
   const Avatar avatar = forearm();
   const Scene scene = table();
-  SolidAvatar solid = made(SolidAvatar::build(avatar, scene));
+  SolidAvatar solid = orExit(SolidAvatar::build(avatar, scene));
 
   std::printf("   s   tracked x, y   shown x, y    state      off mm  push mm\n");
   SolidTick tick;

@@ -63,6 +63,7 @@ Follower::Follower(const Avatar& avatar, const SolidOptions& options, const Cert
 }
 
 void Follower::reset() {
+  cutClearance_ = -1.0;
   std::fill(hotFor_.begin(), hotFor_.end(), std::uint8_t{0});
   rows_.clear();
 }
@@ -72,14 +73,20 @@ bool Follower::isAnyHot() const {
 }
 
 bool Follower::goStraight(const Pose& target, Certifier& certifier, Pose& shown, SolidTick& tick) {
-  rows_.clear();
   cutClearance_ = -1.0;
-  if (isSamePose(shown, target)) return true;
+  if (isSamePose(shown, target)) {
+    rows_.clear();
+    return true;
+  }
   const Certified answer = ask(shown, target, certifier, tick);
   if (!answer.isClear) {
-    if (answer.share > 0.0) cutClearance_ = answer.clearance;
+    if (answer.share > 0.0) {
+      cutClearance_ = answer.clearance;
+      cutFrom_ = shown;
+    }
     return false;
   }
+  rows_.clear();
   appendPiece(reached_, answer.clearance, tick);
   shown = reached_;
   return true;
@@ -93,12 +100,12 @@ void Follower::follow(const FollowRequest& request, Certifier& certifier, Pose& 
   fruitless_ = 0;
   hasMoved_ = false;
   rows_.clear();
-  hasDirectFailed_ = cutClearance_ >= 0.0;
+  hasDirectFailed_ = cutClearance_ >= 0.0 && isSamePose(shown, cutFrom_);
   if (hasDirectFailed_) {
     merit_ = meritOf(request, shown);
     (void)showCut(request, cutClearance_, shown, tick);
-    cutClearance_ = -1.0;
   }
+  cutClearance_ = -1.0;
   isOver_ = false;
   for (int i = 0; i < kMostIterations && !isOver_; ++i) {
     if (!iterate(request, certifier, shown, tick)) break;
@@ -127,6 +134,18 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   const bool hasStep = propose(request, certifier.plan(), shown, most, tick);
   if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
     return stepFreely(request, far, certifier, shown, tick);
+  }
+  if (hasPushes() && !hasDirectFailed_ && far <= left_ &&
+      isTargetApart(request, certifier.plan())) {
+    // What pushes is the skin, or a surface that the direct motion passes by.
+    const Certified direct = ask(shown, request.target, certifier, tick);
+    if (direct.isClear) {
+      rows_.clear();
+      appendPiece(reached_, direct.clearance, tick);
+      shown = reached_;
+    }
+    if (direct.isClear || isOver_) return false;
+    hasDirectFailed_ = true;
   }
   if (!hasStep || (hasMoved_ && size_ < enough_)) return false;
   const bool isShort = size_ > most;
@@ -375,6 +394,14 @@ bool Follower::tryShare(const FollowRequest& request, const Pose& shown, double 
   placeLinks(skeleton_, tried_, triedStates_);
   triedMerit_ = body_.merit(tried_, triedStates_, request.target, request.wanted);
   return triedMerit_ < kFalls * merit_;
+}
+
+/// At the target, what pushes is apart: perhaps nothing is in the way.
+bool Follower::isTargetApart(const FollowRequest& request, const QueryPlan& plan) {
+  placeLinks(skeleton_, request.target, triedStates_);
+  return std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
+    return !(row.push > 0.0) || triedGapOf(plan, row) > 0.0;
+  });
 }
 
 /// At the pose that is tried: a lower bound, of the LSS and the triangle, or of the two LSS.

@@ -78,6 +78,7 @@ class Follower {
   [[nodiscard]] double sizeOf(const TreeStep& step) const;
   [[nodiscard]] bool keepsGaps(const QueryPlan& plan) const;
   void correctFor(const QueryPlan& plan, double share);
+  [[nodiscard]] bool isTargetApart(const FollowRequest& request, const QueryPlan& plan);
   [[nodiscard]] double triedGapOf(const QueryPlan& plan, const ContactRow& row) const;
   [[nodiscard]] bool hasPushes() const;
   void keepHot();
@@ -110,7 +111,9 @@ class Follower {
   double trust_ = 0.0, left_ = 0.0;
   double enough_ = 0.0;
   bool hasDirectFailed_ = false, hasMoved_ = false, isOver_ = false;
-  double cutClearance_ = -1.0;  // of reached_, where goStraight() was cut; < 0: it was not
+  // Where goStraight() was cut: the clearance of the motion to reached_; < 0: it was not.
+  double cutClearance_ = -1.0;
+  Pose cutFrom_;
   int fruitless_ = 0;
 
   std::vector<std::uint8_t> hotFor_;  // per link: ticks for which it counts as in contact

@@ -406,7 +406,7 @@ struct Service::Impl final : StreamRecord {
     state.journalFailures = counts.journalFailures;
     state.lastPoseUtimeUs = counts.lastPoseUtimeUs;
     state.nowUtimeUs = parts.clock->utimeUs();
-    return internal::healthOf(state, options);
+    return internal::healthOf(state, {options.stuckAfter, options.unacceptedAfter});
   }
 
   // Starting and stopping.

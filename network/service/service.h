@@ -24,6 +24,7 @@
 
 #include "articulated/result.h"
 #include "network/service/clock.h"
+#include "network/service/health.h"
 #include "network/service/journal.h"
 #include "network/service/service_counts.h"
 #include "network/service/solid_counts.h"
@@ -67,13 +68,6 @@ struct ServiceParts {
 
 /// The channels that a service reads.
 [[nodiscard]] std::vector<std::string> receivedChannels(const std::string& suffix);
-
-struct ServiceHealth {
-  bool isWell = true;   ///< It can answer, and what comes is accepted.
-  std::string text;     ///< "ok" and the time of the last pose, or what is wrong; lines. Those that
-                        ///< begin "degraded:" tell of a log that misses events, and harm no answer.
-  bool isAlive = true;  ///< It can answer: what a watchdog asks. No sender can make this false.
-};
 
 class Service {
  public:

@@ -15,9 +15,9 @@ std::string secondsOf(std::int64_t ms) {
 }
 
 /// What ails the log harms no answer: nobody should end a service for it.
-void addJournal(const ServiceState& state, const ServiceOptions& options, ServiceHealth& health) {
+void addJournal(const ServiceState& state, const HealthLimits& limits, ServiceHealth& health) {
   if (!state.hasJournal) return;
-  if (state.journalIdleMs > options.stuckAfter.count()) {
+  if (state.journalIdleMs > limits.stuckAfter.count()) {
     health.text += "degraded: the log has not got on for " + secondsOf(state.journalIdleMs) + "\n";
   }
   if (state.journalFailures > 0) {
@@ -28,26 +28,26 @@ void addJournal(const ServiceState& state, const ServiceOptions& options, Servic
 
 }  // namespace
 
-ServiceHealth healthOf(const ServiceState& state, const ServiceOptions& options) {
+ServiceHealth healthOf(const ServiceState& state, const HealthLimits& limits) {
   ServiceHealth health;
   if (state.failure) {
     health.isAlive = false;
     health.text += "failed: " + describe(*state.failure) + "\n";
   }
   for (const ServiceState::Thread& thread : state.threads) {
-    if (thread.idleMs <= options.stuckAfter.count()) continue;
+    if (thread.idleMs <= limits.stuckAfter.count()) continue;
     health.isAlive = false;
     health.text +=
         "stuck: " + thread.name + " has not got on for " + secondsOf(thread.idleMs) + "\n";
   }
   health.isWell = health.isAlive;
-  if (state.unacceptedMs >= options.unacceptedAfter.count()) {
+  if (state.unacceptedMs >= limits.unacceptedAfter.count()) {
     health.isWell = false;
     health.text += "refusing: poses have come for " + secondsOf(state.unacceptedMs) +
                    ", and none was accepted\n";
   }
   if (health.isWell) health.text = "ok\n";
-  addJournal(state, options, health);
+  addJournal(state, limits, health);
   const double ago = static_cast<double>(state.nowUtimeUs - state.lastPoseUtimeUs) * kSPerUs;
   health.text +=
       state.lastPoseUtimeUs == 0 ? "no pose yet\n" : "last pose " + secondsText(ago) + " ago\n";

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "network/service/service.h"
+#include "network/service/health.h"
 
 namespace foretouch::internal {
 
@@ -28,6 +28,11 @@ struct ServiceState {
   std::int64_t lastPoseUtimeUs = 0, nowUtimeUs = 0;
 };
 
-[[nodiscard]] ServiceHealth healthOf(const ServiceState& state, const ServiceOptions& options);
+/// As ServiceOptions says them.
+struct HealthLimits {
+  std::chrono::milliseconds stuckAfter, unacceptedAfter;
+};
+
+[[nodiscard]] ServiceHealth healthOf(const ServiceState& state, const HealthLimits& limits);
 
 }  // namespace foretouch::internal

@@ -237,7 +237,7 @@ TEST(IncludeArrows, JsonIsParsedInFewRooms) {
     }
   }
   EXPECT_EQ(rooms, (std::set<std::string>{"assets/avatar", "assets/import", "assets/mesh",
-                                          "tools/glb", "tools/inputs", "tools/sweep"}));
+                                          "tools/glb", "tools/inputs", "tools/solid", "tools/sweep"}));
 }
 
 /// A header and its source are one unit.

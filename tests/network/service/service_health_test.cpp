@@ -4,10 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include "network/service/service.h"
+
 namespace foretouch {
 namespace {
 
 using internal::healthOf;
+
+const internal::HealthLimits kLimits = {ServiceOptions{}.stuckAfter,
+                                        ServiceOptions{}.unacceptedAfter};
 using internal::ServiceState;
 
 ServiceState well() {
@@ -20,7 +25,7 @@ ServiceState well() {
 }
 
 TEST(ServiceHealth, IsOkAndTheTimeOfTheLastPose) {
-  const ServiceHealth health = healthOf(well(), {});
+  const ServiceHealth health = healthOf(well(), kLimits);
   EXPECT_TRUE(health.isWell && health.isAlive);
   EXPECT_EQ(health.text, "ok\nlast pose 2.500 s ago\n");
 }
@@ -28,7 +33,7 @@ TEST(ServiceHealth, IsOkAndTheTimeOfTheLastPose) {
 TEST(ServiceHealth, WithoutAThreadThereIsNoLife) {
   ServiceState state = well();
   state.threads[1].idleMs = 10'001;
-  const ServiceHealth health = healthOf(state, {});
+  const ServiceHealth health = healthOf(state, kLimits);
   EXPECT_FALSE(health.isWell || health.isAlive);
   EXPECT_NE(health.text.find("stuck: thread 0 has not got on for 10.001 s"), std::string::npos);
 }
@@ -38,7 +43,7 @@ TEST(ServiceHealth, ALogThatStallsOrFailsIsNoReasonToEndAService) {
   state.journalIdleMs = 3'600'000;
   state.journalFailures = 7;
   state.journalFailure = "No space left on device";
-  const ServiceHealth health = healthOf(state, {});
+  const ServiceHealth health = healthOf(state, kLimits);
   EXPECT_TRUE(health.isWell && health.isAlive);
   EXPECT_NE(health.text.find("degraded: the log has not got on for 3600.000 s"), std::string::npos);
   EXPECT_NE(health.text.find("degraded: 7 events are not in the log: No space left"),
@@ -48,10 +53,10 @@ TEST(ServiceHealth, ALogThatStallsOrFailsIsNoReasonToEndAService) {
 TEST(ServiceHealth, PosesThatNobodyAcceptsAreIllHealthAndLife) {
   ServiceState state = well();
   state.unacceptedMs = 9'999;
-  EXPECT_TRUE(healthOf(state, {}).isWell);
+  EXPECT_TRUE(healthOf(state, kLimits).isWell);
   state.unacceptedMs = 10'000;
-  EXPECT_FALSE(healthOf(state, {}).isWell);
-  EXPECT_TRUE(healthOf(state, {}).isAlive);
+  EXPECT_FALSE(healthOf(state, kLimits).isWell);
+  EXPECT_TRUE(healthOf(state, kLimits).isAlive);
 }
 
 }  // namespace

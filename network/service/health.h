@@ -1,0 +1,15 @@
+// network/service/health.h: how a service is, for whoever watches over it.
+#pragma once
+
+#include <string>
+
+namespace foretouch {
+
+struct ServiceHealth {
+  bool isWell = true;   ///< It can answer, and what comes is accepted.
+  std::string text;     ///< "ok" and the time of the last pose, or what is wrong; lines. Those that
+                        ///< begin "degraded:" tell of a log that misses events, and harm no answer.
+  bool isAlive = true;  ///< It can answer: what a watchdog asks. No sender can make this false.
+};
+
+}  // namespace foretouch
