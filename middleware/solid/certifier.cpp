@@ -38,6 +38,19 @@ double ownRadii(const QueryPlan& plan, LinkId link, std::int32_t lss, LinkId oth
          (plan.table[i].radius + plan.table[j].radius);
 }
 
+double gapOf(const QueryPlan& plan, const SolidHit& pair, const LinkState& atLink,
+             const LinkState& atOther) {
+  const Lss& lss = plan.avatar.lss(pair.link)[slotOf(pair.lss)];
+  const Hull axis = axisOf(lss, atLink);
+  if (pair.other == kNoParent) {
+    const Hull triangle = Hull::of(plan.scene.triangle(pair.triangle));
+    return separation(axis, triangle).lower() - lss.radius;
+  }
+  const Lss& other = plan.avatar.lss(pair.other)[slotOf(pair.otherLss)];
+  return separation(axis, axisOf(other, atOther)).lower() -
+         ownRadii(plan, pair.link, pair.lss, pair.other, pair.otherLss);
+}
+
 Result<Certifier> Certifier::build(const Avatar& avatar, const Scene& scene,
                                    const SolidOptions& options) {
   QueryOptions asked;
@@ -148,18 +161,19 @@ void Certifier::cut(Certified& answer, double toi) {
     return;
   }
   evaluator_.reset(motion_);
-  const double wanted = std::min(kCutSkin * skin_, kCutGap * gapOf(answer.hit, 0.0));
+  const double atStart = gapAt(answer.hit, 0.0);
+  const double wanted = std::min(kCutSkin * skin_, kCutGap * atStart);
   // False position, which keeps its bracket ([Dowell71], REFERENCES.md): to the last bits, so that
   // the place of the cut depends on the pair alone, not on how the query's floats round.
   double apart = 0.0, near = toi;
-  double overApart = gapOf(answer.hit, 0.0) - wanted, overNear = gapOf(answer.hit, toi) - wanted;
+  double overApart = atStart - wanted, overNear = gapAt(answer.hit, toi) - wanted;
   if (overNear >= 0.0) apart = toi;
   int side = 0;
   for (int i = 0; i < kMostSections && near - apart > kCutResolution * toi; ++i) {
     const double between = overApart > overNear ? overApart / (overApart - overNear) : 0.5;
     const double t = apart + std::clamp(between, 0.0, 1.0) * (near - apart);
     const double middle = t > apart && t < near ? t : 0.5 * (apart + near);
-    const double over = gapOf(answer.hit, middle) - wanted;
+    const double over = gapAt(answer.hit, middle) - wanted;
     if (over >= 0.0) {
       apart = middle;
       overApart = over;
@@ -175,17 +189,11 @@ void Certifier::cut(Certified& answer, double toi) {
   answer.share = apart;
 }
 
-/// Of the pair of LSS, or of LSS and triangle, at `t` of the motion; a lower bound.
-double Certifier::gapOf(const SolidHit& hit, double t) {
-  const Lss& lss = plan_->avatar.lss(hit.link)[slotOf(hit.lss)];
-  const Hull axis = axisOf(lss, evaluator_.stateAt(hit.link, t));
-  if (hit.other == kNoParent) {
-    const Hull triangle = Hull::of(plan_->scene.triangle(hit.triangle));
-    return separation(axis, triangle).lower() - lss.radius;
-  }
-  const Lss& other = plan_->avatar.lss(hit.other)[slotOf(hit.otherLss)];
-  const double radii = ownRadii(*plan_, hit.link, hit.lss, hit.other, hit.otherLss);
-  return separation(axis, axisOf(other, evaluator_.stateAt(hit.other, t))).lower() - radii;
+/// At `t` of the motion.
+double Certifier::gapAt(const SolidHit& hit, double t) {
+  const LinkState atLink = evaluator_.stateAt(hit.link, t);
+  return gapOf(*plan_, hit, atLink,
+               hit.other == kNoParent ? atLink : evaluator_.stateAt(hit.other, t));
 }
 
 /// The least of all links and pairs in the last answer.

@@ -13,7 +13,7 @@
 
 namespace foretouch::internal {
 
-/// What stopped a motion.
+/// What stopped a motion: an LSS, and a triangle or an LSS of another link.
 struct SolidHit {
   LinkId link = 0;
   std::int32_t lss = -1;
@@ -35,6 +35,10 @@ struct Certified {
 /// What counts of the radii of two LSS of different links (PairRadius).
 [[nodiscard]] double ownRadii(const QueryPlan& plan, LinkId link, std::int32_t lss, LinkId other,
                               std::int32_t otherLss);
+/// Of the LSS and the triangle, or of the two LSS, where the links are so; a lower bound. `atOther`
+/// counts only for an own link.
+[[nodiscard]] double gapOf(const QueryPlan& plan, const SolidHit& pair, const LinkState& atLink,
+                           const LinkState& atOther);
 
 /// For one thread. Allocates nothing once grown.
 class Certifier {
@@ -66,7 +70,7 @@ class Certifier {
   explicit Certifier(std::shared_ptr<QueryPlan> plan, double skin);
   [[nodiscard]] Certified ask(const Pose& from, const Pose& to);
   void cut(Certified& answer, double toi);
-  [[nodiscard]] double gapOf(const SolidHit& hit, double t);
+  [[nodiscard]] double gapAt(const SolidHit& hit, double t);
   [[nodiscard]] double toleranceUsed();
   [[nodiscard]] double roundingOfMotion() const;
 

@@ -1,7 +1,6 @@
 #include "middleware/solid/floor_lift.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "lss/index.h"
 

@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "articulated/try.h"
-#include "lss/hull.h"
 #include "lss/index.h"
-#include "lss/separation.h"
 #include "middleware/query/work_meter.h"
 #include "middleware/solid/solid_way.h"
 
@@ -206,10 +204,7 @@ Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, C
 /// A piece that was cut is part of a way on which the merit falls in the end, perhaps not at once.
 bool Follower::showCut(const FollowRequest& request, double clearance, Pose& shown,
                        SolidTick& tick) {
-  placeLinks(skeleton_, reached_, triedStates_);
-  if (!(body_.merit(reached_, triedStates_, request.target, request.wanted) < kFalls * merit_)) {
-    return false;
-  }
+  if (!(meritOf(request, reached_) < kFalls * merit_)) return false;
   placeLinks(skeleton_, shown, states_);
   body_.place(states_, places_);
   body_.place(triedStates_, triedPlaces_);
@@ -220,6 +215,7 @@ bool Follower::showCut(const FollowRequest& request, double clearance, Pose& sho
   return true;
 }
 
+/// Leaves the links' places there in triedStates_.
 double Follower::meritOf(const FollowRequest& request, const Pose& pose) {
   placeLinks(skeleton_, pose, triedStates_);
   return body_.merit(pose, triedStates_, request.target, request.wanted);
@@ -324,13 +320,9 @@ bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, cons
     if (size_ < kSettled) return false;
     double share = std::min(1.0, most / size_);
     const bool isLast = attempt == kCorrections;
-    for (int halving = 0; halving <= (isLast ? kHalvings : 0); ++halving) {
-      const bool isNearer = tryShare(request, shown, share);
-      if (isNearer && keepsGaps(plan)) {
-        goFarther(request, plan, shown, share, most);
-        return true;
-      }
-      if (isLast) share *= 0.5;
+    if (halve(request, plan, shown, share, isLast ? kHalvings : 0)) {
+      goFarther(request, plan, shown, share, most);
+      return true;
     }
     if (!isLast) correctFor(plan, share);
   }
@@ -338,10 +330,17 @@ bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, cons
   solve(tick);
   if (size_ < kSettled) return false;
   double share = std::min(1.0, most / size_);
-  for (int halving = 0; halving <= kHalvings; ++halving, share *= 0.5) {
+  return halve(request, plan, shown, share, kHalvings);
+}
+
+/// Tries the share, and its halves, until one is nearer to the target and keeps the gaps.
+bool Follower::halve(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
+                     double& share, int halvings) {
+  for (int halving = 0;; ++halving) {
     if (tryShare(request, shown, share) && keepsGaps(plan)) return true;
+    if (halving == halvings) return false;
+    share *= 0.5;
   }
-  return false;
 }
 
 /// Where the target rests, steps of this method become shorter by a constant share: twice the step
@@ -391,8 +390,7 @@ bool Follower::tryShare(const FollowRequest& request, const Pose& shown, double 
     if (skeleton_.parents()[j] == kNoParent) change_.shift[j] = step_.shifts[j];
   }
   moveBy(skeleton_, shown, states_, change_, share, tried_);
-  placeLinks(skeleton_, tried_, triedStates_);
-  triedMerit_ = body_.merit(tried_, triedStates_, request.target, request.wanted);
+  triedMerit_ = meritOf(request, tried_);
   return triedMerit_ < kFalls * merit_;
 }
 
@@ -404,20 +402,11 @@ bool Follower::isTargetApart(const FollowRequest& request, const QueryPlan& plan
   });
 }
 
-/// At the pose that is tried: a lower bound, of the LSS and the triangle, or of the two LSS.
+/// At the pose that is tried.
 double Follower::triedGapOf(const QueryPlan& plan, const ContactRow& row) const {
-  const auto axisOf = [&](LinkId link, std::int32_t lss) {
-    const Lss& own = plan.avatar.lss(link)[slotOf(lss)];
-    const LinkState& state = triedStates_[slotOf(link)];
-    return Hull::segment(state.pointAt(own.a), state.pointAt(own.b));
-  };
-  const Hull axis = axisOf(row.link, row.lss);
-  if (row.other == kNoParent) {
-    return separation(axis, Hull::of(plan.scene.triangle(row.triangle))).lower() -
-           plan.avatar.lss(row.link)[slotOf(row.lss)].radius;
-  }
-  return separation(axis, axisOf(row.other, row.otherLss)).lower() -
-         ownRadii(plan, row.link, row.lss, row.other, row.otherLss);
+  const LinkId other = row.other == kNoParent ? row.link : row.other;
+  return gapOf(plan, {row.link, row.lss, row.triangle, row.other, row.otherLss},
+               triedStates_[slotOf(row.link)], triedStates_[slotOf(other)]);
 }
 
 bool Follower::keepsGaps(const QueryPlan& plan) const {

@@ -46,6 +46,8 @@ class Follower {
   /// The rows of the tick's last step, by link and LSS, with their pushes; places are from before
   /// that step. Empty if nothing was near.
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
+  /// One of them pushes.
+  [[nodiscard]] bool hasPushes() const;
   /// Whether links were in contact lately, so that follow() will look around them.
   [[nodiscard]] bool isAnyHot() const;
 
@@ -71,6 +73,8 @@ class Follower {
   void setBounds(bool mayPush);
   [[nodiscard]] bool propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                              double most, SolidTick& tick);
+  [[nodiscard]] bool halve(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
+                           double& share, int halvings);
   void goFarther(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                  double share, double most);
   void solve(SolidTick& tick);
@@ -80,7 +84,6 @@ class Follower {
   void correctFor(const QueryPlan& plan, double share);
   [[nodiscard]] bool isTargetApart(const FollowRequest& request, const QueryPlan& plan);
   [[nodiscard]] double triedGapOf(const QueryPlan& plan, const ContactRow& row) const;
-  [[nodiscard]] bool hasPushes() const;
   void keepHot();
 
   SolidOptions options_;

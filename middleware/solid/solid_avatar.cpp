@@ -331,13 +331,7 @@ class SolidAvatar::Parts {
     if (wasEqual_) return SolidState::Equal;
     if (isAround_) return SolidState::Around;
     if (tick.numWay == 0) return SolidState::Held;
-    return hasPushes() ? SolidState::Sliding : SolidState::Following;
-  }
-
-  [[nodiscard]] bool hasPushes() const {
-    const auto& rows = follower_.rows();
-    return std::any_of(rows.begin(), rows.end(),
-                       [](const internal::ContactRow& row) { return row.push > 0.0; });
+    return follower_.hasPushes() ? SolidState::Sliding : SolidState::Following;
   }
 
   /// What holds each joint, and how far it is from where its tracker says.
@@ -359,7 +353,7 @@ class SolidAvatar::Parts {
       tick.linkDeviation[link] = std::max(tick.linkDeviation[link], off);
       tick.deviation = std::max(tick.deviation, off);
     }
-    if (!hasPushes()) return;
+    if (!follower_.hasPushes()) return;
     internal::placeLinks(skeleton(), before_, statesBefore_);
     for (const internal::ContactRow& row : follower_.rows()) {
       if (row.push > 0.0) reportRow(row, dtS, tick);

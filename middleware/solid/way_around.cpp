@@ -217,12 +217,7 @@ void WayAround::finish(std::size_t here, std::size_t there, Certifier& certifier
 
 void WayAround::next(const VisualBody& body, const Pose& shown, double budget, Pose& towards) {
   const Pose& to = way_[next_];
-  placeLinks(skeleton_, shown, states_);
-  body.place(states_, sampledPlaces_);
-  placeLinks(skeleton_, to, states_);
-  std::vector<Eigen::Vector3d>& places = trees_[0].nodes[0].places;
-  body.place(states_, places);
-  const double far = VisualBody::farthest(sampledPlaces_, places);
+  const double far = body.farthestMove(skeleton_, shown, to, states_, statesThere_);
   if (far <= budget) {
     towards = to;
     return;

@@ -66,7 +66,7 @@ class WayAround {
   std::size_t turn_ = 0;
   Pose sampled_, reached_;
   std::vector<Eigen::Vector3d> sampledPlaces_;
-  std::vector<LinkState> states_;
+  std::vector<LinkState> states_, statesThere_;
   ChainMotion part_;
   std::vector<Pose> way_, short_;
   std::size_t next_ = 0;
