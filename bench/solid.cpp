@@ -1,7 +1,7 @@
 #include "bench/solid.h"
 
+#include <algorithm>
 #include <filesystem>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include "bench/solid/busy_places.h"
 #include "bench/solid/feel.h"
 #include "bench/solid/feel_tables.h"
+#include "bench/solid/figure.h"
 #include "bench/solid/followers.h"
 #include "tools/inputs/example_folder.h"
 #include "tools/progress.h"
@@ -100,28 +101,50 @@ Result<Cast> loadCast(const SolidBenchRequest& request) {
   return cast;
 }
 
+/// Keeps what another follower shows.
+class Recorder final : public Follower {
+ public:
+  explicit Recorder(Follower& follower) : follower_(follower) {}
+  Result<Done> follow(const Pose& tracked, double dtS, SolidTick& tick) override {
+    FORETOUCH_CHECK(follower_.follow(tracked, dtS, tick));
+    shown_.push_back(tick.shown);
+    return Done{};
+  }
+  [[nodiscard]] const std::vector<Pose>& shown() const { return shown_; }
+
+ private:
+  Follower& follower_;
+  std::vector<Pose> shown_;
+};
+
 /// One scene at one rate: all clips at all of their places, by each follower.
 class SceneRun {
  public:
   SceneRun(const SolidBenchRequest& request, const SolidStage& stage)
-      : request_(request), stage_(stage) {}
+      : request_(request), stage_(stage), hands_(stage) {}
 
   Result<Done> add(const SolidActor& actor, double rateHz) {
     BusyPlaceRequest places;
     places.count = request_.places;
     places.seconds = std::min(request_.seconds, actor.clip.durationS());
-    places.seed = request_.seed;
+    places.seed = request_.trials.seed;
     for (const BusyPlace& place : busyPlaces(stage_, actor, places)) {
       const auto tracked =
           trackedPoses(actor, place.placement, rateHz, place.fromS, places.seconds);
       FeelRun run{fmt::format("{} in {} at {:g} Hz, seed {}", actor.name, stage_.name, rateHz,
-                              request_.seed),
-                  rateHz, request_.options.tolerance, request_.options.catchUp};
-      FORETOUCH_TRY(auto solid, solidFollower(actor.avatar, stage_.scene, request_.options));
-      FORETOUCH_TRY(const auto bySolid, feel(stage_, actor, tracked, run, *solid));
+                              request_.trials.seed),
+                  rateHz, request_.trials.options.tolerance, request_.trials.options.catchUp};
+      FORETOUCH_TRY(auto solid, solidFollower(actor.avatar, stage_.scene, request_.trials.options));
+      Recorder recorder(*solid);
+      FORETOUCH_TRY(const auto bySolid, feel(stage_, actor, tracked, run, recorder));
       FORETOUCH_TRY(auto hold, holdingFollower(actor.avatar, stage_.scene, kHoldSkin));
       run.tolerance = kHoldSkin;
       FORETOUCH_TRY(const auto byHold, feel(stage_, actor, tracked, run, *hold));
+      hands_.add(actor, tracked, recorder.shown(), rateHz);
+      if (rateHz == kTrialRateHz) {
+        FORETOUCH_TRY(const auto rest, tryRest(stage_, actor, tracked, request_.trials.options));
+        rest_.add(rest);
+      }
       solid_.add(bySolid);
       hold_.add(byHold);
       ++places_;
@@ -131,12 +154,16 @@ class SceneRun {
 
   [[nodiscard]] const FeelTally& solid() const { return solid_; }
   [[nodiscard]] const FeelTally& hold() const { return hold_; }
+  [[nodiscard]] const RestTally& rest() const { return rest_; }
+  [[nodiscard]] const HandsTrial& hands() const { return hands_; }
   [[nodiscard]] int places() const { return places_; }
 
  private:
   const SolidBenchRequest& request_;
   const SolidStage& stage_;
   FeelTally solid_, hold_;
+  RestTally rest_;
+  HandsTrial hands_;
   int places_ = 0;
 };
 
@@ -146,18 +173,35 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-}  // namespace
+/// The tables of scenes: what they have in common over all of them.
+class SceneTables {
+ public:
+  SceneTables() : rest_(emptyRestTable()), hands_(emptyHandsTable()) {}
 
-Result<SolidBench> measureSolid(const SolidBenchRequest& request) {
+  void add(const SolidStage& stage, double rateHz, const SceneRun& run, SolidBench& bench) {
+    feel_.add({stage.name, rateHz, run.places(), "hold"}, run.hold());
+    feel_.add({stage.name, rateHz, run.places(), "solid"}, run.solid());
+    addRow({stage.name, rateHz}, run.rest(), rest_);
+    addRows({stage.name, rateHz}, run.hands().tallies(), hands_);
+    for (const WayTally* way : {&run.solid().way, &run.rest().way}) {
+      bench.violations += way->violations();
+      for (const std::string& finding : way->findings) bench.report.notes.push_back(finding);
+    }
+  }
+  void appendTo(BenchReport& report) const {
+    feel_.appendTo(report);
+    if (!rest_.rows.empty()) report.tables.push_back(rest_);
+    report.tables.push_back(hands_);
+  }
+
+ private:
+  FeelTables feel_;
+  BenchTable rest_, hands_;
+};
+
+Result<Done> measureScenes(const SolidBenchRequest& request, SolidBench& bench) {
   FORETOUCH_TRY(const auto cast, loadCast(request));
-  SolidBench bench;
-  BenchReport& report = bench.report;
-  report.kind = "solid";
-  report.title = "A solid avatar: what is shown passes through nothing";
-  report.command = request.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
-  FeelTables tables;
+  SceneTables tables;
   ProgressBar progress("solid", static_cast<std::int64_t>(cast.stages.size() * cast.actors.size() *
                                                           request.ratesHz.size()));
   std::int64_t done = 0;
@@ -168,20 +212,46 @@ Result<SolidBench> measureSolid(const SolidBenchRequest& request) {
         FORETOUCH_CHECK(run.add(actor, rateHz));
         progress.advanceTo(++done);
       }
-      if (run.places() == 0) continue;
-      tables.add({stage.name, rateHz, run.places(), "hold"}, run.hold());
-      tables.add({stage.name, rateHz, run.places(), "solid"}, run.solid());
-      bench.violations += run.solid().way.violations();
-      for (const std::string& finding : run.solid().way.findings) report.notes.push_back(finding);
+      if (run.places() > 0) tables.add(stage, rateHz, run, bench);
     }
   }
-  tables.appendTo(report);
+  tables.appendTo(bench.report);
   std::vector<std::string> clips;
   for (const SolidActor& actor : cast.actors) clips.push_back(actor.name);
-  report.workload = {{"clips", listed(clips)},
-                     {"skin", fmt::format("{:g} m", request.options.skin)},
-                     {"tolerance", fmt::format("{:g} m", request.options.tolerance)}};
-  if (!cast.leftOut.empty()) report.workload.emplace_back("absent", listed(cast.leftOut));
+  bench.report.workload.emplace_back("clips", listed(clips));
+  if (!cast.leftOut.empty()) bench.report.workload.emplace_back("absent", listed(cast.leftOut));
+  return Done{};
+}
+
+using Trial = Result<TrialTable> (*)(const TrialRequest&);
+
+}  // namespace
+
+Result<SolidBench> measureSolid(const SolidBenchRequest& request) {
+  const auto isAsked = [&](const std::string& part) {
+    return request.parts.empty() ||
+           std::find(request.parts.begin(), request.parts.end(), part) != request.parts.end();
+  };
+  SolidBench bench;
+  BenchReport& report = bench.report;
+  report.kind = "solid";
+  report.title = "A solid avatar: what is shown passes through nothing";
+  report.command = request.command;
+  report.date = dateNow();
+  report.machine = machineFacts();
+  report.workload = {{"skin", fmt::format("{:g} m", request.trials.options.skin)},
+                     {"tolerance", fmt::format("{:g} m", request.trials.options.tolerance)}};
+  if (isAsked("scenes")) FORETOUCH_CHECK(measureScenes(request, bench));
+  const std::pair<const char*, Trial> trials[] = {{"board", boardTable},
+                                                  {"clutter", clutterTable},
+                                                  {"slide", slideTable},
+                                                  {"press", pressTable}};
+  for (const auto& [part, trial] : trials) {
+    if (!isAsked(part)) continue;
+    FORETOUCH_TRY(auto result, trial(request.trials));
+    report.tables.push_back(std::move(result.table));
+    bench.violations += result.violations;
+  }
   return bench;
 }
 

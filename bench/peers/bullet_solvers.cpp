@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "bench/peers/bullet_mesh.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -21,28 +23,19 @@ constexpr double kMostTurnOfCast = 0.78;
 /// compensate for that.
 constexpr double kFineTurnOfCast = 0.1;
 
-btVector3 toBullet(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-btTransform toBullet(const RigidPose& pose) {
-  const Quaternion& q = pose.rotation;
-  return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), toBullet(pose.pivot));
-}
-
 }  // namespace
 
 /// Members in the order of their dependencies.
 struct BulletScene::Impl {
-  Impl() = default;
+  explicit Impl(const std::vector<Triangle>& triangles) : mesh(triangles) {
+    object.setCollisionShape(&mesh.shape());
+    world.addCollisionObject(&object);
+  }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
   ~Impl() { world.removeCollisionObject(&object); }
 
-  std::vector<btVector3> vertices;
-  std::vector<int> indices;
-  btTriangleIndexVertexArray mesh;
-  std::unique_ptr<btBvhTriangleMeshShape> shape;
+  BulletMesh mesh;
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
@@ -159,7 +152,7 @@ class BulletTriangleCasts : public BulletSolver {
     btTransformUtil::calculateVelocity(from, to, 1.0, speed, spin);
     shape().calculateTemporalAabb(from, speed, spin, 1.0, low, high);
     TriangleCast triangles(shape(), from, to);
-    scene().shape->processAllTriangles(&triangles, low, high);
+    scene().mesh.shape().processAllTriangles(&triangles, low, high);
     return triangles.earliest();
   }
 };
@@ -171,27 +164,8 @@ std::string bulletVersion() {
                      btGetVersion() % 100);
 }
 
-BulletScene::BulletScene(const std::vector<Triangle>& triangles) : impl_(std::make_shared<Impl>()) {
-  for (const Triangle& triangle : triangles) {
-    for (const Eigen::Vector3d& v : triangle.vertices) {
-      impl_->indices.push_back(static_cast<int>(impl_->vertices.size()));
-      impl_->vertices.push_back(toBullet(v));
-    }
-  }
-  btIndexedMesh part;
-  part.m_numTriangles = static_cast<int>(triangles.size());
-  part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(impl_->indices.data());
-  part.m_triangleIndexStride = 3 * sizeof(int);
-  part.m_numVertices = static_cast<int>(impl_->vertices.size());
-  part.m_vertexBase = reinterpret_cast<const unsigned char*>(impl_->vertices.data());
-  part.m_vertexStride = sizeof(btVector3);
-  impl_->mesh.addIndexedMesh(part);
-  const bool quantizedBoxes = true;  // the tree that Bullet recommends
-  impl_->shape = std::make_unique<btBvhTriangleMeshShape>(&impl_->mesh, quantizedBoxes);
-  impl_->shape->setMargin(0.0);
-  impl_->object.setCollisionShape(impl_->shape.get());
-  impl_->world.addCollisionObject(&impl_->object);
-}
+BulletScene::BulletScene(const std::vector<Triangle>& triangles)
+    : impl_(std::make_shared<Impl>(triangles)) {}
 
 BulletScene::~BulletScene() = default;
 

@@ -1,11 +1,12 @@
-// bench/peers/peer_solvers.h: the peers, FCL and Bullet, on rigid sweeps. The only interface to
-// them: no other header shows one of their types, and the program builds without them if they are
-// not installed (CMake option FORETOUCH_PEERS).
+// bench/peers/peer_solvers.h: the peers, FCL and Bullet, on rigid sweeps and as hands. The only
+// interface to them: no other header shows one of their types, and the program builds without them
+// if they are not installed (CMake option FORETOUCH_PEERS).
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "bench/peers/hand_follower.h"
 #include "bench/peers/sweep_solver.h"
 #include "lss/triangle.h"
 
@@ -13,6 +14,24 @@ namespace foretouch::tools {
 
 /// The versions built in, "FCL 0.7.0 and Bullet 3.24 (double precision)".
 [[nodiscard]] std::string peerVersions();
+
+/// Bullet's hands: a capsule of 0.4 kg as a free rigid body, without gravity and friction, in a
+/// scene of triangles. Its velocity is set so that it would arrive, or a spring of 10 Hz,
+/// critically damped, pulls it; each with and without Bullet's continuous collision detection, and
+/// the first with four substeps too. The usual hands of VR frameworks are of these kinds.
+class BulletHands {
+ public:
+  explicit BulletHands(const std::vector<Triangle>& triangles);
+  BulletHands(const BulletHands&) = delete;
+  BulletHands& operator=(const BulletHands&) = delete;
+  ~BulletHands();
+
+  /// One per kind, each in a world of its own. The axis' middle is the frame's origin.
+  [[nodiscard]] HandFollowers of(const Lss& hand_L) const;
+
+ private:
+  std::shared_ptr<class BulletMesh> mesh_;
+};
 
 /// The scene in the peers' own structures, built once.
 class PeerScenes {

@@ -1,9 +1,9 @@
 #include "bench/solid/busy_places.h"
 
 #include <algorithm>
-#include <random>
 
 #include "judge/heights.h"
+#include "tools/portable_random.h"
 
 namespace foretouch::tools {
 namespace {
@@ -17,18 +17,20 @@ class PlaceDraws {
       : stage_(stage),
         actor_(actor),
         request_(request),
-        engine_(request.seed),
+        random_(request.seed),
         judge_(stage.judged, plainBody(actor.avatar)) {}
 
   /// A place, or none where the draw is outside of the scene, or not busy.
   bool draw(BusyPlace& place) {
     const oracle::Box& box = stage_.judged.box();
-    const double x = uniform(box.low.x, box.high.x), z = uniform(box.low.z, box.high.z);
+    const double x = random_.uniform(box.low.x, box.high.x),
+                 z = random_.uniform(box.low.z, box.high.z);
     const double longest = std::max(0.0, actor_.clip.durationS() - request_.seconds);
-    place.fromS = uniform(0.0, longest);
-    place.placement.yawDeg = uniform(-180.0, 180.0);
-    const bool isLowest = uniform(0.0, 1.0) < 0.5;
-    const double level = uniform(0.0, 1.0), clearance = uniform(0.0, kMostClearance);
+    place.fromS = random_.uniform(0.0, longest);
+    place.placement.yawDeg = random_.uniform(-180.0, 180.0);
+    const bool isLowest = random_.uniform(0.0, 1.0) < 0.5;
+    const double level = random_.uniform(0.0, 1.0),
+                 clearance = random_.uniform(0.0, kMostClearance);
     const std::vector<double> heights = oracle::heightsAt(stage_.judged, x, z);
     if (heights.empty()) return false;
     const auto any = static_cast<std::size_t>(level * static_cast<double>(heights.size()));
@@ -38,10 +40,6 @@ class PlaceDraws {
   }
 
  private:
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-
   /// The first root above (x, z), as the clip stands at its first pose there.
   void stand(BusyPlace& place, const Eigen::Vector3d& at) const {
     place.placement.origin.setZero();
@@ -68,7 +66,7 @@ class PlaceDraws {
   const SolidStage& stage_;
   const SolidActor& actor_;
   const BusyPlaceRequest& request_;
-  std::mt19937_64 engine_;
+  PortableRandom random_;
   oracle::WayJudge judge_;
 };
 

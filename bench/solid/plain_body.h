@@ -1,9 +1,11 @@
 // bench/solid/plain_body.h: an avatar and its poses in the judge's plain form.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "articulated/pair_rules.h"
 #include "articulated/pose.h"
 #include "bench/judged.h"
 #include "judge/way_judge.h"
@@ -30,6 +32,18 @@ inline oracle::WayBody plainBody(const Avatar& avatar, const std::vector<bool>& 
     }
   }
   return body;
+}
+
+/// Of links that the rules ask about: what the judge must look at.
+inline std::vector<std::array<int, 2>> askedPairs(const Avatar& avatar, const PairRules& rules) {
+  std::vector<std::array<int, 2>> pairs;
+  for (LinkId a = 0; a < avatar.numLinks(); ++a) {
+    for (LinkId b = a + 1; b < avatar.numLinks(); ++b) {
+      if (avatar.lss(a).empty() || avatar.lss(b).empty()) continue;
+      if (rules.reasonOf(a, b) == PairReason::Asked) pairs.push_back({a, b});
+    }
+  }
+  return pairs;
 }
 
 }  // namespace foretouch::tools

@@ -109,18 +109,38 @@ double Certifier::clearanceAt(const Pose& place) {
   return answer.isClear ? answer.clearance : 0.0;
 }
 
+OwnTouch Certifier::ownTouchAt(const Pose& place) {
+  OwnTouch answer;
+  if (workLeft_ == 0) return answer;
+  run(place, place);
+  answer.isAnswered = step_.arePairsAnswered;
+  for (const PairContact& contact : step_.pairs) {
+    if (contact.verdict == Verdict::Clear) continue;
+    if (contact.verdict == Verdict::Undecided) answer.isAnswered = false;
+    answer.touches = true;
+    answer.link = contact.link;
+    answer.other = contact.other;
+    break;
+  }
+  return answer;
+}
+
+/// Fills step_.
+void Certifier::run(const Pose& from, const Pose& to) {
+  plan_->options.workBudget = workLeft_;
+  motion_.assign(plan_->avatar.skeleton(), from, to);
+  query_.answer(motion_, scratch_, step_);
+  ++queries_;
+  spend(WorkMeter::workOf(step_.counters));
+}
+
 Certified Certifier::ask(const Pose& from, const Pose& to) {
   Certified answer;
   if (workLeft_ == 0) {
     answer.isOverBudget = true;
     return answer;
   }
-  plan_->options.workBudget = workLeft_;
-  motion_.assign(plan_->avatar.skeleton(), from, to);
-  query_.answer(motion_, scratch_, step_);
-  ++queries_;
-  spend(WorkMeter::workOf(step_.counters));
-
+  run(from, to);
   double free = 1.0;
   const auto look = [&](const LinkContact& contact, LinkId other, std::int32_t otherLss) {
     if (contact.verdict == Verdict::Clear) return;

@@ -32,6 +32,13 @@ struct Certified {
   double clearance = 0.0;  ///< Proven lower bound on the separation over the share.
 };
 
+/// Whether own links touch each other at a place.
+struct OwnTouch {
+  bool isAnswered = false;  ///< False: the tick's work did not suffice.
+  bool touches = false;
+  LinkId link = 0, other = 0;  ///< Two that do.
+};
+
 /// What counts of the radii of two LSS of different links (PairRadius).
 [[nodiscard]] double ownRadii(const QueryPlan& plan, LinkId link, std::int32_t lss, LinkId other,
                               std::int32_t otherLss);
@@ -65,9 +72,14 @@ class Certifier {
   /// The clearance of a place: of the avatar while it stands still there. 0: it touches something,
   /// or the tick's work is spent.
   [[nodiscard]] double clearanceAt(const Pose& place);
+  /// Whether the options ask for own links at all.
+  [[nodiscard]] bool asksOwnLinks() const { return plan_->self.isAsked(); }
+  /// Precondition: asksOwnLinks().
+  [[nodiscard]] OwnTouch ownTouchAt(const Pose& place);
 
  private:
   explicit Certifier(std::shared_ptr<QueryPlan> plan, double skin);
+  void run(const Pose& from, const Pose& to);
   [[nodiscard]] Certified ask(const Pose& from, const Pose& to);
   void cut(Certified& answer, double toi);
   [[nodiscard]] double gapAt(const SolidHit& hit, double t);

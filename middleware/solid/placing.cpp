@@ -13,7 +13,8 @@ constexpr double kAside = 0.1, kUp = 0.05, kSamePlace = 0.1;
 
 }  // namespace
 
-Placing::Placing(const SolidOptions& options) : up_(options.up), reach_(options.placingReach) {}
+Placing::Placing(const Skeleton& skeleton, const SolidOptions& options)
+    : skeleton_(skeleton), unfolding_(skeleton), up_(options.up), reach_(options.placingReach) {}
 
 /// Nearest first; at equal distances the lower one.
 void Placing::listOffsets() {
@@ -51,14 +52,15 @@ void Placing::listOffsets() {
   }
 }
 
-bool Placing::search(const Skeleton& skeleton, const Pose& asked, Certifier& certifier,
-                     Pose& place) {
+bool Placing::search(const Pose& asked, Certifier& certifier, Pose& place) {
   const Eigen::Vector3d at = asked.translations[0];
   if (next_ == 0 || (at - begunAt_).norm() > kSamePlace) {
     next_ = 0;
     begunAt_ = at;
   }
   place = asked;
+  // Moving all of it does not take own links apart.
+  if (certifier.asksOwnLinks() && !unfolding_.unfold(asked, certifier, place)) return false;
   if (next_ == 0) {
     if (certifier.isClear(place, place)) return true;
     if (offsets_.empty()) listOffsets();
@@ -70,7 +72,7 @@ bool Placing::search(const Skeleton& skeleton, const Pose& asked, Certifier& cer
       return false;
     }
     for (std::size_t j = 0; j < place.translations.size(); ++j) {
-      if (skeleton.parents()[j] != kNoParent) continue;
+      if (skeleton_.parents()[j] != kNoParent) continue;
       place.translations[j] = asked.translations[j] + offsets_[next_];
     }
     if (certifier.isClear(place, place)) {

@@ -9,26 +9,28 @@
 
 #include "middleware/solid/certifier.h"
 #include "middleware/solid/solid_options.h"
+#include "middleware/solid/unfolding.h"
 
 namespace foretouch::internal {
 
-/// Tries the pose itself, then moved on a grid, nearest first: up and to the sides, not down
-/// through a floor. A search that one tick's work does not finish goes on in the next. Free is not
-/// outside: a body inside a closed cupboard touches nothing.
+/// Tries the pose itself, unfolded where it touches itself, then moved on a grid, nearest first: up
+/// and to the sides, not down through a floor. A search that one tick's work does not finish goes
+/// on in the next. Free is not outside: a body inside a closed cupboard touches nothing.
 class Placing {
  public:
-  explicit Placing(const SolidOptions& options);
+  Placing(const Skeleton& skeleton, const SolidOptions& options);
 
   /// Forgets how far the search is.
   void reset() { next_ = 0; }
   /// Goes on searching around `asked`; true: `place` is free. Spends at most the tick's work, and
   /// leaves none if it found nothing.
-  [[nodiscard]] bool search(const Skeleton& skeleton, const Pose& asked, Certifier& certifier,
-                            Pose& place);
+  [[nodiscard]] bool search(const Pose& asked, Certifier& certifier, Pose& place);
 
  private:
   void listOffsets();
 
+  Skeleton skeleton_;
+  Unfolding unfolding_;
   Eigen::Vector3d up_;
   double reach_;
   std::vector<Eigen::Vector3d> offsets_;  // listed when somebody searches

@@ -103,7 +103,7 @@ class SolidAvatar::Parts {
         follower_(std::move(follower)),
         target_(avatar),
         lift_(avatar, options_),
-        placing_(options_),
+        placing_(avatar.skeleton(), options_),
         around_(avatar, options_) {}
 
   Result<Done> follow(const SolidTarget& given, SolidTick& tick) {
@@ -179,7 +179,7 @@ class SolidAvatar::Parts {
   void place(SolidTick& tick) {
     const Pose asked = isInside_ ? shown_ : target_.pose();
     Pose found;
-    isPlaced_ = placing_.search(skeleton(), asked, certifier_, found);
+    isPlaced_ = placing_.search(asked, certifier_, found);
     tick.counters.placingQueries = certifier_.queries();
     if (!isPlaced_) {
       if (isInside_) tick.limit = SolidLimit::Inside;

@@ -24,21 +24,6 @@ std::optional<PairRules> rulesOf(const Avatar& avatar) {
   return std::move(rules).value();
 }
 
-std::vector<std::array<int, 2>> askedPairs(const Avatar& avatar, const PairRules& rules) {
-  std::vector<std::array<int, 2>> pairs;
-  const auto& leftOut = rules.leftOut();
-  for (LinkId a = 0; a < avatar.numLinks(); ++a) {
-    for (LinkId b = a + 1; b < avatar.numLinks(); ++b) {
-      if (avatar.lss(a).empty() || avatar.lss(b).empty()) continue;
-      const bool isLeftOut = std::any_of(leftOut.begin(), leftOut.end(), [&](const auto& pair) {
-        return pair.a == a && pair.b == b;
-      });
-      if (!isLeftOut) pairs.push_back({a, b});
-    }
-  }
-  return pairs;
-}
-
 /// The targets of one place, made from the clip's poses there.
 class TargetMaker {
  public:
@@ -150,7 +135,7 @@ SolidCampaignTally judgeSolid(const tools::SolidStage& stage, const tools::Solid
   if (campaign.self) {
     options.self = rulesOf(actor.avatar);
     if (!options.self) return tally;
-    ownPairs = askedPairs(actor.avatar, *options.self);
+    ownPairs = tools::askedPairs(actor.avatar, *options.self);
   }
   tools::BusyPlaceRequest request;
   request.count = campaign.places;

@@ -285,6 +285,39 @@ TEST(SolidLaws, AFirstPoseInsideIsPlacedOutsideOrTold) {
   EXPECT_EQ(run.violations(), 0u);
 }
 
+TEST(SolidLaws, AFirstPoseThatTouchesItselfIsUnfolded) {
+  const Avatar body = figure();
+  SolidOptions options;
+  options.self = PairRules::derive(body).value();
+  for (const bool isWallThere : {false, true}) {
+    SolidRunner run(wallAt(isWallThere ? -0.05 : -5.0), options, body);
+    Pose folded = run.rest();
+    // Both arms through the chest and each other.
+    folded.rotations[run.joint("RightForeArm")] =
+        Quaternion(Eigen::AngleAxisd(0.95 * kPi, Vector3d::UnitY()));
+    folded.rotations[run.joint("LeftForeArm")] =
+        Quaternion(Eigen::AngleAxisd(-0.95 * kPi, Vector3d::UnitY()));
+    folded.rotations[run.joint("RightUpLeg")] =
+        Quaternion(Eigen::AngleAxisd(0.4, Vector3d::UnitZ()));
+    folded.rotations[run.joint("LeftUpLeg")] =
+        Quaternion(Eigen::AngleAxisd(-0.4, Vector3d::UnitZ()));
+    for (int i = 0; i < 30; ++i) {
+      run.follow(folded);
+      ASSERT_TRUE(run.tick.isCertified) << i << (isWallThere ? ", wall" : "");
+      EXPECT_NE(run.tick.state, SolidState::Equal);
+    }
+    EXPECT_EQ(run.audit.tally().appeared, 1u);
+    EXPECT_EQ(run.violations(), 0u);
+    // What touched nothing was not turned.
+    EXPECT_LT(run.tick.linkDeviation[run.joint("Head")], 0.5);
+    for (int i = 0; i < 120; ++i) run.follow(run.rest());
+    if (!isWallThere) {
+      EXPECT_EQ(run.tick.state, SolidState::Equal);
+    }
+    EXPECT_EQ(run.violations(), 0u);
+  }
+}
+
 TEST(SolidLaws, ASceneThatClosesAroundTheBodyIsTold) {
   SolidRunner run(wallAt(-1.5));
   run.follow(run.rest());

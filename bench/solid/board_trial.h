@@ -1,0 +1,32 @@
+// bench/solid/board_trial.h: hands that are led through a board of 4 mm: who comes out behind it?
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bench/peers/hand_follower.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch::tools {
+
+/// Of 8 m by 8 m, its front at z = 0, so that nobody slides around it.
+[[nodiscard]] RawScene board();
+
+/// How hands are led: from 0.3 m in front, straight, up to 30 degrees aslant and turned anyhow, at
+/// one speed, until the tracked hand is `beyond` the board; there it stays for 20 ticks.
+struct BoardCell {
+  double speedMps = 1.0, beyondM = 0.1;
+};
+/// 1 to 100 m/s, 0.1 to 2 m.
+[[nodiscard]] std::vector<BoardCell> boardCells();
+
+struct BoardTally {
+  std::uint64_t trials = 0, ticks = 0;
+  std::uint64_t through = 0;  ///< The hand's middle is behind the board's back in the end.
+};
+
+/// The same trials for the same seed, whoever the hand is.
+[[nodiscard]] BoardTally tryBoard(HandFollower& hand, const BoardCell& cell, std::uint64_t trials,
+                                  std::uint64_t seed);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,35 @@
+// bench/solid/solid_hand.h: a solid avatar of one hand, to stand beside the hands of a physics
+// engine.
+#pragma once
+
+#include <vector>
+
+#include "bench/peers/hand_follower.h"
+#include "bench/solid/way_audit.h"
+#include "middleware/solid/solid_avatar.h"
+
+namespace foretouch::tools {
+
+/// Follows with the avatar handAlone(); the judge looks at every tick.
+class SolidHand final : public HandFollower {
+ public:
+  /// Errors: as SolidAvatar::build().
+  static Result<std::unique_ptr<SolidHand>> build(const RawScene& raw, const SolidOptions& options);
+
+  void begin(const RigidPose& at) override;
+  RigidPose follow(const RigidPose& tracked, double dtS) override;
+
+  [[nodiscard]] const WayTally& way() const { return audit_.tally(); }
+  [[nodiscard]] const SolidTick& tick() const { return tick_; }
+
+ private:
+  SolidHand(SolidAvatar solid, const std::vector<Triangle>& triangles);
+
+  SolidAvatar solid_;
+  oracle::Scene judged_;
+  WayAudit audit_;
+  Pose target_;
+  SolidTick tick_;
+};
+
+}  // namespace foretouch::tools
