@@ -235,6 +235,7 @@ class SolidAvatar::Parts {
   bool walkAround(double budget, SolidTick& tick) {
     const internal::VisualBody& body = follower_.body();
     isAround_ = true;
+    around_.tighten(body, shown_, certifier_);
     while (around_.hasWay() && budget > kLeastWalk) {
       around_.next(body, shown_, budget, towards_);
       const internal::Certified answer = certifier_.certify(shown_, towards_, reached_);

@@ -54,7 +54,7 @@ struct SolidOptions {
   double snapNotice = 0.25;
   /// Looks for a proven way around where sliding ends: motions tried per tick, and per target. 0:
   /// never.
-  std::int32_t aroundPerTick = 32, aroundInAll = 2000;
+  std::int32_t aroundPerTick = 64, aroundInAll = 2000;
   /// First places and snaps: how far from the asked pose a free place may be.
   double placingReach = 2.0;
   /// Links, or links and objects, that touch nothing: a hole in the promise that the caller wants.

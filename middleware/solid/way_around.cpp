@@ -24,6 +24,10 @@ constexpr int kMostJoints = 4;
 constexpr double kShareOfLimb = 0.25;
 /// Nodes of one tree.
 constexpr std::size_t kMostNodes = 400;
+/// Corners that are tried to be cut, at first and while it is walked, and by what share a cut must
+/// be shorter.
+constexpr int kShortcuts = 128, kShortcutsPerTick = 16;
+constexpr double kShorter = 0.98;
 /// A cut that advances less than this (m) is not worth a node.
 constexpr double kLeastAdvance = 0.01;
 
@@ -188,36 +192,85 @@ bool WayAround::grow(const VisualBody& body, Certifier& certifier) {
   sampledPlaces_ = one.nodes[here].places;
   const std::size_t there = extend(other, nearest(other), sampled_, isThere);
   if (!isThere) return false;
-  finish(turn_ == 0 ? here : there, turn_ == 0 ? there : here, certifier);
+  finish(body, turn_ == 0 ? here : there, turn_ == 0 ? there : here, certifier);
   return true;
 }
 
-/// The way from root to root, by as few motions as are clear.
-void WayAround::finish(std::size_t here, std::size_t there, Certifier& certifier) {
+/// The way from root to root, then made shorter.
+void WayAround::finish(const VisualBody& body, std::size_t here, std::size_t there,
+                       Certifier& certifier) {
   way_.clear();
   for (auto i = static_cast<std::int32_t>(here); i >= 0; i = trees_[0].nodes[slotOf(i)].parent) {
-    way_.push_back(trees_[0].nodes[slotOf(i)].pose);
+    way_.push(trees_[0].nodes[slotOf(i)].pose);
   }
-  std::reverse(way_.begin(), way_.end());
+  way_.reverse();
   // The other tree's end is the same pose.
   for (auto i = trees_[1].nodes[there].parent; i >= 0; i = trees_[1].nodes[slotOf(i)].parent) {
-    way_.push_back(trees_[1].nodes[slotOf(i)].pose);
+    way_.push(trees_[1].nodes[slotOf(i)].pose);
   }
+  skipPoses(certifier);
+  shorten(body, kShortcuts, certifier);
+  skipPoses(certifier);
+  next_ = 1;
+}
+
+void WayAround::tighten(const VisualBody& body, const Pose& shown, Certifier& certifier) {
+  if (next_ + 1 == way_.size()) return;  // straight to its end
   short_.clear();
-  short_.push_back(way_.front());
+  short_.push(shown);
+  short_.push(way_, next_, way_.size());
+  way_.swap(short_);
+  next_ = 1;
+  shorten(body, kShortcutsPerTick, certifier);
+  skipPoses(certifier);
+}
+
+/// Goes on to the farthest pose to which the motion is clear.
+void WayAround::skipPoses(Certifier& certifier) {
+  short_.clear();
+  short_.push(way_[0]);
   for (std::size_t i = 0; i + 1 < way_.size();) {
     std::size_t to = way_.size() - 1;
     while (to > i + 1 && !certifier.isClear(way_[i], way_[to])) --to;
-    short_.push_back(way_[to]);
+    short_.push(way_[to]);
     i = to;
   }
   way_.swap(short_);
-  next_ = 1;
+}
+
+/// Cuts corners: from somewhere on one motion straight to somewhere on a later one, where that is
+/// clear and shorter. Random trees wander, and whoever waits for the avatar sees it.
+void WayAround::shorten(const VisualBody& body, int tries, Certifier& certifier) {
+  for (int i = 0; i < tries && way_.size() > 2 && certifier.workLeft() > 0; ++i) {
+    const auto last = static_cast<double>(way_.size() - 1);
+    double from = uniform(0.0, last), to = uniform(0.0, last);
+    if (from > to) std::swap(from, to);
+    const auto in = static_cast<std::size_t>(from), out = static_cast<std::size_t>(to);
+    if (in == out) continue;
+    part_.assign(skeleton_, way_[in], way_[in + 1]);
+    part_.poseAt(from - static_cast<double>(in), cornerIn_);
+    part_.assign(skeleton_, way_[out], way_[out + 1]);
+    part_.poseAt(to - static_cast<double>(out), cornerOut_);
+    double before = length(body, cornerIn_, way_[in + 1]) + length(body, way_[out], cornerOut_);
+    for (std::size_t k = in + 1; k < out; ++k) before += length(body, way_[k], way_[k + 1]);
+    if (!(length(body, cornerIn_, cornerOut_) < kShorter * before)) continue;
+    if (!certifier.isClear(cornerIn_, cornerOut_)) continue;
+    short_.clear();
+    short_.push(way_, 0, in + 1);
+    short_.push(cornerIn_);
+    short_.push(cornerOut_);
+    short_.push(way_, out + 1, way_.size());
+    way_.swap(short_);
+  }
+}
+
+double WayAround::length(const VisualBody& body, const Pose& from, const Pose& to) {
+  return body.farthestMove(skeleton_, from, to, states_, statesThere_);
 }
 
 void WayAround::next(const VisualBody& body, const Pose& shown, double budget, Pose& towards) {
   const Pose& to = way_[next_];
-  const double far = body.farthestMove(skeleton_, shown, to, states_, statesThere_);
+  const double far = length(body, shown, to);
   if (far <= budget) {
     towards = to;
     return;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "middleware/solid/certifier.h"
+#include "middleware/solid/pose_list.h"
 #include "middleware/solid/visual_body.h"
 
 namespace foretouch::internal {
@@ -21,8 +22,6 @@ class WayAround {
   void reset();
   /// A way is found, and not yet walked to its end.
   [[nodiscard]] bool hasWay() const { return next_ < way_.size(); }
-  /// Where it leads to.
-  [[nodiscard]] const Pose& goal() const { return way_.back(); }
   /// The search for this target has spent all it may.
   [[nodiscard]] bool hasFailed() const { return hasFailed_; }
   /// A search, or a way, towards `target` is no longer about it.
@@ -33,6 +32,9 @@ class WayAround {
   void search(const VisualBody& body, const Pose& shown, const Pose& target,
               const std::vector<Eigen::Vector3d>& wanted, LinkId farthest, std::uint32_t motions,
               Certifier& certifier);
+  /// Makes what is left of the way shorter, from `shown` on, by a few queries. Precondition:
+  /// hasWay().
+  void tighten(const VisualBody& body, const Pose& shown, Certifier& certifier);
   /// The next pose of the way, at most `budget` from `shown` for any point.
   void next(const VisualBody& body, const Pose& shown, double budget, Pose& towards);
   /// `shown` is where next() led to.
@@ -57,7 +59,10 @@ class WayAround {
   [[nodiscard]] std::size_t nearest(const Tree& tree) const;
   std::size_t add(const VisualBody& body, Tree& tree, std::int32_t parent, const Pose& pose);
   [[nodiscard]] bool grow(const VisualBody& body, Certifier& certifier);
-  void finish(std::size_t here, std::size_t there, Certifier& certifier);
+  void finish(const VisualBody& body, std::size_t here, std::size_t there, Certifier& certifier);
+  void skipPoses(Certifier& certifier);
+  void shorten(const VisualBody& body, int tries, Certifier& certifier);
+  [[nodiscard]] double length(const VisualBody& body, const Pose& from, const Pose& to);
 
   Skeleton skeleton_;
   std::uint32_t most_;                 // motions for one target
@@ -68,7 +73,8 @@ class WayAround {
   std::vector<Eigen::Vector3d> sampledPlaces_;
   std::vector<LinkState> states_, statesThere_;
   ChainMotion part_;
-  std::vector<Pose> way_, short_;
+  PoseList way_, short_;
+  Pose cornerIn_, cornerOut_;
   std::size_t next_ = 0;
   Pose from_;  // the shown pose that the search began at
   std::vector<Eigen::Vector3d> wanted_;

@@ -422,7 +422,7 @@ class SolidAvatar:
         patience: float = 0.7,
         may_snap: bool = False,
         snap_notice: float = 0.25,
-        around_per_tick: int = 32,
+        around_per_tick: int = 64,
         around_in_all: int = 2000,
         placing_reach: float = 2.0,
         ignore: Iterable[IgnoredLike] = (),
