@@ -107,14 +107,15 @@ class Recorder final : public Follower {
   explicit Recorder(Follower& follower) : follower_(follower) {}
   Result<Done> follow(const Pose& tracked, double dtS, SolidTick& tick) override {
     FORETOUCH_CHECK(follower_.follow(tracked, dtS, tick));
-    shown_.push_back(tick.shown);
+    shown_.poses.push_back(tick.shown);
+    shown_.lift.push_back(tick.lift);
     return Done{};
   }
-  [[nodiscard]] const std::vector<Pose>& shown() const { return shown_; }
+  [[nodiscard]] const ShownPoses& shown() const { return shown_; }
 
  private:
   Follower& follower_;
-  std::vector<Pose> shown_;
+  ShownPoses shown_;
 };
 
 /// One scene at one rate: all clips at all of their places, by each follower.

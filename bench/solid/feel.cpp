@@ -38,7 +38,9 @@ class FeelMeter {
     (isFree ? tally_.free : tally_.inside) += 1;
     const bool mayBeEqual = isDirectlyFree(wanted, isFree);
     Ends track = judge_.endsAt(wanted), show = judge_.endsAt(shown);
-    const double most = lookAtDeviation(track, show, trunk_.at(wanted, 0.0).link < 0);
+    const double most =
+        lookAtDeviation(lifted(track, tick.lift), show, trunk_.at(wanted, 0.0).link < 0);
+    tally_.lift.push_back(tick.lift);
     if (isFree) {
       tally_.equal += isEqual ? 1 : 0;
       tally_.away += most > kAway ? 1 : 0;
@@ -75,6 +77,14 @@ class FeelMeter {
       }
     }
     return wanted <= moved + run_.catchUp / run_.rateHz;
+  }
+
+  /// The floor policy moves the target, along y: that is told apart from deviations.
+  static Ends lifted(Ends ends, double lift) {
+    for (auto& pair : ends) {
+      for (oracle::Vec3d& end : pair) end.y += lift;
+    }
+    return ends;
   }
 
   double lookAtDeviation(const Ends& track, const Ends& show, bool isTrunkFree) {
@@ -187,6 +197,7 @@ void FeelTally::add(const FeelTally& other) {
   append(deviation, other.deviation);
   append(hands, other.hands);
   append(head, other.head);
+  append(lift, other.lift);
   append(headAlone, other.headAlone);
   append(acceleration, other.acceleration);
   append(trackedAcceleration, other.trackedAcceleration);

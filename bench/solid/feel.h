@@ -25,11 +25,12 @@ class Follower {
 
 /// Deviations and lengths in metres, times in microseconds of the thread's processor time.
 struct FeelTally {
-  // Per tick and link.
+  // Per tick and link: from the tracked place, lifted by SolidTick::lift.
   std::vector<double> deviation, hands, head;
   std::vector<double> headAlone;  ///< Of ticks in which the tracked trunk is free.
   std::vector<double> acceleration, trackedAcceleration;  ///< Per tick and end of an LSS (m/s^2).
   // Per tick.
+  std::vector<double> lift;
   std::vector<double> us, freeUs, contactUs, queries;
   std::vector<double> overBareUs;  ///< Ticks of one query: beyond the same query alone.
   std::vector<double> bareUs;      ///< The query from each tracked pose to the next.

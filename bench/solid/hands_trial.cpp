@@ -76,7 +76,7 @@ HandsTally& HandsTrial::tallyOf(const std::string& name) {
 }
 
 void HandsTrial::add(const SolidActor& actor, const std::vector<Pose>& tracked,
-                     const std::vector<Pose>& shown, double rateHz) {
+                     const ShownPoses& shown, double rateHz) {
   const SolidLinks links = solidLinks(actor.avatar);
   for (LinkId link = 0; link < actor.avatar.numLinks(); ++link) {
     if (!links.hands[slotOf(link)] || actor.avatar.lss(link).empty()) continue;
@@ -85,14 +85,16 @@ void HandsTrial::add(const SolidActor& actor, const std::vector<Pose>& tracked,
 }
 
 void HandsTrial::addHand(const SolidActor& actor, LinkId link, const std::vector<Pose>& tracked,
-                         const std::vector<Pose>& shown, double rateHz) {
+                         const ShownPoses& shown, double rateHz) {
   const CentredHand hand = centred(actor.avatar.lss(link).front());
   const auto wanted = placesOf(actor, link, hand, tracked);
-  const auto bySolid = placesOf(actor, link, hand, shown);
+  const auto bySolid = placesOf(actor, link, hand, shown.poses);
   HandJudge judge(stage_, hand.lss);
   for (std::size_t i = 1; i < wanted.size(); ++i) {
     judge.look(wanted[i], wanted[i], tallyOf("as tracked"));
-    judge.look(wanted[i], bySolid[i], tallyOf("Foretouch, solid"));
+    RigidPose lifted = wanted[i];
+    lifted.pivot.y() += shown.lift[i];
+    judge.look(lifted, bySolid[i], tallyOf("Foretouch, solid"));
   }
   for (const auto& follower : engine_.of(hand.lss)) {
     follower->begin(wanted.front());

@@ -21,20 +21,26 @@ struct HandsTally {
   std::uint64_t ticks = 0, inside = 0;  ///< `inside`: by more than 0.1 mm.
 };
 
+/// What a solid avatar showed, tick by tick, and how far it had lifted the target along y.
+struct ShownPoses {
+  std::vector<Pose> poses;
+  std::vector<double> lift;
+};
+
 class HandsTrial {
  public:
   explicit HandsTrial(const SolidStage& stage);
 
   /// `shown`: by the solid avatar, one per tracked pose. The first tracked pose is free.
-  void add(const SolidActor& actor, const std::vector<Pose>& tracked,
-           const std::vector<Pose>& shown, double rateHz);
+  void add(const SolidActor& actor, const std::vector<Pose>& tracked, const ShownPoses& shown,
+           double rateHz);
   /// The tracked hands, the solid avatar's, and one each for those of the engine, if it is built
   /// in.
   [[nodiscard]] const std::vector<HandsTally>& tallies() const { return tallies_; }
 
  private:
   void addHand(const SolidActor& actor, LinkId link, const std::vector<Pose>& tracked,
-               const std::vector<Pose>& shown, double rateHz);
+               const ShownPoses& shown, double rateHz);
   HandsTally& tallyOf(const std::string& name);
 
   const SolidStage& stage_;

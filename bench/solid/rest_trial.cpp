@@ -79,23 +79,36 @@ class RestTrial {
 
   Result<Done> stay(const Pose& target) {
     double most = 0.0;
-    Ends before;
+    int lastMove = 0, free = 0;
+    double lift = tick_.lift;
+    Ends before = judge_.endsAt(plainPose(tick_.shown));
     for (int i = 0; i < kRestTicks; ++i) {
       FORETOUCH_CHECK(follow(target));
       const Ends& now = judge_.endsAt(plainPose(tick_.shown));
-      if (i >= kTicksToRest) {
-        for (std::size_t c = 0; c < now.size(); ++c) {
-          for (std::size_t end = 0; end < 2; ++end) {
-            most = std::max(most, norm(now[c][end] - before[c][end]));
-          }
-        }
+      const double step = largestStep(before, now);
+      if (step > 0.0) lastMove = i + 1;
+      free = tick_.limit == SolidLimit::None && tick_.lift == lift ? free + 1 : 0;
+      lift = tick_.lift;
+      if (free > kTicksToRest) {
+        most = std::max(most, step);
         tally_.queries += tick_.counters.queries;
         ++tally_.ticks;
       }
       before = now;
     }
     tally_.stillStep.push_back(most);
+    tally_.ticksToRest.push_back(lastMove);
     return Done{};
+  }
+
+  static double largestStep(const Ends& from, const Ends& to) {
+    double most = 0.0;
+    for (std::size_t c = 0; c < to.size(); ++c) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        most = std::max(most, norm(to[c][end] - from[c][end]));
+      }
+    }
+    return most;
   }
 
   Result<Done> tremble(const Pose& target) {
@@ -132,6 +145,7 @@ class RestTrial {
 
 void RestTally::add(const RestTally& other) {
   stillStep.insert(stillStep.end(), other.stillStep.begin(), other.stillStep.end());
+  ticksToRest.insert(ticksToRest.end(), other.ticksToRest.begin(), other.ticksToRest.end());
   noise.insert(noise.end(), other.noise.begin(), other.noise.end());
   worstEnd.insert(worstEnd.end(), other.worstEnd.begin(), other.worstEnd.end());
   queries += other.queries;

@@ -13,12 +13,14 @@ namespace foretouch::tools {
 
 /// One number per place.
 struct RestTally {
-  std::vector<double> stillStep;  ///< The most that an end of an LSS moves in a tick, from the 31st
-                                  ///< of 270 ticks with the same target on.
-  std::vector<double> noise;      ///< With a trembling target, 270 ticks: RMS acceleration of all
-                                  ///< ends, shown by tracked.
-  std::vector<double> worstEnd;   ///< The same of the end where it is largest.
-  std::uint64_t queries = 0, ticks = 0;  ///< Of the 240 still ticks.
+  /// The most that an end of an LSS moves in a tick, of 270 ticks with the same target: after 30 of
+  /// them in a row in which neither the catch-up, nor the work budget, nor the lift held it up.
+  std::vector<double> stillStep;
+  std::vector<double> ticksToRest;  ///< Until nothing moves any more, of the 270.
+  std::vector<double> noise;        ///< With a trembling target, 270 ticks: RMS acceleration of all
+                                    ///< ends, shown by tracked.
+  std::vector<double> worstEnd;     ///< The same of the end where it is largest.
+  std::uint64_t queries = 0, ticks = 0;  ///< Of those ticks.
   WayTally way;
   void add(const RestTally& other);
 };

@@ -189,7 +189,9 @@ BenchTable emptyRestTable() {
           {{"scene", "scene"},
            {"rate_hz", "Hz", 0},
            {"places", "places", 0},
-           {"moving", "places where it moves after 30 ticks", 0},
+           {"rest_p50", "ticks until it rests p50", 0},
+           {"rest_max", "max", 0},
+           {"moving", "places where it moves later than 30 ticks", 0},
            {"most_mm", "most per tick, mm", 3},
            {"queries", "queries per still tick", 3},
            {"noise_p50", "trembling, shown by tracked p50", 3},
@@ -203,10 +205,10 @@ void addRow(const SceneRow& row, const RestTally& tally, BenchTable& table) {
   if (tally.stillStep.empty()) return;
   const auto moving = std::count_if(tally.stillStep.begin(), tally.stillStep.end(),
                                     [](double step) { return step > 0.0; });
-  const Percentiles still = percentilesOf(tally.stillStep), noise = percentilesOf(tally.noise),
-                    worst = percentilesOf(tally.worstEnd);
+  const Percentiles still = percentilesOf(tally.stillStep), rest = percentilesOf(tally.ticksToRest),
+                    noise = percentilesOf(tally.noise), worst = percentilesOf(tally.worstEnd);
   table.rows.push_back({row.scene, row.rateHz, static_cast<std::int64_t>(tally.stillStep.size()),
-                        std::int64_t{moving}, kMillimetres * still.max,
+                        rest.p50, rest.max, std::int64_t{moving}, kMillimetres * still.max,
                         static_cast<double>(tally.queries) / static_cast<double>(tally.ticks),
                         noise.p50, noise.max, worst.p50, worst.max});
 }
