@@ -205,6 +205,8 @@ void FeelTally::add(const FeelTally& other) {
   append(freeUs, other.freeUs);
   append(contactUs, other.contactUs);
   append(queries, other.queries);
+  append(iterations, other.iterations);
+  append(aroundQueries, other.aroundQueries);
   append(overBareUs, other.overBareUs);
   append(bareUs, other.bareUs);
   append(back, other.back);
@@ -238,6 +240,8 @@ Result<FeelTally> feel(const SolidStage& stage, const SolidActor& actor,
       tally.us.push_back(us);
       (isFreeTick ? tally.freeUs : tally.contactUs).push_back(us);
       tally.queries.push_back(tick.counters.queries);
+      tally.iterations.push_back(tick.counters.iterations);
+      tally.aroundQueries.push_back(tick.counters.aroundQueries);
       tally.bareUs.push_back(bare.timeUs(tracked[i - 1], tracked[i]));
       if (isFreeTick) tally.overBareUs.push_back(us - bare.timeUs(before, tracked[i]));
     }

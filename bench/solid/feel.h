@@ -32,6 +32,7 @@ struct FeelTally {
   // Per tick.
   std::vector<double> lift;
   std::vector<double> us, freeUs, contactUs, queries;
+  std::vector<double> iterations, aroundQueries;
   std::vector<double> overBareUs;  ///< Ticks of one query: beyond the same query alone.
   std::vector<double> bareUs;      ///< The query from each tracked pose to the next.
   std::vector<double> back;  ///< Per time that the tracked pose comes free: ticks until equal.

@@ -74,7 +74,9 @@ FeelTables::FeelTables()
                      {"bare_mean_us", "bare query mean us", 2},
                      {"ratio", "whole over bare", 1},
                      {"queries_mean", "queries mean", 2},
-                     {"queries_p99", "p99", 0}}),
+                     {"queries_p99", "p99", 0},
+                     {"around_mean", "of them around", 2},
+                     {"iterations_mean", "steps mean", 2}}),
             {}},
       promise_{"promise",
                "What the judge finds on the whole shown way",
@@ -116,7 +118,8 @@ void FeelTables::add(const FeelRow& row, const FeelTally& tally) {
          {static_cast<std::int64_t>(tally.back.size()), back.mean, back.p90, cell(tally.neverBack),
           moves.p50, moves.p90, moves.p99, tracked.p99, tally.fastest});
   append(cost_, {us.mean, us.p50, us.p99, us.max, contact.mean, contact.p99, free.p50, over.p50,
-                 bare.mean, us.mean / bare.mean, queries.mean, queries.p99});
+                 bare.mean, us.mean / bare.mean, queries.mean, queries.p99,
+                 percentilesOf(tally.aroundQueries).mean, percentilesOf(tally.iterations).mean});
   const auto state = [&](SolidState one) {
     return cell(tally.way.states[static_cast<std::size_t>(one)]);
   };

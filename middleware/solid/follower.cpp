@@ -19,7 +19,7 @@ constexpr double kLeastTrust = 0.01, kMostTrust = 0.05, kTrustOfStep = 1.5;
 constexpr double kSettled = 2e-5;
 /// A tick ends with a step below this share of the tracked one, and at most this long (m): the rest
 /// waits for the next tick. A still target is followed until the avatar rests.
-constexpr double kEnoughOfStep = 0.1, kMostEnough = 1e-3;
+constexpr double kEnoughOfStep = 0.2, kMostEnough = 1.5e-3;
 constexpr std::uint8_t kHotTicks = 8;
 /// How far to look beyond the skin: the free step, and what it may be off.
 constexpr double kReachOfStep = 1.2, kReachMore = 3e-3, kReachMargin = 2e-3;
