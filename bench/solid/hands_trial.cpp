@@ -4,6 +4,7 @@
 
 #include "articulated/motion.h"
 #include "bench/judged.h"
+#include "bench/solid/figure.h"
 
 namespace foretouch::tools {
 namespace {
@@ -96,6 +97,8 @@ void HandsTrial::addHand(const SolidActor& actor, LinkId link, const std::vector
     lifted.pivot.y() += shown.lift[i];
     judge.look(lifted, bySolid[i], tallyOf("Foretouch, solid"));
   }
+  // At lower rates an engine's hands are far off, and its continuous detection takes minutes.
+  if (rateHz < kTrialRateHz) return;
   for (const auto& follower : engine_.of(hand.lss)) {
     follower->begin(wanted.front());
     for (std::size_t i = 1; i < wanted.size(); ++i) {

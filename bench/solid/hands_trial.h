@@ -35,7 +35,7 @@ class HandsTrial {
   void add(const SolidActor& actor, const std::vector<Pose>& tracked, const ShownPoses& shown,
            double rateHz);
   /// The tracked hands, the solid avatar's, and one each for those of the engine, if it is built
-  /// in.
+  /// in; those at 90 Hz and above alone.
   [[nodiscard]] const std::vector<HandsTally>& tallies() const { return tallies_; }
 
  private:

@@ -26,6 +26,8 @@ constexpr double kLongestTick = 10.0;
 // by less than this share of it for so long (s, ticks).
 constexpr double kFarEnough = 0.05, kProgress = 0.02, kStuckFor = 0.05;
 constexpr int kStuckTicks = 3;
+/// The target of the point that is farthest off stays within this, meanwhile (m).
+constexpr double kStaysWithin = 0.02;
 /// After the target was found inside something.
 constexpr int kTicksToLookAgain = 8;
 /// A walk shorter than this waits for the next tick (m).
@@ -263,7 +265,7 @@ class SolidAvatar::Parts {
     const internal::VisualBody& body = follower_.body();
     internal::placeLinks(skeleton(), shown_, states_);
     double far = 0.0;
-    LinkId farthest = 0;
+    std::size_t farthest = 0;
     double farOfRoots = 0.0;
     const std::vector<JointId>& parents = skeleton().parents();
     for (std::size_t k = 0; k < body.points().size(); ++k) {
@@ -271,7 +273,7 @@ class SolidAvatar::Parts {
       const double off = (states_[slotOf(point.link)].pointAt(point.p_L) - wanted_[k]).norm();
       if (off > far) {
         far = off;
-        farthest = point.link;
+        farthest = k;
       }
     }
     for (std::size_t j = 0; j < parents.size(); ++j) {
@@ -279,7 +281,10 @@ class SolidAvatar::Parts {
       farOfRoots = std::max(farOfRoots, (states_[j].p_WL - target_.states()[j].p_WL).norm());
     }
     const double moved = body.farthestMove(skeleton(), before_, shown_, statesBefore_, states_);
-    const bool isStuck = far > kFarEnough && moved < kProgress * far;
+    // What leads on meanwhile leads a search astray.
+    const bool isStuck = far > kFarEnough && moved < kProgress * far &&
+                         (stuckTicks_ == 0 || (wanted_[farthest] - stuckAt_).norm() < kStaysWithin);
+    if (!isStuck || stuckTicks_ == 0) stuckAt_ = wanted_[farthest];
     stuckS_ = isStuck ? stuckS_ + dtS : 0.0;
     stuckTicks_ = isStuck ? stuckTicks_ + 1 : 0;
     if (!isStuck) lookAt_ = 0;
@@ -296,7 +301,7 @@ class SolidAvatar::Parts {
       return;
     }
     if (wantsAround) {
-      around_.search(body, shown_, target_.pose(), wanted_, farthest,
+      around_.search(body, shown_, target_.pose(), wanted_, body.points()[farthest].link,
                      static_cast<std::uint32_t>(options_.aroundPerTick), certifier_);
     }
     tick.counters.aroundQueries += certifier_.queries() - before;
@@ -396,6 +401,7 @@ class SolidAvatar::Parts {
   std::vector<LinkState> states_, statesBefore_;
   std::vector<Eigen::Vector3d> wanted_, lastWanted_;
   double stuckS_ = 0.0, awayS_ = 0.0;
+  Eigen::Vector3d stuckAt_ = Eigen::Vector3d::Zero();  // where that point's target was at first
   int stuckTicks_ = 0, lookAt_ = 0;
   bool isAround_ = false, hasSnapped_ = false;
   bool isInside_ = false;      // the scene that was changed has shown_ inside
