@@ -278,47 +278,83 @@ HWY_INLINE hn::Mask<D> isNoisy(D d, const PlacePairs<D>& pairs, hn::Vec<D> squar
   return hn::Le(squared, hn::Mul(noise, noise));
 }
 
+/// The places of some lanes, and what of them is offered.
 template <class D>
-HWY_INLINE hn::Mask<D> mayWinAny(D d, const PlacedLss& lss, const NearBins& bins,
-                                 const PlaceBlock& block, std::size_t lane) {
+struct PlaceLanes {
+  LanePlaces<D> place[kPlaceSources];
+  hn::Mask<D> isWhole[kPlaceSources], isOffered[kPlaceSources];
+  hn::Mask<D> unsure;
+};
+
+/// The nearest is the whole pair's; it is the first of equals.
+template <class D>
+HWY_INLINE void chooseWhole(D d, const PlacedLss& lss, const PlacePairs<D>& pairs,
+                            hn::Mask<D> hasAxis, const hn::Mask<D> (&isInner)[3],
+                            PlaceLanes<D>& lanes) {
   using V = hn::Vec<D>;
-  using M = hn::Mask<D>;
-  const PlacePairs<D> pairs = placePairs(d, lss, block, lane);
-  const M hasAxis = hn::Gt(pairs.squaredAxis, hn::Zero(d));
-  M isRimA, isRimB;
-  const auto endA = placeOfEnd(d, pairs, pairs.a, 0.0, isRimA);
-  const auto endB = placeOfEnd(d, pairs, pairs.b, 1.0, isRimB);
-  LanePlaces<D> edge[3];
-  M isInner[3];
-  V whole = hn::Min(endA.squared, endB.squared);
-  M may = hn::Or(hn::Or(isRimA, isRimB), hn::And(hasAxis, passesThrough(d, pairs)));
-  for (int k = 0; k < 3; ++k) {
-    M isTrusted;
-    edge[k] = placeOfEdge(d, lss, pairs, k, isInner[k], isTrusted);
-    whole = hn::Min(whole, edge[k].squared);
-    may = hn::Or(may, hn::AndNot(isTrusted, hasAxis));
+  V squared = lanes.place[0].squared, along = lanes.place[0].along;
+  lanes.isWhole[0] = hn::Eq(along, along);
+  for (int i = 1; i < kPlaceSources; ++i) {
+    const auto isNearer = hn::And(hasAxis, hn::Lt(lanes.place[i].squared, squared));
+    squared = hn::IfThenElse(isNearer, lanes.place[i].squared, squared);
+    along = hn::IfThenElse(isNearer, lanes.place[i].along, along);
+    lanes.isWhole[i] = isNearer;
+    for (int k = 0; k < i; ++k) lanes.isWhole[k] = hn::AndNot(isNearer, lanes.isWhole[k]);
   }
-  may = hn::Or(may, hn::Or(hn::Gt(whole, hn::Set(d, lss.squaredReach)), isNoisy(d, pairs, whole)));
-  may = hn::Or(may, mayWin(d, lss, bins, pairs, endA, hn::Not(may)));
-  may = hn::Or(may, mayWin(d, lss, bins, pairs, endB, hn::AndNot(may, hasAxis)));
+  lanes.unsure = hn::Or(lanes.unsure, hn::Or(hn::Gt(squared, hn::Set(d, lss.squaredReach)),
+                                             isNoisy(d, pairs, squared)));
+  lanes.isOffered[0] = hn::Or(lanes.isWhole[0], hn::AndNot(isAtFirst(d, along), hasAxis));
+  lanes.isOffered[1] = hn::Or(lanes.isWhole[1], hn::AndNot(isAtLast(d, along), hasAxis));
   for (int k = 0; k < 3; ++k) {
-    const M isPlace =
-        hn::Or(hn::AndNot(pairs.isFlatEdge[k], isInner[k]), hn::Le(edge[k].squared, whole));
-    may = hn::Or(may,
-                 mayWin(d, lss, bins, pairs, edge[k], hn::AndNot(may, hn::And(hasAxis, isPlace))));
+    lanes.isOffered[2 + k] =
+        hn::Or(lanes.isWhole[2 + k], hn::AndNot(pairs.isFlatEdge[k], hn::And(hasAxis, isInner[k])));
   }
-  return may;
 }
 
-unsigned mayWinBlock(const PlacedLss& lss, const NearBins& bins, const PlaceBlock& block) {
-  const hn::CappedTag<double, PlaceBlock::kSize> d;
-  unsigned all = 0;
-  for (std::size_t lane = 0; lane < PlaceBlock::kSize; lane += hn::Lanes(d)) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, mayWinAny(d, lss, bins, block, lane), bits);
-    all |= static_cast<unsigned>(bits[0]) << static_cast<unsigned>(lane);
+template <class D>
+HWY_INLINE PlaceLanes<D> placesOf(D d, const PlacedLss& lss, const PlacePairs<D>& pairs) {
+  using M = hn::Mask<D>;
+  const M hasAxis = hn::Gt(pairs.squaredAxis, hn::Zero(d));
+  M isRimA, isRimB, isInner[3];
+  PlaceLanes<D> lanes;
+  lanes.place[0] = placeOfEnd(d, pairs, pairs.a, 0.0, isRimA);
+  lanes.place[1] = placeOfEnd(d, pairs, pairs.b, 1.0, isRimB);
+  lanes.unsure = hn::Or(hn::Or(isRimA, isRimB), hn::And(hasAxis, passesThrough(d, pairs)));
+  for (int k = 0; k < 3; ++k) {
+    M isTrusted;
+    auto& place = lanes.place[2 + k];
+    place = placeOfEdge(d, lss, pairs, k, isInner[k], isTrusted);
+    // So near an end that the two may count as one place.
+    const auto margin = hn::Set(d, 3.0 * kAtEnd), rest = hn::Sub(hn::Set(d, 1.0), margin);
+    const M isAtMargin =
+        hn::And(isInner[k], hn::Or(hn::Lt(place.along, margin), hn::Gt(place.along, rest)));
+    lanes.unsure = hn::Or(lanes.unsure, hn::And(hasAxis, hn::Or(hn::Not(isTrusted), isAtMargin)));
   }
-  return all;
+  chooseWhole(d, lss, pairs, hasAxis, isInner, lanes);
+  return lanes;
+}
+
+template <class D>
+HWY_INLINE unsigned maskBits(D d, hn::Mask<D> mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, mask, bits);
+  return bits[0];
+}
+
+void choosePlaces(const PlacedLss& lss, const NearBins& bins, const PlaceBlock& block,
+                  PlaceChoice& choice) {
+  const hn::CappedTag<double, PlaceBlock::kSize> d;
+  for (std::size_t lane = 0; lane < PlaceBlock::kSize; lane += hn::Lanes(d)) {
+    const auto pairs = placePairs(d, lss, block, lane);
+    const auto lanes = placesOf(d, lss, pairs);
+    choice.unsure |= maskBits(d, lanes.unsure) << lane;
+    for (int i = 0; i < kPlaceSources; ++i) {
+      const auto asked = hn::AndNot(lanes.unsure, lanes.isOffered[i]);
+      const auto may = mayWin(d, lss, bins, pairs, lanes.place[i], asked);
+      choice.may[i] |= maskBits(d, may) << lane;
+      choice.isWhole[i] |= maskBits(d, lanes.isWhole[i]) << lane;
+    }
+  }
 }
 
 }  // namespace foretouch::internal::HWY_NAMESPACE
@@ -327,10 +363,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace foretouch::internal {
 
-HWY_EXPORT(mayWinBlock);
+HWY_EXPORT(choosePlaces);
 
-unsigned mayWinBins(const PlacedLss& lss, const NearBins& bins, const PlaceBlock& block) {
-  return HWY_DYNAMIC_DISPATCH(mayWinBlock)(lss, bins, block);
+PlaceChoice mayWinBins(const PlacedLss& lss, const NearBins& bins, const PlaceBlock& block) {
+  PlaceChoice choice{};
+  HWY_DYNAMIC_DISPATCH(choosePlaces)(lss, bins, block, choice);
+  return choice;
 }
 
 }  // namespace foretouch::internal

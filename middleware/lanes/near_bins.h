@@ -42,8 +42,16 @@ struct PlaceBlock {
   alignas(64) std::int64_t flat[kSize];    ///< FlatEdges::bitsOf().
 };
 
-/// Bit i: a place of triangle i and the LSS may win a bin, or it takes more than lanes to say so.
-[[nodiscard]] unsigned mayWinBins(const PlacedLss& lss, const NearBins& bins,
-                                  const PlaceBlock& block);
+/// Where a place of an LSS and a triangle comes from: the sphere at an end of the axis, or an edge.
+inline constexpr int kPlaceSources = 5;  // ends a and b, edges 0 to 2
+
+/// Bit i: of triangle i.
+struct PlaceChoice {
+  unsigned unsure;                  ///< It takes more than lanes to say which places may win.
+  unsigned may[kPlaceSources];      ///< The place from there may win; without what is unsure.
+  unsigned isWhole[kPlaceSources];  ///< Where the closest points of the two are.
+};
+[[nodiscard]] PlaceChoice mayWinBins(const PlacedLss& lss, const NearBins& bins,
+                                     const PlaceBlock& block);
 
 }  // namespace foretouch::internal

@@ -51,8 +51,8 @@ void NearBlocks::order(const Scene& scene, const IgnoredObjects& ignored,
   }
 }
 
-unsigned NearBlocks::mayWin(const Scene& scene, const FlatEdges& flat, const StandingLss& lss,
-                            const NearBins& bins, std::size_t from) {
+PlaceChoice NearBlocks::mayWin(const Scene& scene, const FlatEdges& flat, const StandingLss& lss,
+                               const NearBins& bins, std::size_t from) {
   const std::size_t count = std::min(order_.size() - from, PlaceBlock::kSize);
   for (std::size_t i = 0; i < PlaceBlock::kSize; ++i) {
     const TriangleId id = order_[from + std::min(i, count - 1)].id;
@@ -64,7 +64,11 @@ unsigned NearBlocks::mayWin(const Scene& scene, const FlatEdges& flat, const Sta
     }
     block_.flat[i] = flat.bitsOf(id);
   }
-  return mayWinBins(placedLss(lss), bins, block_) & ((1U << count) - 1U);
+  PlaceChoice choice = mayWinBins(placedLss(lss), bins, block_);
+  const unsigned used = (1U << count) - 1U;
+  choice.unsure &= used;
+  for (unsigned& may : choice.may) may &= used;
+  return choice;
 }
 
 }  // namespace foretouch::internal

@@ -27,9 +27,9 @@ class NearBlocks {
   [[nodiscard]] TriangleId id(std::size_t k) const { return order_[k].id; }
   [[nodiscard]] float gap(std::size_t k) const { return order_[k].gap; }
 
-  /// Bit i: triangle `from` + i, of the next PlaceBlock::kSize, may win a bin.
-  [[nodiscard]] unsigned mayWin(const Scene& scene, const FlatEdges& flat, const StandingLss& lss,
-                                const NearBins& bins, std::size_t from);
+  /// Bit i: of triangle `from` + i, of the next PlaceBlock::kSize.
+  [[nodiscard]] PlaceChoice mayWin(const Scene& scene, const FlatEdges& flat,
+                                   const StandingLss& lss, const NearBins& bins, std::size_t from);
 
  private:
   struct Ordered {

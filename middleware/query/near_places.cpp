@@ -333,6 +333,19 @@ void findPlaces(const StandingLss& lss, const Triangle& triangle, TriangleId id,
   }
 }
 
+NearPlace placeFrom(const StandingLss& lss, const Triangle& triangle, TriangleId id,
+                    const FlatEdges& flat, int source, NearPart part) {
+  const PlaceMaker maker(lss, triangle, id, flat);
+  NearPlace place;
+  if (source < 2) {
+    maker.make(part, maker.pair().ofEnd(source == 1), place);
+  } else {
+    bool isInner = false, isTrusted = false;
+    maker.make(part, maker.pair().ofEdge(source - 2, isInner, isTrusted), place);
+  }
+  return place;
+}
+
 double provenGap(const StandingLss& lss, const Triangle& triangle, const NearPlace& place) {
   const auto& v = triangle.vertices;
   const bool isOfEdge = place.part >= NearPart::Edge0;

@@ -66,6 +66,10 @@ struct NearPlaces {
 void findPlaces(const StandingLss& lss, const Triangle& triangle, TriangleId id,
                 const FlatEdges& flat, const NearFilter* filter, NearPlaces& places);
 
+/// The place that `source` makes (near_bins.h), which findPlaces() makes as `part`.
+[[nodiscard]] NearPlace placeFrom(const StandingLss& lss, const Triangle& triangle, TriangleId id,
+                                  const FlatEdges& flat, int source, NearPart part);
+
 /// The closest points alone.
 [[nodiscard]] NearPlace closestPlace(const StandingLss& lss, const Triangle& triangle,
                                      TriangleId id, const FlatEdges& flat);

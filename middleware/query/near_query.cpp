@@ -140,17 +140,38 @@ class NearSearch {
     internal::NearReduction& reduction = scratch_.reduction;
     internal::NearBlocks& blocks = scratch_.blocks;
     reduction.begin(plan_.scene, lss, states_[slotOf(lss.link)].R_WL);
-    internal::NearPlaces places;
     for (std::size_t from = 0; from < blocks.size(); from += internal::PlaceBlock::kSize) {
       near_.counters.laneSteps += kPlacesWork * internal::PlaceBlock::kSize;
-      unsigned may = blocks.mayWin(plan_.scene, *plan_.flat, lss, reduction.bins(), from);
-      for (; may != 0; may &= may - 1) {
-        const auto i = static_cast<std::size_t>(__builtin_ctz(may));
-        findPlaces(lss, blocks.id(from + i), &reduction, places);
-        for (int p = 0; p < places.count; ++p) reduction.offer(places.place[p]);
-      }
+      offer(lss, from, blocks.mayWin(plan_.scene, *plan_.flat, lss, reduction.bins(), from));
     }
     reduction.finish(scratch_.found);
+  }
+
+  /// What may win of a block, in doubles.
+  void offer(const StandingLss& lss, std::size_t from, const internal::PlaceChoice& choice) {
+    internal::NearReduction& reduction = scratch_.reduction;
+    const auto next = [&](unsigned& bits) {
+      const auto i = static_cast<std::size_t>(__builtin_ctz(bits));
+      bits &= bits - 1;
+      return scratch_.blocks.id(from + i);
+    };
+    internal::NearPlaces places;
+    for (unsigned unsure = choice.unsure; unsure != 0;) {
+      findPlaces(lss, next(unsure), &reduction, places);
+      for (int p = 0; p < places.count; ++p) reduction.offer(places.place[p]);
+    }
+    for (int source = 0; source < internal::kPlaceSources; ++source) {
+      for (const bool isWhole : {false, true}) {
+        const auto part = static_cast<internal::NearPart>(isWhole ? 0 : 1 + source);
+        const unsigned whole = choice.isWhole[source];
+        for (unsigned may = choice.may[source] & (isWhole ? whole : ~whole); may != 0;) {
+          const TriangleId id = next(may);
+          ++near_.counters.advancements;
+          reduction.offer(
+              internal::placeFrom(lss, plan_.scene.triangle(id), id, *plan_.flat, source, part));
+        }
+      }
+    }
   }
 
   /// The link's nearest so far is the one in `found`.
