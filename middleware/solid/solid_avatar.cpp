@@ -211,7 +211,8 @@ class SolidAvatar::Parts {
     const double budget = step + options_.catchUp * dtS;
     if (around_.isStale(shown_, wanted_)) around_.reset();
     if (around_.hasWay() && walkAround(budget, tick)) return;
-    follower_.follow({target_.pose(), wanted_, step, budget}, certifier_, shown_, tick);
+    follower_.follow({target_.pose(), target_.states(), wanted_, step, budget}, certifier_, shown_,
+                     tick);
     if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
   }
 
