@@ -25,30 +25,32 @@ PlacedLss placedLss(const StandingLss& lss) {
 
 void NearBlocks::order(const Scene& scene, const IgnoredObjects& ignored,
                        const NearTriangles& near) {
-  order_.resize(near.count);
+  order_.clear();
   if (near.count == 0) return;
   const auto [least, most] = std::minmax_element(near.gap.data(), near.gap.data() + near.count);
   const float low = *least, scale = static_cast<float>(kClasses) / (*most - low);
-  const auto classOf = [&](std::size_t k) {
+  classOf_.resize(near.count);
+  std::array<std::size_t, kClasses + 2> begin{};
+  for (std::size_t k = 0; k < near.count; ++k) {
     const float place = scale * (near.gap[k] - low);
     // Written so that what is no number has a class.
-    return place < static_cast<float>(kClasses) ? static_cast<std::size_t>(place) : kClasses - 1;
-  };
-  std::array<std::size_t, kClasses + 1> begin{};
-  const auto isAsked = [&](std::size_t k) { return !ignored.has(scene, near.id[k]); };
-  for (std::size_t k = 0; k < near.count; ++k) {
-    if (isAsked(k)) ++begin[classOf(k) + 1];
+    std::size_t one =
+        place < static_cast<float>(kClasses) ? static_cast<std::size_t>(place) : kClasses - 1;
+    if (ignored.has(scene, near.id[k])) one = kClasses;  // beyond all
+    classOf_[k] = static_cast<std::uint8_t>(one);
+    ++begin[one + 1];
   }
   for (std::size_t i = 1; i <= kClasses; ++i) begin[i] += begin[i - 1];
-  order_.resize(begin[kClasses]);
+  const std::size_t asked = begin[kClasses];
+  order_.resize(near.count);
   for (std::size_t k = 0; k < near.count; ++k) {
-    if (!isAsked(k)) continue;
-    order_[begin[classOf(k)]++] = {near.id[k], near.gap[k]};
+    order_[begin[classOf_[k]]++] = {near.id[k], near.gap[k]};
     // They lie all over the scene's memory.
     const double* const vertices = scene.triangle(near.id[k]).vertices[0].data();
     __builtin_prefetch(vertices);
     __builtin_prefetch(vertices + 8);
   }
+  order_.resize(asked);
 }
 
 PlaceChoice NearBlocks::mayWin(const Scene& scene, const FlatEdges& flat, const StandingLss& lss,

@@ -37,6 +37,7 @@ class NearBlocks {
     float gap;
   };
   std::vector<Ordered> order_;
+  std::vector<std::uint8_t> classOf_;  // of gaps, while ordering
   PlaceBlock block_;
 };
 

@@ -155,8 +155,8 @@ class NearSearch {
       bits &= bits - 1;
       return scratch_.blocks.id(from + i);
     };
-    internal::NearPlaces places;
     for (unsigned unsure = choice.unsure; unsure != 0;) {
+      internal::NearPlaces places;
       findPlaces(lss, next(unsure), &reduction, places);
       for (int p = 0; p < places.count; ++p) reduction.offer(places.place[p]);
     }
