@@ -11,6 +11,8 @@ namespace {
 
 /// Classes of gaps: a thousand triangles come thirty a class, where order no longer matters.
 constexpr std::size_t kClasses = 32;
+/// So many triangles take less by themselves than in a block.
+constexpr std::size_t kFew = 2;
 
 }  // namespace
 
@@ -56,6 +58,8 @@ void NearBlocks::order(const Scene& scene, const IgnoredObjects& ignored,
 PlaceChoice NearBlocks::mayWin(const Scene& scene, const FlatEdges& flat, const StandingLss& lss,
                                const NearBins& bins, std::size_t from) {
   const std::size_t count = std::min(order_.size() - from, PlaceBlock::kSize);
+  const unsigned used = (1U << count) - 1U;
+  if (count <= kFew) return {used, {}, {}};
   for (std::size_t i = 0; i < PlaceBlock::kSize; ++i) {
     const TriangleId id = order_[from + std::min(i, count - 1)].id;
     const Triangle& triangle = scene.triangle(id);
@@ -67,7 +71,6 @@ PlaceChoice NearBlocks::mayWin(const Scene& scene, const FlatEdges& flat, const 
     block_.flat[i] = flat.bitsOf(id);
   }
   PlaceChoice choice = mayWinBins(placedLss(lss), bins, block_);
-  const unsigned used = (1U << count) - 1U;
   choice.unsure &= used;
   for (unsigned& may : choice.may) may &= used;
   return choice;

@@ -20,6 +20,8 @@ const Eigen::Matrix3d kTilt = [] {
 }();
 
 using RowMajorMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+/// Of a bin without a place.
+constexpr double kNobody = std::numeric_limits<double>::infinity();
 /// A squared distance beyond the square of another by this factor has a larger root in doubles,
 /// too: the two squares and the root round by less.
 constexpr double kBeyondEqual = 1.0 + 16.0 * kUnitRoundoff;
@@ -62,18 +64,16 @@ void NearReduction::begin(const Scene& scene, const StandingLss& lss, const Eige
   scene_ = &scene;
   lss_ = &lss;
   Eigen::Map<RowMajorMatrix3d>(bins_.toBins[0]) = kTilt * R_WL.transpose();
-  if (places_.empty()) return;
-  forgetBins();
+  for (const std::size_t bin : heldBins_) {
+    slots_[bin] = 0;
+    bins_.limit[bin] = kNobody;
+  }
+  heldBins_.clear();
   places_.clear();
 }
 
 NearReduction::NearReduction() {
-  forgetBins();
-}
-
-void NearReduction::forgetBins() {
-  slots_.fill(0);
-  std::fill(bins_.limit, bins_.limit + NearBins::kCount, std::numeric_limits<double>::infinity());
+  std::fill(bins_.limit, bins_.limit + NearBins::kCount, kNobody);
 }
 
 /// The bin of faces; that of the rest is the next. The direction may have any length.
@@ -112,6 +112,7 @@ void NearReduction::offer(const NearPlace& place) {
   std::uint16_t& slot = slots_[bin];
   if (slot == 0) {
     places_.push_back(place);
+    heldBins_.push_back(bin);
     slot = static_cast<std::uint16_t>(places_.size());
   } else if (comesBefore(*scene_, place, places_[slot - 1U])) {
     places_[slot - 1U] = place;

@@ -38,7 +38,6 @@ class NearReduction final : public NearFilter {
   void finish(std::vector<NearPlace>& left);
 
  private:
-  void forgetBins();
   [[nodiscard]] std::size_t binsOf(const Eigen::Vector3d& direction_W, double along) const;
   void accept(bool faces);
   [[nodiscard]] bool isStoodFor(const NearPlace& place) const;
@@ -50,6 +49,7 @@ class NearReduction final : public NearFilter {
   NearBins bins_;
   std::array<std::uint16_t, NearBins::kCount> slots_{};  // one more than the place's; 0: none
   std::vector<NearPlace> places_, accepted_;
+  std::vector<std::size_t> heldBins_;  // of places_
   std::vector<std::uint16_t> order_;
 };
 

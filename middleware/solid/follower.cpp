@@ -86,7 +86,7 @@ bool Follower::goStraight(const Pose& target, Certifier& certifier, Pose& shown,
   }
   rows_.clear();
   appendPiece(reached_, answer.clearance, tick);
-  shown = reached_;
+  std::swap(shown, reached_);
   return true;
 }
 
@@ -139,7 +139,7 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
     if (direct.isClear) {
       rows_.clear();
       appendPiece(reached_, direct.clearance, tick);
-      shown = reached_;
+      std::swap(shown, reached_);
     }
     if (direct.isClear || isOver_) return false;
     hasDirectFailed_ = true;
@@ -214,7 +214,7 @@ bool Follower::showCut(const FollowRequest& request, double clearance, Pose& sho
 void Follower::moveThere(double clearance, Pose& shown, SolidTick& tick) {
   left_ -= VisualBody::farthest(here_.places, there_.places);
   appendPiece(reached_, clearance, tick);
-  shown = reached_;
+  std::swap(shown, reached_);
   std::swap(here_, there_);
   isOfTried_ = false;
   hasMoved_ = true;

@@ -115,10 +115,7 @@ class SolidAvatar::Parts {
     internal::beginTick(tick);
     isAround_ = false;
     if (!isPlaced_) place(tick);
-    if (isPlaced_) {
-      before_ = shown_;
-      move(given.dtS, tick);
-    }
+    if (isPlaced_) move(given.dtS, tick);
     lift_.remember(follower_.rows());
     finish(given.dtS, tick);
     return Done{};
@@ -201,6 +198,7 @@ class SolidAvatar::Parts {
     if (wasEqual_ && !follower_.isAnyHot()) {
       if (follower_.goStraight(target_.pose(), certifier_, shown_, tick)) return;
     }
+    before_ = shown_;
     const internal::VisualBody& body = follower_.body();
     body.place(target_.states(), wanted_);
     double step = 0.0;
