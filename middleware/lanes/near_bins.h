@@ -1,7 +1,7 @@
 // middleware/lanes/near_bins.h: which triangles near an LSS can still win a bin of the reduction
 // (near_reduction.h), in lanes of doubles. A place is made as near_places.cpp makes it, operation
-// for operation and bit for bit, so what is refused here would have lost there. Lengths in metres.
-// Constants and plain arrays only. Not installed.
+// for operation and bit for bit, so what is refused here would have lost there (near_bins.md).
+// Lengths in metres. Constants and plain arrays only. Not installed.
 #pragma once
 
 #include <cstddef>
