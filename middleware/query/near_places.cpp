@@ -18,14 +18,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A share of a length: closer to an end than this is at it.
-constexpr double kAtEnd = 1e-9;
-/// A sine: a direction is along the normal of a face, or across an edge, that goes on flat to
-/// within kFlatSine if it deviates by at most this from it.
-constexpr double kFlatDirection = 2.0 * kFlatSine;
-/// Of the pair's extent: below it, the difference of the closest points is noise.
-constexpr double kNoisyDifference = 1e-9;
-
 double snapped(double share) {
   if (share < kAtEnd) return 0.0;
   return share > 1.0 - kAtEnd ? 1.0 : share;
@@ -197,6 +189,7 @@ class PlaceMaker {
     place.distance = std::sqrt(spot.squared);
     place.part = part;
     feature.nhat_SL_W = directionOf(spot, place.distance);
+    place.away = isApart(spot) ? Vector3d(spot.onAxis - spot.onTriangle) : feature.nhat_SL_W;
     feature.p_WLink = triangle_.vertices[0] + (spot.onAxis - lss_.radius * feature.nhat_SL_W);
     feature.gap = place.distance - lss_.radius;
     classify(spot, place);
@@ -338,6 +331,19 @@ void findPlaces(const StandingLss& lss, const Triangle& triangle, TriangleId id,
                          std::abs(whole.along - spots.edge[k].along) <= kAtEnd;
     if (!isWhole) offer(edgePart(k), spots.edge[k]);
   }
+}
+
+NearPlace placeFrom(const StandingLss& lss, const Triangle& triangle, TriangleId id,
+                    const FlatEdges& flat, int source, NearPart part) {
+  const PlaceMaker maker(lss, triangle, id, flat);
+  NearPlace place;
+  if (source < 2) {
+    maker.make(part, maker.pair().ofEnd(source == 1), place);
+  } else {
+    bool isInner = false, isTrusted = false;
+    maker.make(part, maker.pair().ofEdge(source - 2, isInner, isTrusted), place);
+  }
+  return place;
 }
 
 double provenGap(const StandingLss& lss, const Triangle& triangle, const NearPlace& place) {

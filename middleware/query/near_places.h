@@ -7,10 +7,15 @@
 #include <Eigen/Core>
 
 #include "lss/triangle.h"
+#include "middleware/lanes/near_bins.h"
 #include "middleware/query/near_features.h"
 #include "middleware/scene/flat_edges.h"
 
 namespace foretouch::internal {
+
+/// A sine: a direction is along the normal of a face, or across an edge, that goes on flat to
+/// within kFlatSine if it deviates by at most this from it.
+inline constexpr double kFlatDirection = 2.0 * kFlatSine;
 
 /// An LSS where it stands.
 struct StandingLss {
@@ -29,6 +34,8 @@ enum class NearPart : std::uint8_t { Whole, EndA, EndB, Edge0, Edge1, Edge2 };
 struct NearPlace {
   NearFeature feature;
   double distance = 0.0;  ///< Of the axis, as computed.
+  /// From the triangle to the axis, of any length: the direction that bins go by.
+  Eigen::Vector3d away = Eigen::Vector3d::Zero();
   NearPart part = NearPart::Whole;
   /// The surface has a corner there, or its face holds an end of the axis; else something nearer
   /// stands for it.
@@ -58,6 +65,10 @@ struct NearPlaces {
 /// `filter`: what may be left out; or null.
 void findPlaces(const StandingLss& lss, const Triangle& triangle, TriangleId id,
                 const FlatEdges& flat, const NearFilter* filter, NearPlaces& places);
+
+/// The place that `source` makes (near_bins.h), which findPlaces() makes as `part`.
+[[nodiscard]] NearPlace placeFrom(const StandingLss& lss, const Triangle& triangle, TriangleId id,
+                                  const FlatEdges& flat, int source, NearPart part);
 
 /// The closest points alone.
 [[nodiscard]] NearPlace closestPlace(const StandingLss& lss, const Triangle& triangle,

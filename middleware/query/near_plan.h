@@ -9,6 +9,7 @@
 #include "middleware/lanes/near_triangles.h"
 #include "middleware/query/ignored_objects.h"
 #include "middleware/query/leaf_hits.h"
+#include "middleware/query/near_blocks.h"
 #include "middleware/query/near_features.h"
 #include "middleware/query/near_reduction.h"
 
@@ -29,6 +30,7 @@ struct NearScratchParts {
   std::vector<float> lower[3], upper[3];  // of their boxes, from the tree's origin
   LeafHits hits;
   NearTriangles near;
+  NearBlocks blocks;
   IgnoredObjects ignored;
   NearReduction reduction;
   std::vector<NearPlace> found;  // of the current link

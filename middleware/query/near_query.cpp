@@ -1,5 +1,5 @@
 // middleware/query/near_query.cpp: one walk of the tree for all LSS, lanes for the triangles of the
-// leaves, doubles for those that are near.
+// leaves and for their places, doubles for those that count.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +16,9 @@
 
 namespace foretouch {
 namespace {
+
+/// What the places of a triangle cost in lanes, in evaluations of a pair.
+constexpr std::uint64_t kPlacesWork = 4;
 
 using internal::NearPlace;
 using internal::NearPlan;
@@ -116,36 +119,67 @@ class NearSearch {
     const StandingLss& lss = scratch_.lss[i];
     internal::findNear(plan_.scene, {lss.a, lss.b}, lss.radius, lss.reach + lss.rounding, range,
                        scratch_.hits, scratch_.near, near_.counters);
+    scratch_.blocks.order(plan_.scene, scratch_.ignored, scratch_.near);
     if (detail_ == NearDetail::Nearest) return findNearest(lss);
-    const bool isReduced = detail_ == NearDetail::Reduced;
-    if (isReduced) {
-      scratch_.reduction.begin(plan_.scene, lss, states_[slotOf(lss.link)].R_WL);
-    }
+    if (detail_ == NearDetail::Reduced) return reduce(lss);
     internal::NearPlaces places;
-    for (std::size_t k = 0; k < scratch_.near.count; ++k) {
-      const TriangleId id = scratch_.near.id[k];
-      if (scratch_.ignored.has(plan_.scene, id)) continue;
-      ++near_.counters.advancements;
-      internal::findPlaces(lss, plan_.scene.triangle(id), id, *plan_.flat,
-                           isReduced ? &scratch_.reduction : nullptr, places);
-      for (int p = 0; p < places.count; ++p) {
-        if (isReduced) {
-          scratch_.reduction.offer(places.place[p]);
-        } else {
-          scratch_.found.push_back(places.place[p]);
+    for (std::size_t k = 0; k < scratch_.blocks.size(); ++k) {
+      findPlaces(lss, scratch_.blocks.id(k), nullptr, places);
+      scratch_.found.insert(scratch_.found.end(), places.place, places.place + places.count);
+    }
+  }
+
+  void findPlaces(const StandingLss& lss, TriangleId id, const internal::NearFilter* filter,
+                  internal::NearPlaces& places) {
+    ++near_.counters.advancements;
+    internal::findPlaces(lss, plan_.scene.triangle(id), id, *plan_.flat, filter, places);
+  }
+
+  /// Lanes refuse what cannot win, given what has won so far.
+  void reduce(const StandingLss& lss) {
+    internal::NearReduction& reduction = scratch_.reduction;
+    internal::NearBlocks& blocks = scratch_.blocks;
+    reduction.begin(plan_.scene, lss, states_[slotOf(lss.link)].R_WL);
+    for (std::size_t from = 0; from < blocks.size(); from += internal::PlaceBlock::kSize) {
+      near_.counters.laneSteps += kPlacesWork * internal::PlaceBlock::kSize;
+      offer(lss, from, blocks.mayWin(plan_.scene, *plan_.flat, lss, reduction.bins(), from));
+    }
+    reduction.finish(scratch_.found);
+  }
+
+  /// What may win of a block, in doubles.
+  void offer(const StandingLss& lss, std::size_t from, const internal::PlaceChoice& choice) {
+    internal::NearReduction& reduction = scratch_.reduction;
+    const auto next = [&](unsigned& bits) {
+      const auto i = static_cast<std::size_t>(__builtin_ctz(bits));
+      bits &= bits - 1;
+      return scratch_.blocks.id(from + i);
+    };
+    for (unsigned unsure = choice.unsure; unsure != 0;) {
+      internal::NearPlaces places;
+      findPlaces(lss, next(unsure), &reduction, places);
+      for (int p = 0; p < places.count; ++p) reduction.offer(places.place[p]);
+    }
+    for (int source = 0; source < internal::kPlaceSources; ++source) {
+      for (const bool isWhole : {false, true}) {
+        const auto part = static_cast<internal::NearPart>(isWhole ? 0 : 1 + source);
+        const unsigned whole = choice.isWhole[source];
+        for (unsigned may = choice.may[source] & (isWhole ? whole : ~whole); may != 0;) {
+          const TriangleId id = next(may);
+          ++near_.counters.advancements;
+          reduction.offer(
+              internal::placeFrom(lss, plan_.scene.triangle(id), id, *plan_.flat, source, part));
         }
       }
     }
-    if (isReduced) scratch_.reduction.finish(scratch_.found);
   }
 
   /// The link's nearest so far is the one in `found`.
   void findNearest(const StandingLss& lss) {
     std::vector<NearPlace>& found = scratch_.found;
-    for (std::size_t k = 0; k < scratch_.near.count; ++k) {
-      const TriangleId id = scratch_.near.id[k];
-      if (scratch_.ignored.has(plan_.scene, id)) continue;
-      if (!found.empty() && scratch_.near.gap[k] > found[0].feature.gap) continue;
+    for (std::size_t k = 0; k < scratch_.blocks.size(); ++k) {
+      const TriangleId id = scratch_.blocks.id(k);
+      if (!found.empty() && scratch_.blocks.gap(k) > found[0].feature.gap) continue;
       ++near_.counters.advancements;
       const NearPlace place =
           internal::closestPlace(lss, plan_.scene.triangle(id), id, *plan_.flat);

@@ -2,21 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lss/index.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Bounds of the bins lie off the halves and the diagonals where things that people make have
-/// their edges and normals: rounding then does not move these from bin to bin.
-constexpr double kQuarterBounds[] = {0.27, 0.53, 0.79};
+/// Bounds of the bins lie off the diagonals where things that people make have their normals, as
+/// those of quarters do: rounding then does not move these from bin to bin.
 const Eigen::Matrix3d kTilt = [] {
   const Vector3d axis = Vector3d(0.36, 0.48, 0.8);
   return Eigen::AngleAxisd(0.5, axis).toRotationMatrix();
 }();
+
+using RowMajorMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+/// Of a bin without a place.
+constexpr double kNobody = std::numeric_limits<double>::infinity();
+/// A squared distance beyond the square of another by this factor has a larger root in doubles,
+/// too: the two squares and the root round by less.
+constexpr double kBeyondEqual = 1.0 + 16.0 * kUnitRoundoff;
 
 /// The cosine above which two normals count as one (10 degrees), and how far apart (m) on the LSS
 /// such contacts are two. Doubled, a solver gets half as many rows, and a hand rocks on what is
@@ -55,32 +63,43 @@ bool comesBefore(const Scene& scene, const NearPlace& x, const NearPlace& y) {
 void NearReduction::begin(const Scene& scene, const StandingLss& lss, const Eigen::Matrix3d& R_WL) {
   scene_ = &scene;
   lss_ = &lss;
-  toBins_ = kTilt * R_WL.transpose();
-  if (places_.empty()) return;
-  slots_.fill(0);
+  Eigen::Map<RowMajorMatrix3d>(bins_.toBins[0]) = kTilt * R_WL.transpose();
+  for (const std::size_t bin : heldBins_) {
+    slots_[bin] = 0;
+    bins_.limit[bin] = kNobody;
+  }
+  heldBins_.clear();
   places_.clear();
+}
+
+NearReduction::NearReduction() {
+  std::fill(bins_.limit, bins_.limit + NearBins::kCount, kNobody);
 }
 
 /// The bin of faces; that of the rest is the next. The direction may have any length.
 std::size_t NearReduction::binsOf(const Vector3d& direction_W, double along) const {
-  const Vector3d n = toBins_ * direction_W;
+  // Operation for operation as near_bins.cpp.
+  Vector3d n;
+  for (int k = 0; k < 3; ++k) {
+    const auto& row = bins_.toBins[k];
+    n[k] = (row[0] * direction_W.x() + row[1] * direction_W.y()) + row[2] * direction_W.z();
+  }
   int axis = 0;
   const double largest = n.cwiseAbs().maxCoeff(&axis);
   const auto thirdOf = [&](int other) -> std::size_t {
-    const double share = largest > 0.0 ? n[other % 3] / largest : 0.0;
-    return share < -1.0 / 3.0 ? 0 : (share < 1.0 / 3.0 ? 1 : 2);
+    const double tripled = 3.0 * n[other % 3];
+    return tripled < -largest ? 0 : (tripled <= largest ? 1 : 2);
   };
   const std::size_t side = 2 * slotOf(axis) + (n[axis] < 0.0 ? 1 : 0);
   std::size_t quarter = 0;
-  for (const double bound : kQuarterBounds) quarter += along > bound ? 1 : 0;
+  for (const double bound : NearBins::kQuarterBounds) quarter += along > bound ? 1 : 0;
   const std::size_t direction = (side * 3 + thirdOf(axis + 1)) * 3 + thirdOf(axis + 2);
-  return (direction * kQuarters + quarter) * kKinds;
+  return (direction * NearBins::kQuarters + quarter) * NearBins::kKinds;
 }
 
 bool NearReduction::mayWin(const Vector3d& difference, double along, double distance) const {
-  const Vector3d direction = difference / distance;  // as in the place, so that both share a bin
-  const std::size_t bin = binsOf(direction, along);
-  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+  const std::size_t bin = binsOf(difference, along);
+  for (std::size_t kind = 0; kind < NearBins::kKinds; ++kind) {
     const std::uint16_t slot = slots_[bin + kind];
     if (slot == 0 || !(places_[slot - 1U].distance < distance)) return true;
   }
@@ -89,14 +108,18 @@ bool NearReduction::mayWin(const Vector3d& difference, double along, double dist
 
 void NearReduction::offer(const NearPlace& place) {
   if (!place.stands) return;
-  const std::size_t bin = binsOf(place.feature.nhat_SL_W, place.feature.along);
-  std::uint16_t& slot = slots_[bin + (isFace(place) ? 0 : 1)];
+  const std::size_t bin = binsOf(place.away, place.feature.along) + (isFace(place) ? 0 : 1);
+  std::uint16_t& slot = slots_[bin];
   if (slot == 0) {
     places_.push_back(place);
+    heldBins_.push_back(bin);
     slot = static_cast<std::uint16_t>(places_.size());
   } else if (comesBefore(*scene_, place, places_[slot - 1U])) {
     places_[slot - 1U] = place;
+  } else {
+    return;
   }
+  bins_.limit[bin] = place.distance * place.distance * kBeyondEqual;
 }
 
 void NearReduction::finish(std::vector<NearPlace>& left) {

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "middleware/lanes/near_bins.h"
 #include "middleware/query/near_places.h"
 #include "middleware/scene/scene.h"
 
@@ -22,9 +23,7 @@ namespace foretouch::internal {
 /// result is a function of the set of places that were offered. Fixed memory.
 class NearReduction final : public NearFilter {
  public:
-  /// Six faces of a cube, three by three on each; quarters of the axis; faces, and the rest.
-  static constexpr std::size_t kDirections = 54, kQuarters = 4, kKinds = 2;
-  static constexpr std::size_t kBins = kDirections * kQuarters * kKinds;
+  NearReduction();
 
   /// Forgets the last LSS. `R_WL`: of the LSS's link; directions are told apart in its frame, so
   /// that a motion of all does not change the answer.
@@ -33,6 +32,8 @@ class NearReduction final : public NearFilter {
   /// False: both bins that it could be in have a nearer one.
   [[nodiscard]] bool mayWin(const Eigen::Vector3d& difference, double along,
                             double distance) const override;
+  /// What a place must not exceed to win.
+  [[nodiscard]] const NearBins& bins() const { return bins_; }
   /// Appends what is left. O(bins^2) at most, few in practice.
   void finish(std::vector<NearPlace>& left);
 
@@ -45,9 +46,10 @@ class NearReduction final : public NearFilter {
 
   const Scene* scene_ = nullptr;
   const StandingLss* lss_ = nullptr;
-  Eigen::Matrix3d toBins_;
-  std::array<std::uint16_t, kBins> slots_{};  // one more than the place's; 0: none
+  NearBins bins_;
+  std::array<std::uint16_t, NearBins::kCount> slots_{};  // one more than the place's; 0: none
   std::vector<NearPlace> places_, accepted_;
+  std::vector<std::size_t> heldBins_;  // of places_
   std::vector<std::uint16_t> order_;
 };
 

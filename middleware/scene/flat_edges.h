@@ -34,6 +34,8 @@ class FlatEdges {
   [[nodiscard]] bool isFlatVertex(TriangleId id, int k) const { return has(id, kFlat + k); }
   /// The edges that end there and are not flat are in line, on both sides of it.
   [[nodiscard]] bool isStraightVertex(TriangleId id, int k) const { return has(id, kStraight + k); }
+  /// Bits 0 to 2: flat edges; 3 to 5: flat vertices; 6 to 8: straight ones.
+  [[nodiscard]] std::uint16_t bitsOf(TriangleId id) const { return bits_[slotOf(id)]; }
 
  private:
   static constexpr int kEdges = 0, kFlat = 3, kStraight = 6;

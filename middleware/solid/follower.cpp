@@ -86,7 +86,7 @@ bool Follower::goStraight(const Pose& target, Certifier& certifier, Pose& shown,
   }
   rows_.clear();
   appendPiece(reached_, answer.clearance, tick);
-  shown = reached_;
+  std::swap(shown, reached_);
   return true;
 }
 
@@ -99,8 +99,9 @@ void Follower::follow(const FollowRequest& request, Certifier& certifier, Pose& 
   hasMoved_ = false;
   rows_.clear();
   hasDirectFailed_ = cutClearance_ >= 0.0 && isSamePose(shown, cutFrom_);
+  isHere_ = isOfTried_ = false;
   if (hasDirectFailed_) {
-    merit_ = meritOf(request, shown);
+    standHere(request, shown);
     (void)showCut(request, cutClearance_, shown, tick);
   }
   cutClearance_ = -1.0;
@@ -120,10 +121,8 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
     tick.limit = SolidLimit::Budget;
     return false;
   }
-  placeLinks(skeleton_, shown, states_);
-  body_.place(states_, places_);
-  const double far = VisualBody::farthest(places_, request.wanted);
-  merit_ = body_.merit(shown, states_, request.target, request.wanted);
+  standHere(request, shown);
+  const double far = VisualBody::farthest(here_.places, request.wanted);
   if (!isAnyHot()) return stepFreely(request, far, certifier, shown, tick);
 
   aim(request, shown);
@@ -140,7 +139,7 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
     if (direct.isClear) {
       rows_.clear();
       appendPiece(reached_, direct.clearance, tick);
-      shown = reached_;
+      std::swap(shown, reached_);
     }
     if (direct.isClear || isOver_) return false;
     hasDirectFailed_ = true;
@@ -165,6 +164,7 @@ bool Follower::stepFreely(const FollowRequest& request, double far, Certifier& c
     if (!(left_ > kSettled)) return false;
     part_.assign(skeleton_, shown, request.target);
     part_.poseAt(left_ / far, tried_);
+    isOfTried_ = false;
   }
   const Outcome outcome = show(request, isWhole ? request.target : tried_, certifier, shown, tick);
   if (outcome == Outcome::Clear) return false;
@@ -189,12 +189,10 @@ Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, C
                                  Pose& shown, SolidTick& tick) {
   const Certified answer = ask(shown, to, certifier, tick);
   if (answer.isClear) {
-    placeLinks(skeleton_, reached_, triedStates_);
-    body_.place(triedStates_, triedPlaces_);
-    left_ -= VisualBody::farthest(places_, triedPlaces_);
-    appendPiece(reached_, answer.clearance, tick);
-    shown = reached_;
-    hasMoved_ = true;
+    const bool isPlaced = &to == &tried_ && isOfTried_;
+    if (!isPlaced) place(reached_, there_);
+    moveThere(answer.clearance, shown, tick);
+    isHere_ = isPlaced;
     return Outcome::Clear;
   }
   if (!(answer.share > 0.0)) return Outcome::Stuck;
@@ -204,34 +202,57 @@ Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, C
 /// A piece that was cut is part of a way on which the merit falls in the end, perhaps not at once.
 bool Follower::showCut(const FollowRequest& request, double clearance, Pose& shown,
                        SolidTick& tick) {
-  if (!(meritOf(request, reached_) < kFalls * merit_)) return false;
-  placeLinks(skeleton_, shown, states_);
-  body_.place(states_, places_);
-  body_.place(triedStates_, triedPlaces_);
-  left_ -= VisualBody::farthest(places_, triedPlaces_);
-  appendPiece(reached_, clearance, tick);
-  shown = reached_;
-  hasMoved_ = true;
+  place(reached_, there_);
+  weigh(request, reached_, there_);
+  isOfTried_ = false;
+  if (!(there_.merit < kFalls * here_.merit)) return false;
+  moveThere(clearance, shown, tick);
   return true;
 }
 
-/// Leaves the links' places there in triedStates_.
-double Follower::meritOf(const FollowRequest& request, const Pose& pose) {
-  placeLinks(skeleton_, pose, triedStates_);
-  return body_.merit(pose, triedStates_, request.target, request.wanted);
+/// Shows what was reached, which there_ is of.
+void Follower::moveThere(double clearance, Pose& shown, SolidTick& tick) {
+  left_ -= VisualBody::farthest(here_.places, there_.places);
+  appendPiece(reached_, clearance, tick);
+  std::swap(shown, reached_);
+  std::swap(here_, there_);
+  isOfTried_ = false;
+  hasMoved_ = true;
+}
+
+/// Makes here_ that of the shown pose, unless it is.
+void Follower::standHere(const FollowRequest& request, const Pose& shown) {
+  if (std::exchange(isHere_, true)) return;
+  place(shown, here_);
+  weigh(request, shown, here_);
+}
+
+void Follower::place(const Pose& pose, Stance& stance) const {
+  placeLinks(skeleton_, pose, stance.states);
+  body_.place(stance.states, stance.places);
+}
+
+/// Of a stance that place() made.
+void Follower::weigh(const FollowRequest& request, const Pose& pose, Stance& stance) const {
+  stance.turns.resize(pose.rotations.size());
+  for (std::size_t j = 0; j < pose.rotations.size(); ++j) {
+    stance.turns[j] = turnBetween(pose.rotations[j], request.target.rotations[j]);
+  }
+  stance.merit = body_.merit(stance.places, request.wanted, stance.turns);
 }
 
 /// The step that would reach the target to first order if nothing were in the way.
 void Follower::aim(const FollowRequest& request, const Pose& shown) {
   const std::vector<JointId>& parents = skeleton_.parents();
   const std::size_t n = parents.size();
-  origin_ = states_[0].p_WL;
+  const std::vector<LinkState>& states = here_.states;
+  origin_ = states[0].p_WL;
   pull_.forces.assign(n, Vector6d::Zero());
   pull_.torques.resize(n);
   pull_.drifts.resize(n);
   inertia_.begin();
   for (std::size_t j = 0; j < n; ++j) {
-    const Eigen::Vector3d turn = turnBetween(shown.rotations[j], request.target.rotations[j]);
+    const Eigen::Vector3d& turn = here_.turns[j];
     const double stiffness = body_.stiffness()[j];
     if (parents[j] == kNoParent) {
       pull_.torques[j] = stiffness * turn;
@@ -239,16 +260,16 @@ void Follower::aim(const FollowRequest& request, const Pose& shown) {
     } else {
       const auto parent = slotOf(parents[j]);
       change_.shift[j] = request.target.translations[j] - shown.translations[j];
-      pull_.torques[j] = stiffness * (states_[parent].R_WL * turn);
-      pull_.drifts[j] = pull_.drifts[parent] + states_[parent].R_WL * change_.shift[j];
+      pull_.torques[j] = stiffness * (states[parent].R_WL * turn);
+      pull_.drifts[j] = pull_.drifts[parent] + states[parent].R_WL * change_.shift[j];
     }
-    inertia_.setOrigin(static_cast<JointId>(j), states_[j].p_WL - origin_);
+    inertia_.setOrigin(static_cast<JointId>(j), states[j].p_WL - origin_);
   }
   const auto& points = body_.points();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto link = slotOf(points[k].link);
-    const Eigen::Vector3d x = places_[k] - origin_;
-    const Eigen::Vector3d error = request.wanted[k] - places_[k] - pull_.drifts[link];
+    const Eigen::Vector3d x = here_.places[k] - origin_;
+    const Eigen::Vector3d error = request.wanted[k] - here_.places[k] - pull_.drifts[link];
     pull_.forces[link] += points[k].weight * wrench(x, error);
     inertia_.addPoint(points[k].link, x, points[k].weight);
   }
@@ -263,7 +284,8 @@ void Follower::findReach() {
   const auto& points = body_.points();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto link = slotOf(points[k].link);
-    const double step = (free_.twists[link].at(places_[k] - origin_) + pull_.drifts[link]).norm();
+    const double step =
+        (free_.twists[link].at(here_.places[k] - origin_) + pull_.drifts[link]).norm();
     reach_[link] = std::max(reach_[link], step);
   }
   hotReach_.resize(n);
@@ -276,7 +298,7 @@ void Follower::findReach() {
 
 void Follower::gather(Certifier& certifier, SolidTick& tick) {
   findReach();
-  near_.answer(states_, hotReach_, nearScratch_, features_);
+  near_.answer(here_.states, hotReach_, nearScratch_, features_);
   for (const NearFeature& feature : features_.features) {
     if (feature.nhat_SL_W.squaredNorm() == 0.0) continue;
     ContactRow row;
@@ -289,7 +311,7 @@ void Follower::gather(Certifier& certifier, SolidTick& tick) {
     row.gap = feature.gap;
     rows_.push_back(row);
   }
-  if (options_.self) own_.append(certifier.plan(), states_, reach_, hotFor_, rows_);
+  if (options_.self) own_.append(certifier.plan(), here_.states, reach_, hotFor_, rows_);
   ++tick.counters.iterations;
   tick.counters.features += static_cast<std::uint32_t>(rows_.size());
   certifier.spend(kIterationWork + kRowWork * rows_.size() + WorkMeter::workOf(features_.counters));
@@ -351,10 +373,11 @@ void Follower::goFarther(const FollowRequest& request, const QueryPlan& plan, co
   for (int doubling = 0; doubling < kDoublings; ++doubling) {
     if (2.0 * share * size_ > most) return;
     nearer_ = tried_;
-    const double merit = triedMerit_;
+    const double merit = there_.merit;
     const bool isNearer = tryShare(request, shown, 2.0 * share);
-    if (!isNearer || triedMerit_ >= kFalls * merit || !keepsGaps(plan)) {
+    if (!isNearer || there_.merit >= kFalls * merit || !keepsGaps(plan)) {
       tried_ = nearer_;
+      isOfTried_ = false;
       return;
     }
     share *= 2.0;
@@ -374,7 +397,8 @@ double Follower::sizeOf(const TreeStep& step) const {
   const auto& points = body_.points();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto link = slotOf(points[k].link);
-    const Eigen::Vector3d moved = step.twists[link].at(places_[k] - origin_) + pull_.drifts[link];
+    const Eigen::Vector3d moved =
+        step.twists[link].at(here_.places[k] - origin_) + pull_.drifts[link];
     most = std::max(most, moved.squaredNorm());
   }
   most = std::sqrt(most);
@@ -389,30 +413,31 @@ bool Follower::tryShare(const FollowRequest& request, const Pose& shown, double 
     change_.turn[j] = step_.turns[j];
     if (skeleton_.parents()[j] == kNoParent) change_.shift[j] = step_.shifts[j];
   }
-  moveBy(skeleton_, shown, states_, change_, share, tried_);
-  triedMerit_ = meritOf(request, tried_);
-  return triedMerit_ < kFalls * merit_;
+  moveBy(skeleton_, shown, here_.states, change_, share, tried_);
+  place(tried_, there_);
+  weigh(request, tried_, there_);
+  isOfTried_ = true;
+  return there_.merit < kFalls * here_.merit;
 }
 
 /// At the target, what pushes is apart: perhaps nothing is in the way.
-bool Follower::isTargetApart(const FollowRequest& request, const QueryPlan& plan) {
-  placeLinks(skeleton_, request.target, triedStates_);
+bool Follower::isTargetApart(const FollowRequest& request, const QueryPlan& plan) const {
   return std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
-    return !(row.push > 0.0) || triedGapOf(plan, row) > 0.0;
+    return !(row.push > 0.0) || gapAt(request.states, plan, row) > 0.0;
   });
 }
 
-/// At the pose that is tried.
-double Follower::triedGapOf(const QueryPlan& plan, const ContactRow& row) const {
+double Follower::gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
+                       const ContactRow& row) {
   const LinkId other = row.other == kNoParent ? row.link : row.other;
   return gapOf(plan, {row.link, row.lss, row.triangle, row.other, row.otherLss},
-               triedStates_[slotOf(row.link)], triedStates_[slotOf(other)]);
+               states[slotOf(row.link)], states[slotOf(other)]);
 }
 
 bool Follower::keepsGaps(const QueryPlan& plan) const {
   return std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
     if (!(row.push > 0.0)) return true;
-    return triedGapOf(plan, row) >= std::min(kKeptGap * row.gap, kRest * options_.skin);
+    return gapAt(there_.states, plan, row) >= std::min(kKeptGap * row.gap, kRest * options_.skin);
   });
 }
 
@@ -422,7 +447,7 @@ void Follower::correctFor(const QueryPlan& plan, double share) {
   for (ContactRow& row : rows_) {
     if (!(row.push > 0.0)) continue;
     const double wanted = std::min(row.gap, kRest * options_.skin);
-    const double gap = triedGapOf(plan, row);
+    const double gap = gapAt(there_.states, plan, row);
     if (gap < wanted) row.bias += (wanted - gap) / share;
   }
 }

@@ -22,7 +22,8 @@ namespace foretouch::internal {
 /// What a tick is asked to do.
 struct FollowRequest {
   const Pose& target;
-  const std::vector<Eigen::Vector3d>& wanted;  ///< The body's points at the target.
+  const std::vector<LinkState>& states;        ///< The links at the target.
+  const std::vector<Eigen::Vector3d>& wanted;  ///< The body's points there.
   double trackedStep;  ///< How far the farthest point of the target moved since the last tick (m).
   double budget;       ///< How far any shown point may move in this tick (m).
 };
@@ -55,6 +56,13 @@ class Follower {
   Follower(const Avatar& avatar, const SolidOptions& options, const Certifier& certifier,
            NearQuery near);
 
+  /// Where a pose places what counts.
+  struct Stance {
+    std::vector<LinkState> states;
+    std::vector<Eigen::Vector3d> places;  // of the body's points
+    std::vector<Eigen::Vector3d> turns;   // per joint, to the target
+    double merit = 0.0;
+  };
   enum class Outcome : std::uint8_t { Clear, Cut, Stuck };
   [[nodiscard]] Outcome show(const FollowRequest& request, const Pose& to, Certifier& certifier,
                              Pose& shown, SolidTick& tick);
@@ -67,8 +75,11 @@ class Follower {
   [[nodiscard]] bool stepFreely(const FollowRequest& request, double far, Certifier& certifier,
                                 Pose& shown, SolidTick& tick);
   void aim(const FollowRequest& request, const Pose& shown);
+  void place(const Pose& pose, Stance& stance) const;
+  void weigh(const FollowRequest& request, const Pose& pose, Stance& stance) const;
+  void standHere(const FollowRequest& request, const Pose& shown);
+  void moveThere(double clearance, Pose& shown, SolidTick& tick);
   void findReach();
-  [[nodiscard]] double meritOf(const FollowRequest& request, const Pose& pose);
   void gather(Certifier& certifier, SolidTick& tick);
   void setBounds(bool mayPush);
   [[nodiscard]] bool propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
@@ -82,8 +93,9 @@ class Follower {
   [[nodiscard]] double sizeOf(const TreeStep& step) const;
   [[nodiscard]] bool keepsGaps(const QueryPlan& plan) const;
   void correctFor(const QueryPlan& plan, double share);
-  [[nodiscard]] bool isTargetApart(const FollowRequest& request, const QueryPlan& plan);
-  [[nodiscard]] double triedGapOf(const QueryPlan& plan, const ContactRow& row) const;
+  [[nodiscard]] bool isTargetApart(const FollowRequest& request, const QueryPlan& plan) const;
+  [[nodiscard]] static double gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
+                                    const ContactRow& row);
   void keepHot();
 
   SolidOptions options_;
@@ -96,9 +108,12 @@ class Follower {
   NearScratch nearScratch_;
   NearFeatures features_;
 
+  // What is shown, and what may be next.
+  Stance here_, there_;
+  bool isHere_ = false;     // here_ is of the shown pose
+  bool isOfTried_ = false;  // there_ is of tried_
+
   // Of the current iteration.
-  std::vector<LinkState> states_, triedStates_;
-  std::vector<Eigen::Vector3d> places_, triedPlaces_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   TreePull pull_;
   TreeStep free_, step_;
@@ -107,7 +122,6 @@ class Follower {
   std::vector<ContactRow> rows_;
   Pose tried_, nearer_, reached_;
   ChainMotion part_;
-  double merit_ = 0.0, triedMerit_ = 0.0;
   double size_ = 0.0;  // of the whole step that was solved for
 
   // Of the current tick.

@@ -117,10 +117,7 @@ class SolidAvatar::Parts {
     internal::beginTick(tick);
     isAround_ = false;
     if (!isPlaced_) place(tick);
-    if (isPlaced_) {
-      before_ = shown_;
-      move(given.dtS, tick);
-    }
+    if (isPlaced_) move(given.dtS, tick);
     lift_.remember(follower_.rows());
     finish(given.dtS, tick);
     return Done{};
@@ -203,6 +200,7 @@ class SolidAvatar::Parts {
     if (wasEqual_ && !follower_.isAnyHot()) {
       if (follower_.goStraight(target_.pose(), certifier_, shown_, tick)) return;
     }
+    before_ = shown_;
     const internal::VisualBody& body = follower_.body();
     body.place(target_.states(), wanted_);
     double step = 0.0;
@@ -213,7 +211,8 @@ class SolidAvatar::Parts {
     const double budget = step + options_.catchUp * dtS;
     if (around_.isStale(shown_, wanted_)) around_.reset();
     if (around_.hasWay() && walkAround(budget, tick)) return;
-    follower_.follow({target_.pose(), wanted_, step, budget}, certifier_, shown_, tick);
+    follower_.follow({target_.pose(), target_.states(), wanted_, step, budget}, certifier_, shown_,
+                     tick);
     if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
   }
 

@@ -46,15 +46,15 @@ void VisualBody::place(const std::vector<LinkState>& states,
   }
 }
 
-double VisualBody::merit(const Pose& pose, const std::vector<LinkState>& states, const Pose& target,
-                         const std::vector<Eigen::Vector3d>& wanted) const {
+double VisualBody::merit(const std::vector<Eigen::Vector3d>& places,
+                         const std::vector<Eigen::Vector3d>& wanted,
+                         const std::vector<Eigen::Vector3d>& turns) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    const Point& point = points_[k];
-    sum += point.weight * (states[slotOf(point.link)].pointAt(point.p_L) - wanted[k]).squaredNorm();
+    sum += points_[k].weight * (places[k] - wanted[k]).squaredNorm();
   }
   for (std::size_t j = 0; j < stiffness_.size(); ++j) {
-    sum += stiffness_[j] * turnBetween(pose.rotations[j], target.rotations[j]).squaredNorm();
+    sum += stiffness_[j] * turns[j].squaredNorm();
   }
   return sum;
 }
