@@ -247,10 +247,11 @@ Result<SolidReader> SolidReader::open(const std::string& path) {
                              "`foretouch replay --solid` writes them",
                              kSolidFormat)};
   }
-  if (parsed.value("version", json()) != kSolidVersion) {
+  const json version = parsed.value("version", json());
+  if (version != kSolidVersion) {
     return Error{ErrorCode::Mismatch, path, 1, -1,
                  fmt::format("expected version {}, found {}", kSolidVersion,
-                             inQuotes(parsed.value("version", json()).dump()))};
+                             version.is_number() ? version.dump() : inQuotes(version.dump()))};
   }
   SolidFields fields(parsed, "");
   reader.header_ = readHeader(fields);
