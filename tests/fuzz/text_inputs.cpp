@@ -62,6 +62,8 @@ bool feedUrl(const std::uint8_t* data, std::size_t size) {
   }
   const auto address = tools::parseHttpAddress("--http", text);
   if (!address.ok()) checkReason(address.error());
+  const auto network = parseNetwork(text);
+  if (!network.ok()) checkReason(network.error());
   const auto view = tools::parseViewAddress("--view", text);
   require(address.ok() || !view.ok(), "an address of the page is one of HTTP");
   return url.ok() || address.ok();
