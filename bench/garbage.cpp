@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <arpa/inet.h>
+#include <array>
 #include <chrono>
-#include <cmath>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <utility>
@@ -14,6 +14,7 @@ namespace foretouch::tools {
 namespace {
 
 constexpr std::size_t kKinds = 1024;  // of a flood's datagrams: none is made while it runs
+constexpr std::size_t kMostAtOnce = 64;
 
 std::uint8_t byteOf(PortableRandom& random) {
   return static_cast<std::uint8_t>(random.uniform(0.0, 256.0));
@@ -33,6 +34,21 @@ GroupSocket::~GroupSocket() {
 bool GroupSocket::send(const Bytes& datagram) const {
   return ::sendto(socket_, datagram.data(), datagram.size(), MSG_DONTWAIT,
                   reinterpret_cast<const sockaddr*>(&group_), sizeof group_) >= 0;
+}
+
+std::size_t GroupSocket::send(std::vector<Bytes>& datagrams, std::size_t first, std::size_t count) {
+  std::array<iovec, kMostAtOnce> parts{};
+  std::array<mmsghdr, kMostAtOnce> messages{};
+  count = std::min({count, kMostAtOnce, datagrams.size() - first});
+  for (std::size_t i = 0; i < count; ++i) {
+    parts[i] = {datagrams[first + i].data(), datagrams[first + i].size()};
+    messages[i].msg_hdr.msg_name = &group_;
+    messages[i].msg_hdr.msg_namelen = sizeof group_;
+    messages[i].msg_hdr.msg_iov = &parts[i];
+    messages[i].msg_hdr.msg_iovlen = 1;
+  }
+  const int sent = ::sendmmsg(socket_, messages.data(), static_cast<unsigned>(count), MSG_DONTWAIT);
+  return sent > 0 ? static_cast<std::size_t>(sent) : 0;
 }
 
 Garbage::Garbage(const UdpmUrl& url, const Bytes& validPayload, std::uint64_t seed)
@@ -107,22 +123,21 @@ Flood::Sent Flood::wait() {
   return sent_;
 }
 
-/// In bursts of a millisecond: a sleep per datagram would be too slow.
 void Flood::run(double perSecond, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   const auto since = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  std::int64_t tried = 0;
+  std::size_t next = 0;
   for (double now = 0.0; (now = since()) < seconds && !stop_;) {
-    const auto due = static_cast<std::int64_t>(std::floor(now * perSecond));
-    // Never more at once than a tenth of a second's: a flood that was held up does not catch up.
-    for (auto burst = std::min(due - tried, static_cast<std::int64_t>(perSecond * 0.1)); burst > 0;
-         --burst) {
-      const auto next = static_cast<std::size_t>(sent_.datagrams) % datagrams_.size();
-      sent_.datagrams += socket_.send(datagrams_[next]) ? 1 : 0;
+    const auto due = static_cast<std::int64_t>(now * perSecond);
+    if (sent_.datagrams >= due) {
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+      continue;
     }
-    tried = due;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const auto owed = static_cast<std::size_t>(due - sent_.datagrams);
+    const std::size_t sent = socket_.send(datagrams_, next, owed);
+    sent_.datagrams += static_cast<std::int64_t>(sent);
+    next = (next + sent) % datagrams_.size();
   }
   sent_.perSecond = static_cast<double>(sent_.datagrams) / since();
 }

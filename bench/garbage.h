@@ -22,6 +22,8 @@ class GroupSocket {
   ~GroupSocket();
   /// False if the system did not take it.
   bool send(const Bytes& datagram) const;
+  /// Of `count` datagrams from `first` on, in one call; how many the system took.
+  std::size_t send(std::vector<Bytes>& datagrams, std::size_t first, std::size_t count);
 
  private:
   int socket_ = -1;
