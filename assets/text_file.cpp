@@ -1,5 +1,6 @@
 #include "assets/text_file.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
@@ -65,8 +66,8 @@ std::string folderOf(const std::string& path) {
 }
 
 /// In a folder that everybody may write to, such as /tmp, a link of somebody else is a trap: it
-/// leads to a file of ours. open() refuses to follow it where fs.protected_symlinks is set; reading
-/// the link, as we must, is always allowed.
+/// leads to a file of ours. open() refuses to follow it where fs.protected_symlinks is set, but
+/// only as a path's last name; reading the link, as we must, is always allowed.
 bool isOfAStranger(const struct stat& link, const std::string& path) {
   struct stat folder {};
   if (::stat(folderOf(path).c_str(), &folder) != 0) return true;
@@ -74,20 +75,35 @@ bool isOfAStranger(const struct stat& link, const std::string& path) {
   return isShared && link.st_uid != ::geteuid() && link.st_uid != folder.st_uid;
 }
 
-/// The file behind the links that the path's last name stands for; the path itself if there is
-/// none, or nothing yet. Nothing if one of the links is another user's trap. Links before the last
-/// name are left to the kernel, which has the same rule for them.
+/// Where the link `path` leads; nothing if its text does not say: those of /proc lead to pipes and
+/// to files without a name.
+std::optional<std::string> targetOf(const std::string& path) {
+  std::string text(PATH_MAX, '\0');
+  const ssize_t length = ::readlink(path.c_str(), text.data(), text.size());
+  if (length <= 0) return std::nullopt;
+  text.resize(countOf(length));
+  const std::string target = text.front() == '/' ? text : folderOf(path) + text;
+  struct stat unused {};
+  const bool isThere = ::stat(path.c_str(), &unused) == 0;
+  return isThere && ::lstat(target.c_str(), &unused) != 0 ? std::nullopt : std::optional(target);
+}
+
+/// The path without links, as far as there is one yet. Nothing if one of them, on the way or at the
+/// end, is another user's trap.
 std::optional<std::string> resolved(std::string path) {
-  constexpr int kMostLinks = 40;  // as the kernel; one more fails in open()
-  for (int i = 0; i < kMostLinks; ++i) {
+  constexpr int kMostLinks = 40;  // as the kernel, which refuses one more
+  int links = 0;
+  for (std::size_t end = 0; end < path.size();) {
+    end = std::min(path.find('/', end + 1), path.size());
+    const std::string upTo = path.substr(0, end);
     struct stat status {};
-    if (::lstat(path.c_str(), &status) != 0 || !S_ISLNK(status.st_mode)) break;
-    if (isOfAStranger(status, path)) return std::nullopt;
-    std::string next(PATH_MAX, '\0');
-    const ssize_t length = ::readlink(path.c_str(), next.data(), next.size());
-    if (length <= 0) break;
-    next.resize(countOf(length));
-    path = next.front() == '/' ? next : folderOf(path) + next;
+    if (::lstat(upTo.c_str(), &status) != 0) break;
+    if (!S_ISLNK(status.st_mode)) continue;
+    if (isOfAStranger(status, upTo)) return std::nullopt;
+    const auto target = targetOf(upTo);
+    if (!target || ++links > kMostLinks) break;
+    path = *target + path.substr(end);
+    end = 0;
   }
   return path;
 }
@@ -175,6 +191,10 @@ Result<PendingFile> PendingFile::create(const std::string& path) {
   const std::string& target = *followed;
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
+  if (!exists && errno == ELOOP) {
+    return Error::in(path, ErrorCode::FileUnwritable,
+                     "is a ring of links, expected a file to write");
+  }
   if (exists && S_ISDIR(status.st_mode)) {
     return Error::in(path, ErrorCode::FileUnwritable, "is a folder, expected a file to write");
   }

@@ -15,10 +15,11 @@ namespace foretouch {
 
 /// A file that appears under its name only once it is complete: goes to a temporary file in the
 /// same folder; commit() flushes and renames it. Without commit() it leaves nothing behind. Follows
-/// a symbolic link and replaces the file behind it, keeping its permissions; refuses another user's
-/// link in a sticky folder that all may write to (/tmp). Writes directly to
-/// anything but a regular file (a pipe), because there is nothing to rename over, and to
-/// /dev/stdout, whatever that is.
+/// symbolic links and replaces the file behind them, keeping its permissions; refuses a path on
+/// which another user's link lies in a sticky folder that all may write to (/tmp). A folder of
+/// another user's is theirs, and what is written there as well. Writes directly to anything but a
+/// regular file (a pipe), because there is nothing to rename over, and to /dev/stdout, whatever
+/// that is.
 class PendingFile {
  public:
   static Result<PendingFile> create(const std::string& path);

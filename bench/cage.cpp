@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <sys/resource.h>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -15,7 +14,7 @@
 #include "assets/import/protocol.h"
 #include "assets/import/run.h"
 #include "assets/import/scene_import.h"
-#include "assets/text_file.h"
+#include "bench/bench_folder.h"
 #include "bench/machine.h"
 #include "bench/timing.h"
 
@@ -25,32 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kBytesPerMB = 1e6;
-
-/// A folder of this process, gone with it.
-class BenchFolder {
- public:
-  BenchFolder()
-      : path_(fs::temp_directory_path() / ("foretouch-bench-" + std::to_string(::getpid()))) {
-    std::error_code ignored;
-    fs::create_directory(path_, ignored);
-  }
-  BenchFolder(const BenchFolder&) = delete;
-  BenchFolder& operator=(const BenchFolder&) = delete;
-  ~BenchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] Result<std::string> write(const std::string& name, const std::string& text) const {
-    const std::string path = (path_ / name).string();
-    FORETOUCH_TRY(auto file, PendingFile::create(path));
-    file.write(text);
-    FORETOUCH_CHECK(file.commit());
-    return path;
-  }
-
- private:
-  fs::path path_;
-};
 
 /// A strip of triangles in a row, as OBJ.
 std::string stripOf(int triangles) {

@@ -5,14 +5,17 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "bench/bench_folder.h"
 #include "bench/machine.h"
 #include "bench/service_process.h"
+#include "bench/soak_trouble.h"
 #include "bench/timing.h"
 #include "lss/index.h"
 #include "network/wire/reject.h"
@@ -104,6 +107,11 @@ class Watch {
   const ServiceProcess& service_;
   Clock::time_point start_ = Clock::now();
   std::vector<Sample> samples_;
+};
+
+struct SoakMemory {
+  double firstMb = 0.0, lastMb = 0.0, slopeMbPerHour = 0.0;
+  std::int64_t filesFirst = 0, filesLast = 0;  // the most of each half
 };
 
 }  // namespace
@@ -211,6 +219,29 @@ double slopeOf(const std::vector<double>& times, const std::vector<double>& valu
   return down > 0.0 ? up / down : 0.0;
 }
 
+namespace {
+
+/// What is known of the samples after warm-up.
+SoakMemory memoryOf(const std::vector<Sample>& samples, double warmUpS, double endS) {
+  SoakMemory memory;
+  std::vector<double> hours, megabytes;
+  for (const Sample& sample : samples) {
+    if (sample.seconds < warmUpS) continue;
+    std::int64_t& most =
+        sample.seconds < 0.5 * (warmUpS + endS) ? memory.filesFirst : memory.filesLast;
+    most = std::max(most, sample.openFiles);
+    hours.push_back(sample.seconds / kSecondsPerHour);
+    megabytes.push_back(static_cast<double>(sample.residentBytes) / kBytesPerMb);
+  }
+  memory.slopeMbPerHour = slopeOf(hours, megabytes);
+  if (megabytes.empty()) return memory;
+  memory.firstMb = megabytes.front();
+  memory.lastMb = megabytes.back();
+  return memory;
+}
+
+}  // namespace
+
 Result<SoakOutcome> soakStream(const SoakRequest& request) {
   FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.files));
   FORETOUCH_TRY(const auto track, loadTrack(inputs, request.place));
@@ -218,28 +249,39 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   load.senders = sendersOf(request.crowds);
   load.durationS = 60.0 * request.minutes;
   load.garbageShare = request.garbageShare;
-  auto service = ServiceProcess::start(
-      serviceArguments(inputs.files, load.senders.size(), request.workers, request.logPath));
+  const BenchFolder folder;
+  const TroubleRequest trouble{inputs.files, load.url, static_cast<int>(load.senders.size()) + 1,
+                               request.diskPath.empty() ? folder.path() : request.diskPath,
+                               !request.diskPath.empty()};
+  auto arguments = serviceArguments(inputs.files, load.senders.size() + (request.isCalm ? 0 : 1),
+                                    request.workers, std::string());
+  if (!request.isCalm) {
+    const auto more = SoakTrouble::arguments(trouble.logFolder);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+  }
+  auto service = ServiceProcess::start(arguments);
   if (!service.ok()) return service.error();
+  std::optional<SoakTrouble> beside;
+  if (!request.isCalm) {
+    FORETOUCH_TRY(auto started, SoakTrouble::start(trouble));
+    beside.emplace(std::move(started));
+  }
   Watch watch(service.value());
-  const auto ran = runLoad(track, load, [&] { watch.sample(); });
+  const auto ran = runLoad(track, load, [&] {
+    watch.sample();
+    if (beside) beside->everySecond();
+  });
   if (!ran.ok()) return ran.error();
   const LoadOutcome& outcome = ran.value();
+  const TroubleCounts befell = beside ? beside->stop() : TroubleCounts{};
 
   SoakOutcome soak;
+  const SoakMemory memory =
+      memoryOf(watch.samples(), request.warmUpShare * load.durationS, load.durationS);
   soak.lost = outcome.unanswered;
-  soak.filesConstant = true;
-  std::vector<double> hours, megabytes;
-  std::int64_t files = -1;
-  for (const Sample& sample : watch.samples()) {
-    if (sample.seconds < request.warmUpShare * load.durationS) continue;
-    if (files < 0) files = sample.openFiles;
-    soak.filesConstant = soak.filesConstant && sample.openFiles == files;
-    hours.push_back(sample.seconds / kSecondsPerHour);
-    megabytes.push_back(static_cast<double>(sample.residentBytes) / kBytesPerMb);
-  }
-  soak.slopeMbPerHour = slopeOf(hours, megabytes);
-  if (!megabytes.empty()) soak.grownMb = megabytes.back() - megabytes.front();
+  soak.slopeMbPerHour = memory.slopeMbPerHour;
+  soak.grownMb = memory.lastMb - memory.firstMb;
+  soak.filesGrown = memory.filesLast > memory.filesFirst;
   soak.exitCode = service.value().stop();
 
   const auto trips = sorted(outcome.answers, [](const LoadAnswer& a) { return a.roundTripUs; });
@@ -263,11 +305,16 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
     if (count.reason != toString(Reject::Overrun)) continue;
     row("service: overrun", static_cast<double>(count.count));
   }
-  row("resident memory, first MB", megabytes.empty() ? 0.0 : megabytes.front());
-  row("resident memory, last MB", megabytes.empty() ? 0.0 : megabytes.back());
+  row("resident memory, first MB", memory.firstMb);
+  row("resident memory, last MB", memory.lastMb);
   row("slope after warm-up, MB/h", soak.slopeMbPerHour);
-  row("open files", static_cast<double>(files));
-  row("open files changed", soak.filesConstant ? 0.0 : 1.0);
+  row("open files, most in the first half", static_cast<double>(memory.filesFirst));
+  row("open files, most in the last half", static_cast<double>(memory.filesLast));
+  row("floods", static_cast<double>(befell.floods));
+  row("datagrams of floods", static_cast<double>(befell.floodDatagrams));
+  row("senders killed and restarted", static_cast<double>(befell.restarts));
+  row("times that the log's disk was full", static_cast<double>(befell.timesFull));
+  row("viewers let go", static_cast<double>(befell.viewersLetGo));
   row("round trip p50 us", valueAtRank(trips, 0.5));
   row("round trip p99.9 us", valueAtRank(trips, 0.999));
   row("round trip max us", trips.empty() ? 0.0 : trips.back());

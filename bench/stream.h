@@ -56,7 +56,9 @@ struct SoakRequest {
   double warmUpShare = 0.25;   ///< Of the time: before watching memory.
   double garbageShare = 0.01;  ///< Datagrams of garbage per pose.
   int workers = 1;
-  std::string logPath;  ///< The service's journal; empty: none.
+  bool isCalm = false;   ///< Without what bench/soak_trouble.h does.
+  std::string diskPath;  ///< A folder on a small disk of its own, for the service's log: it is
+                         ///< filled and emptied. Empty: the log goes to a folder that is not.
   std::string command;
 };
 
@@ -65,8 +67,8 @@ struct SoakOutcome {
   std::int64_t lost = 0;
   double slopeMbPerHour = 0.0;  ///< Of resident memory after warm-up, by least squares.
   double grownMb = 0.0;         ///< From the first to the last sample after warm-up.
-  bool filesConstant = false;
-  int exitCode = -1;  ///< Of the service.
+  bool filesGrown = false;      ///< More open in the last half after warm-up than in the first.
+  int exitCode = -1;            ///< Of the service.
 };
 
 /// One service under one load. Precondition as above.

@@ -26,7 +26,8 @@ constexpr double kMostMbPerHour = 1.0, kNoGrowthMb = internal::kUnderSanitizer ?
 
 struct StreamTexts {
   std::string crowds, seconds = "10", workers = "1", place = "0,0,0,0", json, csv;
-  std::string minutes = "2", garbage = "0.01", log;
+  std::string minutes = "2", garbage = "0.01", disk;
+  bool isCalm = false;
 };
 
 ExitCode runStream(const StreamTexts& texts) {
@@ -59,14 +60,15 @@ ExitCode runSoak(const StreamTexts& texts) {
   settle.into(request.workers, parseCount("--workers", texts.workers, kMaxWorkers));
   settle.into(request.place, parsePlacement("--place", texts.place));
   if (settle.error()) return failed(*settle.error());
-  request.logPath = texts.log;
+  request.isCalm = texts.isCalm;
+  request.diskPath = texts.disk;
   request.command = ownCommandLine();
   FORETOUCH_CHECK_OR(failed, enterPrivateNetwork());
   FORETOUCH_TRY_OR(failed, const auto soak, soakStream(request));
   const BenchReport& report = soak.report;
   FORETOUCH_CHECK_OR(failed, writeReport(report, texts.json, report.tables.front(), texts.csv));
   printOut(reportText(report));
-  const bool isSound = soak.lost == 0 && soak.filesConstant &&
+  const bool isSound = soak.lost == 0 && !soak.filesGrown &&
                        (soak.slopeMbPerHour < kMostMbPerHour || soak.grownMb < kNoGrowthMb) &&
                        soak.exitCode == 0;
   if (isSound) return ExitCode::Done;
@@ -134,8 +136,14 @@ void addBenchStreamCommands(CLI::App& bench, ExitCode& exit) {
   soakCommand->add_option("--garbage", soak->garbage, "Datagrams of garbage per pose")
       ->type_name("SHARE")
       ->capture_default_str();
-  soakCommand->add_option("--log", soak->log, "The service's journal")->type_name("FILE");
-  soakCommand->footer("Example:\n  foretouch-bench soak --minutes 30");
+  soakCommand->add_flag("--calm", soak->isCalm,
+                        "No viewers, no floods, no sender that is restarted, no log");
+  soakCommand
+      ->add_option("--disk", soak->disk,
+                   "Folder on a small disk of its own (a tmpfs) for the service's log: the bench "
+                   "fills it and empties it")
+      ->type_name("FOLDER");
+  soakCommand->footer("Example:\n  foretouch-bench soak --minutes 150 --disk /mnt/small");
   soakCommand->callback([soak, &exit] { exit = runSoak(*soak); });
 }
 

@@ -1,25 +1,20 @@
 #include "bench/stream_load.h"
 
 #include <algorithm>
-#include <arpa/inet.h>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <memory>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <thread>
-#include <unistd.h>
 #include <unordered_map>
 #include <utility>
 
 #include "articulated/try.h"
+#include "bench/garbage.h"
 #include "lss/index.h"
 #include "network/service/clock.h"
 #include "network/wire/codec.h"
-#include "network/wire/udpm_datagram.h"
-#include "tools/portable_random.h"
 
 namespace foretouch::tools {
 namespace {
@@ -62,62 +57,6 @@ class SendTimes {
 
  private:
   std::vector<std::vector<std::atomic<std::int64_t>>> times_;
-};
-
-/// Datagrams that a service must survive: noise, and cut or false copies of a valid one.
-class Garbage {
- public:
-  Garbage(const UdpmUrl& url, const Bytes& validPayload, std::uint64_t seed)
-      : random_(seed), valid_(datagramsOf(kPoseChannel, validPayload, 0).front()) {
-    socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    group_.sin_family = AF_INET;
-    group_.sin_port = htons(url.port);
-    ::inet_pton(AF_INET, url.group.c_str(), &group_.sin_addr);
-  }
-  Garbage(const Garbage&) = delete;
-  Garbage& operator=(const Garbage&) = delete;
-  ~Garbage() { ::close(socket_); }
-
-  void send() {
-    const Bytes bytes = make();
-    ::sendto(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT,
-             reinterpret_cast<const sockaddr*>(&group_), sizeof group_);
-  }
-
- private:
-  [[nodiscard]] std::size_t below(std::size_t n) {
-    return static_cast<std::size_t>(random_.uniform(0.0, static_cast<double>(n)));
-  }
-  [[nodiscard]] Bytes make() {
-    constexpr std::size_t kMostNoise = 1200;
-    Bytes bytes = valid_;
-    switch (below(4)) {
-      case 0:  // noise
-        bytes.resize(1 + below(kMostNoise));
-        for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(below(256));
-        return bytes;
-      case 1:  // cut
-        bytes.resize(1 + below(bytes.size() - 1));
-        return bytes;
-      case 2: {  // false counts and lengths; stamps and quaternions unchanged
-        const std::size_t place = 8 + below(60);
-        bytes[std::min(place, bytes.size() - 1)] ^= static_cast<std::uint8_t>(0x80 | below(128));
-        bytes.pop_back();  // so that it can never be a valid pose
-        return bytes;
-      }
-      default: {  // a fragment of a message that never comes
-        Bytes fragment = {'L', 'C', '0', '3'};
-        for (int i = 0; i < 16; ++i) fragment.push_back(static_cast<std::uint8_t>(below(256)));
-        fragment.insert(fragment.end(), bytes.begin(), bytes.end());
-        return fragment;
-      }
-    }
-  }
-
-  PortableRandom random_;
-  Bytes valid_;
-  int socket_ = -1;
-  sockaddr_in group_{};
 };
 
 class Senders {

@@ -12,7 +12,7 @@ function(foretouch_unity target)
     list(GET batch 0 batch)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
     # A class that holds what is local to its source is fine as long as it is local as well.
-    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()
 function(foretouch_precompile target)
@@ -81,7 +81,7 @@ function(foretouch_compile_options target)
     # GCC takes what the sanitizers add for uses of variables that nothing has set.
     target_compile_options(${target} PRIVATE -fsanitize=${FORETOUCH_SANITIZE}
                            -fno-sanitize-recover=all -fno-omit-frame-pointer
-                           -Wno-maybe-uninitialized)
+                           $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     target_link_options(${target} PRIVATE -fsanitize=${FORETOUCH_SANITIZE})
   endif()
 endfunction()

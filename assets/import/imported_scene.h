@@ -14,8 +14,9 @@ struct SceneImportOptions {
   /// Metres per unit of the file, in place of what the file says. Finite, > 0.
   std::optional<double> scale;
   std::optional<UpAxis> up;  ///< Of the file, in place of what the file says.
-  /// Address space of the child. At most half of the machine's memory is used, and for a small file
-  /// no more than 1 GB: 990 MB, and 256 bytes for each byte that is read.
+  /// Address space of the child. At most half of the machine's memory is used, or of what a control
+  /// group (a container) allows this process; and for a small file no more than 1 GB: 990 MB, and
+  /// 256 bytes for each byte that is read.
   std::size_t memoryLimitBytes = std::size_t{8} << 30;
   double timeLimitS = 60.0;  ///< Wall and CPU time of the child.
   std::string importer;  ///< Path of foretouch-import; empty: $FORETOUCH_IMPORTER, else beside the

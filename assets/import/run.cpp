@@ -19,6 +19,7 @@
 #include "assets/import/packaged_importer.h"
 #include "assets/import/process.h"
 #include "assets/import/text.h"
+#include "assets/import/usable_memory.h"
 
 namespace foretouch::internal {
 namespace {
@@ -36,12 +37,11 @@ std::string shortest(double number) {
   return text.data();
 }
 
-/// Half of the machine's is left to everybody else, whatever the caller allows.
+/// Half of what there is remains for everybody else, whatever the caller allows.
 std::size_t memoryFor(const SceneImportOptions& options) {
-  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || bytes <= 0) return options.memoryLimitBytes;
-  const std::size_t half = static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(bytes);
-  return std::min(options.memoryLimitBytes, std::max(half, kMinMemoryBytes));
+  const auto usable = usableMemory();
+  if (!usable) return options.memoryLimitBytes;
+  return std::min(options.memoryLimitBytes, std::max(*usable / 2, kMinMemoryBytes));
 }
 
 /// The model itself, and where its parts may lie.

@@ -190,11 +190,12 @@ bool LogWindow::peek(std::uint64_t offset, std::uint8_t* bytes, std::size_t coun
 }
 
 bool LogWindow::isOnBlockChannel(const Frame& frame, std::uint64_t keepFrom) {
-  constexpr std::size_t kChannelBytes = sizeof kLogBlockChannel - 1;
-  if (frame.header.channelBytes != kChannelBytes) return false;
-  const std::uint8_t* const bytes = view(frame.offset, kEventHeaderBytes + kChannelBytes, keepFrom);
+  constexpr std::size_t kBlockChannelBytes = sizeof kLogBlockChannel - 1;
+  if (frame.header.channelBytes != kBlockChannelBytes) return false;
+  const std::uint8_t* const bytes =
+      view(frame.offset, kEventHeaderBytes + kBlockChannelBytes, keepFrom);
   return bytes != nullptr &&
-         std::memcmp(bytes + kEventHeaderBytes, kLogBlockChannel, kChannelBytes) == 0;
+         std::memcmp(bytes + kEventHeaderBytes, kLogBlockChannel, kBlockChannelBytes) == 0;
 }
 
 bool LogWindow::eventOf(const Frame& frame, LogEvent& event) {

@@ -41,7 +41,9 @@ struct JournalOptions {
   std::size_t maxEvents = 1u << 16;  ///< Waiting for the disk.
   std::size_t maxBytes = 64u << 20;  ///< Waiting payloads, in total.
   std::chrono::milliseconds flushEvery{100};
-  std::chrono::milliseconds closeWithin{5000};  ///< Then a disk that stalls keeps the rest.
+  /// Then a disk that stalls keeps the rest. The rest of a service's end has a fifth second: a
+  /// supervisor is promised five.
+  std::chrono::milliseconds closeWithin{4000};
 };
 
 class Journal {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "articulated/quoted.h"
 #include "network/wire/udpm_socket.h"
 
 namespace foretouch {
@@ -37,7 +38,7 @@ Result<Network> parseNetwork(const std::string& text) {
   const auto refused = [&] {
     return Error::of(
         ErrorCode::OutOfRange,
-        "expected an IPv4 network as 10.0.0.0/24, or one address, found '" + text + "'");
+        "expected an IPv4 network as 10.0.0.0/24, or one address, found " + inQuotes(text));
   };
   const std::size_t slash = text.find('/');
   in_addr address{};
@@ -52,8 +53,8 @@ Result<Network> parseNetwork(const std::string& text) {
   // 10.0.0.7/24 is a slip: of the address, or of the number of bits.
   if ((network.address & ~maskOf(network.bits)) != 0) {
     return Error::of(ErrorCode::OutOfRange, "expected a network whose bits after the first " +
-                                                std::to_string(network.bits) + " are 0, found '" +
-                                                text + "'");
+                                                std::to_string(network.bits) + " are 0, found " +
+                                                inQuotes(text));
   }
   return network;
 }

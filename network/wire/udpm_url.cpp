@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <arpa/inet.h>
 #include <charconv>
 #include <netinet/in.h>
 #include <string>
 #include <string_view>
 
+#include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "network/wire/wire.h"
 
@@ -13,8 +15,11 @@ namespace {
 constexpr std::string_view kScheme = "udpm://";
 constexpr std::size_t kMaxReceiveBufferBytes = std::size_t{1} << 30;
 
+/// Names the address as it was typed, unless that would do something to a terminal.
 Error errorIn(const std::string& url, ErrorCode code, const std::string& message) {
-  return {code, url, -1, -1, message};
+  const bool isPlain =
+      std::all_of(url.begin(), url.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  return {code, isPlain ? url : inQuotes(url), -1, -1, message};
 }
 
 template <typename T>
@@ -43,7 +48,7 @@ bool isMulticast(const std::string& group) {
 Result<Done> readOption(const std::string& url, std::string_view option, UdpmUrl& parsed) {
   std::string_view value = option;
   const std::string_view key = upTo('=', value);
-  const std::string quoted = "'" + std::string(value) + "'";
+  const std::string quoted = inQuotes(value);
   if (key == "ttl") {
     if (readNumber(value, 0, 255, parsed.ttl)) return Done{};
     return errorIn(url, ErrorCode::OutOfRange, "ttl: expected 0 to 255, found " + quoted);
@@ -56,7 +61,7 @@ Result<Done> readOption(const std::string& url, std::string_view option, UdpmUrl
                    "recv_buf_size: expected 1 to 1073741824 bytes, found " + quoted);
   }
   return errorIn(url, ErrorCode::UnknownName,
-                 "expected the options ttl and recv_buf_size, found '" + std::string(key) + "'");
+                 "expected the options ttl and recv_buf_size, found " + inQuotes(key));
 }
 
 }  // namespace
@@ -75,12 +80,12 @@ Result<UdpmUrl> parseUdpmUrl(const std::string& url) {
   if (!group.empty() && !isMulticast(group)) {
     return errorIn(
         url, ErrorCode::OutOfRange,
-        "group: expected an address from 224.0.0.0 to 239.255.255.255, found '" + group + "'");
+        "group: expected an address from 224.0.0.0 to 239.255.255.255, found " + inQuotes(group));
   }
   if (!group.empty()) parsed.group = group;
   if (hasPort && !readNumber<std::uint16_t>(place, 1, 65535, parsed.port)) {
     return errorIn(url, ErrorCode::OutOfRange,
-                   "port: expected 1 to 65535, found '" + std::string(place) + "'");
+                   "port: expected 1 to 65535, found " + inQuotes(place));
   }
   while (!rest.empty()) {
     FORETOUCH_CHECK(readOption(url, upTo('&', rest), parsed));

@@ -19,6 +19,7 @@
 
 #include "assets/import/process.h"
 #include "assets/import/scene_import.h"
+#include "assets/import/usable_memory.h"
 #include "tests/assets/import_files.h"
 
 namespace foretouch::test {
@@ -171,9 +172,8 @@ TEST_F(ImporterProcess, RunsUnderItsLimits) {
   EXPECT_EQ(limit("v"), std::to_string(777 << 10));
   // Half of what there is, whatever is allowed.
   options.memoryLimitBytes = std::size_t{1} << 60;
-  const auto half = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) / 2 *
-                    static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  EXPECT_EQ(limit("v"), std::to_string(half >> 10));
+  ASSERT_TRUE(internal::usableMemory().has_value());
+  EXPECT_EQ(limit("v"), std::to_string(*internal::usableMemory() / 2 >> 10));
 }
 
 TEST_F(ImporterProcess, CannotWriteFiles) {

@@ -141,6 +141,47 @@ TEST_F(PendingFileTest, RefusesAStrangersLinkInASharedFolder) {
   // Our own there, and a stranger's where we let nobody in.
   EXPECT_TRUE(PendingFile::create(linkIn("own", 01777, ::geteuid())).ok());
   EXPECT_TRUE(PendingFile::create(linkIn("private", 0755, kStranger)).ok());
+  // On the way as well, and behind a link of ours.
+  fs::create_directory(file("docs"));
+  writeText(file("docs/report.html"), "old");
+  fs::create_directory_symlink(file("docs"), file("shared/folder"));
+  ASSERT_EQ(::lchown(file("shared/folder").c_str(), kStranger, kStranger), 0);
+  fs::create_directory_symlink(file("shared/folder"), file("bridge"));
+  for (const char* way : {"shared/folder/report.html", "bridge/report.html",
+                          "docs/../shared/folder/report.html", "shared/folder/new.html"}) {
+    EXPECT_FALSE(PendingFile::create(file(way)).ok()) << way;
+  }
+  EXPECT_EQ(readBack(file("docs/report.html")), "old");
+  ASSERT_EQ(::lchown(file("shared/folder").c_str(), ::geteuid(), ::getegid()), 0);
+  EXPECT_TRUE(PendingFile::create(file("bridge/report.html")).ok());
+}
+
+TEST_F(PendingFileTest, FollowsLinksOnTheWayAndEndsInARing) {
+  fs::create_directory(file("real"));
+  fs::create_directory_symlink("real", file("folder"));
+  fs::create_directory_symlink("folder", file("again"));
+  auto pending = PendingFile::create(file("again/../again//out"));
+  ASSERT_TRUE(pending.ok());
+  pending.value().write("new");
+  ASSERT_TRUE(pending.value().commit().ok());
+  EXPECT_EQ(readBack(file("real/out")), "new");
+  fs::create_symlink("ring", file("ring"));
+  EXPECT_FALSE(PendingFile::create(file("ring")).ok());
+  EXPECT_FALSE(PendingFile::create(file("ring/out")).ok());
+}
+
+// As a shell's >(command) gives it: a link of /proc whose text is no path.
+TEST_F(PendingFileTest, WritesIntoAPipeThatHasNoNameOfItsOwn) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  auto pending = PendingFile::create("/dev/fd/" + std::to_string(ends[1]));
+  ASSERT_TRUE(pending.ok()) << describe(pending.error());
+  pending.value().write("new");
+  EXPECT_TRUE(pending.value().commit().ok());
+  char text[8] = {};
+  EXPECT_EQ(::read(ends[0], text, sizeof text), 3);
+  EXPECT_STREQ(text, "new");
+  for (const int end : ends) ::close(end);
 }
 
 TEST_F(PendingFileTest, MovedFromItOwnsNothing) {

@@ -43,7 +43,8 @@ class Supply {
   void overwriteSome(Struct& given) {
     if ((byte() & 3) != 0) return;
     fill(&given, sizeof given);
-    if ((byte() & 1) == 0) given.size = sizeof given;
+    // Whoever says more than there is has the library read what is behind: that is not asked here.
+    if ((byte() & 1) == 0 || given.size > sizeof given) given.size = sizeof given;
   }
 
  private:

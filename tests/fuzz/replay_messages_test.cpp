@@ -5,6 +5,7 @@
 #include "tests/fuzz/http_inputs.h"
 #include "tests/fuzz/message_inputs.h"
 #include "tests/fuzz/replay_corpus.h"
+#include "tests/fuzz/shown_inputs.h"
 #include "tests/fuzz/text_inputs.h"
 
 namespace foretouch::fuzz {
@@ -39,6 +40,13 @@ TEST(FuzzCorpus, TextsOfPeopleKeepThePromises) {
   const CorpusCounts projects = replayCorpus("project", feedProject, AlsoFeed::LastByteMissing);
   EXPECT_GE(projects.accepted, 1);
   EXPECT_GE(projects.refused, 3);
+}
+
+TEST(FuzzCorpus, ShownPosesKeepThePromises) {
+  const CorpusCounts counts =
+      replayCorpus("shown_poses", feedShownPoses, AlsoFeed::LastByteMissing);
+  EXPECT_GE(counts.accepted, 3);
+  EXPECT_GE(counts.refused, 5);
 }
 
 TEST(FuzzCorpus, RequestsKeepThePromises) {

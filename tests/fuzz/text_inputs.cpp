@@ -3,12 +3,11 @@
 #include <cmath>
 #include <set>
 #include <string>
-#include <string_view>
-#include <sys/mman.h>
-#include <unistd.h>
+#include <vector>
 
 #include "assets/model/joint_table.h"
 #include "network/wire/wire.h"
+#include "tests/fuzz/memory_file.h"
 #include "tests/fuzz/promise.h"
 #include "tools/inputs/joint_map.h"
 #include "tools/settings/clip_settings.h"
@@ -22,30 +21,6 @@ namespace {
 std::string textIn(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
-
-void checkReason(const Error& error) {
-  require(!error.message.empty(), "an error says what is wrong");
-  for (const char c : describe(error)) {
-    require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f, "errors can be shown");
-  }
-}
-
-/// A file without a name on any disk.
-class MemoryFile {
- public:
-  explicit MemoryFile(std::string_view bytes) : fd_(memfd_create("input", MFD_CLOEXEC)) {
-    require(
-        fd_ >= 0 && write(fd_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()),
-        "there is memory for the input");
-  }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  ~MemoryFile() { close(fd_); }
-  [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(fd_); }
-
- private:
-  int fd_;
-};
 
 }  // namespace
 
@@ -87,13 +62,15 @@ bool feedUrl(const std::uint8_t* data, std::size_t size) {
   }
   const auto address = tools::parseHttpAddress("--http", text);
   if (!address.ok()) checkReason(address.error());
+  const auto network = parseNetwork(text);
+  if (!network.ok()) checkReason(network.error());
   const auto view = tools::parseViewAddress("--view", text);
   require(address.ok() || !view.ok(), "an address of the page is one of HTTP");
   return url.ok() || address.ok();
 }
 
 bool feedProject(const std::uint8_t* data, std::size_t size) {
-  const MemoryFile file(textIn(data, size));
+  const MemoryFile file(data, size);
   tools::WorldRequest world;
   tools::Settings settings;
   tools::addSceneSettings(settings, world);

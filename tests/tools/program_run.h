@@ -27,6 +27,7 @@ class ProgramRun {
   ProgramRun& operator=(const ProgramRun&) = delete;
   ~ProgramRun();
 
+  [[nodiscard]] pid_t id() const { return child_; }
   void send(int signal) const;
   /// Its stdout so far.
   [[nodiscard]] std::string outSoFar() const { return contentOf(out_); }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <sys/prctl.h>
 #include <system_error>
 #include <utility>
 
@@ -153,8 +154,15 @@ void surviveFailedWrites() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
+/// No other process of the same user reads keys and poses out of this one's memory, or attaches to
+/// it; nor does a core dump keep them.
+void keepMemoryToItself() {
+  ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
+}
+
 ExitCode run(const Settings& settings, ServeConfig& config) {
   surviveFailedWrites();
+  keepMemoryToItself();
   // A given URL takes precedence over the environment.
   const bool isOpen = !settings.isGiven("--url") && config.url == kDefaultUrl;
   config.url = urlOrDefault(isOpen ? std::string() : config.url);

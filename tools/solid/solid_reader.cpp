@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "articulated/quoted.h"
 #include "articulated/skeleton.h"
 #include "articulated/try.h"
 #include "assets/text_file.h"
@@ -17,6 +18,33 @@ namespace foretouch::tools {
 namespace {
 
 using nlohmann::json;
+
+/// json copies and prints itself recursively, and a file must not use up the machine's stack. The
+/// format nests five deep.
+constexpr int kMostNesting = 32;
+
+bool nestsTooDeep(std::string_view text) {
+  int depth = 0;
+  bool isInText = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') isInText = !isInText;
+    if (isInText) {
+      if (c == '\\') ++i;
+      continue;
+    }
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > kMostNesting) return true;
+  }
+  return false;
+}
+
+/// Discarded, which is no object, if it is no JSON that we read.
+json parsedLine(std::string_view line) {
+  if (nestsTooDeep(line)) return json(json::value_t::discarded);
+  return json::parse(line, nullptr, false);
+}
 
 /// The fields of one object; the first fault is kept, and later ones change nothing.
 class SolidFields {
@@ -211,7 +239,7 @@ Result<SolidReader> SolidReader::open(const std::string& path) {
   if (!reader.file_) return Error::in(path, ErrorCode::FileNotFound, "cannot be opened");
   std::string line;
   FORETOUCH_CHECK(reader.readLine(line));
-  const json parsed = json::parse(line, nullptr, false);
+  const json parsed = parsedLine(line);
   const bool isOurs = parsed.is_object() && parsed.value("format", json()) == kSolidFormat;
   if (!isOurs) {
     return Error{ErrorCode::Syntax, path, 1, -1,
@@ -219,10 +247,11 @@ Result<SolidReader> SolidReader::open(const std::string& path) {
                              "`foretouch replay --solid` writes them",
                              kSolidFormat)};
   }
-  if (parsed.value("version", json()) != kSolidVersion) {
+  const json version = parsed.value("version", json());
+  if (version != kSolidVersion) {
     return Error{ErrorCode::Mismatch, path, 1, -1,
                  fmt::format("expected version {}, found {}", kSolidVersion,
-                             parsed.value("version", json()).dump())};
+                             version.is_number() ? version.dump() : inQuotes(version.dump()))};
   }
   SolidFields fields(parsed, "");
   reader.header_ = readHeader(fields);
@@ -265,9 +294,10 @@ Result<std::optional<SolidRecord>> SolidReader::next() {
   std::string line;
   FORETOUCH_TRY(const bool isThere, readLine(line));
   if (!isThere) return std::optional<SolidRecord>();
-  const json parsed = json::parse(line, nullptr, false);
+  const json parsed = parsedLine(line);
   if (!parsed.is_object()) {
-    return Error{ErrorCode::Syntax, path_, line_, -1, "expected one object of JSON"};
+    return Error{ErrorCode::Syntax, path_, line_, -1,
+                 fmt::format("expected one object of JSON, nested at most {} deep", kMostNesting)};
   }
   if (parsed.contains("summary")) {
     isComplete_ = takeMark(line) && file_.rdbuf()->sgetc() == std::char_traits<char>::eof();

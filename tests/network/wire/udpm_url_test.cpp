@@ -39,6 +39,7 @@ TEST(ParseUdpmUrl, NamesThePartThatIsWrong) {
   };
   says("tcpq://127.0.0.1:7700", "expected udpm://");
   says("", "expected udpm://");
+  says("udpm://\033[2J", "\\x1b[2J");
   says("udpm://10.0.0.1:7667", "group: expected an address from 224.0.0.0");
   says("udpm://240.0.0.1", "group:");
   says("udpm://localhost:7667", "found 'localhost'");

@@ -5,12 +5,16 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <linux/capability.h>
 #include <map>
 #include <sched.h>
 #include <string>
+#include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/time.h>
 #include <sys/un.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -81,6 +85,7 @@ class Serving {
     EXPECT_TRUE(eventually([&] { return holds(out(), "\nready\n"); })) << out();
   }
   [[nodiscard]] std::string out() const { return contentOf(out_); }
+  [[nodiscard]] pid_t id() const { return run_.id(); }
   void send(int signal) const { run_.send(signal); }
   Ended ended() { return run_.ended(); }
 
@@ -287,6 +292,40 @@ TEST(ServeProgram, OverwritesNoLogAndGivesAFolderOneForEveryRun) {
     }
     EXPECT_EQ(logs, 2);
   });
+}
+
+/// Of this thread, and of all that it starts: they are as other users' programs are.
+bool giveUpTracing() {
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct sets[2];
+  if (::prctl(PR_CAPBSET_DROP, CAP_SYS_PTRACE, 0, 0, 0) != 0) return false;
+  if (::syscall(SYS_capget, &header, sets) != 0) return false;
+  sets[0].effective = sets[0].permitted = sets[0].permitted & ~(1u << CAP_SYS_PTRACE);
+  return ::syscall(SYS_capset, &header, sets) == 0;
+}
+
+/// Whether the kernel lets this thread look into the process.
+bool maySee(pid_t process) {
+  std::error_code refused;
+  return !std::filesystem::read_symlink("/proc/" + std::to_string(process) + "/exe", refused)
+              .empty();
+}
+
+TEST(ServeProgram, KeepsItsMemoryFromProgramsOfTheSameUser) {
+  const SmallWorld world;
+  bool isGivenUp = false;
+  FORETOUCH_IN_NETWORK(Network::Multicast, [&] {
+    isGivenUp = giveUpTracing();
+    if (!isGivenUp) return;
+    ProgramRun other({"listen", "--timeout", "600"});
+    EXPECT_TRUE(eventually([&] { return maySee(other.id()); }));
+    Serving serving(world);
+    EXPECT_FALSE(maySee(serving.id()));
+    other.send(SIGTERM);
+    serving.send(SIGTERM);
+    EXPECT_EQ(serving.ended().exitCode, 0);
+  });
+  if (!isGivenUp) GTEST_SKIP() << "the system lets nobody give up a capability here";
 }
 
 /// What a service manager hears.

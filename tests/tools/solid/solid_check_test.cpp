@@ -235,5 +235,25 @@ TEST_F(SolidFile, ThatIsHostileIsRefusedWithItsLine) {
             std::string::npos);
 }
 
+// What reads such values one in the other needs more of the machine's stack than there is.
+TEST_F(SolidFile, NestedAMillionDeepIsRefused) {
+  write(around());
+  const std::string whole = contentOf(folder_ / "shown.jsonl");
+  const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
+  for (const std::string field : {"format", "version", "self", "more"}) {
+    folder_.write("shown.jsonl", "{\"" + field + "\":" + deep + "," + whole.substr(1));
+    const auto reader = tools::SolidReader::open(folder_ / "shown.jsonl");
+    ASSERT_FALSE(reader.ok()) << field;
+    EXPECT_LT(describe(reader.error()).size(), 1000u);
+  }
+  const std::size_t end = whole.find('\n') + 1;
+  folder_.write("shown.jsonl", whole.substr(0, end) + "{\"more\":" + deep + "}\n");
+  auto reader = tools::SolidReader::open(folder_ / "shown.jsonl");
+  ASSERT_TRUE(reader.ok());
+  const auto record = reader.value().next();
+  ASSERT_FALSE(record.ok());
+  EXPECT_NE(describe(record.error()).find("nested at most"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace foretouch::test
