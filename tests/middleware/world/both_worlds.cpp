@@ -113,16 +113,30 @@ bool BothWorlds::areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) c
 
 void BothWorlds::judge(BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs) {
   ask(fromUs, toUs);
-  for (std::size_t i = 0; i < oracle.bodies[slotOf(a)].parents.size(); ++i) {
-    for (std::size_t j = 0; j < oracle.bodies[slotOf(b)].parents.size(); ++j) {
-      judgeLinks(a, static_cast<LinkId>(i), b, static_cast<LinkId>(j), fromUs, toUs);
+  judgePair(a, b, fromUs, toUs);
+}
+
+void BothWorlds::judgePair(BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs) {
+  const std::size_t linksOfA = oracle.bodies[slotOf(a)].parents.size();
+  const std::size_t linksOfB = oracle.bodies[slotOf(b)].parents.size();
+  const std::vector<bool> may = oracle.mayTouch(a, b, fromUs, toUs);
+  for (std::size_t i = 0; i < linksOfA; ++i) {
+    for (std::size_t j = 0; j < linksOfB; ++j) {
+      const auto one = static_cast<LinkId>(i), other = static_cast<LinkId>(j);
+      if (!hasParts(a, one) || !hasParts(b, other) || areJoined(a, one, b, other)) continue;
+      // Proven apart: whatever is listed must be a graze within the tolerance.
+      const OracleTouch apart{OracleOutcome::Free, static_cast<Real>(toUs - fromUs)};
+      const OracleTouch truth =
+          may[i * linksOfB + j] ? oracle.firstTouch(a, one, b, other, fromUs, toUs) : apart;
+      judgeLinks(a, one, b, other, fromUs, truth);
     }
   }
 }
 
 void BothWorlds::judgeAll(std::int64_t fromUs, std::int64_t toUs) {
+  ask(fromUs, toUs);
   for (BodyId a = 0; a < world.numBodies(); ++a) {
-    for (BodyId b = a + 1; b < world.numBodies(); ++b) judge(a, b, fromUs, toUs);
+    for (BodyId b = a + 1; b < world.numBodies(); ++b) judgePair(a, b, fromUs, toUs);
   }
 }
 
@@ -151,9 +165,7 @@ std::string BothWorlds::problemOf(const WorldContact& contact, const OracleTouch
 }
 
 void BothWorlds::judgeLinks(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB, std::int64_t fromUs,
-                            std::int64_t toUs) {
-  if (!hasParts(a, linkOfA) || !hasParts(b, linkOfB) || areJoined(a, linkOfA, b, linkOfB)) return;
-  const OracleTouch truth = oracle.firstTouch(a, linkOfA, b, linkOfB, fromUs, toUs);
+                            const OracleTouch& truth) {
   if (truth.outcome == OracleOutcome::Uncertain) ++tally.grazing;
   const auto listed =
       std::find_if(answer.contacts.begin(), answer.contacts.end(), [&](const WorldContact& c) {

@@ -45,8 +45,9 @@ class BothWorlds {
 
  private:
   void ask(std::int64_t fromUs, std::int64_t toUs);
+  void judgePair(BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs);
   void judgeLinks(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB, std::int64_t fromUs,
-                  std::int64_t toUs);
+                  const OracleTouch& truth);
   [[nodiscard]] bool hasParts(BodyId body, LinkId link) const;
   [[nodiscard]] bool areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const;
   [[nodiscard]] std::string problemOf(const WorldContact& contact, const OracleTouch& truth,

@@ -107,14 +107,46 @@ Real OracleWorld::separation(int a, const Moving& atA, int linkOfA, int b, const
   return least;
 }
 
-Real OracleWorld::speedOf(int id, const Moving& moving, int link) const {
-  Real rho = 0;
+/// No corner of the link's parts is farther from its origin; below zero if it has none.
+Real OracleWorld::reachOf(int id, int link) const {
+  Real rho = -1;
   for (const OraclePart& part : body(id).parts) {
     if (part.link != link) continue;
     for (const Vec3d& corner : part.corners) rho = std::max(rho, norm(corner.as<Real>()));
   }
+  return rho;
+}
+
+Real OracleWorld::speedOf(int id, const Moving& moving, int link) const {
   const Speed& speed = moving.speeds[static_cast<std::size_t>(link)];
-  return speed.ofOrigin + speed.ofTurn * rho;
+  return speed.ofOrigin + speed.ofTurn * reachOf(id, link);
+}
+
+std::vector<bool> OracleWorld::mayTouch(int a, int b, std::int64_t fromUs,
+                                        std::int64_t toUs) const {
+  constexpr int kInstants = 200;
+  const Real end = static_cast<Real>(toUs - fromUs);
+  const std::size_t linksOfA = body(a).parents.size(), linksOfB = body(b).parents.size();
+  std::vector<bool> may(linksOfA * linksOfB, false);
+  for (Real us = 0; us < end;) {
+    const Moving atA = movingAt(a, fromUs, us, false), atB = movingAt(b, fromUs, us, false);
+    const Real next = std::min({us + end / kInstants, atA.untilUs, atB.untilUs, end});
+    for (std::size_t i = 0; i < linksOfA; ++i) {
+      const int one = static_cast<int>(i);
+      const Real reach = reachOf(a, one);
+      for (std::size_t j = 0; j < linksOfB && reach >= 0; ++j) {
+        const int other = static_cast<int>(j);
+        if (may[i * linksOfB + j] || reachOf(b, other) < 0) continue;
+        const Real way = (speedOf(a, atA, one) + speedOf(b, atB, other)) * (next - us);
+        const Real apart = norm(atA.frames[i].p - atB.frames[j].p) - reach - reachOf(b, other);
+        constexpr Real kWidest = 0.3L;  // metres: no two radii are more
+        if (apart > way + kWidest) continue;
+        may[i * linksOfB + j] = !(separation(a, atA, one, b, atB, other) > way + kTouch);
+      }
+    }
+    us = next;
+  }
+  return may;
 }
 
 Real OracleWorld::separationAt(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,

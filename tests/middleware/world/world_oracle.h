@@ -61,6 +61,10 @@ class OracleWorld {
   /// The first instant, of a window in which both are there, at which two links are within kTouch.
   [[nodiscard]] OracleTouch firstTouch(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
                                        std::int64_t toUs) const;
+  /// Per link of a and of b, row after row: false if bounds on their speeds from a few hundred
+  /// instants on prove that the two stay apart in the window. Much faster than firstTouch().
+  [[nodiscard]] std::vector<bool> mayTouch(int a, int b, std::int64_t fromUs,
+                                           std::int64_t toUs) const;
   /// Of a point in W and the surface of a link.
   [[nodiscard]] Real distanceToSurface(int body, int link, const Vec3d& p_W, std::int64_t fromUs,
                                        Real us) const;
@@ -80,6 +84,7 @@ class OracleWorld {
   [[nodiscard]] Real separation(int a, const Moving& atA, int linkOfA, int b, const Moving& atB,
                                 int linkOfB) const;
   [[nodiscard]] Real speedOf(int body, const Moving& moving, int link) const;
+  [[nodiscard]] Real reachOf(int body, int link) const;
   [[nodiscard]] const OracleBody& body(int id) const {
     return bodies[static_cast<std::size_t>(id)];
   }
