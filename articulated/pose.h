@@ -9,6 +9,12 @@
 
 namespace foretouch {
 
+/// A frame in another one.
+struct RigidPose {
+  Quaternion rotation = Quaternion::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< Metres.
+};
+
 /// Parent-relative pose of every joint of one Skeleton, in its order (roots: in the world W).
 /// `rotations[j]` replaces the rest rotation, `translations[j]` (metres) replaces the rest offset.
 struct Pose {

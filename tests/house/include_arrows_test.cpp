@@ -47,6 +47,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"ladder", {"", "scene"}},
       {"query", {"ladder", "", "exact", "surface", "lanes", "scene"}},
       {"solid", {"query", "", "scene"}},
+      {"world", {"query", "", "scene"}},
       {"reference", {"query", "", "exact", "surface", "scene"}}}},
     {"assets",
      {{"", {}},

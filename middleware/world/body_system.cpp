@@ -1,0 +1,158 @@
+#include "middleware/world/body_system.h"
+
+#include <algorithm>
+
+#include "lss/assert.h"
+#include "lss/rounding.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// The sum of the longest arms, from the frame that the pose hangs in.
+double armsOf(const TrackPiece& piece) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < piece.from->translations.size(); ++j) {
+    sum += std::max(piece.from->translations[j].norm(), piece.to->translations[j].norm());
+  }
+  return sum;
+}
+
+void append(const Pose& part, Pose& all) {
+  all.rotations.insert(all.rotations.end(), part.rotations.begin(), part.rotations.end());
+  all.translations.insert(all.translations.end(), part.translations.begin(),
+                          part.translations.end());
+}
+
+void clear(Pose& pose) {
+  pose.rotations.clear();
+  pose.translations.clear();
+}
+
+}  // namespace
+
+const ChainMotion& PieceMotions::of(BodyId body, const Track& track, const TrackPiece& piece) {
+  if (ofBody.size() <= slotOf(body)) ofBody.resize(slotOf(body) + 1);
+  Known& known = ofBody[slotOf(body)];
+  if (known.motion.numLinks() == 0 || known.beginUs != piece.beginUs ||
+      known.endUs != piece.endUs) {
+    known.motion.assign(track.skeleton(), *piece.from, *piece.to);
+    known.beginUs = piece.beginUs;
+    known.endUs = piece.endUs;
+  }
+  return known.motion;
+}
+
+void SystemSpans::begin(const WorldParts& world, BodyId a, BodyId b, std::int64_t fromUs,
+                        std::int64_t toUs) {
+  world_ = &world;
+  a_ = a;
+  b_ = b;
+  beginUs_ = endUs_ = fromUs;
+  toUs_ = toUs;
+}
+
+bool SystemSpans::next() {
+  while (endUs_ < toUs_) {
+    beginUs_ = endUs_;
+    members_.clear();
+    if (addMember(a_) && (b_ == kStillScene || addMember(b_))) return findEnd();
+    // Whoever is not there yet appears with his first episode.
+    endUs_ = toUs_;
+    for (const BodyId body : {a_, b_}) {
+      if (body == kStillScene || world_->body(body).episodeAt(beginUs_) != nullptr) continue;
+      endUs_ = std::min(toUs_, world_->body(body).nextEpisodeUs(beginUs_));
+    }
+  }
+  return false;
+}
+
+/// False: the body is not there at the span's begin. Whoever carries is there before he does.
+bool SystemSpans::addMember(BodyId body) {
+  if (placeOf(body) >= 0) return true;
+  const Episode* const episode = world_->body(body).episodeAt(beginUs_);
+  if (episode == nullptr) return false;
+  SystemMember member{body, world_->body(body).kind, -1, kNoParent};
+  if (episode->carrier) {
+    if (!addMember(episode->carrier->body)) return false;
+    member.carrier = placeOf(episode->carrier->body);
+    member.link = episode->carrier->link;
+  }
+  members_.push_back(member);
+  return true;
+}
+
+/// False: one of them is undecided from the span's begin on.
+bool SystemSpans::findEnd() {
+  endUs_ = toUs_;
+  isAssumed_ = false;
+  for (const SystemMember& member : members_) {
+    const WorldBody& body = world_->body(member.body);
+    endUs_ = std::min(endUs_, body.nextEpisodeUs(beginUs_));
+    const TrackPiece piece = trackOf(member).pieceAt(beginUs_);
+    endUs_ = std::min(endUs_, piece.endUs);
+    if (!piece.isHeld || body.episodeAt(beginUs_)->isHeldFast()) continue;
+    if (body.options.whenSilent != WhenSilent::HoldStill) return false;
+    isAssumed_ = true;
+  }
+  return true;
+}
+
+std::int32_t SystemSpans::placeOf(BodyId body) const {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (members_[i].body == body) return static_cast<std::int32_t>(i);
+  }
+  return -1;
+}
+
+const Track& SystemSpans::trackOf(const SystemMember& member) const {
+  return world_->body(member.body).episodeAt(beginUs_)->track;
+}
+
+/// No point of those that are carried is farther from the links that they hang on.
+double SystemSpans::reachOfCarried() const {
+  double reach = 0.0;
+  for (const SystemMember& member : members_) {
+    if (member.carrier < 0) continue;
+    reach += armsOf(trackOf(member).pieceAt(beginUs_)) + world_->kinds[slotOf(member.kind)].rho;
+  }
+  return reach;
+}
+
+void SystemSpans::poses(const Eigen::Vector3d& origin, PieceMotions& motions,
+                        SystemPoses& poses) const {
+  clear(poses.from);
+  clear(poses.to);
+  poses.rounding = 0.0;
+  for (const SystemMember& member : members_) {
+    const std::size_t first = poses.from.translations.size();
+    appendPart(member, motions, poses);
+    if (member.carrier >= 0) continue;
+    const Skeleton& skeleton = world_->kinds[slotOf(member.kind)].skeleton;
+    for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+      if (skeleton.parent(joint) != kNoParent) continue;
+      poses.from.translations[first + slotOf(joint)] -= origin;
+      poses.to.translations[first + slotOf(joint)] -= origin;
+    }
+  }
+}
+
+void SystemSpans::appendPart(const SystemMember& member, PieceMotions& motions,
+                             SystemPoses& poses) const {
+  const Track& track = trackOf(member);
+  const TrackPiece piece = track.pieceAt(beginUs_);
+  const bool isWhole = piece.beginUs == beginUs_ && piece.endUs == endUs_;
+  if (isWhole || piece.isHeld) {
+    append(*piece.from, poses.from);
+    append(*piece.to, poses.to);
+    return;
+  }
+  const ChainMotion& motion = motions.of(member.body, track, piece);
+  partOf(piece, motion, beginUs_, endUs_, poses.partFrom, poses.partTo);
+  append(poses.partFrom, poses.from);
+  append(poses.partTo, poses.to);
+  const double rho = world_->kinds[slotOf(member.kind)].rho + reachOfCarried();
+  poses.rounding =
+      (poses.rounding + partRounding(piece, motion, beginUs_, endUs_, rho)) * kInflation;
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,77 @@
+// middleware/world/body_system.h: the bodies that a question depends on (one or two that are asked,
+// and whoever carries them) as one chain, span by span: in each nobody has a knot, and nobody
+// changes his carrier. Proof of what a span's motion is: middleware/world/world.md 1. Not
+// installed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/motion.h"
+#include "articulated/track.h"
+#include "middleware/world/world_parts.h"
+
+namespace foretouch::internal {
+
+struct SystemMember {
+  BodyId body = 0;
+  std::int32_t kind = 0;
+  std::int32_t carrier = -1;  ///< Place among the members, before this one; -1: W.
+  LinkId link = kNoParent;    ///< The carrier's, that this one hangs on.
+};
+
+/// The motions of the pieces that bodies were asked about last: several questions cut the same.
+struct PieceMotions {
+  struct Known {
+    std::int64_t beginUs = 0, endUs = 0;
+    ChainMotion motion;
+  };
+  std::vector<Known> ofBody;
+
+  /// O(1) if it is the last one of this body, else O(joints).
+  [[nodiscard]] const ChainMotion& of(BodyId body, const Track& track, const TrackPiece& piece);
+};
+
+/// Both poses of a span, of all members together.
+struct SystemPoses {
+  Pose from, to;
+  double rounding = 0.0;  ///< No point of what touches is farther from its true place (m).
+  Pose partFrom, partTo;  // of one member
+};
+
+/// Goes from span to span of a window. Keeps its memory; for one thread.
+class SystemSpans {
+ public:
+  /// About body `a` and, unless it is kStillScene, body `b`. The world outlives the last next().
+  void begin(const WorldParts& world, BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs);
+  /// Goes to the next span in which all are there; false if there is none.
+  [[nodiscard]] bool next();
+
+  [[nodiscard]] std::int64_t beginUs() const { return beginUs_; }
+  [[nodiscard]] std::int64_t endUs() const { return endUs_; }
+  /// Carriers come before those they carry.
+  [[nodiscard]] const std::vector<SystemMember>& members() const { return members_; }
+  [[nodiscard]] std::int32_t placeOf(BodyId body) const;
+  /// Somebody is silent and taken to hold still.
+  [[nodiscard]] bool isAssumed() const { return isAssumed_; }
+
+  /// The roots in W are relative to `origin`. O(joints).
+  void poses(const Eigen::Vector3d& origin, PieceMotions& motions, SystemPoses& poses) const;
+
+ private:
+  [[nodiscard]] bool addMember(BodyId body);
+  [[nodiscard]] bool findEnd();
+  [[nodiscard]] const Track& trackOf(const SystemMember& member) const;
+  [[nodiscard]] double reachOfCarried() const;
+  void appendPart(const SystemMember& member, PieceMotions& motions, SystemPoses& poses) const;
+
+  const WorldParts* world_ = nullptr;
+  BodyId a_ = 0, b_ = kStillScene;
+  std::int64_t beginUs_ = 0, endUs_ = 0, toUs_ = 0;
+  bool isAssumed_ = false;
+  std::vector<SystemMember> members_;
+};
+
+}  // namespace foretouch::internal

@@ -1,0 +1,56 @@
+// middleware/world/box_sweep.h: which of many boxes meet: sorted along x and swept, sixteen at
+// once. From one call to the next most boxes stay where they are in the order, so that the sort
+// hardly moves anything. The sweep and prune of [Cohen95], on one axis. Not installed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lss/index.h"
+
+namespace foretouch::internal {
+
+/// Empty: meets nothing.
+struct BodyBox {
+  float lower[3] = {kNowhere, kNowhere, kNowhere};
+  float upper[3] = {-kNowhere, -kNowhere, -kNowhere};
+
+  [[nodiscard]] bool isEmpty() const { return !(lower[0] <= upper[0]); }
+  [[nodiscard]] bool meets(const BodyBox& other) const {
+    for (int k = 0; k < 3; ++k) {
+      if (!(lower[k] <= other.upper[k] && other.lower[k] <= upper[k])) return false;
+    }
+    return true;
+  }
+  void add(const BodyBox& other);
+
+  static constexpr float kNowhere = 3.0e38F;
+};
+
+struct MeetingBodies {
+  std::int32_t a, b;  ///< a < b.
+};
+
+/// For one thread; keeps its memory and the order.
+class BoxSweep {
+ public:
+  /// All pairs of boxes that meet, by a, then by b: the same whatever came before. Typically O(n +
+  /// pairs along x) divided by 16; O(n^2) at worst.
+  void collect(const std::vector<BodyBox>& boxes, std::vector<MeetingBodies>& meeting);
+  /// How many neighbours the last sort exchanged.
+  [[nodiscard]] std::uint64_t swaps() const { return swaps_; }
+
+ private:
+  void sort(const std::vector<BodyBox>& boxes);
+  void arrange(const std::vector<BodyBox>& boxes);
+
+  std::vector<std::int32_t> order_;
+  // Of the boxes in that order, with room for a vector beyond: lower and upper along y and z, and
+  // lower along x.
+  std::vector<float> rows_[5];
+  std::size_t count_ = 0;  // not empty
+  std::uint64_t swaps_ = 0;
+};
+
+}  // namespace foretouch::internal

@@ -1,0 +1,244 @@
+#include "middleware/world/system_plan.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "articulated/try.h"
+#include "lss/index.h"
+
+namespace foretouch::internal {
+namespace {
+
+using Volumes = std::vector<std::vector<Lss>>;
+
+/// Something for queries that ask nothing of a scene: one triangle at the origin.
+Result<Scene> nothingAround() {
+  using Eigen::Vector3d;
+  RawScene raw;
+  raw.objectNames = {"nothing"};
+  raw.triangles.push_back({{Vector3d(1, 0, 0), Vector3d(-1, 1, 0), Vector3d(-1, -1, 0)}});
+  raw.objectOf = {0};
+  return Scene::build(std::move(raw));
+}
+
+Result<Skeleton> skeletonOf(const WorldParts& world, const std::vector<SystemMember>& members,
+                            std::vector<JointId>& first) {
+  RawSkeleton raw;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const SystemMember& member = members[i];
+    const Skeleton& own = world.kinds[slotOf(member.kind)].skeleton;
+    first.push_back(static_cast<JointId>(raw.joints.size()));
+    for (JointId joint = 0; joint < own.numJoints(); ++joint) {
+      JointId parent = own.parent(joint);
+      if (parent != kNoParent) {
+        parent += first[i];
+      } else if (member.carrier >= 0) {
+        parent = first[slotOf(member.carrier)] + member.link;
+      }
+      raw.joints.push_back({std::to_string(i) + " " + std::to_string(joint), parent,
+                            own.restOffset(joint), own.restRotation(joint)});
+    }
+  }
+  return Skeleton::build(raw);
+}
+
+/// Makes one plan.
+class PlanMaker {
+ public:
+  PlanMaker(const WorldParts& world, const SystemSpans& spans, SystemPlan& plan)
+      : world_(world), members_(spans.members()), plan_(plan) {}
+
+  Result<Done> make(SystemQuestion question, std::int32_t a, std::int32_t b) {
+    FORETOUCH_TRY(plan_.skeleton, skeletonOf(world_, members_, plan_.first));
+    lss_.assign(countOf(plan_.skeleton.numJoints()), {});
+    options_.tolerance = kAskedShare * world_.options.tolerance;
+    switch (question) {
+      case SystemQuestion::Boxes: return makeBoxes(a);
+      case SystemQuestion::Still: return makeStill(a);
+      case SystemQuestion::Self: return makeSelf(a);
+      case SystemQuestion::Pair: return makePair(a, b);
+      case SystemQuestion::Mesh: return makeMesh(a, b);
+    }
+    return Done{};
+  }
+
+ private:
+  [[nodiscard]] const SystemMember& member(std::int32_t place) const {
+    return members_[slotOf(place)];
+  }
+  [[nodiscard]] const BodyKind& kind(std::int32_t place) const {
+    return world_.kinds[slotOf(member(place).kind)];
+  }
+  [[nodiscard]] LinkId linkOf(std::int32_t place, LinkId link) const {
+    return plan_.first[slotOf(place)] + link;
+  }
+
+  void addVolumes(std::int32_t place) {
+    const Volumes& own = kind(place).volumes;
+    for (std::size_t link = 0; link < own.size(); ++link) {
+      lss_[slotOf(plan_.first[slotOf(place)]) + link] = own[link];
+    }
+  }
+
+  Result<Done> makeBoxes(std::int32_t a) {
+    addVolumes(a);
+    plan_.table.assign(lss_);
+    return Done{};
+  }
+
+  Result<Done> makeStill(std::int32_t a) {
+    addVolumes(a);
+    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.skeleton, lss_));
+    FORETOUCH_TRY(options_.self, ownRules(a, avatar));
+    FORETOUCH_TRY(plan_.query, Query::build(avatar, *world_.still, options_));
+    return Done{};
+  }
+
+  Result<Done> makeSelf(std::int32_t a) {
+    addVolumes(a);
+    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.skeleton, lss_));
+    FORETOUCH_TRY(options_.self, ownRules(a, avatar));
+    return makePlan(avatar);
+  }
+
+  Result<Done> makePair(std::int32_t a, std::int32_t b) {
+    addVolumes(a);
+    addVolumes(b);
+    std::vector<LeftOutPair> leftOut;
+    leaveOutWithin(a, leftOut);
+    leaveOutWithin(b, leftOut);
+    leaveOutJoined(a, b, leftOut);
+    leaveOutJoined(b, a, leftOut);
+    plan_.isEmpty = numPairs() == static_cast<std::int64_t>(leftOut.size());
+    if (plan_.isEmpty) return Done{};
+    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.skeleton, lss_));
+    FORETOUCH_TRY(options_.self, PairRules::of(avatar, std::move(leftOut)));
+    return makePlan(avatar);
+  }
+
+  Result<Done> makeMesh(std::int32_t a, std::int32_t b) {
+    addVolumes(a);
+    // The link that carries the mesh, or that the mesh carries, is not asked.
+    if (member(b).carrier == a) lss_[slotOf(linkOf(a, member(b).link))].clear();
+    if (member(a).carrier == b) clearRoots(a);
+    plan_.isEmpty = std::all_of(lss_.begin(), lss_.end(), [](const auto& l) { return l.empty(); });
+    if (plan_.isEmpty) return Done{};
+    FORETOUCH_TRY(plan_.chain, RelativeChain::build(plan_.skeleton, linkOf(b, 0)));
+    Volumes seen(countOf(plan_.chain->skeleton().numJoints()));
+    for (std::size_t link = 0; link < lss_.size(); ++link) {
+      seen[slotOf(plan_.chain->linkOf(static_cast<LinkId>(link)))] = lss_[link];
+    }
+    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.chain->skeleton(), seen));
+    FORETOUCH_TRY(plan_.query, Query::build(avatar, *kind(b).mesh, options_));
+    return Done{};
+  }
+
+  Result<Done> makePlan(const Avatar& avatar) {
+    FORETOUCH_TRY(const Scene nothing, nothingAround());
+    FORETOUCH_TRY(plan_.plan, QueryPlan::make(avatar, nothing, options_));
+    return Done{};
+  }
+
+  /// The body's own, for the system's avatar; nothing if it has none.
+  Result<std::optional<PairRules>> ownRules(std::int32_t a, const Avatar& avatar) const {
+    const std::optional<PairRules>& own = world_.body(member(a).body).options.self;
+    if (!own) return std::optional<PairRules>();
+    std::vector<LeftOutPair> leftOut = own->leftOut();
+    for (LeftOutPair& pair : leftOut) {
+      pair.a = linkOf(a, pair.a);
+      pair.b = linkOf(a, pair.b);
+    }
+    std::vector<PairRadius> radii = own->radii();
+    for (PairRadius& pair : radii) {
+      pair.a = linkOf(a, pair.a);
+      pair.b = linkOf(a, pair.b);
+    }
+    FORETOUCH_TRY(PairRules rules, PairRules::of(avatar, std::move(leftOut), std::move(radii)));
+    return std::optional<PairRules>(std::move(rules));
+  }
+
+  void clearRoots(std::int32_t place) {
+    const Skeleton& own = kind(place).skeleton;
+    for (JointId joint = 0; joint < own.numJoints(); ++joint) {
+      if (own.parent(joint) == kNoParent) lss_[slotOf(linkOf(place, joint))].clear();
+    }
+  }
+
+  [[nodiscard]] bool hasLss(LinkId link) const { return !lss_[slotOf(link)].empty(); }
+
+  void leaveOutWithin(std::int32_t place, std::vector<LeftOutPair>& leftOut) const {
+    const LinkId first = linkOf(place, 0), last = linkOf(place, kind(place).skeleton.numJoints());
+    for (LinkId i = first; i < last; ++i) {
+      for (LinkId j = i + 1; j < last; ++j) {
+        if (hasLss(i) && hasLss(j)) leftOut.push_back({i, j, PairReason::User});
+      }
+    }
+  }
+
+  /// Of the carried one's roots and the link that carries them, if one of the two carries the
+  /// other.
+  void leaveOutJoined(std::int32_t carrier, std::int32_t carried,
+                      std::vector<LeftOutPair>& leftOut) const {
+    if (member(carried).carrier != carrier) return;
+    const LinkId holding = linkOf(carrier, member(carried).link);
+    const Skeleton& own = kind(carried).skeleton;
+    for (JointId joint = 0; joint < own.numJoints(); ++joint) {
+      const LinkId held = linkOf(carried, joint);
+      if (own.parent(joint) != kNoParent || !hasLss(held) || !hasLss(holding)) continue;
+      leftOut.push_back({std::min(holding, held), std::max(holding, held), PairReason::User});
+    }
+  }
+
+  [[nodiscard]] std::int64_t numPairs() const {
+    const auto with = static_cast<std::int64_t>(
+        std::count_if(lss_.begin(), lss_.end(), [](const auto& l) { return !l.empty(); }));
+    return with * (with - 1) / 2;
+  }
+
+  const WorldParts& world_;
+  const std::vector<SystemMember>& members_;
+  SystemPlan& plan_;
+  Volumes lss_;  // per joint of the system, of those that are asked
+  QueryOptions options_;
+};
+
+/// The rules of own links are a body's, not its kind's.
+std::int64_t ownRulesOf(const WorldParts& world, SystemQuestion question, BodyId a) {
+  const bool asksOwn = question == SystemQuestion::Still || question == SystemQuestion::Self;
+  return asksOwn && world.body(a).options.self ? a : -1;
+}
+
+}  // namespace
+
+MemberLink SystemPlan::memberLink(LinkId link) const {
+  const auto after = std::upper_bound(first.begin(), first.end(), link);
+  const auto member = static_cast<std::int32_t>(after - first.begin()) - 1;
+  return {member, link - first[slotOf(member)]};
+}
+
+Result<const SystemPlan*> SystemPlans::planOf(const WorldParts& world, const SystemSpans& spans,
+                                              SystemQuestion question, BodyId a, BodyId b) {
+  const std::int32_t placeOfA = spans.placeOf(a);
+  const std::int32_t placeOfB = b == kStillScene ? -1 : spans.placeOf(b);
+  key_.clear();
+  key_.push_back(static_cast<std::int64_t>(question));
+  key_.push_back(ownRulesOf(world, question, a));
+  key_.push_back(placeOfA);
+  key_.push_back(placeOfB);
+  for (const SystemMember& member : spans.members()) {
+    key_.push_back(member.kind);
+    key_.push_back(member.carrier);
+    key_.push_back(member.link);
+  }
+  const auto place = std::lower_bound(
+      plans_.begin(), plans_.end(), key_,
+      [](const auto& plan, const std::vector<std::int64_t>& key) { return plan->key < key; });
+  if (place != plans_.end() && (*place)->key == key_) return place->get();
+  auto made = std::make_unique<SystemPlan>();
+  made->key = key_;
+  FORETOUCH_CHECK(PlanMaker(world, spans, *made).make(question, placeOfA, placeOfB));
+  return plans_.insert(place, std::move(made))->get();
+}
+
+}  // namespace foretouch::internal

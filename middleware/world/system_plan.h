@@ -1,0 +1,65 @@
+// middleware/world/system_plan.h: one question about the bodies of a system (body_system.h),
+// checked and resolved: their chain, the LSS of those that are asked, and the query. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "articulated/relative_motion.h"
+#include "articulated/result.h"
+#include "middleware/query/query.h"
+#include "middleware/query/query_plan.h"
+#include "middleware/world/body_system.h"
+#include "middleware/world/world_parts.h"
+#include "tessellation/lss_table.h"
+
+namespace foretouch::internal {
+
+enum class SystemQuestion : std::uint8_t {
+  Boxes,  ///< Where body a is.
+  Still,  ///< What a meets of the static scene, and of its own links if it asks for these.
+  Self,   ///< What a's own links meet.
+  Pair,   ///< What the links of a meet of those of b; both are made of LSS.
+  Mesh,   ///< What the links of a meet of b, a mesh.
+};
+
+/// Of the world's tolerance, what is asked for; the rest is for parts of motions (world.md 2).
+inline constexpr double kAskedShare = 0.9375, kPartShare = 0.0625;
+
+/// A link of a member.
+struct MemberLink {
+  std::int32_t member = 0;
+  LinkId link = 0;
+};
+
+struct SystemPlan {
+  std::vector<std::int64_t> key;       // what it was made of
+  Skeleton skeleton;                   // of all members
+  std::vector<JointId> first;          // of each member's joints
+  LssTable table;                      // of Boxes
+  bool isEmpty = false;                // nothing can touch
+  std::optional<QueryPlan> plan;       // of Self and Pair
+  std::optional<Query> query;          // of Still and Mesh
+  std::optional<RelativeChain> chain;  // of Mesh: seen from b
+
+  [[nodiscard]] MemberLink memberLink(LinkId link) const;
+};
+
+/// Plans of one world, by what they are made of: kinds of bodies, who hangs on whom, and what is
+/// asked. Two avatars of the same two kinds share one. For one thread.
+class SystemPlans {
+ public:
+  /// Precondition: the spans are at a span; `a` and, of Pair and Mesh, `b` are among the members.
+  /// Errors: a chain that is too deep, or of too many joints. Allocates only what it has not.
+  Result<const SystemPlan*> planOf(const WorldParts& world, const SystemSpans& spans,
+                                   SystemQuestion question, BodyId a, BodyId b);
+  void clear() { plans_.clear(); }
+
+ private:
+  std::vector<std::unique_ptr<SystemPlan>> plans_;  // by key
+  std::vector<std::int64_t> key_;
+};
+
+}  // namespace foretouch::internal

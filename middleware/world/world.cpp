@@ -1,0 +1,335 @@
+#include "middleware/world/world.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <utility>
+
+#include "articulated/try.h"
+#include "lss/fit.h"
+#include "lss/rounding.h"
+#include "middleware/world/world_parts.h"
+
+namespace foretouch {
+namespace {
+
+using internal::BodyKind;
+using internal::Episode;
+using internal::WorldBody;
+using internal::WorldParts;
+
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+std::uint64_t newIdentity() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+Error bodyError(BodyId body, ErrorCode code, const std::string& what) {
+  Error error = Error::in("body", code, "body " + std::to_string(body) + " " + what);
+  error.index = body;
+  return error;
+}
+
+bool isGroup(BodyGroup group) {
+  return group >= 0 && group < kNumBodyGroups;
+}
+
+Error groupError(BodyGroup group) {
+  return Error::in("group", ErrorCode::OutOfRange,
+                   "expected a group from 0 to 31, found " + std::to_string(group));
+}
+
+double reachOf(const std::vector<std::vector<Lss>>& volumes) {
+  double reach = 0.0;
+  for (const std::vector<Lss>& link : volumes) {
+    for (const Lss& lss : link) {
+      reach = std::max(reach, std::max(lss.a.norm(), lss.b.norm()) + lss.radius);
+    }
+  }
+  return reach * internal::kInflation;
+}
+
+BodyKind kindOf(const Avatar& avatar) {
+  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, 0.0};
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));
+  kind.rho = reachOf(kind.volumes);
+  return kind;
+}
+
+BodyKind kindOf(const Scene& mesh) {
+  RawSkeleton raw;
+  raw.joints = {{"mesh", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
+  BodyKind kind{Skeleton::build(raw).value(), std::nullopt, mesh, {}, 0.0};
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < mesh.numTriangles(); ++i) {
+    const Triangle& triangle = mesh.triangle(static_cast<TriangleId>(i));
+    if (!isFinite(triangle)) continue;
+    points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
+  }
+  kind.volumes = {{fitLss(points)}};
+  kind.rho = reachOf(kind.volumes);
+  return kind;
+}
+
+/// What is known of the body ends; a body that is held fast, or taken to be somewhere, has no end.
+std::int64_t knownUntil(const WorldBody& body) {
+  if (body.episodes.empty() || body.options.whenSilent != WhenSilent::Wait) return kNever;
+  const Episode& last = body.episodes.back();
+  return last.isHeldFast() ? kNever : last.track.knownUntilUs();
+}
+
+/// Whether `carried` would carry itself: does `carrier` hang on it at any time from `utimeUs` on?
+bool hangsOn(const WorldParts& parts, BodyId carrier, BodyId carried, std::int64_t utimeUs) {
+  std::vector<BodyId> open{carrier};
+  std::vector<bool> isSeen(parts.bodies.size(), false);
+  while (!open.empty()) {
+    const BodyId id = open.back();
+    open.pop_back();
+    if (id == carried) return true;
+    if (isSeen[slotOf(id)]) continue;
+    isSeen[slotOf(id)] = true;
+    const std::vector<Episode>& episodes = parts.body(id).episodes;
+    for (std::size_t i = 0; i < episodes.size(); ++i) {
+      const bool isOver = i + 1 < episodes.size() && episodes[i + 1].beginUs <= utimeUs;
+      if (!isOver && episodes[i].carrier) open.push_back(episodes[i].carrier->body);
+    }
+  }
+  return false;
+}
+
+Pose poseOf(const RigidPose& rigid) {
+  return {{rigid.rotation}, {rigid.translation}};
+}
+
+Result<Done> checkedBody(const WorldParts& parts, BodyId body) {
+  if (body >= 0 && slotOf(body) < parts.bodies.size()) return Done{};
+  return bodyError(body, ErrorCode::UnknownName,
+                   "is unknown; expected one of the " + std::to_string(parts.bodies.size()) +
+                       " that were added");
+}
+
+Result<Done> checkedNew(const WorldParts& parts, const BodyOptions& options) {
+  if (!isGroup(options.group)) return groupError(options.group);
+  if (parts.bodies.size() < countOf(kMaxBodies)) return Done{};
+  return Error::of(ErrorCode::LimitExceeded,
+                   "expected at most " + std::to_string(kMaxBodies) + " bodies");
+}
+
+/// The body may have another carrier from the instant on.
+Result<Done> checkedChange(const WorldParts& parts, BodyId id, std::int64_t utimeUs) {
+  const WorldBody& body = parts.body(id);
+  if (utimeUs <= parts.forgottenUs) {
+    return bodyError(id, ErrorCode::OutOfRange,
+                     "cannot change its carrier at " + std::to_string(utimeUs) +
+                         " us: it is in the past, all before " + std::to_string(parts.forgottenUs) +
+                         " us is forgotten");
+  }
+  if (body.episodes.empty()) return Done{};
+  const Episode& last = body.episodes.back();
+  if (utimeUs <= last.beginUs) {
+    return bodyError(id, ErrorCode::OutOfRange,
+                     "changed its carrier, or appeared, at " + std::to_string(last.beginUs) +
+                         " us; expected a later instant than that, found " +
+                         std::to_string(utimeUs) + " us");
+  }
+  if (!last.isHeldFast() && utimeUs > last.track.knownUntilUs()) {
+    return bodyError(id, ErrorCode::OutOfRange,
+                     "is known until " + std::to_string(last.track.knownUntilUs()) +
+                         " us; expected a pose at or after " + std::to_string(utimeUs) +
+                         " us before its carrier changes");
+  }
+  return Done{};
+}
+
+Result<Done> checkedCarrier(const WorldParts& parts, BodyId id, const Carrier& carrier,
+                            std::int64_t utimeUs) {
+  FORETOUCH_CHECK(checkedBody(parts, carrier.body));
+  const std::int32_t links = parts.kindOf(carrier.body).skeleton.numJoints();
+  if (carrier.link < 0 || carrier.link >= links) {
+    return bodyError(carrier.body, ErrorCode::UnknownName,
+                     "has links 0 to " + std::to_string(links - 1) + "; expected one of them to " +
+                         "carry body " + std::to_string(id) + ", found " +
+                         std::to_string(carrier.link));
+  }
+  if (parts.body(carrier.body).episodeAt(utimeUs) == nullptr) {
+    return bodyError(carrier.body, ErrorCode::OutOfRange,
+                     "is not there at " + std::to_string(utimeUs) +
+                         " us, when it is to carry body " + std::to_string(id));
+  }
+  if (hangsOn(parts, carrier.body, id, utimeUs)) {
+    return bodyError(id, ErrorCode::BadHierarchy,
+                     "carries body " + std::to_string(carrier.body) +
+                         ", itself or through others, at or after " + std::to_string(utimeUs) +
+                         " us; expected a carrier that does not hang on it");
+  }
+  return Done{};
+}
+
+Result<Done> beginEpisode(WorldParts& parts, BodyId id, std::optional<Carrier> carrier,
+                          std::int64_t utimeUs, const Pose& pose) {
+  Episode episode{utimeUs, carrier, Track(parts.kindOf(id).skeleton)};
+  FORETOUCH_CHECK(episode.track.push(utimeUs, pose));
+  parts.bodies[slotOf(id)].episodes.push_back(std::move(episode));
+  return Done{};
+}
+
+}  // namespace
+
+World::World(std::unique_ptr<internal::WorldParts> parts) : parts_(std::move(parts)) {}
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+Result<World> World::build(std::optional<Scene> still, const WorldOptions& options) {
+  if (!(options.tolerance >= kMinWorldTolerance && options.tolerance <= kMaxTolerance)) {
+    return Error::in("tolerance", ErrorCode::OutOfRange, "expected 1e-8 to 1e7 metres");
+  }
+  auto parts = std::make_unique<WorldParts>();
+  parts->identity = newIdentity();
+  parts->still = std::move(still);
+  parts->options = options;
+  parts->asked.fill(~std::uint32_t{0});
+  parts->askedStill = ~std::uint32_t{0};
+  return World(std::move(parts));
+}
+
+Result<BodyId> World::add(const Avatar& avatar, const BodyOptions& options) {
+  FORETOUCH_CHECK(checkedNew(*parts_, options));
+  if (options.self && options.self->avatarIdentity() != avatar.identity()) {
+    return Error::in("self", ErrorCode::Mismatch, "expected the pair rules of this avatar");
+  }
+  std::vector<BodyKind>& kinds = parts_->kinds;
+  const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const BodyKind& kind) {
+    return kind.avatar && kind.avatar->identity() == avatar.identity();
+  });
+  const auto kind = static_cast<std::int32_t>(known - kinds.begin());
+  if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(avatar));
+  parts_->bodies.push_back({kind, options, {}});
+  return static_cast<BodyId>(parts_->bodies.size()) - 1;
+}
+
+Result<BodyId> World::add(const Scene& mesh, const BodyOptions& options) {
+  FORETOUCH_CHECK(checkedNew(*parts_, options));
+  if (options.self) {
+    return Error::in("self", ErrorCode::Mismatch, "expected none: a mesh has no links of its own");
+  }
+  std::vector<BodyKind>& kinds = parts_->kinds;
+  const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const BodyKind& kind) {
+    return kind.mesh && &kind.mesh->parts() == &mesh.parts();
+  });
+  const auto kind = static_cast<std::int32_t>(known - kinds.begin());
+  if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(mesh));
+  parts_->bodies.push_back({kind, options, {}});
+  return static_cast<BodyId>(parts_->bodies.size()) - 1;
+}
+
+std::int32_t World::numBodies() const {
+  return static_cast<std::int32_t>(parts_->bodies.size());
+}
+
+Result<Done> World::push(BodyId body, std::int64_t utimeUs, const Pose& pose) {
+  FORETOUCH_CHECK(checkedBody(*parts_, body));
+  std::vector<Episode>& episodes = parts_->bodies[slotOf(body)].episodes;
+  if (episodes.empty()) {
+    FORETOUCH_CHECK(checkedChange(*parts_, body, utimeUs));
+    return beginEpisode(*parts_, body, std::nullopt, utimeUs, pose);
+  }
+  if (episodes.back().isHeldFast()) {
+    return bodyError(body, ErrorCode::Mismatch,
+                     "is held fast by body " + std::to_string(episodes.back().carrier->body) +
+                         "; expected no pose until it is detached");
+  }
+  return episodes.back().track.push(utimeUs, pose);
+}
+
+Result<Done> World::push(BodyId body, std::int64_t utimeUs, const RigidPose& pose) {
+  Pose& single = parts_->ofOneJoint;
+  single.rotations.assign(1, pose.rotation);
+  single.translations.assign(1, pose.translation);
+  return push(body, utimeUs, single);
+}
+
+Result<Done> World::attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs,
+                           const Pose& pose) {
+  FORETOUCH_CHECK(checkedBody(*parts_, body));
+  FORETOUCH_CHECK(checkedChange(*parts_, body, utimeUs));
+  FORETOUCH_CHECK(checkedCarrier(*parts_, body, carrier, utimeUs));
+  return beginEpisode(*parts_, body, carrier, utimeUs, pose);
+}
+
+Result<Done> World::attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs,
+                           const RigidPose& pose) {
+  return attach(body, carrier, utimeUs, poseOf(pose));
+}
+
+Result<Done> World::detach(BodyId body, std::int64_t utimeUs, const Pose& pose) {
+  FORETOUCH_CHECK(checkedBody(*parts_, body));
+  const std::vector<Episode>& episodes = parts_->body(body).episodes;
+  if (episodes.empty() || !episodes.back().carrier) {
+    return bodyError(body, ErrorCode::Mismatch, "is not carried; expected one that is");
+  }
+  FORETOUCH_CHECK(checkedChange(*parts_, body, utimeUs));
+  return beginEpisode(*parts_, body, std::nullopt, utimeUs, pose);
+}
+
+Result<Done> World::detach(BodyId body, std::int64_t utimeUs, const RigidPose& pose) {
+  return detach(body, utimeUs, poseOf(pose));
+}
+
+Result<Done> World::ask(BodyGroup a, BodyGroup b, bool isAsked) {
+  if (!isGroup(a)) return groupError(a);
+  if (!isGroup(b)) return groupError(b);
+  const auto set = [&](BodyGroup row, BodyGroup column) {
+    const std::uint32_t bit = 1U << static_cast<unsigned>(column);
+    std::uint32_t& bits = parts_->asked[slotOf(row)];
+    bits = isAsked ? bits | bit : bits & ~bit;
+  };
+  set(a, b);
+  set(b, a);
+  return Done{};
+}
+
+Result<Done> World::askStill(BodyGroup group, bool isAsked) {
+  if (!isGroup(group)) return groupError(group);
+  const std::uint32_t bit = 1U << static_cast<unsigned>(group);
+  parts_->askedStill = isAsked ? parts_->askedStill | bit : parts_->askedStill & ~bit;
+  return Done{};
+}
+
+std::optional<BodyId> World::waitsFor() const {
+  std::optional<BodyId> slowest;
+  std::int64_t until = kNever;
+  for (BodyId id = 0; id < numBodies(); ++id) {
+    const std::int64_t known = knownUntil(parts_->body(id));
+    if (known < until) {
+      until = known;
+      slowest = id;
+    }
+  }
+  return slowest;
+}
+
+std::optional<std::int64_t> World::knownUntilUs() const {
+  if (const auto slowest = waitsFor()) return knownUntil(parts_->body(*slowest));
+  std::optional<std::int64_t> latest;
+  for (const WorldBody& body : parts_->bodies) {
+    if (body.episodes.empty()) continue;
+    const std::int64_t last = body.episodes.back().track.knownUntilUs();
+    latest = latest ? std::max(*latest, last) : last;
+  }
+  return latest;
+}
+
+void World::forgetBefore(std::int64_t utimeUs) {
+  parts_->forgottenUs = std::max(parts_->forgottenUs, utimeUs);
+  for (WorldBody& body : parts_->bodies) {
+    std::vector<Episode>& episodes = body.episodes;
+    std::size_t over = 0;
+    while (over + 1 < episodes.size() && episodes[over + 1].beginUs <= utimeUs) ++over;
+    episodes.erase(episodes.begin(), episodes.begin() + static_cast<std::ptrdiff_t>(over));
+    for (Episode& episode : episodes) episode.track.forgetBefore(utimeUs);
+  }
+}
+
+}  // namespace foretouch

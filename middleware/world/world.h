@@ -1,0 +1,84 @@
+// middleware/world/world.h: everything that moves, on one timeline: avatars, rigid props, and what
+// they carry, each known at instants of its own, beside an optional scene that stands still. World
+// time in microseconds, metres in W.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "articulated/avatar.h"
+#include "articulated/pose.h"
+#include "articulated/result.h"
+#include "middleware/scene/scene.h"
+#include "middleware/world/world_contacts.h"
+#include "middleware/world/world_options.h"
+
+namespace foretouch {
+
+namespace internal {
+struct WorldParts;
+}
+
+/// The bodies, and where they are known to be. Changed by one thread; any number may ask in
+/// between (world_query.h). A body is there from its first pose on; before, nothing touches it.
+class World {
+ public:
+  /// Errors: a tolerance out of range.
+  static Result<World> build(std::optional<Scene> still, const WorldOptions& options = {});
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  ~World();
+
+  /// An avatar, or a prop that is made of LSS: the LSS of its links touch. Errors: a group out of
+  /// range, pair rules of another avatar, too many bodies.
+  Result<BodyId> add(const Avatar& avatar, const BodyOptions& options = {});
+  /// A rigid prop: the triangles touch, in its own frame. It meets avatars; two meshes are not
+  /// asked whether they meet, nor is a mesh and the static scene: one of two must be made of LSS.
+  /// Errors: as above, and own links, which it has none of.
+  Result<BodyId> add(const Scene& mesh, const BodyOptions& options = {});
+  [[nodiscard]] std::int32_t numBodies() const;
+
+  /// The body's next pose: in W, or in the frame of what carries it and lets it move. Errors: as
+  /// Track::push(), an unknown body (Error::index), and a body that is carried and held fast.
+  Result<Done> push(BodyId body, std::int64_t utimeUs, const Pose& pose);
+  /// The same of a body of one joint, as every mesh is.
+  Result<Done> push(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
+
+  /// From `utimeUs` on, the body is carried; `pose` is its pose there in the frame of the carrier's
+  /// link. A pair of the body and the link that carries it is not asked. Errors: unknown bodies or
+  /// links; a body that carries the carrier at any time from then on (BadHierarchy); a body or
+  /// carrier that is not known at that instant, or a body that was attached or detached later.
+  Result<Done> attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const Pose& pose);
+  Result<Done> attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs,
+                      const RigidPose& pose);
+  /// From `utimeUs` on, nobody carries the body; `pose` is its pose there, in W. Errors: as above,
+  /// and a body that is not carried.
+  Result<Done> detach(BodyId body, std::int64_t utimeUs, const Pose& pose);
+  Result<Done> detach(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
+
+  /// Whether bodies of two groups are asked if they meet; everything is, to begin with. Errors: a
+  /// group out of range.
+  Result<Done> ask(BodyGroup a, BodyGroup b, bool isAsked);
+  /// The same of bodies of a group and the static scene.
+  Result<Done> askStill(BodyGroup group, bool isAsked);
+
+  /// All is known, or taken to be, until here: the earliest last pose of the bodies that wait for
+  /// theirs (WhenSilent::Wait); if nobody waits, the latest pose of all. Nothing if there is none.
+  [[nodiscard]] std::optional<std::int64_t> knownUntilUs() const;
+  /// The body that knownUntilUs() waits for; nothing if nobody waits.
+  [[nodiscard]] std::optional<BodyId> waitsFor() const;
+
+  /// Lets go of what no window from `utimeUs` on needs. Poses at or before it are refused from now
+  /// on, and so are windows that begin before it.
+  void forgetBefore(std::int64_t utimeUs);
+
+  /// For the query's own sources.
+  [[nodiscard]] const internal::WorldParts& parts() const { return *parts_; }
+
+ private:
+  explicit World(std::unique_ptr<internal::WorldParts> parts);
+  std::unique_ptr<internal::WorldParts> parts_;
+};
+
+}  // namespace foretouch

@@ -1,0 +1,65 @@
+// middleware/world/world_parts.h: the contents of a World. Not installed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/track.h"
+#include "lss/index.h"
+#include "middleware/scene/scene.h"
+#include "middleware/world/world_options.h"
+
+namespace foretouch::internal {
+
+/// What bodies of one avatar or of one mesh have in common.
+struct BodyKind {
+  Skeleton skeleton;
+  std::optional<Avatar> avatar;
+  std::optional<Scene> mesh;              // where there is no avatar
+  std::vector<std::vector<Lss>> volumes;  // per link: contain what touches
+  double rho = 0.0;                       // no point of them is farther from its link's origin
+};
+
+/// A body between two changes of its carrier.
+struct Episode {
+  std::int64_t beginUs = 0;
+  std::optional<Carrier> carrier;
+  Track track;  // in the frame of the carrier's link; the first knot is at beginUs
+  /// It keeps its place in the carrier's frame.
+  [[nodiscard]] bool isHeldFast() const { return carrier && !carrier->movesInFrame; }
+};
+
+struct WorldBody {
+  std::int32_t kind = 0;
+  BodyOptions options;
+  std::vector<Episode> episodes;  // none before the first pose
+
+  /// The episode at an instant; null before the first one. O(episodes).
+  [[nodiscard]] const Episode* episodeAt(std::int64_t utimeUs) const;
+  /// When the episode after that of the instant begins, or the first one; INT64_MAX if none does.
+  [[nodiscard]] std::int64_t nextEpisodeUs(std::int64_t utimeUs) const;
+};
+
+struct WorldParts {
+  std::uint64_t identity = 0;  // different for every world of the process
+  std::optional<Scene> still;
+  WorldOptions options;
+  std::vector<BodyKind> kinds;
+  std::vector<WorldBody> bodies;
+  std::array<std::uint32_t, kNumBodyGroups> asked{};  // bit b of row a
+  std::uint32_t askedStill = 0;
+  std::int64_t forgottenUs = -kMostUtimeUs - 1;
+  Pose ofOneJoint;  // memory of push()
+
+  [[nodiscard]] const WorldBody& body(BodyId id) const { return bodies[slotOf(id)]; }
+  [[nodiscard]] const BodyKind& kindOf(BodyId id) const { return kinds[slotOf(body(id).kind)]; }
+  /// Of two different bodies, by their groups and by what they are made of.
+  [[nodiscard]] bool isAsked(BodyId a, BodyId b) const;
+  /// Of an avatar and the static scene.
+  [[nodiscard]] bool isStillAsked(BodyId id) const;
+};
+
+}  // namespace foretouch::internal

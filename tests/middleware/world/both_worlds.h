@@ -1,0 +1,60 @@
+// tests/middleware/world/both_worlds.h: a world and the judge's own, told the same, and every
+// answer of the one held against the other.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "middleware/world/world.h"
+#include "middleware/world/world_query.h"
+#include "tests/middleware/world/world_oracle.h"
+#include "tests/support/judged.h"
+
+namespace foretouch::test {
+
+/// How many answers there were of each kind, over all pairs of links.
+struct WorldTally {
+  int clear = 0, contact = 0, start = 0, undecided = 0, grazing = 0;
+};
+
+class BothWorlds {
+ public:
+  explicit BothWorlds(double tolerance, std::optional<Scene> still = std::nullopt);
+
+  BodyId add(const Avatar& avatar, const BodyOptions& options = {});
+  BodyId add(const Scene& mesh, const BodyOptions& options = {});
+  void push(BodyId body, std::int64_t utimeUs, const Pose& pose);
+  void push(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
+  void attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const RigidPose& pose);
+  void detach(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
+
+  /// Asks, and judges every pair of links of the given bodies; adds to `problems`.
+  void judge(BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs);
+  /// The same for every two bodies.
+  void judgeAll(std::int64_t fromUs, std::int64_t toUs);
+
+  World world;
+  OracleWorld oracle;
+  WorldScratch scratch;
+  WorldContacts answer;
+  WorldTally tally;
+  std::vector<std::string> problems;           ///< What broke the promise.
+  std::function<void(WorldContacts&)> tamper;  ///< Changes answers before they are judged.
+
+ private:
+  void ask(std::int64_t fromUs, std::int64_t toUs);
+  void judgePair(BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs);
+  void judgeLinks(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB, std::int64_t fromUs,
+                  const OracleTouch& truth);
+  [[nodiscard]] bool hasParts(BodyId body, LinkId link) const;
+  [[nodiscard]] bool areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const;
+  [[nodiscard]] std::string problemOf(const WorldContact& contact, const OracleTouch& truth,
+                                      std::int64_t fromUs) const;
+  OracleEpisode& episode(BodyId body, std::int64_t utimeUs);
+
+  double tolerance_;
+};
+
+}  // namespace foretouch::test

@@ -1,0 +1,191 @@
+#include "tests/middleware/world/world_oracle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace foretouch::test {
+namespace {
+
+using Frame = oracle::MovingFrame<Real>;
+constexpr int kMostSteps = 50'000;
+constexpr Real kForever = 1e18L;
+
+oracle::Joint jointOf(int parent, const OraclePlace& from, const OraclePlace& to) {
+  oracle::Joint joint;
+  joint.parent = parent;
+  joint.fromRotation = from.rotation;
+  joint.toRotation = to.rotation;
+  joint.fromTranslation = from.translation;
+  joint.toTranslation = to.translation;
+  return joint;
+}
+
+oracle::Motion motionOf(const OracleBody& body, const OracleEpisode& episode, std::size_t from,
+                        std::size_t to) {
+  std::vector<oracle::Joint> joints;
+  for (std::size_t j = 0; j < body.parents.size(); ++j) {
+    joints.push_back(jointOf(body.parents[j], episode.poses[from][j], episode.poses[to][j]));
+  }
+  return oracle::Motion(joints);
+}
+
+oracle::Corners<Real> cornersIn(const OraclePart& part, const Frame& frame) {
+  oracle::Corners<Real> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t which = std::min(i, static_cast<std::size_t>(part.count - 1));
+    corners[i] = frame.at(part.corners[which].as<Real>());
+  }
+  return corners;
+}
+
+Real coreDistance(const OraclePart& one, const Frame& atOne, const OraclePart& other,
+                  const Frame& atOther) {
+  return oracle::closestPoints(cornersIn(one, atOne), cornersIn(other, atOther)).distance;
+}
+
+}  // namespace
+
+OracleWorld::Moving OracleWorld::movingAt(int id, std::int64_t fromUs, Real us,
+                                          bool isFromLeft) const {
+  const std::vector<OracleEpisode>& episodes = body(id).episodes;
+  const auto after = [&](std::int64_t instant) { return static_cast<Real>(instant - fromUs); };
+  Moving moving;
+  moving.untilUs = kForever;
+  std::size_t e = 0;
+  for (; e + 1 < episodes.size(); ++e) {
+    const Real next = after(episodes[e + 1].beginUs);
+    if (next > us || (isFromLeft && next == us)) {
+      moving.untilUs = next;
+      break;
+    }
+  }
+  const OracleEpisode& episode = episodes[e];
+  std::size_t k = 0;
+  while (k + 1 < episode.times.size() && after(episode.times[k + 1]) <= us) ++k;
+  const bool isLast = k + 1 == episode.times.size();
+  const oracle::Motion motion = motionOf(body(id), episode, k, isLast ? k : k + 1);
+  Real length = 1, t = 0;
+  if (!isLast) {
+    length = after(episode.times[k + 1]) - after(episode.times[k]);
+    t = (us - after(episode.times[k])) / length;
+    moving.untilUs = std::min(moving.untilUs, after(episode.times[k + 1]));
+  }
+  motion.framesAt(t, moving.frames);
+  for (int j = 0; j < motion.numLinks(); ++j) {
+    moving.speeds.push_back(
+        {motion.bounds(j).speed / length, motion.bounds(j).angularSpeed / length});
+  }
+  if (episode.carrier < 0) return moving;
+  const Moving carrier = movingAt(episode.carrier, fromUs, us, isFromLeft);
+  const auto link = static_cast<std::size_t>(episode.link);
+  for (int j = 0; j < motion.numLinks(); ++j) {
+    Frame& frame = moving.frames[static_cast<std::size_t>(j)];
+    frame.p = carrier.frames[link].at(frame.p);
+    frame.q = carrier.frames[link].q * frame.q;
+    Speed& speed = moving.speeds[static_cast<std::size_t>(j)];
+    speed.ofOrigin +=
+        carrier.speeds[link].ofOrigin + carrier.speeds[link].ofTurn * motion.reach(j, 0);
+    speed.ofTurn += carrier.speeds[link].ofTurn;
+  }
+  moving.untilUs = std::min(moving.untilUs, carrier.untilUs);
+  return moving;
+}
+
+Real OracleWorld::separation(int a, const Moving& atA, int linkOfA, int b, const Moving& atB,
+                             int linkOfB) const {
+  Real least = kForever;
+  for (const OraclePart& one : body(a).parts) {
+    if (one.link != linkOfA) continue;
+    for (const OraclePart& other : body(b).parts) {
+      if (other.link != linkOfB) continue;
+      const Real distance = coreDistance(one, atA.frames[static_cast<std::size_t>(linkOfA)], other,
+                                         atB.frames[static_cast<std::size_t>(linkOfB)]);
+      least = std::min(least,
+                       distance - static_cast<Real>(one.radius) - static_cast<Real>(other.radius));
+    }
+  }
+  return least;
+}
+
+/// No corner of the link's parts is farther from its origin; below zero if it has none.
+Real OracleWorld::reachOf(int id, int link) const {
+  Real rho = -1;
+  for (const OraclePart& part : body(id).parts) {
+    if (part.link != link) continue;
+    for (const Vec3d& corner : part.corners) rho = std::max(rho, norm(corner.as<Real>()));
+  }
+  return rho;
+}
+
+Real OracleWorld::speedOf(int id, const Moving& moving, int link) const {
+  const Speed& speed = moving.speeds[static_cast<std::size_t>(link)];
+  return speed.ofOrigin + speed.ofTurn * reachOf(id, link);
+}
+
+std::vector<bool> OracleWorld::mayTouch(int a, int b, std::int64_t fromUs,
+                                        std::int64_t toUs) const {
+  constexpr int kInstants = 200;
+  const Real end = static_cast<Real>(toUs - fromUs);
+  const std::size_t linksOfA = body(a).parents.size(), linksOfB = body(b).parents.size();
+  std::vector<bool> may(linksOfA * linksOfB, false);
+  for (Real us = 0; us < end;) {
+    const Moving atA = movingAt(a, fromUs, us, false), atB = movingAt(b, fromUs, us, false);
+    const Real next = std::min({us + end / kInstants, atA.untilUs, atB.untilUs, end});
+    for (std::size_t i = 0; i < linksOfA; ++i) {
+      const int one = static_cast<int>(i);
+      const Real reach = reachOf(a, one);
+      for (std::size_t j = 0; j < linksOfB && reach >= 0; ++j) {
+        const int other = static_cast<int>(j);
+        if (may[i * linksOfB + j] || reachOf(b, other) < 0) continue;
+        const Real way = (speedOf(a, atA, one) + speedOf(b, atB, other)) * (next - us);
+        const Real apart = norm(atA.frames[i].p - atB.frames[j].p) - reach - reachOf(b, other);
+        constexpr Real kWidest = 0.3L;  // metres: no two radii are more
+        if (apart > way + kWidest) continue;
+        may[i * linksOfB + j] = !(separation(a, atA, one, b, atB, other) > way + kTouch);
+      }
+    }
+    us = next;
+  }
+  return may;
+}
+
+Real OracleWorld::separationAt(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
+                               Real us) const {
+  return separation(a, movingAt(a, fromUs, us, false), linkOfA, b, movingAt(b, fromUs, us, false),
+                    linkOfB);
+}
+
+OracleTouch OracleWorld::firstTouch(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
+                                    std::int64_t toUs) const {
+  const Real end = static_cast<Real>(toUs - fromUs);
+  Real us = 0;
+  for (int step = 0; step < kMostSteps; ++step) {
+    // What changes at the window's end belongs to the next one.
+    const Moving atA = movingAt(a, fromUs, us, us >= end), atB = movingAt(b, fromUs, us, us >= end);
+    const Real gap = separation(a, atA, linkOfA, b, atB, linkOfB);
+    if (gap <= kTouch) return {OracleOutcome::Touch, us};
+    if (us >= end) return {OracleOutcome::Free, end};
+    const Real speed = speedOf(a, atA, linkOfA) + speedOf(b, atB, linkOfB);
+    // A thousandth of what a touch is, for rounding.
+    const Real safe = (gap - kTouch * Real(1e-3L)) / (speed + Real(1e-30L));
+    us = std::min({us + safe, atA.untilUs, atB.untilUs, end});
+  }
+  return {OracleOutcome::Uncertain, us};
+}
+
+Real OracleWorld::distanceToSurface(int id, int link, const Vec3d& p_W, std::int64_t fromUs,
+                                    Real us) const {
+  const Moving at = movingAt(id, fromUs, us, false);
+  OraclePart point;
+  point.corners = {p_W, p_W, p_W};
+  Real least = kForever;
+  for (const OraclePart& part : body(id).parts) {
+    if (part.link != link) continue;
+    const Real distance =
+        coreDistance(part, at.frames[static_cast<std::size_t>(link)], point, Frame());
+    least = std::min(least, std::abs(distance - static_cast<Real>(part.radius)));
+  }
+  return least;
+}
+
+}  // namespace foretouch::test

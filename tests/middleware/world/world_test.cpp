@@ -1,0 +1,398 @@
+// What a world is told, what it refuses, and what it says of what it does not know.
+#include "middleware/world/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "middleware/world/world_query.h"
+#include "tests/middleware/world/both_worlds.h"
+#include "tests/support/random_geometry.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using test::BothWorlds;
+
+Skeleton skeletonOf(int joints) {
+  RawSkeleton raw;
+  for (int j = 0; j < joints; ++j) {
+    raw.joints.push_back(
+        {"joint" + std::to_string(j), j - 1, Vector3d::Zero(), Quaternion::Identity()});
+  }
+  return Skeleton::build(raw).value();
+}
+
+/// A ball of this radius.
+Avatar ball(double radius) {
+  return Avatar::build(skeletonOf(1), {{{Vector3d::Zero(), Vector3d::Zero(), radius}}}).value();
+}
+
+RigidPose at(double x, double y = 0.0) {
+  return {Quaternion::Identity(), Vector3d(x, y, 0)};
+}
+
+/// A square of 2 m across x, at x = 0.
+Scene wall() {
+  RawScene raw;
+  raw.objectNames = {"wall"};
+  raw.triangles = {{{Vector3d(0, -1, -1), Vector3d(0, 1, -1), Vector3d(0, 1, 1)}},
+                   {{Vector3d(0, -1, -1), Vector3d(0, 1, 1), Vector3d(0, -1, 1)}}};
+  raw.objectOf = {0, 0};
+  return Scene::build(std::move(raw)).value();
+}
+
+World emptyWorld() {
+  return World::build(std::nullopt).value();
+}
+
+WorldContacts answerOf(const World& world, std::int64_t fromUs, std::int64_t toUs) {
+  WorldScratch scratch;
+  WorldContacts answer;
+  const auto asked = worldContacts(world, fromUs, toUs, scratch, answer);
+  EXPECT_TRUE(asked.ok()) << describe(asked.error());
+  return answer;
+}
+
+void expectError(const Result<Done>& result, ErrorCode code, const std::string& words) {
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().code, code) << describe(result.error());
+  EXPECT_NE(describe(result.error()).find(words), std::string::npos) << describe(result.error());
+}
+
+// Two balls of 10 cm, a metre apart, one of which closes in at 1 m in 100 ms: they touch at 80 ms.
+TEST(World, SaysWhenAndWhereTwoMeet) {
+  World world = emptyWorld();
+  const BodyId one = world.add(ball(0.1)).value(), other = world.add(ball(0.1)).value();
+  for (const int i : {0, 1, 2}) {
+    ASSERT_TRUE(world.push(one, 50'000 * i, at(0.5 * i)).ok());
+    ASSERT_TRUE(world.push(other, 33'000 * i, at(1.0)).ok());
+  }
+  ASSERT_TRUE(world.push(other, 100'000, at(1.0)).ok());
+  const WorldContacts answer = answerOf(world, 0, 100'000);
+  ASSERT_EQ(answer.contacts.size(), 1u);
+  const WorldContact& contact = answer.contacts[0];
+  EXPECT_EQ(contact.a.body, one);
+  EXPECT_EQ(contact.b.body, other);
+  EXPECT_EQ(contact.verdict, Verdict::Contact);
+  const double us = microsecondsAfter(0, contact.time);
+  EXPECT_LE(us, 80'000.0);
+  EXPECT_GE(us, 80'000.0 - 1e-3 * 1e5 - 1e-6);
+  EXPECT_LE(contact.separation, 1e-3);
+  EXPECT_NEAR(contact.b.p_W.x(), 0.9, 1e-12);
+  EXPECT_NEAR((contact.nhat_BA_W - Vector3d(-1, 0, 0)).norm(), 0.0, 1e-12);
+  EXPECT_FALSE(contact.isAssumed);
+  EXPECT_TRUE(answer.silent.empty());
+}
+
+// Each goes where the other has been: what both sweep meets, they do not.
+TEST(World, IsClearOfTwoThatMoveTogether) {
+  for (const bool isMesh : {false, true}) {
+    BothWorlds both(1e-3);
+    const BodyId one = both.add(ball(0.05));
+    const BodyId other = isMesh ? both.add(wall()) : both.add(ball(0.05));
+    const double apart = isMesh ? 0.07 : 0.12;  // 2 cm between the surfaces
+    for (const int i : {0, 1, 2, 3}) {
+      both.push(one, 20'000 * i, at(0.1 * i));
+      both.push(other, 15'000 * i, at(0.075 * i + apart));
+    }
+    both.judgeAll(0, 45'000);
+    EXPECT_TRUE(both.problems.empty()) << both.problems.front();
+    EXPECT_EQ(both.tally.clear, 1);
+    EXPECT_EQ(both.answer.counters.nearPairs, 1u);
+  }
+}
+
+TEST(World, TellsTheStaticSceneAndOwnLinks) {
+  World world = World::build(wall()).value();
+  // Three balls in a row along x, the last of which swings around the first.
+  const Avatar avatar =
+      Avatar::build(skeletonOf(3), {{{Vector3d::Zero(), Vector3d::Zero(), 0.1}},
+                                    {},
+                                    {{Vector3d(0.3, 0, 0), Vector3d(0.3, 0, 0), 0.1}}})
+          .value();
+  BodyOptions options;
+  options.self = PairRules::of(avatar, {}).value();
+  const BodyId body = world.add(avatar, options).value();
+  Pose from = restPose(avatar.skeleton()), to = from;
+  from.translations[0] = to.translations[0] = Vector3d(-1, 0, 0);
+  to.translations[0].x() = -0.4;              // the first ends 30 cm before the wall
+  to.translations[2] = Vector3d(-0.2, 0, 0);  // the last comes to 10 cm of the first
+  ASSERT_TRUE(world.push(body, 0, from).ok());
+  ASSERT_TRUE(world.push(body, 1000, to).ok());
+  const WorldContacts answer = answerOf(world, 0, 1000);
+  ASSERT_EQ(answer.contacts.size(), 1u);
+  EXPECT_EQ(answer.contacts[0].a.link, 0);
+  EXPECT_EQ(answer.contacts[0].b.body, body);
+  EXPECT_EQ(answer.contacts[0].b.link, 2);
+  // Now into the wall as well, from the window's middle.
+  to.translations[0].x() = 0.2;
+  ASSERT_TRUE(world.push(body, 2000, to).ok());
+  const WorldContacts next = answerOf(world, 1000, 2000);
+  ASSERT_EQ(next.contacts.size(), 3u);
+  EXPECT_EQ(std::count_if(next.contacts.begin(), next.contacts.end(),
+                          [](const WorldContact& c) { return c.b.body == kStillScene; }),
+            2);
+  ASSERT_TRUE(world.askStill(0, false).ok());
+  EXPECT_EQ(answerOf(world, 1000, 2000).contacts.size(), 1u);
+}
+
+TEST(World, AsksWhatItsGroupsAreAsked) {
+  World world = emptyWorld();
+  BodyOptions second;
+  second.group = 3;
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  ASSERT_TRUE(world.add(ball(0.1), second).ok());
+  ASSERT_TRUE(world.add(ball(0.1), second).ok());
+  for (BodyId body = 0; body < 3; ++body) {
+    ASSERT_TRUE(world.push(body, 0, at(0.05 * body)).ok());
+    ASSERT_TRUE(world.push(body, 10, at(0.05 * body)).ok());
+  }
+  EXPECT_EQ(answerOf(world, 0, 10).contacts.size(), 3u);
+  ASSERT_TRUE(world.ask(3, 0, false).ok());
+  const WorldContacts answer = answerOf(world, 0, 10);
+  ASSERT_EQ(answer.contacts.size(), 1u);
+  EXPECT_EQ(answer.contacts[0].a.body, 1);
+  EXPECT_EQ(answer.contacts[0].verdict, Verdict::StartsInContact);
+  expectError(world.ask(0, 32, true), ErrorCode::OutOfRange, "found 32");
+  expectError(world.askStill(-1, true), ErrorCode::OutOfRange, "found -1");
+}
+
+TEST(World, WaitsForWhoWaits) {
+  World world = emptyWorld();
+  EXPECT_FALSE(world.knownUntilUs());
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  ASSERT_TRUE(world.push(0, 0, at(0)).ok());
+  ASSERT_TRUE(world.push(0, 90, at(0)).ok());
+  ASSERT_TRUE(world.push(1, 10, at(5)).ok());
+  EXPECT_EQ(world.knownUntilUs(), 10);
+  EXPECT_EQ(world.waitsFor(), 1);
+  WorldScratch scratch;
+  WorldContacts answer;
+  expectError(worldContacts(world, 0, 50, scratch, answer), ErrorCode::OutOfRange, "of body 1");
+  ASSERT_TRUE(world.push(1, 60, at(5)).ok());
+  EXPECT_TRUE(worldContacts(world, 0, 50, scratch, answer).ok());
+  expectError(worldContacts(world, 50, 50, scratch, answer), ErrorCode::OutOfRange, "no length");
+  expectError(worldContacts(emptyWorld(), 0, 50, scratch, answer), ErrorCode::Empty, "no body");
+}
+
+TEST(World, SaysWhatItTakesASilentBodyToDo) {
+  for (const WhenSilent taken : {WhenSilent::HoldStill, WhenSilent::Undecided}) {
+    World world = emptyWorld();
+    BodyOptions silent;
+    silent.whenSilent = taken;
+    ASSERT_TRUE(world.add(ball(0.1)).ok());
+    ASSERT_TRUE(world.add(ball(0.1), silent).ok());
+    ASSERT_TRUE(world.push(0, 0, at(0)).ok());
+    ASSERT_TRUE(world.push(0, 100, at(1)).ok());
+    ASSERT_TRUE(world.push(1, 0, at(0.7)).ok());
+    ASSERT_TRUE(world.push(1, 20, at(0.7)).ok());
+    EXPECT_EQ(world.knownUntilUs(), 100);
+    const WorldContacts answer = answerOf(world, 0, 100);
+    ASSERT_EQ(answer.silent.size(), 1u);
+    EXPECT_EQ(answer.silent[0].body, 1);
+    EXPECT_EQ(answer.silent[0].sinceUs, 20);
+    EXPECT_EQ(answer.silent[0].takenTo, taken);
+    if (taken == WhenSilent::Undecided) {
+      EXPECT_TRUE(answer.contacts.empty());
+      continue;
+    }
+    ASSERT_EQ(answer.contacts.size(), 1u);
+    EXPECT_NEAR(microsecondsAfter(0, answer.contacts[0].time), 50.0, 0.2);
+    EXPECT_TRUE(answer.contacts[0].isAssumed);
+  }
+}
+
+TEST(World, HasABodyFromItsFirstPoseOn) {
+  World world = emptyWorld();
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  ASSERT_TRUE(world.push(0, 0, at(0)).ok());
+  ASSERT_TRUE(world.push(0, 100, at(0)).ok());
+  ASSERT_TRUE(world.push(1, 40, at(0.1)).ok());
+  ASSERT_TRUE(world.push(1, 100, at(0.1)).ok());
+  EXPECT_TRUE(answerOf(world, 0, 40).contacts.empty());
+  const WorldContacts answer = answerOf(world, 0, 100);
+  ASSERT_EQ(answer.contacts.size(), 1u);
+  EXPECT_EQ(answer.contacts[0].verdict, Verdict::StartsInContact);
+  EXPECT_EQ(answer.contacts[0].time.us, 40);
+}
+
+TEST(World, RefusesByName) {
+  World world = emptyWorld();
+  EXPECT_FALSE(World::build(std::nullopt, {1e-9}).ok());
+  BodyOptions options;
+  options.group = 40;
+  EXPECT_FALSE(world.add(ball(0.1), options).ok());
+  options.group = 0;
+  const Avatar two = Avatar::build(skeletonOf(2), {{{Vector3d::Zero(), Vector3d::Zero(), 0.1}},
+                                                   {{Vector3d(1, 0, 0), Vector3d(1, 0, 0), 0.1}}})
+                         .value();
+  options.self = PairRules::of(two, {}).value();
+  EXPECT_FALSE(world.add(ball(0.1), options).ok());
+  EXPECT_FALSE(world.add(wall(), options).ok());
+  ASSERT_TRUE(world.add(two, options).ok());
+  expectError(world.push(7, 0, at(0)), ErrorCode::UnknownName, "body 7 is unknown");
+  expectError(world.push(-1, 0, at(0)), ErrorCode::UnknownName, "body -1");
+  expectError(world.push(0, 0, at(0)), ErrorCode::Mismatch, "2 joints");
+  EXPECT_EQ(world.knownUntilUs(), std::nullopt);  // what was refused has left no trace
+}
+
+TEST(World, RefusesCirclesOfCarriers) {
+  World world = emptyWorld();
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(world.add(ball(0.1)).ok());
+    ASSERT_TRUE(world.push(i, 0, at(i)).ok());
+    ASSERT_TRUE(world.push(i, 100, at(i)).ok());
+  }
+  expectError(world.attach(0, {0, 0}, 50, at(1)), ErrorCode::BadHierarchy, "body 0 carries body 0");
+  ASSERT_TRUE(world.attach(0, {1, 0}, 50, at(1)).ok());
+  ASSERT_TRUE(world.attach(1, {2, 0}, 60, at(1)).ok());
+  expectError(world.attach(2, {0, 0}, 70, at(1)), ErrorCode::BadHierarchy, "does not hang on it");
+  // Before the other is attached, too: it would be one later.
+  expectError(world.attach(2, {0, 0}, 40, at(1)), ErrorCode::BadHierarchy, "does not hang on it");
+  ASSERT_TRUE(world.detach(0, 80, at(1)).ok());
+  EXPECT_TRUE(world.attach(2, {0, 0}, 90, at(1)).ok());
+}
+
+TEST(World, RefusesCarriersThatAreNotThere) {
+  World world = emptyWorld();
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(world.add(ball(0.1)).ok());
+  ASSERT_TRUE(world.push(0, 0, at(0)).ok());
+  ASSERT_TRUE(world.push(0, 100, at(0)).ok());
+  ASSERT_TRUE(world.push(1, 50, at(0)).ok());
+  expectError(world.attach(0, {9, 0}, 60, at(1)), ErrorCode::UnknownName, "body 9");
+  expectError(world.attach(0, {1, 4}, 60, at(1)), ErrorCode::UnknownName, "found 4");
+  expectError(world.attach(0, {1, 0}, 40, at(1)), ErrorCode::OutOfRange, "not there at 40");
+  expectError(world.attach(0, {2, 0}, 60, at(1)), ErrorCode::OutOfRange, "not there at 60");
+  expectError(world.attach(0, {1, 0}, 101, at(1)), ErrorCode::OutOfRange, "known until 100");
+  expectError(world.detach(0, 60, at(1)), ErrorCode::Mismatch, "not carried");
+  ASSERT_TRUE(world.attach(0, {1, 0}, 60, at(1)).ok());
+  expectError(world.push(0, 200, at(1)), ErrorCode::Mismatch, "held fast by body 1");
+  expectError(world.detach(0, 60, at(1)), ErrorCode::OutOfRange, "expected a later instant");
+  // In a hand from its first instant on.
+  EXPECT_TRUE(world.attach(2, {1, 0}, 70, at(1)).ok());
+  EXPECT_EQ(world.knownUntilUs(), 50);  // who carries is waited for, who is held is not
+}
+
+TEST(World, ForgetsWhatIsAnswered) {
+  World world = emptyWorld();
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(world.push(0, 10 * i, at(0)).ok());
+    ASSERT_TRUE(world.push(1, 10 * i, at(2.0 - 0.2 * i)).ok());
+  }
+  const WorldContacts before = answerOf(world, 45, 90);
+  world.forgetBefore(45);
+  const WorldContacts after = answerOf(world, 45, 90);
+  ASSERT_EQ(before.contacts.size(), 1u);
+  ASSERT_EQ(after.contacts.size(), 1u);
+  EXPECT_TRUE(before.contacts[0].time == after.contacts[0].time);
+  WorldScratch scratch;
+  WorldContacts answer;
+  expectError(worldContacts(world, 40, 90, scratch, answer), ErrorCode::OutOfRange, "forgotten");
+}
+
+/// Everything an answer says, to the bit.
+std::vector<double> bitsOf(const WorldContacts& answer) {
+  std::vector<double> bits;
+  for (const WorldContact& c : answer.contacts) {
+    for (const ContactSide* side : {&c.a, &c.b}) {
+      bits.insert(bits.end(),
+                  {static_cast<double>(side->body), static_cast<double>(side->link),
+                   static_cast<double>(side->lss), side->p_W.x(), side->p_W.y(), side->p_W.z()});
+    }
+    bits.insert(bits.end(), {static_cast<double>(c.time.us), c.time.fraction, c.separation,
+                             c.penetration, c.nhat_BA_W.x(), c.nhat_BA_W.y(), c.nhat_BA_W.z()});
+  }
+  return bits;
+}
+
+// Poses that arrive in another order among bodies, and windows asked before, change no bit.
+TEST(World, AnswersFromPosesAlone) {
+  std::vector<double> first;
+  for (int order = 0; order < 4; ++order) {
+    World world = emptyWorld();
+    const Avatar avatar = ball(0.1);
+    for (int i = 0; i < 12; ++i) ASSERT_TRUE(world.add(avatar).ok());
+    const auto pose = [](int body, int k) {
+      test::Random random(static_cast<std::uint64_t>(100 * body + k));
+      return RigidPose{random.rotation(), random.inBox(0.6)};
+    };
+    for (int i = 0; i < 12 * 8; ++i) {
+      const int body = order % 2 == 0 ? i % 12 : i / 8, k = order % 2 == 0 ? i / 12 : i % 8;
+      ASSERT_TRUE(world.push(body, (1000 + 7 * body) * k, pose(body, k)).ok());
+    }
+    WorldScratch scratch;
+    WorldContacts answer;
+    if (order >= 2) {
+      for (const std::int64_t from : {4000, 0, 2000}) {
+        ASSERT_TRUE(worldContacts(world, from, from + 1500, scratch, answer).ok());
+      }
+    }
+    ASSERT_TRUE(worldContacts(world, 500, 6500, scratch, answer).ok());
+    EXPECT_GT(answer.contacts.size(), 20u);
+    if (order == 0) first = bitsOf(answer);
+    EXPECT_EQ(bitsOf(answer), first);
+  }
+}
+
+// Far from the origin doubles do not resolve what lies between knots finely enough: nothing is
+// claimed, and that is said.
+TEST(World, IsUndecidedWhereDoublesCannotTell) {
+  World world = World::build(std::nullopt, {kMinWorldTolerance}).value();
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  for (const int i : {0, 1, 2, 3}) {
+    ASSERT_TRUE(world.push(0, 10 * i, at(9e6 + i)).ok());
+    ASSERT_TRUE(world.push(1, 7 * i, at(9e6 + 1 + i)).ok());
+  }
+  const WorldContacts answer = answerOf(world, 0, 20);
+  ASSERT_EQ(answer.contacts.size(), 1u);
+  EXPECT_EQ(answer.contacts[0].verdict, Verdict::Undecided);
+  EXPECT_EQ(answer.contacts[0].reason, UndecidedReason::Resolution);
+  EXPECT_EQ(answer.contacts[0].a.link, kEveryLink);
+  EXPECT_EQ(answer.contacts[0].time.us, 0);
+}
+
+// A thousand bodies in one place are answered.
+TEST(World, AnswersACrowdInOnePlace) {
+  World world = emptyWorld();
+  const Avatar avatar = ball(0.1);
+  constexpr int kBodies = 200;
+  for (BodyId body = 0; body < kBodies; ++body) {
+    ASSERT_TRUE(world.add(avatar).ok());
+    ASSERT_TRUE(world.push(body, 0, at(0)).ok());
+    ASSERT_TRUE(world.push(body, 10, at(0.1)).ok());
+  }
+  const WorldContacts answer = answerOf(world, 0, 10);
+  EXPECT_EQ(answer.contacts.size(), countOf(kBodies * (kBodies - 1) / 2));
+}
+
+TEST(WorldTime, IsNeverLaterThanItsInstant) {
+  for (int i = 0; i < 2000; ++i) {
+    test::Random random(static_cast<std::uint64_t>(i));
+    const std::int64_t begin = random.below(1'000'000) - 500'000;
+    const std::int64_t length = 1 + random.below(1'000'000'000);
+    const double t = random.chance(0.1) ? 0.0 : random.magnitude(1e-12, 1.0);
+    const WorldTime time = worldTimeAt(begin, begin + length, t);
+    const long double exact = static_cast<long double>(t) * static_cast<long double>(length);
+    const long double got =
+        static_cast<long double>(time.us - begin) + static_cast<long double>(time.fraction);
+    EXPECT_LE(got, exact);
+    EXPECT_GE(got, exact * (1.0L - 1e-15L));
+    EXPECT_GE(time.fraction, 0.0);
+    EXPECT_LT(time.fraction, 1.0);
+  }
+  EXPECT_TRUE(worldTimeAt(5, 9, 1.0) == (WorldTime{9, 0.0}));
+}
+
+}  // namespace
+}  // namespace foretouch
