@@ -40,7 +40,7 @@ typedef struct ft_solid_options {
   double placing_reach;       /* how far off a free place may be; default 2 */
   /* 1: it may appear at the tracked pose if that is free: a break of what is shown. Default 0. */
   int32_t may_snap;
-  /* Motions tried for a way around, per tick and per target; 0: never. Defaults 32 and 2000. */
+  /* Motions tried for a way around, per tick and per target; 0: never. Defaults 64 and 2000. */
   int32_t around_per_tick, around_in_all;
   int32_t reserved;         /* 0 */
   uint64_t work_budget;     /* per tick, in evaluations of a pair: >= 1; default 200,000 */
