@@ -35,8 +35,6 @@ constexpr const char* kClips[] = {"bandai1_kick_normal_001.bvh",
                                   "cmu_01_01_playground_jumps.bvh",
                                   "fair_dab.bvh",
                                   "cmu_jumping_jacks.bvh"};
-/// Of the way that holds back.
-constexpr double kHoldSkin = 4e-3;
 
 struct Cast {
   std::vector<SolidActor> actors;

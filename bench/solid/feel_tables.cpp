@@ -1,14 +1,12 @@
 #include "bench/solid/feel_tables.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "bench/solid/cells.h"
 #include "bench/timing.h"
 
 namespace foretouch::tools {
 namespace {
-
-constexpr double kMm = 1e3;
 
 std::vector<BenchColumn> withRun(std::vector<BenchColumn> columns) {
   columns.insert(columns.begin(),
@@ -18,14 +16,6 @@ std::vector<BenchColumn> withRun(std::vector<BenchColumn> columns) {
 
 std::vector<BenchCell> begin(const FeelRow& row) {
   return {row.scene, row.rateHz, row.follower};
-}
-
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::uint64_t>(whole, 1));
-}
-
-std::int64_t cell(std::uint64_t count) {
-  return static_cast<std::int64_t>(count);
 }
 
 }  // namespace

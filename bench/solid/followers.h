@@ -9,6 +9,9 @@
 
 namespace foretouch::tools {
 
+/// Of holdingFollower(), wherever it is measured (m).
+inline constexpr double kHoldSkin = 4e-3;
+
 /// Errors: as SolidAvatar::build().
 [[nodiscard]] Result<std::unique_ptr<Follower>> solidFollower(const Avatar& avatar,
                                                               const Scene& scene,

@@ -1,6 +1,7 @@
 // bench/solid/plain_body.h: an avatar and its poses in the judge's plain form.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -32,6 +33,16 @@ inline oracle::WayBody plainBody(const Avatar& avatar, const std::vector<bool>& 
     }
   }
   return body;
+}
+
+/// The largest difference of two poses: of a rotation as a vector of four, or of a place (m).
+inline double difference(const Pose& one, const Pose& other) {
+  double most = 0.0;
+  for (std::size_t j = 0; j < one.rotations.size(); ++j) {
+    most = std::max(most, (one.rotations[j].coeffs() - other.rotations[j].coeffs()).norm());
+    most = std::max(most, (one.translations[j] - other.translations[j]).norm());
+  }
+  return most;
 }
 
 /// Of links that the rules ask about: what the judge must look at.

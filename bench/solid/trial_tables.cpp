@@ -4,6 +4,7 @@
 
 #include "articulated/try.h"
 #include "bench/solid/board_trial.h"
+#include "bench/solid/cells.h"
 #include "bench/solid/clutter_trial.h"
 #include "bench/solid/engine_hands.h"
 #include "bench/solid/followers.h"
@@ -14,16 +15,7 @@
 namespace foretouch::tools {
 namespace {
 
-constexpr double kMillimetres = 1e3, kHoldingSkin = 4e-3;
 constexpr int kFineWall = 98;
-
-std::int64_t count(std::uint64_t n) {
-  return static_cast<std::int64_t>(n);
-}
-
-double share(std::uint64_t part, std::uint64_t whole) {
-  return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::uint64_t>(whole, 1));
-}
 
 double valueAt(std::vector<double> values, double rank) {
   std::sort(values.begin(), values.end());
@@ -39,10 +31,10 @@ class BoardRows {
   void add(HandFollower& hand) {
     const std::vector<BoardCell> cells = boardCells();
     for (std::size_t first = 0; first < cells.size();) {
-      std::vector<BenchCell> row{cells[first].speedMps, hand.name(), count(trials_)};
+      std::vector<BenchCell> row{cells[first].speedMps, hand.name(), cell(trials_)};
       std::size_t i = first;
       for (; i < cells.size() && cells[i].speedMps == cells[first].speedMps; ++i) {
-        row.emplace_back(count(tryBoard(hand, cells[i], trials_, seed_ + i).through));
+        row.emplace_back(cell(tryBoard(hand, cells[i], trials_, seed_ + i).through));
       }
       table_.rows.push_back(std::move(row));
       first = i;
@@ -57,10 +49,7 @@ class BoardRows {
 double largestDifference(const std::vector<Pose>& one, const std::vector<Pose>& other) {
   double most = 0.0;
   for (std::size_t i = 0; i < std::min(one.size(), other.size()); ++i) {
-    for (std::size_t j = 0; j < one[i].rotations.size(); ++j) {
-      most = std::max(most, (one[i].rotations[j].coeffs() - other[i].rotations[j].coeffs()).norm());
-      most = std::max(most, (one[i].translations[j] - other[i].translations[j]).norm());
-    }
+    most = std::max(most, difference(one[i], other[i]));
   }
   return most;
 }
@@ -112,7 +101,7 @@ Result<TrialTable> clutterTable(const TrialRequest& request) {
   FORETOUCH_TRY(const auto scene, Scene::build(std::move(raw)));
   SolidOptions straight = request.options;
   straight.aroundPerTick = 0;
-  FORETOUCH_TRY(auto hold, holdingFollower(figure(), scene, kHoldingSkin));
+  FORETOUCH_TRY(auto hold, holdingFollower(figure(), scene, kHoldSkin));
   FORETOUCH_TRY(auto sliding, solidFollower(figure(), scene, straight));
   FORETOUCH_TRY(auto solid, solidFollower(figure(), scene, request.options));
   struct Case {
@@ -123,10 +112,10 @@ Result<TrialTable> clutterTable(const TrialRequest& request) {
                           Case{"solid", solid.get()}}) {
     FORETOUCH_TRY(const auto tally, tryClutter(*one.follower, request.goals, request.seed));
     const Percentiles us = percentilesOf(tally.us);
-    result.table.rows.push_back({std::string(one.name), count(tally.goals),
-                                 share(tally.straight, tally.goals),
-                                 share(tally.reached, tally.goals), count(tally.untold), us.mean,
-                                 us.p99, count(tally.way.inside), tally.way.least});
+    result.table.rows.push_back({std::string(one.name), cell(tally.goals),
+                                 percent(tally.straight, tally.goals),
+                                 percent(tally.reached, tally.goals), cell(tally.untold), us.mean,
+                                 us.p99, cell(tally.way.inside), tally.way.least});
     result.violations += tally.way.violations();
   }
   return result;
@@ -151,11 +140,11 @@ Result<TrialTable> slideTable(const TrialRequest& request) {
     for (const int fineness : {1, kFineWall}) {
       FORETOUCH_TRY(const auto tally, trySlide(request.options, rateHz, fineness));
       if (fineness == 1) coarse = tally.shown;
-      result.table.rows.push_back(
-          {rateHz, std::int64_t{2} * fineness * fineness,
-           static_cast<std::int64_t>(tally.ratio.size()), valueAt(tally.ratio, 0.1),
-           valueAt(tally.ratio, 0.5), valueAt(tally.ratio, 0.9),
-           largestDifference(coarse, tally.shown), count(tally.way.inside)});
+      result.table.rows.push_back({rateHz, std::int64_t{2} * fineness * fineness,
+                                   static_cast<std::int64_t>(tally.ratio.size()),
+                                   valueAt(tally.ratio, 0.1), valueAt(tally.ratio, 0.5),
+                                   valueAt(tally.ratio, 0.9),
+                                   largestDifference(coarse, tally.shown), cell(tally.way.inside)});
       result.violations += tally.way.violations();
     }
   }
@@ -165,20 +154,20 @@ Result<TrialTable> slideTable(const TrialRequest& request) {
 Result<TrialTable> pressTable(const TrialRequest& request) {
   FORETOUCH_TRY(const auto tally, tryPress(request.options));
   TrialTable result;
-  result.table = {"press",
-                  "A hand pressed 10 cm into a wall and back, 1 mm per tick",
-                  {{"ticks", "ticks", 0},
-                   {"most_push_mm", "largest push mm", 2},
-                   {"most_jump_percent", "largest change per mm, % of that", 2},
-                   {"most_slant_deg", "push off the normal, degrees", 4},
-                   {"untrue", "ticks with an untrue push", 0},
-                   {"others_mm", "links beyond the arm, mm", 2},
-                   {"head_mm", "head mm", 2},
-                   {"penetrations", "penetrations", 0}},
-                  {{count(tally.ticks), kMillimetres * tally.mostPush,
-                    100.0 * tally.mostJump / std::max(tally.mostPush, 1e-300), tally.mostSlantDeg,
-                    count(tally.untrue), kMillimetres * tally.otherLinks, kMillimetres * tally.head,
-                    count(tally.way.inside)}}};
+  result.table = {
+      "press",
+      "A hand pressed 10 cm into a wall and back, 1 mm per tick",
+      {{"ticks", "ticks", 0},
+       {"most_push_mm", "largest push mm", 2},
+       {"most_jump_percent", "largest change per mm, % of that", 2},
+       {"most_slant_deg", "push off the normal, degrees", 4},
+       {"untrue", "ticks with an untrue push", 0},
+       {"others_mm", "links beyond the arm, mm", 2},
+       {"head_mm", "head mm", 2},
+       {"penetrations", "penetrations", 0}},
+      {{cell(tally.ticks), kMm * tally.mostPush,
+        100.0 * tally.mostJump / std::max(tally.mostPush, 1e-300), tally.mostSlantDeg,
+        cell(tally.untrue), kMm * tally.otherLinks, kMm * tally.head, cell(tally.way.inside)}}};
   result.violations = tally.way.violations();
   return result;
 }
@@ -208,7 +197,7 @@ void addRow(const SceneRow& row, const RestTally& tally, BenchTable& table) {
   const Percentiles still = percentilesOf(tally.stillStep), rest = percentilesOf(tally.ticksToRest),
                     noise = percentilesOf(tally.noise), worst = percentilesOf(tally.worstEnd);
   table.rows.push_back({row.scene, row.rateHz, static_cast<std::int64_t>(tally.stillStep.size()),
-                        rest.p50, rest.max, std::int64_t{moving}, kMillimetres * still.max,
+                        rest.p50, rest.max, std::int64_t{moving}, kMm * still.max,
                         static_cast<double>(tally.queries) / static_cast<double>(tally.ticks),
                         noise.p50, noise.max, worst.p50, worst.max});
 }
@@ -232,10 +221,9 @@ BenchTable emptyHandsTable() {
 void addRows(const SceneRow& row, const std::vector<HandsTally>& tallies, BenchTable& table) {
   for (const HandsTally& tally : tallies) {
     const Percentiles depth = percentilesOf(tally.depth), off = percentilesOf(tally.deviation);
-    table.rows.push_back({row.scene, row.rateHz, tally.name, count(tally.ticks),
-                          share(tally.inside, tally.ticks), kMillimetres * depth.p99,
-                          kMillimetres * depth.max, kMillimetres * off.mean, kMillimetres * off.p90,
-                          kMillimetres * off.p99});
+    table.rows.push_back({row.scene, row.rateHz, tally.name, cell(tally.ticks),
+                          percent(tally.inside, tally.ticks), kMm * depth.p99, kMm * depth.max,
+                          kMm * off.mean, kMm * off.p90, kMm * off.p99});
   }
 }
 

@@ -19,6 +19,7 @@ using Eigen::Vector3d;
 
 using tools::addBox;
 using tools::addSheet;
+using tools::difference;
 using tools::figure;
 using tools::wallAt;
 
@@ -69,16 +70,6 @@ class SolidRunner {
 
 inline bool isSame(const Pose& a, const Pose& b) {
   return tools::plainPose(a) == tools::plainPose(b);
-}
-
-/// The largest difference of any number of two poses.
-inline double difference(const Pose& a, const Pose& b) {
-  double most = 0.0;
-  for (std::size_t j = 0; j < a.rotations.size(); ++j) {
-    most = std::max(most, (a.rotations[j].coeffs() - b.rotations[j].coeffs()).norm());
-    most = std::max(most, (a.translations[j] - b.translations[j]).norm());
-  }
-  return most;
 }
 
 /// The figure with both arms turned about y by `yaw`: forwards, to -z, at a quarter turn.
