@@ -187,8 +187,12 @@ template Closest<double> closestPoints(const Triangle&, const Triangle&);
 template Closest<Real> closestPoints(const Corners<Real>&, const Corners<Real>&);
 template Closest<Wide> closestPoints(const Corners<Wide>&, const Corners<Wide>&);
 
-Real pointSegmentDistance(const Vec3r& p, const Vec3r& a, const Vec3r& b) {
+template <typename S>
+S pointSegmentDistance(const Vec3<S>& p, const Vec3<S>& a, const Vec3<S>& b) {
   return norm(p - footOnSegment(p, a, b));
 }
+
+template double pointSegmentDistance(const Vec3d&, const Vec3d&, const Vec3d&);
+template Real pointSegmentDistance(const Vec3r&, const Vec3r&, const Vec3r&);
 
 }  // namespace foretouch::oracle

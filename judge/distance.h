@@ -28,7 +28,8 @@ Closest<S> closestPoints(const Vec3<S>& a, const Vec3<S>& b, const Corners<S>& v
 template <typename S>
 Closest<S> closestPoints(const Corners<S>& one, const Corners<S>& other);
 
-/// Distance of a point and a segment.
-Real pointSegmentDistance(const Vec3r& p, const Vec3r& a, const Vec3r& b);
+/// Distance of a point and a segment. Instances: double, Real.
+template <typename S>
+S pointSegmentDistance(const Vec3<S>& p, const Vec3<S>& a, const Vec3<S>& b);
 
 }  // namespace foretouch::oracle

@@ -34,6 +34,8 @@ Quaternion<double> asQuaternion(const Four& q) {
   return {q[0], q[1], q[2], q[3]};
 }
 
+/// Of coordinates within kilometres, and of the sums of ways.
+constexpr double kRounding = 1e-10;
 /// Instants that a piece is first looked at, to see how far it moves.
 constexpr int kFirstLooks = 9;
 
@@ -71,20 +73,32 @@ void WayJudge::setOut(const PlainPose& from, const PlainPose& to) {
       for (double& x : arc.to) x = -x;
     }
     arc.angle = angleBetween(arc.from, arc.to);
-    arc.sine = std::sin(arc.angle);
     arc.translation = from.translations[j];
     arc.drift = to.translations[j] - from.translations[j];
   }
 }
 
-void WayJudge::placeAt(double t, Axis* axes) {
+void WayJudge::weigh(int steps) {
   // Below it the sine weights are 1 - t and t to rounding.
   constexpr double kTinyAngle = 1e-8;
+  const auto perJoint = static_cast<std::size_t>(steps) + 1;
+  weights_.resize(arcs_.size() * perJoint);
   for (std::size_t j = 0; j < arcs_.size(); ++j) {
     const Arc& arc = arcs_[j];
-    const bool isTiny = arc.angle < kTinyAngle;
-    const double a = isTiny ? 1.0 - t : std::sin((1.0 - t) * arc.angle) / arc.sine;
-    const double b = isTiny ? t : std::sin(t * arc.angle) / arc.sine;
+    const double sine = std::sin(arc.angle);
+    for (std::size_t i = 0; i < perJoint; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      weights_[j * perJoint + i] = arc.angle < kTinyAngle ? t : std::sin(t * arc.angle) / sine;
+    }
+  }
+}
+
+void WayJudge::placeAt(int step, int steps, Axis* axes) {
+  const double t = static_cast<double>(step) / steps;
+  for (std::size_t j = 0; j < arcs_.size(); ++j) {
+    const Arc& arc = arcs_[j];
+    const double* weights = &weights_[j * (static_cast<std::size_t>(steps) + 1)];
+    const double a = weights[steps - step], b = weights[step];
     Four q{};
     for (std::size_t i = 0; i < 4; ++i) q[i] = a * arc.from[i] + b * arc.to[i];
     q = unitOf(q);
@@ -108,43 +122,54 @@ void WayJudge::placeAt(double t, Axis* axes) {
   }
 }
 
-double WayJudge::moved(std::size_t capsule, int from, int to) const {
-  const Axis &p = axis(capsule, from), &q = axis(capsule, to);
-  return std::max(norm(q[0] - p[0]), norm(q[1] - p[1]));
+void WayJudge::place(int instants) {
+  const int steps = std::max(1, instants - 1);
+  weigh(steps);
+  axes_.resize(static_cast<std::size_t>(instants) * capsules_.size());
+  for (int i = 0; i < instants; ++i) {
+    placeAt(i, steps, &axes_[static_cast<std::size_t>(i) * capsules_.size()]);
+  }
+  measureStray(instants);
+}
+
+void WayJudge::measureStray(int instants) {
+  const std::size_t count = capsules_.size();
+  strayed_.resize(static_cast<std::size_t>(instants) * count);
+  std::fill_n(strayed_.begin(), count, 0.0);
+  for (int i = 1; i < instants; ++i) {
+    for (std::size_t c = 0; c < count; ++c) {
+      const Axis &p = axis(c, i - 1), &q = axis(c, i);
+      const std::size_t at = static_cast<std::size_t>(i) * count + c;
+      strayed_[at] = strayed_[at - count] + std::max(norm(q[0] - p[0]), norm(q[1] - p[1]));
+    }
+  }
 }
 
 int WayJudge::instantsFor(const WayLooks& looks) {
-  axes_.resize(static_cast<std::size_t>(std::max(looks.instants, kFirstLooks)) * capsules_.size());
-  for (int i = 0; i < kFirstLooks; ++i) {
-    placeAt(static_cast<double>(i) / (kFirstLooks - 1),
-            &axes_[static_cast<std::size_t>(i) * capsules_.size()]);
-  }
+  place(kFirstLooks);
   double longest = 0.0;
   for (std::size_t c = 0; c < capsules_.size(); ++c) {
-    double length = 0.0;
-    for (int i = 1; i < kFirstLooks; ++i) length += moved(c, i - 1, i);
-    longest = std::max(longest, length);
+    longest = std::max(longest, strayed(c, 0, kFirstLooks - 1));
   }
   const double asked = std::ceil(longest / looks.spacing) + 1.0;
   return std::max({2, looks.instants, static_cast<int>(std::min<double>(asked, WayLooks::kMost))});
 }
 
-Box WayJudge::boxOver(std::size_t capsule, int instants) const {
-  Box box;
+void WayJudge::boxAll(int instants) {
+  boxes_.assign(capsules_.size(), Box{});
   for (int i = 0; i < instants; ++i) {
-    for (const Vec3d& end : axis(capsule, i)) box.add(end);
+    for (std::size_t c = 0; c < boxes_.size(); ++c) {
+      for (const Vec3d& end : axis(c, i)) boxes_[c].add(end);
+    }
   }
-  return box;
 }
 
 /// Visits instants in order, but leaves out those at which the pair must be farther than the least
 /// so far: its distance changes by at most the way of the axes' ends, of which every point of an
-/// axis is a mean.
+/// axis is a mean. `stray(from, to)` bounds it, and grows with `to`.
 template <typename Distance, typename Stray>
 bool WayJudge::walk(int instants, double radius, WayReading& reading, const Distance& distance,
                     const Stray& stray) {
-  // Of coordinates within kilometres.
-  constexpr double kRounding = 1e-11;
   bool isNearer = false;
   for (int i = 0; i < instants;) {
     const double separation = distance(i) - radius;
@@ -153,43 +178,58 @@ bool WayJudge::walk(int instants, double radius, WayReading& reading, const Dist
       reading.t = instants > 1 ? static_cast<double>(i) / (instants - 1) : 0.0;
       isNearer = true;
     }
-    int next = i + 1;
-    while (next < instants && separation - stray(i, next) - kRounding > reading.least) ++next;
+    const double spare = separation - kRounding - reading.least;
+    int last = i, next = instants;  // the first instant beyond the spare is in (last, next]
+    while (next - last > 1) {
+      const int middle = last + (next - last) / 2;
+      (stray(i, middle) < spare ? last : next) = middle;
+    }
     i = next;
   }
   return isNearer;
 }
 
+bool WayJudge::readTriangle(std::size_t capsule, int id, int instants, WayReading& reading) {
+  const double radius = capsules_[capsule].radius;
+  const Triangle& triangle = scene_.triangle(id);
+  const Scene::Ball& ball = scene_.ballOf(id);
+  const Axis& first = axis(capsule, 0);
+  const double apart =
+      pointSegmentDistance(ball.center, first[0], first[1]) - ball.radius - radius - kRounding;
+  if (apart - strayed(capsule, 0, instants - 1) > reading.least) return false;
+  const bool isNearer = walk(
+      instants, radius, reading,
+      [&](int i) {
+        const Axis& at = axis(capsule, i);
+        return closestPoints(at[0], at[1], triangle).distance;
+      },
+      [&](int from, int to) { return strayed(capsule, from, to); });
+  if (!isNearer) return false;
+  reading.link = linkOf_[capsule];
+  reading.triangle = id;
+  reading.other = -1;
+  last_ = {capsule, id};
+  return true;
+}
+
 void WayJudge::readScene(std::size_t capsule, int instants, WayReading& reading) {
   const double radius = capsules_[capsule].radius;
   double within = reading.least + radius;
-  scene_.visitNear(boxOver(capsule, instants), within, [&](int id) {
-    const Triangle& triangle = scene_.triangle(id);
-    const bool isNearer = walk(
-        instants, radius, reading,
-        [&](int i) {
-          const Axis& at = axis(capsule, i);
-          return closestPoints(at[0], at[1], triangle).distance;
-        },
-        [&](int from, int to) { return moved(capsule, from, to); });
-    if (!isNearer) return;
-    reading.link = linkOf_[capsule];
-    reading.triangle = id;
-    reading.other = -1;
-    within = reading.least + radius;
+  scene_.visitNear(boxes_[capsule], within, [&](int id) {
+    if (readTriangle(capsule, id, instants, reading)) within = reading.least + radius;
   });
 }
 
 void WayJudge::readOwn(std::size_t a, std::size_t b, int instants, WayReading& reading) {
   const double radius = capsules_[a].radius + capsules_[b].radius;
-  if (boxOver(a, instants).gap(boxOver(b, instants)) - radius > reading.least) return;
+  if (boxes_[a].gap(boxes_[b]) - radius > reading.least) return;
   const bool isNearer = walk(
       instants, radius, reading,
       [&](int i) {
         const Axis &one = axis(a, i), &other = axis(b, i);
         return closestPoints(one[0], one[1], Triangle{other[0], other[1], other[1]}).distance;
       },
-      [&](int from, int to) { return moved(a, from, to) + moved(b, from, to); });
+      [&](int from, int to) { return strayed(a, from, to) + strayed(b, from, to); });
   if (!isNearer) return;
   reading.link = linkOf_[a];
   reading.other = linkOf_[b];
@@ -197,12 +237,12 @@ void WayJudge::readOwn(std::size_t a, std::size_t b, int instants, WayReading& r
 }
 
 void WayJudge::read(int instants, WayReading& reading) {
-  axes_.resize(static_cast<std::size_t>(instants) * capsules_.size());
-  for (int i = 0; i < instants; ++i) {
-    placeAt(instants > 1 ? static_cast<double>(i) / (instants - 1) : 0.0,
-            &axes_[static_cast<std::size_t>(i) * capsules_.size()]);
-  }
+  place(instants);
+  boxAll(instants);
   reading.instants += static_cast<std::uint64_t>(instants);
+  // What was nearest last is near now, most often: beside it few others need a look.
+  const WayNearest last = last_;
+  if (last.triangle >= 0) readTriangle(last.capsule, last.triangle, instants, reading);
   for (std::size_t c = 0; c < capsules_.size(); ++c) readScene(c, instants, reading);
   for (const auto& [a, b] : ownCapsules_) readOwn(a, b, instants, reading);
 }
@@ -226,8 +266,7 @@ WayReading WayJudge::at(const PlainPose& pose, double cutoff) {
 
 const std::vector<std::array<Vec3d, 2>>& WayJudge::endsAt(const PlainPose& pose) {
   setOut(pose, pose);
-  axes_.resize(capsules_.size());
-  placeAt(0.0, axes_.data());
+  place(1);
   return axes_;
 }
 

@@ -64,7 +64,7 @@ class WayJudge {
  private:
   struct Arc {
     std::array<double, 4> from{1, 0, 0, 0}, to{1, 0, 0, 0};
-    double angle = 0.0, sine = 0.0;  ///< Between the two as vectors of four.
+    double angle = 0.0;  ///< Between the two as vectors of four.
     Vec3d translation, drift;
   };
   struct Frame {
@@ -75,9 +75,15 @@ class WayJudge {
   using Axis = std::array<Vec3d, 2>;
 
   void setOut(const PlainPose& from, const PlainPose& to);
-  void placeAt(double t, Axis* axes);
+  /// Per joint, the sine weights of its second pose at every step; those of the first mirror them.
+  void weigh(int steps);
+  void placeAt(int step, int steps, Axis* axes);
+  /// All capsules at all instants.
+  void place(int instants);
   [[nodiscard]] int instantsFor(const WayLooks& looks);
   void read(int instants, WayReading& reading);
+  /// Whether the triangle is nearer than all before.
+  bool readTriangle(std::size_t capsule, int id, int instants, WayReading& reading);
   void readScene(std::size_t capsule, int instants, WayReading& reading);
   void readOwn(std::size_t a, std::size_t b, int instants, WayReading& reading);
   template <typename Distance, typename Stray>
@@ -86,8 +92,18 @@ class WayJudge {
   [[nodiscard]] const Axis& axis(std::size_t capsule, int instant) const {
     return axes_[static_cast<std::size_t>(instant) * linkOf_.size() + capsule];
   }
-  [[nodiscard]] double moved(std::size_t capsule, int from, int to) const;
-  [[nodiscard]] Box boxOver(std::size_t capsule, int instants) const;
+  /// How far the capsule's axis has come between two instants, at most.
+  [[nodiscard]] double strayed(std::size_t capsule, int from, int to) const {
+    return strayed_[static_cast<std::size_t>(to) * linkOf_.size() + capsule] -
+           strayed_[static_cast<std::size_t>(from) * linkOf_.size() + capsule];
+  }
+  void measureStray(int instants);
+  void boxAll(int instants);
+
+  struct WayNearest {
+    std::size_t capsule = 0;
+    int triangle = -1;
+  };
 
   const Scene& scene_;
   WayBody body_;
@@ -96,7 +112,12 @@ class WayJudge {
   std::vector<std::array<std::size_t, 2>> ownCapsules_;
   std::vector<Arc> arcs_;
   std::vector<Frame> frames_;
-  std::vector<Axis> axes_;  ///< Instant by instant, capsule by capsule.
+  std::vector<double> weights_;  ///< Joint by joint, step by step.
+  std::vector<Box> boxes_;       ///< Of the capsules' axes over all instants.
+  WayNearest last_;              ///< Of the reading before: the first to be looked at.
+  std::vector<Axis> axes_;       ///< Instant by instant, capsule by capsule.
+  std::vector<double> strayed_;  ///< Likewise: the way of the axis's ends until then, from point to
+                                 ///< point, the farther one's.
 };
 
 }  // namespace foretouch::oracle

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -102,6 +103,33 @@ TEST(WayJudge, FindsTheLeastSeparationOfFiftyDigits) {
   }
   EXPECT_GT(inside, 10);
   EXPECT_LT(inside, 55);
+}
+
+TEST(WayJudge, AsksItsLastNearestFirstAndAnswersTheSame) {
+  // One judge over many ways, each of which starts from what was nearest on the one before.
+  Random random(7);
+  const Case one = randomCase(random);
+  const Scene scene(one.triangles);
+  WayJudge used(scene, one.body);
+  int other = 0, outside = 0, last = -1;
+  for (int i = 0; i < 200; ++i) {
+    PlainPose from = poseOf(one.joints, i % 2 == 0), to = poseOf(one.joints, i % 3 == 0);
+    from.translations[0] = Vec3d(random.inBox(1.0));
+    to.translations[0] = Vec3d(random.inBox(1.0));
+    const WayReading reading = used.along(from, to, 5.0);
+    const WayReading fresh = WayJudge(scene, one.body).along(from, to, 5.0);
+    EXPECT_EQ(reading.least, fresh.least) << i;
+    // An axis that pierces a triangle is inside by its radius, wherever it does.
+    if (reading.least > 0.0) {
+      EXPECT_EQ(reading.t, fresh.t) << i;
+      EXPECT_EQ(reading.triangle, fresh.triangle) << i;
+      EXPECT_EQ(reading.link, fresh.link) << i;
+      ++outside;
+    }
+    other += std::exchange(last, reading.triangle) != reading.triangle;
+  }
+  EXPECT_GT(other, 50);
+  EXPECT_GT(outside, 20);
 }
 
 /// A ball of 3 cm that a root carries over 2 m along x.

@@ -22,7 +22,7 @@ struct Arguments {
   std::string data, self = "both";
   double seconds = 4.0;
   int places = 1;
-  std::uint64_t seeds = 1;
+  std::uint64_t seeds = 1, first = 1;
 };
 
 Result<tools::SolidStage> loadStage(const std::string& name, const std::string& data) {
@@ -33,7 +33,7 @@ Result<tools::SolidStage> loadStage(const std::string& name, const std::string& 
 
 std::vector<SolidCampaign> campaignsOf(const Arguments& a) {
   std::vector<SolidCampaign> all;
-  for (std::uint64_t seed = 1; seed <= a.seeds; ++seed) {
+  for (std::uint64_t seed = a.first; seed < a.first + a.seeds; ++seed) {
     for (const double rate : a.rates) {
       for (const double skin : a.skins) {
         for (std::uint8_t t = 0; t < test::kNumSolidTargets; ++t) {
@@ -98,6 +98,7 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", a.seconds, "Of each clip at each place")->check(CLI::PositiveNumber);
   app.add_option("--places", a.places, "Per combination")->check(CLI::PositiveNumber);
   app.add_option("--seeds", a.seeds, "How often, each time at other places");
+  app.add_option("--first", a.first, "The first seed");
   app.add_option("--data", a.data, "Folder with mocap/ and scenes/");
   try {
     app.parse(argc, argv);
