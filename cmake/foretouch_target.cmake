@@ -40,7 +40,9 @@ endfunction()
 # stranger's and gets the cheaper protection of the stack: of arrays of characters, not of every
 # matrix that lives there.
 #   foretouch_harden(<target>)
-set(foretouch_kernel foretouch_lss foretouch_articulated foretouch_tessellation foretouch_middleware)
+# (The reference, which is not packaged, takes the kernel's precompiled headers, and so its flags.)
+set(foretouch_kernel foretouch_lss foretouch_articulated foretouch_tessellation foretouch_middleware
+  foretouch_reference)
 if(FORETOUCH_HARDENED AND FORETOUCH_SANITIZE)
   message(FATAL_ERROR "FORETOUCH_HARDENED and FORETOUCH_SANITIZE exclude one another")
 endif()
