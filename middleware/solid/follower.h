@@ -13,7 +13,7 @@
 #include "middleware/solid/own_features.h"
 #include "middleware/solid/solid_options.h"
 #include "middleware/solid/solid_tick.h"
-#include "middleware/solid/tree_inertia.h"
+#include "middleware/mechanics/tree_inertia.h"
 #include "middleware/solid/tree_pose.h"
 #include "middleware/solid/visual_body.h"
 

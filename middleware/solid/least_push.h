@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "middleware/solid/contact_row.h"
-#include "middleware/solid/tree_inertia.h"
+#include "middleware/mechanics/tree_inertia.h"
 
 namespace foretouch::internal {
 

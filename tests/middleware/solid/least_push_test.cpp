@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/middleware/solid/random_tree.h"
+#include "tests/middleware/mechanics/random_tree.h"
 
 namespace foretouch {
 namespace {

@@ -1,12 +1,9 @@
-#include "middleware/solid/tree_inertia.h"
+#include "middleware/mechanics/tree_inertia.h"
 
 #include "lss/index.h"
 
 namespace foretouch::internal {
 namespace {
-
-/// Of a root without surfaces below it: any that keeps its inverse finite.
-constexpr double kLeastMass = 1e-9;
 
 Eigen::Matrix3d crossing(const Eigen::Vector3d& x) {
   Eigen::Matrix3d m;
@@ -22,7 +19,8 @@ bool comesBefore(JointId one, JointId other) {
 
 }  // namespace
 
-void TreeInertia::reset(const std::vector<JointId>& parents) {
+void TreeInertia::reset(const std::vector<JointId>& parents, double leastMass) {
+  leastMass_ = leastMass;
   nodes_.resize(parents.size());
   for (std::size_t j = 0; j < parents.size(); ++j) nodes_[j].parent = parents[j];
   begin();
@@ -53,6 +51,12 @@ void TreeInertia::addPoint(JointId link, const Eigen::Vector3d& x, double weight
   inertia(2, 4) += h.x();
 }
 
+void TreeInertia::addBody(JointId link, const Eigen::Vector3d& x, double weight,
+                          const Eigen::Matrix3d& inertia) {
+  addPoint(link, x, weight);
+  nodes_[slotOf(link)].inertia.topLeftCorner<3, 3>() += inertia;
+}
+
 void TreeInertia::factor(const std::vector<double>& stiffness) {
   for (Node& node : nodes_) {
     node.inertia.bottomLeftCorner<3, 3>() = node.inertia.topRightCorner<3, 3>().transpose();
@@ -70,7 +74,7 @@ void TreeInertia::factor(const std::vector<double>& stiffness) {
     if (node.parent == kNoParent) {
       node.inertia = rest;  // from now on: what its translation moves
       Eigen::Matrix3d mass = rest.bottomRightCorner<3, 3>();
-      mass.diagonal().array() += kLeastMass;
+      mass.diagonal().array() += leastMass_;
       node.rootInverse = mass.inverse();
     } else {
       nodes_[slotOf(node.parent)].inertia += rest;

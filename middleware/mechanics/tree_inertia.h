@@ -1,5 +1,5 @@
-// middleware/solid/tree_inertia.h: M = sum J^T w J + diag(a), the inertia of points of mass on a
-// tree of joints, and its inverse, without a matrix: articulated bodies ([Featherstone08] 7,
+// middleware/mechanics/tree_inertia.h: M = sum J^T w J + diag(a), the inertia of points of mass on
+// a tree of joints, and its inverse, without a matrix: articulated bodies ([Featherstone08] 7,
 // REFERENCES.md) about one origin. The unknowns: a rotation vector in W per joint, and a
 // translation per root. Derivation: middleware/solid/solid.md 3. Not installed.
 #pragma once
@@ -40,13 +40,18 @@ struct WayPart {
 
 class TreeInertia {
  public:
-  void reset(const std::vector<JointId>& parents);
+  /// `leastMass` (kg) is added to what a root's translation moves: above 0 if a root may carry
+  /// nothing.
+  void reset(const std::vector<JointId>& parents, double leastMass = 1e-9);
 
   /// Begins anew: no mass. `origins`: of the joints, relative to the common origin.
   void begin();
   void setOrigin(JointId joint, const Eigen::Vector3d& origin);
   /// A point of the link, relative to the common origin.
   void addPoint(JointId link, const Eigen::Vector3d& x, double weight);
+  /// The same with an inertia of its own about that point, axes of W.
+  void addBody(JointId link, const Eigen::Vector3d& x, double weight,
+               const Eigen::Matrix3d& inertia);
   /// `stiffness[j]` is a_j, > 0. O(joints).
   void factor(const std::vector<double>& stiffness);
 
@@ -83,6 +88,7 @@ class TreeInertia {
                   std::vector<WayPart>& way) const;
 
   std::vector<Node> nodes_;
+  double leastMass_ = 0.0;
   std::vector<Vector6d> forces_;  // while solving
   std::vector<Eigen::Vector3d> inner_;
 };

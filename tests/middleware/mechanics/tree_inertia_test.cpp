@@ -1,9 +1,9 @@
 // The inertia of a tree against the same as a dense matrix.
-#include "middleware/solid/tree_inertia.h"
+#include "middleware/mechanics/tree_inertia.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/middleware/solid/random_tree.h"
+#include "tests/middleware/mechanics/random_tree.h"
 
 namespace foretouch {
 namespace {

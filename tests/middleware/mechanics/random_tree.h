@@ -1,4 +1,4 @@
-// tests/middleware/solid/random_tree.h: random forests of joints with points of mass, and the same
+// tests/middleware/mechanics/random_tree.h: random forests of joints with points of mass, and the same
 // inertia as a matrix.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 
 #include "lss/index.h"
-#include "middleware/solid/tree_inertia.h"
+#include "middleware/mechanics/tree_inertia.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {
