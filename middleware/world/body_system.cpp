@@ -31,15 +31,24 @@ void clear(Pose& pose) {
 }  // namespace
 
 const ChainMotion& PieceMotions::of(BodyId body, const Track& track, const TrackPiece& piece) {
-  if (ofBody.size() <= slotOf(body)) ofBody.resize(slotOf(body) + 1);
-  Known& known = ofBody[slotOf(body)];
-  if (known.motion.numLinks() == 0 || known.beginUs != piece.beginUs ||
-      known.endUs != piece.endUs) {
-    known.motion.assign(track.skeleton(), *piece.from, *piece.to);
-    known.beginUs = piece.beginUs;
-    known.endUs = piece.endUs;
+  Known* oldest = known_.data();
+  for (Known& known : known_) {
+    if (known.body == body && known.beginUs == piece.beginUs && known.endUs == piece.endUs) {
+      known.lastUse = ++uses_;
+      return known.motion;
+    }
+    if (known.lastUse < oldest->lastUse) oldest = &known;
   }
-  return known.motion;
+  oldest->motion.assign(track.skeleton(), *piece.from, *piece.to);
+  oldest->body = body;
+  oldest->beginUs = piece.beginUs;
+  oldest->endUs = piece.endUs;
+  oldest->lastUse = ++uses_;
+  return oldest->motion;
+}
+
+void PieceMotions::clear() {
+  for (Known& known : known_) known.body = -1;
 }
 
 void SystemSpans::begin(const WorldParts& world, BodyId a, BodyId b, std::int64_t fromUs,
@@ -47,23 +56,37 @@ void SystemSpans::begin(const WorldParts& world, BodyId a, BodyId b, std::int64_
   world_ = &world;
   a_ = a;
   b_ = b;
-  beginUs_ = endUs_ = fromUs;
+  beginUs_ = endUs_ = spanUs_ = nextUs_ = fromUs;
   toUs_ = toUs;
 }
 
 bool SystemSpans::next() {
-  while (endUs_ < toUs_) {
-    beginUs_ = endUs_;
+  while (nextUs_ < toUs_) {
+    beginUs_ = spanUs_ = nextUs_;
     members_.clear();
     if (addMember(a_) && (b_ == kStillScene || addMember(b_))) return findEnd();
     // Whoever is not there yet appears with his first episode.
-    endUs_ = toUs_;
+    nextUs_ = toUs_;
     for (const BodyId body : {a_, b_}) {
       if (body == kStillScene || world_->body(body).episodeAt(beginUs_) != nullptr) continue;
-      endUs_ = std::min(toUs_, world_->body(body).nextEpisodeUs(beginUs_));
+      nextUs_ = std::min(nextUs_, world_->body(body).nextEpisodeUs(beginUs_));
     }
   }
   return false;
+}
+
+bool SystemSpans::widen(std::int64_t mostUs) {
+  if (b_ != kStillScene || members_.size() != 1) return false;
+  const TrackPiece piece = trackOf(members_.front()).pieceAt(beginUs_);
+  if (piece.isHeld || piece.endUs - piece.beginUs > mostUs) return false;
+  beginUs_ = piece.beginUs;
+  endUs_ = piece.endUs;
+  return true;
+}
+
+void SystemSpans::narrow() {
+  beginUs_ = spanUs_;
+  endUs_ = nextUs_;
 }
 
 /// False: the body is not there at the span's begin. Whoever carries is there before he does.
@@ -91,9 +114,13 @@ bool SystemSpans::findEnd() {
     const TrackPiece piece = trackOf(member).pieceAt(beginUs_);
     endUs_ = std::min(endUs_, piece.endUs);
     if (!piece.isHeld || body.episodeAt(beginUs_)->isHeldFast()) continue;
-    if (body.options.whenSilent != WhenSilent::HoldStill) return false;
+    if (body.options.whenSilent != WhenSilent::HoldStill) {
+      nextUs_ = toUs_;
+      return false;
+    }
     isAssumed_ = true;
   }
+  nextUs_ = endUs_;
   return true;
 }
 

@@ -72,6 +72,30 @@ BodyKind kindOf(const Scene& mesh) {
   return kind;
 }
 
+bool areAlike(const PairRules& x, const PairRules& y) {
+  const auto isSamePair = [](const LeftOutPair& p, const LeftOutPair& q) {
+    return p.a == q.a && p.b == q.b && p.reason == q.reason;
+  };
+  const auto isSameRadius = [](const PairRadius& p, const PairRadius& q) {
+    return p.a == q.a && p.lssA == q.lssA && p.b == q.b && p.lssB == q.lssB && p.radius == q.radius;
+  };
+  return x.avatarIdentity() == y.avatarIdentity() &&
+         std::equal(x.leftOut().begin(), x.leftOut().end(), y.leftOut().begin(), y.leftOut().end(),
+                    isSamePair) &&
+         std::equal(x.radii().begin(), x.radii().end(), y.radii().begin(), y.radii().end(),
+                    isSameRadius);
+}
+
+/// Place of the rules among the world's.
+std::int32_t placeOfRules(WorldParts& parts, const PairRules& own) {
+  std::vector<PairRules>& rules = parts.rules;
+  const auto known = std::find_if(rules.begin(), rules.end(),
+                                  [&](const PairRules& other) { return areAlike(own, other); });
+  const auto place = static_cast<std::int32_t>(known - rules.begin());
+  if (known == rules.end()) rules.push_back(own);
+  return place;
+}
+
 /// What is known of the body ends; a body that is held fast, or taken to be somewhere, has no end.
 std::int64_t knownUntil(const WorldBody& body) {
   if (body.episodes.empty() || body.options.whenSilent != WhenSilent::Wait) return kNever;
@@ -205,7 +229,8 @@ Result<BodyId> World::add(const Avatar& avatar, const BodyOptions& options) {
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
   if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(avatar));
-  parts_->bodies.push_back({kind, options, {}});
+  const std::int32_t rules = options.self ? placeOfRules(*parts_, *options.self) : -1;
+  parts_->bodies.push_back({kind, options, rules, {}});
   return static_cast<BodyId>(parts_->bodies.size()) - 1;
 }
 
@@ -220,7 +245,7 @@ Result<BodyId> World::add(const Scene& mesh, const BodyOptions& options) {
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
   if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(mesh));
-  parts_->bodies.push_back({kind, options, {}});
+  parts_->bodies.push_back({kind, options, -1, {}});
   return static_cast<BodyId>(parts_->bodies.size()) - 1;
 }
 

@@ -35,6 +35,7 @@ struct Episode {
 struct WorldBody {
   std::int32_t kind = 0;
   BodyOptions options;
+  std::int32_t ownRules = -1;     // place in WorldParts::rules, if own links are asked
   std::vector<Episode> episodes;  // none before the first pose
 
   /// The episode at an instant; null before the first one. O(episodes).
@@ -48,6 +49,7 @@ struct WorldParts {
   std::optional<Scene> still;
   WorldOptions options;
   std::vector<BodyKind> kinds;
+  std::vector<PairRules> rules;  // of own links, no two alike
   std::vector<WorldBody> bodies;
   std::array<std::uint32_t, kNumBodyGroups> asked{};  // bit b of row a
   std::uint32_t askedStill = 0;

@@ -47,7 +47,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"ladder", {"", "scene"}},
       {"query", {"ladder", "", "exact", "surface", "lanes", "scene"}},
       {"solid", {"query", "", "scene"}},
-      {"world", {"query", "", "scene"}},
+      {"world", {"query", "", "lanes", "scene"}},
       {"reference", {"query", "", "exact", "surface", "scene"}}}},
     {"assets",
      {{"", {}},

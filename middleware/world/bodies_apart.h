@@ -1,0 +1,43 @@
+// middleware/world/bodies_apart.h: two bodies proven apart in a span of both by what is known of
+// each alone: boxes, and planes between the ends of their LSS. Proof: middleware/world/world.md 4.
+// Not installed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "middleware/lanes/node_planes.h"
+#include "middleware/lanes/pair_boxes.h"
+#include "middleware/query_counters.h"
+#include "middleware/world/body_sweep.h"
+
+namespace foretouch::internal {
+
+enum class Apart : std::uint8_t {
+  ByBoxes,   ///< No two boxes of their LSS meet.
+  ByPlanes,  ///< Two do, but planes keep apart all that do.
+  Unproven,
+};
+
+/// For one thread; keeps its memory.
+class BodiesApart {
+ public:
+  /// How far the two are proven to stay apart by more than `floor` (m) beyond all radii, wherever
+  /// each is in its span. O(LSS^2) divided by 16.
+  [[nodiscard]] Apart prove(const SpanSweep& one, const SpanSweep& other, double floor,
+                            QueryCounters& counters);
+
+ private:
+  void collect(const SpanSweep& one, const SpanSweep& other);
+  void addPairs(const SpanSweep& one, const SpanSweep& other, double floor);
+  void closeAtRest(const SpanSweep& one, const SpanSweep& other, QueryCounters& counters);
+  void closeAtNodes(const SpanSweep& one, const SpanSweep& other, QueryCounters& counters);
+  void dropClosed();
+
+  std::vector<LssBox> boxes_;
+  MeetingPairs meeting_;
+  NodePlanes planes_{};
+  std::vector<PlanePair> pairs_;
+};
+
+}  // namespace foretouch::internal
