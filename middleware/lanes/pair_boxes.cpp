@@ -12,7 +12,7 @@ namespace foretouch::internal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Bit j: the box meets that of LSS first + j.
-unsigned meetingInBlock(const float* const* lower, const float* const* upper, const LssBox& box,
+HWY_INLINE unsigned meetingInBlock(const float* const* lower, const float* const* upper, const LssBox& box,
                         int first) {
   const hn::CappedTag<float, SweptBoxes::kPadding> d;
   const auto lanes = static_cast<int>(hn::Lanes(d));

@@ -27,6 +27,11 @@ class BodiesApart {
   [[nodiscard]] Apart prove(const SpanSweep& one, const SpanSweep& other, double floor,
                             QueryCounters& counters);
 
+  /// After `Unproven`: the pairs whose boxes meet, and those of them that are open; i of the first
+  /// body's LSS, j of the other's. Pieces are those of the nodes of both, or all.
+  [[nodiscard]] const MeetingPairs& meeting() const { return meeting_; }
+  [[nodiscard]] std::vector<PlanePair>& open() { return pairs_; }
+
  private:
   void collect(const SpanSweep& one, const SpanSweep& other);
   void addPairs(const SpanSweep& one, const SpanSweep& other, double floor);

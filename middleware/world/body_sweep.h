@@ -40,10 +40,12 @@ struct SpanSweep {
   bool isWhole = false;      ///< A piece of the body's track, whatever the window.
   std::uint64_t window = 0;  ///< That used it last.
 
-  /// Of what a slab has of the motion's whole [0,1], relative to `from` in W. No place is off by
-  /// more than `cut` because the span is part of a piece (m).
-  void fill(const LssTable& table, const ChainMotion& motion, const SlabScratch& slab,
+  /// Of what a slab has of the motion's whole [0,1], relative to `from` in W; takes the slab's ends
+  /// away. No place is off by more than `cut` because the span is part of a piece (m).
+  void fill(const LssTable& table, const ChainMotion& motion, SlabScratch& slab,
             const Eigen::Vector3d& from, double cut);
+  /// For ends of any body of so many LSS: spans and slabs exchange their memory.
+  void makeRoom(std::size_t mostLss);
 };
 
 /// The part of a span that lies in the window.

@@ -1,6 +1,7 @@
 #include "middleware/world/body_sweeper.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "articulated/try.h"
 #include "lss/index.h"
@@ -34,6 +35,7 @@ Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<World
     part.sweep = known >= 0 ? static_cast<std::size_t>(known) : sweep.freePlace(window_.number);
     SpanSweep& span = sweep.spans[part.sweep];
     if (known < 0) {
+      span.makeRoom(world_.mostLss);
       span.isWhole = false;  // until it is filled
       FORETOUCH_CHECK(fill(body, question, span));
       span.isWhole = isWhole;
@@ -84,6 +86,9 @@ Result<Done> BodySweeper::keepOwn(BodyId body, SystemQuestion question, const Sp
                                   const SpanSweep& span, std::size_t first,
                                   std::vector<WorldContact>& found, WorldCounters& counters) {
   if (question == SystemQuestion::Boxes) return Done{};
+  const bool isGivenUp =
+      found.size() > first && found.back().a.body == body && found.back().a.link == kEveryLink;
+  if (isGivenUp) return Done{};
   ++counters.spans;
   addCounters(span.counters, counters.queries);
   const WorldTime begin{part.beginUs, 0.0}, end{part.endUs, 0.0};
@@ -99,12 +104,19 @@ Result<Done> BodySweeper::keepOwn(BodyId body, SystemQuestion question, const Sp
     return Done{};
   }
   ++counters.spans;
+  std::vector<WorldContact>& met = scratch_.met;
+  met.clear();
+  std::copy_if(span.own.begin(), span.own.end(), std::back_inserter(met), isEarlier);
+  if (question == SystemQuestion::Self) {
+    query_.askAgain(*plan, body, met, first, found, counters.queries);
+    return Done{};
+  }
   std::vector<WorldContact>& again = scratch_.again;
   again.clear();
   query_.ask(*plan, body, kStillScene, 0, again, counters.queries);
   for (const WorldContact& contact : again) {
-    const bool hadMet = std::any_of(span.own.begin(), span.own.end(), [&](const auto& known) {
-      return isEarlier(known) && areSameLinks(known, contact);
+    const bool hadMet = std::any_of(met.begin(), met.end(), [&](const WorldContact& known) {
+      return areSameLinks(known, contact);
     });
     if (hadMet) keep(contact, first, found);
   }

@@ -22,6 +22,8 @@ struct SystemMember {
   std::int32_t kind = 0;
   std::int32_t carrier = -1;  ///< Place among the members, before this one; -1: W.
   LinkId link = kNoParent;    ///< The carrier's, that this one hangs on.
+  const Track* track = nullptr;
+  TrackPiece piece;  ///< Of the track, that holds the span.
 };
 
 /// The motions of the pieces that were cut last: several questions cut the same.
@@ -80,7 +82,6 @@ class SystemSpans {
  private:
   [[nodiscard]] bool addMember(BodyId body);
   [[nodiscard]] bool findEnd();
-  [[nodiscard]] const Track& trackOf(const SystemMember& member) const;
   [[nodiscard]] double reachOfCarried() const;
   void appendPart(const SystemMember& member, PieceMotions& motions, SystemPoses& poses) const;
 

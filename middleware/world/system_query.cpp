@@ -60,9 +60,7 @@ Eigen::Vector3d SystemQuery::originOf(SystemQuestion question) const {
   if (question == SystemQuestion::Still || question == SystemQuestion::Mesh) {
     return Eigen::Vector3d::Zero();
   }
-  const std::int64_t beginUs = scratch_.spans.beginUs();
-  const WorldBody& root = world_.body(scratch_.spans.members().front().body);
-  return root.episodeAt(beginUs)->track.pieceAt(beginUs).from->translations[0];
+  return scratch_.spans.members().front().piece.from->translations[0];
 }
 
 bool SystemQuery::isResolved() const {
@@ -72,6 +70,55 @@ bool SystemQuery::isResolved() const {
 void SystemQuery::ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                       std::vector<WorldContact>& found, QueryCounters& counters) {
   answer(plan);
+  keepAll(plan, a, b, first, found, counters);
+}
+
+void SystemQuery::askAmong(const SystemPlan& plan, BodyId a, BodyId b, const MeetingPairs& meeting,
+                           const std::vector<PlanePair>& open, std::size_t first,
+                           std::vector<WorldContact>& found, QueryCounters& counters) {
+  const LssTable& table = plan.plan->table;
+  const auto offsetOf = [&](BodyId body) {
+    return table.first(plan.first[slotOf(scratch_.spans.placeOf(body))]);
+  };
+  const std::int32_t ofA = offsetOf(a), ofB = offsetOf(b);
+  const auto numbered = [&](std::int32_t i, std::int32_t j) {
+    return LssIndexPair{std::min(ofA + i, ofB + j), std::max(ofA + i, ofB + j)};
+  };
+  scratch_.meeting.clear();
+  for (std::size_t k = 0; k < meeting.count; ++k) {
+    scratch_.meeting.push_back(numbered(meeting.pairs[k].i, meeting.pairs[k].j));
+  }
+  scratch_.open.clear();
+  for (PlanePair pair : open) {
+    const LssIndexPair both = numbered(pair.i, pair.j);
+    pair.i = both.i;
+    pair.j = both.j;
+    scratch_.open.push_back(pair);
+  }
+  answerAmong(plan);
+  keepAll(plan, a, b, first, found, counters);
+}
+
+void SystemQuery::askAgain(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met,
+                           std::size_t first, std::vector<WorldContact>& found,
+                           QueryCounters& counters) {
+  const LssTable& table = plan.plan->table;
+  scratch_.meeting.clear();
+  scratch_.open.clear();
+  for (const WorldContact& contact : met) {
+    for (std::int32_t i = table.first(contact.a.link); i < table.first(contact.a.link + 1); ++i) {
+      for (std::int32_t j = table.first(contact.b.link); j < table.first(contact.b.link + 1); ++j) {
+        scratch_.meeting.push_back({i, j});
+        scratch_.open.push_back({i, j, 0, 0.0F, 0.0F, kEveryPiece});
+      }
+    }
+  }
+  answerAmong(plan);
+  keepAll(plan, a, kStillScene, first, found, counters);
+}
+
+void SystemQuery::keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+                          std::vector<WorldContact>& found, QueryCounters& counters) {
   addCounters(scratch_.step.counters, counters);
   if (plan.chain) {
     keepSeenFromMesh(plan, a, b, first, found);
@@ -85,15 +132,30 @@ void SystemQuery::ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t fi
 
 /// Fills the step with what the plan's query says of the span.
 void SystemQuery::answer(const SystemPlan& plan) {
+  if (plan.query) {
+    plan.query->answer(scratch_.motion, scratch_.query, scratch_.step);
+  } else {
+    beginStep();
+    const WorkMeter meter(plan.plan->options);
+    SelfQuery(*plan.plan, scratch_.motion, meter, scratch_.query.parts()).run(scratch_.step);
+  }
+}
+
+void SystemQuery::answerAmong(const SystemPlan& plan) {
+  beginStep();
+  const FoundPairs found{scratch_.meeting.data(), scratch_.meeting.size(), scratch_.open.data(),
+                         scratch_.open.size()};
+  const WorkMeter meter(plan.plan->options);
+  SelfQuery(*plan.plan, scratch_.motion, meter, scratch_.query.parts())
+      .runAmong(found, scratch_.step);
+}
+
+void SystemQuery::beginStep() {
   StepContacts& step = scratch_.step;
-  if (plan.query) return plan.query->answer(scratch_.motion, scratch_.query, step);
   step.links.clear();
   step.pairs.clear();
   step.counters = {};
-  ScratchParts& parts = scratch_.query.parts();
-  parts.beginStep(scratch_.motion);
-  const WorkMeter meter(plan.plan->options);
-  SelfQuery(*plan.plan, scratch_.motion, meter, parts).run(step);
+  scratch_.query.parts().beginStep(scratch_.motion);
 }
 
 void SystemQuery::keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,

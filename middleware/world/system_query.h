@@ -10,6 +10,8 @@
 
 #include "articulated/motion.h"
 #include "middleware/contact.h"
+#include "middleware/lanes/node_planes.h"
+#include "middleware/lanes/pair_boxes.h"
 #include "middleware/query/query_scratch.h"
 #include "middleware/world/body_system.h"
 #include "middleware/world/system_plan.h"
@@ -28,7 +30,9 @@ struct SystemScratch {
   Pose relativeFrom, relativeTo;
   ChainMotion motion, ofSystem;
   StepContacts step;
-  std::vector<WorldContact> again;  // of those who had met before the window
+  std::vector<WorldContact> met, again;  // before the window, and what becomes of them in it
+  std::vector<LssIndexPair> meeting;     // in the numbers of the system
+  std::vector<PlanePair> open;
   QueryScratch query;
 };
 
@@ -48,12 +52,25 @@ class SystemQuery {
   /// on. Precondition: as prepare() has left it; not Boxes.
   void ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
            std::vector<WorldContact>& found, QueryCounters& counters);
+  /// The same for those pairs of LSS of a and b (i of a's, j of b's) alone: everything else of the
+  /// two is proven apart. Pieces are those of the span's nodes. Precondition: a question of Pair.
+  void askAmong(const SystemPlan& plan, BodyId a, BodyId b, const MeetingPairs& meeting,
+                const std::vector<PlanePair>& open, std::size_t first,
+                std::vector<WorldContact>& found, QueryCounters& counters);
+  /// The same for all LSS of those of a's own links that `met` names. Precondition: a question of
+  /// Self.
+  void askAgain(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met,
+                std::size_t first, std::vector<WorldContact>& found, QueryCounters& counters);
   /// Appends that nothing is known of the two from the span's begin on.
   void giveUp(BodyId a, BodyId b, std::vector<WorldContact>& found) const;
 
  private:
   [[nodiscard]] Eigen::Vector3d originOf(SystemQuestion question) const;
   void answer(const SystemPlan& plan);
+  void answerAmong(const SystemPlan& plan);
+  void beginStep();
+  void keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+               std::vector<WorldContact>& found, QueryCounters& counters);
   void keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                         std::vector<WorldContact>& found);
   [[nodiscard]] WorldContact inSpan(const LinkContact& contact) const;

@@ -50,17 +50,24 @@ double reachOf(const std::vector<std::vector<Lss>>& volumes) {
   return reach * internal::kInflation;
 }
 
-BodyKind kindOf(const Avatar& avatar) {
-  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, 0.0};
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));
+void measure(BodyKind& kind) {
+  for (std::size_t link = 0; link < kind.volumes.size(); ++link) {
+    kind.linkOf.insert(kind.linkOf.end(), kind.volumes[link].size(), static_cast<LinkId>(link));
+  }
   kind.rho = reachOf(kind.volumes);
+}
+
+BodyKind kindOf(const Avatar& avatar) {
+  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, {}, 0.0};
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));
+  measure(kind);
   return kind;
 }
 
 BodyKind kindOf(const Scene& mesh) {
   RawSkeleton raw;
   raw.joints = {{"mesh", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
-  BodyKind kind{Skeleton::build(raw).value(), std::nullopt, mesh, {}, 0.0};
+  BodyKind kind{Skeleton::build(raw).value(), std::nullopt, mesh, {}, {}, 0.0};
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < mesh.numTriangles(); ++i) {
     const Triangle& triangle = mesh.triangle(static_cast<TriangleId>(i));
@@ -68,7 +75,7 @@ BodyKind kindOf(const Scene& mesh) {
     points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
   }
   kind.volumes = {{fitLss(points)}};
-  kind.rho = reachOf(kind.volumes);
+  measure(kind);
   return kind;
 }
 
@@ -230,6 +237,7 @@ Result<BodyId> World::add(const Avatar& avatar, const BodyOptions& options) {
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
   if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(avatar));
   const std::int32_t rules = options.self ? placeOfRules(*parts_, *options.self) : -1;
+  parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
   parts_->bodies.push_back({kind, options, rules, {}});
   return static_cast<BodyId>(parts_->bodies.size()) - 1;
 }
@@ -245,6 +253,7 @@ Result<BodyId> World::add(const Scene& mesh, const BodyOptions& options) {
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
   if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(mesh));
+  parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
   parts_->bodies.push_back({kind, options, -1, {}});
   return static_cast<BodyId>(parts_->bodies.size()) - 1;
 }
