@@ -79,10 +79,12 @@ const SpanSweep& BodySweep::at(std::int64_t utimeUs) const {
   return spans.front();
 }
 
-std::ptrdiff_t BodySweep::placeOfPiece(std::int64_t beginUs, std::int64_t endUs) const {
+std::ptrdiff_t BodySweep::placeOfPiece(std::int64_t beginUs, std::int64_t endUs,
+                                       SystemQuestion question) const {
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const SpanSweep& span = spans[i];
-    if (span.isWhole && span.beginUs == beginUs && span.endUs == endUs) {
+    if (span.isWhole && span.question == question && span.beginUs == beginUs &&
+        span.endUs == endUs) {
       return static_cast<std::ptrdiff_t>(i);
     }
   }

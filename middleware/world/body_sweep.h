@@ -14,6 +14,7 @@
 #include "middleware/query/lane_scratch.h"
 #include "middleware/query_counters.h"
 #include "middleware/world/box_sweep.h"
+#include "middleware/world/system_plan.h"
 #include "middleware/world/world_contacts.h"
 #include "tessellation/lss_table.h"
 #include "tessellation/node_ends.h"
@@ -36,7 +37,8 @@ struct SpanSweep {
   float widestSagitta = 0.0F;  ///< h^2/8 of the longest time between two nodes. Rounded up.
   /// First contacts with the static scene and of own links, over the whole span.
   std::vector<WorldContact> own;
-  QueryCounters counters;    ///< What all of this took.
+  QueryCounters counters;                           ///< What all of this took.
+  SystemQuestion question = SystemQuestion::Boxes;  ///< That `own` answers.
   bool isWhole = false;      ///< A piece of the body's track, whatever the window.
   std::uint64_t window = 0;  ///< That used it last.
 
@@ -64,8 +66,9 @@ struct BodySweep {
 
   /// The sweep of the part that holds [utimeUs, utimeUs + 1). Precondition: there is one.
   [[nodiscard]] const SpanSweep& at(std::int64_t utimeUs) const;
-  /// Place of a whole piece's; -1 if it is not known.
-  [[nodiscard]] std::ptrdiff_t placeOfPiece(std::int64_t beginUs, std::int64_t endUs) const;
+  /// Place of a whole piece's with answers to the question; -1 if it is not known.
+  [[nodiscard]] std::ptrdiff_t placeOfPiece(std::int64_t beginUs, std::int64_t endUs,
+                                            SystemQuestion question) const;
   /// Some span that is not of this window, for another one; ends references to others.
   [[nodiscard]] std::size_t freePlace(std::uint64_t window);
 };

@@ -31,7 +31,8 @@ Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<World
   while (spans.next()) {
     SpanPart part{spans.beginUs(), spans.endUs(), 0};
     const bool isWhole = spans.widen(kMostWindowsOfPiece * (window_.toUs - window_.fromUs));
-    const std::ptrdiff_t known = isWhole ? sweep.placeOfPiece(spans.beginUs(), spans.endUs()) : -1;
+    const std::ptrdiff_t known =
+        isWhole ? sweep.placeOfPiece(spans.beginUs(), spans.endUs(), question) : -1;
     part.sweep = known >= 0 ? static_cast<std::size_t>(known) : sweep.freePlace(window_.number);
     SpanSweep& span = sweep.spans[part.sweep];
     if (known < 0) {
@@ -53,6 +54,7 @@ Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<World
 Result<Done> BodySweeper::fill(BodyId body, SystemQuestion question, SpanSweep& span) {
   span.beginUs = scratch_.spans.beginUs();
   span.endUs = scratch_.spans.endUs();
+  span.question = question;
   span.own.clear();
   span.counters = {};
   FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, body, kStillScene));
