@@ -258,6 +258,51 @@ double ChainNodes::time(int k) {
   return kTimes[slotOf(k)];
 }
 
+void ChainNodes::posesAt(const ChainMotion& motion, double begin, double end, Pose& from,
+                         Pose& to) {
+  using internal::JointColumns;
+  const auto n = static_cast<std::size_t>(motion.numLinks());
+  const double* const arcs = motion.arcs_.data();
+  const double instants[2] = {begin, end};
+  Pose* const poses[2] = {&from, &to};
+  // Weights of both ends, at both instants; the other lanes mean nothing.
+  alignas(64) double coefficients[kMaxTerms][kNodes] = {{1.0 - begin, begin, 1.0 - end, end}};
+  const std::size_t terms = termsFor(motion.largestVersine());
+  for (std::size_t i = 1; i < terms; ++i) {
+    nextCoefficients(coefficients[0], coefficients[i - 1], i - 1, coefficients[i]);
+  }
+  for (Pose* const pose : poses) {
+    pose->rotations.resize(n);
+    pose->translations.resize(n);
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    const auto at = [&](int column) { return arcs[static_cast<std::size_t>(column) * n + j]; };
+    const double versine = at(JointColumns::kVersine);
+    double weights[4] = {};
+    for (std::size_t i = terms; i > 0; --i) {
+      for (std::size_t k = 0; k < 4; ++k)
+        weights[k] = weights[k] * versine + coefficients[i - 1][k];
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double t = instants[i];
+      // The ends as they are given.
+      const double ofFrom = t == 0.0 ? 1.0 : t == 1.0 ? 0.0 : weights[2 * i];
+      const double ofTo = t == 0.0 ? 0.0 : t == 1.0 ? 1.0 : weights[2 * i + 1];
+      double q[4], square = 0.0;
+      for (int k = 0; k < 4; ++k) {
+        q[k] = ofFrom * at(JointColumns::kFrom + k) + ofTo * at(JointColumns::kTo + k);
+        square += q[k] * q[k];
+      }
+      const double scale = t == 0.0 || t == 1.0 ? 1.0 : 1.0 / std::sqrt(square);
+      poses[i]->rotations[j] = Quaternion(q[0] * scale, q[1] * scale, q[2] * scale, q[3] * scale);
+      for (int k = 0; k < 3; ++k) {
+        poses[i]->translations[j][k] =
+            at(JointColumns::kTranslation + k) + t * at(JointColumns::kDrift + k);
+      }
+    }
+  }
+}
+
 void ChainNodes::setInstants(double begin, double end) {
   if (begin == begin_ && end == end_) return;
   begin_ = begin;

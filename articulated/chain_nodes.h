@@ -54,6 +54,11 @@ class ChainNodes {
   [[nodiscard]] const NodeBounds& bounds() const { return bounds_; }
   /// For one link: at present the same. Closer bounds would cost more than they gain.
 
+  /// The parent-relative poses at two instants of [0,1], as ChainMotion::poseAt() gives them, but
+  /// without trigonometry and off by more (articulated/track.md 2). The poses are resized.
+  /// O(joints).
+  static void posesAt(const ChainMotion& motion, double begin, double end, Pose& from, Pose& to);
+
   /// (1 - cos(k pi/7))/2, the k-th Chebyshev-Lobatto point of [0,1], rounded.
   [[nodiscard]] static double time(int k);
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "articulated/chain_nodes.h"
 #include "articulated/try.h"
 #include "lss/assert.h"
 #include "lss/index.h"
@@ -16,7 +17,7 @@ namespace {
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 /// Of a joint's rotation in a part of a motion, in unit roundoffs (articulated/track.md 2).
-constexpr double kTurnOfPart = 512.0 * kUnitRoundoff;
+constexpr double kTurnOfPart = 4096.0 * kUnitRoundoff;
 /// Of a joint's translation there, of the arms' sums, and of the instants.
 constexpr double kShiftOfPart = 8.0 * kUnitRoundoff, kInstantOfPart = 4.0 * kUnitRoundoff;
 
@@ -143,8 +144,7 @@ void partOf(const TrackPiece& piece, const ChainMotion& motion, std::int64_t beg
     to = *piece.to;
     return;
   }
-  motion.poseAt(piece.at(beginUs), from);
-  motion.poseAt(piece.at(endUs), to);
+  ChainNodes::posesAt(motion, piece.at(beginUs), piece.at(endUs), from, to);
 }
 
 double partRounding(const TrackPiece& piece, const ChainMotion& motion, std::int64_t beginUs,

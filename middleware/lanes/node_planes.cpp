@@ -25,12 +25,17 @@ struct ProposalBlock {
   alignas(64) float n[3][kMaxLanes];
 };
 
-HWY_INLINE void putAxis(const NodeEnds::Axis& axis, int node, std::size_t lane,
+/// `shift`: adds to both ends.
+HWY_INLINE void putAxis(const NodeEnds::Axis& axis, int node, const float* shift, std::size_t lane,
                         float (*a)[kMaxLanes], float (*b)[kMaxLanes]) {
   for (int k = 0; k < 3; ++k) {
-    a[k][lane] = axis.a[k][node];
-    b[k][lane] = axis.b[k][node];
+    a[k][lane] = axis.a[k][node] + shift[k];
+    b[k][lane] = axis.b[k][node] + shift[k];
   }
+}
+
+HWY_INLINE const NodeEnds::Axis& otherOf(const NodePlanes& planes, const PlanePair& pair) {
+  return (planes.others != nullptr ? planes.others : planes.axes)[pair.j];
 }
 
 template <class D>
@@ -82,7 +87,7 @@ HWY_INLINE unsigned openPieces(const NodePlanes& planes, const PlanePair& pair, 
   using V = hn::Vec<decltype(d)>;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(hn::CappedTag<float, kNodes>()));
   const NodeFrame& frame = planes.frames[pair.frame];
-  const NodeEnds::Axis &one = planes.axes[pair.i], &other = planes.axes[pair.j];
+  const NodeEnds::Axis &one = planes.axes[pair.i], &other = otherOf(planes, pair);
   const V nx = hn::Set(d, n[0]), ny = hn::Set(d, n[1]), nz = hn::Set(d, n[2]);
   alignas(64) float width[kNodes + 1];
   width[kNodes] = 0.0F;  // the last node has no next one, and no pair has its piece open
@@ -96,7 +101,9 @@ HWY_INLINE unsigned openPieces(const NodePlanes& planes, const PlanePair& pair, 
     const Point<V> turned{row(0), row(1), row(2)};
     const V low = hn::Min(heightOf(d, turned, one.a, lane), heightOf(d, turned, one.b, lane));
     const V high = hn::Max(heightOf(d, turned, other.a, lane), heightOf(d, turned, other.b, lane));
-    hn::Store(hn::Sub(low, high), d, width + lane);
+    const V shifted = dot(turned, Point<V>{hn::Set(d, planes.shift[0]), hn::Set(d, planes.shift[1]),
+                                           hn::Set(d, planes.shift[2])});
+    hn::Store(hn::Sub(hn::Sub(low, high), shifted), d, width + lane);
   }
   unsigned open = 0;
   for (int lane = 0; lane < kNodes; lane += kLanes) {
@@ -112,23 +119,62 @@ HWY_INLINE unsigned openPieces(const NodePlanes& planes, const PlanePair& pair, 
   return open;
 }
 
-void closePieces(const NodePlanes& planes, int node, PlanePair* pairs, std::size_t count) {
+/// The normals of at most kMaxLanes pairs; lanes beyond them mean nothing.
+HWY_INLINE void proposeAll(const NodePlanes& planes, int node, int otherNode,
+                           const PlanePair* pairs, std::size_t count, ProposalBlock& block) {
   const hn::CappedTag<float, kMaxLanes> d;
-  const std::size_t lanes = hn::Lanes(d);
-  ProposalBlock block;  // lanes beyond the pairs mean nothing
+  constexpr float kNoShift[3] = {0.0F, 0.0F, 0.0F};
+  for (std::size_t k = 0; k < count; ++k) {
+    putAxis(planes.axes[pairs[k].i], node, kNoShift, k, block.a1, block.b1);
+    putAxis(otherOf(planes, pairs[k]), otherNode, planes.shift, k, block.a2, block.b2);
+  }
+  for (std::size_t lane = 0; lane < count; lane += hn::Lanes(d)) propose(d, block, lane);
+}
+
+void closePieces(const NodePlanes& planes, int node, PlanePair* pairs, std::size_t count) {
+  ProposalBlock block;
   for (std::size_t first = 0; first < count; first += kMaxLanes) {
     const std::size_t here = count - first < kMaxLanes ? count - first : kMaxLanes;
-    for (std::size_t k = 0; k < here; ++k) {
-      const PlanePair& pair = pairs[first + k];
-      putAxis(planes.axes[pair.i], node, k, block.a1, block.b1);
-      putAxis(planes.axes[pair.j], node, k, block.a2, block.b2);
-    }
-    for (std::size_t lane = 0; lane < here; lane += lanes) propose(d, block, lane);
+    proposeAll(planes, node, node, pairs + first, here, block);
     for (std::size_t k = 0; k < here; ++k) {
       PlanePair& pair = pairs[first + k];
       float n[3];
       turnIntoFrame(planes.frames[pair.frame], node, block, k, n);
       pair.open = static_cast<std::uint8_t>(pair.open & openPieces(planes, pair, n));
+    }
+  }
+}
+
+/// The plane at rest with the normal of lane `k` keeps the pair apart, whenever either is where.
+HWY_INLINE bool restsBetween(const NodePlanes& planes, const PlanePair& pair,
+                             const ProposalBlock& block, std::size_t k) {
+  const hn::CappedTag<float, kNodes> d;
+  using V = hn::Vec<decltype(d)>;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(hn::CappedTag<float, kNodes>()));
+  const NodeEnds::Axis &one = planes.axes[pair.i], &other = otherOf(planes, pair);
+  const float n[3] = {block.n[0][k], block.n[1][k], block.n[2][k]};
+  const Point<V> normal{hn::Set(d, n[0]), hn::Set(d, n[1]), hn::Set(d, n[2])};
+  V low = hn::Min(heightOf(d, normal, one.a, 0), heightOf(d, normal, one.b, 0));
+  V high = hn::Max(heightOf(d, normal, other.a, 0), heightOf(d, normal, other.b, 0));
+  for (int lane = kLanes; lane < kNodes; lane += kLanes) {
+    low = hn::Min(low, hn::Min(heightOf(d, normal, one.a, lane), heightOf(d, normal, one.b, lane)));
+    high = hn::Max(high,
+                   hn::Max(heightOf(d, normal, other.a, lane), heightOf(d, normal, other.b, lane)));
+  }
+  const float shifted = n[0] * planes.shift[0] + n[1] * planes.shift[1] + n[2] * planes.shift[2];
+  const float width =
+      hn::GetLane(hn::MinOfLanes(d, low)) - hn::GetLane(hn::MaxOfLanes(d, high)) - shifted;
+  return width > pair.reach;
+}
+
+void closeAtRest(const NodePlanes& planes, int node, int otherNode, PlanePair* pairs,
+                 std::size_t count) {
+  ProposalBlock block;
+  for (std::size_t first = 0; first < count; first += kMaxLanes) {
+    const std::size_t here = count - first < kMaxLanes ? count - first : kMaxLanes;
+    proposeAll(planes, node, otherNode, pairs + first, here, block);
+    for (std::size_t k = 0; k < here; ++k) {
+      if (restsBetween(planes, pairs[first + k], block, k)) pairs[first + k].open = 0;
     }
   }
 }
@@ -140,9 +186,15 @@ HWY_AFTER_NAMESPACE();
 namespace foretouch::internal {
 
 HWY_EXPORT(closePieces);
+HWY_EXPORT(closeAtRest);
 
 void closeByPlanes(const NodePlanes& planes, int node, PlanePair* pairs, std::size_t count) {
   HWY_DYNAMIC_DISPATCH(closePieces)(planes, node, pairs, count);
+}
+
+void closeByRestingPlanes(const NodePlanes& planes, int node, int otherNode, PlanePair* pairs,
+                          std::size_t count) {
+  HWY_DYNAMIC_DISPATCH(closeAtRest)(planes, node, otherNode, pairs, count);
 }
 
 }  // namespace foretouch::internal

@@ -38,10 +38,22 @@ struct NodePlanes {
   const NodeEnds::Axis* axes;  ///< Per LSS of the table.
   const NodeFrame* frames;
   float sagittas[kNodes];  ///< h^2/8 of piece k, rounded up; the last is not used.
+  /// The second of each pair, if it is of another table; null: of the same.
+  const NodeEnds::Axis* others = nullptr;
+  /// From the origin of `axes` to that of `others`, rounded to nearest (m). The reach then includes
+  /// kNodePlaneRounding of its coordinates' sum as well.
+  float shift[3] = {0.0F, 0.0F, 0.0F};
 };
 
 /// Closes those pieces of the first `count` pairs that a plane through node `node`'s closest points
 /// keeps apart by their reach. O(count).
 void closeByPlanes(const NodePlanes& planes, int node, PlanePair* pairs, std::size_t count);
+
+/// Closes those of the first `count` pairs that one plane at rest in W keeps apart, wherever on its
+/// way either is: the two may be of spans of different instants. Through the closest points of the
+/// first's place at `node` and the second's at `otherNode`. Each pair's reach includes how far both
+/// bend between their nodes; frames and bends are not looked at. O(count).
+void closeByRestingPlanes(const NodePlanes& planes, int node, int otherNode, PlanePair* pairs,
+                          std::size_t count);
 
 }  // namespace foretouch::internal

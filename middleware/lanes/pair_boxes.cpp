@@ -11,8 +11,9 @@ HWY_BEFORE_NAMESPACE();
 namespace foretouch::internal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Bit j: the box of LSS i meets that of LSS first + j.
-unsigned meetingInBlock(const float* const* lower, const float* const* upper, int i, int first) {
+/// Bit j: the box meets that of LSS first + j.
+HWY_INLINE unsigned meetingInBlock(const float* const* lower, const float* const* upper, const LssBox& box,
+                        int first) {
   const hn::CappedTag<float, SweptBoxes::kPadding> d;
   const auto lanes = static_cast<int>(hn::Lanes(d));
   unsigned bits = 0;
@@ -20,8 +21,8 @@ unsigned meetingInBlock(const float* const* lower, const float* const* upper, in
     const int at = first + lane;
     auto meets = hn::FirstN(d, static_cast<std::size_t>(lanes));
     for (int axis = 0; axis < 3; ++axis) {
-      meets = hn::And(meets, hn::Le(hn::Set(d, lower[axis][i]), hn::LoadU(d, upper[axis] + at)));
-      meets = hn::And(meets, hn::Ge(hn::Set(d, upper[axis][i]), hn::LoadU(d, lower[axis] + at)));
+      meets = hn::And(meets, hn::Le(hn::Set(d, box.lower[axis]), hn::LoadU(d, upper[axis] + at)));
+      meets = hn::And(meets, hn::Ge(hn::Set(d, box.upper[axis]), hn::LoadU(d, lower[axis] + at)));
     }
     std::uint8_t some[8] = {};
     hn::StoreMaskBits(d, meets, some);
@@ -35,12 +36,29 @@ std::size_t meetingPairs(const float* const* lower, const float* const* upper, i
                          const std::uint16_t* asked, int blocks, LssIndexPair* pairs) {
   std::size_t found = 0;
   for (int i = 0; i < count; ++i) {
+    const LssBox box{
+        i, {lower[0][i], lower[1][i], lower[2][i]}, {upper[0][i], upper[1][i], upper[2][i]}};
     for (int block = i / SweptBoxes::kPadding; block < blocks; ++block) {
       unsigned bits = asked[i * blocks + block];
       if (bits == 0) continue;
-      bits &= meetingInBlock(lower, upper, i, block * SweptBoxes::kPadding);
+      bits &= meetingInBlock(lower, upper, box, block * SweptBoxes::kPadding);
       for (; bits != 0; bits &= bits - 1) {
         pairs[found++] = {i, block * SweptBoxes::kPadding + __builtin_ctz(bits)};
+      }
+    }
+  }
+  return found;
+}
+
+/// Room for every pair. Returns how many it wrote.
+std::size_t meetingBetween(const LssBox* boxes, std::size_t count, const BoxRows* others,
+                           LssIndexPair* pairs) {
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    for (int first = 0; first < others->count; first += SweptBoxes::kPadding) {
+      unsigned bits = meetingInBlock(others->lower, others->upper, boxes[k], first);
+      for (; bits != 0; bits &= bits - 1) {
+        pairs[found++] = {boxes[k].lss, first + __builtin_ctz(bits)};
       }
     }
   }
@@ -54,11 +72,20 @@ HWY_AFTER_NAMESPACE();
 namespace foretouch::internal {
 
 HWY_EXPORT(meetingPairs);
+HWY_EXPORT(meetingBetween);
 
 void collectMeeting(const SweptBoxes& boxes, const AskedPairs& asked, MeetingPairs& meeting) {
   if (meeting.pairs.size() < asked.numPairs) meeting.pairs.resize(asked.numPairs);
   meeting.count = HWY_DYNAMIC_DISPATCH(meetingPairs)(
       boxes.lower, boxes.upper, boxes.count, asked.bits.data(), asked.blocks, meeting.pairs.data());
+}
+
+void collectMeeting(const std::vector<LssBox>& boxes, const BoxRows& others,
+                    MeetingPairs& meeting) {
+  const std::size_t most = boxes.size() * countOf(others.count);
+  if (meeting.pairs.size() < most) meeting.pairs.resize(most);
+  meeting.count = HWY_DYNAMIC_DISPATCH(meetingBetween)(boxes.data(), boxes.size(), &others,
+                                                       meeting.pairs.data());
 }
 
 }  // namespace foretouch::internal

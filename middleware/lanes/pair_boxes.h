@@ -30,7 +30,22 @@ struct MeetingPairs {
   std::size_t count = 0;
 };
 
+/// The box of one LSS.
+struct LssBox {
+  std::int32_t lss;
+  float lower[3], upper[3];
+};
+/// Boxes of LSS as rows: per axis, with empty boxes up to a multiple of SweptBoxes::kPadding.
+struct BoxRows {
+  const float* lower[3];
+  const float* upper[3];
+  std::int32_t count;
+};
+
 /// Those of the asked pairs whose boxes meet, by i, then by j. O(LSS^2) divided by 16.
 void collectMeeting(const SweptBoxes& boxes, const AskedPairs& asked, MeetingPairs& meeting);
+/// All pairs of one of the boxes and one of the others that meet, in that order. O(boxes others)
+/// divided by 16.
+void collectMeeting(const std::vector<LssBox>& boxes, const BoxRows& others, MeetingPairs& meeting);
 
 }  // namespace foretouch::internal

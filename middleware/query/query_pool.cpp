@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
 #include <exception>
-#include <mutex>
 #include <string>
-#include <system_error>
-#include <thread>
 #include <utility>
 
+#include "articulated/try.h"
 #include "lss/assert.h"
 #include "middleware/query/link_query.h"
+#include "middleware/query/worker_threads.h"
 
 namespace foretouch {
 namespace {
@@ -71,63 +68,14 @@ struct Work {
 
 }  // namespace
 
-/// A list may follow the last one within microseconds, and waking a sleeping thread takes longer
-/// than many lists.
-template <typename Condition>
-void waitBriefly(const Condition& isMet) {
-  constexpr std::chrono::microseconds kBriefly{50};
-  const auto end = std::chrono::steady_clock::now() + kBriefly;
-  while (!isMet() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
-}
-
-/// Locks only to begin and to end a list, never for a task.
 struct QueryPool::Impl {
-  std::vector<Worker> workers;  // the calling thread's first
-  std::vector<std::thread> threads;
+  internal::WorkerThreads threads;
+  std::vector<Worker> workers;  // one per thread
   Work work;
   std::vector<FailedTask> failures;  // of the last list
-  std::mutex mutex;
-  std::condition_variable begins, ends;
-  std::atomic<std::uint64_t> list{0};   // number of lists begun
-  std::atomic<std::size_t> working{0};  // threads not done with the current list
-  bool isStopping = false;
 
-  ~Impl() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      isStopping = true;
-    }
-    begins.notify_all();
-    for (std::thread& thread : threads) thread.join();
-  }
-
-  void run(std::size_t index) {
-    std::uint64_t seen = 0;
-    for (;;) {
-      waitBriefly([&] { return list.load(std::memory_order_acquire) != seen; });
-      std::unique_lock<std::mutex> lock(mutex);
-      begins.wait(lock, [&] { return isStopping || list != seen; });
-      if (isStopping) return;
-      seen = list;
-      lock.unlock();
-      work.takePart(workers[index]);
-      lock.lock();
-      if (--working == 0) ends.notify_one();
-    }
-  }
-
-  void answerAll() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      working = threads.size();
-      ++list;
-    }
-    begins.notify_all();
-    work.takePart(workers.front());
-    waitBriefly([&] { return working.load(std::memory_order_acquire) == 0; });
-    std::unique_lock<std::mutex> lock(mutex);
-    ends.wait(lock, [&] { return working == 0; });
-  }
+  explicit Impl(internal::WorkerThreads&& started)
+      : threads(std::move(started)), workers(threads.count()) {}
 };
 
 QueryPool::QueryPool(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -136,22 +84,8 @@ QueryPool::QueryPool(QueryPool&&) noexcept = default;
 QueryPool& QueryPool::operator=(QueryPool&&) noexcept = default;
 
 Result<QueryPool> QueryPool::start(int threads) {
-  if (threads < 1 || threads > kMaxPoolThreads) {
-    return Error::in("threads", ErrorCode::OutOfRange,
-                     "expected a number from 1 to " + std::to_string(kMaxPoolThreads));
-  }
-  auto impl = std::make_unique<Impl>();
-  impl->workers.resize(static_cast<std::size_t>(threads));
-  impl->threads.reserve(static_cast<std::size_t>(threads - 1));
-  try {
-    for (std::size_t i = 1; i < impl->workers.size(); ++i) {
-      impl->threads.emplace_back([pool = impl.get(), i] { pool->run(i); });
-    }
-  } catch (const std::system_error& failure) {
-    return Error::in("threads", ErrorCode::DeviceFailed,
-                     std::string("the system gives no more threads: ") + failure.what());
-  }
-  return QueryPool(std::move(impl));
+  FORETOUCH_TRY(auto started, internal::WorkerThreads::start(threads, kMaxPoolThreads));
+  return QueryPool(std::make_unique<Impl>(std::move(started)));
 }
 
 int QueryPool::threads() const {
@@ -169,7 +103,7 @@ Result<Done> QueryPool::answer(const std::vector<StepTask>& tasks,
   work.tasks = &tasks;
   work.answers = &answers;
   work.next.store(0, std::memory_order_relaxed);
-  impl_->answerAll();
+  impl_->threads.run([this](std::size_t worker) { impl_->work.takePart(impl_->workers[worker]); });
   std::vector<FailedTask>& failures = impl_->failures;
   failures.clear();
   for (const Worker& worker : impl_->workers) {

@@ -63,6 +63,38 @@ void SelfQuery::run(StepContacts& step) {
     collectOpen(step.counters);
     answerPairs(step);
   }
+  finish(step);
+}
+
+void SelfQuery::runAmong(const FoundPairs& found, StepContacts& step) {
+  // Curves need the slabs.
+  if (slabsOf(table_, motion_, plan_.tolerances.least) != 1) return run(step);
+  own_.left.clear();
+  scratch_.lanes.evaluateNodes(motion_, begin_, end_, plan_.scene.parts().origin, step.counters);
+  take(found);
+  answerPairs(step);
+  finish(step);
+}
+
+void SelfQuery::take(const FoundPairs& found) {
+  const AskedPairs& asked = self_.asked();
+  MeetingPairs& meeting = own_.meeting;
+  if (meeting.pairs.size() < found.numMeeting) meeting.pairs.resize(found.numMeeting);
+  meeting.count = 0;
+  for (std::size_t k = 0; k < found.numMeeting; ++k) {
+    const LssIndexPair& pair = found.meeting[k];
+    if (asked.has(pair.i, pair.j)) meeting.pairs[meeting.count++] = pair;
+  }
+  own_.pairs.clear();
+  for (std::size_t k = 0; k < found.numOpen; ++k) {
+    PlanePair pair = found.open[k];
+    if (!asked.has(pair.i, pair.j)) continue;
+    pair.frame = self_.frameOf(table_[pair.i].link, table_[pair.j].link);
+    own_.pairs.push_back(pair);
+  }
+}
+
+void SelfQuery::finish(StepContacts& step) const {
   std::sort(step.pairs.begin(), step.pairs.end(), comesBefore);
   step.arePairsAnswered = true;
 }

@@ -17,6 +17,16 @@
 
 namespace foretouch::internal {
 
+/// Pairs of LSS of the table, i < j, that somebody else has found: all others are proven apart, and
+/// so are these on pieces that are not open, while [0,1] is one slab.
+struct FoundPairs {
+  const LssIndexPair* meeting;  ///< May be as near as a contact.
+  std::size_t numMeeting;
+  const PlanePair*
+      open;  ///< Of these; at the nodes of [0,1]. Frames, reaches and bends are not read.
+  std::size_t numOpen;
+};
+
 /// One query over all asked pairs of links of one step.
 class SelfQuery final : private Neighbours {
  public:
@@ -26,6 +36,8 @@ class SelfQuery final : private Neighbours {
 
   /// Fills `step.pairs`.
   void run(StepContacts& step);
+  /// The same for those that were found, of which only asked ones count.
+  void runAmong(const FoundPairs& found, StepContacts& step);
 
  private:
   /// One side of the pair at hand.
@@ -35,6 +47,8 @@ class SelfQuery final : private Neighbours {
   };
 
   void evaluate(QueryCounters& counters);
+  void take(const FoundPairs& found);
+  void finish(StepContacts& step) const;
   void collectOpen(QueryCounters& counters);
   void addPlanePair(const LssIndexPair& pair);
   [[nodiscard]] float accelerationOf(std::int32_t frame, std::int32_t lss);

@@ -17,10 +17,14 @@ double armsOf(const TrackPiece& piece) {
   return sum;
 }
 
+/// As numbers: many times as fast as one by one.
 void append(const Pose& part, Pose& all) {
-  all.rotations.insert(all.rotations.end(), part.rotations.begin(), part.rotations.end());
-  all.translations.insert(all.translations.end(), part.translations.begin(),
-                          part.translations.end());
+  const std::size_t first = all.rotations.size(), count = part.rotations.size();
+  if (count == 0) return;
+  all.rotations.resize(first + count);
+  all.translations.resize(first + count);
+  std::copy_n(part.rotations[0].coeffs().data(), 4 * count, all.rotations[first].coeffs().data());
+  std::copy_n(part.translations[0].data(), 3 * count, all.translations[first].data());
 }
 
 void clear(Pose& pose) {
@@ -31,15 +35,24 @@ void clear(Pose& pose) {
 }  // namespace
 
 const ChainMotion& PieceMotions::of(BodyId body, const Track& track, const TrackPiece& piece) {
-  if (ofBody.size() <= slotOf(body)) ofBody.resize(slotOf(body) + 1);
-  Known& known = ofBody[slotOf(body)];
-  if (known.motion.numLinks() == 0 || known.beginUs != piece.beginUs ||
-      known.endUs != piece.endUs) {
-    known.motion.assign(track.skeleton(), *piece.from, *piece.to);
-    known.beginUs = piece.beginUs;
-    known.endUs = piece.endUs;
+  Known* oldest = known_.data();
+  for (Known& known : known_) {
+    if (known.body == body && known.beginUs == piece.beginUs && known.endUs == piece.endUs) {
+      known.lastUse = ++uses_;
+      return known.motion;
+    }
+    if (known.lastUse < oldest->lastUse) oldest = &known;
   }
-  return known.motion;
+  oldest->motion.assign(track.skeleton(), *piece.from, *piece.to);
+  oldest->body = body;
+  oldest->beginUs = piece.beginUs;
+  oldest->endUs = piece.endUs;
+  oldest->lastUse = ++uses_;
+  return oldest->motion;
+}
+
+void PieceMotions::clear() {
+  for (Known& known : known_) known.body = -1;
 }
 
 void SystemSpans::begin(const WorldParts& world, BodyId a, BodyId b, std::int64_t fromUs,
@@ -47,23 +60,37 @@ void SystemSpans::begin(const WorldParts& world, BodyId a, BodyId b, std::int64_
   world_ = &world;
   a_ = a;
   b_ = b;
-  beginUs_ = endUs_ = fromUs;
+  beginUs_ = endUs_ = spanUs_ = nextUs_ = fromUs;
   toUs_ = toUs;
 }
 
 bool SystemSpans::next() {
-  while (endUs_ < toUs_) {
-    beginUs_ = endUs_;
+  while (nextUs_ < toUs_) {
+    beginUs_ = spanUs_ = nextUs_;
     members_.clear();
     if (addMember(a_) && (b_ == kStillScene || addMember(b_))) return findEnd();
     // Whoever is not there yet appears with his first episode.
-    endUs_ = toUs_;
+    nextUs_ = toUs_;
     for (const BodyId body : {a_, b_}) {
       if (body == kStillScene || world_->body(body).episodeAt(beginUs_) != nullptr) continue;
-      endUs_ = std::min(toUs_, world_->body(body).nextEpisodeUs(beginUs_));
+      nextUs_ = std::min(nextUs_, world_->body(body).nextEpisodeUs(beginUs_));
     }
   }
   return false;
+}
+
+bool SystemSpans::widen(std::int64_t mostUs) {
+  if (b_ != kStillScene || members_.size() != 1) return false;
+  const TrackPiece& piece = members_.front().piece;
+  if (piece.isHeld || piece.endUs - piece.beginUs > mostUs) return false;
+  beginUs_ = piece.beginUs;
+  endUs_ = piece.endUs;
+  return true;
+}
+
+void SystemSpans::narrow() {
+  beginUs_ = spanUs_;
+  endUs_ = nextUs_;
 }
 
 /// False: the body is not there at the span's begin. Whoever carries is there before he does.
@@ -71,7 +98,7 @@ bool SystemSpans::addMember(BodyId body) {
   if (placeOf(body) >= 0) return true;
   const Episode* const episode = world_->body(body).episodeAt(beginUs_);
   if (episode == nullptr) return false;
-  SystemMember member{body, world_->body(body).kind, -1, kNoParent};
+  SystemMember member{body, world_->body(body).kind, -1, kNoParent, &episode->track, {}};
   if (episode->carrier) {
     if (!addMember(episode->carrier->body)) return false;
     member.carrier = placeOf(episode->carrier->body);
@@ -85,15 +112,18 @@ bool SystemSpans::addMember(BodyId body) {
 bool SystemSpans::findEnd() {
   endUs_ = toUs_;
   isAssumed_ = false;
-  for (const SystemMember& member : members_) {
+  for (SystemMember& member : members_) {
     const WorldBody& body = world_->body(member.body);
-    endUs_ = std::min(endUs_, body.nextEpisodeUs(beginUs_));
-    const TrackPiece piece = trackOf(member).pieceAt(beginUs_);
-    endUs_ = std::min(endUs_, piece.endUs);
-    if (!piece.isHeld || body.episodeAt(beginUs_)->isHeldFast()) continue;
-    if (body.options.whenSilent != WhenSilent::HoldStill) return false;
+    member.piece = member.track->pieceAt(beginUs_);
+    endUs_ = std::min({endUs_, body.nextEpisodeUs(beginUs_), member.piece.endUs});
+    if (!member.piece.isHeld || body.episodeAt(beginUs_)->isHeldFast()) continue;
+    if (body.options.whenSilent != WhenSilent::HoldStill) {
+      nextUs_ = toUs_;
+      return false;
+    }
     isAssumed_ = true;
   }
+  nextUs_ = endUs_;
   return true;
 }
 
@@ -104,16 +134,12 @@ std::int32_t SystemSpans::placeOf(BodyId body) const {
   return -1;
 }
 
-const Track& SystemSpans::trackOf(const SystemMember& member) const {
-  return world_->body(member.body).episodeAt(beginUs_)->track;
-}
-
 /// No point of those that are carried is farther from the links that they hang on.
 double SystemSpans::reachOfCarried() const {
   double reach = 0.0;
   for (const SystemMember& member : members_) {
     if (member.carrier < 0) continue;
-    reach += armsOf(trackOf(member).pieceAt(beginUs_)) + world_->kinds[slotOf(member.kind)].rho;
+    reach += armsOf(member.piece) + world_->kinds[slotOf(member.kind)].rho;
   }
   return reach;
 }
@@ -138,15 +164,14 @@ void SystemSpans::poses(const Eigen::Vector3d& origin, PieceMotions& motions,
 
 void SystemSpans::appendPart(const SystemMember& member, PieceMotions& motions,
                              SystemPoses& poses) const {
-  const Track& track = trackOf(member);
-  const TrackPiece piece = track.pieceAt(beginUs_);
+  const TrackPiece& piece = member.piece;
   const bool isWhole = piece.beginUs == beginUs_ && piece.endUs == endUs_;
   if (isWhole || piece.isHeld) {
     append(*piece.from, poses.from);
     append(*piece.to, poses.to);
     return;
   }
-  const ChainMotion& motion = motions.of(member.body, track, piece);
+  const ChainMotion& motion = motions.of(member.body, *member.track, piece);
   partOf(piece, motion, beginUs_, endUs_, poses.partFrom, poses.partTo);
   append(poses.partFrom, poses.from);
   append(poses.partTo, poses.to);

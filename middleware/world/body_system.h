@@ -4,6 +4,8 @@
 // installed.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,18 +22,29 @@ struct SystemMember {
   std::int32_t kind = 0;
   std::int32_t carrier = -1;  ///< Place among the members, before this one; -1: W.
   LinkId link = kNoParent;    ///< The carrier's, that this one hangs on.
+  const Track* track = nullptr;
+  TrackPiece piece;  ///< Of the track, that holds the span.
 };
 
-/// The motions of the pieces that bodies were asked about last: several questions cut the same.
-struct PieceMotions {
+/// The motions of the pieces that were cut last: several questions cut the same.
+class PieceMotions {
+ public:
+  /// O(1) if it is among the last few, else O(joints). Valid until the next call.
+  [[nodiscard]] const ChainMotion& of(BodyId body, const Track& track, const TrackPiece& piece);
+  /// Another world is asked from now on.
+  void clear();
+
+ private:
+  /// Two bodies and their carriers, and a few that meet one of them.
+  static constexpr std::size_t kKept = 8;
   struct Known {
+    BodyId body = -1;
     std::int64_t beginUs = 0, endUs = 0;
+    std::uint64_t lastUse = 0;
     ChainMotion motion;
   };
-  std::vector<Known> ofBody;
-
-  /// O(1) if it is the last one of this body, else O(joints).
-  [[nodiscard]] const ChainMotion& of(BodyId body, const Track& track, const TrackPiece& piece);
+  std::array<Known, kKept> known_;
+  std::uint64_t uses_ = 0;
 };
 
 /// Both poses of a span, of all members together.
@@ -48,6 +61,12 @@ class SystemSpans {
   void begin(const WorldParts& world, BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs);
   /// Goes to the next span in which all are there; false if there is none.
   [[nodiscard]] bool next();
+  /// Goes from the span to the whole piece of a's motion that it is part of, if a is asked alone,
+  /// is not carried and goes on moving, and the piece is not longer than `mostUs`: what is found of
+  /// it serves other windows too. False: stays. next() goes on behind the span.
+  bool widen(std::int64_t mostUs);
+  /// Back to the span that next() went to.
+  void narrow();
 
   [[nodiscard]] std::int64_t beginUs() const { return beginUs_; }
   [[nodiscard]] std::int64_t endUs() const { return endUs_; }
@@ -63,13 +82,13 @@ class SystemSpans {
  private:
   [[nodiscard]] bool addMember(BodyId body);
   [[nodiscard]] bool findEnd();
-  [[nodiscard]] const Track& trackOf(const SystemMember& member) const;
   [[nodiscard]] double reachOfCarried() const;
   void appendPart(const SystemMember& member, PieceMotions& motions, SystemPoses& poses) const;
 
   const WorldParts* world_ = nullptr;
   BodyId a_ = 0, b_ = kStillScene;
   std::int64_t beginUs_ = 0, endUs_ = 0, toUs_ = 0;
+  std::int64_t spanUs_ = 0, nextUs_ = 0;  // the span that next() went to, and where it goes on
   bool isAssumed_ = false;
   std::vector<SystemMember> members_;
 };

@@ -1,8 +1,11 @@
 #include "middleware/world/box_sweep.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
+
+#include "lss/rounding.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "middleware/world/box_sweep.cpp"
@@ -60,6 +63,9 @@ namespace {
 /// Read by the last vector of a sweep.
 constexpr std::size_t kRoomBeyond = 16;
 
+/// Of the shift, which is a difference of two places, and of the sum with it.
+constexpr double kRoundingOfMove = 8.0 * kUnitRoundoff;
+
 }  // namespace
 
 void BodyBox::add(const BodyBox& other) {
@@ -67,6 +73,18 @@ void BodyBox::add(const BodyBox& other) {
     lower[k] = std::min(lower[k], other.lower[k]);
     upper[k] = std::max(upper[k], other.upper[k]);
   }
+}
+
+BodyBox BodyBox::movedBy(const Eigen::Vector3d& shift) const {
+  BodyBox moved;
+  for (int k = 0; k < 3; ++k) {
+    const double low = static_cast<double>(lower[k]), high = static_cast<double>(upper[k]);
+    const double slack = kRoundingOfMove * std::max(std::abs(low), std::abs(high)) +
+                         kRoundingOfMove * std::abs(shift[k]);
+    moved.lower[k] = -floatPaddedAbove(slack - (low + shift[k]));
+    moved.upper[k] = floatPaddedAbove(high + shift[k] + slack);
+  }
+  return moved;
 }
 
 /// By the begin along x, then by number; empty boxes come last.

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "lss/index.h"
 
 namespace foretouch::internal {
@@ -24,6 +26,8 @@ struct BodyBox {
     return true;
   }
   void add(const BodyBox& other);
+  /// Rounded outward. `shift` may be off by a few units in the last place.
+  [[nodiscard]] BodyBox movedBy(const Eigen::Vector3d& shift) const;
 
   static constexpr float kNowhere = 3.0e38F;
 };

@@ -1,6 +1,7 @@
 #include "middleware/world/system_plan.h"
 
 #include <algorithm>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -88,7 +89,7 @@ class PlanMaker {
   }
 
   Result<Done> makeStill(std::int32_t a) {
-    addVolumes(a);
+    FORETOUCH_CHECK(makeBoxes(a));
     FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.skeleton, lss_));
     FORETOUCH_TRY(options_.self, ownRules(a, avatar));
     FORETOUCH_TRY(plan_.query, Query::build(avatar, *world_.still, options_));
@@ -96,7 +97,7 @@ class PlanMaker {
   }
 
   Result<Done> makeSelf(std::int32_t a) {
-    addVolumes(a);
+    FORETOUCH_CHECK(makeBoxes(a));
     FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.skeleton, lss_));
     FORETOUCH_TRY(options_.self, ownRules(a, avatar));
     return makePlan(avatar);
@@ -142,8 +143,9 @@ class PlanMaker {
 
   /// The body's own, for the system's avatar; nothing if it has none.
   Result<std::optional<PairRules>> ownRules(std::int32_t a, const Avatar& avatar) const {
-    const std::optional<PairRules>& own = world_.body(member(a).body).options.self;
-    if (!own) return std::optional<PairRules>();
+    const std::int32_t place = world_.body(member(a).body).ownRules;
+    if (place < 0) return std::optional<PairRules>();
+    const PairRules* const own = &world_.rules[slotOf(place)];
     std::vector<LeftOutPair> leftOut = own->leftOut();
     for (LeftOutPair& pair : leftOut) {
       pair.a = linkOf(a, pair.a);
@@ -206,7 +208,11 @@ class PlanMaker {
 /// The rules of own links are a body's, not its kind's.
 std::int64_t ownRulesOf(const WorldParts& world, SystemQuestion question, BodyId a) {
   const bool asksOwn = question == SystemQuestion::Still || question == SystemQuestion::Self;
-  return asksOwn && world.body(a).options.self ? a : -1;
+  return asksOwn ? world.body(a).ownRules : -1;
+}
+
+bool comesBeforeKey(const std::unique_ptr<SystemPlan>& plan, const std::vector<std::int64_t>& key) {
+  return plan->key < key;
 }
 
 }  // namespace
@@ -217,27 +223,36 @@ MemberLink SystemPlan::memberLink(LinkId link) const {
   return {member, link - first[slotOf(member)]};
 }
 
+const SystemPlan* SystemPlans::find(const std::vector<std::int64_t>& key) const {
+  const auto place = std::lower_bound(plans_.begin(), plans_.end(), key, comesBeforeKey);
+  return place != plans_.end() && (*place)->key == key ? place->get() : nullptr;
+}
+
 Result<const SystemPlan*> SystemPlans::planOf(const WorldParts& world, const SystemSpans& spans,
-                                              SystemQuestion question, BodyId a, BodyId b) {
+                                              SystemQuestion question, BodyId a, BodyId b,
+                                              std::vector<std::int64_t>& key) {
   const std::int32_t placeOfA = spans.placeOf(a);
   const std::int32_t placeOfB = b == kStillScene ? -1 : spans.placeOf(b);
-  key_.clear();
-  key_.push_back(static_cast<std::int64_t>(question));
-  key_.push_back(ownRulesOf(world, question, a));
-  key_.push_back(placeOfA);
-  key_.push_back(placeOfB);
+  key.clear();
+  key.push_back(static_cast<std::int64_t>(question));
+  key.push_back(ownRulesOf(world, question, a));
+  key.push_back(placeOfA);
+  key.push_back(placeOfB);
   for (const SystemMember& member : spans.members()) {
-    key_.push_back(member.kind);
-    key_.push_back(member.carrier);
-    key_.push_back(member.link);
+    key.push_back(member.kind);
+    key.push_back(member.carrier);
+    key.push_back(member.link);
   }
-  const auto place = std::lower_bound(
-      plans_.begin(), plans_.end(), key_,
-      [](const auto& plan, const std::vector<std::int64_t>& key) { return plan->key < key; });
-  if (place != plans_.end() && (*place)->key == key_) return place->get();
+  {
+    const std::shared_lock<std::shared_mutex> lock(mutex_);
+    if (const SystemPlan* const known = find(key)) return known;
+  }
   auto made = std::make_unique<SystemPlan>();
-  made->key = key_;
+  made->key = key;
   FORETOUCH_CHECK(PlanMaker(world, spans, *made).make(question, placeOfA, placeOfB));
+  const std::unique_lock<std::shared_mutex> lock(mutex_);
+  if (const SystemPlan* const known = find(key)) return known;  // somebody else was faster
+  const auto place = std::lower_bound(plans_.begin(), plans_.end(), key, comesBeforeKey);
   return plans_.insert(place, std::move(made))->get();
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <shared_mutex>
 #include <vector>
 
 #include "articulated/relative_motion.h"
@@ -38,7 +39,7 @@ struct SystemPlan {
   std::vector<std::int64_t> key;       // what it was made of
   Skeleton skeleton;                   // of all members
   std::vector<JointId> first;          // of each member's joints
-  LssTable table;                      // of Boxes
+  LssTable table;                      // of a, but for Pair and Mesh
   bool isEmpty = false;                // nothing can touch
   std::optional<QueryPlan> plan;       // of Self and Pair
   std::optional<Query> query;          // of Still and Mesh
@@ -48,18 +49,23 @@ struct SystemPlan {
 };
 
 /// Plans of one world, by what they are made of: kinds of bodies, who hangs on whom, and what is
-/// asked. Two avatars of the same two kinds share one. For one thread.
+/// asked. Two avatars of the same two kinds share one. Any number of threads may ask for plans at
+/// once.
 class SystemPlans {
  public:
   /// Precondition: the spans are at a span; `a` and, of Pair and Mesh, `b` are among the members.
-  /// Errors: a chain that is too deep, or of too many joints. Allocates only what it has not.
+  /// `key`: the thread's own memory. Errors: a chain that is too deep, or of too many joints.
+  /// Allocates only what it has not.
   Result<const SystemPlan*> planOf(const WorldParts& world, const SystemSpans& spans,
-                                   SystemQuestion question, BodyId a, BodyId b);
+                                   SystemQuestion question, BodyId a, BodyId b,
+                                   std::vector<std::int64_t>& key);
   void clear() { plans_.clear(); }
 
  private:
+  [[nodiscard]] const SystemPlan* find(const std::vector<std::int64_t>& key) const;
+
+  std::shared_mutex mutex_;
   std::vector<std::unique_ptr<SystemPlan>> plans_;  // by key
-  std::vector<std::int64_t> key_;
 };
 
 }  // namespace foretouch::internal

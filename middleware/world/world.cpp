@@ -50,17 +50,24 @@ double reachOf(const std::vector<std::vector<Lss>>& volumes) {
   return reach * internal::kInflation;
 }
 
-BodyKind kindOf(const Avatar& avatar) {
-  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, 0.0};
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));
+void measure(BodyKind& kind) {
+  for (std::size_t link = 0; link < kind.volumes.size(); ++link) {
+    kind.linkOf.insert(kind.linkOf.end(), kind.volumes[link].size(), static_cast<LinkId>(link));
+  }
   kind.rho = reachOf(kind.volumes);
+}
+
+BodyKind kindOf(const Avatar& avatar) {
+  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, {}, 0.0};
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));
+  measure(kind);
   return kind;
 }
 
 BodyKind kindOf(const Scene& mesh) {
   RawSkeleton raw;
   raw.joints = {{"mesh", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
-  BodyKind kind{Skeleton::build(raw).value(), std::nullopt, mesh, {}, 0.0};
+  BodyKind kind{Skeleton::build(raw).value(), std::nullopt, mesh, {}, {}, 0.0};
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < mesh.numTriangles(); ++i) {
     const Triangle& triangle = mesh.triangle(static_cast<TriangleId>(i));
@@ -68,8 +75,32 @@ BodyKind kindOf(const Scene& mesh) {
     points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
   }
   kind.volumes = {{fitLss(points)}};
-  kind.rho = reachOf(kind.volumes);
+  measure(kind);
   return kind;
+}
+
+bool areAlike(const PairRules& x, const PairRules& y) {
+  const auto isSamePair = [](const LeftOutPair& p, const LeftOutPair& q) {
+    return p.a == q.a && p.b == q.b && p.reason == q.reason;
+  };
+  const auto isSameRadius = [](const PairRadius& p, const PairRadius& q) {
+    return p.a == q.a && p.lssA == q.lssA && p.b == q.b && p.lssB == q.lssB && p.radius == q.radius;
+  };
+  return x.avatarIdentity() == y.avatarIdentity() &&
+         std::equal(x.leftOut().begin(), x.leftOut().end(), y.leftOut().begin(), y.leftOut().end(),
+                    isSamePair) &&
+         std::equal(x.radii().begin(), x.radii().end(), y.radii().begin(), y.radii().end(),
+                    isSameRadius);
+}
+
+/// Place of the rules among the world's.
+std::int32_t placeOfRules(WorldParts& parts, const PairRules& own) {
+  std::vector<PairRules>& rules = parts.rules;
+  const auto known = std::find_if(rules.begin(), rules.end(),
+                                  [&](const PairRules& other) { return areAlike(own, other); });
+  const auto place = static_cast<std::int32_t>(known - rules.begin());
+  if (known == rules.end()) rules.push_back(own);
+  return place;
 }
 
 /// What is known of the body ends; a body that is held fast, or taken to be somewhere, has no end.
@@ -205,7 +236,9 @@ Result<BodyId> World::add(const Avatar& avatar, const BodyOptions& options) {
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
   if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(avatar));
-  parts_->bodies.push_back({kind, options, {}});
+  const std::int32_t rules = options.self ? placeOfRules(*parts_, *options.self) : -1;
+  parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
+  parts_->bodies.push_back({kind, options, rules, {}});
   return static_cast<BodyId>(parts_->bodies.size()) - 1;
 }
 
@@ -220,7 +253,8 @@ Result<BodyId> World::add(const Scene& mesh, const BodyOptions& options) {
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
   if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(mesh));
-  parts_->bodies.push_back({kind, options, {}});
+  parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
+  parts_->bodies.push_back({kind, options, -1, {}});
   return static_cast<BodyId>(parts_->bodies.size()) - 1;
 }
 

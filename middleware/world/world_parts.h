@@ -20,6 +20,7 @@ struct BodyKind {
   std::optional<Avatar> avatar;
   std::optional<Scene> mesh;              // where there is no avatar
   std::vector<std::vector<Lss>> volumes;  // per link: contain what touches
+  std::vector<LinkId> linkOf;             // of each of them
   double rho = 0.0;                       // no point of them is farther from its link's origin
 };
 
@@ -35,6 +36,7 @@ struct Episode {
 struct WorldBody {
   std::int32_t kind = 0;
   BodyOptions options;
+  std::int32_t ownRules = -1;     // place in WorldParts::rules, if own links are asked
   std::vector<Episode> episodes;  // none before the first pose
 
   /// The episode at an instant; null before the first one. O(episodes).
@@ -48,6 +50,8 @@ struct WorldParts {
   std::optional<Scene> still;
   WorldOptions options;
   std::vector<BodyKind> kinds;
+  std::size_t mostLss = 0;       // of any kind
+  std::vector<PairRules> rules;  // of own links, no two alike
   std::vector<WorldBody> bodies;
   std::array<std::uint32_t, kNumBodyGroups> asked{};  // bit b of row a
   std::uint32_t askedStill = 0;

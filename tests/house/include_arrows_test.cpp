@@ -48,7 +48,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"query", {"ladder", "", "exact", "surface", "lanes", "scene"}},
       {"mechanics", {}},
       {"solid", {"query", "mechanics", "", "scene"}},
-      {"world", {"query", "", "scene"}},
+      {"world", {"query", "", "lanes", "scene"}},
       {"reference", {"query", "", "exact", "surface", "scene"}}}},
     {"assets",
      {{"", {}},

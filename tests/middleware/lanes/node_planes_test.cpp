@@ -63,6 +63,36 @@ struct Planes {
     }
   }
 
+  /// The second of each pair is seen from another origin, which is `away`.
+  void closeAtRest(const ChainMotion& motion, const Vector3d& away) {
+    ChainNodes nodesOfOther;
+    NodeEnds others;
+    nodesOfOther.evaluate(motion, 0.0, 1.0, away);
+    sweptBoxes(table, motion, nodesOfOther, 0.0, boxes, &others);
+    internal::NodePlanes planes{ends.axes.data(), &frame, {}};
+    planes.others = others.axes.data();
+    double shifted = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double shift = away[k] + others.origin[k] - ends.origin[k];
+      planes.shift[k] = static_cast<float>(shift);
+      shifted += internal::kNodePlaneRounding * std::abs(shift);
+    }
+    const double gap = widestGap(nodes);
+    for (PlanePair& pair : pairs) {
+      const auto bendOf = [&](std::int32_t k) {
+        return motion.sums(table[k].link).accelerationAt(std::max(table[k].rhoA, table[k].rhoB));
+      };
+      const auto y = static_cast<std::size_t>(pair.j);
+      pair.reach += static_cast<float>(
+          (shifted + (bendOf(pair.i) + bendOf(pair.j)) * gap * gap / 8.0 +
+           internal::kNodePlaneRounding * double{others.extents[y]} + double{others.roundings[y]}) *
+          (1.0 + 0x1p-20));
+    }
+    for (const int node : {3, 0, 7}) {
+      internal::closeByRestingPlanes(planes, node, kNodes - 1 - node, pairs.data(), pairs.size());
+    }
+  }
+
   const LssTable& table;
   ChainNodes nodes;
   SweptBoxes boxes;
@@ -71,15 +101,15 @@ struct Planes {
   std::vector<PlanePair> pairs;
 };
 
-/// Of two LSS at an instant, in long double.
-Real separationAt(const oracle::Motion& truth, const LssTable& table, const PlanePair& pair,
-                  Real t) {
-  const auto axisOf = [&](std::int32_t i) {
+/// Of two LSS, each at an instant, in long double.
+Real separationAt(const oracle::Motion& truth, const LssTable& table, const PlanePair& pair, Real t,
+                  Real tOfOther) {
+  const auto axisAt = [&](std::int32_t i, Real at) {
     const std::array<Vec3d, 2> ends = {Vec3d(table[i].a[0], table[i].a[1], table[i].a[2]),
                                        Vec3d(table[i].b[0], table[i].b[1], table[i].b[2])};
-    return truth.pointsAt(table[i].link, ends, t, Real(0));
+    return truth.pointsAt(table[i].link, ends, at, Real(0));
   };
-  const auto one = axisOf(pair.i), other = axisOf(pair.j);
+  const auto one = axisAt(pair.i, t), other = axisAt(pair.j, tOfOther);
   const oracle::Corners<Real> segment = {other[0].position, other[1].position, other[1].position};
   return oracle::closestPoints(one[0].position, one[1].position, segment).distance -
          (Real(table[pair.i].radius) + Real(table[pair.j].radius));
@@ -108,7 +138,7 @@ TEST(NodePlanes, CloseOnlyWhatIsApartAtEveryWidth) {
           const double first = planes.nodes.instant(piece);
           const double share = random.uniform(0.0, 1.0);
           const Real t = Real(first) + Real(share) * (planes.nodes.instant(piece + 1) - first);
-          const Real apart = separationAt(truth, table, pair, t);
+          const Real apart = separationAt(truth, table, pair, t, t);
           if (!isOpen) {
             ASSERT_GE(apart, Real(floor) - Real(1e-12));
           }
@@ -124,6 +154,46 @@ TEST(NodePlanes, CloseOnlyWhatIsApartAtEveryWidth) {
   EXPECT_GT(closed, 10000);
   EXPECT_GT(open, 10000);
   EXPECT_GT(closedOfWide, wide * 6 / 10) << "planes that close nothing prove nothing";
+}
+
+// A plane at rest keeps two apart wherever each is on its way: at instants of its own, and seen
+// from an origin of its own.
+TEST(NodePlanes, AtRestCloseOnlyWhatIsApartAtAnyTwoInstantsAtEveryWidth) {
+  const test::WidestAfterwards guard;
+  int closed = 0, wide = 0, closedOfWide = 0;
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const test::MovingBody body(random, 3 + random.below(5));
+    const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.to);
+    const LssTable table(body.avatar);
+    const oracle::Motion truth(body.motion.precise);
+    const double floor = random.magnitude(1e-6, 1e-2);
+    const Vector3d away = random.magnitude(1e-3, 30.0) * random.direction();
+    for (const Simd simd : supportedSimd()) {
+      SCOPED_TRACE(toString(simd));
+      ASSERT_TRUE(useSimd(simd));
+      Planes planes(table, motion, floor);
+      planes.closeAtRest(motion, away);
+      for (const PlanePair& pair : planes.pairs) {
+        Real least = 1e9L;
+        for (int sample = 0; sample < 6; ++sample) {
+          const Real t = random.uniform(0.0, 1.0), other = random.uniform(0.0, 1.0);
+          least = std::min(least, separationAt(truth, table, pair, t, other));
+        }
+        closed += pair.open == 0 ? 1 : 0;
+        if (pair.open == 0) {
+          ASSERT_GE(least, Real(floor) - Real(1e-12));
+        }
+        if (least > 1.0L) {
+          ++wide;
+          closedOfWide += pair.open == 0 ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(closed, 500);
+  EXPECT_GT(closedOfWide, wide / 4) << "planes that close nothing prove nothing";
 }
 
 // The planes rest in the root's frame, so turning and moving the root changes no more than

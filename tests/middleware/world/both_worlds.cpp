@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/world/world_parts.h"
+
 namespace foretouch::test {
 namespace {
 
@@ -140,6 +142,20 @@ void BothWorlds::judgeAll(std::int64_t fromUs, std::int64_t toUs) {
   ask(fromUs, toUs);
   for (BodyId a = 0; a < world.numBodies(); ++a) {
     for (BodyId b = a + 1; b < world.numBodies(); ++b) judgePair(a, b, fromUs, toUs);
+    const std::optional<PairRules>& own = world.parts().body(a).options.self;
+    if (own) judgeOwn(a, *own, fromUs, toUs);
+  }
+}
+
+void BothWorlds::judgeOwn(BodyId body, const PairRules& rules, std::int64_t fromUs,
+                          std::int64_t toUs) {
+  for (LinkId one = 0; one < rules.numLinks(); ++one) {
+    for (LinkId other = one + 1; other < rules.numLinks(); ++other) {
+      if (!hasParts(body, one) || !hasParts(body, other)) continue;
+      if (rules.reasonOf(one, other) != PairReason::Asked) continue;
+      judgeLinks(body, one, body, other, fromUs,
+                 oracle.firstTouch(body, one, body, other, fromUs, toUs));
+    }
   }
 }
 

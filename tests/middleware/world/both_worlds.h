@@ -32,7 +32,7 @@ class BothWorlds {
 
   /// Asks, and judges every pair of links of the given bodies; adds to `problems`.
   void judge(BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs);
-  /// The same for every two bodies.
+  /// The same for every two bodies, and for own links where a body asks for these.
   void judgeAll(std::int64_t fromUs, std::int64_t toUs);
 
   World world;
@@ -46,6 +46,7 @@ class BothWorlds {
  private:
   void ask(std::int64_t fromUs, std::int64_t toUs);
   void judgePair(BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs);
+  void judgeOwn(BodyId body, const PairRules& rules, std::int64_t fromUs, std::int64_t toUs);
   void judgeLinks(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB, std::int64_t fromUs,
                   const OracleTouch& truth);
   [[nodiscard]] bool hasParts(BodyId body, LinkId link) const;

@@ -153,6 +153,37 @@ TEST(WorldOracle, ProvesAvatarsWithClocksOfTheirOwn) {
   EXPECT_LT(sum.grazing, 5);
 }
 
+// What is known of a body's pieces serves one window after the other: windows that cut pieces, that
+// hold several, and that are so short that a piece is not looked at as a whole.
+TEST(WorldOracle, ProvesOneWindowAfterTheOther) {
+  WorldTally sum;
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    Random random(static_cast<std::uint64_t>(4000 + i));
+    BothWorlds both(randomTolerance(random));
+    for (int k = 0; k < 2; ++k) {
+      Walker walker = randomWalker(random, random.inBox(0.3), 0.1);
+      BodyOptions options;
+      if (const auto rules = PairRules::derive(walker.avatar); rules.ok()) {
+        options.self = rules.value();
+      }
+      walk(both, both.add(walker.avatar, options), walker, randomPeriod(random), kWindowUs, random);
+    }
+    std::int64_t begin = random.below(20'000);
+    while (begin < kWindowUs) {
+      const int longest = random.chance(0.3) ? 2'000 : 50'000;
+      const std::int64_t end = std::min(kWindowUs, begin + 500 + random.below(longest));
+      both.judgeAll(begin, end);
+      begin = end;
+    }
+    add(both, sum);
+  }
+  EXPECT_GT(sum.clear, 1000);
+  EXPECT_GT(sum.contact, 150);
+  EXPECT_EQ(sum.undecided, 0);
+  EXPECT_LT(sum.grazing, 5);
+}
+
 TEST(WorldOracle, ProvesMeshesThatFlyAndSpin) {
   WorldTally sum;
   for (int i = 0; i < 200; ++i) {

@@ -142,6 +142,21 @@ TEST(World, TellsTheStaticSceneAndOwnLinks) {
   EXPECT_EQ(answerOf(world, 1000, 2000).contacts.size(), 1u);
 }
 
+TEST(World, AsksTheSceneOnlyWhileItIsAsked) {
+  World world = World::build(wall()).value();
+  ASSERT_TRUE(world.add(ball(0.5)).ok());
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(world.push(0, 1000 * i, at(-2.0 + i)).ok());
+  // What a scratch knows of a piece, it knows of one question.
+  WorldScratch scratch;
+  WorldContacts answer;
+  for (const bool isAsked : {true, false, true, true}) {
+    ASSERT_TRUE(world.askStill(0, isAsked).ok());
+    ASSERT_TRUE(worldContacts(world, 1500, 1600, scratch, answer).ok());
+    ASSERT_TRUE(worldContacts(world, 0, 2500, scratch, answer).ok());
+    EXPECT_EQ(answer.contacts.size(), isAsked ? 1u : 0u);
+  }
+}
+
 TEST(World, AsksWhatItsGroupsAreAsked) {
   World world = emptyWorld();
   BodyOptions second;

@@ -1,0 +1,139 @@
+#include "middleware/world/bodies_apart.h"
+
+#include <algorithm>
+
+#include "lss/index.h"
+#include "lss/rounding.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Nodes whose closest points propose planes, one after the other: where most are closed, first.
+constexpr int kProposingNodes[] = {3, 0, 7};
+/// Past the rounding of a sum in double, and of the kernel's product or sum with it in float.
+constexpr double kReachInflation = 1.0 + 0x1p-21;
+
+/// In W, where planes rest.
+NodeFrame worldFrame() {
+  NodeFrame frame;
+  for (int k = 0; k < 9; ++k) std::fill_n(frame.R[k], kNodes, k % 4 == 0 ? 1.0F : 0.0F);
+  return frame;
+}
+const NodeFrame kWorldFrame = worldFrame();
+
+/// Per h^2/8 of a piece between two nodes of a whole motion, rounded up.
+struct Sagittas {
+  float at[kNodes] = {};
+  Sagittas() {
+    for (int k = 0; k + 1 < kNodes; ++k) {
+      const double h = ChainNodes::time(k + 1) - ChainNodes::time(k);
+      at[k] = floatPaddedAbove(h * h / 8.0 * kInflation);
+    }
+  }
+};
+const Sagittas kSagittas;
+
+/// Origin of the ends, in W.
+Eigen::Vector3d originOfEnds(const SpanSweep& span) {
+  return span.origin +
+         Eigen::Vector3d(span.ends.origin[0], span.ends.origin[1], span.ends.origin[2]);
+}
+
+}  // namespace
+
+Apart BodiesApart::prove(const SpanSweep& one, const SpanSweep& other, double floor,
+                         QueryCounters& counters) {
+  collect(one, other);
+  if (meeting_.count == 0) return Apart::ByBoxes;
+  addPairs(one, other, floor);
+  const bool isSameSpan = one.beginUs == other.beginUs && one.endUs == other.endUs;
+  isSameSpan ? closeAtNodes(one, other, counters) : closeAtRest(one, other, counters);
+  return pairs_.empty() ? Apart::ByPlanes : Apart::Unproven;
+}
+
+/// Pairs of LSS whose boxes meet.
+void BodiesApart::collect(const SpanSweep& one, const SpanSweep& other) {
+  const Eigen::Vector3d shift = one.origin - other.origin;
+  boxes_.clear();
+  meeting_.count = 0;
+  if (!one.box.movedBy(shift).meets(other.box)) return;
+  for (std::int32_t i = 0; i < one.numLss; ++i) {
+    BodyBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.lower[k] = one.lower[k][slotOf(i)];
+      box.upper[k] = one.upper[k][slotOf(i)];
+    }
+    box = box.movedBy(shift);
+    if (!box.meets(other.box)) continue;
+    boxes_.push_back({i,
+                      {box.lower[0], box.lower[1], box.lower[2]},
+                      {box.upper[0], box.upper[1], box.upper[2]}});
+  }
+  if (boxes_.empty()) return;
+  const BoxRows rows{{other.lower[0].data(), other.lower[1].data(), other.lower[2].data()},
+                     {other.upper[0].data(), other.upper[1].data(), other.upper[2].data()},
+                     other.numLss};
+  collectMeeting(boxes_, rows, meeting_);
+}
+
+void BodiesApart::addPairs(const SpanSweep& one, const SpanSweep& other, double floor) {
+  const Eigen::Vector3d from = originOfEnds(one), to = originOfEnds(other);
+  planes_.axes = one.ends.axes.data();
+  planes_.others = other.ends.axes.data();
+  planes_.frames = &kWorldFrame;
+  std::copy_n(kSagittas.at, kNodes, planes_.sagittas);
+  double shifted = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    planes_.shift[k] = static_cast<float>(to[k] - from[k]);
+    // In double, the origins and their difference round by a few units.
+    shifted += kNodePlaneRounding * std::abs(to[k] - from[k]) +
+               8.0 * kUnitRoundoff * (std::abs(to[k]) + std::abs(from[k]));
+  }
+  pairs_.clear();
+  for (std::size_t k = 0; k < meeting_.count; ++k) {
+    const auto i = slotOf(meeting_.pairs[k].i), j = slotOf(meeting_.pairs[k].j);
+    const double reach = static_cast<double>(one.reaches[i]) +
+                         static_cast<double>(other.reaches[j]) + floor + shifted;
+    PlanePair pair{meeting_.pairs[k].i, meeting_.pairs[k].j, 0, 0.0F, 0.0F, kEveryPiece};
+    pair.reach = floatPaddedAbove(reach * kReachInflation);
+    pair.bend =
+        floatPaddedAbove((static_cast<double>(one.bends[i]) + static_cast<double>(other.bends[j])) *
+                         kReachInflation);
+    pairs_.push_back(pair);
+  }
+}
+
+/// Both have their nodes at the same instants.
+void BodiesApart::closeAtNodes(const SpanSweep&, const SpanSweep&, QueryCounters& counters) {
+  for (const int node : kProposingNodes) {
+    if (pairs_.empty()) return;
+    counters.laneSteps += pairs_.size();
+    closeByPlanes(planes_, node, pairs_.data(), pairs_.size());
+    dropClosed();
+  }
+}
+
+/// Each has nodes of its own.
+void BodiesApart::closeAtRest(const SpanSweep& one, const SpanSweep& other,
+                              QueryCounters& counters) {
+  for (PlanePair& pair : pairs_) {
+    const double bend =
+        static_cast<double>(one.bends[slotOf(pair.i)]) * static_cast<double>(one.widestSagitta) +
+        static_cast<double>(other.bends[slotOf(pair.j)]) * static_cast<double>(other.widestSagitta);
+    pair.reach = floatPaddedAbove((static_cast<double>(pair.reach) + bend) * kReachInflation);
+  }
+  for (const int node : kProposingNodes) {
+    if (pairs_.empty()) return;
+    counters.laneSteps += pairs_.size();
+    closeByRestingPlanes(planes_, node, kNodes - 1 - node, pairs_.data(), pairs_.size());
+    dropClosed();
+  }
+}
+
+void BodiesApart::dropClosed() {
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(),
+                              [](const PlanePair& pair) { return pair.open == 0; }),
+               pairs_.end());
+}
+
+}  // namespace foretouch::internal

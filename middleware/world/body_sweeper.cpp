@@ -1,0 +1,128 @@
+#include "middleware/world/body_sweeper.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "articulated/try.h"
+#include "lss/index.h"
+#include "middleware/query/scratch_parts.h"
+#include "middleware/scene/scene_parts.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// A piece is looked at as a whole if it is not longer than so many windows. What is known of it
+/// then serves all of them; a longer one sweeps so much more than the window needs that more would
+/// be near.
+constexpr std::int64_t kMostWindowsOfPiece = 4;
+
+}  // namespace
+
+Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<WorldContact>& found,
+                                WorldCounters& counters) {
+  const SystemQuestion question = world_.isStillAsked(body)         ? SystemQuestion::Still
+                                  : world_.body(body).ownRules >= 0 ? SystemQuestion::Self
+                                                                    : SystemQuestion::Boxes;
+  const std::size_t first = found.size();
+  sweep.whole = BodyBox();
+  sweep.parts.clear();
+  SystemSpans& spans = scratch_.spans;
+  spans.begin(world_, body, kStillScene, window_.fromUs, window_.toUs);
+  while (spans.next()) {
+    SpanPart part{spans.beginUs(), spans.endUs(), 0};
+    const bool isWhole = spans.widen(kMostWindowsOfPiece * (window_.toUs - window_.fromUs));
+    const std::ptrdiff_t known =
+        isWhole ? sweep.placeOfPiece(spans.beginUs(), spans.endUs(), question) : -1;
+    part.sweep = known >= 0 ? static_cast<std::size_t>(known) : sweep.freePlace(window_.number);
+    SpanSweep& span = sweep.spans[part.sweep];
+    if (known < 0) {
+      span.makeRoom(world_.mostLss);
+      span.isWhole = false;  // until it is filled
+      FORETOUCH_CHECK(fill(body, question, span));
+      span.isWhole = isWhole;
+    }
+    span.window = window_.number;
+    sweep.parts.push_back(part);
+    sweep.whole.add(span.box.movedBy(span.origin - window_.origin));
+    FORETOUCH_CHECK(keepOwn(body, question, part, span, first, found, counters));
+  }
+  counters.bodies += sweep.parts.empty() ? 0 : 1;
+  return Done{};
+}
+
+/// Of the span that the scratch's spans are at.
+Result<Done> BodySweeper::fill(BodyId body, SystemQuestion question, SpanSweep& span) {
+  span.beginUs = scratch_.spans.beginUs();
+  span.endUs = scratch_.spans.endUs();
+  span.question = question;
+  span.own.clear();
+  span.counters = {};
+  FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, body, kStillScene));
+  ScratchParts& parts = scratch_.query.parts();
+  const bool isAsked = question != SystemQuestion::Boxes && query_.isResolved();
+  if (isAsked) {
+    query_.ask(*plan, body, kStillScene, 0, span.own, span.counters);
+  } else {
+    if (question != SystemQuestion::Boxes) query_.giveUp(body, kStillScene, span.own);
+    parts.beginStep(scratch_.motion);
+  }
+  // What the question has found out of the motion serves here as well.
+  LaneScratch& lanes = parts.lanes;
+  const Eigen::Vector3d origin =
+      question == SystemQuestion::Still ? world_.still->parts().origin : Eigen::Vector3d::Zero();
+  lanes.evaluateNodes(scratch_.motion, 0.0, 1.0, origin, span.counters);
+  SlabScratch& slab = lanes.slab();
+  const bool hasEnds = isAsked && slab.areBoxesOfNodes && world_.body(body).ownRules >= 0;
+  if (!hasEnds) {
+    // Each side's share of the distance within which two meet (world.md 3).
+    const double margin = 0.5 * world_.options.tolerance + scratch_.poses.rounding;
+    sweptBoxes(plan->table, scratch_.motion, slab.nodes, margin, slab.boxes, &slab.ends);
+  }
+  span.fill(plan->table, scratch_.motion, slab, scratch_.origin, scratch_.poses.rounding);
+  return Done{};
+}
+
+/// What the span's answers say of its part in the window. Who met before that part begins is asked
+/// again, from there on.
+Result<Done> BodySweeper::keepOwn(BodyId body, SystemQuestion question, const SpanPart& part,
+                                  const SpanSweep& span, std::size_t first,
+                                  std::vector<WorldContact>& found, WorldCounters& counters) {
+  if (question == SystemQuestion::Boxes) return Done{};
+  const bool isGivenUp =
+      found.size() > first && found.back().a.body == body && found.back().a.link == kEveryLink;
+  if (isGivenUp) return Done{};
+  ++counters.spans;
+  addCounters(span.counters, counters.queries);
+  const WorldTime begin{part.beginUs, 0.0}, end{part.endUs, 0.0};
+  const auto isEarlier = [&](const WorldContact& contact) { return contact.time < begin; };
+  for (const WorldContact& contact : span.own) {
+    if (!isEarlier(contact) && !(end < contact.time)) keep(contact, first, found);
+  }
+  if (std::none_of(span.own.begin(), span.own.end(), isEarlier)) return Done{};
+  scratch_.spans.narrow();
+  FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, body, kStillScene));
+  if (!query_.isResolved()) {
+    query_.giveUp(body, kStillScene, found);
+    return Done{};
+  }
+  ++counters.spans;
+  std::vector<WorldContact>& met = scratch_.met;
+  met.clear();
+  std::copy_if(span.own.begin(), span.own.end(), std::back_inserter(met), isEarlier);
+  if (question == SystemQuestion::Self) {
+    query_.askAgain(*plan, body, met, first, found, counters.queries);
+    return Done{};
+  }
+  std::vector<WorldContact>& again = scratch_.again;
+  again.clear();
+  query_.ask(*plan, body, kStillScene, 0, again, counters.queries);
+  for (const WorldContact& contact : again) {
+    const bool hadMet = std::any_of(met.begin(), met.end(), [&](const WorldContact& known) {
+      return areSameLinks(known, contact);
+    });
+    if (hadMet) keep(contact, first, found);
+  }
+  return Done{};
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,230 @@
+#include "middleware/world/system_query.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "articulated/try.h"
+#include "lss/index.h"
+#include "middleware/counter_fields.h"
+#include "middleware/query/scratch_parts.h"
+#include "middleware/query/self_query.h"
+#include "middleware/query/work_meter.h"
+
+namespace foretouch::internal {
+namespace {
+
+void turnAround(WorldContact& contact) {
+  std::swap(contact.a, contact.b);
+  contact.nhat_BA_W = -contact.nhat_BA_W;
+}
+
+}  // namespace
+
+bool areSameLinks(const WorldContact& x, const WorldContact& y) {
+  return x.a.body == y.a.body && x.a.link == y.a.link && x.b.body == y.b.body &&
+         x.b.link == y.b.link;
+}
+
+void keep(const WorldContact& contact, std::size_t first, std::vector<WorldContact>& found) {
+  const auto earlier = found.begin() + static_cast<std::ptrdiff_t>(first);
+  const bool isKnown = std::any_of(earlier, found.end(), [&](const WorldContact& known) {
+    return areSameLinks(known, contact);
+  });
+  if (!isKnown) found.push_back(contact);
+}
+
+void addCounters(const QueryCounters& more, QueryCounters& sum) {
+  for (const auto& field : kCounterFields) sum.*field.second += more.*field.second;
+}
+
+Result<const SystemPlan*> SystemQuery::prepare(SystemQuestion question, BodyId a, BodyId b) {
+  FORETOUCH_TRY(const SystemPlan* const plan,
+                plans_.planOf(world_, scratch_.spans, question, a, b, scratch_.key));
+  if (plan->isEmpty) return static_cast<const SystemPlan*>(nullptr);
+  SystemPoses& poses = scratch_.poses;
+  scratch_.origin = originOf(question);
+  scratch_.spans.poses(scratch_.origin, scratch_.motions, poses);
+  if (plan->chain) {
+    plan->chain->pose(poses.from, scratch_.relativeFrom);
+    plan->chain->pose(poses.to, scratch_.relativeTo);
+    scratch_.motion.assign(plan->chain->skeleton(), scratch_.relativeFrom, scratch_.relativeTo);
+  } else {
+    scratch_.motion.assign(plan->skeleton, poses.from, poses.to);
+  }
+  return plan;
+}
+
+/// Scenes stay where they are, and what is seen from a mesh has no place of its own; all others are
+/// looked at near the root of one.
+Eigen::Vector3d SystemQuery::originOf(SystemQuestion question) const {
+  if (question == SystemQuestion::Still || question == SystemQuestion::Mesh) {
+    return Eigen::Vector3d::Zero();
+  }
+  return scratch_.spans.members().front().piece.from->translations[0];
+}
+
+bool SystemQuery::isResolved() const {
+  return scratch_.poses.rounding <= kPartShare * world_.options.tolerance;
+}
+
+void SystemQuery::ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+                      std::vector<WorldContact>& found, QueryCounters& counters) {
+  answer(plan);
+  keepAll(plan, a, b, first, found, counters);
+}
+
+void SystemQuery::askAmong(const SystemPlan& plan, BodyId a, BodyId b, const MeetingPairs& meeting,
+                           const std::vector<PlanePair>& open, std::size_t first,
+                           std::vector<WorldContact>& found, QueryCounters& counters) {
+  const LssTable& table = plan.plan->table;
+  const auto offsetOf = [&](BodyId body) {
+    return table.first(plan.first[slotOf(scratch_.spans.placeOf(body))]);
+  };
+  const std::int32_t ofA = offsetOf(a), ofB = offsetOf(b);
+  const auto numbered = [&](std::int32_t i, std::int32_t j) {
+    return LssIndexPair{std::min(ofA + i, ofB + j), std::max(ofA + i, ofB + j)};
+  };
+  scratch_.meeting.clear();
+  for (std::size_t k = 0; k < meeting.count; ++k) {
+    scratch_.meeting.push_back(numbered(meeting.pairs[k].i, meeting.pairs[k].j));
+  }
+  scratch_.open.clear();
+  for (PlanePair pair : open) {
+    const LssIndexPair both = numbered(pair.i, pair.j);
+    pair.i = both.i;
+    pair.j = both.j;
+    scratch_.open.push_back(pair);
+  }
+  answerAmong(plan);
+  keepAll(plan, a, b, first, found, counters);
+}
+
+void SystemQuery::askAgain(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met,
+                           std::size_t first, std::vector<WorldContact>& found,
+                           QueryCounters& counters) {
+  const LssTable& table = plan.plan->table;
+  scratch_.meeting.clear();
+  scratch_.open.clear();
+  for (const WorldContact& contact : met) {
+    for (std::int32_t i = table.first(contact.a.link); i < table.first(contact.a.link + 1); ++i) {
+      for (std::int32_t j = table.first(contact.b.link); j < table.first(contact.b.link + 1); ++j) {
+        scratch_.meeting.push_back({i, j});
+        scratch_.open.push_back({i, j, 0, 0.0F, 0.0F, kEveryPiece});
+      }
+    }
+  }
+  answerAmong(plan);
+  keepAll(plan, a, kStillScene, first, found, counters);
+}
+
+void SystemQuery::keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+                          std::vector<WorldContact>& found, QueryCounters& counters) {
+  addCounters(scratch_.step.counters, counters);
+  if (plan.chain) {
+    keepSeenFromMesh(plan, a, b, first, found);
+  } else if (plan.query) {
+    for (const LinkContact& contact : scratch_.step.links) {
+      if (contact.verdict != Verdict::Clear) keep(ofScene(plan, a, contact), first, found);
+    }
+  }
+  for (const PairContact& contact : scratch_.step.pairs) keep(ofPair(plan, contact), first, found);
+}
+
+/// Fills the step with what the plan's query says of the span.
+void SystemQuery::answer(const SystemPlan& plan) {
+  if (plan.query) {
+    plan.query->answer(scratch_.motion, scratch_.query, scratch_.step);
+  } else {
+    beginStep();
+    const WorkMeter meter(plan.plan->options);
+    SelfQuery(*plan.plan, scratch_.motion, meter, scratch_.query.parts()).run(scratch_.step);
+  }
+}
+
+void SystemQuery::answerAmong(const SystemPlan& plan) {
+  beginStep();
+  const FoundPairs found{scratch_.meeting.data(), scratch_.meeting.size(), scratch_.open.data(),
+                         scratch_.open.size()};
+  const WorkMeter meter(plan.plan->options);
+  SelfQuery(*plan.plan, scratch_.motion, meter, scratch_.query.parts())
+      .runAmong(found, scratch_.step);
+}
+
+void SystemQuery::beginStep() {
+  StepContacts& step = scratch_.step;
+  step.links.clear();
+  step.pairs.clear();
+  step.counters = {};
+  scratch_.query.parts().beginStep(scratch_.motion);
+}
+
+void SystemQuery::keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+                                   std::vector<WorldContact>& found) {
+  bool hasMotion = false;
+  const LinkId mesh = plan.first[slotOf(scratch_.spans.placeOf(b))];
+  for (LinkId link = 0; link < plan.skeleton.numJoints(); ++link) {
+    LinkContact contact = scratch_.step.links[slotOf(plan.chain->linkOf(link))];
+    if (contact.verdict == Verdict::Clear) continue;
+    if (!hasMotion) {
+      scratch_.ofSystem.assign(plan.skeleton, scratch_.poses.from, scratch_.poses.to);
+    }
+    hasMotion = true;
+    if (contact.verdict != Verdict::Undecided) {
+      const LinkState state = scratch_.ofSystem.stateAt(mesh, contact.toi);
+      contact.p_WLink = state.pointAt(contact.p_WLink);
+      contact.p_WScene = state.pointAt(contact.p_WScene);
+      contact.nhat_SL_W = state.R_WL * contact.nhat_SL_W;
+    }
+    contact.link = link;
+    WorldContact kept = ofScene(plan, a, contact);
+    kept.b.body = b;
+    if (b < a) turnAround(kept);
+    keep(kept, first, found);
+  }
+}
+
+WorldContact SystemQuery::inSpan(const LinkContact& contact) const {
+  WorldContact kept;
+  kept.verdict = contact.verdict;
+  kept.reason = contact.reason;
+  kept.time = worldTimeAt(scratch_.spans.beginUs(), scratch_.spans.endUs(), contact.freeUntil);
+  kept.separation = contact.separation;
+  kept.penetration = contact.penetration;
+  kept.nhat_BA_W = contact.nhat_SL_W;
+  kept.isAssumed = scratch_.spans.isAssumed();
+  return kept;
+}
+
+WorldContact SystemQuery::ofScene(const SystemPlan& plan, BodyId a,
+                                  const LinkContact& contact) const {
+  WorldContact kept = inSpan(contact);
+  kept.a = {a, plan.memberLink(contact.link).link, contact.lss, -1, contact.p_WLink};
+  kept.b = {kStillScene, 0, -1, contact.triangle, contact.p_WScene};
+  return kept;
+}
+
+WorldContact SystemQuery::ofPair(const SystemPlan& plan, const PairContact& contact) const {
+  const std::vector<SystemMember>& members = scratch_.spans.members();
+  const MemberLink one = plan.memberLink(contact.link), other = plan.memberLink(contact.other);
+  WorldContact kept = inSpan(contact);
+  kept.a = {members[slotOf(one.member)].body, one.link, contact.lss, -1,
+            contact.p_WLink + scratch_.origin};
+  kept.b = {members[slotOf(other.member)].body, other.link, contact.otherLss, -1,
+            contact.p_WScene + scratch_.origin};
+  if (kept.b.body < kept.a.body) turnAround(kept);
+  return kept;
+}
+
+/// Doubles cannot tell the bodies' places between their knots well enough.
+void SystemQuery::giveUp(BodyId a, BodyId b, std::vector<WorldContact>& found) const {
+  WorldContact open;
+  open.a.body = a;
+  open.b.body = b;
+  open.a.link = open.b.link = kEveryLink;
+  open.reason = UndecidedReason::Resolution;
+  open.time = {scratch_.spans.beginUs(), 0.0};
+  if (b != kStillScene && b < a) turnAround(open);
+  found.push_back(open);
+}
+
+}  // namespace foretouch::internal

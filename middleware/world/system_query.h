@@ -1,0 +1,93 @@
+// middleware/world/system_query.h: one question about a system, asked of the span that it is at,
+// and answered in the world's words. Not installed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/motion.h"
+#include "middleware/contact.h"
+#include "middleware/lanes/node_planes.h"
+#include "middleware/lanes/pair_boxes.h"
+#include "middleware/query/query_scratch.h"
+#include "middleware/world/body_system.h"
+#include "middleware/world/system_plan.h"
+#include "middleware/world/world_contacts.h"
+#include "middleware/world/world_parts.h"
+
+namespace foretouch::internal {
+
+/// One thread's memory for questions.
+struct SystemScratch {
+  std::vector<std::int64_t> key;
+  PieceMotions motions;
+  SystemSpans spans;
+  SystemPoses poses;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of the poses' roots
+  Pose relativeFrom, relativeTo;
+  ChainMotion motion, ofSystem;
+  StepContacts step;
+  std::vector<WorldContact> met, again;  // before the window, and what becomes of them in it
+  std::vector<LssIndexPair> meeting;     // in the numbers of the system
+  std::vector<PlanePair> open;
+  QueryScratch query;
+};
+
+/// For one thread. What it refers to outlives it.
+class SystemQuery {
+ public:
+  SystemQuery(const WorldParts& world, SystemPlans& plans, SystemScratch& scratch)
+      : world_(world), plans_(plans), scratch_(scratch) {}
+
+  /// The plan of the question for the span that the scratch's spans are at, and the motion of its
+  /// chain there: scratch.motion, relative to scratch.origin. Null if nothing can touch. Errors: as
+  /// SystemPlans::planOf().
+  Result<const SystemPlan*> prepare(SystemQuestion question, BodyId a, BodyId b);
+  /// The places at the span's instants are known well enough.
+  [[nodiscard]] bool isResolved() const;
+  /// Appends to `found` what meets in the span, unless the two links are among those from `first`
+  /// on. Precondition: as prepare() has left it; not Boxes.
+  void ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+           std::vector<WorldContact>& found, QueryCounters& counters);
+  /// The same for those pairs of LSS of a and b (i of a's, j of b's) alone: everything else of the
+  /// two is proven apart. Pieces are those of the span's nodes. Precondition: a question of Pair.
+  void askAmong(const SystemPlan& plan, BodyId a, BodyId b, const MeetingPairs& meeting,
+                const std::vector<PlanePair>& open, std::size_t first,
+                std::vector<WorldContact>& found, QueryCounters& counters);
+  /// The same for all LSS of those of a's own links that `met` names. Precondition: a question of
+  /// Self.
+  void askAgain(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met,
+                std::size_t first, std::vector<WorldContact>& found, QueryCounters& counters);
+  /// Appends that nothing is known of the two from the span's begin on.
+  void giveUp(BodyId a, BodyId b, std::vector<WorldContact>& found) const;
+
+ private:
+  [[nodiscard]] Eigen::Vector3d originOf(SystemQuestion question) const;
+  void answer(const SystemPlan& plan);
+  void answerAmong(const SystemPlan& plan);
+  void beginStep();
+  void keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+               std::vector<WorldContact>& found, QueryCounters& counters);
+  void keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+                        std::vector<WorldContact>& found);
+  [[nodiscard]] WorldContact inSpan(const LinkContact& contact) const;
+  [[nodiscard]] WorldContact ofScene(const SystemPlan& plan, BodyId a,
+                                     const LinkContact& contact) const;
+  [[nodiscard]] WorldContact ofPair(const SystemPlan& plan, const PairContact& contact) const;
+
+  const WorldParts& world_;
+  SystemPlans& plans_;
+  SystemScratch& scratch_;
+};
+
+/// The same two links.
+[[nodiscard]] bool areSameLinks(const WorldContact& x, const WorldContact& y);
+/// Appends the contact unless the two have theirs among those from `first` on.
+void keep(const WorldContact& contact, std::size_t first, std::vector<WorldContact>& found);
+
+void addCounters(const QueryCounters& more, QueryCounters& sum);
+
+}  // namespace foretouch::internal

@@ -1,0 +1,309 @@
+#include "middleware/world/window_query.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "articulated/try.h"
+#include "lss/index.h"
+#include "middleware/query/link_query.h"
+#include "middleware/world/body_sweeper.h"
+#include "middleware/world/world_parts.h"
+
+namespace foretouch::internal {
+namespace {
+
+bool comesBefore(const WorldContact& x, const WorldContact& y) {
+  if (!(x.time == y.time)) return x.time < y.time;
+  return std::tie(x.a.body, x.a.link, x.b.body, x.b.link) <
+         std::tie(y.a.body, y.a.link, y.b.body, y.b.link);
+}
+
+/// Pairs of bodies whose boxes meet, for one thread.
+class PairAsker {
+ public:
+  PairAsker(const WorldParts& world, const Window& window, WorldScratchParts& scratch,
+            WindowWorker& worker)
+      : world_(world),
+        window_(window),
+        scratch_(scratch),
+        worker_(worker),
+        query_(world, scratch.plans, worker.system) {}
+
+  Result<Done> ask(BodyId a, BodyId b) {
+    if (!world_.isAsked(a, b)) return Done{};
+    ++worker_.counters.pairs;
+    // A mesh is what the other one is seen from.
+    if (!world_.kindOf(a).avatar) return askSpans(b, a, SystemQuestion::Mesh);
+    return askSpans(a, b, world_.kindOf(b).avatar ? SystemQuestion::Pair : SystemQuestion::Mesh);
+  }
+
+ private:
+  /// Span by span, until nothing is known any more.
+  Result<Done> askSpans(BodyId a, BodyId b, SystemQuestion question) {
+    const BodySweep &one = scratch_.sweeps[slotOf(a)], &other = scratch_.sweeps[slotOf(b)];
+    const std::size_t first = worker_.contacts.size();
+    bool isNear = false;
+    SystemSpans& spans = worker_.system.spans;
+    spans.begin(world_, a, b, window_.fromUs, window_.toUs);
+    while (spans.next()) {
+      const SpanSweep& ofA = one.at(spans.beginUs());
+      const Apart apart =
+          worker_.apart.prove(ofA, other.at(spans.beginUs()), floor(), worker_.counters.queries);
+      isNear = isNear || apart != Apart::ByBoxes;
+      if (apart != Apart::Unproven) continue;
+      if (question == SystemQuestion::Pair && !leaveOpen(a, b, first, ofA)) continue;
+      FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, a, b));
+      if (plan == nullptr) continue;
+      if (!query_.isResolved()) {
+        query_.giveUp(a, b, worker_.contacts);
+        break;
+      }
+      askSpan(*plan, question, a, b, first);
+    }
+    worker_.counters.nearPairs += isNear ? 1 : 0;
+    return Done{};
+  }
+
+  void askSpan(const SystemPlan& plan, SystemQuestion question, BodyId a, BodyId b,
+               std::size_t first) {
+    ++worker_.counters.spans;
+    QueryCounters& counters = worker_.counters.queries;
+    if (question == SystemQuestion::Pair) {
+      query_.askAmong(plan, a, b, worker_.apart.meeting(), worker_.apart.open(), first,
+                      worker_.contacts, counters);
+    } else {
+      query_.ask(plan, a, b, first, worker_.contacts, counters);
+    }
+  }
+
+  /// Readies the open pairs of LSS for a question about the span: false if there are none but those
+  /// whose links have met in an earlier one.
+  bool leaveOpen(BodyId a, BodyId b, std::size_t first, const SpanSweep& sweep) {
+    std::vector<PlanePair>& open = worker_.apart.open();
+    const std::vector<LinkId>&linkOfA = world_.kindOf(a).linkOf, &linkOfB = world_.kindOf(b).linkOf;
+    const auto haveMet = [&](const PlanePair& pair) {
+      return std::any_of(worker_.contacts.begin() + static_cast<std::ptrdiff_t>(first),
+                         worker_.contacts.end(), [&](const WorldContact& known) {
+                           return known.a.link == linkOfA[slotOf(pair.i)] &&
+                                  known.b.link == linkOfB[slotOf(pair.j)];
+                         });
+    };
+    open.erase(std::remove_if(open.begin(), open.end(), haveMet), open.end());
+    // Pieces between nodes are those of the span, if it is the sweep's.
+    const SystemSpans& spans = worker_.system.spans;
+    if (spans.beginUs() != sweep.beginUs || spans.endUs() != sweep.endUs) {
+      for (PlanePair& pair : open) pair.open = kEveryPiece;
+    }
+    return !open.empty();
+  }
+
+  /// What is free stays so far apart, as it does by the queries (m).
+  [[nodiscard]] double floor() const {
+    return kFloorShare * kAskedShare * world_.options.tolerance;
+  }
+
+  const WorldParts& world_;
+  const Window& window_;
+  WorldScratchParts& scratch_;
+  WindowWorker& worker_;
+  SystemQuery query_;
+};
+
+/// Tasks that a thread takes at a time: each is some microseconds.
+constexpr std::size_t kTasksAtOnce = 8;
+
+/// One window. Which thread does what decides nothing: each body and each pair has answers of its
+/// own, and their order is that of the contacts.
+class WindowQuery {
+ public:
+  WindowQuery(const WorldParts& world, std::int64_t fromUs, std::int64_t toUs,
+              WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer)
+      : world_(world),
+        window_{fromUs, toUs, ++scratch.windows, Eigen::Vector3d::Zero()},
+        threads_(threads),
+        scratch_(scratch),
+        answer_(answer) {}
+
+  Result<Done> run() {
+    begin();
+    tellSilent();
+    FORETOUCH_CHECK(sweepBodies());
+    scratch_.broad.collect(scratch_.boxes, scratch_.meeting);
+    FORETOUCH_CHECK(askPairs());
+    gather();
+    return Done{};
+  }
+
+ private:
+  [[nodiscard]] BodyId numBodies() const { return static_cast<BodyId>(world_.bodies.size()); }
+
+  void begin() {
+    answer_.contacts.clear();
+    answer_.silent.clear();
+    answer_.counters = {};
+    const std::size_t count = threads_ != nullptr ? threads_->count() : 1;
+    while (scratch_.workers.size() < count) {
+      scratch_.workers.push_back(std::make_unique<WindowWorker>());
+    }
+    const bool isNew = scratch_.world != world_.identity;
+    for (const auto& worker : scratch_.workers) {
+      if (isNew) worker->system.motions.clear();
+      worker->contacts.clear();
+      worker->counters = {};
+    }
+    if (isNew) {
+      scratch_.plans.clear();
+      scratch_.sweeps.clear();
+      scratch_.world = world_.identity;
+    }
+    scratch_.sweeps.resize(countOf(numBodies()));
+    scratch_.boxes.resize(countOf(numBodies()));
+    window_.origin = windowOrigin();
+  }
+
+  void tellSilent() {
+    for (BodyId id = 0; id < numBodies(); ++id) {
+      const WorldBody& body = world_.body(id);
+      if (body.episodes.empty() || body.episodes.back().isHeldFast()) continue;
+      const std::int64_t last = body.episodes.back().track.knownUntilUs();
+      if (last >= window_.toUs) continue;
+      answer_.silent.push_back({id, std::max(last, window_.fromUs), body.options.whenSilent});
+    }
+  }
+
+  [[nodiscard]] Eigen::Vector3d windowOrigin() const {
+    for (const WorldBody& body : world_.bodies) {
+      const Episode* const episode = body.episodeAt(window_.fromUs);
+      if (episode == nullptr || episode->carrier) continue;
+      return episode->track.pieceAt(window_.fromUs).from->translations[0];
+    }
+    return Eigen::Vector3d::Zero();
+  }
+
+  Result<Done> sweepBodies() {
+    return forEach(world_.bodies.size(), [this](WindowWorker& worker, std::size_t i) {
+      BodySweep& sweep = scratch_.sweeps[i];
+      BodySweeper sweeper(world_, scratch_.plans, window_, worker.system);
+      Result<Done> done =
+          sweeper.sweep(static_cast<BodyId>(i), sweep, worker.contacts, worker.counters);
+      scratch_.boxes[i] = sweep.whole;
+      return done;
+    });
+  }
+
+  Result<Done> askPairs() {
+    return forEach(scratch_.meeting.size(), [this](WindowWorker& worker, std::size_t i) {
+      const MeetingBodies& pair = scratch_.meeting[i];
+      return PairAsker(world_, window_, scratch_, worker).ask(pair.a, pair.b);
+    });
+  }
+
+  /// Does all tasks; the error is that of the first one that fails.
+  template <typename Task>
+  Result<Done> forEach(std::size_t count, const Task& task) {
+    if (threads_ == nullptr) {
+      for (std::size_t i = 0; i < count; ++i) FORETOUCH_CHECK(task(*scratch_.workers[0], i));
+      return Done{};
+    }
+    std::atomic<std::size_t> next{0};
+    const auto takePart = [&](std::size_t number) {
+      WindowWorker& worker = *scratch_.workers[number];
+      worker.failure.reset();
+      for (;;) {
+        const std::size_t first = next.fetch_add(kTasksAtOnce, std::memory_order_relaxed);
+        if (first >= count) return;
+        for (std::size_t i = first; i < std::min(first + kTasksAtOnce, count); ++i) {
+          attempt(worker, i, task);
+        }
+      }
+    };
+    threads_->run(std::ref(takePart));
+    const WindowWorker* failed = nullptr;
+    for (const auto& worker : scratch_.workers) {
+      if (!worker->failure) continue;
+      if (failed == nullptr || worker->failedTask < failed->failedTask) failed = worker.get();
+    }
+    if (failed != nullptr) return *failed->failure;
+    return Done{};
+  }
+
+  template <typename Task>
+  static void attempt(WindowWorker& worker, std::size_t i, const Task& task) {
+    std::optional<Error> failure;
+    try {
+      const Result<Done> done = task(worker, i);
+      if (!done.ok()) failure = done.error();
+    } catch (const std::exception& broken) {
+      worker.system = SystemScratch();  // may be half written
+      worker.apart = BodiesApart();
+      failure =
+          Error::in("window", ErrorCode::DeviceFailed, std::string("broken off: ") + broken.what());
+    }
+    if (!failure || (worker.failure && worker.failedTask < i)) return;
+    worker.failure = std::move(failure);
+    worker.failedTask = i;
+  }
+
+  void gather() {
+    for (const auto& worker : scratch_.workers) {
+      answer_.contacts.insert(answer_.contacts.end(), worker->contacts.begin(),
+                              worker->contacts.end());
+      WorldCounters& sum = answer_.counters;
+      sum.bodies += worker->counters.bodies;
+      sum.pairs += worker->counters.pairs;
+      sum.nearPairs += worker->counters.nearPairs;
+      sum.spans += worker->counters.spans;
+      addCounters(worker->counters.queries, sum.queries);
+    }
+    std::sort(answer_.contacts.begin(), answer_.contacts.end(), comesBefore);
+  }
+
+  const WorldParts& world_;
+  Window window_;
+  WorkerThreads* threads_;
+  WorldScratchParts& scratch_;
+  WorldContacts& answer_;
+};
+
+Error windowError(ErrorCode code, std::int64_t fromUs, std::int64_t toUs, const std::string& what) {
+  return Error::in(
+      "window", code,
+      "the window from " + std::to_string(fromUs) + " to " + std::to_string(toUs) + " us " + what);
+}
+
+Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t toUs) {
+  if (fromUs >= toUs || fromUs < -kMostUtimeUs || toUs > kMostUtimeUs) {
+    return windowError(ErrorCode::OutOfRange, fromUs, toUs,
+                       "has no length, or no legal instants; expected from < to");
+  }
+  const std::int64_t forgotten = world.parts().forgottenUs;
+  if (fromUs < forgotten) {
+    return windowError(
+        ErrorCode::OutOfRange, fromUs, toUs,
+        "begins before " + std::to_string(forgotten) + " us; all before that is forgotten");
+  }
+  const auto known = world.knownUntilUs();
+  if (known && toUs <= *known) return Done{};
+  if (!known) {
+    return windowError(ErrorCode::Empty, fromUs, toUs, "has no body in it; expected a pose of one");
+  }
+  const auto slowest = world.waitsFor();
+  return windowError(ErrorCode::OutOfRange, fromUs, toUs,
+                     "ends after what is known, until " + std::to_string(*known) + " us" +
+                         (slowest ? ", of body " + std::to_string(*slowest) : std::string()));
+}
+
+}  // namespace
+
+Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs,
+                       WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer) {
+  FORETOUCH_CHECK(checkedWindow(world, fromUs, toUs));
+  return WindowQuery(world.parts(), fromUs, toUs, threads, scratch, answer).run();
+}
+
+}  // namespace foretouch::internal

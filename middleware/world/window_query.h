@@ -1,0 +1,47 @@
+// middleware/world/window_query.h: a question about one window, on one thread or on several: every
+// body by itself, then every pair that is near. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "articulated/result.h"
+#include "middleware/query/worker_threads.h"
+#include "middleware/world/bodies_apart.h"
+#include "middleware/world/body_sweep.h"
+#include "middleware/world/box_sweep.h"
+#include "middleware/world/system_query.h"
+#include "middleware/world/world.h"
+#include "middleware/world/world_contacts.h"
+
+namespace foretouch::internal {
+
+/// What one thread keeps between windows, and its part of the answer to one.
+struct alignas(128) WindowWorker {
+  SystemScratch system;
+  BodiesApart apart;
+  std::vector<WorldContact> contacts;
+  WorldCounters counters;
+  std::optional<Error> failure;  // of the task with the least number
+  std::size_t failedTask = 0;
+};
+
+struct WorldScratchParts {
+  std::uint64_t world = 0;    // whose this is
+  std::uint64_t windows = 0;  // asked so far
+  SystemPlans plans;
+  std::vector<BodySweep> sweeps;  // per body
+  std::vector<BodyBox> boxes;     // per body, of the whole window
+  BoxSweep broad;
+  std::vector<MeetingBodies> meeting;
+  std::vector<std::unique_ptr<WindowWorker>> workers;  // one per thread
+};
+
+/// As worldContacts(). `threads`: null, or those that share the work; the answer is the same.
+/// Errors besides: on several threads, memory ran out (DeviceFailed).
+Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs,
+                       WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer);
+
+}  // namespace foretouch::internal
