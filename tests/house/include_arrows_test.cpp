@@ -48,6 +48,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"query", {"ladder", "", "exact", "surface", "lanes", "scene"}},
       {"solid", {"query", "", "scene"}},
       {"world", {"query", "", "scene"}},
+      {"solid_world", {"world", "solid", "query", "", "scene"}},
       {"reference", {"query", "", "exact", "surface", "scene"}}}},
     {"assets",
      {{"", {}},
