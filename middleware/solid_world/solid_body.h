@@ -41,6 +41,12 @@ class SolidBody {
 
   /// Makes all that is asked about these bodies known. Errors: chains that are too deep.
   Result<Done> prepare(const Surroundings& around) { return outfit_->prover.prepare(around); }
+  /// The same of another solid avatar, which may yet appear.
+  Result<Done> prepare(const SolidBody& other) {
+    const auto plan = outfit_->prover.planOf(other.outfit_->kind);
+    if (!plan.ok()) return plan.error();
+    return Done{};
+  }
   /// Stands where it is shown, for all of the tick.
   void stand(std::int64_t fromUs, std::int64_t toUs);
   /// One tick: `tick` gets what it shows. Precondition: prepare(around), hasTarget().

@@ -63,6 +63,10 @@ class SolidWorld::Parts {
     for (const auto& solid : solids_) {
       lookAround(*solid);
       FORETOUCH_CHECK(solid->prepare(around_));
+      for (const auto& other : solids_) {
+        if (other == solid || !parts().isAsked(solid->id(), other->id())) continue;
+        FORETOUCH_CHECK(solid->prepare(*other));
+      }
     }
     for (const SolidBodyTarget& target : targets) solidOf(target.body)->takeTarget();
     std::size_t count = 0;

@@ -84,11 +84,14 @@ void Yielding::step(Run& run) {
   step_.weigh(run.request.target, run.request.wanted, run.shown, here_);
   gather(run);
   if (propose(run) && go(run, tried_)) return;
-  step_.pullLess(0.0);
-  pulled_ = 0.0;
-  setBounds(true);
-  if (solveAndCorrect(run) && go(run, tried_)) return;
-  if (ride(run) && go(run, tried_)) return;
+  if (isApproached()) {
+    step_.pullLess(0.0);
+    pulled_ = 0.0;
+    setBounds(true);
+    solveAndCorrect(run);
+    if (go(run, tried_)) return;
+    if (ride(run) && go(run, tried_)) return;
+  }
   if (go(run, run.shown)) return;
   if (bestUs_ > run.atUs) {
     show(run, best_, bestUs_, bestClearance_);
@@ -153,9 +156,7 @@ void Yielding::setBounds(bool mayPushBack) {
 /// A pose for the window's end that is nearer to the target, or out of the way: tried_.
 bool Yielding::propose(Run& run) {
   setBounds(true);
-  if (!solveAndCorrect(run)) {
-    if (isPushed()) return true;
-  }
+  solveAndCorrect(run);
   if (isPushed()) return true;
   if (!hasPushes() && VisualBody::farthest(here_.places, run.request.wanted) <= left_) {
     tried_ = run.request.target;
@@ -163,19 +164,19 @@ bool Yielding::propose(Run& run) {
   }
   if (findNearer(run)) return true;
   setBounds(false);
-  return solveAndCorrect(run) && findNearer(run);
+  solveAndCorrect(run);
+  return findNearer(run);
 }
 
 /// Solves for the step; what the surfaces' curvature takes of the gaps at its end, the next
-/// solution keeps away from. False: the last one still comes too near.
-bool Yielding::solveAndCorrect(Run& run) {
+/// solution keeps away from. What still comes too near at the last one's end, the certificate cuts.
+void Yielding::solveAndCorrect(Run& run) {
   step_.begin();
   for (int attempt = 0;; ++attempt) {
     run.tick.counters.rows += static_cast<std::uint32_t>(step_.solve(rows_));
     step_.move(here_, run.shown, 1.0, tried_);
     step_.place(tried_, there_);
-    if (correct(run)) return true;
-    if (attempt == kCorrections) return false;
+    if (correct(run) || attempt == kCorrections) return;
   }
 }
 
@@ -211,6 +212,15 @@ bool Yielding::isPushed() const {
   for (std::size_t i = numStill_; i < rows_.size(); ++i) {
     if (!(rows_[i].push > 0.0)) continue;
     if (around_.features()[i - numStill_].comes > kComes || rows_[i].gap < 0.0) return true;
+  }
+  return false;
+}
+
+/// Something near comes.
+bool Yielding::isApproached() const {
+  const std::vector<AroundFeature>& features = around_.features();
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (features[i].comes > kComes || rows_[numStill_ + i].gap < 0.0) return true;
   }
   return false;
 }

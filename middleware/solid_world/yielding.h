@@ -71,11 +71,12 @@ class Yielding {
   void gather(Run& run);
   void setBounds(bool mayPushBack);
   [[nodiscard]] bool propose(Run& run);
-  [[nodiscard]] bool solveAndCorrect(Run& run);
+  void solveAndCorrect(Run& run);
   [[nodiscard]] bool findNearer(Run& run);
   [[nodiscard]] bool correct(Run& run);
   [[nodiscard]] double gapThere(const Run& run, std::size_t row) const;
   [[nodiscard]] bool isPushed() const;
+  [[nodiscard]] bool isApproached() const;
   [[nodiscard]] bool hasPushes() const;
   [[nodiscard]] bool go(Run& run, const Pose& to);
   [[nodiscard]] bool ride(Run& run);

@@ -99,8 +99,13 @@ void TogetherRunner::moveTo(BodyId body, const RigidPose& pose) {
   moveTo(body, poseOf(pose));
 }
 
-void TogetherRunner::follow(BodyId body, const Pose& target) {
-  targets_[body] = target;
+void TogetherRunner::goVia(BodyId body, std::int64_t afterUs, const Pose& pose) {
+  movers_[slotOf(body)].via.emplace_back(afterUs, pose);
+}
+
+void TogetherRunner::follow(BodyId body, const Pose& target,
+                            const std::vector<std::uint8_t>& isTracked) {
+  targets_[body] = {target, isTracked};
 }
 
 void TogetherRunner::take(BodyId tool, BodyId holder, LinkId hand, const RigidPose& inHand) {
@@ -137,16 +142,24 @@ void TogetherRunner::tick(std::int64_t durationUs) {
       ASSERT_TRUE(world.world().push(id, fromUs, mover.at).ok());
     }
     mover.isNew = false;
+    for (const auto& [afterUs, pose] : mover.via) {
+      ASSERT_TRUE(world.world().push(id, fromUs + afterUs, pose).ok());
+    }
     const auto pushed = world.world().push(id, toUs, mover.next);
     ASSERT_TRUE(pushed.ok()) << describe(pushed.error());
   }
   std::vector<SolidBodyTarget> targets;
-  for (const auto& [body, pose] : targets_) targets.push_back({body, &pose, nullptr});
+  for (const auto& [body, target] : targets_) {
+    targets.push_back({body, &target.pose, target.isTracked.empty() ? nullptr : &target.isTracked});
+  }
   const auto done = world.tick(toUs, targets, ticks);
   ASSERT_TRUE(done.ok()) << describe(done.error());
   if (tamper) tamper(ticks);
   judgeTick(fromUs, toUs);
-  for (Mover& mover : movers_) mover.at = mover.next;
+  for (Mover& mover : movers_) {
+    mover.at = mover.next;
+    mover.via.clear();
+  }
   world.world().forgetBefore(fromUs);
 }
 
@@ -167,7 +180,14 @@ void TogetherRunner::judgeTick(std::int64_t fromUs, std::int64_t toUs) {
     body.holder = mover.isHeld ? mover.holder : -1;
     body.holdingLink = mover.hand;
     if (mover.isSolid || mover.isNew) continue;
-    body.legs.push_back({fromUs, toUs, tools::plainPose(mover.at), tools::plainPose(mover.next)});
+    std::int64_t beginUs = fromUs;
+    oracle::PlainPose from = tools::plainPose(mover.at);
+    for (const auto& [afterUs, pose] : mover.via) {
+      body.legs.push_back({beginUs, fromUs + afterUs, from, tools::plainPose(pose)});
+      beginUs = fromUs + afterUs;
+      from = tools::plainPose(pose);
+    }
+    body.legs.push_back({beginUs, toUs, from, tools::plainPose(mover.next)});
   }
   const auto length = static_cast<double>(toUs - fromUs);
   for (const SolidBodyTick& tick : ticks) {

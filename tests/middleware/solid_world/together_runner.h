@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "middleware/solid_world/solid_world.h"
@@ -38,7 +39,9 @@ class TogetherRunner {
   /// Where a mover is at the end of the next tick; at its begin, if it is the first.
   void moveTo(BodyId body, const Pose& pose);
   void moveTo(BodyId body, const RigidPose& pose);
-  void follow(BodyId body, const Pose& target);
+  /// Of a mover: where it is on the way there, so long after the next tick's begin.
+  void goVia(BodyId body, std::int64_t afterUs, const Pose& pose);
+  void follow(BodyId body, const Pose& target, const std::vector<std::uint8_t>& isTracked = {});
   /// From now on, a solid avatar's hand holds a mover, or lets go of it where it is.
   void take(BodyId tool, BodyId holder, LinkId hand, const RigidPose& inHand);
   void letGo(BodyId tool);
@@ -59,6 +62,7 @@ class TogetherRunner {
   struct Mover {
     bool isSolid = false, isNew = true, isHeld = false;
     Pose at, next;
+    std::vector<std::pair<std::int64_t, Pose>> via;
     BodyId holder = 0;
     LinkId hand = 0;
   };
@@ -70,7 +74,11 @@ class TogetherRunner {
   TogetherJudge judge_;
   std::vector<Avatar> avatars_;  // per body; of a mesh, one of a joint
   std::vector<Mover> movers_;    // per body
-  std::map<BodyId, Pose> targets_;
+  struct Target {
+    Pose pose;
+    std::vector<std::uint8_t> isTracked;
+  };
+  std::map<BodyId, Target> targets_;
   std::map<BodyId, Pose> shown_;
 };
 
