@@ -21,6 +21,22 @@ bool isAmong(const std::vector<HeldTool>& tools, BodyId body) {
                      [body](const HeldTool& tool) { return tool.body == body; });
 }
 
+/// Of whoever would stand at a place for a whole tick.
+class StandingJudge final : public PlaceJudge {
+ public:
+  StandingJudge(PassageProver& prover, const Surroundings& around, std::int64_t fromUs,
+                std::int64_t toUs)
+      : prover_(prover), around_(around), fromUs_(fromUs), toUs_(toUs) {}
+  [[nodiscard]] bool isFree(const Pose& place) override {
+    return prover_.ask({place, place, fromUs_, toUs_}, around_).isClear;
+  }
+
+ private:
+  PassageProver& prover_;
+  const Surroundings& around_;
+  std::int64_t fromUs_, toUs_;
+};
+
 const AroundBody* find(const Surroundings& around, BodyId id) {
   for (const AroundBody* const body : around.bodies) {
     if (body->body == id) return body;
@@ -59,6 +75,7 @@ Result<SolidBody> SolidBody::build(BodyId id, const Avatar& avatar, const Scene&
   }
   SolidBody body(id, avatar, still, options);
   FORETOUCH_TRY(body.outfit_, dress(avatar, still, options, {}, numbers));
+  body.placing_ = std::make_unique<Placing>(avatar.skeleton(), options);
   return body;
 }
 
@@ -221,24 +238,15 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
   std::swap(wanted_, lastWanted_);
   placeLinks(avatar_.skeleton(), outfit_->solid.target(), states_);
   outfit_->yielding.body().place(states_, wanted_);
-  if (tick.tick.state == SolidState::Placing) {
+  const bool isElsewhere = !isPlaced_ && appear(fromUs, toUs, around, tick.tick);
+  if (!isPlaced_) {
     stayUnplaced(tick.tick);
+  } else if (isElsewhere || !crushers_.empty() || !takeWay(fromUs, toUs, around, tick.tick)) {
+    yield(fromUs, toUs, around, tick);
   } else {
-    if (tick.tick.hasAppeared) {
-      const Pose& place = tick.tick.way[0];
-      const bool isFree = prover.ask({place, place, fromUs, toUs}, around).isClear;
-      isPlaced_ = isFree;
-      if (isFree) shown_ = place;
-    }
-    if (!isPlaced_) {
-      outfit_->solid.reset();
-      stayUnplaced(tick.tick);
-    } else if (!crushers_.empty() || !takeWay(fromUs, toUs, around, tick.tick)) {
-      yield(fromUs, toUs, around, tick);
-    } else {
-      outfit_->yielding.forget();
-      shown_ = tick.tick.shown;
-    }
+    outfit_->yielding.forget();
+    shown_ = tick.tick.shown;
+    proven_ = tick.tick.clearance;
   }
   leaveTrace(fromUs, toUs, tick.tick);
   reportCrushes(around, toUs, tick);
@@ -248,6 +256,31 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
     (isAmong(worn_, tool.body) ? tick.tools : tick.looseTools).push_back(tool.body);
   }
   tick.letGo = letGo_;
+}
+
+/// The place that it has in the still scene, if nothing that moves comes there in this tick; else the
+/// nearest one of which that is true: then `tick` is no longer what it would do in a still scene, and
+/// this returns true.
+bool SolidBody::appear(std::int64_t fromUs, std::int64_t toUs, const Surroundings& around,
+                       SolidTick& tick) {
+  StandingJudge judge(outfit_->prover, around, fromUs, toUs);
+  if (tick.state != SolidState::Placing && judge.isFree(tick.way[0])) {
+    shown_ = tick.way[0];
+    isPlaced_ = true;
+    placing_->reset();
+    return false;
+  }
+  outfit_->solid.reset();
+  Certifier& certifier = outfit_->prover.certifier();
+  isPlaced_ = placing_->search(target_, certifier, before_, &judge);
+  tick.counters.placingQueries += certifier.queries();
+  if (!isPlaced_) return false;
+  shown_ = before_;
+  outfit_->solid.resume(shown_);
+  beginTick(tick);
+  tick.hasAppeared = true;
+  appendPiece(shown_, certifier.clearanceAt(shown_), tick);
+  return true;
 }
 
 void SolidBody::stayUnplaced(SolidTick& tick) {
@@ -328,6 +361,7 @@ void SolidBody::finishYield(std::int64_t fromUs, std::int64_t toUs, SolidBodyTic
   own.times.resize(own.numWay);
   for (std::size_t i = 0; i < own.numWay; ++i) own.times[i] = shareOf(fromUs, toUs, endsUs_[i]);
   own.shown = shown_;
+  proven_ = own.clearance;
   own.isCertified = crushers_.empty();
   if (!own.isCertified) own.clearance = 0.0;
   own.counters.queries += outfit_->prover.certifier().queries() + outfit_->prover.questions();

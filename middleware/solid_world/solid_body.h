@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "middleware/solid/placing.h"
 #include "middleware/solid/solid_avatar.h"
 #include "middleware/solid_world/held_tools.h"
 #include "middleware/solid_world/passage.h"
@@ -53,7 +54,9 @@ class SolidBody {
   void move(std::int64_t fromUs, std::int64_t toUs, Surroundings& around, SolidBodyTick& tick);
   /// As others see it: standing, or since move() its way.
   [[nodiscard]] const AroundBody& trace() const { return trace_; }
-  /// Where its way's pieces begin and end.
+  /// Of the last move(): the clearance from everything that was asked and does not crush it.
+  [[nodiscard]] double proven() const { return proven_; }
+  /// Where its way's pieces end.
   [[nodiscard]] const std::vector<std::int64_t>& endsUs() const { return endsUs_; }
 
  private:
@@ -81,6 +84,8 @@ class SolidBody {
   void finishYield(std::int64_t fromUs, std::int64_t toUs, SolidBodyTick& tick);
   void report(SolidBodyTick& tick);
   void reportCrushes(const Surroundings& around, std::int64_t us, SolidBodyTick& tick);
+  [[nodiscard]] bool appear(std::int64_t fromUs, std::int64_t toUs, const Surroundings& around,
+                            SolidTick& tick);
   void stayUnplaced(SolidTick& tick);
   void leaveTrace(std::int64_t fromUs, std::int64_t toUs, const SolidTick& tick);
   void addTrace(const Pose& from, const Pose& to, std::int64_t fromUs, std::int64_t toUs);
@@ -90,6 +95,8 @@ class SolidBody {
   Scene still_;
   SolidOptions options_;
   std::unique_ptr<Outfit> outfit_;
+  std::unique_ptr<Placing> placing_;
+  double proven_ = 0.0;
   std::unique_ptr<Outfit> next_;       // what it tries to wear
   std::vector<HeldTool> held_, worn_;  // in its hands; part of it
   std::size_t tries_ = 0;              // which of the others is tried

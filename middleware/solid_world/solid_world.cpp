@@ -78,6 +78,7 @@ class SolidWorld::Parts {
       lookAround(*solid);
       solid->move(atUs_, utimeUs, around_, ticks[count++]);
     }
+    shareClearances(ticks);
     const std::int64_t fromUs = std::exchange(atUs_, utimeUs);
     for (const SolidBodyTick& tick : ticks) FORETOUCH_CHECK(pushWay(fromUs, tick));
     return Done{};
@@ -239,6 +240,20 @@ class SolidWorld::Parts {
     }
     std::sort(around_.bodies.begin(), around_.bodies.end(),
               [](const auto* x, const auto* y) { return x->body < y->body; });
+  }
+
+  /// Who moves later comes nearer to whom he saw: what he has proven of the two counts for both.
+  void shareClearances(std::vector<SolidBodyTick>& ticks) const {
+    for (SolidBodyTick& tick : ticks) {
+      const internal::SolidBody& one = *solidOf(tick.body);
+      for (const SolidBodyTick& later : ticks) {
+        const internal::SolidBody& other = *solidOf(later.body);
+        if (later.body <= tick.body || later.tick.numWay == 0 || !one.isPlaced()) continue;
+        if (!parts().isAsked(one.id(), other.id()) || !other.isPlaced()) continue;
+        if (one.trace().box().exteriorDistance(other.trace().box()) > other.proven()) continue;
+        tick.tick.clearance = std::min(tick.tick.clearance, other.proven());
+      }
+    }
   }
 
   Result<Done> pushWay(std::int64_t fromUs, const SolidBodyTick& tick) {
