@@ -139,7 +139,7 @@ TEST(SolidWorld, WhoIsPressedAgainstAWallIsCrushedAndSaysSo) {
       deepest = std::max(deepest, crush.depth);
     }
   }
-  for (int i = 0; i < 60; ++i) run.tick();
+  for (int i = 0; i < 180; ++i) run.tick();
   EXPECT_EQ(run.violations(), 0u);
   EXPECT_GT(crushed, 10u);
   EXPECT_GT(deepest, 0.02);
@@ -227,6 +227,85 @@ TEST(SolidWorld, AHeldToolStopsWhereItTouches) {
   EXPECT_GT(reached[1], 0.05);
 }
 
+TEST(SolidWorld, WhatIsTakenWhereItTouchesIsLooseUntilItIsApart) {
+  RawScene room = floorOnly();
+  addBox(room, {0.55, 0.0, -0.3}, {1.2, 1.25, 0.3});  // a table below the left hand
+  TogetherRunner run(room);
+  const BodyId person = run.addSolid(figure());
+  const BodyId cup = run.addMover(ofLss({{0, -0.05, 0}, {0, 0.05, 0}, 0.03}));
+  const auto hand = static_cast<LinkId>(*figure().skeleton().find("LeftHand"));
+  const auto lifted = [](double by) {
+    Pose pose = restPose(figure().skeleton());
+    pose.translations[0].y() += by;
+    return pose;
+  };
+  run.moveTo(cup, RigidPose{Quaternion::Identity(), {0.8, 2.5, 0}});
+  run.follow(person, lifted(0.0));
+  run.tick();
+  // The hand is at 1.39; the cup reaches 2 mm into the table.
+  run.take(cup, person, hand, {Quaternion::Identity(), {0.1, -0.062, 0}});
+  run.tick();
+  EXPECT_EQ(run.of(person).looseTools, std::vector<BodyId>{cup});
+  EXPECT_TRUE(run.of(person).tools.empty());
+  EXPECT_TRUE(run.of(person).tick.isCertified);
+  for (int i = 0; i < 20; ++i) {
+    run.follow(person, lifted(0.002 * i));
+    run.tick();
+  }
+  EXPECT_EQ(run.of(person).tools, std::vector<BodyId>{cup});
+  EXPECT_TRUE(run.of(person).looseTools.empty());
+  // Now it is solid: the table holds it, and with it the hand.
+  for (int i = 0; i < 60; ++i) {
+    run.follow(person, lifted(0.04 - 0.003 * i));
+    run.tick();
+  }
+  EXPECT_GT(run.of(person).tick.linkDeviation[slotOf(hand)], 0.05);
+  // It is let go of in the hand, which it still touches, and left there.
+  run.letGo(cup);
+  run.tick();
+  EXPECT_EQ(run.of(person).letGo, std::vector<BodyId>{cup});
+  EXPECT_TRUE(run.of(person).crushes.empty());
+  for (int i = 0; i < 60; ++i) {
+    run.follow(person, lifted(0.4));
+    run.tick();
+  }
+  EXPECT_TRUE(run.of(person).letGo.empty());
+  EXPECT_EQ(run.violations(), 0u);
+}
+
+TEST(SolidWorld, TheWorldSaysTheSameOfWhatWasShown) {
+  // Whoever asks the world afterwards finds no contact but the crushes.
+  RawScene room = floorOnly();
+  addSheet(room, {-3, -0.1, 0.6}, {6, 0, 0}, {0, 3, 0});
+  SolidWorld world = SolidWorld::build(Scene::build(room).value(), 0, {kMinWorldTolerance}).value();
+  const BodyId person = world.add(figure()).value();
+  const BodyId other = world.add(figure()).value();
+  const BodyId door = world.world().add(doorLeaf()).value();
+  std::vector<SolidBodyTick> ticks;
+  WorldScratch scratch;
+  WorldContacts contacts;
+  std::uint64_t pushed = 0;
+  ASSERT_TRUE(world.world().push(door, 0, doorAt(0.3, {-0.5, 0, -0.2})).ok());
+  for (int i = 0; i < 120; ++i) {
+    const std::int64_t fromUs = world.utimeUs(), toUs = fromUs + 11'111;
+    const double open = 0.3 - 1.2 * std::sin(kPi * i / 120.0);
+    ASSERT_TRUE(world.world().push(door, toUs, doorAt(open, {-0.5, 0, -0.2})).ok());
+    const Pose one = standing({0.1, 0, 0.1}), two = standing({1.0 - 0.01 * i, 0, 0.2});
+    ASSERT_TRUE(world.tick(toUs, {{person, &one}, {other, &two}}, ticks).ok());
+    ASSERT_TRUE(worldContacts(world.world(), fromUs, toUs, scratch, contacts).ok());
+    pushed += ticks[0].contacts.size();
+    for (const WorldContact& contact : contacts.contacts) {
+      const bool isSaid = std::any_of(ticks.begin(), ticks.end(), [&](const SolidBodyTick& tick) {
+        return !tick.crushes.empty() &&
+               (contact.a.body == tick.body || contact.b.body == tick.body);
+      });
+      EXPECT_TRUE(isSaid) << contact.a.body << ", " << contact.b.body << " in tick " << i << ": "
+                          << toString(contact.verdict);
+    }
+  }
+  EXPECT_GT(pushed, 50u);
+}
+
 TEST(SolidWorld, WhatIsFarAwayChangesNothing) {
   RawScene room = floorOnly();
   addSheet(room, {-3, -0.1, -0.6}, {6, 0, 0}, {0, 3, 0});
@@ -245,6 +324,104 @@ TEST(SolidWorld, WhatIsFarAwayChangesNothing) {
     EXPECT_EQ(run.of(person).tick.state, tick.state) << i;
   }
   EXPECT_EQ(run.violations(), 0u);
+}
+
+std::string messageOf(const Result<Done>& result) {
+  return result.ok() ? "ok" : describe(result.error());
+}
+
+TEST(SolidWorld, RefusesWhatItCannotDoAndChangesNothing) {
+  const Scene still = Scene::build(floorOnly()).value();
+  SolidWorld world = SolidWorld::build(still, 1000).value();
+  const BodyId person = world.add(figure()).value();
+  const BodyId ball = world.world().add(ofLss({{0, 0, 0}, {0, 0, 0}, 0.1})).value();
+  const Pose target = standing({0, 0, 0});
+  std::vector<SolidBodyTick> ticks;
+  const auto tick = [&](std::int64_t us, const std::vector<SolidBodyTarget>& targets) {
+    const std::int64_t before = world.utimeUs();
+    const Result<Done> done = world.tick(us, targets, ticks);
+    EXPECT_EQ(world.utimeUs(), done.ok() ? us : before);
+    return messageOf(done);
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(tick(1000, {}), "after the last one, at 1000 us"));
+  EXPECT_TRUE(has(tick(1000 + 10'000'001, {}), "within 10 s"));
+  EXPECT_TRUE(has(tick(2000, {{ball, &target}}), "body 1 is no solid avatar"));
+  EXPECT_TRUE(has(tick(2000, {{7, &target}}), "body 7"));
+  EXPECT_TRUE(has(tick(2000, {{person, nullptr}}), "without a pose"));
+  EXPECT_TRUE(has(tick(2000, {{person, &target}, {person, &target}}), "two targets"));
+  Pose wrong = target;
+  wrong.translations[0].x() = std::nan("");
+  EXPECT_TRUE(has(tick(2000, {{person, &wrong}}), "body 0: "));
+  wrong.rotations.pop_back();
+  EXPECT_TRUE(has(tick(2000, {{person, &wrong}}), "body 0: "));
+  const std::vector<std::uint8_t> flags(3, 1);
+  EXPECT_TRUE(has(tick(2000, {{person, &target, &flags}}), "one flag per joint: 13"));
+  const RigidPose far{Quaternion::Identity(), {3, 1, 0}};
+  ASSERT_TRUE(world.world().push(ball, 1000, far).ok());
+  EXPECT_TRUE(has(tick(2000, {{person, &target}}), "body 1 is known until 1000 us"));
+  ASSERT_TRUE(world.world().push(ball, 9000, far).ok());
+  EXPECT_EQ(tick(2000, {{person, &target}}), "ok");
+  EXPECT_EQ(ticks.size(), 1u);
+  // What moves in its hand, and what changes hands on the way.
+  ASSERT_TRUE(world.world().attach(ball, {person, 3, true}, 2000, far).ok());
+  ASSERT_TRUE(world.world().push(ball, 9000, far).ok());
+  EXPECT_TRUE(has(tick(3000, {}), "moves in the hand of body 0"));
+  ASSERT_TRUE(world.world().detach(ball, 9000, far).ok());
+  EXPECT_FALSE(tick(3000, {}) == "ok");
+  SolidOptions options;
+  options.maySnap = true;
+  EXPECT_FALSE(world.add(figure(), options).ok());
+  EXPECT_EQ(world.world().numBodies(), 2);
+  EXPECT_FALSE(SolidWorld::build(still, kMostUtimeUs + 1).ok());
+}
+
+TEST(SolidWorld, RefusesAPoseThatSomebodyElsePushed) {
+  SolidWorld world = SolidWorld::build(Scene::build(floorOnly()).value(), 0).value();
+  const BodyId person = world.add(figure()).value();
+  const Pose target = standing({0, 0, 0});
+  std::vector<SolidBodyTick> ticks;
+  ASSERT_TRUE(world.tick(1000, {{person, &target}}, ticks).ok());
+  ASSERT_TRUE(world.world().push(person, 1500, target).ok());
+  EXPECT_NE(messageOf(world.tick(2000, {}, ticks)).find("ticks alone"), std::string::npos);
+}
+
+TEST(SolidWorld, WhoBeginsWhereOthersAreIsPlacedBesideThem) {
+  TogetherRunner run(floorOnly());
+  std::vector<BodyId> crowd;
+  for (int i = 0; i < 4; ++i) crowd.push_back(run.addSolid(figure()));
+  for (int i = 0; i < 30; ++i) {
+    for (const BodyId body : crowd) run.follow(body, standing({0, 0, 0}));
+    run.tick();
+  }
+  for (const BodyId body : crowd) {
+    EXPECT_NE(run.of(body).tick.state, SolidState::Placing) << body;
+    EXPECT_TRUE(run.of(body).tick.isCertified) << body;
+  }
+  EXPECT_EQ(run.violations(), 0u);
+}
+
+TEST(SolidWorld, WhatWaitsForNobodyIsAssumedAndSaid) {
+  SolidWorld world = SolidWorld::build(Scene::build(floorOnly()).value(), 0).value();
+  const BodyId person = world.add(figure()).value();
+  const BodyId ball =
+      world.world()
+          .add(ofLss({{0, 0, 0}, {0, 0, 0}, 0.1}), {0, WhenSilent::HoldStill, std::nullopt})
+          .value();
+  ASSERT_TRUE(world.world().push(ball, 0, RigidPose{Quaternion::Identity(), {0, 1, -1}}).ok());
+  std::vector<SolidBodyTick> ticks;
+  const Pose target = standing({0, 0, -1});
+  Pose start = standing({0, 0, 0});
+  ASSERT_TRUE(world.tick(11'111, {{person, &start}}, ticks).ok());
+  EXPECT_TRUE(ticks[0].isAssumed);
+  for (int i = 2; i < 100; ++i) {
+    ASSERT_TRUE(world.tick(11'111 * i, {{person, &target}}, ticks).ok());
+  }
+  EXPECT_TRUE(ticks[0].isAssumed);
+  EXPECT_NE(ticks[0].tick.state, SolidState::Equal);
+  EXPECT_TRUE(ticks[0].crushes.empty());
 }
 
 }  // namespace

@@ -192,6 +192,7 @@ std::string summaryOf(const TogetherTally& t) {
 TogetherTally judgeTogether(const TogetherCampaign& campaign) {
   Random random(campaign.seed);
   TogetherRunner run(randomRoom(random), campaign.instants);
+  run.tamper = campaign.tamper;
   struct Person {
     BodyId body;
     Tracked tracked;

@@ -14,6 +14,8 @@ struct TogetherCampaign {
   int ticks = 300;
   double rateHz = 90.0;
   int instants = 50;  ///< At which each tick is looked at.
+  /// As TogetherRunner::tamper.
+  std::function<void(std::vector<SolidBodyTick>&)> tamper = nullptr;
 };
 
 /// What the seed says: the room, who is in it, and what they do.

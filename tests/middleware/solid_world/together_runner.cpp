@@ -25,6 +25,16 @@ Avatar ofOneJoint(const std::vector<Lss>& lss) {
   return Avatar::build(Skeleton::build(raw).value(), {lss}).value();
 }
 
+/// FNV-1a.
+void addTo(std::uint64_t& digest, const Pose& pose) {
+  const auto addBytes = [&digest](const void* data, std::size_t count) {
+    const auto* const bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < count; ++i) digest = (digest ^ bytes[i]) * 1099511628211u;
+  };
+  for (const Quaternion& q : pose.rotations) addBytes(q.coeffs().data(), 4 * sizeof(double));
+  for (const Eigen::Vector3d& p : pose.translations) addBytes(p.data(), 3 * sizeof(double));
+}
+
 bool isIn(const std::vector<BodyId>& bodies, int body) {
   return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
 }
@@ -228,6 +238,7 @@ void TogetherRunner::judgeTick(std::int64_t fromUs, std::int64_t toUs) {
     }
     if (!internal::isSamePose(from, own.shown)) ++tally.broken;
     shown_[tick.body] = own.shown;
+    addTo(tally.digest, own.shown);
   }
   const auto holderOf = [&](int body) {
     return body >= 0 && movers_[slotOf(body)].isHeld ? movers_[slotOf(body)].holder : body;

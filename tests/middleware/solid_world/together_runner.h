@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -21,6 +22,7 @@ struct TogetherTally {
   std::uint64_t broken = 0;       ///< Ways that do not begin where the last one ended.
   std::uint64_t overclaimed = 0;  ///< Clearances above the least separation.
   std::uint64_t uncertified = 0;  ///< Ticks without proof that say nothing of a crush.
+  std::uint64_t digest = 14695981039346656037u;  ///< Of all poses that were shown.
   double least = 1e9;
   std::vector<std::string> findings;
   [[nodiscard]] std::uint64_t violations() const {
