@@ -14,14 +14,14 @@ double shareOf(std::int64_t beginUs, std::int64_t endUs, std::int64_t us) {
 }
 
 Eigen::AlignedBox3d sweptBox(const std::vector<std::vector<Lss>>& volumes,
-                             const ChainMotion& motion) {
+                             const ChainMotion& motion, std::vector<LinkState>& states) {
   Eigen::AlignedBox3d box;
+  motion.statesAt(0.5, states);
   for (std::size_t link = 0; link < volumes.size(); ++link) {
     if (volumes[link].empty()) continue;
-    const auto id = static_cast<LinkId>(link);
     // From the middle, no point goes farther than half of what its speed allows.
-    const LinkState middle = motion.stateAt(id, 0.5);
-    const MotionBounds bounds = motion.bounds(id);
+    const LinkState& middle = states[link];
+    const MotionBounds bounds = motion.bounds(static_cast<LinkId>(link));
     for (const Lss& lss : volumes[link]) {
       const double rho = std::max(lss.a.norm(), lss.b.norm());
       const double by = lss.radius + 0.5 * bounds.speedAt(rho) + bounds.positionRoundingAt(rho);
@@ -50,7 +50,7 @@ AroundLeg& AroundBody::addLeg() {
 void AroundBody::settle() {
   AroundLeg& leg = legs_[count_ - 1];
   motion_.assign(leg.kind->skeleton, leg.from, leg.to);
-  Eigen::AlignedBox3d swept = sweptBox(leg.kind->volumes, motion_);
+  Eigen::AlignedBox3d swept = sweptBox(leg.kind->volumes, motion_, states_);
   const Eigen::Vector3d off = Eigen::Vector3d::Constant(leg.rounding);
   swept.min() -= off;
   swept.max() += off;

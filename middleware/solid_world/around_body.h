@@ -68,11 +68,13 @@ class AroundBody {
   Eigen::AlignedBox3d box_;
   mutable ChainMotion motion_;
   mutable Pose pose_;
+  std::vector<LinkState> states_;
 };
 
-/// A box around all that volumes on a moving chain sweep.
+/// A box around all that volumes on a moving chain sweep. `states`: memory.
 [[nodiscard]] Eigen::AlignedBox3d sweptBox(const std::vector<std::vector<Lss>>& volumes,
-                                           const ChainMotion& motion);
+                                           const ChainMotion& motion,
+                                           std::vector<LinkState>& states);
 
 /// The instant as a share of the window, in [0,1].
 [[nodiscard]] double shareOf(std::int64_t beginUs, std::int64_t endUs, std::int64_t us);

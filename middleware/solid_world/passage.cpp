@@ -63,6 +63,10 @@ const PairPlan& PassageProver::known(const AroundKind& kind) const {
   return *plans_[slotOf(kind.number)];
 }
 
+void PassageProver::forget(std::int32_t kindNumber) {
+  if (plans_.size() > slotOf(kindNumber)) plans_[slotOf(kindNumber)].reset();
+}
+
 Result<Done> PassageProver::prepare(const Surroundings& around) {
   for (const AroundBody* const body : around.bodies) {
     for (std::size_t i = 0; i < body->numLegs(); ++i) {
@@ -72,17 +76,33 @@ Result<Done> PassageProver::prepare(const Surroundings& around) {
   return Done{};
 }
 
-Passage PassageProver::ask(const TimedMotion& motion, const Surroundings& around,
-                           bool isSceneProven) {
+Passage PassageProver::ask(const TimedMotion& motion, const Surroundings& around) {
   Passage passage;
   passage.isClear = true;
   passage.freeUntilUs = motion.endUs;
   // Whoever stays touches nothing that stays.
-  if (!isSceneProven && !isSamePose(motion.from, motion.to)) askScene(motion, passage);
+  if (!isSamePose(motion.from, motion.to)) askScene(motion, passage);
+  askBodies(motion, around, passage);
+  if (passage.isClear && motion.endUs < around.endUs) askToStay(motion, around, passage);
+  return passage;
+}
+
+Passage PassageProver::askPart(const TimedMotion& motion, const Surroundings& around) {
+  Passage passage;
+  passage.isClear = true;
+  passage.freeUntilUs = motion.endUs;
+  askBodies(motion, around, passage);
+  return passage;
+}
+
+void PassageProver::askBodies(const TimedMotion& motion, const Surroundings& around,
+                              Passage& passage) {
+  const bool isRefuge =
+      isSamePose(motion.from, motion.to) && isSamePose(motion.from, around.refuge);
   whole_.assign(avatar_.skeleton(), motion.from, motion.to);
-  const Eigen::AlignedBox3d swept = sweptBox(volumes_, whole_);
+  const Eigen::AlignedBox3d swept = sweptBox(volumes_, whole_, states_);
   for (const AroundBody* const body : around.bodies) {
-    if (around.isPassed(body->body)) continue;
+    if (around.isPassed(body->body) || (isRefuge && body->isSolid)) continue;
     const double apart = swept.exteriorDistance(body->box());
     if (apart > 2.0 * tolerance_) {
       passage.clearance = std::min(passage.clearance, tolerance_);
@@ -90,8 +110,6 @@ Passage PassageProver::ask(const TimedMotion& motion, const Surroundings& around
     }
     askBody(motion, *body, passage);
   }
-  if (passage.isClear && motion.endUs < around.endUs) askToStay(motion, around, passage);
-  return passage;
 }
 
 void PassageProver::askScene(const TimedMotion& motion, Passage& passage) {
@@ -140,6 +158,7 @@ void PassageProver::askLeg(const TimedMotion& motion, const AroundBody& body, co
 /// Other solid avatars have counted on whoever they saw standing to be able to stay.
 void PassageProver::askToStay(const TimedMotion& motion, const Surroundings& around,
                               Passage& passage) {
+  if (isSamePose(motion.to, around.refuge)) return;
   const TimedMotion stay{motion.to, motion.to, motion.endUs, around.endUs};
   Passage staying;
   staying.isClear = true;

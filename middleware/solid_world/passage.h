@@ -38,6 +38,8 @@ struct Surroundings {
   std::vector<const AroundBody*> bodies;  ///< By body.
   std::vector<BodyId> passed;             ///< Those that are not asked: they crush it already.
   std::int64_t endUs = 0;                 ///< Of the tick.
+  /// Where it may stay until then: no solid avatar that moves meets it there, which is proven.
+  Pose refuge;
 
   [[nodiscard]] bool isPassed(BodyId body) const;
 };
@@ -53,14 +55,17 @@ class PassageProver {
   [[nodiscard]] Certifier& certifier() { return *certifier_; }
   /// What is asked about bodies of the kind. Makes it where it is not known yet.
   Result<const PairPlan*> planOf(const AroundKind& kind);
+  /// What is known of the kind is not needed any more.
+  void forget(std::int32_t kindNumber);
   /// Makes the plans for all legs of the bodies, so that ask() need not. Errors: as PairPlan.
   Result<Done> prepare(const Surroundings& around);
 
-  /// Asks the scene (unless `isSceneProven`), then the bodies. Beyond the motion itself, whoever
-  /// ends it before the tick does must be able to stay there without another solid avatar meeting
-  /// him. Preconditions: prepare() was called; validated poses.
-  [[nodiscard]] Passage ask(const TimedMotion& motion, const Surroundings& around,
-                            bool isSceneProven = false);
+  /// Asks the scene, then the bodies. Beyond the motion itself, whoever ends it before the tick
+  /// does must be able to stay there without another solid avatar meeting him. Preconditions:
+  /// prepare() was called; validated poses.
+  [[nodiscard]] Passage ask(const TimedMotion& motion, const Surroundings& around);
+  /// Of a part of a way that is shown as a whole or not at all, and that the scene leaves free.
+  [[nodiscard]] Passage askPart(const TimedMotion& motion, const Surroundings& around);
   /// As ask(). If it is not clear, goes as far as is proven, with room to what it meets: `reached`
   /// then is a pose of the motion, `reachedUs` its instant, and the motion until there is proven.
   /// reachedUs is the motion's begin if nothing is. Precondition: `reached` is neither pose.
@@ -76,6 +81,7 @@ class PassageProver {
  private:
   PassageProver(const Avatar& avatar, Certifier certifier, const SolidOptions& options);
   void askScene(const TimedMotion& motion, Passage& passage);
+  void askBodies(const TimedMotion& motion, const Surroundings& around, Passage& passage);
   void askBody(const TimedMotion& motion, const AroundBody& body, Passage& passage);
   void askLeg(const TimedMotion& motion, const AroundBody& body, const AroundLeg& leg,
               Passage& passage);
@@ -91,6 +97,7 @@ class PassageProver {
   ChainMotion whole_;
   PartOfMotion ofOne_, ofOther_;
   Pose reachedInScene_, part_;
+  std::vector<LinkState> states_;
   std::uint32_t questions_ = 0;
 };
 

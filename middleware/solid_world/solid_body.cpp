@@ -138,6 +138,7 @@ Result<Done> SolidBody::wear(std::vector<HeldTool> tools, KindNumbers& numbers) 
   FORETOUCH_TRY(outfit_, dress(avatar_, still_, options_, tools, numbers));
   outfit_->solid.resume(shown_);
   worn_ = std::move(tools);
+  next_.reset();
   return Done{};
 }
 
@@ -226,6 +227,9 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
   prover.beginTick(options_.workBudget);
   around.passed.clear();
   around.endUs = toUs;
+  // Those who have moved have proven that they meet nobody who stays.
+  if (isPlaced_) around.refuge = shown_;
+  if (!isPlaced_) around.refuge.rotations.clear();
   partFromLetGo(around, fromUs);
   endCrushes(around, fromUs, tick);
   for (const Crusher& crusher : crushers_) around.passed.push_back(crusher.body);
@@ -258,9 +262,9 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
   tick.letGo = letGo_;
 }
 
-/// The place that it has in the still scene, if nothing that moves comes there in this tick; else the
-/// nearest one of which that is true: then `tick` is no longer what it would do in a still scene, and
-/// this returns true.
+/// The place that it has in the still scene, if nothing that moves comes there in this tick; else
+/// the nearest one of which that is true: then `tick` is no longer what it would do in a still
+/// scene, and this returns true.
 bool SolidBody::appear(std::int64_t fromUs, std::int64_t toUs, const Surroundings& around,
                        SolidTick& tick) {
   StandingJudge judge(outfit_->prover, around, fromUs, toUs);
@@ -307,7 +311,7 @@ bool SolidBody::takeWay(std::int64_t fromUs, std::int64_t toUs, const Surroundin
     const Pose* const to = pieces > 0 ? &tick.way[first + static_cast<std::size_t>(i) - 1] : from;
     const std::int64_t beginUs = endsUs_.empty() ? fromUs : endsUs_.back();
     const std::int64_t endUs = pieces > 0 ? fromUs + (toUs - fromUs) * i / pieces : toUs;
-    const Passage passage = outfit_->prover.ask({*from, *to, beginUs, endUs}, around, true);
+    const Passage passage = outfit_->prover.askPart({*from, *to, beginUs, endUs}, around);
     if (!passage.isClear) return false;
     clearance = std::min(clearance, passage.clearance);
     if (pieces > 0) endsUs_.push_back(endUs);

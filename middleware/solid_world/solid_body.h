@@ -48,6 +48,10 @@ class SolidBody {
     if (!plan.ok()) return plan.error();
     return Done{};
   }
+  /// The number of what others see of it: another one where it has other tools.
+  [[nodiscard]] std::int32_t kindNumber() const { return outfit_->kind.number; }
+  /// Nobody looks like that any more.
+  void forget(std::int32_t kindNumber) { outfit_->prover.forget(kindNumber); }
   /// Stands where it is shown, for all of the tick.
   void stand(std::int64_t fromUs, std::int64_t toUs);
   /// One tick: `tick` gets what it shows. Precondition: prepare(around), hasTarget().

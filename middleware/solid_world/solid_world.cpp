@@ -210,7 +210,11 @@ class SolidWorld::Parts {
         held_.push_back(internal::toolOf(parts(), isSolid_, id, atUs_, covers_));
       }
       lookAround(solid);
+      const std::int32_t before = solid.kindNumber();
       FORETOUCH_CHECK(solid.hold(isNew, held_, around_, atUs_, numbers_));
+      if (solid.kindNumber() != before) {
+        for (const auto& other : solids_) other->forget(before);
+      }
       signatures_[i] = signature_;
       solid.stand(atUs_, utimeUs);
     }

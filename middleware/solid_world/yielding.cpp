@@ -291,6 +291,7 @@ void Yielding::show(Run& run, const Pose& to, std::int64_t untilUs, double clear
   left_ = std::max(0.0, left_ - pulled_);
   run.shown = to;
   run.atUs = untilUs;
+  run.around.refuge = run.shown;  // the proof of the motion was one of this, too
 }
 
 /// Not even staying is proven: from here on, nothing is claimed of the avatar and who is in its

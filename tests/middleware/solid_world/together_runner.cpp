@@ -53,6 +53,7 @@ void TogetherTally::add(const TogetherTally& other) {
   broken += other.broken;
   overclaimed += other.overclaimed;
   uncertified += other.uncertified;
+  betweenSolids += other.betweenSolids;
   least = std::min(least, other.least);
   for (const std::string& finding : other.findings) {
     if (findings.size() < kMostFindings) findings.push_back(finding);
@@ -214,6 +215,12 @@ void TogetherRunner::judgeTick(std::int64_t fromUs, std::int64_t toUs) {
     const bool isCrushed = std::any_of(tick.crushes.begin(), tick.crushes.end(),
                                        [](const SolidCrush& crush) { return !crush.isOver; });
     if (own.isCertified == isCrushed) ++tally.uncertified;
+    for (const SolidCrush& crush : tick.crushes) {
+      if (!movers_[slotOf(crush.body)].isSolid) continue;
+      ++tally.betweenSolids;
+      find("body " + std::to_string(tick.body) + " is crushed by the solid avatar " +
+           std::to_string(crush.body));
+    }
     const auto before = shown_.find(tick.body);
     std::size_t first = 0;
     Pose from = before != shown_.end() ? before->second : own.shown;

@@ -17,16 +17,17 @@ namespace foretouch::test {
 struct TogetherTally {
   std::uint64_t ticks = 0;  ///< Of solid avatars: frames.
   std::uint64_t moved = 0, crushed = 0, placing = 0, equal = 0, pushed = 0;
-  std::uint64_t instants = 0;     ///< At which the whole world was looked at.
-  std::uint64_t inside = 0;       ///< Findings, at instants that were not announced.
-  std::uint64_t broken = 0;       ///< Ways that do not begin where the last one ended.
-  std::uint64_t overclaimed = 0;  ///< Clearances above the least separation.
-  std::uint64_t uncertified = 0;  ///< Ticks without proof that say nothing of a crush.
+  std::uint64_t instants = 0;       ///< At which the whole world was looked at.
+  std::uint64_t inside = 0;         ///< Findings, at instants that were not announced.
+  std::uint64_t broken = 0;         ///< Ways that do not begin where the last one ended.
+  std::uint64_t overclaimed = 0;    ///< Clearances above the least separation.
+  std::uint64_t uncertified = 0;    ///< Ticks without proof that say nothing of a crush.
+  std::uint64_t betweenSolids = 0;  ///< Crushes of one by another.
   std::uint64_t digest = 14695981039346656037u;  ///< Of all poses that were shown.
   double least = 1e9;
   std::vector<std::string> findings;
   [[nodiscard]] std::uint64_t violations() const {
-    return inside + broken + overclaimed + uncertified;
+    return inside + broken + overclaimed + uncertified + betweenSolids;
   }
   void add(const TogetherTally& other);
 };
