@@ -7,7 +7,7 @@
 
 namespace foretouch::internal {
 
-bool findRow(const PlacedLss& one, const PlacedLss& other, double radii, double within,
+bool findRow(const LssInWorld& one, const LssInWorld& other, double radii, double within,
              ContactRow& row) {
   // Balls around the axes first.
   const double apart = 0.5 * ((one.a + one.b) - (other.a + other.b)).norm();
@@ -44,9 +44,10 @@ void OwnFeatures::append(const QueryPlan& plan, const std::vector<LinkState>& st
     const auto& lssB = plan.avatar.lss(pair.b);
     const LinkState &stateA = states[slotOf(pair.a)], &stateB = states[slotOf(pair.b)];
     for (std::size_t i = 0; i < lssA.size(); ++i) {
-      const PlacedLss one{stateA.pointAt(lssA[i].a), stateA.pointAt(lssA[i].b), lssA[i].radius};
+      const LssInWorld one{stateA.pointAt(lssA[i].a), stateA.pointAt(lssA[i].b), lssA[i].radius};
       for (std::size_t k = 0; k < lssB.size(); ++k) {
-        const PlacedLss other{stateB.pointAt(lssB[k].a), stateB.pointAt(lssB[k].b), lssB[k].radius};
+        const LssInWorld other{stateB.pointAt(lssB[k].a), stateB.pointAt(lssB[k].b),
+                               lssB[k].radius};
         const double radii = ownRadii(plan, pair.a, static_cast<std::int32_t>(i), pair.b,
                                       static_cast<std::int32_t>(k));
         ContactRow row;

@@ -14,13 +14,13 @@
 namespace foretouch::internal {
 
 /// An LSS where it is in W.
-struct PlacedLss {
+struct LssInWorld {
   Eigen::Vector3d a, b;
   double radius;
 };
 /// The row (its places, normal and gap) between two LSS whose radii count as `radii` together;
 /// false if they are farther apart than `within` (of their axes), or their axes meet.
-[[nodiscard]] bool findRow(const PlacedLss& one, const PlacedLss& other, double radii,
+[[nodiscard]] bool findRow(const LssInWorld& one, const LssInWorld& other, double radii,
                            double within, ContactRow& row);
 
 class OwnFeatures {

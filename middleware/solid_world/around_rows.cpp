@@ -110,12 +110,13 @@ void AroundRows::appendLss(const Placed& at, const PassageProver& prover,
   for (std::size_t link = 0; link < states.size(); ++link) {
     const std::vector<Lss>& own = prover.volumes()[link];
     for (std::size_t i = 0; i < own.size(); ++i) {
-      const PlacedLss one{states[link].pointAt(own[i].a), states[link].pointAt(own[i].b),
-                          own[i].radius};
+      const LssInWorld one{states[link].pointAt(own[i].a), states[link].pointAt(own[i].b),
+                           own[i].radius};
       for (std::size_t j = slotOf(kind.first); j < kind.volumes.size(); ++j) {
         for (std::size_t k = 0; k < kind.volumes[j].size(); ++k) {
           const Lss& lss = kind.volumes[j][k];
-          const PlacedLss other{at.begin[j].pointAt(lss.a), at.begin[j].pointAt(lss.b), lss.radius};
+          const LssInWorld other{at.begin[j].pointAt(lss.a), at.begin[j].pointAt(lss.b),
+                                 lss.radius};
           const double radii = one.radius + other.radius;
           ContactRow row;
           if (!findRow(one, other, radii, radii + reach[link], row)) continue;
