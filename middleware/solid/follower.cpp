@@ -7,31 +7,19 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/query/work_meter.h"
+#include "middleware/solid/near_rows.h"
 #include "middleware/solid/solid_way.h"
 
 namespace foretouch::internal {
 namespace {
 
-// Where each comes from: solid.md 6.
+// Where each comes from: solid.md 6; what is not here, near_rows.h has.
 constexpr int kMostIterations = 8, kMostFruitless = 4;
-constexpr double kLeastTrust = 0.01, kMostTrust = 0.05, kTrustOfStep = 1.5;
-/// Below this a step is not worth a motion: the avatar rests (m).
-constexpr double kSettled = 2e-5;
 /// A tick ends with a step below this share of the tracked one, and at most this long (m): the rest
 /// waits for the next tick. A still target is followed until the avatar rests.
 constexpr double kEnoughOfStep = 0.2, kMostEnough = 1.5e-3;
 constexpr std::uint8_t kHotTicks = 8;
-/// How far to look beyond the skin: the free step, and what it may be off.
-constexpr double kReachOfStep = 1.2, kReachMore = 3e-3, kReachMargin = 2e-3;
-/// In the rest zone, from this share of the skin to the skin, rows forbid to approach, and push
-/// nothing. Below it, they push back towards the second share.
-constexpr double kRest = 0.3, kBackTo = 0.6, kBackShare = 0.5, kMostBack = 5e-3;
-/// A step must leave rows that push this share of their gap, unless they stay in the rest zone.
-constexpr double kKeptGap = 0.9;
-constexpr int kHalvings = 4, kDoublings = 3, kCorrections = 2;
-constexpr double kFalls = 1.0 - 1e-9;
-/// Work of an iteration without its features, and of one feature, in evaluations in lanes.
-constexpr std::uint64_t kIterationWork = 400, kRowWork = 4;
+constexpr int kDoublings = 3, kCorrections = 2;
 
 }  // namespace
 
@@ -228,8 +216,7 @@ void Follower::findReach() {
   step_.farthestFree(here_, reach_);
   hotReach_.resize(n);
   for (std::size_t link = 0; link < n; ++link) {
-    reach_[link] =
-        options_.skin + std::min(trust_, kReachOfStep * reach_[link] + kReachMore) + kReachMargin;
+    reach_[link] = reachFor(reach_[link], trust_, options_.skin);
     hotReach_[link] = hotFor_[link] != 0 ? reach_[link] : -1.0;
   }
 }
@@ -237,18 +224,7 @@ void Follower::findReach() {
 void Follower::gather(Certifier& certifier, SolidTick& tick) {
   findReach();
   near_.answer(here_.states, hotReach_, nearScratch_, features_);
-  for (const NearFeature& feature : features_.features) {
-    if (feature.nhat_SL_W.squaredNorm() == 0.0) continue;
-    ContactRow row;
-    row.link = feature.link;
-    row.lss = feature.lss;
-    row.triangle = feature.triangle;
-    row.x = feature.p_WLink;
-    row.y = feature.p_WScene;
-    row.n = feature.nhat_SL_W;
-    row.gap = feature.gap;
-    rows_.push_back(row);
-  }
+  appendRows(features_, rows_);
   if (options_.self) own_.append(certifier.plan(), here_.states, reach_, hotFor_, rows_);
   ++tick.counters.iterations;
   tick.counters.features += static_cast<std::uint32_t>(rows_.size());
@@ -256,16 +232,9 @@ void Follower::gather(Certifier& certifier, SolidTick& tick) {
 }
 
 void Follower::setBounds(bool mayPush) {
-  const double skin = options_.skin;
   for (ContactRow& row : rows_) {
     row.bias = 0.0;
-    if (row.gap >= skin) {
-      row.bound = skin - row.gap;
-    } else if (row.gap >= kRest * skin || !mayPush) {
-      row.bound = 0.0;
-    } else {
-      row.bound = std::min(kBackShare * (kBackTo * skin - row.gap), kMostBack);
-    }
+    row.bound = boundOf(row.gap, options_.skin, mayPush);
   }
 }
 

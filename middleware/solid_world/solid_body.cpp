@@ -101,14 +101,15 @@ void SolidBody::takeTarget() {
 Result<Done> SolidBody::hold(bool isNew, const std::vector<HeldTool>& held,
                              const Surroundings& around, std::int64_t us, KindNumbers& numbers) {
   if (isNew) {
-    held_ = held;
     std::vector<HeldTool> kept;
     std::vector<BodyId> dropped;
     for (const HeldTool& tool : worn_) {
-      const bool isKept = std::find(held_.begin(), held_.end(), tool) != held_.end();
-      if (isKept) kept.push_back(tool);
-      if (!isKept && !isAmong(held_, tool.body)) dropped.push_back(tool.body);
+      if (std::find(held.begin(), held.end(), tool) != held.end()) kept.push_back(tool);
     }
+    for (const HeldTool& tool : held_) {
+      if (!isAmong(held, tool.body)) dropped.push_back(tool.body);
+    }
+    held_ = held;
     if (kept.size() != worn_.size()) FORETOUCH_CHECK(wear(std::move(kept), numbers));
     for (const BodyId body : dropped) {
       const AroundBody* const at = find(around, body);

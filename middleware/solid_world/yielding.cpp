@@ -8,19 +8,14 @@
 #include "lss/assert.h"
 #include "lss/index.h"
 #include "middleware/query/work_meter.h"
+#include "middleware/solid/near_rows.h"
 #include "middleware/solid/solid_way.h"
 
 namespace foretouch::internal {
 namespace {
 
-// As those of a tick in a still scene (solid.md 6).
-constexpr double kLeastTrust = 0.01, kMostTrust = 0.05, kTrustOfStep = 1.5;
-constexpr double kSettled = 2e-5, kFalls = 1.0 - 1e-9;
-constexpr double kReachOfStep = 1.2, kReachMore = 3e-3, kReachMargin = 2e-3;
-constexpr double kRest = 0.3, kBackTo = 0.6, kBackShare = 0.5, kMostBack = 5e-3;
-constexpr int kHalvings = 4, kCorrections = 3;
-constexpr std::uint64_t kIterationWork = 400, kRowWork = 4;
-// Of this room (solid_world.md 5).
+// Of this room (solid_world.md 5); what is not here is as in a still scene (near_rows.h).
+constexpr int kCorrections = 3;
 /// A tick has so many windows that no body near the avatar moves farther than this in one (m).
 constexpr double kMostMove = 0.015;
 constexpr int kMostWindows = 8;
@@ -111,22 +106,10 @@ void Yielding::gather(Run& run) {
   pulled_ = share * size;
   step_.farthestFree(here_, reach_);
   for (double& reach : reach_) {
-    reach =
-        options_.skin + std::min(trust_, kReachOfStep * reach + kReachMore) + kReachMargin + moves_;
+    reach = reachFor(reach, trust_, options_.skin) + moves_;
   }
   near_.answer(here_.states, reach_, nearScratch_, features_);
-  for (const NearFeature& feature : features_.features) {
-    if (feature.nhat_SL_W.squaredNorm() == 0.0) continue;
-    ContactRow row;
-    row.link = feature.link;
-    row.lss = feature.lss;
-    row.triangle = feature.triangle;
-    row.x = feature.p_WLink;
-    row.y = feature.p_WScene;
-    row.n = feature.nhat_SL_W;
-    row.gap = feature.gap;
-    rows_.push_back(row);
-  }
+  appendRows(features_, rows_);
   Certifier& certifier = run.prover.certifier();
   if (options_.self) own_.append(certifier.plan(), here_.states, reach_, isAsked_, rows_);
   numStill_ = rows_.size();
@@ -138,17 +121,10 @@ void Yielding::gather(Run& run) {
 
 /// What each row must keep, once its surface has come as far as it does.
 void Yielding::setBounds(bool mayPushBack) {
-  const double skin = options_.skin;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     ContactRow& row = rows_[i];
     row.bias = 0.0;
-    if (row.gap >= skin) {
-      row.bound = skin - row.gap;
-    } else if (row.gap >= kRest * skin || !mayPushBack) {
-      row.bound = 0.0;
-    } else {
-      row.bound = std::min(kBackShare * (kBackTo * skin - row.gap), kMostBack);
-    }
+    row.bound = boundOf(row.gap, options_.skin, mayPushBack);
     if (i >= numStill_) row.bound += around_.features()[i - numStill_].comes;
   }
 }
@@ -188,7 +164,7 @@ bool Yielding::correct(Run& run) {
     if (!(row.push > 0.0)) continue;
     const double wanted = std::min(row.gap, kRest * options_.skin);
     const double gap = gapThere(run, i);
-    if (gap >= 0.9 * wanted) continue;
+    if (gap >= kKeptGap * wanted) continue;
     row.bias += wanted - gap;
     isKept = false;
   }

@@ -273,6 +273,26 @@ TEST(SolidWorld, WhatIsTakenWhereItTouchesIsLooseUntilItIsApart) {
   EXPECT_EQ(run.violations(), 0u);
 }
 
+TEST(SolidWorld, WhatIsLooseCrushesNobodyWhenItIsLetGo) {
+  RawScene room = floorOnly();
+  addBox(room, {0.55, 0.0, -0.3}, {1.2, 1.25, 0.3});
+  TogetherRunner run(room);
+  const BodyId person = run.addSolid(figure());
+  const BodyId cup = run.addMover(ofLss({{0, -0.05, 0}, {0, 0.05, 0}, 0.03}));
+  const auto hand = static_cast<LinkId>(*figure().skeleton().find("LeftHand"));
+  run.moveTo(cup, RigidPose{Quaternion::Identity(), {0.8, 2.5, 0}});
+  run.follow(person, restPose(figure().skeleton()));
+  run.tick();
+  run.take(cup, person, hand, {Quaternion::Identity(), {0.1, -0.062, 0}});
+  run.tick();
+  EXPECT_EQ(run.of(person).looseTools, std::vector<BodyId>{cup});
+  run.letGo(cup);
+  run.tick();
+  EXPECT_EQ(run.of(person).letGo, std::vector<BodyId>{cup});
+  EXPECT_TRUE(run.of(person).crushes.empty());
+  EXPECT_EQ(run.violations(), 0u);
+}
+
 TEST(SolidWorld, TheWorldSaysTheSameOfWhatWasShown) {
   // Whoever asks the world afterwards finds no contact but the crushes.
   RawScene room = floorOnly();
