@@ -246,13 +246,14 @@ class SolidWorld::Parts {
               [](const auto* x, const auto* y) { return x->body < y->body; });
   }
 
-  /// Who moves later comes nearer to whom he saw: what he has proven of the two counts for both.
+  /// Who moves comes nearer to those who saw him standing, and to those who count on him to have
+  /// proven that they may stay: what either has proven of the two counts for both.
   void shareClearances(std::vector<SolidBodyTick>& ticks) const {
     for (SolidBodyTick& tick : ticks) {
       const internal::SolidBody& one = *solidOf(tick.body);
-      for (const SolidBodyTick& later : ticks) {
-        const internal::SolidBody& other = *solidOf(later.body);
-        if (later.body <= tick.body || later.tick.numWay == 0 || !one.isPlaced()) continue;
+      for (const SolidBodyTick& moved : ticks) {
+        const internal::SolidBody& other = *solidOf(moved.body);
+        if (moved.body == tick.body || moved.tick.numWay == 0 || !one.isPlaced()) continue;
         if (!parts().isAsked(one.id(), other.id()) || !other.isPlaced()) continue;
         if (one.trace().box().exteriorDistance(other.trace().box()) > other.proven()) continue;
         tick.tick.clearance = std::min(tick.tick.clearance, other.proven());
