@@ -163,8 +163,15 @@ void PassageProver::askToStay(const TimedMotion& motion, const Surroundings& aro
   Passage staying;
   staying.isClear = true;
   staying.freeUntilUs = around.endUs;
+  whole_.assign(avatar_.skeleton(), stay.from, stay.to);
+  const Eigen::AlignedBox3d box = sweptBox(volumes_, whole_, states_);
   for (const AroundBody* const body : around.bodies) {
-    if (body->isSolid) askBody(stay, *body, staying);
+    if (!body->isSolid) continue;
+    if (box.exteriorDistance(body->box()) > 2.0 * tolerance_) {
+      staying.clearance = std::min(staying.clearance, tolerance_);
+    } else {
+      askBody(stay, *body, staying);
+    }
   }
   if (staying.isClear) return;
   // Where it stops must be another place.

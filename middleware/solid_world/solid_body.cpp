@@ -57,7 +57,8 @@ Result<std::unique_ptr<SolidBody::Outfit>> SolidBody::dress(const Avatar& avatar
   const SolidOptions completed = solid.options();
   FORETOUCH_TRY(auto prover, PassageProver::build(whole.avatar, still, completed));
   FORETOUCH_TRY(auto yielding, Yielding::build(whole.avatar, still, completed, prover));
-  AroundKind kind{numbers.next(), whole.avatar.skeleton(), 0, prover.volumes(), std::nullopt, 0.0};
+  const std::int32_t number = tools.empty() ? numbers.ofAvatar(avatar.identity()) : numbers.next();
+  AroundKind kind{number, whole.avatar.skeleton(), 0, prover.volumes(), std::nullopt, 0.0};
   for (const std::vector<Lss>& link : kind.volumes) {
     for (const Lss& lss : link) {
       kind.rho = std::max(kind.rho, std::max(lss.a.norm(), lss.b.norm()) + lss.radius);

@@ -212,7 +212,7 @@ class SolidWorld::Parts {
       lookAround(solid);
       const std::int32_t before = solid.kindNumber();
       FORETOUCH_CHECK(solid.hold(isNew, held_, around_, atUs_, numbers_));
-      if (solid.kindNumber() != before) {
+      if (solid.kindNumber() != before && !numbers_.isOfAvatar(before)) {
         for (const auto& other : solids_) other->forget(before);
       }
       signatures_[i] = signature_;

@@ -8,6 +8,19 @@
 
 namespace foretouch::internal {
 
+std::int32_t KindNumbers::ofAvatar(std::uint64_t identity) {
+  for (const auto& [known, number] : ofAvatars_) {
+    if (known == identity) return number;
+  }
+  ofAvatars_.emplace_back(identity, next());
+  return ofAvatars_.back().second;
+}
+
+bool KindNumbers::isOfAvatar(std::int32_t number) const {
+  return std::any_of(ofAvatars_.begin(), ofAvatars_.end(),
+                     [number](const auto& known) { return known.second == number; });
+}
+
 Result<Done> WorldMovers::collect(const WorldParts& world, const std::vector<std::uint8_t>& isMover,
                                   std::int64_t fromUs, std::int64_t toUs, KindNumbers& numbers) {
   bodies_.resize(world.bodies.size());

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "articulated/result.h"
@@ -18,9 +19,13 @@ namespace foretouch::internal {
 class KindNumbers {
  public:
   [[nodiscard]] std::int32_t next() { return count_++; }
+  /// All solid avatars of one avatar (its identity), with empty hands, are of one kind.
+  [[nodiscard]] std::int32_t ofAvatar(std::uint64_t identity);
+  [[nodiscard]] bool isOfAvatar(std::int32_t number) const;
 
  private:
   std::int32_t count_ = 0;
+  std::vector<std::pair<std::uint64_t, std::int32_t>> ofAvatars_;
 };
 
 /// Keeps its memory.
