@@ -7,31 +7,19 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/query/work_meter.h"
+#include "middleware/solid/near_rows.h"
 #include "middleware/solid/solid_way.h"
 
 namespace foretouch::internal {
 namespace {
 
-// Where each comes from: solid.md 6.
+// Where each comes from: solid.md 6; what is not here, near_rows.h has.
 constexpr int kMostIterations = 8, kMostFruitless = 4;
-constexpr double kLeastTrust = 0.01, kMostTrust = 0.05, kTrustOfStep = 1.5;
-/// Below this a step is not worth a motion: the avatar rests (m).
-constexpr double kSettled = 2e-5;
 /// A tick ends with a step below this share of the tracked one, and at most this long (m): the rest
 /// waits for the next tick. A still target is followed until the avatar rests.
 constexpr double kEnoughOfStep = 0.2, kMostEnough = 1.5e-3;
 constexpr std::uint8_t kHotTicks = 8;
-/// How far to look beyond the skin: the free step, and what it may be off.
-constexpr double kReachOfStep = 1.2, kReachMore = 3e-3, kReachMargin = 2e-3;
-/// In the rest zone, from this share of the skin to the skin, rows forbid to approach, and push
-/// nothing. Below it, they push back towards the second share.
-constexpr double kRest = 0.3, kBackTo = 0.6, kBackShare = 0.5, kMostBack = 5e-3;
-/// A step must leave rows that push this share of their gap, unless they stay in the rest zone.
-constexpr double kKeptGap = 0.9;
-constexpr int kHalvings = 4, kDoublings = 3, kCorrections = 2;
-constexpr double kFalls = 1.0 - 1e-9;
-/// Work of an iteration without its features, and of one feature, in evaluations in lanes.
-constexpr std::uint64_t kIterationWork = 400, kRowWork = 4;
+constexpr int kDoublings = 3, kCorrections = 2;
 
 }  // namespace
 
@@ -45,19 +33,10 @@ Follower::Follower(const Avatar& avatar, const SolidOptions& options, const Cert
                    NearQuery near)
     : options_(options),
       skeleton_(avatar.skeleton()),
-      body_(avatar, options.visibility),
+      step_(avatar, options.visibility),
       near_(std::move(near)),
       own_(certifier.plan()) {
-  inertia_.reset(skeleton_.parents());
-  const auto n = countOf(skeleton_.numJoints());
-  hotFor_.assign(n, 0);
-  isSeen_.assign(n, 0);
-  for (const VisualBody::Point& point : body_.points()) isSeen_[slotOf(point.link)] = 1;
-  for (std::size_t j = n; j-- > 0;) {
-    const JointId parent = skeleton_.parents()[j];
-    if (isSeen_[j] != 0 && parent != kNoParent) isSeen_[slotOf(parent)] = 1;
-  }
-  change_.resize(n);
+  hotFor_.assign(countOf(skeleton_.numJoints()), 0);
 }
 
 void Follower::reset() {
@@ -125,7 +104,7 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   const double far = VisualBody::farthest(here_.places, request.wanted);
   if (!isAnyHot()) return stepFreely(request, far, certifier, shown, tick);
 
-  aim(request, shown);
+  step_.aim(request.target, request.wanted, here_, shown);
   gather(certifier, tick);
   const double most = std::min(trust_, left_);
   const bool hasStep = propose(request, certifier.plan(), shown, most, tick);
@@ -190,7 +169,7 @@ Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, C
   const Certified answer = ask(shown, to, certifier, tick);
   if (answer.isClear) {
     const bool isPlaced = &to == &tried_ && isOfTried_;
-    if (!isPlaced) place(reached_, there_);
+    if (!isPlaced) step_.place(reached_, there_);
     moveThere(answer.clearance, shown, tick);
     isHere_ = isPlaced;
     return Outcome::Clear;
@@ -202,7 +181,7 @@ Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, C
 /// A piece that was cut is part of a way on which the merit falls in the end, perhaps not at once.
 bool Follower::showCut(const FollowRequest& request, double clearance, Pose& shown,
                        SolidTick& tick) {
-  place(reached_, there_);
+  step_.place(reached_, there_);
   weigh(request, reached_, there_);
   isOfTried_ = false;
   if (!(there_.merit < kFalls * here_.merit)) return false;
@@ -223,75 +202,21 @@ void Follower::moveThere(double clearance, Pose& shown, SolidTick& tick) {
 /// Makes here_ that of the shown pose, unless it is.
 void Follower::standHere(const FollowRequest& request, const Pose& shown) {
   if (std::exchange(isHere_, true)) return;
-  place(shown, here_);
+  step_.place(shown, here_);
   weigh(request, shown, here_);
 }
 
-void Follower::place(const Pose& pose, Stance& stance) const {
-  placeLinks(skeleton_, pose, stance.states);
-  body_.place(stance.states, stance.places);
-}
-
-/// Of a stance that place() made.
 void Follower::weigh(const FollowRequest& request, const Pose& pose, Stance& stance) const {
-  stance.turns.resize(pose.rotations.size());
-  for (std::size_t j = 0; j < pose.rotations.size(); ++j) {
-    stance.turns[j] = turnBetween(pose.rotations[j], request.target.rotations[j]);
-  }
-  stance.merit = body_.merit(stance.places, request.wanted, stance.turns);
-}
-
-/// The step that would reach the target to first order if nothing were in the way.
-void Follower::aim(const FollowRequest& request, const Pose& shown) {
-  const std::vector<JointId>& parents = skeleton_.parents();
-  const std::size_t n = parents.size();
-  const std::vector<LinkState>& states = here_.states;
-  origin_ = states[0].p_WL;
-  pull_.forces.assign(n, Vector6d::Zero());
-  pull_.torques.resize(n);
-  pull_.drifts.resize(n);
-  inertia_.begin();
-  for (std::size_t j = 0; j < n; ++j) {
-    const Eigen::Vector3d& turn = here_.turns[j];
-    const double stiffness = body_.stiffness()[j];
-    if (parents[j] == kNoParent) {
-      pull_.torques[j] = stiffness * turn;
-      pull_.drifts[j].setZero();
-    } else {
-      const auto parent = slotOf(parents[j]);
-      change_.shift[j] = request.target.translations[j] - shown.translations[j];
-      pull_.torques[j] = stiffness * (states[parent].R_WL * turn);
-      pull_.drifts[j] = pull_.drifts[parent] + states[parent].R_WL * change_.shift[j];
-    }
-    inertia_.setOrigin(static_cast<JointId>(j), states[j].p_WL - origin_);
-  }
-  const auto& points = body_.points();
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto link = slotOf(points[k].link);
-    const Eigen::Vector3d x = here_.places[k] - origin_;
-    const Eigen::Vector3d error = request.wanted[k] - here_.places[k] - pull_.drifts[link];
-    pull_.forces[link] += points[k].weight * wrench(x, error);
-    inertia_.addPoint(points[k].link, x, points[k].weight);
-  }
-  inertia_.factor(body_.stiffness());
-  inertia_.solve(pull_.forces, pull_.torques, free_.turns, free_.shifts, free_.twists);
+  step_.weigh(request.target, request.wanted, pose, stance);
 }
 
 /// How far to look for surfaces around each link, and around those that are in contact.
 void Follower::findReach() {
   const std::size_t n = hotFor_.size();
-  reach_.assign(n, 0.0);
-  const auto& points = body_.points();
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto link = slotOf(points[k].link);
-    const double step =
-        (free_.twists[link].at(here_.places[k] - origin_) + pull_.drifts[link]).norm();
-    reach_[link] = std::max(reach_[link], step);
-  }
+  step_.farthestFree(here_, reach_);
   hotReach_.resize(n);
   for (std::size_t link = 0; link < n; ++link) {
-    reach_[link] =
-        options_.skin + std::min(trust_, kReachOfStep * reach_[link] + kReachMore) + kReachMargin;
+    reach_[link] = reachFor(reach_[link], trust_, options_.skin);
     hotReach_[link] = hotFor_[link] != 0 ? reach_[link] : -1.0;
   }
 }
@@ -299,18 +224,7 @@ void Follower::findReach() {
 void Follower::gather(Certifier& certifier, SolidTick& tick) {
   findReach();
   near_.answer(here_.states, hotReach_, nearScratch_, features_);
-  for (const NearFeature& feature : features_.features) {
-    if (feature.nhat_SL_W.squaredNorm() == 0.0) continue;
-    ContactRow row;
-    row.link = feature.link;
-    row.lss = feature.lss;
-    row.triangle = feature.triangle;
-    row.x = feature.p_WLink;
-    row.y = feature.p_WScene;
-    row.n = feature.nhat_SL_W;
-    row.gap = feature.gap;
-    rows_.push_back(row);
-  }
+  appendRows(features_, rows_);
   if (options_.self) own_.append(certifier.plan(), here_.states, reach_, hotFor_, rows_);
   ++tick.counters.iterations;
   tick.counters.features += static_cast<std::uint32_t>(rows_.size());
@@ -318,16 +232,9 @@ void Follower::gather(Certifier& certifier, SolidTick& tick) {
 }
 
 void Follower::setBounds(bool mayPush) {
-  const double skin = options_.skin;
   for (ContactRow& row : rows_) {
     row.bias = 0.0;
-    if (row.gap >= skin) {
-      row.bound = skin - row.gap;
-    } else if (row.gap >= kRest * skin || !mayPush) {
-      row.bound = 0.0;
-    } else {
-      row.bound = std::min(kBackShare * (kBackTo * skin - row.gap), kMostBack);
-    }
+    row.bound = boundOf(row.gap, options_.skin, mayPush);
   }
 }
 
@@ -335,7 +242,7 @@ void Follower::setBounds(bool mayPush) {
 /// False: there is none, or none worth a motion.
 bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                        double most, SolidTick& tick) {
-  push_.begin();
+  step_.begin();
   setBounds(true);
   for (int attempt = 0; attempt <= kCorrections; ++attempt) {
     solve(tick);
@@ -385,36 +292,13 @@ void Follower::goFarther(const FollowRequest& request, const QueryPlan& plan, co
 }
 
 void Follower::solve(SolidTick& tick) {
-  step_ = free_;
-  const std::size_t taken = push_.solve(inertia_, pull_, origin_, rows_, step_);
-  tick.counters.rows += static_cast<std::uint32_t>(taken);
-  size_ = sizeOf(step_);
-}
-
-/// The farthest that the whole step moves any point, a joint's turn counted by its lever.
-double Follower::sizeOf(const TreeStep& step) const {
-  double most = 0.0;
-  const auto& points = body_.points();
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto link = slotOf(points[k].link);
-    const Eigen::Vector3d moved =
-        step.twists[link].at(here_.places[k] - origin_) + pull_.drifts[link];
-    most = std::max(most, moved.squaredNorm());
-  }
-  most = std::sqrt(most);
-  for (std::size_t j = 0; j < isSeen_.size(); ++j) {
-    if (isSeen_[j] != 0) most = std::max(most, kTwistLever * step.turns[j].norm());
-  }
-  return most;
+  tick.counters.rows += static_cast<std::uint32_t>(step_.solve(rows_));
+  size_ = step_.size(here_);
 }
 
 bool Follower::tryShare(const FollowRequest& request, const Pose& shown, double share) {
-  for (std::size_t j = 0; j < step_.turns.size(); ++j) {
-    change_.turn[j] = step_.turns[j];
-    if (skeleton_.parents()[j] == kNoParent) change_.shift[j] = step_.shifts[j];
-  }
-  moveBy(skeleton_, shown, here_.states, change_, share, tried_);
-  place(tried_, there_);
+  step_.move(here_, shown, share, tried_);
+  step_.place(tried_, there_);
   weigh(request, tried_, there_);
   isOfTried_ = true;
   return there_.merit < kFalls * here_.merit;

@@ -9,13 +9,10 @@
 #include "middleware/query/near_features.h"
 #include "middleware/solid/certifier.h"
 #include "middleware/solid/contact_row.h"
-#include "middleware/solid/least_push.h"
 #include "middleware/solid/own_features.h"
+#include "middleware/solid/pulled_step.h"
 #include "middleware/solid/solid_options.h"
 #include "middleware/solid/solid_tick.h"
-#include "middleware/mechanics/tree_inertia.h"
-#include "middleware/solid/tree_pose.h"
-#include "middleware/solid/visual_body.h"
 
 namespace foretouch::internal {
 
@@ -43,7 +40,7 @@ class Follower {
   /// Forgets contacts.
   void reset();
 
-  [[nodiscard]] const VisualBody& body() const { return body_; }
+  [[nodiscard]] const VisualBody& body() const { return step_.body(); }
   /// The rows of the tick's last step, by link and LSS, with their pushes; places are from before
   /// that step. Empty if nothing was near.
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
@@ -56,13 +53,6 @@ class Follower {
   Follower(const Avatar& avatar, const SolidOptions& options, const Certifier& certifier,
            NearQuery near);
 
-  /// Where a pose places what counts.
-  struct Stance {
-    std::vector<LinkState> states;
-    std::vector<Eigen::Vector3d> places;  // of the body's points
-    std::vector<Eigen::Vector3d> turns;   // per joint, to the target
-    double merit = 0.0;
-  };
   enum class Outcome : std::uint8_t { Clear, Cut, Stuck };
   [[nodiscard]] Outcome show(const FollowRequest& request, const Pose& to, Certifier& certifier,
                              Pose& shown, SolidTick& tick);
@@ -74,8 +64,6 @@ class Follower {
                              SolidTick& tick);
   [[nodiscard]] bool stepFreely(const FollowRequest& request, double far, Certifier& certifier,
                                 Pose& shown, SolidTick& tick);
-  void aim(const FollowRequest& request, const Pose& shown);
-  void place(const Pose& pose, Stance& stance) const;
   void weigh(const FollowRequest& request, const Pose& pose, Stance& stance) const;
   void standHere(const FollowRequest& request, const Pose& shown);
   void moveThere(double clearance, Pose& shown, SolidTick& tick);
@@ -90,7 +78,6 @@ class Follower {
                  double share, double most);
   void solve(SolidTick& tick);
   [[nodiscard]] bool tryShare(const FollowRequest& request, const Pose& shown, double share);
-  [[nodiscard]] double sizeOf(const TreeStep& step) const;
   [[nodiscard]] bool keepsGaps(const QueryPlan& plan) const;
   void correctFor(const QueryPlan& plan, double share);
   [[nodiscard]] bool isTargetApart(const FollowRequest& request, const QueryPlan& plan) const;
@@ -100,11 +87,9 @@ class Follower {
 
   SolidOptions options_;
   Skeleton skeleton_;
-  VisualBody body_;
+  PulledStep step_;
   NearQuery near_;
   OwnFeatures own_;
-  TreeInertia inertia_;
-  LeastPush push_;
   NearScratch nearScratch_;
   NearFeatures features_;
 
@@ -114,10 +99,6 @@ class Follower {
   bool isOfTried_ = false;  // there_ is of tried_
 
   // Of the current iteration.
-  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  TreePull pull_;
-  TreeStep free_, step_;
-  PoseStep change_;
   std::vector<double> reach_, hotReach_;
   std::vector<ContactRow> rows_;
   Pose tried_, nearer_, reached_;
@@ -134,7 +115,6 @@ class Follower {
   int fruitless_ = 0;
 
   std::vector<std::uint8_t> hotFor_;  // per link: ticks for which it counts as in contact
-  std::vector<std::uint8_t> isSeen_;  // per joint: points are on its link or below
 };
 
 }  // namespace foretouch::internal

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "middleware/solid/contact_row.h"
 #include "middleware/mechanics/tree_inertia.h"
+#include "middleware/solid/contact_row.h"
 
 namespace foretouch::internal {
 

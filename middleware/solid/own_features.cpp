@@ -7,6 +7,22 @@
 
 namespace foretouch::internal {
 
+bool findRow(const LssInWorld& one, const LssInWorld& other, double radii, double within,
+             ContactRow& row) {
+  // Balls around the axes first.
+  const double apart = 0.5 * ((one.a + one.b) - (other.a + other.b)).norm();
+  if (apart - 0.5 * ((one.a - one.b).norm() + (other.a - other.b).norm()) > within) return false;
+  const Separation near = separation(Hull::segment(one.a, one.b), Hull::segment(other.a, other.b));
+  if (near.distance > within || !(near.distance > 0.0)) return false;
+  row.n = near.difference / near.distance;
+  // Half of what pair radii take away belongs to either side.
+  const double share = radii > 0.0 ? radii / (one.radius + other.radius) : 0.0;
+  row.x = near.onOne - share * one.radius * row.n;
+  row.y = near.onOther + share * other.radius * row.n;
+  row.gap = near.lower() - radii;
+  return true;
+}
+
 OwnFeatures::OwnFeatures(const QueryPlan& plan) {
   if (!plan.options.self) return;
   for (LinkId a = 0; a < plan.avatar.numLinks(); ++a) {
@@ -28,28 +44,18 @@ void OwnFeatures::append(const QueryPlan& plan, const std::vector<LinkState>& st
     const auto& lssB = plan.avatar.lss(pair.b);
     const LinkState &stateA = states[slotOf(pair.a)], &stateB = states[slotOf(pair.b)];
     for (std::size_t i = 0; i < lssA.size(); ++i) {
-      const Eigen::Vector3d a = stateA.pointAt(lssA[i].a), b = stateA.pointAt(lssA[i].b);
+      const LssInWorld one{stateA.pointAt(lssA[i].a), stateA.pointAt(lssA[i].b), lssA[i].radius};
       for (std::size_t k = 0; k < lssB.size(); ++k) {
-        const Eigen::Vector3d c = stateB.pointAt(lssB[k].a), d = stateB.pointAt(lssB[k].b);
+        const LssInWorld other{stateB.pointAt(lssB[k].a), stateB.pointAt(lssB[k].b),
+                               lssB[k].radius};
         const double radii = ownRadii(plan, pair.a, static_cast<std::int32_t>(i), pair.b,
                                       static_cast<std::int32_t>(k));
-        const double within = radii + reachOfBoth;
-        // Balls around the axes first.
-        const double apart = 0.5 * ((a + b) - (c + d)).norm();
-        if (apart - 0.5 * ((a - b).norm() + (c - d).norm()) > within) continue;
-        const Separation near = separation(Hull::segment(a, b), Hull::segment(c, d));
-        if (near.distance > within || !(near.distance > 0.0)) continue;
         ContactRow row;
+        if (!findRow(one, other, radii, radii + reachOfBoth, row)) continue;
         row.link = pair.a;
         row.lss = static_cast<std::int32_t>(i);
         row.other = pair.b;
         row.otherLss = static_cast<std::int32_t>(k);
-        row.n = near.difference / near.distance;
-        // Half of what pair radii take away belongs to either side.
-        const double share = radii / (lssA[i].radius + lssB[k].radius);
-        row.x = near.onOne - share * lssA[i].radius * row.n;
-        row.y = near.onOther + share * lssB[k].radius * row.n;
-        row.gap = near.lower() - radii;
         rows.push_back(row);
       }
     }

@@ -5,11 +5,23 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "articulated/motion.h"
 #include "middleware/query/query_plan.h"
 #include "middleware/solid/contact_row.h"
 
 namespace foretouch::internal {
+
+/// An LSS where it is in W.
+struct LssInWorld {
+  Eigen::Vector3d a, b;
+  double radius;
+};
+/// The row (its places, normal and gap) between two LSS whose radii count as `radii` together;
+/// false if they are farther apart than `within` (of their axes), or their axes meet.
+[[nodiscard]] bool findRow(const LssInWorld& one, const LssInWorld& other, double radii,
+                           double within, ContactRow& row);
 
 class OwnFeatures {
  public:

@@ -52,7 +52,10 @@ void Placing::listOffsets() {
   }
 }
 
-bool Placing::search(const Pose& asked, Certifier& certifier, Pose& place) {
+bool Placing::search(const Pose& asked, Certifier& certifier, Pose& place, PlaceJudge* judge) {
+  const auto isFree = [&] {
+    return certifier.isClear(place, place) && (judge == nullptr || judge->isFree(place));
+  };
   const Eigen::Vector3d at = asked.translations[0];
   if (next_ == 0 || (at - begunAt_).norm() > kSamePlace) {
     next_ = 0;
@@ -62,7 +65,7 @@ bool Placing::search(const Pose& asked, Certifier& certifier, Pose& place) {
   // Moving all of it does not take own links apart.
   if (certifier.asksOwnLinks() && !unfolding_.unfold(asked, certifier, place)) return false;
   if (next_ == 0) {
-    if (certifier.isClear(place, place)) return true;
+    if (isFree()) return true;
     if (offsets_.empty()) listOffsets();
     next_ = 1;  // the first one is no offset
   }
@@ -75,7 +78,7 @@ bool Placing::search(const Pose& asked, Certifier& certifier, Pose& place) {
       if (skeleton_.parents()[j] != kNoParent) continue;
       place.translations[j] = asked.translations[j] + offsets_[next_];
     }
-    if (certifier.isClear(place, place)) {
+    if (isFree()) {
       next_ = 0;
       return true;
     }

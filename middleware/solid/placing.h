@@ -13,6 +13,16 @@
 
 namespace foretouch::internal {
 
+/// Who else has a say about a place.
+class PlaceJudge {
+ public:
+  PlaceJudge() = default;
+  PlaceJudge(const PlaceJudge&) = delete;
+  PlaceJudge& operator=(const PlaceJudge&) = delete;
+  virtual ~PlaceJudge() = default;
+  [[nodiscard]] virtual bool isFree(const Pose& place) = 0;
+};
+
 /// Tries the pose itself, unfolded where it touches itself, then moved on a grid, nearest first: up
 /// and to the sides, not down through a floor. A search that one tick's work does not finish goes
 /// on in the next. Free is not outside: a body inside a closed cupboard touches nothing.
@@ -23,8 +33,9 @@ class Placing {
   /// Forgets how far the search is.
   void reset() { next_ = 0; }
   /// Goes on searching around `asked`; true: `place` is free. Spends at most the tick's work, and
-  /// leaves none if it found nothing.
-  [[nodiscard]] bool search(const Pose& asked, Certifier& certifier, Pose& place);
+  /// leaves none if it found nothing. `judge`: asked about places that the certifier finds free.
+  [[nodiscard]] bool search(const Pose& asked, Certifier& certifier, Pose& place,
+                            PlaceJudge* judge = nullptr);
 
  private:
   void listOffsets();

@@ -158,6 +158,16 @@ class SolidAvatar::Parts {
     return Done{};
   }
 
+  [[nodiscard]] const Pose& target() const { return target_.pose(); }
+
+  void resume(const Pose& shown) {
+    shown_ = shown;
+    isPlaced_ = true;
+    isInside_ = mustSayPlace_ = hasSnapped_ = false;
+    wasEqual_ = internal::isSamePose(shown_, target_.pose());
+    follower_.reset();
+  }
+
   [[nodiscard]] const SolidOptions& options() const { return options_; }
   [[nodiscard]] internal::Certifier& certifier() { return certifier_; }
   [[nodiscard]] const internal::Certifier& certifier() const { return certifier_; }
@@ -438,6 +448,14 @@ Result<Done> SolidAvatar::reset(const Pose& place) {
 
 Result<Done> SolidAvatar::changeScene(const Scene& scene) {
   return parts_->changeScene(scene);
+}
+
+const Pose& SolidAvatar::target() const {
+  return parts_->target();
+}
+
+void SolidAvatar::resume(const Pose& shown) {
+  parts_->resume(shown);
 }
 
 const Avatar& SolidAvatar::avatar() const {

@@ -49,6 +49,13 @@ class SolidAvatar {
   /// Errors: as build(), and nothing has changed.
   Result<Done> changeScene(const Scene& scene);
 
+  /// For who leads the avatar through more than a scene (middleware/solid_world): where the last
+  /// target led, its lost joints at their places and the lift included; empty before the first one.
+  [[nodiscard]] const Pose& target() const;
+  /// Goes on from another place, to which the caller has led the avatar by motions of his own, and
+  /// for which he vouches. Precondition: a validated pose of the avatar.
+  void resume(const Pose& shown);
+
   [[nodiscard]] const Avatar& avatar() const;
   [[nodiscard]] const Scene& scene() const;
   [[nodiscard]] const SolidOptions& options() const;

@@ -1,0 +1,77 @@
+// tests/middleware/solid_world/together_campaign_test.cpp: a sample of the campaign, and the
+// control: the judge names every lie.
+#include "tests/middleware/solid_world/together_campaign.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+namespace foretouch::test {
+namespace {
+
+TEST(TogetherCampaign, NothingIsInsideThatIsNotSaid) {
+  TogetherTally total;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    TogetherCampaign campaign;
+    campaign.seed = seed;
+    campaign.ticks = 150;
+    campaign.rateHz = seed % 3 == 0 ? 90.0 : seed % 3 == 1 ? 30.0 : 10.0;
+    campaign.instants = 25;
+    total.add(judgeTogether(campaign));
+  }
+  for (const std::string& finding : total.findings) ADD_FAILURE() << finding;
+  EXPECT_EQ(total.violations(), 0u) << summaryOf(total);
+  EXPECT_GT(total.ticks, 2000u);
+  EXPECT_GT(total.pushed, 300u);
+  EXPECT_LT(total.crushed, total.ticks / 2);
+}
+
+TEST(TogetherCampaign, TheSameSeedShowsTheSameBits) {
+  for (const std::uint64_t seed : {3u, 6u}) {
+    TogetherCampaign campaign;
+    campaign.seed = seed;
+    campaign.ticks = 80;
+    campaign.rateHz = 30.0;
+    campaign.instants = 1;
+    EXPECT_EQ(judgeTogether(campaign).digest, judgeTogether(campaign).digest) << seed;
+  }
+}
+
+// The control: whoever lies is found.
+TEST(TogetherCampaign, NamesLies) {
+  const auto judged = [](std::function<void(SolidBodyTick&)> lie) {
+    TogetherTally total;
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      TogetherCampaign campaign;
+      campaign.seed = 6 + seed;
+      campaign.ticks = 60;
+      campaign.rateHz = 10.0;
+      campaign.instants = 20;
+      campaign.tamper = [&](std::vector<SolidBodyTick>& ticks) {
+        for (SolidBodyTick& tick : ticks) lie(tick);
+      };
+      total.add(judgeTogether(campaign));
+    }
+    return total;
+  };
+  const TogetherTally honest = judged([](SolidBodyTick&) {});
+  EXPECT_EQ(honest.violations(), 0u);
+  ASSERT_GT(honest.crushed, 5u);
+  EXPECT_GT(judged([](SolidBodyTick& tick) { tick.crushes.clear(); }).inside, 5u);
+  EXPECT_GT(judged([](SolidBodyTick& tick) {
+              for (SolidCrush& crush : tick.crushes) crush.sinceUs += 50'000;
+            }).inside,
+            0u);
+  EXPECT_GT(judged([](SolidBodyTick& tick) { tick.tick.isCertified = true; }).uncertified, 5u);
+  EXPECT_GT(judged([](SolidBodyTick& tick) { tick.tick.clearance += 1e-2; }).overclaimed, 50u);
+  EXPECT_GT(judged([](SolidBodyTick& tick) {
+              for (std::size_t i = 0; i < tick.tick.numWay; ++i) {
+                tick.tick.way[i].translations[0].y() -= 0.05;
+              }
+              tick.tick.shown.translations[0].y() -= tick.tick.numWay > 0 ? 0.05 : 0.0;
+            }).violations(),
+            50u);
+}
+
+}  // namespace
+}  // namespace foretouch::test
