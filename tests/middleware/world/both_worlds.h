@@ -27,6 +27,7 @@ class BothWorlds {
   BodyId add(const Scene& mesh, const BodyOptions& options = {});
   void push(BodyId body, std::int64_t utimeUs, const Pose& pose);
   void push(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
+  void attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const Pose& pose);
   void attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const RigidPose& pose);
   void detach(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
 

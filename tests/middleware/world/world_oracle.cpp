@@ -137,6 +137,7 @@ std::vector<bool> OracleWorld::mayTouch(int a, int b, std::int64_t fromUs,
       for (std::size_t j = 0; j < linksOfB && reach >= 0; ++j) {
         const int other = static_cast<int>(j);
         if (may[i * linksOfB + j] || reachOf(b, other) < 0) continue;
+        ++pairInstants;
         const Real way = (speedOf(a, atA, one) + speedOf(b, atB, other)) * (next - us);
         const Real apart = norm(atA.frames[i].p - atB.frames[j].p) - reach - reachOf(b, other);
         constexpr Real kWidest = 0.3L;  // metres: no two radii are more
@@ -163,6 +164,7 @@ OracleTouch OracleWorld::firstTouch(int a, int linkOfA, int b, int linkOfB, std:
     // What changes at the window's end belongs to the next one.
     const Moving atA = movingAt(a, fromUs, us, us >= end), atB = movingAt(b, fromUs, us, us >= end);
     const Real gap = separation(a, atA, linkOfA, b, atB, linkOfB);
+    ++pairInstants;
     if (gap <= kTouch) return {OracleOutcome::Touch, us};
     if (us >= end) return {OracleOutcome::Free, end};
     const Real speed = speedOf(a, atA, linkOfA) + speedOf(b, atB, linkOfB);

@@ -54,6 +54,8 @@ class OracleWorld {
  public:
   std::vector<OracleBody> bodies;
   static constexpr Real kTouch = 1e-9L;  ///< Metres: nearer is a touch.
+  /// How often two links were looked at at an instant, to know until when they cannot touch.
+  mutable std::uint64_t pairInstants = 0;
 
   /// Of two links at `us` after `fromUs`; from the left, where a body changes its carrier there.
   [[nodiscard]] Real separationAt(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
