@@ -90,7 +90,7 @@ class CampaignWorld {
     swing.pose = {Quaternion(Eigen::AngleAxisd(random_.uniform(-3.0, 3.0), Vector3d::UnitY())),
                   Vector3d(random_.uniform(-0.5, 0.5), -1.0, random_.uniform(-0.5, 0.5))};
     fly(both_, door, swing, untilUs_);
-    asked_ = {{body, door}, {near, door}};
+    asked_ = {{body, door}, {door, near}};
   }
 
   void lifts() {
@@ -144,7 +144,7 @@ class CampaignWorld {
   Random random_;
   BothWorlds both_;
   std::int64_t untilUs_;
-  std::vector<std::pair<BodyId, BodyId>> asked_;
+  std::vector<std::pair<BodyId, BodyId>> asked_;  // the lower one first
   std::uint64_t windows_ = 0;
 };
 
