@@ -1,4 +1,4 @@
-// tests/middleware/world/world_oracle.h: a world of the judge's own: tracks, carriers, capsules and
+// judge/world_judge.h: a world of the judge's own: tracks, carriers, capsules and
 // triangles, all in W and in long double. Certified: it steps by proven bounds on speed. Shares no
 // code with the product.
 #pragma once
@@ -10,11 +10,7 @@
 #include "judge/distance.h"
 #include "judge/motion.h"
 
-namespace foretouch::test {
-
-using oracle::Real;
-using oracle::Vec3d;
-using oracle::Vec3r;
+namespace foretouch::oracle {
 
 /// A part of a link's surface: a segment (count 2) or a triangle (3), within `radius`.
 struct OraclePart {
@@ -77,9 +73,9 @@ class OracleWorld {
     Real ofOrigin = 0, ofTurn = 0;
   };
   struct Moving {
-    std::vector<oracle::MovingFrame<Real>> frames;  // of all links, in W
-    std::vector<Speed> speeds;                      // likewise
-    Real untilUs = 0;                               // they hold until then
+    std::vector<MovingFrame<Real>> frames;  // of all links, in W
+    std::vector<Speed> speeds;              // likewise
+    Real untilUs = 0;                       // they hold until then
   };
   /// All links of a body at an instant; where it changes its carrier there, from the left or right.
   [[nodiscard]] Moving movingAt(int body, std::int64_t fromUs, Real us, bool isFromLeft) const;
@@ -92,4 +88,4 @@ class OracleWorld {
   }
 };
 
-}  // namespace foretouch::test
+}  // namespace foretouch::oracle
