@@ -70,7 +70,9 @@ Result<WorldBench> measureWorld(const WorldBenchRequest& request) {
   report.notes = {
       "Microseconds of the thread's processor time. A window's answer holds the first contact of "
       "every pair of links that is asked; who touches on from window to window is told in each (go "
-      "on)."};
+      "on).",
+      "Invented by a world: the two come within its tolerance, and turn away. The judge looks at "
+      "the separation of each; farther apart is a broken promise."};
   return bench;
 }
 

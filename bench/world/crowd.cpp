@@ -155,7 +155,8 @@ BenchTable crowdTable(const WorldCast& cast, const std::vector<int>& counts) {
                     {"near_pairs", "near", 1},
                     {"contacts", "contacts", 2},
                     {"starts", "go on", 2},
-                    {"candidates", "pairs of LSS", 0},
+                    {"touching_us", "us per pair that touches", 2},
+                    {"spans", "spans", 1},
                     {"advancements", "advancements", 0}},
                    {}};
   const auto clips = clipPosesOf(cast, kCrowdRateHz);

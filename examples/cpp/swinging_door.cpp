@@ -11,7 +11,7 @@
 using namespace foretouch;
 
 template <typename T>
-T orExit(Result<T> result) {
+T must(Result<T> result) {
   if (!result.ok()) {
     std::cerr << describe(result.error()) << '\n';
     std::exit(1);
@@ -28,7 +28,7 @@ Scene doorPanel() {
   raw.objectNames = {"door"};
   raw.triangles = {{{hinge, handle, above}}, {{hinge, above, top}}};
   raw.objectOf = {0, 0};
-  return orExit(Scene::build(raw));
+  return must(Scene::build(raw));
 }
 
 /// A trunk with one arm.
@@ -37,7 +37,7 @@ Avatar dancerWithAnArm() {
   bones.joints.push_back({"trunk", kNoParent, {0, 0.9, 0}, Quaternion::Identity()});
   bones.joints.push_back({"arm", 0, {0.2, 0.5, 0}, Quaternion::Identity()});
   const Lss trunk{{0, 0, 0}, {0, 0.6, 0}, 0.15}, arm{{0, 0, 0}, {0.6, 0, 0}, 0.05};
-  return orExit(Avatar::build(orExit(Skeleton::build(bones)), {{trunk}, {arm}}));
+  return must(Avatar::build(must(Skeleton::build(bones)), {{trunk}, {arm}}));
 }
 
 Quaternion aboutY(double angle) {
@@ -75,19 +75,19 @@ int main() {
   const Skeleton& skeleton = avatar.skeleton();
   int contacts = 0, windows = 0;
 
-  World world = orExit(World::build(std::nullopt));    // or a Scene: what never moves
-  const BodyId dancer = orExit(world.add(avatar));     // several bodies may have one avatar
-  const BodyId door = orExit(world.add(doorPanel()));  // a Scene in the door's own frame
+  World world = must(World::build(std::nullopt));    // or a Scene: what never moves
+  const BodyId dancer = must(world.add(avatar));     // several bodies may have one avatar
+  const BodyId door = must(world.add(doorPanel()));  // a Scene in the door's own frame
   WorldScratch scratch;
   WorldContacts answer;
   std::int64_t answered = 0;
   for (std::int64_t us = 0; us <= 4'000'000; us += 5'556) {
     const double s = 1e-6 * static_cast<double>(us);
-    if (us % 33'336 == 0) orExit(world.push(dancer, us, trackedDancer(s, skeleton)));
-    if (us % 16'668 == 0) orExit(world.push(door, us, trackedDoor(s)));  // its own clock
-    const std::int64_t until = *world.knownUntilUs();                    // all is known until then
+    if (us % 33'336 == 0) must(world.push(dancer, us, trackedDancer(s, skeleton)));
+    if (us % 16'668 == 0) must(world.push(door, us, trackedDoor(s)));  // its own clock
+    const std::int64_t until = *world.knownUntilUs();                  // all is known until then
     if (until <= answered) continue;
-    orExit(worldContacts(world, answered, until, scratch, answer));
+    must(worldContacts(world, answered, until, scratch, answer));
     contacts += print(answer, skeleton);
     world.forgetBefore(until);
     answered = until;
