@@ -24,7 +24,9 @@ class CampaignWorld {
         campaign_(campaign),
         random_(campaign.seed),
         both_(campaign.tolerance),
-        untilUs_(campaign.windows * kWindowUs) {}
+        untilUs_(campaign.windows * kWindowUs) {
+    both_.tamper = campaign.tamper;
+  }
 
   [[nodiscard]] WorldCampaignTally run() {
     switch (campaign_.part) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct WorldCampaign {
   double tolerance = 1e-3;
   int windows = 4;
   std::uint64_t seed = 1;
+  std::function<void(WorldContacts&)> tamper = nullptr;  ///< As BothWorlds::tamper.
 };
 
 struct WorldCampaignTally {

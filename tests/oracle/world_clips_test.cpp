@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/oracle/world_campaign.h"
 #include "tests/oracle/world_stage.h"
 #include "tests/support/shared_data.h"
 
@@ -118,6 +119,57 @@ TEST(WorldOfClips, ProvesRingsThatAreThrownAndSwordsThatAreHeld) {
     total.add(both);
   }
   total.expectKept(20);
+}
+
+/// One short world of each part, of the first two clips.
+WorldCampaignTally shortCampaign(const std::function<void(WorldContacts&)>& tamper) {
+  const std::vector<SweepClip> clips = loadedClips();
+  WorldCampaignTally total;
+  for (std::uint8_t part = 0; part < kNumWorldParts; ++part) {
+    WorldCampaign campaign;
+    campaign.part = static_cast<WorldPart>(part);
+    campaign.tolerance = 1e-5;
+    campaign.windows = 2;
+    campaign.seed = 10u + part;
+    campaign.tamper = tamper;
+    total.add(judgeWorld(clips.at(0), clips.at(1), campaign));
+  }
+  return total;
+}
+
+TEST(WorldCampaign, KeepsThePromiseInEveryPart) {
+  FORETOUCH_REQUIRE_SHARED(first, std::string("mocap/") + kClips[0]);
+  FORETOUCH_REQUIRE_SHARED(second, std::string("mocap/") + kClips[1]);
+  const WorldCampaignTally total = shortCampaign(nullptr);
+  std::cout << total.summary() << "\n";
+  for (const std::string& finding : total.findings) ADD_FAILURE() << finding;
+  EXPECT_EQ(total.worlds, kNumWorldParts);
+  EXPECT_EQ(total.windows, 2u * kNumWorldParts);
+  EXPECT_GT(total.pairInstants, 100'000u);
+  EXPECT_GT(total.answers.contact, 20);
+  EXPECT_EQ(total.violations(), 0u);
+}
+
+// The control: each lie is counted for what it is.
+TEST(WorldCampaign, CountsLies) {
+  FORETOUCH_REQUIRE_SHARED(first, std::string("mocap/") + kClips[0]);
+  FORETOUCH_REQUIRE_SHARED(second, std::string("mocap/") + kClips[1]);
+  const auto shifted = [](std::int64_t us) {
+    return [us](WorldContacts& answer) {
+      for (WorldContact& contact : answer.contacts) {
+        if (contact.verdict == Verdict::Contact) contact.time.us += us;
+      }
+    };
+  };
+  const auto silent = shortCampaign([](WorldContacts& answer) { answer.contacts.clear(); });
+  EXPECT_GT(silent.missed, 20u);
+  EXPECT_EQ(silent.violations(), silent.missed);
+  const auto late = shortCampaign(shifted(500)), early = shortCampaign(shifted(-500));
+  EXPECT_GT(late.late, 20u);
+  EXPECT_EQ(late.early + late.missed, 0u);
+  EXPECT_GT(early.early, 20u);
+  EXPECT_EQ(early.late + early.missed, 0u);
+  EXPECT_FALSE(late.findings.empty());
 }
 
 }  // namespace

@@ -48,7 +48,8 @@ WorldCampaignTally judgePart(const Arguments& a, WorldPart part, const SweepClip
   WorldCampaignTally tally;
   for (const double tolerance : a.tolerances) {
     for (const double otherRate : a.otherRates) {
-      tally.add(judgeWorld(one, other, {part, a.rate, otherRate, tolerance, a.windows, seed++}));
+      tally.add(
+          judgeWorld(one, other, {part, a.rate, otherRate, tolerance, a.windows, seed++, nullptr}));
     }
   }
   return tally;
