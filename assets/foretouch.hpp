@@ -27,3 +27,5 @@
 #include "middleware/scene/scene.h"
 #include "middleware/solid/solid_avatar.h"
 #include "middleware/surface/avatar_surface.h"
+#include "middleware/world/world.h"
+#include "middleware/world/world_query.h"

@@ -17,6 +17,7 @@
 #include "bench/trust_command.h"
 #include "bench/tune_command.h"
 #include "bench/view_command.h"
+#include "bench/world_command.h"
 
 namespace foretouch::tools {
 
@@ -35,6 +36,7 @@ void addBenchCommands(CLI::App& program, ExitCode& exit) {
   addBenchTrustCommand(program, exit);
   addBenchTradeCommand(program, exit);
   addBenchSolidCommand(program, exit);
+  addBenchWorldCommand(program, exit);
   addTuneCommand(program, exit);
 }
 

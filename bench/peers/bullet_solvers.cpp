@@ -11,14 +11,12 @@
 
 #include <fmt/format.h>
 
+#include "bench/peers/bullet_capsule.h"
 #include "bench/peers/bullet_mesh.h"
 
 namespace foretouch::tools {
 namespace {
 
-/// Bullet clips the turn of one cast at 45 degrees (ANGULAR_MOTION_THRESHOLD): a motion that turns
-/// further must be cut, or it ends in a wrong pose.
-constexpr double kMostTurnOfCast = 0.78;
 /// convexSweepTest() collects triangles by the box of the last pose's rotation; finer pieces
 /// compensate for that.
 constexpr double kFineTurnOfCast = 0.1;
@@ -46,24 +44,6 @@ struct BulletScene::Impl {
 namespace {
 
 using SharedScene = std::shared_ptr<BulletScene::Impl>;
-
-/// A capsule anywhere in the link's frame: Bullet turns a shape about its origin, which must be the
-/// pivot. The margin is the radius, so that its GJK works on the bare axis.
-class BulletCapsule {
- public:
-  explicit BulletCapsule(const Lss& lss_L)
-      : ends_{toBullet(lss_L.a), toBullet(lss_L.b)},
-        radii_{lss_L.radius, lss_L.radius},
-        shape_(ends_.data(), radii_.data(), 2) {
-    shape_.setMargin(lss_L.radius);
-  }
-  [[nodiscard]] const btConvexShape& shape() const { return shape_; }
-
- private:
-  std::array<btVector3, 2> ends_;
-  std::array<btScalar, 2> radii_;
-  btMultiSphereShape shape_;
-};
 
 /// A motion cut into equal pieces, cast one by one until one hits.
 class BulletSolver : public SweepSolver {

@@ -2,7 +2,6 @@
 
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/geometry/shape/capsule.h>
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/narrowphase/collision.h>
@@ -11,6 +10,8 @@
 #include <limits>
 
 #include <fmt/format.h>
+
+#include "bench/peers/fcl_capsule.h"
 
 namespace foretouch::tools {
 
@@ -30,28 +31,6 @@ constexpr int kMostAdvancements = 100'000;
 
 /// Metres: the error of FCL's distances; its solvers stop at 1e-6.
 constexpr double kDistanceSlack = 1e-5;
-
-/// FCL's capsule lies along z around its frame's origin: that frame C in the link's frame L.
-struct FclCapsule {
-  explicit FclCapsule(const Lss& lss_L)
-      : center_L(0.5 * (lss_L.a + lss_L.b)),
-        rotation_LC(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), lss_L.b - lss_L.a)),
-        shape(lss_L.radius, (lss_L.b - lss_L.a).norm()) {}
-
-  [[nodiscard]] fcl::Transform3d poseOf(const RigidPose& pose_WL) const {
-    const Eigen::Quaterniond rotation_WL(pose_WL.rotation);
-    fcl::Transform3d pose = fcl::Transform3d::Identity();
-    pose.linear() = (rotation_WL * rotation_LC).toRotationMatrix();
-    pose.translation() = pose_WL.pivot + rotation_WL * center_L;
-    return pose;
-  }
-  /// The pivot, which is L's origin, in C.
-  [[nodiscard]] Vector3d pivot_C() const { return -(rotation_LC.conjugate() * center_L); }
-
-  Vector3d center_L;
-  Eigen::Quaterniond rotation_LC;
-  fcl::Capsuled shape;
-};
 
 class FclSolver : public SweepSolver {
  public:

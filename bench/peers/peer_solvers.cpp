@@ -1,12 +1,20 @@
 #include "bench/peers/peer_solvers.h"
 
+#include "bench/peers/bullet_pairs.h"
 #include "bench/peers/bullet_solvers.h"
+#include "bench/peers/fcl_pairs.h"
 #include "bench/peers/fcl_solvers.h"
 
 namespace foretouch::tools {
 
 std::string peerVersions() {
   return fclVersion() + " and " + bulletVersion();
+}
+
+PairSolvers peerPairSolvers() {
+  PairSolvers all = fclPairSolvers();
+  for (auto& solver : bulletPairSolvers()) all.push_back(std::move(solver));
+  return all;
 }
 
 struct PeerScenes::Impl {

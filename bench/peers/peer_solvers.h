@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/peers/hand_follower.h"
+#include "bench/peers/moving_pairs.h"
 #include "bench/peers/sweep_solver.h"
 #include "lss/triangle.h"
 
@@ -32,6 +33,9 @@ class BulletHands {
  private:
   std::shared_ptr<class BulletMesh> mesh_;
 };
+
+/// On two LSS that both move; a solver for every peer and setting.
+[[nodiscard]] PairSolvers peerPairSolvers();
 
 /// The scene in the peers' own structures, built once.
 class PeerScenes {

@@ -37,6 +37,7 @@ enum class Mark : std::uint64_t {
   PairRules = 0x0072696170746600u,
   Near = 0x007261656e746600u,
   Solid = 0x0064696c6f746600u,
+  World = 0x646c726f57746600u,
 };
 
 }  // namespace foretouch::c

@@ -16,7 +16,7 @@ ft_status copyPose(const ft_pose* given, const char* name, const Skeleton& skele
   const auto joints = countOf(skeleton.numJoints());
   if (known.joint_count != joints) {
     return failure(FT_ERROR_MISMATCH, kNoIndex,
-                   "%s: expected the %zu joints of the avatar, found %u", name, joints,
+                   "%s: expected %zu joints, found %u", name, joints,
                    known.joint_count);
   }
   if (const auto s = needed(known.rotations, "rotations"); s != FT_OK) return s;

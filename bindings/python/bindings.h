@@ -20,5 +20,6 @@ void bindQuery(pybind11::module_& module);
 void bindNear(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);
 void bindSolid(pybind11::module_& module);
+void bindWorld(pybind11::module_& module);
 
 }  // namespace foretouch::python

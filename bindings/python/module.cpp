@@ -23,5 +23,6 @@ PYBIND11_MODULE(_foretouch, module) {
   bindNear(module);
   bindSweep(module);
   bindSolid(module);
+  bindWorld(module);
   py::delattr(module, "__module__");
 }

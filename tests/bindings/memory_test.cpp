@@ -6,6 +6,7 @@
 #include <new>
 #include <string_view>
 
+#include "tests/bindings/moving_world.h"
 #include "tests/bindings/solid_world.h"
 #include "tests/middleware/random_scene.h"
 
@@ -109,8 +110,8 @@ int failingOneByOne(const Ask& ask, ft_status other = FT_ERROR_OUT_OF_MEMORY) {
   return 0;
 }
 
-struct World {
-  World()
+struct Surroundings {
+  Surroundings()
       : random(11),
         raw(test::clutter(random, 800, 2, Eigen::Vector3d::Zero())),
         body(test::bodyInClutter(random, 5, Eigen::Vector3d::Zero())) {}
@@ -120,7 +121,7 @@ struct World {
 };
 
 TEST(CMemory, RunningOutWhileAnAvatarIsMadeIsAnError) {
-  const World world;
+  const Surroundings world;
   const test::AvatarArrays arrays(world.body.avatar);
   const ft_avatar_arrays view = arrays.view();
   const int failed = failingOneByOne([&] {
@@ -134,7 +135,7 @@ TEST(CMemory, RunningOutWhileAnAvatarIsMadeIsAnError) {
 }
 
 TEST(CMemory, RunningOutWhileASceneIsMadeIsAnError) {
-  const World world;
+  const Surroundings world;
   const test::SceneArrays arrays(world.raw);
   const ft_scene_arrays view = arrays.view();
   const int failed = failingOneByOne(
@@ -180,7 +181,7 @@ TEST(CMemory, RunningOutWhileAnAvatarOrItsRulesAreReadIsAnError) {
 }
 
 TEST(CMemory, RunningOutInAQueryIsAnErrorAndLeavesItUsable) {
-  const World world;
+  const Surroundings world;
   const auto scene = test::makeScene(world.raw);
   const auto avatar = test::makeAvatar(world.body.avatar);
   const test::PoseArrays from(world.body.from), to(world.body.to);
@@ -219,7 +220,7 @@ TEST(CMemory, RunningOutInAQueryIsAnErrorAndLeavesItUsable) {
 }
 
 TEST(CMemory, IsNotAskedForOnceItHasGrown) {
-  const World world;
+  const Surroundings world;
   const auto query =
       test::makeQuery(test::makeScene(world.raw), test::makeAvatar(world.body.avatar));
   const test::PoseArrays from(world.body.from), to(world.body.to);
@@ -319,6 +320,130 @@ TEST(CMemory, RunningOutInASolidAvatarIsAnErrorAndLeavesItWhereItWas) {
     return status;
   });
   EXPECT_GT(made, 10);
+}
+
+/// Two bodies that pass through each other and through a door that swings, one of them carrying a
+/// third.
+class PassingBodies {
+ public:
+  PassingBodies()
+      : avatar_(test::makeAvatar(source_.body.avatar)),
+        door_(test::makeScene(test::doorScene())),
+        first_(source_.body.from),
+        second_(source_.body.to),
+        hinge_({{Quaternion::Identity()}, {Eigen::Vector3d(-0.45, -1.0, 0.0)}}) {}
+
+  [[nodiscard]] const test::AvatarHandle& avatar() const { return avatar_; }
+  [[nodiscard]] const test::SceneHandle& door() const { return door_; }
+
+  [[nodiscard]] test::WorldHandle world() const {
+    auto world = test::makeWorld();
+    std::int32_t body = 0;
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(ft_world_add_avatar(world.get(), avatar_.get(), nullptr, &body), FT_OK);
+    }
+    EXPECT_EQ(ft_world_add_mesh(world.get(), door_.get(), nullptr, &body), FT_OK);
+    EXPECT_EQ(push(world.get(), 0), FT_OK);
+    const ft_pose pose = first_.view();
+    const ft_carrier hand{sizeof(ft_carrier), 0, 1, 0};
+    EXPECT_EQ(ft_world_attach(world.get(), 2, &hand, 0, &pose), FT_OK) << ft_last_error();
+    return world;
+  }
+  /// Everybody's pose at an instant; the first failure.
+  ft_status push(ft_world* world, std::int64_t tick) const {
+    const ft_pose one = (tick % 2 == 0 ? first_ : second_).view();
+    const ft_pose other = (tick % 2 == 0 ? second_ : first_).view();
+    const ft_pose door = hinge_.view();
+    const std::int64_t us = 1000 * tick;
+    if (const auto s = ft_world_push(world, 0, us, &one); s != FT_OK) return s;
+    if (const auto s = ft_world_push(world, 1, us, &other); s != FT_OK) return s;
+    return ft_world_push(world, 3, us, &door);
+  }
+
+ private:
+  Surroundings source_;
+  test::AvatarHandle avatar_;
+  test::SceneHandle door_;
+  test::PoseArrays first_, second_, hinge_;
+};
+
+TEST(CMemory, IsNotAskedForByAMovingWorldOnceItHasGrown) {
+  const PassingBodies bodies;
+  const auto world = bodies.world();
+  std::vector<ft_world_contact> contacts(1000);
+  std::uint64_t before = 0;
+  std::size_t count = 0;
+  for (std::int64_t tick = 1; tick < 20; ++tick) {
+    if (tick == 14) before = allocations;
+    ASSERT_EQ(bodies.push(world.get(), tick), FT_OK) << ft_last_error();
+    ASSERT_EQ(ft_world_answer(world.get(), 1000 * (tick - 1), 1000 * tick), FT_OK);
+    contacts[0].size = sizeof(ft_world_contact);
+    ASSERT_EQ(ft_world_contacts(world.get(), contacts.data(), contacts.size(), &count), FT_OK);
+    EXPECT_GT(count, 0u);
+    ASSERT_EQ(ft_world_forget_before(world.get(), 1000 * tick), FT_OK);
+  }
+  EXPECT_EQ(allocations - before, 0u);
+}
+
+/// Whatever runs out, the next call answers as if nothing had been.
+TEST(CMemory, RunningOutInAMovingWorldIsAnErrorAndLeavesItUsable) {
+  const PassingBodies bodies;
+  const auto undisturbed = bodies.world();
+  ASSERT_EQ(bodies.push(undisturbed.get(), 1), FT_OK);
+  ASSERT_EQ(ft_world_answer(undisturbed.get(), 0, 1000), FT_OK) << ft_last_error();
+  const auto expected = test::contactsOf(undisturbed.get());
+  ASSERT_GT(expected.size(), 0u);
+  test::WorldHandle world;
+  const int asked = failingOneByOne([&] {
+    const std::int64_t until = std::exchange(callsUntilFailure, -1);
+    world = bodies.world();  // a fresh one, which has to grow
+    EXPECT_EQ(bodies.push(world.get(), 1), FT_OK);
+    callsUntilFailure = until;
+    const ft_status status = ft_world_answer(world.get(), 0, 1000);
+    if (status == FT_OK) return status;
+    const std::int64_t after = std::exchange(callsUntilFailure, -1);
+    EXPECT_EQ(ft_world_contacts(world.get(), nullptr, 0, nullptr), FT_ERROR_NO_STEP);
+    EXPECT_EQ(ft_world_answer(world.get(), 0, 1000), FT_OK) << ft_last_error();
+    const auto contacts = test::contactsOf(world.get());
+    EXPECT_EQ(contacts.size(), expected.size());
+    EXPECT_EQ(std::memcmp(contacts.data(), expected.data(),
+                          std::min(contacts.size(), expected.size()) * sizeof(ft_world_contact)),
+              0);
+    callsUntilFailure = after;
+    return static_cast<ft_status>(FT_ERROR_OUT_OF_MEMORY);
+  });
+  EXPECT_GT(asked, 10);
+}
+
+TEST(CMemory, RunningOutWhileAMovingWorldIsMadeOrToldIsAnError) {
+  const PassingBodies bodies;
+  const test::PoseArrays arrays({{Quaternion::Identity()}, {Eigen::Vector3d::Zero()}});
+  const ft_pose pose = arrays.view();
+  const ft_carrier lift{sizeof(ft_carrier), 0, 0, 0};
+  const int failed = failingOneByOne([&]() -> ft_status {
+    ft_world* made = nullptr;
+    const ft_status status = ft_world_create(bodies.door().get(), nullptr, &made);
+    EXPECT_EQ(made != nullptr, status == FT_OK);
+    const test::WorldHandle world(made);
+    if (status != FT_OK) return status;
+    std::int32_t body = -1;
+    for (std::int32_t i = 0; i < 3; ++i) {
+      const auto added = ft_world_add_mesh(made, bodies.door().get(), nullptr, &body);
+      if (added != FT_OK) return added;
+      EXPECT_EQ(body, i);
+      if (const auto s = ft_world_push(made, body, 0, &pose); s != FT_OK) return s;
+    }
+    const auto added = ft_world_add_avatar(made, bodies.avatar().get(), nullptr, &body);
+    if (added != FT_OK) return added;
+    if (const auto s = ft_world_attach(made, 1, &lift, 0, &pose); s != FT_ERROR_OUT_OF_RANGE) {
+      return s;  // it appears there
+    }
+    if (const auto s = ft_world_push(made, 0, 10, &pose); s != FT_OK) return s;
+    if (const auto s = ft_world_push(made, 1, 10, &pose); s != FT_OK) return s;
+    if (const auto s = ft_world_attach(made, 1, &lift, 5, &pose); s != FT_OK) return s;
+    return ft_world_detach(made, 1, 7, &pose);
+  });
+  EXPECT_GT(failed, 20);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "tests/bindings/moving_world.h"
 #include "tests/bindings/solid_world.h"
 #include "tests/support/random_geometry.h"
 
@@ -21,7 +22,7 @@ class Caller {
   explicit Caller(std::uint64_t seed) : random_(seed) {}
 
   void callSomething(test::SmallWorld& world, ft_query* query) {
-    switch (random_.below(11)) {
+    switch (random_.below(12)) {
       case 0: makeScene(); break;
       case 1: makeAvatar(); break;
       case 2: makeQuery(world); break;
@@ -32,6 +33,7 @@ class Caller {
       case 7: askScene(world); break;
       case 8: makeRules(world, query); break;
       case 9: playSolid(world); break;
+      case 10: playWorld(world); break;
       default: setOptions(query); break;
     }
   }
@@ -279,6 +281,81 @@ class Caller {
     if (random_.chance(0.1)) take(ft_solid_change_scene(solid, maybe(world.scene.get())));
   }
 
+  std::int64_t instant() {
+    constexpr std::array<std::int64_t, 4> kInstants = {std::numeric_limits<std::int64_t>::min(),
+                                                       std::numeric_limits<std::int64_t>::max(), -1,
+                                                       std::int64_t{1} << 53};
+    if (random_.chance(0.1)) return kInstants[static_cast<std::size_t>(random_.below(4))];
+    return 100 * ++now_;
+  }
+  void playWorld(test::SmallWorld& small) {
+    ft_world_options made = test::initialised(ft_world_options_init);
+    made.size = sizeOr(sizeof made);
+    if (random_.chance(0.1)) made.tolerance = number();
+    const ft_scene* still = maybe(small.scene.get());
+    if (random_.chance(0.1)) still = reinterpret_cast<const ft_scene*>(small.avatar.get());
+    ft_world* world = nullptr;
+    const ft_status status = ft_world_create(still, maybe(&made), &world);
+    take(status);
+    ASSERT_EQ(world != nullptr, status == FT_OK);
+    if (world == nullptr) return;
+    const test::WorldHandle owner(world);
+    for (int i = 0; i < 3; ++i) addBody(small, world);
+    for (int i = 0; i < 12; ++i) tellWorld(small, world);
+    askWorld(world);
+  }
+  void addBody(test::SmallWorld& small, ft_world* world) {
+    ft_body_options made = test::initialised(ft_body_options_init);
+    made.size = sizeOr(sizeof made);
+    if (random_.chance(0.2)) made.group = index();
+    if (random_.chance(0.5)) made.when_silent = random_.below(4);
+    if (random_.chance(0.1)) made.self = reinterpret_cast<const ft_pair_rules*>(world);
+    std::int32_t body = -1;
+    if (random_.chance(0.5)) {
+      take(ft_world_add_avatar(maybe(world), maybe(small.avatar.get()), maybe(&made), &body));
+    } else {
+      take(ft_world_add_mesh(maybe(world), maybe(small.scene.get()), maybe(&made), &body));
+    }
+  }
+  void tellWorld(test::SmallWorld& small, ft_world* world) {
+    fillNumbers();
+    const ft_pose given = pose(), good = random_.chance(0.5) ? small.up() : small.lowered();
+    const ft_pose* next = random_.chance(0.8) ? &good : maybe(&given);
+    ft_carrier carrier{};
+    carrier.size = sizeOr(sizeof carrier);
+    carrier.body = random_.chance(0.8) ? random_.below(3) : index();
+    carrier.link = random_.chance(0.8) ? 0 : index();
+    carrier.moves_in_frame = random_.below(3);
+    const std::int32_t body = random_.chance(0.8) ? random_.below(3) : index();
+    switch (random_.below(10)) {
+      case 0: take(ft_world_attach(world, body, maybe(&carrier), instant(), next)); break;
+      case 1: take(ft_world_detach(world, body, instant(), next)); break;
+      case 2: take(ft_world_ask(maybe(world), index(), index(), index())); break;
+      case 3: take(ft_world_ask_still(maybe(world), index(), index())); break;
+      case 4: askWorld(world); break;
+      default: take(ft_world_push(maybe(world), body, instant(), next)); break;
+    }
+  }
+  void askWorld(ft_world* world) {
+    std::int64_t known = 100 * now_;
+    std::int32_t waitsFor = 0;
+    take(ft_world_known_until(maybe(world), maybe(&known), maybe(&waitsFor)));
+    const std::int64_t to = random_.chance(0.8) ? known : instant();
+    take(ft_world_answer(maybe(world), random_.chance(0.8) ? known - 150 : instant(), to));
+    std::array<ft_world_contact, kRoom> contacts{};
+    contacts[0].size = sizeOr(sizeof(ft_world_contact));
+    std::array<ft_silent_body, kRoom> silent{};
+    silent[0].size = sizeOr(sizeof(ft_silent_body));
+    ft_world_counters counters{};
+    counters.size = sizeOr(sizeof counters);
+    std::size_t required = 0;
+    take(ft_world_contacts(world, maybe(contacts.data()), kRoom, maybe(&required)));
+    take(ft_world_silent(world, maybe(silent.data()), kRoom, maybe(&required)));
+    take(ft_world_get_counters(world, maybe(&counters)));
+    take(ft_world_body_count(maybe(world), maybe(&required)));
+    if (random_.chance(0.1)) take(ft_world_forget_before(world, instant()));
+  }
+
   void readAnswers(ft_query* query) {
     std::array<ft_contact, 2> contacts{};
     contacts[0].size = sizeOr(sizeof(ft_contact));
@@ -335,6 +412,7 @@ class Caller {
   std::array<ft_link_policy, kRoom> policies_{};
   std::array<ft_object_policy, kRoom> objectPolicies_{};
   std::array<const char*, kRoom> names_ = {"stick", "b", "\xff", "", nullptr, "f", "g", "h"};
+  std::int64_t now_ = 0;
   int accepted_ = 0, refused_ = 0;
 };
 

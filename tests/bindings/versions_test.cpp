@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstring>
 #include <foretouch/solid.h>
+#include <foretouch/world.h>
 #include <limits>
 #include <string>
 #include <vector>
@@ -142,6 +143,8 @@ TEST(CVersions, EveryStructOfInputsHasItsDefaults) {
   expectDefaultsOf(ft_clip_options_init);
   expectDefaultsOf(ft_query_options_init);
   expectDefaultsOf(ft_solid_options_init);
+  expectDefaultsOf(ft_world_options_init);
+  expectDefaultsOf(ft_body_options_init);
   EXPECT_EQ(test::initialised(ft_query_options_init).work_budget,
             std::numeric_limits<std::uint64_t>::max());
   EXPECT_EQ(test::initialised(ft_query_options_init).deadline_us,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <foretouch/foretouch.h>
+#include <foretouch/world.h>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +13,8 @@ namespace foretouch::fuzz {
 namespace {
 
 constexpr std::size_t kMostVertices = 24, kMostTriangles = 8, kMostLinks = 4;
+/// Of a call's byte: from here on it is one of a moving world.
+constexpr std::uint8_t kFirstOfWorlds = 192;
 
 /// Hands the input out; zeros at its end.
 class Supply {
@@ -65,6 +67,7 @@ class Calls {
   Calls(const Calls&) = delete;
   Calls& operator=(const Calls&) = delete;
   ~Calls() {
+    ft_world_destroy(world_);
     ft_query_destroy(query_);
     ft_pair_rules_destroy(rules_);
     ft_avatar_destroy(avatar_);
@@ -215,8 +218,19 @@ class Calls {
     known(ft_query_set_options(query_, &options));
   }
 
+  void callWorld(int which) {
+    if (world_ == nullptr) makeWorld();
+    switch (which) {
+      case 0: carryBody(); break;
+      case 1: askWorld(); break;
+      default: tellWorld(); break;
+    }
+  }
+
   void callOne() {
-    switch (supply_.byte() % 6) {
+    const std::uint8_t kind = supply_.byte();
+    if (kind >= kFirstOfWorlds) return callWorld(kind % 4);
+    switch (kind % 6) {
       case 0:
       case 1: step(); break;
       case 2: readLists(); break;
@@ -226,11 +240,96 @@ class Calls {
     }
   }
 
+  /// Two avatars, and a mesh if there is one.
+  void makeWorld() {
+    ft_world_options options{};
+    known(ft_world_options_init(&options, sizeof options));
+    supply_.overwriteSome(options);
+    const ft_scene* const still = (supply_.byte() & 1) != 0 ? scene_ : nullptr;
+    const ft_status status = known(ft_world_create(still, &options, &world_));
+    require((world_ != nullptr) == (status == FT_OK), "a handle is there where a call succeeds");
+    if (world_ == nullptr) known(ft_world_create(nullptr, nullptr, &world_));
+    std::int32_t body = 0;
+    for (int i = 0; i < 3; ++i) {
+      ft_body_options ofBody{};
+      known(ft_body_options_init(&ofBody, sizeof ofBody));
+      ofBody.when_silent = supply_.byte() % 4;
+      ofBody.group = supply_.byte() % 34;
+      if (i == 2 && scene_ != nullptr) {
+        known(ft_world_add_mesh(world_, scene_, &ofBody, &body));
+      } else {
+        known(ft_world_add_avatar(world_, avatar_, &ofBody, &body));
+      }
+    }
+  }
+
+  /// Mostly the next one.
+  std::int64_t instant() {
+    const std::uint8_t kind = supply_.byte();
+    if (kind < 250) return now_ += kind % 50;
+    std::int64_t any = 0;
+    supply_.fill(&any, sizeof any);
+    return any;
+  }
+
+  void tellWorld() {
+    std::vector<double> values[2];
+    ft_pose next = pose(values[0], values[1]);
+    const std::int32_t body = supply_.byte() % 4 - (supply_.byte() == 0 ? 1 : 0);
+    if (body == 2) next.joint_count = 1;
+    known(ft_world_push(world_, body, instant(), &next));
+    if (supply_.byte() < 16) known(ft_world_forget_before(world_, instant()));
+    if (supply_.byte() < 16) {
+      known(ft_world_ask(world_, supply_.byte() % 33, supply_.byte() % 33, supply_.byte() % 3));
+      known(ft_world_ask_still(world_, supply_.byte() % 33, supply_.byte() % 3));
+    }
+  }
+
+  void carryBody() {
+    std::vector<double> values[2];
+    ft_pose place = pose(values[0], values[1]);
+    const std::int32_t body = supply_.byte() % 3;
+    if (body == 2) place.joint_count = 1;
+    ft_carrier carrier{};
+    supply_.overwriteSome(carrier);
+    carrier.size = sizeof carrier;
+    if ((supply_.byte() & 7) != 0) {
+      carrier.body = supply_.byte() % 3;
+      carrier.link = supply_.byte() % 3;
+      carrier.moves_in_frame = supply_.byte() % 2;
+    }
+    if ((supply_.byte() & 1) != 0) {
+      known(ft_world_attach(world_, body, &carrier, instant(), &place));
+    } else {
+      known(ft_world_detach(world_, body, instant(), &place));
+    }
+  }
+
+  void askWorld() {
+    std::int64_t until = 0;
+    std::int32_t waitsFor = 0;
+    known(ft_world_known_until(world_, &until, &waitsFor));
+    const std::int64_t to = (supply_.byte() & 7) != 0 ? until : instant();
+    known(ft_world_answer(world_, (supply_.byte() & 7) != 0 ? until - 60 : instant(), to));
+    std::array<ft_world_contact, 2 * kMostLinks> contacts{};
+    contacts[0].size = sizeof(ft_world_contact);
+    std::array<ft_silent_body, 3> silent{};
+    silent[0].size = sizeof(ft_silent_body);
+    ft_world_counters counters{};
+    counters.size = sizeof counters;
+    std::size_t count = 0;
+    known(ft_world_contacts(world_, contacts.data(), contacts.size(), &count));
+    known(ft_world_silent(world_, silent.data(), silent.size(), &count));
+    known(ft_world_get_counters(world_, &counters));
+  }
+
   Supply& supply_;
   ft_scene* scene_ = nullptr;
   ft_avatar* avatar_ = nullptr;
   ft_pair_rules* rules_ = nullptr;
   ft_query* query_ = nullptr;
+  ft_world* world_ = nullptr;
+  std::int64_t now_ = 0;
   bool answered_ = false;
 };
 

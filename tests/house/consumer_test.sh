@@ -84,6 +84,7 @@ if [ -f "$prefix/include/foretouch/foretouch.h" ]; then
   cmp "$folder/cxx.txt" <(head -n 1 "$folder/c.txt")
   "$folder/swing/table"
   "$folder/swing/solid_hand" | tee "$folder/solid-hand.txt"
+  "$folder/swing/swinging_door" | tee "$folder/swinging-door.txt"
 
   library=$(dirname "$(find "$prefix" -name libforetouch.so)")
   read -ra flags <<<"$(PKG_CONFIG_PATH=$library/pkgconfig pkg-config --cflags --libs foretouch)"
@@ -118,6 +119,7 @@ if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
   tail -n 1 "$folder/play.txt"
   "$folder/play/game_loop"
   if [ -f "$folder/solid-hand.txt" ]; then "$folder/play/solid_hand" | cmp - "$folder/solid-hand.txt"; fi
+  if [ -f "$folder/swinging-door.txt" ]; then "$folder/play/swinging_door" | cmp - "$folder/swinging-door.txt"; fi
   room=$prefix/share/foretouch/examples
   contacts=$(grep -c meets "$folder/play.txt")
   grep -qx "$contacts contacts in 136 steps" "$folder/play.txt"
@@ -132,6 +134,9 @@ if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
     PYTHONPATH=$packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$source/bindings/python/example/play_clip.py" \
       "$room/room.obj" "$room/dancer.avatar.json" "$room/dancer.bvh" 6 >"$folder/play-python.txt"
     cmp <(sort "$folder/play.txt") <(sort "$folder/play-python.txt")
+    PYTHONPATH=$packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$source/bindings/python/example/swinging_door.py" \
+      >"$folder/swinging-door-python.txt"
+    if [ -f "$folder/swinging-door.txt" ]; then cmp "$folder/swinging-door.txt" "$folder/swinging-door-python.txt"; fi
   fi
   # What cannot be read is said: the file, and what was expected.
   if "$folder/play/play_clip" "$folder/nowhere.obj" "$room/dancer.avatar.json" "$room/dancer.bvh" 2>"$folder/error.txt"; then

@@ -92,15 +92,17 @@ TEST(Library, PageShowsTheProgramThatIsBuiltAndRun) {
             std::string::npos);
 }
 
-/// The first block of C++ below a heading of a document, indented as it is in a function.
-std::string blockOf(const std::string& document, const std::string& heading) {
-  const std::string open = "```cpp\n";
+/// The first block of a language below a heading of a document, its lines indented as they are in
+/// the program.
+std::string blockOf(const std::string& document, const std::string& heading,
+                    const std::string& language = "cpp", const std::string& indent = "  ") {
+  const std::string open = "```" + language + "\n";
   const std::size_t from =
       document.find(open, document.find("\n## " + heading + "\n")) + open.size();
   std::istringstream lines(document.substr(from, document.find("```", from) - from));
   std::string block;
   for (std::string line; std::getline(lines, line);)
-    block += (line.empty() ? "" : "  ") + line + "\n";
+    block += (line.empty() ? "" : indent) + line + "\n";
   return block;
 }
 
@@ -113,6 +115,21 @@ TEST(GameLoop, PageShowsLinesOfTheProgramsThatAreRun) {
     EXPECT_GT(std::count(block.begin(), block.end(), '\n'), 10);
     EXPECT_NE(house::contentOf(root + "/examples/cpp/" + program).find(block), std::string::npos)
         << block;
+  }
+}
+
+TEST(MovingWorlds, PageShowsLinesOfTheProgramsThatAreRun) {
+  const std::string root(FORETOUCH_SOURCE_DIR);
+  const std::string page = house::contentOf(root + "/docs/moving.md");
+  struct Shown {
+    const char *language, *indent, *program;
+  };
+  for (const Shown& shown : {Shown{"cpp", "  ", "/examples/cpp/swinging_door.cpp"},
+                             Shown{"c", "  ", "/bindings/c/example/swinging_door.c"},
+                             Shown{"python", "", "/bindings/python/example/swinging_door.py"}}) {
+    const std::string block = blockOf(page, "The loop", shown.language, shown.indent);
+    EXPECT_GT(std::count(block.begin(), block.end(), '\n'), 10);
+    EXPECT_NE(house::contentOf(root + shown.program).find(block), std::string::npos) << block;
   }
 }
 

@@ -9,9 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/middleware/world/both_worlds.h"
-#include "tests/oracle/sweep_inputs.h"
-#include "tests/support/random_geometry.h"
+#include "tests/oracle/world_campaign.h"
+#include "tests/oracle/world_stage.h"
 #include "tests/support/shared_data.h"
 
 namespace foretouch::test {
@@ -26,54 +25,6 @@ const char* const kClips[] = {"bandai1_dance-short_normal_001.bvh",
                               "cmu_01_01_playground_jumps.bvh",
                               "fair_dab.bvh",
                               "cmu_cgspeed_walk_crlf.bvh"};
-
-/// Where somebody walks while he dances.
-struct Walk {
-  Placement place;
-  Vector3d speed = Vector3d::Zero();  // m/s
-};
-
-/// The clip's poses from its middle on, at about `rateHz`, from `offsetUs` on.
-void dance(BothWorlds& both, BodyId body, const SweepClip& clip, double rateHz,
-           std::int64_t offsetUs, std::int64_t untilUs, const Walk& walk) {
-  const int stride = strideFor(clip.clip, rateHz);
-  const auto periodUs =
-      static_cast<std::int64_t>(std::llround(1e6 * clip.clip.frameTimeS * stride));
-  std::size_t frame = clip.clip.frames.size() / 2;
-  for (std::int64_t us = offsetUs; us < untilUs + periodUs; us += periodUs) {
-    Pose pose = clip.clip.frames[frame];
-    pose.translations[0] -= clip.standsAt;
-    Placement place = walk.place;
-    place.position += 1e-6 * static_cast<double>(us) * walk.speed;
-    both.push(body, us, placed(clip.avatar.skeleton(), pose, place));
-    frame = std::min(frame + static_cast<std::size_t>(stride), clip.clip.frames.size() - 1);
-  }
-}
-
-/// A ring of `segments` quads about y.
-Scene ring(double radius, double height, int segments) {
-  RawScene raw;
-  raw.objectNames = {"ring"};
-  for (int i = 0; i < segments; ++i) {
-    const auto at = [&](int k, double y) {
-      const double angle = 2.0 * std::acos(-1.0) * k / segments;
-      return Vector3d(radius * std::cos(angle), y, radius * std::sin(angle));
-    };
-    raw.triangles.push_back({{at(i, 0), at(i + 1, 0), at(i + 1, height)}});
-    raw.triangles.push_back({{at(i, 0), at(i + 1, height), at(i, height)}});
-    raw.objectOf.insert(raw.objectOf.end(), 2, 0);
-  }
-  return Scene::build(std::move(raw)).value();
-}
-
-Scene sword() {
-  RawScene raw;
-  raw.objectNames = {"sword"};
-  const Vector3d tip(0.8, 0, 0), one(0.05, 0.02, 0), other(0.05, -0.02, 0), back(0.05, 0, 0.004);
-  raw.triangles = {{{tip, one, other}}, {{tip, one, back}}, {{tip, other, back}}};
-  raw.objectOf = {0, 0, 0};
-  return Scene::build(std::move(raw)).value();
-}
 
 struct Total {
   WorldTally tally;
@@ -126,9 +77,10 @@ TEST(WorldOfClips, ProvesEveryClipAgainstEveryOther) {
       beside.place.yaw = random.uniform(-3.0, 3.0);
       beside.place.position = Vector3d(random.uniform(0.5, 0.9), 0.0, random.uniform(-0.3, 0.3));
       beside.speed = Vector3d(random.uniform(-2.0, -0.5), 0.0, random.uniform(-0.5, 0.5));
-      dance(both, one, clips[i], rates[random.below(4)], 0, kWindows * kWindowUs, Walk{});
-      dance(both, other, clips[j], rates[random.below(4)], -random.below(5000),
-            kWindows * kWindowUs, beside);
+      pushAll(both, one, posesOf(clips[i], rates[random.below(4)], 0, kWindows * kWindowUs));
+      pushAll(both, other,
+              posesOf(clips[j], rates[random.below(4)], -random.below(5000), kWindows * kWindowUs,
+                      beside));
       for (std::int64_t from = 0; from < kWindows * kWindowUs; from += kWindowUs) {
         both.judgeAll(from, from + kWindowUs);
         ++total.windows;
@@ -149,15 +101,13 @@ TEST(WorldOfClips, ProvesRingsThatAreThrownAndSwordsThatAreHeld) {
     BothWorlds both(random.chance(0.5) ? 1e-3 : 1e-5);
     const BodyId body = both.add(clips[i].avatar);
     const BodyId thrown = both.add(ring(0.12, 0.02, 24)), held = both.add(sword());
-    dance(both, body, clips[i], 30.0, 0, kWindows * kWindowUs, Walk{});
-    const std::int64_t periodUs = 11'111;
-    RigidPose pose{random.rotation(), Vector3d(-0.6, -0.1, random.uniform(-0.2, 0.2))};
-    const Quaternion turn = random.turn(8.0 * 1e-6 * static_cast<double>(periodUs));
-    for (std::int64_t us = 0; us < kWindows * kWindowUs + periodUs; us += periodUs) {
-      both.push(thrown, us, pose);
-      pose.translation.x() += 3.5e-6 * static_cast<double>(periodUs);
-      pose.rotation = (pose.rotation * turn).normalized();
-    }
+    pushAll(both, body, posesOf(clips[i], 30.0, 0, kWindows * kWindowUs));
+    Flight flight;
+    const double stepS = 1e-6 * static_cast<double>(flight.periodUs);
+    flight.pose = {random.rotation(), Vector3d(-0.6, -0.1, random.uniform(-0.2, 0.2))};
+    flight.turnBy = random.turn(8.0 * stepS);
+    flight.stepBy.x() = 3.5 * stepS;
+    fly(both, thrown, flight, kWindows * kWindowUs);
     const auto hand = clips[i].avatar.skeleton().find("RightHand");
     const LinkId holding = hand ? *hand : clips[i].avatar.numLinks() - 1;
     both.attach(held, {body, holding}, 0, {random.rotation(), Vector3d::Zero()});
@@ -169,6 +119,57 @@ TEST(WorldOfClips, ProvesRingsThatAreThrownAndSwordsThatAreHeld) {
     total.add(both);
   }
   total.expectKept(20);
+}
+
+/// One short world of each part, of the first two clips.
+WorldCampaignTally shortCampaign(const std::function<void(WorldContacts&)>& tamper) {
+  const std::vector<SweepClip> clips = loadedClips();
+  WorldCampaignTally total;
+  for (std::uint8_t part = 0; part < kNumWorldParts; ++part) {
+    WorldCampaign campaign;
+    campaign.part = static_cast<WorldPart>(part);
+    campaign.tolerance = 1e-5;
+    campaign.windows = 2;
+    campaign.seed = 10u + part;
+    campaign.tamper = tamper;
+    total.add(judgeWorld(clips.at(0), clips.at(1), campaign));
+  }
+  return total;
+}
+
+TEST(WorldCampaign, KeepsThePromiseInEveryPart) {
+  FORETOUCH_REQUIRE_SHARED(first, std::string("mocap/") + kClips[0]);
+  FORETOUCH_REQUIRE_SHARED(second, std::string("mocap/") + kClips[1]);
+  const WorldCampaignTally total = shortCampaign(nullptr);
+  std::cout << total.summary() << "\n";
+  for (const std::string& finding : total.findings) ADD_FAILURE() << finding;
+  EXPECT_EQ(total.worlds, kNumWorldParts);
+  EXPECT_EQ(total.windows, 2u * kNumWorldParts);
+  EXPECT_GT(total.pairInstants, 100'000u);
+  EXPECT_GT(total.answers.contact, 20);
+  EXPECT_EQ(total.violations(), 0u);
+}
+
+// The control: each lie is counted for what it is.
+TEST(WorldCampaign, CountsLies) {
+  FORETOUCH_REQUIRE_SHARED(first, std::string("mocap/") + kClips[0]);
+  FORETOUCH_REQUIRE_SHARED(second, std::string("mocap/") + kClips[1]);
+  const auto shifted = [](std::int64_t us) {
+    return [us](WorldContacts& answer) {
+      for (WorldContact& contact : answer.contacts) {
+        if (contact.verdict == Verdict::Contact) contact.time.us += us;
+      }
+    };
+  };
+  const auto silent = shortCampaign([](WorldContacts& answer) { answer.contacts.clear(); });
+  EXPECT_GT(silent.missed, 20u);
+  EXPECT_EQ(silent.violations(), silent.missed);
+  const auto late = shortCampaign(shifted(500)), early = shortCampaign(shifted(-500));
+  EXPECT_GT(late.late, 20u);
+  EXPECT_EQ(late.early + late.missed, 0u);
+  EXPECT_GT(early.early, 20u);
+  EXPECT_EQ(early.late + early.missed, 0u);
+  EXPECT_FALSE(late.findings.empty());
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ from foretouch._foretouch import (
     Steps,
     Surface,
     Verdict,
+    World,
     __version__,
     swept_surface,
 )
@@ -35,6 +36,7 @@ from foretouch._queries import first_contacts, first_contacts_many, touches_at
 from foretouch._types import (
     ContactDetails,
     ContactPoint,
+    ContactSide,
     JointMatch,
     LeftOutPair,
     Lss,
@@ -43,8 +45,11 @@ from foretouch._types import (
     Pose,
     Poses,
     SceneAudit,
+    SilentBody,
     SolidContact,
     SweptSurface,
+    WorldContact,
+    WorldContacts,
 )
 
 __all__ = [
@@ -53,6 +58,7 @@ __all__ = [
     "Contact",
     "ContactDetails",
     "ContactPoint",
+    "ContactSide",
     "Error",
     "InputError",
     "JointMatch",
@@ -70,6 +76,7 @@ __all__ = [
     "ResourceError",
     "Scene",
     "SceneAudit",
+    "SilentBody",
     "SolidAvatar",
     "SolidContact",
     "SolidJointState",
@@ -80,6 +87,9 @@ __all__ = [
     "Surface",
     "SweptSurface",
     "Verdict",
+    "World",
+    "WorldContact",
+    "WorldContacts",
     "__version__",
     "example_folder",
     "first_contacts",

@@ -31,6 +31,7 @@ from foretouch._types import (
     SceneAudit,
     SolidContact,
     SweptSurface,
+    WorldContacts,
 )
 
 _Path = Union[str, bytes, os.PathLike[str], os.PathLike[bytes]]
@@ -438,6 +439,41 @@ class SolidAvatar:
     def avatar(self) -> Avatar: ...
     @property
     def scene(self) -> Scene: ...
+
+class World:
+    def __init__(self, still: Optional[Scene] = None, *, tolerance: float = 0.001) -> None: ...
+    def add(
+        self,
+        shape: Union[Avatar, Scene],
+        *,
+        group: int = 0,
+        when_silent: str = "wait",
+        self_pairs: Optional[PairRules] = None,
+    ) -> int: ...
+    def push(self, body: int, utime_us: int, pose: PoseLike) -> None: ...
+    def attach(
+        self,
+        body: int,
+        carrier: int,
+        utime_us: int,
+        pose: PoseLike,
+        *,
+        link: LinkLike = 0,
+        moves_in_frame: bool = False,
+    ) -> None: ...
+    def detach(self, body: int, utime_us: int, pose: PoseLike) -> None: ...
+    def ask(self, a: int, b: int, is_asked: bool) -> None: ...
+    def ask_still(self, group: int, is_asked: bool) -> None: ...
+    @property
+    def known_until(self) -> Optional[int]: ...
+    @property
+    def waits_for(self) -> Optional[int]: ...
+    def contacts(self, from_us: int, to_us: int) -> WorldContacts: ...
+    def forget_before(self, utime_us: int) -> None: ...
+    @property
+    def num_bodies(self) -> int: ...
+    @property
+    def tolerance(self) -> float: ...
 
 def swept_surface(
     motions: Union[Motion, Iterable[Motion]],

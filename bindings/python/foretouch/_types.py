@@ -8,7 +8,7 @@ from typing import NamedTuple, Optional, TypedDict, Union, overload
 import numpy as np
 import numpy.typing as npt
 
-from foretouch._foretouch import InputError
+from foretouch._foretouch import InputError, Verdict
 
 Doubles = npt.NDArray[np.float64]
 
@@ -212,6 +212,70 @@ class SolidContact(NamedTuple):
     `normal` with which a haptic device holds the hand."""
     slip_speed: float
     """Of the link's point along the surface, m/s."""
+
+
+class ContactSide(NamedTuple):
+    """One of the two that meet in a world."""
+
+    body: Optional[int]
+    """None: what stands still."""
+    link: Optional[str]
+    """Its name; None for a mesh and for what stands still."""
+    link_id: Optional[int]
+    """0 for a mesh and for what stands still; None: every link without a contact of its own."""
+    lss: Optional[int]
+    """Which of the link's LSS; None for a triangle."""
+    triangle: Optional[int]
+    """Of the mesh, or of what stands still; None for an LSS."""
+    object: Optional[str]
+    """The name of the triangle's object."""
+    point: Doubles
+    """(3,), on its surface."""
+
+
+class WorldContact(NamedTuple):
+    """The first contact of two links in a window of a world. Metres, world frame."""
+
+    verdict: Verdict
+    """CONTACT; STARTS_IN_CONTACT: they touch where the window begins, or where one of them appears
+    or is attached; UNDECIDED: free until then, nothing claimed after it."""
+    reason: Optional[str]
+    """Of UNDECIDED."""
+    time_us: int
+    """Whole microseconds, rounded down: never later than the first touch."""
+    fraction: float
+    """Of one microsecond more, in [0, 1)."""
+    a: ContactSide
+    """The body with the lower number, or of one body the lower link; what stands still is b."""
+    b: ContactSide
+    separation: float
+    penetration: float
+    """Of STARTS_IN_CONTACT."""
+    normal: Doubles
+    """(3,), unit, from b to a."""
+    is_assumed: bool
+    """It rests on a body that was silent, and was taken to hold still."""
+
+
+class SilentBody(NamedTuple):
+    """A body of which nothing was known in the rest of a window."""
+
+    body: int
+    since_us: int
+    """Its last pose, or the window's begin."""
+    taken_to: str
+    """'hold-still' or 'undecided'."""
+
+
+class WorldContacts(NamedTuple):
+    """What a world answers about a window. Pairs that were asked and are not listed are proven clear,
+    except of silent bodies that are undecided, and of what these carry."""
+
+    contacts: list[WorldContact]
+    """The earliest first; at equal times by a's body and link, then by b's."""
+    silent: list[SilentBody]
+    counters: dict[str, int]
+    """Work done, by kind."""
 
 
 class Policy(TypedDict, total=False):

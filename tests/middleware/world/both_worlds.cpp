@@ -77,10 +77,15 @@ void BothWorlds::push(BodyId body, std::int64_t utimeUs, const RigidPose& pose) 
 }
 
 void BothWorlds::attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs,
-                        const RigidPose& pose) {
+                        const Pose& pose) {
   valueOf(world.attach(body, carrier, utimeUs, pose));
   oracle.bodies[slotOf(body)].episodes.push_back(
-      {utimeUs, carrier.body, carrier.link, {utimeUs}, {placesOf(poseOf(pose))}});
+      {utimeUs, carrier.body, carrier.link, {utimeUs}, {placesOf(pose)}});
+}
+
+void BothWorlds::attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs,
+                        const RigidPose& pose) {
+  attach(body, carrier, utimeUs, poseOf(pose));
 }
 
 void BothWorlds::detach(BodyId body, std::int64_t utimeUs, const RigidPose& pose) {

@@ -7,12 +7,21 @@
 #include <string>
 #include <vector>
 
+#include "judge/world_judge.h"
 #include "middleware/world/world.h"
 #include "middleware/world/world_query.h"
-#include "tests/middleware/world/world_oracle.h"
 #include "tests/support/judged.h"
 
 namespace foretouch::test {
+
+using oracle::OracleBody;
+using oracle::OracleEpisode;
+using oracle::OracleOutcome;
+using oracle::OraclePart;
+using oracle::OraclePlace;
+using oracle::OracleTouch;
+using oracle::OracleWorld;
+using oracle::Real;
 
 /// How many answers there were of each kind, over all pairs of links.
 struct WorldTally {
@@ -27,6 +36,7 @@ class BothWorlds {
   BodyId add(const Scene& mesh, const BodyOptions& options = {});
   void push(BodyId body, std::int64_t utimeUs, const Pose& pose);
   void push(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
+  void attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const Pose& pose);
   void attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const RigidPose& pose);
   void detach(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
 

@@ -1,6 +1,7 @@
 /* foretouch.h: Foretouch in C99 and C++: what an articulated body meets between two poses, when,
- * where and along which normal. One page about its use: docs/c-api.md. A header of its own has the
- * avatar that passes through nothing: foretouch/solid.h.
+ * where and along which normal. One page about its use: docs/c-api.md. Headers of their own have the
+ * avatar that passes through nothing, foretouch/solid.h, and worlds in which everything may move,
+ * foretouch/world.h.
  *
  * Units and frames. Metres, radians, doubles; right-handed world W, +Y up; t is normalised, 0 at
  * the earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. To convert
@@ -47,9 +48,9 @@ extern "C" {
 
 /* ---- Versions ---- */
 
-/* Of this header and solid.h. Every new function or field increments it; programs built with an
+/* Of this header, solid.h and world.h. Every new function or field increments it; programs built with an
  * older header still work. A change that would break them changes the library's soname instead. */
-#define FT_ABI_VERSION 2
+#define FT_ABI_VERSION 3
 
 /* Of the library that runs: "0.1.0", a text that lives for ever, and its FT_ABI_VERSION. */
 FT_API const char* ft_version(void);

@@ -1,17 +1,17 @@
-#include "tests/middleware/world/world_oracle.h"
+#include "judge/world_judge.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace foretouch::test {
+namespace foretouch::oracle {
 namespace {
 
-using Frame = oracle::MovingFrame<Real>;
+using Frame = MovingFrame<Real>;
 constexpr int kMostSteps = 50'000;
 constexpr Real kForever = 1e18L;
 
-oracle::Joint jointOf(int parent, const OraclePlace& from, const OraclePlace& to) {
-  oracle::Joint joint;
+Joint jointOf(int parent, const OraclePlace& from, const OraclePlace& to) {
+  Joint joint;
   joint.parent = parent;
   joint.fromRotation = from.rotation;
   joint.toRotation = to.rotation;
@@ -20,17 +20,17 @@ oracle::Joint jointOf(int parent, const OraclePlace& from, const OraclePlace& to
   return joint;
 }
 
-oracle::Motion motionOf(const OracleBody& body, const OracleEpisode& episode, std::size_t from,
-                        std::size_t to) {
-  std::vector<oracle::Joint> joints;
+Motion motionOf(const OracleBody& body, const OracleEpisode& episode, std::size_t from,
+                std::size_t to) {
+  std::vector<Joint> joints;
   for (std::size_t j = 0; j < body.parents.size(); ++j) {
     joints.push_back(jointOf(body.parents[j], episode.poses[from][j], episode.poses[to][j]));
   }
-  return oracle::Motion(joints);
+  return Motion(joints);
 }
 
-oracle::Corners<Real> cornersIn(const OraclePart& part, const Frame& frame) {
-  oracle::Corners<Real> corners;
+Corners<Real> cornersIn(const OraclePart& part, const Frame& frame) {
+  Corners<Real> corners;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t which = std::min(i, static_cast<std::size_t>(part.count - 1));
     corners[i] = frame.at(part.corners[which].as<Real>());
@@ -40,7 +40,7 @@ oracle::Corners<Real> cornersIn(const OraclePart& part, const Frame& frame) {
 
 Real coreDistance(const OraclePart& one, const Frame& atOne, const OraclePart& other,
                   const Frame& atOther) {
-  return oracle::closestPoints(cornersIn(one, atOne), cornersIn(other, atOther)).distance;
+  return closestPoints(cornersIn(one, atOne), cornersIn(other, atOther)).distance;
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ OracleWorld::Moving OracleWorld::movingAt(int id, std::int64_t fromUs, Real us,
   std::size_t k = 0;
   while (k + 1 < episode.times.size() && after(episode.times[k + 1]) <= us) ++k;
   const bool isLast = k + 1 == episode.times.size();
-  const oracle::Motion motion = motionOf(body(id), episode, k, isLast ? k : k + 1);
+  const Motion motion = motionOf(body(id), episode, k, isLast ? k : k + 1);
   Real length = 1, t = 0;
   if (!isLast) {
     length = after(episode.times[k + 1]) - after(episode.times[k]);
@@ -137,6 +137,7 @@ std::vector<bool> OracleWorld::mayTouch(int a, int b, std::int64_t fromUs,
       for (std::size_t j = 0; j < linksOfB && reach >= 0; ++j) {
         const int other = static_cast<int>(j);
         if (may[i * linksOfB + j] || reachOf(b, other) < 0) continue;
+        ++pairInstants;
         const Real way = (speedOf(a, atA, one) + speedOf(b, atB, other)) * (next - us);
         const Real apart = norm(atA.frames[i].p - atB.frames[j].p) - reach - reachOf(b, other);
         constexpr Real kWidest = 0.3L;  // metres: no two radii are more
@@ -163,6 +164,7 @@ OracleTouch OracleWorld::firstTouch(int a, int linkOfA, int b, int linkOfB, std:
     // What changes at the window's end belongs to the next one.
     const Moving atA = movingAt(a, fromUs, us, us >= end), atB = movingAt(b, fromUs, us, us >= end);
     const Real gap = separation(a, atA, linkOfA, b, atB, linkOfB);
+    ++pairInstants;
     if (gap <= kTouch) return {OracleOutcome::Touch, us};
     if (us >= end) return {OracleOutcome::Free, end};
     const Real speed = speedOf(a, atA, linkOfA) + speedOf(b, atB, linkOfB);
@@ -188,4 +190,4 @@ Real OracleWorld::distanceToSurface(int id, int link, const Vec3d& p_W, std::int
   return least;
 }
 
-}  // namespace foretouch::test
+}  // namespace foretouch::oracle

@@ -1,4 +1,4 @@
-// tests/middleware/world/world_oracle.h: a world of the judge's own: tracks, carriers, capsules and
+// judge/world_judge.h: a world of the judge's own: tracks, carriers, capsules and
 // triangles, all in W and in long double. Certified: it steps by proven bounds on speed. Shares no
 // code with the product.
 #pragma once
@@ -10,11 +10,7 @@
 #include "judge/distance.h"
 #include "judge/motion.h"
 
-namespace foretouch::test {
-
-using oracle::Real;
-using oracle::Vec3d;
-using oracle::Vec3r;
+namespace foretouch::oracle {
 
 /// A part of a link's surface: a segment (count 2) or a triangle (3), within `radius`.
 struct OraclePart {
@@ -54,6 +50,8 @@ class OracleWorld {
  public:
   std::vector<OracleBody> bodies;
   static constexpr Real kTouch = 1e-9L;  ///< Metres: nearer is a touch.
+  /// How often two links were looked at at an instant, to know until when they cannot touch.
+  mutable std::uint64_t pairInstants = 0;
 
   /// Of two links at `us` after `fromUs`; from the left, where a body changes its carrier there.
   [[nodiscard]] Real separationAt(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
@@ -75,9 +73,9 @@ class OracleWorld {
     Real ofOrigin = 0, ofTurn = 0;
   };
   struct Moving {
-    std::vector<oracle::MovingFrame<Real>> frames;  // of all links, in W
-    std::vector<Speed> speeds;                      // likewise
-    Real untilUs = 0;                               // they hold until then
+    std::vector<MovingFrame<Real>> frames;  // of all links, in W
+    std::vector<Speed> speeds;              // likewise
+    Real untilUs = 0;                       // they hold until then
   };
   /// All links of a body at an instant; where it changes its carrier there, from the left or right.
   [[nodiscard]] Moving movingAt(int body, std::int64_t fromUs, Real us, bool isFromLeft) const;
@@ -90,4 +88,4 @@ class OracleWorld {
   }
 };
 
-}  // namespace foretouch::test
+}  // namespace foretouch::oracle

@@ -1,0 +1,25 @@
+// bench/world/crowd.h: what a crowd costs, and what own links, different clocks and a platform that
+// moves add to it.
+#pragma once
+
+#include <vector>
+
+#include "bench/report.h"
+#include "bench/world/people.h"
+
+namespace foretouch::tools {
+
+/// One person per so many metres, squared.
+inline constexpr double kCrowdSpacing = 1.5;
+
+/// Crowds at 30 Hz that ask own links and each other.
+[[nodiscard]] BenchTable crowdTable(const WorldCast& cast, const std::vector<int>& counts);
+/// The same crowd by one clock, and by a clock of everybody's own.
+[[nodiscard]] BenchTable clocksTable(const WorldCast& cast);
+/// People on a platform: it stands still; it moves and carries them, who are told in its frame; it
+/// moves and they are told in the world.
+[[nodiscard]] BenchTable platformTable(const WorldCast& cast);
+/// One person alone, with and without own links.
+[[nodiscard]] BenchTable selfTable(const WorldCast& cast);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,47 @@
+// bench/world/people.h: who moves in the worlds that are measured: people who go through a clip
+// there and back, for as long as anybody looks. Metres, microseconds.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/solid/stage.h"
+
+namespace foretouch::tools {
+
+struct WorldCast {
+  std::vector<SolidActor> actors;
+  std::vector<std::string> leftOut;  ///< Clips that are not there.
+};
+/// Clips by name in mocap/ of the folder, or by path; without any, those that a world is measured
+/// with; if none of them is there, the bundled dancer. Errors name the file.
+[[nodiscard]] Result<WorldCast> loadWorldCast(const std::string& dataFolder,
+                                              const std::vector<std::string>& clips);
+
+/// A clip's poses at a rate, about the origin; shared by all people who go through it.
+struct ClipPoses {
+  const SolidActor* actor = nullptr;
+  std::int64_t periodUs = 0;
+  std::vector<Pose> poses;
+};
+/// One per actor whose clip is long enough.
+[[nodiscard]] std::vector<ClipPoses> clipPosesOf(const WorldCast& cast, double rateHz);
+
+struct Person {
+  const ClipPoses* clip = nullptr;
+  Placement place;
+  std::size_t phase = 0;      ///< Which pose is the first.
+  std::int64_t offsetUs = 0;  ///< When it is taken.
+
+  /// The k-th pose, from 0 on, and its instant.
+  [[nodiscard]] Pose pose(std::int64_t k) const;
+  [[nodiscard]] std::int64_t instant(std::int64_t k) const { return offsetUs + clip->periodUs * k; }
+};
+
+/// On a square grid of this spacing, each with a clip, a phase and a direction of his own: the same
+/// for the same arguments.
+[[nodiscard]] std::vector<Person> crowdOf(const std::vector<ClipPoses>& clips, int count,
+                                          double spacing);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,20 @@
+// bench/world/ticking.h: what a game sees that looks 90 times per second at the newest sample of
+// each body, beside a world, and beside the truth: two people, of whom one is tracked 30 times per
+// second and the other one 90 times, walk through each other.
+#pragma once
+
+#include <cstdint>
+
+#include "bench/report.h"
+#include "bench/world/people.h"
+
+namespace foretouch::tools {
+
+struct TickingTable {
+  BenchTable table;
+  std::uint64_t violations = 0;  ///< Of the world's promise.
+};
+/// `windows` of 0.2 s. A sample is there for the game as soon as it is taken.
+[[nodiscard]] TickingTable tickingTable(const WorldCast& cast, int windows);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,15 @@
+// bench/world_command.h: `foretouch-bench world`.
+#pragma once
+
+#include "tools/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace foretouch::tools {
+
+/// Adds the subcommand; its exit code goes to `exit`, which must outlive `bench`.
+void addBenchWorldCommand(CLI::App& bench, ExitCode& exit);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,50 @@
+// bindings/c/world_handle.h: the struct behind ft_world.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bindings/c/handles.h"
+#include "bindings/c/include/foretouch/world.h"
+#include "middleware/world/world_query.h"
+
+/// For one thread. Answers a window beside the last one, which it replaces once done.
+struct ft_world {
+  static constexpr auto kMark = foretouch::c::Mark::World;
+  static constexpr const char* kName = "world";
+
+  /// Of an avatar or of a mesh.
+  struct Body {
+    std::shared_ptr<const foretouch::c::AvatarParts> avatar;
+    std::optional<foretouch::Scene> mesh;
+  };
+
+  ft_world(std::optional<foretouch::Scene> ofStill, foretouch::World made)
+      : still(std::move(ofStill)), world(std::move(made)) {}
+
+  foretouch::c::Mark mark = kMark;
+  std::optional<foretouch::Scene> still;
+  foretouch::World world;
+  std::vector<Body> bodies;
+  foretouch::Pose given;
+  std::optional<foretouch::WorldScratch> scratch;
+  bool isScratchSuspect = true;  // an exception left it half written, or it is not made yet
+  foretouch::WorldContacts answer, next;
+  bool hasAnswer = false;
+};
+
+namespace foretouch::c {
+
+/// As WorldOptions and BodyOptions have them.
+[[nodiscard]] ft_world_options defaultWorldOptions();
+[[nodiscard]] ft_body_options defaultBodyOptions();
+/// NULL: the usual ones. The library itself checks the values.
+[[nodiscard]] ft_status readWorldOptions(const ft_world_options* given, WorldOptions& options);
+[[nodiscard]] ft_status readBodyOptions(const ft_body_options* given, BodyOptions& options);
+
+/// An error about an option or argument names it as C does.
+[[nodiscard]] ft_status worldFailure(Error error);
+
+}  // namespace foretouch::c

@@ -1,0 +1,286 @@
+// bindings/python/world.cpp: foretouch.World.
+#include "bindings/python/world.h"
+
+#include <array>
+#include <limits>
+#include <pybind11/stl.h>
+#include <type_traits>
+#include <utility>
+
+#include "bindings/python/bindings.h"
+#include "bindings/python/poses.h"
+#include "bindings/python/query_options.h"
+#include "bindings/snake_case.h"
+#include "lss/index.h"
+
+namespace foretouch::python {
+namespace {
+
+constexpr std::array<std::pair<const char*, WhenSilent>, 3> kSilences{
+    {{"wait", WhenSilent::Wait},
+     {"hold-still", WhenSilent::HoldStill},
+     {"undecided", WhenSilent::Undecided}}};
+
+/// An error about an option or argument is one about its keyword.
+template <typename T>
+T worldValue(Result<T> result) {
+  if (result.ok()) return std::move(result).value();
+  Error error = result.error();
+  error.file = snakeCase(error.file);
+  if (error.file == "utime") error.file = "utime_us";
+  if (error.file == "self") error.file = "self_pairs";
+  throw Failure(error);
+}
+
+}  // namespace
+
+World::World(std::shared_ptr<const Scene> still, const WorldOptions& options)
+    : still_(std::move(still)),
+      tolerance_(options.tolerance),
+      world_(worldValue(foretouch::World::build(
+          still_ ? std::optional<Scene>(*still_) : std::nullopt, options))) {}
+
+template <typename Call>
+auto World::change(const char* place, const Call& call) {
+  const py::gil_scoped_release free;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return worldValue(inFile(call(), place));
+}
+
+BodyId World::add(BodyShape shape, const BodyOptions& options) {
+  return change("add", [&]() -> Result<BodyId> {
+    auto shapes = std::make_shared<BodyShapes>(*shapes_);
+    shapes->push_back(shape);
+    auto body =
+        shape.avatar ? world_.add(*shape.avatar, options) : world_.add(*shape.mesh, options);
+    if (body.ok()) shapes_ = std::move(shapes);
+    return body;
+  });
+}
+
+void World::push(BodyId body, std::int64_t utimeUs, const Pose& pose) {
+  change("pose", [&] { return world_.push(body, utimeUs, pose); });
+}
+
+void World::attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const Pose& pose) {
+  change("pose", [&] { return world_.attach(body, carrier, utimeUs, pose); });
+}
+
+void World::detach(BodyId body, std::int64_t utimeUs, const Pose& pose) {
+  change("pose", [&] { return world_.detach(body, utimeUs, pose); });
+}
+
+void World::ask(BodyGroup a, BodyGroup b, bool isAsked) {
+  change("", [&] { return world_.ask(a, b, isAsked); });
+}
+
+void World::askStill(BodyGroup group, bool isAsked) {
+  change("", [&] { return world_.askStill(group, isAsked); });
+}
+
+void World::forgetBefore(std::int64_t utimeUs) {
+  change("", [&]() -> Result<Done> {
+    world_.forgetBefore(utimeUs);
+    return Done{};
+  });
+}
+
+std::optional<std::int64_t> World::knownUntilUs() {
+  const py::gil_scoped_release free;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return world_.knownUntilUs();
+}
+
+std::optional<BodyId> World::waitsFor() {
+  const py::gil_scoped_release free;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return world_.waitsFor();
+}
+
+foretouch::WorldContacts World::contacts(std::int64_t fromUs, std::int64_t toUs) {
+  foretouch::WorldContacts answer;
+  change("window", [&] {
+    if (isScratchSuspect_) scratch_ = WorldScratch();
+    isScratchSuspect_ = true;
+    auto done = worldContacts(world_, fromUs, toUs, scratch_, answer);
+    isScratchSuspect_ = false;
+    return done;
+  });
+  return answer;
+}
+
+std::shared_ptr<const BodyShapes> World::shapes() {
+  const py::gil_scoped_release free;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return shapes_;
+}
+
+BodyShape World::shape(BodyId body) {
+  const auto all = shapes();
+  if (body >= 0 && slotOf(body) < all->size()) return (*all)[slotOf(body)];
+  refuse(ErrorCode::UnknownName, "body",
+         "expected one of the " + std::to_string(all->size()) + " that were added, found " +
+             std::to_string(body),
+         body);
+}
+
+namespace {
+
+const Skeleton& skeletonOfProp() {
+  static const Skeleton one = [] {
+    RawSkeleton raw;
+    raw.joints = {{"mesh", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
+    return Skeleton::build(raw).value();
+  }();
+  return one;
+}
+
+/// Of one joint: (rotation, translation) of the shapes (4,) and (3,) will do.
+py::object withJointAxis(const py::object& given) {
+  const auto atLeast2d = py::module_::import("numpy").attr("atleast_2d");
+  if (!py::isinstance<py::tuple>(given) && !py::isinstance<py::list>(given)) return given;
+  const auto pair = py::reinterpret_borrow<py::sequence>(given);
+  if (pair.size() != 2) return given;
+  try {
+    return py::make_tuple(atLeast2d(pair[0]), atLeast2d(pair[1]));
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
+  }
+  return given;  // refused where it is read
+}
+
+Pose bodyPose(World& world, BodyId body, const py::object& given) {
+  const BodyShape shape = world.shape(body);
+  const Skeleton& skeleton = shape.avatar ? shape.avatar->skeleton() : skeletonOfProp();
+  return poseFrom(skeleton, skeleton.numJoints() == 1 ? withJointAxis(given) : given, "pose");
+}
+
+std::int32_t smallInteger(py::handle given, const char* what) {
+  using Limits = std::numeric_limits<std::int32_t>;
+  return static_cast<std::int32_t>(integer(given, what, Limits::min(), Limits::max()));
+}
+
+std::int64_t instantFrom(py::handle given, const char* what) {
+  return integer(given, what, -kMostUtimeUs, kMostUtimeUs);
+}
+
+std::unique_ptr<World> createWorld(std::shared_ptr<Scene> still,
+                                   const Shown<shown::Number>& tolerance) {
+  WorldOptions options;
+  options.tolerance = number(tolerance, "tolerance");
+  return std::make_unique<World>(std::move(still), options);
+}
+
+BodyId addBody(World& world, const py::object& shape, const Shown<shown::Integer>& group,
+               const Shown<shown::Text>& whenSilent, const Shown<shown::PairRules>& selfPairs) {
+  BodyOptions options;
+  options.group = smallInteger(group, "group");
+  options.whenSilent = oneOf(whenSilent, "when_silent", kSilences);
+  if (py::isinstance<Avatar>(shape)) {
+    const auto avatar = shape.cast<std::shared_ptr<Avatar>>();
+    options.self = rulesFrom(selfPairs, *avatar);
+    return world.add({avatar, nullptr}, options);
+  }
+  if (!py::isinstance<Scene>(shape)) {
+    refuse(ErrorCode::Mismatch, "shape", "expected a foretouch.Avatar or a foretouch.Scene");
+  }
+  if (!selfPairs.is_none()) {
+    refuse(ErrorCode::Mismatch, "self_pairs", "expected None: a mesh has no links of its own");
+  }
+  return world.add({nullptr, shape.cast<std::shared_ptr<Scene>>()}, options);
+}
+
+void pushPose(World& world, const Shown<shown::Integer>& body, const Shown<shown::Integer>& utimeUs,
+              const Shown<shown::Pose>& pose) {
+  const BodyId id = smallInteger(body, "body");
+  world.push(id, instantFrom(utimeUs, "utime_us"), bodyPose(world, id, pose));
+}
+
+void attachBody(World& world, const Shown<shown::Integer>& body,
+                const Shown<shown::Integer>& carrier, const Shown<shown::Integer>& utimeUs,
+                const Shown<shown::Pose>& pose, const Shown<shown::Link>& link,
+                const Shown<shown::Truth>& movesInFrame) {
+  const BodyId id = smallInteger(body, "body"), by = smallInteger(carrier, "carrier");
+  const BodyShape holding = world.shape(by);
+  const LinkId hand =
+      holding.avatar ? linkOf(*holding.avatar, link, "link") : smallInteger(link, "link");
+  world.attach(id, {by, hand, boolean(movesInFrame, "moves_in_frame")},
+               instantFrom(utimeUs, "utime_us"), bodyPose(world, id, pose));
+}
+
+void detachBody(World& world, const Shown<shown::Integer>& body,
+                const Shown<shown::Integer>& utimeUs, const Shown<shown::Pose>& pose) {
+  const BodyId id = smallInteger(body, "body");
+  world.detach(id, instantFrom(utimeUs, "utime_us"), bodyPose(world, id, pose));
+}
+
+void askGroups(World& world, const Shown<shown::Integer>& a, const Shown<shown::Integer>& b,
+               const Shown<shown::Truth>& isAsked) {
+  world.ask(smallInteger(a, "a"), smallInteger(b, "b"), boolean(isAsked, "is_asked"));
+}
+
+void askStillGroup(World& world, const Shown<shown::Integer>& group,
+                   const Shown<shown::Truth>& isAsked) {
+  world.askStill(smallInteger(group, "group"), boolean(isAsked, "is_asked"));
+}
+
+py::object contactsIn(World& world, const Shown<shown::Integer>& fromUs,
+                      const Shown<shown::Integer>& toUs) {
+  const auto answer = world.contacts(instantFrom(fromUs, "from_us"), instantFrom(toUs, "to_us"));
+  return toPython(answer, world.still().get(), *world.shapes());
+}
+
+std::string textOfWorld(World& world) {
+  return "<foretouch.World of " + std::to_string(world.shapes()->size()) + " bodies>";
+}
+
+}  // namespace
+
+void bindWorld(py::module_& module) {
+  bindWorldAnswer(module);
+  py::class_<World>(
+      module, "World",
+      "Everything that moves, on one timeline: avatars, rigid props and what they carry, each\n"
+      "known at instants of its own (whole microseconds since any epoch), beside an optional\n"
+      "scene that stands still. Threads that call one wait for one another.")
+      .def(py::init(&createWorld), py::arg("still") = py::none(), py::kw_only(),
+           py::arg("tolerance") = WorldOptions().tolerance)
+      .def("add", &addBody, py::arg("shape"), py::kw_only(), py::arg("group") = 0,
+           py::arg("when_silent") = toString(WhenSilent::Wait), py::arg("self_pairs") = py::none(),
+           "A body, by its number: of an Avatar, whose LSS touch, or of a Scene in the prop's own\n"
+           "frame, whose triangles do. group: 0 to 31. when_silent: after its last pose it is\n"
+           "waited for ('wait'), taken to stay ('hold-still') or unknown ('undecided').\n"
+           "self_pairs: PairRules: asks whether own links touch, too.")
+      .def(
+          "push", &pushPose, py::arg("body"), py::arg("utime_us"), py::arg("pose"),
+          "The body's next pose: in W, or in the frame of what carries it. Of one joint, as every\n"
+          "mesh is, a pair of (4,) and (3,) will do.")
+      .def("attach", &attachBody, py::arg("body"), py::arg("carrier"), py::arg("utime_us"),
+           py::arg("pose"), py::kw_only(), py::arg("link") = 0, py::arg("moves_in_frame") = false,
+           "From then on a link of another body carries it; pose: there, in that link's frame.\n"
+           "moves_in_frame: its poses go on in that frame; else it is held fast, without any.")
+      .def("detach", &detachBody, py::arg("body"), py::arg("utime_us"), py::arg("pose"),
+           "From then on nobody carries it; pose: there, in W.")
+      .def("ask", &askGroups, py::arg("a"), py::arg("b"), py::arg("is_asked"),
+           "Whether bodies of two groups are asked if they meet; everything is, to begin with.")
+      .def("ask_still", &askStillGroup, py::arg("group"), py::arg("is_asked"),
+           "The same of bodies of a group and what stands still.")
+      .def_property_readonly("known_until", &World::knownUntilUs,
+                             "Until when all is known, or taken to be (us); None before any pose.")
+      .def_property_readonly("waits_for", &World::waitsFor,
+                             "The body that known_until waits for; None: nobody.")
+      .def("contacts", &contactsIn, py::arg("from_us"), py::arg("to_us"),
+           "The first contact, in the window, of every two links that are asked: WorldContacts.")
+      .def(
+          "forget_before",
+          [](World& world, const Shown<shown::Integer>& utimeUs) {
+            world.forgetBefore(instantFrom(utimeUs, "utime_us"));
+          },
+          py::arg("utime_us"),
+          "Lets go of what no window from there on needs; earlier poses and windows are refused.")
+      .def_property_readonly("num_bodies", [](World& world) { return world.shapes()->size(); })
+      .def_property_readonly("tolerance", &World::tolerance)
+      .def("__repr__", &textOfWorld);
+}
+
+}  // namespace foretouch::python

@@ -1,0 +1,70 @@
+// bindings/python/world.h: a moving world, and the answer of one window of it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "bindings/python/arguments.h"
+#include "middleware/scene/scene.h"
+#include "middleware/world/world_query.h"
+
+namespace foretouch::python {
+
+/// What a body is made of: an avatar or a mesh.
+struct BodyShape {
+  std::shared_ptr<const Avatar> avatar;
+  std::shared_ptr<const Scene> mesh;
+};
+using BodyShapes = std::vector<BodyShape>;
+
+/// Threads may call one, and wait for one another. Callers hold the GIL; the methods release it
+/// while they work.
+class World {
+ public:
+  /// Throws if the library refuses the options.
+  World(std::shared_ptr<const Scene> still, const WorldOptions& options);
+
+  BodyId add(BodyShape shape, const BodyOptions& options);
+  void push(BodyId body, std::int64_t utimeUs, const Pose& pose);
+  void attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const Pose& pose);
+  void detach(BodyId body, std::int64_t utimeUs, const Pose& pose);
+  void ask(BodyGroup a, BodyGroup b, bool isAsked);
+  void askStill(BodyGroup group, bool isAsked);
+  void forgetBefore(std::int64_t utimeUs);
+  [[nodiscard]] std::optional<std::int64_t> knownUntilUs();
+  [[nodiscard]] std::optional<BodyId> waitsFor();
+  [[nodiscard]] foretouch::WorldContacts contacts(std::int64_t fromUs, std::int64_t toUs);
+
+  /// Null: nothing stands still.
+  [[nodiscard]] const std::shared_ptr<const Scene>& still() const { return still_; }
+  [[nodiscard]] double tolerance() const { return tolerance_; }
+  /// Of all bodies so far.
+  [[nodiscard]] std::shared_ptr<const BodyShapes> shapes();
+  /// Throws if the body is unknown.
+  [[nodiscard]] BodyShape shape(BodyId body);
+
+ private:
+  /// Calls a function of `world_` without the GIL; its errors name `place` if they name nothing.
+  template <typename Call>
+  auto change(const char* place, const Call& call);
+
+  std::shared_ptr<const Scene> still_;
+  double tolerance_;
+  std::mutex mutex_;  // never waited for with the GIL held
+  foretouch::World world_;
+  std::shared_ptr<const BodyShapes> shapes_ = std::make_shared<BodyShapes>();
+  WorldScratch scratch_;
+  bool isScratchSuspect_ = false;  // memory ran out half-way
+};
+
+/// A window's answer as Python sees it: foretouch.WorldContacts.
+[[nodiscard]] py::object toPython(const foretouch::WorldContacts& answer, const Scene* still,
+                                  const BodyShapes& shapes);
+/// Borrows the classes that answers are made of from the module.
+void bindWorldAnswer(py::module_& module);
+
+}  // namespace foretouch::python
