@@ -1,5 +1,6 @@
 // examples/make_example.cpp: writes the bundled scenes, clips and avatars: room.obj, dancer.bvh and
-// dancer.avatar.json; desk.obj, hand.bvh and hand.avatar.json. The same bytes on every run.
+// dancer.avatar.json; ball.csv, a ball that the dancer throws; desk.obj, hand.bvh and
+// hand.avatar.json. The same bytes on every run.
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include "examples/obj_writer.h"
 #include "examples/posture.h"
 #include "examples/room.h"
+#include "examples/throw.h"
 
 namespace foretouch::examples {
 namespace {
@@ -85,6 +87,7 @@ int run(const std::string& folder) {
                        write(folder + "/room.obj", roomText()) &&
                        write(folder + "/desk.obj", deskText()) &&
                        write(folder + "/dancer.bvh", danceText(dancer.value())) &&
+                       write(folder + "/ball.csv", throwText(dancer.value())) &&
                        write(folder + "/hand.bvh", pressText(arm.value()));
   return written ? 0 : 1;
 }

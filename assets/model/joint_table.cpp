@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "articulated/skeleton.h"
+#include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/bvh/bvh_text.h"
 #include "assets/text_file.h"
@@ -91,8 +92,7 @@ std::optional<Error> readHeader(std::string_view line, std::int64_t number, Join
   return std::nullopt;
 }
 
-std::optional<Error> readRow(std::string_view line, std::int64_t number, JointTable& table,
-                             std::vector<double>& times) {
+std::optional<Error> readRow(std::string_view line, std::int64_t number, JointTable& table) {
   const auto cells = cellsOf(line);
   if (cells.size() != table.joints.size() + 1) {
     return bvhError(ErrorCode::Syntax, number,
@@ -112,7 +112,7 @@ std::optional<Error> readRow(std::string_view line, std::int64_t number, JointTa
     }
     row.push_back(value.value);
   }
-  times.push_back(row.front());
+  table.timesS.push_back(row.front());
   row.erase(row.begin());
   table.rows.push_back(std::move(row));
   table.lines.push_back(number);
@@ -120,7 +120,8 @@ std::optional<Error> readRow(std::string_view line, std::int64_t number, JointTa
 }
 
 /// Sets the frame time, if the rows have one.
-std::optional<Error> findSpacing(const std::vector<double>& times, JointTable& table) {
+std::optional<Error> findSpacing(JointTable& table) {
+  const std::vector<double>& times = table.timesS;
   if (times.size() < 2) {
     return bvhError(ErrorCode::Empty, -1,
                     "expected at least 2 rows, found " + std::to_string(times.size()));
@@ -143,17 +144,21 @@ std::optional<Error> findSpacing(const std::vector<double>& times, JointTable& t
 
 }  // namespace
 
-Result<JointTable> parseJointTable(std::string_view csv) {
+Result<JointTable> parseTimedTable(std::string_view csv) {
   Lines lines(csv);
   JointTable table;
   const auto header = lines.next();
   if (!header) return bvhError(ErrorCode::Empty, -1, "expected a header: time and joint names");
   if (auto error = readHeader(*header, lines.number(), table)) return *std::move(error);
-  std::vector<double> times;
   while (const auto line = lines.next()) {
-    if (auto error = readRow(*line, lines.number(), table, times)) return *std::move(error);
+    if (auto error = readRow(*line, lines.number(), table)) return *std::move(error);
   }
-  if (auto error = findSpacing(times, table)) return *std::move(error);
+  return table;
+}
+
+Result<JointTable> parseJointTable(std::string_view csv) {
+  FORETOUCH_TRY(auto table, parseTimedTable(csv));
+  if (auto error = findSpacing(table)) return *std::move(error);
   return table;
 }
 

@@ -7,6 +7,7 @@
 #include "tests/fuzz/replay_corpus.h"
 #include "tests/fuzz/shown_inputs.h"
 #include "tests/fuzz/text_inputs.h"
+#include "tests/fuzz/world_inputs.h"
 
 namespace foretouch::fuzz {
 namespace {
@@ -40,6 +41,15 @@ TEST(FuzzCorpus, TextsOfPeopleKeepThePromises) {
   const CorpusCounts projects = replayCorpus("project", feedProject, AlsoFeed::LastByteMissing);
   EXPECT_GE(projects.accepted, 1);
   EXPECT_GE(projects.refused, 3);
+}
+
+TEST(FuzzCorpus, WorldsKeepThePromises) {
+  const CorpusCounts worlds = replayCorpus("world_file", feedWorldFile, AlsoFeed::EveryBeginning);
+  EXPECT_GE(worlds.accepted, 4);
+  EXPECT_GE(worlds.refused, 5);
+  const CorpusCounts poses = replayCorpus("rigid_poses", feedRigidPoses, AlsoFeed::EveryBeginning);
+  EXPECT_GE(poses.accepted, 3);
+  EXPECT_GE(poses.refused, 5);
 }
 
 TEST(FuzzCorpus, ShownPosesKeepThePromises) {

@@ -76,14 +76,16 @@ const std::map<std::string, Rooms> kRooms = {
       {"replay", {"touches", "inputs", "settings", ""}},
       {"stream", {"touches", "inputs", "settings", ""}},
       {"solid", {"replay", "touches", "inputs", "settings", ""}},
-      {"glb", {"solid", "replay", "touches", "inputs", "settings", ""}},
+      {"world", {"audit", "replay", "touches", "inputs", "settings", ""}},
+      {"glb", {"world", "solid", "replay", "touches", "inputs", "settings", ""}},
       {"sweep", {"glb", "inputs", "settings", ""}},
       {"log", {"stream", "replay", "touches", "inputs", "settings", ""}},
-      {"report", {"solid", "setup", "log", "audit", "replay", "touches", "inputs", "settings", ""}},
+      {"report",
+       {"world", "solid", "setup", "log", "audit", "replay", "touches", "inputs", "settings", ""}},
       {"view", {"report", "stream", "settings", ""}},
       {"commands",
-       {"view", "report", "log", "sweep", "glb", "solid", "stream", "replay", "setup", "touches",
-        "audit", "inputs", "settings", ""}}}},
+       {"view", "report", "log", "sweep", "glb", "world", "solid", "stream", "replay", "setup",
+        "touches", "audit", "inputs", "settings", ""}}}},
 };
 
 /// Libraries that only these folders may include, by the include's first word.

@@ -10,6 +10,7 @@
 #include "tools/commands/demo_command.h"
 #include "tools/commands/replay_command.h"
 #include "tools/commands/serve_command.h"
+#include "tools/commands/world_command.h"
 #include "tools/help_page.h"
 #include "tools/log/log_command.h"
 #include "tools/report/view_command.h"
@@ -41,6 +42,7 @@ std::vector<Command> allCommands() {
   add("Start here", setupCommand());
   add("Start here", viewCommand());
   add("Ask", replayCommand());
+  add("Ask", worldCommand());
   add("Ask", sweepCommand());
   add("Live", serveCommand());
   add("Live", publishCommand());

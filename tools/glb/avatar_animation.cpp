@@ -151,7 +151,7 @@ Result<Done> checkTimes(const std::vector<double>& timesS) {
 std::size_t addAvatar(const AvatarTrack& track, const std::vector<std::size_t>& meshes,
                       std::size_t parent, const Vector3d& origin, GlbContent& content,
                       GlbAnimation& animation) {
-  const Skeleton& skeleton = track.avatar.skeleton();
+  const Skeleton& skeleton = track.skeleton;
   GltfDocument& document = content.document();
   KeyTimes times(track.timesS, content);
   std::size_t first = 0;

@@ -46,7 +46,7 @@ class GlbAnimation {
 
 /// Poses and their times.
 struct AvatarTrack {
-  const Avatar& avatar;
+  const Skeleton& skeleton;
   const std::vector<Pose>& poses;  ///< At least two.
   std::vector<double> timesS;      ///< One per pose.
 };

@@ -82,11 +82,9 @@ std::vector<std::size_t> addLinkMeshes(const Stage& stage, GlbContent& content,
   return meshes;
 }
 
-std::vector<std::size_t> addGhostMeshes(const Stage& stage, GlbContent& content,
-                                        TriangleBudget& budget, std::vector<std::string>& notes) {
-  const Avatar& avatar = stage.inputs.avatar;
-  const std::size_t material = content.addMaterial(kGhost);
-  std::size_t leftOut = 0;
+std::vector<std::size_t> addLssMeshes(const Avatar& avatar, const std::string& prefix,
+                                      std::size_t material, GlbContent& content,
+                                      TriangleBudget& budget, std::size_t& leftOut) {
   std::vector<std::size_t> meshes;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     GlbMesh volume;
@@ -97,9 +95,17 @@ std::vector<std::size_t> addGhostMeshes(const Stage& stage, GlbContent& content,
     }
     meshes.push_back(volume.triangles() == 0
                          ? kNoMesh
-                         : content.addMesh("tracked " + avatar.skeleton().name(link),
+                         : content.addMesh(prefix + avatar.skeleton().name(link),
                                            {{std::move(volume), material}}));
   }
+  return meshes;
+}
+
+std::vector<std::size_t> addGhostMeshes(const Stage& stage, GlbContent& content,
+                                        TriangleBudget& budget, std::vector<std::string>& notes) {
+  std::size_t leftOut = 0;
+  auto meshes = addLssMeshes(stage.inputs.avatar, "tracked ", content.addMaterial(kGhost), content,
+                             budget, leftOut);
   if (leftOut > 0) notes.push_back(fmt::format("{} LSS of the tracked body are left out", leftOut));
   return meshes;
 }

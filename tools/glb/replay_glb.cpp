@@ -27,12 +27,10 @@ std::size_t addGroup(GltfDocument& document, std::size_t parent, const std::stri
   return node;
 }
 
-std::size_t addWorld(const Stage& stage, json extras, GltfDocument& document) {
+std::size_t addWorld(const Eigen::Vector3d& origin, json extras, GltfDocument& document) {
   const std::size_t node =
       document.add("nodes", {{"name", "foretouch replay"}, {"extras", std::move(extras)}});
-  if (!stage.origin.isZero()) {
-    document.at("nodes", node)["translation"] = gltfVector(stage.origin);
-  }
+  if (!origin.isZero()) document.at("nodes", node)["translation"] = gltfVector(origin);
   document.show(node);
   return node;
 }
@@ -82,11 +80,11 @@ Result<std::vector<std::string>> ReplayGlb::write(const std::vector<Touch>& touc
   // Has the settings of the replay, like the results' first line.
   json extras = json::parse(headerLine(inputs_));
   extras["undecided"] = undecided_;
-  const std::size_t world = addWorld(stage, std::move(extras), document);
+  const std::size_t world = addWorld(stage.origin, std::move(extras), document);
   const std::vector<std::size_t> meshes = addLinkMeshes(stage, content, budget, notes);
   const std::size_t avatar = addGroup(document, world, "avatar");
-  addAvatar({inputs_.avatar, stage.poses, stage.timesS}, meshes, avatar, stage.origin, content,
-            animation);
+  addAvatar({inputs_.avatar.skeleton(), stage.poses, stage.timesS}, meshes, avatar, stage.origin,
+            content, animation);
   std::vector<Appearance> appearances =
       addMarkers(stage, shown, addGroup(document, world, "contacts"), content);
   const auto sweeps =

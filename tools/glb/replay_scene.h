@@ -31,8 +31,11 @@ struct Stage {
 [[nodiscard]] Result<Stage> stageOf(const ReplayInputs& inputs, std::vector<Pose> poses,
                                     std::vector<double> timesS);
 
-/// The node of the world W; `extras` are its own.
-[[nodiscard]] std::size_t addWorld(const Stage& stage, nlohmann::json extras,
+/// What positions between these two corners are best given relative to: zero near the origin.
+[[nodiscard]] Eigen::Vector3d originFor(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+
+/// The node of the world W, whose own origin is at `origin`; `extras` are its own.
+[[nodiscard]] std::size_t addWorld(const Eigen::Vector3d& origin, nlohmann::json extras,
                                    GltfDocument& document);
 /// A node below `parent` that only holds others.
 [[nodiscard]] std::size_t addGroup(GltfDocument& document, std::size_t parent,
@@ -66,8 +69,18 @@ class TriangleBudget {
                                                       TriangleBudget& budget,
                                                       std::vector<std::string>& notes);
 
-/// A node below `parent` for every object of the scene, preferring triangles near the avatar's
-/// path; includes those where a touch begins.
+/// The LSS of every link (kNoMesh: it has none), named after it behind `prefix`. Adds to `leftOut`
+/// those that the budget has no room for.
+[[nodiscard]] std::vector<std::size_t> addLssMeshes(const Avatar& avatar, const std::string& prefix,
+                                                    std::size_t material, GlbContent& content,
+                                                    TriangleBudget& budget, std::size_t& leftOut);
+
+/// A node below `parent` for every object of the scene, preferring triangles near `places` (at
+/// least one) and including those of `touched`. `origin`: of the world's node.
+void addScene(const Scene& scene, const std::vector<Eigen::Vector3d>& places,
+              std::vector<TriangleId> touched, const Eigen::Vector3d& origin, std::size_t parent,
+              GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes);
+/// The same of a replay: near the avatar's path, including where touches begin.
 void addScene(const Stage& stage, const std::vector<ShownTouch>& touches, std::size_t parent,
               GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes);
 

@@ -41,10 +41,16 @@ std::map<ObjectId, std::vector<Triangle>> byObject(const Scene& scene,
 
 void addScene(const Stage& stage, const std::vector<ShownTouch>& touches, std::size_t parent,
               GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes) {
-  const Scene& scene = stage.inputs.scene;
   std::vector<TriangleId> touched;
   for (const ShownTouch& shown : touches) touched.push_back(shown.first.contact.triangle);
-  const auto ids = nearestTriangles(scene, placesOn(stage), std::move(touched), budget.left());
+  addScene(stage.inputs.scene, placesOn(stage), std::move(touched), stage.origin, parent, content,
+           budget, notes);
+}
+
+void addScene(const Scene& scene, const std::vector<Vector3d>& places,
+              std::vector<TriangleId> touched, const Vector3d& origin, std::size_t parent,
+              GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes) {
+  const auto ids = nearestTriangles(scene, places, std::move(touched), budget.left());
   const std::size_t finite = scene.audit().triangles;
   if (ids.size() < finite) {
     notes.push_back(fmt::format(
@@ -56,7 +62,7 @@ void addScene(const Stage& stage, const std::vector<ShownTouch>& touches, std::s
   for (const auto& [object, triangles] : byObject(scene, ids)) {
     const std::string name =
         object == kOthers ? "other objects" : scene.objectNames()[slotOf(object)];
-    const std::size_t mesh = content.addMesh(name, {{meshOf(triangles, stage.origin), material}});
+    const std::size_t mesh = content.addMesh(name, {{meshOf(triangles, origin), material}});
     const std::size_t node = content.document().add("nodes", {{"name", name}, {"mesh", mesh}});
     content.document().at("nodes", parent)["children"].push_back(node);
   }

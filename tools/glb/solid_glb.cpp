@@ -53,12 +53,12 @@ Result<std::vector<std::string>> writeSolidGlb(const ReplayInputs& inputs, const
   GltfDocument& document = content.document();
   GlbAnimation animation("replay");
   TriangleBudget budget(request.mostTriangles);
-  const std::size_t world = addWorld(stage, extrasOf(header), document);
+  const std::size_t world = addWorld(stage.origin, extrasOf(header), document);
   const auto meshes = addLinkMeshes(stage, content, budget, notes);
-  addAvatar({inputs.avatar, stage.poses, stage.timesS}, meshes, addGroup(document, world, "avatar"),
-            stage.origin, content, animation);
+  addAvatar({inputs.avatar.skeleton(), stage.poses, stage.timesS}, meshes,
+            addGroup(document, world, "avatar"), stage.origin, content, animation);
   const auto ghosts = addGhostMeshes(stage, content, budget, notes);
-  addAvatar({inputs.avatar, track.tracked(), track.tickTimesS()}, ghosts,
+  addAvatar({inputs.avatar.skeleton(), track.tracked(), track.tickTimesS()}, ghosts,
             addGroup(document, world, "tracked"), stage.origin, content, animation);
   const std::vector<Appearance> appearances =
       addMarkers(stage, shown, addGroup(document, world, "contacts"), content);

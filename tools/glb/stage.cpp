@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 /// Floats resolve 4 micrometres up to here; beyond, positions are relative to a nearby origin.
 constexpr double kNear = 64.0;
 
-Vector3d originFor(const Stage& stage) {
+Vector3d originOf(const Stage& stage) {
   const Skeleton& skeleton = stage.inputs.avatar.skeleton();
   Vector3d low = stage.poses.front().translations[0], high = low;
   for (const Pose& pose : stage.poses) {
@@ -25,11 +25,7 @@ Vector3d originFor(const Stage& stage) {
       high = high.cwiseMax(pose.translations[slotOf(joint)]);
     }
   }
-  if (low.cwiseAbs().maxCoeff() <= kNear && high.cwiseAbs().maxCoeff() <= kNear) {
-    return Vector3d::Zero();
-  }
-  // Whole metres: floats hold them exactly up to 16,777 km.
-  return (0.5 * (low + high)).array().round();
+  return originFor(low, high);
 }
 
 double extentOf(const Stage& stage) {
@@ -49,6 +45,14 @@ double extentOf(const Stage& stage) {
 
 }  // namespace
 
+Vector3d originFor(const Vector3d& low, const Vector3d& high) {
+  if (low.cwiseAbs().maxCoeff() <= kNear && high.cwiseAbs().maxCoeff() <= kNear) {
+    return Vector3d::Zero();
+  }
+  // Whole metres: floats hold them exactly up to 16,777 km.
+  return (0.5 * (low + high)).array().round();
+}
+
 Result<Stage> stageOf(const ReplayInputs& inputs) {
   std::vector<Pose> poses;
   std::vector<double> timesS;
@@ -64,7 +68,7 @@ Result<Stage> stageOf(const ReplayInputs& inputs, std::vector<Pose> poses,
                       std::vector<double> timesS) {
   Stage stage{inputs, std::move(poses), std::move(timesS)};
   FORETOUCH_CHECK(checkTimes(stage.timesS));
-  stage.origin = originFor(stage);
+  stage.origin = originOf(stage);
   stage.extent = extentOf(stage);
   return stage;
 }

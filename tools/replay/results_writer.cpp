@@ -10,9 +10,9 @@
 
 namespace foretouch::tools {
 
-void beginResults(JsonWriter& out) {
+void beginResults(JsonWriter& out, const char* format) {
   out.beginObject();
-  out.field("format", "foretouch-results");
+  out.field("format", format);
   out.field("version", 1);
   out.field("tool", FORETOUCH_VERSION);
 }
@@ -28,15 +28,10 @@ void writeLinkNames(const Avatar& avatar, JsonWriter& out) {
   out.endArray();
 }
 
-namespace {
-
-/// Which pairs of own links the results tell of, and of which ones they say nothing.
-void writeSelf(const ReplayInputs& inputs, JsonWriter& out) {
-  const PairRules& rules = *inputs.query.self;
-  const Skeleton& skeleton = inputs.avatar.skeleton();
+void writeSelf(const PairRules& rules, const Skeleton& skeleton, const std::string& path,
+               JsonWriter& out) {
   out.key("self");
   out.beginObject();
-  const std::string& path = inputs.request.pairsPath;
   if (!path.empty()) writeFileName("file", path, out);
   out.field("pairs", rules.numPairs());
   out.field("asked", rules.numAsked());
@@ -50,8 +45,6 @@ void writeSelf(const ReplayInputs& inputs, JsonWriter& out) {
   });
   out.endObject();
 }
-
-}  // namespace
 
 std::string headerLine(const ReplayInputs& inputs) {
   ReplayRequest request = inputs.request;
@@ -79,7 +72,9 @@ std::string headerLine(const ReplayInputs& inputs) {
        "leaves",    "skin",         "skin_scale",   "skin_up",         "animation", "robot",
        "ground",    "ground_angle", "ground_height"},
       out);
-  if (inputs.query.self) writeSelf(inputs, out);
+  if (inputs.query.self) {
+    writeSelf(*inputs.query.self, inputs.avatar.skeleton(), request.pairsPath, out);
+  }
   writeLinkNames(inputs.avatar, out);
   out.field("unmatched_joints", inputs.match.unmatchedAvatar);
   out.endObject();

@@ -31,10 +31,14 @@ struct StepAnswer {
 
 // For first lines, also of a log's results. Each writes fields into an open object; beginResults()
 // opens it.
-void beginResults(JsonWriter& out);
+void beginResults(JsonWriter& out, const char* format = "foretouch-results");
 /// Without the folders.
 void writeFileName(const char* name, const std::string& path, JsonWriter& out);
 void writeLinkNames(const Avatar& avatar, JsonWriter& out);
+/// Which pairs of own links the results tell of, and of which ones they say nothing: `self`.
+/// `path`: the file of the rules; empty if they are derived.
+void writeSelf(const PairRules& rules, const Skeleton& skeleton, const std::string& path,
+               JsonWriter& out);
 
 /// The first line. Does not name threads: they do not change the results.
 [[nodiscard]] std::string headerLine(const ReplayInputs& inputs);

@@ -17,7 +17,7 @@
 
 namespace foretouch::tools {
 
-enum class ViewKind : std::uint8_t { Replay, Log, Inspection, Live };
+enum class ViewKind : std::uint8_t { Replay, World, Log, Inspection, Live };
 
 /// A row of a table for people.
 struct ViewRow {
@@ -102,25 +102,37 @@ struct ViewPush {
   double slipSpeed = 0.0;  ///< Metres per second.
 };
 
+/// A body that another one carries: its poses are then in the frame of a link of that one.
+struct ViewCarried {
+  double fromS = 0.0;
+  std::optional<double> untilS;  ///< Nothing: to the end.
+  std::size_t avatar = 0;        ///< Who carries, of the document's.
+  LinkId link = 0;
+};
+
 struct ViewAvatar {
   std::int32_t id = 0;
   std::string name;
   const Avatar* avatar = nullptr;  ///< Links and LSS; outlives the document.
+  bool hasLss = true;              ///< False: only its meshes are shown.
   std::vector<ViewLinkMesh> meshes;
   std::optional<ViewTrack> track;
   std::vector<ReportedContact> contacts;  ///< `step`: an index of the track's steps.
+  bool knowsMissed = true;  ///< Whether somebody looked what a check of the poses misses.
   /// Of a solid avatar: `track` is what is shown, this is what was tracked.
   std::optional<ViewTrack> tracked;
   std::optional<ViewSolid> solid;
   std::vector<ViewPush> pushes;  ///< Of a solid avatar: one per contact.
   bool isLiveSolid = false;      ///< Of kind Live: events will say what is shown.
   std::vector<ViewSwept> swept;
+  std::vector<ViewCarried> carried;  ///< By time.
 };
 
 struct ViewTouch {
   std::size_t avatar = 0;
   Touch touch;                      ///< On the document's clock, of the track's steps.
   std::vector<std::uint32_t> rows;  ///< Its contacts among the avatar's, in their order.
+  std::optional<std::size_t> otherAvatar = std::nullopt;  ///< Whose `touch.other` is, if another's.
 };
 
 struct ViewDocument {
@@ -131,7 +143,7 @@ struct ViewDocument {
   std::vector<PlacementCheck> checks;  ///< Of an inspection.
   std::optional<ViewScene> scene;      ///< Nothing if the document shows only an avatar.
   std::vector<ViewAvatar> avatars;
-  std::optional<std::vector<ViewTouch>> touches;  ///< Of replays and logs, in listed order.
+  std::optional<std::vector<ViewTouch>> touches;  ///< Of what was asked, in listed order.
 };
 
 }  // namespace foretouch::tools

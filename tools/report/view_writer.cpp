@@ -18,6 +18,7 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "typed arrays are writt
 const char* toString(ViewKind kind) {
   switch (kind) {
     case ViewKind::Replay: return "replay";
+    case ViewKind::World: return "world";
     case ViewKind::Log: return "log";
     case ViewKind::Inspection: return "inspection";
     case ViewKind::Live: return "live";
@@ -138,7 +139,7 @@ void writeLss(Writer& out, LinkId link, const Lss& lss) {
   out.handOnPieces();
 }
 
-void writeLinks(Writer& out, const Avatar& avatar) {
+void writeLinks(Writer& out, const Avatar& avatar, bool hasLss) {
   const Skeleton& skeleton = avatar.skeleton();
   out.key("links");
   out.beginArray();
@@ -152,7 +153,7 @@ void writeLinks(Writer& out, const Avatar& avatar) {
   out.endArray();
   out.key("lss");
   out.beginArray();
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+  for (LinkId link = 0; hasLss && link < avatar.numLinks(); ++link) {
     for (const Lss& lss : avatar.lss(link)) writeLss(out, link, lss);
   }
   out.endArray();
@@ -195,7 +196,7 @@ void writeSolid(Writer& out, const ViewSolid& solid) {
 }
 
 /// The fields of a results file, with the step before them and the touches at the poses after them.
-void write(const ReportedContact& found, const ViewPush* push, Writer& out) {
+void write(const ReportedContact& found, const ViewPush* push, bool knowsMissed, Writer& out) {
   const std::string link = std::to_string(found.contact.link);
   const std::string object = jsonString(found.object, JsonPlace::Page);
   ContactWords words;
@@ -208,11 +209,12 @@ void write(const ReportedContact& found, const ViewPush* push, Writer& out) {
   out.beginObject();
   out.field("step", found.step);
   writeContact(found.contact, words, out);
+  if (found.otherBody >= 0) out.field("other_avatar", found.otherBody);
   if (isOwn) out.field("object", found.object);
   if (push != nullptr) {
     out.field("push", push->push);
     out.field("slip", push->slipSpeed);
-  } else if (!isOwn && found.contact.verdict == Verdict::Contact) {
+  } else if (knowsMissed && !isOwn && found.contact.verdict == Verdict::Contact) {
     out.field("missed_by_poses", found.missedByPoses);
   }
   out.endObject();
@@ -236,12 +238,21 @@ void write(const ViewLinkMesh& part, Writer& out) {
   out.endObject();
 }
 
+void write(const ViewCarried& carried, Writer& out) {
+  out.beginObject();
+  out.field("from", carried.fromS);
+  if (carried.untilS) out.field("until", *carried.untilS);
+  out.field("avatar", carried.avatar);
+  out.field("link", carried.link);
+  out.endObject();
+}
+
 void write(const ViewAvatar& avatar, Writer& out) {
   const auto writeOne = [&](const auto& item) { write(item, out); };
   out.beginObject();
   out.field("id", avatar.id);
   out.field("name", avatar.name);
-  writeLinks(out, *avatar.avatar);
+  writeLinks(out, *avatar.avatar, avatar.hasLss);
   if (!avatar.meshes.empty()) out.list("meshes", avatar.meshes, writeOne);
   if (avatar.track) writeTrack(out, "track", *avatar.track);
   if (avatar.tracked) writeTrack(out, "tracked", *avatar.tracked);
@@ -250,10 +261,11 @@ void write(const ViewAvatar& avatar, Writer& out) {
   std::size_t contact = 0;
   out.list("contacts", avatar.contacts, [&](const ReportedContact& found) {
     const bool hasPush = contact < avatar.pushes.size();
-    write(found, hasPush ? &avatar.pushes[contact] : nullptr, out);
+    write(found, hasPush ? &avatar.pushes[contact] : nullptr, avatar.knowsMissed, out);
     ++contact;
   });
   out.list("swept", avatar.swept, writeOne);
+  if (!avatar.carried.empty()) out.list("carried", avatar.carried, writeOne);
   out.endObject();
 }
 
@@ -268,6 +280,7 @@ void write(const ViewTouch& shown, Writer& out) {
   words.object = object;
   out.beginObject();
   if (shown.avatar > 0) out.field("avatar", shown.avatar);
+  if (shown.otherAvatar) out.field("other_avatar", *shown.otherAvatar);
   writeTouch(touch, words, out);
   out.list("rows", shown.rows, [&](std::uint32_t row) { out.value(row); });
   out.endObject();

@@ -109,6 +109,27 @@ TomlSection TomlSection::table(const char* key) {
   return {reading_, nothing, title};
 }
 
+std::vector<TomlSection> TomlSection::tables(const char* key, const std::string& title,
+                                             std::size_t most) {
+  std::vector<TomlSection> sections;
+  const toml::node* const node = find(key);
+  if (node == nullptr || (node->is_array() && node->as_array()->empty())) return sections;
+  if (!node->is_array_of_tables()) {
+    wrongType(key, "tables, each under a line " + title, *node);
+    return sections;
+  }
+  if (node->as_array()->size() > most) {
+    reading_.fail(ErrorCode::LimitExceeded, lineOf(*node),
+                  "expected at most " + std::to_string(most) + " tables " + title + ", found " +
+                      std::to_string(node->as_array()->size()));
+    return sections;
+  }
+  for (const toml::node& element : *node->as_array()) {
+    sections.emplace_back(reading_, *element.as_table(), title);
+  }
+  return sections;
+}
+
 bool TomlSection::readKind(const Setting& setting, const toml::node& node, GivenValue& given) {
   const char* const key = setting.key.c_str();
   switch (setting.kind) {
@@ -210,6 +231,30 @@ std::optional<std::string> TomlSection::textOf(const char* key, const toml::node
   }
   outOfRange(key, expected, inQuotes(found), node);
   return std::nullopt;
+}
+
+bool TomlSection::numbers(const char* key, std::size_t count, double most,
+                          std::vector<double>& values) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return false;
+  const std::string expected =
+      std::to_string(count) + " numbers from " + tidyNumber(-most) + " to " + tidyNumber(most);
+  if (!node->is_array()) return wrongType(key, expected, *node), false;
+  const toml::array& elements = *node->as_array();
+  if (elements.size() != count) {
+    return outOfRange(key, expected, std::to_string(elements.size()) + " values", *node), false;
+  }
+  values.clear();
+  for (const toml::node& element : elements) {
+    if (!element.is_number()) return wrongType(key, expected, element), false;
+    const double found = element.is_integer() ? static_cast<double>(element.as_integer()->get())
+                                              : element.as_floating_point()->get();
+    if (!(found >= -most && found <= most)) {
+      return outOfRange(key, expected, shownNumber(found), element), false;
+    }
+    values.push_back(found);
+  }
+  return true;
 }
 
 void TomlSection::truth(const char* key, std::optional<bool>& value) {

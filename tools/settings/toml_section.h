@@ -75,6 +75,10 @@ class TomlSection {
   /// The table `key` in this one, or an empty one.
   TomlSection table(const char* key);
 
+  /// The tables under lines [[key]], or in an array; none if there are none. `title`: theirs, as
+  /// "[[body.pose]]".
+  std::vector<TomlSection> tables(const char* key, const std::string& title, std::size_t most);
+
   /// Stores the value of the setting's key in the setting's place. `pathOf` turns a path into one
   /// that is ready to open.
   void read(Setting& setting, const std::function<std::string(const std::string&)>& pathOf);
@@ -97,6 +101,10 @@ class TomlSection {
   }
 
   void truth(const char* key, std::optional<bool>& value);
+
+  /// An array of `count` finite numbers, each at most `most` in magnitude. True if it is there and
+  /// legal.
+  bool numbers(const char* key, std::size_t count, double most, std::vector<double>& values);
 
   template <typename Integer>
   void integer(const char* key, std::int64_t least, std::int64_t most, Integer& value) {
@@ -128,6 +136,11 @@ class TomlSection {
 
   void outOfRange(const char* key, const std::string& expected, const std::string& found,
                   const toml::node& node);
+
+  /// An error about the whole table.
+  void fail(ErrorCode code, const std::string& message) {
+    reading_.fail(code, line(), title_ + ": " + message);
+  }
 
  private:
   [[nodiscard]] std::string spelt(const char* key) const;

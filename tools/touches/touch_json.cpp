@@ -12,20 +12,8 @@ void writeRange(std::string_view name, const std::pair<std::int64_t, std::int64_
   out.list(name, ends, [&](std::int64_t end) { out.value(end); });
 }
 
-}  // namespace
-
-void writeTouch(const Touch& touch, const TouchWords& words, JsonWriter& out) {
-  out.rawField("link", words.link);
-  if (!words.other.empty()) out.rawField("other", words.other);
-  if (!words.object.empty()) out.rawField("object", words.object);
-  if (words.isOfStream) {
-    writeRange("utime", {touch.beginUs, touch.endUs}, out);
-    writeRange("sequence", {touch.firstStep, touch.lastStep}, out);
-  } else {
-    out.field("begin", touch.beginS);
-    out.field("end", touch.endS);
-    writeRange("steps", {touch.firstStep, touch.lastStep}, out);
-  }
+/// What does not depend on the clock.
+void writeNature(const Touch& touch, JsonWriter& out) {
   out.field("begins", touch.beginsInside ? "inside" : "contact");
   out.field("ends", touch.isOpen ? "open" : "left");
   out.field("contacts", touch.contacts);
@@ -33,6 +21,25 @@ void writeTouch(const Touch& touch, const TouchWords& words, JsonWriter& out) {
   if (touch.startsAtAPose) out.field("penetration", touch.penetration);
   if (touch.isGround) out.field("ground", true);
   if (touch.isMissed) out.field("missed", true);
+}
+
+}  // namespace
+
+void writeTouchCourse(const Touch& touch, std::string_view steps, JsonWriter& out) {
+  out.field("begin", touch.beginS);
+  out.field("end", touch.endS);
+  writeRange(steps, {touch.firstStep, touch.lastStep}, out);
+  writeNature(touch, out);
+}
+
+void writeTouch(const Touch& touch, const TouchWords& words, JsonWriter& out) {
+  out.rawField("link", words.link);
+  if (!words.other.empty()) out.rawField("other", words.other);
+  if (!words.object.empty()) out.rawField("object", words.object);
+  if (!words.isOfStream) return writeTouchCourse(touch, "steps", out);
+  writeRange("utime", {touch.beginUs, touch.endUs}, out);
+  writeRange("sequence", {touch.firstStep, touch.lastStep}, out);
+  writeNature(touch, out);
 }
 
 std::string touchSummaryLine(const TouchCounts& counts, std::int64_t steps, bool isOwnAsked) {

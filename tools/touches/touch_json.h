@@ -22,6 +22,10 @@ struct TouchWords {
 /// Writes the touch's fields into an open object.
 void writeTouch(const Touch& touch, const TouchWords& words, JsonWriter& out);
 
+/// Only what is said of when and how it is: the times and steps of a clip, and all fields behind
+/// them. `steps`: the name of theirs.
+void writeTouchCourse(const Touch& touch, std::string_view steps, JsonWriter& out);
+
 /// The last line of results: {"summary":...} with "steps", "touches", "touches_missed",
 /// "touches_ground" and, if own links were asked, "touches_own"; and a line break.
 [[nodiscard]] std::string touchSummaryLine(const TouchCounts& counts, std::int64_t steps,

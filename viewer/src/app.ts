@@ -49,8 +49,10 @@ export function showDocument(document: ViewDocument): Page {
 }
 
 function initialStore(model: Model): Store {
-  const telling = mostTelling(model.contacts, model.clips);
-  const contact = model.contacts[telling] ?? null;
+  const met = model.contacts.filter(({ otherAvatar }) => otherAvatar !== null);
+  // Of bodies that move among each other, what one of them does to another.
+  const candidates = met.length > 0 ? met : model.contacts;
+  const contact = candidates[mostTelling(candidates, model.clips)] ?? null;
   return new Store({
     time: contact?.at ?? model.start,
     isPlaying: false,

@@ -8,6 +8,7 @@ import { countTouches, matches, mergedTouches, recordedTouches, touchOfRow } fro
 import type { Clip } from "./motion/clip.js";
 import type { Place } from "./motion/placing.js";
 import { placeFrom } from "./motion/placing.js";
+import { CarriedClip } from "./motion/carried_clip.js";
 import { RecordedClip } from "./motion/recorded_clip.js";
 import { LiveClip } from "./live/live_clip.js";
 
@@ -26,7 +27,7 @@ export class Model {
 
   constructor(readonly document: ViewDocument) {
     this.avatarList = [...document.avatars];
-    this.clipList = document.avatars.map(clipOf);
+    this.clipList = clipsOf(document.avatars);
     this.trackedList = document.avatars.map(trackedOf);
     this.contactList = allContacts(this.avatars, this.clips);
     this.touchList = this.touchesOf(this.contactList);
@@ -148,6 +149,16 @@ export class Model {
 
 function clipOf(avatar: Avatar): Clip {
   return avatar.track === null ? new LiveClip(avatar.links) : new RecordedClip(avatar.links, avatar.track);
+}
+
+/** Whoever is carried goes along with who carries it. */
+function clipsOf(avatars: readonly Avatar[]): Clip[] {
+  const clips: Clip[] = [];
+  avatars.forEach((avatar, i) => {
+    const own = clipOf(avatar);
+    clips[i] = avatar.carried.length === 0 ? own : new CarriedClip(own, avatar.carried, clips);
+  });
+  return clips;
 }
 
 function trackedOf(avatar: Avatar): Clip | null {

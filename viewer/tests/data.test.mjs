@@ -27,6 +27,41 @@ test("documents of every kind are read", () => {
   assert.equal(decoded(live()).events, "/events");
 });
 
+/** As the report of a world has it: two bodies, the second one carried by the first, who touch. */
+const world = () => {
+  const value = copy(), [avatar] = value.avatars;
+  value.kind = "world";
+  value.avatars = [avatar, { ...structuredClone(avatar), contacts: [], carried: [{ from: 0.5, until: 1, avatar: 0, link: 6 }] }];
+  Object.assign(avatar.contacts[0], { other: 3, other_avatar: 1, object: "other: Head" });
+  const touch = value.touches.find(({ rows }) => rows.includes(0));
+  Object.assign(touch, { other: 3, other_avatar: 1, object: "other: Head" });
+  return value;
+};
+
+test("bodies of a world touch each other, and carry each other", () => {
+  const view = decoded(world());
+  assert.equal(view.kind, "world");
+  assert.deepEqual(view.avatars[1].carried, [{ from: 0.5, until: 1, avatar: 0, link: 6, links: 16 }]);
+  assert.deepEqual(decoded(whole).avatars[0].carried, []);
+  const { contacts } = shown(world()), touches = recordedTouches(view.touches, view.avatars, contacts);
+  const met = touches.filter(({ otherAvatar }) => otherAvatar === 1);
+  assert.equal(met.length, 1);
+  assert.equal(met[0].isOwn, false);
+  assert.equal(met[0].object, "other: Head");
+  assert.equal(met[0].rows[0].otherLink, 3);
+  const wrongly = (change, says) => {
+    const value = world();
+    change(value);
+    assert.throws(() => decoded(value), says);
+  };
+  wrongly((v) => (v.avatars[1].carried[0].avatar = 2), /one that carries/);
+  wrongly((v) => (v.avatars[1].carried[0].link = 16), /one that carries/);
+  wrongly((v) => (v.avatars[1].carried[0].until = 0.4), /until/);
+  wrongly((v) => (v.avatars[0].contacts[0].other = 16), /other side of a contact/);
+  wrongly((v) => (v.avatars[0].contacts[0].other_avatar = 2), /other side of a contact/);
+  wrongly((v) => (v.touches.find(({ other_avatar }) => other_avatar === 1).other = 16), /other/);
+});
+
 /** As a solid avatar's report has it: what is shown, and beside it what was tracked. */
 const solid = () => {
   const value = copy(), [avatar] = value.avatars;

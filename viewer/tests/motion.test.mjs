@@ -5,6 +5,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { compose, emptyPose, interpolate, transformSize } from "../build/motion/chain.js";
 import { Posture } from "../build/motion/clip.js";
+import { CarriedClip } from "../build/motion/carried_clip.js";
 import { RecordedClip } from "../build/motion/recorded_clip.js";
 import { LiveClip } from "../build/live/live_clip.js";
 
@@ -125,6 +126,49 @@ test("between poses that no step covers, the earlier pose is held", () => {
   assert.equal(clip.instantAt(3.5).step, 1);
   assert.equal(xAt(9), 4);
   assert.equal(clip.poseTimeAt(3.5), 3);
+});
+
+/** A body's clip of two random poses at 0 and 1 s, and its links by matrices. */
+function randomClip(random, parents) {
+  const from = parents.map(() => randomJoint(random)), to = parents.map(() => randomJoint(random));
+  const links = parents.map((parent, i) => ({ name: `${i}`, parent }));
+  const flat = (key) => Float64Array.from([from, to].flatMap((pose) => pose.flatMap((joint) => joint[key])));
+  const clip = new RecordedClip(links, {
+    poseTimes: Float64Array.of(0, 1), rotations: flat("q"), offsets: new Float64Array(3 * parents.length),
+    moving: parents.map((_, i) => i), movingValues: flat("p"),
+    from: Uint32Array.of(0), to: Uint32Array.of(1), latencyUs: null, touching: null,
+  });
+  return { clip, at: (u) => expected(parents, from, to, u) };
+}
+
+test("who is carried goes along with the link that carries, and with what carries that", () => {
+  let worst = 0;
+  for (let seed = 1; seed <= 50; ++seed) {
+    const random = numbers(seed), parents = [-1, 0, 1];
+    const [lift, rider, cup] = [randomClip(random, [-1, 0]), randomClip(random, parents), randomClip(random, [-1])];
+    const clips = [lift.clip];
+    clips[1] = new CarriedClip(rider.clip, [{ from: 0, until: null, avatar: 0, link: 1, links: 2 }], clips);
+    clips[2] = new CarriedClip(cup.clip, [{ from: 0.25, until: 0.75, avatar: 1, link: 2, links: 3 }], clips);
+    for (const u of [0.1, 0.25, 0.5, 0.74, 0.75]) {
+      const above = u < 0.25 || u >= 0.75 ? [] : [lift.at(u)[1], rider.at(u)[2]];
+      const want = [...above, cup.at(u)[0]].reduce((outer, inner) => ({
+        r: times(outer.r, inner.r), p: applied(outer.r, inner.p).map((value, k) => value + outer.p[k]),
+      }));
+      const posture = new Posture(clips[2]);
+      posture.moveTo(u);
+      const got = posture.transform(0);
+      posture.moveWithin(0, u);
+      assert.deepEqual(posture.transform(0), got);
+      [...want.r.flat(), ...want.p].forEach((value, k) => (worst = Math.max(worst, Math.abs(value - got[k]))));
+    }
+  }
+  assert.ok(worst < 1e-9, `worst ${worst}`);
+});
+
+test("bodies that carry each other in a circle are no endless loop", () => {
+  const clips = [], random = numbers(1);
+  for (const i of [0, 1]) clips[i] = new CarriedClip(randomClip(random, [-1]).clip, [{ from: 0, until: null, avatar: 1 - i, link: 0, links: 1 }], clips);
+  new Posture(clips[0]).moveTo(0.5);
 });
 
 test("one pose alone is held for ever, and no pose is no crash", () => {

@@ -11,6 +11,8 @@ export interface Touch {
   /** "" where it is not known. */
   readonly object: string;
   readonly isOwn: boolean;
+  /** Whom else it touches: an index into the page's avatars; null where that is the scene or itself. */
+  readonly otherAvatar: number | null;
   readonly begin: number;
   readonly end: number;
   readonly begins: "contact" | "inside";
@@ -36,7 +38,7 @@ export function recordedTouches(
       ...touch,
       rows,
       linkName: avatars[touch.avatar].links[touch.link].name,
-      isOwn: touch.other !== null,
+      isOwn: touch.other !== null && touch.otherAvatar === null,
       isUndecided: false,
     };
   });
@@ -51,6 +53,7 @@ export function touchOfRow(contact: Contact): Touch {
     linkName: contact.linkName,
     object: contact.object ?? "",
     isOwn: false,
+    otherAvatar: contact.otherAvatar,
     begin: contact.at,
     end: contact.span.t1,
     begins: contact.verdict === "starts_in_contact" ? "inside" : "contact",

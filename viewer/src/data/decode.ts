@@ -1,6 +1,6 @@
 // From the text of a view document to a checked ViewDocument, or one sentence on what is wrong.
 
-import type { Kind, SummaryLine, ViewDocument } from "./document.js";
+import type { Avatar, Kind, SummaryLine, ViewDocument } from "./document.js";
 import { Malformed, Reader } from "./reader.js";
 import { decodeAvatar } from "./decode_avatar.js";
 import { decodeScene, emptyScene } from "./decode_scene.js";
@@ -8,7 +8,7 @@ import { decodeCheck, decodeTouch } from "./decode_touch.js";
 
 export const formatName = "foretouch-view";
 export const formatVersion = 1;
-const kinds: readonly Kind[] = ["replay", "log", "inspection", "live"];
+const kinds: readonly Kind[] = ["replay", "world", "log", "inspection", "live"];
 
 /** Throws Malformed. */
 export function decodeDocument(text: string): ViewDocument {
@@ -28,7 +28,7 @@ function decodeValue(value: unknown): ViewDocument {
   requireFormat(root);
   const kind = root.field("kind").oneOf(kinds);
   const scene = root.optional("scene");
-  const avatars = (root.optional("avatars")?.items() ?? []).map(decodeAvatar);
+  const avatars = together(root, (root.optional("avatars")?.items() ?? []).map(decodeAvatar));
   return {
     kind,
     title: root.field("title").text(),
@@ -45,6 +45,25 @@ function decodeValue(value: unknown): ViewDocument {
     checks: (root.optional("checks")?.items() ?? []).map(decodeCheck),
     events: kind === "live" ? eventsAddress(root) : null,
   };
+}
+
+/** Checks what avatars say of each other. */
+function together(root: Reader, avatars: readonly Avatar[]): Avatar[] {
+  const require = (avatar: number, link: number, what: string): void => {
+    if (link >= (avatars[avatar]?.links.length ?? 0)) root.fail(`names a link that is not there as ${what}`);
+  };
+  for (const { contacts } of avatars) {
+    for (const { otherAvatar, otherLink } of contacts) {
+      if (otherAvatar !== null) require(otherAvatar, otherLink ?? 0, "the other side of a contact");
+    }
+  }
+  return avatars.map((one) => ({
+    ...one,
+    carried: one.carried.map((carried) => {
+      require(carried.avatar, carried.link, "one that carries");
+      return { ...carried, links: avatars[carried.avatar].links.length };
+    }),
+  }));
 }
 
 function requireFormat(root: Reader): void {

@@ -1,4 +1,4 @@
-import type { Avatar, Link, LinkMesh, Lss, Solid, SweptSurface } from "./document.js";
+import type { Avatar, Carried, Link, LinkMesh, Lss, Solid, SweptSurface } from "./document.js";
 import { solidStates } from "./document.js";
 import type { Reader } from "./reader.js";
 import { decodeContact } from "./decode_contact.js";
@@ -31,6 +31,19 @@ export function decodeAvatar(reader: Reader): Avatar {
     swept: (reader.optional("swept")?.items() ?? []).map((item) =>
       decodeSwept(item, links.length, steps),
     ),
+    carried: (reader.optional("carried")?.items() ?? []).map(decodeCarried),
+  };
+}
+
+/** Who carries is checked where all avatars are known. */
+function decodeCarried(item: Reader): Carried {
+  const from = item.field("from").number();
+  return {
+    from,
+    until: item.optional("until")?.number(from) ?? null,
+    avatar: item.field("avatar").count(),
+    link: item.field("link").count(),
+    links: 0,
   };
 }
 

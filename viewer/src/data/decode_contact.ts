@@ -21,6 +21,8 @@ export function decodeContact(item: Reader, links: number): ContactFields {
     normal: vector(item, "normal"),
     triangle: present(item, "triangle")?.number() ?? null,
     object: present(item, "object")?.text() ?? null,
+    otherAvatar: present(item, "other_avatar")?.count() ?? null,
+    otherLink: present(item, "other")?.count() ?? null,
     missedByPoses: present(item, "missed_by_poses")?.flag() ?? null,
     push: present(item, "push")?.number(0) ?? null,
     slip: present(item, "slip")?.number() ?? null,

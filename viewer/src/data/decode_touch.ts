@@ -8,13 +8,16 @@ export function decodeTouch(item: Reader, avatars: readonly Avatar[]): RecordedT
   const avatar = item.optional("avatar")?.index(avatars.length) ?? 0;
   if (avatars[avatar] === undefined) item.fail("is of an avatar, but there is none");
   const { links, contacts } = avatars[avatar];
-  const other = item.optional("other")?.index(links.length) ?? null;
+  const otherAvatar = item.optional("other_avatar")?.index(avatars.length) ?? null;
+  const otherLinks = otherAvatar === null ? links : avatars[otherAvatar].links;
+  const other = item.optional("other")?.index(otherLinks.length) ?? null;
   const begin = item.field("begin").number();
   return {
     avatar,
     link: item.field("link").index(links.length),
-    object: item.optional("object")?.text() ?? (other === null ? "" : links[other].name),
+    object: item.optional("object")?.text() ?? (other === null ? "" : otherLinks[other].name),
     other,
+    otherAvatar,
     begin,
     end: Math.max(begin, item.field("end").number(begin - rounding)),
     begins: item.optional("begins")?.oneOf(["contact", "inside"] as const) ?? "contact",

@@ -3,7 +3,7 @@
 // nothing behind it has to: indices are in range, numbers finite, quaternions unit.
 
 export type Vector = readonly [number, number, number];
-export type Kind = "replay" | "log" | "inspection" | "live";
+export type Kind = "replay" | "world" | "log" | "inspection" | "live";
 export type Verdict = "contact" | "starts_in_contact" | "undecided";
 
 export interface ViewDocument {
@@ -77,6 +77,19 @@ export interface Avatar {
   readonly isLiveSolid: boolean;
   readonly contacts: readonly RecordedContact[];
   readonly swept: readonly SweptSurface[];
+  /** When others carry it: its poses are then in the frame of a link of theirs. */
+  readonly carried: readonly Carried[];
+}
+
+export interface Carried {
+  /** Seconds; `until` null: to the end. */
+  readonly from: number;
+  readonly until: number | null;
+  /** Who carries: an index into the document's avatars, and one of its links. */
+  readonly avatar: number;
+  readonly link: number;
+  /** How many links that one has. */
+  readonly links: number;
 }
 
 /** Of a solid avatar, tick by tick. */
@@ -153,6 +166,9 @@ export interface ContactFields {
   readonly normal: Vector | null;
   readonly triangle: number | null;
   readonly object: string | null;
+  /** Of two bodies: the other one, an index into the document's avatars, and its link; else null. */
+  readonly otherAvatar: number | null;
+  readonly otherLink: number | null;
   readonly missedByPoses: boolean | null;
   /** Of a solid avatar: how hard the tracked pose presses, metres; and how fast the link slips, m/s. */
   readonly push: number | null;
@@ -163,14 +179,16 @@ export interface RecordedContact extends ContactFields {
   readonly step: number;
 }
 
-/** A link and an object (or another link of the same avatar) from first contact to where it ends. */
+/** A link and an object (or another link, of the same avatar or of another one) from first contact to where it ends. */
 export interface RecordedTouch {
   readonly avatar: number;
   readonly link: number;
   /** Of own links: the other one's name. */
   readonly object: string;
-  /** The other own link; null where it touches the scene. */
+  /** The other link; null where it touches the scene. */
   readonly other: number | null;
+  /** Whose that is: an index into the document's avatars; null where it is the avatar's own. */
+  readonly otherAvatar: number | null;
   readonly begin: number;
   readonly end: number;
   /** "inside": it touched already when somebody first looked. */

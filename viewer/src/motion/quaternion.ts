@@ -41,3 +41,23 @@ export function slerp(
   out[outAt + 2] = w0 * y - x0 * z + y0 * w + z0 * x;
   out[outAt + 3] = w0 * z + x0 * y - y0 * x + z0 * w;
 }
+
+/** The quaternion at `at` becomes by * it. */
+export function multiply(by: Float64Array, q: Float64Array, at: number): void {
+  const w0 = by[0], x0 = by[1], y0 = by[2], z0 = by[3];
+  const w1 = q[at], x1 = q[at + 1], y1 = q[at + 2], z1 = q[at + 3];
+  q[at] = w0 * w1 - x0 * x1 - y0 * y1 - z0 * z1;
+  q[at + 1] = w0 * x1 + x0 * w1 + y0 * z1 - z0 * y1;
+  q[at + 2] = w0 * y1 - x0 * z1 + y0 * w1 + z0 * x1;
+  q[at + 3] = w0 * z1 + x0 * y1 - y0 * x1 + z0 * w1;
+}
+
+/** Turns the vector at `at` by a unit quaternion: v + 2 q × (q × v + w v). */
+export function rotate(by: Float64Array, v: Float64Array, at: number): void {
+  const w = by[0], x = by[1], y = by[2], z = by[3];
+  const vx = v[at], vy = v[at + 1], vz = v[at + 2];
+  const cx = y * vz - z * vy + w * vx, cy = z * vx - x * vz + w * vy, cz = x * vy - y * vx + w * vz;
+  v[at] = vx + 2 * (y * cz - z * cy);
+  v[at + 1] = vy + 2 * (z * cx - x * cz);
+  v[at + 2] = vz + 2 * (x * cy - y * cx);
+}

@@ -31,6 +31,7 @@ export class Caption {
     const clip = model.clips[0];
     const isAnswered = clip === undefined || clip.start === clip.end || clip.instantAt(time).step >= 0;
     if (!isAnswered && !model.isLive) return "Not answered: no step covers this instant. The avatar holds its last pose.";
+    if (model.document.kind === "world" && model.document.touches === null) return worldHint;
     if (model.document.kind === "inspection") return place === null ? inspectionHint : turningHint;
     return model.isLive ? (follows ? "Following the stream." : "Looking back: Live follows the stream again.") : hint;
   }
@@ -48,6 +49,7 @@ export class Caption {
 }
 
 const hint = "Choose a touch on the timeline, in the view or in the table; ] goes to the next one.";
+const worldHint = "How the bodies move. `foretouch world replay --report` shows who touches whom.";
 const inspectionHint = "Click a floor to put the body there.";
 const turningHint = "Click where the body is to look; the place to copy is beside the view.";
 

@@ -93,7 +93,7 @@ export class Details {
   }
 
   private linesOf(contact: Contact): Line[] {
-    const zero = this.model.timeZero;
+    const zero = this.model.timeZero, other = contact.otherAvatar === null ? "scene" : "other body";
     const lines: (Line | null)[] = [
       this.model.avatars.length > 1 ? ["avatar", this.model.avatars[contact.avatar].name] : null,
       ["verdict", verdictNames[contact.verdict], contact.reason ?? ""],
@@ -105,8 +105,8 @@ export class Details {
       contact.penetration === null ? null : ["penetration", length(contact.penetration)],
       contact.push === null ? null : ["push", length(contact.push), "how hard the tracked pose presses; times a stiffness it is a force"],
       contact.slip === null ? null : ["slips by", `${length(contact.slip)} a second`, "along the surface"],
-      contact.normal === null ? null : ["normal", vector(contact.normal, 3), "from the scene to the link"],
-      contact.point === null ? null : ["on the scene", `${vector(contact.point)} m`],
+      contact.normal === null ? null : ["normal", vector(contact.normal, 3), `from the ${other} to the link`],
+      contact.point === null ? null : [`on the ${other}`, `${vector(contact.point)} m`],
       contact.onLink === null ? null : ["on the link", `${vector(contact.onLink)} m`],
       contact.triangle === null || contact.triangle < 0 ? null : ["triangle", String(contact.triangle)],
     ];

@@ -15,6 +15,7 @@ function headline(model: Model): string {
   if (model.document.kind === "inspection") return "Is this the right unit, the right axis and the right place?";
   if (model.isLive) return "Live: what the service answers, as it answers it.";
   if (model.isSolid) return ofSolid(model);
+  if (model.document.kind === "world") return ofWorld(model);
   if (model.touches.length === 0 && model.contacts.length === 0) return "No contact in the whole clip.";
   return model.knowsTouches ? ofTouches(model) : ofContacts(model);
 }
@@ -26,6 +27,19 @@ function ofSolid(model: Model): string {
   const most = model.avatars.reduce((far, { solid }) => Array.from(solid?.deviations ?? []).reduce((a, b) => Math.max(a, b), far), 0);
   const kept = all + ground === 0 ? "" : ` Surfaces hold it ${times(all + ground)}, at most ${length(most)} from where it was tracked.`;
   return `${who}.${kept}`;
+}
+
+/** Who moves among others touches them, and the scene. */
+function ofWorld(model: Model): string {
+  const { all, missed, ground } = model.countTouches(), bodies = plural(model.avatars.length, "body", "bodies");
+  if (model.document.touches === null) return `${bodies} that move; who touches whom was not asked.`;
+  if (all + ground === 0) return `${bodies}, and nobody touches anything.`;
+  const met = model.touches.filter((touch) => touch.otherAvatar !== null).length;
+  const scene = all + ground - met;
+  const others = met === 0 ? "do not touch each other" : `touch each other ${times(met)}`;
+  const rest = scene === 0 ? "" : `${met === 0 ? "; they touch" : ", and"} the ${placeOf(model.document.scene.name)} ${times(scene)}`;
+  const unseen = missed === 0 ? "" : ` Looking where windows begin and end alone would miss ${count(missed)} of these.`;
+  return `${bodies} ${others}${rest}.${unseen}`;
 }
 
 function ofTouches(model: Model): string {

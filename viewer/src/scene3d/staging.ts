@@ -22,6 +22,17 @@ const afterglow = 0.3;
 /** Of an avatar's size. */
 const arrowLength = 0.11;
 
+/** The links of an avatar that these contacts are of, on either side. */
+function touchingOf(avatar: number, contacts: readonly Contact[]): ReadonlySet<number> {
+  const links = new Set<number>();
+  for (const contact of contacts) {
+    if (contact.verdict === "undecided") continue;
+    if (contact.avatar === avatar) links.add(contact.link);
+    if (contact.otherAvatar === avatar) links.add(contact.otherLink ?? 0);
+  }
+  return links;
+}
+
 export class Staging {
   readonly group = new THREE.Group();
   readonly performers: Performer[] = [];
@@ -75,8 +86,7 @@ export class Staging {
     const lit = this.litContacts();
     this.performers.forEach((performer, index) => {
       performer.moveTo(state.time);
-      const touching = lit.filter((c) => c.avatar === index && c.verdict !== "undecided").map(({ link }) => link);
-      performer.paint(palettes[state.theme], new Set(touching), this.chosenLink(index));
+      performer.paint(palettes[state.theme], touchingOf(index, lit), this.chosenLink(index));
       if (state.place !== null) this.poseAtPlace(performer);
       else this.poseGhosts(performer, index);
     });

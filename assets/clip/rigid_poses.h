@@ -1,0 +1,29 @@
+// assets/clip/rigid_poses.h: where a rigid thing is, as a tracker saw it: poses with their instants
+// as CSV text (docs/formats.md, "Poses of a prop").
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "articulated/pose.h"
+#include "articulated/result.h"
+
+namespace foretouch {
+
+struct TimedRigidPose {
+  double timeS = 0.0;
+  RigidPose pose;          ///< Finite, within kMaxCoordinate; the rotation is unit.
+  std::int64_t line = -1;  ///< In its file.
+};
+
+/// Columns `time` (s), `x`, `y`, `z` (m) and, all or none, `qw`, `qx`, `qy`, `qz`, in any order
+/// behind `time`; one row per pose, as far apart in time as one likes, later ones behind earlier
+/// ones. Errors name `name` as the file, and the line. Safe on hostile text.
+[[nodiscard]] Result<std::vector<TimedRigidPose>> parseRigidPoses(std::string_view csv,
+                                                                  const std::string& name);
+/// The same of a file of at most kMaxJointTableBytes.
+[[nodiscard]] Result<std::vector<TimedRigidPose>> readRigidPoses(const std::string& path);
+
+}  // namespace foretouch

@@ -1,0 +1,316 @@
+#include "tools/glb/world_glb.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "articulated/try.h"
+#include "lss/index.h"
+#include "tools/glb/replay_scene.h"
+#include "tools/world/world_results.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Eigen::Vector3d;
+using nlohmann::json;
+
+/// Markers are costly to viewers, each an animated node.
+constexpr std::size_t kMostWorldTouches = 5000;
+constexpr GlbMaterial kBodyLss{"LSS", {0.16, 0.36, 0.70, 1.0}};
+constexpr GlbMaterial kBodyMesh{"mesh", {0.62, 0.42, 0.22, 1.0}};
+constexpr GlbMaterial kMetRed{"contact", {0.80, 0.05, 0.03, 1.0}};
+constexpr GlbMaterial kInsideAmber{"starts in contact", {0.90, 0.50, 0.02, 1.0}};
+/// How long (s) a touch stays visible at least.
+constexpr double kShownS = 1.0;
+constexpr double kArrowLength = 0.18;  // m
+
+/// The nodes of a body between two instants, in which nobody above it changes.
+struct BodyPiece {
+  std::int64_t fromUs = 0, untilUs = 0;
+  std::size_t firstNode = 0;  ///< Of its links, in order.
+};
+
+/// Adds the bodies of a world, each below who carries it. glTF has no other parents over time: a
+/// body has nodes for each of its carriers, which are visible while that one carries it.
+class BodyNodes {
+ public:
+  BodyNodes(const LoadedWorld& world, const Vector3d& origin, std::size_t group,
+            GlbContent& content, GlbAnimation& animation)
+      : world_(world),
+        origin_(origin),
+        group_(group),
+        content_(content),
+        animation_(animation),
+        pieces_(world.bodies.size()),
+        isMade_(world.bodies.size()) {
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      pieces_[i].resize(world.bodies[i].stretches.size());
+      isMade_[i].resize(world.bodies[i].stretches.size(), false);
+    }
+  }
+
+  Result<Done> addAll(TriangleBudget& budget, std::vector<std::string>& notes) {
+    addMeshes(budget, notes);
+    for (std::size_t body = 0; body < world_.bodies.size(); ++body) {
+      for (std::size_t i = 0; i < world_.bodies[body].stretches.size(); ++i) {
+        FORETOUCH_CHECK(add(static_cast<BodyId>(body), i));
+      }
+    }
+    addAppearances(appearances_, seconds(world_.endUs), content_, animation_);
+    return Done{};
+  }
+
+  /// On the animation's clock, which begins where the world does.
+  [[nodiscard]] double seconds(std::int64_t utimeUs) const {
+    return static_cast<double>(utimeUs - world_.beginUs) / kUsPerS;
+  }
+
+ private:
+  [[nodiscard]] const BodyStretches& stretchesOf(BodyId body) const {
+    return world_.bodies[slotOf(body)].stretches;
+  }
+  [[nodiscard]] std::int64_t endOf(BodyId body, std::size_t stretch) const {
+    const BodyStretches& all = stretchesOf(body);
+    return stretch + 1 < all.size() ? std::min(world_.endUs, all[stretch + 1].beginUs)
+                                    : world_.endUs;
+  }
+
+  void addMeshes(TriangleBudget& budget, std::vector<std::string>& notes) {
+    const std::size_t lss = content_.addMaterial(kBodyLss), mesh = content_.addMaterial(kBodyMesh);
+    std::size_t leftOut = 0;
+    for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
+      const BodyShape& shape = world_.bodies[i].shape;
+      const std::string& name = world_.file.bodies[i].name;
+      if (shape.avatar) {
+        meshes_.push_back(addLssMeshes(*shape.avatar, name + ": ", lss, content_, budget, leftOut));
+        continue;
+      }
+      std::vector<Triangle> triangles;
+      for (std::size_t id = 0; id < shape.mesh->numTriangles(); ++id) {
+        const Triangle& triangle = shape.mesh->triangle(static_cast<TriangleId>(id));
+        if (isFinite(triangle)) triangles.push_back(triangle);
+      }
+      const bool fits = budget.take(triangles.size());
+      if (!fits) notes.push_back(fmt::format("the mesh of {} is left out", name));
+      meshes_.push_back(
+          {fits ? content_.addMesh(name, {{tools::meshOf(triangles), mesh}}) : kNoMesh});
+    }
+    if (leftOut > 0) notes.push_back(fmt::format("{} LSS of bodies are left out", leftOut));
+  }
+
+  /// A stretch's nodes, below those of who carries it, which come first.
+  Result<Done> add(BodyId body, std::size_t index) {
+    if (isMade_[slotOf(body)][index]) return Done{};
+    isMade_[slotOf(body)][index] = true;
+    const BodyStretch& stretch = stretchesOf(body)[index];
+    const std::int64_t fromUs = stretch.beginUs, untilUs = endOf(body, index);
+    if (untilUs <= fromUs) return Done{};
+    if (!stretch.carrier) {
+      return addPiece(body, index, {fromUs, untilUs, 0}, group_, origin_);
+    }
+    const BodyId carrier = stretch.carrier->body;
+    for (std::size_t i = 0; i < stretchesOf(carrier).size(); ++i) {
+      if (endOf(carrier, i) <= fromUs || stretchesOf(carrier)[i].beginUs >= untilUs) continue;
+      FORETOUCH_CHECK(add(carrier, i));
+      // A copy: the carrier's pieces are all there, but those of others grow.
+      const std::vector<BodyPiece> above = pieces_[slotOf(carrier)][i];
+      for (const BodyPiece& piece : above) {
+        const BodyPiece part{std::max(fromUs, piece.fromUs), std::min(untilUs, piece.untilUs), 0};
+        if (part.untilUs <= part.fromUs) continue;
+        FORETOUCH_CHECK(addPiece(body, index, part, piece.firstNode + slotOf(stretch.carrier->link),
+                                 Vector3d::Zero()));
+      }
+    }
+    return Done{};
+  }
+
+  Result<Done> addPiece(BodyId body, std::size_t index, BodyPiece piece, std::size_t parent,
+                        const Vector3d& origin) {
+    const Track& track = stretchesOf(body)[index].track;
+    std::vector<Pose> poses;
+    std::vector<double> timesS;
+    const auto addPose = [&](std::int64_t us, Pose pose) {
+      poses.push_back(std::move(pose));
+      timesS.push_back(seconds(us));
+    };
+    addPose(piece.fromUs, poseOn(track, piece.fromUs));
+    for (std::int64_t us = track.nextKnotUs(piece.fromUs); us < piece.untilUs;
+         us = track.nextKnotUs(us)) {
+      addPose(us, poseOn(track, us));
+    }
+    // At the end of its own stretch it has not changed its frame yet.
+    addPose(piece.untilUs, poseOn(track, piece.untilUs));
+    FORETOUCH_CHECK(checkTimes(timesS));
+    const std::size_t holder = addGroup(content_.document(), parent, world_.nameOf(body));
+    const bool isShownFirst = piece.fromUs <= world_.beginUs,
+               isShownLast = piece.untilUs >= world_.endUs;
+    if (!isShownFirst || !isShownLast) {
+      appearances_.push_back({holder, seconds(piece.fromUs), seconds(piece.untilUs)});
+    }
+    const BodyShape& shape = world_.bodies[slotOf(body)].shape;
+    piece.firstNode = addAvatar({shape.skeleton, poses, timesS}, meshes_[slotOf(body)], holder,
+                                origin, content_, animation_);
+    pieces_[slotOf(body)][index].push_back(piece);
+    return Done{};
+  }
+
+  const LoadedWorld& world_;
+  Vector3d origin_;
+  std::size_t group_;
+  GlbContent& content_;
+  GlbAnimation& animation_;
+  std::vector<std::vector<std::vector<BodyPiece>>> pieces_;  // per body and stretch
+  std::vector<std::vector<bool>> isMade_;
+  std::vector<std::vector<std::size_t>> meshes_;  // per body and link
+  std::vector<Appearance> appearances_;
+};
+
+/// Where bodies are over time, for the scene's choice of triangles and the world's origin.
+std::vector<Vector3d> placesOf(const LoadedWorld& world) {
+  constexpr std::int64_t kPlaces = 32;
+  const std::vector<const BodyStretches*> stretches = world.stretches();
+  const BodyPlaces places(stretches);
+  std::vector<Vector3d> found;
+  for (std::int64_t i = 0; i <= kPlaces; ++i) {
+    const std::int64_t us = world.beginUs + (world.endUs - world.beginUs) / kPlaces * i;
+    for (std::size_t body = 0; body < world.bodies.size(); ++body) {
+      const auto id = static_cast<BodyId>(body);
+      if (places.isThere(id, us)) found.push_back(places.linkAt(id, 0, us).translation);
+    }
+  }
+  return found;
+}
+
+json parsedContact(const LoadedWorld& world, const WorldContact& contact) {
+  std::string text;
+  JsonWriter out(text);
+  writeWorldContact(world, contact, out);
+  return json::parse(text);
+}
+
+json parsedTouch(const LoadedWorld& world, const TouchSides& sides, const Touch& touch) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  writeWorldTouch(world, sides, touch, out);
+  out.endObject();
+  return json::parse(text);
+}
+
+std::string sideName(const LoadedWorld& world, const ContactSide& side) {
+  if (side.body == kStillScene) {
+    return world.scene->objectNames()[slotOf(world.scene->object(side.triangle))];
+  }
+  const std::string link = world.linkNameOf(side.body, side.link);
+  return world.nameOf(side.body) + (link.empty() ? "" : ": " + link);
+}
+
+/// "anna: LeftHand at ben: Head, 1.003 s".
+std::string titleOf(const LoadedWorld& world, const WorldContact& contact, double timeS) {
+  return fmt::format("{} at {}, {:.3f} s", sideName(world, contact.a), sideName(world, contact.b),
+                     timeS);
+}
+
+}  // namespace
+
+void WorldGlb::add(const WorldStep& step, const std::vector<std::size_t>& begun) {
+  if (request_.path.empty()) return;
+  for (const std::size_t place : begun) {
+    if (begun_.size() < kMostWorldTouches) {
+      begun_.push_back({step.answer.contacts[place], step.window});
+    } else {
+      ++notShown_;
+    }
+  }
+}
+
+Result<std::vector<std::string>> WorldGlb::write(const WorldTouches& touches,
+                                                 const std::string& header) const {
+  std::vector<std::string> notes;
+  if (notShown_ > 0) {
+    notes.push_back(
+        fmt::format("{} touches are not shown: the first {} are", notShown_, kMostWorldTouches));
+  }
+  const std::vector<Vector3d> places = placesOf(world_);
+  Vector3d low = places.front(), high = low;
+  for (const Vector3d& place : places) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+  const Vector3d origin = originFor(low, high);
+  GlbContent content(fmt::format("foretouch {}", FORETOUCH_VERSION));
+  GltfDocument& document = content.document();
+  GlbAnimation animation("world");
+  TriangleBudget budget(request_.mostTriangles);
+  const std::size_t world = addWorld(origin, json::parse(header), document);
+  BodyNodes bodies(world_, origin, addGroup(document, world, "bodies"), content, animation);
+  FORETOUCH_CHECK(inFile(bodies.addAll(budget, notes), request_.path));
+  addMarkers(touches, origin, addGroup(document, world, "contacts"), content, animation);
+  if (world_.scene) {
+    std::vector<TriangleId> touched;
+    for (const Begin& begin : begun_) {
+      if (begin.contact.b.body == kStillScene) touched.push_back(begin.contact.b.triangle);
+    }
+    addScene(*world_.scene, places, std::move(touched), origin, addGroup(document, world, "scene"),
+             content, budget, notes);
+  }
+  animation.finish(document);
+
+  FORETOUCH_TRY(const auto head, inFile(content.head(), request_.path));
+  FORETOUCH_TRY(auto file, PendingFile::create(request_.path));
+  content.write(file, head);
+  FORETOUCH_CHECK(file.commit());
+  return notes;
+}
+
+void WorldGlb::addMarkers(const WorldTouches& touches, const Vector3d& origin, std::size_t parent,
+                          GlbContent& content, GlbAnimation& animation) const {
+  using Key = std::tuple<std::int64_t, BodyId, LinkId, BodyId, LinkId>;
+  std::map<Key, const Touch*> beginning;
+  for (const Touch& touch : touches.listed()) {
+    const TouchSides sides = touches.sidesOf(touch);
+    beginning.emplace(Key{touch.firstStep, sides.a, sides.linkOfA, sides.b, sides.linkOfB}, &touch);
+  }
+  const GlbMesh marker = markerMesh(kArrowLength);
+  std::optional<std::size_t> met, inside;
+  const auto meshFor = [&](Verdict verdict) {
+    const bool isMet = verdict == Verdict::Contact;
+    std::optional<std::size_t>& mesh = isMet ? met : inside;
+    const GlbMaterial& material = isMet ? kMetRed : kInsideAmber;
+    if (!mesh) mesh = content.addMesh(material.name, {{marker, content.addMaterial(material)}});
+    return *mesh;
+  };
+  std::vector<Appearance> appearances;
+  GltfDocument& document = content.document();
+  for (const Begin& begin : begun_) {
+    const WorldContact& contact = begin.contact;
+    const LinkId linkOfB = contact.b.body == kStillScene ? 0 : contact.b.link;
+    const auto touch =
+        beginning.find({begin.window, contact.a.body, contact.a.link, contact.b.body, linkOfB});
+    if (touch == beginning.end()) continue;
+    const TouchSides sides = touches.sidesOf(*touch->second);
+    json extras = parsedContact(world_, contact);
+    extras["window"] = begin.window;
+    extras["touch"] = parsedTouch(world_, sides, *touch->second);
+    const auto turn = Quaternion::FromTwoVectors(Vector3d::UnitY(), contact.nhat_BA_W).normalized();
+    const std::size_t node =
+        document.add("nodes", {{"name", titleOf(world_, contact, touch->second->beginS)},
+                               {"mesh", meshFor(contact.verdict)},
+                               {"translation", gltfVector(contact.b.p_W - origin)},
+                               {"rotation", json::array({turn.x(), turn.y(), turn.z(), turn.w()})},
+                               {"extras", std::move(extras)}});
+    document.at("nodes", parent)["children"].push_back(node);
+    const double beginS = touch->second->beginS - LoadedWorld::secondsOf(world_.beginUs);
+    const double endS = touch->second->endS - LoadedWorld::secondsOf(world_.beginUs);
+    appearances.push_back({node, beginS, std::max(endS, beginS + kShownS)});
+  }
+  const double lastS = LoadedWorld::secondsOf(world_.endUs - world_.beginUs);
+  addAppearances(appearances, lastS, content, animation);
+}
+
+}  // namespace foretouch::tools

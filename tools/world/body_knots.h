@@ -1,0 +1,57 @@
+// tools/world/body_knots.h: where the bodies of a world file are told to be: poses with instants of
+// world time, read from clips, animations, tables and the file itself.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "articulated/pair_rules.h"
+#include "articulated/pose.h"
+#include "articulated/result.h"
+#include "tools/inputs/motion_file.h"
+#include "tools/world/body_shapes.h"
+#include "tools/world/world_file.h"
+
+namespace foretouch::tools {
+
+/// Poses times joints of all bodies together: 1.9 GB.
+inline constexpr std::size_t kMostJointPoses = std::size_t{1} << 25;
+
+struct BodyKnot {
+  std::int64_t utimeUs = 0;
+  Pose pose;               ///< Validated.
+  std::int64_t line = -1;  ///< In the file that it comes from, if it has lines.
+};
+
+struct BodyKnots {
+  std::string file;                  ///< Where they come from.
+  std::vector<BodyKnot> knots;       ///< By time; none: the body stands.
+  std::optional<PairRules> self;     ///< Where own links are asked.
+  std::vector<std::string> remarks;  ///< What a user should know, a sentence each.
+};
+
+class KnotLoader {
+ public:
+  /// `world`: the world's file. Errors name the file and the place.
+  [[nodiscard]] Result<BodyKnots> load(const FileBody& body, const BodyShape& shape,
+                                       const std::string& world);
+
+ private:
+  [[nodiscard]] Result<BodyKnots> ofAvatar(const FileBody& body, const Avatar& avatar,
+                                           const std::string& world);
+  [[nodiscard]] Result<BodyKnots> ofProp(const FileBody& body, const BodyShape& shape,
+                                         const std::string& world);
+  [[nodiscard]] Result<std::shared_ptr<const Motion>> motionOf(const ClipRequest& request);
+  [[nodiscard]] Result<Done> countPoses(const FileBody& body, std::size_t joints, std::size_t poses,
+                                        const std::string& world);
+
+  std::map<std::string, std::shared_ptr<const Motion>> motions_;
+  std::size_t jointPoses_ = 0;
+};
+
+}  // namespace foretouch::tools

@@ -1,0 +1,118 @@
+#include "tools/world/body_shapes.h"
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "articulated/try.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/import/scene_import.h"
+#include "assets/mesh/link_mesh.h"
+
+namespace foretouch::tools {
+namespace {
+
+Result<Skeleton> oneJoint(const std::string& name) {
+  RawSkeleton raw;
+  raw.joints = {{name, kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
+  return Skeleton::build(raw);
+}
+
+/// Twelve triangles, from corner to corner.
+Result<Scene> boxOf(const std::array<Eigen::Vector3d, 2>& corners, const std::string& name) {
+  RawScene raw;
+  raw.objectNames = {name};
+  const auto corner = [&](int i) {
+    return Eigen::Vector3d(corners[i & 1].x(), corners[i >> 1 & 1].y(), corners[i >> 2 & 1].z());
+  };
+  constexpr std::array<std::array<int, 4>, 6> kFaces{
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (const auto& face : kFaces) {
+    const Eigen::Vector3d first = corner(face[0]), across = corner(face[2]);
+    raw.triangles.push_back({{first, corner(face[1]), across}});
+    raw.triangles.push_back({{first, across, corner(face[3])}});
+  }
+  raw.objectOf.assign(raw.triangles.size(), 0);
+  return Scene::build(std::move(raw));
+}
+
+/// The triangles of one node, in its frame.
+Result<Scene> meshOfNode(const FileShape& shape) {
+  FORETOUCH_TRY(auto skeleton, oneJoint(shape.node));
+  // Only the reference counts; an avatar has an LSS somewhere.
+  FORETOUCH_TRY(const auto holder,
+                Avatar::build(std::move(skeleton), {{Lss{}}}, {{shape.meshPath, shape.node}}));
+  ModelImportOptions options;
+  options.import = shape.meshImport;
+  FORETOUCH_TRY(auto triangles, loadLinkMeshes(holder, "", options));
+  RawScene raw;
+  raw.objectNames = {shape.node};
+  raw.triangles = std::move(triangles.front());
+  raw.objectOf.assign(raw.triangles.size(), 0);
+  return Scene::build(std::move(raw));
+}
+
+Result<Scene> wholeMesh(const FileShape& shape) {
+  FORETOUCH_TRY(auto imported, importScene(shape.meshPath, shape.meshImport));
+  return Scene::build(std::move(imported.scene));
+}
+
+}  // namespace
+
+const char* madeOf(const FileShape& shape) {
+  if (!shape.avatarPath.empty()) return "avatar";
+  if (!shape.lss.empty()) return "LSS";
+  return shape.box ? "box" : "mesh";
+}
+
+std::string fileOf(const FileShape& shape) {
+  return shape.avatarPath.empty() ? shape.meshPath : shape.avatarPath;
+}
+
+Result<Avatar> ShapeLoader::avatarOf(const std::string& path) {
+  auto known = avatars_.find(path);
+  if (known == avatars_.end()) {
+    FORETOUCH_TRY(auto avatar, readAvatarFile(path));
+    known = avatars_.emplace(path, std::move(avatar)).first;
+  }
+  return known->second;
+}
+
+Result<Scene> ShapeLoader::meshOf(const FileShape& shape) {
+  const SceneImportOptions& import = shape.meshImport;
+  const MeshKey key{shape.meshPath, shape.node, import.scale.value_or(0.0), import.up};
+  auto known = meshes_.find(key);
+  if (known == meshes_.end()) {
+    FORETOUCH_TRY(auto mesh, inFile(shape.node.empty() ? wholeMesh(shape) : meshOfNode(shape),
+                                    shape.meshPath));
+    known = meshes_.emplace(key, std::move(mesh)).first;
+  }
+  return known->second;
+}
+
+Result<BodyShape> ShapeLoader::load(const FileBody& body, const std::string& world) {
+  const FileShape& shape = body.shape;
+  if (!shape.avatarPath.empty()) {
+    FORETOUCH_TRY(auto avatar, avatarOf(shape.avatarPath));
+    Skeleton skeleton = avatar.skeleton();
+    return BodyShape{std::move(avatar), std::nullopt, std::move(skeleton)};
+  }
+  const auto inWorld = [&](Error error) {
+    error.file = world;
+    error.line = body.line;
+    return error;
+  };
+  FORETOUCH_TRY_OR(inWorld, auto skeleton, oneJoint(body.name));
+  if (!shape.lss.empty()) {
+    FORETOUCH_TRY_OR(inWorld, auto avatar, Avatar::build(skeleton, {shape.lss}));
+    return BodyShape{std::move(avatar), std::nullopt, std::move(skeleton)};
+  }
+  if (!shape.box) {
+    FORETOUCH_TRY(auto mesh, meshOf(shape));
+    return BodyShape{std::nullopt, std::move(mesh), std::move(skeleton)};
+  }
+  FORETOUCH_TRY_OR(inWorld, auto box, boxOf(*shape.box, body.name));
+  return BodyShape{std::nullopt, std::move(box), std::move(skeleton)};
+}
+
+}  // namespace foretouch::tools

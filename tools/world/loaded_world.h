@@ -1,0 +1,63 @@
+// tools/world/loaded_world.h: the world of a world file, with all that its bodies do.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "articulated/pair_rules.h"
+#include "articulated/result.h"
+#include "lss/index.h"
+#include "middleware/world/world.h"
+#include "tools/microseconds.h"
+#include "tools/world/body_shapes.h"
+#include "tools/world/body_stretches.h"
+#include "tools/world/world_file.h"
+
+namespace foretouch::tools {
+
+struct LoadedBody {
+  BodyShape shape;
+  BodyStretches stretches;        ///< At least one.
+  std::optional<PairRules> self;  ///< Where own links are asked.
+  BodyGroup group = 0;
+  std::size_t numPoses = 0;                      ///< That its files tell; 0: it stands.
+  std::int64_t firstPoseUs = 0, lastPoseUs = 0;  ///< Of these.
+
+  [[nodiscard]] bool isMesh() const { return shape.mesh.has_value(); }
+};
+
+struct LoadedWorld {
+  WorldFile file;  ///< With the unit and axis that the scene was read with.
+  std::optional<Scene> scene;
+  FileFrame sceneFrame;
+  std::vector<LoadedBody> bodies;   ///< As in the file, by their BodyId.
+  std::vector<std::string> groups;  ///< Names, by their BodyGroup; "" of those who name none.
+  World world;
+  std::int64_t beginUs = 0;  ///< The first pose of all.
+  std::int64_t endUs = 0;    ///< Known until here, and later than `beginUs`.
+  /// Whose poses end there, though others go on; nothing if all end there.
+  std::optional<BodyId> waitsFor;
+  std::vector<std::string> remarks;  ///< What a user should know, a sentence each.
+
+  [[nodiscard]] const std::string& nameOf(BodyId body) const {
+    return file.bodies[slotOf(body)].name;
+  }
+  /// For BodyPlaces: valid until the bodies change.
+  [[nodiscard]] std::vector<const BodyStretches*> stretches() const;
+  /// Seconds of the file's clock.
+  [[nodiscard]] static double secondsOf(std::int64_t utimeUs) {
+    return static_cast<double>(utimeUs) / kUsPerS;
+  }
+  /// "LeftHand" of an avatar, "" of what has but one link.
+  [[nodiscard]] std::string linkNameOf(BodyId body, LinkId link) const;
+};
+
+/// Reads all that the file names. Errors name the file and, if it is the world's, the line.
+[[nodiscard]] Result<LoadedWorld> loadWorld(WorldFile file);
+
+/// The error of a world with its bodies' names in place of their numbers.
+[[nodiscard]] Error named(Error error, const WorldFile& file);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,420 @@
+#include "tools/world/world_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "articulated/quoted.h"
+#include "articulated/try.h"
+#include "assets/text_file.h"
+#include "middleware/world/world_options.h"
+#include "tools/microseconds.h"
+#include "tools/settings/config_reading.h"
+#include "tools/settings/toml_section.h"
+
+namespace foretouch::tools {
+namespace {
+
+constexpr char kFormat[] = "foretouch-world";
+constexpr std::int64_t kVersion = 1;
+constexpr double kMostYawDeg = 1e6;
+constexpr double kMostSpeed = 1e3;
+constexpr double kMostMassKg = 1e9;
+/// As a group of bodies, in [[ask]].
+constexpr char kSceneWord[] = "scene";
+
+constexpr char kTimeInWords[] = "a number of seconds within 285 years of zero";
+
+bool isTime(double seconds) {
+  return std::abs(seconds) <= kMostFileTimeS;
+}
+
+std::int64_t inUs(double seconds) {
+  return std::llround(seconds * kUsPerS);
+}
+
+Eigen::Vector3d vectorOf(const std::vector<double>& numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+class WorldReading {
+ public:
+  WorldReading(const std::string& path, const toml::table& tables)
+      : reading_{path, std::nullopt}, root_(reading_, tables, "the file") {
+    world_.path = path;
+  }
+
+  Result<WorldFile> read() {
+    readHead();
+    for (TomlSection& section : root_.tables("body", "[[body]]", kMaxFileBodies)) {
+      world_.bodies.push_back(readBody(section));
+      if (reading_.error) break;
+    }
+    readAsks();
+    checkNames();
+    if (reading_.error) return *reading_.error;
+    return std::move(world_);
+  }
+
+ private:
+  [[nodiscard]] std::string beside(const std::string& path) const {
+    return besideFile(path, reading_.file);
+  }
+  void readPath(TomlSection& section, const char* key, std::string& path) {
+    section.text(key, path, false);
+    path = beside(path);
+  }
+  [[nodiscard]] static bool has(const TomlSection& section, const char* key) {
+    return section.find(key) != nullptr;
+  }
+
+  void readHead();
+  FileBody readBody(TomlSection& section);
+  void readShape(TomlSection& section, FileBody& body);
+  void readLss(TomlSection& section, FileShape& shape);
+  void readBox(TomlSection& section, FileShape& shape);
+  void readMotion(TomlSection& section, FileBody& body);
+  void readClip(TomlSection& section, FileBody& body);
+  void readTiming(TomlSection& section, ClipTiming& timing);
+  void readPoses(TomlSection& section, FileBody& body);
+  void readChanges(TomlSection& section, FileBody& body);
+  void readAsks();
+  void checkNames();
+  /// position, rotation or yaw; nothing if none of them is there.
+  std::optional<RigidPose> readPlace(TomlSection& section);
+  std::int64_t readTime(TomlSection& section);
+
+  TomlReading reading_;
+  TomlSection root_;
+  WorldFile world_;
+};
+
+void WorldReading::readHead() {
+  root_.allowOnly({"format", "version", "scene", "query", "body", "ask"});
+  std::string format;
+  root_.word<std::string>("format", {kFormat}, {kFormat}, format);
+  if (format.empty()) {
+    reading_.fail(ErrorCode::Empty, -1, std::string("expected format = \"") + kFormat + '"');
+  }
+  std::int64_t version = 0;
+  root_.integer("version", kVersion, kVersion, version);
+  if (version == 0) reading_.fail(ErrorCode::Empty, -1, "expected version = 1");
+  Settings settings;
+  addSceneSettings(settings, world_.scene);
+  addWorldTolerance(settings, world_.tolerance);
+  for (const char* const table : {"scene", "query"}) {
+    readWholeTable(root_, table, reading_, settings);
+  }
+  if (has(root_, "scene") && world_.scene.scenePath.empty()) {
+    root_.table("scene").fail(ErrorCode::Empty, "expected a file");
+  }
+}
+
+FileBody WorldReading::readBody(TomlSection& section) {
+  FileBody body;
+  body.line = section.line();
+  section.allowOnly({"name",   "avatar",      "mesh",   "node",  "scale", "up",
+                     "sphere", "lss",         "box",    "group", "mass",  "self",
+                     "pairs",  "when_silent", "clip",   "poses", "pose",  "position",
+                     "yaw",    "rotation",    "attach", "detach"});
+  section.text("name", body.name, false);
+  if (body.name.empty()) section.fail(ErrorCode::Empty, "expected a name");
+  readShape(section, body);
+  section.text("group", body.group, false);
+  if (body.group == kSceneWord) {
+    section.outOfRange("group", "another word, as this one means the scene", inQuotes(body.group),
+                       *section.find("group"));
+  }
+  if (has(section, "mass")) {
+    section.number(
+        "mass", "a finite number of kilograms greater than 0, at most 1e9",
+        [](double kg) { return kg > 0.0 && kg <= kMostMassKg; }, body.massKg.emplace());
+  }
+  section.word<WhenSilent>("when_silent", {"wait", "hold-still", "undecided"},
+                           {WhenSilent::Wait, WhenSilent::HoldStill, WhenSilent::Undecided},
+                           body.whenSilent);
+  std::optional<bool> self;
+  section.truth("self", self);
+  body.asksSelf = self.value_or(false);
+  readPath(section, "pairs", body.pairsPath);
+  if (!body.pairsPath.empty() && !body.asksSelf) {
+    section.fail(ErrorCode::Mismatch, "expected self = true beside pairs");
+  }
+  if (body.asksSelf && body.shape.avatarPath.empty()) {
+    section.fail(ErrorCode::Mismatch, "expected an avatar beside self: a prop has no own links");
+  }
+  readMotion(section, body);
+  readChanges(section, body);
+  return body;
+}
+
+void WorldReading::readShape(TomlSection& section, FileBody& body) {
+  FileShape& shape = body.shape;
+  const std::array<const char*, 5> kinds{"avatar", "mesh", "sphere", "lss", "box"};
+  const auto given =
+      std::count_if(kinds.begin(), kinds.end(), [&](const char* key) { return has(section, key); });
+  if (given != 1) {
+    section.fail(ErrorCode::Mismatch,
+                 "expected exactly one of avatar, mesh, sphere, lss and box, found " +
+                     std::to_string(given));
+  }
+  readPath(section, "avatar", shape.avatarPath);
+  readPath(section, "mesh", shape.meshPath);
+  section.text("node", shape.node, false);
+  if (has(section, "scale")) {
+    section.number(
+        "scale", "a finite number greater than 0", [](double unit) { return unit > 0.0; },
+        shape.meshImport.scale.emplace(1.0));
+  }
+  if (has(section, "up")) {
+    section.word<UpAxis>("up", {"y", "z"}, {UpAxis::Y, UpAxis::Z},
+                         shape.meshImport.up.emplace(UpAxis::Y));
+  }
+  for (const char* const key : {"node", "scale", "up"}) {
+    if (!has(section, key) || !shape.meshPath.empty()) continue;
+    section.fail(ErrorCode::Mismatch, std::string("expected a mesh beside ") + key);
+  }
+  if (has(section, "sphere")) {
+    section.number(
+        "sphere", "a radius in metres greater than 0, at most 1e7",
+        [](double radius) { return radius > 0.0 && radius <= kMaxCoordinate; },
+        shape.lss.emplace_back().radius);
+  }
+  readLss(section, shape);
+  readBox(section, shape);
+}
+
+void WorldReading::readLss(TomlSection& section, FileShape& shape) {
+  for (TomlSection& one : section.tables("lss", "[[body.lss]]", kMaxLssPerLink)) {
+    one.allowOnly({"a", "b", "radius"});
+    std::vector<double> a, b;
+    Lss lss;
+    const bool hasA = one.numbers("a", 3, kMaxCoordinate, a);
+    const bool hasB = one.numbers("b", 3, kMaxCoordinate, b);
+    one.number(
+        "radius", "a finite number of metres from 0 to 1e7",
+        [](double radius) { return radius >= 0.0 && radius <= kMaxCoordinate; }, lss.radius);
+    if (!hasA || !hasB || !has(one, "radius")) {
+      one.fail(ErrorCode::Empty, "expected a, b and radius");
+      return;
+    }
+    lss.a = vectorOf(a);
+    lss.b = vectorOf(b);
+    shape.lss.push_back(lss);
+  }
+  if (has(section, "lss") && shape.lss.empty()) {
+    section.fail(ErrorCode::Empty, "expected at least one LSS");
+  }
+}
+
+void WorldReading::readBox(TomlSection& section, FileShape& shape) {
+  if (!has(section, "box")) return;
+  TomlSection box = section.table("box");
+  box.allowOnly({"low", "high"});
+  std::vector<double> low, high;
+  const bool hasLow = box.numbers("low", 3, kMaxCoordinate, low);
+  const bool hasHigh = box.numbers("high", 3, kMaxCoordinate, high);
+  if (!hasLow || !hasHigh) return section.fail(ErrorCode::Empty, "expected low and high in box");
+  const Eigen::Vector3d sides = vectorOf(high) - vectorOf(low);
+  if (!(sides.minCoeff() > 0.0)) {
+    return section.fail(ErrorCode::OutOfRange,
+                        "expected every number of box high above that of low");
+  }
+  shape.box = {vectorOf(low), vectorOf(high)};
+}
+
+std::optional<RigidPose> WorldReading::readPlace(TomlSection& section) {
+  RigidPose pose;
+  std::vector<double> numbers;
+  if (section.numbers("position", 3, kMaxCoordinate, numbers)) {
+    pose.translation = vectorOf(numbers);
+  }
+  if (section.numbers("rotation", 4, 2.0, numbers)) {
+    const auto unit = unitQuaternion({numbers[0], numbers[1], numbers[2], numbers[3]});
+    if (!unit) {
+      section.outOfRange("rotation", "w, x, y, z of norm 1 within 0.001", "another norm",
+                         *section.find("rotation"));
+    }
+    pose.rotation = unit.value_or(Quaternion::Identity());
+  }
+  if (has(section, "yaw")) {
+    constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
+    double yawDeg = 0.0;
+    section.number(
+        "yaw", "a finite number of degrees from -1e6 to 1e6",
+        [](double degrees) { return std::abs(degrees) <= kMostYawDeg; }, yawDeg);
+    pose.rotation =
+        Quaternion(Eigen::AngleAxisd(yawDeg * kRadPerDeg, Eigen::Vector3d::UnitY())).normalized();
+    if (has(section, "rotation")) {
+      section.fail(ErrorCode::Mismatch, "expected rotation or yaw, found both");
+    }
+  }
+  if (has(section, "position") || has(section, "rotation") || has(section, "yaw")) return pose;
+  return std::nullopt;
+}
+
+std::int64_t WorldReading::readTime(TomlSection& section) {
+  double timeS = 0.0;
+  section.number("time", kTimeInWords, isTime, timeS);
+  if (!has(section, "time")) section.fail(ErrorCode::Empty, "expected a time");
+  return inUs(timeS);
+}
+
+void WorldReading::readMotion(TomlSection& section, FileBody& body) {
+  readClip(section, body);
+  readPath(section, "poses", body.posesPath);
+  readPoses(section, body);
+  body.place = readPlace(section);
+  const int given =
+      static_cast<int>(!body.clip.motionPath.empty()) + static_cast<int>(!body.posesPath.empty()) +
+      static_cast<int>(!body.poses.empty()) + static_cast<int>(body.place.has_value());
+  if (given > 1) {
+    section.fail(ErrorCode::Mismatch,
+                 "expected one of clip, poses, pose and position (with rotation or yaw), found " +
+                     std::to_string(given));
+  }
+  const bool isAvatar = !body.shape.avatarPath.empty();
+  if (isAvatar && (!body.posesPath.empty() || !body.poses.empty())) {
+    section.fail(ErrorCode::Mismatch,
+                 "expected a clip for an avatar: poses are those of a prop, which has no joints");
+  }
+  if (isAvatar && !body.joint.empty()) {
+    section.fail(ErrorCode::Mismatch,
+                 "expected no joint in clip: an avatar follows all that the clip has");
+  }
+}
+
+void WorldReading::readClip(TomlSection& section, FileBody& body) {
+  if (!has(section, "clip")) return;
+  TomlSection clip = section.table("clip");
+  body.clipLine = clip.line();
+  Settings settings;
+  addMotionSetting(settings, body.clip, "--motion", "CLIP");
+  addRateSetting(settings, body.clip);
+  addClipSettings(settings, body.clip);
+  std::vector<std::string> keys{"joint", "start", "from", "until", "speed"};
+  for (const Setting& setting : settings) keys.push_back(setting.key);
+  clip.allowOnly(keys);
+  readTable(section, "clip", reading_, settings, [](const Setting&) { return true; });
+  if (body.clip.motionPath.empty()) clip.fail(ErrorCode::Empty, "expected a file");
+  clip.text("joint", body.joint, false);
+  readTiming(clip, body.timing);
+}
+
+void WorldReading::readTiming(TomlSection& section, ClipTiming& timing) {
+  section.number("start", kTimeInWords, isTime, timing.startS);
+  const auto isOfClip = [](double seconds) { return seconds >= 0.0 && isTime(seconds); };
+  const char* const ofClip = "a number of seconds of the clip, at least 0";
+  section.number("from", ofClip, isOfClip, timing.fromS);
+  if (has(section, "until")) section.number("until", ofClip, isOfClip, timing.untilS.emplace());
+  if (timing.untilS && *timing.untilS < timing.fromS) {
+    section.fail(ErrorCode::OutOfRange, "expected until at or after from");
+  }
+  section.number(
+      "speed", "a finite number from 0.001 to 1000",
+      [](double speed) { return speed >= 1.0 / kMostSpeed && speed <= kMostSpeed; }, timing.speed);
+}
+
+void WorldReading::readPoses(TomlSection& section, FileBody& body) {
+  for (TomlSection& one : section.tables("pose", "[[body.pose]]", kMaxFilePoses)) {
+    one.allowOnly({"time", "position", "rotation", "yaw"});
+    const std::int64_t utimeUs = readTime(one);
+    if (!body.poses.empty() && utimeUs <= body.poses.back().utimeUs) {
+      one.fail(ErrorCode::OutOfRange, "expected a time after that of the pose before it");
+    }
+    const auto pose = readPlace(one);
+    if (!pose) one.fail(ErrorCode::Empty, "expected a position, rotation or yaw");
+    if (reading_.error) return;
+    body.poses.push_back({utimeUs, *pose, one.line()});
+  }
+}
+
+void WorldReading::readChanges(TomlSection& section, FileBody& body) {
+  for (TomlSection& one : section.tables("attach", "[[body.attach]]", kMaxFileChanges)) {
+    one.allowOnly({"time", "to", "link", "moves", "position", "rotation", "yaw"});
+    FileChange change;
+    change.isAttached = true;
+    change.line = one.line();
+    change.utimeUs = readTime(one);
+    one.text("to", change.carrier, false);
+    if (change.carrier.empty()) one.fail(ErrorCode::Empty, "expected to, the name of a body");
+    one.text("link", change.link, false);
+    std::optional<bool> moves;
+    one.truth("moves", moves);
+    change.movesInFrame = moves.value_or(false);
+    change.pose = readPlace(one);
+    body.changes.push_back(std::move(change));
+  }
+  for (TomlSection& one : section.tables("detach", "[[body.detach]]", kMaxFileChanges)) {
+    one.allowOnly({"time", "position", "rotation", "yaw"});
+    FileChange change;
+    change.line = one.line();
+    change.utimeUs = readTime(one);
+    change.pose = readPlace(one);
+    body.changes.push_back(std::move(change));
+  }
+  std::stable_sort(body.changes.begin(), body.changes.end(),
+                   [](const FileChange& x, const FileChange& y) { return x.utimeUs < y.utimeUs; });
+  const auto twice = std::adjacent_find(
+      body.changes.begin(), body.changes.end(),
+      [](const FileChange& x, const FileChange& y) { return x.utimeUs == y.utimeUs; });
+  if (twice == body.changes.end()) return;
+  reading_.fail(ErrorCode::DuplicateName, std::next(twice)->line,
+                "[[body]]: expected one attach or detach at an instant, found two");
+}
+
+void WorldReading::readAsks() {
+  constexpr std::size_t kMost = 1024;  // of 32 groups, and the scene: all pairs
+  for (TomlSection& one : root_.tables("ask", "[[ask]]", kMost)) {
+    one.allowOnly({"group", "with", "asked"});
+    FileAsk ask;
+    ask.line = one.line();
+    one.text("group", ask.group, false);
+    one.text("with", ask.with, false);
+    std::optional<bool> isAsked;
+    one.truth("asked", isAsked);
+    if (ask.group.empty() || ask.with.empty() || !isAsked) {
+      one.fail(ErrorCode::Empty, "expected group, with and asked");
+      return;
+    }
+    if (ask.with == kSceneWord) ask.with.clear();
+    ask.isAsked = *isAsked;
+    world_.asks.push_back(std::move(ask));
+  }
+}
+
+void WorldReading::checkNames() {
+  if (world_.bodies.empty()) reading_.fail(ErrorCode::Empty, -1, "expected at least one [[body]]");
+  std::set<std::string> names;
+  for (const FileBody& body : world_.bodies) {
+    if (names.insert(body.name).second) continue;
+    reading_.fail(
+        ErrorCode::DuplicateName, body.line,
+        "[[body]] name: expected one that no other body has, found " + inQuotes(body.name));
+  }
+}
+
+}  // namespace
+
+Setting& addWorldTolerance(Settings& settings, double& tolerance) {
+  static constexpr NumberRange kRange{kMinWorldTolerance, kMaxTolerance, "metres", "m"};
+  return settings
+      .number("--tolerance", "M", tolerance, kRange, "Largest separation (m) of a reported contact")
+      .in(kTouchGroup)
+      .inConfig("query", "tolerance")
+      .inHeader("tolerance")
+      .inReport("tolerance");
+}
+
+Result<WorldFile> parseWorldFile(std::string_view text, const std::string& file) {
+  FORETOUCH_TRY(const auto parsed, parseToml(text, file));
+  return WorldReading(file, parsed).read();
+}
+
+Result<WorldFile> readWorldFile(const std::string& path) {
+  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxTomlBytes));
+  return parseWorldFile(text, path);
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,109 @@
+// tools/world/world_file.h: a world as a file says it, format "foretouch-world" version 1
+// (docs/formats.md, "World files"): TOML, nothing of it loaded yet. Paths are ready to open.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "articulated/pose.h"
+#include "articulated/result.h"
+#include "articulated/track.h"
+#include "lss/lss.h"
+#include "tools/settings/clip_settings.h"
+#include "tools/settings/world_settings.h"
+
+namespace foretouch::tools {
+
+/// Bodies of one file, and poses, changes of carriers and LSS of one body.
+inline constexpr std::size_t kMaxFileBodies = 4096;
+inline constexpr std::size_t kMaxFilePoses = 65536;
+inline constexpr std::size_t kMaxFileChanges = 65536;
+/// Instants of a file are within this of zero (s), as those of tracks are.
+inline constexpr double kMostFileTimeS = static_cast<double>(kMostUtimeUs) / 1e6;
+
+/// What a body is made of: exactly one of these is there.
+struct FileShape {
+  std::string avatarPath;
+  std::string meshPath;
+  std::vector<Lss> lss;                               ///< Of a prop, in its frame.
+  std::optional<std::array<Eigen::Vector3d, 2>> box;  ///< Lowest and highest corner, in its frame.
+  // Of a mesh.
+  std::string node;  ///< Only this node's triangles, in its frame; empty: the whole file.
+  SceneImportOptions meshImport;
+};
+
+struct FilePose {
+  std::int64_t utimeUs = 0;
+  RigidPose pose;
+  std::int64_t line = -1;
+};
+
+/// A body is carried from an instant on, or no longer.
+struct FileChange {
+  std::int64_t utimeUs = 0;
+  bool isAttached = false;
+  std::string carrier, link;      ///< Names; an empty link: the carrier's only one.
+  bool movesInFrame = false;      ///< Carrier::movesInFrame.
+  std::optional<RigidPose> pose;  ///< Nothing: where it is at that instant.
+  std::int64_t line = -1;
+};
+
+/// When the frames of a body's clip are: the frame at `fromS` of the clip is at `startS` of the
+/// world.
+struct ClipTiming {
+  double startS = 0.0, fromS = 0.0;
+  std::optional<double> untilS;  ///< Of the clip.
+  double speed = 1.0;            ///< 2: twice as fast as recorded.
+};
+
+struct FileBody {
+  std::string name;
+  std::int64_t line = -1;
+  FileShape shape;
+  std::string group;             ///< Empty: that of all who name none.
+  std::optional<double> massKg;  ///< Kept for later use.
+  WhenSilent whenSilent = WhenSilent::Wait;
+  bool asksSelf = false;
+  std::string pairsPath;  ///< Empty: derived.
+
+  // How it moves: a clip, or poses, or none of them: it stands.
+  ClipRequest clip;   ///< An empty motion: no clip.
+  ClipTiming timing;  ///< Of the clip.
+  std::string joint;  ///< Of a prop: whose motion in the clip is its own; empty: the only root's.
+  std::int64_t clipLine = -1;
+  std::string posesPath;
+  std::vector<FilePose> poses;
+  std::optional<RigidPose> place;  ///< Where it stands.
+
+  std::vector<FileChange> changes;  ///< By time; of one instant as the file has them.
+};
+
+/// Bodies of two groups are not asked, or are again; an empty `with`: the scene.
+struct FileAsk {
+  std::string group, with;
+  bool isAsked = false;
+  std::int64_t line = -1;
+};
+
+struct WorldFile {
+  std::string path;
+  WorldRequest scene;  ///< Of which the scene's file and how to read it; no path: there is none.
+  double tolerance = kDefaultTolerance;
+  std::vector<FileBody> bodies;
+  std::vector<FileAsk> asks;
+};
+
+/// --tolerance, and [query] tolerance of a file.
+Setting& addWorldTolerance(Settings& settings, double& tolerance);
+
+/// Refuses what breaks the format's rules; errors name the line. `file`: the path of `text`, to
+/// which its paths are relative. Never throws.
+[[nodiscard]] Result<WorldFile> parseWorldFile(std::string_view text, const std::string& file);
+[[nodiscard]] Result<WorldFile> readWorldFile(const std::string& path);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,38 @@
+// tools/world/world_results.h: the lines of a world's results file, format
+// "foretouch-world-results" version 1 (docs/formats.md, "Results of a world"). Pure: the same
+// answers give the same text.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assets/json_writer.h"
+#include "tools/world/world_touches.h"
+#include "tools/world/world_windows.h"
+
+namespace foretouch::tools {
+
+/// Who is on a side of a contact or touch, of which the writers know no more.
+struct NamedSide {
+  BodyId body = kStillScene;
+  LinkId link = 0;  ///< kEveryLink: the body as a whole.
+};
+/// Writes "body" and, where it has several, "link" into an open object; nothing of the scene.
+void writeSide(const LoadedWorld& world, const NamedSide& side, JsonWriter& out);
+
+/// The first line.
+[[nodiscard]] std::string worldHeader(const LoadedWorld& world, const WindowRequest& request,
+                                      const std::vector<std::int64_t>& cuts);
+/// A window's line.
+[[nodiscard]] std::string windowLine(const LoadedWorld& world, const WorldStep& step);
+/// One contact as an object: as in that line.
+void writeWorldContact(const LoadedWorld& world, const WorldContact& contact, JsonWriter& out);
+/// The fields of a touch into an open object: as in its line.
+void writeWorldTouch(const LoadedWorld& world, const TouchSides& sides, const Touch& touch,
+                     JsonWriter& out);
+/// The last lines: one a touch, and the counts.
+[[nodiscard]] std::string touchLines(const LoadedWorld& world, const WorldTouches& touches,
+                                     std::int64_t windows);
+
+}  // namespace foretouch::tools
