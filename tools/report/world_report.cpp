@@ -17,21 +17,10 @@ namespace {
 /// For bounds; nothing of it is shown.
 Avatar standInOf(const BodyShape& shape) {
   std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < shape.mesh->numTriangles(); ++i) {
-    const Triangle& triangle = shape.mesh->triangle(static_cast<TriangleId>(i));
-    if (!isFinite(triangle)) continue;
+  for (const Triangle& triangle : *shape.triangles) {
     points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
   }
   return Avatar::build(shape.skeleton, {{fitLss(points)}}).value();
-}
-
-std::vector<Triangle> trianglesOfMesh(const Scene& mesh) {
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i < mesh.numTriangles(); ++i) {
-    const Triangle& triangle = mesh.triangle(static_cast<TriangleId>(i));
-    if (isFinite(triangle)) triangles.push_back(triangle);
-  }
-  return triangles;
 }
 
 /// The poses of a body in time, and between which of them its motion is known or taken to be.
@@ -266,7 +255,7 @@ void WorldReport::addBodies(ViewDocument& document, Eigen::AlignedBox3d& action,
     view.hasLss = !body.isMesh();
     view.knowsMissed = false;
     if (body.isMesh()) {
-      view.meshes = linkMeshes({trianglesOfMesh(*body.shape.mesh)}, document.notes);
+      view.meshes = linkMeshes({*body.shape.triangles}, document.notes);
     }
     BodyTrack track(world_, id, shownAs, stretches);
     const std::size_t room =
