@@ -221,6 +221,13 @@ std::vector<ViewRow> rowsOf(const WorldSummary& summary) {
 
 using TouchKey = std::tuple<BodyId, LinkId, BodyId, LinkId, std::string>;
 
+/// Where contacts are left out for want of room, so are the touches that have none.
+void leaveOutBareTouches(std::vector<ViewTouch>& touches) {
+  touches.erase(std::remove_if(touches.begin(), touches.end(),
+                               [](const ViewTouch& touch) { return touch.rows.empty(); }),
+                touches.end());
+}
+
 }  // namespace
 
 WorldReport::WorldReport(const LoadedWorld& world, ReportOptions options)
@@ -329,6 +336,7 @@ ViewDocument WorldReport::document(const WorldSummary* summary, const WorldTouch
   if (document.avatars.size() < world_.bodies.size()) return document;  // interrupted
   if (touches != nullptr) addFound(*touches, document);
   if (numLeftOut_ > 0) {
+    if (document.touches) leaveOutBareTouches(*document.touches);
     document.notes.push_back(fmt::format(
         "{} contacts are not shown, for want of room or of a link; the results file has them all.",
         numLeftOut_));
