@@ -134,9 +134,9 @@ TEST(ContactFields, AreReadByThePage) {
                                       "export function decodeContact", "return contact");
   const std::string interface =
       between("viewer/src/data/document.ts", "export interface ContactFields {", "\n}");
-  // And what a solid avatar adds.
-  Names inJson{"time", "missed_by_poses", "push", "slip"};
-  Names inCode{"time", "missedByPoses", "push", "slip"};
+  // And what a solid avatar adds, and a second body.
+  Names inJson{"time", "missed_by_poses", "push", "slip", "other_avatar", "other"};
+  Names inCode{"time", "missedByPoses", "push", "slip", "otherAvatar", "otherLink"};
   for (const ContactField& field : kContactFields) {
     // The page shows no mesh's features.
     const auto use = field.use;

@@ -90,11 +90,7 @@ class BodyNodes {
         meshes_.push_back(addLssMeshes(*shape.avatar, name + ": ", lss, content_, budget, leftOut));
         continue;
       }
-      std::vector<Triangle> triangles;
-      for (std::size_t id = 0; id < shape.mesh->numTriangles(); ++id) {
-        const Triangle& triangle = shape.mesh->triangle(static_cast<TriangleId>(id));
-        if (isFinite(triangle)) triangles.push_back(triangle);
-      }
+      const std::vector<Triangle>& triangles = *shape.triangles;
       const bool fits = budget.take(triangles.size());
       if (!fits) notes.push_back(fmt::format("the mesh of {} is left out", name));
       meshes_.push_back(

@@ -17,21 +17,10 @@ namespace {
 /// For bounds; nothing of it is shown.
 Avatar standInOf(const BodyShape& shape) {
   std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < shape.mesh->numTriangles(); ++i) {
-    const Triangle& triangle = shape.mesh->triangle(static_cast<TriangleId>(i));
-    if (!isFinite(triangle)) continue;
+  for (const Triangle& triangle : *shape.triangles) {
     points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
   }
   return Avatar::build(shape.skeleton, {{fitLss(points)}}).value();
-}
-
-std::vector<Triangle> trianglesOfMesh(const Scene& mesh) {
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i < mesh.numTriangles(); ++i) {
-    const Triangle& triangle = mesh.triangle(static_cast<TriangleId>(i));
-    if (isFinite(triangle)) triangles.push_back(triangle);
-  }
-  return triangles;
 }
 
 /// The poses of a body in time, and between which of them its motion is known or taken to be.
@@ -232,6 +221,13 @@ std::vector<ViewRow> rowsOf(const WorldSummary& summary) {
 
 using TouchKey = std::tuple<BodyId, LinkId, BodyId, LinkId, std::string>;
 
+/// Where contacts are left out for want of room, so are the touches that have none.
+void leaveOutBareTouches(std::vector<ViewTouch>& touches) {
+  touches.erase(std::remove_if(touches.begin(), touches.end(),
+                               [](const ViewTouch& touch) { return touch.rows.empty(); }),
+                touches.end());
+}
+
 }  // namespace
 
 WorldReport::WorldReport(const LoadedWorld& world, ReportOptions options)
@@ -266,7 +262,7 @@ void WorldReport::addBodies(ViewDocument& document, Eigen::AlignedBox3d& action,
     view.hasLss = !body.isMesh();
     view.knowsMissed = false;
     if (body.isMesh()) {
-      view.meshes = linkMeshes({trianglesOfMesh(*body.shape.mesh)}, document.notes);
+      view.meshes = linkMeshes({*body.shape.triangles}, document.notes);
     }
     BodyTrack track(world_, id, shownAs, stretches);
     const std::size_t room =
@@ -340,6 +336,7 @@ ViewDocument WorldReport::document(const WorldSummary* summary, const WorldTouch
   if (document.avatars.size() < world_.bodies.size()) return document;  // interrupted
   if (touches != nullptr) addFound(*touches, document);
   if (numLeftOut_ > 0) {
+    if (document.touches) leaveOutBareTouches(*document.touches);
     document.notes.push_back(fmt::format(
         "{} contacts are not shown, for want of room or of a link; the results file has them all.",
         numLeftOut_));

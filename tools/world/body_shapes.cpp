@@ -1,6 +1,8 @@
 #include "tools/world/body_shapes.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -19,7 +21,7 @@ Result<Skeleton> oneJoint(const std::string& name) {
 }
 
 /// Twelve triangles, from corner to corner.
-Result<Scene> boxOf(const std::array<Eigen::Vector3d, 2>& corners, const std::string& name) {
+RawScene boxOf(const std::array<Eigen::Vector3d, 2>& corners, const std::string& name) {
   RawScene raw;
   raw.objectNames = {name};
   const auto corner = [&](int i) {
@@ -33,11 +35,11 @@ Result<Scene> boxOf(const std::array<Eigen::Vector3d, 2>& corners, const std::st
     raw.triangles.push_back({{first, across, corner(face[3])}});
   }
   raw.objectOf.assign(raw.triangles.size(), 0);
-  return Scene::build(std::move(raw));
+  return raw;
 }
 
 /// The triangles of one node, in its frame.
-Result<Scene> meshOfNode(const FileShape& shape) {
+Result<RawScene> meshOfNode(const FileShape& shape) {
   FORETOUCH_TRY(auto skeleton, oneJoint(shape.node));
   // Only the reference counts; an avatar has an LSS somewhere.
   FORETOUCH_TRY(const auto holder,
@@ -49,12 +51,12 @@ Result<Scene> meshOfNode(const FileShape& shape) {
   raw.objectNames = {shape.node};
   raw.triangles = std::move(triangles.front());
   raw.objectOf.assign(raw.triangles.size(), 0);
-  return Scene::build(std::move(raw));
+  return raw;
 }
 
-Result<Scene> wholeMesh(const FileShape& shape) {
+Result<RawScene> wholeMesh(const FileShape& shape) {
   FORETOUCH_TRY(auto imported, importScene(shape.meshPath, shape.meshImport));
-  return Scene::build(std::move(imported.scene));
+  return std::move(imported.scene);
 }
 
 }  // namespace
@@ -78,13 +80,22 @@ Result<Avatar> ShapeLoader::avatarOf(const std::string& path) {
   return known->second;
 }
 
-Result<Scene> ShapeLoader::meshOf(const FileShape& shape) {
+Result<ShapeLoader::Mesh> ShapeLoader::meshFrom(RawScene raw) {
+  std::vector<Triangle> finite;
+  std::copy_if(raw.triangles.begin(), raw.triangles.end(), std::back_inserter(finite),
+               [](const Triangle& triangle) { return isFinite(triangle); });
+  FORETOUCH_TRY(auto scene, Scene::build(std::move(raw)));
+  return Mesh{std::move(scene), std::make_shared<const std::vector<Triangle>>(std::move(finite))};
+}
+
+Result<ShapeLoader::Mesh> ShapeLoader::meshOf(const FileShape& shape) {
   const SceneImportOptions& import = shape.meshImport;
   const MeshKey key{shape.meshPath, shape.node, import.scale.value_or(0.0), import.up};
   auto known = meshes_.find(key);
   if (known == meshes_.end()) {
-    FORETOUCH_TRY(auto mesh, inFile(shape.node.empty() ? wholeMesh(shape) : meshOfNode(shape),
-                                    shape.meshPath));
+    FORETOUCH_TRY(auto raw, inFile(shape.node.empty() ? wholeMesh(shape) : meshOfNode(shape),
+                                   shape.meshPath));
+    FORETOUCH_TRY(auto mesh, inFile(meshFrom(std::move(raw)), shape.meshPath));
     known = meshes_.emplace(key, std::move(mesh)).first;
   }
   return known->second;
@@ -95,7 +106,7 @@ Result<BodyShape> ShapeLoader::load(const FileBody& body, const std::string& wor
   if (!shape.avatarPath.empty()) {
     FORETOUCH_TRY(auto avatar, avatarOf(shape.avatarPath));
     Skeleton skeleton = avatar.skeleton();
-    return BodyShape{std::move(avatar), std::nullopt, std::move(skeleton)};
+    return BodyShape{std::move(avatar), std::nullopt, std::move(skeleton), nullptr};
   }
   const auto inWorld = [&](Error error) {
     error.file = world;
@@ -105,14 +116,16 @@ Result<BodyShape> ShapeLoader::load(const FileBody& body, const std::string& wor
   FORETOUCH_TRY_OR(inWorld, auto skeleton, oneJoint(body.name));
   if (!shape.lss.empty()) {
     FORETOUCH_TRY_OR(inWorld, auto avatar, Avatar::build(skeleton, {shape.lss}));
-    return BodyShape{std::move(avatar), std::nullopt, std::move(skeleton)};
+    return BodyShape{std::move(avatar), std::nullopt, std::move(skeleton), nullptr};
   }
   if (!shape.box) {
     FORETOUCH_TRY(auto mesh, meshOf(shape));
-    return BodyShape{std::nullopt, std::move(mesh), std::move(skeleton)};
+    return BodyShape{std::nullopt, std::move(mesh.scene), std::move(skeleton),
+                     std::move(mesh.triangles)};
   }
-  FORETOUCH_TRY_OR(inWorld, auto box, boxOf(*shape.box, body.name));
-  return BodyShape{std::nullopt, std::move(box), std::move(skeleton)};
+  FORETOUCH_TRY_OR(inWorld, auto box, meshFrom(boxOf(*shape.box, body.name)));
+  return BodyShape{std::nullopt, std::move(box.scene), std::move(skeleton),
+                   std::move(box.triangles)};
 }
 
 }  // namespace foretouch::tools

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "articulated/avatar.h"
 #include "articulated/result.h"
@@ -19,6 +21,9 @@ struct BodyShape {
   std::optional<Avatar> avatar;
   std::optional<Scene> mesh;
   Skeleton skeleton;  ///< Of a mesh: one joint, named as its body.
+  /// Of a mesh: its finite triangles with their corners in the file's order, which a scene does not
+  /// keep: for pictures.
+  std::shared_ptr<const std::vector<Triangle>> triangles;
 };
 
 /// "avatar", "LSS", "mesh" or "box".
@@ -34,10 +39,15 @@ class ShapeLoader {
  private:
   using MeshKey = std::tuple<std::string, std::string, double, std::optional<UpAxis>>;
   [[nodiscard]] Result<Avatar> avatarOf(const std::string& path);
-  [[nodiscard]] Result<Scene> meshOf(const FileShape& shape);
+  struct Mesh {
+    Scene scene;
+    std::shared_ptr<const std::vector<Triangle>> triangles;
+  };
+  [[nodiscard]] static Result<Mesh> meshFrom(RawScene raw);
+  [[nodiscard]] Result<Mesh> meshOf(const FileShape& shape);
 
   std::map<std::string, Avatar> avatars_;
-  std::map<MeshKey, Scene> meshes_;
+  std::map<MeshKey, Mesh> meshes_;
 };
 
 }  // namespace foretouch::tools

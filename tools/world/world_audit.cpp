@@ -76,7 +76,9 @@ std::string carriersInWords(const LoadedWorld& world) {
 
 std::string overlapsInWords(const LoadedWorld& world, const std::vector<WorldContact>& overlaps) {
   if (overlaps.empty()) return "\nnobody touches anything where it appears\n";
-  std::string text = fmt::format("\n{} overlaps where a body appears\n", overlaps.size());
+  std::string text = fmt::format(
+      "\n{} where a body appears\n",
+      overlaps.size() == 1 ? "an overlap" : std::to_string(overlaps.size()) + " overlaps");
   for (std::size_t i = 0; i < std::min(overlaps.size(), kMostOverlapRows); ++i) {
     const WorldContact& overlap = overlaps[i];
     text += fmt::format("  {} and {}, at {:.3f} s{}\n", sideInWords(world, overlap.a),

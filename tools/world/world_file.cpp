@@ -12,13 +12,13 @@
 #include "tools/microseconds.h"
 #include "tools/settings/config_reading.h"
 #include "tools/settings/toml_section.h"
+#include "tools/world/body_section.h"
 
 namespace foretouch::tools {
 namespace {
 
 constexpr char kFormat[] = "foretouch-world";
 constexpr std::int64_t kVersion = 1;
-constexpr double kMostYawDeg = 1e6;
 constexpr double kMostSpeed = 1e3;
 constexpr double kMostMassKg = 1e9;
 /// As a group of bodies, in [[ask]].
@@ -32,10 +32,6 @@ bool isTime(double seconds) {
 
 std::int64_t inUs(double seconds) {
   return std::llround(seconds * kUsPerS);
-}
-
-Eigen::Vector3d vectorOf(const std::vector<double>& numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
 }
 
 class WorldReading {
@@ -65,15 +61,9 @@ class WorldReading {
     section.text(key, path, false);
     path = beside(path);
   }
-  [[nodiscard]] static bool has(const TomlSection& section, const char* key) {
-    return section.find(key) != nullptr;
-  }
 
   void readHead();
   FileBody readBody(TomlSection& section);
-  void readShape(TomlSection& section, FileBody& body);
-  void readLss(TomlSection& section, FileShape& shape);
-  void readBox(TomlSection& section, FileShape& shape);
   void readMotion(TomlSection& section, FileBody& body);
   void readClip(TomlSection& section, FileBody& body);
   void readTiming(TomlSection& section, ClipTiming& timing);
@@ -81,8 +71,6 @@ class WorldReading {
   void readChanges(TomlSection& section, FileBody& body);
   void readAsks();
   void checkNames();
-  /// position, rotation or yaw; nothing if none of them is there.
-  std::optional<RigidPose> readPlace(TomlSection& section);
   std::int64_t readTime(TomlSection& section);
 
   TomlReading reading_;
@@ -106,7 +94,7 @@ void WorldReading::readHead() {
   for (const char* const table : {"scene", "query"}) {
     readWholeTable(root_, table, reading_, settings);
   }
-  if (has(root_, "scene") && world_.scene.scenePath.empty()) {
+  if (hasKey(root_, "scene") && world_.scene.scenePath.empty()) {
     root_.table("scene").fail(ErrorCode::Empty, "expected a file");
   }
 }
@@ -120,13 +108,13 @@ FileBody WorldReading::readBody(TomlSection& section) {
                      "yaw",    "rotation",    "attach", "detach"});
   section.text("name", body.name, false);
   if (body.name.empty()) section.fail(ErrorCode::Empty, "expected a name");
-  readShape(section, body);
+  readShape(section, reading_.file, body.shape);
   section.text("group", body.group, false);
   if (body.group == kSceneWord) {
     section.outOfRange("group", "another word, as this one means the scene", inQuotes(body.group),
                        *section.find("group"));
   }
-  if (has(section, "mass")) {
+  if (hasKey(section, "mass")) {
     section.number(
         "mass", "a finite number of kilograms greater than 0, at most 1e9",
         [](double kg) { return kg > 0.0 && kg <= kMostMassKg; }, body.massKg.emplace());
@@ -149,115 +137,10 @@ FileBody WorldReading::readBody(TomlSection& section) {
   return body;
 }
 
-void WorldReading::readShape(TomlSection& section, FileBody& body) {
-  FileShape& shape = body.shape;
-  const std::array<const char*, 5> kinds{"avatar", "mesh", "sphere", "lss", "box"};
-  const auto given =
-      std::count_if(kinds.begin(), kinds.end(), [&](const char* key) { return has(section, key); });
-  if (given != 1) {
-    section.fail(ErrorCode::Mismatch,
-                 "expected exactly one of avatar, mesh, sphere, lss and box, found " +
-                     std::to_string(given));
-  }
-  readPath(section, "avatar", shape.avatarPath);
-  readPath(section, "mesh", shape.meshPath);
-  section.text("node", shape.node, false);
-  if (has(section, "scale")) {
-    section.number(
-        "scale", "a finite number greater than 0", [](double unit) { return unit > 0.0; },
-        shape.meshImport.scale.emplace(1.0));
-  }
-  if (has(section, "up")) {
-    section.word<UpAxis>("up", {"y", "z"}, {UpAxis::Y, UpAxis::Z},
-                         shape.meshImport.up.emplace(UpAxis::Y));
-  }
-  for (const char* const key : {"node", "scale", "up"}) {
-    if (!has(section, key) || !shape.meshPath.empty()) continue;
-    section.fail(ErrorCode::Mismatch, std::string("expected a mesh beside ") + key);
-  }
-  if (has(section, "sphere")) {
-    section.number(
-        "sphere", "a radius in metres greater than 0, at most 1e7",
-        [](double radius) { return radius > 0.0 && radius <= kMaxCoordinate; },
-        shape.lss.emplace_back().radius);
-  }
-  readLss(section, shape);
-  readBox(section, shape);
-}
-
-void WorldReading::readLss(TomlSection& section, FileShape& shape) {
-  for (TomlSection& one : section.tables("lss", "[[body.lss]]", kMaxLssPerLink)) {
-    one.allowOnly({"a", "b", "radius"});
-    std::vector<double> a, b;
-    Lss lss;
-    const bool hasA = one.numbers("a", 3, kMaxCoordinate, a);
-    const bool hasB = one.numbers("b", 3, kMaxCoordinate, b);
-    one.number(
-        "radius", "a finite number of metres from 0 to 1e7",
-        [](double radius) { return radius >= 0.0 && radius <= kMaxCoordinate; }, lss.radius);
-    if (!hasA || !hasB || !has(one, "radius")) {
-      one.fail(ErrorCode::Empty, "expected a, b and radius");
-      return;
-    }
-    lss.a = vectorOf(a);
-    lss.b = vectorOf(b);
-    shape.lss.push_back(lss);
-  }
-  if (has(section, "lss") && shape.lss.empty()) {
-    section.fail(ErrorCode::Empty, "expected at least one LSS");
-  }
-}
-
-void WorldReading::readBox(TomlSection& section, FileShape& shape) {
-  if (!has(section, "box")) return;
-  TomlSection box = section.table("box");
-  box.allowOnly({"low", "high"});
-  std::vector<double> low, high;
-  const bool hasLow = box.numbers("low", 3, kMaxCoordinate, low);
-  const bool hasHigh = box.numbers("high", 3, kMaxCoordinate, high);
-  if (!hasLow || !hasHigh) return section.fail(ErrorCode::Empty, "expected low and high in box");
-  const Eigen::Vector3d sides = vectorOf(high) - vectorOf(low);
-  if (!(sides.minCoeff() > 0.0)) {
-    return section.fail(ErrorCode::OutOfRange,
-                        "expected every number of box high above that of low");
-  }
-  shape.box = {vectorOf(low), vectorOf(high)};
-}
-
-std::optional<RigidPose> WorldReading::readPlace(TomlSection& section) {
-  RigidPose pose;
-  std::vector<double> numbers;
-  if (section.numbers("position", 3, kMaxCoordinate, numbers)) {
-    pose.translation = vectorOf(numbers);
-  }
-  if (section.numbers("rotation", 4, 2.0, numbers)) {
-    const auto unit = unitQuaternion({numbers[0], numbers[1], numbers[2], numbers[3]});
-    if (!unit) {
-      section.outOfRange("rotation", "w, x, y, z of norm 1 within 0.001", "another norm",
-                         *section.find("rotation"));
-    }
-    pose.rotation = unit.value_or(Quaternion::Identity());
-  }
-  if (has(section, "yaw")) {
-    constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
-    double yawDeg = 0.0;
-    section.number(
-        "yaw", "a finite number of degrees from -1e6 to 1e6",
-        [](double degrees) { return std::abs(degrees) <= kMostYawDeg; }, yawDeg);
-    pose.rotation =
-        Quaternion(Eigen::AngleAxisd(yawDeg * kRadPerDeg, Eigen::Vector3d::UnitY())).normalized();
-    if (has(section, "rotation")) {
-      section.fail(ErrorCode::Mismatch, "expected rotation or yaw, found both");
-    }
-  }
-  if (has(section, "position") || has(section, "rotation") || has(section, "yaw")) return pose;
-  return std::nullopt;
-}
-
 std::int64_t WorldReading::readTime(TomlSection& section) {
   double timeS = 0.0;
   section.number("time", kTimeInWords, isTime, timeS);
-  if (!has(section, "time")) section.fail(ErrorCode::Empty, "expected a time");
+  if (!hasKey(section, "time")) section.fail(ErrorCode::Empty, "expected a time");
   return inUs(timeS);
 }
 
@@ -286,7 +169,7 @@ void WorldReading::readMotion(TomlSection& section, FileBody& body) {
 }
 
 void WorldReading::readClip(TomlSection& section, FileBody& body) {
-  if (!has(section, "clip")) return;
+  if (!hasKey(section, "clip")) return;
   TomlSection clip = section.table("clip");
   body.clipLine = clip.line();
   Settings settings;
@@ -307,7 +190,7 @@ void WorldReading::readTiming(TomlSection& section, ClipTiming& timing) {
   const auto isOfClip = [](double seconds) { return seconds >= 0.0 && isTime(seconds); };
   const char* const ofClip = "a number of seconds of the clip, at least 0";
   section.number("from", ofClip, isOfClip, timing.fromS);
-  if (has(section, "until")) section.number("until", ofClip, isOfClip, timing.untilS.emplace());
+  if (hasKey(section, "until")) section.number("until", ofClip, isOfClip, timing.untilS.emplace());
   if (timing.untilS && *timing.untilS < timing.fromS) {
     section.fail(ErrorCode::OutOfRange, "expected until at or after from");
   }

@@ -2,7 +2,6 @@
 // (docs/formats.md, "World files"): TOML, nothing of it loaded yet. Paths are ready to open.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,9 +12,9 @@
 #include "articulated/pose.h"
 #include "articulated/result.h"
 #include "articulated/track.h"
-#include "lss/lss.h"
 #include "tools/settings/clip_settings.h"
 #include "tools/settings/world_settings.h"
+#include "tools/world/file_shape.h"
 
 namespace foretouch::tools {
 
@@ -25,17 +24,6 @@ inline constexpr std::size_t kMaxFilePoses = 65536;
 inline constexpr std::size_t kMaxFileChanges = 65536;
 /// Instants of a file are within this of zero (s), as those of tracks are.
 inline constexpr double kMostFileTimeS = static_cast<double>(kMostUtimeUs) / 1e6;
-
-/// What a body is made of: exactly one of these is there.
-struct FileShape {
-  std::string avatarPath;
-  std::string meshPath;
-  std::vector<Lss> lss;                               ///< Of a prop, in its frame.
-  std::optional<std::array<Eigen::Vector3d, 2>> box;  ///< Lowest and highest corner, in its frame.
-  // Of a mesh.
-  std::string node;  ///< Only this node's triangles, in its frame; empty: the whole file.
-  SceneImportOptions meshImport;
-};
 
 struct FilePose {
   std::int64_t utimeUs = 0;

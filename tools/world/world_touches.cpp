@@ -60,24 +60,30 @@ bool WorldTouches::isCarried(BodyId body, BodyId carrier, LinkId link, std::int6
 /// What is under way and of which the window says nothing is not known to end: of bodies that are
 /// silent or undecided as a whole, and of two that one carries now.
 void WorldTouches::addUnknown(const WorldStep& step) {
+  std::set<BodyId> silent;
+  for (const SilentBody& one : step.answer.silent) {
+    if (one.takenTo == WhenSilent::Undecided && one.sinceUs <= step.fromUs) silent.insert(one.body);
+  }
+  // Nothing is known of what somebody silent carries, either.
   const auto isSilent = [&](BodyId body) {
-    return std::any_of(step.answer.silent.begin(), step.answer.silent.end(),
-                       [&](const SilentBody& silent) {
-                         return silent.body == body && silent.takenTo == WhenSilent::Undecided &&
-                                silent.sinceUs <= step.fromUs;
-                       });
+    while (!silent.empty() && silent.count(body) == 0) {
+      const BodyStretch* const stretch =
+          stretchAt(world_.bodies[slotOf(body)].stretches, step.fromUs);
+      if (stretch == nullptr || !stretch->carrier) return false;
+      body = stretch->carrier->body;
+    }
+    return !silent.empty();
   };
-  const auto isUndecided = [&](BodyId a, BodyId b) {
-    return std::any_of(step.answer.contacts.begin(), step.answer.contacts.end(),
-                       [&](const WorldContact& contact) {
-                         return contact.a.link == kEveryLink && contact.a.body == a &&
-                                contact.b.body == b && contact.time.us <= step.fromUs;
-                       });
-  };
+  std::set<std::pair<BodyId, BodyId>> undecided;
+  for (const WorldContact& contact : step.answer.contacts) {
+    if (contact.a.link == kEveryLink && contact.time.us <= step.fromUs) {
+      undecided.emplace(contact.a.body, contact.b.body);
+    }
+  }
   for (const auto& [link, other] : open_) {
     const BodyId a = numbers_.bodyOf(link);
     const BodyId b = other < 0 ? kStillScene : numbers_.bodyOf(other);
-    bool isUnknown = isSilent(a) || isUndecided(a, b);
+    bool isUnknown = isSilent(a) || undecided.count({a, b}) > 0;
     if (b != kStillScene) {
       isUnknown = isUnknown || isSilent(b) ||
                   isCarried(a, b, numbers_.linkOf(other), step.fromUs) ||

@@ -112,6 +112,11 @@ function connectView(view: View3D | null, model: Model, store: Store): void {
   });
 }
 
+/** False of inspections, and of worlds that were not replayed: no contact is not an answer then. */
+function wasAsked({ document }: Model): boolean {
+  return document.kind !== "inspection" && (document.kind !== "world" || document.touches !== null);
+}
+
 function addControls(model: Model, store: Store): void {
   const caption = new Caption(model, store);
   const legend = new Legend(model, store);
@@ -121,7 +126,7 @@ function addControls(model: Model, store: Store): void {
   const timeline = new Timeline(model, store);
   const hasTime = model.isLive || model.end > model.start;
   if (hasTime) byId("controls").append(transport.node);
-  if (hasTime && model.document.kind !== "inspection") byId("controls").append(timeline.node);
+  if (hasTime && wasAsked(model)) byId("controls").append(timeline.node);
   store.subscribe((changes) => {
     transport.update(changes);
     timeline.update(changes);
@@ -135,13 +140,13 @@ function addPanels(model: Model, store: Store, view3d: View3D | null): void {
   const panels = byId("panels"), view = model.document;
   const isInspection = view.kind === "inspection";
   if (isInspection) addInspection(model, store, view3d, panels);
-  const details = isInspection ? null : new Details(model, store);
+  const details = wasAsked(model) ? new Details(model, store) : null;
   if (details !== null) panels.append(details.node);
   for (const node of [summaryCard(view), notesCard(view)]) if (node !== null) panels.append(node);
   const histogram = makeHistogram(model, store);
   if (histogram !== null) panels.append(histogram.node);
   histogram?.draw();
-  const table = isInspection ? null : new TouchTable(model, store);
+  const table = wasAsked(model) ? new TouchTable(model, store) : null;
   if (table !== null) panels.append(table.node);
   const settings = settingsCard(view);
   if (settings !== null) panels.append(settings);

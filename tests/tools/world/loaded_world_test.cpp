@@ -254,6 +254,17 @@ TEST(WorldWindows, GoFromPoseToPoseOfAnybody) {
   }
 }
 
+std::vector<tools::Touch> touchesOf(const LoadedWorld& world, tools::WorldTouches& touches) {
+  const auto cuts = tools::windowsOf(world, {100.0, {}, {}});
+  EXPECT_TRUE(cuts.ok());
+  EXPECT_TRUE(tools::replayWorld(world, cuts.value(), [&](const tools::WorldStep& step) {
+                touches.add(step);
+                return true;
+              }).ok());
+  touches.finish();
+  return touches.listed();
+}
+
 TEST(WorldTouchesTest, EndWhereTheTwoPartAndStayOpenWhereNobodyKnows) {
   const SmallStage stage;
   // The walker passes the first ball between 0.12 and 0.18 s; the second one is taken along.
@@ -264,13 +275,7 @@ TEST(WorldTouchesTest, EndWhereTheTwoPartAndStayOpenWhereNobodyKnows) {
                   "\"Hips\"\n"));
   ASSERT_TRUE(world.ok()) << describe(world.error());
   tools::WorldTouches touches(world.value());
-  const auto cuts = tools::windowsOf(world.value(), {100.0, {}, {}});
-  ASSERT_TRUE(cuts.ok());
-  ASSERT_TRUE(tools::replayWorld(world.value(), cuts.value(), [&](const tools::WorldStep& step) {
-                touches.add(step);
-                return true;
-              }).ok());
-  touches.finish();
+  touchesOf(world.value(), touches);
   ASSERT_EQ(touches.listed().size(), 2u);
   const tools::Touch &ball = touches.listed()[0], &cup = touches.listed()[1];
   EXPECT_EQ(touches.sidesOf(ball).b, 1);
@@ -283,6 +288,26 @@ TEST(WorldTouchesTest, EndWhereTheTwoPartAndStayOpenWhereNobodyKnows) {
   EXPECT_TRUE(cup.isOpen);
   EXPECT_EQ(touches.counts().bodies, 2);
   EXPECT_EQ(touches.counts().scene + touches.counts().own, 0);
+}
+
+TEST(WorldTouchesTest, StayOpenWhereSomebodyIsSilentOrHangsOnSomebodySilent) {
+  const SmallStage stage;
+  // The lift is known for 0.1 s; who rides on it touches the post from the beginning.
+  const std::string world =
+      kManWalks +
+      sphereNamed("lift",
+                  "when_silent = \"undecided\"\n" + poseAt(0, "0, 9, 0") + poseAt(0.1, "0, 9, 0")) +
+      sphereNamed("rider", "[[body.attach]]\ntime = 0\nto = \"lift\"\nposition = [0, 1, 0]\n") +
+      sphereNamed("post", "position = [0.05, 10, 0]\n");
+  const auto loaded = stage.load(world);
+  ASSERT_TRUE(loaded.ok()) << describe(loaded.error());
+  tools::WorldTouches touches(loaded.value());
+  const auto listed = touchesOf(loaded.value(), touches);
+  ASSERT_EQ(listed.size(), 1u);
+  EXPECT_EQ(touches.sidesOf(listed[0]).a, 2);
+  EXPECT_EQ(touches.sidesOf(listed[0]).b, 3);
+  EXPECT_TRUE(listed[0].isOpen);
+  EXPECT_LE(listed[0].endS, 0.1);
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -54,7 +56,7 @@ TEST(WorldProgram, ChecksAWorld) {
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   for (const char* part :
        {"wall.obj, 4 triangles", "0.000 s to 0.300 s", "man ", "10 Hz", "0.4 kg", "toys",
-        "1 overlaps where a body appears", "'man' Hips and 'ball', at 0.000 s, 150.0 mm deep"}) {
+        "an overlap where a body appears", "'man' Hips and 'ball', at 0.000 s, 150.0 mm deep"}) {
     EXPECT_TRUE(holds(ended.out, part)) << part << "\n" << ended.out;
   }
   const Ended asJson = runForetouch({"world", "check", path, "--json"});
@@ -215,6 +217,73 @@ TEST(WorldProgram, WritesAGlbWithEveryBodyBelowWhoCarriesIt) {
   EXPECT_EQ(markers, 3);  // hips, arm and cup go through the wall
 }
 
+/// Where the nodes of a GLB are over time, as glTF defines its animations.
+class NodeMotion {
+ public:
+  explicit NodeMotion(const GlbReader& glb) : glb_(glb), parents_(glb.parents()) {
+    for (const json& channel : glb.root()["animations"][0]["channels"]) {
+      const json& sampler = glb.root()["animations"][0]["samplers"][channel["sampler"].get<int>()];
+      channels_[{channel["target"]["node"], channel["target"]["path"]}] = {
+          glb.floats(sampler["input"]), glb.floats(sampler["output"]),
+          sampler["interpolation"] == "STEP"};
+    }
+  }
+
+  [[nodiscard]] Eigen::Affine3d frameAt(int node, double timeS) const {
+    Eigen::Affine3d frame = Eigen::Affine3d::Identity();
+    for (; node >= 0; node = parents_[static_cast<std::size_t>(node)]) {
+      const json& own = glb_.root()["nodes"][static_cast<std::size_t>(node)];
+      const auto p = valuesAt(own, node, "translation", {0, 0, 0}, timeS);
+      const auto q = valuesAt(own, node, "rotation", {0, 0, 0, 1}, timeS);
+      frame = Eigen::Translation3d(p[0], p[1], p[2]) *
+              Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized() * frame;
+    }
+    return frame;
+  }
+  [[nodiscard]] bool isShownAt(int node, double timeS) const {
+    for (; node >= 0; node = parents_[static_cast<std::size_t>(node)]) {
+      const json& own = glb_.root()["nodes"][static_cast<std::size_t>(node)];
+      if (valuesAt(own, node, "scale", {1, 1, 1}, timeS)[0] == 0.0) return false;
+    }
+    return true;
+  }
+
+ private:
+  struct Channel {
+    std::vector<float> times, values;
+    bool isStep = false;
+  };
+  [[nodiscard]] std::vector<double> valuesAt(const json& own, int node, const std::string& path,
+                                             const std::vector<double>& none, double timeS) const {
+    const auto found = channels_.find({node, path});
+    if (found == channels_.end()) return own.value(path, none);
+    const Channel& channel = found->second;
+    const std::size_t width = none.size(), last = channel.times.size() - 1;
+    const auto after = std::upper_bound(channel.times.begin(), channel.times.end(), timeS);
+    const auto next = static_cast<std::size_t>(after - channel.times.begin());
+    const std::size_t from = next == 0 ? 0 : next - 1, to = std::min(next, last);
+    const auto row = [&](std::size_t key) {
+      const auto begin = channel.values.begin() + static_cast<std::ptrdiff_t>(key * width);
+      return Eigen::VectorXd(
+          Eigen::Map<const Eigen::VectorXf>(&*begin, static_cast<Eigen::Index>(width))
+              .cast<double>());
+    };
+    const double t = channel.isStep || to == from ? 0.0
+                                                  : (timeS - channel.times[from]) /
+                                                        (channel.times[to] - channel.times[from]);
+    Eigen::VectorXd value = row(from) + t * (row(to) - row(from));
+    if (path == "rotation") {
+      const Eigen::Quaterniond a(Eigen::Vector4d(row(from))), b(Eigen::Vector4d(row(to)));
+      value = a.slerp(t, b).coeffs();
+    }
+    return {value.data(), value.data() + value.size()};
+  }
+
+  const GlbReader& glb_;
+  std::vector<int> parents_;
+  std::map<std::pair<int, std::string>, Channel> channels_;
+};
+
 class BundledStage : public testing::Test {
  protected:
   TempFolder folder_;
@@ -248,6 +317,42 @@ TEST_F(BundledStage, ShowsWhatItIsThereToShow) {
   EXPECT_GE(touches["ben ball"], 1);    // and hits him, a third of a second after the throw
   EXPECT_GT(thrownAtS, 5.5);
   EXPECT_LT(thrownAtS, 5.9);
+}
+
+/// Where the GLB has the ball when it is met, in a hand and free, its surface is at the contact.
+TEST_F(BundledStage, HasItsBallInTheGlbWhereItIsMet) {
+  const std::string glb = folder_ / "stage.glb";
+  ASSERT_EQ(runForetouch({"world", "replay", kExample, "-o", folder_ / "out.jsonl", "--glb", glb})
+                .exitCode,
+            0);
+  const GlbReader read(contentOf(glb));
+  read.check();
+  const NodeMotion motion(read);
+  const json& nodes = read.root()["nodes"];
+  int inHand = 0, free = 0;
+  for (const json& marker : nodes) {
+    if (marker.count("extras") == 0 || marker["extras"].count("touch") == 0) continue;
+    const json& contact = marker["extras"];
+    if (contact["verdict"] != "contact") continue;
+    for (const char* side : {"a", "b"}) {
+      if (contact[side].value("body", "") != "ball") continue;
+      const double timeS = contact["time"];
+      std::vector<Eigen::Vector3d> places;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const int node = static_cast<int>(i);
+        if (nodes[i]["name"] != "ball" || nodes[i].count("mesh") == 0) continue;
+        if (motion.isShownAt(node, timeS))
+          places.push_back(motion.frameAt(node, timeS).translation());
+      }
+      ASSERT_EQ(places.size(), 1u) << timeS;  // one of the two pairs of nodes is shown
+      const auto point = contact[side]["point"].get<std::vector<double>>();
+      const Eigen::Vector3d met(point[0], point[1], point[2]);
+      EXPECT_NEAR((places[0] - met).norm(), 0.07, 2e-5) << timeS;
+      ++(timeS < 5.5 ? inHand : free);
+    }
+  }
+  EXPECT_GE(inHand, 1);
+  EXPECT_GE(free, 5);
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ export class Performer {
     this.shown = this.geometryNow();
     const links = avatar.links.length;
     this.colours = new LinkColours(links);
-    const material = linkMaterial("links", { stencilWrite: true, stencilRef: bodyStencil, stencilZPass: THREE.ReplaceStencilOp });
+    const isThing = avatar.lss.length === 0;
+    const material = linkMaterial("links", { stencilWrite: true, stencilRef: bodyStencil, stencilZPass: THREE.ReplaceStencilOp }, isThing);
     material.uniforms["colours"].value = this.colours.texture;
     this.body = new AvatarBody(this.shown, links, material);
     this.group.add(this.body.mesh);

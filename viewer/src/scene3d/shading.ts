@@ -19,10 +19,14 @@ export function setScreenColour(target: THREE.Color, colour: string): void {
   new THREE.Color(colour).getRGB(target, THREE.SRGBColorSpace);
 }
 
-/** Of links: each vertex belongs to one, has that bone's transform and that link's colour. */
-export function linkMaterial(colour: "links" | "one", rest: THREE.ShaderMaterialParameters = {}): THREE.ShaderMaterial {
+/**
+ * Of links: each vertex belongs to one, has that bone's transform and that link's colour. With
+ * facets every triangle is flat, and seen from both sides: things need not be round, nor closed.
+ */
+export function linkMaterial(colour: "links" | "one", rest: THREE.ShaderMaterialParameters = {}, hasFacets = false): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     ...rest,
+    side: hasFacets ? THREE.DoubleSide : THREE.FrontSide,
     uniforms: { colours: { value: null }, colour: { value: new THREE.Color() }, opacity: { value: rest.opacity ?? 1 } },
     vertexShader: `
 #include <common>
@@ -31,19 +35,23 @@ uniform sampler2D colours;
 uniform vec3 colour;
 varying vec3 vNormal;
 varying vec3 vColour;
+varying vec3 vPlace;
 void main() {
   mat4 bone = getBoneMatrix(skinIndex.x);
   vNormal = mat3(bone) * normal;
   vColour = ${colour === "links" ? "texelFetch(colours, ivec2(int(skinIndex.x), 0), 0).rgb" : "colour"};
-  gl_Position = projectionMatrix * viewMatrix * (bone * vec4(position, 1.0));
+  vec4 place = bone * vec4(position, 1.0);
+  vPlace = place.xyz;
+  gl_Position = projectionMatrix * viewMatrix * place;
 }`,
     fragmentShader: `
 varying vec3 vNormal;
 varying vec3 vColour;
+varying vec3 vPlace;
 uniform float opacity;
 ${litFunction}
 void main() {
-  gl_FragColor = vec4(lit(vColour, normalize(vNormal)), opacity);
+  gl_FragColor = vec4(lit(vColour, normalize(${hasFacets ? "cross(dFdx(vPlace), dFdy(vPlace))" : "vNormal"})), opacity);
 }`,
   });
 }
