@@ -55,6 +55,10 @@ TEST(BenchWorld, MeasuresByTheBundledDancer) {
   EXPECT_EQ(crowd["rows"][1]["avatars"], 5);
   EXPECT_EQ(crowd["rows"][1]["all_pairs"], 10);
   EXPECT_GT(crowd["rows"][1]["answer_us"], 0.0);
+  EXPECT_GE(crowd["rows"][1]["spans"], 5.0);  // everybody's own links, at least
+  for (const auto& table : json["tables"]) {
+    for (const auto& row : table["rows"]) EXPECT_EQ(row.size(), table["columns"].size());
+  }
   EXPECT_EQ(json["tables"][3]["rows"][1]["missed"], 0);
 }
 
