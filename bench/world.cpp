@@ -21,6 +21,9 @@ namespace {
 
 using PartTable = std::function<BenchTable()>;
 
+/// The judge looks at each triangle of a ring.
+constexpr int kCapsulesPerRing = 10;
+
 std::string namesOf(const WorldCast& cast) {
   std::string names;
   for (const SolidActor& actor : cast.actors) {
@@ -56,7 +59,13 @@ Result<WorldBench> measureWorld(const WorldBenchRequest& request) {
       {"clocks", [&] { return clocksTable(cast); }},
       {"platform", [&] { return platformTable(cast); }},
       {"prop", [&] { return propTable(cast); }},
-      {"pairs", [&] { return judged(pairsTable(request.pairs, request.seed)); }},
+      {"pairs",
+       [&] { return judged(pairsTable(PairKind::Capsules, request.pairs, request.seed)); }},
+      {"pairs",
+       [&] {
+         const int rings = std::max(2, request.pairs / kCapsulesPerRing);
+         return judged(pairsTable(PairKind::RingAndCapsule, rings, request.seed));
+       }},
       {"ticking", [&] { return judged(tickingTable(cast, request.tickingWindows)); }}};
   ProgressBar progress("world", std::size(parts));
   std::int64_t done = 0;

@@ -1,8 +1,6 @@
 #include "bench/peers/fcl_solvers.h"
 
 #include <fcl/config.h>
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/math/bv/OBBRSS.h>
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
@@ -12,16 +10,14 @@
 #include <fmt/format.h>
 
 #include "bench/peers/fcl_capsule.h"
+#include "bench/peers/fcl_mesh.h"
 
 namespace foretouch::tools {
 
 using Eigen::Vector3d;
 
-/// Boxes for collision and rectangle swept spheres for distance: FCL's own recommendation.
-using FclMesh = fcl::BVHModel<fcl::OBBRSSd>;
-
 struct FclScene::Impl {
-  std::shared_ptr<FclMesh> mesh = std::make_shared<FclMesh>();
+  std::shared_ptr<FclMesh> mesh;
 };
 
 namespace {
@@ -153,16 +149,7 @@ std::string fclVersion() {
 
 FclScene::FclScene(const std::vector<Triangle>& triangles) {
   auto scene = std::make_shared<Impl>();
-  std::vector<fcl::Vector3d> vertices;
-  std::vector<fcl::Triangle> corners;
-  for (const Triangle& triangle : triangles) {
-    const std::size_t first = vertices.size();
-    for (const Vector3d& v : triangle.vertices) vertices.push_back(v);
-    corners.emplace_back(first, first + 1, first + 2);
-  }
-  scene->mesh->beginModel(static_cast<int>(corners.size()), static_cast<int>(vertices.size()));
-  scene->mesh->addSubModel(vertices, corners);
-  scene->mesh->endModel();
+  scene->mesh = fclMeshOf(triangles);
   impl_ = std::move(scene);
 }
 

@@ -1,5 +1,5 @@
-// bench/peers/moving_pairs.h: two LSS that both move, as every solver solves them, and the truth.
-// Metres in W; t in [0,1].
+// bench/peers/moving_pairs.h: two bodies that both move, as every solver solves them, and the
+// truth: two LSS, or a ring of triangles and an LSS. Metres in W; t in [0,1].
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,14 @@
 #include <vector>
 
 #include "bench/peers/sweep_solver.h"
+#include "lss/triangle.h"
 
 namespace foretouch::tools {
 
+enum class PairKind : std::uint8_t { Capsules, RingAndCapsule };
+
 struct MovingPair {
+  /// A ring is the first one; its lss_L is then a diameter of it, for its speed.
   RigidSweep one, other;
   bool touches = false;  ///< In truth, as the next one.
   double toi = 1.0;      ///< Proven free before.
@@ -20,12 +24,14 @@ struct MovingPair {
 
 /// So long and so thick is each: about a forearm.
 [[nodiscard]] Lss movingLss();
+/// A torus about z, 24 cm across, of 384 triangles.
+[[nodiscard]] const std::vector<Triangle>& movingRing();
 
 /// Pairs that begin at least a centimetre apart, about half of which meet: the same for the same
 /// seed. The judge's certified answer is their truth.
-[[nodiscard]] std::vector<MovingPair> drawnPairs(int count, std::uint64_t seed);
+[[nodiscard]] std::vector<MovingPair> drawnPairs(PairKind kind, int count, std::uint64_t seed);
 
-/// One solver with one setting, for two of movingLss(). Only solve() is timed.
+/// One solver with one setting, for pairs of one kind. Only solve() is timed.
 class PairSolver {
  public:
   explicit PairSolver(std::string name) : name_(std::move(name)) {}

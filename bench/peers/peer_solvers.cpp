@@ -11,8 +11,9 @@ std::string peerVersions() {
   return fclVersion() + " and " + bulletVersion();
 }
 
-PairSolvers peerPairSolvers() {
-  PairSolvers all = fclPairSolvers();
+PairSolvers peerPairSolvers(PairKind kind) {
+  PairSolvers all = fclPairSolvers(kind);
+  if (kind != PairKind::Capsules) return all;
   for (auto& solver : bulletPairSolvers()) all.push_back(std::move(solver));
   return all;
 }

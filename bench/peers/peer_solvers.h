@@ -34,8 +34,9 @@ class BulletHands {
   std::shared_ptr<class BulletMesh> mesh_;
 };
 
-/// On two LSS that both move; a solver for every peer and setting.
-[[nodiscard]] PairSolvers peerPairSolvers();
+/// On two bodies that both move; a solver for every peer and setting. Bullet casts convex shapes
+/// alone: no ring.
+[[nodiscard]] PairSolvers peerPairSolvers(PairKind kind);
 
 /// The scene in the peers' own structures, built once.
 class PeerScenes {

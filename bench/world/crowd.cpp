@@ -169,7 +169,8 @@ BenchTable crowdTable(const WorldCast& cast, const std::vector<int>& counts) {
          broadPhaseUs(people), std::int64_t{count} * (count - 1) / 2,
          figures.perWindow(figures.sum.pairs), figures.perWindow(figures.sum.nearPairs),
          figures.perWindow(figures.contacts), figures.perWindow(figures.starts),
-         figures.perWindow(figures.sum.queries.candidates),
+         us.mean / std::max(1e-9, figures.perWindow(figures.contacts + figures.starts)),
+         figures.perWindow(figures.sum.spans),
          figures.perWindow(figures.sum.queries.advancements)});
   }
   return table;

@@ -19,15 +19,14 @@ namespace {
 /// A world of the two alone: poses in, the window's answer out.
 class WorldPair final : public PairSolver {
  public:
-  WorldPair()
+  explicit WorldPair(PairKind kind)
       : PairSolver("Foretouch World, 0.001 m, poses and window"),
         world_(World::build(std::nullopt, {kBenchWorldTolerance}).value()) {
     RawSkeleton raw;
     raw.joints = {{"link", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
-    const Skeleton skeleton = Skeleton::build(raw).value();
-    for (BodyId& body : bodies_) {
-      body = world_.add(Avatar::build(skeleton, {{movingLss()}}).value()).value();
-    }
+    const Avatar capsule = Avatar::build(Skeleton::build(raw).value(), {{movingLss()}}).value();
+    bodies_[0] = (kind == PairKind::Capsules ? world_.add(capsule) : world_.add(ring())).value();
+    bodies_[1] = world_.add(capsule).value();
   }
 
   SweepAnswer solve(const MovingPair& pair) override {
@@ -47,6 +46,13 @@ class WorldPair final : public PairSolver {
  private:
   static constexpr std::int64_t kStepUs = 1'000'000;
 
+  static Scene ring() {
+    RawScene raw;
+    raw.objectNames = {"ring"};
+    raw.triangles = movingRing();
+    raw.objectOf.assign(raw.triangles.size(), 0);
+    return Scene::build(std::move(raw)).value();
+  }
   void push(BodyId body, const RigidPose& pose) {
     static_cast<void>(
         world_.push(body, nowUs_, foretouch::RigidPose{pose.rotation, pose.pivot}).value());
@@ -101,10 +107,12 @@ double threadClockUs() {
 
 }  // namespace
 
-PairsTable pairsTable(int pairs, std::uint64_t seed) {
+PairsTable pairsTable(PairKind kind, int pairs, std::uint64_t seed) {
   PairsTable result;
-  result.table = {"pairs",
-                  "Two capsules of 25 cm that both move and turn, alone: each pair's first contact",
+  const bool isRing = kind == PairKind::RingAndCapsule;
+  result.table = {isRing ? "ring_pairs" : "pairs",
+                  isRing ? "A ring of 384 triangles and a capsule that both move and turn, alone"
+                         : "Two capsules of 25 cm that both move and turn, alone: first contacts",
                   {{"solver", "solver"},
                    {"pairs", "pairs", 0},
                    {"touching", "touching", 0},
@@ -116,13 +124,13 @@ PairsTable pairsTable(int pairs, std::uint64_t seed) {
                    {"mean_us", "mean us", 2},
                    {"p99_us", "p99 us", 2}},
                   {}};
-  const std::vector<MovingPair> drawn = drawnPairs(pairs, seed);
+  const std::vector<MovingPair> drawn = drawnPairs(kind, pairs, seed);
   const auto touching =
       std::count_if(drawn.begin(), drawn.end(), [](const MovingPair& p) { return p.touches; });
   PairSolvers solvers;
-  solvers.push_back(std::make_unique<WorldPair>());
+  solvers.push_back(std::make_unique<WorldPair>(kind));
 #ifdef FORETOUCH_HAS_PEERS
-  for (auto& peer : peerPairSolvers()) solvers.push_back(std::move(peer));
+  for (auto& peer : peerPairSolvers(kind)) solvers.push_back(std::move(peer));
 #endif
   const double overheadUs = threadClockUs();
   for (const auto& solver : solvers) {

@@ -14,7 +14,7 @@ namespace foretouch::c {
 inline constexpr std::size_t kMessageBytes = 1024;
 
 /// Stores the message for this thread, prefixed with the current C function's name, and returns
-/// `status`. `index`: of the joint, link, frame or triangle at fault; kNoIndex: none.
+/// `status`. `index`: of the joint, link, frame, triangle or body at fault; kNoIndex: none.
 inline constexpr std::int64_t kNoIndex = -1;
 [[gnu::format(printf, 3, 4)]] ft_status failure(ft_status status, std::int64_t index,
                                                 const char* format, ...) noexcept;

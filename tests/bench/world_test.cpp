@@ -14,7 +14,8 @@ namespace foretouch::test {
 namespace {
 
 TEST(BenchWorld, PairsBothMoveAndHalfOfThemMeet) {
-  const auto pairs = tools::drawnPairs(40, 1), again = tools::drawnPairs(40, 1);
+  const auto pairs = tools::drawnPairs(tools::PairKind::Capsules, 40, 1),
+             again = tools::drawnPairs(tools::PairKind::Capsules, 40, 1);
   int touching = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const tools::MovingPair& pair = pairs[i];
@@ -30,10 +31,13 @@ TEST(BenchWorld, PairsBothMoveAndHalfOfThemMeet) {
 }
 
 TEST(BenchWorld, AWorldMissesNoPairAndTellsNoneTooLate) {
-  const tools::PairsTable pairs = tools::pairsTable(60, 7);
-  EXPECT_EQ(pairs.violations, 0u);
-  ASSERT_FALSE(pairs.table.rows.empty());
-  EXPECT_EQ(std::get<std::int64_t>(pairs.table.rows[0][2]), 30);
+  for (const auto& [kind, count] :
+       {std::pair{tools::PairKind::Capsules, 60}, std::pair{tools::PairKind::RingAndCapsule, 10}}) {
+    const tools::PairsTable pairs = tools::pairsTable(kind, count, 7);
+    EXPECT_EQ(pairs.violations, 0u);
+    ASSERT_FALSE(pairs.table.rows.empty());
+    EXPECT_EQ(std::get<std::int64_t>(pairs.table.rows[0][2]), count / 2);
+  }
 }
 
 TEST(BenchWorld, MeasuresByTheBundledDancer) {
@@ -45,13 +49,17 @@ TEST(BenchWorld, MeasuresByTheBundledDancer) {
   EXPECT_NE(ended.out.find("dancer.bvh"), std::string::npos) << ended.out;
   const auto json = nlohmann::json::parse(contentOf(folder / "world.json"));
   EXPECT_EQ(json["kind"], "world");
-  ASSERT_EQ(json["tables"].size(), 3u);
+  ASSERT_EQ(json["tables"].size(), 4u);
   const auto& crowd = json["tables"][0];
   ASSERT_EQ(crowd["rows"].size(), 2u);
   EXPECT_EQ(crowd["rows"][1]["avatars"], 5);
   EXPECT_EQ(crowd["rows"][1]["all_pairs"], 10);
   EXPECT_GT(crowd["rows"][1]["answer_us"], 0.0);
-  EXPECT_EQ(json["tables"][2]["rows"][1]["missed"], 0);
+  EXPECT_GE(crowd["rows"][1]["spans"], 5.0);  // everybody's own links, at least
+  for (const auto& table : json["tables"]) {
+    for (const auto& row : table["rows"]) EXPECT_EQ(row.size(), table["columns"].size());
+  }
+  EXPECT_EQ(json["tables"][3]["rows"][1]["missed"], 0);
 }
 
 TEST(BenchWorld, EndsWithTwoOnBadUse) {

@@ -98,7 +98,7 @@ FT_API const char* ft_status_name(ft_status status);
 /* One line about this thread's last call that failed, with file, place and expectation; "" if none
  * has. UTF-8, at most 1023 bytes. The text lives until the thread's next call that fails. */
 FT_API const char* ft_last_error(void);
-/* The joint, link, frame or triangle at fault in that call; -1 if none. */
+/* The joint, link, frame, triangle or body at fault in that call; -1 if none. */
 FT_API int64_t ft_last_error_index(void);
 
 /* FT_ERROR_ABI_VERSION if `header_version` is newer than the library. */
