@@ -173,7 +173,11 @@ void PassageProver::askToStay(const TimedMotion& motion, const Surroundings& aro
       askBody(stay, *body, staying);
     }
   }
-  if (staying.isClear) return;
+  if (staying.isClear) {
+    // Nobody asks again about who stays there.
+    passage.clearance = std::min(passage.clearance, staying.clearance);
+    return;
+  }
   // Where it stops must be another place.
   staying.freeUntilUs = motion.endUs;
   staying.clearance = std::min(staying.clearance, passage.clearance);

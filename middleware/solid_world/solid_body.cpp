@@ -245,6 +245,7 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
   placeLinks(avatar_.skeleton(), outfit_->solid.target(), states_);
   outfit_->yielding.body().place(states_, wanted_);
   const bool isElsewhere = !isPlaced_ && appear(fromUs, toUs, around, tick.tick);
+  if (isPlaced_) around.refuge = shown_;  // whoever has just appeared may stay, too
   if (!isPlaced_) {
     stayUnplaced(tick.tick);
   } else if (isElsewhere || !crushers_.empty() || !takeWay(fromUs, toUs, around, tick.tick)) {

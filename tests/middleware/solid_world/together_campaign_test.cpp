@@ -2,7 +2,9 @@
 // control: the judge names every lie.
 #include "tests/middleware/solid_world/together_campaign.h"
 
+#include <cstdint>
 #include <functional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -24,6 +26,23 @@ TEST(TogetherCampaign, NothingIsInsideThatIsNotSaid) {
   EXPECT_GT(total.ticks, 2000u);
   EXPECT_GT(total.pushed, 300u);
   EXPECT_LT(total.crushed, total.ticks / 2);
+}
+
+// Worlds in which somebody once claimed more: who stayed, while another one passed by who had
+// proven that he might.
+TEST(TogetherCampaign, TheClearanceOfWhoStaysIsNotBeyondTheTruth) {
+  const std::pair<std::uint64_t, double> worlds[] = {{1090, 10.0}, {2024, 10.0}, {10054, 30.0}};
+  for (const auto& [seed, rateHz] : worlds) {
+    TogetherCampaign campaign;
+    campaign.seed = seed;
+    campaign.rateHz = rateHz;
+    campaign.ticks = 200;
+    campaign.instants = 10;
+    const TogetherTally tally = judgeTogether(campaign);
+    for (const std::string& finding : tally.findings) ADD_FAILURE() << finding;
+    EXPECT_EQ(tally.violations(), 0u);
+    EXPECT_GT(tally.crushed, 20u) << seed;
+  }
 }
 
 TEST(TogetherCampaign, TheSameSeedShowsTheSameBits) {
