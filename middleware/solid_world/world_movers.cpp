@@ -38,7 +38,7 @@ Result<Done> WorldMovers::collectBody(const WorldParts& world, BodyId id, std::i
   std::int64_t endUs = fromUs;
   while (spans_.next()) {
     FORETOUCH_TRY(const SystemPlan* const plan,
-                  plans_.planOf(world, spans_, SystemQuestion::Boxes, id, kStillScene));
+                  plans_.planOf(world, spans_, SystemQuestion::Boxes, id, kStillScene, planKey_));
     spans_.poses(Eigen::Vector3d::Zero(), motions_, poses_);
     AroundLeg& leg = body.addLeg();
     leg.beginUs = spans_.beginUs();

@@ -49,6 +49,7 @@ class WorldMovers {
                                          KindNumbers& numbers);
 
   SystemPlans plans_;
+  std::vector<std::int64_t> planKey_;
   PieceMotions motions_;
   SystemSpans spans_;
   SystemPoses poses_;
