@@ -9,7 +9,7 @@ namespace foretouch::internal {
 namespace {
 
 /// Nodes whose closest points propose planes, one after the other: where most are closed, first.
-constexpr int kProposingNodes[] = {3, 0, 7};
+constexpr int kNodesOfPlanes[] = {3, 0, 7};
 /// Past the rounding of a sum in double, and of the kernel's product or sum with it in float.
 constexpr double kReachInflation = 1.0 + 0x1p-21;
 
@@ -105,7 +105,7 @@ void BodiesApart::addPairs(const SpanSweep& one, const SpanSweep& other, double 
 
 /// Both have their nodes at the same instants.
 void BodiesApart::closeAtNodes(const SpanSweep&, const SpanSweep&, QueryCounters& counters) {
-  for (const int node : kProposingNodes) {
+  for (const int node : kNodesOfPlanes) {
     if (pairs_.empty()) return;
     counters.laneSteps += pairs_.size();
     closeByPlanes(planes_, node, pairs_.data(), pairs_.size());
@@ -122,7 +122,7 @@ void BodiesApart::closeAtRest(const SpanSweep& one, const SpanSweep& other,
         static_cast<double>(other.bends[slotOf(pair.j)]) * static_cast<double>(other.widestSagitta);
     pair.reach = floatPaddedAbove((static_cast<double>(pair.reach) + bend) * kReachInflation);
   }
-  for (const int node : kProposingNodes) {
+  for (const int node : kNodesOfPlanes) {
     if (pairs_.empty()) return;
     counters.laneSteps += pairs_.size();
     closeByRestingPlanes(planes_, node, kNodes - 1 - node, pairs_.data(), pairs_.size());

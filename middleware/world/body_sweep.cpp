@@ -11,17 +11,17 @@
 namespace foretouch::internal {
 namespace {
 
-constexpr std::size_t kAbreast = SweptBoxes::kPadding;
+constexpr std::size_t kRowBlock = SweptBoxes::kPadding;
 
-/// Of a multiple of kAbreast floats, that many at once.
+/// Of a multiple of kRowBlock floats, that many at once.
 template <typename Better>
 float bestOf(const std::vector<float>& row, const Better& better) {
-  float best[kAbreast];
-  std::copy_n(row.data(), kAbreast, best);
-  for (std::size_t first = kAbreast; first < row.size(); first += kAbreast) {
-    for (std::size_t k = 0; k < kAbreast; ++k) best[k] = better(best[k], row[first + k]);
+  float best[kRowBlock];
+  std::copy_n(row.data(), kRowBlock, best);
+  for (std::size_t first = kRowBlock; first < row.size(); first += kRowBlock) {
+    for (std::size_t k = 0; k < kRowBlock; ++k) best[k] = better(best[k], row[first + k]);
   }
-  for (std::size_t half = kAbreast / 2; half > 0; half /= 2) {
+  for (std::size_t half = kRowBlock / 2; half > 0; half /= 2) {
     for (std::size_t k = 0; k < half; ++k) best[k] = better(best[k], best[half + k]);
   }
   return best[0];
@@ -79,12 +79,12 @@ const SpanSweep& BodySweep::at(std::int64_t utimeUs) const {
   return spans.front();
 }
 
-std::ptrdiff_t BodySweep::placeOfPiece(std::int64_t beginUs, std::int64_t endUs,
-                                       SystemQuestion question) const {
+std::ptrdiff_t BodySweep::placeOf(std::int64_t episodeUs, std::int64_t beginUs, std::int64_t endUs,
+                                  SystemQuestion question) const {
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const SpanSweep& span = spans[i];
-    if (span.isWhole && span.question == question && span.beginUs == beginUs &&
-        span.endUs == endUs) {
+    if (span.isWhole && span.question == question && span.episodeUs == episodeUs &&
+        span.beginUs == beginUs && span.endUs == endUs) {
       return static_cast<std::ptrdiff_t>(i);
     }
   }

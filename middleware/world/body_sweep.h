@@ -25,6 +25,7 @@ namespace foretouch::internal {
 /// only part of it. Keeps its memory.
 struct SpanSweep {
   std::int64_t beginUs = 0, endUs = 0;
+  std::int64_t episodeUs = 0;                        ///< When the body's episode began.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< In W; of the boxes and of the ends' own.
   /// Around all of the body, and per LSS; grown by each side's share of the tolerance (world.md 3).
   BodyBox box;
@@ -66,9 +67,10 @@ struct BodySweep {
 
   /// The sweep of the part that holds [utimeUs, utimeUs + 1). Precondition: there is one.
   [[nodiscard]] const SpanSweep& at(std::int64_t utimeUs) const;
-  /// Place of a whole piece's with answers to the question; -1 if it is not known.
-  [[nodiscard]] std::ptrdiff_t placeOfPiece(std::int64_t beginUs, std::int64_t endUs,
-                                            SystemQuestion question) const;
+  /// Place of what is known of a whole piece of an episode, with answers to the question; -1 if
+  /// nothing is.
+  [[nodiscard]] std::ptrdiff_t placeOf(std::int64_t episodeUs, std::int64_t beginUs,
+                                       std::int64_t endUs, SystemQuestion question) const;
   /// Some span that is not of this window, for another one; ends references to others.
   [[nodiscard]] std::size_t freePlace(std::uint64_t window);
 };

@@ -31,8 +31,9 @@ Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<World
   while (spans.next()) {
     SpanPart part{spans.beginUs(), spans.endUs(), 0};
     const bool isWhole = spans.widen(kMostWindowsOfPiece * (window_.toUs - window_.fromUs));
+    const std::int64_t episodeUs = spans.members().front().episode->beginUs;
     const std::ptrdiff_t known =
-        isWhole ? sweep.placeOfPiece(spans.beginUs(), spans.endUs(), question) : -1;
+        isWhole ? sweep.placeOf(episodeUs, spans.beginUs(), spans.endUs(), question) : -1;
     part.sweep = known >= 0 ? static_cast<std::size_t>(known) : sweep.freePlace(window_.number);
     SpanSweep& span = sweep.spans[part.sweep];
     if (known < 0) {
@@ -54,6 +55,7 @@ Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<World
 Result<Done> BodySweeper::fill(BodyId body, SystemQuestion question, SpanSweep& span) {
   span.beginUs = scratch_.spans.beginUs();
   span.endUs = scratch_.spans.endUs();
+  span.episodeUs = scratch_.spans.members().front().episode->beginUs;
   span.question = question;
   span.own.clear();
   span.counters = {};

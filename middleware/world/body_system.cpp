@@ -34,17 +34,20 @@ void clear(Pose& pose) {
 
 }  // namespace
 
-const ChainMotion& PieceMotions::of(BodyId body, const Track& track, const TrackPiece& piece) {
+const ChainMotion& PieceMotions::of(const SystemMember& member) {
+  const TrackPiece& piece = member.piece;
   Known* oldest = known_.data();
   for (Known& known : known_) {
-    if (known.body == body && known.beginUs == piece.beginUs && known.endUs == piece.endUs) {
+    if (known.body == member.body && known.episodeUs == member.episode->beginUs &&
+        known.beginUs == piece.beginUs && known.endUs == piece.endUs) {
       known.lastUse = ++uses_;
       return known.motion;
     }
     if (known.lastUse < oldest->lastUse) oldest = &known;
   }
-  oldest->motion.assign(track.skeleton(), *piece.from, *piece.to);
-  oldest->body = body;
+  oldest->motion.assign(member.episode->track.skeleton(), *piece.from, *piece.to);
+  oldest->body = member.body;
+  oldest->episodeUs = member.episode->beginUs;
   oldest->beginUs = piece.beginUs;
   oldest->endUs = piece.endUs;
   oldest->lastUse = ++uses_;
@@ -98,7 +101,7 @@ bool SystemSpans::addMember(BodyId body) {
   if (placeOf(body) >= 0) return true;
   const Episode* const episode = world_->body(body).episodeAt(beginUs_);
   if (episode == nullptr) return false;
-  SystemMember member{body, world_->body(body).kind, -1, kNoParent, &episode->track, {}};
+  SystemMember member{body, world_->body(body).kind, -1, kNoParent, episode, {}};
   if (episode->carrier) {
     if (!addMember(episode->carrier->body)) return false;
     member.carrier = placeOf(episode->carrier->body);
@@ -114,9 +117,9 @@ bool SystemSpans::findEnd() {
   isAssumed_ = false;
   for (SystemMember& member : members_) {
     const WorldBody& body = world_->body(member.body);
-    member.piece = member.track->pieceAt(beginUs_);
+    member.piece = member.episode->track.pieceAt(beginUs_);
     endUs_ = std::min({endUs_, body.nextEpisodeUs(beginUs_), member.piece.endUs});
-    if (!member.piece.isHeld || body.episodeAt(beginUs_)->isHeldFast()) continue;
+    if (!member.piece.isHeld || member.episode->isHeldFast()) continue;
     if (body.options.whenSilent != WhenSilent::HoldStill) {
       nextUs_ = toUs_;
       return false;
@@ -171,7 +174,7 @@ void SystemSpans::appendPart(const SystemMember& member, PieceMotions& motions,
     append(*piece.to, poses.to);
     return;
   }
-  const ChainMotion& motion = motions.of(member.body, *member.track, piece);
+  const ChainMotion& motion = motions.of(member);
   partOf(piece, motion, beginUs_, endUs_, poses.partFrom, poses.partTo);
   append(poses.partFrom, poses.from);
   append(poses.partTo, poses.to);

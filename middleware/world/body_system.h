@@ -22,15 +22,15 @@ struct SystemMember {
   std::int32_t kind = 0;
   std::int32_t carrier = -1;  ///< Place among the members, before this one; -1: W.
   LinkId link = kNoParent;    ///< The carrier's, that this one hangs on.
-  const Track* track = nullptr;
-  TrackPiece piece;  ///< Of the track, that holds the span.
+  const Episode* episode = nullptr;
+  TrackPiece piece;  ///< Of the episode's track, that holds the span.
 };
 
 /// The motions of the pieces that were cut last: several questions cut the same.
 class PieceMotions {
  public:
   /// O(1) if it is among the last few, else O(joints). Valid until the next call.
-  [[nodiscard]] const ChainMotion& of(BodyId body, const Track& track, const TrackPiece& piece);
+  [[nodiscard]] const ChainMotion& of(const SystemMember& member);
   /// Another world is asked from now on.
   void clear();
 
@@ -39,7 +39,8 @@ class PieceMotions {
   static constexpr std::size_t kKept = 8;
   struct Known {
     BodyId body = -1;
-    std::int64_t beginUs = 0, endUs = 0;
+    // Of two episodes, pieces may have the same ends.
+    std::int64_t episodeUs = 0, beginUs = 0, endUs = 0;
     std::uint64_t lastUse = 0;
     ChainMotion motion;
   };

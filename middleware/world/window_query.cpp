@@ -17,10 +17,10 @@
 namespace foretouch::internal {
 namespace {
 
-bool comesBefore(const WorldContact& x, const WorldContact& y) {
+bool comesBefore(const ContactPlace& x, const ContactPlace& y) {
   if (!(x.time == y.time)) return x.time < y.time;
-  return std::tie(x.a.body, x.a.link, x.b.body, x.b.link) <
-         std::tie(y.a.body, y.a.link, y.b.body, y.b.link);
+  return std::tie(x.bodyOfA, x.linkOfA, x.bodyOfB, x.linkOfB) <
+         std::tie(y.bodyOfA, y.linkOfA, y.bodyOfB, y.linkOfB);
 }
 
 /// Pairs of bodies whose boxes meet, for one thread.
@@ -113,6 +113,14 @@ class PairAsker {
   WindowWorker& worker_;
   SystemQuery query_;
 };
+
+void addAll(const WorldCounters& more, WorldCounters& sum) {
+  sum.bodies += more.bodies;
+  sum.pairs += more.pairs;
+  sum.nearPairs += more.nearPairs;
+  sum.spans += more.spans;
+  addCounters(more.queries, sum.queries);
+}
 
 /// Tasks that a thread takes at a time: each is some microseconds.
 constexpr std::size_t kTasksAtOnce = 8;
@@ -250,17 +258,17 @@ class WindowQuery {
   }
 
   void gather() {
+    std::vector<ContactPlace>& places = scratch_.places;
+    places.clear();
     for (const auto& worker : scratch_.workers) {
-      answer_.contacts.insert(answer_.contacts.end(), worker->contacts.begin(),
-                              worker->contacts.end());
-      WorldCounters& sum = answer_.counters;
-      sum.bodies += worker->counters.bodies;
-      sum.pairs += worker->counters.pairs;
-      sum.nearPairs += worker->counters.nearPairs;
-      sum.spans += worker->counters.spans;
-      addCounters(worker->counters.queries, sum.queries);
+      for (const WorldContact& contact : worker->contacts) {
+        places.push_back({contact.time, contact.a.body, contact.a.link, contact.b.body,
+                          contact.b.link, &contact});
+      }
+      addAll(worker->counters, answer_.counters);
     }
-    std::sort(answer_.contacts.begin(), answer_.contacts.end(), comesBefore);
+    std::sort(places.begin(), places.end(), comesBefore);
+    for (const ContactPlace& place : places) answer_.contacts.push_back(*place.contact);
   }
 
   const WorldParts& world_;

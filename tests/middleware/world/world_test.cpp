@@ -142,6 +142,26 @@ TEST(World, TellsTheStaticSceneAndOwnLinks) {
   EXPECT_EQ(answerOf(world, 1000, 2000).contacts.size(), 1u);
 }
 
+// Until a past is forgotten, somebody may still be said to have been carried in it: what a scratch
+// knows of a piece does not outlive that.
+TEST(World, BelievesWhatItIsToldOfThePast) {
+  World world = World::build(wall()).value();
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  for (BodyId body = 0; body < 2; ++body) {
+    for (int i = 0; i < 4; ++i) ASSERT_TRUE(world.push(body, 10 * i, at(-50.0 + 10 * body)).ok());
+  }
+  WorldScratch scratch;
+  WorldContacts answer;
+  ASSERT_TRUE(worldContacts(world, 20, 30, scratch, answer).ok());
+  EXPECT_TRUE(answer.contacts.empty());
+  ASSERT_TRUE(world.attach(0, {1, 0}, 15, at(5)).ok());
+  ASSERT_TRUE(world.detach(0, 20, at(-0.05)).ok());
+  ASSERT_TRUE(world.push(0, 30, at(-0.05)).ok());
+  ASSERT_TRUE(worldContacts(world, 20, 30, scratch, answer).ok());
+  EXPECT_EQ(answer.contacts.size(), 1u);
+}
+
 TEST(World, AsksTheSceneOnlyWhileItIsAsked) {
   World world = World::build(wall()).value();
   ASSERT_TRUE(world.add(ball(0.5)).ok());
