@@ -183,6 +183,34 @@ TEST(WorldProgram, WritesPagesInWhichTheCarriedGoAlong) {
   EXPECT_EQ(met, (std::set<std::string>{"Hips door", "Arm door", "cup door"}));
 }
 
+/// One triangle in the plane z = 0 from the node's origin, 5 m along x in the file.
+constexpr char kSeatGltf[] =
+    R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+    R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],)"
+    R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+    R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],)"
+    R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+    R"("nodes":[{"name":"Seat","mesh":0,"translation":[5,0,0]}],"scenes":[{"nodes":[0]}],"scene":0})";
+
+TEST(WorldProgram, TakesAPropFromAFileOrFromOneOfItsNodes) {
+  const SmallStage stage;
+  stage.folder.write("chair.gltf", kSeatGltf);
+  const std::string ball = sphereNamed("ball", "position = [5.2, 0.2, 0]\n");
+  const std::string chair = "[[body]]\nname = \"chair\"\nmesh = \"chair.gltf\"\n";
+  const auto overlapsOf = [&](const std::string& text) {
+    const Ended ended = runForetouch({"world", "check", stage.write(text), "--json"});
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    return json::parse(ended.out)["overlaps"].size();
+  };
+  EXPECT_EQ(overlapsOf(chair + ball), 1u);  // as the file has it
+  EXPECT_EQ(overlapsOf(chair + "node = \"Seat\"\n" + ball), 0u);
+  EXPECT_EQ(overlapsOf(chair + "node = \"Seat\"\nposition = [5, 0, 0]\n" + ball), 1u);
+  const Ended gone =
+      runForetouch({"world", "check", stage.write(chair + "node = \"Sit\"\n" + ball)});
+  EXPECT_EQ(gone.exitCode, 2);
+  EXPECT_TRUE(holds(gone.err, "chair.gltf: no node is named 'Sit'")) << gone.err;
+}
+
 TEST(WorldProgram, WritesAGlbWithEveryBodyBelowWhoCarriesIt) {
   const SmallStage stage;
   const std::string path = stage.write(
