@@ -28,13 +28,18 @@ class StandingJudge final : public PlaceJudge {
                 std::int64_t toUs)
       : prover_(prover), around_(around), fromUs_(fromUs), toUs_(toUs) {}
   [[nodiscard]] bool isFree(const Pose& place) override {
-    return prover_.ask({place, place, fromUs_, toUs_}, around_).isClear;
+    const Passage passage = prover_.ask({place, place, fromUs_, toUs_}, around_);
+    clearance_ = passage.clearance;
+    return passage.isClear;
   }
+  /// Of the last place.
+  [[nodiscard]] double clearance() const { return clearance_; }
 
  private:
   PassageProver& prover_;
   const Surroundings& around_;
   std::int64_t fromUs_, toUs_;
+  double clearance_ = 0.0;
 };
 
 const AroundBody* find(const Surroundings& around, BodyId id) {
@@ -275,6 +280,7 @@ bool SolidBody::appear(std::int64_t fromUs, std::int64_t toUs, const Surrounding
     shown_ = tick.way[0];
     isPlaced_ = true;
     placing_->reset();
+    tick.clearance = std::min(tick.clearance, judge.clearance());
     return false;
   }
   outfit_->solid.reset();
@@ -286,7 +292,7 @@ bool SolidBody::appear(std::int64_t fromUs, std::int64_t toUs, const Surrounding
   outfit_->solid.resume(shown_);
   beginTick(tick);
   tick.hasAppeared = true;
-  appendPiece(shown_, certifier.clearanceAt(shown_), tick);
+  appendPiece(shown_, std::min(certifier.clearanceAt(shown_), judge.clearance()), tick);
   return true;
 }
 

@@ -31,7 +31,8 @@ TEST(TogetherCampaign, NothingIsInsideThatIsNotSaid) {
 // Worlds in which somebody once claimed more: who stayed, while another one passed by who had
 // proven that he might.
 TEST(TogetherCampaign, TheClearanceOfWhoStaysIsNotBeyondTheTruth) {
-  const std::pair<std::uint64_t, double> worlds[] = {{1090, 10.0}, {2024, 10.0}, {10054, 30.0}};
+  const std::pair<std::uint64_t, double> worlds[] = {
+      {1090, 10.0}, {2024, 10.0}, {2221, 30.0}, {10054, 30.0}};
   for (const auto& [seed, rateHz] : worlds) {
     TogetherCampaign campaign;
     campaign.seed = seed;
