@@ -37,8 +37,7 @@ class LaneBacktracker {
   }
 
   PairContact runAround(const PairContact& contact) {
-    best_ = contact;
-    horizon_ = contact.toi;
+    take(contact);
     (void)lookAround();
     return *best_;
   }
@@ -127,7 +126,9 @@ class LaneBacktracker {
   void settle(std::size_t lane) {
     const PartPair& pair = batch_[lane];
     if (pair.freeUntil > horizon_) return;
-    if (scratch_.lanes.lower(lane) > handOver_) {
+    const double lower = scratch_.lanes.lower(lane);
+    if (pair.freeUntil == horizon_ && lower > nearest_) return;
+    if (lower > handOver_) {
       const double reached = scratch_.lanes.freeUntil(lane);
       if (reached > pair.freeUntil) return moveOn(pair, reached);
     }
@@ -152,9 +153,8 @@ class LaneBacktracker {
     if (state.gapUpper <= query_.tolerance) {
       const PairContact contact = contactOf(query_, candidate, state, t);
       if (t < horizon_ || best_->verdict == Verdict::Undecided || comesFirst(contact, *best_)) {
-        best_ = contact;
+        take(contact);
       }
-      horizon_ = t;
       return;
     }
     const double reached = provenFrom(query_, candidate, state, t, counters_);
@@ -162,9 +162,17 @@ class LaneBacktracker {
     giveUp(t);
   }
 
+  /// What is farther apart at the same instant is not reported.
+  void take(const PairContact& contact) {
+    best_ = contact;
+    horizon_ = contact.toi;
+    nearest_ = reachOf(contact) - contact.penetration;
+  }
+
   /// The numbers cannot resolve the pair; a contact at this instant stands.
   void giveUp(double t) {
     if (t == horizon_) return;
+    nearest_ = kInfinity;
     best_ = PairContact{undecidedContact(query_.parts.link, t, UndecidedReason::Resolution)};
     horizon_ = t;
   }
@@ -181,6 +189,7 @@ class LaneBacktracker {
   std::array<PartPair, kTrianglePairLanes> batch_;
   std::size_t count_ = 0;
   double horizon_ = kInfinity;       // nothing later than this can change the answer
+  double nearest_ = kInfinity;       // what is farther at the horizon comes after the contact there
   std::optional<PairContact> best_;  // nothing: horizon_ is infinite
 };
 

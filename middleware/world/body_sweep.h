@@ -35,6 +35,7 @@ struct SpanSweep {
   // Per LSS, rounded up. How its ends' paths bend in W (m per span squared), and what it takes away
   // from the distance of its axis: its radius, and all uncertainty (m).
   std::vector<float> bends, reaches;
+  float turn = 0.0F;           ///< Of the first LSS' link in W, at most (radians). No bound.
   float widestSagitta = 0.0F;  ///< h^2/8 of the longest time between two nodes. Rounded up.
   /// First contacts with the static scene and of own links, over the whole span.
   std::vector<WorldContact> own;

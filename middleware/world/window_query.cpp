@@ -23,6 +23,9 @@ bool comesBefore(const ContactPlace& x, const ContactPlace& y) {
          std::tie(y.bodyOfA, y.linkOfA, y.bodyOfB, y.linkOfB);
 }
 
+/// How far a mesh may turn in a span (radians) and still be the frame that others are seen from.
+constexpr float kMostTurnOfFrame = 0.1F;
+
 /// Pairs of bodies whose boxes meet, for one thread.
 class PairAsker {
  public:
@@ -37,14 +40,22 @@ class PairAsker {
   Result<Done> ask(BodyId a, BodyId b) {
     if (!world_.isAsked(a, b)) return Done{};
     ++worker_.counters.pairs;
-    // A mesh is what the other one is seen from.
-    if (!world_.kindOf(a).avatar) return askSpans(b, a, SystemQuestion::Mesh);
-    return askSpans(a, b, world_.kindOf(b).avatar ? SystemQuestion::Pair : SystemQuestion::Mesh);
+    return askSpans(a, b);
   }
 
  private:
+  [[nodiscard]] bool isMesh(BodyId id) const { return !world_.kindOf(id).avatar; }
+
+  /// A mesh that hardly turns is what the other one is seen from: boxes in its frame are tight, and
+  /// cull at once all triangles that they do not meet. While it turns they are not, and both move.
+  [[nodiscard]] SystemQuestion questionOf(BodyId a, BodyId b, std::int64_t utimeUs) const {
+    if (isMesh(a) == isMesh(b)) return SystemQuestion::Pair;
+    const BodySweep& mesh = scratch_.sweeps[slotOf(isMesh(a) ? a : b)];
+    return mesh.at(utimeUs).turn > kMostTurnOfFrame ? SystemQuestion::Pair : SystemQuestion::Mesh;
+  }
+
   /// Span by span, until nothing is known any more.
-  Result<Done> askSpans(BodyId a, BodyId b, SystemQuestion question) {
+  Result<Done> askSpans(BodyId a, BodyId b) {
     const BodySweep &one = scratch_.sweeps[slotOf(a)], &other = scratch_.sweeps[slotOf(b)];
     const std::size_t first = worker_.contacts.size();
     bool isNear = false;
@@ -56,14 +67,17 @@ class PairAsker {
           worker_.apart.prove(ofA, other.at(spans.beginUs()), floor(), worker_.counters.queries);
       isNear = isNear || apart != Apart::ByBoxes;
       if (apart != Apart::Unproven) continue;
+      const SystemQuestion question = questionOf(a, b, spans.beginUs());
       if (question == SystemQuestion::Pair && !leaveOpen(a, b, first, ofA)) continue;
-      FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, a, b));
+      const bool isTurned = question == SystemQuestion::Mesh && isMesh(a);
+      const BodyId asked = isTurned ? b : a, with = isTurned ? a : b;
+      FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, asked, with));
       if (plan == nullptr) continue;
       if (!query_.isResolved()) {
         query_.giveUp(a, b, worker_.contacts);
         break;
       }
-      askSpan(*plan, question, a, b, first);
+      askSpan(*plan, question, asked, with, first);
     }
     worker_.counters.nearPairs += isNear ? 1 : 0;
     return Done{};

@@ -8,6 +8,7 @@
 #include "articulated/try.h"
 #include "lss/fit.h"
 #include "lss/rounding.h"
+#include "middleware/surface/link_surface.h"
 #include "middleware/world/world_parts.h"
 
 namespace foretouch {
@@ -57,24 +58,38 @@ void measure(BodyKind& kind) {
   kind.rho = reachOf(kind.volumes);
 }
 
-BodyKind kindOf(const Avatar& avatar) {
-  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, {}, 0.0};
+BodyKind kindOf(const Avatar& avatar, const std::optional<AvatarSurface>& surface) {
+  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, surface, {}, 0.0};
   for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));
   measure(kind);
   return kind;
 }
 
+/// Of one link, whose one LSS holds the triangles that `held` names.
+AvatarSurface surfaceOf(std::vector<Triangle> triangles, std::vector<std::int32_t> held) {
+  auto parts = std::make_shared<internal::SurfaceParts>();
+  parts->numTriangles = triangles.size();
+  parts->links.push_back(std::make_shared<const internal::LinkSurface>(
+      std::move(triangles), std::vector<std::vector<std::int32_t>>{std::move(held)}));
+  return AvatarSurface(std::move(parts));
+}
+
 BodyKind kindOf(const Scene& mesh) {
   RawSkeleton raw;
   raw.joints = {{"mesh", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
-  BodyKind kind{Skeleton::build(raw).value(), std::nullopt, mesh, {}, {}, 0.0};
+  BodyKind kind{Skeleton::build(raw).value(), std::nullopt, mesh, {}, {}, {}, 0.0};
   std::vector<Eigen::Vector3d> points;
+  std::vector<Triangle> triangles(mesh.numTriangles());
+  std::vector<std::int32_t> finite;
   for (std::size_t i = 0; i < mesh.numTriangles(); ++i) {
     const Triangle& triangle = mesh.triangle(static_cast<TriangleId>(i));
     if (!isFinite(triangle)) continue;
     points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
+    triangles[i] = triangle;
+    finite.push_back(static_cast<std::int32_t>(i));
   }
   kind.volumes = {{fitLss(points)}};
+  kind.surface = surfaceOf(std::move(triangles), std::move(finite));
   measure(kind);
   return kind;
 }
@@ -145,6 +160,23 @@ Result<Done> checkedNew(const WorldParts& parts, const BodyOptions& options) {
   if (parts.bodies.size() < countOf(kMaxBodies)) return Done{};
   return Error::of(ErrorCode::LimitExceeded,
                    "expected at most " + std::to_string(kMaxBodies) + " bodies");
+}
+
+Result<Done> checkedSurface(const Avatar& avatar, const BodyOptions& options) {
+  if (!options.surface) return Done{};
+  if (options.surface->numLinks() != avatar.numLinks()) {
+    return Error::in("surface", ErrorCode::Mismatch, "expected the surface of this avatar");
+  }
+  if (options.self && !options.self->radii().empty()) {
+    return Error::in("self", ErrorCode::Mismatch,
+                     "expected rules without pair radii beside a surface: a smaller LSS does not "
+                     "hold its link's mesh");
+  }
+  return Done{};
+}
+
+bool isSameSurface(const std::optional<AvatarSurface>& x, const std::optional<AvatarSurface>& y) {
+  return x.has_value() == y.has_value() && (!x || &x->parts() == &y->parts());
 }
 
 /// The body may have another carrier from the instant on.
@@ -230,12 +262,14 @@ Result<BodyId> World::add(const Avatar& avatar, const BodyOptions& options) {
   if (options.self && options.self->avatarIdentity() != avatar.identity()) {
     return Error::in("self", ErrorCode::Mismatch, "expected the pair rules of this avatar");
   }
+  FORETOUCH_CHECK(checkedSurface(avatar, options));
   std::vector<BodyKind>& kinds = parts_->kinds;
   const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const BodyKind& kind) {
-    return kind.avatar && kind.avatar->identity() == avatar.identity();
+    return kind.avatar && kind.avatar->identity() == avatar.identity() &&
+           isSameSurface(kind.surface, options.surface);
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
-  if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(avatar));
+  if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(avatar, options.surface));
   const std::int32_t rules = options.self ? placeOfRules(*parts_, *options.self) : -1;
   parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
   parts_->bodies.push_back({kind, options, rules, {}});
@@ -246,6 +280,10 @@ Result<BodyId> World::add(const Scene& mesh, const BodyOptions& options) {
   FORETOUCH_CHECK(checkedNew(*parts_, options));
   if (options.self) {
     return Error::in("self", ErrorCode::Mismatch, "expected none: a mesh has no links of its own");
+  }
+  if (options.surface) {
+    return Error::in("surface", ErrorCode::Mismatch,
+                     "expected none: a mesh touches by its triangles anyway");
   }
   std::vector<BodyKind>& kinds = parts_->kinds;
   const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const BodyKind& kind) {

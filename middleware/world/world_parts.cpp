@@ -20,13 +20,13 @@ std::int64_t WorldBody::nextEpisodeUs(std::int64_t utimeUs) const {
 }
 
 bool WorldParts::isAsked(BodyId a, BodyId b) const {
-  if (!kindOf(a).avatar && !kindOf(b).avatar) return false;
+  if (!options.askMeshes && !kindOf(a).avatar && !kindOf(b).avatar) return false;
   const auto row = asked[slotOf(body(a).options.group)];
   return (row >> static_cast<unsigned>(body(b).options.group) & 1U) != 0;
 }
 
 bool WorldParts::isStillAsked(BodyId id) const {
-  return still && kindOf(id).avatar &&
+  return still && (options.askMeshes || kindOf(id).avatar) &&
          (askedStill >> static_cast<unsigned>(body(id).options.group) & 1U) != 0;
 }
 

@@ -20,8 +20,10 @@ struct BodyKind {
   std::optional<Avatar> avatar;
   std::optional<Scene> mesh;              // where there is no avatar
   std::vector<std::vector<Lss>> volumes;  // per link: contain what touches
-  std::vector<LinkId> linkOf;             // of each of them
-  double rho = 0.0;                       // no point of them is farther from its link's origin
+  // Of an avatar that brings one, and of a mesh that other meshes are asked about; else nothing.
+  std::optional<AvatarSurface> surface;
+  std::vector<LinkId> linkOf;  // of each of them
+  double rho = 0.0;            // no point of them is farther from its link's origin
 };
 
 /// A body between two changes of its carrier.
@@ -62,7 +64,7 @@ struct WorldParts {
   [[nodiscard]] const BodyKind& kindOf(BodyId id) const { return kinds[slotOf(body(id).kind)]; }
   /// Of two different bodies, by their groups and by what they are made of.
   [[nodiscard]] bool isAsked(BodyId a, BodyId b) const;
-  /// Of an avatar and the static scene.
+  /// Of a body and the static scene, likewise.
   [[nodiscard]] bool isStillAsked(BodyId id) const;
 };
 
