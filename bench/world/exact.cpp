@@ -93,6 +93,7 @@ BenchTable exactTable(const WorldCast& cast) {
                     {"with_p99_us", "both p99", 1},
                     {"lss_us", "each other by LSS us", 2},
                     {"own_us", "own links us per body", 2},
+                    {"own_starts", "that go on", 2},
                     {"contacts", "contacts", 2},
                     {"starts", "go on", 2},
                     {"part_steps", "pairs in lanes", 0},
@@ -104,14 +105,15 @@ BenchTable exactTable(const WorldCast& cast) {
     for (const double spacing : {0.5, 0.9, 5.0}) {
       const auto at = [&](ExactCase which) { return figuresOf(mannequins, clips, spacing, which); };
       const WindowFigures both = at(ExactCase::Together);
+      const WindowFigures own = at(ExactCase::Own);
       const double alone = percentilesOf(at(ExactCase::Alone).answerUs).mean,
-                   own = percentilesOf(at(ExactCase::Own).answerUs).mean,
                    byLss = percentilesOf(at(ExactCase::ByLss).answerUs).mean;
       const Percentiles us = percentilesOf(both.answerUs);
       table.rows.push_back({spacing, rateHz, static_cast<std::int64_t>(both.windows()), us.mean,
-                            alone, us.mean - alone, us.p99, byLss - alone, 0.5 * (own - alone),
-                            both.perWindow(both.contacts), both.perWindow(both.starts),
-                            both.perWindow(both.sum.queries.partSteps),
+                            alone, us.mean - alone, us.p99, byLss - alone,
+                            0.5 * (percentilesOf(own.answerUs).mean - alone),
+                            0.5 * own.perWindow(own.starts), both.perWindow(both.contacts),
+                            both.perWindow(both.starts), both.perWindow(both.sum.queries.partSteps),
                             both.perWindow(both.sum.queries.advancements)});
     }
   }

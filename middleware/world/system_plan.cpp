@@ -104,6 +104,7 @@ class PlanMaker {
       const Fidelity fidelity = isExact(own) ? Fidelity::Exact : Fidelity::Link;
       options_.linkPolicies.push_back({options_.tolerance, fidelity});
       if (own == nullptr) own = noTriangles(avatar.lss(link).size());
+      own->prepare();  // allocates, and so not while it is asked
       parts->numTriangles += own->triangles().size();
       parts->links.push_back(own);
     }

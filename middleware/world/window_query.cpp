@@ -50,8 +50,10 @@ class PairAsker {
   /// cull at once all triangles that they do not meet. While it turns they are not, and both move.
   [[nodiscard]] SystemQuestion questionOf(BodyId a, BodyId b, std::int64_t utimeUs) const {
     if (isMesh(a) == isMesh(b)) return SystemQuestion::Pair;
-    const BodySweep& mesh = scratch_.sweeps[slotOf(isMesh(a) ? a : b)];
-    return mesh.at(utimeUs).turn > kMostTurnOfFrame ? SystemQuestion::Pair : SystemQuestion::Mesh;
+    const BodyId mesh = isMesh(a) ? a : b;
+    const bool isFrame = !world_.kindOf(mesh).surface ||
+                         scratch_.sweeps[slotOf(mesh)].at(utimeUs).turn <= kMostTurnOfFrame;
+    return isFrame ? SystemQuestion::Mesh : SystemQuestion::Pair;
   }
 
   /// Span by span, until nothing is known any more.

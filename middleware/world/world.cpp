@@ -6,9 +6,6 @@
 #include <utility>
 
 #include "articulated/try.h"
-#include "lss/fit.h"
-#include "lss/rounding.h"
-#include "middleware/surface/link_surface.h"
 #include "middleware/world/world_parts.h"
 
 namespace foretouch {
@@ -39,59 +36,6 @@ bool isGroup(BodyGroup group) {
 Error groupError(BodyGroup group) {
   return Error::in("group", ErrorCode::OutOfRange,
                    "expected a group from 0 to 31, found " + std::to_string(group));
-}
-
-double reachOf(const std::vector<std::vector<Lss>>& volumes) {
-  double reach = 0.0;
-  for (const std::vector<Lss>& link : volumes) {
-    for (const Lss& lss : link) {
-      reach = std::max(reach, std::max(lss.a.norm(), lss.b.norm()) + lss.radius);
-    }
-  }
-  return reach * internal::kInflation;
-}
-
-void measure(BodyKind& kind) {
-  for (std::size_t link = 0; link < kind.volumes.size(); ++link) {
-    kind.linkOf.insert(kind.linkOf.end(), kind.volumes[link].size(), static_cast<LinkId>(link));
-  }
-  kind.rho = reachOf(kind.volumes);
-}
-
-BodyKind kindOf(const Avatar& avatar, const std::optional<AvatarSurface>& surface) {
-  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, surface, {}, 0.0};
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));
-  measure(kind);
-  return kind;
-}
-
-/// Of one link, whose one LSS holds the triangles that `held` names.
-AvatarSurface surfaceOf(std::vector<Triangle> triangles, std::vector<std::int32_t> held) {
-  auto parts = std::make_shared<internal::SurfaceParts>();
-  parts->numTriangles = triangles.size();
-  parts->links.push_back(std::make_shared<const internal::LinkSurface>(
-      std::move(triangles), std::vector<std::vector<std::int32_t>>{std::move(held)}));
-  return AvatarSurface(std::move(parts));
-}
-
-BodyKind kindOf(const Scene& mesh) {
-  RawSkeleton raw;
-  raw.joints = {{"mesh", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
-  BodyKind kind{Skeleton::build(raw).value(), std::nullopt, mesh, {}, {}, {}, 0.0};
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Triangle> triangles(mesh.numTriangles());
-  std::vector<std::int32_t> finite;
-  for (std::size_t i = 0; i < mesh.numTriangles(); ++i) {
-    const Triangle& triangle = mesh.triangle(static_cast<TriangleId>(i));
-    if (!isFinite(triangle)) continue;
-    points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
-    triangles[i] = triangle;
-    finite.push_back(static_cast<std::int32_t>(i));
-  }
-  kind.volumes = {{fitLss(points)}};
-  kind.surface = surfaceOf(std::move(triangles), std::move(finite));
-  measure(kind);
-  return kind;
 }
 
 bool areAlike(const PairRules& x, const PairRules& y) {
@@ -269,7 +213,7 @@ Result<BodyId> World::add(const Avatar& avatar, const BodyOptions& options) {
            isSameSurface(kind.surface, options.surface);
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
-  if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(avatar, options.surface));
+  if (known == kinds.end()) kinds.push_back(internal::bodyKindOf(avatar, options.surface));
   const std::int32_t rules = options.self ? placeOfRules(*parts_, *options.self) : -1;
   parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
   parts_->bodies.push_back({kind, options, rules, {}});
@@ -290,7 +234,7 @@ Result<BodyId> World::add(const Scene& mesh, const BodyOptions& options) {
     return kind.mesh && &kind.mesh->parts() == &mesh.parts();
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
-  if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(mesh));
+  if (known == kinds.end()) kinds.push_back(internal::bodyKindOf(mesh, parts_->options.askMeshes));
   parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
   parts_->bodies.push_back({kind, options, -1, {}});
   return static_cast<BodyId>(parts_->bodies.size()) - 1;
