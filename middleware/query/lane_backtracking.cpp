@@ -45,6 +45,7 @@ class LaneBacktracker {
  private:
   /// Until no pair is left that could change the answer; false if a spent budget ended it.
   [[nodiscard]] bool lookAtAll() {
+    if (!lookAtStart()) return false;
     while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
       if (query_.meter.isPartSpent(counters_)) return false;
       // Triangles first: a contact makes all later pairs unnecessary.
@@ -57,6 +58,38 @@ class LaneBacktracker {
       for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
     }
     return true;
+  }
+
+  /// At t = 0 all pairs of two links that cut into each other touch at once, and the deepest is
+  /// reported: the nearest come first, until lanes show that no better one is left. False if a
+  /// spent budget ended it.
+  [[nodiscard]] bool lookAtStart() {
+    std::vector<NearPair>& heap = scratch_.atStart;
+    while (!heap.empty() && heap.front().nearest <= nearest_) {
+      if (query_.meter.isPartSpent(counters_)) return false;
+      takeNearest();
+      counters_.partSteps += count_;
+      sides_.prove(false, count_);
+      for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
+    }
+    heap.clear();
+    return true;
+  }
+
+  /// Fills the lanes with the nearest pairs.
+  void takeNearest() {
+    std::vector<NearPair>& heap = scratch_.atStart;
+    const auto pushed = [this](const PartPair& pair) { push(pair); };
+    count_ = 0;
+    while (count_ < kTrianglePairLanes && !heap.empty() && heap.front().nearest <= nearest_) {
+      std::pop_heap(heap.begin(), heap.end());
+      above_ = heap.back().nearest;
+      const PartPair pair = heap.back().pair;
+      heap.pop_back();
+      if (sides_.enter(pair, pushed)) continue;
+      sides_.put(count_, pair, floor_);
+      batch_[count_++] = pair;
+    }
   }
 
   /// Pairs that moved on beyond the contact's instant, or were dropped, may be nearer at it: this
@@ -75,6 +108,8 @@ class LaneBacktracker {
   void start() {
     scratch_.lss.reset(scratch_.lanes.begin(), end_);
     scratch_.triangles.reset(scratch_.lanes.begin(), end_);
+    scratch_.atStart.clear();
+    above_ = -kInfinity;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       PartPair pair;
       pair.freeUntil = nextPossible(query_.pieces, candidates_[i], candidates_[i].freeUntil);
@@ -86,7 +121,7 @@ class LaneBacktracker {
   /// The remaining pairs bound how far the link is free; a contact that none of them can precede
   /// stands.
   [[nodiscard]] PairContact leftUndone() {
-    double freeUntil = horizon_;
+    double freeUntil = scratch_.atStart.empty() ? horizon_ : 0.0;
     for (TimeBuckets* buckets : {&scratch_.lss, &scratch_.triangles}) {
       while (!buckets->isEmpty()) freeUntil = std::min(freeUntil, buckets->pop().freeUntil);
     }
@@ -103,6 +138,11 @@ class LaneBacktracker {
   }
 
   void push(const PartPair& pair) {
+    if (Sides::kAnswersStarts && pair.freeUntil == 0.0) {
+      scratch_.atStart.push_back({above_, pair});
+      std::push_heap(scratch_.atStart.begin(), scratch_.atStart.end());
+      return;
+    }
     (Sides::isSurface(pair) ? scratch_.triangles : scratch_.lss).push(pair);
   }
 
@@ -127,12 +167,14 @@ class LaneBacktracker {
     const PartPair& pair = batch_[lane];
     if (pair.freeUntil > horizon_) return;
     const double lower = scratch_.lanes.lower(lane);
-    if (pair.freeUntil == horizon_ && lower > nearest_) return;
+    // Lanes begin at their own instants, of which 0 is one.
+    if (horizon_ == 0.0 && lower > nearest_) return;
     if (lower > handOver_) {
       const double reached = scratch_.lanes.freeUntil(lane);
       if (reached > pair.freeUntil) return moveOn(pair, reached);
     }
     if (Sides::isSurface(pair)) return look(pair);
+    above_ = lower;
     sides_.descend(pair, [this](const PartPair& below) { push(below); });
   }
 
@@ -189,6 +231,7 @@ class LaneBacktracker {
   std::array<PartPair, kTrianglePairLanes> batch_;
   std::size_t count_ = 0;
   double horizon_ = kInfinity;       // nothing later than this can change the answer
+  double above_ = -kInfinity;        // what pairs at t = 0 that are pushed are inside of
   double nearest_ = kInfinity;       // what is farther at the horizon comes after the contact there
   std::optional<PairContact> best_;  // nothing: horizon_ is infinite
 };

@@ -60,13 +60,15 @@ struct SpanPart {
 
 /// Of one body.
 struct BodySweep {
-  BodyBox whole;  ///< Of all parts, relative to the window's origin.
+  BodyBox whole;         ///< Of all parts, relative to the window's origin.
+  bool isRough = false;  ///< There is nothing else: the body is far from all that it may meet.
   std::vector<SpanPart> parts;
   /// Those of the window and earlier ones: most windows begin where the last one ended, often
   /// within a span.
   std::vector<SpanSweep> spans;
 
-  /// The sweep of the part that holds [utimeUs, utimeUs + 1). Precondition: there is one.
+  /// The sweep of the part that holds [utimeUs, utimeUs + 1). Precondition: there is one, not
+  /// rough.
   [[nodiscard]] const SpanSweep& at(std::int64_t utimeUs) const;
   /// Place of what is known of a whole piece of an episode, with answers to the question; -1 if
   /// nothing is.

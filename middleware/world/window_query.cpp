@@ -158,6 +158,7 @@ class WindowQuery {
     tellSilent();
     FORETOUCH_CHECK(sweepBodies());
     scratch_.broad.collect(scratch_.boxes, scratch_.meeting);
+    FORETOUCH_CHECK(sweepNear());
     FORETOUCH_CHECK(askPairs());
     gather();
     return Done{};
@@ -213,10 +214,31 @@ class WindowQuery {
     return forEach(world_.bodies.size(), [this](WindowWorker& worker, std::size_t i) {
       BodySweep& sweep = scratch_.sweeps[i];
       BodySweeper sweeper(world_, scratch_.plans, window_, worker.system);
-      Result<Done> done =
-          sweeper.sweep(static_cast<BodyId>(i), sweep, worker.contacts, worker.counters);
+      const auto body = static_cast<BodyId>(i);
+      sweep.isRough = sweeper.sweepRoughly(body, sweep);
+      Result<Done> done = Done{};
+      if (!sweep.isRough) done = sweeper.sweep(body, sweep, worker.contacts, worker.counters);
       scratch_.boxes[i] = sweep.whole;
+      worker.counters.bodies += sweep.whole.isEmpty() ? 0 : 1;
       return done;
+    });
+  }
+
+  /// Most props are far from everything: only of the others more than a rough box is needed.
+  Result<Done> sweepNear() {
+    std::vector<BodyId>& near = scratch_.near;
+    near.clear();
+    for (const MeetingBodies& pair : scratch_.meeting) {
+      if (!world_.isAsked(pair.a, pair.b)) continue;
+      for (const BodyId body : {pair.a, pair.b}) {
+        BodySweep& sweep = scratch_.sweeps[slotOf(body)];
+        if (std::exchange(sweep.isRough, false)) near.push_back(body);
+      }
+    }
+    return forEach(near.size(), [this](WindowWorker& worker, std::size_t i) {
+      const BodyId body = scratch_.near[i];
+      return BodySweeper(world_, scratch_.plans, window_, worker.system)
+          .sweep(body, scratch_.sweeps[slotOf(body)], worker.contacts, worker.counters);
     });
   }
 
