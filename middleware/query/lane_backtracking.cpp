@@ -25,7 +25,9 @@ class LaneBacktracker {
         states_(query, counters),
         floor_(floatAbove(kFloorShare * query.tolerance)),
         handOver_(kHandOverShare * query.tolerance),
-        end_(scratch.lanes.end()) {}
+        end_(scratch.lanes.end()),
+        hasDepths_(Sides::kAnswersStarts &&
+                   (query.parts.surface == nullptr || query.other->surface == nullptr)) {}
 
   PairContact run() {
     start();
@@ -60,9 +62,9 @@ class LaneBacktracker {
     return true;
   }
 
-  /// At t = 0 all pairs of two links that cut into each other touch at once, and the deepest is
-  /// reported: the nearest come first, until lanes show that no better one is left. False if a
-  /// spent budget ended it.
+  /// At t = 0 all pairs of two links that cut into each other touch at once. Of those with an LSS
+  /// the deepest is reported: the nearest come first, until lanes show that no better one is left.
+  /// Triangles that meet have no depth to go by. False if a spent budget ended it.
   [[nodiscard]] bool lookAtStart() {
     std::vector<NearPair>& heap = scratch_.atStart;
     while (!heap.empty() && heap.front().nearest <= nearest_) {
@@ -138,7 +140,7 @@ class LaneBacktracker {
   }
 
   void push(const PartPair& pair) {
-    if (Sides::kAnswersStarts && pair.freeUntil == 0.0) {
+    if (hasDepths_ && pair.freeUntil == 0.0) {
       scratch_.atStart.push_back({above_, pair});
       std::push_heap(scratch_.atStart.begin(), scratch_.atStart.end());
       return;
@@ -228,6 +230,7 @@ class LaneBacktracker {
   float floor_;
   double handOver_;
   double end_;
+  bool hasDepths_;  // of two links, one of which is made of LSS
   std::array<PartPair, kTrianglePairLanes> batch_;
   std::size_t count_ = 0;
   double horizon_ = kInfinity;       // nothing later than this can change the answer
