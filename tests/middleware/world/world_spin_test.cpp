@@ -175,5 +175,33 @@ TEST(WorldSpin, IsNotLostWhereOnlyABoxIsKnown) {
   EXPECT_LT(sum.grazing, 10);
 }
 
+// Two rods whose tips meet when both point at each other, in the middle of their turn: the boxes
+// are just large enough.
+TEST(WorldSpin, MeetsByTheTipsOfWhatTurns) {
+  constexpr double kLength = 0.7, kRadius = 0.01, kTolerance = 1e-4;
+  const Lss rod{Vector3d::Zero(), Vector3d(kLength, 0, 0), kRadius};
+  RawSkeleton one;
+  one.joints = {{"rod", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
+  const Avatar stick = Avatar::build(Skeleton::build(one).value(), {{rod}}).value();
+  for (const Vector3d& place : {Vector3d(0, 0, 0), Vector3d(-3e3, 40, 7e3)}) {
+    for (const double gap : {-1e-3, 2e-3}) {
+      BothWorlds both(kTolerance);
+      for (int body = 0; body < 2; ++body) {
+        both.add(stick);
+        const double side = body == 0 ? 0.0 : 1.0;
+        const Vector3d at = place + Vector3d(side * (2.0 * (kLength + kRadius) + gap), 0, 0);
+        for (const double turn : {-0.4, 0.4}) {
+          const Eigen::AngleAxisd about(turn + side * std::acos(-1.0), Vector3d::UnitZ());
+          both.push(body, turn < 0.0 ? 0 : 100'000, {Quaternion(about), at});
+        }
+      }
+      both.judgeAll(0, 100'000);
+      for (const std::string& problem : both.problems) ADD_FAILURE() << problem;
+      ASSERT_EQ(both.tally.contact, gap < 0.0 ? 1 : 0);
+      EXPECT_EQ(both.answer.counters.bodies, 2u);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace foretouch::test
