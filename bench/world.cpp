@@ -9,6 +9,7 @@
 #include "articulated/try.h"
 #include "bench/machine.h"
 #include "bench/world/crowd.h"
+#include "bench/world/exact.h"
 #include "bench/world/pairs.h"
 #include "bench/world/people.h"
 #include "bench/world/props.h"
@@ -59,6 +60,7 @@ Result<WorldBench> measureWorld(const WorldBenchRequest& request) {
       {"clocks", [&] { return clocksTable(cast); }},
       {"platform", [&] { return platformTable(cast); }},
       {"prop", [&] { return propTable(cast); }},
+      {"exact", [&] { return exactTable(cast); }},
       {"pairs",
        [&] { return judged(pairsTable(PairKind::Capsules, request.pairs, request.seed)); }},
       {"pairs",

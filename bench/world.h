@@ -12,7 +12,7 @@
 namespace foretouch::tools {
 
 inline constexpr const char* kWorldParts[] = {"crowd", "self",  "clocks", "platform",
-                                              "prop",  "pairs", "ticking"};
+                                              "prop",  "exact", "pairs",  "ticking"};
 
 struct WorldBenchRequest {
   std::string dataFolder;          ///< With mocap/; without clips in it, the bundled dancer.

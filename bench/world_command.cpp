@@ -30,9 +30,10 @@ Result<std::vector<std::string>> worldPartsNamed(const std::string& text) {
   if (!text.empty()) parts = splitAtCommas(text);
   for (const std::string& part : parts) {
     if (std::find(std::begin(kWorldParts), std::end(kWorldParts), part) == std::end(kWorldParts)) {
-      return Error::in("--parts", ErrorCode::UnknownName,
-                       "expected crowd, self, clocks, platform, prop, pairs or ticking, found " +
-                           inQuotes(part));
+      return Error::in(
+          "--parts", ErrorCode::UnknownName,
+          "expected crowd, self, clocks, platform, prop, exact, pairs or ticking, found " +
+              inQuotes(part));
     }
   }
   return parts;
@@ -83,8 +84,8 @@ void addBenchWorldCommand(CLI::App& bench, ExitCode& exit) {
   option("--clips", texts->clips, "NAME,...",
          "Of mocap/, or paths; six if not given, or the bundled dancer where these are absent");
   option("--parts", texts->parts, "NAME,...",
-         "crowd, self, clocks, platform, prop, pairs (beside FCL and Bullet), ticking; all if not "
-         "given");
+         "crowd, self, clocks, platform, prop, exact, pairs (beside FCL and Bullet), ticking; all "
+         "if not given");
   option("--avatars", texts->avatars, "N,...", "Of each crowd");
   option("--pairs", texts->pairs, "N", "Of capsules that both move");
   option("--windows", texts->windows, "N", "Of 0.2 s, of two people beside a game that ticks");

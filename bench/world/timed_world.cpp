@@ -39,7 +39,11 @@ BodyId TimedWorld::add(const Person& person, bool asksSelf, BodyGroup group) {
   if (auto rules = PairRules::derive(avatar); asksSelf && rules.ok()) {
     options.self = std::move(rules).value();
   }
-  return mustBeOk(world_.add(avatar, options));
+  return add(person, options);
+}
+
+BodyId TimedWorld::add(const Person& person, const BodyOptions& options) {
+  return mustBeOk(world_.add(person.clip->actor->avatar, options));
 }
 
 void TimedWorld::push(BodyId body, std::int64_t utimeUs, const Pose& pose) {

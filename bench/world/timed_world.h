@@ -33,6 +33,8 @@ class TimedWorld {
 
   /// Adds a person; `rules`: own links as well, where he has pairs of them.
   [[nodiscard]] BodyId add(const Person& person, bool asksSelf, BodyGroup group = 0);
+  /// As the options say.
+  [[nodiscard]] BodyId add(const Person& person, const BodyOptions& options);
   /// A pose whose time counts for the window that is asked next.
   void push(BodyId body, std::int64_t utimeUs, const Pose& pose);
   /// Asks and forgets; counts it if `isCounted`.

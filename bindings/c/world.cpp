@@ -27,15 +27,6 @@ ft_status checkedBody(const ft_world& world, std::int32_t body) {
                  body);
 }
 
-/// 0 or 1; `name`: of the argument.
-ft_status readTruth(std::int32_t given, const char* name, bool& truth) {
-  if (given != 0 && given != 1) {
-    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "%s: expected 0 or 1, found %d", name, given);
-  }
-  truth = given == 1;
-  return FT_OK;
-}
-
 /// Copies the pose of a body, which the world itself checks.
 ft_status copyBodyPose(ft_world& world, std::int32_t body, const ft_pose* given) {
   if (const auto s = checkedBody(world, body); s != FT_OK) return s;
@@ -54,7 +45,7 @@ ft_status add(ft_world& world, const Shape& shape, const ft_body_options* given,
               ft_world::Body body, std::int32_t* number) {
   if (const auto s = needed(number, "body"); s != FT_OK) return s;
   BodyOptions options;
-  if (const auto s = readBodyOptions(given, options); s != FT_OK) return s;
+  if (const auto s = readBodyOptions(given, body.avatar.get(), options); s != FT_OK) return s;
   auto& bodies = world.bodies;
   if (bodies.size() == bodies.capacity()) bodies.reserve(2 * bodies.size() + 8);
   FORETOUCH_TRY_OR(worldFailure, *number, world.world.add(shape, options));

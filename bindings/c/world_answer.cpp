@@ -18,11 +18,12 @@ ft_status checkedAnswer(const ft_world* world) {
   return failure(FT_ERROR_NO_STEP, kNoIndex, "expected ft_world_answer() to be answered before");
 }
 
-/// -1 where no triangle is touched.
+/// -1 where no triangle is touched, or a link's.
 std::int32_t objectOf(const ft_world& world, const ContactSide& side) {
   if (side.triangle < 0) return -1;
   if (side.body == kStillScene) return world.still->object(side.triangle);
-  return world.bodies[slotOf(side.body)].mesh->object(side.triangle);
+  const std::optional<Scene>& mesh = world.bodies[slotOf(side.body)].mesh;
+  return mesh ? mesh->object(side.triangle) : -1;
 }
 
 ft_world_side sideOf(const ft_world& world, const ContactSide& side) {

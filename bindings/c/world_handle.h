@@ -42,7 +42,11 @@ namespace foretouch::c {
 [[nodiscard]] ft_body_options defaultBodyOptions();
 /// NULL: the usual ones. The library itself checks the values.
 [[nodiscard]] ft_status readWorldOptions(const ft_world_options* given, WorldOptions& options);
-[[nodiscard]] ft_status readBodyOptions(const ft_body_options* given, BodyOptions& options);
+/// `avatar`: the body's; null of a mesh.
+[[nodiscard]] ft_status readBodyOptions(const ft_body_options* given, const AvatarParts* avatar,
+                                        BodyOptions& options);
+/// 0 or 1; `name`: of the argument.
+[[nodiscard]] ft_status readTruth(std::int32_t given, const char* name, bool& truth);
 
 /// An error about an option or argument names it as C does.
 [[nodiscard]] ft_status worldFailure(Error error);

@@ -19,11 +19,36 @@ ft_status readSilent(std::int32_t given, WhenSilent& silent) {
   return FT_OK;
 }
 
+/// `avatar`: null of a mesh.
+ft_status readSurface(std::int32_t fidelity, const AvatarParts* avatar, BodyOptions& options) {
+  if (fidelity == FT_FIDELITY_LINK) return FT_OK;
+  if (fidelity != FT_FIDELITY_EXACT) {
+    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex,
+                   "fidelity: expected FT_FIDELITY_LINK or _EXACT, found %d", fidelity);
+  }
+  if (avatar == nullptr) return FT_OK;  // a mesh touches by its triangles anyway
+  if (!avatar->surface) {
+    return failure(FT_ERROR_MISMATCH, kNoIndex,
+                   "fidelity: expected triangles of the avatar beside FT_FIDELITY_EXACT");
+  }
+  options.surface = avatar->surface;
+  return FT_OK;
+}
+
 }  // namespace
+
+ft_status readTruth(std::int32_t given, const char* name, bool& truth) {
+  if (given != 0 && given != 1) {
+    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "%s: expected 0 or 1, found %d", name, given);
+  }
+  truth = given == 1;
+  return FT_OK;
+}
 
 ft_world_options defaultWorldOptions() {
   ft_world_options options{};
   options.size = sizeof options;
+  options.asks_meshes = WorldOptions().askMeshes ? 1 : 0;
   options.tolerance = WorldOptions().tolerance;
   return options;
 }
@@ -34,6 +59,7 @@ ft_body_options defaultBodyOptions() {
   options.size = sizeof options;
   options.group = defaults.group;
   options.when_silent = static_cast<std::int32_t>(defaults.whenSilent);
+  options.fidelity = FT_FIDELITY_LINK;
   return options;
 }
 
@@ -43,16 +69,16 @@ ft_status readWorldOptions(const ft_world_options* given, WorldOptions& options)
     if (const auto s = readStruct(given, "ft_world_options", known); s != FT_OK) return s;
   }
   options.tolerance = known.tolerance;
-  return zero(static_cast<std::uint32_t>(known.reserved), "reserved");
+  return readTruth(known.asks_meshes, "asks_meshes", options.askMeshes);
 }
 
-ft_status readBodyOptions(const ft_body_options* given, BodyOptions& options) {
+ft_status readBodyOptions(const ft_body_options* given, const AvatarParts* avatar,
+                          BodyOptions& options) {
   ft_body_options known = defaultBodyOptions();
   if (given != nullptr) {
     if (const auto s = readStruct(given, "ft_body_options", known); s != FT_OK) return s;
   }
-  const auto s = zero(static_cast<std::uint32_t>(known.reserved), "reserved");
-  if (s != FT_OK) return s;
+  if (const auto s = readSurface(known.fidelity, avatar, options); s != FT_OK) return s;
   options.group = known.group;
   if (const auto t = readSilent(known.when_silent, options.whenSilent); t != FT_OK) return t;
   if (known.self == nullptr) return FT_OK;

@@ -127,6 +127,8 @@ double toleranceFrom(py::handle given) {
   return tolerance;
 }
 
+}  // namespace
+
 /// A surface of another avatar would cause reads out of bounds.
 std::optional<AvatarSurface> surfaceFrom(const py::object& given, const Avatar& avatar) {
   if (given.is_none()) return std::nullopt;
@@ -139,8 +141,6 @@ std::optional<AvatarSurface> surfaceFrom(const py::object& given, const Avatar& 
   }
   return surface.triangles;
 }
-
-}  // namespace
 
 std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,
                                      const Scene& scene) {

@@ -14,6 +14,9 @@ namespace foretouch::python {
 /// Links, and pairs of a link and an object, by name or index.
 [[nodiscard]] std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,
                                                    const Scene& scene);
+/// None, or the surface of this avatar.
+[[nodiscard]] std::optional<AvatarSurface> surfaceFrom(const py::object& given,
+                                                       const Avatar& avatar);
 /// None, or the rules of this avatar.
 [[nodiscard]] std::optional<foretouch::PairRules> rulesFrom(const py::object& given,
                                                             const Avatar& avatar);

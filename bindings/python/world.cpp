@@ -165,20 +165,24 @@ std::int64_t instantFrom(py::handle given, const char* what) {
 }
 
 std::unique_ptr<World> createWorld(std::shared_ptr<Scene> still,
-                                   const Shown<shown::Number>& tolerance) {
+                                   const Shown<shown::Number>& tolerance,
+                                   const Shown<shown::Truth>& askMeshes) {
   WorldOptions options;
   options.tolerance = number(tolerance, "tolerance");
+  options.askMeshes = boolean(askMeshes, "ask_meshes");
   return std::make_unique<World>(std::move(still), options);
 }
 
 BodyId addBody(World& world, const py::object& shape, const Shown<shown::Integer>& group,
-               const Shown<shown::Text>& whenSilent, const Shown<shown::PairRules>& selfPairs) {
+               const Shown<shown::Text>& whenSilent, const Shown<shown::PairRules>& selfPairs,
+               const Shown<shown::Surface>& surface) {
   BodyOptions options;
   options.group = smallInteger(group, "group");
   options.whenSilent = oneOf(whenSilent, "when_silent", kSilences);
   if (py::isinstance<Avatar>(shape)) {
     const auto avatar = shape.cast<std::shared_ptr<Avatar>>();
     options.self = rulesFrom(selfPairs, *avatar);
+    options.surface = surfaceFrom(surface, *avatar);
     return world.add({avatar, nullptr}, options);
   }
   if (!py::isinstance<Scene>(shape)) {
@@ -186,6 +190,9 @@ BodyId addBody(World& world, const py::object& shape, const Shown<shown::Integer
   }
   if (!selfPairs.is_none()) {
     refuse(ErrorCode::Mismatch, "self_pairs", "expected None: a mesh has no links of its own");
+  }
+  if (!surface.is_none()) {
+    refuse(ErrorCode::Mismatch, "surface", "expected None: a mesh touches by its triangles anyway");
   }
   return world.add({nullptr, shape.cast<std::shared_ptr<Scene>>()}, options);
 }
@@ -244,13 +251,17 @@ void bindWorld(py::module_& module) {
       "known at instants of its own (whole microseconds since any epoch), beside an optional\n"
       "scene that stands still. Threads that call one wait for one another.")
       .def(py::init(&createWorld), py::arg("still") = py::none(), py::kw_only(),
-           py::arg("tolerance") = WorldOptions().tolerance)
+           py::arg("tolerance") = WorldOptions().tolerance,
+           py::arg("ask_meshes") = WorldOptions().askMeshes,
+           "ask_meshes: whether two meshes are asked if they meet, and a mesh and `still`.")
       .def("add", &addBody, py::arg("shape"), py::kw_only(), py::arg("group") = 0,
            py::arg("when_silent") = toString(WhenSilent::Wait), py::arg("self_pairs") = py::none(),
+           py::arg("surface") = py::none(),
            "A body, by its number: of an Avatar, whose LSS touch, or of a Scene in the prop's own\n"
            "frame, whose triangles do. group: 0 to 31. when_silent: after its last pose it is\n"
            "waited for ('wait'), taken to stay ('hold-still') or unknown ('undecided').\n"
-           "self_pairs: PairRules: asks whether own links touch, too.")
+           "self_pairs: PairRules: asks whether own links touch, too. surface: of the avatar: its\n"
+           "triangles touch in place of its LSS.")
       .def(
           "push", &pushPose, py::arg("body"), py::arg("utime_us"), py::arg("pose"),
           "The body's next pose: in W, or in the frame of what carries it. Of one joint, as every\n"

@@ -25,7 +25,9 @@ class LaneBacktracker {
         states_(query, counters),
         floor_(floatAbove(kFloorShare * query.tolerance)),
         handOver_(kHandOverShare * query.tolerance),
-        end_(scratch.lanes.end()) {}
+        end_(scratch.lanes.end()),
+        hasDepths_(Sides::kAnswersStarts &&
+                   (query.parts.surface == nullptr || query.other->surface == nullptr)) {}
 
   PairContact run() {
     start();
@@ -37,8 +39,7 @@ class LaneBacktracker {
   }
 
   PairContact runAround(const PairContact& contact) {
-    best_ = contact;
-    horizon_ = contact.toi;
+    take(contact);
     (void)lookAround();
     return *best_;
   }
@@ -46,6 +47,7 @@ class LaneBacktracker {
  private:
   /// Until no pair is left that could change the answer; false if a spent budget ended it.
   [[nodiscard]] bool lookAtAll() {
+    if (!lookAtStart()) return false;
     while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
       if (query_.meter.isPartSpent(counters_)) return false;
       // Triangles first: a contact makes all later pairs unnecessary.
@@ -58,6 +60,38 @@ class LaneBacktracker {
       for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
     }
     return true;
+  }
+
+  /// At t = 0 all pairs of two links that cut into each other touch at once. Of those with an LSS
+  /// the deepest is reported: the nearest come first, until lanes show that no better one is left.
+  /// Triangles that meet have no depth to go by. False if a spent budget ended it.
+  [[nodiscard]] bool lookAtStart() {
+    std::vector<NearPair>& heap = scratch_.atStart;
+    while (!heap.empty() && heap.front().nearest <= nearest_) {
+      if (query_.meter.isPartSpent(counters_)) return false;
+      takeNearest();
+      counters_.partSteps += count_;
+      sides_.prove(false, count_);
+      for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
+    }
+    heap.clear();
+    return true;
+  }
+
+  /// Fills the lanes with the nearest pairs.
+  void takeNearest() {
+    std::vector<NearPair>& heap = scratch_.atStart;
+    const auto pushed = [this](const PartPair& pair) { push(pair); };
+    count_ = 0;
+    while (count_ < kTrianglePairLanes && !heap.empty() && heap.front().nearest <= nearest_) {
+      std::pop_heap(heap.begin(), heap.end());
+      above_ = heap.back().nearest;
+      const PartPair pair = heap.back().pair;
+      heap.pop_back();
+      if (sides_.enter(pair, pushed)) continue;
+      sides_.put(count_, pair, floor_);
+      batch_[count_++] = pair;
+    }
   }
 
   /// Pairs that moved on beyond the contact's instant, or were dropped, may be nearer at it: this
@@ -76,6 +110,8 @@ class LaneBacktracker {
   void start() {
     scratch_.lss.reset(scratch_.lanes.begin(), end_);
     scratch_.triangles.reset(scratch_.lanes.begin(), end_);
+    scratch_.atStart.clear();
+    above_ = -kInfinity;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       PartPair pair;
       pair.freeUntil = nextPossible(query_.pieces, candidates_[i], candidates_[i].freeUntil);
@@ -87,7 +123,7 @@ class LaneBacktracker {
   /// The remaining pairs bound how far the link is free; a contact that none of them can precede
   /// stands.
   [[nodiscard]] PairContact leftUndone() {
-    double freeUntil = horizon_;
+    double freeUntil = scratch_.atStart.empty() ? horizon_ : 0.0;
     for (TimeBuckets* buckets : {&scratch_.lss, &scratch_.triangles}) {
       while (!buckets->isEmpty()) freeUntil = std::min(freeUntil, buckets->pop().freeUntil);
     }
@@ -104,6 +140,11 @@ class LaneBacktracker {
   }
 
   void push(const PartPair& pair) {
+    if (hasDepths_ && pair.freeUntil == 0.0) {
+      scratch_.atStart.push_back({above_, pair});
+      std::push_heap(scratch_.atStart.begin(), scratch_.atStart.end());
+      return;
+    }
     (Sides::isSurface(pair) ? scratch_.triangles : scratch_.lss).push(pair);
   }
 
@@ -127,11 +168,15 @@ class LaneBacktracker {
   void settle(std::size_t lane) {
     const PartPair& pair = batch_[lane];
     if (pair.freeUntil > horizon_) return;
-    if (scratch_.lanes.lower(lane) > handOver_) {
+    const double lower = scratch_.lanes.lower(lane);
+    // Lanes begin at their own instants, of which 0 is one.
+    if (horizon_ == 0.0 && lower > nearest_) return;
+    if (lower > handOver_) {
       const double reached = scratch_.lanes.freeUntil(lane);
       if (reached > pair.freeUntil) return moveOn(pair, reached);
     }
     if (Sides::isSurface(pair)) return look(pair);
+    above_ = lower;
     sides_.descend(pair, [this](const PartPair& below) { push(below); });
   }
 
@@ -152,9 +197,8 @@ class LaneBacktracker {
     if (state.gapUpper <= query_.tolerance) {
       const PairContact contact = contactOf(query_, candidate, state, t);
       if (t < horizon_ || best_->verdict == Verdict::Undecided || comesFirst(contact, *best_)) {
-        best_ = contact;
+        take(contact);
       }
-      horizon_ = t;
       return;
     }
     const double reached = provenFrom(query_, candidate, state, t, counters_);
@@ -162,9 +206,17 @@ class LaneBacktracker {
     giveUp(t);
   }
 
+  /// What is farther apart at the same instant is not reported.
+  void take(const PairContact& contact) {
+    best_ = contact;
+    horizon_ = contact.toi;
+    nearest_ = reachOf(contact) - contact.penetration;
+  }
+
   /// The numbers cannot resolve the pair; a contact at this instant stands.
   void giveUp(double t) {
     if (t == horizon_) return;
+    nearest_ = kInfinity;
     best_ = PairContact{undecidedContact(query_.parts.link, t, UndecidedReason::Resolution)};
     horizon_ = t;
   }
@@ -178,9 +230,12 @@ class LaneBacktracker {
   float floor_;
   double handOver_;
   double end_;
+  bool hasDepths_;  // of two links, one of which is made of LSS
   std::array<PartPair, kTrianglePairLanes> batch_;
   std::size_t count_ = 0;
   double horizon_ = kInfinity;       // nothing later than this can change the answer
+  double above_ = -kInfinity;        // what pairs at t = 0 that are pushed are inside of
+  double nearest_ = kInfinity;       // what is farther at the horizon comes after the contact there
   std::optional<PairContact> best_;  // nothing: horizon_ is infinite
 };
 

@@ -192,6 +192,8 @@ class OwnSides : private LaneSides {
     const std::int32_t lss = isOther ? candidate.otherLss : candidate.lss;
     HierarchyChild& part = isOther ? pair.otherPart : pair.part;
     for (const HierarchyChild below : side.surface->below(lss, part)) {
+      // Meshes are larger than caches; others are looked at before this one's turn.
+      __builtin_prefetch(&side.surface->lanePart(lss, below));
       part = below;
       push(pair);
     }

@@ -25,6 +25,14 @@ struct PartPair {
   bool isEntered = false;  // of two links: both LSS were replaced by what is below them
 };
 
+/// A pair at t = 0 that is at least so far apart (m). The nearest is the greatest, on top of a
+/// heap.
+struct NearPair {
+  double nearest;
+  PartPair pair;
+  [[nodiscard]] bool operator<(const NearPair& other) const { return nearest > other.nearest; }
+};
+
 /// Pairs by time, the earliest first up to 1/64 of the span. The order only decides how much work a
 /// contact saves. Keeps its memory.
 class TimeBuckets {
@@ -93,6 +101,7 @@ struct StartPair {
 struct PartScratch {
   PartLanes lanes;
   TimeBuckets lss, triangles;
+  std::vector<NearPair> atStart;            // of two links
   std::vector<HierarchyChild> parts;        // a stack
   std::vector<std::int32_t> linkTriangles;  // those the stack ended in
   SkinLanes skin;                           // at skinned fidelity

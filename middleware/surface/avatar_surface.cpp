@@ -132,7 +132,7 @@ Result<AvatarSurface> AvatarSurface::build(const Avatar& avatar,
                            " triangles on all links together");
     }
     parts->links.push_back(
-        std::make_unique<LinkSurface>(std::move(triangles), std::move(idsOfLss)));
+        std::make_shared<const LinkSurface>(std::move(triangles), std::move(idsOfLss)));
   }
   return AvatarSurface(std::move(parts));
 }

@@ -37,12 +37,12 @@ class AvatarSurface {
   /// Builds every missing hierarchy now, so that the first query need not wait for it.
   void prepare() const;
 
-  /// For the query's own sources.
+  /// For the library's own sources.
+  explicit AvatarSurface(std::shared_ptr<const internal::SurfaceParts> parts)
+      : parts_(std::move(parts)) {}
   [[nodiscard]] const internal::SurfaceParts& parts() const { return *parts_; }
 
  private:
-  explicit AvatarSurface(std::shared_ptr<const internal::SurfaceParts> parts)
-      : parts_(std::move(parts)) {}
   std::shared_ptr<const internal::SurfaceParts> parts_;
 };
 

@@ -79,7 +79,8 @@ class LinkSurface {
 };
 
 struct SurfaceParts {
-  std::vector<std::unique_ptr<LinkSurface>> links;  // one per link of the avatar
+  // One per link of the avatar; shared with surfaces of chains that the avatar is part of.
+  std::vector<std::shared_ptr<const LinkSurface>> links;
   std::size_t numTriangles = 0;
 };
 

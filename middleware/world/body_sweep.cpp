@@ -48,6 +48,7 @@ void SpanSweep::fill(const LssTable& table, const ChainMotion& motion, SlabScrat
     box.lower[k] = leastOf(lower[k]);
     box.upper[k] = largestOf(upper[k]);
   }
+  turn = table.size() > 0 ? static_cast<float>(motion.sums(table[0].link).angularSpeed) : 0.0F;
   // Both have room for every body's.
   std::swap(ends, slab.ends);
   slab.areBoxesOfNodes = false;

@@ -35,6 +35,7 @@ struct SpanSweep {
   // Per LSS, rounded up. How its ends' paths bend in W (m per span squared), and what it takes away
   // from the distance of its axis: its radius, and all uncertainty (m).
   std::vector<float> bends, reaches;
+  float turn = 0.0F;           ///< Of the first LSS' link in W, at most (radians). No bound.
   float widestSagitta = 0.0F;  ///< h^2/8 of the longest time between two nodes. Rounded up.
   /// First contacts with the static scene and of own links, over the whole span.
   std::vector<WorldContact> own;
@@ -59,13 +60,15 @@ struct SpanPart {
 
 /// Of one body.
 struct BodySweep {
-  BodyBox whole;  ///< Of all parts, relative to the window's origin.
+  BodyBox whole;         ///< Of all parts, relative to the window's origin.
+  bool isRough = false;  ///< There is nothing else: the body is far from all that it may meet.
   std::vector<SpanPart> parts;
   /// Those of the window and earlier ones: most windows begin where the last one ended, often
   /// within a span.
   std::vector<SpanSweep> spans;
 
-  /// The sweep of the part that holds [utimeUs, utimeUs + 1). Precondition: there is one.
+  /// The sweep of the part that holds [utimeUs, utimeUs + 1). Precondition: there is one, not
+  /// rough.
   [[nodiscard]] const SpanSweep& at(std::int64_t utimeUs) const;
   /// Place of what is known of a whole piece of an episode, with answers to the question; -1 if
   /// nothing is.

@@ -1,10 +1,12 @@
 #include "middleware/world/body_sweeper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "lss/rounding.h"
 #include "middleware/query/scratch_parts.h"
 #include "middleware/scene/scene_parts.h"
 
@@ -20,9 +22,7 @@ constexpr std::int64_t kMostWindowsOfPiece = 4;
 
 Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<WorldContact>& found,
                                 WorldCounters& counters) {
-  const SystemQuestion question = world_.isStillAsked(body)         ? SystemQuestion::Still
-                                  : world_.body(body).ownRules >= 0 ? SystemQuestion::Self
-                                                                    : SystemQuestion::Boxes;
+  const SystemQuestion question = questionOf(body);
   const std::size_t first = found.size();
   sweep.whole = BodyBox();
   sweep.parts.clear();
@@ -47,8 +47,43 @@ Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<World
     sweep.whole.add(span.box.movedBy(span.origin - window_.origin));
     FORETOUCH_CHECK(keepOwn(body, question, part, span, first, found, counters));
   }
-  counters.bodies += sweep.parts.empty() ? 0 : 1;
   return Done{};
+}
+
+SystemQuestion BodySweeper::questionOf(BodyId body) const {
+  if (world_.isStillAsked(body)) return SystemQuestion::Still;
+  return world_.body(body).ownRules >= 0 ? SystemQuestion::Self : SystemQuestion::Boxes;
+}
+
+bool BodySweeper::sweepRoughly(BodyId body, BodySweep& sweep) {
+  const BodyKind& kind = world_.kindOf(body);
+  if (kind.skeleton.numJoints() != 1 || questionOf(body) != SystemQuestion::Boxes) return false;
+  sweep.whole = BodyBox();
+  sweep.parts.clear();
+  const double reach = kind.rho + 0.5 * world_.options.tolerance;
+  SystemSpans& spans = scratch_.spans;
+  spans.begin(world_, body, kStillScene, window_.fromUs, window_.toUs);
+  while (spans.next()) {
+    if (spans.members().size() != 1) return false;
+    // Its origin goes straight from knot to knot, and no point of it is farther away than that.
+    const TrackPiece& piece = spans.members().front().piece;
+    sweep.whole.add(boxAround(*piece.from, reach));
+    sweep.whole.add(boxAround(*piece.to, reach));
+  }
+  return true;
+}
+
+/// Relative to the window's origin, rounded outward.
+BodyBox BodySweeper::boxAround(const Pose& pose, double reach) const {
+  BodyBox box;
+  for (int k = 0; k < 3; ++k) {
+    const double p = pose.translations[0][k], origin = window_.origin[k];
+    const double padded =
+        reach * kInflation + 8.0 * kUnitRoundoff * (std::abs(p) + std::abs(origin));
+    box.lower[k] = floatBelow((p - origin) - padded);
+    box.upper[k] = floatAbove((p - origin) + padded);
+  }
+  return box;
 }
 
 /// Of the span that the scratch's spans are at.

@@ -7,11 +7,13 @@
 
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "middleware/surface/link_surface.h"
 
 namespace foretouch::internal {
 namespace {
 
 using Volumes = std::vector<std::vector<Lss>>;
+using LinkSurfacePtr = std::shared_ptr<const LinkSurface>;
 
 /// Something for queries that ask nothing of a scene: one triangle at the origin.
 Result<Scene> nothingAround() {
@@ -53,6 +55,7 @@ class PlanMaker {
   Result<Done> make(SystemQuestion question, std::int32_t a, std::int32_t b) {
     FORETOUCH_TRY(plan_.skeleton, skeletonOf(world_, members_, plan_.first));
     lss_.assign(countOf(plan_.skeleton.numJoints()), {});
+    surfaces_.assign(lss_.size(), nullptr);
     options_.tolerance = kAskedShare * world_.options.tolerance;
     switch (question) {
       case SystemQuestion::Boxes: return makeBoxes(a);
@@ -76,10 +79,41 @@ class PlanMaker {
   }
 
   void addVolumes(std::int32_t place) {
-    const Volumes& own = kind(place).volumes;
-    for (std::size_t link = 0; link < own.size(); ++link) {
-      lss_[slotOf(plan_.first[slotOf(place)]) + link] = own[link];
+    const BodyKind& own = kind(place);
+    for (std::size_t link = 0; link < own.volumes.size(); ++link) {
+      const std::size_t i = slotOf(plan_.first[slotOf(place)]) + link;
+      lss_[i] = own.volumes[link];
+      if (own.surface) surfaces_[i] = own.surface->parts().links[link];
     }
+  }
+
+  void clear(LinkId link) {
+    lss_[slotOf(link)].clear();
+    surfaces_[slotOf(link)] = nullptr;
+  }
+
+  /// Links that bring triangles touch by them, all others by their LSS.
+  void useSurfaces(const Avatar& avatar) {
+    const auto isExact = [](const LinkSurfacePtr& own) {
+      return own != nullptr && !own->triangles().empty();
+    };
+    if (std::none_of(surfaces_.begin(), surfaces_.end(), isExact)) return;
+    auto parts = std::make_shared<SurfaceParts>();
+    for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+      LinkSurfacePtr& own = surfaces_[slotOf(link)];
+      const Fidelity fidelity = isExact(own) ? Fidelity::Exact : Fidelity::Link;
+      options_.linkPolicies.push_back({options_.tolerance, fidelity});
+      if (own == nullptr) own = noTriangles(avatar.lss(link).size());
+      own->prepare();  // allocates, and so not while it is asked
+      parts->numTriangles += own->triangles().size();
+      parts->links.push_back(own);
+    }
+    options_.surface = AvatarSurface(std::move(parts));
+  }
+
+  static LinkSurfacePtr noTriangles(std::size_t numLss) {
+    return std::make_shared<const LinkSurface>(std::vector<Triangle>(),
+                                               std::vector<std::vector<std::int32_t>>(numLss));
   }
 
   Result<Done> makeBoxes(std::int32_t a) {
@@ -92,6 +126,7 @@ class PlanMaker {
     FORETOUCH_CHECK(makeBoxes(a));
     FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.skeleton, lss_));
     FORETOUCH_TRY(options_.self, ownRules(a, avatar));
+    useSurfaces(avatar);
     FORETOUCH_TRY(plan_.query, Query::build(avatar, *world_.still, options_));
     return Done{};
   }
@@ -121,21 +156,34 @@ class PlanMaker {
   Result<Done> makeMesh(std::int32_t a, std::int32_t b) {
     addVolumes(a);
     // The link that carries the mesh, or that the mesh carries, is not asked.
-    if (member(b).carrier == a) lss_[slotOf(linkOf(a, member(b).link))].clear();
+    if (member(b).carrier == a) clear(linkOf(a, member(b).link));
     if (member(a).carrier == b) clearRoots(a);
     plan_.isEmpty = std::all_of(lss_.begin(), lss_.end(), [](const auto& l) { return l.empty(); });
     if (plan_.isEmpty) return Done{};
     FORETOUCH_TRY(plan_.chain, RelativeChain::build(plan_.skeleton, linkOf(b, 0)));
-    Volumes seen(countOf(plan_.chain->skeleton().numJoints()));
-    for (std::size_t link = 0; link < lss_.size(); ++link) {
-      seen[slotOf(plan_.chain->linkOf(static_cast<LinkId>(link)))] = lss_[link];
-    }
-    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.chain->skeleton(), seen));
+    lookFromMesh();
+    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.chain->skeleton(), lss_));
+    useSurfaces(avatar);
     FORETOUCH_TRY(plan_.query, Query::build(avatar, *kind(b).mesh, options_));
     return Done{};
   }
 
+  /// From links of the system to those of the chain.
+  void lookFromMesh() {
+    const std::size_t count = countOf(plan_.chain->skeleton().numJoints());
+    Volumes lss(count);
+    std::vector<LinkSurfacePtr> surfaces(count);
+    for (std::size_t link = 0; link < lss_.size(); ++link) {
+      const auto seen = slotOf(plan_.chain->linkOf(static_cast<LinkId>(link)));
+      lss[seen] = std::move(lss_[link]);
+      surfaces[seen] = std::move(surfaces_[link]);
+    }
+    lss_ = std::move(lss);
+    surfaces_ = std::move(surfaces);
+  }
+
   Result<Done> makePlan(const Avatar& avatar) {
+    useSurfaces(avatar);
     FORETOUCH_TRY(const Scene nothing, nothingAround());
     FORETOUCH_TRY(plan_.plan, QueryPlan::make(avatar, nothing, options_));
     return Done{};
@@ -163,7 +211,7 @@ class PlanMaker {
   void clearRoots(std::int32_t place) {
     const Skeleton& own = kind(place).skeleton;
     for (JointId joint = 0; joint < own.numJoints(); ++joint) {
-      if (own.parent(joint) == kNoParent) lss_[slotOf(linkOf(place, joint))].clear();
+      if (own.parent(joint) == kNoParent) clear(linkOf(place, joint));
     }
   }
 
@@ -201,7 +249,8 @@ class PlanMaker {
   const WorldParts& world_;
   const std::vector<SystemMember>& members_;
   SystemPlan& plan_;
-  Volumes lss_;  // per joint of the system, of those that are asked
+  Volumes lss_;                           // per joint of the system, of those that are asked
+  std::vector<LinkSurfacePtr> surfaces_;  // likewise; null: by their LSS
   QueryOptions options_;
 };
 

@@ -22,7 +22,7 @@ enum class SystemQuestion : std::uint8_t {
   Boxes,  ///< Where body a is.
   Still,  ///< What a meets of the static scene, and of its own links if it asks for these.
   Self,   ///< What a's own links meet.
-  Pair,   ///< What the links of a meet of those of b; both are made of LSS.
+  Pair,   ///< What the links of a meet of those of b: LSS, or triangles that move on both sides.
   Mesh,   ///< What the links of a meet of b, a mesh.
 };
 

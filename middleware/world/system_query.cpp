@@ -124,7 +124,7 @@ void SystemQuery::keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_
     keepSeenFromMesh(plan, a, b, first, found);
   } else if (plan.query) {
     for (const LinkContact& contact : scratch_.step.links) {
-      if (contact.verdict != Verdict::Clear) keep(ofScene(plan, a, contact), first, found);
+      if (contact.verdict != Verdict::Clear) keep(ofScene(plan, contact), first, found);
     }
   }
   for (const PairContact& contact : scratch_.step.pairs) keep(ofPair(plan, contact), first, found);
@@ -176,7 +176,7 @@ void SystemQuery::keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, s
       contact.nhat_SL_W = state.R_WL * contact.nhat_SL_W;
     }
     contact.link = link;
-    WorldContact kept = ofScene(plan, a, contact);
+    WorldContact kept = ofScene(plan, contact);
     kept.b.body = b;
     if (b < a) turnAround(kept);
     keep(kept, first, found);
@@ -195,22 +195,28 @@ WorldContact SystemQuery::inSpan(const LinkContact& contact) const {
   return kept;
 }
 
-WorldContact SystemQuery::ofScene(const SystemPlan& plan, BodyId a,
-                                  const LinkContact& contact) const {
+/// Of a link of the system; one LSS around a mesh tells nothing.
+ContactSide SystemQuery::sideOf(const SystemPlan& plan, LinkId link, std::int32_t lss,
+                                std::int32_t triangle, const Eigen::Vector3d& p_W) const {
+  const MemberLink own = plan.memberLink(link);
+  const SystemMember& member = scratch_.spans.members()[slotOf(own.member)];
+  const bool isMesh = !world_.kinds[slotOf(member.kind)].avatar;
+  return {member.body, own.link, isMesh ? -1 : lss, triangle, p_W};
+}
+
+WorldContact SystemQuery::ofScene(const SystemPlan& plan, const LinkContact& contact) const {
   WorldContact kept = inSpan(contact);
-  kept.a = {a, plan.memberLink(contact.link).link, contact.lss, -1, contact.p_WLink};
+  kept.a = sideOf(plan, contact.link, contact.lss, contact.linkTriangle, contact.p_WLink);
   kept.b = {kStillScene, 0, -1, contact.triangle, contact.p_WScene};
   return kept;
 }
 
 WorldContact SystemQuery::ofPair(const SystemPlan& plan, const PairContact& contact) const {
-  const std::vector<SystemMember>& members = scratch_.spans.members();
-  const MemberLink one = plan.memberLink(contact.link), other = plan.memberLink(contact.other);
   WorldContact kept = inSpan(contact);
-  kept.a = {members[slotOf(one.member)].body, one.link, contact.lss, -1,
-            contact.p_WLink + scratch_.origin};
-  kept.b = {members[slotOf(other.member)].body, other.link, contact.otherLss, -1,
-            contact.p_WScene + scratch_.origin};
+  kept.a = sideOf(plan, contact.link, contact.lss, contact.linkTriangle,
+                  contact.p_WLink + scratch_.origin);
+  kept.b = sideOf(plan, contact.other, contact.otherLss, contact.triangle,
+                  contact.p_WScene + scratch_.origin);
   if (kept.b.body < kept.a.body) turnAround(kept);
   return kept;
 }

@@ -74,8 +74,9 @@ class SystemQuery {
   void keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                         std::vector<WorldContact>& found);
   [[nodiscard]] WorldContact inSpan(const LinkContact& contact) const;
-  [[nodiscard]] WorldContact ofScene(const SystemPlan& plan, BodyId a,
-                                     const LinkContact& contact) const;
+  [[nodiscard]] WorldContact ofScene(const SystemPlan& plan, const LinkContact& contact) const;
+  [[nodiscard]] ContactSide sideOf(const SystemPlan& plan, LinkId link, std::int32_t lss,
+                                   std::int32_t triangle, const Eigen::Vector3d& p_W) const;
   [[nodiscard]] WorldContact ofPair(const SystemPlan& plan, const PairContact& contact) const;
 
   const WorldParts& world_;

@@ -23,6 +23,9 @@ bool comesBefore(const ContactPlace& x, const ContactPlace& y) {
          std::tie(y.bodyOfA, y.linkOfA, y.bodyOfB, y.linkOfB);
 }
 
+/// How far a mesh may turn in a span (radians) and still be the frame that others are seen from.
+constexpr float kMostTurnOfFrame = 0.1F;
+
 /// Pairs of bodies whose boxes meet, for one thread.
 class PairAsker {
  public:
@@ -37,14 +40,24 @@ class PairAsker {
   Result<Done> ask(BodyId a, BodyId b) {
     if (!world_.isAsked(a, b)) return Done{};
     ++worker_.counters.pairs;
-    // A mesh is what the other one is seen from.
-    if (!world_.kindOf(a).avatar) return askSpans(b, a, SystemQuestion::Mesh);
-    return askSpans(a, b, world_.kindOf(b).avatar ? SystemQuestion::Pair : SystemQuestion::Mesh);
+    return askSpans(a, b);
   }
 
  private:
+  [[nodiscard]] bool isMesh(BodyId id) const { return !world_.kindOf(id).avatar; }
+
+  /// A mesh that hardly turns is what the other one is seen from: boxes in its frame are tight, and
+  /// cull at once all triangles that they do not meet. While it turns they are not, and both move.
+  [[nodiscard]] SystemQuestion questionOf(BodyId a, BodyId b, std::int64_t utimeUs) const {
+    if (isMesh(a) == isMesh(b)) return SystemQuestion::Pair;
+    const BodyId mesh = isMesh(a) ? a : b;
+    const bool isFrame = !world_.kindOf(mesh).surface ||
+                         scratch_.sweeps[slotOf(mesh)].at(utimeUs).turn <= kMostTurnOfFrame;
+    return isFrame ? SystemQuestion::Mesh : SystemQuestion::Pair;
+  }
+
   /// Span by span, until nothing is known any more.
-  Result<Done> askSpans(BodyId a, BodyId b, SystemQuestion question) {
+  Result<Done> askSpans(BodyId a, BodyId b) {
     const BodySweep &one = scratch_.sweeps[slotOf(a)], &other = scratch_.sweeps[slotOf(b)];
     const std::size_t first = worker_.contacts.size();
     bool isNear = false;
@@ -56,14 +69,17 @@ class PairAsker {
           worker_.apart.prove(ofA, other.at(spans.beginUs()), floor(), worker_.counters.queries);
       isNear = isNear || apart != Apart::ByBoxes;
       if (apart != Apart::Unproven) continue;
+      const SystemQuestion question = questionOf(a, b, spans.beginUs());
       if (question == SystemQuestion::Pair && !leaveOpen(a, b, first, ofA)) continue;
-      FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, a, b));
+      const bool isTurned = question == SystemQuestion::Mesh && isMesh(a);
+      const BodyId asked = isTurned ? b : a, with = isTurned ? a : b;
+      FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, asked, with));
       if (plan == nullptr) continue;
       if (!query_.isResolved()) {
         query_.giveUp(a, b, worker_.contacts);
         break;
       }
-      askSpan(*plan, question, a, b, first);
+      askSpan(*plan, question, asked, with, first);
     }
     worker_.counters.nearPairs += isNear ? 1 : 0;
     return Done{};
@@ -142,6 +158,7 @@ class WindowQuery {
     tellSilent();
     FORETOUCH_CHECK(sweepBodies());
     scratch_.broad.collect(scratch_.boxes, scratch_.meeting);
+    FORETOUCH_CHECK(sweepNear());
     FORETOUCH_CHECK(askPairs());
     gather();
     return Done{};
@@ -197,10 +214,31 @@ class WindowQuery {
     return forEach(world_.bodies.size(), [this](WindowWorker& worker, std::size_t i) {
       BodySweep& sweep = scratch_.sweeps[i];
       BodySweeper sweeper(world_, scratch_.plans, window_, worker.system);
-      Result<Done> done =
-          sweeper.sweep(static_cast<BodyId>(i), sweep, worker.contacts, worker.counters);
+      const auto body = static_cast<BodyId>(i);
+      sweep.isRough = sweeper.sweepRoughly(body, sweep);
+      Result<Done> done = Done{};
+      if (!sweep.isRough) done = sweeper.sweep(body, sweep, worker.contacts, worker.counters);
       scratch_.boxes[i] = sweep.whole;
+      worker.counters.bodies += sweep.whole.isEmpty() ? 0 : 1;
       return done;
+    });
+  }
+
+  /// Most props are far from everything: only of the others more than a rough box is needed.
+  Result<Done> sweepNear() {
+    std::vector<BodyId>& near = scratch_.near;
+    near.clear();
+    for (const MeetingBodies& pair : scratch_.meeting) {
+      if (!world_.isAsked(pair.a, pair.b)) continue;
+      for (const BodyId body : {pair.a, pair.b}) {
+        BodySweep& sweep = scratch_.sweeps[slotOf(body)];
+        if (std::exchange(sweep.isRough, false)) near.push_back(body);
+      }
+    }
+    return forEach(near.size(), [this](WindowWorker& worker, std::size_t i) {
+      const BodyId body = scratch_.near[i];
+      return BodySweeper(world_, scratch_.plans, window_, worker.system)
+          .sweep(body, scratch_.sweeps[slotOf(body)], worker.contacts, worker.counters);
     });
   }
 

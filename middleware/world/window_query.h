@@ -46,6 +46,7 @@ struct WorldScratchParts {
   std::vector<BodyBox> boxes;     // per body, of the whole window
   BoxSweep broad;
   std::vector<MeetingBodies> meeting;
+  std::vector<BodyId> near;  // known roughly so far, though something may be near
   std::vector<std::unique_ptr<WindowWorker>> workers;  // one per thread
   std::vector<ContactPlace> places;
 };

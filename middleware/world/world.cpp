@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "articulated/try.h"
-#include "lss/fit.h"
-#include "lss/rounding.h"
 #include "middleware/world/world_parts.h"
 
 namespace foretouch {
@@ -38,45 +36,6 @@ bool isGroup(BodyGroup group) {
 Error groupError(BodyGroup group) {
   return Error::in("group", ErrorCode::OutOfRange,
                    "expected a group from 0 to 31, found " + std::to_string(group));
-}
-
-double reachOf(const std::vector<std::vector<Lss>>& volumes) {
-  double reach = 0.0;
-  for (const std::vector<Lss>& link : volumes) {
-    for (const Lss& lss : link) {
-      reach = std::max(reach, std::max(lss.a.norm(), lss.b.norm()) + lss.radius);
-    }
-  }
-  return reach * internal::kInflation;
-}
-
-void measure(BodyKind& kind) {
-  for (std::size_t link = 0; link < kind.volumes.size(); ++link) {
-    kind.linkOf.insert(kind.linkOf.end(), kind.volumes[link].size(), static_cast<LinkId>(link));
-  }
-  kind.rho = reachOf(kind.volumes);
-}
-
-BodyKind kindOf(const Avatar& avatar) {
-  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, {}, 0.0};
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));
-  measure(kind);
-  return kind;
-}
-
-BodyKind kindOf(const Scene& mesh) {
-  RawSkeleton raw;
-  raw.joints = {{"mesh", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
-  BodyKind kind{Skeleton::build(raw).value(), std::nullopt, mesh, {}, {}, 0.0};
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < mesh.numTriangles(); ++i) {
-    const Triangle& triangle = mesh.triangle(static_cast<TriangleId>(i));
-    if (!isFinite(triangle)) continue;
-    points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
-  }
-  kind.volumes = {{fitLss(points)}};
-  measure(kind);
-  return kind;
 }
 
 bool areAlike(const PairRules& x, const PairRules& y) {
@@ -145,6 +104,23 @@ Result<Done> checkedNew(const WorldParts& parts, const BodyOptions& options) {
   if (parts.bodies.size() < countOf(kMaxBodies)) return Done{};
   return Error::of(ErrorCode::LimitExceeded,
                    "expected at most " + std::to_string(kMaxBodies) + " bodies");
+}
+
+Result<Done> checkedSurface(const Avatar& avatar, const BodyOptions& options) {
+  if (!options.surface) return Done{};
+  if (options.surface->numLinks() != avatar.numLinks()) {
+    return Error::in("surface", ErrorCode::Mismatch, "expected the surface of this avatar");
+  }
+  if (options.self && !options.self->radii().empty()) {
+    return Error::in("self", ErrorCode::Mismatch,
+                     "expected rules without pair radii beside a surface: a smaller LSS does not "
+                     "hold its link's mesh");
+  }
+  return Done{};
+}
+
+bool isSameSurface(const std::optional<AvatarSurface>& x, const std::optional<AvatarSurface>& y) {
+  return x.has_value() == y.has_value() && (!x || &x->parts() == &y->parts());
 }
 
 /// The body may have another carrier from the instant on.
@@ -230,12 +206,14 @@ Result<BodyId> World::add(const Avatar& avatar, const BodyOptions& options) {
   if (options.self && options.self->avatarIdentity() != avatar.identity()) {
     return Error::in("self", ErrorCode::Mismatch, "expected the pair rules of this avatar");
   }
+  FORETOUCH_CHECK(checkedSurface(avatar, options));
   std::vector<BodyKind>& kinds = parts_->kinds;
   const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const BodyKind& kind) {
-    return kind.avatar && kind.avatar->identity() == avatar.identity();
+    return kind.avatar && kind.avatar->identity() == avatar.identity() &&
+           isSameSurface(kind.surface, options.surface);
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
-  if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(avatar));
+  if (known == kinds.end()) kinds.push_back(internal::bodyKindOf(avatar, options.surface));
   const std::int32_t rules = options.self ? placeOfRules(*parts_, *options.self) : -1;
   parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
   parts_->bodies.push_back({kind, options, rules, {}});
@@ -247,12 +225,16 @@ Result<BodyId> World::add(const Scene& mesh, const BodyOptions& options) {
   if (options.self) {
     return Error::in("self", ErrorCode::Mismatch, "expected none: a mesh has no links of its own");
   }
+  if (options.surface) {
+    return Error::in("surface", ErrorCode::Mismatch,
+                     "expected none: a mesh touches by its triangles anyway");
+  }
   std::vector<BodyKind>& kinds = parts_->kinds;
   const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const BodyKind& kind) {
     return kind.mesh && &kind.mesh->parts() == &mesh.parts();
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
-  if (known == kinds.end()) kinds.push_back(::foretouch::kindOf(mesh));
+  if (known == kinds.end()) kinds.push_back(internal::bodyKindOf(mesh, parts_->options.askMeshes));
   parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
   parts_->bodies.push_back({kind, options, -1, {}});
   return static_cast<BodyId>(parts_->bodies.size()) - 1;

@@ -30,12 +30,14 @@ class World {
   World& operator=(World&&) noexcept;
   ~World();
 
-  /// An avatar, or a prop that is made of LSS: the LSS of its links touch. Errors: a group out of
-  /// range, pair rules of another avatar, too many bodies.
+  /// An avatar, or a prop that is made of LSS: the LSS of its links touch, or the triangles of the
+  /// surface that it brings. Errors: a group out of range, pair rules or a surface of another
+  /// avatar, a surface beside rules with pair radii, too many bodies.
   Result<BodyId> add(const Avatar& avatar, const BodyOptions& options = {});
-  /// A rigid prop: the triangles touch, in its own frame. It meets avatars; two meshes are not
-  /// asked whether they meet, nor is a mesh and the static scene: one of two must be made of LSS.
-  /// Errors: as above, and own links, which it has none of.
+  /// A rigid prop: the triangles touch, in its own frame. It meets avatars; two meshes are asked
+  /// whether they meet, and a mesh and the static scene, where WorldOptions::askMeshes says so.
+  /// O(n log n) for each new mesh of n triangles: 30 ms for 10,000.
+  /// Errors: as above, and own links, which it has none of, and a surface besides.
   Result<BodyId> add(const Scene& mesh, const BodyOptions& options = {});
   [[nodiscard]] std::int32_t numBodies() const;
 

@@ -26,9 +26,11 @@ inline constexpr LinkId kEveryLink = -1;
 /// One of the two that meet.
 struct ContactSide {
   BodyId body = kStillScene;
-  LinkId link = 0;           ///< 0 for a mesh and for the scene.
-  std::int32_t lss = -1;     ///< Index among the link's LSS; -1 for a mesh and for the scene.
-  TriangleId triangle = -1;  ///< Of a mesh and of the scene; else -1.
+  LinkId link = 0;        ///< 0 for a mesh and for the scene.
+  std::int32_t lss = -1;  ///< Index among the link's LSS; -1 for a mesh and for the scene.
+  /// Of a mesh and of the scene; of an avatar that brings a surface, among the link's triangles, or
+  /// -1 where its LSS touches; else -1.
+  TriangleId triangle = -1;
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< Witness point on its surface.
 };
 

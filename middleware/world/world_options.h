@@ -9,6 +9,7 @@
 #include "articulated/skeleton.h"
 #include "articulated/track.h"
 #include "middleware/query_options.h"
+#include "middleware/surface/avatar_surface.h"
 #include "middleware/world/world_contacts.h"
 
 namespace foretouch {
@@ -22,6 +23,9 @@ inline constexpr std::int32_t kMaxBodies = 100'000;
 struct WorldOptions {
   /// eps in metres, of every contact: kMinWorldTolerance to kMaxTolerance.
   double tolerance = kDefaultTolerance;
+  /// Asks, too, whether two meshes meet, and a mesh and the static scene: triangles against
+  /// triangles. Otherwise one of two must be made of LSS, or bring a surface.
+  bool askMeshes = false;
 };
 /// Below it, parts of motions between knots of different bodies are not known well enough (m).
 inline constexpr double kMinWorldTolerance = 1e-8;
@@ -31,6 +35,9 @@ struct BodyOptions {
   WhenSilent whenSilent = WhenSilent::Wait;
   /// Asks whether own links touch each other. Of the same avatar.
   std::optional<PairRules> self;
+  /// The avatar touches by these triangles (exact fidelity), whoever it meets, and so do its own
+  /// links; an LSS that holds none of its link's triangles is its own surface. Nothing: by its LSS.
+  std::optional<AvatarSurface> surface;
 };
 
 /// Who moves a body.

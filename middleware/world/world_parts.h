@@ -20,9 +20,20 @@ struct BodyKind {
   std::optional<Avatar> avatar;
   std::optional<Scene> mesh;              // where there is no avatar
   std::vector<std::vector<Lss>> volumes;  // per link: contain what touches
-  std::vector<LinkId> linkOf;             // of each of them
-  double rho = 0.0;                       // no point of them is farther from its link's origin
+  // Of an avatar that brings one, and of a mesh that is a link with triangles; else nothing.
+  std::optional<AvatarSurface> surface;
+  std::vector<LinkId> linkOf;  // of each of them
+  double rho = 0.0;            // no point of them is farther from its link's origin
 };
+
+/// Larger meshes are frames that others are seen from, however they turn (world.md 1): their
+/// hierarchies take seconds to build.
+inline constexpr std::size_t kMostSpinningTriangles = 100'000;
+
+/// Of an avatar, by its LSS or by its surface; and of a mesh.
+[[nodiscard]] BodyKind bodyKindOf(const Avatar& avatar,
+                                  const std::optional<AvatarSurface>& surface);
+[[nodiscard]] BodyKind bodyKindOf(const Scene& mesh, bool meetsMeshes);
 
 /// A body between two changes of its carrier.
 struct Episode {
@@ -62,7 +73,7 @@ struct WorldParts {
   [[nodiscard]] const BodyKind& kindOf(BodyId id) const { return kinds[slotOf(body(id).kind)]; }
   /// Of two different bodies, by their groups and by what they are made of.
   [[nodiscard]] bool isAsked(BodyId a, BodyId b) const;
-  /// Of an avatar and the static scene.
+  /// Of a body and the static scene, likewise.
   [[nodiscard]] bool isStillAsked(BodyId id) const;
 };
 

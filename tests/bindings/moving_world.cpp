@@ -25,7 +25,18 @@ ft_body_options optionsOf(const BodyOptions& options) {
   ft_body_options c = initialised(ft_body_options_init);
   c.group = options.group;
   c.when_silent = static_cast<std::int32_t>(options.whenSilent);
+  c.fidelity = options.surface ? FT_FIDELITY_EXACT : FT_FIDELITY_LINK;
   return c;
+}
+
+/// Per link; none without a surface.
+std::vector<std::vector<Triangle>> trianglesOf(const BodyOptions& options) {
+  std::vector<std::vector<Triangle>> triangles;
+  if (!options.surface) return triangles;
+  for (LinkId link = 0; link < options.surface->numLinks(); ++link) {
+    triangles.push_back(options.surface->triangles(link));
+  }
+  return triangles;
 }
 
 void expectSameSide(const ft_world_side& c, const ContactSide& cxx, std::int32_t object) {
@@ -69,20 +80,21 @@ std::vector<ft_silent_body> silentOf(const ft_world* world) {
   return silent;
 }
 
-MovingWorld::MovingWorld(double tolerance, const RawScene* still)
+MovingWorld::MovingWorld(double tolerance, const RawScene* still, bool asksMeshes)
     : cxx([&] {
         std::optional<Scene> scene;
         if (still != nullptr) scene = Scene::build(*still).value();
-        return World::build(scene, {tolerance}).value();
+        return World::build(scene, {tolerance, asksMeshes}).value();
       }()) {
   ft_world_options options = initialised(ft_world_options_init);
   options.tolerance = tolerance;
+  options.asks_meshes = asksMeshes ? 1 : 0;
   if (still != nullptr) still_ = Scene::build(*still).value();
   c = makeWorld(still == nullptr ? nullptr : makeScene(*still), &options);
 }
 
 BodyId MovingWorld::add(const Avatar& avatar, BodyOptions options, bool asksSelf) {
-  const AvatarHandle handle = makeAvatar(avatar);
+  const AvatarHandle handle = makeAvatar(avatar, trianglesOf(options));
   ft_body_options ofC = optionsOf(options);
   RulesHandle rules;
   // Where no pair is left to ask, there are no rules.
@@ -169,8 +181,8 @@ void MovingWorld::answer(std::int64_t fromUs, std::int64_t toUs) {
 
 std::int32_t MovingWorld::objectOf(const ContactSide& side) const {
   if (side.triangle < 0) return -1;
-  return side.body == kStillScene ? still_->object(side.triangle)
-                                  : meshes_[slotOf(side.body)]->object(side.triangle);
+  const std::optional<Scene>& mesh = side.body == kStillScene ? still_ : meshes_[slotOf(side.body)];
+  return mesh ? mesh->object(side.triangle) : -1;
 }
 
 void MovingWorld::expectSameContacts() const {

@@ -27,9 +27,10 @@ using WorldHandle = std::unique_ptr<ft_world, ReleaseWorld>;
 
 class MovingWorld {
  public:
-  explicit MovingWorld(double tolerance = 1e-3, const RawScene* still = nullptr);
+  explicit MovingWorld(double tolerance = 1e-3, const RawScene* still = nullptr,
+                       bool asksMeshes = false);
 
-  /// `asksSelf`: own links as well, by the derived rules.
+  /// `asksSelf`: own links as well, by the derived rules. A surface is given in C as well.
   BodyId add(const Avatar& avatar, BodyOptions options = {}, bool asksSelf = false);
   BodyId add(const RawScene& mesh, const BodyOptions& options = {});
   void push(BodyId body, std::int64_t utimeUs, const Pose& pose);

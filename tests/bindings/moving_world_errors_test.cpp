@@ -30,8 +30,8 @@ TEST(CMovingWorldErrors, OfWorlds) {
     refuse<MakingWorld>([&](MakingWorld& m) { m.options.tolerance = tolerance; },
                         FT_ERROR_OUT_OF_RANGE, {"ft_world_create: tolerance", "expected"});
   }
-  refuse<MakingWorld>([](MakingWorld& m) { m.options.reserved = 1; }, FT_ERROR_STRUCT_SIZE,
-                      {"reserved"});
+  refuse<MakingWorld>([](MakingWorld& m) { m.options.asks_meshes = 2; }, FT_ERROR_OUT_OF_RANGE,
+                      {"asks_meshes", "0 or 1"});
   refuse<MakingWorld>([](MakingWorld& m) { m.options.size = 3; }, FT_ERROR_STRUCT_SIZE,
                       {"ft_world_options"});
   const test::SmallWorld small;
@@ -73,8 +73,12 @@ TEST(CMovingWorldErrors, OfBodies) {
     refuse<AddingBody>([&](AddingBody& a) { a.options.when_silent = silent; },
                        FT_ERROR_OUT_OF_RANGE, {"when_silent"});
   }
-  refuse<AddingBody>([](AddingBody& a) { a.options.reserved = 1; }, FT_ERROR_STRUCT_SIZE,
-                     {"reserved"});
+  for (const std::int32_t fidelity : {-1, FT_FIDELITY_LIMB + 0, FT_FIDELITY_ELLIPSOID + 0, 9}) {
+    refuse<AddingBody>([&](AddingBody& a) { a.options.fidelity = fidelity; }, FT_ERROR_OUT_OF_RANGE,
+                       {"fidelity", "LINK or _EXACT"});
+  }
+  refuse<AddingBody>([](AddingBody& a) { a.options.fidelity = FT_FIDELITY_EXACT; },
+                     FT_ERROR_MISMATCH, {"fidelity", "triangles of the avatar"});
   refuse<AddingBody>([](AddingBody& a) { a.options.size = 12; }, FT_ERROR_STRUCT_SIZE,
                      {"ft_body_options"});
   refuse<AddingBody>(

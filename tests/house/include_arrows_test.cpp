@@ -48,7 +48,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"query", {"ladder", "", "exact", "surface", "lanes", "scene"}},
       {"mechanics", {}},
       {"solid", {"query", "mechanics", "", "scene"}},
-      {"world", {"query", "", "lanes", "scene"}},
+      {"world", {"query", "", "lanes", "scene", "surface"}},
       {"solid_world", {"world", "solid", "query", "mechanics", "", "scene"}},
       {"reference", {"query", "", "exact", "surface", "scene"}}}},
     {"assets",

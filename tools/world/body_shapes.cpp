@@ -80,6 +80,16 @@ Result<Avatar> ShapeLoader::avatarOf(const std::string& path) {
   return known->second;
 }
 
+Result<AvatarSurface> ShapeLoader::surfaceOf(const std::string& path, const Avatar& avatar) {
+  auto known = surfaces_.find(path);
+  if (known == surfaces_.end()) {
+    FORETOUCH_TRY(auto triangles, loadLinkMeshes(avatar, path));
+    FORETOUCH_TRY(auto surface, inFile(AvatarSurface::build(avatar, std::move(triangles)), path));
+    known = surfaces_.emplace(path, std::move(surface)).first;
+  }
+  return known->second;
+}
+
 Result<ShapeLoader::Mesh> ShapeLoader::meshFrom(RawScene raw) {
   std::vector<Triangle> finite;
   std::copy_if(raw.triangles.begin(), raw.triangles.end(), std::back_inserter(finite),
@@ -105,8 +115,13 @@ Result<BodyShape> ShapeLoader::load(const FileBody& body, const std::string& wor
   const FileShape& shape = body.shape;
   if (!shape.avatarPath.empty()) {
     FORETOUCH_TRY(auto avatar, avatarOf(shape.avatarPath));
+    std::optional<AvatarSurface> surface;
+    if (body.fidelity == Fidelity::Exact) {
+      FORETOUCH_TRY(surface, surfaceOf(shape.avatarPath, avatar));
+    }
     Skeleton skeleton = avatar.skeleton();
-    return BodyShape{std::move(avatar), std::nullopt, std::move(skeleton), nullptr};
+    return BodyShape{std::move(avatar), std::move(surface), std::nullopt, std::move(skeleton),
+                     nullptr};
   }
   const auto inWorld = [&](Error error) {
     error.file = world;
@@ -116,15 +131,15 @@ Result<BodyShape> ShapeLoader::load(const FileBody& body, const std::string& wor
   FORETOUCH_TRY_OR(inWorld, auto skeleton, oneJoint(body.name));
   if (!shape.lss.empty()) {
     FORETOUCH_TRY_OR(inWorld, auto avatar, Avatar::build(skeleton, {shape.lss}));
-    return BodyShape{std::move(avatar), std::nullopt, std::move(skeleton), nullptr};
+    return BodyShape{std::move(avatar), std::nullopt, std::nullopt, std::move(skeleton), nullptr};
   }
   if (!shape.box) {
     FORETOUCH_TRY(auto mesh, meshOf(shape));
-    return BodyShape{std::nullopt, std::move(mesh.scene), std::move(skeleton),
+    return BodyShape{std::nullopt, std::nullopt, std::move(mesh.scene), std::move(skeleton),
                      std::move(mesh.triangles)};
   }
   FORETOUCH_TRY_OR(inWorld, auto box, meshFrom(boxOf(*shape.box, body.name)));
-  return BodyShape{std::nullopt, std::move(box.scene), std::move(skeleton),
+  return BodyShape{std::nullopt, std::nullopt, std::move(box.scene), std::move(skeleton),
                    std::move(box.triangles)};
 }
 

@@ -12,6 +12,7 @@
 #include "articulated/avatar.h"
 #include "articulated/result.h"
 #include "middleware/scene/scene.h"
+#include "middleware/surface/avatar_surface.h"
 #include "tools/world/world_file.h"
 
 namespace foretouch::tools {
@@ -19,6 +20,7 @@ namespace foretouch::tools {
 /// An avatar, a prop of LSS (an avatar of one link, named as its body), or a mesh.
 struct BodyShape {
   std::optional<Avatar> avatar;
+  std::optional<AvatarSurface> surface;  ///< Of an avatar whose meshes touch.
   std::optional<Scene> mesh;
   Skeleton skeleton;  ///< Of a mesh: one joint, named as its body.
   /// Of a mesh: its finite triangles with their corners in the file's order, which a scene does not
@@ -39,6 +41,7 @@ class ShapeLoader {
  private:
   using MeshKey = std::tuple<std::string, std::string, double, std::optional<UpAxis>>;
   [[nodiscard]] Result<Avatar> avatarOf(const std::string& path);
+  [[nodiscard]] Result<AvatarSurface> surfaceOf(const std::string& path, const Avatar& avatar);
   struct Mesh {
     Scene scene;
     std::shared_ptr<const std::vector<Triangle>> triangles;
@@ -47,6 +50,7 @@ class ShapeLoader {
   [[nodiscard]] Result<Mesh> meshOf(const FileShape& shape);
 
   std::map<std::string, Avatar> avatars_;
+  std::map<std::string, AvatarSurface> surfaces_;  // of these
   std::map<MeshKey, Mesh> meshes_;
 };
 

@@ -307,6 +307,7 @@ Result<LoadedWorld> emptyWorld(WorldFile file) {
   }
   WorldOptions options;
   options.tolerance = file.tolerance;
+  options.askMeshes = file.askMeshes;
   FORETOUCH_TRY(auto world, World::build(scene, options));
   return LoadedWorld{
       std::move(file), std::move(scene), frame, {}, {}, std::move(world), 0, 0, std::nullopt, {}};
@@ -323,6 +324,7 @@ Result<BodyKnots> addBody(const FileBody& body, ShapeLoader& shapes, KnotLoader&
   options.group = group;
   options.whenSilent = body.whenSilent;
   options.self = told.self;
+  options.surface = shape.surface;
   const auto added = shape.avatar ? loaded.world.add(*shape.avatar, options)
                                   : loaded.world.add(*shape.mesh, options);
   if (!added.ok()) {

@@ -93,11 +93,11 @@ std::string overlapsInWords(const LoadedWorld& world, const std::vector<WorldCon
   return text;
 }
 
-/// Pairs that a world is never asked about, whatever its file says.
+/// Pairs that a world is not asked about unless its file says so.
 std::string notAskedInWords(const LoadedWorld& world) {
   const auto meshes = std::count_if(world.bodies.begin(), world.bodies.end(),
                                     [](const LoadedBody& body) { return body.isMesh(); });
-  if (meshes == 0) return "";
+  if (meshes == 0 || world.file.askMeshes) return "";
   std::string text = auditRow("not asked", "");
   if (meshes > 1) {
     text =
@@ -163,6 +163,7 @@ std::string auditLine(const LoadedWorld& world, const std::vector<WorldContact>&
     out.beginObject();
     out.field("name", file.name);
     out.field("made_of", madeOf(file.shape));
+    if (file.fidelity == Fidelity::Exact) out.field("fidelity", toString(file.fidelity));
     if (!file.group.empty()) out.field("group", file.group);
     if (file.massKg) out.field("mass", *file.massKg);
     out.field("poses", body.numPoses);

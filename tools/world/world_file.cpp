@@ -79,7 +79,7 @@ class WorldReading {
 };
 
 void WorldReading::readHead() {
-  root_.allowOnly({"format", "version", "scene", "query", "body", "ask"});
+  root_.allowOnly({"format", "version", "scene", "query", "body", "ask", "ask_meshes"});
   std::string format;
   root_.word<std::string>("format", {kFormat}, {kFormat}, format);
   if (format.empty()) {
@@ -88,6 +88,9 @@ void WorldReading::readHead() {
   std::int64_t version = 0;
   root_.integer("version", kVersion, kVersion, version);
   if (version == 0) reading_.fail(ErrorCode::Empty, -1, "expected version = 1");
+  std::optional<bool> askMeshes;
+  root_.truth("ask_meshes", askMeshes);
+  world_.askMeshes = askMeshes.value_or(false);
   Settings settings;
   addSceneSettings(settings, world_.scene);
   addWorldTolerance(settings, world_.tolerance);
@@ -102,10 +105,10 @@ void WorldReading::readHead() {
 FileBody WorldReading::readBody(TomlSection& section) {
   FileBody body;
   body.line = section.line();
-  section.allowOnly({"name",   "avatar",      "mesh",   "node",  "scale", "up",
-                     "sphere", "lss",         "box",    "group", "mass",  "self",
-                     "pairs",  "when_silent", "clip",   "poses", "pose",  "position",
-                     "yaw",    "rotation",    "attach", "detach"});
+  section.allowOnly({"name",   "avatar",      "mesh",   "node",   "scale",   "up",
+                     "sphere", "lss",         "box",    "group",  "mass",    "self",
+                     "pairs",  "when_silent", "clip",   "poses",  "pose",    "position",
+                     "yaw",    "rotation",    "attach", "detach", "fidelity"});
   section.text("name", body.name, false);
   if (body.name.empty()) section.fail(ErrorCode::Empty, "expected a name");
   readShape(section, reading_.file, body.shape);
@@ -122,6 +125,14 @@ FileBody WorldReading::readBody(TomlSection& section) {
   section.word<WhenSilent>("when_silent", {"wait", "hold-still", "undecided"},
                            {WhenSilent::Wait, WhenSilent::HoldStill, WhenSilent::Undecided},
                            body.whenSilent);
+  section.word<Fidelity>("fidelity", {"link", "exact"}, {Fidelity::Link, Fidelity::Exact},
+                         body.fidelity);
+  if (body.fidelity == Fidelity::Exact && body.shape.avatarPath.empty()) {
+    section.fail(
+        ErrorCode::Mismatch,
+        "expected an avatar beside fidelity = \"exact\": props touch by what they are made "
+        "of");
+  }
   std::optional<bool> self;
   section.truth("self", self);
   body.asksSelf = self.value_or(false);

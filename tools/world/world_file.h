@@ -12,6 +12,7 @@
 #include "articulated/pose.h"
 #include "articulated/result.h"
 #include "articulated/track.h"
+#include "middleware/fidelity.h"
 #include "tools/settings/clip_settings.h"
 #include "tools/settings/world_settings.h"
 #include "tools/world/file_shape.h"
@@ -56,6 +57,7 @@ struct FileBody {
   std::string group;             ///< Empty: that of all who name none.
   std::optional<double> massKg;  ///< Kept for later use.
   WhenSilent whenSilent = WhenSilent::Wait;
+  Fidelity fidelity = Fidelity::Link;  ///< Of an avatar: Exact: by its meshes.
   bool asksSelf = false;
   std::string pairsPath;  ///< Empty: derived.
 
@@ -82,6 +84,7 @@ struct WorldFile {
   std::string path;
   WorldRequest scene;  ///< Of which the scene's file and how to read it; no path: there is none.
   double tolerance = kDefaultTolerance;
+  bool askMeshes = false;  ///< WorldOptions::askMeshes.
   std::vector<FileBody> bodies;
   std::vector<FileAsk> asks;
 };

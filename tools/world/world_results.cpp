@@ -21,10 +21,10 @@ void writeContactSide(const LoadedWorld& world, const ContactSide& side, bool is
   if (isTold) {
     if (side.lss >= 0) out.field("lss", side.lss);
     if (side.triangle >= 0) {
-      const Scene& mesh =
-          side.body == kStillScene ? *world.scene : *world.bodies[slotOf(side.body)].shape.mesh;
       out.field("triangle", side.triangle);
-      out.field("object", mesh.objectNames()[slotOf(mesh.object(side.triangle))]);
+      const std::optional<Scene>& mesh =
+          side.body == kStillScene ? world.scene : world.bodies[slotOf(side.body)].shape.mesh;
+      if (mesh) out.field("object", mesh->objectNames()[slotOf(mesh->object(side.triangle))]);
     }
     out.field("point", side.p_W);
   }
@@ -37,6 +37,7 @@ void writeBody(const LoadedWorld& world, BodyId id, JsonWriter& out) {
   out.beginObject();
   out.field("name", file.name);
   out.field("made_of", madeOf(file.shape));
+  if (file.fidelity == Fidelity::Exact) out.field("fidelity", toString(file.fidelity));
   if (const std::string path = fileOf(file.shape); !path.empty()) {
     writeFileName("file", path, out);
   }
@@ -84,6 +85,7 @@ std::string worldHeader(const LoadedWorld& world, const WindowRequest& request,
     writeHeaderFields(settings, {"scene", "scene_scale", "up"}, out);
   }
   out.field("tolerance", world.file.tolerance);
+  if (world.file.askMeshes) out.field("ask_meshes", true);
   out.key("rate");
   request.rateHz ? out.value(*request.rateHz) : out.null();
   out.field("from", LoadedWorld::secondsOf(cuts.front()));

@@ -441,7 +441,9 @@ class SolidAvatar:
     def scene(self) -> Scene: ...
 
 class World:
-    def __init__(self, still: Optional[Scene] = None, *, tolerance: float = 0.001) -> None: ...
+    def __init__(
+        self, still: Optional[Scene] = None, *, tolerance: float = 0.001, ask_meshes: bool = False
+    ) -> None: ...
     def add(
         self,
         shape: Union[Avatar, Scene],
@@ -449,6 +451,7 @@ class World:
         group: int = 0,
         when_silent: str = "wait",
         self_pairs: Optional[PairRules] = None,
+        surface: Optional[Surface] = None,
     ) -> int: ...
     def push(self, body: int, utime_us: int, pose: PoseLike) -> None: ...
     def attach(

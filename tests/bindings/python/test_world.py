@@ -54,6 +54,32 @@ class Answers(unittest.TestCase):
         np.testing.assert_allclose(contact.b.point, [0.6, 0.5, 0], atol=1e-6)
         self.assertEqual((answer.silent, answer.counters["pairs"]), ([], 1))
 
+    def test_go_by_triangles_where_a_surface_says_so(self):
+        hull = ball(0.5)
+        plate = foretouch.Surface.from_triangles(
+            hull, [[[[-0.1, 0, -0.1], [0.1, 0, -0.1], [0, 0, 0.1]]]])
+        met = []
+        for surface in (None, plate):
+            world = World()
+            for body, x in ((world.add(hull, surface=surface), 0), (world.add(door()), -0.4)):
+                for us, y in ((0, 2.5), (1_000_000, -0.5)):
+                    world.push(body, us, at(x, y if body == 0 else -2.0))
+            met.append(world.contacts(0, 1_000_000).contacts)
+        [[by_lss], [exactly]] = met
+        self.assertEqual((by_lss.a.triangle, exactly.a.triangle, exactly.a.lss), (None, 0, 0))
+        self.assertEqual((by_lss.a.object, exactly.a.object), (None, None))
+        # The ball of 50 cm, and the plate in its middle, come down upon the door's upper edge.
+        self.assertTrue(660_000 < by_lss.time_us < 667_000)
+        self.assertTrue(830_000 < exactly.time_us < 834_000)
+
+    def test_ask_two_meshes_where_they_are_told_to(self):
+        for ask_meshes in (False, True):
+            world = World(door(), ask_meshes=ask_meshes)
+            panel = world.add(door())
+            for us, z in ((0, 1), (1_000_000, -1)):
+                world.push(panel, us, at(0, 0, z))
+            self.assertEqual(len(world.contacts(0, 1_000_000).contacts), int(ask_meshes))
+
     def test_know_what_stands_still(self):
         world = World(wall(z=0.0), tolerance=1e-4)
         thrown = world.add(ball())

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/surface/link_surface.h"
 #include "middleware/world/world_parts.h"
 
 namespace foretouch::test {
@@ -26,6 +27,15 @@ Pose poseOf(const RigidPose& rigid) {
   return {{rigid.rotation}, {rigid.translation}};
 }
 
+OracleBody rigidBody(const Scene& mesh) {
+  OracleBody body;
+  body.parents = {-1};
+  for (std::size_t i = 0; i < mesh.numTriangles(); ++i) {
+    body.parts.push_back({0, 3, plain(mesh.triangle(static_cast<TriangleId>(i))), 0.0});
+  }
+  return body;
+}
+
 template <typename T>
 T valueOf(Result<T> result) {
   EXPECT_TRUE(result.ok()) << describe(result.error());
@@ -34,15 +44,27 @@ T valueOf(Result<T> result) {
 
 }  // namespace
 
-BothWorlds::BothWorlds(double tolerance, std::optional<Scene> still)
-    : world(valueOf(World::build(still, {tolerance}))), tolerance_(tolerance) {}
+BothWorlds::BothWorlds(double tolerance) : BothWorlds(std::nullopt, WorldOptions{tolerance}) {}
+
+BothWorlds::BothWorlds(const std::optional<Scene>& still, const WorldOptions& options)
+    : world(valueOf(World::build(still, options))), tolerance_(options.tolerance) {
+  if (still) still_ = rigidBody(*still);
+}
 
 BodyId BothWorlds::add(const Avatar& avatar, const BodyOptions& options) {
   OracleBody body;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     body.parents.push_back(avatar.skeleton().parent(link));
-    for (const Lss& lss : avatar.lss(link)) {
+    const internal::LinkSurface* const mesh =
+        options.surface ? options.surface->parts().links[slotOf(link)].get() : nullptr;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(avatar.lss(link).size()); ++i) {
+      if (mesh != nullptr && mesh->hasTriangles(i)) continue;
+      const Lss& lss = avatar.lss(link)[slotOf(i)];
       body.parts.push_back({link, 2, {plain(lss.a), plain(lss.b), plain(lss.b)}, lss.radius});
+    }
+    if (mesh == nullptr) continue;
+    for (const Triangle& triangle : mesh->triangles()) {
+      body.parts.push_back({link, 3, plain(triangle), 0.0});
     }
   }
   oracle.bodies.push_back(body);
@@ -50,12 +72,7 @@ BodyId BothWorlds::add(const Avatar& avatar, const BodyOptions& options) {
 }
 
 BodyId BothWorlds::add(const Scene& mesh, const BodyOptions& options) {
-  OracleBody body;
-  body.parents = {-1};
-  for (std::size_t i = 0; i < mesh.numTriangles(); ++i) {
-    body.parts.push_back({0, 3, plain(mesh.triangle(static_cast<TriangleId>(i))), 0.0});
-  }
-  oracle.bodies.push_back(body);
+  oracle.bodies.push_back(rigidBody(mesh));
   return valueOf(world.add(mesh, options));
 }
 
@@ -147,9 +164,27 @@ void BothWorlds::judgeAll(std::int64_t fromUs, std::int64_t toUs) {
   ask(fromUs, toUs);
   for (BodyId a = 0; a < world.numBodies(); ++a) {
     for (BodyId b = a + 1; b < world.numBodies(); ++b) judgePair(a, b, fromUs, toUs);
+    judgeStill(a, fromUs, toUs);
     const std::optional<PairRules>& own = world.parts().body(a).options.self;
     if (own) judgeOwn(a, *own, fromUs, toUs);
   }
+}
+
+void BothWorlds::judgeStill(BodyId body, std::int64_t fromUs, std::int64_t toUs) {
+  if (!world.parts().isStillAsked(body)) return;
+  oracle.bodies.push_back(still_);
+  oracle.bodies.back().episodes = {{fromUs, -1, 0, {fromUs}, {{OraclePlace()}}}};
+  const int still = placeInOracle(kStillScene);
+  for (LinkId link = 0; link < world.parts().kindOf(body).skeleton.numJoints(); ++link) {
+    if (!hasParts(body, link)) continue;
+    judgeLinks(body, link, kStillScene, 0, fromUs,
+               oracle.firstTouch(body, link, still, 0, fromUs, toUs));
+  }
+  oracle.bodies.pop_back();
+}
+
+int BothWorlds::placeInOracle(BodyId body) const {
+  return body == kStillScene ? static_cast<int>(oracle.bodies.size()) - 1 : body;
 }
 
 void BothWorlds::judgeOwn(BodyId body, const PairRules& rules, std::int64_t fromUs,
@@ -169,7 +204,8 @@ std::string BothWorlds::problemOf(const WorldContact& contact, const OracleTouch
                                   std::int64_t fromUs) const {
   const Real at = static_cast<Real>(contact.time.us - fromUs) + contact.time.fraction;
   const ContactSide &a = contact.a, &b = contact.b;
-  const Real gap = oracle.separationAt(a.body, a.link, b.body, b.link, fromUs, at);
+  const int other = placeInOracle(b.body);
+  const Real gap = oracle.separationAt(a.body, a.link, other, b.link, fromUs, at);
   // The first instant within a nanometre: what is free is at least an eighth of the tolerance
   // apart, unless the window begins there.
   if (at > truth.time + Real(1e-9L)) return "late";
@@ -178,7 +214,7 @@ std::string BothWorlds::problemOf(const WorldContact& contact, const OracleTouch
   if (gap > static_cast<Real>(tolerance_) * (1 + Real(1e-9L))) return "early";
   if (std::abs(gap - static_cast<Real>(contact.separation)) > kPlaces) return "separation";
   const Real off = std::max(oracle.distanceToSurface(a.body, a.link, plain(a.p_W), fromUs, at),
-                            oracle.distanceToSurface(b.body, b.link, plain(b.p_W), fromUs, at));
+                            oracle.distanceToSurface(other, b.link, plain(b.p_W), fromUs, at));
   if (off > kPlaces) return "witness points";
   const Eigen::Vector3d between = a.p_W - b.p_W;
   if (std::abs(between.norm() - contact.separation) > 1e-9) return "points and separation";

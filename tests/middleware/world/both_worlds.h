@@ -30,7 +30,8 @@ struct WorldTally {
 
 class BothWorlds {
  public:
-  explicit BothWorlds(double tolerance, std::optional<Scene> still = std::nullopt);
+  explicit BothWorlds(double tolerance);
+  BothWorlds(const std::optional<Scene>& still, const WorldOptions& options);
 
   BodyId add(const Avatar& avatar, const BodyOptions& options = {});
   BodyId add(const Scene& mesh, const BodyOptions& options = {});
@@ -42,7 +43,8 @@ class BothWorlds {
 
   /// Asks, and judges every pair of links of the given bodies; adds to `problems`.
   void judge(BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs);
-  /// The same for every two bodies, and for own links where a body asks for these.
+  /// The same for every two bodies, for own links where a body asks for these, and for the static
+  /// scene.
   void judgeAll(std::int64_t fromUs, std::int64_t toUs);
 
   World world;
@@ -57,15 +59,18 @@ class BothWorlds {
   void ask(std::int64_t fromUs, std::int64_t toUs);
   void judgePair(BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs);
   void judgeOwn(BodyId body, const PairRules& rules, std::int64_t fromUs, std::int64_t toUs);
+  void judgeStill(BodyId body, std::int64_t fromUs, std::int64_t toUs);
   void judgeLinks(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB, std::int64_t fromUs,
                   const OracleTouch& truth);
   [[nodiscard]] bool hasParts(BodyId body, LinkId link) const;
   [[nodiscard]] bool areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const;
   [[nodiscard]] std::string problemOf(const WorldContact& contact, const OracleTouch& truth,
                                       std::int64_t fromUs) const;
+  [[nodiscard]] int placeInOracle(BodyId body) const;
   OracleEpisode& episode(BodyId body, std::int64_t utimeUs);
 
   double tolerance_;
+  OracleBody still_;  ///< Not among the judge's bodies but while it is judged: then the last one.
 };
 
 }  // namespace foretouch::test

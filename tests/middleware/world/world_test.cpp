@@ -279,6 +279,56 @@ TEST(World, RefusesByName) {
   EXPECT_EQ(world.knownUntilUs(), std::nullopt);  // what was refused has left no trace
 }
 
+TEST(World, RefusesSurfacesOfOthers) {
+  World world = emptyWorld();
+  const Avatar own = ball(0.1);
+  const Triangle small{{Vector3d(0.01, 0, 0), Vector3d(0.02, 0, 0), Vector3d(0, 0.01, 0)}};
+  BodyOptions options;
+  options.surface = AvatarSurface::build(own, {{small}}).value();
+  EXPECT_TRUE(world.add(own, options).ok());
+  const auto mesh = world.add(wall(), options);
+  ASSERT_FALSE(mesh.ok());
+  EXPECT_EQ(mesh.error().file, "surface");
+  RawSkeleton raw;
+  raw.joints = {{"a", kNoParent, {0, 0, 0}, Quaternion::Identity()},
+                {"b", 0, {1, 0, 0}, Quaternion::Identity()}};
+  const Lss lss{{0, 0, 0}, {0, 0, 0}, 0.6};
+  const Avatar two = Avatar::build(Skeleton::build(raw).value(), {{lss}, {lss}}).value();
+  const auto other = world.add(two, options);
+  ASSERT_FALSE(other.ok());
+  EXPECT_EQ(other.error().file, "surface");
+  options.surface = AvatarSurface::build(two, {{}, {}}).value();
+  options.self = PairRules::of(two, {}, {{0, 0, 1, 0, 0.9}}).value();
+  const auto smaller = world.add(two, options);
+  ASSERT_FALSE(smaller.ok());
+  EXPECT_EQ(smaller.error().file, "self");
+}
+
+// Two walls that cross, and a still one: nothing is said of them unless the world asks meshes.
+TEST(World, AsksMeshesWhereItIsTold) {
+  for (const bool asksMeshes : {false, true}) {
+    WorldOptions options;
+    options.askMeshes = asksMeshes;
+    World world = World::build(wall(), options).value();
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_TRUE(world.add(wall()).ok());
+      ASSERT_TRUE(world.push(i, 0, at(1.0 + i)).ok());
+      ASSERT_TRUE(world.push(i, 100, at(0.5 - i)).ok());
+    }
+    const WorldContacts answer = answerOf(world, 0, 100);
+    EXPECT_EQ(answer.contacts.size(), asksMeshes ? 2u : 0u);
+    for (const WorldContact& contact : answer.contacts) {
+      EXPECT_EQ(contact.verdict, Verdict::Contact);
+      EXPECT_EQ(contact.a.lss, -1);
+      EXPECT_GE(contact.a.triangle, 0);
+      EXPECT_GE(contact.b.triangle, 0);
+    }
+    ASSERT_TRUE(world.ask(0, 0, false).ok());
+    ASSERT_TRUE(world.askStill(0, false).ok());
+    EXPECT_TRUE(answerOf(world, 0, 100).contacts.empty());
+  }
+}
+
 TEST(World, RefusesCirclesOfCarriers) {
   World world = emptyWorld();
   for (int i = 0; i < 3; ++i) {

@@ -183,6 +183,8 @@ TEST(WorldFile, SaysWhereItIsBrokenAndWhatItExpected) {
       {"[[body]]\nname = \"a\"\navatar = \"a.json\"\nposes = \"a.csv\"\n", 3,
        "expected a clip for an avatar"},
       {sphere + sphere, 6, "expected one that no other body has, found 'a'"},
+      {sphere + "fidelity = \"exact\"\n", 3, "expected an avatar beside fidelity"},
+      {"[[body]]\nname = \"a\"\navatar = \"a.json\"\nfidelity = \"limb\"\n", 6, "exact"},
       {sphere + "[[ask]]\ngroup = \"g\"\n", 6, "expected group, with and asked"},
   };
   for (const Broken& broken : cases) {
@@ -192,6 +194,20 @@ TEST(WorldFile, SaysWhereItIsBrokenAndWhatItExpected) {
     EXPECT_EQ(parsed.error().line, broken.line) << broken.text << describe(parsed.error());
     EXPECT_TRUE(holds(parsed.error().message, broken.says)) << describe(parsed.error());
   }
+}
+
+TEST(WorldFile, SaysWhoTouchesByTriangles) {
+  const auto parsed =
+      parseWorldFile(kHead +
+                         "ask_meshes = true\n[[body]]\nname = \"a\"\navatar = \"a.json\"\n"
+                         "fidelity = \"exact\"\n",
+                     "w.toml");
+  ASSERT_TRUE(parsed.ok()) << describe(parsed.error());
+  EXPECT_TRUE(parsed.value().askMeshes);
+  EXPECT_EQ(parsed.value().bodies[0].fidelity, Fidelity::Exact);
+  const auto usual = parseWorldFile(kHead + kBall, "w.toml");
+  EXPECT_FALSE(usual.value().askMeshes);
+  EXPECT_EQ(usual.value().bodies[0].fidelity, Fidelity::Link);
 }
 
 TEST(WorldFile, IsOfItsFormatAndVersion) {

@@ -21,8 +21,8 @@ typedef struct ft_world ft_world;
 
 typedef struct ft_world_options {
   uint32_t size;
-  int32_t reserved; /* 0 */
-  double tolerance; /* metres, of every contact: 1e-8 to 1e7; default 1e-3 */
+  int32_t asks_meshes; /* 1: two meshes are asked whether they meet, and a mesh and what is still */
+  double tolerance;    /* metres, of every contact: 1e-8 to 1e7; default 1e-3 */
 } ft_world_options;
 
 FT_API ft_status ft_world_options_init(ft_world_options* options, size_t size);
@@ -41,18 +41,19 @@ typedef struct ft_body_options {
   uint32_t size;
   int32_t group;             /* 0 to 31, for ft_world_ask(); default 0 */
   int32_t when_silent;       /* default FT_SILENT_WAIT */
-  int32_t reserved;          /* 0 */
+  int32_t fidelity;          /* FT_FIDELITY_LINK, or _EXACT: it touches by the avatar's triangles */
   const ft_pair_rules* self; /* asks whether own links touch, too; NULL: not asked. Not kept */
 } ft_body_options;
 
 FT_API ft_status ft_body_options_init(ft_body_options* options, size_t size);
-/* An avatar, or a prop made of LSS: the LSS of its links touch. Stores the body's number in *body:
- * 0, 1, 2, ... in the order of adding. `options` may be NULL. Errors: options out of range, rules
- * of another avatar, more than 100,000 bodies. */
+/* An avatar, or a prop made of LSS: the LSS of its links touch, or its triangles. Stores the body's
+ * number in *body: 0, 1, 2, ... in the order of adding. `options` may be NULL. Errors: options out
+ * of range, rules of another avatar, FT_FIDELITY_EXACT of an avatar without triangles or beside
+ * rules with pair radii, more than 100,000 bodies. */
 FT_API ft_status ft_world_add_avatar(ft_world* world, const ft_avatar* avatar,
                                      const ft_body_options* options, int32_t* body);
 /* A rigid prop: its triangles touch, in its own frame. It has one joint, 0, as poses and contacts
- * count. Two meshes are not asked whether they meet, nor is a mesh and what is still. */
+ * count. It meets avatars, and whatever ft_world_options.asks_meshes says besides. */
 FT_API ft_status ft_world_add_mesh(ft_world* world, const ft_scene* mesh,
                                    const ft_body_options* options, int32_t* body);
 FT_API ft_status ft_world_body_count(const ft_world* world, size_t* count);
@@ -118,8 +119,8 @@ typedef struct ft_world_side {
   int32_t body;     /* or FT_STILL_SCENE */
   int32_t link;     /* 0 for a mesh and for what is still; or FT_EVERY_LINK */
   int32_t lss;      /* which of the link's LSS; -1: none */
-  int32_t triangle; /* of the mesh, or of what is still; -1: none */
-  int32_t object;   /* of the triangle; -1: none */
+  int32_t triangle; /* of the mesh, of what is still, or of the link; -1: none */
+  int32_t object;   /* of a mesh's triangle, or of what is still; -1: none */
   int32_t reserved; /* 0 */
   double point[3];  /* witness point on its surface, W */
 } ft_world_side;
