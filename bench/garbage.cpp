@@ -4,6 +4,7 @@
 #include <arpa/inet.h>
 #include <array>
 #include <chrono>
+#include <ctime>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <utility>
@@ -140,6 +141,11 @@ void Flood::run(double perSecond, double seconds) {
     next = (next + sent) % datagrams_.size();
   }
   sent_.perSecond = static_cast<double>(sent_.datagrams) / since();
+  timespec ran{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ran);
+  const double ranUs =
+      1e6 * static_cast<double>(ran.tv_sec) + 1e-3 * static_cast<double>(ran.tv_nsec);
+  if (sent_.datagrams > 0) sent_.processorUs = ranUs / static_cast<double>(sent_.datagrams);
 }
 
 }  // namespace foretouch::tools

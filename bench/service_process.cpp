@@ -1,5 +1,6 @@
 #include "bench/service_process.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -14,10 +15,22 @@
 namespace foretouch::tools {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr char kReady[] = "ready";
 
 Error failure(const std::string& what) {
   return Error::in("foretouch serve", ErrorCode::DeviceFailed, what);
+}
+
+/// Without what differs from one to the next: a socket's number, a log's name.
+std::string kindOf(const fs::path& leadsTo) {
+  const std::string text = leadsTo.string();
+  const std::size_t number = text.find(":[");
+  if (number != std::string::npos && text.rfind("anon_inode", 0) != 0) {
+    return text.substr(0, number);
+  }
+  return leadsTo.has_extension() ? "*" + leadsTo.extension().string() : text;
 }
 
 /// Reads the child's output up to its "ready" line.
@@ -39,10 +52,12 @@ bool waitUntilReady(int output) {
 
 }  // namespace
 
-Result<ServiceProcess> ServiceProcess::start(const std::vector<std::string>& arguments) {
-  std::error_code unknown;
-  const std::string program =
-      std::filesystem::read_symlink("/proc/self/exe", unknown).replace_filename("foretouch");
+Result<ServiceProcess> ServiceProcess::start(const std::vector<std::string>& arguments,
+                                             std::string program) {
+  if (program.empty()) {
+    std::error_code unknown;
+    program = fs::read_symlink("/proc/self/exe", unknown).replace_filename("foretouch");
+  }
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return failure(std::strerror(errno));
   std::vector<std::string> words = {"foretouch", "serve"};
@@ -81,24 +96,37 @@ ServiceProcess::~ServiceProcess() {
   if (output_ >= 0) ::close(output_);
 }
 
+std::string ServiceProcess::folder() const {
+  return "/proc/" + std::to_string(child_);
+}
+
 std::int64_t ServiceProcess::residentBytes() const {
-  std::ifstream file("/proc/" + std::to_string(child_) + "/statm");
+  std::ifstream file(folder() + "/statm");
   std::int64_t total = 0, resident = 0;
   if (!(file >> total >> resident)) return -1;
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-std::int64_t ServiceProcess::openFiles() const {
-  std::error_code error;
-  const std::filesystem::directory_iterator entries("/proc/" + std::to_string(child_) + "/fd",
-                                                    error);
-  if (error) return -1;
-  std::int64_t count = 0;
-  for (const auto& entry : entries) {
-    (void)entry;
-    ++count;
+std::vector<std::string> ServiceProcess::openFiles() const {
+  std::vector<std::string> kinds;
+  std::error_code gone;
+  for (const auto& entry : fs::directory_iterator(folder() + "/fd", gone)) {
+    kinds.push_back(kindOf(fs::read_symlink(entry.path(), gone)));
   }
-  return count;
+  std::sort(kinds.begin(), kinds.end());
+  return kinds;
+}
+
+double ServiceProcess::processorSeconds() const {
+  constexpr double kSecondsPerNs = 1e-9;
+  double seconds = 0.0;
+  std::error_code gone;
+  for (const auto& entry : fs::directory_iterator(folder() + "/task", gone)) {
+    std::ifstream file(entry.path() / "schedstat");
+    double ranNs = 0.0;
+    if (file >> ranNs) seconds += kSecondsPerNs * ranNs;
+  }
+  return seconds;
 }
 
 int ServiceProcess::stop() {

@@ -13,21 +13,27 @@ namespace foretouch::tools {
 
 class ServiceProcess {
  public:
-  /// This program as `serve` with `arguments`; returns once it says that it is ready. Errors: it
-  /// ended before; the terminal has its stderr.
-  static Result<ServiceProcess> start(const std::vector<std::string>& arguments);
+  /// `foretouch serve` with `arguments`, the one beside this program or the `program` of this path;
+  /// returns once it says that it is ready. Errors: it ended before; the terminal has its stderr.
+  static Result<ServiceProcess> start(const std::vector<std::string>& arguments,
+                                      std::string program = {});
   ServiceProcess(ServiceProcess&& other) noexcept;
   ServiceProcess& operator=(ServiceProcess&&) = delete;
   ~ServiceProcess();  ///< Kills the process if it still runs.
 
-  /// Resident memory in bytes, and open file descriptors; -1 if it is gone.
+  /// Resident memory in bytes; -1 if it is gone.
   [[nodiscard]] std::int64_t residentBytes() const;
-  [[nodiscard]] std::int64_t openFiles() const;
+  /// What each open file descriptor is, as "socket", "anon_inode:[eventfd]", "/dev/null" and
+  /// "*.lcmlog", sorted; none if the process is gone.
+  [[nodiscard]] std::vector<std::string> openFiles() const;
+  /// Of all its threads since their start, in user and system.
+  [[nodiscard]] double processorSeconds() const;
   /// SIGTERM; the exit code, -1 if a signal ended it.
   int stop();
 
  private:
   ServiceProcess(pid_t child, int output) : child_(child), output_(output) {}
+  [[nodiscard]] std::string folder() const;  // of /proc
   pid_t child_ = -1;
   int output_ = -1;  // its stdout, kept open so that it never writes into a closed pipe
 };

@@ -67,8 +67,8 @@ struct SoakOutcome {
   std::int64_t lost = 0;
   double slopeMbPerHour = 0.0;  ///< Of resident memory after warm-up, by least squares.
   double grownMb = 0.0;         ///< From the first to the last sample after warm-up.
-  bool filesGrown = false;      ///< More open in the last half after warm-up than in the first.
-  int exitCode = -1;            ///< Of the service.
+  bool filesGrown = false;  ///< Never so few open in the last half after warm-up as in the first.
+  int exitCode = -1;        ///< Of the service.
 };
 
 /// One service under one load. Precondition as above.

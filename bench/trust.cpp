@@ -12,6 +12,7 @@
 #include "articulated/try.h"
 #include "bench/bench_folder.h"
 #include "bench/garbage.h"
+#include "bench/hardening.h"
 #include "bench/machine.h"
 #include "bench/service_process.h"
 #include "bench/slow_clients.h"
@@ -98,13 +99,21 @@ Result<BenchTable> floodTable(const Stage& stage, std::int64_t& lost) {
                     {"lost", "lost", 0},
                     {"dropped", "datagrams that the system dropped", 0},
                     {"overrun", "overrun", 0},
+                    {"sender_us", "the flood's processor time per datagram (us)", 2},
+                    {"service_us", "the service's (us)", 2},
                     {"query_p50_us", "query p50 (us)", 1},
                     {"added_p50_us", "added p50 (us)", 0}},
                    {}};
+  double usual = 0.0;  // processor seconds that the true poses cost
   for (const FloodKind& kind : kinds) {
     FORETOUCH_TRY(auto service, serve(stage));
+    const double before = service.processorSeconds();
     FORETOUCH_TRY(const auto flooded, runFlooded(stage, kind));
+    const double ran = service.processorSeconds() - before;
     service.stop();
+    if (kind.datagrams.empty()) usual = ran;
+    const auto strange = static_cast<double>(flooded.flood.datagrams);
+    const double serviceUs = strange > 0.0 ? 1e6 * std::max(0.0, ran - usual) / strange : 0.0;
     const StatusMessage& status = flooded.truth.status;
     const std::int64_t missed = flooded.truth.sent - status.answered;
     lost += missed;
@@ -113,10 +122,10 @@ Result<BenchTable> floodTable(const Stage& stage, std::int64_t& lost) {
       queries.push_back(answer.queryUs);
       added.push_back(std::max(0.0F, answer.serviceUs - answer.queryUs));
     }
-    table.rows.push_back({kind.what, flooded.flood.perSecond, flooded.truth.sent, missed,
-                          status.kernelDrops, countOfReason(status, Reject::Overrun),
-                          percentilesOf(std::move(queries)).p50,
-                          percentilesOf(std::move(added)).p50});
+    table.rows.push_back(
+        {kind.what, flooded.flood.perSecond, flooded.truth.sent, missed, status.kernelDrops,
+         countOfReason(status, Reject::Overrun), flooded.flood.processorUs, serviceUs,
+         percentilesOf(std::move(queries)).p50, percentilesOf(std::move(added)).p50});
   }
   return table;
 }
@@ -331,9 +340,19 @@ Result<TrustBench> measureTrust(const TrustRequest& request) {
   FORETOUCH_TRY(auto http, httpTable(stage));
   FORETOUCH_TRY(auto log, logTable(stage));
   report.tables = {std::move(floods), std::move(http), std::move(log), std::move(speaker)};
+  if (!request.hardened.empty()) {
+    const HardeningRequest hardening{request.hardened, request.seconds};
+    FORETOUCH_TRY(auto queries, hardenedQueries(hardening, stage.inputs, request.place));
+    report.tables.push_back(std::move(queries));
+    FORETOUCH_TRY(auto services, hardenedServices(hardening, stage.inputs, stage.track));
+    report.tables.push_back(std::move(services));
+  }
   report.notes = {
       "Service, true sender and strangers share this machine's cores; the flood comes from a port "
-      "of its own. Lost: true poses less answers that the service counts.",
+      "of its own. Lost: true poses less answers that the service counts. Processor times are of "
+      "the "
+      "flood's thread, which also delivers what it sends, and of the service beyond what it takes "
+      "for the true poses: how many a core of each bears.",
       "Added: from the system's stamp on the pose's datagram to the answer's hand-over, less the "
       "query."};
   return bench;

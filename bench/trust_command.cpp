@@ -16,7 +16,7 @@ namespace foretouch::tools {
 namespace {
 
 struct TrustTexts {
-  std::string seconds = "5", place = "0,0,0,0", json, csv;
+  std::string seconds = "5", place = "0,0,0,0", hardened, json, csv;
 };
 
 ExitCode runTrust(const TrustTexts& texts) {
@@ -25,6 +25,7 @@ ExitCode runTrust(const TrustTexts& texts) {
   settle.into(request.seconds, parsePositive("--seconds", texts.seconds));
   settle.into(request.place, parsePlacement("--place", texts.place));
   if (settle.error()) return failed(*settle.error());
+  request.hardened = texts.hardened;
   request.command = ownCommandLine();
   FORETOUCH_CHECK_OR(failed, enterPrivateNetwork());
   FORETOUCH_TRY_OR(failed, const auto bench, measureTrust(request));
@@ -49,9 +50,13 @@ void addBenchTrustCommand(CLI::App& bench, ExitCode& exit) {
   };
   option("--seconds", texts->seconds, "S", "Of each row");
   option("--place", texts->place, "X,Y,Z[,YAW]", "Where the bundled dancer stands in the room");
+  option("--hardened", texts->hardened, "FOLDER",
+         "A hardened build, build/packages say: also what that costs queries and services");
   option("--json", texts->json, "FILE", "Also write the figures to a file");
   option("--csv", texts->csv, "FILE", "Also write the first table to a file");
-  command->footer("Example:\n  foretouch-bench trust --seconds 5 --json trust.json");
+  command->footer(
+      "Examples:\n  foretouch-bench trust --seconds 5 --json trust.json\n"
+      "  foretouch-bench trust --hardened build/packages");
   command->callback([texts, &exit] { exit = runTrust(*texts); });
 }
 

@@ -161,13 +161,23 @@ void BoundedHttp::end() {
 
 void BoundedHttp::run() {
   while (!isStopping_) {
-    wait();
-    admit();
-    for (const auto& client : clients_) serve(*client);
-    const auto isOver = [](const auto& client) { return client->isOver; };
-    clients_.erase(std::remove_if(clients_.begin(), clients_.end(), isOver), clients_.end());
+    try {
+      takeTurn();
+    } catch (...) {
+      // Out of memory: these clients come again, as the service goes on.
+      clients_.clear();
+      std::this_thread::sleep_for(milliseconds(kPollMs));
+    }
   }
   clients_.clear();
+}
+
+void BoundedHttp::takeTurn() {
+  wait();
+  admit();
+  for (const auto& client : clients_) serve(*client);
+  const auto isOver = [](const auto& client) { return client->isOver; };
+  clients_.erase(std::remove_if(clients_.begin(), clients_.end(), isOver), clients_.end());
 }
 
 void BoundedHttp::wait() {
@@ -317,13 +327,7 @@ Result<Done> BoundedHttp::start(const std::string& what, const std::string& host
     return cannotServe(what, host, port, std::generic_category().message(errno));
   }
   try {
-    thread_ = std::thread([this] {
-      try {
-        run();
-      } catch (...) {
-        // The pages are gone; the service continues.
-      }
-    });
+    thread_ = std::thread([this] { run(); });
   } catch (const std::system_error& e) {
     return cannotServe(what, host, port, e.what());
   }

@@ -62,6 +62,7 @@ class BoundedHttp final : public httplib::Server {
   struct Client;
   class MemoryStream;
   void run();
+  void takeTurn();
   void wait();
   void admit();
   bool makePlace(const std::string& address);

@@ -32,8 +32,9 @@ struct LogLimits {
 };
 
 /// A new event log (EventLogWriter); an existing file is an error. Beyond the limit it goes on in
-/// "today.2.lcmlog" and so on, each with the last skeletons at its begin, and removes the oldest
-/// of those that it made. `skeletonChannel`: whose payloads these are.
+/// "today.2.lcmlog" and so on, each with the last skeletons at its begin, passes over names that
+/// are taken, and removes the oldest of those that it made. `skeletonChannel`: whose payloads these
+/// are.
 [[nodiscard]] Result<std::unique_ptr<JournalSink>> createLogSink(
     const std::string& path, const LogLimits& limits = {}, const std::string& skeletonChannel = "");
 

@@ -53,6 +53,19 @@ class RollingLog final : public JournalSink {
     skeletons_[message.avatar].assign(payload.data, payload.data + payload.size);
   }
 
+  [[nodiscard]] std::string nameOf(int number) const {
+    const fs::path path(path_);
+    const std::string name =
+        path.stem().string() + "." + std::to_string(number) + path.extension().string();
+    return (path.parent_path() / name).string();
+  }
+
+  /// By whatever it is, also a link that leads nowhere.
+  static bool isTaken(const std::string& path) {
+    std::error_code unknown;
+    return fs::exists(fs::symlink_status(path, unknown));
+  }
+
   /// After an error the next event tries again.
   Result<Done> roll(std::int64_t utimeUs) {
     // Room first: the disk may be full of these.
@@ -63,14 +76,13 @@ class RollingLog final : public JournalSink {
     }
     if (writer_) FORETOUCH_CHECK(writer_->close());
     writer_.reset();
-    const fs::path path(path_);
-    const fs::path next =
-        path.parent_path() /
-        (path.stem().string() + "." + std::to_string(number_ + 1) + path.extension().string());
-    FORETOUCH_TRY(auto writer, EventLogWriter::create(next.string()));
+    // An earlier run under this name may have left some behind; they stay.
+    while (isTaken(nameOf(number_ + 1))) ++number_;
+    const std::string next = nameOf(number_ + 1);
+    FORETOUCH_TRY(auto writer, EventLogWriter::create(next));
     ++number_;
     writer_ = std::move(writer);
-    files_.push_back(next.string());
+    files_.push_back(next);
     bytes_ = 0;
     for (const auto& [avatar, payload] : skeletons_) {
       bytes_ += sizeOf(skeletonChannel_, payload);

@@ -34,9 +34,12 @@ Reject BoundStream::take(const Heard& heard, const SkeletonMessage& message, Str
   }
   const Reject reject = solver_.take(message);
   if (isRecorded(reject, heard.receiveUtimeUs, record)) {
+    tellSpeaker(record);
     record.skeleton(heard.payload, heard.receiveUtimeUs);
   }
-  if (isKnownSender && (reject == Reject::None || gate_->isOpen())) keep(heard, message.hash);
+  // One that is refused for its age may be needed yet; what fits no avatar never will.
+  const bool isOfUse = reject == Reject::None || (gate_->isOpen() && solver_.leftTrace());
+  if (isKnownSender && isOfUse) keep(heard, message.hash);
   if (reject == Reject::None && gate_->isSpeaker(heard.sender)) gate_->heard(heard.receiveUtimeUs);
   return reject;
 }
@@ -58,6 +61,7 @@ Reject BoundStream::take(const Heard& heard, const PoseMessage& message, Contact
   }
   const Reject reject = solver_.take(message, answer);
   if (isRecorded(reject, heard.receiveUtimeUs, record)) {
+    tellSpeaker(record);
     record.pose(heard.payload, heard.receiveUtimeUs);
   }
   if (reject == Reject::None) gate_->accepted(heard.sender, heard.receiveUtimeUs);
@@ -66,15 +70,28 @@ Reject BoundStream::take(const Heard& heard, const PoseMessage& message, Contact
 
 /// Makes way for a pose of a sender that does not speak yet.
 void BoundStream::bringIn(const Heard& heard, const PoseMessage& message, StreamRecord& record) {
-  record.speaker({message.avatar, std::max<std::int64_t>(0, heard.receiveUtimeUs),
-                  ntohl(heard.sender.address), ntohs(heard.sender.port)});
+  nextSpeaker_ = {message.avatar, std::max<std::int64_t>(0, heard.receiveUtimeUs),
+                  ntohl(heard.sender.address), ntohs(heard.sender.port)};
   solver_.changeSpeaker();
-  const Said* const said = saidBy(heard.sender, message.skeletonHash);
+  Said* const said = saidBy(heard.sender, message.skeletonHash);
   if (said == nullptr || isKnown(message.skeletonHash)) return;
   SkeletonMessage skeleton;
   if (decode(said->payload, skeleton) != Reject::None) return;  // it was decoded before
-  record.skeleton(said->payload, said->receiveUtimeUs);
-  static_cast<void>(solver_.take(skeleton));  // counted by the stream
+  const Reject reject = solver_.take(skeleton);                 // counted by the stream
+  if (isRecorded(reject, heard.receiveUtimeUs, record)) {
+    tellSpeaker(record);
+    record.skeleton(said->payload, said->receiveUtimeUs);
+  }
+  // It would be refused again, with every pose.
+  if (reject != Reject::None) said->payload.clear();
+}
+
+/// Before whatever is recorded after a change: of senders whose poses are all refused, a record has
+/// no more than of the poses.
+void BoundStream::tellSpeaker(StreamRecord& record) {
+  if (!nextSpeaker_) return;
+  record.speaker(*nextSpeaker_);
+  nextSpeaker_.reset();
 }
 
 void BoundStream::keep(const Heard& heard, std::int64_t hash) {
@@ -98,7 +115,7 @@ void BoundStream::keep(const Heard& heard, std::int64_t hash) {
   place->payload.assign(heard.payload.data, heard.payload.data + heard.payload.size);
 }
 
-const BoundStream::Said* BoundStream::saidBy(const UdpmSender& sender, std::int64_t hash) const {
+BoundStream::Said* BoundStream::saidBy(const UdpmSender& sender, std::int64_t hash) {
   const auto said = std::find_if(said_.begin(), said_.end(), [&](const Said& each) {
     return each.sender == sender && each.hash == hash && !each.payload.empty();
   });

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "network/stream/speaker_gate.h"
@@ -78,14 +79,16 @@ class BoundStream {
     Bytes payload;
   };
   void keep(const Heard& heard, std::int64_t hash);
-  [[nodiscard]] const Said* saidBy(const UdpmSender& sender, std::int64_t hash) const;
+  [[nodiscard]] Said* saidBy(const UdpmSender& sender, std::int64_t hash);
   [[nodiscard]] bool isKnown(std::int64_t hash) const;
   void bringIn(const Heard& heard, const PoseMessage& message, StreamRecord& record);
+  void tellSpeaker(StreamRecord& record);
   [[nodiscard]] bool isRecorded(Reject reject, std::int64_t receiveUtimeUs, StreamRecord& record);
 
   StreamSolver solver_;
   std::unique_ptr<SpeakerGate> gate_;  // has atomics, which do not move
   std::array<Said, 3> said_;
+  std::optional<SpeakerMessage> nextSpeaker_;  // a change that is not recorded yet
   std::int64_t recordSecond_ = 0;
   int refusedRecords_ = 0;  // of this second
 };

@@ -52,19 +52,19 @@ int digitOf(char c) {
 struct MessageKey::Impl {
   explicit Impl(const std::array<std::uint8_t, kKeyBytes>& key)
       : method(EVP_MAC_fetch(nullptr, "SIPHASH", nullptr), EVP_MAC_free),
-        start(EVP_MAC_CTX_new(method.get()), EVP_MAC_CTX_free) {
+        start(method ? EVP_MAC_CTX_new(method.get()) : nullptr, EVP_MAC_CTX_free) {
     std::size_t size = kNumberBytes;
     unsigned compressions = 2, finals = 4;
     const OSSL_PARAM parameters[] = {
         OSSL_PARAM_construct_size_t(OSSL_MAC_PARAM_SIZE, &size),
         OSSL_PARAM_construct_uint(OSSL_MAC_PARAM_C_ROUNDS, &compressions),
         OSSL_PARAM_construct_uint(OSSL_MAC_PARAM_D_ROUNDS, &finals), OSSL_PARAM_construct_end()};
-    const bool isReady = EVP_MAC_init(start.get(), key.data(), key.size(), parameters) == 1;
-    FORETOUCH_ASSERT(isReady);  // Debian's libcrypto has SipHash in its default provider
-    static_cast<void>(isReady);
+    isReady =
+        start != nullptr && EVP_MAC_init(start.get(), key.data(), key.size(), parameters) == 1;
   }
   std::unique_ptr<EVP_MAC, void (*)(EVP_MAC*)> method;
   std::unique_ptr<EVP_MAC_CTX, void (*)(EVP_MAC_CTX*)> start;
+  bool isReady = false;  ///< A system that allows FIPS methods alone has no SipHash.
 };
 
 MessageKey::MessageKey(const std::array<std::uint8_t, kKeyBytes>& key)
@@ -101,10 +101,15 @@ Result<MessageKey> MessageKey::read(const std::string& path) {
     return refused(ErrorCode::Syntax,
                    "expected 32 hexadecimal digits, as openssl rand -hex 16 writes them");
   }
-  return MessageKey(key);
+  MessageKey read(key);
+  if (!read.impl_->isReady) {
+    return refused(ErrorCode::DeviceFailed, "this system's libcrypto gives no SipHash");
+  }
+  return read;
 }
 
 std::uint64_t MessageKey::codeOf(std::string_view channel, ByteView bytes) const {
+  FORETOUCH_ASSERT(impl_->isReady);
   const std::unique_ptr<EVP_MAC_CTX, void (*)(EVP_MAC_CTX*)> state(
       EVP_MAC_CTX_dup(impl_->start.get()), EVP_MAC_CTX_free);
   const std::uint8_t end = 0;

@@ -34,9 +34,10 @@ struct SignedPayload {
 /// Copies are cheap. From any thread.
 class MessageKey {
  public:
+  /// Precondition (asserted as it is used): the system's libcrypto gives SipHash.
   explicit MessageKey(const std::array<std::uint8_t, kKeyBytes>& key);
   /// A file of 32 hexadecimal digits, as `openssl rand -hex 16` writes them. Errors: not a regular
-  /// file, readable by others than its owner, anything else in it.
+  /// file, readable by others than its owner, anything else in it; a libcrypto without SipHash.
   static Result<MessageKey> read(const std::string& path);
 
   /// Appends the signature.

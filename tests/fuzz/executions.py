@@ -1,5 +1,7 @@
-"""executions.py FOLDER TARGET...: a table of what libFuzzer says at the end of FOLDER/TARGET.log, and the
-same as FOLDER/fuzzing.json, for docs/measurements."""
+"""executions.py [--record FILE] FOLDER TARGET...: a table of what libFuzzer says at the end of
+FOLDER/TARGET.log, and the same as FOLDER/fuzzing.json. With --record it is added to the figures in FILE
+(docs/measurements/fuzzing.json): executions, minutes and findings add up; of edges and inputs, which the
+next run begins with, the more count."""
 import datetime
 import json
 import re
@@ -23,8 +25,33 @@ def row_of(folder, target):
             "findings": len(re.findall(r"^SUMMARY: |^broken promise: ", text, re.M))}
 
 
+def added(old, new):
+    row = dict(new)
+    for key in ("million_executions", "minutes", "findings"):
+        row[key] = round(old[key] + new[key], 3)
+    for key in ("edges", "inputs"):
+        row[key] = max(old[key], new[key])
+    return row
+
+
+def record(path, rows):
+    with open(path) as recorded:
+        figures = json.load(recorded)
+    table = figures["tables"][0]
+    known = {row["target"]: row for row in table["rows"]}
+    for row in rows:
+        known[row["target"]] = added(known[row["target"]], row) if row["target"] in known else row
+    table["rows"] = list(known.values())
+    table["date"] = datetime.date.today().isoformat()
+    with open(path, "w") as out:
+        json.dump(figures, out, indent=1)
+        out.write("\n")
+
+
 def main():
-    folder, targets = sys.argv[1], sys.argv[2:]
+    words = sys.argv[1:]
+    recorded = words[1] if words[0] == "--record" else None
+    folder, *targets = words[2:] if recorded else words
     rows = [row_of(folder, target) for target in targets]
     print("| " + " | ".join(title for _, title in COLUMNS) + " |")
     print("|" + "---|" * len(COLUMNS))
@@ -38,6 +65,8 @@ def main():
     with open(f"{folder}/fuzzing.json", "w") as out:
         json.dump({"format": "foretouch-figures", "version": 1, "title": "Fuzzing", "tables": [table]}, out, indent=1)
         out.write("\n")
+    if recorded:
+        record(recorded, rows)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/payload_check.h"
 #include "tests/fuzz/promise.h"
@@ -53,6 +54,40 @@ void checkContent(const ContactsMessage& message) {
   const auto clear = std::count(message.verdicts.begin(), message.verdicts.end(), Verdict::Clear);
   require(message.verdicts.size() - static_cast<std::size_t>(clear) == listed.size(),
           "every link that is not clear is listed");
+}
+
+void checkContent(const SolidMessage& message) {
+  const std::size_t joints = message.joints.size();
+  require(joints >= 1 && joints <= kMaxSolidJoints && message.linkDeviation.size() == joints,
+          "every joint has its state");
+  require(!message.way.empty() && message.way.size() <= kMaxSolidPoses &&
+              message.times.size() == message.way.size(),
+          "every pose of a way has its time");
+  double last = -1.0;
+  for (const double time : message.times) {
+    require(time > last && time >= 0.0 && time <= 1.0, "times go on and are normalised");
+    last = time;
+  }
+  for (const Pose& pose : message.way) {
+    require(pose.rotations.size() == joints && pose.translations.size() == joints,
+            "a pose has a joint per link");
+    for (const Quaternion& rotation : pose.rotations) {
+      require(unitQuaternion(rotation).has_value(), "rotations are unit");
+    }
+    for (const Eigen::Vector3d& translation : pose.translations) {
+      require(translation.cwiseAbs().maxCoeff() <= kMaxCoordinate, "translations are bounded");
+    }
+  }
+  for (const ShownContact& shown : message.contacts) {
+    const SolidContact& contact = shown.contact;
+    require(contact.link >= 0 && slotOf(contact.link) < joints, "a contact's link exists");
+    require(contact.other == kNoParent || slotOf(contact.other) < joints, "so does the other");
+    require(std::isfinite(contact.push) && contact.push >= 0.0, "a push is some");
+  }
+}
+
+void checkContent(const SpeakerMessage& message) {
+  require(message.avatar >= 0 && message.utimeUs >= 0, "a speaker speaks for an avatar");
 }
 
 void checkContent(const StatusMessage& message) {
@@ -117,6 +152,16 @@ bool feedPoseMessage(const std::uint8_t* data, std::size_t size) {
 
 bool feedContactsMessage(const std::uint8_t* data, std::size_t size) {
   return feedExact<ContactsMessage>(data, size);
+}
+
+bool feedSolidMessage(const std::uint8_t* data, std::size_t size) {
+  static SolidMessage message;
+  // Rotations that are nearly unit are read as unit ones.
+  return feed<SolidMessage>({data, size}, message, [](const SolidMessage&) { return false; });
+}
+
+bool feedSpeakerMessage(const std::uint8_t* data, std::size_t size) {
+  return feedExact<SpeakerMessage>(data, size);
 }
 
 bool feedStatusMessage(const std::uint8_t* data, std::size_t size) {

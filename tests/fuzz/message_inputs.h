@@ -7,11 +7,13 @@
 namespace foretouch::fuzz {
 
 /// Each decodes the bytes. An accepted message encodes to the same bytes (a pose whose joints are
-/// not all valid: to a message that decodes to the same), and meets the rules of messages.h.
-/// Returns whether it was accepted.
+/// not all valid, and a solid_t: to a message that decodes to the same), and meets the rules of
+/// messages.h. Returns whether it was accepted.
 bool feedSkeletonMessage(const std::uint8_t* data, std::size_t size);
 bool feedPoseMessage(const std::uint8_t* data, std::size_t size);
 bool feedContactsMessage(const std::uint8_t* data, std::size_t size);
+bool feedSolidMessage(const std::uint8_t* data, std::size_t size);
+bool feedSpeakerMessage(const std::uint8_t* data, std::size_t size);
 bool feedStatusMessage(const std::uint8_t* data, std::size_t size);
 
 }  // namespace foretouch::fuzz

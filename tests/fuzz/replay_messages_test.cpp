@@ -18,6 +18,9 @@ TEST(FuzzCorpus, MessagesKeepThePromises) {
   EXPECT_GE(replayCorpus("pose_message", feedPoseMessage, AlsoFeed::LastByteMissing).accepted, 3);
   EXPECT_GE(
       replayCorpus("contacts_message", feedContactsMessage, AlsoFeed::LastByteMissing).accepted, 3);
+  EXPECT_GE(replayCorpus("solid_message", feedSolidMessage, AlsoFeed::LastByteMissing).accepted, 3);
+  EXPECT_GE(replayCorpus("speaker_message", feedSpeakerMessage, AlsoFeed::EveryBeginning).accepted,
+            3);
   EXPECT_GE(replayCorpus("status_message", feedStatusMessage, AlsoFeed::LastByteMissing).accepted,
             3);
 }

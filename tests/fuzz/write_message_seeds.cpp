@@ -40,10 +40,16 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string corpus = argv[1];
-  const bool written = writeSeeds(corpus + "/skeleton_message", randomSkeletonMessage) &&
-                       writeSeeds(corpus + "/pose_message", randomPoseMessage) &&
-                       writeSeeds(corpus + "/contacts_message", randomContactsMessage) &&
-                       writeSeeds(corpus + "/status_message", randomStatusMessage);
+  const bool written =
+      writeSeeds(corpus + "/skeleton_message", randomSkeletonMessage) &&
+      writeSeeds(corpus + "/pose_message", randomPoseMessage) &&
+      writeSeeds(corpus + "/contacts_message", randomContactsMessage) &&
+      writeSeeds(
+          corpus + "/solid_message",
+          [](Random& random, int n) { return randomSolidMessage(random, n, n / 2 + 1, n); }) &&
+      writeSeeds(corpus + "/speaker_message",
+                 [](Random& random, int) { return randomSpeakerMessage(random); }) &&
+      writeSeeds(corpus + "/status_message", randomStatusMessage);
   if (!written) std::fprintf(stderr, "write_message_seeds: cannot write below %s\n", argv[1]);
   return written ? 0 : 1;
 }

@@ -1,4 +1,6 @@
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <sys/stat.h>
 #include <vector>
@@ -54,24 +56,53 @@ TEST(RollingLog, IsBoundedAndLosesOnlyItsOldestFiles) {
   EXPECT_GT(kept, 2 * limits.bytes / (pose.size() + 100));
 }
 
-TEST(RollingLog, NeverWritesOverAFile) {
+TEST(RollingLog, PassesOverFilesThatAreThere) {
   const test::TempFolder folder;
   folder.write("a.2.lcmlog", "something else");
+  fs::create_symlink("nowhere", folder / "a.3.lcmlog");
   LogLimits limits;
   limits.bytes = 2000;
+  limits.files = 2;
   auto sink = createLogSink(folder / "a.lcmlog", limits, test::kSkeletons);
   ASSERT_TRUE(sink.ok());
+  const Bytes pose = test::poseOf(0, 1);
+  const std::size_t poses = 5 * limits.bytes / pose.size();
+  for (std::size_t i = 0; i < poses; ++i) {
+    ASSERT_TRUE(sink.value()->write(1, test::kPoses, pose).ok());
+  }
+  ASSERT_TRUE(sink.value()->close().ok());
+  std::ifstream other(folder / "a.2.lcmlog");
+  EXPECT_EQ(std::string((std::istreambuf_iterator<char>(other)), {}), "something else");
+  EXPECT_TRUE(fs::is_symlink(folder / "a.3.lcmlog"));
+  EXPECT_FALSE(fs::exists(folder / "nowhere"));
+  int logs = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(folder / "a").parent_path())) {
+    const std::string name = entry.path().filename().string();
+    if (name == "a.2.lcmlog" || name == "a.3.lcmlog") continue;
+    ++logs;
+    EXPECT_FALSE(channelsIn(entry.path().string()).empty());
+  }
+  EXPECT_EQ(logs, 2);
+}
+
+TEST(RollingLog, GoesOnOnceThereIsAPlace) {
+  const test::TempFolder folder;
+  fs::create_directory(folder / "logs");
+  LogLimits limits;
+  limits.bytes = 2000;
+  auto sink = createLogSink(folder / "logs/a.lcmlog", limits, test::kSkeletons);
+  ASSERT_TRUE(sink.ok());
+  fs::rename(folder / "logs", folder / "elsewhere");
   const Bytes pose = test::poseOf(0, 1);
   bool isRefused = false;
   for (int i = 0; i < 20; ++i) {
     isRefused = isRefused || !sink.value()->write(1, test::kPoses, pose).ok();
   }
   EXPECT_TRUE(isRefused);
-  // Once there is a place, it goes on.
-  fs::remove(folder / "a.2.lcmlog");
+  fs::create_directory(folder / "logs");
   EXPECT_TRUE(sink.value()->write(1, test::kPoses, pose).ok());
   EXPECT_TRUE(sink.value()->close().ok());
-  EXPECT_EQ(channelsIn(folder / "a.2.lcmlog").size(), 1U);
+  EXPECT_EQ(channelsIn(folder / "logs/a.2.lcmlog").size(), 1U);
 }
 
 TEST(EventLog, IsItsOwnersAlone) {

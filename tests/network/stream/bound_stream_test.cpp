@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -169,6 +170,47 @@ TEST_F(BoundStreams, TakeAllMessagesOfSendersThatNobodyKnows) {
     ASSERT_EQ(take(kUnknown, test::poseMessage(smallSkeleton(), n, n * kStepUs)), Reject::None);
   }
   EXPECT_TRUE(stream_.mayPass(kUnknown, nowUs_));
+}
+
+TEST_F(BoundStreams, RecordASampleOfWhatStrangersSayInVainInASilence) {
+  follow(10);
+  const std::size_t entries = record_.entries.size();
+  nowUs_ += 3 * kSecondUs;
+  for (int i = 0; i < 1000; ++i) {
+    PoseMessage bad = test::poseMessage(smallSkeleton(), i, nowUs_, 7);
+    bad.joints[2].joint = 9;
+    EXPECT_EQ(take(i % 2 == 0 ? kOther : kThird, bad), Reject::BadIndex);
+  }
+  // At most a change of speaker for each pose.
+  EXPECT_LE(record_.entries.size(), entries + 2 * kMostRefusedRecords);
+  ASSERT_EQ(next(), Reject::None);
+  EXPECT_EQ(answer_.kind, StepKind::First);
+  ASSERT_EQ(next(), Reject::None);
+  expectReplays();
+}
+
+TEST_F(BoundStreams, TryASkeletonThatFitsNoAvatarOnce) {
+  RawSkeleton unfit = smallSkeleton();
+  for (std::size_t i = 0; i < unfit.joints.size(); ++i) {
+    unfit.joints[i].name = "x" + std::to_string(i);
+  }
+  const auto flood = [&](Reject said, Reject refused) {
+    const std::size_t entries = record_.entries.size();
+    EXPECT_EQ(say(kOther, unfit), said);
+    for (int i = 0; i < 1000; ++i) {
+      EXPECT_EQ(take(kOther, test::poseMessage(unfit, i, nowUs_)), refused);
+    }
+    EXPECT_LE(record_.entries.size(), entries + 2 * kMostRefusedRecords);
+  };
+  flood(Reject::NoMatch, Reject::UnknownSkeleton);
+  follow(10);
+  nowUs_ += 3 * kSecondUs;
+  flood(Reject::OtherSender, Reject::SkeletonMismatch);
+  std::vector<std::int64_t> hashes;
+  stream_.listKnownHashes(hashes);
+  EXPECT_EQ(std::count(hashes.begin(), hashes.end(), skeletonHash(unfit)), 0);
+  for (int i = 0; i < 5; ++i) ASSERT_EQ(next(), Reject::None);
+  expectReplays();
 }
 
 TEST_F(BoundStreams, RecordASampleOfWhatIsRefusedInVain) {

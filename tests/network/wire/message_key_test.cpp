@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <openssl/evp.h>
 #include <string>
 #include <sys/stat.h>
 
@@ -121,6 +122,19 @@ TEST(MessageKey, IsAFileThatItsOwnerAloneReads) {
   MessageKey::read(path).value().sign("POSE", 1, payload);
   SignedPayload opened;
   EXPECT_EQ(MessageKey(kCounting).open("POSE", payload, opened), Reject::None);
+}
+
+TEST(MessageKey, IsAnErrorWhereTheSystemGivesNoSipHash) {
+  const test::TempFolder folder;
+  const std::string path = folder.write("key", "000102030405060708090a0b0c0d0e0f");
+  ASSERT_EQ(::chmod(path.c_str(), 0600), 0);
+  ASSERT_EQ(EVP_set_default_properties(nullptr, "provider=none"), 1);
+  const auto key = MessageKey::read(path);
+  ASSERT_EQ(EVP_set_default_properties(nullptr, ""), 1);
+  ASSERT_FALSE(key.ok());
+  EXPECT_EQ(key.error().file, path);
+  EXPECT_NE(key.error().message.find("SipHash"), std::string::npos);
+  EXPECT_TRUE(MessageKey::read(path).ok());
 }
 
 TEST(ReplayGuard, TakesEachTimeOnceAndOnlyNow) {
