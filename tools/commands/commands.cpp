@@ -6,6 +6,7 @@
 
 #include "tools/audit/avatar_command.h"
 #include "tools/audit/scene_command.h"
+#include "tools/batch/batch_command.h"
 #include "tools/commands/completion_command.h"
 #include "tools/commands/demo_command.h"
 #include "tools/commands/replay_command.h"
@@ -42,6 +43,7 @@ std::vector<Command> allCommands() {
   add("Start here", setupCommand());
   add("Start here", viewCommand());
   add("Ask", replayCommand());
+  add("Ask", batchCommand(replayCommand));
   add("Ask", worldCommand());
   add("Ask", sweepCommand());
   add("Live", serveCommand());
