@@ -21,6 +21,7 @@ using foretouch::house::contentOf;
 /// Folder -> the folders it may include, itself left out.
 const std::map<std::string, std::set<std::string>> kArrows = {
     {"judge", {}},
+    {"verify", {}},
     {"lss", {}},
     {"articulated", {"lss"}},
     {"tessellation", {"articulated", "lss"}},
@@ -84,9 +85,10 @@ const std::map<std::string, Rooms> kRooms = {
        {"world", "solid", "setup", "log", "audit", "replay", "touches", "inputs", "settings", ""}},
       {"view", {"report", "stream", "settings", ""}},
       {"batch", {"settings", ""}},
+      {"certificate", {"inputs", "settings", ""}},
       {"commands",
-       {"batch", "view", "report", "log", "sweep", "glb", "world", "solid", "stream", "replay",
-        "setup", "touches", "audit", "inputs", "settings", ""}}}},
+       {"batch", "certificate", "view", "report", "log", "sweep", "glb", "world", "solid", "stream",
+        "replay", "setup", "touches", "audit", "inputs", "settings", ""}}}},
 };
 
 /// Libraries that only these folders may include, by the include's first word.
@@ -310,6 +312,19 @@ TEST(IncludeArrows, CirclesOfUnitsAreFound) {
   EXPECT_EQ(circleIn({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d", "b"}}}),
             (std::vector<std::string>{"b", "c", "b"}));
   EXPECT_EQ(unitOf("middleware/lanes/lss_pairs-inl.h"), unitOf("middleware/lanes/lss_pairs.cpp"));
+}
+
+// Who checks a certificate for a stranger may not share code with who wrote it.
+TEST(IncludeArrows, VerifierKnowsOnlyItself) {
+  int seen = 0;
+  for (const Include& include : includesOf(fs::path(FORETOUCH_SOURCE_DIR) / "verify")) {
+    const std::string word = firstWord(include.target);
+    const bool isStandard = word.find('.') == std::string::npos && word == include.target;
+    EXPECT_TRUE(include.quoted ? word == "verify" : isStandard)
+        << include.file << " includes " << include.target;
+    ++seen;
+  }
+  EXPECT_GT(seen, 20);
 }
 
 // Inside bench/, the peers of `foretouch-bench peers` are known to their own sources alone.

@@ -47,7 +47,7 @@ class ChildPipe {
   bool isOpen_;
 };
 
-/// Made before fork(): behind it only calls that are safe in a copy of a process with threads.
+/// Made before vfork(): behind it only calls of the system, as the memory is shared until exec.
 struct Prepared {
   const char* program;
   char* const* words;
@@ -81,7 +81,7 @@ void keepEnd(std::string& text, std::string_view more, std::size_t most) {
 
 /// True while the stream is open.
 bool readSome(int stream, std::string& text, std::size_t most) {
-  std::array<char, 1 << 16> piece;
+  std::array<char, 1 << 12> piece;
   const ssize_t got = ::read(stream, piece.data(), piece.size());
   if (got < 0) return errno == EINTR || errno == EAGAIN;
   keepEnd(text, {piece.data(), countOf(got)}, most);
@@ -122,7 +122,8 @@ ChildEnd runChild(const ChildPlan& plan, const std::function<bool()>& stop) {
   const Prepared prepared{
       plan.program.c_str(), words.data(),      plan.folder.c_str(), out.writing(),
       err.writing(),        started.writing(), ::getpid()};
-  const pid_t child = areOpen ? ::fork() : -1;
+  // Not fork(): a copy of the page tables would cost a job as much as all else that we do for it.
+  const pid_t child = areOpen ? ::vfork() : -1;
   if (child == 0) becomeChild(prepared);
   if (child < 0) {
     end.failure = std::string("no process could be started: ") + std::strerror(errno);

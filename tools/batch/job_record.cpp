@@ -112,7 +112,7 @@ Result<Done> ResultFolder::put(const JobRecord& record, const std::string& scrat
 std::int64_t wholeLinesIn(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return -1;
-  std::vector<char> piece(std::size_t{1} << 18);
+  std::vector<char> piece(std::size_t{1} << 15);
   std::int64_t lines = 0;
   char last = '\n';
   while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {

@@ -7,6 +7,7 @@
 #include "tools/audit/avatar_command.h"
 #include "tools/audit/scene_command.h"
 #include "tools/batch/batch_command.h"
+#include "tools/certificate/certify_command.h"
 #include "tools/commands/completion_command.h"
 #include "tools/commands/demo_command.h"
 #include "tools/commands/replay_command.h"
@@ -46,6 +47,7 @@ std::vector<Command> allCommands() {
   add("Ask", batchCommand(replayCommand));
   add("Ask", worldCommand());
   add("Ask", sweepCommand());
+  add("Ask", certifyCommand());
   add("Live", serveCommand());
   add("Live", publishCommand());
   add("Live", listenCommand());
