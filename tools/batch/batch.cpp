@@ -31,6 +31,12 @@ namespace fs = std::filesystem;
 /// Errors are lines for people: of a thousand, they read the first.
 constexpr std::size_t kMostErrorsTold = 20;
 
+/// A replay says what the system says.
+bool isOfFullDisk(const std::string& why) {
+  return why.find(std::strerror(ENOSPC)) != std::string::npos ||
+         why.find(std::strerror(EDQUOT)) != std::string::npos;
+}
+
 /// How a job ended, for the tally.
 enum class JobEnd { Done, Kept, Repeated, Failed, Stopped };
 
@@ -198,7 +204,13 @@ JobEnd BatchRun::doJob(std::size_t number) {
     tell(number, "its files changed while it ran");  // nothing is kept under the old name
     return JobEnd::Failed;
   }
-  if (!end.isDone()) return failJob(number, record.name, whyFailed(end, plan_.jobSeconds));
+  if (!end.isDone()) {
+    const std::string why = whyFailed(end, plan_.jobSeconds);
+    if (!isOfFullDisk(why)) return failJob(number, record.name, why);
+    // Every other job would fail by it, too, and a record of that may just fit.
+    stopWith(Error::in(plan_.results, ErrorCode::FileUnwritable, why));
+    return JobEnd::Stopped;
+  }
   return keep(number, std::move(record), end);
 }
 

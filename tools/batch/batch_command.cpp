@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -171,6 +172,8 @@ ExitCode list(const BatchManifest& manifest, const BatchPlan& plan) {
 
 ExitCode doJobs(const AskedBatch& asked, const BatchManifest& manifest, const BatchPlan& plan) {
   const InterruptGuard guard;  // built first, destroyed last: workers end before the signal
+  // Whoever started us may ignore the ends of its children, which we would inherit: ours count.
+  std::signal(SIGCHLD, SIG_DFL);
   FORETOUCH_TRY_OR(failed, const auto tally,
                    runBatch(manifest, plan, [&] { return guard.requested(); }));
   printOut(

@@ -136,10 +136,11 @@ ChildEnd runChild(const ChildPlan& plan, const std::function<bool()>& stop) {
   }
   watch(child, out, err, plan, stop, end);
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFEXITED(status)) end.code = WEXITSTATUS(status);
-  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  pid_t ended = 0;
+  do ended = ::waitpid(child, &status, 0);
+  while (ended < 0 && errno == EINTR);
+  if (ended == child && WIFEXITED(status)) end.code = WEXITSTATUS(status);
+  if (ended == child && WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   return end;
 }
 

@@ -240,8 +240,9 @@ TEST(BatchProgram, AFullDiskEndsTheRunAndRoomLetsItFinish) {
   }
   fleet.world.folder.write("small/ballast", std::string(std::size_t{52} << 10, 'x'));
   const Ended full = fleet.run(small, {"--threads", "1"});
-  EXPECT_NE(full.exitCode, 0);
+  EXPECT_EQ(full.exitCode, 2);
   EXPECT_TRUE(holds(full.err, "No space left on device")) << full.err;
+  EXPECT_FALSE(holds(full.err, "job ")) << full.err;  // it is no job's fault
   fs::remove(small + "/ballast");
   EXPECT_EQ(::mount("none", small.c_str(), nullptr, MS_REMOUNT, "size=16m"), 0);
   EXPECT_EQ(fleet.run(small).exitCode, 0);
