@@ -6,6 +6,8 @@
 
 #include "tools/audit/avatar_command.h"
 #include "tools/audit/scene_command.h"
+#include "tools/batch/batch_command.h"
+#include "tools/certificate/certify_command.h"
 #include "tools/commands/completion_command.h"
 #include "tools/commands/demo_command.h"
 #include "tools/commands/replay_command.h"
@@ -42,8 +44,10 @@ std::vector<Command> allCommands() {
   add("Start here", setupCommand());
   add("Start here", viewCommand());
   add("Ask", replayCommand());
+  add("Ask", batchCommand(replayCommand));
   add("Ask", worldCommand());
   add("Ask", sweepCommand());
+  add("Ask", certifyCommand());
   add("Live", serveCommand());
   add("Live", publishCommand());
   add("Live", listenCommand());

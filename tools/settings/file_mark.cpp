@@ -19,7 +19,7 @@ Result<std::string> markOfFile(const std::string& path) {
   if (!file) return Error::in(path, ErrorCode::FileNotFound, "cannot be opened");
   XXH64_state_t state;
   XXH64_reset(&state, 0);
-  std::vector<char> piece(std::size_t{1} << 20);
+  std::vector<char> piece(std::size_t{1} << 16);
   while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
     XXH64_update(&state, piece.data(), static_cast<std::size_t>(file.gcount()));
   }

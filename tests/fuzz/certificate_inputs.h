@@ -1,0 +1,13 @@
+// tests/fuzz/certificate_inputs.h: certificates, as a stranger reads them. A broken promise aborts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace foretouch::fuzz {
+
+/// A text that is read says nothing beyond the format; and of a step on which a sphere passes
+/// through a triangle, nothing that names it is proven.
+bool feedCertificate(const std::uint8_t* data, std::size_t size);
+
+}  // namespace foretouch::fuzz

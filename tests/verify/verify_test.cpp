@@ -1,0 +1,224 @@
+// The verifier: its arithmetic against more digits, its motion against the judge's fifty digits,
+// what its readers refuse, and certificates of random edges with lies about them.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/holds.h"
+#include "tests/support/random_motion.h"
+#include "tests/verify/certificate_trial.h"
+#include "tools/certificate/certificate_writer.h"
+#include "verify/certificate.h"
+#include "verify/interval.h"
+#include "verify/motion.h"
+#include "verify/proof.h"
+#include "verify/statement.h"
+
+namespace foretouch::test {
+namespace {
+
+using verify::Interval;
+
+/// On x86 it has eleven bits more than a double.
+bool holdsValue(const Interval& interval, long double value) {
+  return static_cast<long double>(interval.lo) <= value &&
+         value <= static_cast<long double>(interval.hi);
+}
+
+TEST(VerifyInterval, NextDoublesAreBeyond) {
+  Random random(1);
+  for (int i = 0; i < 100'000; ++i) {
+    double x = random.magnitude(1e-300, 1e300) * (random.chance(0.5) ? 1.0 : -1.0);
+    if (i % 100 == 0) x = std::ldexp(1.0, random.below(2000) - 1000);
+    if (i == 1) x = 0.0;
+    EXPECT_GE(verify::up(x), std::nextafter(x, INFINITY)) << x;
+    EXPECT_LE(verify::down(x), std::nextafter(x, -INFINITY)) << x;
+    EXPECT_LE(verify::up(x) - x, 4e-16 * std::abs(x) + 1e-320) << x;
+  }
+}
+
+TEST(VerifyInterval, OperationsHoldTheTrueResult) {
+  for (std::uint64_t seed = 0; seed < 20'000; ++seed) {
+    Random random(seed);
+    const auto draw = [&] {
+      const double a = random.magnitude(1e-6, 1e6) * (random.chance(0.5) ? 1.0 : -1.0);
+      const double width = random.chance(0.3) ? 0.0 : random.magnitude(1e-18, 10.0);
+      return Interval(a, a + width);
+    };
+    const Interval x = draw(), y = draw();
+    for (const double s : {0.0, 0.25, 1.0}) {
+      for (const double t : {0.0, 0.75, 1.0}) {
+        const long double a = std::min(x.hi, x.lo + s * (x.hi - x.lo));
+        const long double b = std::min(y.hi, y.lo + t * (y.hi - y.lo));
+        EXPECT_TRUE(holdsValue(x + y, a + b)) << seed;
+        EXPECT_TRUE(holdsValue(x - y, a - b)) << seed;
+        EXPECT_TRUE(holdsValue(x * y, a * b)) << seed;
+        EXPECT_TRUE(holdsValue(verify::square(x), a * a)) << seed;
+        EXPECT_TRUE(!(y.lo > 0.0) || holdsValue(x / y, a / b)) << seed;
+        EXPECT_TRUE(!(x.lo > 0.0) || holdsValue(verify::root(x), sqrtl(a))) << seed;
+      }
+    }
+  }
+  const Interval unknown = Interval(1.0) / Interval(-1.0, 1.0);
+  EXPECT_TRUE(std::isinf(unknown.lo) && std::isinf(unknown.hi));
+}
+
+/// The motion as the verifier reads it.
+struct ReadMotion {
+  std::vector<verify::Link> links;
+  std::vector<verify::Step> steps;
+};
+
+ReadMotion readMotion(const RandomMotion& m) {
+  ReadMotion read;
+  for (JointId j = 0; j < m.skeleton.numJoints(); ++j) {
+    verify::Link link;
+    link.name = m.skeleton.name(j);
+    link.parent = m.skeleton.parent(j) == kNoParent ? -1 : m.skeleton.parent(j);
+    read.links.push_back(link);
+  }
+  EXPECT_EQ(verify::readSteps("foretouch-steps 1\n" + tools::stepText(0, m.from, m.to),
+                              read.links.size(), read.steps)
+                .what,
+            "");
+  return read;
+}
+
+TEST(VerifyMotion, HoldsTheTruePlacesOfTheJudgesDigits) {
+  int tight = 0, all = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    RandomMotion m = randomMotion(random, 1 + random.below(8));
+    m.from = validatedPose(m.skeleton, m.from).value();
+    m.to = validatedPose(m.skeleton, m.to).value();
+    const ReadMotion read = readMotion(m);
+    verify::Motion motion(read.links, read.steps.front());
+    if (!motion.fault().empty()) continue;
+    const int level = random.below(6);
+    const std::int64_t index = random.below((1 << level) + 1);
+    const auto truth =
+        oracle::preciseFrames(plainJoints(m.skeleton, m.from, m.to),
+                              oracle::Precise(std::ldexp(static_cast<double>(index), -level)));
+    for (JointId link = 0; link < m.skeleton.numJoints(); ++link) {
+      const auto& place = motion.at(level, index, static_cast<std::size_t>(link));
+      const oracle::Precise3& origin = truth[slotOf(link)].origin;
+      const oracle::Precise parts[] = {origin.x, origin.y, origin.z};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_LE(oracle::Precise(place.origin[axis].lo), parts[axis]);
+        EXPECT_GE(oracle::Precise(place.origin[axis].hi), parts[axis]);
+        ++all;
+        tight += place.origin[axis].hi - place.origin[axis].lo < 1e-9;
+      }
+    }
+  }
+  EXPECT_GT(all, 2000);
+  EXPECT_GT(tight, 0.95 * all) << "or it holds anything";
+}
+
+/// Second differences of true places are never above the bound, and not far below it.
+TEST(VerifyMotion, TheAccelerationIsABound) {
+  double nearest = 0.0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const RandomMotion m = randomMotion(random, 1 + random.below(4));
+    const ReadMotion read = readMotion(m);
+    const verify::Motion motion(read.links, read.steps.front());
+    if (!motion.fault().empty()) continue;
+    const Pose from = validatedPose(m.skeleton, m.from).value();
+    const Pose to = validatedPose(m.skeleton, m.to).value();
+    const ChainMotion own(m.skeleton, from, to);
+    const LinkId link = random.below(m.skeleton.numJoints());
+    const Eigen::Vector3d point = random.inBox(0.5);
+    const double t = random.uniform(0.1, 0.9), step = 1e-3;
+    const auto at = [&](double when) { return own.stateAt(link, when).pointAt(point); };
+    const double second = (at(t + step) - 2.0 * at(t) + at(t - step)).norm() / (step * step);
+    const double bound = motion.acceleration(static_cast<std::size_t>(link), point.norm());
+    const double reach = 1.0 + at(t).norm();
+    EXPECT_LE(second, bound * 1.001 + 1e-9 * reach / step);
+    if (bound > 0.01 && reach < 10.0) nearest = std::max(nearest, second / bound);
+  }
+  EXPECT_GT(nearest, 0.5);
+}
+
+TEST(VerifyCertificate, RandomClearEdgesAreProvenAndLiesAreNot) {
+  CertificateTally tally;
+  for (std::uint64_t seed = 0; tally.clear < 150; ++seed) {
+    EXPECT_EQ(runCertificateTrial(seed, 8, tally), "") << "seed " << seed;
+    ASSERT_LT(seed, 3000u);
+  }
+  EXPECT_EQ(tally.verified, tally.clear);
+  EXPECT_EQ(tally.believed, 0);
+  for (int kind = 0; kind < 8; ++kind) EXPECT_GT(tally.ofKind[kind], 80) << kindOfLie(kind);
+  EXPECT_GT(tally.planes, tally.clear) << "boxes alone decide nothing";
+}
+
+/// A sphere of radius 0.1 that runs from x = 0 to x = 1, and a wall at `wall`.
+std::string whyNot(double wall, const std::string& proof) {
+  std::vector<verify::Triangle> triangles{
+      {{verify::Point{wall, -5, -5}, verify::Point{wall, 5, -5}, verify::Point{wall, 0, 9}}}};
+  std::vector<verify::Link> links(1);
+  links[0].capsules.push_back({{0, 0, 0}, {0, 0, 0}, 0.1});
+  std::vector<verify::Step> steps;
+  std::vector<verify::StepClaim> claims;
+  EXPECT_EQ(
+      verify::readSteps("foretouch-steps 1\nstep 0\n0 0 0 1 0 0 0\n1 0 0 1 0 0 0\n", 1, steps).what,
+      "");
+  const verify::Fault fault =
+      verify::readCertificate("foretouch-certificate 1\n" + proof + "end\n", claims);
+  if (!fault.what.empty()) return std::to_string(fault.line) + ": " + fault.what;
+  verify::Motion motion(links, steps.front());
+  verify::Tally tally;
+  return verify::SceneProof(triangles).prove(links, claims.front(), motion, tally).what;
+}
+
+TEST(VerifyCertificate, ByHandAtTheVeryEdge) {
+  const std::string head = "step 0\nlink 0\nlss 0\n";
+  EXPECT_EQ(whyNot(1.1 + 1e-12, head + "span 0 0\n"), "");
+  EXPECT_TRUE(holds(whyNot(1.1 - 1e-12, head + "span 0 0\n"), "is behind none of its planes"));
+  EXPECT_EQ(whyNot(1.2, head + "span 0 0\nplane -1 0 0 -1.15\n"), "");
+  EXPECT_EQ(whyNot(1.2, head + "span 1 0\nspan 1 1\n"), "");
+  EXPECT_TRUE(holds(whyNot(1.2, head + "span 0 0\nplane -1 0 0 -1.05\n"), "not surely in front"));
+  EXPECT_TRUE(holds(whyNot(1.2, head + "span 1 0\n"), "end before t = 1"));
+  EXPECT_TRUE(holds(whyNot(1.2, head + "span 1 1\n"), "does not begin"));
+  EXPECT_TRUE(holds(whyNot(1.2, head + "span 1 0\nspan 1 0\n"), "does not begin"));
+  EXPECT_TRUE(holds(whyNot(1.2, "step 0\nlink 0\n"), "only 0 have spans"));
+  EXPECT_TRUE(holds(whyNot(1.2, "step 0\nlink 1\nlss 0\nspan 0 0\n"), "no such link"));
+  EXPECT_TRUE(holds(whyNot(1.2, "step 0\nlink 0\nlss 1\nspan 0 0\n"), "no such LSS"));
+}
+
+TEST(VerifyReaders, RefuseWhatIsNotTheFormat) {
+  for (const char* const text :
+       {"", "step 0\n", "foretouch-certificate 2\nend\n", "foretouch-certificate 1\nstep 0\n",
+        "foretouch-certificate 1\nlink 0\nend\n", "foretouch-certificate 1\nstep -1\nend\n",
+        "foretouch-certificate 1\nend\nend\n", "foretouch-certificate 1\nstep 1 2\nend\n",
+        "foretouch-certificate 1\nstep 0\nlink 0\nlss 0\nspan 41 0\nend\n",
+        "foretouch-certificate 1\nstep 0\nlink 0\nlss 0\nspan 2 4\nend\n",
+        "foretouch-certificate 1\nstep 0\nlink 0\nlss 0\nspan 0 0\nplane 1 2 3 nan\nend\n",
+        "foretouch-certificate 1\nstep 0\nlink 0\nlss 0\nspan 0 0\nplane 1 2 3 1e99\nend\n"}) {
+    std::vector<verify::StepClaim> claims;
+    EXPECT_NE(verify::readCertificate(text, claims).what, "") << text;
+  }
+  for (const char* const text :
+       {"", "v 0 0\n", "v 0 0 0\nf 1 1 2\n", "f 1 2 3\n", "v 0 0 0\nf 1 1\n",
+        "v 0 0 0\nf 1 1 1 1\n", "v 0 0 inf\n", "curv 1 2\n"}) {
+    std::vector<verify::Triangle> triangles;
+    EXPECT_NE(verify::readScene(text, triangles).what, "") << text;
+  }
+  for (
+      const char* const text :
+      {"", "{", "[]", R"({"format":"foretouch-avatar","links":[]})",
+       R"({"format":"x","links":[{"name":"a","parent":null,"lss":[]}]})",
+       R"({"format":"foretouch-avatar","links":[{"name":"a","parent":"b","lss":[]}]})",
+       R"({"format":"foretouch-avatar","links":[{"name":"a","parent":null,"lss":[{"a":[0,0,0]}]}]})",
+       R"({"format":"foretouch-avatar","links":[{"name":"a","parent":null,"lss":[],"lss":[]}]})"}) {
+    std::vector<verify::Link> links;
+    EXPECT_NE(verify::readAvatar(text, links).what, "") << text;
+  }
+}
+
+}  // namespace
+}  // namespace foretouch::test

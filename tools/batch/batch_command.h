@@ -1,0 +1,13 @@
+// tools/batch/batch_command.h: `foretouch batch`.
+#pragma once
+
+#include <functional>
+
+#include "tools/settings/command_line.h"
+
+namespace foretouch::tools {
+
+/// `replay`: makes that command, whose options a job takes.
+[[nodiscard]] Command batchCommand(std::function<Command()> replay);
+
+}  // namespace foretouch::tools

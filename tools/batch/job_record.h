@@ -1,0 +1,54 @@
+// tools/batch/job_record.h: what a batch keeps of a job: one line of JSON, whole or not there. Its
+// place, and that of the results, follow from the job's name alone.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "articulated/result.h"
+
+namespace foretouch::tools {
+
+struct JobRecord {
+  std::string name;
+  bool isDone = false;
+  std::string error;       ///< Of one that failed.
+  std::int64_t lines = 0;  ///< Of its results.
+  std::string summary;  ///< A JSON object: the replay's, without what no second run would repeat.
+};
+
+/// The replay's summary (its --json) without its paths, latencies and threads. Nothing if it is no
+/// JSON object.
+[[nodiscard]] std::optional<std::string> lastingSummary(std::string_view line);
+
+[[nodiscard]] std::string recordLine(const JobRecord& record);
+/// Nothing unless every byte is as recordLine() wrote it, and it is about this job.
+[[nodiscard]] std::optional<JobRecord> parseRecord(std::string_view line, const std::string& name);
+
+/// Where the results of all jobs are.
+class ResultFolder {
+ public:
+  explicit ResultFolder(std::string path) : path_(std::move(path)) {}
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  /// "4f/4f0c....jsonl" for ".jsonl".
+  [[nodiscard]] static std::string placeOf(const std::string& name, const char* ending);
+  [[nodiscard]] std::string fileOf(const std::string& name, const char* ending) const {
+    return path_ + "/" + placeOf(name, ending);
+  }
+
+  /// The record, if it and the results that it tells of are whole; of a job that failed, it alone.
+  [[nodiscard]] std::optional<JobRecord> find(const std::string& name) const;
+  /// It is there whole, or as it was before. `scratch`: a folder on the same file system.
+  [[nodiscard]] Result<Done> put(const JobRecord& record, const std::string& scratch) const;
+
+ private:
+  std::string path_;
+};
+
+/// Lines of a file, if its last one is ended; -1 otherwise, or if it cannot be read.
+[[nodiscard]] std::int64_t wholeLinesIn(const std::string& path);
+
+}  // namespace foretouch::tools

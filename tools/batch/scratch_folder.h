@@ -1,0 +1,28 @@
+// tools/batch/scratch_folder.h: where a worker makes what it later moves into place.
+#pragma once
+
+#include <string>
+
+#include "articulated/result.h"
+
+namespace foretouch::tools {
+
+/// A folder that only this worker uses, inside that of the results; gone at its end. That of a
+/// worker that was killed is removed by the next one: its lock is free, as the kernel gave it back.
+class ScratchFolder {
+ public:
+  static Result<ScratchFolder> create(const std::string& results);
+  ScratchFolder(ScratchFolder&& other) noexcept;
+  ScratchFolder& operator=(ScratchFolder&&) = delete;
+  ~ScratchFolder();
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  ScratchFolder(std::string path, int lock) : path_(std::move(path)), lock_(lock) {}
+
+  std::string path_;
+  int lock_ = -1;
+};
+
+}  // namespace foretouch::tools

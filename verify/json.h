@@ -1,0 +1,28 @@
+// verify/json.h: as much of JSON as an avatar file needs.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace verify {
+
+struct Json {
+  enum class Kind { Null, Truth, Number, Text, Array, Object };
+  Kind kind = Kind::Null;
+  bool truth = false;
+  double number = 0.0;
+  std::string text;
+  std::vector<Json> items;        ///< Of an array; of an object its values.
+  std::vector<std::string> keys;  ///< Of an object, beside its values.
+
+  /// The only value of this key; nothing: it is no object, or has it not, or twice.
+  [[nodiscard]] const Json* find(std::string_view key) const;
+};
+
+/// False if the whole text is not one value. Escapes in texts stay as they are written: names are
+/// only compared. At most 32 deep.
+[[nodiscard]] bool parseJson(std::string_view text, Json& value);
+
+}  // namespace verify
