@@ -99,11 +99,11 @@ void FeelTables::add(const FeelRow& row, const FeelTally& tally) {
     whole.insert(whole.end(), cells.begin(), cells.end());
     table.rows.push_back(std::move(whole));
   };
-  append(feel_,
-         {std::int64_t{row.places}, cell(tally.ticks), percent(tally.inside, tally.ticks),
-          all.mean * kMm, all.p90 * kMm, all.p99 * kMm, hands.mean * kMm, hands.p90 * kMm,
-          percentilesOf(tally.lift).mean * kMm, head.mean * kMm, head.p90 * kMm, alone.p90 * kMm,
-          percent(tally.equal, tally.free), percent(tally.away, tally.free), cell(tally.late)});
+  append(feel_, {std::int64_t{row.places}, cell(tally.ticks), percent(tally.inside, tally.ticks),
+                 all.mean * kMm, all.p90 * kMm, all.p99 * kMm, hands.mean * kMm, hands.p90 * kMm,
+                 percentilesOf(tally.handsAlone).p90 * kMm, percentilesOf(tally.lift).mean * kMm,
+                 head.mean * kMm, head.p90 * kMm, alone.p90 * kMm, percent(tally.equal, tally.free),
+                 percent(tally.away, tally.free), cell(tally.late)});
   append(motion_,
          {static_cast<std::int64_t>(tally.back.size()), back.mean, back.p90, cell(tally.neverBack),
           moves.p50, moves.p90, moves.p99, tracked.p99, tally.fastest});
