@@ -31,6 +31,7 @@ FeelTables::FeelTables()
                      {"deviation_p99_mm", "p99", 0},
                      {"hands_mean_mm", "hands mean mm", 1},
                      {"hands_p90_mm", "p90", 1},
+                     {"hands_alone_p90_mm", "p90, hands and trunk free", 1},
                      {"lift_mean_mm", "lift mean mm", 1},
                      {"head_mean_mm", "head mean mm", 1},
                      {"head_p90_mm", "p90", 1},
