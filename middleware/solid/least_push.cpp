@@ -46,6 +46,7 @@ std::size_t LeastPush::solve(TreeInertia& inertia, const TreePull& pull,
                              const Eigen::Vector3d& origin, std::vector<ContactRow>& rows,
                              TreeStep& step) {
   products_.resize(kMostRows * kMostRows);
+  isPushing_.resize(kMostRows, 0);
   isTaken_.resize(rows.size(), 0);
   frees_.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
