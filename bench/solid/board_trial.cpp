@@ -9,8 +9,10 @@
 namespace foretouch::tools {
 namespace {
 
-constexpr double kThickness = 4e-3, kStart = 0.3, kMostSlant = 0.5235987755982988;
-constexpr int kTicksAfter = 20;
+constexpr double kThickness = 4e-3, kMostSlant = 0.5235987755982988;
+/// Just before the board, whichever way the hand is turned (m): the air in front proves nothing.
+constexpr double kStart = 0.1;
+constexpr int kTicksAfter = 12;
 
 struct BoardTrack {
   RigidPose start;

@@ -25,6 +25,7 @@ class FeelMeter {
         links_(solidLinks(actor.avatar)),
         judge_(stage.judged, plainBody(actor.avatar)),
         trunk_(stage.judged, plainBody(actor.avatar, links_.trunk)),
+        hands_(stage.judged, plainBody(actor.avatar, links_.hands)),
         audit_(stage.judged, actor.avatar) {
     audit_.begin(run.name);
   }
@@ -38,8 +39,9 @@ class FeelMeter {
     (isFree ? tally_.free : tally_.inside) += 1;
     const bool mayBeEqual = isDirectlyFree(wanted, isFree);
     Ends track = judge_.endsAt(wanted), show = judge_.endsAt(shown);
-    const double most =
-        lookAtDeviation(lifted(track, tick.lift), show, trunk_.at(wanted, 0.0).link < 0);
+    const bool isTrunkFree = trunk_.at(wanted, 0.0).link < 0;
+    const bool areHandsFree = hands_.at(wanted, 0.0).link < 0;
+    const double most = lookAtDeviation(lifted(track, tick.lift), show, isTrunkFree, areHandsFree);
     tally_.lift.push_back(tick.lift);
     if (isFree) {
       tally_.equal += isEqual ? 1 : 0;
@@ -87,7 +89,7 @@ class FeelMeter {
     return ends;
   }
 
-  double lookAtDeviation(const Ends& track, const Ends& show, bool isTrunkFree) {
+  double lookAtDeviation(const Ends& track, const Ends& show, bool isTrunkFree, bool areHandsFree) {
     perLink_.assign(countOf(actor_.avatar.numLinks()), -1.0);
     for (std::size_t c = 0; c < track.size(); ++c) {
       double& link = perLink_[static_cast<std::size_t>(judge_.linkOf()[c])];
@@ -101,7 +103,10 @@ class FeelMeter {
       if (deviation < 0.0) continue;
       most = std::max(most, deviation);
       tally_.deviation.push_back(deviation);
-      if (links_.hands[link]) tally_.hands.push_back(deviation);
+      if (links_.hands[link]) {
+        tally_.hands.push_back(deviation);
+        if (isTrunkFree && areHandsFree) tally_.handsAlone.push_back(deviation);
+      }
       if (!links_.heads[link]) continue;
       tally_.head.push_back(deviation);
       if (isTrunkFree) tally_.headAlone.push_back(deviation);
@@ -152,7 +157,7 @@ class FeelMeter {
   const SolidActor& actor_;
   const FeelRun& run_;
   SolidLinks links_;
-  oracle::WayJudge judge_, trunk_;
+  oracle::WayJudge judge_, trunk_, hands_;
   WayAudit audit_;
   FeelTally tally_;
   oracle::PlainPose last_;
@@ -199,6 +204,7 @@ void FeelTally::add(const FeelTally& other) {
   append(head, other.head);
   append(lift, other.lift);
   append(headAlone, other.headAlone);
+  append(handsAlone, other.handsAlone);
   append(acceleration, other.acceleration);
   append(trackedAcceleration, other.trackedAcceleration);
   append(us, other.us);

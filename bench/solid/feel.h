@@ -27,7 +27,8 @@ class Follower {
 struct FeelTally {
   // Per tick and link: from the tracked place, lifted by SolidTick::lift.
   std::vector<double> deviation, hands, head;
-  std::vector<double> headAlone;  ///< Of ticks in which the tracked trunk is free.
+  std::vector<double> headAlone;   ///< Of ticks in which the tracked trunk is free.
+  std::vector<double> handsAlone;  ///< Of ticks in which the tracked trunk and hands are free.
   std::vector<double> acceleration, trackedAcceleration;  ///< Per tick and end of an LSS (m/s^2).
   // Per tick.
   std::vector<double> lift;

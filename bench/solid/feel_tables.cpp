@@ -31,6 +31,7 @@ FeelTables::FeelTables()
                      {"deviation_p99_mm", "p99", 0},
                      {"hands_mean_mm", "hands mean mm", 1},
                      {"hands_p90_mm", "p90", 1},
+                     {"hands_alone_p90_mm", "p90, hands and trunk free", 1},
                      {"lift_mean_mm", "lift mean mm", 1},
                      {"head_mean_mm", "head mean mm", 1},
                      {"head_p90_mm", "p90", 1},
@@ -99,11 +100,11 @@ void FeelTables::add(const FeelRow& row, const FeelTally& tally) {
     whole.insert(whole.end(), cells.begin(), cells.end());
     table.rows.push_back(std::move(whole));
   };
-  append(feel_,
-         {std::int64_t{row.places}, cell(tally.ticks), percent(tally.inside, tally.ticks),
-          all.mean * kMm, all.p90 * kMm, all.p99 * kMm, hands.mean * kMm, hands.p90 * kMm,
-          percentilesOf(tally.lift).mean * kMm, head.mean * kMm, head.p90 * kMm, alone.p90 * kMm,
-          percent(tally.equal, tally.free), percent(tally.away, tally.free), cell(tally.late)});
+  append(feel_, {std::int64_t{row.places}, cell(tally.ticks), percent(tally.inside, tally.ticks),
+                 all.mean * kMm, all.p90 * kMm, all.p99 * kMm, hands.mean * kMm, hands.p90 * kMm,
+                 percentilesOf(tally.handsAlone).p90 * kMm, percentilesOf(tally.lift).mean * kMm,
+                 head.mean * kMm, head.p90 * kMm, alone.p90 * kMm, percent(tally.equal, tally.free),
+                 percent(tally.away, tally.free), cell(tally.late)});
   append(motion_,
          {static_cast<std::int64_t>(tally.back.size()), back.mean, back.p90, cell(tally.neverBack),
           moves.p50, moves.p90, moves.p99, tracked.p99, tally.fastest});

@@ -8,16 +8,17 @@
 
 namespace foretouch::tools {
 
-Result<std::unique_ptr<SolidHand>> SolidHand::build(const RawScene& raw,
+Result<std::unique_ptr<SolidHand>> SolidHand::build(std::string name, const RawScene& raw,
                                                     const SolidOptions& options) {
   RawScene copy = raw;
   FORETOUCH_TRY(auto scene, Scene::build(std::move(copy)));
   FORETOUCH_TRY(auto solid, SolidAvatar::build(handAlone(), scene, options));
-  return std::unique_ptr<SolidHand>(new SolidHand(std::move(solid), raw.triangles));
+  return std::unique_ptr<SolidHand>(
+      new SolidHand(std::move(name), std::move(solid), raw.triangles));
 }
 
-SolidHand::SolidHand(SolidAvatar solid, const std::vector<Triangle>& triangles)
-    : HandFollower("Foretouch, solid"),
+SolidHand::SolidHand(std::string name, SolidAvatar solid, const std::vector<Triangle>& triangles)
+    : HandFollower(std::move(name)),
       solid_(std::move(solid)),
       judged_(plain(triangles)),
       audit_(judged_, solid_.avatar()),

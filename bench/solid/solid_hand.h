@@ -2,6 +2,8 @@
 // engine.
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "bench/peers/hand_follower.h"
@@ -14,7 +16,8 @@ namespace foretouch::tools {
 class SolidHand final : public HandFollower {
  public:
   /// Errors: as SolidAvatar::build().
-  static Result<std::unique_ptr<SolidHand>> build(const RawScene& raw, const SolidOptions& options);
+  static Result<std::unique_ptr<SolidHand>> build(std::string name, const RawScene& raw,
+                                                  const SolidOptions& options);
 
   void begin(const RigidPose& at) override;
   RigidPose follow(const RigidPose& tracked, double dtS) override;
@@ -23,7 +26,7 @@ class SolidHand final : public HandFollower {
   [[nodiscard]] const SolidTick& tick() const { return tick_; }
 
  private:
-  SolidHand(SolidAvatar solid, const std::vector<Triangle>& triangles);
+  SolidHand(std::string name, SolidAvatar solid, const std::vector<Triangle>& triangles);
 
   SolidAvatar solid_;
   oracle::Scene judged_;

@@ -16,6 +16,9 @@ namespace foretouch::tools {
 namespace {
 
 constexpr int kFineWall = 98;
+/// Of so many hands led through a board, one looks for a way around it.
+constexpr std::uint64_t kTrialsPerAround = 20;
+constexpr std::uint64_t kOtherSeeds = 1'000;
 
 double valueAt(std::vector<double> values, double rank) {
   std::sort(values.begin(), values.end());
@@ -70,9 +73,18 @@ Result<TrialTable> boardTable(const TrialRequest& request) {
   const RawScene raw = board();
   const std::uint64_t perCell =
       std::max<std::uint64_t>(1, request.boardTrials / boardCells().size());
-  FORETOUCH_TRY(const auto solid, SolidHand::build(raw, request.options));
-  BoardRows(perCell, request.seed, result.table).add(*solid);
-  result.violations = solid->way().violations();
+  // A hand behind whose board the target rests looks for a way around, in vain: that takes ten
+  // times as long as to follow it there, and most hands are spared it.
+  const std::uint64_t around = (perCell + kTrialsPerAround - 1) / kTrialsPerAround;
+  SolidOptions straight = request.options;
+  straight.aroundPerTick = 0;
+  FORETOUCH_TRY(const auto solid, SolidHand::build("Foretouch, solid", raw, request.options));
+  BoardRows(around, request.seed, result.table).add(*solid);
+  FORETOUCH_TRY(const auto plain,
+                SolidHand::build("Foretouch, solid, no way around", raw, straight));
+  BoardRows(std::max<std::uint64_t>(1, perCell - around), request.seed + kOtherSeeds, result.table)
+      .add(*plain);
+  result.violations = solid->way().violations() + plain->way().violations();
   const EngineHands engine(raw.triangles);
   for (const auto& hand : engine.of(handLss())) {
     BoardRows(request.engineTrials, request.seed, result.table).add(*hand);

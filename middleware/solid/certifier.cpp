@@ -1,15 +1,20 @@
 #include "middleware/solid/certifier.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "articulated/try.h"
 #include "lss/hull.h"
 #include "lss/index.h"
 #include "lss/separation.h"
 #include "middleware/query/link_query.h"
+#include "middleware/query/near_places.h"
 #include "middleware/query/scratch_parts.h"
 #include "middleware/query/work_meter.h"
+#include "middleware/scene/scene_parts.h"
 
 namespace foretouch::internal {
 namespace {
@@ -22,6 +27,8 @@ constexpr double kStartShare = 0.5;
 constexpr double kCutSkin = 0.5, kCutGap = 0.95;
 constexpr int kMostSections = 40;
 constexpr double kCutResolution = 1e-13;
+/// One less the cosine within which the closest points face each other along a triangle's normal.
+constexpr double kFacing = 1e-9;
 /// Without a hit to look at: this share of what is proven free.
 constexpr double kFreeShare = 0.9;
 
@@ -181,7 +188,12 @@ void Certifier::cut(Certified& answer, double toi) {
     return;
   }
   evaluator_.reset(motion_);
-  const double atStart = gapAt(answer.hit, 0.0);
+  findSheet(answer.hit, toi);
+  double atStart = gapAt(answer.hit, 0.0);
+  if (sheet_.isMet && !(atStart > 0.0)) {
+    sheet_.isMet = false;
+    atStart = gapAt(answer.hit, 0.0);
+  }
   const double wanted = std::min(kCutSkin * skin_, kCutGap * atStart);
   // False position, which keeps its bracket ([Dowell71], REFERENCES.md): to the last bits, so that
   // the place of the cut depends on the pair alone, not on how the query's floats round.
@@ -209,9 +221,36 @@ void Certifier::cut(Certified& answer, double toi) {
   answer.share = apart;
 }
 
-/// At `t` of the motion.
+/// What an LSS meets of a flat surface is its plane, whichever of its triangles is named: so the
+/// place of the cut does not depend on how the surface is cut into triangles.
+void Certifier::findSheet(const SolidHit& hit, double toi) {
+  sheet_.isMet = false;
+  if (hit.other != kNoParent) return;
+  const Lss& lss = plan_->avatar.lss(hit.link)[slotOf(hit.lss)];
+  const LinkState state = evaluator_.stateAt(hit.link, toi);
+  const StandingLss standing{
+      hit.link, hit.lss, state.pointAt(lss.a), state.pointAt(lss.b), lss.radius, 0.0, 0.0};
+  const Triangle& triangle = plan_->scene.triangle(hit.triangle);
+  const auto& v = triangle.vertices;
+  const Eigen::Vector3d normal = (v[1] - v[0]).cross(v[2] - v[0]);
+  const double length = normal.norm();
+  const NearPlace place =
+      closestPlace(standing, triangle, hit.triangle, plan_->scene.parts().flatEdges());
+  const double along = place.feature.nhat_SL_W.dot(normal);
+  const bool isFacing = std::abs(along) >= (1.0 - kFacing) * length;
+  if (!(length > 0.0) || !(isFacing || !place.stands)) return;
+  sheet_ = {true, v[0], (along < 0.0 ? -1.0 : 1.0) / length * normal};
+}
+
+/// At `t` of the motion; of the sheet, where one is met.
 double Certifier::gapAt(const SolidHit& hit, double t) {
   const LinkState atLink = evaluator_.stateAt(hit.link, t);
+  if (sheet_.isMet) {
+    const Lss& lss = plan_->avatar.lss(hit.link)[slotOf(hit.lss)];
+    const double a = sheet_.n.dot(atLink.pointAt(lss.a) - sheet_.p),
+                 b = sheet_.n.dot(atLink.pointAt(lss.b) - sheet_.p);
+    return std::min(a, b) - lss.radius;
+  }
   return gapOf(*plan_, hit, atLink,
                hit.other == kNoParent ? atLink : evaluator_.stateAt(hit.other, t));
 }

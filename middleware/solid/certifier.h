@@ -82,6 +82,7 @@ class Certifier {
   void run(const Pose& from, const Pose& to);
   [[nodiscard]] Certified ask(const Pose& from, const Pose& to);
   void cut(Certified& answer, double toi);
+  void findSheet(const SolidHit& hit, double toi);
   [[nodiscard]] double gapAt(const SolidHit& hit, double t);
   [[nodiscard]] double toleranceUsed();
   [[nodiscard]] double roundingOfMotion() const;
@@ -93,6 +94,11 @@ class Certifier {
   StepContacts step_;
   ChainMotion motion_;
   MotionEvaluator evaluator_;
+  struct Sheet {
+    bool isMet = false;
+    Eigen::Vector3d p, n;  // a point, and the unit normal to the side of the LSS
+  };
+  Sheet sheet_;  // of the cut that is made
   std::uint64_t workLeft_ = 0, workDone_ = 0;
   std::uint32_t queries_ = 0;
 };

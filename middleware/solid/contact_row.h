@@ -22,9 +22,11 @@ struct ContactRow {
   Eigen::Vector3d y = Eigen::Vector3d::Zero();  ///< On the surface that is touched, in W.
   Eigen::Vector3d n = Eigen::Vector3d::Zero();  ///< Unit, from y to x.
   double gap = 0.0;
-  double bound = 0.0;  ///< Of the step along n.
-  double bias = 0.0;   ///< Added to the bound: what the surfaces' curvature takes.
-  double push = 0.0;   ///< The multiplier, >= 0.
+  bool isFace = false;  ///< A face of the scene holds it, with all that goes on flat around it.
+  double along = 0.0;   ///< Then: where on the axis, from end a (0) to end b (1).
+  double bound = 0.0;   ///< Of the step along n.
+  double bias = 0.0;    ///< Added to the bound: what the surfaces' curvature takes.
+  double push = 0.0;    ///< The multiplier, >= 0.
 };
 
 }  // namespace foretouch::internal

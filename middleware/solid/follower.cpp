@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "articulated/try.h"
@@ -20,6 +21,8 @@ constexpr int kMostIterations = 8, kMostFruitless = 4;
 constexpr double kEnoughOfStep = 0.2, kMostEnough = 1.5e-3;
 constexpr std::uint8_t kHotTicks = 8;
 constexpr int kDoublings = 3, kCorrections = 2;
+/// Two faces are of one plane: a cosine, and metres, as where near features are reduced.
+constexpr double kSamePlane = 1.0 - 1e-6, kInPlane = 1e-4;
 
 }  // namespace
 
@@ -111,8 +114,7 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
     return stepFreely(request, far, certifier, shown, tick);
   }
-  if (hasPushes() && !hasDirectFailed_ && far <= left_ &&
-      isTargetApart(request, certifier.plan())) {
+  if (hasPushes() && !hasDirectFailed_ && far <= left_ && isTargetApart(request, certifier)) {
     // What pushes is the skin, or a surface that the direct motion passes by.
     const Certified direct = ask(shown, request.target, certifier, tick);
     if (direct.isClear) {
@@ -304,15 +306,46 @@ bool Follower::tryShare(const FollowRequest& request, const Pose& shown, double 
   return there_.merit < kFalls * here_.merit;
 }
 
-/// At the target, what pushes is apart: perhaps nothing is in the way.
-bool Follower::isTargetApart(const FollowRequest& request, const QueryPlan& plan) const {
-  return std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
-    return !(row.push > 0.0) || gapAt(request.states, plan, row) > 0.0;
+/// At the target, what pushes is apart, and so is its link from all else: perhaps nothing is in the
+/// way. Of the surface, not of the triangle alone, lest its neighbours are asked in vain.
+bool Follower::isTargetApart(const FollowRequest& request, Certifier& certifier) {
+  const bool areApart = std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
+    return !(row.push > 0.0) || pairGapAt(request.states, certifier.plan(), row) > 0.0;
   });
+  if (!areApart) return false;
+  touchReach_.assign(hotFor_.size(), -1.0);
+  for (const ContactRow& row : rows_) {
+    if (row.push > 0.0) touchReach_[slotOf(row.link)] = 0.0;
+  }
+  near_.answer(request.states, touchReach_, nearScratch_, features_, NearDetail::Nearest);
+  certifier.spend(WorkMeter::workOf(features_.counters));
+  return std::all_of(features_.features.begin(), features_.features.end(),
+                     [](const NearFeature& feature) { return feature.gap > 0.0; });
 }
 
+/// Of a face: of the points on the axis that its plane holds, whichever triangles it is cut into.
 double Follower::gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
-                       const ContactRow& row) {
+                       const ContactRow& row) const {
+  if (!row.isFace) return pairGapAt(states, plan, row);
+  const Lss& lss = plan.avatar.lss(row.link)[slotOf(row.lss)];
+  const LinkState& state = states[slotOf(row.link)];
+  const auto isOfLss = [&](const ContactRow& other) {
+    return other.link == row.link && other.lss == row.lss && other.other == kNoParent;
+  };
+  const ContactRow *first = &row, *const end = rows_.data() + rows_.size();
+  while (first != rows_.data() && isOfLss(first[-1])) --first;
+  double least = std::numeric_limits<double>::infinity();
+  for (; first != end && isOfLss(*first); ++first) {
+    if (!first->isFace || row.n.dot(first->n) < kSamePlane) continue;
+    if (std::abs(row.n.dot(first->y - row.y)) > kInPlane) continue;
+    const Eigen::Vector3d held = state.pointAt(lss.a + first->along * (lss.b - lss.a));
+    least = std::min(least, row.n.dot(held - row.y) - lss.radius);
+  }
+  return least;
+}
+
+double Follower::pairGapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
+                           const ContactRow& row) {
   const LinkId other = row.other == kNoParent ? row.link : row.other;
   return gapOf(plan, {row.link, row.lss, row.triangle, row.other, row.otherLss},
                states[slotOf(row.link)], states[slotOf(other)]);

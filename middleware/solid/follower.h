@@ -80,9 +80,11 @@ class Follower {
   [[nodiscard]] bool tryShare(const FollowRequest& request, const Pose& shown, double share);
   [[nodiscard]] bool keepsGaps(const QueryPlan& plan) const;
   void correctFor(const QueryPlan& plan, double share);
-  [[nodiscard]] bool isTargetApart(const FollowRequest& request, const QueryPlan& plan) const;
-  [[nodiscard]] static double gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
-                                    const ContactRow& row);
+  [[nodiscard]] bool isTargetApart(const FollowRequest& request, Certifier& certifier);
+  [[nodiscard]] double gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
+                             const ContactRow& row) const;
+  [[nodiscard]] static double pairGapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
+                                        const ContactRow& row);
   void keepHot();
 
   SolidOptions options_;
@@ -99,7 +101,7 @@ class Follower {
   bool isOfTried_ = false;  // there_ is of tried_
 
   // Of the current iteration.
-  std::vector<double> reach_, hotReach_;
+  std::vector<double> reach_, hotReach_, touchReach_;
   std::vector<ContactRow> rows_;
   Pose tried_, nearer_, reached_;
   ChainMotion part_;

@@ -4,8 +4,6 @@
 #include <array>
 #include <limits>
 
-#include <Eigen/Cholesky>
-
 #include "lss/index.h"
 
 namespace foretouch::internal {
@@ -40,21 +38,26 @@ void LeastPush::begin() {
   taken_.clear();
   ways_.clear();
   isTaken_.clear();
+  factor_.begin();
+  isPushing_.assign(kMostRows, 0);
 }
 
 std::size_t LeastPush::solve(TreeInertia& inertia, const TreePull& pull,
                              const Eigen::Vector3d& origin, std::vector<ContactRow>& rows,
                              TreeStep& step) {
   products_.resize(kMostRows * kMostRows);
+  isPushing_.resize(kMostRows, 0);
   isTaken_.resize(rows.size(), 0);
   frees_.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].push = 0.0;
     frees_[i] = excess(rows[i], step, pull, origin);
   }
+  excesses_ = frees_;
   for (Taken& taken : taken_) taken.free = frees_[taken.row];
   for (int round = 0; round < kRounds; ++round) {
-    const bool isAnyTaken = takeViolated(inertia, pull, origin, rows, step);
+    if (round > 0) findExcesses(rows, step, pull, origin);
+    const bool isAnyTaken = takeViolated(inertia, origin, rows);
     if (!isAnyTaken && (round > 0 || taken_.empty())) break;
     findPushes();
     forces_ = pull.forces;
@@ -70,10 +73,17 @@ std::size_t LeastPush::solve(TreeInertia& inertia, const TreePull& pull,
   return taken_.size();
 }
 
+/// Of the rows that are not taken up.
+void LeastPush::findExcesses(const std::vector<ContactRow>& rows, const TreeStep& step,
+                             const TreePull& pull, const Eigen::Vector3d& origin) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (isTaken_[i] == 0) excesses_[i] = excess(rows[i], step, pull, origin);
+  }
+}
+
 /// Takes up the rows that the step breaks most, a few per LSS; false if there is none.
-bool LeastPush::takeViolated(const TreeInertia& inertia, const TreePull& pull,
-                             const Eigen::Vector3d& origin, const std::vector<ContactRow>& rows,
-                             const TreeStep& step) {
+bool LeastPush::takeViolated(const TreeInertia& inertia, const Eigen::Vector3d& origin,
+                             const std::vector<ContactRow>& rows) {
   bool isAnyTaken = false;
   std::size_t begin = 0;
   while (begin < rows.size()) {
@@ -87,7 +97,7 @@ bool LeastPush::takeViolated(const TreeInertia& inertia, const TreePull& pull,
     by.fill(-kKept);
     for (std::size_t i = begin; i < end; ++i) {
       if (isTaken_[i] != 0) continue;
-      const double excessHere = excess(rows[i], step, pull, origin);
+      const double excessHere = excesses_[i];
       if (excessHere < by[0]) {
         by[1] = by[0];
         worst[1] = worst[0];
@@ -117,7 +127,6 @@ void LeastPush::take(const TreeInertia& inertia, const Eigen::Vector3d& origin,
                                          : Vector6d(-wrench(row.y - origin, row.n));
   taken.free = frees_[index];
   taken.push = 0.0;
-  taken.isPushing = false;
   taken.wayBegin = ways_.size();
   inertia.appendWay(row.link, taken.onLink, row.other, taken.onOther, ways_);
   taken.wayEnd = ways_.size();
@@ -133,10 +142,17 @@ void LeastPush::take(const TreeInertia& inertia, const Eigen::Vector3d& origin,
   product(i, i) *= 1.0 + kCompliance;
 }
 
-double LeastPush::slackOf(std::size_t i) const {
-  double slack = taken_[i].free;
-  for (std::size_t k = 0; k < taken_.size(); ++k) slack += product(i, k) * taken_[k].push;
-  return slack;
+/// Row by row of those that push, so that vectors add.
+void LeastPush::findSlacks() {
+  const std::size_t n = taken_.size();
+  slacks_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) slacks_[i] = taken_[i].free;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double push = taken_[k].push;
+    if (push == 0.0) continue;
+    const double* const row = &products_[k * kMostRows];
+    for (std::size_t i = 0; i < n; ++i) slacks_[i] += row[i] * push;
+  }
 }
 
 /// min 1/2 p A p + free p over p >= 0, exactly; A is positive definite. Goes on from what pushed
@@ -152,13 +168,14 @@ bool LeastPush::exchangeBlocks() {
   int patience = kBlockPatience;
   for (int solution = 0; solution < kMostBlocks; ++solution) {
     std::size_t wrong = solveAsEquations();
-    for (Taken& taken : taken_) {
-      const auto i = static_cast<std::size_t>(&taken - taken_.data());
-      taken.push = taken.isPushing ? wanted_[i] : 0.0;
-    }
     for (std::size_t i = 0; i < taken_.size(); ++i) {
-      isWrong_[i] = taken_[i].isPushing ? !(wanted_[i] > 0.0) : slackOf(i) < -kKeptInside;
-      if (isWrong_[i] != 0 && !taken_[i].isPushing) ++wrong;
+      taken_[i].push = isPushing_[i] != 0 ? wanted_[i] : 0.0;
+    }
+    findSlacks();
+    for (std::size_t i = 0; i < taken_.size(); ++i) {
+      const bool isPushing = isPushing_[i] != 0;
+      isWrong_[i] = isPushing ? !(wanted_[i] > 0.0) : slacks_[i] < -kKeptInside;
+      if (isWrong_[i] != 0 && !isPushing) ++wrong;
     }
     if (wrong == 0) return true;
     if (wrong < fewest) {
@@ -168,7 +185,7 @@ bool LeastPush::exchangeBlocks() {
       return false;
     }
     for (std::size_t i = 0; i < taken_.size(); ++i) {
-      if (isWrong_[i] != 0) taken_[i].isPushing = !taken_[i].isPushing;
+      if (isWrong_[i] != 0) isPushing_[i] ^= 1U;
     }
   }
   return false;
@@ -176,24 +193,20 @@ bool LeastPush::exchangeBlocks() {
 
 /// The active set of [Lawson74] 23.3, which always ends.
 void LeastPush::exchangeOneByOne() {
-  for (Taken& taken : taken_) {
-    taken.push = 0.0;
-    taken.isPushing = false;
-  }
+  for (Taken& taken : taken_) taken.push = 0.0;
+  isPushing_.assign(kMostRows, 0);
   const std::size_t mostSteps = 3 * taken_.size() + 10;
   for (std::size_t step = 0; step < mostSteps; ++step) {
     std::size_t worst = taken_.size();
     double by = -kKeptInside;
+    findSlacks();
     for (std::size_t i = 0; i < taken_.size(); ++i) {
-      if (taken_[i].isPushing) continue;
-      const double slack = slackOf(i);
-      if (slack < by) {
-        by = slack;
-        worst = i;
-      }
+      if (isPushing_[i] != 0 || !(slacks_[i] < by)) continue;
+      by = slacks_[i];
+      worst = i;
     }
     if (worst == taken_.size()) return;
-    taken_[worst].isPushing = true;
+    isPushing_[worst] = 1;
     while (!goTowardsEquations()) {
     }
   }
@@ -201,33 +214,16 @@ void LeastPush::exchangeOneByOne() {
 
 /// Finds the pushes that hold all pushing rows exactly: wanted_. Returns how many are not above 0.
 std::size_t LeastPush::solveAsEquations() {
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
-  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
-  std::array<std::size_t, kMostRows> place{};
-  Eigen::Index n = 0;
-  wanted_.assign(taken_.size(), 0.0);
-  isWrong_.assign(taken_.size(), 0);
-  for (std::size_t i = 0; i < taken_.size(); ++i) {
-    if (taken_[i].isPushing) place[static_cast<std::size_t>(n++)] = i;
-  }
-  if (n == 0) return 0;
-  Square A(n, n);
-  Column push(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const std::size_t row = place[static_cast<std::size_t>(i)];
-    push[i] = -taken_[row].free;
-    for (Eigen::Index k = 0; k <= i; ++k) {
-      A(i, k) = product(row, place[static_cast<std::size_t>(k)]);
-    }
-  }
-  const Eigen::LLT<Square, Eigen::Lower> factors(A);
-  factors.solveInPlace(push);
-  std::size_t wrong = 0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    wanted_[place[static_cast<std::size_t>(i)]] = push[i];
-    if (!(push[i] > 0.0)) ++wrong;
-  }
-  return wrong;
+  const std::size_t n = taken_.size();
+  wanted_.assign(n, 0.0);
+  isWrong_.assign(n, 0);
+  right_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) right_[i] = -taken_[i].free;
+  factor_.choose(isPushing_, n, products_.data());
+  factor_.solve(right_, wanted_);
+  return static_cast<std::size_t>(
+      std::count_if(factor_.rows().begin(), factor_.rows().end(),
+                    [this](std::size_t row) { return !(wanted_[row] > 0.0); }));
 }
 
 /// Moves the pushes towards those of the equations; false if one had to be let go on the way.
@@ -239,7 +235,7 @@ bool LeastPush::goTowardsEquations() {
   double share = 1.0;
   std::size_t stops = taken_.size();
   for (std::size_t i = 0; i < taken_.size(); ++i) {
-    if (!taken_[i].isPushing || wanted_[i] > 0.0) continue;
+    if (isPushing_[i] == 0 || wanted_[i] > 0.0) continue;
     const double now = taken_[i].push;
     const double here = now > 0.0 ? now / (now - wanted_[i]) : 0.0;
     if (stops == taken_.size() || here < share) {
@@ -248,10 +244,10 @@ bool LeastPush::goTowardsEquations() {
     }
   }
   for (std::size_t i = 0; i < taken_.size(); ++i) {
-    if (taken_[i].isPushing) taken_[i].push += share * (wanted_[i] - taken_[i].push);
+    if (isPushing_[i] != 0) taken_[i].push += share * (wanted_[i] - taken_[i].push);
   }
   taken_[stops].push = 0.0;
-  taken_[stops].isPushing = false;
+  isPushing_[stops] = 0;
   return false;
 }
 

@@ -8,6 +8,7 @@
 
 #include "middleware/mechanics/tree_inertia.h"
 #include "middleware/solid/contact_row.h"
+#include "middleware/solid/grown_factor.h"
 
 namespace foretouch::internal {
 
@@ -29,7 +30,7 @@ struct TreePull {
 class LeastPush {
  public:
   /// At most so many rows push at once; the certificate of the step sees to all others.
-  static constexpr std::size_t kMostRows = 64;
+  static constexpr std::size_t kMostRows = GrownFactor::kMost;
 
   /// Forgets the rows that solve() has taken up: their places, or the inertia, are others now.
   void begin();
@@ -46,19 +47,19 @@ class LeastPush {
     Vector6d onLink, onOther;  // wrench of a unit push
     double free;               // the row's excess at the free step
     double push;
-    bool isPushing;
   };
   [[nodiscard]] double excess(const ContactRow& row, const TreeStep& step, const TreePull& pull,
                               const Eigen::Vector3d& origin) const;
-  [[nodiscard]] bool takeViolated(const TreeInertia& inertia, const TreePull& pull,
-                                  const Eigen::Vector3d& origin,
-                                  const std::vector<ContactRow>& rows, const TreeStep& step);
+  [[nodiscard]] bool takeViolated(const TreeInertia& inertia, const Eigen::Vector3d& origin,
+                                  const std::vector<ContactRow>& rows);
+  void findExcesses(const std::vector<ContactRow>& rows, const TreeStep& step, const TreePull& pull,
+                    const Eigen::Vector3d& origin);
   void take(const TreeInertia& inertia, const Eigen::Vector3d& origin, const ContactRow& row,
             std::size_t index);
   void findPushes();
   [[nodiscard]] bool exchangeBlocks();
   void exchangeOneByOne();
-  [[nodiscard]] double slackOf(std::size_t i) const;
+  void findSlacks();
   std::size_t solveAsEquations();
   [[nodiscard]] bool goTowardsEquations();
   [[nodiscard]] double& product(std::size_t i, std::size_t k) {
@@ -70,10 +71,15 @@ class LeastPush {
 
   std::vector<Taken> taken_;
   std::vector<WayPart> ways_;
-  std::vector<double> products_;  // J M^-1 J^T of the taken rows
+  std::vector<double> products_;                   // J M^-1 J^T of the taken rows
+  std::vector<std::uint8_t> isPushing_, isWrong_;  // of the taken rows
+  GrownFactor factor_;                             // of those that push
+  std::vector<double> right_;     // of the taken rows: what pushes have to make up for
   std::vector<double> wanted_;    // of the taken rows: pushes that hold the pushing ones exactly
-  std::vector<double> frees_;     // of all rows, at the free step
-  std::vector<std::uint8_t> isTaken_, isWrong_;
+  std::vector<double> slacks_;    // of the taken rows, with the pushes
+  std::vector<double> frees_;     // of all rows: their excess at the free step
+  std::vector<double> excesses_;  // of all rows, at the step
+  std::vector<std::uint8_t> isTaken_;
   std::vector<Vector6d> forces_;
 };
 

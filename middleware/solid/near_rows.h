@@ -46,6 +46,8 @@ inline void appendRows(const NearFeatures& near, std::vector<ContactRow>& rows) 
     row.y = feature.p_WScene;
     row.n = feature.nhat_SL_W;
     row.gap = feature.gap;
+    row.isFace = feature.feature == FeatureKind::Face;
+    row.along = feature.along;
     rows.push_back(row);
   }
 }
