@@ -162,14 +162,14 @@ std::vector<Real> OracleWorld::separationsAt(int a, int b, std::int64_t fromUs, 
   const Moving atB = a == b ? atA : movingAt(b, fromUs, us, isFromLeft);
   const std::size_t linksOfA = body(a).parents.size(), linksOfB = body(b).parents.size();
   std::vector<Real> separations(linksOfA * linksOfB, kForever);
+  const std::vector<Ball> ballsOfA = ballsOf(a, atA), ballsOfB = ballsOf(b, atB);
   for (std::size_t i = 0; i < linksOfA; ++i) {
-    const Ball ofOne = ballOf(a, static_cast<int>(i));
+    const Ball& ofOne = ballsOfA[i];
     for (std::size_t j = 0; j < linksOfB && ofOne.radius >= 0; ++j) {
-      const Ball ofOther = ballOf(b, static_cast<int>(j));
+      const Ball& ofOther = ballsOfB[j];
       if (ofOther.radius < 0 || (a == b && i >= j)) continue;
       ++pairInstants;
-      const Real apart = norm(atA.frames[i].at(ofOne.middle) - atB.frames[j].at(ofOther.middle)) -
-                         ofOne.radius - ofOther.radius;
+      const Real apart = norm(ofOne.middle - ofOther.middle) - ofOne.radius - ofOther.radius;
       Real& least = separations[i * linksOfB + j];
       // A nanometre is far more than long doubles round by here.
       least = apart > beyond + kTouch
@@ -180,25 +180,31 @@ std::vector<Real> OracleWorld::separationsAt(int a, int b, std::int64_t fromUs, 
   return separations;
 }
 
-/// Holds all parts of the link; a radius below zero if it has none.
-OracleWorld::Ball OracleWorld::ballOf(int id, int link) const {
-  Ball ball;
-  int count = 0;
+/// Of each link, in W: holds all its parts. A radius below zero if it has none.
+std::vector<OracleWorld::Ball> OracleWorld::ballsOf(int id, const Moving& moving) const {
+  std::vector<Ball> balls(moving.frames.size());
+  std::vector<int> counts(balls.size(), 0);
   for (const OraclePart& part : body(id).parts) {
-    if (part.link != link) continue;
-    for (const Vec3d& corner : part.corners) ball.middle = ball.middle + corner.as<Real>();
-    count += static_cast<int>(part.corners.size());
-  }
-  if (count == 0) return ball;
-  ball.middle = Real(1) / static_cast<Real>(count) * ball.middle;
-  for (const OraclePart& part : body(id).parts) {
-    if (part.link != link) continue;
+    const auto link = static_cast<std::size_t>(part.link);
     for (const Vec3d& corner : part.corners) {
-      ball.radius = std::max(
-          ball.radius, norm(corner.as<Real>() - ball.middle) + static_cast<Real>(part.radius));
+      balls[link].middle = balls[link].middle + corner.as<Real>();
+      ++counts[link];
     }
   }
-  return ball;
+  for (std::size_t link = 0; link < balls.size(); ++link) {
+    if (counts[link] > 0) balls[link].middle = Real(1) / counts[link] * balls[link].middle;
+  }
+  for (const OraclePart& part : body(id).parts) {
+    Ball& ball = balls[static_cast<std::size_t>(part.link)];
+    for (const Vec3d& corner : part.corners) {
+      const Real reach = norm(corner.as<Real>() - ball.middle) + static_cast<Real>(part.radius);
+      ball.radius = std::max(ball.radius, reach);
+    }
+  }
+  for (std::size_t link = 0; link < balls.size(); ++link) {
+    balls[link].middle = moving.frames[link].at(balls[link].middle);
+  }
+  return balls;
 }
 
 OracleTouch OracleWorld::firstTouch(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,

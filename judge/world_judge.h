@@ -77,7 +77,7 @@ class OracleWorld {
   struct Speed {
     Real ofOrigin = 0, ofTurn = 0;
   };
-  /// Around all parts of a link, in its frame.
+  /// Around all parts of a link.
   struct Ball {
     Vec3<Real> middle;
     Real radius = -1;
@@ -87,13 +87,13 @@ class OracleWorld {
     std::vector<Speed> speeds;              // likewise
     Real untilUs = 0;                       // they hold until then
   };
+  [[nodiscard]] std::vector<Ball> ballsOf(int body, const Moving& moving) const;
   /// All links of a body at an instant; where it changes its carrier there, from the left or right.
   [[nodiscard]] Moving movingAt(int body, std::int64_t fromUs, Real us, bool isFromLeft) const;
   [[nodiscard]] Real separation(int a, const Moving& atA, int linkOfA, int b, const Moving& atB,
                                 int linkOfB) const;
   [[nodiscard]] Real speedOf(int body, const Moving& moving, int link) const;
   [[nodiscard]] Real reachOf(int body, int link) const;
-  [[nodiscard]] Ball ballOf(int body, int link) const;
   [[nodiscard]] const OracleBody& body(int id) const {
     return bodies[static_cast<std::size_t>(id)];
   }

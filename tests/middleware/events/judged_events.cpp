@@ -20,6 +20,10 @@ constexpr Real kPlaces = 1e-9L;
 void EventTally::add(const EventTally& more) {
   samples += more.samples;
   touching += more.touching;
+  inContact += more.inContact;
+  missed += more.missed;
+  tooFar += more.tooFar;
+  untrue += more.untrue;
   parts += more.parts;
   unresolved += more.unresolved;
   severalParts += more.severalParts;
@@ -41,6 +45,12 @@ JudgedEvents::JudgedEvents(BothWorlds& both, std::int64_t fromUs, const FollowOp
       fromUs_(fromUs),
       untilUs_(fromUs),
       tolerance_(both.world.parts().options.tolerance) {}
+
+/// Of an event or the order of events.
+void JudgedEvents::sayUntrue(const std::string& what) {
+  ++tally.untrue;
+  say(what);
+}
 
 void JudgedEvents::say(const std::string& what) {
   if (tally.problems.size() < kMostProblems) tally.problems.push_back(what);
@@ -116,41 +126,50 @@ void JudgedEvents::judge(int instants) {
 }
 
 void JudgedEvents::judgePairs(BodyId a, BodyId b, const std::vector<Real>& instants) {
+  const std::size_t linksOfA = both_.oracle.bodies[slotOf(a)].parents.size();
+  const std::size_t linksOfB = both_.oracle.bodies[slotOf(b)].parents.size();
+  std::vector<Judged> pairs;
+  for (std::size_t i = 0; i < linksOfA * linksOfB; ++i) {
+    const auto one = static_cast<LinkId>(i / linksOfB), other = static_cast<LinkId>(i % linksOfB);
+    if (!isAsked(a, one, b, other)) continue;
+    const auto told = partsOf_.find({a, one, b, other});
+    pairs.push_back({i, one, other, told != partsOf_.end() ? &told->second : nullptr});
+  }
   const Real beyond = 4 * static_cast<Real>(tolerance_);
   for (const Real us : instants) {
-    judgeAt(a, b, us, both_.oracle.separationsAt(a, b, fromUs_, us, us > 0, beyond));
+    const std::vector<Real> separations =
+        both_.oracle.separationsAt(a, b, fromUs_, us, us > 0, beyond);
+    for (const Judged& judged : pairs) judgeAt(a, b, judged, us, separations[judged.place]);
   }
 }
 
-void JudgedEvents::judgeAt(BodyId a, BodyId b, Real us, const std::vector<Real>& separations) {
-  const std::size_t linksOfB = both_.oracle.bodies[slotOf(b)].parents.size();
-  const Real most = 2 * static_cast<Real>(tolerance_) * (1 + Real(1e-9L));
-  for (std::size_t i = 0; i < separations.size(); ++i) {
-    const auto one = static_cast<LinkId>(i / linksOfB), other = static_cast<LinkId>(i % linksOfB);
-    const Real gap = separations[i];
-    if (gap > 1e15L || !isAsked(a, one, b, other)) continue;
-    ++tally.samples;
-    tally.touching += gap <= 0 ? 1 : 0;
-    const auto found = partsOf_.find({a, one, b, other});
-    bool isCovered = false, isContact = false;
-    if (found != partsOf_.end()) {
-      for (const Part& part : found->second) {
-        if (us < part.fromUs || us > part.toUs) continue;
-        isCovered = true;
-        isContact = isContact || part.isContact;
-      }
-    }
-    std::ostringstream what;
-    what << "bodies " << a << ", " << b << ", links " << one << ", " << other << " at "
-         << static_cast<double>(us) << " us, separation " << static_cast<double>(gap) << ": ";
-    if (!isCovered && gap <= 0) say(what.str() + "touching in free");
-    if (isContact && gap > most) say(what.str() + "too far in contact");
+void JudgedEvents::judgeAt(BodyId a, BodyId b, const Judged& judged, Real us, Real gap) {
+  if (gap > 1e15L) return;  // one of the two has no parts
+  ++tally.samples;
+  tally.touching += gap <= 0 ? 1 : 0;
+  if (judged.parts == nullptr && gap > 0) return;
+  bool isCovered = false, isContact = false;
+  for (std::size_t i = 0; judged.parts != nullptr && i < judged.parts->size(); ++i) {
+    const Part& part = (*judged.parts)[i];
+    if (us < part.fromUs || us > part.toUs) continue;
+    isCovered = true;
+    isContact = isContact || part.isContact;
   }
+  tally.inContact += isContact ? 1 : 0;
+  const Real most = 2 * static_cast<Real>(tolerance_) * (1 + Real(1e-9L));
+  const bool isMissed = !isCovered && gap <= 0, isTooFar = isContact && gap > most;
+  if (!isMissed && !isTooFar) return;
+  ++(isMissed ? tally.missed : tally.tooFar);
+  std::ostringstream what;
+  what << "bodies " << a << ", " << b << ", links " << judged.linkOfA << ", " << judged.linkOfB
+       << " at " << static_cast<double>(us) << " us, separation " << static_cast<double>(gap)
+       << ": " << (isMissed ? "touching in free" : "too far in contact");
+  say(what.str());
 }
 
 void JudgedEvents::judgeEvents() {
   for (std::size_t i = 0; i + 1 < events.size(); ++i) {
-    if (!comesBefore(events[i], events[i + 1])) say("events are not in their order");
+    if (!comesBefore(events[i], events[i + 1])) sayUntrue("events are not in their order");
   }
   for (const WorldEvent& event : events) judgeEvent(event);
 }
@@ -165,25 +184,26 @@ void JudgedEvents::judgeEvent(const WorldEvent& event) {
   what << toString(event.kind) << " of bodies " << a.body << ", " << b.body << ", links " << a.link
        << ", " << b.link << " at " << static_cast<double>(us) << " us: ";
   if (event.numPoints == 0) {
-    if (event.kind != EventKind::Leave) say(what.str() + "no points");
+    if (event.kind != EventKind::Leave) sayUntrue(what.str() + "no points");
     return;
   }
   const Real gap = both_.oracle.separationAt(a.body, a.link, b.body, b.link, fromUs_, us);
   const auto tolerance = static_cast<Real>(tolerance_);
   if (event.kind == EventKind::Leave) {
-    if (gap <= tolerance || gap > 2 * tolerance) say(what.str() + "leaves where it does not");
+    if (gap <= tolerance || gap > 2 * tolerance) sayUntrue(what.str() + "leaves where it does not");
   } else if (gap > tolerance * (1 + Real(1e-9L))) {
-    say(what.str() + "enters too far away");
+    sayUntrue(what.str() + "enters too far away");
   }
   const Real told = static_cast<Real>(event.separation) - static_cast<Real>(event.penetration);
-  if (event.penetration == 0.0 && std::abs(gap - told) > kPlaces) say(what.str() + "separation");
+  if (event.penetration == 0.0 && std::abs(gap - told) > kPlaces)
+    sayUntrue(what.str() + "separation");
   const Real off =
       std::max(both_.oracle.distanceToSurface(a.body, a.link, plain(a.p_W), fromUs_, us),
                both_.oracle.distanceToSurface(b.body, b.link, plain(b.p_W), fromUs_, us));
   // Where an axis goes through a triangle, no point of its surface is the nearest.
-  if (event.penetration == 0.0 && off > kPlaces) say(what.str() + "witness points");
+  if (event.penetration == 0.0 && off > kPlaces) sayUntrue(what.str() + "witness points");
   if (event.approachLower > event.approachSpeed || event.approachUpper < event.approachSpeed) {
-    say(what.str() + "bracket");
+    sayUntrue(what.str() + "bracket");
   }
 }
 

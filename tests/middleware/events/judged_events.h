@@ -16,13 +16,17 @@
 namespace foretouch::test {
 
 struct EventTally {
-  std::uint64_t samples = 0;   ///< Two links at an instant.
-  std::uint64_t touching = 0;  ///< Of these: they overlap.
+  std::uint64_t samples = 0;    ///< Two links at an instant.
+  std::uint64_t touching = 0;   ///< Of these: they overlap.
+  std::uint64_t inContact = 0;  ///< Of these: they were told to be in contact.
+  /// Broken promises: touching in what is free, too far apart in contact, untrue events.
+  std::uint64_t missed = 0, tooFar = 0, untrue = 0;
   std::uint64_t parts = 0, unresolved = 0, severalParts = 0;
   std::uint64_t kinds[kNumEventKinds] = {};
   EventCounters counters;
-  std::vector<std::string> problems;  ///< What broke the promise.
+  std::vector<std::string> problems;  ///< The first of them.
 
+  [[nodiscard]] std::uint64_t violations() const { return missed + tooFar + untrue; }
   void add(const EventTally& more);
 };
 
@@ -51,10 +55,17 @@ class JudgedEvents {
   void gather();
   void judgeEvents();
   void judgeEvent(const WorldEvent& event);
+  /// Two links that are asked, and what was told of them; null: nothing.
+  struct Judged {
+    std::size_t place;  // among the separations of all links
+    LinkId linkOfA, linkOfB;
+    const std::vector<Part>* parts;
+  };
   void judgePairs(BodyId a, BodyId b, const std::vector<Real>& instants);
-  void judgeAt(BodyId a, BodyId b, Real us, const std::vector<Real>& separations);
+  void judgeAt(BodyId a, BodyId b, const Judged& judged, Real us, Real gap);
   [[nodiscard]] bool isAsked(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const;
   [[nodiscard]] Real after(const WorldTime& time) const;
+  void sayUntrue(const std::string& what);
   void say(const std::string& what);
 
   BothWorlds& both_;
