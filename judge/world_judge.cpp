@@ -156,6 +156,57 @@ Real OracleWorld::separationAt(int a, int linkOfA, int b, int linkOfB, std::int6
                     linkOfB);
 }
 
+std::vector<Real> OracleWorld::separationsAt(int a, int b, std::int64_t fromUs, Real us,
+                                             bool isFromLeft, Real beyond) const {
+  const Moving atA = movingAt(a, fromUs, us, isFromLeft);
+  const Moving atB = a == b ? atA : movingAt(b, fromUs, us, isFromLeft);
+  const std::size_t linksOfA = body(a).parents.size(), linksOfB = body(b).parents.size();
+  std::vector<Real> separations(linksOfA * linksOfB, kForever);
+  const std::vector<Ball> ballsOfA = ballsOf(a, atA), ballsOfB = ballsOf(b, atB);
+  for (std::size_t i = 0; i < linksOfA; ++i) {
+    const Ball& ofOne = ballsOfA[i];
+    for (std::size_t j = 0; j < linksOfB && ofOne.radius >= 0; ++j) {
+      const Ball& ofOther = ballsOfB[j];
+      if (ofOther.radius < 0 || (a == b && i >= j)) continue;
+      ++pairInstants;
+      const Real apart = norm(ofOne.middle - ofOther.middle) - ofOne.radius - ofOther.radius;
+      Real& least = separations[i * linksOfB + j];
+      // A nanometre is far more than long doubles round by here.
+      least = apart > beyond + kTouch
+                  ? apart
+                  : separation(a, atA, static_cast<int>(i), b, atB, static_cast<int>(j));
+    }
+  }
+  return separations;
+}
+
+/// Of each link, in W: holds all its parts. A radius below zero if it has none.
+std::vector<OracleWorld::Ball> OracleWorld::ballsOf(int id, const Moving& moving) const {
+  std::vector<Ball> balls(moving.frames.size());
+  std::vector<int> counts(balls.size(), 0);
+  for (const OraclePart& part : body(id).parts) {
+    const auto link = static_cast<std::size_t>(part.link);
+    for (const Vec3d& corner : part.corners) {
+      balls[link].middle = balls[link].middle + corner.as<Real>();
+      ++counts[link];
+    }
+  }
+  for (std::size_t link = 0; link < balls.size(); ++link) {
+    if (counts[link] > 0) balls[link].middle = Real(1) / counts[link] * balls[link].middle;
+  }
+  for (const OraclePart& part : body(id).parts) {
+    Ball& ball = balls[static_cast<std::size_t>(part.link)];
+    for (const Vec3d& corner : part.corners) {
+      const Real reach = norm(corner.as<Real>() - ball.middle) + static_cast<Real>(part.radius);
+      ball.radius = std::max(ball.radius, reach);
+    }
+  }
+  for (std::size_t link = 0; link < balls.size(); ++link) {
+    balls[link].middle = moving.frames[link].at(balls[link].middle);
+  }
+  return balls;
+}
+
 OracleTouch OracleWorld::firstTouch(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
                                     std::int64_t toUs) const {
   const Real end = static_cast<Real>(toUs - fromUs);

@@ -56,6 +56,11 @@ class OracleWorld {
   /// Of two links at `us` after `fromUs`; from the left, where a body changes its carrier there.
   [[nodiscard]] Real separationAt(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
                                   Real us) const;
+  /// Of all links of a and of b, row after row, likewise; of those that are proven farther apart
+  /// than `beyond` (m), at least that. Links without parts are infinitely far apart. `isFromLeft`:
+  /// where a body changes its carrier then.
+  [[nodiscard]] std::vector<Real> separationsAt(int a, int b, std::int64_t fromUs, Real us,
+                                                bool isFromLeft, Real beyond) const;
   /// The first instant, of a window in which both are there, at which two links are within kTouch.
   [[nodiscard]] OracleTouch firstTouch(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
                                        std::int64_t toUs) const;
@@ -72,11 +77,17 @@ class OracleWorld {
   struct Speed {
     Real ofOrigin = 0, ofTurn = 0;
   };
+  /// Around all parts of a link.
+  struct Ball {
+    Vec3<Real> middle;
+    Real radius = -1;
+  };
   struct Moving {
     std::vector<MovingFrame<Real>> frames;  // of all links, in W
     std::vector<Speed> speeds;              // likewise
     Real untilUs = 0;                       // they hold until then
   };
+  [[nodiscard]] std::vector<Ball> ballsOf(int body, const Moving& moving) const;
   /// All links of a body at an instant; where it changes its carrier there, from the left or right.
   [[nodiscard]] Moving movingAt(int body, std::int64_t fromUs, Real us, bool isFromLeft) const;
   [[nodiscard]] Real separation(int a, const Moving& atA, int linkOfA, int b, const Moving& atB,

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/middleware/world/random_worlds.h"
 #include "tests/oracle/world_stage.h"
 
 namespace foretouch::test {
@@ -35,7 +36,10 @@ class CampaignWorld {
       case WorldPart::Held: held(); break;
       case WorldPart::Doors: doors(); break;
       case WorldPart::Lifts: lifts(); break;
+      case WorldPart::Wild: wild(); break;
+      case WorldPart::Sheets: sheets(); break;
     }
+    if (campaign_.eventInstants > 0) return eventTally();
     judgeWindows();
     return tally();
   }
@@ -43,9 +47,15 @@ class CampaignWorld {
  private:
   [[nodiscard]] BodyId dancer(const SweepClip& clip, double rateHz, std::int64_t offsetUs,
                               const Walk& walk) {
-    const BodyId body = both_.add(clip.avatar);
+    const BodyId body = both_.add(clip.avatar, ownLinksOf(clip.avatar));
     pushAll(both_, body, posesOf(clip, rateHz, offsetUs, untilUs_, walk));
     return body;
+  }
+  [[nodiscard]] BodyOptions ownLinksOf(const Avatar& avatar) const {
+    BodyOptions options;
+    if (campaign_.eventInstants == 0) return options;
+    if (auto rules = PairRules::derive(avatar); rules.ok()) options.self = rules.value();
+    return options;
   }
   /// Walks through the place where the first one dances.
   [[nodiscard]] BodyId passer() {
@@ -114,6 +124,42 @@ class CampaignWorld {
     asked_ = {{1, 2}, {lift, 1}, {lift, 2}};
   }
 
+  void wild() {
+    for (int k = 0; k < 3; ++k) {
+      Walker walker = randomWalker(random_, random_.inBox(0.4), 0.15);
+      const BodyId body = both_.add(walker.avatar, ownLinksOf(walker.avatar));
+      walk(both_, body, walker, randomPeriod(random_), untilUs_, random_);
+    }
+    asked_ = {{0, 1}, {0, 2}, {1, 2}};
+  }
+
+  void sheets() {
+    const BodyId body = first(), stack = both_.add(sheetStack(0.3, 5, 0.04));
+    Flight flight;
+    flight.periodUs = std::llround(1e6 / campaign_.otherRateHz);
+    const double step = 1e-6 * static_cast<double>(flight.periodUs);
+    flight.pose = {random_.rotation(), Vector3d(-0.8, random_.uniform(-0.6, 0.4), 0.0)};
+    flight.stepBy = step * Vector3d(random_.uniform(2.0, 8.0), 0.0, random_.uniform(-0.5, 0.5));
+    flight.turnBy = random_.turn(random_.uniform(0.0, 12.0) * step);
+    fly(both_, stack, flight, untilUs_);
+    asked_ = {{body, stack}};
+  }
+
+  /// Followed in two calls.
+  [[nodiscard]] WorldCampaignTally eventTally() {
+    JudgedEvents judged(both_, 0);
+    judged.follow(untilUs_ / 3);
+    judged.follow(untilUs_);
+    judged.judge(campaign_.eventInstants);
+    WorldCampaignTally tally;
+    tally.worlds = 1;
+    tally.windows = judged.tally.counters.windows;
+    tally.pairInstants = judged.tally.samples;
+    tally.events = judged.tally;
+    for (const std::string& problem : judged.tally.problems) addFinding(problem, tally);
+    return tally;
+  }
+
   void judgeWindows() {
     for (std::int64_t from = 0; from < untilUs_; from += kWindowUs) {
       for (const auto& [a, b] : asked_) both_.judge(a, b, from, from + kWindowUs);
@@ -133,12 +179,15 @@ class CampaignWorld {
          : kind == "late"  ? tally.late
          : kind == "early" ? tally.early
                            : tally.other);
-      tally.findings.push_back(
-          fmt::format("{} and {}, {}, {:g} and {:g} Hz, tolerance {:g}, seed {}: {}", one_.name,
-                      other_.name, toString(campaign_.part), campaign_.rateHz,
-                      campaign_.otherRateHz, campaign_.tolerance, campaign_.seed, problem));
+      addFinding(problem, tally);
     }
     return tally;
+  }
+  void addFinding(const std::string& problem, WorldCampaignTally& tally) const {
+    tally.findings.push_back(
+        fmt::format("{} and {}, {}, {:g} and {:g} Hz, tolerance {:g}, seed {}: {}", one_.name,
+                    other_.name, toString(campaign_.part), campaign_.rateHz, campaign_.otherRateHz,
+                    campaign_.tolerance, campaign_.seed, problem));
   }
 
   const SweepClip &one_, &other_;
@@ -153,8 +202,8 @@ class CampaignWorld {
 }  // namespace
 
 const char* toString(WorldPart part) {
-  constexpr std::array<const char*, kNumWorldParts> kWords = {"pairs", "thrown", "held", "doors",
-                                                              "lifts"};
+  constexpr std::array<const char*, kNumWorldParts> kWords = {"pairs", "thrown", "held",  "doors",
+                                                              "lifts", "wild",   "sheets"};
   return kWords[static_cast<std::size_t>(part)];
 }
 
@@ -171,6 +220,7 @@ void WorldCampaignTally::add(const WorldCampaignTally& more) {
   late += more.late;
   early += more.early;
   other += more.other;
+  events.add(more.events);
   for (const std::string& finding : more.findings) {
     if (findings.size() < kMostFindings) findings.push_back(finding);
   }
@@ -182,6 +232,23 @@ std::string WorldCampaignTally::summary() const {
       "start, {} undecided, {} too slow for the judge; {} missed, {} late, {} early, {} untrue",
       worlds, windows, pairInstants, answers.clear, answers.contact, answers.start,
       answers.undecided, answers.grazing, missed, late, early, other);
+}
+
+std::string WorldCampaignTally::summaryOfEvents() const {
+  const auto of = [this](EventKind kind) { return events.kinds[static_cast<std::size_t>(kind)]; };
+  const auto per = [](std::uint64_t count, std::uint64_t of) {
+    return of > 0 ? static_cast<double>(count) / static_cast<double>(of) : 0.0;
+  };
+  const EventCounters& c = events.counters;
+  return fmt::format(
+      "{} worlds, {} windows, {} samples, {} of them touching and {} in contact; {} enter, {} "
+      "leave, {} start inside, {} pairs with several contacts, {} unresolved; {:.2f} looks in "
+      "contact and {:.2f} beside per span in contact; {} touching in free, {} too far in contact, "
+      "{} untrue",
+      worlds, windows, events.samples, events.touching, events.inContact, of(EventKind::Enter),
+      of(EventKind::Leave), of(EventKind::StartsInside), events.severalParts, events.unresolved,
+      per(c.contactLooks, c.stretches), per(c.freeLooks, c.stretches), events.missed, events.tooFar,
+      events.untrue);
 }
 
 WorldCampaignTally judgeWorld(const SweepClip& one, const SweepClip& other,

@@ -21,8 +21,12 @@ struct Arguments {
   std::vector<double> otherRates{90, 120}, tolerances{1e-3, 1e-5};
   std::string data;
   double rate = 30.0;
-  int windows = 4;
+  int windows = 4, instants = 400;
   std::uint64_t seeds = 1;
+
+  [[nodiscard]] bool judgesEvents() const {
+    return std::find(parts.begin(), parts.end(), "events") != parts.end();
+  }
 };
 
 std::vector<SweepClip> loadedClips(const Arguments& a) {
@@ -38,7 +42,9 @@ std::vector<SweepClip> loadedClips(const Arguments& a) {
   return clips;
 }
 
+/// Events are followed on every stage, unless some are named.
 bool isAsked(const Arguments& a, WorldPart part) {
+  if (a.judgesEvents() && a.parts.size() == 1) return true;
   return std::find(a.parts.begin(), a.parts.end(), toString(part)) != a.parts.end();
 }
 
@@ -48,11 +54,16 @@ WorldCampaignTally judgePart(const Arguments& a, WorldPart part, const SweepClip
   WorldCampaignTally tally;
   for (const double tolerance : a.tolerances) {
     for (const double otherRate : a.otherRates) {
-      tally.add(
-          judgeWorld(one, other, {part, a.rate, otherRate, tolerance, a.windows, seed++, nullptr}));
+      tally.add(judgeWorld(one, other,
+                           {part, a.rate, otherRate, tolerance, a.windows, seed++, nullptr,
+                            a.judgesEvents() ? a.instants : 0}));
     }
   }
   return tally;
+}
+
+std::string summaryOf(const Arguments& a, const WorldCampaignTally& tally) {
+  return a.judgesEvents() ? tally.summaryOfEvents() : tally.summary();
 }
 
 int judgeAll(const Arguments& a) {
@@ -72,12 +83,12 @@ int judgeAll(const Arguments& a) {
         }
       }
       total.add(ofClip);
-      std::cout << "seed " << seed << ", " << clips[i].name << ": " << ofClip.summary()
+      std::cout << "seed " << seed << ", " << clips[i].name << ": " << summaryOf(a, ofClip)
                 << "; so far " << total.pairInstants << " pair-instants, " << total.violations()
                 << " broken" << std::endl;
     }
   }
-  std::cout << "total: " << total.summary() << "\n";
+  std::cout << "total: " << summaryOf(a, total) << "\n";
   for (const std::string& finding : total.findings) std::cout << "  " << finding << "\n";
   if (total.windows == 0) return 2;
   return total.violations() > 0 ? 1 : 0;
@@ -91,9 +102,12 @@ int main(int argc, char** argv) {
   CLI::App app{"Judges a moving world by an oracle that shares no code with it"};
   app.add_option("--clips", a.clips, "BVH files of DATA/mocap; all if none is given")
       ->delimiter(',');
-  app.add_option("--parts", a.parts, "pairs, thrown, held, doors, lifts")
+  app.add_option("--parts", a.parts,
+                 "pairs, thrown, held, doors, lifts, wild, sheets; events: what a follower tells, "
+                 "on all of these, or on those that are named beside it")
       ->delimiter(',')
-      ->check(CLI::IsMember({"pairs", "thrown", "held", "doors", "lifts"}));
+      ->check(
+          CLI::IsMember({"pairs", "thrown", "held", "doors", "lifts", "wild", "sheets", "events"}));
   app.add_option("--rate", a.rate, "Of the first clip, Hz")->check(CLI::PositiveNumber);
   app.add_option("--other-rates", a.otherRates, "Of the others and of props, Hz")
       ->delimiter(',')
@@ -102,6 +116,8 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   app.add_option("--windows", a.windows, "Of 150 ms each, per world")->check(CLI::PositiveNumber);
+  app.add_option("--instants", a.instants, "At which events are sampled, per world")
+      ->check(CLI::PositiveNumber);
   app.add_option("--seeds", a.seeds, "How often, each time at other places");
   app.add_option("--data", a.data, "Folder with mocap/");
   try {

@@ -88,4 +88,16 @@ Scene platform(double side) {
   return sceneOf({{{a, b, c}}, {{a, c, d}}});
 }
 
+Scene sheetStack(double side, int count, double apart) {
+  const double h = 0.5 * side;
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < count; ++i) {
+    const double x = apart * (i - 0.5 * (count - 1));
+    const Vector3d a(x, -h, -h), b(x, h, -h), c(x, h, h), d(x, -h, h);
+    triangles.push_back({{a, b, c}});
+    triangles.push_back({{a, c, d}});
+  }
+  return sceneOf(std::move(triangles));
+}
+
 }  // namespace foretouch::test

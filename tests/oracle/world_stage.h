@@ -46,5 +46,7 @@ void fly(BothWorlds& both, BodyId body, Flight flight, std::int64_t untilUs);
 [[nodiscard]] Scene doorPanel(double width, double height);
 /// A square of `side` in y = 0, about the origin.
 [[nodiscard]] Scene platform(double side);
+/// So many squares of `side` across x, `apart` from each other.
+[[nodiscard]] Scene sheetStack(double side, int count, double apart);
 
 }  // namespace foretouch::test

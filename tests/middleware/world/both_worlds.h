@@ -47,6 +47,9 @@ class BothWorlds {
   /// scene.
   void judgeAll(std::int64_t fromUs, std::int64_t toUs);
 
+  /// One carries the other at some time.
+  [[nodiscard]] bool areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const;
+
   World world;
   OracleWorld oracle;
   WorldScratch scratch;
@@ -63,7 +66,6 @@ class BothWorlds {
   void judgeLinks(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB, std::int64_t fromUs,
                   const OracleTouch& truth);
   [[nodiscard]] bool hasParts(BodyId body, LinkId link) const;
-  [[nodiscard]] bool areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const;
   [[nodiscard]] std::string problemOf(const WorldContact& contact, const OracleTouch& truth,
                                       std::int64_t fromUs) const;
   [[nodiscard]] int placeInOracle(BodyId body) const;

@@ -10,7 +10,7 @@
 
 #include "lss/index.h"
 #include "tests/middleware/mesh_body.h"
-#include "tests/middleware/world/walkers.h"
+#include "tests/middleware/world/random_worlds.h"
 
 namespace foretouch::test {
 namespace {

@@ -445,6 +445,7 @@ enum {
   FT_REASON_NONE = 0,
   FT_REASON_WORK_BUDGET = 1, /* or the deadline */
   FT_REASON_RESOLUTION = 2,  /* doubles cannot resolve the tolerance at these coordinates */
+  FT_REASON_GAP = 4,         /* of events alone: a body is silent, and nobody knows where it is */
   FT_REASON_AFTER_FIRST = 3  /* FT_SCOPE_FIRST_OF_AVATAR: another link's contact is earlier */
 };
 enum { FT_FEATURE_VERTEX = 0, FT_FEATURE_EDGE = 1, FT_FEATURE_FACE = 2 };

@@ -1,44 +1,30 @@
-// tests/middleware/world/walkers.h: random bodies on their ways through random worlds.
-#pragma once
+#include "tests/middleware/world/random_worlds.h"
 
-#include <cstdint>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/middleware/own_body.h"
-#include "tests/middleware/world/both_worlds.h"
 
 namespace foretouch::test {
 
-/// Of the windows that most tests ask.
-inline constexpr std::int64_t kWindowUs = 120'000;
+using Eigen::Vector3d;
 
-/// A small body whose links turn ever on, about a place that drifts.
-struct Walker {
-  Avatar avatar;
-  Pose pose;
-  Eigen::Vector3d drift;
-  std::vector<Quaternion> turns;
-
-  void step(Random& random) {
-    for (std::size_t j = 0; j < turns.size(); ++j) {
-      pose.rotations[j] = (pose.rotations[j] * turns[j]).normalized();
-      if (random.chance(0.2)) turns[j] = random.turn(random.uniform(0.0, 0.6));
-    }
-    pose.translations[0] += drift;
+void Walker::step(Random& random) {
+  for (std::size_t j = 0; j < turns.size(); ++j) {
+    pose.rotations[j] = (pose.rotations[j] * turns[j]).normalized();
+    if (random.chance(0.2)) turns[j] = random.turn(random.uniform(0.0, 0.6));
   }
-};
+  pose.translations[0] += drift;
+}
 
-inline Walker randomWalker(Random& random, const Eigen::Vector3d& place, double speed) {
+Walker randomWalker(Random& random, const Vector3d& place, double speed) {
   RawSkeleton raw;
   std::vector<std::vector<Lss>> lss;
   const int joints = 2 + random.below(5);
   for (int j = 0; j < joints; ++j) {
-    const Eigen::Vector3d offset =
-        j == 0 ? place : random.magnitude(0.05, 0.4) * random.direction();
+    const Vector3d offset = j == 0 ? place : random.magnitude(0.05, 0.4) * random.direction();
     raw.joints.push_back({"joint" + std::to_string(j), j == 0 ? kNoParent : random.below(j), offset,
                           random.rotation()});
     lss.push_back(j > 0 && random.chance(0.2) ? std::vector<Lss>{} : randomLss(random));
@@ -50,34 +36,33 @@ inline Walker randomWalker(Random& random, const Eigen::Vector3d& place, double 
   return walker;
 }
 
-inline Scene randomMesh(Random& random) {
+Scene randomMesh(Random& random) {
   RawScene raw;
   raw.objectNames = {"mesh"};
   const double size = random.magnitude(0.05, 0.4);
   const int count = 1 + random.below(20);
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d middle = random.inBox(size);
+    const Vector3d middle = random.inBox(size);
     Triangle triangle;
-    for (Eigen::Vector3d& v : triangle.vertices) v = middle + random.inBox(0.5 * size);
+    for (Vector3d& v : triangle.vertices) v = middle + random.inBox(0.5 * size);
     raw.triangles.push_back(triangle);
     raw.objectOf.push_back(0);
   }
   return Scene::build(std::move(raw)).value();
 }
 
-/// Poses at the body's own period until `untilUs`.
-inline void walk(BothWorlds& both, BodyId body, Walker& walker, std::int64_t periodUs,
-                 std::int64_t untilUs, Random& random) {
+void walk(BothWorlds& both, BodyId body, Walker& walker, std::int64_t periodUs,
+          std::int64_t untilUs, Random& random) {
   for (std::int64_t us = 0; us < untilUs + periodUs; us += periodUs) {
     both.push(body, us, walker.pose);
     walker.step(random);
   }
 }
 
-inline void fly(BothWorlds& both, BodyId body, const Eigen::Vector3d& place, std::int64_t periodUs,
-                std::int64_t untilUs, Random& random) {
+void fly(BothWorlds& both, BodyId body, const Vector3d& place, std::int64_t periodUs,
+         std::int64_t untilUs, Random& random) {
   RigidPose pose{random.rotation(), place};
-  const Eigen::Vector3d drift = random.inBox(0.15);
+  const Vector3d drift = random.inBox(0.15);
   const Quaternion turn = random.turn(random.uniform(0.0, 1.5));
   for (std::int64_t us = 0; us < untilUs + periodUs; us += periodUs) {
     both.push(body, us, pose);
@@ -86,17 +71,16 @@ inline void fly(BothWorlds& both, BodyId body, const Eigen::Vector3d& place, std
   }
 }
 
-inline std::int64_t randomPeriod(Random& random) {
+std::int64_t randomPeriod(Random& random) {
   const std::int64_t periods[] = {11111, 8333, 33333, 33334, 100000, 12345};
   return periods[random.below(6)];
 }
 
-inline double randomTolerance(Random& random) {
+double randomTolerance(Random& random) {
   return random.magnitude(1e-6, 1e-3);
 }
 
-/// Expects that nothing broke the promise.
-inline void add(const BothWorlds& both, WorldTally& sum) {
+void add(const BothWorlds& both, WorldTally& sum) {
   for (const std::string& problem : both.problems) ADD_FAILURE() << problem;
   const WorldTally& more = both.tally;
   sum.clear += more.clear;

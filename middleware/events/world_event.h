@@ -1,0 +1,127 @@
+// middleware/events/world_event.h: what happens between bodies of a world: who enters whom, leaves
+// whom, when, where and how hard; and the parts of world time in which two are in contact. Metres,
+// seconds, kilograms, in W. The promise: docs/guarantees.md 17.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "middleware/contact.h"
+#include "middleware/scene/triangle_id.h"
+#include "middleware/world/world_contacts.h"
+#include "middleware/world/world_time.h"
+
+namespace foretouch {
+
+/// In an event about a body altogether, in place of the other one: whatever it is asked about.
+inline constexpr BodyId kEveryBody = -2;
+
+/// In the order of events of one instant: what ends comes before what begins.
+enum class EventKind : std::uint8_t {
+  Leave,           ///< A contact ends: the two are free from here on.
+  UnresolvedTo,    ///< It is known again what the two do.
+  StartsInside,    ///< They are in contact where they are known first: no touch was seen.
+  Enter,           ///< They were free, and are in contact from here on.
+  UnresolvedFrom,  ///< Nothing is claimed of the two from here on; a contact of theirs ends as
+                   ///< well.
+};
+inline constexpr std::size_t kNumEventKinds = 5;
+/// "leave", "unresolved_to", "starts_inside", "enter", "unresolved_from".
+[[nodiscard]] const char* toString(EventKind kind);
+
+/// Why a contact ends.
+enum class LeaveCause : std::uint8_t {
+  Apart,     ///< They are apart: proven.
+  NotAsked,  ///< They are not asked any more: one carries the other, or World::ask() says so.
+};
+
+/// Two points, one of each side, that are near at an event's instant.
+struct EventPoint {
+  Eigen::Vector3d p_WA = Eigen::Vector3d::Zero(), p_WB = Eigen::Vector3d::Zero();
+  double separation = 0.0;  ///< As computed; below zero where the two overlap.
+};
+
+/// One thing that happens to two links, or to a link and an object of a mesh or of the static
+/// scene.
+struct WorldEvent {
+  static constexpr std::size_t kMostPoints = 4;
+
+  EventKind kind = EventKind::Enter;
+  LeaveCause cause = LeaveCause::Apart;  ///< Of Leave.
+  /// Of UnresolvedFrom and UnresolvedTo. Gap: a body is silent.
+  UndecidedReason reason = UndecidedReason::None;
+  bool isAssumed = false;  ///< As WorldContact::isAssumed.
+  WorldTime time;
+  /// Of Leave and UnresolvedTo: when that began which ends here. Else the event's own time.
+  WorldTime since;
+  /// As in WorldContact. Of UnresolvedFrom and UnresolvedTo the points are zero; the links may be
+  /// kEveryLink, and b may be kEveryBody: a body that is silent, and taken to be Undecided.
+  ContactSide a, b;
+  /// Of the mesh, or of the static scene: each object by itself. -1 if there is none.
+  ObjectId object = -1;
+  double separation = 0.0;   ///< As WorldContact::separation.
+  double penetration = 0.0;  ///< As WorldContact::penetration.
+  /// Unit, from b to a; zero if none is told.
+  Eigen::Vector3d nhat_BA_W = Eigen::Vector3d::Zero();
+  /// Of the material point of a at its witness point less that of b: m/s.
+  Eigen::Vector3d velocity_W = Eigen::Vector3d::Zero();
+  /// Along the normal, above zero while the two approach: m/s.
+  double approachSpeed = 0.0;
+  /// If these two points touch, in the rest of the motion that is known between two poses, they do
+  /// so at a speed between these along this normal. A lower one below zero: a graze, perhaps.
+  double approachLower = 0.0, approachUpper = 0.0;
+  /// That meets the other along the normal (kg), of those bodies whose mass the follower was told;
+  /// infinite if neither has one.
+  double effectiveMass = 0.0;
+  /// Of the pairs of these two sides within the tolerance (of Leave: twice that): the nearest
+  /// first, then as ContactDetails::points. In an order that does not depend on how triangles are
+  /// numbered.
+  std::array<EventPoint, kMostPoints> points;
+  std::size_t numPoints = 0;
+};
+
+/// Earlier events first; at equal times by kind, then by a's body and link, by b's, and by object.
+[[nodiscard]] bool comesBefore(const WorldEvent& x, const WorldEvent& y);
+
+enum class PartKind : std::uint8_t { Contact, Unresolved };
+
+/// What two do in a part of the time that was asked. Everything else, between the parts of one
+/// pair, is free: their separation is above zero throughout, rounding included.
+/// Contact: their separation is at most twice the tolerance throughout, and at most the tolerance
+/// at its begin unless it began before. Every touch of the two is in a part.
+struct WorldPart {
+  PartKind kind = PartKind::Contact;
+  UndecidedReason reason = UndecidedReason::None;  ///< Of Unresolved.
+  bool isAssumed = false;
+  bool beganBefore = false;  ///< It goes on from before the time that was asked.
+  bool goesOn = false;       ///< Its end is that of the time that was asked.
+  ContactSide a, b;          ///< As where it began.
+  ObjectId object = -1;      ///< As WorldEvent::object.
+  WorldTime from, to;        ///< Closed: both belong to it.
+  WorldTime since;           ///< When it began: at `from` or before.
+};
+
+struct EventCounters {
+  std::uint64_t windows = 0;       ///< Asked of worldContacts().
+  std::uint64_t contacts = 0;      ///< Intervals of contact that began.
+  std::uint64_t stretches = 0;     ///< Of contacts: each in one span between poses of the two.
+  std::uint64_t contactLooks = 0;  ///< Instants at which a contact was followed on.
+  std::uint64_t freeLooks = 0;  ///< Instants at which two that had touched were looked for again.
+  std::uint64_t pairs = 0;      ///< Distances of an LSS and another, or a triangle, for all these.
+};
+
+/// Of the time from one call of WorldFollower::follow() to the next.
+struct WorldEvents {
+  std::int64_t fromUs = 0, toUs = 0;  ///< Followed in this call.
+  std::vector<WorldEvent> events;     ///< By comesBefore().
+  std::vector<WorldPart> parts;       ///< By pair, then by time.
+  std::vector<SilentBody> silent;     ///< As WorldContacts::silent, at the end of the time.
+  WorldCounters world;                ///< Of the questions for first contacts.
+  EventCounters counters;             ///< Of what came on top.
+};
+
+}  // namespace foretouch

@@ -1,0 +1,75 @@
+// middleware/events/world_follower.h: follows a world (world.h) through time: from window to window
+// it keeps who touches whom, and tells every enter and leave once. World time in microseconds.
+// The promise: docs/guarantees.md 17; how it is kept: events.md.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "articulated/result.h"
+#include "middleware/events/world_event.h"
+#include "middleware/mechanics/avatar_mass.h"
+#include "middleware/mechanics/mass.h"
+#include "middleware/world/world.h"
+
+namespace foretouch {
+
+struct FollowOptions {
+  /// Where time is cut. 0: at every pose of any body. Else at the multiples of so many
+  /// microseconds, up to kMostCutUs: less work for many bodies with clocks of their own; what is
+  /// after the last multiple waits.
+  std::int64_t cutUs = 0;
+  /// In [1, kMaxPoolThreads] (query_pool.h), the calling one among them.
+  int threads = 1;
+};
+inline constexpr std::int64_t kMostCutUs = 10'000'000;
+
+/// A contact, or something unresolved, that has not ended.
+struct OpenPart {
+  PartKind kind = PartKind::Contact;
+  UndecidedReason reason = UndecidedReason::None;  ///< Of Unresolved.
+  ContactSide a, b;                                ///< As where it began.
+  ObjectId object = -1;                            ///< As WorldEvent::object.
+  WorldTime since;
+};
+
+/// For one thread at a time; nobody changes the world while it is asked. Memory is bounded by the
+/// bodies and by who touches, and nothing is allocated once it has grown.
+class WorldFollower {
+ public:
+  /// Nothing before `fromUs` is told: who is in contact there starts inside. Errors: options or an
+  /// instant out of range, or the system refuses the threads.
+  static Result<WorldFollower> start(std::int64_t fromUs, const FollowOptions& options = {});
+  ~WorldFollower();
+  WorldFollower(WorldFollower&&) noexcept;
+  WorldFollower& operator=(WorldFollower&&) noexcept;
+
+  /// What a body weighs, for WorldEvent::effectiveMass. One that is not told is moved by nothing:
+  /// it is tracked, or stands still. Errors: as checkedMass(); a body below 0.
+  Result<Done> weigh(BodyId body, const Mass& mass);
+  /// The same of an avatar that is a ragdoll.
+  Result<Done> weigh(BodyId body, AvatarMass mass);
+
+  /// Everything that happens from where the last call ended until `untilUs`; nothing if that is not
+  /// later. What it tells depends on the poses alone, for any number of threads and any order in
+  /// which they came; and not on the calls, as long as each ends where time is cut
+  /// (World::knownUntilUs() is a pose). Until then the world must keep what it knows
+  /// (World::forgetBefore()). `answer` is filled anew; its memory is kept.
+  /// Errors: as worldContacts(), and another world than in the last call (Mismatch); then nothing
+  /// has been followed.
+  Result<Done> follow(const World& world, std::int64_t untilUs, WorldEvents& answer);
+
+  /// Until where it has followed.
+  [[nodiscard]] std::int64_t followedUntilUs() const;
+  /// By pair: a's body and link, b's, then the object.
+  [[nodiscard]] const std::vector<OpenPart>& open() const;
+
+ private:
+  struct Impl;
+  explicit WorldFollower(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace foretouch
