@@ -1,0 +1,121 @@
+// middleware/triggers/triggers.h: volumes that tell who is in them. A trigger is a body of a world:
+// it may stand, move, and be carried. What a WorldFollower tells of contacts becomes who enters and
+// who leaves, and who is inside: also of those that pass between two poses, and of those that are
+// inside altogether, and touch nothing. World time in microseconds. The promise: docs/guarantees.md
+// 19; how it is kept: triggers.md.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "articulated/pose.h"
+#include "articulated/result.h"
+#include "articulated/track.h"
+#include "middleware/events/world_event.h"
+#include "middleware/triggers/trigger_volume.h"
+#include "middleware/world/world.h"
+
+namespace foretouch {
+
+/// In the order in which they were added.
+using TriggerId = std::int32_t;
+
+/// The group of triggers, unless they are given another: they meet everybody else.
+inline constexpr BodyGroup kTriggerGroup = kNumBodyGroups - 1;
+
+/// Whom a trigger looks at: a body, or a link of it.
+struct Watched {
+  BodyId body = 0;
+  LinkId link = kEveryLink;
+};
+
+struct TriggerOptions {
+  BodyGroup group = kTriggerGroup;
+  /// By default a trigger that is not told where it is stays where it was, and nobody waits for it.
+  WhenSilent whenSilent = WhenSilent::HoldStill;
+  /// Empty: everybody but other triggers.
+  std::vector<Watched> watched;
+  /// False: a body is inside as long as any of its links is, and enters and leaves as one. True:
+  /// each link by itself.
+  bool byLink = false;
+};
+
+/// Somebody is inside if a point of his volume is in the trigger's, as far as is known: see
+/// TriggerEvent.
+struct TriggerEvent {
+  EventKind kind = EventKind::Enter;
+  TriggerId trigger = 0;
+  BodyId body = 0;
+  /// Which link enters or leaves, also where the body counts as one; kEveryLink: none by itself.
+  LinkId link = kEveryLink;
+  /// Sound: nobody is inside, at any instant, who is not told to be, or to be unresolved: an Enter
+  /// is never later than it is, a Leave never earlier. Tight: who is told to be inside is, but for
+  /// twice the world's tolerance, and enters from within once of it.
+  WorldTime time;
+  WorldTime since;  ///< Of Leave and UnresolvedTo: when that began which ends here. Else `time`.
+  bool isAssumed = false;  ///< As WorldContact::isAssumed.
+};
+
+/// Who is inside, or may be.
+struct Occupant {
+  TriggerId trigger = 0;
+  BodyId body = 0;
+  LinkId link = kEveryLink;   ///< Of one that counts by link; else kEveryLink.
+  bool isUnresolved = false;  ///< Nothing is known of whether it is inside.
+  WorldTime since;
+};
+
+struct TriggerCounters {
+  std::uint64_t pairs = 0;    ///< Of a trigger and a link, that something was to be said of.
+  std::uint64_t decided = 0;  ///< Times that a link and a closed mesh were asked, at one instant,
+                              ///< whether it is inside.
+};
+
+struct TriggerEvents {
+  /// Earliest first; at one instant what ends before what begins, then by trigger, body and link.
+  std::vector<TriggerEvent> events;
+  TriggerCounters counters;
+};
+
+/// For one thread. Keeps who is inside from window to window.
+class Triggers {
+ public:
+  Triggers();
+  ~Triggers();
+  Triggers(Triggers&&) noexcept;
+  Triggers& operator=(Triggers&&) noexcept;
+
+  /// Makes it a body of the world, which it is for ever: push its poses, attach and detach it as
+  /// any other's (body()). It is there from its first pose on. Triggers of one group do not meet
+  /// each other, nor any the static scene. A mesh watches what is made of LSS, as two meshes are
+  /// not asked. Errors: as World::add(), and one who is watched and is no body or link yet
+  /// (UnknownName).
+  Result<TriggerId> add(World& world, const TriggerVolume& volume,
+                        const TriggerOptions& options = {});
+  [[nodiscard]] std::int32_t numTriggers() const;
+  /// Precondition: a trigger of this object (asserted).
+  [[nodiscard]] BodyId body(TriggerId trigger) const;
+  /// The trigger that the body is; -1 if it is none. O(1).
+  [[nodiscard]] TriggerId triggerOf(BodyId body) const;
+
+  /// Puts one that was never placed where it stays, from an instant on: for eleven days
+  /// (kLongestPieceUs) known, and then as its `whenSilent` says. Errors: as World::push().
+  Result<Done> stand(World& world, TriggerId trigger, std::int64_t fromUs, const RigidPose& pose);
+
+  /// What the events of the next stretch of time mean for the triggers. Call it for every answer of
+  /// one WorldFollower of that world, in turn, before the world changes or forgets. Errors
+  /// (Mismatch): another world; a stretch that does not begin where the last one ended; then
+  /// nothing has changed. O(parts + who is inside + bodies that appear or change their carrier,
+  /// times triggers).
+  Result<Done> update(const World& world, const WorldEvents& events, TriggerEvents& answer);
+
+  /// By trigger, body and link.
+  [[nodiscard]] const std::vector<Occupant>& occupants() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace foretouch

@@ -1,0 +1,3 @@
+#include "middleware/triggers/triggers.h"
+
+#include <gtest/gtest.h>
