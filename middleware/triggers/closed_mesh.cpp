@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "articulated/skeleton.h"
+#include "lss/hull.h"
 #include "lss/index.h"
+#include "lss/separation.h"
 #include "middleware/exact/ray_up.h"
 #include "middleware/scene/scene_parts.h"
 
@@ -87,7 +89,8 @@ PointPlace ClosedMesh::placeOf(const Eigen::Vector3d& p, double rounding, Memory
   memory.ids.clear();
   parts.bvh.collect(near, memory.ids, visited);
   for (const TriangleId id : memory.ids) {
-    if (near.overlaps(boxOf(scene_.triangle(id)))) return PointPlace::AtSurface;
+    const Separation apart = separation(Hull::segment(p, p), Hull::of(scene_.triangle(id)));
+    if (!(apart.lower() > rounding)) return PointPlace::AtSurface;
   }
   Aabb above;
   above.add(p);

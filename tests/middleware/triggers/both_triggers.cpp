@@ -179,7 +179,14 @@ void BothTriggers::judgeOne(TriggerId trigger, BodyId body, LinkId link,
   const auto there =
       static_cast<Real>(std::max(episodes.front().beginUs, ofTrigger.front().beginUs) - fromUs_);
   for (const Real us : instants) {
-    if (us < there) continue;
+    // Where somebody jumps, he is in two places.
+    const auto isJump = [&](const OracleEpisode& episode) {
+      return us != there && us == static_cast<Real>(episode.beginUs - fromUs_);
+    };
+    if (us < there || std::any_of(episodes.begin(), episodes.end(), isJump) ||
+        std::any_of(ofTrigger.begin(), ofTrigger.end(), isJump)) {
+      continue;
+    }
     const Truth truth = truthOf(trigger, body, link, us);
     bool isTold = false, isUnresolved = false;
     for (const Told& one : told) {

@@ -139,8 +139,10 @@ TEST(Triggers, TriggersMoveAndAreCarried) {
     both.both.push(lift, 10'000 * i, at(0, -1.0 + 0.2 * i));
     both.both.push(person, 10'000 * i, at(0.1, 0, 0));
   }
-  both.both.push(both.body(sensor), 0, at(0, -1.0));
-  both.both.attach(both.body(sensor), {lift, 0, false}, 0, at(0));
+  // Carried from an instant at which it is known.
+  both.both.push(both.body(sensor), 0, at(7.0));
+  both.both.push(both.body(sensor), 1, at(7.0));
+  both.both.attach(both.body(sensor), {lift, 0, false}, 1, at(0));
   both.follow(100'000);
   ASSERT_EQ(said(both.events), "enter 0, leave 0");
   EXPECT_EQ(both.events[0].body, person);
