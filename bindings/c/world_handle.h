@@ -8,6 +8,7 @@
 
 #include "bindings/c/handles.h"
 #include "bindings/c/include/foretouch/world.h"
+#include "middleware/events/world_follower.h"
 #include "middleware/world/world_query.h"
 
 /// For one thread. Answers a window beside the last one, which it replaces once done.
@@ -33,6 +34,9 @@ struct ft_world {
   bool isScratchSuspect = true;  // an exception left it half written, or it is not made yet
   foretouch::WorldContacts answer, next;
   bool hasAnswer = false;
+  std::optional<foretouch::WorldFollower> follower;
+  foretouch::WorldEvents events, nextEvents;
+  bool hasEvents = false;
 };
 
 namespace foretouch::c {

@@ -190,6 +190,7 @@ void BodiesTracer::takeParts(const Asked& asked, SpanSides& span, bool wasUnknow
             UndecidedReason::Resolution, followed);
       continue;
     }
+    ++asked.counters.stretches;
     const bool goesOnFromBefore = i == 0 && followed.isOpen;
     if (!goesOnFromBefore) {
       const bool isInside = part.from == 0.0 && (isFresh_ || wasUnknown);

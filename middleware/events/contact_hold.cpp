@@ -100,10 +100,9 @@ struct Slack {
 /// between where it is and where it is not lie below it.
 template <typename Concave>
 double lastNotBelow(const Concave& f, double rest) {
-  const double atRest = f(rest);
-  if (atRest >= 0.0) return rest;
-  double low = 0.0, atLow = f(0.0), high = rest, atHigh = atRest;
+  double low = 0.0, atLow = f(0.0), high = rest, atHigh = f(rest);
   if (!(atLow >= 0.0)) return 0.0;
+  if (atHigh >= 0.0) return rest;
   for (int round = 0; round < kMostRounds && high - low > kStepShare * high; ++round) {
     // The chord's root from below; the middle, a little of it, so that both ends move.
     const double chord = low + (high - low) * (atLow / (atLow - atHigh));

@@ -108,6 +108,7 @@ struct WorldPart {
 struct EventCounters {
   std::uint64_t windows = 0;       ///< Asked of worldContacts().
   std::uint64_t contacts = 0;      ///< Intervals of contact that began.
+  std::uint64_t stretches = 0;     ///< Of contacts: each in one span between poses of the two.
   std::uint64_t contactLooks = 0;  ///< Instants at which a contact was followed on.
   std::uint64_t freeLooks = 0;  ///< Instants at which two that had touched were looked for again.
   std::uint64_t pairs = 0;      ///< Distances of an LSS and another, or a triangle, for all these.

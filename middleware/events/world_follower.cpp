@@ -59,6 +59,7 @@ void add(const WorldCounters& more, WorldCounters& sum) {
 void add(const EventCounters& more, EventCounters& sum) {
   sum.windows += more.windows;
   sum.contacts += more.contacts;
+  sum.stretches += more.stretches;
   sum.contactLooks += more.contactLooks;
   sum.freeLooks += more.freeLooks;
   sum.pairs += more.pairs;
@@ -70,6 +71,10 @@ PairKey keyOf(const WorldContact& contact) {
 
 bool isOfEveryLink(const PairKey& key) {
   return key.linkOfA == kEveryLink || key.linkOfB == kEveryLink;
+}
+
+Error brokenOff(const std::exception& broken) {
+  return Error::in("window", ErrorCode::DeviceFailed, std::string("broken off: ") + broken.what());
 }
 
 /// One thread's memory, and its part of a window's events.
@@ -89,7 +94,7 @@ struct WorldFollower::Impl {
   std::int64_t startUs = 0, untilUs = 0;
   std::uint64_t world = 0;  // that it follows; 0: none yet
   BodyMasses masses;
-  internal::WorldScratchParts scratch;
+  std::optional<internal::WorldScratchParts> scratch{std::in_place};
   WorldContacts contacts;
   OpenParts open, openBefore;  // the latter: as it was before the call
   TraceWindow window;
@@ -115,7 +120,7 @@ struct WorldFollower::Impl {
     while (untilUs < endUs) {
       const std::int64_t toUs = nextUs(of.parts(), endUs);
       FORETOUCH_CHECK(
-          askWindow(of, untilUs, toUs, threads ? &*threads : nullptr, scratch, contacts));
+          askWindow(of, untilUs, toUs, threads ? &*threads : nullptr, *scratch, contacts));
       add(contacts.counters, answer.world);
       ++answer.counters.windows;
       FORETOUCH_CHECK(traceWindow(of.parts(), toUs));
@@ -129,6 +134,17 @@ struct WorldFollower::Impl {
       std::sort(events.begin(), events.end(), comesBefore);
     }
     return Done{};
+  }
+
+  /// As followTo(), but memory that runs out is an error like others.
+  Result<Done> attempt(const World& of, std::int64_t endUs, WorldEvents& answer) {
+    try {
+      return followTo(of, endUs, answer);
+    } catch (const std::exception& broken) {
+      scratch.emplace();  // may be half written, and so may these
+      for (const auto& worker : workers) *worker = Worker();
+      return brokenOff(broken);
+    }
   }
 
   Result<Done> traceWindow(const WorldParts& parts, std::int64_t toUs) {
@@ -281,13 +297,12 @@ struct WorldFollower::Impl {
   void attempt(const WorldParts& parts, std::size_t task, Worker& worker) {
     std::optional<Error> failure;
     try {
-      const Result<Done> done = worker.tracer.trace(parts, scratch.plans, masses, window,
+      const Result<Done> done = worker.tracer.trace(parts, scratch->plans, masses, window,
                                                     tasks[task], worker.events, worker.counters);
       if (!done.ok()) failure = done.error();
     } catch (const std::exception& broken) {
       worker.tracer = BodiesTracer();  // may be half written
-      failure =
-          Error::in("window", ErrorCode::DeviceFailed, std::string("broken off: ") + broken.what());
+      failure = brokenOff(broken);
     }
     if (!failure || (worker.failure && worker.failedTask < task)) return;
     worker.failure = std::move(failure);
@@ -368,7 +383,7 @@ Result<Done> WorldFollower::follow(const World& world, std::int64_t untilUs, Wor
   answer.world = {};
   answer.counters = {};
   if (endUs <= fromUs) return Done{};
-  Result<Done> done = impl.followTo(world, endUs, answer);
+  const Result<Done> done = impl.attempt(world, endUs, answer);
   if (!done.ok()) {
     impl.open = impl.openBefore;
     impl.untilUs = answer.toUs = fromUs;

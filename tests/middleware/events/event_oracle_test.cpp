@@ -27,15 +27,6 @@ void expectAllSeen(const EventTally& sum) {
   EXPECT_GT(sum.kinds[static_cast<std::size_t>(EventKind::Enter)], 50u);
   EXPECT_GT(sum.kinds[static_cast<std::size_t>(EventKind::Leave)], 50u);
   EXPECT_EQ(sum.unresolved, 0u);
-  std::printf(
-      "%llu samples, %llu touching, %llu parts, %llu with several; %llu enter, %llu leave; "
-      "%.2f looks in contact and %.2f free per interval, %.2f distances\n",
-      (unsigned long long)sum.samples, (unsigned long long)sum.touching,
-      (unsigned long long)sum.parts, (unsigned long long)sum.severalParts,
-      (unsigned long long)sum.kinds[3], (unsigned long long)sum.kinds[0],
-      double(sum.counters.contactLooks) / double(sum.counters.contacts),
-      double(sum.counters.freeLooks) / double(sum.counters.contacts),
-      double(sum.counters.pairs) / double(sum.counters.contacts));
 }
 
 TEST(EventOracle, SamplesAvatarsWithClocksOfTheirOwn) {

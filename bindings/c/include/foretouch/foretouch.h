@@ -1,7 +1,7 @@
 /* foretouch.h: Foretouch in C99 and C++: what an articulated body meets between two poses, when,
- * where and along which normal. One page about its use: docs/c-api.md. Headers of their own have the
- * avatar that passes through nothing, foretouch/solid.h, and worlds in which everything may move,
- * foretouch/world.h.
+ * where and along which normal. One page about its use: docs/c-api.md. Headers of their own have
+ * the avatar that passes through nothing, foretouch/solid.h, and worlds in which everything may
+ * move, foretouch/world.h.
  *
  * Units and frames. Metres, radians, doubles; right-handed world W, +Y up; t is normalised, 0 at
  * the earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. To convert
@@ -48,9 +48,10 @@ extern "C" {
 
 /* ---- Versions ---- */
 
-/* Of this header, solid.h and world.h. Every new function or field increments it; programs built with an
- * older header still work. A change that would break them changes the library's soname instead. */
-#define FT_ABI_VERSION 3
+/* Of this header, solid.h and world.h. Every new function or field increments it; programs built
+ * with an older header still work. A change that would break them changes the library's soname
+ * instead. */
+#define FT_ABI_VERSION 4
 
 /* Of the library that runs: "0.1.0", a text that lives for ever, and its FT_ABI_VERSION. */
 FT_API const char* ft_version(void);
@@ -135,10 +136,10 @@ typedef struct ft_import_options {
   /* Of the file, in place of what it says itself; default FT_UP_FILE. Z: (x, y, z) becomes
    * (x, z, -y). */
   int32_t up;
-  double scale;                /* metres per unit, likewise; default 0: as the file says, else 1 */
+  double scale; /* metres per unit, likewise; default 0: as the file says, else 1 */
   /* Of the importing process; default 8 GiB. At most half of the machine's memory is used. */
   uint64_t memory_limit_bytes;
-  double time_limit_s;         /* likewise; default 60 */
+  double time_limit_s; /* likewise; default 60 */
   /* Path of the program foretouch-import. NULL: $FORETOUCH_IMPORTER; else in the library's folder;
    * else in libexec/foretouch of the library's prefix, beside the running program, and where
    * Foretouch was installed. */
@@ -147,8 +148,8 @@ typedef struct ft_import_options {
 
 FT_API ft_status ft_import_options_init(ft_import_options* options, size_t size);
 
-/* Reads OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process: a file that
- * crashes the importer is an error here. `options` may be NULL. */
+/* Reads OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process: a file
+ * that crashes the importer is an error here. `options` may be NULL. */
 FT_API ft_status ft_scene_create_from_file(const char* path, const ft_import_options* options,
                                            ft_scene** scene);
 
@@ -444,6 +445,7 @@ enum {
   FT_REASON_NONE = 0,
   FT_REASON_WORK_BUDGET = 1, /* or the deadline */
   FT_REASON_RESOLUTION = 2,  /* doubles cannot resolve the tolerance at these coordinates */
+  FT_REASON_GAP = 4,         /* of events alone: a body is silent, and nobody knows where it is */
   FT_REASON_AFTER_FIRST = 3  /* FT_SCOPE_FIRST_OF_AVATAR: another link's contact is earlier */
 };
 enum { FT_FEATURE_VERTEX = 0, FT_FEATURE_EDGE = 1, FT_FEATURE_FACE = 2 };

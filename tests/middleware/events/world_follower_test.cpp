@@ -1,0 +1,392 @@
+// What a follower tells of worlds whose events are known, what it refuses, and that it always tells
+// the same.
+#include "middleware/events/world_follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "middleware/query/query_pool.h"
+#include "tests/middleware/events/judged_events.h"
+#include "tests/middleware/world/random_worlds.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using test::Random;
+
+Avatar bodyOf(const Lss& lss) {
+  RawSkeleton raw;
+  raw.joints = {{"body", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
+  return Avatar::build(Skeleton::build(raw).value(), {{lss}}).value();
+}
+Avatar ball(double radius) {
+  return bodyOf({Vector3d::Zero(), Vector3d::Zero(), radius});
+}
+RigidPose at(double x, double y = 0.0) {
+  return {Quaternion::Identity(), Vector3d(x, y, 0)};
+}
+
+/// Squares of 2 m across x, each an object of its own or all one.
+Scene sheets(const std::vector<double>& places, bool areOne) {
+  RawScene raw;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double x = places[i];
+    if (i == 0 || !areOne) raw.objectNames.push_back("sheet " + std::to_string(i));
+    raw.triangles.push_back({{Vector3d(x, -1, -1), Vector3d(x, 1, -1), Vector3d(x, 1, 1)}});
+    raw.triangles.push_back({{Vector3d(x, -1, -1), Vector3d(x, 1, 1), Vector3d(x, -1, 1)}});
+    const auto object = static_cast<ObjectId>(raw.objectNames.size() - 1);
+    raw.objectOf.insert(raw.objectOf.end(), {object, object});
+  }
+  return Scene::build(std::move(raw)).value();
+}
+
+World worldOf(std::optional<Scene> still = std::nullopt) {
+  return World::build(std::move(still)).value();
+}
+WorldFollower followerFrom(std::int64_t fromUs, const FollowOptions& options = {}) {
+  return WorldFollower::start(fromUs, options).value();
+}
+WorldEvents followed(WorldFollower& follower, const World& world, std::int64_t untilUs) {
+  WorldEvents answer;
+  const auto done = follower.follow(world, untilUs, answer);
+  EXPECT_TRUE(done.ok()) << describe(done.error());
+  return answer;
+}
+std::string kindsOf(const WorldEvents& answer) {
+  std::string kinds;
+  for (const WorldEvent& event : answer.events) kinds += std::string(toString(event.kind)) + " ";
+  return kinds;
+}
+
+// Two balls of 10 cm; one flies through the other at 10 m/s: they touch from 80 ms to 120 ms.
+TEST(WorldFollower, TellsWhenWhereAndHowHardTwoMeet) {
+  World world = worldOf();
+  const BodyId one = world.add(ball(0.1)).value(), other = world.add(ball(0.1)).value();
+  for (const int i : {0, 1, 2, 3, 4}) {
+    ASSERT_TRUE(world.push(one, 50'000 * i, at(0.5 * i)).ok());
+    ASSERT_TRUE(world.push(other, 50'000 * i, at(1.0)).ok());
+  }
+  WorldFollower follower = followerFrom(0);
+  const Mass ofOne = massOf({Vector3d::Zero(), Vector3d::Zero(), 0.1}, 1000.0);
+  ASSERT_TRUE(follower.weigh(one, ofOne).ok());
+  WorldEvents answer = followed(follower, world, 100'000);
+  ASSERT_EQ(kindsOf(answer), "enter ");
+  const WorldEvent enter = answer.events[0];
+  EXPECT_EQ(enter.a.body, one);
+  EXPECT_EQ(enter.b.body, other);
+  const double enterUs = microsecondsAfter(0, enter.time);
+  EXPECT_LE(enterUs, 80'000.0);
+  EXPECT_GE(enterUs, 80'000.0 - 100.0 - 1e-6);  // a tolerance takes 100 us
+  EXPECT_NEAR((enter.velocity_W - Vector3d(10, 0, 0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((enter.nhat_BA_W - Vector3d(-1, 0, 0)).norm(), 0.0, 1e-12);
+  EXPECT_LE(enter.approachLower, 10.0);
+  EXPECT_GE(enter.approachUpper, 10.0);
+  EXPECT_NEAR(enter.approachUpper, enter.approachLower, 1e-6);
+  EXPECT_NEAR(enter.effectiveMass, ofOne.kg, 1e-9);
+  EXPECT_NEAR(enter.b.p_W.x(), 0.9, 1e-12);
+  EXPECT_EQ(enter.numPoints, 1u);
+  ASSERT_EQ(answer.parts.size(), 1u);
+  EXPECT_TRUE(answer.parts[0].goesOn);
+  ASSERT_EQ(follower.open().size(), 1u);
+  EXPECT_EQ(follower.followedUntilUs(), 100'000);
+
+  answer = followed(follower, world, 200'000);
+  ASSERT_EQ(kindsOf(answer), "leave ");
+  const WorldEvent& leave = answer.events[0];
+  const double leaveUs = microsecondsAfter(0, leave.time);
+  EXPECT_GE(leaveUs, 120'000.0);
+  EXPECT_LE(leaveUs, 120'000.0 + 200.0 + 1e-6);
+  EXPECT_TRUE(leave.since == enter.time);
+  EXPECT_EQ(leave.cause, LeaveCause::Apart);
+  EXPECT_LT(leave.approachSpeed, 0.0);
+  ASSERT_EQ(answer.parts.size(), 1u);
+  EXPECT_TRUE(answer.parts[0].beganBefore);
+  EXPECT_FALSE(answer.parts[0].goesOn);
+  EXPECT_TRUE(follower.open().empty());
+}
+
+// A ball passes them within one motion, and each of them is entered and left.
+TEST(WorldFollower, TellsEveryThinSheet) {
+  const std::vector<double> places = {0.1, 0.2, 0.3, 0.4, 0.5};
+  for (const bool isStill : {true, false}) {
+    for (const bool areOne : {true, false}) {
+      World world = isStill ? worldOf(sheets(places, areOne)) : worldOf();
+      const BodyId flying = world.add(ball(0.01)).value();
+      if (!isStill) {
+        const BodyId mesh = world.add(sheets(places, areOne)).value();
+        ASSERT_TRUE(world.push(mesh, 0, at(0.0)).ok());
+        ASSERT_TRUE(world.push(mesh, 7'000, at(0.0)).ok());
+        ASSERT_TRUE(world.push(mesh, 20'000, at(0.0)).ok());
+      }
+      ASSERT_TRUE(world.push(flying, 0, at(0.0)).ok());
+      ASSERT_TRUE(world.push(flying, 10'000, at(0.6)).ok());
+      WorldFollower follower = followerFrom(0);
+      const WorldEvents answer = followed(follower, world, 10'000);
+      std::string expected;
+      for (std::size_t i = 0; i < places.size(); ++i) expected += "enter leave ";
+      EXPECT_EQ(kindsOf(answer), expected);
+      ASSERT_EQ(answer.events.size(), 10u);
+      EXPECT_EQ(answer.events[8].object, areOne ? 0 : 4);
+      EXPECT_EQ(answer.parts.size(), 5u);
+    }
+  }
+}
+
+// The ball lies in one sheet when it is driven into the other: neither hides the other.
+TEST(WorldFollower, TellsEachObjectByItself) {
+  World world = worldOf(sheets({0.0, 0.3}, false));
+  const BodyId body = world.add(bodyOf({Vector3d::Zero(), Vector3d(0.2, 0, 0), 0.01})).value();
+  ASSERT_TRUE(world.push(body, 0, at(-0.1)).ok());
+  ASSERT_TRUE(world.push(body, 10'000, at(0.15)).ok());  // through both, then out of the first
+  WorldFollower follower = followerFrom(0);
+  const WorldEvents answer = followed(follower, world, 10'000);
+  EXPECT_EQ(kindsOf(answer), "starts_inside leave enter ");
+  EXPECT_EQ(answer.events[0].object, 0);
+  EXPECT_EQ(answer.events[1].object, 0);
+  EXPECT_EQ(answer.events[2].object, 1);
+  EXPECT_NEAR(microsecondsAfter(0, answer.events[1].time), 110.0 / 250.0 * 10'000.0, 200.0);
+  EXPECT_TRUE(std::isinf(answer.events[2].effectiveMass));
+}
+
+// What stays in deep contact costs some looks per pose, whatever the tolerance.
+TEST(WorldFollower, FollowsADeepContactInFewLooks) {
+  World world = World::build(sheets({0.0}, true), {1e-7}).value();
+  // A needle without radius that slides along itself.
+  const BodyId body = world.add(bodyOf({Vector3d(-0.5, 0, 0), Vector3d(0.5, 0.1, 0), 0.0})).value();
+  for (const int i : {0, 1, 2}) {
+    ASSERT_TRUE(world.push(body, 10'000 * i, at(0.1 * i, 0.01 * i)).ok());
+  }
+  WorldFollower follower = followerFrom(0);
+  const WorldEvents answer = followed(follower, world, 20'000);
+  EXPECT_EQ(kindsOf(answer), "starts_inside ");
+  EXPECT_LE(answer.counters.contactLooks, 20u);  // by tolerances: a million
+}
+
+TEST(WorldFollower, ClaimsNothingOfWhomNobodyKnows) {
+  World world = worldOf();
+  BodyOptions undecided;
+  undecided.whenSilent = WhenSilent::Undecided;
+  const BodyId still = world.add(ball(0.1)).value();
+  const BodyId lost = world.add(ball(0.1), undecided).value();
+  for (const int i : {0, 1, 2, 3, 4, 5}) {
+    ASSERT_TRUE(world.push(still, 10'000 * i, at(0.0)).ok());
+  }
+  ASSERT_TRUE(world.push(lost, 0, at(0.15)).ok());
+  ASSERT_TRUE(world.push(lost, 10'000, at(0.15)).ok());
+  WorldFollower follower = followerFrom(0);
+  WorldEvents answer = followed(follower, world, 30'000);
+  EXPECT_EQ(kindsOf(answer), "starts_inside unresolved_from unresolved_from ");
+  ASSERT_EQ(answer.events.size(), 3u);
+  EXPECT_EQ(answer.events[1].b.body, lost);
+  EXPECT_EQ(answer.events[2].b.body, kEveryBody);
+  EXPECT_EQ(answer.events[2].a.body, lost);
+  for (const std::size_t i : {1u, 2u}) {
+    EXPECT_EQ(answer.events[i].time.us, 10'000);
+    EXPECT_EQ(answer.events[i].reason, UndecidedReason::Gap);
+  }
+  ASSERT_EQ(answer.silent.size(), 1u);
+  // He is back, and was on the way all the time.
+  ASSERT_TRUE(world.push(lost, 50'000, at(0.15)).ok());
+  answer = followed(follower, world, 50'000);
+  EXPECT_EQ(kindsOf(answer), "unresolved_to unresolved_to starts_inside ");
+  EXPECT_EQ(answer.events[0].time.us, 30'000);
+  EXPECT_EQ(answer.events[2].time.us, 30'000);
+  EXPECT_EQ(follower.open().size(), 1u);
+}
+
+TEST(WorldFollower, EndsWhatIsNotAskedAnyMore) {
+  World world = worldOf();
+  const BodyId hand = world.add(ball(0.1)).value(), cup = world.add(ball(0.1)).value();
+  for (const int i : {0, 1, 2, 3, 4}) ASSERT_TRUE(world.push(hand, 10'000 * i, at(0.0)).ok());
+  ASSERT_TRUE(world.push(cup, 0, at(0.15)).ok());
+  ASSERT_TRUE(world.push(cup, 10'000, at(0.15)).ok());
+  ASSERT_TRUE(world.attach(cup, {hand, 0}, 10'000, at(0.15)).ok());
+  ASSERT_TRUE(world.detach(cup, 30'000, at(0.15)).ok());
+  ASSERT_TRUE(world.push(cup, 40'000, at(0.5)).ok());
+  WorldFollower follower = followerFrom(0);
+  const WorldEvents answer = followed(follower, world, 40'000);
+  EXPECT_EQ(kindsOf(answer), "starts_inside leave starts_inside leave ");
+  EXPECT_EQ(answer.events[1].cause, LeaveCause::NotAsked);
+  EXPECT_EQ(answer.events[1].time.us, 10'000);
+  EXPECT_EQ(answer.events[2].time.us, 30'000);
+  EXPECT_EQ(answer.events[3].cause, LeaveCause::Apart);
+}
+
+// It leaves the one before it enters the other, which are a millimetre apart.
+TEST(WorldFollower, TellsEventsInTheirTrueOrder) {
+  World world = worldOf();
+  const BodyId flying = world.add(ball(0.05)).value();
+  const BodyId right = world.add(ball(0.05)).value(), left = world.add(ball(0.05)).value();
+  for (const BodyId body : {right, left}) {
+    ASSERT_TRUE(world.push(body, 0, at(body == right ? 0.205 : 0.0)).ok());
+    ASSERT_TRUE(world.push(body, 30'000, at(body == right ? 0.205 : 0.0)).ok());
+  }
+  ASSERT_TRUE(world.push(flying, 0, at(0.0, 0.0)).ok());
+  ASSERT_TRUE(world.push(flying, 30'000, at(0.2, 0.0)).ok());
+  WorldFollower follower = followerFrom(0);
+  const WorldEvents answer = followed(follower, world, 30'000);
+  ASSERT_EQ(kindsOf(answer), "starts_inside leave enter ");
+  EXPECT_EQ(answer.events[1].b.body, left);
+  EXPECT_EQ(answer.events[2].b.body, right);
+}
+
+/// A world in which much happens, pushed by body or by instant.
+World lively(bool isByBody) {
+  World world = worldOf(sheets({-0.1, 0.2}, false));
+  struct Entry {
+    BodyId body;
+    std::int64_t us;
+    Pose pose;
+  };
+  std::vector<Entry> entries;
+  for (int k = 0; k < 8; ++k) {
+    Random random(static_cast<std::uint64_t>(k));
+    test::Walker walker = test::randomWalker(random, random.inBox(0.4), 0.1);
+    BodyOptions options;
+    if (const auto rules = PairRules::derive(walker.avatar); rules.ok()) {
+      options.self = rules.value();
+    }
+    const BodyId body = world.add(walker.avatar, options).value();
+    const std::int64_t periodUs = test::randomPeriod(random);
+    for (std::int64_t us = 0; us < 100'000 + periodUs; us += periodUs) {
+      entries.push_back({body, us, walker.pose});
+      walker.step(random);
+    }
+  }
+  if (!isByBody) {
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Entry& x, const Entry& y) { return x.us < y.us; });
+  }
+  for (const Entry& entry : entries) {
+    EXPECT_TRUE(world.push(entry.body, entry.us, entry.pose).ok());
+  }
+  return world;
+}
+
+std::vector<WorldEvent> eventsOf(const World& world, const FollowOptions& options,
+                                 const std::vector<std::int64_t>& untils) {
+  WorldFollower follower = followerFrom(0, options);
+  std::vector<WorldEvent> events;
+  for (const std::int64_t untilUs : untils) {
+    const WorldEvents answer = followed(follower, world, untilUs);
+    events.insert(events.end(), answer.events.begin(), answer.events.end());
+  }
+  return events;
+}
+
+bool areSameBits(const WorldEvent& x, const WorldEvent& y) {
+  const auto same = [](const auto& p, const auto& q) {
+    return std::memcmp(&p, &q, sizeof(p)) == 0;
+  };
+  const auto sameSide = [&](const ContactSide& p, const ContactSide& q) {
+    return p.body == q.body && p.link == q.link && p.lss == q.lss && p.triangle == q.triangle &&
+           same(p.p_W, q.p_W);
+  };
+  bool is = x.kind == y.kind && x.time == y.time && x.since == y.since && sameSide(x.a, y.a) &&
+            sameSide(x.b, y.b) && x.object == y.object && same(x.separation, y.separation) &&
+            same(x.penetration, y.penetration) && same(x.nhat_BA_W, y.nhat_BA_W) &&
+            same(x.velocity_W, y.velocity_W) && same(x.approachLower, y.approachLower) &&
+            same(x.approachUpper, y.approachUpper) && x.numPoints == y.numPoints;
+  for (std::size_t i = 0; is && i < x.numPoints; ++i) {
+    is = same(x.points[i].p_WA, y.points[i].p_WA) && same(x.points[i].p_WB, y.points[i].p_WB);
+  }
+  return is;
+}
+
+TEST(WorldFollower, TellsTheSameForAnyThreadsOrdersAndCalls) {
+  const World world = lively(true), again = lively(false);
+  for (const std::int64_t cutUs : {0, 5'000}) {
+    FollowOptions options;
+    options.cutUs = cutUs;
+    const auto once = eventsOf(world, options, {100'000});
+    ASSERT_GT(once.size(), 50u);
+    FollowOptions onThreads = options;
+    onThreads.threads = 3;
+    const std::vector<std::int64_t> calls =
+        cutUs > 0 ? std::vector<std::int64_t>{7'777, 31'000, 31'000, 99'999, 100'000}
+                  : std::vector<std::int64_t>{8'333, 33'333, 33'333, 99'999, 100'000};
+    for (const auto& other :
+         {eventsOf(again, options, {100'000}), eventsOf(world, onThreads, {100'000}),
+          eventsOf(again, onThreads, calls)}) {
+      ASSERT_EQ(other.size(), once.size());
+      for (std::size_t i = 0; i < once.size(); ++i) {
+        ASSERT_TRUE(areSameBits(once[i], other[i])) << "event " << i << ", cut " << cutUs;
+      }
+    }
+  }
+}
+
+// Every contact that begins ends once, and so does everything unresolved.
+TEST(WorldFollower, EndsWhatItBegins) {
+  const World world = lively(true);
+  WorldFollower follower = followerFrom(0);
+  std::vector<WorldEvent> open;
+  for (std::int64_t untilUs = 10'000; untilUs <= 100'000; untilUs += 10'000) {
+    const WorldEvents answer = followed(follower, world, untilUs);
+    for (const WorldEvent& event : answer.events) {
+      const auto same = std::find_if(open.begin(), open.end(), [&](const WorldEvent& o) {
+        return o.a.body == event.a.body && o.a.link == event.a.link && o.b.body == event.b.body &&
+               o.b.link == event.b.link && o.object == event.object;
+      });
+      const bool isBegin = event.kind == EventKind::Enter || event.kind == EventKind::StartsInside;
+      ASSERT_EQ(same == open.end(), isBegin);
+      if (isBegin) {
+        open.push_back(event);
+        continue;
+      }
+      EXPECT_TRUE(same->time == event.since);
+      EXPECT_TRUE(event.since < event.time);
+      open.erase(same);
+    }
+    EXPECT_EQ(open.size(), follower.open().size());
+    EXPECT_EQ(std::count_if(answer.parts.begin(), answer.parts.end(),
+                            [](const WorldPart& part) { return part.goesOn; }),
+              static_cast<std::ptrdiff_t>(open.size()));
+  }
+}
+
+TEST(WorldFollower, RefusesWhatItCannotFollow) {
+  FollowOptions options;
+  options.cutUs = -1;
+  EXPECT_EQ(WorldFollower::start(0, options).error().code, ErrorCode::OutOfRange);
+  options.cutUs = kMostCutUs + 1;
+  EXPECT_EQ(WorldFollower::start(0, options).error().code, ErrorCode::OutOfRange);
+  options = {};
+  options.threads = kMaxPoolThreads + 1;
+  EXPECT_FALSE(WorldFollower::start(0, options).ok());
+  EXPECT_EQ(WorldFollower::start(kMostUtimeUs + 1).error().code, ErrorCode::OutOfRange);
+
+  World world = worldOf(), other = worldOf();
+  for (World* const each : {&world, &other}) {
+    const BodyId body = each->add(ball(0.1)).value();
+    ASSERT_TRUE(each->push(body, 0, at(0.0)).ok());
+    ASSERT_TRUE(each->push(body, 1'000, at(0.0)).ok());
+  }
+  WorldFollower follower = followerFrom(0);
+  WorldEvents answer;
+  const auto beyond = follower.follow(world, 2'000, answer);
+  ASSERT_FALSE(beyond.ok());
+  EXPECT_EQ(beyond.error().code, ErrorCode::OutOfRange);
+  EXPECT_EQ(follower.followedUntilUs(), 0);
+  ASSERT_TRUE(follower.follow(world, 500, answer).ok());
+  EXPECT_EQ(follower.follow(other, 1'000, answer).error().code, ErrorCode::Mismatch);
+  ASSERT_TRUE(follower.follow(world, 200, answer).ok());  // nothing to do
+  EXPECT_EQ(answer.fromUs, 500);
+  EXPECT_EQ(answer.toUs, 500);
+  EXPECT_FALSE(follower.weigh(-1, massOf({Vector3d::Zero(), Vector3d::Zero(), 0.1}, 1.0)).ok());
+  EXPECT_FALSE(follower.weigh(0, Mass()).ok());
+  ASSERT_TRUE(follower.weigh(7, massOf({Vector3d::Zero(), Vector3d::Zero(), 0.1}, 1.0)).ok());
+  const auto unknown = follower.follow(world, 1'000, answer);
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_EQ(unknown.error().code, ErrorCode::Mismatch);
+  EXPECT_EQ(unknown.error().index, 7);
+}
+
+}  // namespace
+}  // namespace foretouch
