@@ -8,7 +8,9 @@
 
 #include "bindings/c/handles.h"
 #include "bindings/c/include/foretouch/world.h"
+#include "middleware/depth/world_depth.h"
 #include "middleware/events/world_follower.h"
+#include "middleware/triggers/triggers.h"
 #include "middleware/world/world_query.h"
 
 /// For one thread. Answers a window beside the last one, which it replaces once done.
@@ -37,6 +39,8 @@ struct ft_world {
   std::optional<foretouch::WorldFollower> follower;
   foretouch::WorldEvents events, nextEvents;
   bool hasEvents = false;
+  foretouch::Triggers triggers;
+  foretouch::TriggerEvents triggerEvents;
 };
 
 namespace foretouch::c {
@@ -47,6 +51,9 @@ namespace foretouch::c {
 /// NULL: the usual ones. The library itself checks the values.
 [[nodiscard]] ft_status readWorldOptions(const ft_world_options* given, WorldOptions& options);
 [[nodiscard]] ft_status readBodyOptions(const ft_body_options* given, BodyOptions& options);
+
+/// Of a body of one joint, as meshes and triggers are.
+[[nodiscard]] const Skeleton& skeletonOfMesh();
 
 /// An error about an option or argument names it as C does.
 [[nodiscard]] ft_status worldFailure(Error error);

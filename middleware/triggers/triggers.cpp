@@ -12,6 +12,7 @@
 #include "lss/index.h"
 #include "middleware/triggers/link_presence.h"
 #include "middleware/triggers/presence.h"
+#include "middleware/triggers/presence_teller.h"
 #include "middleware/world/world_parts.h"
 
 namespace foretouch {
@@ -21,7 +22,10 @@ namespace {
 using internal::LinkPresence;
 using internal::Presence;
 using internal::PresenceSpan;
+using internal::PresenceTeller;
 using internal::Stretch;
+using internal::ToldKey;
+using internal::ToldOpen;
 using internal::TriggerPair;
 using internal::WorldParts;
 
@@ -31,85 +35,7 @@ struct Record {
   TriggerOptions options;
   bool isNew = true;        // not updated yet
   std::uint32_t asked = 0;  // bit per group, in the last stretch
-  bool isPlaced = false;    // by stand()
 };
-
-/// Whom a stretch tells of.
-using Key = std::tuple<TriggerId, BodyId, LinkId>;
-
-struct Open {
-  Presence presence = Presence::Inside;
-  WorldTime since;
-  bool isAssumed = false;
-  LinkId link = 0;  // that made it begin
-};
-
-/// The events of one key in a stretch.
-class Teller {
- public:
-  Teller(const Key& key, const Stretch& stretch, std::vector<TriggerEvent>& events)
-      : key_(key), from_{stretch.fromUs, 0.0}, to_{stretch.toUs, 0.0}, events_(events) {}
-
-  /// What is open at the end, from what was open at the begin.
-  std::optional<Open> tell(std::optional<Open> open, const std::vector<PresenceSpan>& spans) {
-    WorldTime until = from_;  // of what is open
-    for (const PresenceSpan& span : spans) {
-      const bool goesOn = open && open->presence == span.presence && !(until < span.from);
-      if (!goesOn) {
-        const bool wasUnresolved = open && open->presence == Presence::Unresolved;
-        const bool isAtOnce = open && !(until < span.from);
-        if (open) end(*open, until, isAtOnce && span.presence == Presence::Unresolved);
-        open = begin(span, isAtOnce && wasUnresolved);
-      }
-      open->isAssumed = open->isAssumed || span.isAssumed;
-      until = span.to;
-    }
-    if (open && until < to_) {
-      end(*open, until, false);
-      open.reset();
-    }
-    return open;
-  }
-
- private:
-  Open begin(const PresenceSpan& span, bool wasUnresolved) {
-    const EventKind kind = span.presence == Presence::Unresolved ? EventKind::UnresolvedFrom
-                           : span.isFirstKnown || wasUnresolved  ? EventKind::StartsInside
-                                                                 : EventKind::Enter;
-    add(kind, span.from, span.from, span.isAssumed, span.link);
-    return {span.presence, span.from, span.isAssumed, span.link};
-  }
-  /// What becomes unresolved says by that that it has ended.
-  void end(const Open& open, const WorldTime& time, bool becomesUnresolved) {
-    if (open.presence == Presence::Unresolved) {
-      add(EventKind::UnresolvedTo, time, open.since, open.isAssumed, open.link);
-    } else if (!becomesUnresolved) {
-      add(EventKind::Leave, time, open.since, open.isAssumed, open.link);
-    }
-  }
-  void add(EventKind kind, const WorldTime& time, const WorldTime& since, bool isAssumed,
-           LinkId link) {
-    events_.push_back({kind, std::get<0>(key_), std::get<1>(key_), link, time, since, isAssumed});
-  }
-
-  const Key& key_;
-  WorldTime from_, to_;
-  std::vector<TriggerEvent>& events_;
-};
-
-/// At one instant: what ends that began before, what begins, and what ends as it begins.
-int rankOf(const TriggerEvent& event) {
-  if (event.kind != EventKind::Leave && event.kind != EventKind::UnresolvedTo) return 1;
-  return event.since < event.time ? 0 : 2;
-}
-
-bool isEarlier(const TriggerEvent& x, const TriggerEvent& y) {
-  if (!(x.time == y.time)) return x.time < y.time;
-  const auto key = [](const TriggerEvent& event) {
-    return std::make_tuple(rankOf(event), event.trigger, event.body, event.link);
-  };
-  return key(x) < key(y);
-}
 
 }  // namespace
 
@@ -121,7 +47,7 @@ struct Triggers::Parts {
   std::int64_t followedUs = 0;
   std::int32_t numBodies = 0;  // in the last stretch
   LinkPresence links;
-  std::map<Key, Open> open;
+  std::map<ToldKey, ToldOpen> open;
   std::vector<Occupant> occupants;
   // While updating.
   std::map<std::pair<TriggerId, BodyId>, std::vector<WorldPart>> parts;
@@ -134,6 +60,7 @@ struct Triggers::Parts {
     return isOne ? triggerOf[slotOf(body)] : -1;
   }
   Result<Done> checkedWorld(const WorldParts& asked) const;
+  Result<Done> checkedTrigger(TriggerId trigger) const;
   void sortParts(const WorldParts& of, const std::vector<WorldPart>& given);
   void addPart(const WorldParts& of, TriggerId trigger, const ContactSide& other, WorldPart part);
   void findCuts(const WorldParts& of, const Stretch& stretch);
@@ -142,7 +69,7 @@ struct Triggers::Parts {
            std::vector<TriggerEvent>& events);
   void tell(TriggerId trigger, BodyId body, const Stretch& stretch,
             std::vector<TriggerEvent>& events);
-  void tellOne(const Key& key, std::vector<PresenceSpan>& of, const Stretch& stretch,
+  void tellOne(const ToldKey& key, std::vector<PresenceSpan>& of, const Stretch& stretch,
                std::vector<TriggerEvent>& events);
   void listOccupants();
 };
@@ -150,6 +77,13 @@ struct Triggers::Parts {
 Result<Done> Triggers::Parts::checkedWorld(const WorldParts& asked) const {
   if (world == 0 || world == asked.identity) return Done{};
   return Error::of(ErrorCode::Mismatch, "expected the world that the triggers were added to");
+}
+
+Result<Done> Triggers::Parts::checkedTrigger(TriggerId trigger) const {
+  if (trigger >= 0 && slotOf(trigger) < records.size()) return Done{};
+  return Error::at(trigger, ErrorCode::UnknownName,
+                   "expected one of " + std::to_string(records.size()) + " triggers, found " +
+                       std::to_string(trigger));
 }
 
 namespace {
@@ -165,6 +99,17 @@ std::optional<LinkId> watchedLinkOf(const Record& record, BodyId body, bool isTr
     found = found && *found != watched.link ? kEveryLink : watched.link;
   }
   return found;
+}
+
+Result<Done> checkedWatched(const World& world, const Watched& watched) {
+  const bool isBody = watched.body >= 0 && watched.body < world.numBodies();
+  const std::int32_t links = isBody ? world.parts().kindOf(watched.body).skeleton.numJoints() : 0;
+  if (isBody && (watched.link == kEveryLink || (watched.link >= 0 && watched.link < links))) {
+    return Done{};
+  }
+  return Error::at(watched.body, ErrorCode::UnknownName,
+                   "watched: expected a body that was added and a link of it, found body " +
+                       std::to_string(watched.body) + ", link " + std::to_string(watched.link));
 }
 
 bool isWatched(const Record& record, BodyId body, LinkId link) {
@@ -290,13 +235,13 @@ void Triggers::Parts::tell(TriggerId trigger, BodyId body, const Stretch& stretc
   }
 }
 
-void Triggers::Parts::tellOne(const Key& key, std::vector<PresenceSpan>& of, const Stretch& stretch,
-                              std::vector<TriggerEvent>& events) {
+void Triggers::Parts::tellOne(const ToldKey& key, std::vector<PresenceSpan>& of,
+                              const Stretch& stretch, std::vector<TriggerEvent>& events) {
   const auto known = open.find(key);
-  std::optional<Open> now;
+  std::optional<ToldOpen> now;
   if (known != open.end()) now = known->second;
   internal::unite(of, memory);
-  now = Teller(key, stretch, events).tell(now, of);
+  now = PresenceTeller(key, stretch, events).tell(now, of);
   if (now) {
     open[key] = *now;
   } else if (known != open.end()) {
@@ -320,16 +265,7 @@ Triggers& Triggers::operator=(Triggers&&) noexcept = default;
 Result<TriggerId> Triggers::add(World& world, const TriggerVolume& volume,
                                 const TriggerOptions& options) {
   FORETOUCH_CHECK(parts_->checkedWorld(world.parts()));
-  for (const Watched& watched : options.watched) {
-    const bool isBody = watched.body >= 0 && watched.body < world.numBodies();
-    const std::int32_t links = isBody ? world.parts().kindOf(watched.body).skeleton.numJoints() : 0;
-    if (isBody && (watched.link == kEveryLink || (watched.link >= 0 && watched.link < links))) {
-      continue;
-    }
-    return Error::at(watched.body, ErrorCode::UnknownName,
-                     "watched: expected a body that was added and a link of it, found body " +
-                         std::to_string(watched.body) + ", link " + std::to_string(watched.link));
-  }
+  for (const Watched& watched : options.watched) FORETOUCH_CHECK(checkedWatched(world, watched));
   BodyOptions ofBody;
   ofBody.group = options.group;
   ofBody.whenSilent = options.whenSilent;
@@ -344,6 +280,26 @@ Result<TriggerId> Triggers::add(World& world, const TriggerVolume& volume,
   parts_->triggerOf.resize(countOf(world.numBodies()), -1);
   parts_->triggerOf[slotOf(body)] = trigger;
   return trigger;
+}
+
+Result<Done> Triggers::watch(const World& world, TriggerId trigger, const Watched& watched) {
+  FORETOUCH_CHECK(parts_->checkedWorld(world.parts()));
+  FORETOUCH_CHECK(parts_->checkedTrigger(trigger));
+  FORETOUCH_CHECK(checkedWatched(world, watched));
+  Record& record = parts_->records[slotOf(trigger)];
+  if (!record.isNew) {
+    return Error::at(trigger, ErrorCode::OutOfRange,
+                     "expected a trigger whose events were not told yet");
+  }
+  record.options.watched.push_back(watched);
+  return Done{};
+}
+
+void Triggers::beginAnew() {
+  parts_->hasBegun = false;
+  parts_->links = {};
+  parts_->open.clear();
+  parts_->occupants.clear();
 }
 
 std::int32_t Triggers::numTriggers() const {
@@ -362,11 +318,7 @@ TriggerId Triggers::triggerOf(BodyId body) const {
 Result<Done> Triggers::stand(World& world, TriggerId trigger, std::int64_t fromUs,
                              const RigidPose& pose) {
   FORETOUCH_CHECK(parts_->checkedWorld(world.parts()));
-  if (trigger < 0 || trigger >= numTriggers()) {
-    return Error::at(trigger, ErrorCode::UnknownName,
-                     "expected one of " + std::to_string(numTriggers()) + " triggers, found " +
-                         std::to_string(trigger));
-  }
+  FORETOUCH_CHECK(parts_->checkedTrigger(trigger));
   const BodyId body = this->body(trigger);
   FORETOUCH_CHECK(world.push(body, fromUs, pose));
   const std::int64_t untilUs = std::min(fromUs + kLongestPieceUs, kMostUtimeUs);
@@ -391,7 +343,7 @@ Result<Done> Triggers::update(const World& world, const WorldEvents& events,
   parts_->findCuts(of, stretch);
   parts_->links.begin(of, stretch);
   parts_->askAll(of, stretch, answer.events);
-  std::stable_sort(answer.events.begin(), answer.events.end(), isEarlier);
+  std::stable_sort(answer.events.begin(), answer.events.end(), internal::isEarlier);
   answer.counters = parts_->links.counters();
   parts_->hasBegun = true;
   parts_->followedUs = stretch.toUs;

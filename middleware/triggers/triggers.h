@@ -99,6 +99,10 @@ class Triggers {
   /// The trigger that the body is; -1 if it is none. O(1).
   [[nodiscard]] TriggerId triggerOf(BodyId body) const;
 
+  /// Adds one to those whom the trigger looks at. Errors: an unknown trigger, body or link; a
+  /// trigger that was updated already (OutOfRange).
+  Result<Done> watch(const World& world, TriggerId trigger, const Watched& watched);
+
   /// Puts one that was never placed where it stays, from an instant on: for eleven days
   /// (kLongestPieceUs) known, and then as its `whenSilent` says. Errors: as World::push().
   Result<Done> stand(World& world, TriggerId trigger, std::int64_t fromUs, const RigidPose& pose);
@@ -109,6 +113,10 @@ class Triggers {
   /// nothing has changed. O(parts + who is inside + bodies that appear or change their carrier,
   /// times triggers).
   Result<Done> update(const World& world, const WorldEvents& events, TriggerEvents& answer);
+
+  /// Forgets who is inside: the next update may begin anywhere, with another follower, and who is
+  /// inside there starts inside.
+  void beginAnew();
 
   /// By trigger, body and link.
   [[nodiscard]] const std::vector<Occupant>& occupants() const;
