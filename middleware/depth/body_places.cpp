@@ -8,16 +8,16 @@
 namespace foretouch::internal {
 namespace {
 
-constexpr double kPointRounding = MotionBounds::kPointRounding;
+constexpr double kTurnedPoint = MotionBounds::kPointRounding;
 /// Of the instant as the motion's t: a difference, a sum, a quotient.
-constexpr double kInstantRounding = 4.0 * kUnitRoundoff;
+constexpr double kInstantOfPlace = 4.0 * kUnitRoundoff;
 
 LinkPlace placeOf(const LinkState& state, const MotionBounds& bounds) {
   LinkPlace place;
   place.R_WL = state.R_WL;
   place.p_WL = state.p_WL;
-  place.ofOrigin = bounds.originRounding + kInstantRounding * bounds.speed;
-  place.ofTurn = bounds.rotationRounding + kInstantRounding * bounds.angularSpeed;
+  place.ofOrigin = bounds.originRounding + kInstantOfPlace * bounds.speed;
+  place.ofTurn = bounds.rotationRounding + kInstantOfPlace * bounds.angularSpeed;
   return place;
 }
 
@@ -27,7 +27,7 @@ LinkPlace carried(const LinkPlace& carrier, const LinkPlace& own) {
   place.R_WL = carrier.R_WL * own.R_WL;
   place.p_WL = carrier.at(own.p_WL);
   const double arm = own.p_WL.norm();
-  place.ofTurn = (carrier.ofTurn + own.ofTurn + kPointRounding) * kInflation;
+  place.ofTurn = (carrier.ofTurn + own.ofTurn + kTurnedPoint) * kInflation;
   place.ofOrigin = (carrier.roundingAt(arm) + own.ofOrigin) * kInflation;
   return place;
 }
@@ -41,7 +41,7 @@ double instantOf(const TrackPiece& piece, const WorldTime& time) {
 }  // namespace
 
 double LinkPlace::roundingAt(double rho) const {
-  return (ofOrigin + (ofTurn + kPointRounding) * rho + kPointRounding * (p_WL.norm() + rho)) *
+  return (ofOrigin + (ofTurn + kTurnedPoint) * rho + kTurnedPoint * (p_WL.norm() + rho)) *
          kInflation;
 }
 
@@ -86,9 +86,9 @@ Lss seenFrom(const LinkPlace& frame, const Lss& lss_W, double& rounding) {
   };
   const Lss lss{seen(lss_W.a), seen(lss_W.b), lss_W.radius};
   const double rho = std::max(lss.a.norm(), lss.b.norm()) * kInflation;
-  // The frame's own uncertainty moves what is seen from it by as much; kPointRounding twice, as the
+  // The frame's own uncertainty moves what is seen from it by as much; kTurnedPoint twice, as the
   // difference is rounded before it is turned.
-  const double more = frame.roundingAt(rho) + kPointRounding * (lss_W.a.norm() + lss_W.b.norm());
+  const double more = frame.roundingAt(rho) + kTurnedPoint * (lss_W.a.norm() + lss_W.b.norm());
   rounding = (rounding + more) * kInflation;
   return lss;
 }
