@@ -13,9 +13,9 @@ using Eigen::Vector3d;
 /// subtractions, two products, three sums. So does the sum of their magnitudes, to which this is
 /// relative; twice eight covers both. Halving it breaks the proof. Of two products of two
 /// components, there are fewer.
-constexpr double kSideRounding = 16.0 * kUnitRoundoff;
+constexpr double kSideOfRounding = 16.0 * kUnitRoundoff;
 /// Absorbs underflow: six products below 2^-1074, each times a length of up to 2e100.
-constexpr double kSideUnderflow = 1e-200;
+constexpr double kSideOfUnderflow = 1e-200;
 
 int exactSideOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
   const auto points = exactly<4>({&a, &b, &c, &d});
@@ -46,7 +46,7 @@ int sideOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector
   const double magnitude = p.x() * (q.y() * r.z() + q.z() * r.y()) +
                            p.y() * (q.z() * r.x() + q.x() * r.z()) +
                            p.z() * (q.x() * r.y() + q.y() * r.x());
-  const double bound = kSideRounding * magnitude + kSideUnderflow;
+  const double bound = kSideOfRounding * magnitude + kSideOfUnderflow;
   if (determinant > bound) return 1;
   return determinant < -bound ? -1 : exactSideOf(a, b, c, d);
 }
@@ -54,7 +54,7 @@ int sideOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector
 int turnOf(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
   const double left = (b.x() - a.x()) * (p.y() - a.y());
   const double right = (b.y() - a.y()) * (p.x() - a.x());
-  const double bound = kSideRounding * (std::abs(left) + std::abs(right)) + kSideUnderflow;
+  const double bound = kSideOfRounding * (std::abs(left) + std::abs(right)) + kSideOfUnderflow;
   if (left - right > bound) return 1;
   return left - right < -bound ? -1 : exactTurnOf(a, b, p);
 }
