@@ -107,6 +107,19 @@ Real OracleWorld::separation(int a, const Moving& atA, int linkOfA, int b, const
   return least;
 }
 
+std::vector<OraclePart> OracleWorld::partsAt(int id, int link, std::int64_t fromUs, Real us) const {
+  const Moving moving = movingAt(id, fromUs, us, false);
+  std::vector<OraclePart> parts;
+  for (OraclePart part : body(id).parts) {
+    if (link >= 0 && part.link != link) continue;
+    const Corners<Real> corners =
+        cornersIn(part, moving.frames[static_cast<std::size_t>(part.link)]);
+    for (std::size_t i = 0; i < 3; ++i) part.corners[i] = corners[i].as<double>();
+    parts.push_back(part);
+  }
+  return parts;
+}
+
 /// No corner of the link's parts is farther from its origin; below zero if it has none.
 Real OracleWorld::reachOf(int id, int link) const {
   Real rho = -1;

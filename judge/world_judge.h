@@ -68,6 +68,10 @@ class OracleWorld {
   /// instants on prove that the two stay apart in the window. Much faster than firstTouch().
   [[nodiscard]] std::vector<bool> mayTouch(int a, int b, std::int64_t fromUs,
                                            std::int64_t toUs) const;
+  /// The parts of a link in W, to rounding of doubles; all links for -1. Where a body changes its
+  /// carrier: after it.
+  [[nodiscard]] std::vector<OraclePart> partsAt(int body, int link, std::int64_t fromUs,
+                                                Real us) const;
   /// Of a point in W and the surface of a link.
   [[nodiscard]] Real distanceToSurface(int body, int link, const Vec3d& p_W, std::int64_t fromUs,
                                        Real us) const;

@@ -167,4 +167,16 @@ double clearanceAlong(const Hull& one, const Hull& other, const Eigen::Vector3d&
   return result.lower();
 }
 
+double gapAlong(const Hull& one, const Hull& other, const Eigen::Vector3d& nhat) {
+  const LocalHulls local = localOf(one, other);
+  double least = std::numeric_limits<double>::infinity(), top = 0.0;  // local.other[0] = 0
+  for (std::size_t i = 0; i < countOf(local.numOne); ++i) {
+    least = std::min(least, nhat.dot(local.one[i]));
+  }
+  for (std::size_t j = 1; j < countOf(local.numOther); ++j) {
+    top = std::max(top, nhat.dot(local.other[j]));
+  }
+  return least - top - local.slack;
+}
+
 }  // namespace foretouch

@@ -155,6 +155,7 @@ ft_status ft_world_follow_from(ft_world* world, int64_t from_us, const ft_follow
     read.cutUs = known.cut_us;
     FORETOUCH_TRY_OR(worldFailure, auto made, WorldFollower::start(from_us, read));
     world->follower = std::move(made);
+    world->triggers.beginAnew();
     world->hasEvents = false;
     return FT_OK;
   });
@@ -198,6 +199,8 @@ ft_status ft_world_follow(ft_world* world, int64_t until_us) {
     FORETOUCH_CHECK_OR(worldFailure, done);
     std::swap(world->events, world->nextEvents);
     world->hasEvents = true;
+    FORETOUCH_CHECK_OR(worldFailure,
+                       world->triggers.update(world->world, world->events, world->triggerEvents));
     return FT_OK;
   });
 }

@@ -8,7 +8,6 @@
 #include "lss/index.h"
 
 namespace foretouch::c {
-namespace {
 
 const Skeleton& skeletonOfMesh() {
   static const Skeleton one = [] {
@@ -18,6 +17,8 @@ const Skeleton& skeletonOfMesh() {
   }();
   return one;
 }
+
+namespace {
 
 /// FT_ERROR_UNKNOWN_NAME with the body's number, unless it was added.
 ft_status checkedBody(const ft_world& world, std::int32_t body) {

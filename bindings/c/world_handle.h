@@ -8,7 +8,9 @@
 
 #include "bindings/c/handles.h"
 #include "bindings/c/include/foretouch/world.h"
+#include "middleware/depth/world_depth.h"
 #include "middleware/events/world_follower.h"
+#include "middleware/triggers/triggers.h"
 #include "middleware/world/world_query.h"
 
 /// For one thread. Answers a window beside the last one, which it replaces once done.
@@ -37,6 +39,8 @@ struct ft_world {
   std::optional<foretouch::WorldFollower> follower;
   foretouch::WorldEvents events, nextEvents;
   bool hasEvents = false;
+  foretouch::Triggers triggers;
+  foretouch::TriggerEvents triggerEvents;
 };
 
 namespace foretouch::c {
@@ -51,6 +55,9 @@ namespace foretouch::c {
                                         BodyOptions& options);
 /// 0 or 1; `name`: of the argument.
 [[nodiscard]] ft_status readTruth(std::int32_t given, const char* name, bool& truth);
+
+/// Of a body of one joint, as meshes and triggers are.
+[[nodiscard]] const Skeleton& skeletonOfMesh();
 
 /// An error about an option or argument names it as C does.
 [[nodiscard]] ft_status worldFailure(Error error);

@@ -21,5 +21,6 @@ void bindNear(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);
 void bindSolid(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
+void bindTriggers(pybind11::module_& module);
 
 }  // namespace foretouch::python

@@ -24,5 +24,6 @@ PYBIND11_MODULE(_foretouch, module) {
   bindSweep(module);
   bindSolid(module);
   bindWorld(module);
+  bindTriggers(module);
   py::delattr(module, "__module__");
 }

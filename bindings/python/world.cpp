@@ -47,14 +47,24 @@ auto World::change(const char* place, const Call& call) {
   return worldValue(inFile(call(), place));
 }
 
-BodyId World::add(BodyShape shape, const BodyOptions& options) {
+void World::with(const char* place, const std::function<Result<Done>(foretouch::World&)>& call) {
+  change(place, [&] { return call(world_); });
+}
+
+BodyId World::addWith(BodyShape shape,
+                      const std::function<Result<BodyId>(foretouch::World&)>& call) {
   return change("add", [&]() -> Result<BodyId> {
     auto shapes = std::make_shared<BodyShapes>(*shapes_);
-    shapes->push_back(shape);
-    auto body =
-        shape.avatar ? world_.add(*shape.avatar, options) : world_.add(*shape.mesh, options);
+    shapes->push_back(std::move(shape));
+    auto body = call(world_);
     if (body.ok()) shapes_ = std::move(shapes);
     return body;
+  });
+}
+
+BodyId World::add(BodyShape shape, const BodyOptions& options) {
+  return addWith(shape, [&](foretouch::World& world) {
+    return shape.avatar ? world.add(*shape.avatar, options) : world.add(*shape.mesh, options);
   });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "articulated/avatar.h"
 #include "bindings/python/arguments.h"
+#include "middleware/depth/world_depth.h"
 #include "middleware/scene/scene.h"
 #include "middleware/world/world_query.h"
 
@@ -38,6 +40,11 @@ class World {
   [[nodiscard]] std::optional<std::int64_t> knownUntilUs();
   [[nodiscard]] std::optional<BodyId> waitsFor();
   [[nodiscard]] foretouch::WorldContacts contacts(std::int64_t fromUs, std::int64_t toUs);
+
+  /// Calls a function of the library's world without the GIL, and with no other thread in it.
+  void with(const char* place, const std::function<Result<Done>(foretouch::World&)>& call);
+  /// The same of one that adds a body of this shape.
+  BodyId addWith(BodyShape shape, const std::function<Result<BodyId>(foretouch::World&)>& call);
 
   /// Null: nothing stands still.
   [[nodiscard]] const std::shared_ptr<const Scene>& still() const { return still_; }

@@ -4,77 +4,21 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
-#include <Eigen/Geometry>
-
 #include "lss/assert.h"
-#include "lss/rounding.h"
-#include "middleware/exact/scaled_integer.h"
+#include "middleware/exact/side_of.h"
 
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-using internal::Integer;
+using internal::Exact;
+using internal::exactly;
+using internal::sideOf;
+using internal::signOf;
 
 constexpr double kLargestCoordinate = 1e100;
-
-/// Each of the determinant's six products of three components passes eight roundings: three
-/// subtractions, two products, three sums. So does the sum of their magnitudes, to which this is
-/// relative; twice eight covers both. Halving it breaks the proof.
-constexpr double kDeterminantRounding = 16.0 * kUnitRoundoff;
-/// Absorbs underflow: six products below 2^-1074, each times a length of up to 2e100.
-constexpr double kDeterminantUnderflow = 1e-200;
-
-using Exact = std::array<Integer, 3>;
-
-/// Each axis by its own power of two: no sign below depends on it.
-template <std::size_t N>
-std::array<Exact, N> exactly(const std::array<const Vector3d*, N>& points) {
-  std::array<Exact, N> exact;
-  for (int axis = 0; axis < 3; ++axis) {
-    int lowest = internal::kNoExponent;
-    for (const Vector3d* p : points) lowest = std::min(lowest, internal::exponentOf((*p)[axis]));
-    for (std::size_t i = 0; i < N; ++i)
-      exact[i][axis] = internal::scaled((*points[i])[axis], lowest);
-  }
-  return exact;
-}
-
-int signOf(const Integer& value) {
-  return value.sign();
-}
-
-int exactSideOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
-  const auto points = exactly<4>({&a, &b, &c, &d});
-  std::array<Exact, 3> from;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      from[i][axis] = points[i + 1][axis] - points[0][axis];
-    }
-  }
-  const auto& [u, v, w] = from;
-  return signOf(u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-                u[2] * (v[0] * w[1] - v[1] * w[0]));
-}
-
-/// The sign of det(b - a, c - a, d - a): the side of the plane a b c that d is on; 0 if the four
-/// are in one plane.
-int sideOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
-  const Vector3d u = b - a, v = c - a, w = d - a;
-  const double determinant = u.x() * (v.y() * w.z() - v.z() * w.y()) +
-                             u.y() * (v.z() * w.x() - v.x() * w.z()) +
-                             u.z() * (v.x() * w.y() - v.y() * w.x());
-  const Vector3d p = u.cwiseAbs(), q = v.cwiseAbs(), r = w.cwiseAbs();
-  const double magnitude = p.x() * (q.y() * r.z() + q.z() * r.y()) +
-                           p.y() * (q.z() * r.x() + q.x() * r.z()) +
-                           p.z() * (q.x() * r.y() + q.y() * r.x());
-  const double bound = kDeterminantRounding * magnitude + kDeterminantUnderflow;
-  if (determinant > bound) return 1;
-  return determinant < -bound ? -1 : exactSideOf(a, b, c, d);
-}
 
 /// On some axis all of one is beyond all of the other.
 template <std::size_t M, std::size_t N>

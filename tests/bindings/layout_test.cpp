@@ -1,7 +1,9 @@
 // The binary interface on x86-64, in numbers: programs are compiled against them, so
 // these lines only ever get company.
 #include <cstddef>
+#include <foretouch/mechanics.h>
 #include <foretouch/solid.h>
+#include <foretouch/triggers.h>
 #include <foretouch/world.h>
 
 #include <gtest/gtest.h>
@@ -284,6 +286,69 @@ AT(ft_world_counters, spans, 32);
 AT(ft_world_counters, nodes, 40);
 AT(ft_world_counters, hierarchy_tests, 96);
 AT(ft_world_counters, rung_tests, 128);
+
+static_assert(sizeof(ft_trigger_options) == 16);
+AT(ft_trigger_options, group, 4);
+AT(ft_trigger_options, when_silent, 8);
+AT(ft_trigger_options, by_link, 12);
+
+static_assert(sizeof(ft_trigger_event) == 56);
+AT(ft_trigger_event, kind, 4);
+AT(ft_trigger_event, trigger, 8);
+AT(ft_trigger_event, body, 12);
+AT(ft_trigger_event, link, 16);
+AT(ft_trigger_event, is_assumed, 20);
+AT(ft_trigger_event, time_us, 24);
+AT(ft_trigger_event, time_fraction, 32);
+AT(ft_trigger_event, since_us, 40);
+AT(ft_trigger_event, since_fraction, 48);
+
+static_assert(sizeof(ft_occupant) == 40);
+AT(ft_occupant, trigger, 4);
+AT(ft_occupant, body, 8);
+AT(ft_occupant, link, 12);
+AT(ft_occupant, is_unresolved, 16);
+AT(ft_occupant, reserved, 20);
+AT(ft_occupant, since_us, 24);
+AT(ft_occupant, since_fraction, 32);
+
+static_assert(sizeof(ft_depth_question) == 40);
+AT(ft_depth_question, body, 4);
+AT(ft_depth_question, link, 8);
+AT(ft_depth_question, from_body, 12);
+AT(ft_depth_question, from_link, 16);
+AT(ft_depth_question, reserved, 20);
+AT(ft_depth_question, time_us, 24);
+AT(ft_depth_question, time_fraction, 32);
+
+static_assert(sizeof(ft_depth) == 80);
+AT(ft_depth, is_certified, 4);
+AT(ft_depth, lower, 8);
+AT(ft_depth, upper, 16);
+AT(ft_depth, way_out, 24);
+AT(ft_depth, pair_count, 48);
+AT(ft_depth, is_assumed, 52);
+AT(ft_depth, link, 56);
+AT(ft_depth, lss, 60);
+AT(ft_depth, from_link, 64);
+AT(ft_depth, from_lss, 68);
+AT(ft_depth, from_triangle, 72);
+AT(ft_depth, reserved, 76);
+
+static_assert(sizeof(ft_collision_point) == 144);
+AT(ft_collision_point, reserved, 4);
+AT(ft_collision_point, normal, 8);
+AT(ft_collision_point, velocity, 32);
+AT(ft_collision_point, inverse_mass, 56);
+AT(ft_collision_point, restitution, 128);
+AT(ft_collision_point, friction, 136);
+
+static_assert(sizeof(ft_collision_impulse) == 56);
+AT(ft_collision_impulse, sticks, 4);
+AT(ft_collision_impulse, on_a, 8);
+AT(ft_collision_impulse, restitution, 32);
+AT(ft_collision_impulse, friction, 40);
+AT(ft_collision_impulse, effective_mass, 48);
 
 namespace {
 

@@ -50,6 +50,8 @@ const std::map<std::string, Rooms> kRooms = {
       {"mechanics", {}},
       {"solid", {"query", "mechanics", "", "scene"}},
       {"world", {"query", "", "lanes", "scene", "surface"}},
+      {"depth", {"world", "", "scene"}},
+      {"triggers", {"events", "depth", "world", "exact", "", "scene"}},
       {"events", {"world", "query", "mechanics", "", "lanes", "scene"}},
       {"solid_world", {"world", "solid", "query", "mechanics", "", "scene"}},
       {"reference", {"query", "", "exact", "surface", "scene"}}}},

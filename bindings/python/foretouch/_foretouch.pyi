@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from foretouch._types import (
     ContactDetails,
+    Depth,
     Doubles,
     IgnoredLike,
     JointMatch,
@@ -20,6 +21,7 @@ from foretouch._types import (
     LinkPairLike,
     Lss,
     NearFeatures,
+    Occupant,
     PairRadius,
     PairRadiusLike,
     Policy,
@@ -31,6 +33,7 @@ from foretouch._types import (
     SceneAudit,
     SolidContact,
     SweptSurface,
+    TriggerEvent,
     WorldContacts,
 )
 
@@ -477,6 +480,21 @@ class World:
     def num_bodies(self) -> int: ...
     @property
     def tolerance(self) -> float: ...
+    def depth(self, utime_us: int, body: int, other: Optional[int] = None) -> Depth: ...
+
+class Triggers:
+    def __init__(self, world: World, from_us: int) -> None: ...
+    def add_box(
+        self, half_extents: npt.ArrayLike, *, group: int = 31, by_link: bool = False
+    ) -> int: ...
+    def add_sphere(self, radius: float, *, group: int = 31, by_link: bool = False) -> int: ...
+    def add_mesh(self, closed: Scene, *, group: int = 31, by_link: bool = False) -> int: ...
+    def body(self, trigger: int) -> int: ...
+    def stand(self, trigger: int, from_us: int, translation: npt.ArrayLike) -> None: ...
+    def watch(self, trigger: int, body: int, link: Optional[int] = None) -> None: ...
+    def follow(self, until_us: int) -> list[TriggerEvent]: ...
+    @property
+    def occupants(self) -> list[Occupant]: ...
 
 def swept_surface(
     motions: Union[Motion, Iterable[Motion]],

@@ -278,6 +278,52 @@ class WorldContacts(NamedTuple):
     """Work done, by kind."""
 
 
+class TriggerEvent(NamedTuple):
+    """Who enters or leaves a trigger. An enter is never later than it is, a leave never earlier."""
+
+    kind: str
+    """'enter', 'leave', 'starts_inside', 'unresolved_from' or 'unresolved_to'."""
+    trigger: int
+    body: int
+    link: Optional[int]
+    """Which enters or leaves; None: none by itself."""
+    time_us: int
+    fraction: float
+    """Of one microsecond more, in [0, 1)."""
+    since_us: int
+    """When that began which ends here; else as the time."""
+    since_fraction: float
+    is_assumed: bool
+    """It rests on a body that was silent, and was taken to hold still."""
+
+
+class Occupant(NamedTuple):
+    """Who is inside a trigger, or may be."""
+
+    trigger: int
+    body: int
+    link: Optional[int]
+    """Of a trigger that looks at each link by itself."""
+    is_unresolved: bool
+    since_us: int
+    since_fraction: float
+
+
+class Depth(NamedTuple):
+    """How deep a body is in another at an instant. Metres, world frame."""
+
+    lower: float
+    """No translation shorter than this clears."""
+    upper: float
+    """Infinite if no way out could be certified."""
+    way_out: Doubles
+    """(3,): moved by it, the body is proven clear; not longer than upper."""
+    is_certified: bool
+    num_pairs: int
+    """Of pieces that have, or may have, a point in common."""
+    is_assumed: bool
+
+
 class Policy(TypedDict, total=False):
     """What one link has for itself, or with one object. What is missing is as for all links."""
 

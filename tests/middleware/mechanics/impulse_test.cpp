@@ -111,6 +111,16 @@ struct Crash {
     }
     return sum;
   }
+  /// Linear, and angular about the point, of both.
+  [[nodiscard]] Eigen::Matrix<double, 6, 1> momentum() const {
+    Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector3d linear = mass[i].kg * v[i];
+      sum.head<3>() += linear;
+      sum.tail<3>() += inertia(i) * w[i] - arm(i).cross(linear);
+    }
+    return sum;
+  }
   void apply(const Eigen::Vector3d& onA) {
     for (int i = 0; i < (isHeld ? 1 : 2); ++i) {
       const Eigen::Vector3d J = i == 0 ? onA : Eigen::Vector3d(-onA);
@@ -141,7 +151,17 @@ TEST(Impulse, KeepsItsLawsOnAMillionDraws) {
     ASSERT_LE((J - push * n).norm(), material.friction * push * (1 + 1e-9)) << i;
     ASSERT_LE(impulse.applied.restitution, material.restitution);
     ASSERT_LE(impulse.applied.friction, material.friction);
+    const Eigen::Matrix<double, 6, 1> momentum = crash.momentum();
+    double carried = J.norm();
+    for (int k = 0; k < 2; ++k) {
+      carried += crash.mass[k].kg * crash.v[k].norm() + (crash.inertia(k) * crash.w[k]).norm();
+    }
     crash.apply(J);
+    if (!crash.isHeld) {
+      ASSERT_LE((crash.momentum() - momentum).head<3>().norm(), 1e-12 * carried) << i;
+      // The response of a thin body errs by its inertia's condition, up to 1e5 here.
+      ASSERT_LE((crash.momentum() - momentum).tail<3>().norm(), 1e-10 * carried) << i;
+    }
     const Eigen::Vector3d after = crash.velocity(0) - crash.velocity(1);
     // By how much rounding may move a point: what the impulse does there, in all.
     const double scale =

@@ -1,0 +1,62 @@
+// middleware/depth/depth.h: how deep one rigid set of LSS is in another or in triangles, and which
+// way out: bounds from below and from above, and a translation that is proven to clear. What each
+// proves: depth.md 4. Metres.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "lss/lss.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch {
+
+/// The depth is the infimum of the lengths of all translations of what is moved that leave it
+/// without a point in common with the rest; of triangles, with their surface.
+struct Depth {
+  /// No translation shorter than this one clears: the largest depth of a pair.
+  double lower = 0.0;
+  /// Moved by `wayOut`, it is proven clear of everything; |wayOut| <= upper. Infinite if nothing
+  /// that was tried could be certified; then the way is zero.
+  double upper = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d wayOut = Eigen::Vector3d::Zero();
+  bool isCertified = false;   ///< `upper` and `wayOut` mean something.
+  std::int32_t numPairs = 0;  ///< Of pieces that have, or may have, a point in common.
+  /// Those of the deepest pair; -1 if there is none: which LSS of those that are moved, and which
+  /// LSS or triangle of the others.
+  std::int32_t deepestMoved = -1, deepestOther = -1;
+};
+
+/// Memory that questions reuse; one per thread.
+class DepthScratch {
+ public:
+  DepthScratch();
+  ~DepthScratch();
+  DepthScratch(DepthScratch&&) noexcept;
+  DepthScratch& operator=(DepthScratch&&) noexcept;
+
+  struct Parts;
+  /// For the question's own sources.
+  [[nodiscard]] Parts& parts() { return *parts_; }
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+/// At most so many pairs of pieces are looked at in the search for a way out (each look costs some
+/// hundred nanoseconds); after these, the best way so far is the answer.
+inline constexpr std::int64_t kMostDepthLooks = 200'000;
+
+/// `moved` as one against `others`, both where they are. `rounding`: no point of either is farther
+/// from where it is given (m, >= 0). Coordinates finite, below 1e100; |coordinate| <= 1e7 for a
+/// scene. The same answer for the same input. O(pairs that are near, times the looks it takes).
+[[nodiscard]] Depth depthAmong(const std::vector<Lss>& moved, const std::vector<Lss>& others,
+                               DepthScratch& scratch, double rounding = 0.0);
+[[nodiscard]] Depth depthIn(const std::vector<Lss>& moved, const Scene& scene,
+                            DepthScratch& scratch, double rounding = 0.0);
+
+}  // namespace foretouch

@@ -1,0 +1,90 @@
+// middleware/triggers/triggers.h: volumes that tell who is in them. A trigger is a body of a world:
+// it may stand, move, and be carried. What a WorldFollower tells of contacts becomes who enters and
+// who leaves, and who is inside: also of those that pass between two poses, and of those that are
+// inside altogether, and touch nothing. World time in microseconds. The promise: docs/guarantees.md
+// 19; how it is kept: triggers.md.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "articulated/pose.h"
+#include "articulated/result.h"
+#include "articulated/track.h"
+#include "middleware/events/world_event.h"
+#include "middleware/triggers/trigger_event.h"
+#include "middleware/triggers/trigger_volume.h"
+#include "middleware/world/world.h"
+
+namespace foretouch {
+
+/// The group of triggers, unless they are given another: they meet everybody else.
+inline constexpr BodyGroup kTriggerGroup = kNumBodyGroups - 1;
+
+/// Whom a trigger looks at: a body, or a link of it.
+struct Watched {
+  BodyId body = 0;
+  LinkId link = kEveryLink;
+};
+
+struct TriggerOptions {
+  BodyGroup group = kTriggerGroup;
+  /// By default a trigger that is not told where it is stays where it was, and nobody waits for it.
+  WhenSilent whenSilent = WhenSilent::HoldStill;
+  /// Empty: everybody but other triggers.
+  std::vector<Watched> watched;
+  /// False: a body is inside as long as any of its links is, and enters and leaves as one. True:
+  /// each link by itself.
+  bool byLink = false;
+};
+
+/// For one thread. Keeps who is inside from window to window.
+class Triggers {
+ public:
+  Triggers();
+  ~Triggers();
+  Triggers(Triggers&&) noexcept;
+  Triggers& operator=(Triggers&&) noexcept;
+
+  /// Makes it a body of the world, which it is for ever: push its poses, attach and detach it as
+  /// any other's (body()). It is there from its first pose on. Triggers of one group do not meet
+  /// each other, nor any the static scene. A mesh watches what is made of LSS, as two meshes are
+  /// not asked. Errors: as World::add(), and one who is watched and is no body or link yet
+  /// (UnknownName).
+  Result<TriggerId> add(World& world, const TriggerVolume& volume,
+                        const TriggerOptions& options = {});
+  [[nodiscard]] std::int32_t numTriggers() const;
+  /// Precondition: a trigger of this object (asserted).
+  [[nodiscard]] BodyId body(TriggerId trigger) const;
+  /// The trigger that the body is; -1 if it is none. O(1).
+  [[nodiscard]] TriggerId triggerOf(BodyId body) const;
+
+  /// Adds one to those whom the trigger looks at. Errors: an unknown trigger, body or link; a
+  /// trigger that was updated already (OutOfRange).
+  Result<Done> watch(const World& world, TriggerId trigger, const Watched& watched);
+
+  /// Puts one that was never placed where it stays, from an instant on: for eleven days
+  /// (kLongestPieceUs) known, and then as its `whenSilent` says. Errors: as World::push().
+  Result<Done> stand(World& world, TriggerId trigger, std::int64_t fromUs, const RigidPose& pose);
+
+  /// What the events of the next stretch of time mean for the triggers. Call it for every answer of
+  /// one WorldFollower of that world, in turn, before the world changes or forgets. Errors
+  /// (Mismatch): another world; a stretch that does not begin where the last one ended; then
+  /// nothing has changed. O(parts + who is inside + bodies that appear or change their carrier,
+  /// times triggers).
+  Result<Done> update(const World& world, const WorldEvents& events, TriggerEvents& answer);
+
+  /// Forgets who is inside: the next update may begin anywhere, with another follower, and who is
+  /// inside there starts inside.
+  void beginAnew();
+
+  /// By trigger, body and link.
+  [[nodiscard]] const std::vector<Occupant>& occupants() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace foretouch

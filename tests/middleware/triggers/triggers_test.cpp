@@ -1,0 +1,325 @@
+// Who is in a trigger: plain cases by hand, and random worlds before the judge.
+#include "middleware/triggers/triggers.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/middleware/triggers/both_triggers.h"
+#include "tests/middleware/world/random_worlds.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+using test::BothTriggers;
+
+constexpr double kTolerance = 1e-4;
+
+Avatar hand(double radius) {
+  RawSkeleton raw;
+  raw.joints = {{"hand", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
+  return Avatar::build(Skeleton::build(raw).value(),
+                       {{{Vector3d(0, -0.05, 0), Vector3d(0, 0.05, 0), radius}}})
+      .value();
+}
+
+RigidPose at(double x, double y = 0.0, double z = 0.0) {
+  return {Quaternion::Identity(), Vector3d(x, y, z)};
+}
+
+void expectNoProblems(const BothTriggers& both) {
+  for (const std::string& problem : both.tally.problems) ADD_FAILURE() << problem;
+}
+
+/// "enter 0, leave 0": kinds and triggers, in order.
+std::string said(const std::vector<TriggerEvent>& events) {
+  std::string all;
+  for (const TriggerEvent& event : events) {
+    all += (all.empty() ? "" : ", ") + std::string(toString(event.kind)) + " " +
+           std::to_string(event.trigger);
+  }
+  return all;
+}
+
+double microseconds(const TriggerEvent& event) {
+  return microsecondsAfter(0, event.time);
+}
+
+// A box of 2 cm, a hand that flies 2 m in one step of a tenth of a second: no pose is near it.
+TEST(Triggers, AHandThatPassesThroughAThinBoxWithinOneStepEntersAndLeaves) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId body = both.both.add(hand(0.02));
+  const TriggerId box = both.add(test::plainBox(Vector3d(0.01, 0.5, 0.5)));
+  both.stand(box, at(0));
+  both.both.push(body, 0, at(-1.0));
+  both.both.push(body, 100'000, at(1.0));
+  both.follow(100'000);
+  ASSERT_EQ(said(both.events), "enter 0, leave 0");
+  // It touches from -3 cm to 3 cm at 20 m/s.
+  EXPECT_NEAR(microseconds(both.events[0]), 48'500, 20);
+  EXPECT_LE(microseconds(both.events[0]), 48'500);
+  EXPECT_NEAR(microseconds(both.events[1]), 51'500, 20);
+  EXPECT_GE(microseconds(both.events[1]), 51'500);
+  EXPECT_TRUE(both.events[1].since == both.events[0].time);
+  EXPECT_EQ(both.events[0].body, body);
+  EXPECT_EQ(both.events[0].link, 0);
+  EXPECT_FALSE(both.events[0].isAssumed);
+  EXPECT_TRUE(both.triggers.occupants().empty());
+  both.judge(500);
+  expectNoProblems(both);
+}
+
+// Wholly inside nothing touches the surface, over several windows: it stays inside.
+TEST(Triggers, AHandThatIsWhollyInsideStaysInsideFromWindowToWindow) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId body = both.both.add(hand(0.02));
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)));
+  both.stand(room, at(0));
+  for (int i = 0; i <= 20; ++i) both.both.push(body, 10'000 * i, at(-1.0 + 0.1 * i));
+  for (int i = 1; i <= 20; ++i) {
+    both.follow(10'000 * i);
+    const bool isIn = i > 4 && i < 16;
+    if (i == 4 || i == 5 || i == 15) continue;
+    EXPECT_EQ(both.triggers.occupants().size(), isIn ? 1u : 0u) << i;
+  }
+  ASSERT_EQ(said(both.events), "enter 0, leave 0");
+  EXPECT_NEAR(microseconds(both.events[0]), 48'000, 100);
+  EXPECT_NEAR(microseconds(both.events[1]), 152'000, 100);
+  both.judge(300);
+  EXPECT_GT(both.tally.whollyInside, 50u);
+  expectNoProblems(both);
+}
+
+TEST(Triggers, WhoIsInsideAtTheBeginStartsInside) {
+  BothTriggers both(kTolerance, 1000);
+  const BodyId one = both.both.add(hand(0.02)), other = both.both.add(hand(0.02));
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)));
+  const TriggerId ball = both.add(test::plainSphere(0.3));
+  both.stand(room, at(0));
+  both.stand(ball, at(0));
+  both.both.push(one, 0, at(0));
+  both.both.push(one, 100'000, at(0));
+  both.both.push(other, 50'000, at(0, 0.1));  // appears inside
+  both.both.push(other, 100'000, at(0, 0.1));
+  both.follow(100'000);
+  ASSERT_EQ(said(both.events),
+            "starts_inside 0, starts_inside 1, starts_inside 0, starts_inside 1");
+  EXPECT_EQ(both.events[0].time.us, 1000);
+  EXPECT_EQ(both.events[2].time.us, 50'000);
+  EXPECT_EQ(both.events[2].body, other);
+  ASSERT_EQ(both.triggers.occupants().size(), 4u);
+  EXPECT_EQ(both.triggers.occupants()[0].since.us, 1000);
+  both.judge(100);
+  expectNoProblems(both);
+}
+
+TEST(Triggers, NestedVolumesAreEnteredAndLeftInOrder) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId body = both.both.add(hand(0.02));
+  const TriggerId outer = both.add(test::plainBox(Vector3d(0.6, 0.6, 0.6)));
+  const TriggerId inner = both.add(test::plainGlobe(0.3, 10, 12));
+  both.stand(outer, at(0));
+  both.stand(inner, at(0));
+  for (int i = 0; i <= 10; ++i) both.both.push(body, 20'000 * i, at(-1.0 + 0.2 * i));
+  both.follow(200'000);
+  EXPECT_EQ(said(both.events), "enter 0, enter 1, leave 1, leave 0");
+  both.judge(400);
+  expectNoProblems(both);
+}
+
+// A volume that is carried: the sensor on a lift passes over one who stands, and a sensor in a hand
+// does not look at that hand.
+TEST(Triggers, TriggersMoveAndAreCarried) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId lift = both.both.add(hand(0.02)), person = both.both.add(hand(0.02));
+  const TriggerId sensor = both.add(test::plainBox(Vector3d(0.2, 0.2, 0.2)));
+  for (int i = 0; i <= 10; ++i) {
+    both.both.push(lift, 10'000 * i, at(0, -1.0 + 0.2 * i));
+    both.both.push(person, 10'000 * i, at(0.1, 0, 0));
+  }
+  // Carried from an instant at which it is known.
+  both.both.push(both.body(sensor), 0, at(7.0));
+  both.both.push(both.body(sensor), 1, at(7.0));
+  both.both.attach(both.body(sensor), {lift, 0, false}, 1, at(0));
+  both.follow(100'000);
+  ASSERT_EQ(said(both.events), "enter 0, leave 0");
+  EXPECT_EQ(both.events[0].body, person);
+  // It comes at 20 m/s, from 27 cm below the middle to 27 cm above.
+  EXPECT_NEAR(microseconds(both.events[0]), 36'500, 20);
+  EXPECT_NEAR(microseconds(both.events[1]), 63'500, 20);
+  both.judge(200);
+  EXPECT_GT(both.tally.whollyInside, 10u);
+  // The judge knows of no exception: the lift is in its own sensor, and is not told.
+  for (const std::string& problem : both.tally.problems) {
+    EXPECT_NE(problem.find("body 0"), std::string::npos) << problem;
+  }
+}
+
+// Off the carrier with a jump: what was known before says nothing of after.
+TEST(Triggers, WhoIsPutSomewhereElseIsDecidedAnew) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId body = both.both.add(hand(0.02)), carrier = both.both.add(hand(0.02));
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)));
+  both.stand(room, at(0));
+  for (const std::int64_t us : {0, 50'000, 100'000}) both.both.push(carrier, us, at(5.0));
+  both.both.push(body, 0, at(0));
+  both.both.push(body, 30'000, at(0));
+  both.both.attach(body, {carrier, 0, false}, 30'000, at(0.1));  // 5.1 m away
+  both.both.detach(body, 60'000, at(0.1));                       // and back
+  both.both.push(body, 100'000, at(0.1));
+  both.follow(45'000);
+  both.follow(100'000);
+  ASSERT_EQ(said(both.events), "starts_inside 0, leave 0, starts_inside 0");
+  EXPECT_EQ(both.events[1].time.us, 30'000);
+  EXPECT_EQ(both.events[2].time.us, 60'000);
+  both.judge(100);
+  expectNoProblems(both);
+}
+
+TEST(Triggers, WhoIsSilentIsUnresolvedAndFoundAgain) {
+  BothTriggers both(kTolerance, 0);
+  BodyOptions undecided;
+  undecided.whenSilent = WhenSilent::Undecided;
+  const BodyId body = both.both.add(hand(0.02), undecided), clock = both.both.add(hand(0.02));
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)));
+  both.stand(room, at(0));
+  for (int i = 0; i <= 10; ++i) both.both.push(clock, 10'000 * i, at(9.0));
+  both.both.push(body, 0, at(0));
+  both.both.push(body, 30'000, at(0));
+  both.follow(50'000);
+  EXPECT_EQ(said(both.events), "starts_inside 0, unresolved_from 0");
+  ASSERT_EQ(both.triggers.occupants().size(), 1u);
+  EXPECT_TRUE(both.triggers.occupants()[0].isUnresolved);
+  EXPECT_EQ(both.events[1].time.us, 30'000);
+}
+
+TEST(Triggers, LooksAtThoseWhoAreWatched) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId one = both.both.add(hand(0.02)), other = both.both.add(hand(0.02));
+  TriggerOptions options;
+  options.watched = {{other, 0}};
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)), options);
+  both.stand(room, at(0));
+  for (const BodyId body : {one, other}) {
+    both.both.push(body, 0, at(0));
+    both.both.push(body, 100'000, at(0));
+  }
+  both.follow(100'000);
+  ASSERT_EQ(said(both.events), "starts_inside 0");
+  EXPECT_EQ(both.events[0].body, other);
+}
+
+// From outside to within nothing at all, and away: at most the tolerance early and late.
+TEST(Triggers, WhoTouchesFromOutsideIsToldWithinTheTolerance) {
+  for (const double gap : {-1e-3, 0.0, 0.5 * kTolerance, 3.0 * kTolerance}) {
+    BothTriggers both(kTolerance, 0);
+    const BodyId body = both.both.add(hand(0.02));
+    const TriggerId box = both.add(test::plainBox(Vector3d(0.1, 0.1, 0.1)));
+    both.stand(box, at(0));
+    both.both.push(body, 0, at(-0.3));
+    both.both.push(body, 50'000, at(-0.12 - gap));
+    both.both.push(body, 100'000, at(-0.3));
+    both.follow(100'000);
+    EXPECT_EQ(said(both.events), gap > kTolerance ? "" : "enter 0, leave 0") << gap;
+    both.judge(400);
+    expectNoProblems(both);
+  }
+}
+
+TEST(Triggers, DoNotMeetEachOther) {
+  BothTriggers both(kTolerance, 0);
+  both.both.push(both.both.add(hand(0.02)), 0, at(9.0));
+  both.both.push(0, 100'000, at(9.0));
+  const TriggerId box = both.add(test::plainBox(Vector3d(0.1, 0.1, 0.1)));
+  const TriggerId ball = both.add(test::plainSphere(0.5));
+  both.stand(box, at(0));
+  both.stand(ball, at(0));
+  both.follow(100'000);
+  EXPECT_EQ(said(both.events), "");
+}
+
+TEST(Triggers, RefuseWhatDoesNotFit) {
+  World world = World::build(std::nullopt).value(), stranger = World::build(std::nullopt).value();
+  Triggers triggers;
+  TriggerOptions options;
+  options.watched = {{0, 0}};
+  const auto box = TriggerVolume::box(Vector3d(1, 1, 1)).value();
+  EXPECT_EQ(triggers.add(world, box, options).error().code, ErrorCode::UnknownName);
+  ASSERT_TRUE(world.add(hand(0.02)).ok());
+  options.watched = {{0, 1}};
+  EXPECT_EQ(triggers.add(world, box, options).error().code, ErrorCode::UnknownName);
+  options.watched = {{0, 0}};
+  options.group = 32;
+  EXPECT_FALSE(triggers.add(world, box, options).ok());
+  options.group = kTriggerGroup;
+  const TriggerId trigger = triggers.add(world, box, options).value();
+  EXPECT_EQ(triggers.body(trigger), 1);
+  EXPECT_EQ(triggers.triggerOf(1), trigger);
+  EXPECT_EQ(triggers.triggerOf(0), -1);
+  EXPECT_FALSE(triggers.add(stranger, box).ok());
+  EXPECT_FALSE(triggers.stand(world, 1, 0, {}).ok());
+  ASSERT_TRUE(triggers.stand(world, trigger, 0, {}).ok());
+  EXPECT_FALSE(triggers.stand(world, trigger, 0, {}).ok()) << "twice";
+  WorldEvents events;
+  events.fromUs = 0;
+  events.toUs = 100;
+  TriggerEvents told;
+  EXPECT_FALSE(triggers.update(stranger, events, told).ok());
+  ASSERT_TRUE(triggers.update(world, events, told).ok());
+  EXPECT_EQ(triggers.update(world, events, told).error().code, ErrorCode::Mismatch);
+}
+
+/// Walkers with clocks of their own among volumes that stand, fly and are carried.
+void runRandomWorld(std::uint64_t seed, test::TriggerTally& sum) {
+  test::Random random(seed);
+  BothTriggers both(test::randomTolerance(random), 0);
+  constexpr std::int64_t kUntilUs = 300'000;
+  std::vector<test::Walker> walkers;
+  for (int i = 0; i < 2; ++i)
+    walkers.push_back(test::randomWalker(random, random.inBox(0.3), 0.05));
+  for (test::Walker& walker : walkers) both.both.add(walker.avatar);
+  TriggerOptions options;
+  options.byLink = random.chance(0.5);
+  const TriggerId box = both.add(test::plainBox(Vector3d(0.3, 0.4, 0.2)), options);
+  const TriggerId globe = both.add(test::plainGlobe(random.uniform(0.1, 0.6), 6, 8), options);
+  const TriggerId ball = both.add(test::plainSphere(random.uniform(0.05, 0.4)), options);
+  both.stand(box, {random.rotation(), random.inBox(0.3)});
+  for (std::size_t i = 0; i < walkers.size(); ++i) {
+    test::walk(both.both, static_cast<BodyId>(i), walkers[i], test::randomPeriod(random), kUntilUs,
+               random);
+  }
+  test::fly(both.both, both.body(globe), random.inBox(0.3), test::randomPeriod(random), kUntilUs,
+            random);
+  test::fly(both.both, both.body(ball), random.inBox(0.3), test::randomPeriod(random), kUntilUs,
+            random);
+  for (const std::int64_t us : {70'000, 100'000, 155'555, 300'000}) both.follow(us);
+  both.judge(150);
+  sum.samples += both.tally.samples;
+  sum.inside += both.tally.inside;
+  sum.whollyInside += both.tally.whollyInside;
+  sum.unresolved += both.tally.unresolved;
+  sum.decided += both.tally.decided;
+  for (std::size_t k = 0; k < kNumEventKinds; ++k) sum.kinds[k] += both.tally.kinds[k];
+  for (const std::string& problem : both.tally.problems) {
+    ADD_FAILURE() << "seed " << seed << ": " << problem;
+  }
+}
+
+TEST(TriggerOracle, NobodyInsideIsMissedAndNobodyOutsideIsTold) {
+  test::TriggerTally sum;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) runRandomWorld(seed, sum);
+  std::cout << sum.samples << " samples, " << sum.inside << " told inside, " << sum.whollyInside
+            << " wholly, " << sum.unresolved << " unresolved, " << sum.decided << " decided\n";
+  EXPECT_GT(sum.inside, 1000u);
+  EXPECT_GT(sum.whollyInside, 100u);
+  EXPECT_LT(sum.inside, sum.samples / 2);
+  EXPECT_GT(sum.kinds[slotOf(EventKind::Enter)], 50u);
+  EXPECT_GT(sum.kinds[slotOf(EventKind::Leave)], 50u);
+  EXPECT_GT(sum.kinds[slotOf(EventKind::StartsInside)], 20u);
+  EXPECT_EQ(sum.unresolved, 0u);
+}
+
+}  // namespace
+}  // namespace foretouch
