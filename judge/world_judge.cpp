@@ -156,6 +156,51 @@ Real OracleWorld::separationAt(int a, int linkOfA, int b, int linkOfB, std::int6
                     linkOfB);
 }
 
+std::vector<Real> OracleWorld::separationsAt(int a, int b, std::int64_t fromUs, Real us,
+                                             bool isFromLeft, Real beyond) const {
+  const Moving atA = movingAt(a, fromUs, us, isFromLeft);
+  const Moving atB = a == b ? atA : movingAt(b, fromUs, us, isFromLeft);
+  const std::size_t linksOfA = body(a).parents.size(), linksOfB = body(b).parents.size();
+  std::vector<Real> separations(linksOfA * linksOfB, kForever);
+  for (std::size_t i = 0; i < linksOfA; ++i) {
+    const Ball ofOne = ballOf(a, static_cast<int>(i));
+    for (std::size_t j = 0; j < linksOfB && ofOne.radius >= 0; ++j) {
+      const Ball ofOther = ballOf(b, static_cast<int>(j));
+      if (ofOther.radius < 0 || (a == b && i >= j)) continue;
+      ++pairInstants;
+      const Real apart = norm(atA.frames[i].at(ofOne.middle) - atB.frames[j].at(ofOther.middle)) -
+                         ofOne.radius - ofOther.radius;
+      Real& least = separations[i * linksOfB + j];
+      // A nanometre is far more than long doubles round by here.
+      least = apart > beyond + kTouch
+                  ? apart
+                  : separation(a, atA, static_cast<int>(i), b, atB, static_cast<int>(j));
+    }
+  }
+  return separations;
+}
+
+/// Holds all parts of the link; a radius below zero if it has none.
+OracleWorld::Ball OracleWorld::ballOf(int id, int link) const {
+  Ball ball;
+  int count = 0;
+  for (const OraclePart& part : body(id).parts) {
+    if (part.link != link) continue;
+    for (const Vec3d& corner : part.corners) ball.middle = ball.middle + corner.as<Real>();
+    count += static_cast<int>(part.corners.size());
+  }
+  if (count == 0) return ball;
+  ball.middle = Real(1) / static_cast<Real>(count) * ball.middle;
+  for (const OraclePart& part : body(id).parts) {
+    if (part.link != link) continue;
+    for (const Vec3d& corner : part.corners) {
+      ball.radius = std::max(
+          ball.radius, norm(corner.as<Real>() - ball.middle) + static_cast<Real>(part.radius));
+    }
+  }
+  return ball;
+}
+
 OracleTouch OracleWorld::firstTouch(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
                                     std::int64_t toUs) const {
   const Real end = static_cast<Real>(toUs - fromUs);

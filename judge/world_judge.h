@@ -56,6 +56,11 @@ class OracleWorld {
   /// Of two links at `us` after `fromUs`; from the left, where a body changes its carrier there.
   [[nodiscard]] Real separationAt(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
                                   Real us) const;
+  /// Of all links of a and of b, row after row, likewise; of those that are proven farther apart
+  /// than `beyond` (m), at least that. Links without parts are infinitely far apart. `isFromLeft`:
+  /// where a body changes its carrier then.
+  [[nodiscard]] std::vector<Real> separationsAt(int a, int b, std::int64_t fromUs, Real us,
+                                                bool isFromLeft, Real beyond) const;
   /// The first instant, of a window in which both are there, at which two links are within kTouch.
   [[nodiscard]] OracleTouch firstTouch(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
                                        std::int64_t toUs) const;
@@ -72,6 +77,11 @@ class OracleWorld {
   struct Speed {
     Real ofOrigin = 0, ofTurn = 0;
   };
+  /// Around all parts of a link, in its frame.
+  struct Ball {
+    Vec3<Real> middle;
+    Real radius = -1;
+  };
   struct Moving {
     std::vector<MovingFrame<Real>> frames;  // of all links, in W
     std::vector<Speed> speeds;              // likewise
@@ -83,6 +93,7 @@ class OracleWorld {
                                 int linkOfB) const;
   [[nodiscard]] Real speedOf(int body, const Moving& moving, int link) const;
   [[nodiscard]] Real reachOf(int body, int link) const;
+  [[nodiscard]] Ball ballOf(int body, int link) const;
   [[nodiscard]] const OracleBody& body(int id) const {
     return bodies[static_cast<std::size_t>(id)];
   }

@@ -106,6 +106,10 @@ Result<AvatarMass> AvatarMass::build(const Skeleton& skeleton, std::vector<Mass>
   return AvatarMass(std::move(parts));
 }
 
+std::int32_t AvatarMass::numLinks() const {
+  return static_cast<std::int32_t>(parts_->masses.size());
+}
+
 void AvatarMass::place(const std::vector<LinkState>& states) {
   Parts& p = *parts_;
   p.origin = states.front().p_WL;

@@ -3,6 +3,7 @@
 // newton seconds, in W.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -34,6 +35,7 @@ class AvatarMass {
   AvatarMass& operator=(AvatarMass&&) noexcept;
   ~AvatarMass();
 
+  [[nodiscard]] std::int32_t numLinks() const;
   /// Where the links are: as ChainMotion::statesAt() gives them. O(joints), nothing allocated.
   void place(const std::vector<LinkState>& states);
 

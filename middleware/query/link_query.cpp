@@ -20,15 +20,6 @@ using Eigen::Vector3d;
 /// Thousands of roundings of what doubles compute.
 constexpr double kSlackOfRounding = 1e-12;
 
-/// Scene to link. If part and triangle meet, their difference has no direction: then the normal of
-/// the features; zero if these have none either.
-Vector3d contactNormal(const Separation& axes) {
-  if (axes.nhat.squaredNorm() > 0.5) return axes.nhat.normalized();
-  if (axes.distance > 0.0) return axes.difference.stableNormalized();
-  if (axes.featureNormal.stableNorm() > 0.0) return axes.featureNormal.stableNormalized();
-  return Vector3d::Zero();
-}
-
 std::array<double, 7> orderKey(const LinkContact& c) {
   return {c.separation - c.penetration,
           c.p_WScene.x(),
@@ -40,6 +31,13 @@ std::array<double, 7> orderKey(const LinkContact& c) {
 }
 
 }  // namespace
+
+Vector3d contactNormal(const Separation& axes) {
+  if (axes.nhat.squaredNorm() > 0.5) return axes.nhat.normalized();
+  if (axes.distance > 0.0) return axes.difference.stableNormalized();
+  if (axes.featureNormal.stableNorm() > 0.0) return axes.featureNormal.stableNormalized();
+  return Vector3d::Zero();
+}
 
 void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links) {
   links.clear();  // so that no old answer survives if there is no room for a new one

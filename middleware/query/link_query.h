@@ -173,6 +173,10 @@ class StateCache {
 /// the coordinates.
 [[nodiscard]] double reachOf(const LinkContact& contact);
 
+/// Scene to link. If part and triangle meet, their difference has no direction: then the normal of
+/// the features; zero if these have none either.
+[[nodiscard]] Eigen::Vector3d contactNormal(const Separation& axes);
+
 /// The report of a pair that is in contact at `t`.
 [[nodiscard]] PairContact contactOf(const LinkQuery& query, const Candidate& candidate,
                                     const MovingPair& pair, double t);

@@ -284,6 +284,8 @@ Error windowError(ErrorCode code, std::int64_t fromUs, std::int64_t toUs, const 
       "the window from " + std::to_string(fromUs) + " to " + std::to_string(toUs) + " us " + what);
 }
 
+}  // namespace
+
 Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t toUs) {
   if (fromUs >= toUs || fromUs < -kMostUtimeUs || toUs > kMostUtimeUs) {
     return windowError(ErrorCode::OutOfRange, fromUs, toUs,
@@ -305,8 +307,6 @@ Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t
                      "ends after what is known, until " + std::to_string(*known) + " us" +
                          (slowest ? ", of body " + std::to_string(*slowest) : std::string()));
 }
-
-}  // namespace
 
 Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs,
                        WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer) {

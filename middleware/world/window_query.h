@@ -50,6 +50,9 @@ struct WorldScratchParts {
   std::vector<ContactPlace> places;
 };
 
+/// The window can be asked about. Errors: as worldContacts().
+Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t toUs);
+
 /// As worldContacts(). `threads`: null, or those that share the work; the answer is the same.
 /// Errors besides: on several threads, memory ran out (DeviceFailed).
 Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs,

@@ -106,7 +106,6 @@ bool BothWorlds::hasParts(BodyId body, LinkId link) const {
                      [link](const OraclePart& part) { return part.link == link; });
 }
 
-/// One carries the other at some time.
 bool BothWorlds::areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const {
   const auto hangsOn = [this](BodyId carried, LinkId link, BodyId carrier, LinkId holding) {
     const OracleBody& body = oracle.bodies[slotOf(carried)];

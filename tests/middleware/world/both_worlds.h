@@ -45,6 +45,9 @@ class BothWorlds {
   /// The same for every two bodies, and for own links where a body asks for these.
   void judgeAll(std::int64_t fromUs, std::int64_t toUs);
 
+  /// One carries the other at some time.
+  [[nodiscard]] bool areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const;
+
   World world;
   OracleWorld oracle;
   WorldScratch scratch;
@@ -60,7 +63,6 @@ class BothWorlds {
   void judgeLinks(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB, std::int64_t fromUs,
                   const OracleTouch& truth);
   [[nodiscard]] bool hasParts(BodyId body, LinkId link) const;
-  [[nodiscard]] bool areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const;
   [[nodiscard]] std::string problemOf(const WorldContact& contact, const OracleTouch& truth,
                                       std::int64_t fromUs) const;
   OracleEpisode& episode(BodyId body, std::int64_t utimeUs);

@@ -1,0 +1,146 @@
+#include "middleware/events/interval_tracer.h"
+
+#include <algorithm>
+
+#include "lss/rounding.h"
+#include "middleware/events/contact_hold.h"
+#include "middleware/query/link_query.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Of the tolerance: a contact goes on until the two are farther apart than the first, and is
+/// proven to stay within the second; the rest of twice the tolerance is for the rounding of
+/// instants (events.md 1).
+constexpr double kLeaveShare = 1.5, kLimitShare = 2.0 - 0x1p-6;
+
+/// A search through more pairs at once is cut in halves of time.
+constexpr std::size_t kMostPairs = 192;
+constexpr double kLeastPiece = 0x1p-10;
+
+}  // namespace
+
+IntervalTolerance IntervalTolerance::of(double tolerance, double off) {
+  return {tolerance - off, kLeaveShare * tolerance, kLimitShare * tolerance - off,
+          kFloorShare * tolerance};
+}
+
+void IntervalTracer::trace(MovingSides& sides, const IntervalTolerance& tolerance, double from,
+                           TraceStart start, std::vector<StepPart>& parts,
+                           EventCounters& counters) {
+  sides_ = &sides;
+  tolerance_ = tolerance;
+  last_ = {};
+  double t = from;
+  bool isContact = start == TraceStart::Contact;
+  if (!isContact) {
+    // Most often the begin is where a contact was found.
+    ++counters.freeLooks;
+    isContact = holdAt(t, tolerance_.enter).isContact;
+  }
+  for (;;) {
+    if (!isContact) {
+      const Search search = searchContact(t, counters);
+      if (search.found == Found::Nothing) return;
+      if (search.found == Found::Unresolved) {
+        parts.push_back({PartKind::Unresolved, search.t, 1.0, true});
+        return;
+      }
+      t = search.t;
+    }
+    const double begin = t;
+    const bool isKnown = followContact(t, counters);
+    parts.push_back({PartKind::Contact, begin, t, isKnown && t >= 1.0});
+    if (!isKnown) {
+      parts.push_back({PartKind::Unresolved, t, 1.0, true});
+      return;
+    }
+    if (t >= 1.0) return;
+    isContact = false;
+  }
+}
+
+bool IntervalTracer::tryHold(const SidesPair& pair, double t, double within, Hold& best) {
+  const MovingPair now = sides_->at(pair, t);
+  if (now.gapUpper > within) return false;
+  best.isContact = true;
+  const double rest = 1.0 - t;
+  double step = staysWithin(now, tolerance_.limit, rest);
+  if (step < rest) step = std::max(step, staysPierced(now, rest));
+  if (step > best.step || last_.lss < 0) {
+    best.step = std::max(best.step, step);
+    last_ = pair;
+  }
+  return true;
+}
+
+/// The longest proof of all pairs, unless one that served before is enough.
+IntervalTracer::Hold IntervalTracer::holdAt(double t, double within) {
+  Hold best;
+  if (last_.lss >= 0 && tryHold(last_, t, within, best) && best.step >= 1.0 - t) return best;
+  const SidesPair tried = last_;
+  sides_->collect(t, t, within, near_);
+  for (const SidesPair& pair : near_) {
+    if (pair == tried) continue;
+    (void)tryHold(pair, t, within, best);
+    if (best.step >= 1.0 - t) break;
+  }
+  return best;
+}
+
+bool IntervalTracer::followContact(double& t, EventCounters& counters) {
+  while (t < 1.0) {
+    ++counters.contactLooks;
+    const Hold hold = holdAt(t, tolerance_.leave);
+    if (!hold.isContact) return true;
+    const double next = timeAfter(t, hold.step, 1.0);
+    if (!(next > t)) return false;
+    t = next;
+  }
+  return true;
+}
+
+IntervalTracer::Search IntervalTracer::searchContact(double from, EventCounters& counters) {
+  double begin = from, end = 1.0;
+  while (begin < 1.0) {
+    sides_->collect(begin, end, tolerance_.enter, near_);
+    if (near_.size() > kMostPairs && end - begin > kLeastPiece) {
+      end = 0.5 * (begin + end);
+      continue;
+    }
+    const Search search = searchPiece(begin, end, counters);
+    if (search.found != Found::Nothing) return search;
+    const double span = end - begin;
+    begin = end;
+    end = std::min(1.0, begin + span);
+  }
+  return {};
+}
+
+/// Among the pairs of near_: all others stay farther than `enter` apart in the piece.
+IntervalTracer::Search IntervalTracer::searchPiece(double from, double to,
+                                                   EventCounters& counters) {
+  const auto isLater = [](const Candidate& x, const Candidate& y) {
+    return x.freeUntil > y.freeUntil;
+  };
+  heap_.clear();
+  for (const SidesPair& pair : near_) heap_.push_back({from, pair});
+  double looked = -1.0;
+  while (!heap_.empty()) {
+    std::pop_heap(heap_.begin(), heap_.end(), isLater);
+    Candidate& candidate = heap_.back();
+    const double t = candidate.freeUntil;
+    if (t >= to) return {};
+    counters.freeLooks += t != looked ? 1 : 0;
+    looked = t;
+    const MovingPair pair = sides_->at(candidate.pair, t);
+    if (pair.gapUpper <= tolerance_.enter) return {Found::Contact, t};
+    const double next = timeAfter(t, pair.stepFrom(tolerance_.floor), to);
+    if (!(next > t)) return {Found::Unresolved, t};
+    candidate.freeUntil = next;
+    std::push_heap(heap_.begin(), heap_.end(), isLater);
+  }
+  return {};
+}
+
+}  // namespace foretouch::internal

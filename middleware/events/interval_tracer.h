@@ -1,0 +1,79 @@
+// middleware/events/interval_tracer.h: cuts a step into the parts in which two sides are free, in
+// contact, or unresolved. Proof: events.md 1. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "middleware/events/moving_sides.h"
+#include "middleware/events/world_event.h"
+
+namespace foretouch::internal {
+
+/// What is known of the two where tracing begins.
+enum class TraceStart : std::uint8_t {
+  Free,     ///< They were free before.
+  Contact,  ///< They were in contact before.
+  Unknown,  ///< Nothing.
+};
+
+/// A part of a step in which the two are not free.
+struct StepPart {
+  PartKind kind = PartKind::Contact;
+  double from = 0.0, to = 1.0;
+  bool goesOn =
+      false;  ///< To the step's end; else they are free, or it is known again, from `to` on.
+};
+
+/// The distances that decide (m). What the motion is off by is taken off (world.md 2).
+struct IntervalTolerance {
+  double enter, leave, limit, floor;
+
+  /// `off`: no point is farther from its true place.
+  [[nodiscard]] static IntervalTolerance of(double tolerance, double off);
+};
+
+/// For one thread; keeps its memory.
+class IntervalTracer {
+ public:
+  /// Appends the parts of [from, 1] in which the two are not free, in order.
+  /// - Contact: they stay within `limit`, and are within `enter` at its begin, unless that is
+  ///   `from` and they were in contact before.
+  /// - Unresolved: doubles cannot tell; goes on to the step's end.
+  /// - Elsewhere they stay `floor` apart.
+  void trace(MovingSides& sides, const IntervalTolerance& tolerance, double from, TraceStart start,
+             std::vector<StepPart>& parts, EventCounters& counters);
+
+ private:
+  /// Where a search ends.
+  enum class Found : std::uint8_t { Nothing, Contact, Unresolved };
+  struct Search {
+    Found found = Found::Nothing;
+    double t = 1.0;
+  };
+  /// What holds the two together at an instant.
+  struct Hold {
+    bool isContact = false;  // they are within what was asked
+    double step = 0.0;       // for how long they are proven to stay within the limit
+  };
+
+  [[nodiscard]] Hold holdAt(double t, double within);
+  [[nodiscard]] bool tryHold(const SidesPair& pair, double t, double within, Hold& best);
+  /// From an instant of contact to where it ends; false: it cannot be told from there on.
+  [[nodiscard]] bool followContact(double& t, EventCounters& counters);
+  [[nodiscard]] Search searchContact(double from, EventCounters& counters);
+  [[nodiscard]] Search searchPiece(double from, double to, EventCounters& counters);
+
+  MovingSides* sides_ = nullptr;
+  IntervalTolerance tolerance_{};
+  SidesPair last_;  // that held longest
+  std::vector<SidesPair> near_;
+  struct Candidate {
+    double freeUntil;
+    SidesPair pair;
+  };
+  std::vector<Candidate> heap_;
+};
+
+}  // namespace foretouch::internal

@@ -1,0 +1,124 @@
+#include "middleware/events/moving_sides.h"
+
+#include <algorithm>
+
+#include "lss/assert.h"
+#include "lss/index.h"
+#include "middleware/scene/culler.h"
+#include "middleware/scene/scene_parts.h"
+
+namespace foretouch::internal {
+
+void MovingSides::begin(MotionEvaluator& evaluator, LinkId frame) {
+  evaluator_ = &evaluator;
+  frame_ = frame;
+  self_ = nullptr;
+  scene_ = nullptr;
+  states_.t = std::numeric_limits<double>::quiet_NaN();
+}
+
+void MovingSides::setSide(LinkSide& side, LinkId link, const std::vector<Lss>& lss) {
+  side.link = link;
+  side.lss = &lss;
+  side.first = 0;
+  const MotionBounds bounds = evaluator_->motion().sumsIn(frame_, link).bounds();
+  side.bounds.clear();
+  for (const Lss& one : lss) side.bounds.push_back(axisBounds(one, bounds));
+  states_.t = std::numeric_limits<double>::quiet_NaN();
+}
+
+void MovingSides::setLink(LinkId link, const std::vector<Lss>& lss) {
+  setSide(one_, link, lss);
+}
+
+void MovingSides::setOther(LinkId link, const std::vector<Lss>& lss) {
+  setSide(other_, link, lss);
+  scene_ = nullptr;
+}
+
+void MovingSides::setShares(const SelfPlan* self, std::int32_t first, std::int32_t firstOfOther) {
+  self_ = self;
+  one_.first = first;
+  other_.first = firstOfOther;
+}
+
+void MovingSides::setScene(const Scene& scene, ObjectId object) {
+  scene_ = &scene;
+  object_ = object;
+  other_.link = kNoParent;
+}
+
+const MovingSides::States& MovingSides::statesAt(double t) {
+  if (t == states_.t) return states_;
+  states_.one = evaluator_->stateIn(frame_, one_.link, t);
+  if (scene_ == nullptr) states_.other = evaluator_->stateIn(frame_, other_.link, t);
+  states_.t = t;
+  return states_;
+}
+
+MovingPair MovingSides::at(const SidesPair& pair, double t) {
+  ++looks;
+  const States& now = statesAt(t);
+  const auto sideOf = [](const LinkSide& side, std::int32_t lss, const LinkState& state) {
+    return MovingHull::of((*side.lss)[slotOf(lss)], side.bounds[slotOf(lss)], state);
+  };
+  MovingHull one = sideOf(one_, pair.lss, now.one);
+  if (scene_ != nullptr) {
+    return movingPair(one, MovingHull::still(scene_->triangle(pair.other)));
+  }
+  MovingHull other = sideOf(other_, pair.other, now.other);
+  if (self_ != nullptr) {
+    const std::int32_t i = one_.first + pair.lss, j = other_.first + pair.other;
+    const double share = self_->radiusShare(std::min(i, j), std::max(i, j));
+    one.radius *= share;
+    other.radius *= share;
+  }
+  return movingPair(one, other);
+}
+
+void MovingSides::collect(double from, double to, double reach, std::vector<SidesPair>& pairs) {
+  FORETOUCH_ASSERT(from <= to);
+  pairs.clear();
+  const States end = statesAt(to);
+  const States begin = statesAt(from);
+  if (scene_ != nullptr) {
+    collectScene(begin, end, reach, pairs);
+  } else {
+    collectLinks(begin, end, reach, pairs);
+  }
+}
+
+Aabb MovingSides::sweptBoxOf(const LinkSide& side, std::size_t i, const LinkState& begin,
+                             const LinkState& end, double span, double reach) {
+  const Lss& lss = (*side.lss)[i];
+  return sweptBox(lss, side.bounds[i], axisEnds(lss, begin), axisEnds(lss, end), span, reach);
+}
+
+void MovingSides::collectLinks(const States& begin, const States& end, double reach,
+                               std::vector<SidesPair>& pairs) const {
+  const double span = end.t - begin.t;
+  for (std::size_t i = 0; i < one_.bounds.size(); ++i) {
+    const Aabb box = sweptBoxOf(one_, i, begin.one, end.one, span, reach);
+    for (std::size_t j = 0; j < other_.bounds.size(); ++j) {
+      if (!box.overlaps(sweptBoxOf(other_, j, begin.other, end.other, span, 0.0))) continue;
+      pairs.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+    }
+  }
+}
+
+void MovingSides::collectScene(const States& begin, const States& end, double reach,
+                               std::vector<SidesPair>& pairs) {
+  for (std::size_t i = 0; i < one_.bounds.size(); ++i) {
+    const Aabb box = sweptBoxOf(one_, i, begin.one, end.one, end.t - begin.t, reach);
+    found_.clear();
+    std::uint64_t visited = 0;
+    scene_->parts().bvh.collect(box, found_, visited);
+    for (const TriangleId id : found_) {
+      if (object_ != kNoObject && scene_->object(id) != object_) continue;
+      if (!box.overlaps(boxOf(scene_->triangle(id)))) continue;
+      pairs.push_back({static_cast<std::int32_t>(i), id});
+    }
+  }
+}
+
+}  // namespace foretouch::internal

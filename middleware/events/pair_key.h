@@ -1,0 +1,35 @@
+// middleware/events/pair_key.h: which two an event, a contact or an open part is about. Not
+// installed.
+#pragma once
+
+#include <tuple>
+
+#include "middleware/events/world_event.h"
+
+namespace foretouch::internal {
+
+struct PairKey {
+  BodyId bodyOfA = 0;
+  LinkId linkOfA = 0;
+  BodyId bodyOfB = 0;
+  LinkId linkOfB = 0;
+  ObjectId object = -1;
+
+  [[nodiscard]] auto tied() const { return std::tie(bodyOfA, linkOfA, bodyOfB, linkOfB, object); }
+  /// Without the object.
+  [[nodiscard]] auto links() const { return std::tie(bodyOfA, linkOfA, bodyOfB, linkOfB); }
+};
+[[nodiscard]] inline bool operator<(const PairKey& x, const PairKey& y) {
+  return x.tied() < y.tied();
+}
+[[nodiscard]] inline bool operator==(const PairKey& x, const PairKey& y) {
+  return x.tied() == y.tied();
+}
+
+/// Of whatever has two sides.
+template <typename TwoSided>
+[[nodiscard]] PairKey keyOf(const TwoSided& of, ObjectId object) {
+  return {of.a.body, of.a.link, of.b.body, of.b.link, object};
+}
+
+}  // namespace foretouch::internal

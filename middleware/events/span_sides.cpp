@@ -1,0 +1,114 @@
+#include "middleware/events/span_sides.h"
+
+#include <algorithm>
+
+#include "articulated/try.h"
+#include "lss/index.h"
+
+namespace foretouch::internal {
+
+SystemQuestion SpanSides::questionOf(const BodyPair& bodies) const {
+  if (bodies.b == kStillScene) return SystemQuestion::Still;
+  if (bodies.b == bodies.a) return SystemQuestion::Self;
+  const bool areAvatars = world_.kindOf(bodies.a).avatar && world_.kindOf(bodies.b).avatar;
+  return areAvatars ? SystemQuestion::Pair : SystemQuestion::Mesh;
+}
+
+bool SpanSides::begin(const BodyPair& bodies, std::int64_t fromUs, std::int64_t toUs) {
+  question_ = questionOf(bodies);
+  one_ = bodies.a;
+  other_ = question_ == SystemQuestion::Self ? kStillScene : bodies.b;
+  // A mesh is what the other one is seen from.
+  isTurned_ = question_ == SystemQuestion::Mesh && !world_.kindOf(bodies.a).avatar;
+  if (isTurned_) std::swap(one_, other_);
+  scratch_.spans.begin(world_, one_, other_, fromUs, toUs);
+  switch (question_) {
+    case SystemQuestion::Still: return world_.isStillAsked(one_);
+    case SystemQuestion::Self: return world_.body(one_).ownRules >= 0;
+    default: return world_.isAsked(bodies.a, bodies.b);
+  }
+}
+
+Result<const SystemPlan*> SpanSides::prepare() {
+  FORETOUCH_TRY(plan_, query_.prepare(question_, one_, other_));
+  if (plan_ == nullptr) return plan_;
+  evaluator_.reset(scratch_.motion);
+  if (plan_->chain) {
+    scratch_.ofSystem.assign(plan_->skeleton, scratch_.poses.from, scratch_.poses.to);
+    ofSystem_.reset(scratch_.ofSystem);
+  }
+  return plan_;
+}
+
+LinkId SpanSides::inSystem(BodyId body, LinkId link) const {
+  return plan_->first[slotOf(scratch_.spans.placeOf(body))] + link;
+}
+
+const std::vector<Lss>& SpanSides::lssOf(BodyId body, LinkId link) const {
+  return world_.kindOf(body).volumes[slotOf(link)];
+}
+
+bool SpanSides::set(const LinkPair& links, MovingSides& sides) {
+  const LinkId one = isTurned_ ? links.b : links.a, other = isTurned_ ? links.a : links.b;
+  if (lssOf(one_, one).empty()) return false;
+  switch (question_) {
+    case SystemQuestion::Still:
+      frame_ = kNoParent;
+      sides.begin(evaluator_, frame_);
+      sides.setLink(inSystem(one_, one), lssOf(one_, one));
+      sides.setScene(*world_.still, kNoObject);
+      return true;
+    case SystemQuestion::Mesh: return setMesh(one, sides);
+    default: return setPair(one, other, sides);
+  }
+}
+
+bool SpanSides::setPair(LinkId one, LinkId other, MovingSides& sides) {
+  const BodyId ofOther = other_ == kStillScene ? one_ : other_;
+  const LinkId a = inSystem(one_, one), b = inSystem(ofOther, other);
+  const QueryPlan& plan = *plan_->plan;
+  const SelfPlan& self = plan.self;
+  if (lssOf(ofOther, other).empty()) return false;
+  const std::int32_t firstOfA = plan.table.first(a), firstOfB = plan.table.first(b);
+  if (!self.asked().has(std::min(firstOfA, firstOfB), std::max(firstOfA, firstOfB))) return false;
+  frame_ = self.frames()[slotOf(self.frameOf(std::min(a, b), std::max(a, b)))];
+  sides.begin(evaluator_, frame_);
+  sides.setLink(a, lssOf(one_, one));
+  sides.setOther(b, lssOf(ofOther, other));
+  sides.setShares(&self, firstOfA, firstOfB);
+  return true;
+}
+
+bool SpanSides::setMesh(LinkId link, MovingSides& sides) {
+  const LinkId seen = plan_->chain->linkOf(inSystem(one_, link));
+  const QueryPlan& plan = plan_->query->plan();
+  if (plan.avatar.lss(seen).empty()) return false;  // it carries the mesh, or is carried by it
+  frame_ = kNoParent;
+  sides.begin(evaluator_, frame_);
+  sides.setLink(seen, lssOf(one_, link));
+  sides.setScene(*world_.kindOf(other_).mesh, kNoObject);
+  return true;
+}
+
+LinkState SpanSides::frameAt(double t) {
+  if (plan_->chain) return stateOf(other_, 0, t);
+  if (frame_ == kNoParent) return {};
+  return evaluator_.stateAt(frame_, t);
+}
+
+LinkState SpanSides::stateOf(BodyId body, LinkId link, double t) {
+  return inWorld().stateAt(inSystem(body, link), t);
+}
+
+MotionBounds SpanSides::boundsOf(BodyId body, LinkId link) const {
+  const ChainMotion& motion = plan_->chain ? scratch_.ofSystem : scratch_.motion;
+  return motion.bounds(inSystem(body, link));
+}
+
+void SpanSides::statesOf(BodyId body, double t, std::vector<LinkState>& states) {
+  inWorld().statesAt(t, states_);
+  const auto first = states_.begin() + inSystem(body, 0);
+  states.assign(first, first + world_.kindOf(body).skeleton.numJoints());
+}
+
+}  // namespace foretouch::internal

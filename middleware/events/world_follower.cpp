@@ -1,0 +1,391 @@
+#include "middleware/events/world_follower.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "articulated/try.h"
+#include "lss/index.h"
+#include "middleware/events/bodies_tracer.h"
+#include "middleware/events/open_parts.h"
+#include "middleware/query/query_pool.h"
+#include "middleware/query/worker_threads.h"
+#include "middleware/world/window_query.h"
+
+namespace foretouch {
+
+using internal::BodiesTracer;
+using internal::BodyMasses;
+using internal::OpenParts;
+using internal::PairKey;
+using internal::TracedBodies;
+using internal::TracedPair;
+using internal::TraceWindow;
+using internal::WorldParts;
+
+namespace {
+
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+/// The first pose of any body, or change of who carries one, after the instant.
+std::int64_t nextCutUs(const WorldParts& world, std::int64_t afterUs) {
+  std::int64_t next = kNever;
+  for (const internal::WorldBody& body : world.bodies) {
+    next = std::min(next, body.nextEpisodeUs(afterUs));
+    const internal::Episode* const episode = body.episodeAt(afterUs);
+    if (episode != nullptr) next = std::min(next, episode->track.nextKnotUs(afterUs));
+  }
+  return next;
+}
+
+/// The multiple of `step` at or before the instant.
+std::int64_t multipleBefore(std::int64_t us, std::int64_t step) {
+  const std::int64_t rest = us % step;
+  return us - (rest < 0 ? rest + step : rest);
+}
+
+void add(const WorldCounters& more, WorldCounters& sum) {
+  sum.bodies += more.bodies;
+  sum.pairs += more.pairs;
+  sum.nearPairs += more.nearPairs;
+  sum.spans += more.spans;
+  internal::addCounters(more.queries, sum.queries);
+}
+
+void add(const EventCounters& more, EventCounters& sum) {
+  sum.windows += more.windows;
+  sum.contacts += more.contacts;
+  sum.contactLooks += more.contactLooks;
+  sum.freeLooks += more.freeLooks;
+  sum.pairs += more.pairs;
+}
+
+PairKey keyOf(const WorldContact& contact) {
+  return internal::keyOf(contact, internal::kNoObject);
+}
+
+bool isOfEveryLink(const PairKey& key) {
+  return key.linkOfA == kEveryLink || key.linkOfB == kEveryLink;
+}
+
+/// One thread's memory, and its part of a window's events.
+struct alignas(128) Worker {
+  BodiesTracer tracer;
+  std::vector<WorldEvent> events;
+  EventCounters counters;
+  std::optional<Error> failure;  // of the task with the least number
+  std::size_t failedTask = 0;
+};
+
+}  // namespace
+
+struct WorldFollower::Impl {
+  FollowOptions options;
+  std::optional<internal::WorkerThreads> threads;
+  std::int64_t startUs = 0, untilUs = 0;
+  std::uint64_t world = 0;  // that it follows; 0: none yet
+  BodyMasses masses;
+  internal::WorldScratchParts scratch;
+  WorldContacts contacts;
+  OpenParts open, openBefore;  // the latter: as it was before the call
+  TraceWindow window;
+  std::vector<TracedBodies> tasks;
+  std::vector<const WorldContact*> listed;  // by key
+  std::vector<BodyId> unknown;              // bodies that are silent and undecided, by number
+  std::vector<std::unique_ptr<Worker>> workers;
+  std::vector<WorldEvent> own;  // of bodies altogether
+  std::vector<const WorldEvent*> order;
+
+  [[nodiscard]] std::int64_t endOf(std::int64_t wantedUs) const {
+    return options.cutUs > 0 ? multipleBefore(wantedUs, options.cutUs) : wantedUs;
+  }
+  [[nodiscard]] std::int64_t nextUs(const WorldParts& parts, std::int64_t endUs) const {
+    const std::int64_t next = options.cutUs > 0
+                                  ? multipleBefore(untilUs, options.cutUs) + options.cutUs
+                                  : nextCutUs(parts, untilUs);
+    return std::min(next, endUs);
+  }
+
+  Result<Done> followTo(const World& of, std::int64_t endUs, WorldEvents& answer) {
+    open.beginTime(untilUs);
+    while (untilUs < endUs) {
+      const std::int64_t toUs = nextUs(of.parts(), endUs);
+      FORETOUCH_CHECK(
+          askWindow(of, untilUs, toUs, threads ? &*threads : nullptr, scratch, contacts));
+      add(contacts.counters, answer.world);
+      ++answer.counters.windows;
+      FORETOUCH_CHECK(traceWindow(of.parts(), toUs));
+      takeEvents(answer);
+      untilUs = toUs;
+    }
+    open.endTime(endUs, answer.parts);
+    // Where windows meet, what ends in the one may come after what begins in the other.
+    std::vector<WorldEvent>& events = answer.events;
+    if (!std::is_sorted(events.begin(), events.end(), comesBefore)) {
+      std::sort(events.begin(), events.end(), comesBefore);
+    }
+    return Done{};
+  }
+
+  Result<Done> traceWindow(const WorldParts& parts, std::int64_t toUs) {
+    window.fromUs = untilUs;
+    window.toUs = toUs;
+    window.isFirst = untilUs == startUs;
+    window.open = &open.all();
+    own.clear();
+    tellUnknown();
+    plan();
+    for (const auto& worker : workers) {
+      worker->events.clear();
+      worker->counters = {};
+      worker->failure.reset();
+    }
+    return traceAll(parts);
+  }
+
+  /// Bodies of which nothing is known, or is known again, and pairs that are given up.
+  void tellUnknown() {
+    window.returned.clear();
+    const auto isNow = [this](BodyId body) {
+      return std::any_of(contacts.silent.begin(), contacts.silent.end(), [&](const SilentBody& s) {
+        return s.body == body && s.takenTo == WhenSilent::Undecided && s.sinceUs == window.fromUs;
+      });
+    };
+    for (const BodyId body : unknown) {
+      if (isNow(body)) continue;
+      window.returned.push_back(body);
+    }
+    for (const OpenPart& part : open.all()) {
+      const PairKey key = internal::keyOf(part, part.object);
+      if (!isOfEveryLink(key)) continue;
+      const bool goesOn = key.bodyOfB == kEveryBody ? isNow(key.bodyOfA) : isGivenUp(key);
+      if (!goesOn)
+        tellOwn(EventKind::UnresolvedTo, key, {window.fromUs, 0.0}, part.since, part.reason);
+    }
+    unknown.clear();
+    for (const SilentBody& silent : contacts.silent) {
+      if (silent.takenTo != WhenSilent::Undecided) continue;
+      unknown.push_back(silent.body);
+      const PairKey key{silent.body, kEveryLink, kEveryBody, kEveryLink, internal::kNoObject};
+      tellNew(key, {silent.sinceUs, 0.0}, UndecidedReason::Gap);
+    }
+    for (const WorldContact& contact : contacts.contacts) {
+      const PairKey key = keyOf(contact);
+      if (isOfEveryLink(key)) tellNew(key, contact.time, contact.reason);
+    }
+  }
+
+  /// The window begins with what is unknown of the two.
+  [[nodiscard]] bool isGivenUp(const PairKey& key) const {
+    const WorldTime begin{window.fromUs, 0.0};
+    return std::any_of(contacts.contacts.begin(), contacts.contacts.end(),
+                       [&](const WorldContact& contact) {
+                         return keyOf(contact) == key && contact.time == begin;
+                       });
+  }
+
+  void tellNew(const PairKey& key, const WorldTime& time, UndecidedReason reason) {
+    const bool isKnown = open.has(key) && time == WorldTime{window.fromUs, 0.0};
+    if (!isKnown) tellOwn(EventKind::UnresolvedFrom, key, time, time, reason);
+  }
+
+  void tellOwn(EventKind kind, const PairKey& key, const WorldTime& time, const WorldTime& since,
+               UndecidedReason reason) {
+    WorldEvent event;
+    event.kind = kind;
+    event.reason = reason;
+    event.time = time;
+    event.since = since;
+    event.a.body = key.bodyOfA;
+    event.a.link = key.linkOfA;
+    event.b.body = key.bodyOfB;
+    event.b.link = key.linkOfB;
+    event.effectiveMass = std::numeric_limits<double>::infinity();
+    own.push_back(event);
+  }
+
+  /// Who is open or listed, by bodies and links.
+  void plan() {
+    listed.clear();
+    for (const WorldContact& contact : contacts.contacts) {
+      if (!isOfEveryLink(keyOf(contact))) listed.push_back(&contact);
+    }
+    std::sort(listed.begin(), listed.end(),
+              [](const WorldContact* x, const WorldContact* y) { return keyOf(*x) < keyOf(*y); });
+    window.pairs.clear();
+    tasks.clear();
+    const std::vector<OpenPart>& parts = open.all();
+    std::size_t nextOpen = 0, nextListed = 0;
+    const auto skip = [&] {
+      while (nextOpen < parts.size() &&
+             isOfEveryLink(internal::keyOf(parts[nextOpen], parts[nextOpen].object))) {
+        ++nextOpen;
+      }
+    };
+    for (skip(); nextOpen < parts.size() || nextListed < listed.size(); skip()) {
+      PairKey key{};
+      bool isListed = nextListed < listed.size();
+      if (isListed) key = keyOf(*listed[nextListed]);
+      if (nextOpen < parts.size()) {
+        const PairKey ofOpen = internal::keyOf(parts[nextOpen], parts[nextOpen].object);
+        if (!isListed || ofOpen.links() < key.links()) {
+          isListed = false;
+          key = ofOpen;
+        }
+      }
+      TracedPair pair{{key.linkOfA, key.linkOfB}, nextOpen, 0, isListed, {}};
+      if (isListed) pair.listed = listed[nextListed++]->time;
+      while (nextOpen < parts.size() &&
+             internal::keyOf(parts[nextOpen], parts[nextOpen].object).links() == key.links()) {
+        ++nextOpen;
+        ++pair.numOpen;
+      }
+      addPair({key.bodyOfA, key.bodyOfB}, pair);
+    }
+  }
+
+  void addPair(const internal::BodyPair& bodies, const TracedPair& pair) {
+    const bool isSame =
+        !tasks.empty() && tasks.back().bodies.a == bodies.a && tasks.back().bodies.b == bodies.b;
+    if (!isSame) tasks.push_back({bodies, window.pairs.size(), 0});
+    window.pairs.push_back(pair);
+    ++tasks.back().count;
+  }
+
+  Result<Done> traceAll(const WorldParts& parts) {
+    std::atomic<std::size_t> next{0};
+    const auto takePart = [&](std::size_t number) {
+      Worker& worker = *workers[number];
+      for (std::size_t i = next.fetch_add(1); i < tasks.size(); i = next.fetch_add(1)) {
+        attempt(parts, i, worker);
+      }
+    };
+    if (threads && tasks.size() > 1) {
+      threads->run(std::ref(takePart));
+    } else {
+      takePart(0);
+    }
+    const Worker* failed = nullptr;
+    for (const auto& worker : workers) {
+      if (!worker->failure) continue;
+      if (failed == nullptr || worker->failedTask < failed->failedTask) failed = worker.get();
+    }
+    if (failed != nullptr) return *failed->failure;
+    return Done{};
+  }
+
+  void attempt(const WorldParts& parts, std::size_t task, Worker& worker) {
+    std::optional<Error> failure;
+    try {
+      const Result<Done> done = worker.tracer.trace(parts, scratch.plans, masses, window,
+                                                    tasks[task], worker.events, worker.counters);
+      if (!done.ok()) failure = done.error();
+    } catch (const std::exception& broken) {
+      worker.tracer = BodiesTracer();  // may be half written
+      failure =
+          Error::in("window", ErrorCode::DeviceFailed, std::string("broken off: ") + broken.what());
+    }
+    if (!failure || (worker.failure && worker.failedTask < task)) return;
+    worker.failure = std::move(failure);
+    worker.failedTask = task;
+  }
+
+  void takeEvents(WorldEvents& answer) {
+    order.clear();
+    for (const WorldEvent& event : own) order.push_back(&event);
+    for (const auto& worker : workers) {
+      for (const WorldEvent& event : worker->events) order.push_back(&event);
+      add(worker->counters, answer.counters);
+    }
+    std::sort(order.begin(), order.end(),
+              [](const WorldEvent* x, const WorldEvent* y) { return comesBefore(*x, *y); });
+    for (const WorldEvent* const event : order) {
+      open.take(*event, answer.parts);
+      answer.events.push_back(*event);
+    }
+  }
+};
+
+WorldFollower::WorldFollower(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+WorldFollower::~WorldFollower() = default;
+WorldFollower::WorldFollower(WorldFollower&&) noexcept = default;
+WorldFollower& WorldFollower::operator=(WorldFollower&&) noexcept = default;
+
+Result<WorldFollower> WorldFollower::start(std::int64_t fromUs, const FollowOptions& options) {
+  if (fromUs < -kMostUtimeUs || fromUs > kMostUtimeUs) {
+    return Error::in("from", ErrorCode::OutOfRange,
+                     "expected an instant within 2^53 us of 0, found " + std::to_string(fromUs));
+  }
+  if (options.cutUs < 0 || options.cutUs > kMostCutUs) {
+    return Error::in("cutUs", ErrorCode::OutOfRange,
+                     "expected 0 to " + std::to_string(kMostCutUs) + " us, found " +
+                         std::to_string(options.cutUs));
+  }
+  auto impl = std::make_unique<Impl>();
+  impl->options = options;
+  impl->startUs = impl->untilUs = fromUs;
+  if (options.threads != 1) {
+    FORETOUCH_TRY(impl->threads, internal::WorkerThreads::start(options.threads, kMaxPoolThreads));
+  }
+  const std::size_t count = impl->threads ? impl->threads->count() : 1;
+  for (std::size_t i = 0; i < count; ++i) impl->workers.push_back(std::make_unique<Worker>());
+  return WorldFollower(std::move(impl));
+}
+
+Result<Done> WorldFollower::weigh(BodyId body, const Mass& mass) {
+  if (body < 0) return Error::at(body, ErrorCode::OutOfRange, "expected a body, found one below 0");
+  FORETOUCH_TRY(const Mass known, checkedMass(mass));
+  impl_->masses.set(body, known);
+  return Done{};
+}
+
+Result<Done> WorldFollower::weigh(BodyId body, AvatarMass mass) {
+  if (body < 0) return Error::at(body, ErrorCode::OutOfRange, "expected a body, found one below 0");
+  impl_->masses.set(body, std::move(mass));
+  return Done{};
+}
+
+Result<Done> WorldFollower::follow(const World& world, std::int64_t untilUs, WorldEvents& answer) {
+  Impl& impl = *impl_;
+  const WorldParts& parts = world.parts();
+  if (impl.world != 0 && impl.world != parts.identity) {
+    return Error::in("world", ErrorCode::Mismatch, "expected the world that it has followed");
+  }
+  FORETOUCH_CHECK(impl.masses.checked(parts));
+  const std::int64_t endUs = impl.endOf(untilUs), fromUs = impl.untilUs;
+  if (endUs > fromUs) FORETOUCH_CHECK(internal::checkedWindow(world, fromUs, endUs));
+  impl.world = parts.identity;
+  impl.openBefore = impl.open;
+  answer.fromUs = fromUs;
+  answer.toUs = std::max(fromUs, endUs);
+  answer.events.clear();
+  answer.parts.clear();
+  answer.silent.clear();
+  answer.world = {};
+  answer.counters = {};
+  if (endUs <= fromUs) return Done{};
+  Result<Done> done = impl.followTo(world, endUs, answer);
+  if (!done.ok()) {
+    impl.open = impl.openBefore;
+    impl.untilUs = answer.toUs = fromUs;
+    answer.events.clear();
+    answer.parts.clear();
+    return done;
+  }
+  answer.silent = impl.contacts.silent;
+  return done;
+}
+
+std::int64_t WorldFollower::followedUntilUs() const {
+  return impl_->untilUs;
+}
+
+const std::vector<OpenPart>& WorldFollower::open() const {
+  return impl_->open.all();
+}
+
+}  // namespace foretouch
