@@ -46,7 +46,9 @@ Reject WorldRoster::refuse(Reject reason) {
 
 Reject WorldRoster::take(const BodyMessage& message, std::int64_t receiveUtimeUs) {
   ++counts_.states;
-  const Reject reason = whyNot(message);
+  Reject reason = whyNot(message);
+  const std::int64_t latestUs = std::max(nowUs_, receiveUtimeUs) + policy_.aheadUs;
+  if (reason == Reject::None && message.sinceUs > latestUs) reason = Reject::FutureStamp;
   if (reason != Reject::None) return refuse(reason);
   received(receiveUtimeUs);
   auto [place, isNew] = bodies_.try_emplace(message.body);
@@ -119,13 +121,16 @@ void WorldRoster::change(LiveBody& body, const BodyMessage& message) {
                          change.carrier != body.state.carrier || change.link != body.state.link ||
                          change.movesInFrame != body.state.movesInFrame;
   body.state = change;
-  const bool isLate = answeredUs_ && change.sinceUs <= *answeredUs_;
+  // As early as anything can still take effect.
+  const std::int64_t floorUs =
+      std::max(nowUs_ - policy_.waitUs, answeredUs_ ? *answeredUs_ + 1 : 0);
+  const bool isLate = change.sinceUs < floorUs;
   // Where a body without a carrier was long ago says nothing of where it is.
   if (isLate && !isChanged) return;
   if (isLate) {
     ++counts_.lateChanges;
-    body.addUnknown(kEveryLink, UndecidedReason::Gap, change.sinceUs, *answeredUs_ + 1);
-    change.sinceUs = *answeredUs_ + 1;
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, change.sinceUs, floorUs);
+    change.sinceUs = floorUs;
   }
   if (!body.changes.empty()) {
     change.sinceUs = std::max(change.sinceUs, body.changes.back().sinceUs + 1);
