@@ -43,7 +43,10 @@ int main(int argc, char** argv) {
   const bool written = writeSeeds(corpus + "/skeleton_message", randomSkeletonMessage) &&
                        writeSeeds(corpus + "/pose_message", randomPoseMessage) &&
                        writeSeeds(corpus + "/contacts_message", randomContactsMessage) &&
-                       writeSeeds(corpus + "/status_message", randomStatusMessage);
+                       writeSeeds(corpus + "/status_message", randomStatusMessage) &&
+                       writeSeeds(corpus + "/body_message", randomBodyMessage) &&
+                       writeSeeds(corpus + "/rigid_pose_message", randomRigidPoseMessage) &&
+                       writeSeeds(corpus + "/events_message", randomEventsMessage);
   if (!written) std::fprintf(stderr, "write_message_seeds: cannot write below %s\n", argv[1]);
   return written ? 0 : 1;
 }

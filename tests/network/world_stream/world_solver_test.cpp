@@ -51,8 +51,8 @@ TEST(WorldSolver, TellsEnterAndLeaveOfTwoBallsThatPass) {
   EXPECT_EQ(events[0].event.b.body, 9);
   EXPECT_FALSE(events[0].event.isAssumed);
   // They touch while |x| <= 0.2, from tick 3 to tick 7; the tolerance is 1 mm at 10 m/s: 0.1 ms.
-  const auto us = [](const ToldEvent& told) {
-    return static_cast<double>(told.event.time.us) + told.event.time.fraction;
+  const auto us = [](const ToldEvent& event) {
+    return static_cast<double>(event.event.time.us) + event.event.time.fraction;
   };
   EXPECT_LE(us(events[0]), static_cast<double>(tick(3)));
   EXPECT_GE(us(events[0]), static_cast<double>(tick(3)) - 101.0);
@@ -82,9 +82,13 @@ TEST(WorldSolver, GoesOnWithoutOneSilentSenderAmongTen) {
       told.hear(solver);
     }
     const std::int64_t answered = solver.counts().answeredUntilUs;
-    if (n <= 10) EXPECT_GE(answered, n == 0 ? -1 : tick(n - 1));
+    if (n <= 10) {
+      EXPECT_GE(answered, n == 0 ? -1 : tick(n - 1));
+    }
     // Nobody is waited for longer than was asked for.
-    if (n > 16) EXPECT_GE(answered, tick(n - 6));
+    if (n > 16) {
+      EXPECT_GE(answered, tick(n - 6));
+    }
   }
   EXPECT_EQ(solver.counts().answeredUntilUs, tick(30));
   EXPECT_EQ(solver.counts().silences, 1U);
@@ -115,7 +119,9 @@ TEST(WorldSolver, WaitsForEverWhereSilenceMeansSo) {
   for (std::int64_t n = 1; n <= 2000; ++n) {
     const Reject reject = say(solver, rigidPoses(n, tick(n), {ballAt(1, {0.0, 1.0, 0.0})}, 1));
     taken += reject == Reject::None ? 1 : 0;
-    if (reject != Reject::None) ASSERT_EQ(reject, Reject::Overrun);
+    if (reject != Reject::None) {
+      ASSERT_EQ(reject, Reject::Overrun);
+    }
     told.hear(solver);
   }
   EXPECT_EQ(solver.counts().answeredUntilUs, tick(0));
