@@ -123,7 +123,8 @@ struct WorldSolver::Impl {
       roster.answered(std::nullopt);
     }
     const auto until = roster.watermark();
-    if (until && !world) begin(firstUs(), true);
+    // Not before all who begin together have said where they do.
+    if (until && !world && *until > firstUs()) begin(firstUs(), true);
     if (until && world && *until > fromUs) answerUntil(*until, answers, count);
     answers.resize(count);
   }
