@@ -153,7 +153,11 @@ void WorldRoster::keep(LiveBody& body, LiveKnot knot, bool isGap, std::int64_t r
   received(receiveUtimeUs);
   const bool isKnown = knot.pose.has_value();
   const std::int64_t saidUs = body.saidUntilUs();
-  if (saidUs >= 0 && (isGap || (answeredUs_ && saidUs < *answeredUs_))) {
+  // Who is silent for longer than anybody waits is so whether or not others went on meanwhile.
+  const bool wasSilent =
+      policy_.whenSilent != WhenSilent::Wait && knot.utimeUs - saidUs > policy_.waitUs;
+  const bool isPassed = answeredUs_ && saidUs < *answeredUs_;
+  if (saidUs >= 0 && (isGap || wasSilent || isPassed)) {
     ++counts_.gaps;
     const std::int64_t fromUs = body.hasStream ? body.knownUntilUs : saidUs;
     body.addUnknown(kEveryLink, UndecidedReason::Gap, std::min(fromUs, knot.utimeUs), knot.utimeUs);
