@@ -4,6 +4,13 @@
 #include <utility>
 
 namespace foretouch {
+namespace {
+
+bool isPose(MailKind kind) {
+  return kind == MailKind::Pose || kind == MailKind::RigidPose;
+}
+
+}  // namespace
 
 MailRoom::MailRoom(std::size_t avatars, std::size_t poses, std::size_t handlers)
     : maxPoses_(poses), maxHandled_(handlers), boxes_(avatars) {
@@ -41,9 +48,11 @@ bool MailRoom::isRepeated(const Box& box, const Mail& mail) {
 
 /// True if it dropped the oldest mail of this kind.
 bool MailRoom::makeRoom(Box& box, MailKind kind) {
-  const bool isPose = kind == MailKind::Pose;
-  std::size_t& waiting = isPose ? box.poses : box.skeletons;
-  if (waiting < (isPose ? maxPoses_ : kMaxWaitingSkeletons)) return false;
+  const std::size_t most = isPose(kind)                 ? maxPoses_
+                           : kind == MailKind::Skeleton ? kMaxWaitingSkeletons
+                                                        : kMaxWaitingStates;
+  std::size_t& waiting = isPose(kind) ? box.poses : box.skeletons;
+  if (waiting < most) return false;
   const auto oldest = std::find_if(box.mail.begin(), box.mail.end(),
                                    [&](const auto& mail) { return mail->kind == kind; });
   keep(std::move(*oldest));
@@ -82,11 +91,11 @@ MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail)
   if (isRepeated(box, *mail)) return Posted::Kept;
   const MailKind kind = mail->kind;
   const bool dropped = makeRoom(box, kind);
-  ++(kind == MailKind::Pose ? box.poses : box.skeletons);
+  ++(isPose(kind) ? box.poses : box.skeletons);
   box.mail.push_back(std::exchange(mail, emptyMail()));
   if (!box.isReady && !box.isHandled) makeReady(avatar);
   if (!dropped) return Posted::Kept;
-  return kind == MailKind::Pose ? Posted::DroppedPose : Posted::DroppedSkeleton;
+  return isPose(kind) ? Posted::DroppedPose : Posted::DroppedSkeleton;
 }
 
 MailRoom::Taken MailRoom::takeOrLead(std::size_t& avatar, std::unique_ptr<Mail>& mail,
@@ -108,7 +117,7 @@ MailRoom::Taken MailRoom::takeNow(std::size_t& avatar, std::unique_ptr<Mail>& ma
   ++handled_;
   keep(std::exchange(mail, std::move(box.mail.front())));
   box.mail.erase(box.mail.begin());
-  --(mail->kind == MailKind::Pose ? box.poses : box.skeletons);
+  --(isPose(mail->kind) ? box.poses : box.skeletons);
   if (mail->kind == MailKind::Skeleton) box.handled = mail->skeleton.hash;
   return Taken::Mail;
 }

@@ -1,4 +1,5 @@
-// network/service/mail_room.h: the messages that wait for an answer: a bounded mailbox per avatar.
+// network/service/mail_room.h: the messages that wait for an answer: a bounded mailbox per avatar,
+// and one for the bodies of a world.
 // Any number of threads take mail; one thread at a time handles an avatar's mail, in order, so that
 // its answers depend on its own messages alone.
 //
@@ -19,16 +20,19 @@
 #include "network/wire/codec.h"
 #include "network/wire/messages.h"
 #include "network/wire/wire.h"
+#include "network/wire/world_messages.h"
 
 namespace foretouch {
 
-enum class MailKind : std::uint8_t { Skeleton, Pose };
+enum class MailKind : std::uint8_t { Skeleton, Pose, Body, RigidPose };
 
 /// A valid message. Its memory is reused.
 struct Mail {
   MailKind kind = MailKind::Pose;
   SkeletonMessage skeleton;
   PoseMessage pose;
+  BodyMessage body;
+  RigidPoseMessage rigid;
   Bytes payload;  ///< As it came.
   std::int64_t receiveUtimeUs = 0;
   UdpmSender sender;
@@ -38,6 +42,8 @@ struct Mail {
 /// Different skeletons that wait for one avatar: more than a few mean that somebody floods. The
 /// oldest is then dropped, like a pose.
 inline constexpr std::size_t kMaxWaitingSkeletons = 8;
+/// Of all bodies of a world together, states that wait.
+inline constexpr std::size_t kMaxWaitingStates = 1024;
 
 class MailRoom {
  public:
@@ -80,9 +86,9 @@ class MailRoom {
  private:
   struct Box {
     std::vector<std::unique_ptr<Mail>> mail;  // oldest first; short, so that erasing is cheap
-    std::size_t poses = 0, skeletons = 0;
-    bool isReady = false;    // in ready_
-    bool isHandled = false;  // by a thread, now
+    std::size_t poses = 0, skeletons = 0;     // rigid poses, and states of bodies, as well
+    bool isReady = false;                     // in ready_
+    bool isHandled = false;                   // by a thread, now
     bool isSelective = false;
     std::vector<std::int64_t> known;
     std::optional<std::int64_t> handled;  // the hash of the skeleton that a thread handles now

@@ -85,6 +85,13 @@ class Page {
       }
     }
   }
+  void events(const std::string& name, const std::string& help, const WorldCounts& counts) {
+    head(name, help, "counter");
+    for (std::size_t i = 0; i < kNumEventKinds; ++i) {
+      line(name, "kind=" + quoted(toString(static_cast<EventKind>(i))),
+           std::to_string(counts.events[i]));
+    }
+  }
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
@@ -161,10 +168,52 @@ void addSolids(Page& page, const SolidCounts& solids) {
   page.histogram("foretouch_solid_seconds", "What a solid avatar took for one pose.", solids.times);
 }
 
+void addWorld(Page& page, const WorldReport& world) {
+  const WorldCounts& counts = world.counts;
+  page.gauge("foretouch_world_bodies", "Bodies that are there, avatars included.",
+             std::to_string(counts.bodies));
+  page.gauge("foretouch_world_silent", "Of these, those that the watermark has left behind.",
+             std::to_string(counts.silent));
+  page.gauge("foretouch_world_waiting", "Poses ahead of the watermark.",
+             std::to_string(counts.waiting));
+  page.gauge("foretouch_world_answered_until_seconds", "The watermark; -1e-06 before any.",
+             number(static_cast<double>(counts.answeredUntilUs) * kSecondsPerUs));
+  page.gauge("foretouch_world_waits_for", "The body that the watermark waits for; -1: none.",
+             std::to_string(counts.waitsFor));
+  page.counter("foretouch_world_states_total", "States of bodies that arrived.", counts.states);
+  page.counter("foretouch_world_rigid_poses_total", "Poses of rigid bodies that arrived.",
+               counts.rigidPoses);
+  page.counter("foretouch_world_poses_taken_total", "Poses that are on the timeline.",
+               counts.taken);
+  page.rejects("foretouch_world_refused_total", "States and poses that the world refused.",
+               counts.rejects);
+  page.counter("foretouch_world_gaps_total", "Poses before which something is not known.",
+               counts.gaps);
+  page.counter("foretouch_world_late_changes_total",
+               "Changes that took effect later than their sender says.", counts.lateChanges);
+  page.counter("foretouch_world_silences_total", "How often the watermark went on without a body.",
+               counts.silences);
+  page.counter("foretouch_world_forgotten_total", "Bodies that nobody spoke of any more.",
+               counts.forgotten);
+  page.counter("foretouch_world_failures_total", "What the world could not take or answer.",
+               counts.failures);
+  page.counter("foretouch_world_timelines_total", "Timelines begun.", counts.timelines);
+  page.counter("foretouch_world_advances_total", "Advances of the watermark.", counts.advances);
+  page.events("foretouch_world_events_total", "What happened between bodies.", counts);
+  page.counter("foretouch_world_events_marked_total",
+               "Of these, those that rest on what is not known.", counts.marked);
+  page.histogram("foretouch_world_latency_seconds",
+                 "From receiving what let the watermark advance to having sent what happened.",
+                 world.times.latency);
+  page.histogram("foretouch_world_advance_seconds", "Of that, from telling the world on.",
+                 world.times.advance);
+}
+
 }  // namespace
 
 std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
-                        const AnswerTimes& times, const SolidCounts& solids) {
+                        const AnswerTimes& times, const SolidCounts& solids,
+                        const WorldReport* world) {
   Page page;
   page.info("foretouch_build_info", "What is running.",
             "build=" + quoted(facts.build) + ",scene=" + quoted(facts.scene));
@@ -179,6 +228,7 @@ std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
   page.histogram("foretouch_query_seconds", "Of the answers' latency, the query alone.",
                  times.query);
   addSolids(page, solids);
+  if (world != nullptr) addWorld(page, *world);
   return page.text();
 }
 

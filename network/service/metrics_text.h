@@ -9,6 +9,7 @@
 namespace foretouch {
 
 [[nodiscard]] std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
-                                      const AnswerTimes& times, const SolidCounts& solids = {});
+                                      const AnswerTimes& times, const SolidCounts& solids = {},
+                                      const WorldReport* world = nullptr);
 
 }  // namespace foretouch

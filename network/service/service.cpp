@@ -16,6 +16,7 @@
 #include "network/service/service_health.h"
 #include "network/service/service_status.h"
 #include "network/service/thread_beat.h"
+#include "network/service/world_desk.h"
 #include "network/stream/bound_stream.h"
 
 namespace foretouch {
@@ -42,6 +43,7 @@ struct Desk {
   ContactsMessage answer;
   SolidMessage shown;
   Bytes payload;
+  internal::HeldRecords held;
 };
 
 struct Channels {
@@ -90,17 +92,49 @@ std::string shortened(std::string text) {
 
 }  // namespace
 
-std::vector<std::string> receivedChannels(const std::string& suffix) {
+std::vector<std::string> receivedChannels(const std::string& suffix, bool hasWorld) {
   const Channels channels(suffix);
-  return {channels.skeleton, channels.pose};
+  std::vector<std::string> received{channels.skeleton, channels.pose};
+  if (hasWorld)
+    received.insert(received.end(), {kBodyChannel + suffix, kRigidPoseChannel + suffix});
+  return received;
 }
 
-struct Service::Impl final : StreamRecord {
+namespace {
+
+/// What an avatar's stream says is to be recorded.
+class HeldStream final : public StreamRecord {
+ public:
+  HeldStream(const Channels& channels, ServiceCounter& counter, internal::HeldRecords& held)
+      : channels_(channels), counter_(counter), held_(held) {}
+  void speaker(const SpeakerMessage& message) override {
+    Bytes payload;
+    encode(message, payload);
+    held_.add(message.utimeUs, channels_.speaker, payload);
+  }
+  void skeleton(ByteView payload, std::int64_t receiveUtimeUs) override {
+    held_.add(receiveUtimeUs, channels_.skeleton, payload);
+  }
+  void pose(ByteView payload, std::int64_t receiveUtimeUs) override {
+    held_.add(receiveUtimeUs, channels_.pose, payload);
+  }
+  void leftOut() override { counter_.leftOut(); }
+
+ private:
+  const Channels& channels_;
+  ServiceCounter& counter_;
+  internal::HeldRecords& held_;
+};
+
+}  // namespace
+
+struct Service::Impl final : internal::Outlet {
   Impl(std::vector<StreamSolver> solvers, ServiceParts surroundings, const ServiceOptions& chosen)
       : options(chosen),
         parts(std::move(surroundings)),
         channels(chosen.suffix),
-        room(solvers.size(), chosen.queue, static_cast<std::size_t>(chosen.workers)),
+        room(solvers.size() + (parts.world ? 1 : 0), chosen.queue,
+             static_cast<std::size_t>(chosen.workers)),
         seal(chosen.key, *parts.clock),
         threadBeats(static_cast<std::size_t>(chosen.workers) + 1) {
     facts = {shortened(chosen.build), shortened(chosen.scene), solvers.size(), chosen.workers,
@@ -110,6 +144,9 @@ struct Service::Impl final : StreamRecord {
       room.know(streams.size(), {});
       streams.push_back({BoundStream(std::move(solver), chosen.speaker), streams.size()});
     }
+    if (!parts.world) return;
+    world.emplace(std::move(*parts.world), chosen.speaker, chosen.suffix, *parts.clock, *this);
+    parts.world.reset();
   }
 
   const ServiceOptions options;
@@ -123,6 +160,7 @@ struct Service::Impl final : StreamRecord {
   ServiceCounter counter;
   SolidCounter solidCounter;
   std::optional<Journal> journal;
+  std::optional<internal::WorldDesk> world;  // its mail comes after that of the streams
 
   mutable std::mutex mutex;  // of the next members
   std::condition_variable stopsNow;
@@ -166,7 +204,11 @@ struct Service::Impl final : StreamRecord {
       if (taken == MailRoom::Taken::Closed) return;
       if (taken == MailRoom::Taken::Lead) lead(mail, beat);
       if (taken != MailRoom::Taken::Mail) continue;
-      handle(streams[index], *mail, desk);
+      if (index == streams.size()) {
+        guarded("the world", [&] { world->take(*mail); });
+      } else {
+        handle(streams[index], *mail, desk);
+      }
       room.finish(index);
     }
   }
@@ -213,7 +255,29 @@ struct Service::Impl final : StreamRecord {
       if (reject == Reject::None) reject = decode(message.payload, mail->skeleton);
       if (reject != Reject::None) return counter.rejectedSkeleton(reject);
       post(mail->skeleton.avatar, mail->skeleton.session, message, mail);
+    } else if (world && message.channel == world->bodyChannel()) {
+      mail->kind = MailKind::Body;
+      sortWorld(message, mail->body, mail);
+    } else if (world && message.channel == world->rigidChannel()) {
+      mail->kind = MailKind::RigidPose;
+      sortWorld(message, mail->rigid, mail);
     }
+  }
+
+  /// Several senders tell of one world: their signatures' times have no order among each other, so
+  /// it is their sequences that show what is old.
+  template <typename Message>
+  void sortWorld(WireMessage& message, Message& into, std::unique_ptr<Mail>& mail) {
+    const MailKind kind = mail->kind;
+    Reject reason = seal.open(message, mail->sentUtimeUs);
+    if (reason == Reject::None) reason = decode(message.payload, into);
+    if (reason == Reject::None && seal.isAsked()) {
+      reason = ReplayGuard().take(mail->sentUtimeUs, message.receiveUtimeUs);
+    }
+    if (reason != Reject::None) return world->refused(kind, 1, reason);
+    mail->payload.swap(message.payload);
+    if (room.post(streams.size(), mail) == MailRoom::Posted::Kept) return;
+    world->refused(kind, 1, Reject::Overrun);
   }
 
   /// What has no chance to be accepted takes no place from what has.
@@ -253,7 +317,9 @@ struct Service::Impl final : StreamRecord {
     bool isCounted = false;
     const bool done = guarded("answering", [&] {
       if (mail.kind == MailKind::Pose) return answer(stream, mail, desk, isCounted);
-      const Reject reason = stream.stream.take(heard(mail), mail.skeleton, *this);
+      HeldStream record(channels, counter, desk.held);
+      const Reject reason = stream.stream.take(heard(mail), mail.skeleton, record);
+      settle(stream, mail, nullptr, desk);
       tellKnown(stream);
       if (reason != Reject::None) counter.rejectedSkeleton(reason);
     });
@@ -263,10 +329,12 @@ struct Service::Impl final : StreamRecord {
   }
 
   void answer(ServedStream& stream, const Mail& mail, Desk& desk, bool& isCounted) {
-    const Reject reason = stream.stream.take(heard(mail), mail.pose, desk.answer, *this);
+    HeldStream record(channels, counter, desk.held);
+    const Reject reason = stream.stream.take(heard(mail), mail.pose, desk.answer, record);
     addUp(stream);
     tellKnown(stream);
     if (reason != Reject::None) {
+      settle(stream, mail, nullptr, desk);
       isCounted = true;
       return counter.rejectedPose(reason);
     }
@@ -275,10 +343,11 @@ struct Service::Impl final : StreamRecord {
     encode(desk.answer, desk.payload);
     publish(channels.contacts, desk.payload);
     const std::int64_t sentUtimeUs = parts.clock->utimeUs();
-    record(desk.answer.sendUtimeUs, channels.contacts, desk.payload);
+    desk.held.add(desk.answer.sendUtimeUs, channels.contacts, desk.payload);
     isCounted = true;
     counter.answeredPose(static_cast<double>(sentUtimeUs - mail.receiveUtimeUs),
                          desk.answer.queryUs);
+    settle(stream, mail, &stream.stream.solver().lastStep(), desk);
     SolidStream* const solid = stream.stream.solid();
     if (solid != nullptr) show(stream, *solid, mail, desk);
     StepObserver* const observer = parts.observer;
@@ -290,6 +359,13 @@ struct Service::Impl final : StreamRecord {
       const ShownStep shown{solid->shownBefore(), desk.shown};
       observer->observe(stream.index, step, desk.answer, &shown);
     }
+  }
+
+  /// Records what the stream said and was answered. Where there is a world, in the order in which
+  /// it is told, and after the answer has gone out, which does not wait for it.
+  void settle(ServedStream& stream, const Mail& mail, const StreamStep* step, Desk& desk) {
+    if (!world) return desk.held.flush(*this);
+    world->take(desk.held, stream.stream.solver().id(), step, mail.receiveUtimeUs);
   }
 
   /// After the answer has gone out, so that it waits for nothing new.
@@ -321,23 +397,9 @@ struct Service::Impl final : StreamRecord {
     room.know(stream.index, stream.known);
   }
 
-  // What the streams record.
+  // What goes out.
 
-  void speaker(const SpeakerMessage& message) override {
-    Bytes payload;
-    encode(message, payload);
-    record(message.utimeUs, channels.speaker, payload);
-  }
-  void skeleton(ByteView payload, std::int64_t receiveUtimeUs) override {
-    record(receiveUtimeUs, channels.skeleton, payload);
-  }
-  void pose(ByteView payload, std::int64_t receiveUtimeUs) override {
-    record(receiveUtimeUs, channels.pose, payload);
-  }
-  void leftOut() override { counter.leftOut(); }
-
-  /// Leaves the payload as it was.
-  void publish(const std::string& channel, Bytes& payload) {
+  void publish(const std::string& channel, Bytes& payload) override {
     const std::size_t size = payload.size();
     seal.sign(channel, payload);
     const bool isSent =
@@ -346,7 +408,7 @@ struct Service::Impl final : StreamRecord {
     payload.resize(size);
   }
 
-  void record(std::int64_t utimeUs, const std::string& channel, ByteView payload) {
+  void record(std::int64_t utimeUs, const std::string& channel, ByteView payload) override {
     if (journal) journal->add(utimeUs, channel, payload);
   }
 
@@ -384,8 +446,14 @@ struct Service::Impl final : StreamRecord {
 
   [[nodiscard]] StatusMessage status() const {
     const ServiceCounts counts = counter.counts();
+    const auto report = worldReport();
     const std::lock_guard lock(mutex);
-    return statusOf(facts, counts, lastSecond, parts.clock->utimeUs());
+    return statusOf(facts, counts, lastSecond, parts.clock->utimeUs(),
+                    report ? &report->counts : nullptr);
+  }
+
+  [[nodiscard]] std::optional<WorldReport> worldReport() const {
+    return world ? std::optional(world->report()) : std::nullopt;
   }
 
   [[nodiscard]] ServiceHealth health() const {
@@ -498,6 +566,10 @@ AnswerTimes Service::times() const {
 
 SolidCounts Service::solidCounts() const {
   return impl_->solidCounter.counts();
+}
+
+std::optional<WorldReport> Service::world() const {
+  return impl_->worldReport();
 }
 
 const ServiceFacts& Service::facts() const {

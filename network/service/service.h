@@ -10,6 +10,8 @@
 // sees each step after its answer went out, in the thread that answered it.
 // Where an avatar is solid (StreamSolver::makeSolid), its thread shows it after it has sent the
 // answer: one solid_t per accepted pose.
+// Where there is a moving world, the thread then tells it of the pose, and sends what happened
+// between bodies as far as that is known; one thread at a time does that.
 //
 // At every moment: received = answered + rejected + waiting.
 #pragma once
@@ -28,12 +30,14 @@
 #include "network/service/journal.h"
 #include "network/service/service_counts.h"
 #include "network/service/solid_counts.h"
+#include "network/service/world_report.h"
 #include "network/stream/speaker_gate.h"
 #include "network/stream/step_observer.h"
 #include "network/stream/stream_solver.h"
 #include "network/wire/message_key.h"
 #include "network/wire/messages.h"
 #include "network/wire/wire.h"
+#include "network/world_stream/world_solver.h"
 
 namespace foretouch {
 
@@ -64,10 +68,12 @@ struct ServiceParts {
   std::unique_ptr<JournalSink> journal;  ///< None: records nothing.
   const Clock* clock = &systemClock();   ///< Outlives the service.
   StepObserver* observer = nullptr;      ///< Outlives the service; may be none.
+  std::optional<WorldSolver> world;      ///< None: nobody asks what bodies do to each other.
 };
 
 /// The channels that a service reads.
-[[nodiscard]] std::vector<std::string> receivedChannels(const std::string& suffix);
+[[nodiscard]] std::vector<std::string> receivedChannels(const std::string& suffix,
+                                                        bool hasWorld = false);
 
 class Service {
  public:
@@ -90,6 +96,8 @@ class Service {
   [[nodiscard]] AnswerTimes times() const;
   /// Of solid avatars, since the start.
   [[nodiscard]] SolidCounts solidCounts() const;
+  /// Of the moving world; nothing if there is none.
+  [[nodiscard]] std::optional<WorldReport> world() const;
   [[nodiscard]] const ServiceFacts& facts() const;
   [[nodiscard]] ServiceHealth health() const;
   /// Why the service cannot continue: its receiver is gone, or memory has run out.

@@ -20,6 +20,27 @@ void addReasons(const ServiceCounts& counts, std::vector<StatusMessage::Count>& 
   }
 }
 
+/// In the list of counts, as status_t has no other place: its fields are out.
+void addWorld(const WorldCounts& world, std::vector<StatusMessage::Count>& reasons) {
+  const auto add = [&](const std::string& what, std::uint64_t count) {
+    reasons.push_back({"world-" + what, static_cast<std::int64_t>(count)});
+  };
+  add("bodies", world.bodies);
+  add("advances", world.advances);
+  add("taken", world.taken);
+  add("waiting", world.waiting);
+  add("silent", world.silent);
+  if (world.silences > 0) add("silences", world.silences);
+  if (world.gaps > 0) add("gaps", world.gaps);
+  if (world.lateChanges > 0) add("late-changes", world.lateChanges);
+  if (world.forgotten > 0) add("forgotten", world.forgotten);
+  if (world.failures > 0) add("failures", world.failures);
+  for (std::size_t i = 1; i < kNumRejects; ++i) {
+    if (world.rejects[i] == 0) continue;
+    add(std::string("refused-") + toString(static_cast<Reject>(i)), world.rejects[i]);
+  }
+}
+
 void addTimes(const AnswerTimes& recent, StatusMessage& message) {
   constexpr double kMedian = 0.5, kTail = 0.99;
   message.latencyP50Us = recent.latency.quantileUs(kMedian);
@@ -33,7 +54,7 @@ void addTimes(const AnswerTimes& recent, StatusMessage& message) {
 }  // namespace
 
 StatusMessage statusOf(const ServiceFacts& facts, const ServiceCounts& counts,
-                       const AnswerTimes& recent, std::int64_t utimeUs) {
+                       const AnswerTimes& recent, std::int64_t utimeUs, const WorldCounts* world) {
   StatusMessage message;
   message.utimeUs = utimeUs;
   message.startUtimeUs = facts.startUtimeUs;
@@ -52,6 +73,7 @@ StatusMessage statusOf(const ServiceFacts& facts, const ServiceCounts& counts,
   message.journalFailures = whole(counts.journalFailures);
   message.kernelDrops = whole(counts.wire.kernelDrops);
   addReasons(counts, message.counts);
+  if (world != nullptr) addWorld(*world, message.counts);
   addTimes(recent, message);
   return message;
 }

@@ -16,6 +16,10 @@
 
 namespace foretouch {
 
+struct BodyMessage;
+struct RigidPoseMessage;
+struct EventsMessage;
+
 using Bytes = std::vector<std::uint8_t>;
 
 /// Unowned bytes.
@@ -36,6 +40,10 @@ struct ByteView {
 [[nodiscard]] Reject decode(ByteView payload, SolidMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, StatusMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, SpeakerMessage& message);
+// network/wire/world_messages.h.
+[[nodiscard]] Reject decode(ByteView payload, BodyMessage& message);
+[[nodiscard]] Reject decode(ByteView payload, RigidPoseMessage& message);
+[[nodiscard]] Reject decode(ByteView payload, EventsMessage& message);
 
 /// Replaces `payload`. Precondition (asserted): counts and texts within the limits.
 void encode(const SkeletonMessage& message, Bytes& payload);
@@ -44,10 +52,13 @@ void encode(const ContactsMessage& message, Bytes& payload);
 void encode(const SolidMessage& message, Bytes& payload);
 void encode(const StatusMessage& message, Bytes& payload);
 void encode(const SpeakerMessage& message, Bytes& payload);
+void encode(const BodyMessage& message, Bytes& payload);
+void encode(const RigidPoseMessage& message, Bytes& payload);
+void encode(const EventsMessage& message, Bytes& payload);
 
-/// The part of an encoded contacts_t or solid_t that depends only on poses, scene and options: all
-/// but the two stamps and the time that it took, at its end (24 bytes). A replay repeats it byte
-/// for byte.
+/// The part of an encoded contacts_t, solid_t or events_t that depends only on poses, scene and
+/// options: all but the two stamps and the time that it took, at its end (24 bytes). A replay
+/// repeats it byte for byte.
 [[nodiscard]] ByteView verdictBytes(ByteView payload);
 
 }  // namespace foretouch

@@ -52,10 +52,10 @@ Reject checkHead(const solid_t& wire) {
   if (!allFinite(lengths)) return Reject::NonFinite;
   const bool isInside =
       std::all_of(lengths.begin(), lengths.end(), [](double x) { return x >= 0; });
-  const bool isKnown = wire.kind >= 0 && wire.kind <= kLastSolidKind && wire.state >= 0 &&
-                       wire.state < kNumSolidStates && wire.limit >= 0 &&
-                       wire.limit < kNumSolidLimits && (wire.certified == 0 || wire.certified == 1) &&
-                       (wire.appeared == 0 || wire.appeared == 1);
+  const bool isKnown =
+      wire.kind >= 0 && wire.kind <= kLastSolidKind && wire.state >= 0 &&
+      wire.state < kNumSolidStates && wire.limit >= 0 && wire.limit < kNumSolidLimits &&
+      (wire.certified == 0 || wire.certified == 1) && (wire.appeared == 0 || wire.appeared == 1);
   if (!isInside || !isKnown) return Reject::OutOfRange;
   const bool isWithinLimits = wire.num_joints >= 1 && countOf(wire.num_joints) <= kMaxSolidJoints &&
                               wire.num_poses >= 1 && countOf(wire.num_poses) <= kMaxSolidPoses &&

@@ -1,41 +1,9 @@
 #include "network/wire/messages.h"
 
-#include <cstring>
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include "lss/index.h"
+#include "network/wire/hashed_bytes.h"
 
 namespace foretouch {
-namespace {
-
-/// The bytes to hash: integers and doubles little-endian on every machine.
-class HashedBytes {
- public:
-  void add(std::uint64_t word) {
-    for (int shift = 0; shift < 64; shift += 8) {
-      bytes_.push_back(static_cast<char>(static_cast<std::uint8_t>(word >> shift)));
-    }
-  }
-  void add(double number) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, &number, sizeof word);
-    add(word);
-  }
-  void add(const std::string& text) {
-    add(static_cast<std::uint64_t>(text.size()));
-    bytes_ += text;
-  }
-  [[nodiscard]] std::int64_t hash() const {
-    return static_cast<std::int64_t>(XXH64(bytes_.data(), bytes_.size(), 0));
-  }
-
- private:
-  std::string bytes_;
-};
-
-}  // namespace
 
 const char* toString(StepKind kind) {
   switch (kind) {

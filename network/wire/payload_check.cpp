@@ -1,8 +1,11 @@
 #include "network/wire/payload_check.h"
 
 #include <cstring>
+#include <foretouch/body_t.hpp>
 #include <foretouch/contacts_t.hpp>
+#include <foretouch/events_t.hpp>
 #include <foretouch/pose_t.hpp>
+#include <foretouch/rigid_pose_t.hpp>
 #include <foretouch/skeleton_t.hpp>
 #include <foretouch/solid_t.hpp>
 #include <foretouch/speaker_t.hpp>
@@ -142,6 +145,28 @@ constexpr Field kStatusFields[] = {
 constexpr Field kSpeakerFields[] = {
     fixed(kInt32 + kInt64 + 2 * kInt32)};  // avatar, utime, address, port
 
+constexpr Field kBodyFields[] = {
+    fixed(kInt32 + 4 * kInt64 + 2 * kInt8),  // body, session, sequence, utimes, kind, state
+    text(),                                  // shape
+    fixed(kInt64 + 2 * kInt32 + kInt8),      // shape_hash, carried_by, carried_link, moves_in_frame
+    fixed(7 * kDouble + kInt64)};            // rotation, position, since_utime
+
+constexpr Field kRigidPoseFields[] = {fixed(4 * kInt64),  // session, sequence, utime, send_utime
+                                      count(), list(kInt32 + kByte + 7 * kDouble)};
+
+constexpr Field kEventsFields[] = {
+    fixed(4 * kInt64 + kInt8 + kDouble),  // timeline to tolerance
+    count(),
+    list(kInt32 + kInt64 + kByte),  // bodies, known_until, waiting
+    count(),
+    list(2 * kInt32 + kByte + 2 * kInt64),  // unknown
+    count(),
+    list(4 * kByte + 2 * (kInt64 + kDouble)),  // kinds to since_fraction
+    list(9 * kInt32 + 18 * kDouble + kByte),   // sides, object, points to numbers_of_points
+    count(),
+    list(7 * kDouble),             // near points
+    fixed(2 * kInt64 + kDouble)};  // receive_utime, send_utime, world_us
+
 Reject checkText(Cursor& cursor, std::size_t limit) {
   std::int32_t length = 0;  // with its NUL
   if (!cursor.read(length) || length < 1) return Reject::Length;
@@ -208,6 +233,9 @@ std::int64_t fingerprintOf(PayloadType type) {
     case PayloadType::Solid: return solid_t::getHash();
     case PayloadType::Status: return status_t::getHash();
     case PayloadType::Speaker: return speaker_t::getHash();
+    case PayloadType::Body: return body_t::getHash();
+    case PayloadType::RigidPose: return rigid_pose_t::getHash();
+    case PayloadType::Events: return events_t::getHash();
   }
   return 0;
 }
@@ -230,6 +258,9 @@ Reject checkPayload(PayloadType type, ByteView payload) {
     case PayloadType::Solid: return checkFields(kSolidFields, cursor);
     case PayloadType::Status: return checkFields(kStatusFields, cursor);
     case PayloadType::Speaker: return checkFields(kSpeakerFields, cursor);
+    case PayloadType::Body: return checkFields(kBodyFields, cursor);
+    case PayloadType::RigidPose: return checkFields(kRigidPoseFields, cursor);
+    case PayloadType::Events: return checkFields(kEventsFields, cursor);
   }
   return Reject::Length;
 }

@@ -11,7 +11,17 @@
 
 namespace foretouch {
 
-enum class PayloadType : std::uint8_t { Skeleton, Pose, Contacts, Solid, Status, Speaker };
+enum class PayloadType : std::uint8_t {
+  Skeleton,
+  Pose,
+  Contacts,
+  Solid,
+  Status,
+  Speaker,
+  Body,
+  RigidPose,
+  Events
+};
 
 /// Longest list in a message: joints, links, contacts, words of a status.
 inline constexpr std::int32_t kMaxListed = kMaxJoints;

@@ -27,6 +27,11 @@ const char* toString(Reject reject) {
     case Reject::FutureStamp: return "future-stamp";
     case Reject::OldSession: return "old-session";
     case Reject::FutureSession: return "future-session";
+    case Reject::Late: return "late";
+    case Reject::UnknownBody: return "unknown-body";
+    case Reject::HeldFast: return "held-fast";
+    case Reject::UnknownShape: return "unknown-shape";
+    case Reject::CarrierLoop: return "carrier-loop";
     case Reject::OtherSender: return "other-sender";
     case Reject::Unauthenticated: return "unauthenticated";
     case Reject::Replayed: return "replayed";

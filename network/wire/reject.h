@@ -35,6 +35,12 @@ enum class Reject : std::uint8_t {
   FutureStamp,    ///< Captured longer than StreamPolicy::maxStepUs after the last pose.
   OldSession,     ///< From a sender that has been restarted since.
   FutureSession,  ///< Of a sender that says it starts more than a day after the message arrived.
+  Late,           ///< Of an instant that the world has answered already.
+  // About a moving world.
+  UnknownBody,   ///< A pose of a body that nobody has told of; a carrier or link that is not there.
+  HeldFast,      ///< A pose of a body that another one holds fast.
+  UnknownShape,  ///< A body whose shape is not in the world file.
+  CarrierLoop,   ///< A body that would carry itself.
   // About who says it.
   OtherSender,      ///< Not from the address and port that speak for the avatar.
   Unauthenticated,  ///< Without the code that the key makes, or with another one.

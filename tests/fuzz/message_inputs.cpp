@@ -9,6 +9,7 @@
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/payload_check.h"
+#include "network/wire/world_messages.h"
 #include "tests/fuzz/promise.h"
 
 namespace foretouch::fuzz {
@@ -94,6 +95,37 @@ void checkContent(const StatusMessage& message) {
   require(std::isfinite(message.latencyMaxUs), "latencies are finite");
 }
 
+void checkContent(const BodyMessage& message) {
+  require(message.body >= 0, "a body has a number");
+  require(!message.shape.empty(), "a body has a shape");
+  require(message.carrier != message.body, "a body does not carry itself");
+  require(message.carrier != kNoBody || !message.movesInFrame, "nobody moves in no frame");
+  require(unitQuaternion(message.pose.rotation).has_value(), "its rotation is unit");
+  require(message.pose.translation.cwiseAbs().maxCoeff() <= kMaxCoordinate, "it is near enough");
+}
+
+void checkContent(const RigidPoseMessage& message) {
+  std::set<BodyNumber> bodies;
+  for (const BodyPose& told : message.bodies) {
+    require(told.body >= 0 && bodies.insert(told.body).second, "a body is there once");
+    require(unitQuaternion(told.pose.rotation).has_value(), "rotations are unit");
+    require(told.pose.translation.cwiseAbs().maxCoeff() <= kMaxCoordinate, "it is near enough");
+  }
+}
+
+void checkContent(const EventsMessage& message) {
+  require(message.fromUs <= message.toUs, "a window does not end before it begins");
+  require(message.events.size() <= kMaxToldEvents, "events are not too many");
+  for (const ToldEvent& told : message.events) {
+    require(told.event.numPoints <= WorldEvent::kMostPoints, "points are not too many");
+    require(told.event.time.fraction >= 0.0 && told.event.time.fraction < 1.0, "fractions are");
+    require(told.event.separation == told.event.separation, "numbers are numbers");
+  }
+  for (const UnknownPart& part : message.unknown) {
+    require(part.fromUs >= message.fromUs && part.toUs <= message.toUs, "parts are of the window");
+  }
+}
+
 /// `exactly`: as the same bytes.
 template <typename Message>
 bool feed(ByteView input, Message& message, bool (*exactly)(const Message&)) {
@@ -166,6 +198,22 @@ bool feedSpeakerMessage(const std::uint8_t* data, std::size_t size) {
 
 bool feedStatusMessage(const std::uint8_t* data, std::size_t size) {
   return feedExact<StatusMessage>(data, size);
+}
+
+bool feedBodyMessage(const std::uint8_t* data, std::size_t size) {
+  return feedExact<BodyMessage>(data, size);
+}
+
+bool feedRigidPoseMessage(const std::uint8_t* data, std::size_t size) {
+  static RigidPoseMessage message;
+  return feed<RigidPoseMessage>({data, size}, message, [](const RigidPoseMessage& poses) {
+    return std::all_of(poses.bodies.begin(), poses.bodies.end(),
+                       [](const BodyPose& told) { return (told.flags & kJointValid) != 0; });
+  });
+}
+
+bool feedEventsMessage(const std::uint8_t* data, std::size_t size) {
+  return feedExact<EventsMessage>(data, size);
 }
 
 }  // namespace foretouch::fuzz

@@ -15,5 +15,9 @@ bool feedContactsMessage(const std::uint8_t* data, std::size_t size);
 bool feedSolidMessage(const std::uint8_t* data, std::size_t size);
 bool feedSpeakerMessage(const std::uint8_t* data, std::size_t size);
 bool feedStatusMessage(const std::uint8_t* data, std::size_t size);
+// Of network/wire/world_messages.h.
+bool feedBodyMessage(const std::uint8_t* data, std::size_t size);
+bool feedRigidPoseMessage(const std::uint8_t* data, std::size_t size);
+bool feedEventsMessage(const std::uint8_t* data, std::size_t size);
 
 }  // namespace foretouch::fuzz

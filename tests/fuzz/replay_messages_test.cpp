@@ -23,6 +23,12 @@ TEST(FuzzCorpus, MessagesKeepThePromises) {
             3);
   EXPECT_GE(replayCorpus("status_message", feedStatusMessage, AlsoFeed::LastByteMissing).accepted,
             3);
+  EXPECT_GE(replayCorpus("body_message", feedBodyMessage, AlsoFeed::LastByteMissing).accepted, 3);
+  EXPECT_GE(
+      replayCorpus("rigid_pose_message", feedRigidPoseMessage, AlsoFeed::LastByteMissing).accepted,
+      3);
+  EXPECT_GE(replayCorpus("events_message", feedEventsMessage, AlsoFeed::LastByteMissing).accepted,
+            3);
 }
 
 TEST(FuzzCorpus, ConfigurationsKeepThePromises) {

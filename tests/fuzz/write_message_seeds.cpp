@@ -49,7 +49,10 @@ int main(int argc, char** argv) {
           [](Random& random, int n) { return randomSolidMessage(random, n, n / 2 + 1, n); }) &&
       writeSeeds(corpus + "/speaker_message",
                  [](Random& random, int) { return randomSpeakerMessage(random); }) &&
-      writeSeeds(corpus + "/status_message", randomStatusMessage);
+      writeSeeds(corpus + "/status_message", randomStatusMessage) &&
+      writeSeeds(corpus + "/body_message", randomBodyMessage) &&
+      writeSeeds(corpus + "/rigid_pose_message", randomRigidPoseMessage) &&
+      writeSeeds(corpus + "/events_message", randomEventsMessage);
   if (!written) std::fprintf(stderr, "write_message_seeds: cannot write below %s\n", argv[1]);
   return written ? 0 : 1;
 }

@@ -67,8 +67,9 @@ const std::map<std::string, Rooms> kRooms = {
      {{"wire", {}},
       {"log", {"wire"}},
       {"stream", {"wire"}},
-      {"service", {"stream", "log", "wire"}},
-      {"watch", {"service", "stream", "wire"}}}},
+      {"world_stream", {"stream", "wire"}},
+      {"service", {"world_stream", "stream", "log", "wire"}},
+      {"watch", {"service", "world_stream", "stream", "wire"}}}},
     // main.cpp apart, which ties the commands to the program.
     {"tools",
      {{"", {}},

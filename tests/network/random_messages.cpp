@@ -271,4 +271,104 @@ SpeakerMessage randomSpeakerMessage(Random& random) {
   return message;
 }
 
+BodyMessage randomBodyMessage(Random& random, int longest) {
+  BodyMessage message;
+  message.body = random.below(1'000'000);
+  for (std::int64_t* const count : {&message.session, &message.sequence, &message.utimeUs,
+                                    &message.sendUtimeUs, &message.sinceUs}) {
+    *count = integer(random);
+  }
+  message.kind = random.chance(0.2) ? BodyMessageKind::Avatar : BodyMessageKind::Rigid;
+  message.isPresent = random.chance(0.8);
+  message.shape = name(random, longest);
+  message.shapeHash = random.chance(0.3) ? 0 : anyHash(random);
+  if (message.kind == BodyMessageKind::Rigid && random.chance(0.5)) {
+    message.carrier = message.body + 1;
+    message.carrierLink = random.below(kMaxJoints);
+    message.movesInFrame = random.chance(0.5);
+  }
+  message.pose = {rotation(random), place(random)};
+  return message;
+}
+
+RigidPoseMessage randomRigidPoseMessage(Random& random, int numBodies) {
+  RigidPoseMessage message;
+  for (std::int64_t* const count :
+       {&message.session, &message.sequence, &message.utimeUs, &message.sendUtimeUs}) {
+    *count = integer(random);
+  }
+  for (int i = 0; i < numBodies; ++i) {
+    BodyPose told;
+    told.body = 3 * i + random.below(3);
+    told.flags = static_cast<std::uint8_t>(random.below(8));
+    if ((told.flags & kJointValid) != 0) told.pose = {rotation(random), place(random)};
+    message.bodies.push_back(told);
+  }
+  shuffle(random, message.bodies);
+  return message;
+}
+
+namespace {
+
+ContactSide side(Random& random) {
+  return {random.below(100) - 2, random.below(100) - 1, random.below(9) - 1, random.below(99) - 1,
+          place(random)};
+}
+
+WorldTime instant(Random& random) {
+  return {integer(random), random.chance(0.3) ? 0.0 : random.uniform(0.0, 1.0)};
+}
+
+ToldEvent happening(Random& random) {
+  ToldEvent told;
+  WorldEvent& event = told.event;
+  event.kind = static_cast<EventKind>(random.below(kNumEventKinds));
+  told.cause = static_cast<ToldCause>(random.below(kNumToldCauses));
+  event.cause = told.cause == ToldCause::NotAsked ? LeaveCause::NotAsked : LeaveCause::Apart;
+  event.reason = static_cast<UndecidedReason>(random.below(kNumUndecidedReasons));
+  event.isAssumed = random.chance(0.3);
+  event.time = instant(random);
+  event.since = instant(random);
+  event.a = side(random);
+  event.b = side(random);
+  event.object = random.below(9) - 1;
+  event.nhat_BA_W = random.chance(0.2) ? Vector3d::Zero() : random.direction();
+  event.velocity_W = place(random);
+  for (double* const number : {&event.separation, &event.penetration, &event.approachSpeed,
+                               &event.approachLower, &event.approachUpper}) {
+    *number = random.uniform(-1.0, 1.0);
+  }
+  event.effectiveMass = random.chance(0.5) ? std::numeric_limits<double>::infinity()
+                                           : random.magnitude(1e-3, 1e3);
+  event.numPoints = static_cast<std::size_t>(random.below(WorldEvent::kMostPoints + 1));
+  for (std::size_t i = 0; i < event.numPoints; ++i) {
+    event.points[i] = {place(random), place(random), random.uniform(-1.0, 1.0)};
+  }
+  return told;
+}
+
+}  // namespace
+
+EventsMessage randomEventsMessage(Random& random, int numEvents) {
+  EventsMessage message;
+  for (std::int64_t* const count : {&message.timeline, &message.sequence, &message.receiveUtimeUs,
+                                    &message.sendUtimeUs}) {
+    *count = integer(random);
+  }
+  std::tie(message.fromUs, message.toUs) = std::minmax({integer(random), integer(random)});
+  message.hasMore = random.chance(0.2);
+  message.tolerance = random.magnitude(1e-9, 1.0);
+  message.worldUs = random.magnitude(1e-3, 1e7);
+  for (int i = 0; i < numEvents; ++i) {
+    message.bodies.push_back(
+        {2 * i + random.below(2), random.chance(0.2) ? -1 : integer(random), random.chance(0.5)});
+    message.unknown.push_back(
+        {random.below(9) - 2, random.below(9) - 1,
+         static_cast<UndecidedReason>(1 + random.below(kNumUndecidedReasons - 1)), message.fromUs,
+         message.toUs});
+    message.events.push_back(happening(random));
+  }
+  return message;
+}
+
 }  // namespace foretouch::test

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "network/wire/messages.h"
+#include "network/wire/world_messages.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {
@@ -17,5 +18,11 @@ namespace foretouch::test {
                                               int numContacts);
 [[nodiscard]] StatusMessage randomStatusMessage(Random& random, int numReasons);
 [[nodiscard]] SpeakerMessage randomSpeakerMessage(Random& random);
+/// `longest`: of the name of its shape, in characters, and at least one.
+[[nodiscard]] BodyMessage randomBodyMessage(Random& random, int longest);
+/// Poses of bodies that are not valid are those that decoding gives: the identity.
+[[nodiscard]] RigidPoseMessage randomRigidPoseMessage(Random& random, int numBodies);
+/// So many of each of its lists.
+[[nodiscard]] EventsMessage randomEventsMessage(Random& random, int numEvents);
 
 }  // namespace foretouch::test

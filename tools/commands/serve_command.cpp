@@ -25,6 +25,7 @@
 #include "tools/stream/service_manager.h"
 #include "tools/stream/stop_signal.h"
 #include "tools/view/serve_view.h"
+#include "tools/world/served_bodies.h"
 
 namespace foretouch::tools {
 namespace {
@@ -47,7 +48,7 @@ void tellReceiveBuffer(std::size_t asked, std::size_t given) {
 Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   FORETOUCH_TRY(const auto url, inFile(parseUdpmUrl(config.url), "--url"));
   FORETOUCH_CHECK(testMulticast(url));
-  const std::vector<std::string> channels = receivedChannels(config.service.suffix);
+  const std::vector<std::string> channels = receivedChannels(config.service.suffix, parts.world.has_value());
   const bool isOwn = config.receiver == ReceiverKind::Own;
   FORETOUCH_TRY(auto receiver, inFile(isOwn ? openUdpmReceiver(url, channels, config.senders)
                                             : openLcmReceiver(config.url, channels),
@@ -57,6 +58,39 @@ Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   parts.receiver = std::move(receiver);
   parts.publisher = std::move(publisher);
   return Done{};
+}
+
+/// Scene and avatars of the world file, in place of those that are not given.
+Result<Done> takeWorldFile(const LoadedWorld& loaded, ServeConfig& config) {
+  const WorldFile& file = loaded.file;
+  if (file.scene.scenePath.empty()) {
+    return Error::inLine(file.path, -1, ErrorCode::Empty,
+                         "expected a [scene]: every pose is answered about it");
+  }
+  config.world.scenePath = file.scene.scenePath;
+  config.world.sceneImport = file.scene.sceneImport;
+  for (std::size_t i = 0; i < file.bodies.size(); ++i) {
+    const std::string& path = file.bodies[i].shape.avatarPath;
+    if (!path.empty()) config.avatars.push_back({numberInMessages(i), path});
+  }
+  if (!config.avatars.empty()) return Done{};
+  return Error::inLine(file.path, -1, ErrorCode::Empty,
+                       "expected a [[body]] with an avatar: poses are answered for avatars");
+}
+
+/// All that is served.
+Result<ServedWorld> loadAll(ServeConfig& config) {
+  if (config.worldPath.empty()) return loadServedWorld(config);
+  FORETOUCH_TRY(auto file, readWorldFile(config.worldPath));
+  FORETOUCH_TRY(const auto loaded, loadWorld(std::move(file)));
+  FORETOUCH_CHECK(takeWorldFile(loaded, config));
+  FORETOUCH_TRY(auto served, loadServedWorld(config));
+  FORETOUCH_TRY(auto world, inFile(WorldSolver::make(servedBodies(loaded), config.worldPolicy),
+                                   config.worldPath));
+  served.world.emplace(std::move(world));
+  const std::vector<std::string> remarks = remarksOnServing(loaded);
+  served.remarks.insert(served.remarks.end(), remarks.begin(), remarks.end());
+  return served;
 }
 
 /// In a folder, every run gets its own file: a restarted service overwrites nothing.
@@ -86,7 +120,9 @@ Result<std::optional<MetricsServer>> openHttp(const ServeConfig& config, const S
   FORETOUCH_TRY(const auto address, parseHttpAddress("--http", config.http));
   MetricsServer::Pages pages;
   pages.metrics = [&service] {
-    return metricsText(service.facts(), service.counts(), service.times(), service.solidCounts());
+    const auto world = service.world();
+    return metricsText(service.facts(), service.counts(), service.times(), service.solidCounts(),
+                       world ? &*world : nullptr);
   };
   pages.health = [&service] { return service.health(); };
   FORETOUCH_TRY(
@@ -107,6 +143,7 @@ std::string describe(const ServeConfig& config, const ServedWorld& world) {
                       config.service.workers, config.service.workers == 1 ? "" : "s", config.url);
   if (!config.world.policies.empty()) text += ", some links by policy";
   if (!config.service.suffix.empty()) text += ", suffix " + config.service.suffix;
+  if (!config.worldPath.empty()) text += ", a moving world " + config.worldPath;
   if (!config.log.empty()) text += ", log " + config.log;
   if (!config.http.empty()) text += ", metrics on " + config.http;
   if (!config.view.empty()) text += ", to be watched at http://" + config.view + "/";
@@ -166,6 +203,16 @@ ExitCode run(const Settings& settings, ServeConfig& config) {
   // A given URL takes precedence over the environment.
   const bool isOpen = !settings.isGiven("--url") && config.url == kDefaultUrl;
   config.url = urlOrDefault(isOpen ? std::string() : config.url);
+  const bool hasOwn = !config.world.scenePath.empty() || !config.avatars.empty();
+  if (!config.worldPath.empty() && hasOwn) {
+    return failed({ErrorCode::Mismatch, "--world", -1, -1,
+                   "the world file has the scene and the avatars; expected no --scene and no "
+                   "--avatar beside it"});
+  }
+  if (!config.worldPath.empty()) {
+    const auto served = serve(config);
+    return served.ok() ? ExitCode::Done : failed(served.error());
+  }
   if (config.world.scenePath.empty()) {
     return failed({ErrorCode::Empty, "--scene", -1, -1, "expected a scene, here or by --config"});
   }
@@ -202,6 +249,7 @@ constexpr char kServeExamples[] = R"(Examples:
   foretouch serve --scene kitchen.ply --scene-up z --avatar 1=anna.json --avatar 2=ben.json \
       --workers 2 --log today.lcmlog --http 127.0.0.1:9464
   foretouch serve --scene room.obj --avatar dancer.avatar.json --view
+  foretouch serve --world stage.toml --view
   foretouch serve --config service.toml --workers 4
 
 Prints "ready" once it takes poses. SIGINT, SIGTERM and SIGHUP end it in order: what waits is
@@ -212,9 +260,10 @@ answered first. docs/streaming.md has the whole story.)";
 Result<Done> serve(const ServeConfig& given) {
   ServeConfig config = given;
   config.log = logPathIn(given.log);
-  FORETOUCH_TRY(auto world, loadServedWorld(config));
+  FORETOUCH_TRY(auto world, loadAll(config));
   for (const std::string& remark : world.remarks) printNote(remark);
   ServiceParts parts;
+  parts.world = std::move(world.world);
   FORETOUCH_CHECK(openWire(config, parts));
   FORETOUCH_CHECK(openLog(config, parts));
 

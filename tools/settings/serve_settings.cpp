@@ -134,6 +134,13 @@ void addServeSettings(Settings& settings, ServeConfig& config) {
   avatars.take = [&config](const GivenValue& given) {
     return takeAvatars(given.texts, config.avatars);
   };
+  settings
+      .path("--world", "FILE", config.worldPath,
+            "A world file: its bodies with an avatar are the avatars, by their places from 1; the "
+            "others are shapes of bodies that move. What happens between them is told")
+      .in(kInputGroup)
+      .files("toml")
+      .inConfig("service", "world");
   addNetworkSettings(settings, config);
   addServiceSettings(settings, config);
   addQuerySettings(settings, config.world);
@@ -141,6 +148,7 @@ void addServeSettings(Settings& settings, ServeConfig& config) {
   fidelity.value = "link|exact";
   fidelity.help = "What touches: the links' LSS (link) or their meshes (exact)";
   addStreamSettings(settings, config.stream);
+  addWorldStreamSettings(settings, config.worldPolicy);
   addStreamSolidSettings(settings, config.solid);
 }
 

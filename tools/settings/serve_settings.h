@@ -10,6 +10,7 @@
 #include "network/service/service.h"
 #include "network/stream/stream_policy.h"
 #include "network/wire/wire.h"
+#include "network/world_stream/world_setup.h"
 #include "tools/settings/numbered_avatars.h"
 #include "tools/settings/stream_settings.h"
 #include "tools/settings/world_settings.h"
@@ -42,6 +43,8 @@ struct ServeConfig {
   WorldRequest world;  ///< Fidelity: link or exact.
   StreamPolicy stream;
   StreamSolidRequest solid;
+  std::string worldPath;  ///< A world file: then scene and avatars are its.
+  WorldPolicy worldPolicy;
   std::vector<NumberedAvatar> avatars;  ///< At least one; ids differ.
 };
 

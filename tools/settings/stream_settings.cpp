@@ -10,6 +10,8 @@
 namespace foretouch::tools {
 namespace {
 
+constexpr NumberRange kWaitRange{1.0 / kUsPerS, static_cast<double>(kMostWorldWaitUs) / kUsPerS,
+                                 "seconds", "s"};
 constexpr NumberRange kStepRange{1.0 / kUsPerS, static_cast<double>(kMostStepUs) / kUsPerS,
                                  "seconds", "s"};
 constexpr NumberRange kTakeoverRange{0.0, static_cast<double>(kMostTakeoverUs) / kUsPerS, "seconds",
@@ -105,6 +107,21 @@ void addStreamSettings(Settings& settings, StreamPolicy& policy) {
       .in(kStreamGroup)
       .inConfig("stream", "unmatched")
       .inHeader("unmatched_at_rest");
+}
+
+void addWorldStreamSettings(Settings& settings, WorldPolicy& policy) {
+  addSeconds(settings, "--world-wait", policy.waitUs, kWaitRange,
+             "Of a moving world: go on without a body that has told nothing of so long ago")
+      .inConfig("stream", "world_wait_s");
+  settings
+      .word<WhenSilent>("--world-silent", "undecided|hold-still|wait", policy.whenSilent,
+                        {{"undecided", WhenSilent::Undecided},
+                         {"hold-still", WhenSilent::HoldStill},
+                         {"wait", WhenSilent::Wait}},
+                        "What is taken of a body that is silent: nothing is claimed of it, it "
+                        "stays where it was, or all wait for it")
+      .in(kStreamGroup)
+      .inConfig("stream", "world_silent");
 }
 
 }  // namespace foretouch::tools

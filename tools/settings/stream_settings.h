@@ -5,6 +5,7 @@
 #include <string>
 
 #include "network/stream/stream_policy.h"
+#include "network/world_stream/world_setup.h"
 #include "tools/settings/settings.h"
 #include "tools/settings/solid_settings.h"
 
@@ -33,5 +34,9 @@ Setting& addTakeoverSetting(Settings& settings, std::int64_t& takeoverUs);
 
 /// --max-step, --confirmations and --unmatched-at-rest. `policy` outlives the settings.
 void addStreamSettings(Settings& settings, StreamPolicy& policy);
+
+/// --world-wait and --world-silent: how long a moving world waits for a body, and what silence
+/// means. `policy` outlives the settings.
+void addWorldStreamSettings(Settings& settings, WorldPolicy& policy);
 
 }  // namespace foretouch::tools

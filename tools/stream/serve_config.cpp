@@ -64,6 +64,16 @@ Result<ServeConfig> parseServeConfig(std::string_view text, const std::string& f
     readWholeTable(root, table, reading, settings);
   }
   readPolicies(root, reading, config.world.policies);
+  if (!config.worldPath.empty()) {
+    // Scene and avatars are those of the world file.
+    const bool isBoth = root.find("avatar") != nullptr || !config.world.scenePath.empty();
+    if (isBoth) {
+      reading.fail(ErrorCode::Mismatch, -1,
+                   "expected either a world, or a scene and avatars: a world file has its own");
+    }
+    if (reading.error) return *reading.error;
+    return config;
+  }
   readAvatars(root, reading, config);
   if (config.world.scenePath.empty()) {
     reading.fail(ErrorCode::Empty, -1, "expected a file in [scene]");

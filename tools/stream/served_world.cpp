@@ -26,7 +26,7 @@ Result<StreamSolver> loadAvatar(const ServeConfig& config, const NumberedAvatar&
 
 Result<ServedWorld> loadServedWorld(const ServeConfig& config) {
   FORETOUCH_TRY(const auto scene, loadScene(config.world));
-  ServedWorld world{scene, {}, 0, {}};
+  ServedWorld world{scene, {}, std::nullopt, 0, {}};
   world.numTriangles = scene.numTriangles();
   if (const std::size_t dropped = scene.audit().droppedNonFinite; dropped > 0) {
     world.remarks.push_back(config.world.scenePath + ": " + std::to_string(dropped) +

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "articulated/result.h"
 #include "middleware/scene/scene.h"
 #include "network/stream/stream_solver.h"
+#include "network/world_stream/world_solver.h"
 #include "tools/settings/serve_settings.h"
 
 namespace foretouch::tools {
@@ -15,6 +17,7 @@ namespace foretouch::tools {
 struct ServedWorld {
   Scene scene;
   std::vector<StreamSolver> avatars;
+  std::optional<WorldSolver> world;  ///< That moves, if one was asked for: the caller fills it in.
   std::size_t numTriangles = 0;
   std::vector<std::string> remarks;  ///< Tolerated faults: one sentence each.
 };

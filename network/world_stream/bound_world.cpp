@@ -1,0 +1,86 @@
+#include "network/world_stream/bound_world.h"
+
+#include <algorithm>
+#include <arpa/inet.h>
+
+namespace foretouch {
+
+SpeakerGate& BoundWorld::gateOf(BodyNumber body) {
+  const auto known = gates_.find(body);
+  if (known != gates_.end()) return *known->second;
+  if (gates_.size() >= solver_.policy().maxBodies) {
+    for (auto gate = gates_.begin(); gate != gates_.end();) {
+      gate = solver_.isThere(gate->first) ? std::next(gate) : gates_.erase(gate);
+    }
+  }
+  return *gates_.emplace(body, std::make_unique<SpeakerGate>(policy_)).first->second;
+}
+
+/// Of a body that is there.
+bool BoundWorld::mayPass(const Heard& heard, BodyNumber body, WorldRecord& record) {
+  if (heard.sender == UdpmSender()) return true;  // liblcm does not say who
+  SpeakerGate& gate = gateOf(body);
+  switch (gate.admit(heard.sender, heard.receiveUtimeUs)) {
+    case SpeakerGate::Admission::Refused: return false;
+    case SpeakerGate::Admission::Takeover:
+      record.speaker({body, std::max<std::int64_t>(0, heard.receiveUtimeUs),
+                      ntohl(heard.sender.address), ntohs(heard.sender.port)});
+      solver_.changeSpeaker(body);
+      return true;
+    default: return true;
+  }
+}
+
+Reject BoundWorld::take(const Heard& heard, const BodyMessage& message, WorldRecord& record) {
+  Reject reason = sessionFault(message.session, heard.receiveUtimeUs);
+  const bool isThere = solver_.isThere(message.body);
+  if (reason == Reject::None && isThere && !mayPass(heard, message.body, record)) {
+    reason = Reject::OtherSender;
+  }
+  if (reason != Reject::None) {
+    solver_.refusedState(reason);
+    return reason;
+  }
+  // Whoever speaks first of a body that is gone is nobody's contender.
+  if (!isThere) gates_.erase(message.body);
+  reason = solver_.take(message, heard.receiveUtimeUs);
+  if (reason != Reject::None) return reason;
+  record.body(heard.payload, heard.receiveUtimeUs);
+  if (heard.sender != UdpmSender()) {
+    gateOf(message.body).accepted(heard.sender, heard.receiveUtimeUs);
+  }
+  return reason;
+}
+
+Reject BoundWorld::take(const Heard& heard, RigidPoseMessage& message, WorldRecord& record) {
+  const Reject future = sessionFault(message.session, heard.receiveUtimeUs);
+  const std::size_t told = message.bodies.size();
+  const auto isRefused = [&](const BodyPose& pose) {
+    Reject reason = future;
+    if (reason == Reject::None && solver_.isThere(pose.body) &&
+        !mayPass(heard, pose.body, record)) {
+      reason = Reject::OtherSender;
+    }
+    if (reason != Reject::None) solver_.refusedPose(reason);
+    return reason != Reject::None;
+  };
+  auto& bodies = message.bodies;
+  bodies.erase(std::remove_if(bodies.begin(), bodies.end(), isRefused), bodies.end());
+  if (bodies.empty() && told > 0) return future != Reject::None ? future : Reject::OtherSender;
+  const Reject reason = solver_.take(message, heard.receiveUtimeUs);
+  if (reason != Reject::None) return reason;
+  ByteView payload = heard.payload;
+  if (bodies.size() < told) {
+    encode(message, payload_);
+    payload = payload_;
+  }
+  record.rigidPose(payload, heard.receiveUtimeUs);
+  if (heard.sender == UdpmSender()) return reason;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (solver_.reasons()[i] != Reject::None) continue;
+    gateOf(bodies[i].body).accepted(heard.sender, heard.receiveUtimeUs);
+  }
+  return reason;
+}
+
+}  // namespace foretouch

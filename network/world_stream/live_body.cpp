@@ -1,0 +1,55 @@
+#include "network/world_stream/live_body.h"
+
+#include <algorithm>
+
+namespace foretouch::internal {
+
+void LiveBody::addUnknown(LinkId link, UndecidedReason reason, std::int64_t fromUs,
+                          std::int64_t toUs) {
+  for (UnknownSpan& span : unknown) {
+    if (span.link != link || span.reason != reason || span.toUs < fromUs) continue;
+    span.fromUs = std::min(span.fromUs, fromUs);
+    span.toUs = std::max(span.toUs, toUs);
+    return;
+  }
+  unknown.push_back({link, reason, fromUs, toUs});
+}
+
+void LiveBody::forgetBefore(std::int64_t utimeUs) {
+  const auto isOver = [&](const UnknownSpan& span) { return span.toUs < utimeUs; };
+  unknown.erase(std::remove_if(unknown.begin(), unknown.end(), isOver), unknown.end());
+  while (carriers.size() > 1 && carriers[1].sinceUs <= utimeUs) carriers.erase(carriers.begin());
+}
+
+bool LiveBody::isUnknown(LinkId link, std::int64_t fromUs, std::int64_t toUs) const {
+  return std::any_of(unknown.begin(), unknown.end(), [&](const UnknownSpan& span) {
+    const bool isOf = span.link == kEveryLink || link == kEveryLink || span.link == link;
+    return isOf && span.fromUs <= toUs && fromUs <= span.toUs;
+  });
+}
+
+Reject rigidPlaceFault(const LiveBody& body, const RigidPlace& place, std::int64_t receiveUtimeUs,
+                       std::int64_t restartUs, bool& isGap) {
+  isGap = false;
+  if (!body.hasStream) return Reject::None;
+  if (place.utimeUs <= body.knownUntilUs) {
+    const bool isCopy = place.session == body.session && place.sequence == body.sequence &&
+                        place.utimeUs == body.knownUntilUs;
+    if (isCopy) return Reject::Duplicate;
+    if (place.session < body.session) return Reject::OldSession;
+    return place.session == body.session && place.sequence < body.sequence ? Reject::OutOfOrder
+                                                                           : Reject::StaleStamp;
+  }
+  isGap = body.isOtherSpeaker || place.session != body.session ||
+          place.sequence != body.sequence + 1 || body.skips;
+  if (body.isOtherSpeaker || receiveUtimeUs - body.heardUs > restartUs) {
+    isGap = true;
+    return Reject::None;
+  }
+  if (place.session < body.session) return Reject::OldSession;
+  if (place.session > body.session) return Reject::None;
+  if (place.sequence == body.sequence) return Reject::Duplicate;
+  return place.sequence < body.sequence ? Reject::OutOfOrder : Reject::None;
+}
+
+}  // namespace foretouch::internal

@@ -1,0 +1,100 @@
+// network/world_stream/live_body.h: one body of a live world: what its stream has said of it, in
+// the order of time, and what of that the world has been told. Not installed.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "articulated/pose.h"
+#include "network/wire/reject.h"
+#include "network/wire/world_messages.h"
+#include "network/world_stream/world_setup.h"
+
+namespace foretouch::internal {
+
+/// Where a body is at an instant.
+struct LiveKnot {
+  std::int64_t utimeUs = 0;
+  /// Nothing: it is not known. For the world it is then where it was.
+  std::optional<Pose> pose;
+};
+
+/// From an instant on, another one carries the body, or nobody, or it is gone.
+struct LiveChange {
+  std::int64_t sinceUs = 0;
+  bool isPresent = true;
+  BodyNumber carrier = kNoBody;
+  LinkId link = 0;
+  bool movesInFrame = false;
+  RigidPose pose;
+};
+
+/// A time in which links are not known.
+struct UnknownSpan {
+  LinkId link = kEveryLink;
+  UndecidedReason reason = UndecidedReason::Gap;
+  std::int64_t fromUs = 0, toUs = 0;
+};
+
+/// Who carries a body since when.
+struct LiveCarrier {
+  std::int64_t sinceUs = 0;
+  BodyNumber carrier = kNoBody;
+  LinkId link = 0;
+};
+
+struct LiveBody {
+  BodyNumber number = 0;
+  std::size_t shape = 0;
+  bool isAvatar = false;  ///< Its poses are those of an avatar's stream.
+
+  // What its stream has said.
+  bool hasStream = false;  ///< A pose was accepted; the next four are of the last one.
+  bool isOtherSpeaker = false;
+  std::int64_t session = 0, sequence = 0, knownUntilUs = -1, heardUs = 0;
+  std::int64_t stateSession = 0, stateSequence = -1;  ///< Of the last accepted body_t.
+  LiveChange state;                                   ///< That was accepted last.
+  std::int64_t stateUs = -1;                          ///< Until when that says where it is.
+  bool skips = false;  ///< Something between its last accepted pose and the next one is missing.
+  std::deque<LiveKnot> knots;      ///< Not told to the world.
+  std::deque<LiveChange> changes;  ///< Likewise, by time.
+  std::vector<UnknownSpan> unknown;
+
+  // What the world knows.
+  std::optional<BodyId> slot;
+  std::int64_t beginUs = 0, toldUntilUs = -1;  ///< First and last pose that it was told.
+  Pose told;                                   ///< The last one.
+  std::vector<LiveCarrier> carriers;           ///< By time.
+  bool isHeldFast = false;
+  bool isSilent = false;  ///< The watermark has gone on without it.
+
+  /// Until when it is known where it is; -1: it is not there yet.
+  [[nodiscard]] std::int64_t saidUntilUs() const { return std::max(knownUntilUs, stateUs); }
+  /// Its announced state: held fast, it has no poses.
+  [[nodiscard]] bool awaitsPoses() const {
+    return state.isPresent && (state.carrier == kNoBody || state.movesInFrame);
+  }
+  /// Marks the links as unknown from `fromUs` to `toUs`; goes on with a span that ends there.
+  void addUnknown(LinkId link, UndecidedReason reason, std::int64_t fromUs, std::int64_t toUs);
+  /// Lets go of what is over.
+  void forgetBefore(std::int64_t utimeUs);
+  /// Whether the link (kEveryLink: any of them) is unknown at an instant in [fromUs, toUs].
+  [[nodiscard]] bool isUnknown(LinkId link, std::int64_t fromUs, std::int64_t toUs) const;
+};
+
+/// Where a pose is in a stream of rigid_pose_t.
+struct RigidPlace {
+  std::int64_t session = 0, sequence = 0, utimeUs = 0;
+};
+/// Why a body does not accept a pose of this place; `restartUs`: a sender that said nothing for so
+/// long may begin anew. None: `isGap` says whether poses before it were lost or another stream
+/// begins.
+[[nodiscard]] Reject rigidPlaceFault(const LiveBody& body, const RigidPlace& place,
+                                     std::int64_t receiveUtimeUs, std::int64_t restartUs,
+                                     bool& isGap);
+
+}  // namespace foretouch::internal

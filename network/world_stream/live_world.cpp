@@ -1,0 +1,200 @@
+#include "network/world_stream/live_world.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "articulated/try.h"
+#include "lss/index.h"
+
+namespace foretouch::internal {
+namespace {
+
+/// Bodies that have come and gone stay in a World: beyond so many it is made anew.
+constexpr std::size_t kMostSlots = 4096;
+
+Pose poseOf(const RigidPose& rigid) {
+  return {{rigid.rotation}, {rigid.translation}};
+}
+
+}  // namespace
+
+Result<LiveWorld> LiveWorld::make(const WorldSetup& setup, bool holdsStill, std::int64_t fromUs) {
+  FORETOUCH_TRY(auto world, setup.build());
+  FORETOUCH_TRY(auto follower, WorldFollower::start(fromUs));
+  return LiveWorld(setup, holdsStill, std::move(world), std::move(follower));
+}
+
+bool LiveWorld::hasRoomFor(std::size_t bodies) const {
+  return slots_.size() + bodies <= kMostSlots;
+}
+
+std::optional<BodyNumber> LiveWorld::numberOf(BodyId slot, std::int64_t utimeUs) const {
+  if (slot < 0) return slot;  // the scene, everybody
+  if (slotOf(slot) >= slots_.size()) return std::nullopt;
+  const Slot& place = slots_[slotOf(slot)];
+  if (place.goneUs && utimeUs >= *place.goneUs) return std::nullopt;
+  return place.number;
+}
+
+void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs) {
+  tell(bodies, body, untilUs, 0);
+  const bool isBehind = body.slot && !body.isHeldFast && body.toldUntilUs < untilUs;
+  if (!isBehind || !holdsStill_) return;
+  const Pose still = body.told;
+  push(body, untilUs, still);
+}
+
+void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, int depth) {
+  for (;;) {
+    const bool isShort = body.slot && !body.isHeldFast && body.toldUntilUs < untilUs;
+    const bool hasKnot = !body.knots.empty();
+    // A pose at the very instant of a change is in the frame before it.
+    const bool isChange = !body.changes.empty() &&
+                          (!hasKnot || body.changes.front().sinceUs < body.knots.front().utimeUs);
+    if (isChange) {
+      LiveChange& change = body.changes.front();
+      if (change.sinceUs > untilUs && !(isShort && hasKnot)) return;
+      if (!takeChange(bodies, body, change, untilUs, depth)) return;
+      body.changes.pop_front();
+      continue;
+    }
+    if (!hasKnot || (body.knots.front().utimeUs > untilUs && !isShort)) return;
+    takeKnot(body, body.knots.front());
+    body.knots.pop_front();
+  }
+}
+
+/// False if the world does not take it.
+bool LiveWorld::addTo(LiveBody& body) {
+  if (body.slot) return true;
+  const WorldShape& shape = setup_->shapes[body.shape];
+  BodyOptions options;
+  options.group = shape.group;
+  options.whenSilent = WhenSilent::Undecided;  // the watermark decides who is waited for
+  options.self = shape.self;
+  const auto added =
+      shape.avatar ? world_.add(*shape.avatar, options) : world_.add(*shape.mesh, options);
+  if (!added.ok()) {
+    ++failures_;
+    return false;
+  }
+  body.slot = added.value();
+  slots_.push_back({body.number, std::nullopt});
+  return true;
+}
+
+void LiveWorld::push(LiveBody& body, std::int64_t utimeUs, const Pose& pose) {
+  const bool isNew = !body.slot;
+  if (!addTo(body)) return;
+  if (!world_.push(*body.slot, utimeUs, pose).ok()) {
+    ++failures_;
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, utimeUs);
+    body.skips = true;
+    return;
+  }
+  if (isNew) body.beginUs = utimeUs;
+  body.toldUntilUs = utimeUs;
+  body.told = pose;
+}
+
+void LiveWorld::takeKnot(LiveBody& body, const LiveKnot& knot) {
+  if (body.isHeldFast || (body.slot && knot.utimeUs <= body.toldUntilUs)) return;
+  if (knot.pose) {
+    push(body, knot.utimeUs, *knot.pose);
+  } else if (body.slot) {
+    const Pose still = body.told;
+    push(body, knot.utimeUs, still);
+  }
+}
+
+/// Nobody said where it was from its last pose on.
+void LiveWorld::holdUntil(LiveBody& body, std::int64_t utimeUs) {
+  if (!body.slot || body.isHeldFast || body.toldUntilUs >= utimeUs) return;
+  body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, utimeUs);
+  const Pose still = body.told;
+  push(body, utimeUs, still);
+}
+
+bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& change,
+                           std::int64_t untilUs, int depth) {
+  // Nothing changes where it has only just begun.
+  if (body.slot) {
+    const std::int64_t begunUs =
+        body.carriers.empty() ? body.beginUs : body.carriers.back().sinceUs;
+    change.sinceUs = std::max(change.sinceUs, begunUs + 1);
+  }
+  if (!change.isPresent) {
+    holdUntil(body, change.sinceUs);
+    retire(body, change.sinceUs);
+    return true;
+  }
+  if (change.carrier != kNoBody) return attach(bodies, body, change, untilUs, depth);
+  letGo(body, change);
+  return true;
+}
+
+bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs,
+                       int depth) {
+  const auto carrier = bodies.find(change.carrier);
+  if (carrier == bodies.end() || depth > kMostCarriers) {
+    ++failures_;
+    body.skips = true;
+    return true;
+  }
+  tell(bodies, carrier->second, untilUs, depth + 1);
+  if (!carrier->second.slot) return false;
+  change.sinceUs = std::max(change.sinceUs, carrier->second.beginUs);
+  if (change.sinceUs > untilUs && body.knots.empty()) return false;
+  holdUntil(body, change.sinceUs);
+  const bool isNew = !body.slot;
+  if (!addTo(body)) return true;
+  const Carrier by{*carrier->second.slot, change.link, change.movesInFrame};
+  const Pose pose = poseOf(change.pose);
+  if (!world_.attach(*body.slot, by, change.sinceUs, pose).ok()) {
+    ++failures_;
+    body.skips = true;
+    return true;
+  }
+  // What was told beyond the change was said in another frame.
+  if (body.toldUntilUs > change.sinceUs) {
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, change.sinceUs, body.toldUntilUs);
+    body.skips = true;
+  }
+  if (isNew) body.beginUs = change.sinceUs;
+  body.toldUntilUs = change.sinceUs;
+  body.told = pose;
+  body.isHeldFast = !change.movesInFrame;
+  body.carriers.push_back({change.sinceUs, change.carrier, change.link});
+  return true;
+}
+
+/// Nobody carries it from here on; or it is told to be here.
+void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
+  const bool isCarried = !body.carriers.empty() && body.carriers.back().carrier != kNoBody;
+  const Pose pose = poseOf(change.pose);
+  if (!body.slot || !isCarried) {
+    if (!body.slot || change.sinceUs > body.toldUntilUs) push(body, change.sinceUs, pose);
+    return;
+  }
+  holdUntil(body, change.sinceUs);
+  if (!world_.detach(*body.slot, change.sinceUs, pose).ok()) {
+    ++failures_;
+    body.skips = true;
+    return;
+  }
+  if (!body.isHeldFast && body.toldUntilUs > change.sinceUs) {
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, change.sinceUs, body.toldUntilUs);
+    body.skips = true;
+  }
+  body.toldUntilUs = change.sinceUs;
+  body.told = pose;
+  body.isHeldFast = false;
+  body.carriers.push_back({change.sinceUs, kNoBody, 0});
+}
+
+void LiveWorld::retire(LiveBody& body, std::int64_t utimeUs) {
+  if (body.slot) slots_[slotOf(*body.slot)].goneUs = utimeUs;
+  gone_.push_back({body.number, utimeUs});
+}
+
+}  // namespace foretouch::internal

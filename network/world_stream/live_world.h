@@ -1,0 +1,86 @@
+// network/world_stream/live_world.h: the World of a live stream: what its bodies have said until an
+// instant is told to it there, and what happens is followed. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "articulated/result.h"
+#include "middleware/events/world_event.h"
+#include "middleware/events/world_follower.h"
+#include "middleware/world/world.h"
+#include "network/world_stream/live_body.h"
+#include "network/world_stream/world_setup.h"
+
+namespace foretouch::internal {
+
+using LiveBodies = std::map<BodyNumber, LiveBody>;
+
+/// A body that was there in a window, and is gone.
+struct GoneBody {
+  BodyNumber number = 0;
+  std::int64_t sinceUs = 0;
+};
+
+/// One thread.
+class LiveWorld {
+ public:
+  /// Nobody is there yet. `holdsStill`: whoever says nothing stays where he was. Errors: those of
+  /// WorldSetup::build.
+  static Result<LiveWorld> make(const WorldSetup& setup, bool holdsStill, std::int64_t fromUs);
+
+  /// Whether so many more bodies may come before it must be made anew.
+  [[nodiscard]] bool hasRoomFor(std::size_t bodies) const;
+  /// Tells the world what `body` has said until `untilUs`, and the next pose after it.
+  void tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs);
+  /// As WorldFollower::follow().
+  Result<Done> follow(std::int64_t untilUs, WorldEvents& events) {
+    return follower_.follow(world_, untilUs, events);
+  }
+  void forgetBefore(std::int64_t utimeUs) { world_.forgetBefore(utimeUs); }
+  /// The latest pose that it was told.
+  [[nodiscard]] std::optional<std::int64_t> knownUntilUs() const { return world_.knownUntilUs(); }
+
+  /// Whose place in the world this is, if it was there at that instant.
+  [[nodiscard]] std::optional<BodyNumber> numberOf(BodyId slot, std::int64_t utimeUs) const;
+  /// Bodies that tell() found gone; the caller empties it.
+  std::vector<GoneBody>& gone() { return gone_; }
+  /// Changes of carriers, poses and shapes that the world did not take.
+  [[nodiscard]] std::uint64_t failures() const { return failures_; }
+
+ private:
+  struct Slot {
+    BodyNumber number = 0;
+    std::optional<std::int64_t> goneUs;
+  };
+  LiveWorld(const WorldSetup& setup, bool holdsStill, World world, WorldFollower follower)
+      : setup_(&setup),
+        holdsStill_(holdsStill),
+        world_(std::move(world)),
+        follower_(std::move(follower)) {}
+  void tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, int depth);
+  [[nodiscard]] bool addTo(LiveBody& body);
+  void push(LiveBody& body, std::int64_t utimeUs, const Pose& pose);
+  void takeKnot(LiveBody& body, const LiveKnot& knot);
+  void holdUntil(LiveBody& body, std::int64_t utimeUs);
+  /// False: its carrier is not there yet.
+  bool takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs,
+                  int depth);
+  bool attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs,
+              int depth);
+  void letGo(LiveBody& body, const LiveChange& change);
+  void retire(LiveBody& body, std::int64_t utimeUs);
+
+  const WorldSetup* setup_;
+  bool holdsStill_;
+  World world_;
+  WorldFollower follower_;
+  std::vector<Slot> slots_;
+  std::vector<GoneBody> gone_;
+  std::uint64_t failures_ = 0;
+};
+
+}  // namespace foretouch::internal

@@ -1,0 +1,69 @@
+// network/world_stream/world_setup.h: what a live world is made of: the shapes that messages name,
+// the avatars that pose_t tells of, and how long anybody is waited for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/pair_rules.h"
+#include "articulated/result.h"
+#include "articulated/track.h"
+#include "middleware/scene/scene.h"
+#include "middleware/world/world.h"
+#include "network/wire/world_messages.h"
+
+namespace foretouch {
+
+/// A shape that bodies may have: exactly one of the first two after its name is there.
+struct WorldShape {
+  std::string name;
+  std::optional<Avatar> avatar;  ///< Or a rigid prop made of LSS: of one link.
+  std::optional<Scene> mesh;
+  BodyGroup group = 0;
+  std::optional<PairRules> self;
+};
+
+/// Of what touches, as defined in docs/formats.md ("Shape hash"): XXH64 of the names, parents, rest
+/// pose and LSS of its links, or of its triangles. Never 0.
+[[nodiscard]] std::int64_t shapeHash(const WorldShape& shape);
+
+struct WorldSetup {
+  /// An empty world, with its scene, its tolerance and what is asked. Called again where a timeline
+  /// begins anew.
+  std::function<Result<World>()> build;
+  double tolerance = kDefaultTolerance;  ///< Of that world.
+  std::vector<WorldShape> shapes;        ///< Names differ.
+  struct ServedAvatar {
+    BodyNumber number = 0;  ///< As in pose_t.
+    std::size_t shape = 0;
+  };
+  std::vector<ServedAvatar> avatars;  ///< Numbers differ.
+};
+
+/// Times in microseconds.
+struct WorldPolicy {
+  /// A body that has told nothing captured in the last `waitUs` before the newest receipt is silent
+  /// (unless `whenSilent` is Wait): the watermark goes on without it. So clocks of senders must
+  /// agree with the service's within this. 1 to kMostWorldWaitUs.
+  std::int64_t waitUs = 200'000;
+  /// What silence means. Wait: the watermark waits for ever.
+  WhenSilent whenSilent = WhenSilent::Undecided;
+  /// A pose captured later than this after its receipt is refused. 0 to kMostWorldWaitUs.
+  std::int64_t aheadUs = 1'000'000;
+  /// A body that nobody speaks of for so long is gone. At least `waitUs`.
+  std::int64_t forgetUs = 60'000'000;
+  /// That are there at a time, avatars included. 1 to kMaxToldBodies.
+  std::size_t maxBodies = 1024;
+};
+inline constexpr std::int64_t kMostWorldWaitUs = 60'000'000;
+/// Accepted poses of a body that wait for the watermark; more are refused (Overrun).
+inline constexpr std::size_t kMostWaitingKnots = 1024;
+/// How many bodies may hang on one another.
+inline constexpr int kMostCarriers = 8;
+
+}  // namespace foretouch

@@ -1,0 +1,64 @@
+// network/world_stream/world_solver.h: answers a moving world live: what avatars' streams and
+// messages about bodies say goes onto one timeline, and each advance of the watermark becomes
+// events_t. No clock, no socket, no thread: the answers follow from the accepted messages, their
+// receipts and their order alone. The service, the replay of a log and the simulator run the same
+// code, so their answers are equal, byte for byte.
+//
+// The watermark is where all is known that is waited for: the earliest last pose of the bodies that
+// are not silent (WorldPolicy::waitUs). Nothing is claimed of who is not known: messages list what
+// (UnknownPart), and mark events that rest on it. Clocks of senders are compared with the receipts,
+// by one clock: no sender can hold up the others for longer than waitUs, or hurry them.
+// docs/streaming.md, "A moving world", has the whole story.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "articulated/result.h"
+#include "network/stream/avatar_stream.h"
+#include "network/wire/reject.h"
+#include "network/wire/world_messages.h"
+#include "network/world_stream/world_counts.h"
+#include "network/world_stream/world_setup.h"
+
+namespace foretouch {
+
+class WorldSolver {
+ public:
+  /// Errors: a policy out of range (names the field); shapes or avatars that do not differ, or are
+  /// not there; those of WorldSetup::build.
+  static Result<WorldSolver> make(WorldSetup setup, const WorldPolicy& policy);
+  WorldSolver(WorldSolver&&) noexcept;
+  WorldSolver& operator=(WorldSolver&&) noexcept;
+  ~WorldSolver();
+
+  /// Each says whether the message is accepted. What is refused changes nothing, and counts.
+  [[nodiscard]] Reject take(const BodyMessage& message, std::int64_t receiveUtimeUs);
+  /// None if any of its bodies accepts its pose; the others count as well. Else the first reason.
+  [[nodiscard]] Reject take(const RigidPoseMessage& message, std::int64_t receiveUtimeUs);
+  /// The step of an accepted pose_t. A pose that the world refuses is answered all the same.
+  [[nodiscard]] Reject take(BodyNumber avatar, const StreamStep& step, std::int64_t receiveUtimeUs);
+  /// From now on, until a pose is accepted, messages about the body are another sender's.
+  void changeSpeaker(BodyNumber body);
+  /// A state, or a body's pose, was refused before it came here.
+  void refusedState(Reject reason);
+  void refusedPose(Reject reason);
+  /// Of the last rigid_pose_t: why the pose of each of its bodies was refused.
+  [[nodiscard]] const std::vector<Reject>& reasons() const;
+
+  /// After each take(): moves the watermark as far as it can, and fills `answers`, but for the
+  /// stamps of receiving and sending; nothing if it did not move. Keeps their memory.
+  void advance(std::vector<EventsMessage>& answers);
+
+  [[nodiscard]] bool isThere(BodyNumber body) const;
+  [[nodiscard]] WorldCounts counts() const;
+  [[nodiscard]] const WorldPolicy& policy() const;
+
+ private:
+  struct Impl;
+  explicit WorldSolver(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace foretouch

@@ -1,0 +1,244 @@
+#include "network/world_stream/world_solver.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/network/world_stream/small_world.h"
+
+namespace foretouch::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::int64_t kStart = 1'000'000'000;
+constexpr std::int64_t kTick = 10'000;
+
+std::int64_t tick(std::int64_t n) {
+  return kStart + n * kTick;
+}
+
+WorldSolver solverOf(std::int32_t avatars = 0, const WorldPolicy& policy = {}) {
+  return WorldSolver::make(smallWorld(avatars), policy).value();
+}
+
+std::uint64_t refused(const WorldSolver& solver, Reject reason) {
+  return solver.counts().rejects[static_cast<std::size_t>(reason)];
+}
+
+Reject say(WorldSolver& solver, const RigidPoseMessage& message) {
+  return solver.take(message, message.utimeUs + 100);
+}
+
+TEST(WorldSolver, TellsEnterAndLeaveOfTwoBallsThatPass) {
+  WorldSolver solver = solverOf();
+  ToldWorld told;
+  ASSERT_EQ(solver.take(ballMessage(7), kStart), Reject::None);
+  ASSERT_EQ(solver.take(ballMessage(9), kStart), Reject::None);
+  // Nine comes along the x axis at 10 m/s and grazes nothing: centres meet at tick 5.
+  for (std::int64_t n = 0; n <= 10; ++n) {
+    const double x = 0.1 * static_cast<double>(n) - 0.5;
+    ASSERT_EQ(say(solver,
+                  rigidPoses(n, tick(n), {ballAt(7, Vector3d::Zero()), ballAt(9, {x, 0.0, 0.0})})),
+              Reject::None);
+    told.hear(solver);
+  }
+  const std::vector<ToldEvent> events = told.events();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].event.kind, EventKind::Enter);
+  EXPECT_EQ(events[1].event.kind, EventKind::Leave);
+  EXPECT_EQ(events[0].event.a.body, 7);
+  EXPECT_EQ(events[0].event.b.body, 9);
+  EXPECT_FALSE(events[0].event.isAssumed);
+  // They touch while |x| <= 0.2, from tick 3 to tick 7; the tolerance is 1 mm at 10 m/s: 0.1 ms.
+  const auto us = [](const ToldEvent& event) {
+    return static_cast<double>(event.event.time.us) + event.event.time.fraction;
+  };
+  EXPECT_LE(us(events[0]), static_cast<double>(tick(3)));
+  EXPECT_GE(us(events[0]), static_cast<double>(tick(3)) - 101.0);
+  EXPECT_GE(us(events[1]), static_cast<double>(tick(7)));
+  EXPECT_LE(us(events[1]), static_cast<double>(tick(7)) + 201.0);
+  EXPECT_EQ(told.answers.front().fromUs, tick(0));
+  for (std::size_t i = 1; i < told.answers.size(); ++i) {
+    EXPECT_EQ(told.answers[i].fromUs, told.answers[i - 1].toUs) << "windows follow one another";
+    EXPECT_TRUE(told.answers[i].unknown.empty());
+  }
+  EXPECT_EQ(told.answers.back().toUs, tick(10));
+}
+
+TEST(WorldSolver, GoesOnWithoutOneSilentSenderAmongTen) {
+  WorldPolicy policy;
+  policy.waitUs = 5 * kTick;
+  WorldSolver solver = solverOf(0, policy);
+  ToldWorld told;
+  for (BodyNumber body = 0; body < 10; ++body) {
+    ASSERT_EQ(solver.take(ballMessage(body), kStart), Reject::None);
+  }
+  for (std::int64_t n = 0; n <= 30; ++n) {
+    for (BodyNumber body = 0; body < 10; ++body) {
+      if (body == 4 && n > 10) continue;  // falls silent
+      const Vector3d place(static_cast<double>(body), 0.0, 0.0);
+      ASSERT_EQ(say(solver, rigidPoses(n, tick(n), {ballAt(body, place)}, body + 1)), Reject::None);
+      told.hear(solver);
+    }
+    const std::int64_t answered = solver.counts().answeredUntilUs;
+    if (n <= 10) {
+      EXPECT_GE(answered, n == 0 ? -1 : tick(n - 1));
+    }
+    // Nobody is waited for longer than was asked for.
+    if (n > 16) {
+      EXPECT_GE(answered, tick(n - 6));
+    }
+  }
+  EXPECT_EQ(solver.counts().answeredUntilUs, tick(30));
+  EXPECT_EQ(solver.counts().silences, 1U);
+  EXPECT_EQ(solver.counts().silent, 1U);
+  const EventsMessage& last = told.answers.back();
+  ASSERT_EQ(last.unknown.size(), 1U);
+  EXPECT_EQ(last.unknown[0].body, 4);
+  EXPECT_EQ(last.unknown[0].fromUs, last.fromUs);
+  EXPECT_EQ(last.unknown[0].toUs, last.toUs);
+  // It comes back: late is refused, new is taken, and what was missed is marked.
+  const Vector3d place(4.0, 0.0, 0.0);
+  EXPECT_EQ(solver.take(rigidPoses(11, tick(11), {ballAt(4, place)}, 5), tick(30)), Reject::Late);
+  EXPECT_EQ(say(solver, rigidPoses(31, tick(31), {ballAt(4, place)}, 5)), Reject::None);
+  EXPECT_EQ(solver.counts().gaps, 1U);
+}
+
+TEST(WorldSolver, WaitsForEverWhereSilenceMeansSo) {
+  WorldPolicy policy;
+  policy.whenSilent = WhenSilent::Wait;
+  WorldSolver solver = solverOf(0, policy);
+  ToldWorld told;
+  for (const BodyNumber body : {1, 2}) {
+    ASSERT_EQ(solver.take(ballMessage(body), kStart), Reject::None);
+    ASSERT_EQ(say(solver, rigidPoses(0, tick(0), {ballAt(body, {0.0, 1.0 * body, 0.0})}, body)),
+              Reject::None);
+  }
+  std::uint64_t taken = 0;
+  for (std::int64_t n = 1; n <= 2000; ++n) {
+    const Reject reject = say(solver, rigidPoses(n, tick(n), {ballAt(1, {0.0, 1.0, 0.0})}, 1));
+    taken += reject == Reject::None ? 1 : 0;
+    if (reject != Reject::None) {
+      ASSERT_EQ(reject, Reject::Overrun);
+    }
+    told.hear(solver);
+  }
+  EXPECT_EQ(solver.counts().answeredUntilUs, -1) << "nobody knows of two what comes next";
+  EXPECT_EQ(solver.counts().waitsFor, 2);
+  EXPECT_LE(taken, kMostWaitingKnots) << "what waits is bounded";
+  EXPECT_EQ(refused(solver, Reject::Overrun), 2000 - taken);
+}
+
+TEST(WorldSolver, RefusesByName) {
+  WorldPolicy policy;
+  policy.maxBodies = 4;
+  WorldSolver solver = solverOf(1, policy);
+  BodyMessage message = ballMessage(7);
+  message.shape = "cube";
+  EXPECT_EQ(solver.take(message, kStart), Reject::UnknownShape);
+  message = ballMessage(7);
+  message.shapeHash = 1;
+  EXPECT_EQ(solver.take(message, kStart), Reject::BadHash);
+  message.shapeHash = shapeHash(smallWorld().shapes[1]);
+  EXPECT_EQ(solver.take(message, kStart), Reject::None);
+  EXPECT_EQ(solver.take(message, kStart), Reject::Duplicate);
+  EXPECT_EQ(solver.take(ballMessage(7, -1), kStart), Reject::OutOfOrder);
+  EXPECT_EQ(solver.take(ballMessage(7, 0, 0), kStart), Reject::OldSession);
+  message = ballMessage(8);
+  message.carrier = 99;
+  EXPECT_EQ(solver.take(message, kStart), Reject::UnknownBody);
+  message.carrier = 7;
+  EXPECT_EQ(solver.take(message, kStart), Reject::None);
+  message = ballMessage(7, 1);
+  message.carrier = 8;
+  EXPECT_EQ(solver.take(message, kStart), Reject::CarrierLoop);
+  EXPECT_EQ(solver.take(ballMessage(1), kStart), Reject::UnknownShape) << "one is an avatar";
+  EXPECT_EQ(solver.take(ballMessage(10), kStart), Reject::None);
+  EXPECT_EQ(solver.take(ballMessage(11), kStart), Reject::Limit) << "a flood of bodies";
+
+  const Vector3d here = Vector3d::Zero();
+  EXPECT_EQ(say(solver, rigidPoses(0, tick(0), {ballAt(50, here)})), Reject::UnknownBody);
+  EXPECT_EQ(say(solver, rigidPoses(0, tick(0), {ballAt(8, here)})), Reject::HeldFast);
+  EXPECT_EQ(say(solver, rigidPoses(5, tick(0), {ballAt(7, here)})), Reject::None);
+  EXPECT_EQ(say(solver, rigidPoses(5, tick(0), {ballAt(7, here)})), Reject::Duplicate);
+  EXPECT_EQ(say(solver, rigidPoses(4, tick(1), {ballAt(7, here)})), Reject::OutOfOrder);
+  EXPECT_EQ(say(solver, rigidPoses(6, tick(0), {ballAt(7, here)})), Reject::StaleStamp);
+  EXPECT_EQ(say(solver, rigidPoses(6, tick(1), {ballAt(7, here)}, 0)), Reject::OldSession);
+  EXPECT_EQ(solver.take(rigidPoses(6, tick(1000), {ballAt(7, here)}), tick(1)),
+            Reject::FutureStamp);
+  const WorldCounts counts = solver.counts();
+  EXPECT_EQ(counts.states + counts.rigidPoses, counts.rejected() + 3 + counts.taken);
+}
+
+TEST(WorldSolver, MarksWhatRestsOnLostPoses) {
+  WorldSolver solver = solverOf();
+  ToldWorld told;
+  for (const BodyNumber body : {1, 2}) {
+    ASSERT_EQ(solver.take(ballMessage(body), kStart), Reject::None);
+  }
+  for (std::int64_t n = 0; n <= 10; ++n) {
+    if (n == 3 || n == 4) continue;  // lost
+    const double x = 0.1 * static_cast<double>(n) - 0.5;
+    ASSERT_EQ(
+        say(solver, rigidPoses(n, tick(n), {ballAt(1, Vector3d::Zero()), ballAt(2, {x, 0, 0})})),
+        Reject::None);
+    told.hear(solver);
+  }
+  const std::vector<ToldEvent> events = told.events();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_TRUE(events[0].event.isAssumed) << "nobody knows what was between ticks 2 and 5";
+  EXPECT_FALSE(events[1].event.isAssumed);
+  EXPECT_EQ(solver.counts().marked, 1U);
+  bool isListed = false;
+  for (const EventsMessage& answer : told.answers) {
+    for (const UnknownPart& part : answer.unknown) {
+      isListed = isListed || (part.body == 2 && part.fromUs == tick(2) && part.toUs == tick(5));
+    }
+  }
+  EXPECT_TRUE(isListed);
+}
+
+TEST(WorldSolver, BodiesComeAndGoAndAreCarried) {
+  WorldSolver solver = solverOf();
+  ToldWorld told;
+  ASSERT_EQ(solver.take(ballMessage(1), kStart), Reject::None);
+  ASSERT_EQ(solver.take(ballMessage(3), kStart), Reject::None);
+  const auto move = [&](std::int64_t n, std::vector<BodyPose> bodies) {
+    ASSERT_EQ(say(solver, rigidPoses(n, tick(n), std::move(bodies))), Reject::None);
+    told.hear(solver);
+  };
+  const Vector3d far(5.0, 0.0, 0.0);
+  for (std::int64_t n = 0; n < 3; ++n) move(n, {ballAt(1, Vector3d::Zero()), ballAt(3, far)});
+  // Two comes carried by one, 0.5 m beside it, and one takes it to three.
+  BodyMessage carried = ballMessage(2, 0, 2);
+  carried.carrier = 1;
+  carried.pose.translation = {0.5, 0.0, 0.0};
+  carried.sinceUs = tick(4);
+  ASSERT_EQ(solver.take(carried, tick(3)), Reject::None);
+  for (std::int64_t n = 3; n <= 30; ++n) {
+    move(n, {ballAt(1, {0.2 * static_cast<double>(n - 3), 0.0, 0.0}), ballAt(3, far)});
+  }
+  std::vector<ToldEvent> events = told.events();
+  ASSERT_GE(events.size(), 1U);
+  EXPECT_EQ(events[0].event.kind, EventKind::Enter);
+  EXPECT_EQ(events[0].event.a.body + events[0].event.b.body, 5) << "two meets three first";
+  EXPECT_FALSE(events[0].event.isAssumed);
+  // It is gone.
+  carried.sequence = 1;
+  carried.isPresent = false;
+  carried.sinceUs = tick(31);
+  ASSERT_EQ(solver.take(carried, tick(31)), Reject::None);
+  for (std::int64_t n = 31; n <= 33; ++n) move(n, {ballAt(1, Vector3d::Zero()), ballAt(3, far)});
+  events = told.events();
+  const bool isTold = std::any_of(events.begin(), events.end(), [](const ToldEvent& event) {
+    return event.cause == ToldCause::BodyGone && event.event.a.body == 2 &&
+           event.event.time.us == tick(31);
+  });
+  EXPECT_TRUE(isTold);
+  EXPECT_FALSE(solver.isThere(2));
+  EXPECT_EQ(solver.counts().failures, 0U);
+}
+
+}  // namespace
+}  // namespace foretouch::test

@@ -1,0 +1,25 @@
+// tools/world/served_bodies.h: the world file of a service: the shapes that messages name, and the
+// avatars that poses tell of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "network/world_stream/world_setup.h"
+#include "tools/world/loaded_world.h"
+
+namespace foretouch::tools {
+
+/// A body's number in messages: its place in the file, from 1.
+[[nodiscard]] constexpr BodyNumber numberInMessages(std::size_t body) {
+  return static_cast<BodyNumber>(body) + 1;
+}
+
+/// All bodies of the file as shapes; those with an avatar file are avatars. Where the file says
+/// that they are does not count: their streams do.
+[[nodiscard]] WorldSetup servedBodies(const LoadedWorld& world);
+
+/// What of the file a service does not use, a sentence each.
+[[nodiscard]] std::vector<std::string> remarksOnServing(const LoadedWorld& world);
+
+}  // namespace foretouch::tools
