@@ -43,7 +43,8 @@ Result<std::string> readAll(int descriptor, const std::string& path, std::size_t
                             std::size_t limitBytes) {
   std::string text;
   text.reserve(sizeHint);
-  std::string chunk(kChunkBytes, '\0');
+  // One byte more than there is, to see the end at once.
+  std::string chunk(std::min(kChunkBytes, sizeHint + 1), '\0');
   for (;;) {
     const ssize_t got = ::read(descriptor, chunk.data(), chunk.size());
     if (got < 0 && errno == EINTR) continue;
