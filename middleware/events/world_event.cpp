@@ -24,4 +24,13 @@ bool comesBefore(const WorldEvent& x, const WorldEvent& y) {
   return key(x) < key(y);
 }
 
+void EventCounters::add(const EventCounters& more) {
+  windows += more.windows;
+  contacts += more.contacts;
+  stretches += more.stretches;
+  contactLooks += more.contactLooks;
+  freeLooks += more.freeLooks;
+  pairs += more.pairs;
+}
+
 }  // namespace foretouch

@@ -112,6 +112,8 @@ struct EventCounters {
   std::uint64_t contactLooks = 0;  ///< Instants at which a contact was followed on.
   std::uint64_t freeLooks = 0;  ///< Instants at which two that had touched were looked for again.
   std::uint64_t pairs = 0;      ///< Distances of an LSS and another, or a triangle, for all these.
+
+  void add(const EventCounters& more);
 };
 
 /// Of the time from one call of WorldFollower::follow() to the next.

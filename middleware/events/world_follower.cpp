@@ -56,15 +56,6 @@ void add(const WorldCounters& more, WorldCounters& sum) {
   internal::addCounters(more.queries, sum.queries);
 }
 
-void add(const EventCounters& more, EventCounters& sum) {
-  sum.windows += more.windows;
-  sum.contacts += more.contacts;
-  sum.stretches += more.stretches;
-  sum.contactLooks += more.contactLooks;
-  sum.freeLooks += more.freeLooks;
-  sum.pairs += more.pairs;
-}
-
 PairKey keyOf(const WorldContact& contact) {
   return internal::keyOf(contact, internal::kNoObject);
 }
@@ -314,7 +305,7 @@ struct WorldFollower::Impl {
     for (const WorldEvent& event : own) order.push_back(&event);
     for (const auto& worker : workers) {
       for (const WorldEvent& event : worker->events) order.push_back(&event);
-      add(worker->counters, answer.counters);
+      answer.counters.add(worker->counters);
     }
     std::sort(order.begin(), order.end(),
               [](const WorldEvent* x, const WorldEvent* y) { return comesBefore(*x, *y); });

@@ -28,12 +28,7 @@ void EventTally::add(const EventTally& more) {
   unresolved += more.unresolved;
   severalParts += more.severalParts;
   for (std::size_t i = 0; i < kNumEventKinds; ++i) kinds[i] += more.kinds[i];
-  counters.windows += more.counters.windows;
-  counters.contacts += more.counters.contacts;
-  counters.stretches += more.counters.stretches;
-  counters.contactLooks += more.counters.contactLooks;
-  counters.freeLooks += more.counters.freeLooks;
-  counters.pairs += more.counters.pairs;
+  counters.add(more.counters);
   for (const std::string& problem : more.problems) {
     if (problems.size() < kMostProblems) problems.push_back(problem);
   }
