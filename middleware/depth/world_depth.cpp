@@ -52,6 +52,12 @@ Result<Done> checked(const WorldParts& world, const Asked& asked) {
                      "expected one of the world's " + std::to_string(world.bodies.size()) +
                          " bodies, found " + nameOf(asked.body));
   }
+  if (world.body(asked.body).options.surface) {
+    return Error::at(asked.body, ErrorCode::Mismatch,
+                     nameOf(asked.body) +
+                         " touches by its triangles; expected one that touches by "
+                         "its LSS, to say how deep it is");
+  }
   const std::int32_t links = world.kindOf(asked.body).skeleton.numJoints();
   if (asked.link == kEveryLink || (asked.link >= 0 && asked.link < links)) return Done{};
   return Error::at(asked.link, ErrorCode::UnknownName,

@@ -46,9 +46,10 @@ class WorldDepthScratch {
 
 /// At an instant at which a body changes its carrier: after it. Poses of parts of the motion are
 /// not rounded as worldContacts() rounds them, so a contact's own instant may be asked. Errors: an
-/// unknown body or link (Error::index), two links that are one; two meshes, or a mesh and the scene
-/// (one of two must be made of LSS); a world without a scene; a body that is not there then, or
-/// silent and not taken to hold still. O(joints, and what depthIn() takes).
+/// unknown body or link (Error::index), two links that are one; a body that touches by its
+/// triangles (BodyOptions::surface): its LSS alone would not say how deep; two meshes, or a mesh
+/// and the scene (one of two must be made of LSS); a world without a scene; a body that is not
+/// there then, or silent and not taken to hold still. O(joints, and what depthIn() takes).
 Result<WorldDepth> depthAt(const World& world, const WorldTime& time, const DepthQuestion& question,
                            WorldDepthScratch& scratch);
 

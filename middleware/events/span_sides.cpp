@@ -1,6 +1,7 @@
 #include "middleware/events/span_sides.h"
 
 #include <algorithm>
+#include <string>
 
 #include "articulated/try.h"
 #include "lss/index.h"
@@ -12,6 +13,24 @@ SystemQuestion SpanSides::questionOf(const BodyPair& bodies) const {
   if (bodies.b == bodies.a) return SystemQuestion::Self;
   const bool areAvatars = world_.kindOf(bodies.a).avatar && world_.kindOf(bodies.b).avatar;
   return areAvatars ? SystemQuestion::Pair : SystemQuestion::Mesh;
+}
+
+Result<Done> checkedSides(const WorldParts& world) {
+  if (world.options.askMeshes) {
+    return Error::in(
+        "world", ErrorCode::Mismatch,
+        "asks whether meshes meet; expected a world that does not, to follow contacts");
+  }
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    if (!world.bodies[i].options.surface) continue;
+    Error error = Error::in("body", ErrorCode::Mismatch,
+                            "body " + std::to_string(i) +
+                                " touches by its triangles; expected one that touches by its LSS, "
+                                "to follow its contacts");
+    error.index = static_cast<std::int64_t>(i);
+    return error;
+  }
+  return Done{};
 }
 
 bool SpanSides::begin(const BodyPair& bodies, std::int64_t fromUs, std::int64_t toUs) {

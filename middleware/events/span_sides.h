@@ -19,6 +19,10 @@ struct LinkPair {
   LinkId a = 0, b = 0;
 };
 
+/// Errors: a world whose contacts cannot be followed: contacts are followed between LSS, and
+/// between LSS and the triangles of a mesh or of the scene.
+[[nodiscard]] Result<Done> checkedSides(const WorldParts& world);
+
 /// For one thread. What it refers to outlives it.
 class SpanSides {
  public:

@@ -12,6 +12,7 @@
 #include "lss/index.h"
 #include "middleware/events/bodies_tracer.h"
 #include "middleware/events/open_parts.h"
+#include "middleware/events/span_sides.h"
 #include "middleware/query/query_pool.h"
 #include "middleware/query/worker_threads.h"
 #include "middleware/world/window_query.h"
@@ -362,6 +363,7 @@ Result<Done> WorldFollower::follow(const World& world, std::int64_t untilUs, Wor
     return Error::in("world", ErrorCode::Mismatch, "expected the world that it has followed");
   }
   FORETOUCH_CHECK(impl.masses.checked(parts));
+  FORETOUCH_CHECK(internal::checkedSides(parts));
   const std::int64_t endUs = impl.endOf(untilUs), fromUs = impl.untilUs;
   if (endUs > fromUs) FORETOUCH_CHECK(internal::checkedWindow(world, fromUs, endUs));
   impl.world = parts.identity;

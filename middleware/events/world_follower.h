@@ -57,8 +57,8 @@ class WorldFollower {
   /// which they came; and not on the calls, as long as each ends where time is cut
   /// (World::knownUntilUs() is a pose). Until then the world must keep what it knows
   /// (World::forgetBefore()). `answer` is filled anew; its memory is kept.
-  /// Errors: as worldContacts(), and another world than in the last call (Mismatch); then nothing
-  /// has been followed.
+  /// Errors: as worldContacts(); another world than in the last call, one that asks whether meshes
+  /// meet, or a body that touches by its triangles (Mismatch). Then nothing has been followed.
   Result<Done> follow(const World& world, std::int64_t untilUs, WorldEvents& answer);
 
   /// Until where it has followed.

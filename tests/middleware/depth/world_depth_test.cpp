@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lss/index.h"
 #include "tests/middleware/depth/depth_pieces.h"
 #include "tests/middleware/world/both_worlds.h"
 #include "tests/support/random_geometry.h"
@@ -146,6 +147,12 @@ TEST(WorldDepth, RefusesWhatCannotBeAsked) {
   ASSERT_TRUE(world.push(mesh, 0, RigidPose{}).ok());
   ASSERT_TRUE(world.push(held, 0, restPose(arm().skeleton())).ok());
   ASSERT_TRUE(world.push(other, 100, RigidPose{}).ok());
+  BodyOptions byTriangles;
+  byTriangles.surface =
+      AvatarSurface::build(arm(), std::vector<std::vector<Triangle>>(countOf(arm().numLinks())))
+          .value();
+  const BodyId exact = world.add(arm(), byTriangles).value();
+  ASSERT_TRUE(world.push(exact, 0, restPose(arm().skeleton())).ok());
   WorldDepthScratch scratch;
   const auto errorOf = [&](const WorldTime& time, const DepthQuestion& question) {
     const auto asked = depthAt(world, time, question, scratch);
@@ -154,6 +161,7 @@ TEST(WorldDepth, RefusesWhatCannotBeAsked) {
   EXPECT_EQ(errorOf({0, 0.0}, {body, kEveryLink, mesh, kEveryLink}), "");
   EXPECT_NE(errorOf({0, 0.0}, {body, 3, mesh, 0}), "");
   EXPECT_NE(errorOf({0, 0.0}, {body, 0, 9, 0}), "");
+  EXPECT_NE(errorOf({0, 0.0}, {exact, 0, mesh, 0}).find("by its LSS"), std::string::npos);
   EXPECT_NE(errorOf({0, 0.0}, {body}).find("stands still"), std::string::npos);
   EXPECT_NE(errorOf({0, 0.0}, {mesh, 0, other, 0}).find("made of LSS"), std::string::npos);
   EXPECT_NE(errorOf({0, 0.0}, {body, 1, body, 1}).find("two different links"), std::string::npos);

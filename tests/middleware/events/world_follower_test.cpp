@@ -388,5 +388,25 @@ TEST(WorldFollower, RefusesWhatItCannotFollow) {
   EXPECT_EQ(unknown.error().index, 7);
 }
 
+TEST(WorldFollower, RefusesWorldsThatTouchByTriangles) {
+  WorldOptions meshes;
+  meshes.askMeshes = true;
+  World ofMeshes = World::build(std::nullopt, meshes).value(), ofSurfaces = worldOf();
+  BodyOptions byTriangles;
+  byTriangles.surface = AvatarSurface::build(ball(0.1), {{}}).value();
+  ASSERT_TRUE(ofMeshes.add(ball(0.1)).ok());
+  ASSERT_TRUE(ofSurfaces.add(ball(0.1), byTriangles).ok());
+  for (World* const each : {&ofMeshes, &ofSurfaces}) {
+    ASSERT_TRUE(each->push(0, 0, at(0.0)).ok());
+    ASSERT_TRUE(each->push(0, 1'000, at(0.0)).ok());
+    WorldFollower follower = followerFrom(0);
+    WorldEvents answer;
+    const auto refused = follower.follow(*each, 1'000, answer);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::Mismatch);
+    EXPECT_EQ(follower.followedUntilUs(), 0);
+  }
+}
+
 }  // namespace
 }  // namespace foretouch
