@@ -47,6 +47,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"", {"scene", "surface", "exact"}},
       {"ladder", {"", "scene"}},
       {"query", {"ladder", "", "exact", "surface", "lanes", "scene"}},
+      {"edges", {"query", "", "scene"}},
       {"mechanics", {}},
       {"solid", {"query", "mechanics", "", "scene"}},
       {"world", {"query", "", "lanes", "scene", "surface"}},
