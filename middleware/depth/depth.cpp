@@ -15,7 +15,7 @@
 namespace foretouch {
 
 struct DepthScratch::Parts {
-  std::vector<internal::NearPair> near, open;
+  std::vector<internal::PiecePair> near, open;
   std::vector<internal::PartingPlane> planes;
   std::vector<double> weights;
 };
@@ -29,8 +29,8 @@ namespace {
 
 using Eigen::Vector3d;
 using internal::ConvexPair;
-using internal::NearPair;
 using internal::PartingPlane;
+using internal::PiecePair;
 using internal::PiecesApart;
 
 /// A way is not looked for if it could be shorter than what is certified by less than this share.
@@ -72,7 +72,7 @@ class WayOut {
   void lookAtPairs() {
     memory_.near.clear();
     pieces_.collect(Vector3d::Zero(), 0.0, memory_.near);
-    for (const NearPair& pair : memory_.near) {
+    for (const PiecePair& pair : memory_.near) {
       const PairDepth of = internal::depthOf(pieces_.at(pair));
       if (of.upper == 0.0) continue;
       ++depth_.numPairs;
@@ -96,7 +96,7 @@ class WayOut {
     memory_.open.clear();
     pieces_.collect(move, 0.0, memory_.near);
     looks_ += static_cast<std::int64_t>(memory_.near.size()) + 1;
-    for (const NearPair& pair : memory_.near) {
+    for (const PiecePair& pair : memory_.near) {
       const ConvexPair at = pieces_.at(pair, move);
       if (!(separation(at.one, at.other).lower() > at.most)) memory_.open.push_back(pair);
     }
@@ -125,7 +125,7 @@ class WayOut {
         if (!tighten(move)) return;
         continue;
       }
-      for (const NearPair& pair : memory_.open) addPlane(pair, move);
+      for (const PiecePair& pair : memory_.open) addPlane(pair, move);
       const auto next = internal::leastWay(memory_.planes, depth_.upper, memory_.weights);
       if (!next) return;
       move = *next;
@@ -139,7 +139,7 @@ class WayOut {
     memory_.near.clear();
     pieces_.collect(move, move.norm(), memory_.near);
     looks_ += static_cast<std::int64_t>(memory_.near.size());
-    for (const NearPair& pair : memory_.near) addPlane(pair, move);
+    for (const PiecePair& pair : memory_.near) addPlane(pair, move);
     const auto next = internal::leastWay(memory_.planes, depth_.upper, memory_.weights);
     if (!next || !(next->norm() < (1.0 - kGoodEnough) * depth_.upper)) return false;
     move = *next;
@@ -147,13 +147,13 @@ class WayOut {
   }
 
   /// The plane that parts a pair soonest where it is after the move, as seen from where it was.
-  void addPlane(const NearPair& pair, const Vector3d& move) {
+  void addPlane(const PiecePair& pair, const Vector3d& move) {
     const ConvexPair at = pieces_.at(pair, move);
     memory_.planes.push_back(planeBefore(pair, at, internal::partingPlaneOf(at).nhat));
   }
 
   /// Needs what rounds after the move, too: twice, so that the certificate finds it done.
-  [[nodiscard]] PartingPlane planeBefore(const NearPair& pair, const ConvexPair& after,
+  [[nodiscard]] PartingPlane planeBefore(const PiecePair& pair, const ConvexPair& after,
                                          const Vector3d& nhat) const {
     const ConvexPair at = pieces_.at(pair);
     PartingPlane plane = internal::partingPlaneAlong(at, nhat);
@@ -174,14 +174,15 @@ class WayOut {
         return;
       }
       double next = length;
-      for (const NearPair& pair : memory_.open) next = std::max(next, lengthPast(pair, move, nhat));
+      for (const PiecePair& pair : memory_.open)
+        next = std::max(next, lengthPast(pair, move, nhat));
       if (!(next > length) || !std::isfinite(next)) return;
       length = next;
     }
   }
 
   /// How far to go in all, along the direction, until the pair is clear.
-  [[nodiscard]] double lengthPast(const NearPair& pair, const Vector3d& move,
+  [[nodiscard]] double lengthPast(const PiecePair& pair, const Vector3d& move,
                                   const Vector3d& nhat) const {
     const ConvexPair at = pieces_.at(pair, move);
     double length = planeBefore(pair, at, nhat).need;

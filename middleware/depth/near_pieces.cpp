@@ -21,7 +21,7 @@ Aabb boxOf(const Lss& lss, const Eigen::Vector3d& move, double margin) {
 }  // namespace
 
 void PiecesApart::collect(const Eigen::Vector3d& move, double margin,
-                          std::vector<NearPair>& pairs) {
+                          std::vector<PiecePair>& pairs) {
   const double grown = margin + 4.0 * rounding_;
   for (std::size_t i = 0; i < moved_.size(); ++i) {
     const Aabb box = boxOf(moved_[i], move, grown);
@@ -53,11 +53,11 @@ double PiecesApart::radiusOf(std::int32_t other) const {
   return scene_ != nullptr ? 0.0 : (*others_)[slotOf(other)].radius;
 }
 
-ConvexPair PiecesApart::at(const NearPair& pair) const {
+ConvexPair PiecesApart::at(const PiecePair& pair) const {
   return pairOf(moved_[slotOf(pair.moved)], hullOf(pair.other), radiusOf(pair.other), rounding_);
 }
 
-ConvexPair PiecesApart::at(const NearPair& pair, const Eigen::Vector3d& move) const {
+ConvexPair PiecesApart::at(const PiecePair& pair, const Eigen::Vector3d& move) const {
   Lss lss = moved_[slotOf(pair.moved)];
   lss.a += move;
   lss.b += move;

@@ -16,7 +16,7 @@
 namespace foretouch::internal {
 
 /// A moved LSS and a piece of the others, by their numbers.
-struct NearPair {
+struct PiecePair {
   std::int32_t moved = 0, other = 0;
 };
 
@@ -32,12 +32,12 @@ class PiecesApart {
 
   /// Appends every pair that may have a common point after the move, or come within `margin` (m) of
   /// one: their boxes meet. By the moved piece, then by the other.
-  void collect(const Eigen::Vector3d& move, double margin, std::vector<NearPair>& pairs);
+  void collect(const Eigen::Vector3d& move, double margin, std::vector<PiecePair>& pairs);
 
   /// The pair where it is without a move, and after one: then what rounding does to the moved
   /// points is in its reach.
-  [[nodiscard]] ConvexPair at(const NearPair& pair) const;
-  [[nodiscard]] ConvexPair at(const NearPair& pair, const Eigen::Vector3d& move) const;
+  [[nodiscard]] ConvexPair at(const PiecePair& pair) const;
+  [[nodiscard]] ConvexPair at(const PiecePair& pair, const Eigen::Vector3d& move) const;
 
  private:
   [[nodiscard]] Hull hullOf(std::int32_t other) const;

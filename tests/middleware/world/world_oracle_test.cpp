@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "lss/index.h"
+#include "tests/middleware/own_body.h"
 #include "tests/middleware/world/random_worlds.h"
 
 namespace foretouch::test {

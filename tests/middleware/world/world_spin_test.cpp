@@ -10,6 +10,7 @@
 
 #include "lss/index.h"
 #include "middleware/world/world_parts.h"
+#include "tests/middleware/own_body.h"
 #include "tests/middleware/world/random_worlds.h"
 
 namespace foretouch::test {

@@ -117,6 +117,32 @@ Sample speakerSample(Random& random) {
 }
 
 /// A few of every type.
+Sample bodySample(Random& random) {
+  Sample sample{PayloadType::Body, {}, {}, {}};
+  encode(test::randomBodyMessage(random, 1 + random.below(12)), sample.bytes);
+  textAt(sample, kHead + 4 + 32 + 2);
+  return sample;
+}
+
+Sample rigidPoseSample(Random& random) {
+  Sample sample{PayloadType::RigidPose, {}, {}, {}};
+  encode(test::randomRigidPoseMessage(random, 1 + random.below(6)), sample.bytes);
+  countAt(sample, kHead + 32);
+  return sample;
+}
+
+Sample eventsSample(Random& random) {
+  Sample sample{PayloadType::Events, {}, {}, {}};
+  encode(test::randomEventsMessage(random, 1 + random.below(6)), sample.bytes);
+  const auto behind = [&sample](std::size_t count, std::size_t size) {
+    return count + 4 + static_cast<std::size_t>(countAt(sample, count)) * size;
+  };
+  const std::size_t unknown = behind(kHead + 32 + 1 + 8, 4 + 8 + 1);
+  const std::size_t events = behind(unknown, 2 * 4 + 1 + 2 * 8);
+  countAt(sample, behind(events, 4 + 4 * 8 + 9 * 4 + 18 * 8 + 1));
+  return sample;
+}
+
 std::vector<Sample> samples() {
   std::vector<Sample> all;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
@@ -127,6 +153,9 @@ std::vector<Sample> samples() {
     all.push_back(solidSample(random));
     all.push_back(statusSample(random));
     all.push_back(speakerSample(random));
+    all.push_back(bodySample(random));
+    all.push_back(rigidPoseSample(random));
+    all.push_back(eventsSample(random));
   }
   return all;
 }
@@ -139,6 +168,9 @@ Reject decodeAny(PayloadType type, ByteView bytes) {
   static SolidMessage solid;
   static StatusMessage status;
   static SpeakerMessage speaker;
+  static BodyMessage body;
+  static RigidPoseMessage rigidPose;
+  static EventsMessage events;
   switch (type) {
     case PayloadType::Skeleton: return decode(bytes, skeleton);
     case PayloadType::Pose: return decode(bytes, pose);
@@ -146,6 +178,9 @@ Reject decodeAny(PayloadType type, ByteView bytes) {
     case PayloadType::Solid: return decode(bytes, solid);
     case PayloadType::Status: return decode(bytes, status);
     case PayloadType::Speaker: return decode(bytes, speaker);
+    case PayloadType::Body: return decode(bytes, body);
+    case PayloadType::RigidPose: return decode(bytes, rigidPose);
+    case PayloadType::Events: return decode(bytes, events);
   }
   return Reject::Length;
 }
