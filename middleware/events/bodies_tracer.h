@@ -11,7 +11,6 @@
 #include "middleware/events/interval_tracer.h"
 #include "middleware/events/span_sides.h"
 #include "middleware/events/world_event.h"
-#include "middleware/events/world_follower.h"
 
 namespace foretouch::internal {
 

@@ -6,7 +6,6 @@
 
 #include "middleware/events/pair_key.h"
 #include "middleware/events/world_event.h"
-#include "middleware/events/world_follower.h"
 
 namespace foretouch::internal {
 

@@ -105,6 +105,15 @@ struct WorldPart {
   WorldTime since;           ///< When it began: at `from` or before.
 };
 
+/// A contact, or something unresolved, that has not ended.
+struct OpenPart {
+  PartKind kind = PartKind::Contact;
+  UndecidedReason reason = UndecidedReason::None;  ///< Of Unresolved.
+  ContactSide a, b;                                ///< As where it began.
+  ObjectId object = -1;                            ///< As WorldEvent::object.
+  WorldTime since;
+};
+
 struct EventCounters {
   std::uint64_t windows = 0;       ///< Asked of worldContacts().
   std::uint64_t contacts = 0;      ///< Intervals of contact that began.

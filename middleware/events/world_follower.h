@@ -26,15 +26,6 @@ struct FollowOptions {
 };
 inline constexpr std::int64_t kMostCutUs = 10'000'000;
 
-/// A contact, or something unresolved, that has not ended.
-struct OpenPart {
-  PartKind kind = PartKind::Contact;
-  UndecidedReason reason = UndecidedReason::None;  ///< Of Unresolved.
-  ContactSide a, b;                                ///< As where it began.
-  ObjectId object = -1;                            ///< As WorldEvent::object.
-  WorldTime since;
-};
-
 /// For one thread at a time; nobody changes the world while it is asked. Memory is bounded by the
 /// bodies and by who touches, and nothing is allocated once it has grown.
 class WorldFollower {

@@ -426,10 +426,9 @@ TEST(SolidWorld, WhoBeginsWhereOthersAreIsPlacedBesideThem) {
 TEST(SolidWorld, WhatWaitsForNobodyIsAssumedAndSaid) {
   SolidWorld world = SolidWorld::build(Scene::build(floorOnly()).value(), 0).value();
   const BodyId person = world.add(figure()).value();
-  const BodyId ball =
-      world.world()
-          .add(ofLss({{0, 0, 0}, {0, 0, 0}, 0.1}), {0, WhenSilent::HoldStill, std::nullopt})
-          .value();
+  BodyOptions waitsForNobody;
+  waitsForNobody.whenSilent = WhenSilent::HoldStill;
+  const BodyId ball = world.world().add(ofLss({{0, 0, 0}, {0, 0, 0}, 0.1}), waitsForNobody).value();
   ASSERT_TRUE(world.world().push(ball, 0, RigidPose{Quaternion::Identity(), {0, 1, -1}}).ok());
   std::vector<SolidBodyTick> ticks;
   const Pose target = standing({0, 0, -1});
