@@ -236,8 +236,8 @@ std::string WorldCampaignTally::summary() const {
 
 std::string WorldCampaignTally::summaryOfEvents() const {
   const auto of = [this](EventKind kind) { return events.kinds[static_cast<std::size_t>(kind)]; };
-  const auto per = [](std::uint64_t count, std::uint64_t of) {
-    return of > 0 ? static_cast<double>(count) / static_cast<double>(of) : 0.0;
+  const auto per = [](std::uint64_t count, std::uint64_t spans) {
+    return spans > 0 ? static_cast<double>(count) / static_cast<double>(spans) : 0.0;
   };
   const EventCounters& c = events.counters;
   return fmt::format(
