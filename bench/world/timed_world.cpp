@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bench/solid/feel.h"
-#include "middleware/counter_fields.h"
+#include "middleware/world/window_query.h"
 
 namespace foretouch::tools {
 namespace {
@@ -13,14 +13,6 @@ namespace {
 template <typename T>
 T mustBeOk(Result<T> result) {
   return std::move(result).value();
-}
-
-void addTo(WorldCounters& sum, const WorldCounters& more) {
-  sum.bodies += more.bodies;
-  sum.pairs += more.pairs;
-  sum.nearPairs += more.nearPairs;
-  sum.spans += more.spans;
-  for (const auto& field : kCounterFields) sum.queries.*field.second += more.queries.*field.second;
 }
 
 }  // namespace
@@ -61,7 +53,7 @@ void TimedWorld::ask(std::int64_t fromUs, std::int64_t toUs, bool isCounted) {
   if (!isCounted) return;
   figures.answerUs.push_back(us);
   figures.pushUs.push_back(pushed);
-  addTo(figures.sum, answer_.counters);
+  internal::addCounters(answer_.counters, figures.sum);
   for (const WorldContact& contact : answer_.contacts) {
     figures.contacts += contact.verdict == Verdict::Contact;
     figures.starts += contact.verdict == Verdict::StartsInContact;

@@ -49,14 +49,6 @@ std::int64_t multipleBefore(std::int64_t us, std::int64_t step) {
   return us - (rest < 0 ? rest + step : rest);
 }
 
-void add(const WorldCounters& more, WorldCounters& sum) {
-  sum.bodies += more.bodies;
-  sum.pairs += more.pairs;
-  sum.nearPairs += more.nearPairs;
-  sum.spans += more.spans;
-  internal::addCounters(more.queries, sum.queries);
-}
-
 PairKey keyOf(const WorldContact& contact) {
   return internal::keyOf(contact, internal::kNoObject);
 }
@@ -65,17 +57,12 @@ bool isOfEveryLink(const PairKey& key) {
   return key.linkOfA == kEveryLink || key.linkOfB == kEveryLink;
 }
 
-Error brokenOff(const std::exception& broken) {
-  return Error::in("window", ErrorCode::DeviceFailed, std::string("broken off: ") + broken.what());
-}
-
 /// One thread's memory, and its part of a window's events.
 struct alignas(128) Worker {
   BodiesTracer tracer;
   std::vector<WorldEvent> events;
   EventCounters counters;
-  std::optional<Error> failure;  // of the task with the least number
-  std::size_t failedTask = 0;
+  internal::FirstFailure failure;
 };
 
 }  // namespace
@@ -113,7 +100,7 @@ struct WorldFollower::Impl {
       const std::int64_t toUs = nextUs(of.parts(), endUs);
       FORETOUCH_CHECK(
           askWindow(of, untilUs, toUs, threads ? &*threads : nullptr, *scratch, contacts));
-      add(contacts.counters, answer.world);
+      internal::addCounters(contacts.counters, answer.world);
       ++answer.counters.windows;
       FORETOUCH_CHECK(traceWindow(of.parts(), toUs));
       takeEvents(answer);
@@ -135,7 +122,7 @@ struct WorldFollower::Impl {
     } catch (const std::exception& broken) {
       scratch.emplace();  // may be half written, and so may these
       for (const auto& worker : workers) *worker = Worker();
-      return brokenOff(broken);
+      return internal::brokenOff(broken);
     }
   }
 
@@ -150,7 +137,7 @@ struct WorldFollower::Impl {
     for (const auto& worker : workers) {
       worker->events.clear();
       worker->counters = {};
-      worker->failure.reset();
+      worker->failure.clear();
     }
     return traceAll(parts);
   }
@@ -269,7 +256,13 @@ struct WorldFollower::Impl {
     const auto takePart = [&](std::size_t number) {
       Worker& worker = *workers[number];
       for (std::size_t i = next.fetch_add(1); i < tasks.size(); i = next.fetch_add(1)) {
-        attempt(parts, i, worker);
+        worker.failure.attempt(
+            i,
+            [&] {
+              return worker.tracer.trace(parts, scratch->plans, masses, window, tasks[i],
+                                         worker.events, worker.counters);
+            },
+            [&] { worker.tracer = BodiesTracer(); });
       }
     };
     if (threads && tasks.size() > 1) {
@@ -277,28 +270,7 @@ struct WorldFollower::Impl {
     } else {
       takePart(0);
     }
-    const Worker* failed = nullptr;
-    for (const auto& worker : workers) {
-      if (!worker->failure) continue;
-      if (failed == nullptr || worker->failedTask < failed->failedTask) failed = worker.get();
-    }
-    if (failed != nullptr) return *failed->failure;
-    return Done{};
-  }
-
-  void attempt(const WorldParts& parts, std::size_t task, Worker& worker) {
-    std::optional<Error> failure;
-    try {
-      const Result<Done> done = worker.tracer.trace(parts, scratch->plans, masses, window,
-                                                    tasks[task], worker.events, worker.counters);
-      if (!done.ok()) failure = done.error();
-    } catch (const std::exception& broken) {
-      worker.tracer = BodiesTracer();  // may be half written
-      failure = brokenOff(broken);
-    }
-    if (!failure || (worker.failure && worker.failedTask < task)) return;
-    worker.failure = std::move(failure);
-    worker.failedTask = task;
+    return internal::FirstFailure::of(workers);
   }
 
   void takeEvents(WorldEvents& answer) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <functional>
 #include <string>
 #include <tuple>
@@ -130,14 +129,6 @@ class PairAsker {
   SystemQuery query_;
 };
 
-void addAll(const WorldCounters& more, WorldCounters& sum) {
-  sum.bodies += more.bodies;
-  sum.pairs += more.pairs;
-  sum.nearPairs += more.nearPairs;
-  sum.spans += more.spans;
-  addCounters(more.queries, sum.queries);
-}
-
 /// Tasks that a thread takes at a time: each is some microseconds.
 constexpr std::size_t kTasksAtOnce = 8;
 
@@ -259,40 +250,22 @@ class WindowQuery {
     std::atomic<std::size_t> next{0};
     const auto takePart = [&](std::size_t number) {
       WindowWorker& worker = *scratch_.workers[number];
-      worker.failure.reset();
+      worker.failure.clear();
       for (;;) {
         const std::size_t first = next.fetch_add(kTasksAtOnce, std::memory_order_relaxed);
         if (first >= count) return;
         for (std::size_t i = first; i < std::min(first + kTasksAtOnce, count); ++i) {
-          attempt(worker, i, task);
+          worker.failure.attempt(
+              i, [&] { return task(worker, i); },
+              [&] {
+                worker.system = SystemScratch();
+                worker.apart = BodiesApart();
+              });
         }
       }
     };
     threads_->run(std::ref(takePart));
-    const WindowWorker* failed = nullptr;
-    for (const auto& worker : scratch_.workers) {
-      if (!worker->failure) continue;
-      if (failed == nullptr || worker->failedTask < failed->failedTask) failed = worker.get();
-    }
-    if (failed != nullptr) return *failed->failure;
-    return Done{};
-  }
-
-  template <typename Task>
-  static void attempt(WindowWorker& worker, std::size_t i, const Task& task) {
-    std::optional<Error> failure;
-    try {
-      const Result<Done> done = task(worker, i);
-      if (!done.ok()) failure = done.error();
-    } catch (const std::exception& broken) {
-      worker.system = SystemScratch();  // may be half written
-      worker.apart = BodiesApart();
-      failure =
-          Error::in("window", ErrorCode::DeviceFailed, std::string("broken off: ") + broken.what());
-    }
-    if (!failure || (worker.failure && worker.failedTask < i)) return;
-    worker.failure = std::move(failure);
-    worker.failedTask = i;
+    return FirstFailure::of(scratch_.workers);
   }
 
   void gather() {
@@ -303,7 +276,7 @@ class WindowQuery {
         places.push_back({contact.time, contact.a.body, contact.a.link, contact.b.body,
                           contact.b.link, &contact});
       }
-      addAll(worker->counters, answer_.counters);
+      addCounters(worker->counters, answer_.counters);
     }
     std::sort(places.begin(), places.end(), comesBefore);
     for (const ContactPlace& place : places) answer_.contacts.push_back(*place.contact);
@@ -344,6 +317,14 @@ Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t
   return windowError(ErrorCode::OutOfRange, fromUs, toUs,
                      "ends after what is known, until " + std::to_string(*known) + " us" +
                          (slowest ? ", of body " + std::to_string(*slowest) : std::string()));
+}
+
+void addCounters(const WorldCounters& more, WorldCounters& sum) {
+  sum.bodies += more.bodies;
+  sum.pairs += more.pairs;
+  sum.nearPairs += more.nearPairs;
+  sum.spans += more.spans;
+  addCounters(more.queries, sum.queries);
 }
 
 Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs,

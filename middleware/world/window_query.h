@@ -12,6 +12,7 @@
 #include "middleware/world/bodies_apart.h"
 #include "middleware/world/body_sweep.h"
 #include "middleware/world/box_sweep.h"
+#include "middleware/world/first_failure.h"
 #include "middleware/world/system_query.h"
 #include "middleware/world/world.h"
 #include "middleware/world/world_contacts.h"
@@ -24,8 +25,7 @@ struct alignas(128) WindowWorker {
   BodiesApart apart;
   std::vector<WorldContact> contacts;
   WorldCounters counters;
-  std::optional<Error> failure;  // of the task with the least number
-  std::size_t failedTask = 0;
+  FirstFailure failure;
 };
 
 /// Where a contact comes among all: sorted in its place, as it is four times as large.
@@ -50,6 +50,8 @@ struct WorldScratchParts {
   std::vector<std::unique_ptr<WindowWorker>> workers;  // one per thread
   std::vector<ContactPlace> places;
 };
+
+void addCounters(const WorldCounters& more, WorldCounters& sum);
 
 /// The window can be asked about. Errors: as worldContacts().
 Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t toUs);

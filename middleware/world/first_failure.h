@@ -1,0 +1,59 @@
+// middleware/world/first_failure.h: tasks that several threads share: of those that fail, the one
+// with the least number tells why, whoever took it. Not installed.
+#pragma once
+
+#include <cstddef>
+#include <exception>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "articulated/result.h"
+
+namespace foretouch::internal {
+
+/// Memory ran out in a question about a window.
+[[nodiscard]] inline Error brokenOff(const std::exception& broken) {
+  return Error::in("window", ErrorCode::DeviceFailed, std::string("broken off: ") + broken.what());
+}
+
+/// Of the tasks that one thread took.
+class FirstFailure {
+ public:
+  void clear() { error_.reset(); }
+
+  /// Does the task, which returns a Result<Done>. `renew`: what it may have left half written.
+  template <typename Task, typename Renew>
+  void attempt(std::size_t number, const Task& task, const Renew& renew) {
+    std::optional<Error> error;
+    try {
+      const Result<Done> done = task();
+      if (!done.ok()) error = done.error();
+    } catch (const std::exception& broken) {
+      renew();
+      error = brokenOff(broken);
+    }
+    if (!error || (error_ && number_ < number)) return;
+    error_ = std::move(error);
+    number_ = number;
+  }
+
+  /// Of all threads' workers, each with a member `failure` of this type.
+  template <typename Workers>
+  [[nodiscard]] static Result<Done> of(const Workers& workers) {
+    const FirstFailure* first = nullptr;
+    for (const auto& worker : workers) {
+      const FirstFailure& failure = worker->failure;
+      if (!failure.error_) continue;
+      if (first == nullptr || failure.number_ < first->number_) first = &failure;
+    }
+    if (first != nullptr) return *first->error_;
+    return Done{};
+  }
+
+ private:
+  std::optional<Error> error_;
+  std::size_t number_ = 0;
+};
+
+}  // namespace foretouch::internal
