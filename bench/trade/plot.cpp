@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/html_text.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -230,20 +232,6 @@ class Drawing {
 };
 
 }  // namespace
-
-std::string inHtml(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&': safe += "&amp;"; break;
-      case '<': safe += "&lt;"; break;
-      case '>': safe += "&gt;"; break;
-      case '"': safe += "&quot;"; break;
-      default: safe += c;
-    }
-  }
-  return safe;
-}
 
 std::string plotFigure(const Plot& plot) {
   return "<figure>\n<h2>" + inHtml(plot.title) + "</h2>\n<p>" + inHtml(plot.subtitle) + "</p>\n" +

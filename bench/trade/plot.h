@@ -35,9 +35,6 @@ struct Plot {
   std::vector<PlotLine> lines;
 };
 
-/// Text escaped for HTML.
-[[nodiscard]] std::string inHtml(const std::string& text);
-
 /// A figure element with heading and SVG. Omits values that are not finite, or not above zero on a
 /// logarithmic axis.
 [[nodiscard]] std::string plotFigure(const Plot& plot);

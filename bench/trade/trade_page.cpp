@@ -12,6 +12,7 @@
 
 #include "bench/trade/dominance.h"
 #include "bench/trade/plot.h"
+#include "tools/html_text.h"
 
 namespace foretouch::tools {
 namespace {

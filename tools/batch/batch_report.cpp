@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/html_text.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -25,17 +27,11 @@ tr.failed td {{ background: #4a2020; }} tr.absent td {{ background: #26292f; }} 
 <p>{1} jobs: {2} done, {3} failed, {4} not done.</p>
 )";
 
+/// On one line.
 std::string forPage(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&': safe += "&amp;"; break;
-      case '<': safe += "&lt;"; break;
-      case '>': safe += "&gt;"; break;
-      case '"': safe += "&quot;"; break;
-      default: safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
+  std::string safe = inHtml(text);
+  std::replace_if(
+      safe.begin(), safe.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   return safe;
 }
 
