@@ -1,6 +1,5 @@
 #include "tests/fuzz/batch_inputs.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include "tests/fuzz/promise.h"
@@ -26,11 +25,7 @@ bool feedManifest(const std::uint8_t* data, std::size_t size) {
   addQuerySettings(settings, world);
   const auto parsed = tools::parseManifest(text, "input", settings);
   if (!parsed.ok()) {
-    checkReason(parsed.error());
-    require(parsed.error().file == "input", "an error names its file");
-    const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
-    require(parsed.error().line == -1 || (parsed.error().line >= 1 && parsed.error().line <= lines),
-            "an error's line exists");
+    checkError(parsed.error(), text);
     return false;
   }
   require(!parsed.value().jobs.empty(), "there is a job");

@@ -1,6 +1,5 @@
 #include "tests/fuzz/config_inputs.h"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string_view>
@@ -11,16 +10,6 @@
 
 namespace foretouch::fuzz {
 namespace {
-
-void checkError(const Error& error, std::string_view text) {
-  require(!error.message.empty(), "an error says what is wrong");
-  require(error.file == "input", "an error names its file");
-  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
-  require(error.line == -1 || (error.line >= 1 && error.line <= lines), "an error's line exists");
-  for (const char c : describe(error)) {
-    require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f, "errors can be shown");
-  }
-}
 
 /// Policies, and what an avatar and a scene make of them.
 void checkPolicies(const std::vector<tools::PolicyRule>& rules) {

@@ -1,8 +1,10 @@
 // tests/fuzz/promise.h: invariants for any input.
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 #include "articulated/result.h"
 
@@ -20,6 +22,14 @@ inline void checkReason(const Error& error) {
   for (const char c : describe(error)) {
     require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f, "errors can be shown");
   }
+}
+
+/// Of a reader of `text`, which was told that it comes from the file "input".
+inline void checkError(const Error& error, std::string_view text) {
+  checkReason(error);
+  require(error.file == "input", "an error names its file");
+  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+  require(error.line == -1 || (error.line >= 1 && error.line <= lines), "an error's line exists");
 }
 
 }  // namespace foretouch::fuzz
