@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "articulated/quoted.h"
+#include "articulated/raw_skeleton.h"
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
@@ -169,13 +170,10 @@ Result<Robot> Robot::withTool(LinkId link, const std::string& name, std::vector<
     return Error::in("tool", ErrorCode::OutOfRange, "expected a link of the robot");
   }
   if (lss.empty()) return Error::in("tool", ErrorCode::Empty, "expected at least one LSS");
-  RawSkeleton raw;
+  RawSkeleton raw = rawSkeleton(avatar_.skeleton());
   std::vector<std::vector<Lss>> perLink;
   std::vector<MeshReference> meshes;
-  const Skeleton& skeleton = avatar_.skeleton();
-  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-    raw.joints.push_back(
-        {skeleton.name(j), skeleton.parent(j), skeleton.restOffset(j), skeleton.restRotation(j)});
+  for (LinkId j = 0; j < avatar_.numLinks(); ++j) {
     perLink.push_back(avatar_.lss(j));
     meshes.push_back(avatar_.mesh(j));
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "articulated/raw_skeleton.h"
 #include "articulated/try.h"
 #include "lss/index.h"
 

@@ -171,7 +171,5 @@ struct SpeakerMessage {
 /// Of names, parents and rest pose, as defined in docs/formats.md ("Skeleton hash"): XXH64 over the
 /// joints in order. Two skeletons with the same hash count as the same.
 [[nodiscard]] std::int64_t skeletonHash(const RawSkeleton& skeleton);
-/// The authoring form of a validated skeleton.
-[[nodiscard]] RawSkeleton rawSkeleton(const Skeleton& skeleton);
 
 }  // namespace foretouch

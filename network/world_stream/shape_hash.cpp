@@ -1,3 +1,4 @@
+#include "articulated/raw_skeleton.h"
 #include "network/wire/hashed_bytes.h"
 #include "network/world_stream/world_setup.h"
 

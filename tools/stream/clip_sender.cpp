@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "articulated/raw_skeleton.h"
 #include "articulated/try.h"
 #include "lss/index.h"
 

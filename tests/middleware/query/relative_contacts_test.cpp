@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "articulated/raw_skeleton.h"
 #include "articulated/relative_motion.h"
 #include "lss/index.h"
 #include "middleware/query/query.h"
@@ -48,13 +49,9 @@ std::vector<Triangle> randomProp(Random& random) {
 BodyAndProp withProp(Random& random, bool isHeld) {
   const test::OwnBody body = test::randomOwnBody(random);
   const Skeleton& skeleton = body.steps.skeleton;
-  RawSkeleton raw;
+  RawSkeleton raw = rawSkeleton(skeleton);
   BodyAndProp made;
-  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
-    raw.joints.push_back(
-        {skeleton.name(j), skeleton.parent(j), skeleton.restOffset(j), skeleton.restRotation(j)});
-    made.lss.push_back(body.avatar.lss(j));
-  }
+  for (JointId j = 0; j < skeleton.numJoints(); ++j) made.lss.push_back(body.avatar.lss(j));
   made.steps.from = body.steps.from;
   made.steps.to = body.steps.to;
   const JointId holder = isHeld ? random.below(skeleton.numJoints()) : kNoParent;
