@@ -11,8 +11,10 @@
 #include <unordered_map>
 #include <utility>
 
+#include "network/service/held_records.h"
 #include "network/service/mail_room.h"
 #include "network/service/message_seal.h"
+#include "network/service/service_channels.h"
 #include "network/service/service_health.h"
 #include "network/service/service_status.h"
 #include "network/service/thread_beat.h"
@@ -46,17 +48,6 @@ struct Desk {
   internal::HeldRecords held;
 };
 
-struct Channels {
-  explicit Channels(const std::string& suffix)
-      : skeleton(kSkeletonChannel + suffix),
-        pose(kPoseChannel + suffix),
-        contacts(kContactsChannel + suffix),
-        solid(kSolidChannel + suffix),
-        status(kStatusChannel + suffix),
-        speaker(kSpeakerChannel + suffix) {}
-  std::string skeleton, pose, contacts, solid, status, speaker;
-};
-
 std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
                                const ServiceOptions& options) {
   const auto refused = [](ErrorCode code, const std::string& message) {
@@ -76,7 +67,7 @@ std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
     return refused(ErrorCode::OutOfRange, "expected a status at most every millisecond");
   }
   // Of the names, FORETOUCH_SKELETON and FORETOUCH_CONTACTS are the longest.
-  if (Channels(options.suffix).skeleton.size() > kMaxChannelBytes) {
+  if (internal::ServiceChannels(options.suffix).skeleton.size() > kMaxChannelBytes) {
     return refused(ErrorCode::LimitExceeded, "expected a suffix that leaves channel names within " +
                                                  std::to_string(kMaxChannelBytes) +
                                                  " bytes, found " +
@@ -93,40 +84,12 @@ std::string shortened(std::string text) {
 }  // namespace
 
 std::vector<std::string> receivedChannels(const std::string& suffix, bool hasWorld) {
-  const Channels channels(suffix);
+  const internal::ServiceChannels channels(suffix);
   std::vector<std::string> received{channels.skeleton, channels.pose};
   if (hasWorld)
     received.insert(received.end(), {kBodyChannel + suffix, kRigidPoseChannel + suffix});
   return received;
 }
-
-namespace {
-
-/// What an avatar's stream says is to be recorded.
-class HeldStream final : public StreamRecord {
- public:
-  HeldStream(const Channels& channels, ServiceCounter& counter, internal::HeldRecords& held)
-      : channels_(channels), counter_(counter), held_(held) {}
-  void speaker(const SpeakerMessage& message) override {
-    Bytes payload;
-    encode(message, payload);
-    held_.add(message.utimeUs, channels_.speaker, payload);
-  }
-  void skeleton(ByteView payload, std::int64_t receiveUtimeUs) override {
-    held_.add(receiveUtimeUs, channels_.skeleton, payload);
-  }
-  void pose(ByteView payload, std::int64_t receiveUtimeUs) override {
-    held_.add(receiveUtimeUs, channels_.pose, payload);
-  }
-  void leftOut() override { counter_.leftOut(); }
-
- private:
-  const Channels& channels_;
-  ServiceCounter& counter_;
-  internal::HeldRecords& held_;
-};
-
-}  // namespace
 
 struct Service::Impl final : internal::Outlet {
   Impl(std::vector<StreamSolver> solvers, ServiceParts surroundings, const ServiceOptions& chosen)
@@ -151,7 +114,7 @@ struct Service::Impl final : internal::Outlet {
 
   const ServiceOptions options;
   ServiceParts parts;
-  const Channels channels;
+  const internal::ServiceChannels channels;
   ServiceFacts facts;
   std::vector<ServedStream> streams;
   std::unordered_map<std::int32_t, std::size_t> indexOf;  // of an avatar's id: its stream
@@ -317,7 +280,7 @@ struct Service::Impl final : internal::Outlet {
     bool isCounted = false;
     const bool done = guarded("answering", [&] {
       if (mail.kind == MailKind::Pose) return answer(stream, mail, desk, isCounted);
-      HeldStream record(channels, counter, desk.held);
+      internal::HeldStream record(channels, counter, desk.held);
       const Reject reason = stream.stream.take(heard(mail), mail.skeleton, record);
       settle(stream, mail, nullptr, desk);
       tellKnown(stream);
@@ -329,7 +292,7 @@ struct Service::Impl final : internal::Outlet {
   }
 
   void answer(ServedStream& stream, const Mail& mail, Desk& desk, bool& isCounted) {
-    HeldStream record(channels, counter, desk.held);
+    internal::HeldStream record(channels, counter, desk.held);
     const Reject reason = stream.stream.take(heard(mail), mail.pose, desk.answer, record);
     addUp(stream);
     tellKnown(stream);

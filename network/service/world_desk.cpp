@@ -4,21 +4,6 @@
 
 namespace foretouch::internal {
 
-void HeldRecords::add(std::int64_t utimeUs, const std::string& channel, ByteView payload) {
-  if (count_ == held_.size()) held_.emplace_back();
-  Held& held = held_[count_++];
-  held.utimeUs = utimeUs;
-  held.channel = &channel;
-  held.payload.assign(payload.data, payload.data + payload.size);
-}
-
-void HeldRecords::flush(Outlet& outlet) {
-  for (std::size_t i = 0; i < count_; ++i) {
-    outlet.record(held_[i].utimeUs, *held_[i].channel, held_[i].payload);
-  }
-  count_ = 0;
-}
-
 WorldDesk::WorldDesk(WorldSolver solver, const SpeakerPolicy& policy, const std::string& suffix,
                      const Clock& clock, Outlet& outlet)
     : bodyChannel_(kBodyChannel + suffix),

@@ -9,37 +9,13 @@
 #include <vector>
 
 #include "network/service/clock.h"
+#include "network/service/held_records.h"
 #include "network/service/mail_room.h"
 #include "network/service/world_report.h"
 #include "network/stream/bound_stream.h"
 #include "network/world_stream/bound_world.h"
 
 namespace foretouch::internal {
-
-/// Where messages of a service go.
-class Outlet {
- public:
-  virtual ~Outlet() = default;
-  /// Leaves the payload as it was.
-  virtual void publish(const std::string& channel, Bytes& payload) = 0;
-  virtual void record(std::int64_t utimeUs, const std::string& channel, ByteView payload) = 0;
-};
-
-/// What is to be recorded as soon as the world is told of it. Keeps its memory.
-class HeldRecords {
- public:
-  void add(std::int64_t utimeUs, const std::string& channel, ByteView payload);
-  void flush(Outlet& outlet);
-
- private:
-  struct Held {
-    std::int64_t utimeUs = 0;
-    const std::string* channel = nullptr;
-    Bytes payload;
-  };
-  std::vector<Held> held_;
-  std::size_t count_ = 0;
-};
 
 class WorldDesk final : WorldRecord {
  public:
