@@ -2,12 +2,14 @@
 // wires, with the judge's copy of them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "articulated/skeleton.h"
 #include "articulated/robot.h"
+#include "articulated/skeleton.h"
 #include "judge/first_touch.h"
 #include "middleware/scene/scene.h"
 
@@ -55,6 +57,19 @@ inline Place wires(const std::vector<std::pair<double, double>>& at) {
   std::vector<oracle::Triangle> judged;
   for (const auto& [x, y] : at) addWire(x, y, raw, judged);
   return {Scene::build(raw).value(), oracle::Scene(judged)};
+}
+
+/// The least separation of the arm, by sines and the judge's own distance.
+inline double separationOf(const oracle::Scene& scene, const std::vector<double>& q) {
+  double x = 0, y = 0, angle = 0, least = 10.0;
+  for (const double turn : q) {
+    angle += turn;
+    const oracle::Vec3d a(x, y, 0.0);
+    x += 0.4 * std::cos(angle);
+    y += 0.4 * std::sin(angle);
+    least = std::min(least, oracle::distanceTo(scene, a, oracle::Vec3d(x, y, 0.0), 10.0) - 0.03);
+  }
+  return least;
 }
 
 }  // namespace foretouch::test

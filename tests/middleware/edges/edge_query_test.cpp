@@ -18,18 +18,12 @@ using test::kPi;
 using test::Place;
 using test::wires;
 
-/// The least separation of the arm at one instant, by sines and the judge's own distance.
+/// At one instant of an edge.
 double separationAt(const oracle::Scene& scene, const std::vector<double>& q0,
                     const std::vector<double>& q1, double t) {
-  double x = 0, y = 0, angle = 0, least = 10.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    angle += q0[i] + t * (q1[i] - q0[i]);
-    const oracle::Vec3d a(x, y, 0.0);
-    x += 0.4 * std::cos(angle);
-    y += 0.4 * std::sin(angle);
-    least = std::min(least, oracle::distanceTo(scene, a, oracle::Vec3d(x, y, 0.0), 10.0) - 0.03);
-  }
-  return least;
+  std::vector<double> q;
+  for (std::size_t i = 0; i < q0.size(); ++i) q.push_back(q0[i] + t * (q1[i] - q0[i]));
+  return test::separationOf(scene, q);
 }
 
 TEST(EdgeQuery, TurnsTheLongWayBeyondAHalfTurn) {
