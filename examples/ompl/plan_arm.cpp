@@ -17,7 +17,7 @@ namespace og = ompl::geometric;
 using namespace foretouch;
 
 template <typename T>
-T need(Result<T> result) {
+T orStop(Result<T> result) {
   if (!result.ok()) {
     std::cerr << describe(result.error()) << '\n';
     std::exit(1);
@@ -37,7 +37,7 @@ Scene poles() {
     raw.triangles.push_back({{low + across, high + across, high}});
     raw.objectOf.insert(raw.objectOf.end(), 2, 0);
   }
-  return need(Scene::build(std::move(raw)));
+  return orStop(Scene::build(std::move(raw)));
 }
 
 int main(int argc, char** argv) {
@@ -46,17 +46,17 @@ int main(int argc, char** argv) {
     return 2;
   }
   ompl::RNG::setSeed(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1);
-  const Robot robot = need(importRobot(argv[1])).made.robot;
+  const Robot robot = orStop(importRobot(argv[1])).made.robot;
   EdgeOptions options;
   options.clearance = 0.005;
-  const EdgeQuery edges = need(EdgeQuery::build(robot, poles(), options));
+  const EdgeQuery edges = orStop(EdgeQuery::build(robot, poles(), options));
 
   auto space = std::make_shared<ob::SpaceInformation>(omplSpaceOf(robot));
-  const auto asked = need(useForetouch(space, edges));
+  const auto asked = orStop(useForetouch(space, edges));
   space->setup();
 
   // Two free configurations.
-  const OmplStates states = need(OmplStates::of(robot, space->getStateSpace()));
+  const OmplStates states = orStop(OmplStates::of(robot, space->getStateSpace()));
   og::SimpleSetup setup(space);
   ob::ScopedState<> start(space), goal(space);
   for (auto* state : {&start, &goal}) {
@@ -80,9 +80,9 @@ int main(int argc, char** argv) {
     std::printf("\n");
     path.insert(path.end(), q.begin(), q.end());
   }
-  EdgePool pool = need(EdgePool::start(1));
+  EdgePool pool = orStop(EdgePool::start(1));
   const std::size_t count = path.size() / robot.numCoordinates();
-  const PathAnswer answer = need(pool.answerPath(edges, path.data(), count));
+  const PathAnswer answer = orStop(pool.answerPath(edges, path.data(), count));
   const bool isFree = answer.edge == count - 1;
   std::printf("%zu configurations, %llu edges asked; keeps 5 mm: %s\n", count,
               static_cast<unsigned long long>(asked->numEdges()), isFree ? "proven" : "no");
