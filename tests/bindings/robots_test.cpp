@@ -1,7 +1,6 @@
 // Robots and edges in C: what C++ answers, and bad input is refused.
 #include <cmath>
 #include <foretouch/robots.h>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -67,14 +66,6 @@ class CRobots : public testing::Test {
   test::SceneHandle scene_;
 };
 
-std::vector<double> configurations(unsigned seed, std::size_t count) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> angle(-3.0, 3.0);
-  std::vector<double> q;
-  for (std::size_t i = 0; i < 3 * count; ++i) q.push_back(angle(random));
-  return q;
-}
-
 TEST_F(CRobots, TellTheirCoordinates) {
   size_t count = 0;
   ASSERT_EQ(ft_robot_coordinate_count(robot_.get(), &count), FT_OK);
@@ -95,7 +86,7 @@ TEST_F(CRobots, TellTheirCoordinates) {
 
 TEST_F(CRobots, AnswerEdgesAsCppDoes) {
   constexpr std::size_t kEdges = 300;
-  const auto q0 = configurations(1, kEdges), q1 = configurations(2, kEdges);
+  const auto q0 = test::randomConfigurations(1, kEdges), q1 = test::randomConfigurations(2, kEdges);
   ft_avatar* links = nullptr;
   ASSERT_EQ(ft_robot_avatar(robot_.get(), &links), FT_OK);
   const test::AvatarHandle avatar(links);

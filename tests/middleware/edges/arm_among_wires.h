@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +36,15 @@ inline Robot arm(double lower = -7.0, double upper = 7.0) {
   }
   auto avatar = Avatar::build(Skeleton::build(raw).value(), lss);
   return Robot::build(avatar.value(), joints).value();
+}
+
+/// Coordinates of so many random configurations of it, one after another.
+inline std::vector<double> randomConfigurations(unsigned seed, std::size_t count) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> angle(-3.0, 3.0);
+  std::vector<double> q;
+  for (std::size_t i = 0; i < 3 * count; ++i) q.push_back(angle(random));
+  return q;
 }
 
 /// A wire across the plane at (x, y), as one thin triangle.

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -15,15 +14,8 @@ namespace {
 using test::arm;
 using test::kPi;
 using test::Place;
+using test::randomConfigurations;
 using test::wires;
-
-std::vector<double> randomConfigurations(unsigned seed, std::size_t count) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> angle(-3.0, 3.0);
-  std::vector<double> q;
-  for (std::size_t i = 0; i < 3 * count; ++i) q.push_back(angle(random));
-  return q;
-}
 
 bool same(double a, double b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
