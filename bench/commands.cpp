@@ -14,6 +14,7 @@
 #include "bench/solid_command.h"
 #include "bench/stream_command.h"
 #include "bench/trade_command.h"
+#include "bench/trees_command.h"
 #include "bench/trust_command.h"
 #include "bench/tune_command.h"
 #include "bench/view_command.h"
@@ -33,6 +34,7 @@ void addBenchCommands(CLI::App& program, ExitCode& exit) {
   addBenchViewCommand(program, exit);
   addBenchDeadlineCommand(program, exit);
   addBenchCageCommand(program, exit);
+  addBenchTreesCommand(program, exit);
   addBenchTrustCommand(program, exit);
   addBenchTradeCommand(program, exit);
   addBenchSolidCommand(program, exit);

@@ -1,34 +1,16 @@
+// What every way of collecting has in common; the ways: point_query_embree.cpp, and where Embree is
+// not, point_query_plain.cpp.
 #include "middleware/reference/point_query_culler.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
-#include "articulated/try.h"
 #include "lss/index.h"
-#include "lss/rounding.h"
 #include "middleware/scene/flat_bvh_lanes.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch::internal {
 namespace {
-
-/// Float has 24 bits: a vertex or the sphere's centre moves by at most 2^-24 of its coordinate per
-/// axis, and the squared distance is off by a few 2^-23 of itself. Ten times that, on both.
-constexpr double kFloatSlack = 2e-6;
-
-struct Collected {
-  const std::vector<TriangleId>* idOf;
-  std::vector<TriangleId>* ids;
-  std::uint64_t visited = 0;
-};
-
-bool collectPrimitive(RTCPointQueryFunctionArguments* arguments) {
-  auto& collected = *static_cast<Collected*>(arguments->userPtr);
-  collected.ids->push_back((*collected.idOf)[arguments->primID]);
-  ++collected.visited;
-  return false;  // the radius stays
-}
 
 /// One hit per leaf and box.
 void mergeHits(std::vector<LeafHit>& hits) {
@@ -58,7 +40,7 @@ Aabb boxAt(const BoxLanes& boxes, int i, const Eigen::Vector3d& origin) {
 
 }  // namespace
 
-PointQueryCuller::PointQueryCuller(const Scene& scene, const EmbreeTriangles& triangles)
+PointQueryCuller::PointQueryCuller(const Scene& scene, const EmbreeTriangles* triangles)
     : scene_(scene), triangles_(triangles), places_(scene.numTriangles()) {
   const FlatBvh& bvh = scene.parts().bvh;
   for (std::uint32_t i = 0; i < bvh.numLeaves(); ++i) {
@@ -67,30 +49,6 @@ PointQueryCuller::PointQueryCuller(const Scene& scene, const EmbreeTriangles& tr
       places_[slotOf(leaf.id[k])] = {i, static_cast<std::uint8_t>(1U << k)};
     }
   }
-}
-
-Result<std::shared_ptr<const PointQueryCuller>> PointQueryCuller::build(const Scene& scene) {
-  FORETOUCH_TRY(const auto triangles, scene.parts().embreeTriangles());
-  return std::shared_ptr<const PointQueryCuller>(new PointQueryCuller(scene, *triangles));
-}
-
-void PointQueryCuller::collect(const Aabb& box, std::vector<TriangleId>& ids,
-                               std::uint64_t& visited) const {
-  const SceneParts& parts = scene_.parts();
-  const Eigen::Vector3d center = 0.5 * (box.min + box.max) - parts.origin;
-  const double radius = 0.5 * (box.max - box.min).norm();
-  const double coordinates = std::max(triangles_.extent(), center.cwiseAbs().maxCoeff());
-  RTCPointQuery query;
-  query.x = static_cast<float>(center.x());
-  query.y = static_cast<float>(center.y());
-  query.z = static_cast<float>(center.z());
-  query.time = 0.0f;
-  query.radius = floatAbove(radius * (1.0 + kFloatSlack) + coordinates * kFloatSlack);
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  Collected collected{&parts.finiteIds, &ids, 0};
-  rtcPointQuery(triangles_.scene(), &query, &context, collectPrimitive, &collected);
-  visited += collected.visited;
 }
 
 void PointQueryCuller::collectLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,

@@ -1,6 +1,7 @@
 // middleware/reference/point_query_culler.h: the culler that shares nothing with the flat tree but
 // the triangles: Embree's own RTCScene and rtcPointQuery with the sphere around the given box.
-// Slower, and the same answers, byte for byte.
+// Slower, and the same answers, byte for byte. Where Embree is not, every triangle's own box
+// instead.
 //
 // Constraints of Embree 3.13.5, checked against its documentation: rtcPointQuery visits whole
 // leaves, checks no arguments and compares squared float distances without outward rounding; vertex
@@ -12,10 +13,11 @@
 
 #include "articulated/result.h"
 #include "middleware/scene/culler.h"
-#include "middleware/scene/embree_triangles.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
+
+class EmbreeTriangles;
 
 class PointQueryCuller final : public TriangleCuller {
  public:
@@ -34,10 +36,10 @@ class PointQueryCuller final : public TriangleCuller {
     std::uint8_t triangle = 0;  ///< One bit.
   };
 
-  PointQueryCuller(const Scene& scene, const EmbreeTriangles& triangles);
+  PointQueryCuller(const Scene& scene, const EmbreeTriangles* triangles);
 
   Scene scene_;
-  const EmbreeTriangles& triangles_;  // the scene's
+  const EmbreeTriangles* triangles_;  // the scene's; null where Embree is not
   std::vector<Place> places_;         // per triangle
 };
 

@@ -18,8 +18,8 @@ namespace foretouch {
 
 /// Both give the same answer, byte for byte.
 enum class Culler : std::uint8_t {
-  FlatBvh,     ///< Embree's builder (rtcBuildBVH), flattened; our traversal.
-  PointQuery,  ///< An RTCScene and rtcPointQuery: slower.
+  FlatBvh,     ///< The scene's own tree; our traversal.
+  PointQuery,  ///< An RTCScene and rtcPointQuery, or every triangle: slower.
 };
 
 /// "flat", "point-query".

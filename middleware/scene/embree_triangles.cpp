@@ -5,6 +5,7 @@
 #include "articulated/try.h"
 #include "lss/assert.h"
 #include "lss/index.h"
+#include "middleware/scene/scene_parts.h"
 
 namespace foretouch::internal {
 
@@ -55,6 +56,14 @@ bool EmbreeTriangles::rayOccluded(const Eigen::Vector3d& from, const Eigen::Vect
   rtcInitIntersectContext(&context);
   rtcOccluded1(scene_.get(), &context, &ray);
   return ray.tfar < 0.0f;  // Embree sets it to -inf on a hit
+}
+
+Result<const EmbreeTriangles*> SceneParts::embreeTriangles() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (embreeTriangles_ == nullptr) {
+    FORETOUCH_TRY(embreeTriangles_, EmbreeTriangles::build(triangles, finiteIds, origin));
+  }
+  return embreeTriangles_.get();
 }
 
 }  // namespace foretouch::internal

@@ -1,4 +1,4 @@
-// middleware/scene/flat_bvh.h: the culler: Embree builds the tree (rtcBuildBVH), we flatten it
+// middleware/scene/flat_bvh.h: the culler: a builder makes the tree (bvh_tree.h), we flatten it
 // into 8-wide nodes of floats rounded outward and leaves of eight triangles, and walk it ourselves,
 // one box at a time or all boxes of a pose at once. Proofs: flat_bvh.md. Not installed.
 #pragma once

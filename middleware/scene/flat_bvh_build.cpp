@@ -1,143 +1,21 @@
-// FlatBvh::build(): Embree's tree, and its copy into flat arrays.
+// FlatBvh::build(): a builder's tree, copied into flat arrays.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <memory>
-#include <new>
 #include <string>
 #include <utility>
-
-#include <embree3/rtcore.h>
 
 #include "articulated/try.h"
 #include "lss/assert.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
-#include "middleware/scene/embree_device.h"
+#include "middleware/scene/bvh_tree.h"
 #include "middleware/scene/flat_bvh.h"
 
 namespace foretouch::internal {
 namespace {
 
 using Eigen::Vector3d;
-
-// Eight triangles in lanes cost as much as one, so we do not split a leaf: with 6.5 triangles per
-// leaf instead of 2.8, a pose in 300k triangles costs half and the tree takes half the memory.
-constexpr unsigned kSahBlockSize = kBvhWidth;
-constexpr unsigned kMinLeafSize = kBvhWidth;
-
-/// The tree that Embree's callbacks make, in Embree's memory; freed with the RTCBVH.
-struct BuildNode {
-  unsigned numChildren;  // 0: a BuildLeaf
-};
-
-struct BuildInner : BuildNode {
-  const BuildNode* children[kBvhWidth];
-  RTCBounds bounds[kBvhWidth];
-};
-
-struct BuildLeaf : BuildNode {
-  unsigned size;
-  unsigned primitives[kBvhWidth];
-};
-
-constexpr std::size_t kEmbreeAlignment = 16;
-
-/// Null without memory, which `hasShortage` (an atomic bool) then tells: Embree goes on without the
-/// node, and so do the callbacks.
-template <typename Node>
-Node* newNode(RTCThreadLocalAllocator allocator, void* hasShortage) {
-  void* const place = rtcThreadLocalAlloc(allocator, sizeof(Node), kEmbreeAlignment);
-  if (place != nullptr) return new (place) Node{};
-  *static_cast<std::atomic<bool>*>(hasShortage) = true;
-  return nullptr;
-}
-
-void* createNode(RTCThreadLocalAllocator allocator, unsigned numChildren, void* hasShortage) {
-  auto* node = newNode<BuildInner>(allocator, hasShortage);
-  if (node == nullptr) return nullptr;
-  node->numChildren = numChildren;
-  return static_cast<BuildNode*>(node);
-}
-
-void setChildren(void* node, void** children, unsigned count, void*) {
-  if (node == nullptr) return;
-  auto* inner = static_cast<BuildInner*>(static_cast<BuildNode*>(node));
-  for (unsigned i = 0; i < count; ++i) {
-    inner->children[i] = static_cast<const BuildNode*>(children[i]);
-  }
-}
-
-void setBounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
-  if (node == nullptr) return;
-  auto* inner = static_cast<BuildInner*>(static_cast<BuildNode*>(node));
-  for (unsigned i = 0; i < count; ++i) inner->bounds[i] = *bounds[i];
-}
-
-void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
-                 size_t count, void* hasShortage) {
-  auto* leaf = newNode<BuildLeaf>(allocator, hasShortage);
-  if (leaf == nullptr) return nullptr;
-  leaf->numChildren = 0;
-  leaf->size = static_cast<unsigned>(count);
-  for (size_t i = 0; i < count; ++i) leaf->primitives[i] = primitives[i].primID;
-  return static_cast<BuildNode*>(leaf);
-}
-
-struct ReleaseBvh {
-  void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
-};
-
-/// Boxes around the triangles, relative to the origin, rounded outward.
-std::vector<RTCBuildPrimitive> primitivesOf(const std::vector<Triangle>& triangles,
-                                            const std::vector<TriangleId>& ids,
-                                            const Vector3d& origin) {
-  std::vector<RTCBuildPrimitive> primitives(ids.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const Aabb box = boxOf(triangles[slotOf(ids[i])]);
-    const Vector3d lower = box.min - origin;
-    const Vector3d upper = box.max - origin;
-    primitives[i] = {floatBelow(lower.x()), floatBelow(lower.y()),
-                     floatBelow(lower.z()), 0,
-                     floatAbove(upper.x()), floatAbove(upper.y()),
-                     floatAbove(upper.z()), static_cast<unsigned>(i)};
-  }
-  return primitives;
-}
-
-RTCBuildArguments argumentsOf(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitives,
-                              std::atomic<bool>& hasShortage) {
-  RTCBuildArguments arguments = rtcDefaultBuildArguments();
-  arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
-  arguments.maxBranchingFactor = kBvhWidth;
-  arguments.maxDepth = kMaxBvhDepth;
-  arguments.sahBlockSize = kSahBlockSize;
-  arguments.minLeafSize = kMinLeafSize;
-  arguments.maxLeafSize = kBvhWidth;
-  arguments.bvh = tree;
-  arguments.primitives = primitives.data();
-  arguments.primitiveCount = primitives.size();
-  arguments.primitiveArrayCapacity = primitives.size();
-  arguments.createNode = createNode;
-  arguments.setNodeChildren = setChildren;
-  arguments.setNodeBounds = setBounds;
-  arguments.createLeaf = createLeaf;
-  arguments.userPtr = &hasShortage;
-  return arguments;
-}
-
-/// A root that is a leaf has no bounds of its own: returns those of all triangles.
-RTCBounds boundsOf(const std::vector<RTCBuildPrimitive>& primitives) {
-  RTCBounds all{kFloatInfinity,  kFloatInfinity,  kFloatInfinity,  0,
-                -kFloatInfinity, -kFloatInfinity, -kFloatInfinity, 0};
-  for (const RTCBuildPrimitive& p : primitives) {
-    all = {std::min(all.lower_x, p.lower_x), std::min(all.lower_y, p.lower_y),
-           std::min(all.lower_z, p.lower_z), 0,
-           std::max(all.upper_x, p.upper_x), std::max(all.upper_y, p.upper_y),
-           std::max(all.upper_z, p.upper_z), 0};
-  }
-  return all;
-}
 
 /// flat_bvh.md, "Vertices". `scene` is the box of all vertices.
 double vertexRoundingOf(const Aabb& scene, const Vector3d& origin) {
@@ -149,7 +27,7 @@ double vertexRoundingOf(const Aabb& scene, const Vector3d& origin) {
 
 }  // namespace
 
-/// Copies Embree's tree into the flat arrays, children side by side, without recursion.
+/// Copies a tree into the flat arrays, children side by side, without recursion.
 class FlatBvhBuilder {
  public:
   FlatBvhBuilder(FlatBvh& bvh, const std::vector<Triangle>& triangles,
@@ -163,13 +41,13 @@ class FlatBvhBuilder {
     bvh_.vertexRounding_ = vertexRoundingOf(scene, origin);
   }
 
-  Result<Done> flatten(const BuildNode& root, const RTCBounds& rootBounds) {
+  Result<Done> flatten(const TreeNode& root, const TreeBox& rootBox) {
     if (!isWhole(&root)) return Error::of(ErrorCode::DeviceFailed, "Embree built no whole root");
     const std::uint32_t rootIndex = addNode();
     if (root.numChildren == 0) {
-      setChild(rootIndex, 0, rootBounds, root, 1);
+      setChild(rootIndex, 0, rootBox, root, 1);
     } else {
-      pending_.push_back({static_cast<const BuildInner*>(&root), rootIndex, 0});
+      pending_.push_back({static_cast<const TreeInner*>(&root), rootIndex, 0});
     }
     while (!pending_.empty()) {
       const Pending next = pending_.back();
@@ -182,7 +60,7 @@ class FlatBvhBuilder {
         if (!isWhole(next.node->children[i])) {
           return Error::of(ErrorCode::DeviceFailed, "Embree built a part of the scene's tree");
         }
-        setChild(next.index, i, next.node->bounds[i], *next.node->children[i], next.depth + 1);
+        setChild(next.index, i, next.node->boxes[i], *next.node->children[i], next.depth + 1);
       }
     }
     bvh_.nodes_.shrink_to_fit();
@@ -193,16 +71,16 @@ class FlatBvhBuilder {
 
  private:
   struct Pending {
-    const BuildInner* node;
+    const TreeInner* node;
     std::uint32_t index;
     int depth;
   };
 
   /// Without memory Embree may leave a part out, and say nothing.
-  [[nodiscard]] bool isWhole(const BuildNode* node) const {
+  [[nodiscard]] bool isWhole(const TreeNode* node) const {
     if (node == nullptr || node->numChildren > kBvhWidth) return false;
     if (node->numChildren > 0) return true;
-    const auto& leaf = static_cast<const BuildLeaf&>(*node);
+    const auto& leaf = static_cast<const TreeLeaf&>(*node);
     return leaf.size >= 1 && leaf.size <= kBvhWidth &&
            std::all_of(leaf.primitives, leaf.primitives + leaf.size,
                        [&](unsigned primitive) { return primitive < ids_.size(); });
@@ -218,23 +96,21 @@ class FlatBvhBuilder {
     return static_cast<std::uint32_t>(bvh_.nodes_.size() - 1);
   }
 
-  void setChild(std::uint32_t index, unsigned slot, const RTCBounds& bounds, const BuildNode& child,
+  void setChild(std::uint32_t index, unsigned slot, const TreeBox& box, const TreeNode& child,
                 int depth) {
     const bool isLeaf = child.numChildren == 0;
-    const std::uint32_t target = isLeaf ? addLeaf(static_cast<const BuildLeaf&>(child)) : addNode();
+    const std::uint32_t target = isLeaf ? addLeaf(static_cast<const TreeLeaf&>(child)) : addNode();
     BvhNode& node = bvh_.nodes_[index];
-    const float lower[3] = {bounds.lower_x, bounds.lower_y, bounds.lower_z};
-    const float upper[3] = {bounds.upper_x, bounds.upper_y, bounds.upper_z};
     for (int axis = 0; axis < 3; ++axis) {
-      node.lower[axis][slot] = lower[axis];
-      node.upper[axis][slot] = upper[axis];
+      node.lower[axis][slot] = box.lower[axis];
+      node.upper[axis][slot] = box.upper[axis];
     }
     node.child[slot] = target;
-    if (!isLeaf) pending_.push_back({static_cast<const BuildInner*>(&child), target, depth});
+    if (!isLeaf) pending_.push_back({static_cast<const TreeInner*>(&child), target, depth});
   }
 
   /// Adds the leaf and its cluster; returns the child's word.
-  std::uint32_t addLeaf(const BuildLeaf& built) {
+  std::uint32_t addLeaf(const TreeLeaf& built) {
     FORETOUCH_ASSERT(built.size >= 1 && built.size <= kBvhWidth);
     BvhLeaf leaf;
     for (unsigned i = 0; i < kBvhWidth; ++i) {
@@ -300,28 +176,27 @@ class FlatBvhBuilder {
   std::vector<Pending> pending_;
 };
 
+namespace {
+
+Result<std::unique_ptr<BvhTree>> buildTree(const std::vector<Triangle>& triangles,
+                                           const std::vector<TriangleId>& ids,
+                                           const Vector3d& origin) {
+#if FORETOUCH_HAS_EMBREE
+  if (activeTreeBuilder() == TreeBuilder::Embree) return buildEmbreeTree(triangles, ids, origin);
+#endif
+  return buildBinnedTree(triangles, ids, origin);
+}
+
+}  // namespace
+
 Result<FlatBvh> FlatBvh::build(const std::vector<Triangle>& triangles,
                                const std::vector<TriangleId>& ids, const Vector3d& origin) {
   FORETOUCH_ASSERT(!ids.empty());
-  FORETOUCH_TRY(auto device, newEmbreeDevice());
-  const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> tree(rtcNewBVH(device.get()));
-  FORETOUCH_CHECK(embreeStatus(device.get(), "making room for the scene's tree"));
-  if (tree == nullptr) return Error::of(ErrorCode::DeviceFailed, "Embree made no tree");
-  std::vector<RTCBuildPrimitive> primitives = primitivesOf(triangles, ids, origin);
-  std::atomic<bool> hasShortage{false};
-  const RTCBuildArguments arguments = argumentsOf(tree.get(), primitives, hasShortage);
-  const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
-  FORETOUCH_CHECK(embreeStatus(device.get(), "building the scene's tree"));
-  if (hasShortage) {
-    return Error::of(ErrorCode::DeviceFailed, "Embree had no memory for the scene's tree");
-  }
-  if (root == nullptr) return Error::of(ErrorCode::DeviceFailed, "Embree built no tree");
-  const RTCBounds rootBounds = boundsOf(primitives);
-  primitives = {};  // makes room for the flat arrays
+  FORETOUCH_TRY(const auto tree, buildTree(triangles, ids, origin));
   FlatBvh bvh;
   FlatBvhBuilder builder(bvh, triangles, ids);
   builder.setOrigin(origin);
-  FORETOUCH_CHECK(builder.flatten(*root, rootBounds));
+  FORETOUCH_CHECK(builder.flatten(*tree->root, tree->box));
   return Result<FlatBvh>(std::move(bvh));
 }
 

@@ -1,6 +1,7 @@
 #include "middleware/scene/ray_yardstick.h"
 
 #include "articulated/try.h"
+#include "middleware/scene/embree_triangles.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch {

@@ -19,7 +19,8 @@ struct RaySegment {
 };
 
 /// Casts the set with rtcOccluded1, one ray at a time, and counts the rays that hit something.
-/// The first call builds the scene's ray structures; do not time that one.
+/// The first call builds the scene's ray structures; do not time that one. Errors: DeviceFailed,
+/// also where this library was built without Embree.
 [[nodiscard]] Result<int> castRaySet(const Scene& scene,
                                      const std::array<RaySegment, kRaysPerSet>& rays);
 

@@ -137,14 +137,6 @@ const SceneAudit& Scene::audit() const {
   return parts_->audit;
 }
 
-Result<const internal::EmbreeTriangles*> internal::SceneParts::embreeTriangles() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (embreeTriangles_ == nullptr) {
-    FORETOUCH_TRY(embreeTriangles_, EmbreeTriangles::build(triangles, finiteIds, origin));
-  }
-  return static_cast<const EmbreeTriangles*>(embreeTriangles_.get());
-}
-
 const internal::FlatEdges& internal::SceneParts::flatEdges() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (flatEdges_ == nullptr) flatEdges_ = std::make_unique<FlatEdges>(triangles, finiteIds);

@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "middleware/scene/embree_triangles.h"
 #include "middleware/scene/flat_bvh.h"
 #include "middleware/scene/flat_edges.h"
 #include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
+
+class EmbreeTriangles;
 
 struct SceneParts {
   std::vector<Triangle> triangles;  // vertices sorted; dropped ones unchanged
@@ -22,14 +23,15 @@ struct SceneParts {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   FlatBvh bvh;
 
-  /// Builds them on first use: most programs never need them.
+  /// Builds them on first use: most programs never need them. Where this library was built with
+  /// Embree.
   [[nodiscard]] Result<const EmbreeTriangles*> embreeTriangles() const;
-  /// Likewise.
+  /// Builds them on first use.
   [[nodiscard]] const FlatEdges& flatEdges() const;
 
  private:
   mutable std::mutex mutex_;
-  mutable std::unique_ptr<EmbreeTriangles> embreeTriangles_;
+  mutable std::shared_ptr<const EmbreeTriangles> embreeTriangles_;
   mutable std::unique_ptr<FlatEdges> flatEdges_;
 };
 

@@ -1,0 +1,21 @@
+// The point-query culler of a library without Embree: every triangle's box, one after the other.
+#include "lss/index.h"
+#include "middleware/reference/point_query_culler.h"
+#include "middleware/scene/scene_parts.h"
+
+namespace foretouch::internal {
+
+Result<std::shared_ptr<const PointQueryCuller>> PointQueryCuller::build(const Scene& scene) {
+  return std::shared_ptr<const PointQueryCuller>(new PointQueryCuller(scene, nullptr));
+}
+
+void PointQueryCuller::collect(const Aabb& box, std::vector<TriangleId>& ids,
+                               std::uint64_t& visited) const {
+  const SceneParts& parts = scene_.parts();
+  for (const TriangleId id : parts.finiteIds) {
+    if (boxOf(parts.triangles[slotOf(id)]).overlaps(box)) ids.push_back(id);
+  }
+  visited += parts.finiteIds.size();
+}
+
+}  // namespace foretouch::internal
