@@ -10,6 +10,9 @@
 namespace foretouch::internal {
 namespace {
 
+/// At most so many parts replace one.
+constexpr std::size_t kMostBelow = std::size_t{1} << kPartLevels;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Sides>
@@ -26,12 +29,12 @@ class LaneBacktracker {
         floor_(floatAbove(kFloorShare * query.tolerance)),
         handOver_(kHandOverShare * query.tolerance),
         end_(scratch.lanes.end()),
-        hasDepths_(Sides::kAnswersStarts &&
-                   (query.parts.surface == nullptr || query.other->surface == nullptr)) {}
+        standsStill_(Sides::kAnswersStarts &&
+                     (query.parts.surface == nullptr || query.other->surface == nullptr)) {}
 
   PairContact run() {
-    start();
-    if (!lookAtAll()) return leftUndone();
+    start(0.0);
+    if (!lookStill(0.0) || !lookAtAll()) return leftUndone();
     if (!best_) return PairContact{clearContact(query_.parts.link)};
     // Pairs that moved on from the start are farther than what touches there.
     if (best_->verdict == Verdict::Contact && !lookAround() && isOpenAtStart()) return spent(0.0);
@@ -47,7 +50,6 @@ class LaneBacktracker {
  private:
   /// Until no pair is left that could change the answer; false if a spent budget ended it.
   [[nodiscard]] bool lookAtAll() {
-    if (!lookAtStart()) return false;
     while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
       if (query_.meter.isPartSpent(counters_)) return false;
       // Triangles first: a contact makes all later pairs unnecessary.
@@ -62,36 +64,63 @@ class LaneBacktracker {
     return true;
   }
 
-  /// At t = 0 all pairs of two links that cut into each other touch at once. Of those with an LSS
-  /// the deepest is reported: the nearest come first, until lanes show that no better one is left.
-  /// Triangles that meet have no depth to go by. False if a spent budget ended it.
-  [[nodiscard]] bool lookAtStart() {
-    std::vector<NearPair>& heap = scratch_.atStart;
-    while (!heap.empty() && heap.front().nearest <= nearest_) {
-      if (query_.meter.isPartSpent(counters_)) return false;
-      takeNearest();
-      counters_.partSteps += count_;
-      sides_.prove(false, count_);
-      for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
+  /// At one instant the parts of a mesh and an LSS stand still: no more than places counts. All
+  /// that cut into each other at t = 0 touch at once, and the deepest is reported: the nearest come
+  /// first, until lanes show that no better one is left. What is apart moves on from there. False
+  /// if a spent budget ended it.
+  [[nodiscard]] bool lookStill(double t) {
+    if constexpr (Sides::kAnswersStarts) {
+      std::vector<StillPair>& heap = scratch_.stillPairs;
+      while (!heap.empty()) {
+        if (query_.meter.isPartSpent(counters_)) return false;
+        takeNearest(t);
+        counters_.partSteps += count_;
+        scratch_.still.prove(count_);
+        for (std::size_t lane = 0; lane < count_; ++lane) settleStill(lane, t);
+      }
+      if (horizon_ > t) {
+        for (const StillPair& pair : scratch_.stillApart) push(sides_.movingFrom(t, pair));
+      }
     }
-    heap.clear();
     return true;
   }
 
-  /// Fills the lanes with the nearest pairs.
-  void takeNearest() {
-    std::vector<NearPair>& heap = scratch_.atStart;
-    const auto pushed = [this](const PartPair& pair) { push(pair); };
+  /// Fills the lanes with what is below the nearest pairs; pairs of surfaces are for doubles.
+  void takeNearest(double t) {
+    std::vector<StillPair>& heap = scratch_.stillPairs;
     count_ = 0;
-    while (count_ < kTrianglePairLanes && !heap.empty() && heap.front().nearest <= nearest_) {
+    while (count_ + kMostBelow <= kTrianglePairLanes && !heap.empty()) {
       std::pop_heap(heap.begin(), heap.end());
-      above_ = heap.back().nearest;
-      const PartPair pair = heap.back().pair;
+      const StillPair pair = heap.back();
       heap.pop_back();
-      if (sides_.enter(pair, pushed)) continue;
-      sides_.put(count_, pair, floor_);
-      batch_[count_++] = pair;
+      if (isTooFar(static_cast<double>(pair.nearest), t)) {
+        heap.clear();  // as all others are
+      } else if (pair.part.isTriangle()) {
+        look(sides_.movingFrom(t, pair));
+      } else {
+        sides_.descendStill(pair, [this](const StillPair& below) { putStill(below); });
+      }
     }
+  }
+
+  void putStill(const StillPair& pair) {
+    sides_.putStill(count_, pair);
+    stillBatch_[count_++] = pair;
+  }
+
+  /// What is reported at `t` is nearer.
+  [[nodiscard]] bool isTooFar(double nearest, double t) const {
+    return horizon_ <= t && nearest > nearest_;
+  }
+
+  void settleStill(std::size_t lane, double t) {
+    StillPair pair = stillBatch_[lane];
+    const double lower = scratch_.still.lower(lane);
+    if (isTooFar(lower, t)) return;
+    if (lower > handOver_) return scratch_.stillApart.push_back(pair);
+    pair.nearest = floatBelow(lower);
+    scratch_.stillPairs.push_back(pair);
+    std::push_heap(scratch_.stillPairs.begin(), scratch_.stillPairs.end());
   }
 
   /// Pairs that moved on beyond the contact's instant, or were dropped, may be nearer at it: this
@@ -103,27 +132,41 @@ class LaneBacktracker {
     floor_ = floatAbove(reach);
     handOver_ = static_cast<double>(floor_);
     sides_.widen(reach);
-    start();
-    return lookAtAll();
+    start(t);
+    return lookStill(t) && lookAtAll();
   }
 
-  void start() {
+  /// Of what may be near, from `t` on if not later.
+  void start(double t) {
     scratch_.lss.reset(scratch_.lanes.begin(), end_);
     scratch_.triangles.reset(scratch_.lanes.begin(), end_);
-    scratch_.atStart.clear();
-    above_ = -kInfinity;
+    scratch_.stillPairs.clear();
+    scratch_.stillApart.clear();
+    scratch_.stillAxes.clear();
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       PartPair pair;
       pair.freeUntil = nextPossible(query_.pieces, candidates_[i], candidates_[i].freeUntil);
       pair.candidate = static_cast<std::int32_t>(i);
-      if (pair.freeUntil < end_) push(pair);
+      if (pair.freeUntil < end_) begin(pair, t);
     }
+  }
+
+  void begin(const PartPair& pair, double t) {
+    if constexpr (Sides::kAnswersStarts) {
+      const auto whole =
+          standsStill_ && pair.freeUntil == t ? sides_.wholeStill(pair.candidate) : std::nullopt;
+      if (whole) {
+        if (scratch_.stillAxes.empty()) sides_.stopAt(states_.at(t));
+        return scratch_.stillPairs.push_back(*whole);
+      }
+    }
+    push(pair);
   }
 
   /// The remaining pairs bound how far the link is free; a contact that none of them can precede
   /// stands.
   [[nodiscard]] PairContact leftUndone() {
-    double freeUntil = scratch_.atStart.empty() ? horizon_ : 0.0;
+    double freeUntil = scratch_.stillPairs.empty() ? horizon_ : 0.0;
     for (TimeBuckets* buckets : {&scratch_.lss, &scratch_.triangles}) {
       while (!buckets->isEmpty()) freeUntil = std::min(freeUntil, buckets->pop().freeUntil);
     }
@@ -140,11 +183,6 @@ class LaneBacktracker {
   }
 
   void push(const PartPair& pair) {
-    if (hasDepths_ && pair.freeUntil == 0.0) {
-      scratch_.atStart.push_back({above_, pair});
-      std::push_heap(scratch_.atStart.begin(), scratch_.atStart.end());
-      return;
-    }
     (Sides::isSurface(pair) ? scratch_.triangles : scratch_.lss).push(pair);
   }
 
@@ -176,7 +214,6 @@ class LaneBacktracker {
       if (reached > pair.freeUntil) return moveOn(pair, reached);
     }
     if (Sides::isSurface(pair)) return look(pair);
-    above_ = lower;
     sides_.descend(pair, [this](const PartPair& below) { push(below); });
   }
 
@@ -230,11 +267,11 @@ class LaneBacktracker {
   float floor_;
   double handOver_;
   double end_;
-  bool hasDepths_;  // of two links, one of which is made of LSS
+  bool standsStill_;  // at one instant: two links, one of which is made of LSS
   std::array<PartPair, kTrianglePairLanes> batch_;
+  std::array<StillPair, kTrianglePairLanes> stillBatch_;
   std::size_t count_ = 0;
   double horizon_ = kInfinity;       // nothing later than this can change the answer
-  double above_ = -kInfinity;        // what pairs at t = 0 that are pushed are inside of
   double nearest_ = kInfinity;       // what is farther at the horizon comes after the contact there
   std::optional<PairContact> best_;  // nothing: horizon_ is infinite
 };

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "lss/index.h"
@@ -198,6 +200,51 @@ class OwnSides : private LaneSides {
       push(pair);
     }
   }
+  /// One instant, at which all parts stand still. Precondition, as of the next four: one of the
+  /// links has no mesh.
+  void stopAt(const PosedLink& posed) {
+    const LinkParts &mesh = meshSide(), &plain = plainSide();
+    const bool isOther = &mesh == query_.other;
+    const MotionBounds bounds = mesh.bounds();
+    scratch_.stillAxes.clear();
+    for (const Candidate& candidate : candidates_) {
+      const auto lss = slotOf(isOther ? candidate.lss : candidate.otherLss);
+      scratch_.stillAxes.push_back(stillAxis(plain.lss[lss], isOther ? posed.state : posed.other,
+                                             plain.axisBounds[lss],
+                                             isOther ? posed.other : posed.state, bounds));
+    }
+  }
+  /// The candidate's whole mesh; nothing if its two LSS are all there is.
+  [[nodiscard]] std::optional<StillPair> wholeStill(std::int32_t candidate) const {
+    const LinkParts& mesh = meshSide();
+    const std::int32_t lss = meshLss(candidate);
+    if (!mesh.surface->hasTriangles(lss)) return std::nullopt;
+    return StillPair{-std::numeric_limits<float>::infinity(), candidate, mesh.surface->root(lss)};
+  }
+  void putStill(std::size_t lane, const StillPair& pair) const {
+    scratch_.still.put(lane, scratch_.stillAxes[slotOf(pair.candidate)],
+                       meshSide().surface->lanePart(meshLss(pair.candidate), pair.part));
+  }
+  template <typename Push>
+  void descendStill(StillPair pair, const Push& push) const {
+    const LinkSurface& surface = *meshSide().surface;
+    for (const HierarchyChild below : surface.below(meshLss(pair.candidate), pair.part)) {
+      pair.part = below;
+      push(pair);
+    }
+  }
+  /// As one that goes on from `t`.
+  [[nodiscard]] PartPair movingFrom(double t, const StillPair& pair) const {
+    PartPair moving;
+    moving.freeUntil = t;
+    moving.candidate = pair.candidate;
+    moving.isEntered = true;
+    const bool isOther = &meshSide() == query_.other;
+    (isOther ? moving.isOtherWhole : moving.isWhole) = false;
+    (isOther ? moving.otherPart : moving.part) = pair.part;
+    return moving;
+  }
+
   [[nodiscard]] static bool isForDoubles(const PartPair& /*pair*/) { return false; }
   void put(std::size_t lane, const PartPair& pair, float floor) const {
     const Candidate& candidate = candidateOf(pair);
@@ -215,6 +262,16 @@ class OwnSides : private LaneSides {
   }
 
  private:
+  [[nodiscard]] const LinkParts& meshSide() const {
+    return query_.parts.surface != nullptr ? query_.parts : *query_.other;
+  }
+  [[nodiscard]] const LinkParts& plainSide() const {
+    return query_.parts.surface != nullptr ? *query_.other : query_.parts;
+  }
+  [[nodiscard]] std::int32_t meshLss(std::int32_t candidate) const {
+    const Candidate& own = candidates_[slotOf(candidate)];
+    return query_.parts.surface != nullptr ? own.lss : own.otherLss;
+  }
   [[nodiscard]] static bool isOnTop(bool isWhole, HierarchyChild part) {
     return isWhole || part.isTriangle();
   }

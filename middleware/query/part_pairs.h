@@ -12,6 +12,7 @@
 #include "middleware/query/link_query.h"
 #include "middleware/query/part_lanes.h"
 #include "middleware/query/skin_lanes.h"
+#include "middleware/query/still_lanes.h"
 
 namespace foretouch::internal {
 
@@ -25,12 +26,13 @@ struct PartPair {
   bool isEntered = false;  // of two links: both LSS were replaced by what is below them
 };
 
-/// A pair at t = 0 that is at least so far apart (m). The nearest is the greatest, on top of a
-/// heap.
-struct NearPair {
-  double nearest;
-  PartPair pair;
-  [[nodiscard]] bool operator<(const NearPair& other) const { return nearest > other.nearest; }
+/// A part of a mesh and an LSS of another link, at one instant at least so far apart (m). The
+/// nearest is the greatest, on top of a heap.
+struct StillPair {
+  float nearest = 0.0F;
+  std::int32_t candidate = -1;  // whose LSS
+  HierarchyChild part = HierarchyChild::node(0);
+  [[nodiscard]] bool operator<(const StillPair& other) const { return nearest > other.nearest; }
 };
 
 /// Pairs by time, the earliest first up to 1/64 of the span. The order only decides how much work a
@@ -101,7 +103,10 @@ struct StartPair {
 struct PartScratch {
   PartLanes lanes;
   TimeBuckets lss, triangles;
-  std::vector<NearPair> atStart;            // of two links
+  // Of two links at one instant: the LSS by candidate, a heap of pairs, and those that are apart.
+  StillLanes still;
+  std::vector<StillAxis> stillAxes;
+  std::vector<StillPair> stillPairs, stillApart;
   std::vector<HierarchyChild> parts;        // a stack
   std::vector<std::int32_t> linkTriangles;  // those the stack ended in
   SkinLanes skin;                           // at skinned fidelity
