@@ -28,10 +28,7 @@ void PrintTo(const SampleScene& tested, std::ostream* out) {
   *out << tested.name;
 }
 
-class OracleSample : public ::testing::TestWithParam<SampleScene> {
- protected:
-  void TearDown() override { useSimd(std::nullopt); }
-};
+class OracleSample : public ::testing::TestWithParam<SampleScene> {};
 
 /// How an answer may be come by: nothing is lanes not at all.
 using Way = std::optional<Simd>;
@@ -50,6 +47,7 @@ SweepTally sweepEveryWay(const SweepClip& clip, const SweepScene& scene, const P
     EXPECT_TRUE(useSimd(way));
     total.add(sweep(clip, scene, placement, options));
   }
+  useSimd(std::nullopt);
   return total;
 }
 
