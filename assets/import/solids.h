@@ -25,7 +25,7 @@ struct FlatMesh {
 [[nodiscard]] FlatMesh cylinderAround(double radius, double length);
 
 /// A polyhedron about the centre that contains the ellipsoid of these semi-axes, rounding included:
-/// its 512 sides touch it or stand off by less than two percent.
+/// its 512 sides touch it, and its corners stand off by less than three percent.
 [[nodiscard]] FlatMesh ellipsoidAround(const Eigen::Vector3d& semiAxes);
 
 }  // namespace foretouch::internal

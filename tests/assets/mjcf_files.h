@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <mujoco/mujoco.h>
 #include <stdexcept>
@@ -24,6 +26,16 @@ inline std::string mujoco(const std::string& bodies, const std::string& before =
                           const std::string& after = "") {
   return "<mujoco>\n" + before + "<worldbody>\n" + bodies + "\n</worldbody>\n" + after +
          "</mujoco>\n";
+}
+
+/// With all digits.
+inline std::string inText(double number) {
+  std::array<char, 40> out{};
+  std::snprintf(out.data(), out.size(), "%.17g", number);
+  return out.data();
+}
+inline std::string inText(const Eigen::Vector3d& v) {
+  return inText(v.x()) + " " + inText(v.y()) + " " + inText(v.z());
 }
 
 /// What libmujoco makes of a file by itself, without the importer.

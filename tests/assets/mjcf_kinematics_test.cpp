@@ -15,15 +15,6 @@ using Eigen::Vector3d;
 /// Of metres and of a rotation's entries.
 constexpr double kAlike = 1e-12;
 
-std::string text(double number) {
-  std::array<char, 40> out{};
-  std::snprintf(out.data(), out.size(), "%.17g", number);
-  return out.data();
-}
-std::string text(const Vector3d& v) {
-  return text(v.x()) + " " + text(v.y()) + " " + text(v.z());
-}
-
 /// Bodies that hang on one another by hinges and slides of every kind, and what they follow.
 class RandomMjcf {
  public:
@@ -44,7 +35,7 @@ class RandomMjcf {
       if (i % 2 == 0 || !random_.chance(0.3)) continue;
       const double constant = random_.uniform(-1, 1), factor = random_.uniform(-2, 2);
       rules += "<joint joint1=\"" + joints_[i] + "\" joint2=\"" + joints_[i - 1] +
-               "\" polycoef=\"" + text(constant) + " " + text(factor) + " 0 0 0\"/>";
+               "\" polycoef=\"" + inText(constant) + " " + inText(factor) + " 0 0 0\"/>";
       follows_[joints_[i]] = {joints_[i - 1], constant, factor};
     }
     return mujoco(bodies_,
@@ -64,19 +55,20 @@ class RandomMjcf {
   double angle(double radians) { return isRadian_ ? radians : radians * 180.0 / M_PI; }
 
   std::string frame() {
-    std::string out = " pos=\"" + text(random_.inBox(0.5)) + "\"";
+    std::string out = " pos=\"" + inText(random_.inBox(0.5)) + "\"";
     const Vector3d v = random_.direction();
     switch (random_.below(5)) {
       case 0: return out;
-      case 1: return out + " quat=\"" + text(random_.uniform(0.1, 2)) + " " + text(v) + "\"";
+      case 1: return out + " quat=\"" + inText(random_.uniform(0.1, 2)) + " " + inText(v) + "\"";
       case 2:
-        return out + " axisangle=\"" + text(v) + " " + text(angle(random_.uniform(-3, 3))) + "\"";
+        return out + " axisangle=\"" + inText(v) + " " + inText(angle(random_.uniform(-3, 3))) +
+               "\"";
       case 3:
-        return out + " euler=\"" + text(angle(random_.uniform(-3, 3))) + " " +
-               text(angle(random_.uniform(-1, 1))) + " " + text(angle(random_.uniform(-3, 3))) +
+        return out + " euler=\"" + inText(angle(random_.uniform(-3, 3))) + " " +
+               inText(angle(random_.uniform(-1, 1))) + " " + inText(angle(random_.uniform(-3, 3))) +
                "\"";
       default:
-        return out + " xyaxes=\"" + text(v) + " " + text(v.unitOrthogonal() + 0.3 * v) + "\"";
+        return out + " xyaxes=\"" + inText(v) + " " + inText(v.unitOrthogonal() + 0.3 * v) + "\"";
     }
   }
 
@@ -85,24 +77,24 @@ class RandomMjcf {
     joints_.push_back(name);
     const bool turns = random_.chance(0.7);
     std::string out = "<joint name=\"" + name + "\" type=\"" + (turns ? "hinge" : "slide") +
-                      "\" axis=\"" + text(3.0 * random_.direction()) + "\"";
-    if (random_.chance(0.5)) out += " pos=\"" + text(random_.inBox(0.2)) + "\"";
+                      "\" axis=\"" + inText(3.0 * random_.direction()) + "\"";
+    if (random_.chance(0.5)) out += " pos=\"" + inText(random_.inBox(0.2)) + "\"";
     if (random_.chance(0.3)) {
       const double reference = random_.uniform(-1, 1);
-      out += " ref=\"" + text(turns ? angle(reference) : reference) + "\"";
+      out += " ref=\"" + inText(turns ? angle(reference) : reference) + "\"";
     }
     if (random_.chance(0.5)) {
       const double low = random_.uniform(-4, 0), high = random_.uniform(0.1, 4);
-      out += " range=\"" + text(turns ? angle(low) : low) + " " + text(turns ? angle(high) : high) +
-             "\"";
+      out += " range=\"" + inText(turns ? angle(low) : low) + " " +
+             inText(turns ? angle(high) : high) + "\"";
     }
     return out + "/>\n";
   }
 
   std::string geom() {
     if (random_.chance(0.3)) {
-      return "<geom type=\"capsule\" fromto=\"" + text(random_.inBox(0.3)) + " " +
-             text(random_.inBox(0.3)) + "\" size=\"0.05\"/>\n";
+      return "<geom type=\"capsule\" fromto=\"" + inText(random_.inBox(0.3)) + " " +
+             inText(random_.inBox(0.3)) + "\" size=\"0.05\"/>\n";
     }
     return std::string("<geom type=\"") + (random_.chance(0.5) ? "capsule" : "sphere") +
            "\" size=\"0.05 0.1\"" + frame() + "/>\n";
