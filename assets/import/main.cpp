@@ -35,10 +35,20 @@ bool writeAll(int fd, std::string_view bytes) {
   return true;
 }
 
+Model read(const ModelQuestion& question) {
+  if (lowerExtensionOf(question.path) == ".urdf") return readUrdf(question);
+  if (!isMjcf(question.path)) return readModel(question);
+#ifdef FORETOUCH_HAS_MUJOCO
+  return readMjcf(question);
+#else
+  refuse(
+      "it is a MuJoCo model (MJCF), and this foretouch-import is built without libmujoco "
+      "(FORETOUCH_MUJOCO)");
+#endif
+}
+
 bool sendModel(const ModelQuestion& question, ModelWriter& writer) {
-  const Model model = lowerExtensionOf(question.path) == ".urdf" ? readUrdf(question)
-                      : isMjcf(question.path)                    ? readMjcf(question)
-                                                                 : readModel(question);
+  const Model model = read(question);
   writer.fileFrame(model.frame);
   return writer.write(model);
 }

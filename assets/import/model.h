@@ -45,7 +45,7 @@ class ModelBuilder {
 /// Metres: converts lengths from the file's unit. Throw Failure.
 [[nodiscard]] Model readModel(const ModelQuestion& question);
 [[nodiscard]] Model readUrdf(const ModelQuestion& question);
-/// Refuses every file where this program is built without libmujoco.
+/// Where the program is built with libmujoco.
 [[nodiscard]] Model readMjcf(const ModelQuestion& question);
 
 }  // namespace foretouch::internal
