@@ -1,6 +1,6 @@
 #!/bin/sh
 # example_test.sh PLAN_ARM DATA ROBOT FORETOUCH: plans for a robot of the shared data, and shows the way
-# in a report, where it meets nothing; skipped where the data is absent.
+# in a report, where it meets nothing, and in a certificate, which proves it; skipped where the data is absent.
 set -e
 program=$1 file=${FORETOUCH_DATA:-$2}/robots/$3 foretouch=$4
 if [ ! -f "$file" ]; then
@@ -17,3 +17,6 @@ cd "$folder"
   --output plan.jsonl --report plan.html
 tail -n 1 plan.jsonl | grep '"touches":0,'
 test -s plan.html
+"$foretouch" certify --scene poles.obj --scene-up z --avatar arm.json --motion plan.csv --robot "$file" \
+  --output proof
+"$foretouch-verify" proof/scene.obj proof/avatar.json proof/steps.txt proof/certificate.txt --whole
