@@ -220,7 +220,10 @@ class MjcfTreeBuilder {
     node.joint = !turns      ? ModelJointType::Prismatic
                  : isLimited ? ModelJointType::Revolute
                              : ModelJointType::Continuous;
-    if (!isLimited) return;
+    if (isLimited) setLimits(joint, node);
+  }
+
+  void setLimits(int joint, ModelNode& node) const {
     node.lowerLimit = from_.jnt_range[2 * joint];
     node.upperLimit = from_.jnt_range[2 * joint + 1];
     if (!(node.lowerLimit < node.upperLimit) || !std::isfinite(node.lowerLimit) ||

@@ -213,8 +213,8 @@ class Reducer {
   void noteWorld() {
     if (worldGeoms_.empty()) return;
     constexpr std::size_t kShown = 5;
-    std::string text = std::to_string(worldGeoms_.size()) +
-                       " geoms of the world itself are no part of a body and are left out: ";
+    std::string text = "geoms of the world itself (" + std::to_string(worldGeoms_.size()) +
+                       ") are no part of a body and are left out: ";
     for (std::size_t i = 0; i < std::min(worldGeoms_.size(), kShown); ++i) {
       text += (i == 0 ? "" : ", ") + worldGeoms_[i];
     }
