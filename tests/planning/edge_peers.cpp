@@ -42,8 +42,8 @@ struct Arguments {
 struct Tally {
   std::string name;
   int edges = 0, clear = 0, judged = 0, touching = 0;
-  int missed = 0;      ///< Called clear, and touches.
-  int wronglyMet = 0;  ///< Called a contact, and nothing comes nearer than twice the tolerance.
+  int missed = 0;        ///< Called clear, and touches.
+  int metUntouched = 0;  ///< Called a contact, and nothing touches: Foretouch has a tolerance.
   double seconds = 0.0;
 };
 
@@ -79,12 +79,11 @@ void runStage(const Arguments& a, const std::string& robot, const PlanStage& sta
       ++t.judged;
       t.touching += isTouch ? 1 : 0;
       t.missed += isTouch && !found[i] ? 1 : 0;
-      t.wronglyMet += !isTouch && found[i] ? 1 : 0;
+      t.metUntouched += !isTouch && found[i] ? 1 : 0;
     }
-    std::printf(
-        "%-6s %-9s %-32s %6d edges %6d touch %5d missed %5d met where nothing touches %9.2f us\n",
-        robot.c_str(), stage.name.c_str(), t.name.c_str(), t.edges, t.touching, t.missed,
-        t.wronglyMet, 1e6 * t.seconds / std::max(1, t.edges));
+    std::printf("%-6s %-9s %-32s %6d edges %6d touch %5d missed %5d met untouched %9.2f us\n",
+                robot.c_str(), stage.name.c_str(), t.name.c_str(), t.edges, t.touching, t.missed,
+                t.metUntouched, 1e6 * t.seconds / std::max(1, t.edges));
     std::fflush(stdout);
     Tally& sum = sums[s];
     sum.name = t.name;
@@ -92,21 +91,20 @@ void runStage(const Arguments& a, const std::string& robot, const PlanStage& sta
     sum.judged += t.judged;
     sum.touching += t.touching;
     sum.missed += t.missed;
-    sum.wronglyMet += t.wronglyMet;
+    sum.metUntouched += t.metUntouched;
     sum.seconds += t.seconds;
   }
 }
 
 void printTable(const std::vector<Tally>& sums) {
   std::printf(
-      "\n| solver | edges a second | us an edge | of %d contacts, missed | met where nothing "
-      "touches |\n"
+      "\n| solver | edges a second | us an edge | of %d contacts, missed | met untouched |\n"
       "|---|---|---|---|---|\n",
       sums.front().touching);
   for (const Tally& t : sums) {
     std::printf("| %s | %.0f | %.2f | %d (%.1f %%) | %d |\n", t.name.c_str(), t.edges / t.seconds,
                 1e6 * t.seconds / t.edges, t.missed, 100.0 * t.missed / std::max(1, t.touching),
-                t.wronglyMet);
+                t.metUntouched);
   }
 }
 
@@ -130,6 +128,8 @@ int run(const Arguments& a) {
   }
   if (sums.empty()) return 77;
   printTable(sums);
+  std::puts(
+      "\nUntouched: nothing touches by the judge; Foretouch comes within its tolerance, 1 mm.");
   return sums.front().missed == 0 ? 0 : 1;
 }
 

@@ -28,9 +28,10 @@ class EdgeSolver {
 using EdgeSolvers = std::vector<std::unique_ptr<EdgeSolver>>;
 
 /// Sampled as OMPL samples a space of real numbers, at shares of its extent (the norm of all
-/// ranges): fcl::collide() of each link's capsules and the scene. And fcl::continuousCollide() by
-/// its default method, at a number of samples: it knows two poses of each link and what FCL has
-/// between them, which is not the arm's motion.
+/// ranges): fcl::collide() of each link's capsules and the scene, by the two ways that FCL has to
+/// tell whether a capsule meets a triangle (libccd, its default, and its own). And
+/// fcl::continuousCollide() by its default method, at a number of samples: it knows two poses of
+/// each link and what FCL has between them, which is not the arm's motion.
 [[nodiscard]] EdgeSolvers fclEdgeSolvers(const PlanStage& stage,
                                          const std::vector<double>& resolutions,
                                          const std::vector<int>& continuousSamples);

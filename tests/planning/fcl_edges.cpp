@@ -62,9 +62,12 @@ class FclArm : public EdgeSolver {
 
 class SampledByFcl : public FclArm {
  public:
-  SampledByFcl(const PlanStage& stage, std::shared_ptr<const FclMesh> mesh, double resolution)
-      : FclArm(fmt::format("FCL collide, sampled at {:g} %", 100.0 * resolution), stage,
-               std::move(mesh)) {
+  SampledByFcl(const PlanStage& stage, std::shared_ptr<const FclMesh> mesh, double resolution,
+               fcl::GJKSolverType solver)
+      : FclArm(fmt::format("FCL collide ({}) at {:g} %",
+                           solver == fcl::GST_INDEP ? "own GJK" : "libccd", 100.0 * resolution),
+               stage, std::move(mesh)) {
+    request_.gjk_solver_type = solver;
     double sum = 0.0;
     for (const RobotCoordinate& c : robot_.coordinates()) {
       const double range =
@@ -89,15 +92,15 @@ class SampledByFcl : public FclArm {
  private:
   bool touchesAt(const std::vector<double>& q) {
     place(q, links_);
-    const fcl::CollisionRequestd request;
     const fcl::Transform3d rest = fcl::Transform3d::Identity();
     return std::any_of(capsules_.begin(), capsules_.end(), [&](const LinkCapsule& c) {
       fcl::CollisionResultd result;
       return fcl::collide<double>(mesh_.get(), rest, &c.capsule.shape,
-                                  c.capsule.poseOf(of(links_, c.link)), request, result) > 0;
+                                  c.capsule.poseOf(of(links_, c.link)), request_, result) > 0;
     });
   }
 
+  fcl::CollisionRequestd request_;
   double step_ = 1.0;
   std::vector<double> q_;
   std::vector<RigidPose> links_;
@@ -139,7 +142,9 @@ EdgeSolvers fclEdgeSolvers(const PlanStage& stage, const std::vector<double>& re
   const std::shared_ptr<const FclMesh> mesh = tools::fclMeshOf(stage.triangles);
   EdgeSolvers solvers;
   for (const double resolution : resolutions) {
-    solvers.push_back(std::make_unique<SampledByFcl>(stage, mesh, resolution));
+    for (const auto solver : {fcl::GST_LIBCCD, fcl::GST_INDEP}) {
+      solvers.push_back(std::make_unique<SampledByFcl>(stage, mesh, resolution, solver));
+    }
   }
   for (const int samples : continuousSamples) {
     solvers.push_back(std::make_unique<ContinuousByFcl>(stage, mesh, samples));
