@@ -22,6 +22,9 @@ struct Failure {
   ImportFailure kind;
   std::string text;
 };
+[[noreturn]] inline void refuse(const std::string& text) {
+  throw Failure{ImportFailure::Refused, text};
+}
 
 /// A mesh of the file, triangulated once for all its placements. Indices are in range.
 struct MeshTriangles {

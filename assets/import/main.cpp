@@ -1,7 +1,7 @@
 // foretouch-import: reads a model file and writes its content to standard output: its triangles
 // (assets/import/protocol.h), or with --model its nodes, meshes, bones and animations
 // (assets/import/model_stream.h). A helper of the library, run as a child under limits that its
-// parent sets; the only program that links assimp and urdfdom.
+// parent sets; the only program that links assimp, urdfdom and libmujoco.
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
@@ -15,6 +15,7 @@
 #include "assets/import/assimp.h"
 #include "assets/import/cage.h"
 #include "assets/import/memory_budget.h"
+#include "assets/import/mjcf_text.h"
 #include "assets/import/model.h"
 #include "assets/import/model_stream.h"
 #include "assets/import/scene.h"
@@ -34,9 +35,20 @@ bool writeAll(int fd, std::string_view bytes) {
   return true;
 }
 
+Model read(const ModelQuestion& question) {
+  if (lowerExtensionOf(question.path) == ".urdf") return readUrdf(question);
+  if (!isMjcf(question.path)) return readModel(question);
+#ifdef FORETOUCH_HAS_MUJOCO
+  return readMjcf(question);
+#else
+  refuse(
+      "it is a MuJoCo model (MJCF), and this foretouch-import is built without libmujoco "
+      "(FORETOUCH_MUJOCO)");
+#endif
+}
+
 bool sendModel(const ModelQuestion& question, ModelWriter& writer) {
-  const Model model =
-      lowerExtensionOf(question.path) == ".urdf" ? readUrdf(question) : readModel(question);
+  const Model model = read(question);
   writer.fileFrame(model.frame);
   return writer.write(model);
 }

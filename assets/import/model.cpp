@@ -6,9 +6,11 @@
 #include <string_view>
 #include <utility>
 
+#include "articulated/avatar.h"
 #include "assets/import/assimp.h"
 #include "assets/import/fbx_pivots.h"
 #include "assets/import/text.h"
+#include "lss/index.h"
 
 namespace foretouch::internal {
 namespace {
@@ -256,6 +258,35 @@ void ModelBuilder::count(const ModelSize& more) {
   if (const std::string excess = size_.excess(); !excess.empty()) {
     throw Failure{ImportFailure::TooLarge, "instances counted, " + excess};
   }
+}
+
+void ModelBuilder::addLss(std::int32_t node, const Lss& lss) {
+  std::vector<Lss>& own = model.nodes[slotOf(node)].lss;
+  if (own.size() == kMaxLssPerLink) {
+    throw Failure{ImportFailure::TooLarge, "more than " + std::to_string(kMaxLssPerLink) +
+                                               " spheres and capsules on a link"};
+  }
+  ModelSize more;
+  more.lss = 1;
+  count(more);
+  own.push_back(lss);
+}
+
+void ModelBuilder::addMesh(std::int32_t node, const std::string& name,
+                           std::vector<Vector3d> vertices,
+                           const std::vector<std::array<std::int32_t, 3>>& triangles) {
+  ModelSize more;
+  more.meshes = 1;
+  more.vertices = vertices.size();
+  more.triangles = triangles.size();
+  more.nameBytes = name.size();
+  count(more);
+  ModelMesh mesh;
+  mesh.name = name;
+  mesh.node = node;
+  mesh.vertices = std::move(vertices);
+  mesh.triangles = triangles;
+  model.meshes.push_back(std::move(mesh));
 }
 
 void ModelBuilder::note(const std::string& text) {

@@ -1,10 +1,13 @@
-// assets/import/model.h: a model from assimp or a URDF, and the counts that both keep while they
-// build it. In foretouch-import only. Not installed.
+// assets/import/model.h: a model from assimp, a URDF or MJCF, and the counts that all keep while
+// they build it. In foretouch-import only. Not installed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "assets/import/model_stream.h"
 #include "assets/model/model.h"
@@ -14,7 +17,7 @@ namespace foretouch::internal {
 /// The parent's request.
 struct ModelQuestion {
   std::string path;
-  bool visual = false;   ///< Of a URDF: its visual description rather than its collision one.
+  bool visual = false;   ///< Of a robot: its visual description rather than its collision one.
   bool isRobot = false;  ///< Refuse what ModelImportOptions::isRobot says.
   std::vector<std::string> packagePaths;
 };
@@ -24,6 +27,10 @@ class ModelBuilder {
  public:
   /// Throws Failure (assets/import/assimp.h) if the limits do not allow `more`.
   void count(const ModelSize& more);
+  /// Counts them as well. Throw Failure.
+  void addLss(std::int32_t node, const Lss& lss);
+  void addMesh(std::int32_t node, const std::string& name, std::vector<Eigen::Vector3d> vertices,
+               const std::vector<std::array<std::int32_t, 3>>& triangles);
   /// Keeps the first few distinct notes; the last one says how many others there were.
   void note(const std::string& text);
   [[nodiscard]] Model take();
@@ -38,5 +45,7 @@ class ModelBuilder {
 /// Metres: converts lengths from the file's unit. Throw Failure.
 [[nodiscard]] Model readModel(const ModelQuestion& question);
 [[nodiscard]] Model readUrdf(const ModelQuestion& question);
+/// Where the program is built with libmujoco.
+[[nodiscard]] Model readMjcf(const ModelQuestion& question);
 
 }  // namespace foretouch::internal

@@ -1,6 +1,7 @@
 // assets/import/model_import.h: rigged models from files: every format with bones or nodes that
-// assimp reads, and URDF. Reads them in the same child process, under the same limits, as scenes
-// (assets/import/scene_import.h), and checks its output like any other untrusted data.
+// assimp reads, URDF, and MJCF where libmujoco is. Reads them in the same child process, under the
+// same limits, as scenes (assets/import/scene_import.h), and checks its output like any other
+// untrusted data.
 #pragma once
 
 #include <string>
@@ -12,18 +13,20 @@
 
 namespace foretouch {
 
-/// Which of a URDF's two descriptions of a link becomes its surface.
+/// Which of a robot's two descriptions of a link becomes its surface: of MJCF, the geoms that
+/// collide, or those that are only seen.
 enum class UrdfSurface : std::uint8_t { Collision, Visual };
 
 struct ModelImportOptions {
   SceneImportOptions import;  ///< scale, up, limits and the importer's place, as for scenes.
   UrdfSurface urdfSurface = UrdfSurface::Collision;
-  /// Of a URDF: refuses by name what an avatar can do without, with a note, and a robot that moves
+  /// Of a robot: refuses by name what an avatar can do without, with a note, and a robot that moves
   /// by joint coordinates cannot: missing or unreadable meshes, limits the wrong way round, equal
-  /// or absent, a floating joint, a mimic of a joint that is not there.
+  /// or absent, a floating joint, a mimic of a joint that is not there. Of MJCF: docs/robots.md.
   bool isRobot = false;
   /// Folders to search for package://NAME/..., as FOLDER/NAME/... and FOLDER/...; after them the
-  /// URDF's own folder and its parents.
+  /// URDF's own folder and its parents. Of MJCF: folders that its files may lie in, besides its
+  /// own.
   std::vector<std::string> packagePaths;
 };
 

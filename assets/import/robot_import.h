@@ -1,5 +1,5 @@
-// assets/import/robot_import.h: a robot from its URDF: links as LSS around their collision
-// geometry, joints by coordinates.
+// assets/import/robot_import.h: a robot from its URDF or MJCF: links as LSS around their
+// collision geometry, joints by coordinates.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@
 namespace foretouch {
 
 struct RobotImportOptions {
-  /// `isRobot` is set. Without `import.up`, W is the frame of the URDF's root link.
+  /// `isRobot` is set. Without `import.up`, W is the frame of the URDF's root link,
+  /// or MuJoCo's world.
   ModelImportOptions reading;
   ModelAvatarOptions making;
 };

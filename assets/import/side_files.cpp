@@ -52,8 +52,11 @@ std::vector<std::string> foldersBeside(const std::string& model,
                                        const std::vector<std::string>& packagePaths) {
   const fs::path folder = folderOfModel(model);
   std::vector<std::string> folders{folder.string()};
-  if (lowerExtensionOf(model) != ".urdf") return folders;
+  const std::string extension = lowerExtensionOf(model);
+  const bool isUrdf = extension == ".urdf", isMjcf = extension == ".xml" || extension == ".mjcf";
+  if (!isUrdf && !isMjcf) return folders;
   folders.insert(folders.end(), packagePaths.begin(), packagePaths.end());
+  if (!isUrdf) return folders;
   const fs::path workspace = workspaceOf(folder);
   if (!workspace.empty()) folders.push_back(workspace.string());
   return folders;

@@ -24,10 +24,6 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMaxUrdfBytes = std::size_t{16} << 20;
 
-[[noreturn]] void refuse(const std::string& text) {
-  throw Failure{ImportFailure::Refused, text};
-}
-
 /// urdfdom reports errors only in its log, some of them nowhere else: it returns a link without the
 /// shapes that it could not read. The first error is the nearest to the cause.
 class FirstError : public console_bridge::OutputHandler {

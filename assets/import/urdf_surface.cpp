@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "articulated/avatar.h"
 #include "assets/import/assimp.h"
 #include "assets/import/side_files.h"
 #include "assets/import/text.h"
@@ -71,6 +70,20 @@ std::string ifFile(const fs::path& path) {
 }
 
 }  // namespace
+
+Affine affineOf(const urdf::Pose& pose, const std::string& owner) {
+  const urdf::Rotation& r = pose.rotation;
+  const Quaternion q(r.w, r.x, r.y, r.z);
+  const Vector3d p(pose.position.x, pose.position.y, pose.position.z);
+  const double norm = q.norm();
+  if (!(norm > 0.0) || !std::isfinite(norm) || !(p.cwiseAbs().maxCoeff() <= kMaxCoordinate) ||
+      !p.allFinite()) {
+    throw Failure{ImportFailure::Refused, "the origin of " + owner + " is not finite, or beyond " +
+                                              std::to_string(static_cast<long>(kMaxCoordinate)) +
+                                              " m"};
+  }
+  return {q.normalized().toRotationMatrix(), p};
+}
 
 void UrdfSurface::add(const urdf::Link& link, std::int32_t node) {
   const UrdfShapeKind kind = question_.visual ? UrdfShapeKind::Visual : UrdfShapeKind::Collision;
@@ -147,35 +160,18 @@ bool UrdfSurface::addShape(const Shape& shape, const std::string& link, std::int
 
 void UrdfSurface::addRound(const Shape& shape, double halfLength, double radius,
                            std::int32_t node) {
-  std::vector<Lss>& lss = builder_.model.nodes[slotOf(node)].lss;
-  if (lss.size() == kMaxLssPerLink) {
-    throw Failure{ImportFailure::TooLarge, "more than " + std::to_string(kMaxLssPerLink) +
-                                               " spheres and capsules on a link"};
-  }
-  ModelSize more;
-  more.lss = 1;
-  builder_.count(more);
   const Vector3d half(0, 0, halfLength);
-  lss.push_back({shape.toLink * -half, shape.toLink * half, radius});
+  builder_.addLss(node, {shape.toLink * -half, shape.toLink * half, radius});
 }
 
 void UrdfSurface::addMesh(const Shape& shape, const FlatMesh& mesh, const Vector3d& scale,
                           std::int32_t node) {
-  ModelSize more;
-  more.meshes = 1;
-  more.vertices = mesh.vertices.size();
-  more.triangles = mesh.triangles.size();
-  more.nameBytes = shape.name.size();
-  builder_.count(more);
-  ModelMesh out;
-  out.name = shape.name;
-  out.node = node;
-  out.triangles = mesh.triangles;
-  out.vertices.reserve(mesh.vertices.size());
+  std::vector<Vector3d> vertices;
+  vertices.reserve(mesh.vertices.size());
   for (const Vector3d& v : mesh.vertices) {
-    out.vertices.push_back(shape.toLink * scale.cwiseProduct(v));
+    vertices.push_back(shape.toLink * scale.cwiseProduct(v));
   }
-  builder_.model.meshes.push_back(std::move(out));
+  builder_.addMesh(node, shape.name, std::move(vertices), mesh.triangles);
 }
 
 void UrdfSurface::lose(const std::string& what) {

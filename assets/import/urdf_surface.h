@@ -14,23 +14,10 @@
 #include <Eigen/Core>
 
 #include "assets/import/model.h"
+#include "assets/import/solids.h"
 #include "assets/import/urdf_text.h"
 
 namespace foretouch::internal {
-
-/// Triangles in one frame.
-struct FlatMesh {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::array<std::int32_t, 3>> triangles;
-};
-
-/// The box about its centre, twelve triangles.
-[[nodiscard]] FlatMesh boxOf(const Eigen::Vector3d& size);
-
-/// A prism about the z axis and its centre that contains the cylinder of that radius and length,
-/// rounding included: its 32 sides touch it, so its edges stand off by half a percent of the
-/// radius.
-[[nodiscard]] FlatMesh cylinderAround(double radius, double length);
 
 /// Rotation and translation; throws if a number is not finite or beyond kMaxCoordinate.
 [[nodiscard]] Affine affineOf(const urdf::Pose& pose, const std::string& owner);

@@ -3,17 +3,11 @@
 #include <memory>
 #include <tinyxml.h>
 
-#include "assets/import/assimp.h"
 #include "assets/import/text.h"
-#include "assets/import/xml_damage.h"
+#include "assets/import/xml_document.h"
 
 namespace foretouch::internal {
 namespace {
-
-std::string attributeOf(const TiXmlElement& element, const char* name) {
-  const char* value = element.Attribute(name);
-  return value == nullptr ? "" : value;
-}
 
 /// The element without its children, with the name `name`.
 std::unique_ptr<TiXmlElement> bare(const TiXmlElement& from, const char* name) {
@@ -84,39 +78,17 @@ class Reducer {
   UrdfText& out_;
 };
 
-/// TinyXML reports an unclosed element without a line.
-std::string whyMalformed(const std::string& text, const TiXmlDocument& document) {
-  const std::string damage = damageOfXml(text);
-  if (!damage.empty()) return damage;
-  const std::string line = std::to_string(document.ErrorRow());
-  return (document.ErrorRow() > 0 ? "line " + line + ": " : "") + document.ErrorDesc();
-}
-
-std::string withoutRobot(const TiXmlDocument& document) {
-  const TiXmlElement* root = document.RootElement();
-  if (root == nullptr) return "expected a <robot> element, found none";
-  return "line " + std::to_string(root->Row()) + ": expected a <robot> element, found <" +
-         readableText(root->ValueStr(), 80) + ">";
-}
-
 }  // namespace
 
 UrdfText readUrdfText(const std::string& text) {
-  if (text.find('\0') != std::string::npos) {
-    const std::string damage = damageOfXml(text);
-    throw Failure{ImportFailure::Refused,
-                  damage.empty() ? "not a text: it holds a zero byte" : damage};
-  }
   TiXmlDocument document;
-  document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
-  if (document.Error()) throw Failure{ImportFailure::Refused, whyMalformed(text, document)};
-  const TiXmlElement* from = document.FirstChildElement("robot");
-  if (from == nullptr) throw Failure{ImportFailure::Refused, withoutRobot(document)};
+  parseXml(text, document);
+  const TiXmlElement& from = rootOf(document, "robot");
   TiXmlElement robot("robot");
   robot.SetAttribute("name", "robot");  // urdfdom refuses robots without a name, which exist
   UrdfText out;
   Reducer reducer(out);
-  for (const auto* e = from->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+  for (const auto* e = from.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
     if (e->ValueStr() == "link") reducer.addLink(*e, robot);
     if (e->ValueStr() == "joint") reducer.addJoint(*e, robot);
   }

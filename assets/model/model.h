@@ -1,4 +1,4 @@
-// assets/model/model.h: a rigged model as read from a file (glTF, FBX, Collada, URDF ...): nodes,
+// assets/model/model.h: a rigged model as read from a file (glTF, FBX, Collada, URDF, MJCF ...): nodes,
 // meshes, skins, joints and animations. Uninterpreted: assets/model/model_avatar.h decides what it
 // means as an avatar. Metres, radians, seconds, converted from the file's unit.
 #pragma once
@@ -29,7 +29,7 @@ struct Affine {
   }
 };
 
-/// How a node may move against its parent; files without joints (all but URDF) leave it Free.
+/// How a node may move against its parent; files without joints (all but URDF and MJCF) leave it Free.
 enum class ModelJointType : std::uint8_t { Free, Fixed, Revolute, Continuous, Prismatic, Planar };
 
 struct ModelNode {
@@ -39,7 +39,7 @@ struct ModelNode {
   std::vector<Lss>
       lss;  ///< Spheres and capsules that the file declares as such, in the node's frame.
   ModelJointType joint = ModelJointType::Free;
-  std::string jointName;  ///< URDF names joints apart from links; else empty.
+  std::string jointName;  ///< URDF and MJCF name joints apart from links; else empty.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of the joint, in the node's frame, unit.
   double lowerLimit = 0.0, upperLimit = 0.0;        ///< Radians or metres; equal: none stated.
 };

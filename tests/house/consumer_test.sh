@@ -24,7 +24,7 @@ consume() {  # consume NAME SOURCES CMAKE_OPTIONS...
 # The kernel stands alone: who asks queries links no file formats, no JSON, and starts no processes.
 expect_kernel_alone() {  # expect_kernel_alone PROGRAM
   local linked started
-  linked=$(ldd "$1" | grep -E 'fmt|assimp|urdfdom|tinyxml|lcm|httplib' || true)
+  linked=$(ldd "$1" | grep -E 'fmt|assimp|urdfdom|mujoco|tinyxml|lcm|httplib' || true)
   started=$(nm --undefined-only "$1" | grep -wE 'fork|vfork|execv|execve|execvp|posix_spawn|socket' || true)
   if [ -n "$linked$started" ]; then
     printf 'A program that links foretouch::middleware alone has more:\n%s\n%s\n' "$linked" "$started" >&2

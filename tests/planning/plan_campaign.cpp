@@ -23,13 +23,6 @@ namespace ob = ompl::base;
 namespace og = ompl::geometric;
 using Clock = std::chrono::steady_clock;
 
-/// That this thread has computed: what others do on the machine counts less.
-double computedSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -66,7 +59,14 @@ oracle::TouchOutcome judged(const PlanJudge& judge, const OmplStates& states,
   return worst;
 }
 
-/// An edge goes some of the way towards another configuration.
+}  // namespace
+
+double computedSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 std::vector<PlanProblem> edgesBetween(const PlanStage& stage, int count, unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0.0, 0.5);
@@ -81,8 +81,6 @@ std::vector<PlanProblem> edgesBetween(const PlanStage& stage, int count, unsigne
   }
   return edges;
 }
-
-}  // namespace
 
 std::string PlanMethod::name() const {
   if (resolution == 0.0) return "proven";

@@ -40,7 +40,13 @@ struct PlanProblem {
                                  const PlanAsked& asked);
 
 /// Random edges between free states, at most half as long as from one random configuration to
-/// another, asked and judged.
+/// another.
+[[nodiscard]] std::vector<PlanProblem> edgesBetween(const PlanStage& stage, int count,
+                                                    unsigned seed);
+/// That this thread has computed (s): what others do on the machine counts less.
+[[nodiscard]] double computedSeconds();
+
+/// Such edges, asked and judged.
 struct EdgeTally {
   int edges = 0, clear = 0;
   int missed = 0, late = 0;  ///< Clear but touching; freeUntil behind the first touch.

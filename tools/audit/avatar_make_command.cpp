@@ -164,7 +164,9 @@ Command avatarUrdfCommand() {
   asked->reading.import.up = UpAxis::Z;
   asked->isRobot = true;
   Settings settings;
-  settings.path("robot", "ROBOT", asked->model, "URDF file").files("urdf").required("a URDF file");
+  settings.path("robot", "ROBOT", asked->model, "URDF file, or MuJoCo's (.xml)")
+      .files("urdf")
+      .required("a URDF file");
   addModelSettings(settings, *asked, "Metres per unit of the robot");
   settings.flag("--visual", asked->visual, "Use the visual meshes as the collision surface");
   settings.list("--package", "DIR", asked->reading.packagePaths,

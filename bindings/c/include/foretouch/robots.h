@@ -52,8 +52,9 @@ typedef struct ft_urdf_options {
 } ft_urdf_options;
 
 FT_API ft_status ft_urdf_options_init(ft_urdf_options* options, size_t size);
-/* Refuses by name floating joints, limits the wrong way round, equal or absent, missing meshes and
- * mimics of joints that are not there. W is the frame of the root link. `options` may be NULL. */
+/* A URDF, or MuJoCo's MJCF where the importer reads it (docs/robots.md). Refuses by name floating
+ * joints, limits the wrong way round, equal or absent, missing meshes and mimics of joints that are
+ * not there. W is the frame of the root link, or MuJoCo's world. `options` may be NULL. */
 FT_API ft_status ft_robot_create_from_urdf(const char* path, const ft_urdf_options* options,
                                            ft_robot** robot);
 /* Another robot: this one with a tool, a link of its own that is fixed to `link`, with these LSS in
