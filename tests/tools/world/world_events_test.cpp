@@ -13,88 +13,15 @@
 #include "tests/support/holds.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_inputs.h"
-#include "tests/tools/world/small_stage.h"
+#include "tests/tools/world/followed_stage.h"
 
 namespace foretouch::test {
 namespace {
 
-using nlohmann::json;
-
 constexpr double kTolerance = 1e-3;
 constexpr double kSpeed = 5.0;  // of the man, m/s
 
-/// A file of events, as a reader of docs/formats.md takes it.
-struct EventsFile {
-  json header, summary;
-  std::vector<json> events, intervals, stays;
-};
-
-EventsFile readEvents(const std::string& text) {
-  EventsFile file;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    json one = json::parse(line);
-    if (file.header.is_null()) {
-      file.header = std::move(one);
-    } else if (one.count("event") != 0) {
-      file.events.push_back(std::move(one));
-    } else if (one.count("interval") != 0) {
-      file.intervals.push_back(one["interval"]);
-    } else if (one.count("stay") != 0) {
-      file.stays.push_back(one["stay"]);
-    } else {
-      file.summary = one.at("summary");
-    }
-  }
-  return file;
-}
-
-std::string nameOf(const json& side) {
-  return side.value("body", "") + " " + side.value("link", side.value("object", ""));
-}
-
-/// Which two an event or an interval is about.
-std::string pairOf(const json& of) {
-  if (of.count("trigger") != 0) return of["trigger"].get<std::string>() + ": " + nameOf(of["who"]);
-  return nameOf(of["a"]) + ", " + nameOf(of["b"]) + " " + of["b"].value("object", "");
-}
-
-std::pair<std::int64_t, double> exactTime(const json& of) {
-  return {of.at("utime").get<std::int64_t>(), of.at("fraction").get<double>()};
-}
-
-int orderOf(const std::string& kind) {
-  const std::vector<std::string> order{"leave", "unresolved_to", "starts_inside", "enter",
-                                       "unresolved_from"};
-  return static_cast<int>(std::find(order.begin(), order.end(), kind) - order.begin());
-}
-
-class WorldEventsFile : public testing::Test {
- protected:
-  [[nodiscard]] EventsFile follow(const std::string& world,
-                                  const std::vector<std::string>& more = {}) const {
-    const std::string events = folder_ / "events.jsonl";
-    std::vector<std::string> arguments{"world",    "replay", world, "-o", folder_ / "out.jsonl",
-                                       "--events", events};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Ended ended = runForetouch(arguments);
-    EXPECT_EQ(ended.exitCode, 0) << ended.err;
-    return readEvents(contentOf(events));
-  }
-
-  SmallStage stage_;
-  TempFolder folder_;
-};
-
-const json& find(const std::vector<json>& events, const std::string& kind,
-                 const std::string& pair) {
-  for (const json& event : events) {
-    if (event["event"] == kind && pairOf(event) == pair) return event;
-  }
-  static const json kNone;
-  ADD_FAILURE() << kind << " of " << pair;
-  return kNone;
-}
+using WorldEventsFile = FollowedStage;
 
 /// Hips of 0.1 m at x = -0.75 + 5 t pass a ball of 0.05 m at x = -0.3, and a trigger around it.
 TEST_F(WorldEventsFile, TellsOfAContactFromEnterToLeave) {
@@ -209,6 +136,94 @@ TEST_F(WorldEventsFile, DoesNotDependOnWindows) {
   const EventsFile poses = follow(world), fine = follow(world, {"--rate", "1000"});
   EXPECT_EQ(poses.events, fine.events);
   EXPECT_EQ(poses.intervals, fine.intervals);
+}
+
+/// The lift is known until 0.1 s, and again from 0.2 s on, where the man takes it.
+TEST_F(WorldEventsFile, SaysWhereNothingIsKnown) {
+  const std::string world = stage_.write(
+      kManWalks + sphereNamed("lift", "when_silent = \"undecided\"\n" + poseAt(0, "0, 9, 0") +
+                                          poseAt(0.1, "0, 9, 0") +
+                                          "[[body.attach]]\ntime = 0.2\nto = \"man\"\nlink = "
+                                          "\"Arm\"\nposition = [0, 3, 0]\n"));
+  const EventsFile file = follow(world);
+  const json* from = nullptr;
+  const json* to = nullptr;
+  for (const json& event : file.events) {
+    if (event["event"] == "unresolved_from") from = &event;
+    if (event["event"] == "unresolved_to") to = &event;
+  }
+  ASSERT_NE(from, nullptr);
+  ASSERT_NE(to, nullptr);
+  for (const json* event : {from, to}) {
+    EXPECT_EQ((*event)["reason"], "gap") << *event;
+    EXPECT_EQ(event->count("separation"), 0u);
+    EXPECT_EQ(event->count("normal"), 0u);
+    EXPECT_EQ((*event)["a"], (json{{"body", "lift"}}));
+    EXPECT_EQ((*event)["b"], (json{{"everybody", true}}));
+  }
+  EXPECT_EQ((*from)["utime"], 100000);
+  EXPECT_EQ((*to)["utime"], 200000);
+  EXPECT_EQ((*to)["since"]["utime"], 100000);
+  EXPECT_EQ(file.summary["events"]["unresolved_from"], file.summary["events"]["unresolved_to"]);
+  bool isInterval = false;
+  for (const json& interval : file.intervals) {
+    if (interval["kind"] != "unresolved") continue;
+    isInterval = true;
+    EXPECT_EQ(interval["reason"], "gap");
+    EXPECT_EQ(interval["a"], (json{{"body", "lift"}}));
+    EXPECT_EQ(interval["b"], (json{{"everybody", true}}));
+    EXPECT_EQ(interval["from"]["utime"], 100000);
+    EXPECT_EQ(interval["to"]["utime"], 200000);
+  }
+  EXPECT_TRUE(isInterval);
+}
+
+/// A contact that becomes unresolved ends without a leave.
+TEST_F(WorldEventsFile, ClaimsNoLeaveOfWhoFallsSilent) {
+  const std::string world = stage_.write(
+      kManWalks + sphereNamed("ball", "when_silent = \"undecided\"\n" + poseAt(0, "-0.3, 0, 0") +
+                                          poseAt(0.08, "-0.3, 0, 0")));
+  const EventsFile file = follow(world);
+  find(file.events, "enter", "man Hips, ball  ");
+  for (const json& event : file.events) EXPECT_NE(event["event"], "leave") << event;
+  ASSERT_GE(file.intervals.size(), 2u);
+  const json& contact = file.intervals[0];
+  EXPECT_EQ(contact["kind"], "contact");
+  EXPECT_EQ(contact["to"]["utime"], 80000);
+  EXPECT_EQ(contact.count("goes_on"), 0u);
+}
+
+/// The cup lies where the man's hips are at 0.2 s, where he takes it.
+TEST_F(WorldEventsFile, SaysWhyAContactEndsThatNobodyAsksAbout) {
+  const std::string world =
+      stage_.write(kManWalks +
+                   sphereNamed("cup",
+                               "position = [0.3, 0, 0]\n[[body.attach]]\ntime = 0.2\nto = "
+                               "\"man\"\nlink = \"Hips\"\n") +
+                   sphereNamed("ball", "position = [-0.3, 0, 0]\n"));
+  const EventsFile file = follow(world);
+  const json& taken = find(file.events, "leave", "man Hips, cup  ");
+  EXPECT_EQ(taken["cause"], "not_asked");
+  EXPECT_EQ(taken["utime"], 200000);
+  EXPECT_EQ(find(file.events, "leave", "man Hips, ball  ").count("cause"), 0u);
+}
+
+/// The ball is known until 0.05 s, and taken to stay; the man meets it at 0.06 s.
+TEST_F(WorldEventsFile, MarksWhatRestsOnWhoHoldsStill) {
+  const std::string ball =
+      sphereNamed("ball", "when_silent = \"hold-still\"\n" + poseAt(0, "-0.3, 0, 0") +
+                              poseAt(0.05, "-0.3, 0, 0"));
+  const std::string wall = "[scene]\nfile = \"wall.obj\"\n";
+  const EventsFile file = follow(stage_.write(wall + kManWalks + ball));
+  EXPECT_EQ(find(file.events, "enter", "man Hips, ball  ")["assumed"], true);
+  EXPECT_EQ(find(file.events, "enter", "man Hips,  wall wall").count("assumed"), 0u);
+  int assumed = 0;
+  for (const json& interval : file.intervals) {
+    if (interval["b"].value("body", "") != "ball") continue;
+    EXPECT_EQ(interval.value("assumed", false), true);
+    ++assumed;
+  }
+  EXPECT_EQ(assumed, 1);
 }
 
 /// From within a contact on: it was there already; and it goes on at the end.
