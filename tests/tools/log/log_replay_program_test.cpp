@@ -23,7 +23,7 @@ using nlohmann::json;
 
 constexpr std::int64_t kBegin = 1'700'000'000'000'000;
 constexpr std::int64_t kPeriod = 10'000;
-constexpr BodyNumber kMan = 1, kBall = 7;
+constexpr BodyNumber kMan = 1, kThrown = 7;
 
 template <typename Message>
 Bytes encoded(const Message& message) {
@@ -36,7 +36,8 @@ Bytes encoded(const Message& message) {
 class ServedStage : public SmallStage {
  public:
   ServedStage()
-      : world(write("[scene]\nfile = \"wall.obj\"\n" + kManWalks + sphereNamed("ball", ""))) {}
+      : world(write("[scene]\nfile = \"wall.obj\"\n" + kManWalks +
+                    sphereNamed("ball", "position = [9, 0, 0]\n"))) {}
 
   /// The man walks through the wall; a ball flies through him. Half of the ball's poses are lost.
   [[nodiscard]] std::string journal(const WorldPolicy& policy = {}) const {
@@ -117,7 +118,7 @@ class ServedStage : public SmallStage {
     skeleton.hash = skeletonHash(raw);
     inbox.send(kSkeletonChannel, encoded(skeleton), kBegin);
     BodyMessage ball;
-    ball.body = kBall;
+    ball.body = kThrown;
     ball.session = 1;
     ball.shape = "ball";
     ball.sinceUs = 0;
@@ -142,7 +143,8 @@ class ServedStage : public SmallStage {
       poses.sequence = n / 2;
       poses.utimeUs = pose.utimeUs + 3000;
       const Vector3d place(0.75 - 2.0 * walked, 0.0, 0.0);
-      poses.bodies.push_back({kBall, kJointValid | kJointTracked, {Quaternion::Identity(), place}});
+      poses.bodies.push_back(
+          {kThrown, kJointValid | kJointTracked, {Quaternion::Identity(), place}});
       inbox.send(kRigidPoseChannel, encoded(poses), poses.utimeUs + 50);
     }
   }
@@ -207,7 +209,7 @@ TEST(LogReplayProgram, SaysWhichOptionOrFileDiffers) {
       stage.folder.write("other.toml",
                          "format = \"foretouch-world\"\nversion = 1\n[query]\ntolerance = "
                          "0.002\n[scene]\nfile = \"wall.obj\"\n" +
-                             kManWalks + sphereNamed("ball", ""));
+                             kManWalks + sphereNamed("ball", "position = [9, 0, 0]\n"));
   const Ended tolerance = runForetouch({"log", "replay", log, "--world", other});
   EXPECT_EQ(tolerance.exitCode, 1);
   EXPECT_TRUE(holds(tolerance.out, "the tolerance is 0.001 in the log, 0.002 here"))
@@ -230,7 +232,7 @@ TEST(LogReplayProgram, RefusesByName) {
   refused({"log", "replay", log, "--world", bare}, "expected a [scene]");
   const std::string empty = stage.folder.write(
       "empty.toml", "format = \"foretouch-world\"\nversion = 1\n[scene]\nfile = \"wall.obj\"\n" +
-                        sphereNamed("ball", ""));
+                        sphereNamed("ball", "position = [9, 0, 0]\n"));
   refused({"log", "replay", log, "--world", empty}, "expected a [[body]] with an avatar");
   // A log without a moving world is answered all the same, and says so.
   const std::string without = stage.changed(log, [](EventsMessage&) { return false; });

@@ -63,7 +63,7 @@ TEST_F(WorldMasses, OfAMeshAreThoseOfItsBox) {
       "position = [0, 0, 0]\n";
   const auto massOf = [&](const std::string& man, const std::string& thing) {
     const EventsFile file = follow(stage_.write(manOf(man) + box + thing));
-    return find(file.events, "enter", "man Hips, box  box")["effective_mass"];
+    return find(file.events, "enter", "man Hips, box box box")["effective_mass"];
   };
   EXPECT_NEAR(massOf("", "mass = 8\n").get<double>(), 1.0 / ofBox, 1e-3);
   EXPECT_NEAR(massOf("mass = 60\n", "mass = 8\n").get<double>(),
