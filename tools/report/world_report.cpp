@@ -3,103 +3,16 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
 
-#include "lss/fit.h"
 #include "lss/index.h"
-#include "tools/report/track_builder.h"
+#include "tools/report/body_track.h"
 #include "tools/world/outline.h"
 
 namespace foretouch::tools {
 namespace {
-
-/// For bounds; nothing of it is shown.
-Avatar standInOf(const BodyShape& shape) {
-  std::vector<Eigen::Vector3d> points;
-  for (const Triangle& triangle : *shape.triangles) {
-    points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
-  }
-  return Avatar::build(shape.skeleton, {{fitLss(points)}}).value();
-}
-
-/// The poses of a body in time, and between which of them its motion is known or taken to be.
-class BodyTrack {
- public:
-  BodyTrack(const LoadedWorld& world, BodyId body, const Avatar& shownAs,
-            const std::vector<const BodyStretches*>& stretches)
-      : world_(world),
-        id_(body),
-        body_(world.bodies[slotOf(body)]),
-        places_(stretches),
-        builder_(shownAs, std::nullopt) {}
-
-  /// Returns whether there was room for all.
-  bool addAll(std::size_t mostPoses) {
-    for (std::size_t i = 0; i < body_.stretches.size(); ++i) {
-      const bool isLast = i + 1 == body_.stretches.size();
-      const std::int64_t endUs =
-          isLast ? world_.endUs : std::min(world_.endUs, body_.stretches[i + 1].beginUs - 1);
-      if (!addStretch(body_.stretches[i], endUs, mostPoses)) return false;
-    }
-    return true;
-  }
-
-  [[nodiscard]] const TrackBuilder& builder() const { return builder_; }
-  [[nodiscard]] ViewTrack finish() { return builder_.finish(); }
-
- private:
-  bool addStretch(const BodyStretch& stretch, std::int64_t endUs, std::size_t mostPoses) {
-    const Track& track = stretch.track;
-    const bool goesOn =
-        stretch.isHeldFast() || world_.file.bodies[slotOf(id_)].whenSilent == WhenSilent::HoldStill;
-    const std::int64_t knownUs = goesOn ? endUs : std::min(endUs, track.knownUntilUs());
-    if (knownUs < track.knownFromUs()) return true;  // it appears later than the page ends
-    std::set<std::int64_t> instants{track.knownFromUs(), knownUs};
-    addKnots(id_, track.knownFromUs(), knownUs, 0, instants);
-    bool isFirst = true;
-    for (const std::int64_t us : instants) {
-      if (builder_.poses() >= mostPoses) return false;
-      builder_.addPose(LoadedWorld::secondsOf(us), places_.poseAt(id_, us));
-      const auto pose = static_cast<std::uint32_t>(builder_.poses()) - 1;
-      if (!isFirst) builder_.addStep(pose - 1, pose);
-      isFirst = false;
-    }
-    return true;
-  }
-
-  /// The body's own in [fromUs, untilUs]; while it is held fast, those of who holds it: its steps
-  /// are then theirs.
-  void addKnots(BodyId body, std::int64_t fromUs, std::int64_t untilUs, int depth,
-                std::set<std::int64_t>& instants) const {
-    constexpr int kDeepest = 16;  // who is carried by more than so many has longer steps
-    const BodyStretches& stretches = world_.bodies[slotOf(body)].stretches;
-    for (std::size_t i = 0; i < stretches.size(); ++i) {
-      const std::int64_t endUs = i + 1 < stretches.size() ? stretches[i + 1].beginUs : untilUs;
-      const std::int64_t firstUs = std::max(fromUs, stretches[i].beginUs);
-      const std::int64_t lastUs = std::min(untilUs, endUs);
-      if (lastUs <= firstUs) continue;
-      if (stretches[i].isHeldFast()) {
-        if (depth < kDeepest) {
-          addKnots(stretches[i].carrier->body, firstUs, lastUs, depth + 1, instants);
-        }
-        continue;
-      }
-      const Track& track = stretches[i].track;
-      for (std::int64_t us = track.nextKnotUs(firstUs); us < lastUs; us = track.nextKnotUs(us)) {
-        instants.insert(us);
-      }
-    }
-  }
-
-  const LoadedWorld& world_;
-  BodyId id_;
-  const LoadedBody& body_;
-  BodyPlaces places_;
-  TrackBuilder builder_;
-};
 
 std::vector<ViewCarried> carriedOf(const BodyStretches& stretches) {
   std::vector<ViewCarried> carried;
@@ -242,12 +155,6 @@ std::optional<ViewTouch> viewOf(const LoadedWorld& world, const WorldTouch& touc
   return view;
 }
 
-bool isSaidTwice(const WorldContact& x, const WorldContact& y) {
-  return x.verdict == y.verdict && x.time == y.time && x.a.body == y.a.body &&
-         x.a.link == y.a.link && x.b.body == y.b.body && x.b.link == y.b.link &&
-         x.b.triangle == y.b.triangle && x.a.triangle == y.a.triangle;
-}
-
 /// Of those at these places, by begin, the latest that goes on at this time; null: none.
 ViewTouch* touchAt(std::vector<ViewTouch>& shown, const std::vector<std::size_t>& places,
                    double timeS) {
@@ -343,7 +250,7 @@ void WorldReport::addBodies(ViewDocument& document, Eigen::AlignedBox3d& action,
   }
 }
 
-void WorldReport::addFound(const WorldTouches& touches, ViewDocument& document) const {
+std::size_t WorldReport::addFound(const WorldTouches& touches, ViewDocument& document) const {
   std::vector<ViewTouch>& shown = document.touches.emplace();
   std::map<TouchKey, std::vector<std::size_t>> ofKey;  // places in `shown`, by begin
   std::vector<const WorldContact*> found;
@@ -360,12 +267,9 @@ void WorldReport::addFound(const WorldTouches& touches, ViewDocument& document) 
   for (const WorldContact& contact : kept_) found.push_back(&contact);
   std::stable_sort(found.begin(), found.end(),
                    [](const WorldContact* x, const WorldContact* y) { return x->time < y->time; });
-  found.resize(std::min(found.size(), options_.maxContacts));
-  const WorldContact* before = nullptr;
+  const std::size_t numLeftOut = found.size() - std::min(found.size(), options_.maxContacts);
+  found.resize(found.size() - numLeftOut);
   for (const WorldContact* contact : found) {
-    // Where a touch starts inside, a window says so as well.
-    if (before != nullptr && isSaidTwice(*before, *contact)) continue;
-    before = contact;
     const bool isTurned = isToldOfOther(world_, contact->a.body, contact->b.body);
     ViewAvatar& avatar = document.avatars[slotOf(isTurned ? contact->b.body : contact->a.body)];
     auto row = rowOf(world_, *contact, *avatar.track);
@@ -375,19 +279,25 @@ void WorldReport::addFound(const WorldTouches& touches, ViewDocument& document) 
     const auto places =
         ofKey.find({contact->a.body, contact->a.link, contact->b.body,
                     isOfScene ? 0 : contact->b.link, isOfScene ? row->object : std::string()});
+    ViewTouch* const touch = places == ofKey.end() || contact->verdict == Verdict::Undecided
+                                 ? nullptr
+                                 : touchAt(shown, places->second, timeS);
+    // Where a touch starts inside, a window says so as well: what it begins with is there already.
+    const bool isSaidTwice =
+        touch != nullptr && touch->strength && !touch->rows.empty() && timeS == touch->touch.beginS;
+    if (isSaidTwice) continue;
     avatar.contacts.push_back(std::move(*row));
-    if (places == ofKey.end() || contact->verdict == Verdict::Undecided) continue;
-    ViewTouch* const touch = touchAt(shown, places->second, timeS);
     if (touch == nullptr) continue;
     touch->rows.push_back(static_cast<std::uint32_t>(avatar.contacts.size()) - 1);
   }
+  return numLeftOut;
 }
 
 /// As bars without contacts. A link that stands for all of a body's is its first one.
 void WorldReport::addUnresolved(ViewDocument& document) const {
   for (const ContactInterval& interval : followed_->contacts()) {
     const WorldPart& part = interval.part;
-    if (part.kind != PartKind::Unresolved) continue;
+    if (part.kind != PartKind::Unresolved || part.a.body < 0) continue;
     ViewTouch view{slotOf(part.a.body), {}, {}};
     view.touch.link = std::max(0, part.a.link);
     view.touch.object = part.b.body == kEveryBody    ? "everybody"
@@ -399,6 +309,9 @@ void WorldReport::addUnresolved(ViewDocument& document) const {
     view.unresolved = part.reason;
     document.touches->push_back(std::move(view));
   }
+  std::stable_sort(
+      document.touches->begin(), document.touches->end(),
+      [](const ViewTouch& x, const ViewTouch& y) { return x.touch.beginS < y.touch.beginS; });
 }
 
 void WorldReport::addStays(ViewDocument& document) const {
@@ -426,12 +339,13 @@ ViewDocument WorldReport::document(const WorldSummary* summary, const WorldTouch
   Eigen::AlignedBox3d action;
   addBodies(document, action, progress);
   if (document.avatars.size() < world_.bodies.size()) return document;  // interrupted
-  if (touches != nullptr) addFound(*touches, document);
-  if (numLeftOut_ > 0) {
+  std::size_t numLeftOut = numLeftOut_;
+  if (touches != nullptr) numLeftOut += addFound(*touches, document);
+  if (numLeftOut > 0) {
     if (document.touches) leaveOutBareTouches(*document.touches);
     document.notes.push_back(fmt::format(
         "{} contacts are not shown, for want of room or of a link; the results file has them all.",
-        numLeftOut_));
+        numLeftOut));
   }
   if (followed_ != nullptr && touches != nullptr) {
     addUnresolved(document);

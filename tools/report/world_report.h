@@ -33,7 +33,8 @@ class WorldReport {
  private:
   void addBodies(ViewDocument& document, Eigen::AlignedBox3d& action,
                  const ReportProgress& progress) const;
-  void addFound(const WorldTouches& touches, ViewDocument& document) const;
+  /// Returns how many contacts there is no room for.
+  std::size_t addFound(const WorldTouches& touches, ViewDocument& document) const;
   void addUnresolved(ViewDocument& document) const;
   void addStays(ViewDocument& document) const;
 

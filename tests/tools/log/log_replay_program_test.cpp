@@ -76,9 +76,10 @@ class ServedStage : public SmallStage {
 
   /// The journal with each message of events as `change` leaves it.
   template <typename Change>
-  [[nodiscard]] std::string changed(const std::string& path, const Change& change) const {
+  [[nodiscard]] std::string changed(const std::string& path, const std::string& name,
+                                    const Change& change) const {
     auto reader = EventLogReader::open(path).value();
-    auto writer = EventLogWriter::create(folder / "changed.lcmlog").value();
+    auto writer = EventLogWriter::create(folder / name).value();
     for (LogEvent event; reader.next(event).value();) {
       Bytes payload = event.payload;
       EventsMessage message;
@@ -89,7 +90,7 @@ class ServedStage : public SmallStage {
       EXPECT_TRUE(writer.write(event.utimeUs, event.channel, payload).ok());
     }
     EXPECT_TRUE(writer.close().ok());
-    return folder / "changed.lcmlog";
+    return folder / name;
   }
 
   [[nodiscard]] Ended replayed(const std::string& log, std::vector<std::string> more = {}) const {
@@ -174,7 +175,7 @@ TEST(LogReplayProgram, NamesTheFirstThatDiffers) {
   const ServedStage stage;
   const std::string log = stage.journal();
   bool isDone = false;
-  const std::string moved = stage.changed(log, [&](EventsMessage& message) {
+  const std::string moved = stage.changed(log, "moved.lcmlog", [&](EventsMessage& message) {
     if (!isDone && !message.events.empty()) {
       message.events[0].event.separation += 1e-6;
       isDone = true;
@@ -189,7 +190,7 @@ TEST(LogReplayProgram, NamesTheFirstThatDiffers) {
   EXPECT_TRUE(holds(ended.out, " in the log, ")) << ended.out;
 
   std::int64_t left = 0;
-  const std::string lacking = stage.changed(log, [&](EventsMessage& message) {
+  const std::string lacking = stage.changed(log, "lacking.lcmlog", [&](EventsMessage& message) {
     left += message.sequence == 5 ? 1 : 0;
     return message.sequence != 5;
   });
@@ -235,7 +236,8 @@ TEST(LogReplayProgram, RefusesByName) {
                         sphereNamed("ball", "position = [9, 0, 0]\n"));
   refused({"log", "replay", log, "--world", empty}, "expected a [[body]] with an avatar");
   // A log without a moving world is answered all the same, and says so.
-  const std::string without = stage.changed(log, [](EventsMessage&) { return false; });
+  const std::string without =
+      stage.changed(log, "without.lcmlog", [](EventsMessage&) { return false; });
   const Ended ended = stage.replayed(without);
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_TRUE(holds(ended.out, "the log has no events of a moving world")) << ended.out;
