@@ -174,16 +174,25 @@ TEST(WorldService, TellsOfBodiesThatComeAndGoAmongAvatars) {
   ASSERT_TRUE(stage.settles(2 * 51));
   ASSERT_TRUE(stage.isTold());
   stage.service().stop();
-  int entered = 0, left = 0;
+  int entered = 0, left = 0, farewells = 0;
+  std::string text;
   for (const ToldEvent& told : stage.events()) {
     if (told.event.a.body != 10 && told.event.b.body != 10) continue;
+    text += std::string(toString(told.event.kind)) + " of " + std::to_string(told.event.a.body) +
+            ":" + std::to_string(told.event.a.link) + " and " + std::to_string(told.event.b.body) +
+            ":" + std::to_string(told.event.b.link) + " at " + std::to_string(told.event.time.us) +
+            ", cause " + std::to_string(static_cast<int>(told.cause)) + "\n";
     const bool begins =
         told.event.kind == EventKind::Enter || told.event.kind == EventKind::StartsInside;
     entered += begins ? 1 : 0;
-    left += told.event.kind == EventKind::Leave ? 1 : 0;
+    // Once it is gone it says so, whoever it was in contact with.
+    const bool isGone = told.cause == ToldCause::BodyGone;
+    farewells += isGone ? 1 : 0;
+    left += told.event.kind == EventKind::Leave && !isGone ? 1 : 0;
   }
   EXPECT_GE(entered, 1);
-  EXPECT_EQ(left, entered);
+  EXPECT_EQ(left, entered) << text;
+  EXPECT_EQ(farewells, 1) << text;
   const std::vector<EventsMessage> answers = stage.answers();
   for (std::size_t i = 1; i < answers.size(); ++i) {
     EXPECT_EQ(answers[i].sequence, answers[i - 1].sequence + 1);
