@@ -10,6 +10,7 @@
 #include "bench/machine.h"
 #include "bench/world/crowd.h"
 #include "bench/world/exact.h"
+#include "bench/world/following.h"
 #include "bench/world/pairs.h"
 #include "bench/world/people.h"
 #include "bench/world/props.h"
@@ -68,7 +69,9 @@ Result<WorldBench> measureWorld(const WorldBenchRequest& request) {
          const int rings = std::max(2, request.pairs / kCapsulesPerRing);
          return judged(pairsTable(PairKind::RingAndCapsule, rings, request.seed));
        }},
-      {"ticking", [&] { return judged(tickingTable(cast, request.tickingWindows)); }}};
+      {"ticking", [&] { return judged(tickingTable(cast, request.tickingWindows)); }},
+      {"events", [&] { return judged(eventsTable(cast, request.tickingWindows)); }},
+      {"following", [&] { return followingTable(cast); }}};
   ProgressBar progress("world", std::size(parts));
   std::int64_t done = 0;
   for (const auto& [name, table] : parts) {

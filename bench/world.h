@@ -11,8 +11,8 @@
 
 namespace foretouch::tools {
 
-inline constexpr const char* kWorldParts[] = {"crowd", "self",  "clocks", "platform",
-                                              "prop",  "exact", "pairs",  "ticking"};
+inline constexpr const char* kWorldParts[] = {"crowd", "self",  "clocks",  "platform", "prop",
+                                              "exact", "pairs", "ticking", "events",   "following"};
 
 struct WorldBenchRequest {
   std::string dataFolder;          ///< With mocap/; without clips in it, the bundled dancer.

@@ -32,7 +32,8 @@ Result<std::vector<std::string>> worldPartsNamed(const std::string& text) {
     if (std::find(std::begin(kWorldParts), std::end(kWorldParts), part) == std::end(kWorldParts)) {
       return Error::in(
           "--parts", ErrorCode::UnknownName,
-          "expected crowd, self, clocks, platform, prop, exact, pairs or ticking, found " +
+          "expected crowd, self, clocks, platform, prop, exact, pairs, ticking, events or "
+          "following, found " +
               inQuotes(part));
     }
   }
@@ -83,9 +84,11 @@ void addBenchWorldCommand(CLI::App& bench, ExitCode& exit) {
          "With mocap/; $FORETOUCH_DATA, else ../shared/data, if not given");
   option("--clips", texts->clips, "NAME,...",
          "Of mocap/, or paths; six if not given, or the bundled dancer where these are absent");
-  option("--parts", texts->parts, "NAME,...",
-         "crowd, self, clocks, platform, prop, exact, pairs (beside FCL and Bullet), ticking; all "
-         "if not given");
+  option(
+      "--parts", texts->parts, "NAME,...",
+      "crowd, self, clocks, platform, prop, exact, pairs (beside FCL and Bullet), ticking, events, "
+      "following; all "
+      "if not given");
   option("--avatars", texts->avatars, "N,...", "Of each crowd");
   option("--pairs", texts->pairs, "N", "Of capsules that both move");
   option("--windows", texts->windows, "N", "Of 0.2 s, of two people beside a game that ticks");

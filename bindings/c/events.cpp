@@ -150,6 +150,10 @@ ft_status ft_world_follow_from(ft_world* world, int64_t from_us, const ft_follow
     if (options != nullptr) {
       if (const auto s = readStruct(options, "ft_follow_options", known); s != FT_OK) return s;
     }
+    if (known.cut_us < 0 || known.cut_us > kMostCutUs) {
+      return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "cut_us: expected 0 to %lld, found %lld",
+                     static_cast<long long>(kMostCutUs), static_cast<long long>(known.cut_us));
+    }
     FollowOptions read;
     read.threads = known.threads;
     read.cutUs = known.cut_us;

@@ -25,6 +25,7 @@ PYBIND11_MODULE(_foretouch, module) {
   bindSolid(module);
   bindWorld(module);
   bindTriggers(module);
+  bindFollower(module);
   bindRobots(module);
   py::delattr(module, "__module__");
 }

@@ -71,6 +71,10 @@ class World {
 /// A window's answer as Python sees it: foretouch.WorldContacts.
 [[nodiscard]] py::object toPython(const foretouch::WorldContacts& answer, const Scene* still,
                                   const BodyShapes& shapes);
+/// One side of an event of a world: foretouch.ContactSide. `object`: of the event; it counts where
+/// no triangle says which it is.
+[[nodiscard]] py::object sideToPython(const ContactSide& side, ObjectId object, const Scene* still,
+                                      const BodyShapes& shapes);
 /// Borrows the classes that answers are made of from the module.
 void bindWorldAnswer(py::module_& module);
 

@@ -62,6 +62,19 @@ py::dict countersOfWorld(const WorldCounters& counted) {
 
 }  // namespace
 
+py::object sideToPython(const ContactSide& side, ObjectId object, const Scene* still,
+                        const BodyShapes& shapes) {
+  const py::object type = pythonType("ContactSide");
+  if (side.body < kStillScene) {  // kEveryBody
+    return type(side.body, py::none(), py::none(), py::none(), py::none(), py::none(),
+                Numbers(3, side.p_W.data()));
+  }
+  const py::object named = sideOf(type, side, still, shapes);
+  const Scene* const mesh = side.body == kStillScene ? still : shapes[slotOf(side.body)].mesh.get();
+  if (side.triangle >= 0 || object < 0 || mesh == nullptr) return named;
+  return named.attr("_replace")(py::arg("object") = readable(mesh->objectNames()[slotOf(object)]));
+}
+
 py::object toPython(const foretouch::WorldContacts& answer, const Scene* still,
                     const BodyShapes& shapes) {
   const py::object silentType = pythonType("SilentBody");

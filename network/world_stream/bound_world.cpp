@@ -23,6 +23,9 @@ bool BoundWorld::mayPass(const Heard& heard, BodyNumber body, WorldRecord& recor
   switch (gate.admit(heard.sender, heard.receiveUtimeUs)) {
     case SpeakerGate::Admission::Refused: return false;
     case SpeakerGate::Admission::Takeover:
+      // Who speaks for an avatar is a matter of its own stream: to say it here as well would change
+      // that in a replay.
+      if (solver_.isAvatar(body)) return true;
       record.speaker({body, std::max<std::int64_t>(0, heard.receiveUtimeUs),
                       ntohl(heard.sender.address), ntohs(heard.sender.port)});
       solver_.changeSpeaker(body);

@@ -298,6 +298,11 @@ bool WorldSolver::isThere(BodyNumber body) const {
   return impl_->roster.bodies().count(body) > 0;
 }
 
+bool WorldSolver::isAvatar(BodyNumber body) const {
+  const auto found = impl_->roster.bodies().find(body);
+  return found != impl_->roster.bodies().end() && found->second.isAvatar;
+}
+
 WorldCounts WorldSolver::counts() const {
   WorldCounts counts = impl_->roster.counts();
   counts.bodies = impl_->roster.bodies().size();

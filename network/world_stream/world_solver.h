@@ -52,6 +52,8 @@ class WorldSolver {
   void advance(std::vector<EventsMessage>& answers);
 
   [[nodiscard]] bool isThere(BodyNumber body) const;
+  /// It is one of WorldSetup::avatars: pose_t says where it is.
+  [[nodiscard]] bool isAvatar(BodyNumber body) const;
   [[nodiscard]] WorldCounts counts() const;
   [[nodiscard]] const WorldPolicy& policy() const;
 

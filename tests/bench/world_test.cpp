@@ -42,14 +42,14 @@ TEST(BenchWorld, AWorldMissesNoPairAndTellsNoneTooLate) {
 
 TEST(BenchWorld, MeasuresByTheBundledDancer) {
   const TempFolder folder;
-  const Ended ended =
-      runBench({"world", "--data", folder.path(), "--avatars", "2,5", "--pairs", "20", "--windows",
-                "2", "--parts", "crowd,pairs,ticking", "--json", folder / "world.json"});
+  const Ended ended = runBench(
+      {"world", "--data", folder.path(), "--avatars", "2,5", "--pairs", "20", "--windows", "2",
+       "--parts", "crowd,pairs,ticking,events,following", "--json", folder / "world.json"});
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_NE(ended.out.find("dancer.bvh"), std::string::npos) << ended.out;
   const auto json = nlohmann::json::parse(contentOf(folder / "world.json"));
   EXPECT_EQ(json["kind"], "world");
-  ASSERT_EQ(json["tables"].size(), 4u);
+  ASSERT_EQ(json["tables"].size(), 6u);
   const auto& crowd = json["tables"][0];
   ASSERT_EQ(crowd["rows"].size(), 2u);
   EXPECT_EQ(crowd["rows"][1]["avatars"], 5);
@@ -60,6 +60,15 @@ TEST(BenchWorld, MeasuresByTheBundledDancer) {
     for (const auto& row : table["rows"]) EXPECT_EQ(row.size(), table["columns"].size());
   }
   EXPECT_EQ(json["tables"][3]["rows"][1]["missed"], 0);
+  const auto& followed = json["tables"][4]["rows"][1];
+  EXPECT_GT(followed["touches"], 0);
+  for (const char* fault : {"missed", "invented", "wrong_order", "late"}) {
+    EXPECT_EQ(followed[fault], 0) << fault;
+  }
+  const auto& costs = json["tables"][5]["rows"];
+  EXPECT_GT(costs[0]["intervals"], 0);
+  EXPECT_GT(costs[0]["looks"], 0.0);
+  EXPECT_EQ(costs[1]["events"], 0);
 }
 
 TEST(BenchWorld, EndsWithTwoOnBadUse) {

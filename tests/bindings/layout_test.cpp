@@ -1,6 +1,7 @@
 // The binary interface on x86-64, in numbers: programs are compiled against them, so
 // these lines only ever get company.
 #include <cstddef>
+#include <foretouch/events.h>
 #include <foretouch/mechanics.h>
 #include <foretouch/robots.h>
 #include <foretouch/solid.h>
@@ -287,6 +288,52 @@ AT(ft_world_counters, spans, 32);
 AT(ft_world_counters, nodes, 40);
 AT(ft_world_counters, hierarchy_tests, 96);
 AT(ft_world_counters, rung_tests, 128);
+
+static_assert(sizeof(ft_follow_options) == 16);
+AT(ft_follow_options, threads, 4);
+AT(ft_follow_options, cut_us, 8);
+
+static_assert(sizeof(ft_event_point) == 56);
+AT(ft_event_point, point_a, 0);
+AT(ft_event_point, point_b, 24);
+AT(ft_event_point, separation, 48);
+
+static_assert(sizeof(ft_event) == 472);
+AT(ft_event, kind, 4);
+AT(ft_event, cause, 8);
+AT(ft_event, reason, 12);
+AT(ft_event, time_us, 16);
+AT(ft_event, time_fraction, 24);
+AT(ft_event, since_us, 32);
+AT(ft_event, since_fraction, 40);
+AT(ft_event, separation, 48);
+AT(ft_event, penetration, 56);
+AT(ft_event, normal, 64);
+AT(ft_event, velocity, 88);
+AT(ft_event, approach_speed, 112);
+AT(ft_event, approach_lower, 120);
+AT(ft_event, approach_upper, 128);
+AT(ft_event, effective_mass, 136);
+AT(ft_event, a, 144);
+AT(ft_event, b, 192);
+AT(ft_event, is_assumed, 240);
+AT(ft_event, point_count, 244);
+AT(ft_event, points, 248);
+
+static_assert(sizeof(ft_part) == 168);
+AT(ft_part, is_contact, 4);
+AT(ft_part, reason, 8);
+AT(ft_part, is_assumed, 12);
+AT(ft_part, began_before, 16);
+AT(ft_part, goes_on, 20);
+AT(ft_part, from_us, 24);
+AT(ft_part, from_fraction, 32);
+AT(ft_part, to_us, 40);
+AT(ft_part, to_fraction, 48);
+AT(ft_part, since_us, 56);
+AT(ft_part, since_fraction, 64);
+AT(ft_part, a, 72);
+AT(ft_part, b, 120);
 
 static_assert(sizeof(ft_trigger_options) == 16);
 AT(ft_trigger_options, group, 4);

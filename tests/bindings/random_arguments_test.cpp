@@ -240,8 +240,96 @@ class Caller : public test::RandomCaller {
     if (world == nullptr) return;
     const test::WorldHandle owner(world);
     for (int i = 0; i < 3; ++i) addBody(small, world);
+    if (random_.chance(0.5)) addTriggers(small, world);
+    if (random_.chance(0.8)) follow(world, true);
     for (int i = 0; i < 12; ++i) tellWorld(small, world);
     askWorld(world);
+    follow(world, false);
+    collide();
+  }
+  void addTriggers(test::SmallWorld& small, ft_world* world) {
+    ft_trigger_options made = test::initialised(ft_trigger_options_init);
+    made.size = sizeOr(sizeof made);
+    if (random_.chance(0.2)) made.group = index();
+    if (random_.chance(0.2)) made.when_silent = random_.below(4);
+    made.by_link = random_.below(3);
+    std::int32_t trigger = 0, body = -1;
+    fillNumbers();
+    switch (random_.below(3)) {
+      case 0:
+        take(ft_world_add_trigger_box(maybe(world), maybe(numbers_.data()), maybe(&made),
+                                      maybe(&trigger), maybe(&body)));
+        break;
+      case 1:
+        take(ft_world_add_trigger_sphere(maybe(world), number(), maybe(&made), maybe(&trigger),
+                                         maybe(&body)));
+        break;
+      default:
+        take(ft_world_add_trigger_mesh(maybe(world), maybe(small.scene.get()), maybe(&made),
+                                       maybe(&trigger), maybe(&body)));
+    }
+    const ft_pose given = pose();
+    take(ft_world_stand_trigger(maybe(world), random_.chance(0.8) ? 0 : index(), instant(),
+                                maybe(&given)));
+    take(ft_world_watch(maybe(world), random_.chance(0.8) ? 0 : index(), index(), index()));
+  }
+  void follow(ft_world* world, bool begins) {
+    ft_follow_options made = test::initialised(ft_follow_options_init);
+    made.size = sizeOr(sizeof made);
+    if (random_.chance(0.2)) made.threads = random_.below(4);
+    if (random_.chance(0.2)) made.cut_us = instant();
+    if (begins) take(ft_world_follow_from(maybe(world), instant(), maybe(&made)));
+    fillNumbers();
+    const std::int32_t body = random_.chance(0.8) ? random_.below(3) : index();
+    take(ft_world_weigh(world, body, number(), maybe(numbers_.data()), maybe(numbers_.data() + 4)));
+    take(ft_world_weigh_avatar(world, body, number()));
+    std::int64_t known = instant();
+    if (random_.chance(0.8)) take(ft_world_known_until(world, &known, nullptr));
+    take(ft_world_follow(maybe(world), known));
+    std::array<ft_event, kRoom> events{};
+    events[0].size = sizeOr(sizeof(ft_event));
+    std::array<ft_part, kRoom> parts{};
+    parts[0].size = sizeOr(sizeof(ft_part));
+    std::array<ft_trigger_event, kRoom> told{};
+    told[0].size = sizeOr(sizeof(ft_trigger_event));
+    std::array<ft_occupant, kRoom> inside{};
+    inside[0].size = sizeOr(sizeof(ft_occupant));
+    std::size_t required = 0;
+    take(ft_world_followed(maybe(world), maybe(&known), maybe(&known)));
+    take(ft_world_events(world, maybe(events.data()), kRoom, maybe(&required)));
+    take(ft_world_parts(world, maybe(parts.data()), kRoom, maybe(&required)));
+    take(ft_world_open_parts(world, maybe(parts.data()), kRoom, maybe(&required)));
+    take(ft_world_trigger_events(world, maybe(told.data()), kRoom, maybe(&required)));
+    take(ft_world_occupants(world, maybe(inside.data()), kRoom, maybe(&required)));
+    ft_depth_question question{};
+    question.size = sizeOr(sizeof question);
+    question.body = random_.chance(0.8) ? random_.below(3) : index();
+    question.from_body = random_.chance(0.8) ? random_.below(3) : index();
+    question.link = random_.chance(0.8) ? FT_EVERY_LINK : index();
+    question.from_link = random_.chance(0.8) ? FT_EVERY_LINK : index();
+    question.time_us = random_.chance(0.8) ? 100 * now_ : instant();
+    question.time_fraction = random_.chance(0.8) ? 0.5 : number();
+    ft_depth depth{};
+    depth.size = sizeOr(sizeof depth);
+    take(ft_world_depth(maybe(world), maybe(&question), maybe(&depth)));
+  }
+  void collide() {
+    fillNumbers();
+    std::array<double, 9> inverse{};
+    take(ft_inverse_mass_at(number(), maybe(numbers_.data()), maybe(numbers_.data() + 3),
+                            maybe(numbers_.data() + 12), maybe(numbers_.data() + 16),
+                            maybe(numbers_.data() + 19), maybe(inverse.data())));
+    ft_collision_point point{};
+    point.size = sizeOr(sizeof point);
+    for (int i = 0; i < 3; ++i) point.velocity[i] = number();
+    point.normal[random_.below(3)] = random_.chance(0.8) ? 1.0 : number();
+    for (int i = 0; i < 9; ++i) point.inverse_mass[i] = i % 4 == 0 ? 1.0 : 0.0;
+    if (random_.chance(0.3)) point.inverse_mass[random_.below(9)] = number();
+    point.restitution = random_.chance(0.7) ? 0.5 : number();
+    point.friction = random_.chance(0.7) ? 0.5 : number();
+    ft_collision_impulse impulse{};
+    impulse.size = sizeOr(sizeof impulse);
+    take(ft_collide(maybe(&point), maybe(&impulse)));
   }
   void addBody(test::SmallWorld& small, ft_world* world) {
     ft_body_options made = test::initialised(ft_body_options_init);

@@ -44,6 +44,7 @@ export function countAround(image, [x, y], reach, isWanted) {
 
 /** Colours of the page's palettes, under any light. */
 export const isAvatarColour = ([r, g, b]) => b > r + 30 && b > g;
+export const isTriggerColour = ([r, g, b]) => g > r + 15 && g > b + 4;
 export const isContactColour = ([r, g, b]) => r > 140 && r > g + 50 && g > b;
 
 /** Where the links' origins are in the world, and on the canvas; null where they are behind the camera. */

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { coloursOf, pixelsOf } from "./pixels.mjs";
+import { coloursOf, countAround, isTriggerColour, pixelsOf } from "./pixels.mjs";
 import { run } from "./programs.mjs";
 import { documentIn } from "./view_document.mjs";
 
@@ -16,6 +16,9 @@ export async function* casesOf(context) {
   if (stage.visit === null) return;
   yield ["every body is where it was met, also in a hand", () => stage.surfaces()];
   yield ["touches of two bodies name both", () => stage.touches()];
+  yield ["bars begin and end where the events say, as hard as they say", () => stage.bars()];
+  yield ["who is in a trigger is told, and its outline drawn", () => stage.triggers()];
+  yield ["a narrow page has room for all of it", () => stage.narrow()];
   yield ["a world that nobody asked says so", () => stage.view()];
   yield ["nothing was complained of or asked for", () => stage.visit.end()];
 }
@@ -31,7 +34,9 @@ class OpenedStage {
     const { program, examples, shots } = this.setting, stage = join(examples, "stage.toml");
     this.results = join(this.folder, "stage.jsonl");
     const page = join(this.folder, "stage.html");
-    await run(program, ["world", "replay", stage, "-o", this.results, "--report", page]);
+    this.page = page;
+    this.events = join(this.folder, "stage-events.jsonl");
+    await run(program, ["world", "replay", stage, "-o", this.results, "--events", this.events, "--report", page]);
     this.document = documentIn(page);
     const visit = await this.browsing.openFile(page);
     const state = await visit.page.evaluate(() => window.foretouch.state());
@@ -48,7 +53,7 @@ class OpenedStage {
   async surfaces() {
     const { avatars } = this.document;
     const numberOf = new Map(avatars.map(({ name }, i) => [name, i]));
-    const met = readFileSync(this.results, "utf8").trim().split("\n").map((line) => JSON.parse(line))
+    const met = linesOf(this.results)
       .flatMap(({ contacts }) => contacts ?? []).filter(({ verdict }) => verdict === "contact")
       .flatMap(({ a, b, time }) => [a, b].map((side) => ({ ...side, time }))).filter(({ lss }) => lss !== undefined);
     const asked = met.map(({ body, link, lss, point, time }) => {
@@ -84,6 +89,61 @@ class OpenedStage {
     assert.ok(ofBodies >= 20, `${ofBodies}`);
   }
 
+  /** Each interval of the events file is a bar, to the last digit. */
+  async bars() {
+    const lines = linesOf(this.events), intervals = lines.flatMap(({ interval }) => interval ?? []);
+    const begun = new Map(lines.filter(({ event, trigger }) => trigger === undefined && (event === "enter" || event === "starts_inside"))
+      .map((event) => [`${namesOf(event)} ${event.utime} ${event.fraction}`, event]));
+    const shown = await this.visit.page.evaluate(() =>
+      Array.from({ length: window.foretouch.state().touches }, (_, i) => window.foretouch.touch(i)));
+    const keyOf = (begin, end) => `${begin} ${end}`;
+    const told = intervals.map(({ from, to }) => keyOf(from.time, to.time)).sort();
+    assert.deepEqual(shown.map(({ begin, end }) => keyOf(begin, end)).sort(), told);
+    const strengths = intervals.map((one) => {
+      const { approach, effective_mass } = begun.get(`${namesOf(one)} ${one.from.utime} ${one.from.fraction}`);
+      return `${one.from.time} ${approach.speed} ${approach.lower} ${approach.upper} ${effective_mass}`;
+    });
+    assert.deepEqual(shown.map(({ begin, strength }) =>
+      `${begin} ${strength.speed} ${strength.lower} ${strength.upper} ${strength.effectiveMass}`).sort(), strengths.sort());
+    const hardest = shown.reduce((most, one, i) => (one.strength.impulse > shown[most].strength.impulse ? i : most), 0);
+    await this.visit.page.evaluate((i) => window.foretouch.selectTouch(i), hardest);
+    const { speed, impulse } = shown[hardest].strength, words = await this.visit.page.textContent(".details");
+    assert.ok(words.includes(`${impulse.toPrecision(3)} N s`) && words.includes(`${speed.toPrecision(3)} m/s`), words);
+    return `${intervals.length} intervals; the hardest takes ${impulse.toPrecision(3)} N s`;
+  }
+
+  async triggers() {
+    const { page } = this.visit, stays = linesOf(this.events).flatMap(({ stay }) => stay ?? []);
+    assert.ok(stays.length >= 10, `${stays.length}`);
+    const { avatars } = this.document;
+    const keyOf = (trigger, who, begin, end) => `${trigger}: ${who} ${begin} ${end}`;
+    assert.deepEqual(
+      this.document.stays.map(({ trigger, avatar, begin, end }) => keyOf(avatars[trigger].name, avatars[avatar].name, begin, end)),
+      stays.map(({ trigger, who, from, to }) => keyOf(trigger, who.body, from.time, to.time)));
+    await page.fill("input[type=search]", "doorway");
+    await page.evaluate(() => (document.querySelector(".touch-table").open = true));
+    await page.waitForFunction(() => document.querySelector(".touch-table tbody").textContent.includes("the trigger"));
+    await page.fill("input[type=search]", "");
+    const pixels = await pixelsOf(this.setting), image = await pixels.view(page);
+    const corners = [[-0.4, 2.1, -0.8], [0.6, 2.1, -0.8], [-0.4, 2.1, -0.4], [0.6, 2.1, -0.4], [0.6, 1, -0.8], [0.6, 1, -0.4], [-0.4, 1, -0.8], [-0.4, 1, -0.4]];
+    const places = await page.evaluate((points) => points.map((point) => window.foretouch.screenOf(point)), corners);
+    const isInside = (place) => place !== null && place[0] > 3 && place[1] > 3 && place[0] < image.width - 3 && place[1] < image.height - 3;
+    const seen = places.filter(isInside), drawn = seen.filter((place) => countAround(image, place, 3, isTriggerColour) > 0);
+    assert.ok(seen.length >= 2, `${seen.length} points of the doorway's edges are in sight`);
+    assert.ok(drawn.length >= seen.length / 2, `${drawn.length} of ${seen.length} are drawn`);
+    return `${stays.length} stays; ${drawn.length} of ${seen.length} points of an outline drawn`;
+  }
+
+  async narrow() {
+    const { page } = this.visit, size = page.viewportSize();
+    await page.setViewportSize({ width: 420, height: 900 });
+    const pixels = await pixelsOf(this.setting);
+    await pixels.whole(page, join(this.setting.shots, "stage-narrow.png"));
+    const [wide, inner] = await page.evaluate(() => [document.documentElement.scrollWidth, window.innerWidth]);
+    assert.ok(wide <= inner, `${wide} pixels in a page of ${inner}`);
+    await page.setViewportSize(size);
+  }
+
   async view() {
     const page = join(this.folder, "stage-view.html");
     await run(this.setting.program, ["world", "view", join(this.setting.examples, "stage.toml"), "-o", page]);
@@ -92,6 +152,15 @@ class OpenedStage {
     assert.ok(!(await visit.page.textContent("body")).includes("No contact"), "no contact is no answer here");
     await visit.end();
   }
+}
+
+function linesOf(path) {
+  return readFileSync(path, "utf8").trim().split("\n").map((line) => JSON.parse(line));
+}
+
+/** Which two it is about. */
+function namesOf({ a, b }) {
+  return [a, b].map(({ body, link, object }) => `${body ?? ""} ${link ?? ""} ${body === undefined ? object : ""}`).join(", ");
 }
 
 /** Of a world point to an LSS's axis under a transform: rotation row by row, then the origin. */

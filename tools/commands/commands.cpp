@@ -10,6 +10,7 @@
 #include "tools/certificate/certify_command.h"
 #include "tools/commands/completion_command.h"
 #include "tools/commands/demo_command.h"
+#include "tools/commands/log_replay_command.h"
 #include "tools/commands/replay_command.h"
 #include "tools/commands/serve_command.h"
 #include "tools/commands/world_command.h"
@@ -53,7 +54,9 @@ std::vector<Command> allCommands() {
   add("Live", listenCommand());
   add("Files", avatarCommand());
   add("Files", sceneCommand());
-  add("Files", logCommand());
+  Command log = logCommand();
+  log.commands.push_back(logReplayCommand());
+  add("Files", std::move(log));
   add("Files", solidCommand());
   add(kHelpGroup, completionCommand(allCommands));
   commands.push_back(movedCommand("bench", "foretouch-bench"));

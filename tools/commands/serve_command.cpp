@@ -25,7 +25,7 @@
 #include "tools/stream/service_manager.h"
 #include "tools/stream/stop_signal.h"
 #include "tools/view/serve_view.h"
-#include "tools/world/served_bodies.h"
+#include "tools/world/serving.h"
 
 namespace foretouch::tools {
 namespace {
@@ -48,7 +48,8 @@ void tellReceiveBuffer(std::size_t asked, std::size_t given) {
 Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   FORETOUCH_TRY(const auto url, inFile(parseUdpmUrl(config.url), "--url"));
   FORETOUCH_CHECK(testMulticast(url));
-  const std::vector<std::string> channels = receivedChannels(config.service.suffix, parts.world.has_value());
+  const std::vector<std::string> channels =
+      receivedChannels(config.service.suffix, parts.world.has_value());
   const bool isOwn = config.receiver == ReceiverKind::Own;
   FORETOUCH_TRY(auto receiver, inFile(isOwn ? openUdpmReceiver(url, channels, config.senders)
                                             : openLcmReceiver(config.url, channels),
@@ -60,36 +61,14 @@ Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   return Done{};
 }
 
-/// Scene and avatars of the world file, in place of those that are not given.
-Result<Done> takeWorldFile(const LoadedWorld& loaded, ServeConfig& config) {
-  const WorldFile& file = loaded.file;
-  if (file.scene.scenePath.empty()) {
-    return Error::inLine(file.path, -1, ErrorCode::Empty,
-                         "expected a [scene]: every pose is answered about it");
-  }
-  config.world.scenePath = file.scene.scenePath;
-  config.world.sceneImport = file.scene.sceneImport;
-  for (std::size_t i = 0; i < file.bodies.size(); ++i) {
-    const std::string& path = file.bodies[i].shape.avatarPath;
-    if (!path.empty()) config.avatars.push_back({numberInMessages(i), path});
-  }
-  if (!config.avatars.empty()) return Done{};
-  return Error::inLine(file.path, -1, ErrorCode::Empty,
-                       "expected a [[body]] with an avatar: poses are answered for avatars");
-}
-
 /// All that is served.
 Result<ServedWorld> loadAll(ServeConfig& config) {
   if (config.worldPath.empty()) return loadServedWorld(config);
-  FORETOUCH_TRY(auto file, readWorldFile(config.worldPath));
-  FORETOUCH_TRY(const auto loaded, loadWorld(std::move(file)));
-  FORETOUCH_CHECK(takeWorldFile(loaded, config));
+  FORETOUCH_TRY(auto world, loadWorldToServe(config.worldPath, config.worldPolicy, config.world));
+  config.avatars = std::move(world.avatars);
   FORETOUCH_TRY(auto served, loadServedWorld(config));
-  FORETOUCH_TRY(auto world, inFile(WorldSolver::make(servedBodies(loaded), config.worldPolicy),
-                                   config.worldPath));
-  served.world.emplace(std::move(world));
-  const std::vector<std::string> remarks = remarksOnServing(loaded);
-  served.remarks.insert(served.remarks.end(), remarks.begin(), remarks.end());
+  served.world.emplace(std::move(world.solver));
+  served.remarks.insert(served.remarks.end(), world.remarks.begin(), world.remarks.end());
   return served;
 }
 

@@ -94,29 +94,89 @@ void tellFound(const AskedWorld& asked, const WorldSummary& summary) {
   outIsTaken ? printAside(text) : printOut(text);
 }
 
-/// Follows the world from enter to leave, into the file of events if one is asked for. Not for an
-/// interrupted replay: then nothing is told.
-Result<Done> follow(const AskedWorld& asked, const std::vector<std::int64_t>& cuts,
-                    const InterruptGuard& guard, LoadedWorld& world, WorldIntervals& intervals) {
-  std::optional<PendingFile> file;
-  if (!asked.eventsPath.empty()) {
-    FORETOUCH_TRY(auto created, PendingFile::create(asked.eventsPath));
-    file.emplace(std::move(created));
-    file->write(eventsHeader(world, cuts.front(), cuts.back()));
+/// What a replay finds, and where it goes.
+class WorldReplay {
+ public:
+  WorldReplay(const AskedWorld& asked, LoadedWorld& world, std::vector<std::int64_t> cuts)
+      : asked_(asked), world_(world), cuts_(std::move(cuts)), intervals_(world), summary_(world) {}
+
+  /// All of it, into its files; nothing of them if it is interrupted. `guard`: older than this.
+  Result<Done> run(const InterruptGuard& guard) {
+    FORETOUCH_TRY(auto results, PendingFile::create(asked_.outputPath));
+    std::optional<PendingFile> events;
+    if (!asked_.eventsPath.empty()) {
+      FORETOUCH_TRY(auto created, PendingFile::create(asked_.eventsPath));
+      events.emplace(std::move(created));
+    }
+    const bool isFollowed = checkFollowed(world_).ok();
+    if (isFollowed) {
+      FORETOUCH_CHECK(follow(guard, events ? &*events : nullptr));
+    }
+    const WorldIntervals* const followed = isFollowed ? &intervals_ : nullptr;
+    WorldTouches touches(world_, followed);
+    WorldReport report(world_, asked_.report, followed);
+    FORETOUCH_CHECK(askWindows(guard, results, touches, report));
+    if (guard.requested()) return Done{};
+    touches.finish();
+    summary_.add(touches);
+    results.write(touchLines(world_, touches, summary_.windows()));
+    FORETOUCH_CHECK(results.commit());
+    if (events) {
+      events->write(intervalLines(world_, intervals_));
+      FORETOUCH_CHECK(events->commit());
+    }
+    if (!asked_.glb.path.empty()) {
+      FORETOUCH_TRY(const auto notes, writeWorldGlb(world_, touches, header(), asked_.glb));
+      for (const std::string& note : notes) printNote(asked_.glb.path + ": " + note);
+    }
+    if (asked_.report.path.empty() || guard.requested()) return Done{};
+    return writeReport(asked_.report.path, guard,
+                       [&](const ReportProgress& watch) -> Result<ViewDocument> {
+                         return report.document(&summary_, &touches, watch);
+                       });
   }
-  ProgressBar progress("follow", cuts.back() - cuts.front());
-  FORETOUCH_CHECK(followWorld(world, cuts.front(), cuts.back(), [&](const FollowedStretch& of) {
-    if (file) file->write(eventLines(world, of));
-    intervals.add(of);
-    progress.advanceTo(of.contacts.toUs - cuts.front());
-    return !guard.requested();
-  }));
-  if (guard.requested()) return Done{};
-  intervals.finish(cuts.back());
-  if (!file) return Done{};
-  file->write(intervalLines(world, intervals));
-  return file->commit();
-}
+
+  [[nodiscard]] const WorldSummary& summary() const { return summary_; }
+
+ private:
+  [[nodiscard]] std::string header() const { return worldHeader(world_, asked_.windows, cuts_); }
+
+  /// From enter to leave, into the file of events if there is one.
+  Result<Done> follow(const InterruptGuard& guard, PendingFile* events) {
+    if (events != nullptr) events->write(eventsHeader(world_, cuts_.front(), cuts_.back()));
+    ProgressBar progress("follow", cuts_.back() - cuts_.front());
+    FORETOUCH_CHECK(
+        followWorld(world_, cuts_.front(), cuts_.back(), [&](const FollowedStretch& of) {
+          if (events != nullptr) events->write(eventLines(world_, of));
+          intervals_.add(of);
+          progress.advanceTo(of.contacts.toUs - cuts_.front());
+          return !guard.requested();
+        }));
+    intervals_.finish(cuts_.back());
+    return Done{};
+  }
+
+  Result<Done> askWindows(const InterruptGuard& guard, PendingFile& results, WorldTouches& touches,
+                          WorldReport& report) {
+    if (guard.requested()) return Done{};
+    results.write(header());
+    ProgressBar progress("replay", static_cast<std::int64_t>(cuts_.size()) - 1);
+    return replayWorld(world_, cuts_, [&](const WorldStep& step) {
+      results.write(windowLine(world_, step));
+      summary_.add(step);
+      touches.add(step);
+      if (!asked_.report.path.empty()) report.add(step);
+      progress.advanceTo(step.window + 1);
+      return !guard.requested();
+    });
+  }
+
+  const AskedWorld& asked_;
+  LoadedWorld& world_;
+  std::vector<std::int64_t> cuts_;
+  WorldIntervals intervals_;
+  WorldSummary summary_;
+};
 
 Result<Done> replay(const AskedWorld& asked, const Settings& settings) {
   FORETOUCH_TRY(auto world, load(asked, settings));
@@ -124,54 +184,20 @@ Result<Done> replay(const AskedWorld& asked, const Settings& settings) {
   if (!asked.eventsPath.empty()) {
     FORETOUCH_CHECK(checkFollowed(world));
   }
-  FORETOUCH_TRY(const auto cuts, windowsOf(world, asked.windows));
-  const std::string header = worldHeader(world, asked.windows, cuts);
-  WorldSummary summary(world);
-  WorldTouches touches(world);
-  WorldReport report(world, asked.report);
-  WorldGlb glb(world, asked.glb);
+  FORETOUCH_TRY(auto cuts, windowsOf(world, asked.windows));
+  WorldReplay replay(asked, world, std::move(cuts));
   {
     const InterruptGuard guard;  // built first, destroyed last: removes the file before the signal
-    FORETOUCH_TRY(auto file, PendingFile::create(asked.outputPath));
-    file.write(header);
-    ProgressBar progress("replay", static_cast<std::int64_t>(cuts.size()) - 1);
-    FORETOUCH_CHECK(replayWorld(world, cuts, [&](const WorldStep& step) {
-      file.write(windowLine(world, step));
-      summary.add(step);
-      glb.add(step, touches.add(step));
-      if (!asked.report.path.empty()) report.add(step);
-      progress.advanceTo(step.window + 1);
-      return !guard.requested();
-    }));
-    WorldIntervals intervals(world);
-    if (!asked.eventsPath.empty() && !guard.requested()) {
-      FORETOUCH_CHECK(follow(asked, cuts, guard, world, intervals));
-    }
-    if (!guard.requested()) {
-      touches.finish();
-      summary.add(touches);
-      file.write(touchLines(world, touches, summary.windows()));
-      FORETOUCH_CHECK(file.commit());
-      if (!asked.glb.path.empty()) {
-        FORETOUCH_TRY(const auto notes, glb.write(touches, header));
-        for (const std::string& note : notes) printNote(asked.glb.path + ": " + note);
-      }
-    }
-    if (!asked.report.path.empty() && !guard.requested()) {
-      FORETOUCH_CHECK(writeReport(asked.report.path, guard,
-                                  [&](const ReportProgress& watch) -> Result<ViewDocument> {
-                                    return report.document(&summary, &touches, watch);
-                                  }));
-    }
+    FORETOUCH_CHECK(replay.run(guard));
   }
-  tellFound(asked, summary);
+  tellFound(asked, replay.summary());
   return Done{};
 }
 
 Result<Done> view(const AskedWorld& asked, const Settings& settings) {
   FORETOUCH_TRY(const auto world, load(asked, settings));
   FORETOUCH_CHECK(checkOutput(asked.report.path, inputsOf(world.file)));
-  const WorldReport report(world, asked.report);
+  const WorldReport report(world, asked.report, nullptr);
   const InterruptGuard guard;
   return writeReport(asked.report.path, guard,
                      [&](const ReportProgress& watch) -> Result<ViewDocument> {

@@ -51,7 +51,7 @@ std::size_t GlbContent::addVertices(const std::vector<Eigen::Vector3f>& vertices
 
 json GlbContent::addPart(const MeshPart& part) {
   const GlbMesh& mesh = part.mesh;
-  FORETOUCH_ASSERT(mesh.triangles() > 0);
+  FORETOUCH_ASSERT(mesh.indices.size() >= (part.areLines ? 2u : 3u));
   json attributes = {{"POSITION", addVertices(mesh.positions, true)}};
   if (!mesh.normals.empty()) attributes["NORMAL"] = addVertices(mesh.normals, false);
   Accessor corners;
@@ -60,9 +60,12 @@ json GlbContent::addPart(const MeshPart& part) {
   corners.count = mesh.indices.size();
   corners.componentType = ComponentType::UnsignedInt;
   for (const std::uint32_t index : mesh.indices) appendIndex(bytes_, index);
-  return {{"attributes", attributes},
-          {"indices", document_.addAccessor(corners)},
-          {"material", part.material}};
+  constexpr int kLines = 1;  // glTF's number; triangles are what it takes without one
+  json primitive = {{"attributes", attributes},
+                    {"indices", document_.addAccessor(corners)},
+                    {"material", part.material}};
+  if (part.areLines) primitive["mode"] = kLines;
+  return primitive;
 }
 
 std::size_t GlbContent::addMesh(const std::string& name, const std::vector<MeshPart>& parts) {

@@ -22,6 +22,7 @@ struct GlbMaterial {
 struct MeshPart {
   GlbMesh mesh;
   std::size_t material = 0;
+  bool areLines = false;  ///< Two indices per line, in place of three per triangle.
 };
 
 class GlbContent {
@@ -32,7 +33,7 @@ class GlbContent {
 
   /// Shows both sides of its faces, because our triangles are two-sided.
   std::size_t addMaterial(const GlbMaterial& material);
-  /// Precondition: at least one part, each with a triangle.
+  /// Precondition: at least one part, each with a triangle or a line.
   std::size_t addMesh(const std::string& name, const std::vector<MeshPart>& parts);
   /// Rows of 1, 3 or 4 floats for an animation; returns the accessor. Precondition: not empty.
   std::size_t addRows(const std::vector<float>& values, int width);

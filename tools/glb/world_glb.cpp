@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "tools/glb/replay_scene.h"
+#include "tools/world/outline.h"
 #include "tools/world/world_results.h"
 
 namespace foretouch::tools {
@@ -27,7 +27,13 @@ constexpr GlbMaterial kMetRed{"contact", {0.80, 0.05, 0.03, 1.0}};
 constexpr GlbMaterial kInsideAmber{"starts in contact", {0.90, 0.50, 0.02, 1.0}};
 /// How long (s) a touch stays visible at least.
 constexpr double kShownS = 1.0;
-constexpr double kArrowLength = 0.18;  // m
+/// Of the arrow of a touch, by how fast the two approach where it begins, each a level: m/s, m.
+struct ArrowOfSpeed {
+  double fromSpeed, length;
+};
+constexpr ArrowOfSpeed kArrows[] = {{0.0, 0.12}, {0.25, 0.18}, {1.0, 0.27}, {4.0, 0.40}};
+constexpr double kArrowOfUnknown = 0.18;
+constexpr GlbMaterial kTriggerGreen{"trigger", {0.0, 0.34, 0.17, 1.0}};
 
 /// The nodes of a body between two instants, in which nobody above it changes.
 struct BodyPiece {
@@ -39,11 +45,13 @@ struct BodyPiece {
 /// body has nodes for each of its carriers, which are visible while that one carries it.
 class BodyNodes {
  public:
-  BodyNodes(const LoadedWorld& world, const Vector3d& origin, std::size_t group,
+  BodyNodes(const LoadedWorld& world, const Vector3d& origin, std::size_t parent,
             GlbContent& content, GlbAnimation& animation)
       : world_(world),
         origin_(origin),
-        group_(group),
+        group_(addGroup(content.document(), parent, "bodies")),
+        triggers_(world.file.hasTriggers() ? addGroup(content.document(), parent, "triggers")
+                                           : group_),
         content_(content),
         animation_(animation),
         pieces_(world.bodies.size()),
@@ -56,7 +64,7 @@ class BodyNodes {
 
   Result<Done> addAll(TriangleBudget& budget, std::vector<std::string>& notes) {
     addMeshes(budget, notes);
-    for (std::size_t body = 0; body < world_.numBodies(); ++body) {
+    for (std::size_t body = 0; body < world_.bodies.size(); ++body) {
       for (std::size_t i = 0; i < world_.bodies[body].stretches.size(); ++i) {
         FORETOUCH_CHECK(add(static_cast<BodyId>(body), i));
       }
@@ -97,6 +105,22 @@ class BodyNodes {
           {fits ? content_.addMesh(name, {{tools::meshOf(triangles), mesh}}) : kNoMesh});
     }
     if (leftOut > 0) notes.push_back(fmt::format("{} LSS of bodies are left out", leftOut));
+    addOutlines();
+  }
+
+  /// Triggers come behind all other bodies.
+  void addOutlines() {
+    if (!world_.file.hasTriggers()) return;
+    const std::size_t material = content_.addMaterial(kTriggerGreen);
+    for (std::size_t i = world_.numBodies(); i < world_.bodies.size(); ++i) {
+      GlbMesh lines;
+      for (const Vector3d& point : outlineOf(world_.bodies[i].shape)) {
+        lines.indices.push_back(static_cast<std::uint32_t>(lines.positions.size()));
+        lines.positions.push_back(point.cast<float>());
+      }
+      meshes_.push_back(
+          {content_.addMesh(world_.file.bodies[i].name, {{std::move(lines), material, true}})});
+    }
   }
 
   /// A stretch's nodes, below those of who carries it, which come first.
@@ -107,7 +131,8 @@ class BodyNodes {
     const std::int64_t fromUs = stretch.beginUs, untilUs = endOf(body, index);
     if (untilUs <= fromUs) return Done{};
     if (!stretch.carrier) {
-      return addPiece(body, index, {fromUs, untilUs, 0}, group_, origin_);
+      return addPiece(body, index, {fromUs, untilUs, 0},
+                      world_.isTrigger(body) ? triggers_ : group_, origin_);
     }
     const BodyId carrier = stretch.carrier->body;
     for (std::size_t i = 0; i < stretchesOf(carrier).size(); ++i) {
@@ -157,7 +182,7 @@ class BodyNodes {
 
   const LoadedWorld& world_;
   Vector3d origin_;
-  std::size_t group_;
+  std::size_t group_, triggers_;
   GlbContent& content_;
   GlbAnimation& animation_;
   std::vector<std::vector<std::vector<BodyPiece>>> pieces_;  // per body and stretch
@@ -189,7 +214,7 @@ json parsedContact(const LoadedWorld& world, const WorldContact& contact) {
   return json::parse(text);
 }
 
-json parsedTouch(const LoadedWorld& world, const TouchSides& sides, const Touch& touch) {
+json parsedTouch(const LoadedWorld& world, const TouchSides& sides, const WorldTouch& touch) {
   std::string text;
   JsonWriter out(text);
   out.beginObject();
@@ -212,27 +237,81 @@ std::string titleOf(const LoadedWorld& world, const WorldContact& contact, doubl
                      timeS);
 }
 
-}  // namespace
-
-void WorldGlb::add(const WorldStep& step, const std::vector<std::size_t>& begun) {
-  if (request_.path.empty()) return;
-  for (const std::size_t place : begun) {
-    if (begun_.size() < kMostWorldTouches) {
-      begun_.push_back({step.answer.contacts[place], step.window});
-    } else {
-      ++notShown_;
-    }
+double arrowLength(const WorldTouch& touch) {
+  if (!touch.strength) return kArrowOfUnknown;
+  double length = kArrows[0].length;
+  for (const ArrowOfSpeed& arrow : kArrows) {
+    if (touch.strength->approachSpeed >= arrow.fromSpeed) length = arrow.length;
   }
+  return length;
 }
 
-Result<std::vector<std::string>> WorldGlb::write(const WorldTouches& touches,
-                                                 const std::string& header) const {
-  std::vector<std::string> notes;
-  if (notShown_ > 0) {
-    notes.push_back(
-        fmt::format("{} touches are not shown: the first {} are", notShown_, kMostWorldTouches));
+/// Balls and arrows where touches begin.
+class Markers {
+ public:
+  Markers(const LoadedWorld& world, const Vector3d& origin, std::size_t group, GlbContent& content)
+      : world_(world), origin_(origin), group_(group), content_(content) {}
+
+  void add(const WorldTouch& touch, const TouchSides& sides) {
+    const WorldContact& contact = touch.first;
+    json extras = parsedContact(world_, contact);
+    extras["window"] = touch.firstStep;
+    extras["touch"] = parsedTouch(world_, sides, touch);
+    const auto turn = Quaternion::FromTwoVectors(Vector3d::UnitY(), contact.nhat_BA_W).normalized();
+    GltfDocument& document = content_.document();
+    const std::size_t node =
+        document.add("nodes", {{"name", titleOf(world_, contact, touch.beginS)},
+                               {"mesh", meshFor(contact.verdict, arrowLength(touch))},
+                               {"translation", gltfVector(contact.b.p_W - origin_)},
+                               {"rotation", json::array({turn.x(), turn.y(), turn.z(), turn.w()})},
+                               {"extras", std::move(extras)}});
+    document.at("nodes", group_)["children"].push_back(node);
+    const double zeroS = LoadedWorld::secondsOf(world_.beginUs);
+    const double beginS = touch.beginS - zeroS, endS = touch.endS - zeroS;
+    appearances_.push_back({node, beginS, std::max(endS, beginS + kShownS)});
   }
-  const std::vector<Vector3d> places = placesOf(world_);
+
+  void finish(GlbAnimation& animation) {
+    const double lastS = LoadedWorld::secondsOf(world_.endUs - world_.beginUs);
+    addAppearances(appearances_, lastS, content_, animation);
+  }
+
+ private:
+  std::size_t meshFor(Verdict verdict, double length) {
+    const bool isMet = verdict == Verdict::Contact;
+    const auto known = meshes_.find({isMet, length});
+    if (known != meshes_.end()) return known->second;
+    const GlbMaterial& look = isMet ? kMetRed : kInsideAmber;
+    std::optional<std::size_t>& material = isMet ? met_ : inside_;
+    if (!material) material = content_.addMaterial(look);
+    const std::size_t mesh = content_.addMesh(look.name, {{markerMesh(length), *material}});
+    meshes_.emplace(std::make_pair(isMet, length), mesh);
+    return mesh;
+  }
+
+  const LoadedWorld& world_;
+  Vector3d origin_;
+  std::size_t group_;
+  GlbContent& content_;
+  std::map<std::pair<bool, double>, std::size_t> meshes_;
+  std::optional<std::size_t> met_, inside_;
+  std::vector<Appearance> appearances_;
+};
+
+}  // namespace
+
+Result<std::vector<std::string>> writeWorldGlb(const LoadedWorld& loaded,
+                                               const WorldTouches& touches,
+                                               const std::string& header,
+                                               const GlbRequest& request) {
+  std::vector<std::string> notes;
+  const std::vector<WorldTouch>& listed = touches.listed();
+  const std::size_t numShown = std::min(listed.size(), kMostWorldTouches);
+  if (numShown < listed.size()) {
+    notes.push_back(fmt::format("{} touches are not shown: the first {} are",
+                                listed.size() - numShown, numShown));
+  }
+  const std::vector<Vector3d> places = placesOf(loaded);
   Vector3d low = places.front(), high = low;
   for (const Vector3d& place : places) {
     low = low.cwiseMin(place);
@@ -242,71 +321,29 @@ Result<std::vector<std::string>> WorldGlb::write(const WorldTouches& touches,
   GlbContent content(fmt::format("foretouch {}", FORETOUCH_VERSION));
   GltfDocument& document = content.document();
   GlbAnimation animation("world");
-  TriangleBudget budget(request_.mostTriangles);
+  TriangleBudget budget(request.mostTriangles);
   const std::size_t world = addWorld(origin, json::parse(header), document);
-  BodyNodes bodies(world_, origin, addGroup(document, world, "bodies"), content, animation);
-  FORETOUCH_CHECK(inFile(bodies.addAll(budget, notes), request_.path));
-  addMarkers(touches, origin, addGroup(document, world, "contacts"), content, animation);
-  if (world_.scene) {
-    std::vector<TriangleId> touched;
-    for (const Begin& begin : begun_) {
-      if (begin.contact.b.body == kStillScene) touched.push_back(begin.contact.b.triangle);
-    }
-    addScene(*world_.scene, places, std::move(touched), origin, addGroup(document, world, "scene"),
+  BodyNodes bodies(loaded, origin, world, content, animation);
+  FORETOUCH_CHECK(inFile(bodies.addAll(budget, notes), request.path));
+  Markers markers(loaded, origin, addGroup(document, world, "contacts"), content);
+  std::vector<TriangleId> touched;
+  for (std::size_t i = 0; i < numShown; ++i) {
+    markers.add(listed[i], touches.sidesOf(listed[i]));
+    const ContactSide& b = listed[i].first.b;
+    if (b.body == kStillScene) touched.push_back(b.triangle);
+  }
+  markers.finish(animation);
+  if (loaded.scene) {
+    addScene(*loaded.scene, places, std::move(touched), origin, addGroup(document, world, "scene"),
              content, budget, notes);
   }
   animation.finish(document);
 
-  FORETOUCH_TRY(const auto head, inFile(content.head(), request_.path));
-  FORETOUCH_TRY(auto file, PendingFile::create(request_.path));
+  FORETOUCH_TRY(const auto head, inFile(content.head(), request.path));
+  FORETOUCH_TRY(auto file, PendingFile::create(request.path));
   content.write(file, head);
   FORETOUCH_CHECK(file.commit());
   return notes;
-}
-
-void WorldGlb::addMarkers(const WorldTouches& touches, const Vector3d& origin, std::size_t parent,
-                          GlbContent& content, GlbAnimation& animation) const {
-  using Key = std::tuple<std::int64_t, BodyId, LinkId, BodyId, LinkId>;
-  std::map<Key, const Touch*> beginning;
-  for (const Touch& touch : touches.listed()) {
-    const TouchSides sides = touches.sidesOf(touch);
-    beginning.emplace(Key{touch.firstStep, sides.a, sides.linkOfA, sides.b, sides.linkOfB}, &touch);
-  }
-  const GlbMesh marker = markerMesh(kArrowLength);
-  std::optional<std::size_t> met, inside;
-  const auto meshFor = [&](Verdict verdict) {
-    const bool isMet = verdict == Verdict::Contact;
-    std::optional<std::size_t>& mesh = isMet ? met : inside;
-    const GlbMaterial& material = isMet ? kMetRed : kInsideAmber;
-    if (!mesh) mesh = content.addMesh(material.name, {{marker, content.addMaterial(material)}});
-    return *mesh;
-  };
-  std::vector<Appearance> appearances;
-  GltfDocument& document = content.document();
-  for (const Begin& begin : begun_) {
-    const WorldContact& contact = begin.contact;
-    const LinkId linkOfB = contact.b.body == kStillScene ? 0 : contact.b.link;
-    const auto touch =
-        beginning.find({begin.window, contact.a.body, contact.a.link, contact.b.body, linkOfB});
-    if (touch == beginning.end()) continue;
-    const TouchSides sides = touches.sidesOf(*touch->second);
-    json extras = parsedContact(world_, contact);
-    extras["window"] = begin.window;
-    extras["touch"] = parsedTouch(world_, sides, *touch->second);
-    const auto turn = Quaternion::FromTwoVectors(Vector3d::UnitY(), contact.nhat_BA_W).normalized();
-    const std::size_t node =
-        document.add("nodes", {{"name", titleOf(world_, contact, touch->second->beginS)},
-                               {"mesh", meshFor(contact.verdict)},
-                               {"translation", gltfVector(contact.b.p_W - origin)},
-                               {"rotation", json::array({turn.x(), turn.y(), turn.z(), turn.w()})},
-                               {"extras", std::move(extras)}});
-    document.at("nodes", parent)["children"].push_back(node);
-    const double beginS = touch->second->beginS - LoadedWorld::secondsOf(world_.beginUs);
-    const double endS = touch->second->endS - LoadedWorld::secondsOf(world_.beginUs);
-    appearances.push_back({node, beginS, std::max(endS, beginS + kShownS)});
-  }
-  const double lastS = LoadedWorld::secondsOf(world_.endUs - world_.beginUs);
-  addAppearances(appearances, lastS, content, animation);
 }
 
 }  // namespace foretouch::tools

@@ -147,7 +147,69 @@ Fields answerOf(const SolidMessage& message) {
   return fields;
 }
 
+std::string textOf(const WorldTime& time) {
+  return fmt::format("{} us and {}", time.us, numberText(time.fraction));
+}
+
+void addSide(const ContactSide& side, const std::string& of, Fields& fields) {
+  fields.push_back({"body" + of, std::to_string(side.body)});
+  fields.push_back({"link" + of, std::to_string(side.link)});
+  fields.push_back({"LSS" + of, std::to_string(side.lss)});
+  fields.push_back({"triangle" + of, std::to_string(side.triangle)});
+  fields.push_back({"point" + of, textOf(side.p_W)});
+}
+
+void addEvent(std::size_t place, const ToldEvent& told, Fields& fields) {
+  const WorldEvent& event = told.event;
+  const std::string of = fmt::format(" of event {}", place);
+  fields.push_back({"kind" + of, toString(event.kind)});
+  fields.push_back({"time" + of, textOf(event.time)});
+  addSide(event.a, of + ", one side", fields);
+  addSide(event.b, of + ", other side", fields);
+  fields.push_back({"object" + of, std::to_string(event.object)});
+  fields.push_back({"begin" + of, textOf(event.since)});
+  fields.push_back({"cause" + of, std::to_string(static_cast<int>(told.cause))});
+  fields.push_back({"reason" + of, toString(event.reason)});
+  fields.push_back({"mark" + of, event.isAssumed ? "true" : "false"});
+  fields.push_back({"separation" + of, numberText(event.separation)});
+  fields.push_back({"penetration" + of, numberText(event.penetration)});
+  fields.push_back({"normal" + of, textOf(event.nhat_BA_W)});
+  fields.push_back({"velocity" + of, textOf(event.velocity_W)});
+  fields.push_back({"approach" + of, numberText(event.approachSpeed)});
+}
+
+/// All fields but the tolerance. What says more comes first.
+Fields answerOf(const EventsMessage& message) {
+  Fields fields{{"begin of the window", std::to_string(message.fromUs)},
+                {"end of the window", std::to_string(message.toUs)},
+                {"number of bodies", std::to_string(message.bodies.size())}};
+  for (const ToldBody& body : message.bodies) {
+    const std::string of = fmt::format(" of body {}", body.body);
+    fields.push_back({"last pose" + of, std::to_string(body.knownUntilUs)});
+    fields.push_back({"waiting" + of, body.isWaitedFor ? "true" : "false"});
+  }
+  fields.push_back({"number of what is unknown", std::to_string(message.unknown.size())});
+  for (const UnknownPart& part : message.unknown) {
+    fields.push_back({fmt::format("unknown part of body {}", part.body),
+                      fmt::format("link {}, {} to {} us, {}", part.link, part.fromUs, part.toUs,
+                                  toString(part.reason))});
+  }
+  fields.push_back({"number of events", std::to_string(message.events.size())});
+  for (std::size_t i = 0; i < message.events.size(); ++i) addEvent(i, message.events[i], fields);
+  return fields;
+}
+
 }  // namespace
+
+std::string firstDifference(const EventsMessage& recorded, const EventsMessage& replayed) {
+  const std::string options = differenceIn({{"tolerance", numberText(recorded.tolerance)}},
+                                           {{"tolerance", numberText(replayed.tolerance)}});
+  if (!options.empty()) return options;
+  const std::string difference = differenceIn(answerOf(recorded), answerOf(replayed));
+  return fmt::format("{}, in the window from {} to {} us",
+                     difference.empty() ? "their bytes alone differ" : difference, replayed.fromUs,
+                     replayed.toUs);
+}
 
 std::string firstDifference(const SolidMessage& recorded, const SolidMessage& replayed) {
   const std::string options = differenceIn(optionsOf(recorded), optionsOf(replayed));

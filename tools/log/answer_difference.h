@@ -4,6 +4,7 @@
 #include <string>
 
 #include "network/wire/messages.h"
+#include "network/wire/world_messages.h"
 
 namespace foretouch::tools {
 
@@ -15,5 +16,9 @@ namespace foretouch::tools {
 /// The same of what a solid avatar shows.
 [[nodiscard]] std::string firstDifference(const SolidMessage& recorded,
                                           const SolidMessage& replayed);
+
+/// The same of what a moving world tells.
+[[nodiscard]] std::string firstDifference(const EventsMessage& recorded,
+                                          const EventsMessage& replayed);
 
 }  // namespace foretouch::tools

@@ -17,9 +17,23 @@ bool sameBytes(ByteView a, ByteView b) {
 
 using AnswerKey = std::tuple<std::int32_t, std::int64_t, std::int64_t>;
 
-std::string nameOf(const AnswerKey& key) {
-  return fmt::format("avatar {}, session {}, pose {}", std::get<0>(key), std::get<1>(key),
-                     std::get<2>(key));
+/// What is said of answers that differ, or that one of the two lacks.
+struct Sayings {
+  const char *differs, *isMissingHere, *isMissingThere;
+};
+
+Sayings sayingsOf(AnswerKind kind) {
+  switch (kind) {
+    case AnswerKind::Contacts:
+      return {" is answered differently: ", "is answered in the log, and not here",
+              "is answered here, and not in the log"};
+    case AnswerKind::Solid:
+      return {" is shown differently: ", "is shown in the log, and not here",
+              "is shown here, and not in the log"};
+    case AnswerKind::Events: break;
+  }
+  return {" tells differently: ", "is told in the log, and not here",
+          "is told here, and not in the log"};
 }
 
 AnswerKey keyOf(const ContactsMessage& message) {
@@ -28,6 +42,10 @@ AnswerKey keyOf(const ContactsMessage& message) {
 
 AnswerKey keyOf(const SolidMessage& message) {
   return {message.avatar, message.session, message.sequence};
+}
+
+AnswerKey keyOf(const EventsMessage& message) {
+  return {0, message.timeline, message.sequence};
 }
 
 template <typename Message>
@@ -54,6 +72,22 @@ void JournalCheck::addReplayed(const ContactsMessage& message, ByteView payload)
 
 void JournalCheck::addReplayed(const SolidMessage& message, ByteView payload) {
   addReplayed(keyOf(message), payload);
+}
+
+void JournalCheck::addRecorded(const EventsMessage& message, ByteView payload) {
+  addRecorded(keyOf(message), payload);
+}
+
+void JournalCheck::addReplayed(const EventsMessage& message, ByteView payload) {
+  addReplayed(keyOf(message), payload);
+}
+
+std::string JournalCheck::nameOf(const Key& key) const {
+  const auto& [avatar, session, sequence] = key;
+  if (kind_ == AnswerKind::Events) {
+    return fmt::format("timeline {}, message {}", session, sequence);
+  }
+  return fmt::format("avatar {}, session {}, pose {}", avatar, session, sequence);
 }
 
 void JournalCheck::addRecorded(const Key& key, ByteView payload) {
@@ -100,18 +134,21 @@ void JournalCheck::compare(const Key& key, ByteView recorded, ByteView replayed)
     return;
   }
   if (first_) return;
-  const char* const what =
-      kind_ == AnswerKind::Contacts ? " is answered differently: " : " is shown differently: ";
-  first_ = Difference{order_, nameOf(key) + what + differenceOf(recorded, replayed)};
+  first_ =
+      Difference{order_, nameOf(key) + sayingsOf(kind_).differs + differenceOf(recorded, replayed)};
 }
 
 std::string JournalCheck::differenceOf(ByteView recorded, ByteView replayed) const {
-  return kind_ == AnswerKind::Contacts ? differenceOfAnswers<ContactsMessage>(recorded, replayed)
-                                       : differenceOfAnswers<SolidMessage>(recorded, replayed);
+  switch (kind_) {
+    case AnswerKind::Contacts: return differenceOfAnswers<ContactsMessage>(recorded, replayed);
+    case AnswerKind::Solid: return differenceOfAnswers<SolidMessage>(recorded, replayed);
+    case AnswerKind::Events: break;
+  }
+  return differenceOfAnswers<EventsMessage>(recorded, replayed);
 }
 
 std::optional<JournalCheck::Difference> JournalCheck::firstOf(const Queues& queues,
-                                                              const char* what) {
+                                                              const char* what) const {
   std::optional<Difference> first;
   for (const auto& [key, waiting] : queues) {
     const std::int64_t order = waiting.front().order;
@@ -123,12 +160,9 @@ std::optional<JournalCheck::Difference> JournalCheck::firstOf(const Queues& queu
 
 std::optional<std::string> JournalCheck::firstDifference() const {
   std::optional<Difference> first = first_;
-  const bool isSolid = kind_ == AnswerKind::Solid;
-  for (const auto& other :
-       {firstOf(recordedOnly_, isSolid ? "is shown in the log, and not here"
-                                       : "is answered in the log, and not here"),
-        firstOf(replayedOnly_, isSolid ? "is shown here, and not in the log"
-                                       : "is answered here, and not in the log")}) {
+  const Sayings sayings = sayingsOf(kind_);
+  for (const auto& other : {firstOf(recordedOnly_, sayings.isMissingHere),
+                            firstOf(replayedOnly_, sayings.isMissingThere)}) {
     if (other && (!first || other->order < first->order)) first = other;
   }
   if (!first) return std::nullopt;

@@ -11,14 +11,16 @@
 
 #include "network/wire/codec.h"
 #include "network/wire/messages.h"
+#include "network/wire/world_messages.h"
 
 namespace foretouch::tools {
 
 /// What is compared.
-enum class AnswerKind : std::uint8_t { Contacts, Solid };
+enum class AnswerKind : std::uint8_t { Contacts, Solid, Events };
 
-/// Compares verdictBytes() by avatar, session and sequence; several answers to one sequence (a
-/// sender without sessions) in their order. Keeps answers without a counterpart so far.
+/// Compares verdictBytes() by avatar, session and sequence, of events by timeline and sequence;
+/// several answers to one sequence (a sender without sessions) in their order. Keeps answers
+/// without a counterpart so far.
 class JournalCheck {
  public:
   explicit JournalCheck(AnswerKind kind = AnswerKind::Contacts) : kind_(kind) {}
@@ -26,9 +28,11 @@ class JournalCheck {
   /// Adds an answer from the log. `message` is the decoded `payload`.
   void addRecorded(const ContactsMessage& message, ByteView payload);
   void addRecorded(const SolidMessage& message, ByteView payload);
+  void addRecorded(const EventsMessage& message, ByteView payload);
   /// Adds an answer of the replay.
   void addReplayed(const ContactsMessage& message, ByteView payload);
   void addReplayed(const SolidMessage& message, ByteView payload);
+  void addReplayed(const EventsMessage& message, ByteView payload);
 
   /// The log was cut off: each avatar's replayed answers after its last recorded one are not
   /// missing, but beyond the log's end. Call after all answers are added.
@@ -65,7 +69,8 @@ class JournalCheck {
   void addReplayed(const Key& key, ByteView payload);
   void compare(const Key& key, ByteView recorded, ByteView replayed);
   [[nodiscard]] std::string differenceOf(ByteView recorded, ByteView replayed) const;
-  [[nodiscard]] static std::optional<Difference> firstOf(const Queues& queues, const char* what);
+  [[nodiscard]] std::optional<Difference> firstOf(const Queues& queues, const char* what) const;
+  [[nodiscard]] std::string nameOf(const Key& key) const;
 
   AnswerKind kind_;
   Queues recordedOnly_, replayedOnly_;

@@ -45,20 +45,21 @@ Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
 
 /// Which answers a log has at all. Only then do those of the replay wait for theirs.
 struct HeldAnswers {
-  bool contacts = false, solids = false;
+  bool contacts = false, solids = false, events = false;
 };
 
 /// Reads no further than it must.
 Result<HeldAnswers> answersIn(const std::string& path, const ChannelNames& channels,
-                              bool wantsSolids) {
+                              bool wantsSolids, bool wantsEvents) {
   FORETOUCH_TRY(auto log, EventLogReader::open(path));
   LogEvent event;
   HeldAnswers held;
-  while (!held.contacts || (wantsSolids && !held.solids)) {
+  while (!held.contacts || (wantsSolids && !held.solids) || (wantsEvents && !held.events)) {
     FORETOUCH_TRY(const auto more, log.next(event));
     if (!more) break;
     held.contacts = held.contacts || event.channel == channels.contacts;
     held.solids = held.solids || event.channel == channels.solid;
+    held.events = held.events || event.channel == channels.events;
   }
   return held;
 }
@@ -82,8 +83,10 @@ void writeSolidFields(const StreamSolidRequest& request, JsonWriter& out) {
 /// One replay: the events of a log, one by one.
 class LogReplay {
  public:
-  LogReplay(const LogReplayInputs& inputs, std::vector<StreamSolver> solvers, HeldAnswers compares)
-      : inputs_(inputs), solvers_(std::move(solvers)), compares_(compares) {
+  LogReplay(const LogReplayInputs& inputs, std::vector<StreamSolver> solvers, HeldAnswers compares,
+            ReplayedWorld* world)
+      : inputs_(inputs), solvers_(std::move(solvers)), compares_(compares), world_(world) {
+    if (world_ != nullptr) world_->compare(compares.events);
     for (std::size_t i = 0; i < solvers_.size(); ++i) indexOf_[solvers_[i].id()] = i;
   }
 
@@ -94,6 +97,11 @@ class LogReplay {
     if (event.channel == inputs_.channels.contacts) takeRecorded(event);
     if (event.channel == inputs_.channels.solid) takeRecordedSolid(event);
     if (event.channel == inputs_.channels.speaker) takeSpeaker(event);
+    if (world_ != nullptr) {
+      world_->take(event, inputs_.channels);
+    } else if (event.channel == inputs_.channels.events) {
+      ++report_.eventsNotAsked;
+    }
     return std::nullopt;
   }
   [[nodiscard]] const ContactsMessage& answer() const { return answer_; }
@@ -124,6 +132,7 @@ class LogReplay {
   void closeAtEnd() {
     report_.journal.endIsOpen();
     report_.solids.endIsOpen();
+    if (world_ != nullptr) world_->endIsOpen();
   }
 
   void reject(Reject reason) { ++report_.rejects[slotOf(reason)]; }
@@ -154,6 +163,7 @@ class LogReplay {
       encode(answer_, payload_);
       report_.journal.addReplayed(answer_, payload_);
     }
+    if (world_ != nullptr) world_->take(pose_.avatar, solver->lastStep(), event.utimeUs);
     if (solver->solid() != nullptr) show(*solver);
     return indexOf_.at(pose_.avatar);
   }
@@ -179,7 +189,11 @@ class LogReplay {
     SpeakerMessage message;
     if (decode(event.payload, message) != Reject::None) return;
     StreamSolver* const solver = solverOf(message.avatar);
-    if (solver != nullptr) solver->changeSpeaker();
+    if (solver != nullptr) {
+      solver->changeSpeaker();
+    } else if (world_ != nullptr) {
+      world_->changeSpeaker(message.avatar);
+    }
   }
 
   void takeRecorded(const LogEvent& event) {
@@ -203,6 +217,7 @@ class LogReplay {
   const LogReplayInputs& inputs_;
   std::vector<StreamSolver> solvers_;
   HeldAnswers compares_;
+  ReplayedWorld* world_;
   std::map<std::int32_t, std::size_t> indexOf_;
   LogReplayReport report_;
   SkeletonMessage skeleton_;
@@ -246,13 +261,15 @@ Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request) {
                          std::move(avatars)};
 }
 
-Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSink& sink) {
+Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSink& sink,
+                                  ReplayedWorld* world) {
   const std::string& path = inputs.request.logPath;
   FORETOUCH_TRY(auto solvers, solversFor(inputs));
-  FORETOUCH_TRY(const auto compares,
-                answersIn(path, inputs.channels, inputs.request.solid.solid.isAsked));
+  FORETOUCH_TRY(
+      const auto compares,
+      answersIn(path, inputs.channels, inputs.request.solid.solid.isAsked, world != nullptr));
   FORETOUCH_TRY(auto log, EventLogReader::open(path));
-  LogReplay replay(inputs, std::move(solvers), compares);
+  LogReplay replay(inputs, std::move(solvers), compares, world);
   LogEvent event;
   for (;;) {
     FORETOUCH_TRY(const auto more, log.next(event));

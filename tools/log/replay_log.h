@@ -18,6 +18,7 @@
 #include "network/wire/reject.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/log/journal_check.h"
+#include "tools/log/replayed_world.h"
 #include "tools/settings/channel_names.h"
 #include "tools/settings/numbered_avatars.h"
 #include "tools/settings/stream_settings.h"
@@ -59,6 +60,7 @@ struct LogReplayReport {
   JournalCheck journal;
   JournalCheck solids{AnswerKind::Solid};  ///< Of the shown poses, if solid avatars are asked for.
   std::int64_t solidsNotAsked = 0;         ///< Shown poses in the log otherwise.
+  std::int64_t eventsNotAsked = 0;         ///< Of a moving world, in the log; without one.
 
   /// The replay contradicts nothing in the log.
   [[nodiscard]] bool agrees() const {
@@ -82,8 +84,10 @@ using AnswerSink = std::function<bool(const AnsweredPose& answered)>;
 
 /// Answers every pose that a service with the same options would answer, as fast as possible and in
 /// this thread. The answers' stamps of receiving and sending are 0.
+/// `world`: of the service, if it had one that moves.
 [[nodiscard]] Result<LogReplayReport> replayLog(const LogReplayInputs& inputs,
-                                                const AnswerSink& sink);
+                                                const AnswerSink& sink,
+                                                ReplayedWorld* world = nullptr);
 
 /// The first line of the results of a log (docs/formats.md, "Results of a log").
 [[nodiscard]] std::string logHeaderLine(const LogReplayInputs& inputs);

@@ -88,6 +88,11 @@ std::string LogReplaySummary::comparison(const LogReplayReport& report) {
     text += fmt::format("the log also has {} shown poses: --solid compares them\n",
                         report.solidsNotAsked);
   }
+  if (report.eventsNotAsked > 0) {
+    text += fmt::format(
+        "the log also has {} messages of a moving world: foretouch log replay compares them\n",
+        report.eventsNotAsked);
+  }
   for (const JournalCheck* journal : {&report.journal, &report.solids}) {
     const auto difference =
         journal->hasRecord() ? journal->firstDifference() : std::optional<std::string>();

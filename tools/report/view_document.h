@@ -14,6 +14,7 @@
 #include "tools/reported_contact.h"
 #include "tools/setup/placement_check.h"
 #include "tools/touches/touch.h"
+#include "tools/touches/touch_strength.h"
 
 namespace foretouch::tools {
 
@@ -126,6 +127,8 @@ struct ViewAvatar {
   bool isLiveSolid = false;      ///< Of kind Live: events will say what is shown.
   std::vector<ViewSwept> swept;
   std::vector<ViewCarried> carried;  ///< By time.
+  /// Of a trigger, which nobody touches: two points per line, in the body's frame; else empty.
+  std::vector<float> outline;
 };
 
 struct ViewTouch {
@@ -133,6 +136,18 @@ struct ViewTouch {
   Touch touch;                      ///< On the document's clock, of the track's steps.
   std::vector<std::uint32_t> rows;  ///< Its contacts among the avatar's, in their order.
   std::optional<std::size_t> otherAvatar = std::nullopt;  ///< Whose `touch.other` is, if another's.
+  std::optional<TouchStrength> strength = std::nullopt;   ///< Where it begins, if it is known.
+  /// Nothing is claimed of the two in this time: it is no touch, and has no contacts.
+  UndecidedReason unresolved = UndecidedReason::None;
+};
+
+/// Of an avatar in a trigger, or of whom nothing is known there.
+struct ViewStay {
+  std::size_t trigger = 0, avatar = 0;  ///< Of the document's.
+  LinkId link = 0;                      ///< Whose entering it begins with.
+  double beginS = 0.0, endS = 0.0;
+  bool beginsInside = false, isOpen = false;  ///< As a touch's.
+  bool isUnresolved = false;
 };
 
 struct ViewDocument {
@@ -144,6 +159,7 @@ struct ViewDocument {
   std::optional<ViewScene> scene;      ///< Nothing if the document shows only an avatar.
   std::vector<ViewAvatar> avatars;
   std::optional<std::vector<ViewTouch>> touches;  ///< Of what was asked, in listed order.
+  std::vector<ViewStay> stays;                    ///< By begin.
 };
 
 }  // namespace foretouch::tools

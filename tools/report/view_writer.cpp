@@ -258,6 +258,7 @@ void write(const ViewAvatar& avatar, Writer& out) {
   if (avatar.tracked) writeTrack(out, "tracked", *avatar.tracked);
   if (avatar.solid) writeSolid(out, *avatar.solid);
   if (avatar.isLiveSolid) out.field("is_solid", true);
+  if (!avatar.outline.empty()) out.array("outline", avatar.outline);
   std::size_t contact = 0;
   out.list("contacts", avatar.contacts, [&](const ReportedContact& found) {
     const bool hasPush = contact < avatar.pushes.size();
@@ -282,7 +283,25 @@ void write(const ViewTouch& shown, Writer& out) {
   if (shown.avatar > 0) out.field("avatar", shown.avatar);
   if (shown.otherAvatar) out.field("other_avatar", *shown.otherAvatar);
   writeTouch(touch, words, out);
+  if (shown.strength) writeForce(*shown.strength, out);
+  if (shown.unresolved != UndecidedReason::None) {
+    out.field("unresolved", toString(shown.unresolved));
+  }
   out.list("rows", shown.rows, [&](std::uint32_t row) { out.value(row); });
+  out.endObject();
+  out.handOnPieces();
+}
+
+void write(const ViewStay& stay, Writer& out) {
+  out.beginObject();
+  out.field("trigger", stay.trigger);
+  out.field("avatar", stay.avatar);
+  out.field("link", stay.link);
+  out.field("begin", stay.beginS);
+  out.field("end", stay.endS);
+  out.field("begins", stay.beginsInside ? "inside" : "enter");
+  out.field("ends", stay.isOpen ? "open" : "left");
+  if (stay.isUnresolved) out.field("unresolved", true);
   out.endObject();
   out.handOnPieces();
 }
@@ -309,6 +328,9 @@ void writeView(const ViewDocument& document, const TextSink& sink) {
   out.list("avatars", document.avatars, [&](const ViewAvatar& avatar) { write(avatar, out); });
   if (document.touches) {
     out.list("touches", *document.touches, [&](const ViewTouch& touch) { write(touch, out); });
+  }
+  if (!document.stays.empty()) {
+    out.list("stays", document.stays, [&](const ViewStay& stay) { write(stay, out); });
   }
   if (document.kind == ViewKind::Live) {
     out.key("live");

@@ -2,102 +2,17 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
+#include <optional>
 #include <tuple>
 
 #include <fmt/format.h>
 
-#include "lss/fit.h"
 #include "lss/index.h"
-#include "tools/report/track_builder.h"
+#include "tools/report/body_track.h"
+#include "tools/world/outline.h"
 
 namespace foretouch::tools {
 namespace {
-
-/// For bounds; nothing of it is shown.
-Avatar standInOf(const BodyShape& shape) {
-  std::vector<Eigen::Vector3d> points;
-  for (const Triangle& triangle : *shape.triangles) {
-    points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
-  }
-  return Avatar::build(shape.skeleton, {{fitLss(points)}}).value();
-}
-
-/// The poses of a body in time, and between which of them its motion is known or taken to be.
-class BodyTrack {
- public:
-  BodyTrack(const LoadedWorld& world, BodyId body, const Avatar& shownAs,
-            const std::vector<const BodyStretches*>& stretches)
-      : world_(world),
-        id_(body),
-        body_(world.bodies[slotOf(body)]),
-        places_(stretches),
-        builder_(shownAs, std::nullopt) {}
-
-  /// Returns whether there was room for all.
-  bool addAll(std::size_t mostPoses) {
-    for (std::size_t i = 0; i < body_.stretches.size(); ++i) {
-      const bool isLast = i + 1 == body_.stretches.size();
-      const std::int64_t endUs =
-          isLast ? world_.endUs : std::min(world_.endUs, body_.stretches[i + 1].beginUs - 1);
-      if (!addStretch(body_.stretches[i], endUs, mostPoses)) return false;
-    }
-    return true;
-  }
-
-  [[nodiscard]] const TrackBuilder& builder() const { return builder_; }
-  [[nodiscard]] ViewTrack finish() { return builder_.finish(); }
-
- private:
-  bool addStretch(const BodyStretch& stretch, std::int64_t endUs, std::size_t mostPoses) {
-    const Track& track = stretch.track;
-    const bool goesOn =
-        stretch.isHeldFast() || world_.file.bodies[slotOf(id_)].whenSilent == WhenSilent::HoldStill;
-    const std::int64_t knownUs = goesOn ? endUs : std::min(endUs, track.knownUntilUs());
-    if (knownUs < track.knownFromUs()) return true;  // it appears later than the page ends
-    std::set<std::int64_t> instants{track.knownFromUs(), knownUs};
-    addKnots(id_, track.knownFromUs(), knownUs, 0, instants);
-    bool isFirst = true;
-    for (const std::int64_t us : instants) {
-      if (builder_.poses() >= mostPoses) return false;
-      builder_.addPose(LoadedWorld::secondsOf(us), places_.poseAt(id_, us));
-      const auto pose = static_cast<std::uint32_t>(builder_.poses()) - 1;
-      if (!isFirst) builder_.addStep(pose - 1, pose);
-      isFirst = false;
-    }
-    return true;
-  }
-
-  /// The body's own in [fromUs, untilUs]; while it is held fast, those of who holds it: its steps
-  /// are then theirs.
-  void addKnots(BodyId body, std::int64_t fromUs, std::int64_t untilUs, int depth,
-                std::set<std::int64_t>& instants) const {
-    constexpr int kDeepest = 16;  // who is carried by more than so many has longer steps
-    const BodyStretches& stretches = world_.bodies[slotOf(body)].stretches;
-    for (std::size_t i = 0; i < stretches.size(); ++i) {
-      const std::int64_t endUs = i + 1 < stretches.size() ? stretches[i + 1].beginUs : untilUs;
-      const std::int64_t firstUs = std::max(fromUs, stretches[i].beginUs);
-      const std::int64_t lastUs = std::min(untilUs, endUs);
-      if (lastUs <= firstUs) continue;
-      if (stretches[i].isHeldFast()) {
-        if (depth < kDeepest) {
-          addKnots(stretches[i].carrier->body, firstUs, lastUs, depth + 1, instants);
-        }
-        continue;
-      }
-      const Track& track = stretches[i].track;
-      for (std::int64_t us = track.nextKnotUs(firstUs); us < lastUs; us = track.nextKnotUs(us)) {
-        instants.insert(us);
-      }
-    }
-  }
-
-  const LoadedWorld& world_;
-  BodyId id_;
-  const LoadedBody& body_;
-  BodyPlaces places_;
-  TrackBuilder builder_;
-};
 
 std::vector<ViewCarried> carriedOf(const BodyStretches& stretches) {
   std::vector<ViewCarried> carried;
@@ -147,7 +62,7 @@ std::optional<ReportedContact> rowOf(const LoadedWorld& world, const WorldContac
   const ContactSide& own = isTurned ? contact.b : contact.a;
   const ContactSide& other = isTurned ? contact.a : contact.b;
   ReportedContact row;
-  row.timeS = (static_cast<double>(contact.time.us) + contact.time.fraction) / kUsPerS;
+  row.timeS = LoadedWorld::secondsOf(contact.time);
   const auto step = stepAt(track, row.timeS);
   if (!step) return std::nullopt;
   const double fromS = track.poseTimesS[track.stepFrom[*step]];
@@ -219,6 +134,57 @@ std::vector<ViewRow> rowsOf(const WorldSummary& summary) {
   return rows;
 }
 
+/// Nothing if the track of the body that it is told of has no steps there.
+std::optional<ViewTouch> viewOf(const LoadedWorld& world, const WorldTouch& touch,
+                                const TouchSides& sides, const ViewDocument& document) {
+  const bool isTurned = isToldOfOther(world, sides.a, sides.b);
+  ViewTouch view{slotOf(isTurned ? sides.b : sides.a), touch, {}};
+  view.strength = touch.strength;
+  view.touch.link = isTurned ? sides.linkOfB : sides.linkOfA;
+  if (sides.b != kStillScene) {
+    const BodyId other = isTurned ? sides.a : sides.b;
+    view.touch.other = isTurned ? sides.linkOfA : sides.linkOfB;
+    view.touch.object = labelOf(world, other, view.touch.other);
+    if (sides.a != sides.b) view.otherAvatar = slotOf(other);
+  }
+  const ViewTrack& track = *document.avatars[view.avatar].track;
+  const auto first = stepAt(track, touch.beginS), last = stepAt(track, touch.endS);
+  if (!first || !last) return std::nullopt;
+  view.touch.firstStep = static_cast<std::int64_t>(*first);
+  view.touch.lastStep = static_cast<std::int64_t>(*last);
+  return view;
+}
+
+/// Of those at these places, by begin, the latest that goes on at this time; null: none.
+ViewTouch* touchAt(std::vector<ViewTouch>& shown, const std::vector<std::size_t>& places,
+                   double timeS) {
+  const auto begins = [&](double time, std::size_t place) {
+    return time < shown[place].touch.beginS;
+  };
+  auto after = std::upper_bound(places.begin(), places.end(), timeS, begins);
+  while (after != places.begin()) {
+    ViewTouch& touch = shown[*--after];
+    if (timeS <= touch.touch.endS) return &touch;
+  }
+  return nullptr;
+}
+
+void addEventRows(const WorldIntervals& followed, std::vector<ViewRow>& rows) {
+  const auto& told = followed.counts();
+  const auto text = [](const std::int64_t(&counts)[kNumEventKinds], EventKind kind) {
+    return std::to_string(counts[slotOf(kind)]);
+  };
+  rows.push_back({"enters", text(told.ofContacts, EventKind::Enter),
+                  "two were free, and are in contact from then on"});
+  rows.push_back({"leaves", text(told.ofContacts, EventKind::Leave), ""});
+  rows.push_back({"starts inside", text(told.ofContacts, EventKind::StartsInside),
+                  "in contact where the two are known first"});
+  if (!followed.stays().empty()) {
+    rows.push_back({"triggers entered", text(told.ofTriggers, EventKind::Enter), ""});
+    rows.push_back({"triggers left", text(told.ofTriggers, EventKind::Leave), ""});
+  }
+}
+
 using TouchKey = std::tuple<BodyId, LinkId, BodyId, LinkId, std::string>;
 
 /// Where contacts are left out for want of room, so are the touches that have none.
@@ -230,8 +196,9 @@ void leaveOutBareTouches(std::vector<ViewTouch>& touches) {
 
 }  // namespace
 
-WorldReport::WorldReport(const LoadedWorld& world, ReportOptions options)
-    : world_(world), options_(std::move(options)) {
+WorldReport::WorldReport(const LoadedWorld& world, ReportOptions options,
+                         const WorldIntervals* followed)
+    : world_(world), options_(std::move(options)), followed_(followed) {
   for (const LoadedBody& body : world.bodies) {
     shownAs_.push_back(body.shape.avatar ? *body.shape.avatar : standInOf(body.shape));
   }
@@ -243,14 +210,15 @@ void WorldReport::add(const WorldStep& step) {
       ++numLeftOut_;
       continue;
     }
-    kept_.push_back({contact, step.window});
+    if (followed_ != nullptr && contact.verdict == Verdict::Contact) continue;
+    kept_.push_back(contact);
   }
 }
 
 void WorldReport::addBodies(ViewDocument& document, Eigen::AlignedBox3d& action,
                             const ReportProgress& progress) const {
   const std::vector<const BodyStretches*> stretches = world_.stretches();
-  const auto count = static_cast<std::int64_t>(world_.numBodies());
+  const auto count = static_cast<std::int64_t>(world_.bodies.size());
   for (BodyId id = 0; id < count; ++id) {
     if (!progress(id, count)) return;
     const LoadedBody& body = world_.bodies[slotOf(id)];
@@ -259,9 +227,14 @@ void WorldReport::addBodies(ViewDocument& document, Eigen::AlignedBox3d& action,
     view.id = id;
     view.name = world_.nameOf(id);
     view.avatar = &shownAs;
-    view.hasLss = !body.isMesh();
+    const bool isTrigger = world_.isTrigger(id);
+    view.hasLss = !body.isMesh() && !isTrigger;
     view.knowsMissed = false;
-    if (body.isMesh()) {
+    if (isTrigger) {
+      for (const Eigen::Vector3d& point : outlineOf(body.shape)) {
+        for (const double x : point) view.outline.push_back(static_cast<float>(x));
+      }
+    } else if (body.isMesh()) {
       view.meshes = linkMeshes({*body.shape.triangles}, document.notes);
     }
     BodyTrack track(world_, id, shownAs, stretches);
@@ -272,54 +245,86 @@ void WorldReport::addBodies(ViewDocument& document, Eigen::AlignedBox3d& action,
                                            track.builder().poses()));
     }
     view.carried = carriedOf(body.stretches);
-    if (view.carried.empty()) action.extend(track.builder().box());
+    if (view.carried.empty() && !isTrigger) action.extend(track.builder().box());
     view.track = track.finish();
   }
 }
 
-void WorldReport::addFound(const WorldTouches& touches, ViewDocument& document) const {
+std::size_t WorldReport::addFound(const WorldTouches& touches, ViewDocument& document) const {
   std::vector<ViewTouch>& shown = document.touches.emplace();
-  std::map<TouchKey, std::vector<std::size_t>> ofKey;          // places in `shown`, by begin
-  std::vector<std::pair<std::int64_t, std::int64_t>> windows;  // of each that is shown
-  for (const Touch& touch : touches.listed()) {
+  std::map<TouchKey, std::vector<std::size_t>> ofKey;  // places in `shown`, by begin
+  std::vector<const WorldContact*> found;
+  for (const WorldTouch& touch : touches.listed()) {
     const TouchSides sides = touches.sidesOf(touch);
-    const bool isTurned = isToldOfOther(world_, sides.a, sides.b);
-    ViewTouch view{slotOf(isTurned ? sides.b : sides.a), touch, {}, std::nullopt};
-    view.touch.link = isTurned ? sides.linkOfB : sides.linkOfA;
-    if (sides.b != kStillScene) {
-      const BodyId other = isTurned ? sides.a : sides.b;
-      view.touch.other = isTurned ? sides.linkOfA : sides.linkOfB;
-      view.touch.object = labelOf(world_, other, view.touch.other);
-      if (sides.a != sides.b) view.otherAvatar = slotOf(other);
-    }
-    const ViewTrack& track = *document.avatars[view.avatar].track;
-    const auto first = stepAt(track, touch.beginS), last = stepAt(track, touch.endS);
-    if (!first || !last) continue;
-    view.touch.firstStep = static_cast<std::int64_t>(*first);
-    view.touch.lastStep = static_cast<std::int64_t>(*last);
+    auto view = viewOf(world_, touch, sides, document);
+    if (!view) continue;
+    if (touch.strength) found.push_back(&touch.first);
     ofKey[{sides.a, sides.linkOfA, sides.b, sides.linkOfB,
            sides.b == kStillScene ? touch.object : std::string()}]
         .push_back(shown.size());
-    windows.emplace_back(touch.firstStep, touch.lastStep);
-    shown.push_back(std::move(view));
+    shown.push_back(std::move(*view));
   }
-  for (const Kept& kept : kept_) {
-    const WorldContact& contact = kept.contact;
-    const bool isTurned = isToldOfOther(world_, contact.a.body, contact.b.body);
-    ViewAvatar& avatar = document.avatars[slotOf(isTurned ? contact.b.body : contact.a.body)];
-    auto row = rowOf(world_, contact, *avatar.track);
+  for (const WorldContact& contact : kept_) found.push_back(&contact);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const WorldContact* x, const WorldContact* y) { return x->time < y->time; });
+  const std::size_t numLeftOut = found.size() - std::min(found.size(), options_.maxContacts);
+  found.resize(found.size() - numLeftOut);
+  for (const WorldContact* contact : found) {
+    const bool isTurned = isToldOfOther(world_, contact->a.body, contact->b.body);
+    ViewAvatar& avatar = document.avatars[slotOf(isTurned ? contact->b.body : contact->a.body)];
+    auto row = rowOf(world_, *contact, *avatar.track);
     if (!row) continue;
-    const bool isOfScene = contact.b.body == kStillScene;
-    const auto found =
-        ofKey.find({contact.a.body, contact.a.link, contact.b.body, isOfScene ? 0 : contact.b.link,
-                    isOfScene ? row->object : std::string()});
+    const double timeS = row->timeS;
+    const bool isOfScene = contact->b.body == kStillScene;
+    const auto places =
+        ofKey.find({contact->a.body, contact->a.link, contact->b.body,
+                    isOfScene ? 0 : contact->b.link, isOfScene ? row->object : std::string()});
+    ViewTouch* const touch = places == ofKey.end() || contact->verdict == Verdict::Undecided
+                                 ? nullptr
+                                 : touchAt(shown, places->second, timeS);
+    // Where a touch starts inside, a window says so as well: what it begins with is there already.
+    const bool isSaidTwice =
+        touch != nullptr && touch->strength && !touch->rows.empty() && timeS == touch->touch.beginS;
+    if (isSaidTwice) continue;
     avatar.contacts.push_back(std::move(*row));
-    if (found == ofKey.end() || contact.verdict == Verdict::Undecided) continue;
-    for (const std::size_t place : found->second) {
-      if (kept.window < windows[place].first || kept.window > windows[place].second) continue;
-      shown[place].rows.push_back(static_cast<std::uint32_t>(avatar.contacts.size()) - 1);
-      break;
-    }
+    if (touch == nullptr) continue;
+    touch->rows.push_back(static_cast<std::uint32_t>(avatar.contacts.size()) - 1);
+  }
+  return numLeftOut;
+}
+
+/// As bars without contacts. A link that stands for all of a body's is its first one.
+void WorldReport::addUnresolved(ViewDocument& document) const {
+  for (const ContactInterval& interval : followed_->contacts()) {
+    const WorldPart& part = interval.part;
+    if (part.kind != PartKind::Unresolved || part.a.body < 0) continue;
+    ViewTouch view{slotOf(part.a.body), {}, {}};
+    view.touch.link = std::max(0, part.a.link);
+    view.touch.object = part.b.body == kEveryBody    ? "everybody"
+                        : part.b.body == kStillScene ? "the scene"
+                                                     : labelOf(world_, part.b.body, part.b.link);
+    view.touch.beginS = LoadedWorld::secondsOf(part.from);
+    view.touch.endS = LoadedWorld::secondsOf(part.to);
+    view.touch.isOpen = part.goesOn;
+    view.unresolved = part.reason;
+    document.touches->push_back(std::move(view));
+  }
+  std::stable_sort(
+      document.touches->begin(), document.touches->end(),
+      [](const ViewTouch& x, const ViewTouch& y) { return x.touch.beginS < y.touch.beginS; });
+}
+
+void WorldReport::addStays(ViewDocument& document) const {
+  for (const TriggerStay& stay : followed_->stays()) {
+    ViewStay& view = document.stays.emplace_back();
+    view.trigger = slotOf(world_.triggers.body(stay.trigger));
+    view.avatar = slotOf(stay.body);
+    view.link = std::max(0, stay.link);
+    view.beginS = LoadedWorld::secondsOf(stay.from);
+    view.endS = LoadedWorld::secondsOf(stay.to);
+    view.beginsInside = stay.startsInside;
+    view.isOpen = stay.goesOn;
+    view.isUnresolved = stay.isUnresolved;
   }
 }
 
@@ -333,13 +338,19 @@ ViewDocument WorldReport::document(const WorldSummary* summary, const WorldTouch
   if (summary != nullptr) document.summary = rowsOf(*summary);
   Eigen::AlignedBox3d action;
   addBodies(document, action, progress);
-  if (document.avatars.size() < world_.numBodies()) return document;  // interrupted
-  if (touches != nullptr) addFound(*touches, document);
-  if (numLeftOut_ > 0) {
+  if (document.avatars.size() < world_.bodies.size()) return document;  // interrupted
+  std::size_t numLeftOut = numLeftOut_;
+  if (touches != nullptr) numLeftOut += addFound(*touches, document);
+  if (numLeftOut > 0) {
     if (document.touches) leaveOutBareTouches(*document.touches);
     document.notes.push_back(fmt::format(
         "{} contacts are not shown, for want of room or of a link; the results file has them all.",
-        numLeftOut_));
+        numLeftOut));
+  }
+  if (followed_ != nullptr && touches != nullptr) {
+    addUnresolved(document);
+    addStays(document);
+    addEventRows(*followed_, document.summary);
   }
   if (world_.scene) {
     addScene(*world_.scene, world_.file.scene.scenePath, options_.maxTriangles, action, document);

@@ -19,8 +19,8 @@ namespace foretouch::tools {
 /// Collects the contacts of windows, in bounded memory.
 class WorldReport {
  public:
-  /// `world` outlives it.
-  WorldReport(const LoadedWorld& world, ReportOptions options);
+  /// `world` and `followed` outlive it. `followed`: as WorldTouches has it.
+  WorldReport(const LoadedWorld& world, ReportOptions options, const WorldIntervals* followed);
 
   /// Windows in order.
   void add(const WorldStep& step);
@@ -31,18 +31,18 @@ class WorldReport {
                                       const ReportProgress& progress) const;
 
  private:
-  struct Kept {
-    WorldContact contact;
-    std::int64_t window = 0;
-  };
   void addBodies(ViewDocument& document, Eigen::AlignedBox3d& action,
                  const ReportProgress& progress) const;
-  void addFound(const WorldTouches& touches, ViewDocument& document) const;
+  /// Returns how many contacts there is no room for.
+  std::size_t addFound(const WorldTouches& touches, ViewDocument& document) const;
+  void addUnresolved(ViewDocument& document) const;
+  void addStays(ViewDocument& document) const;
 
   const LoadedWorld& world_;
   ReportOptions options_;
-  std::vector<Avatar> shownAs_;  // per body: itself, or what stands for the link of a mesh
-  std::vector<Kept> kept_;
+  const WorldIntervals* followed_;
+  std::vector<Avatar> shownAs_;     // per body: itself, or what stands for the link of a mesh
+  std::vector<WorldContact> kept_;  // where the world is followed, without what begins touches
   std::size_t numLeftOut_ = 0;
 };
 

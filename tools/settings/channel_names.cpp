@@ -6,13 +6,15 @@
 #include "assets/text_file.h"
 #include "network/wire/messages.h"
 #include "network/wire/wire.h"
+#include "network/wire/world_messages.h"
 
 namespace foretouch::tools {
 
 Result<ChannelNames> channelNames(const std::string& suffix) {
-  const ChannelNames names{kSkeletonChannel + suffix, kPoseChannel + suffix,
-                           kContactsChannel + suffix, kSolidChannel + suffix,
-                           kStatusChannel + suffix,   kSpeakerChannel + suffix};
+  const ChannelNames names{
+      kSkeletonChannel + suffix, kPoseChannel + suffix,      kContactsChannel + suffix,
+      kSolidChannel + suffix,    kStatusChannel + suffix,    kSpeakerChannel + suffix,
+      kBodyChannel + suffix,     kRigidPoseChannel + suffix, kEventsChannel + suffix};
   const bool isPrintable =
       std::all_of(suffix.begin(), suffix.end(), [](char c) { return c > ' ' && c <= '~'; });
   const std::size_t longest =

@@ -58,6 +58,9 @@ struct LoadedWorld {
   [[nodiscard]] static double secondsOf(std::int64_t utimeUs) {
     return static_cast<double>(utimeUs) / kUsPerS;
   }
+  [[nodiscard]] static double secondsOf(const WorldTime& time) {
+    return (static_cast<double>(time.us) + time.fraction) / kUsPerS;
+  }
   /// "LeftHand" of an avatar, "" of what has but one link.
   [[nodiscard]] std::string linkNameOf(BodyId body, LinkId link) const;
 };

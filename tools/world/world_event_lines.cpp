@@ -1,6 +1,5 @@
 #include "tools/world/world_event_lines.h"
 
-#include <cmath>
 #include <iterator>
 #include <optional>
 
@@ -10,11 +9,6 @@
 
 namespace foretouch::tools {
 namespace {
-
-void writeFinite(const char* name, double value, JsonWriter& out) {
-  out.key(name);
-  std::isfinite(value) ? out.value(value) : out.null();
-}
 
 void writeInstantObject(const char* name, const WorldTime& time, JsonWriter& out) {
   out.key(name);
@@ -55,13 +49,7 @@ void writeContactFields(const WorldEvent& event, JsonWriter& out) {
   if (event.penetration > 0.0) out.field("penetration", event.penetration);
   out.field("normal", event.nhat_BA_W);
   out.field("velocity", event.velocity_W);
-  out.key("approach");
-  out.beginObject();
-  writeFinite("speed", event.approachSpeed, out);
-  writeFinite("lower", event.approachLower, out);
-  writeFinite("upper", event.approachUpper, out);
-  out.endObject();
-  writeFinite("effective_mass", event.effectiveMass, out);
+  writeStrength(strengthOf(event), out);
   out.key("points");
   out.beginArray();
   for (std::size_t i = 0; i < event.numPoints; ++i) {

@@ -1,7 +1,6 @@
 #include "tools/world/world_intervals.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "lss/index.h"
@@ -12,6 +11,20 @@ namespace {
 template <typename TwoSided>
 auto keyOf(const TwoSided& of, PartKind kind) {
   return std::make_tuple(of.a.body, of.a.link, of.b.body, of.b.link, of.object, kind);
+}
+
+WorldContact contactOf(const WorldEvent& event) {
+  WorldContact contact;
+  contact.a = event.a;
+  contact.b = event.b;
+  contact.verdict =
+      event.kind == EventKind::StartsInside ? Verdict::StartsInContact : Verdict::Contact;
+  contact.time = event.time;
+  contact.separation = event.separation;
+  contact.penetration = event.penetration;
+  contact.nhat_BA_W = event.nhat_BA_W;
+  contact.isAssumed = event.isAssumed;
+  return contact;
 }
 
 }  // namespace
@@ -28,34 +41,53 @@ void WorldIntervals::add(const FollowedStretch& stretch) {
 }
 
 void WorldIntervals::addParts(const WorldEvents& contacts) {
-  std::set<std::pair<PairKey, WorldTime>> inside;
+  begun_.clear();
+  left_.clear();
   for (const WorldEvent& event : contacts.events) {
-    if (event.kind == EventKind::StartsInside) {
-      inside.emplace(keyOf(event, PartKind::Contact), event.time);
+    const Instant instant{keyOf(event, PartKind::Contact), event.time};
+    if (event.kind == EventKind::Enter || event.kind == EventKind::StartsInside) {
+      begun_.emplace(instant, &event);
+    } else if (event.kind == EventKind::Leave && event.cause == LeaveCause::Apart) {
+      left_.emplace(instant, &event);
     }
   }
   for (const WorldPart& part : contacts.parts) {
     if (isOfTrigger(world_, part)) continue;
     const PairKey key = keyOf(part, part.kind);
-    const auto known = open_.find(key);
-    ContactInterval interval{part, inside.count({key, part.from}) != 0};
-    if (known != open_.end()) {
+    ContactInterval interval;
+    interval.part = part;
+    interval.first.a = part.a;
+    interval.first.b = part.b;
+    interval.first.time = part.from;
+    if (const auto begun = begun_.find({key, part.from}); begun != begun_.end()) {
+      const WorldEvent& event = *begun->second;
+      interval.startsInside = event.kind == EventKind::StartsInside;
+      interval.first = contactOf(event);
+      interval.strength = strengthOf(event);
+    }
+    if (const auto known = open_.find(key); known != open_.end()) {
       if (part.beganBefore) {
         interval = std::move(known->second);
         interval.part.to = part.to;
         interval.part.goesOn = part.goesOn;
         interval.part.isAssumed = interval.part.isAssumed || part.isAssumed;
       } else {
-        contacts_.push_back(known->second);
+        close(std::move(known->second));
       }
       open_.erase(known);
     }
     if (interval.part.goesOn) {
       open_.emplace(key, std::move(interval));
     } else {
-      contacts_.push_back(std::move(interval));
+      close(std::move(interval));
     }
   }
+}
+
+void WorldIntervals::close(ContactInterval interval) {
+  const Instant end{keyOf(interval.part, interval.part.kind), interval.part.to};
+  interval.isLeft = !interval.part.goesOn && left_.count(end) != 0;
+  contacts_.push_back(std::move(interval));
 }
 
 /// What begins ends whatever was before: unresolved from where somebody was inside is no leave.

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <map>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "tools/touches/touch_strength.h"
 #include "tools/world/followed_world.h"
 
 namespace foretouch::tools {
@@ -16,6 +18,10 @@ namespace foretouch::tools {
 struct ContactInterval {
   WorldPart part;             ///< `goesOn`: until the end of what was followed.
   bool startsInside = false;  ///< No touch was seen: they are known to be in contact first.
+  bool isLeft = false;        ///< It ends with a leave, and the two are apart: proven.
+  // Of a contact:
+  WorldContact first;  ///< As it begins.
+  TouchStrength strength;
 };
 
 /// Of somebody in a trigger, or of whom nothing is known there.
@@ -52,12 +58,15 @@ class WorldIntervals {
 
  private:
   using PairKey = std::tuple<BodyId, LinkId, BodyId, LinkId, ObjectId, PartKind>;
+  using Instant = std::pair<PairKey, WorldTime>;
   using StayKey = std::tuple<TriggerId, BodyId, LinkId>;
   void addParts(const WorldEvents& contacts);
+  void close(ContactInterval interval);
   void addTriggerEvent(const TriggerEvent& event);
 
   const LoadedWorld& world_;
   std::map<PairKey, ContactInterval> open_;
+  std::map<Instant, const WorldEvent*> begun_, left_;  // of the stretch that is being added
   std::map<StayKey, TriggerStay> openStays_;
   std::vector<ContactInterval> contacts_;
   std::vector<TriggerStay> stays_;

@@ -49,7 +49,7 @@ void writeSide(const LoadedWorld& world, const NamedSide& side, JsonWriter& out)
 }
 
 void writeInstant(const char* name, const WorldTime& time, JsonWriter& out) {
-  out.field(name, (static_cast<double>(time.us) + time.fraction) / kUsPerS);
+  out.field(name, LoadedWorld::secondsOf(time));
   out.field("utime", time.us);
   out.field("fraction", time.fraction);
 }
@@ -158,7 +158,7 @@ std::string windowLine(const LoadedWorld& world, const WorldStep& step) {
   return text + "\n";
 }
 
-void writeWorldTouch(const LoadedWorld& world, const TouchSides& sides, const Touch& touch,
+void writeWorldTouch(const LoadedWorld& world, const TouchSides& sides, const WorldTouch& touch,
                      JsonWriter& out) {
   out.key("a");
   out.beginObject();
@@ -170,12 +170,13 @@ void writeWorldTouch(const LoadedWorld& world, const TouchSides& sides, const To
   if (sides.b == kStillScene) out.field("object", touch.object);
   out.endObject();
   writeTouchCourse(touch, "windows", out);
+  if (touch.strength) writeForce(*touch.strength, out);
 }
 
 std::string touchLines(const LoadedWorld& world, const WorldTouches& touches,
                        std::int64_t windows) {
   std::string text;
-  for (const Touch& touch : touches.listed()) {
+  for (const WorldTouch& touch : touches.listed()) {
     JsonWriter out(text);
     out.beginObject();
     out.key("touch");

@@ -41,7 +41,7 @@ void writeBodies(const LoadedWorld& world, JsonWriter& out);
 /// One contact as an object: as in that line.
 void writeWorldContact(const LoadedWorld& world, const WorldContact& contact, JsonWriter& out);
 /// The fields of a touch into an open object: as in its line.
-void writeWorldTouch(const LoadedWorld& world, const TouchSides& sides, const Touch& touch,
+void writeWorldTouch(const LoadedWorld& world, const TouchSides& sides, const WorldTouch& touch,
                      JsonWriter& out);
 /// The last lines: one a touch, and the counts.
 [[nodiscard]] std::string touchLines(const LoadedWorld& world, const WorldTouches& touches,

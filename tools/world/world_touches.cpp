@@ -1,6 +1,9 @@
 #include "tools/world/world_touches.h"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
 
 #include "lss/index.h"
 
@@ -12,10 +15,6 @@ double shareOfWindow(const WorldTime& time, const WorldStep& step) {
   return std::clamp(
       microsecondsAfter(step.fromUs, time) / static_cast<double>(step.toUs - step.fromUs), 0.0,
       1.0);
-}
-
-double inSeconds(const WorldTime& time) {
-  return (static_cast<double>(time.us) + time.fraction) / kUsPerS;
 }
 
 }  // namespace
@@ -32,8 +31,89 @@ BodyId LinkNumbers::bodyOf(LinkId number) const {
   return static_cast<BodyId>(after - first_.begin()) - 1;
 }
 
-WorldTouches::WorldTouches(const LoadedWorld& world)
-    : world_(world), numbers_(world), tracker_(TouchScope::FirstOfLink) {}
+WorldTouches::WorldTouches(const LoadedWorld& world, const WorldIntervals* followed)
+    : world_(world), followed_(followed), numbers_(world), tracker_(TouchScope::FirstOfLink) {
+  if (followed != nullptr) takeIntervals();
+}
+
+void WorldTouches::takeIntervals() {
+  for (const ContactInterval& interval : followed_->contacts()) {
+    if (interval.part.kind != PartKind::Contact) continue;
+    WorldTouch& touch = listed_.emplace_back();
+    touch.first = interval.first;
+    touch.strength = interval.strength;
+    touch.until = interval.part.to;
+    touch.link = numbers_.of(touch.first.a);
+    if (touch.first.b.body != kStillScene) touch.other = numbers_.of(touch.first.b);
+    touch.object = objectOf(touch.first);
+    touch.beginsInside = interval.startsInside;
+    touch.isOpen = !interval.isLeft;
+    touch.beginS = LoadedWorld::secondsOf(interval.part.from);
+    touch.endS = LoadedWorld::secondsOf(interval.part.to);
+    touch.contacts = 1;
+    touch.separation = touch.first.separation;
+    touch.penetration = touch.first.penetration;
+    touch.startsAtAPose = interval.startsInside;
+    placesOf_[pairOf(touch.first)].push_back(listed_.size() - 1);
+  }
+}
+
+std::string WorldTouches::objectOf(const WorldContact& contact) const {
+  if (contact.b.body != kStillScene || contact.b.triangle < 0) return {};
+  return world_.scene->objectNames()[slotOf(world_.scene->object(contact.b.triangle))];
+}
+
+WorldTouches::PairKey WorldTouches::pairOf(const WorldContact& contact) const {
+  const auto objectOn = [&](const ContactSide& side) -> ObjectId {
+    if (side.triangle < 0) return -1;
+    const std::optional<Scene>& mesh =
+        side.body == kStillScene ? world_.scene : world_.bodies[slotOf(side.body)].shape.mesh;
+    return mesh ? mesh->object(side.triangle) : -1;
+  };
+  return {numbers_.of(contact.a), contact.b.body, contact.b.link,
+          std::max(objectOn(contact.a), objectOn(contact.b))};
+}
+
+/// Whoever touches where a window begins does so in an interval of the two: all of those are known.
+void WorldTouches::addFollowed(const WorldStep& step) {
+  if (cuts_.empty()) cuts_.push_back(step.fromUs);
+  cuts_.push_back(step.toUs);
+  for (const WorldContact& contact : step.answer.contacts) {
+    if (contact.verdict != Verdict::StartsInContact) continue;
+    const auto places = placesOf_.find(pairOf(contact));
+    if (places == placesOf_.end()) continue;  // then it is unresolved
+    const auto after = std::upper_bound(
+        places->second.begin(), places->second.end(), contact.time,
+        [&](const WorldTime& time, std::size_t place) { return time < listed_[place].first.time; });
+    if (after == places->second.begin()) continue;
+    WorldTouch& touch = listed_[*std::prev(after)];
+    if (touch.until < contact.time) continue;
+    // Where it starts inside, a window starts, too.
+    if (contact.time == touch.first.time) continue;
+    ++touch.contacts;
+    touch.startsAtAPose = true;
+    touch.separation = std::min(touch.separation, contact.separation);
+    touch.penetration = std::max(touch.penetration, contact.penetration);
+  }
+}
+
+/// It is missed by who looks where windows begin and end alone if none does within it.
+void WorldTouches::placeInWindows(WorldTouch& touch) const {
+  const auto isBefore = [](const WorldTime& time, std::int64_t us) {
+    return time < WorldTime{us, 0.0};
+  };
+  const auto last = static_cast<std::int64_t>(cuts_.size()) - 2;
+  const auto begin = std::upper_bound(cuts_.begin(), cuts_.end(), touch.first.time, isBefore);
+  const auto end = std::upper_bound(begin, cuts_.end(), touch.until, isBefore);
+  const auto windowBefore = [&](auto place) {
+    return std::clamp<std::int64_t>(place - cuts_.begin() - 1, 0, last);
+  };
+  touch.firstStep = windowBefore(begin);
+  touch.lastStep = windowBefore(end);
+  const bool beginsAtACut =
+      begin != cuts_.begin() && WorldTime{*std::prev(begin), 0.0} == touch.first.time;
+  touch.isMissed = !beginsAtACut && begin == end;
+}
 
 void WorldTouches::addRow(const WorldContact& contact, const WorldStep& step) {
   LinkContact& seen = contacts_.emplace_back();
@@ -43,7 +123,7 @@ void WorldTouches::addRow(const WorldContact& contact, const WorldStep& step) {
   seen.separation = contact.separation;
   seen.penetration = contact.penetration;
   TouchRow& row = step_.rows.emplace_back();
-  row.timeS = inSeconds(contact.time);
+  row.timeS = LoadedWorld::secondsOf(contact.time);
   if (contact.b.body != kStillScene) {
     row.other = numbers_.of(contact.b);
   } else if (contact.verdict != Verdict::Undecided) {
@@ -80,7 +160,8 @@ void WorldTouches::addUnknown(const WorldStep& step) {
       undecided.emplace(contact.a.body, contact.b.body);
     }
   }
-  for (const auto& [link, other] : open_) {
+  for (const auto& [key, first] : open_) {
+    const auto& [link, other, object] = key;
     const BodyId a = numbers_.bodyOf(link);
     const BodyId b = other < 0 ? kStillScene : numbers_.bodyOf(other);
     bool isUnknown = isSilent(a) || undecided.count({a, b}) > 0;
@@ -96,7 +177,11 @@ void WorldTouches::addUnknown(const WorldStep& step) {
   }
 }
 
-const std::vector<std::size_t>& WorldTouches::add(const WorldStep& step) {
+void WorldTouches::add(const WorldStep& step) {
+  followed_ != nullptr ? addFollowed(step) : addAsked(step);
+}
+
+void WorldTouches::addAsked(const WorldStep& step) {
   step_.step = step.window;
   step_.rows.clear();
   contacts_.clear();
@@ -111,31 +196,40 @@ const std::vector<std::size_t>& WorldTouches::add(const WorldStep& step) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) step_.rows[i].contact = &contacts_[i];
   begunRows_.clear();
   tracker_.addStep(step_, ended_, begunRows_);
-  begun_.clear();
-  for (const std::size_t row : begunRows_) {
-    begun_.push_back(rowOf_[row]);
-    open_.emplace(contacts_[row].link, step_.rows[row].other);
-  }
   keepEnded();
-  return begun_;
+  for (const std::size_t row : begunRows_) {
+    const TouchRow& begun = step_.rows[row];
+    open_.emplace(Key{contacts_[row].link, begun.other, std::string(begun.object)},
+                  contacts[rowOf_[row]]);
+  }
 }
 
 void WorldTouches::keepEnded() {
-  for (Touch& touch : ended_) {
-    const auto open = open_.find({touch.link, touch.other});
-    if (open != open_.end()) open_.erase(open);
-    const bool isOwn =
-        touch.other >= 0 && numbers_.bodyOf(touch.link) == numbers_.bodyOf(touch.other);
-    ++(touch.other < 0 ? counts_.scene : isOwn ? counts_.own : counts_.bodies);
-    counts_.missed += touch.isMissed ? 1 : 0;
-    listed_.push_back(std::move(touch));
+  for (Touch& ended : ended_) {
+    WorldTouch& touch = listed_.emplace_back();
+    static_cast<Touch&>(touch) = std::move(ended);
+    const auto open = open_.find({touch.link, touch.other, touch.object});
+    if (open == open_.end()) continue;
+    touch.first = open->second;
+    open_.erase(open);
   }
   ended_.clear();
+}
+
+void WorldTouches::count(const Touch& touch) {
+  const bool isOwn =
+      touch.other >= 0 && numbers_.bodyOf(touch.link) == numbers_.bodyOf(touch.other);
+  ++(touch.other < 0 ? counts_.scene : isOwn ? counts_.own : counts_.bodies);
+  counts_.missed += touch.isMissed ? 1 : 0;
 }
 
 void WorldTouches::finish() {
   tracker_.breakOff(ended_);
   keepEnded();
+  if (cuts_.size() > 1) {
+    for (WorldTouch& touch : listed_) placeInWindows(touch);
+  }
+  for (const WorldTouch& touch : listed_) count(touch);
   std::sort(listed_.begin(), listed_.end(), isListedBefore);
 }
 

@@ -1,15 +1,20 @@
-// tools/world/world_touches.h: the answers of a world's windows as touches (docs/concepts.md): who
-// touches whom, from first contact to where it ends. Links of all bodies are numbered as one.
+// tools/world/world_touches.h: who touches whom in a world, from first contact to where it ends
+// (docs/concepts.md). Of a world that is followed these are its intervals of contact, with their
+// exact ends; of others they are made of the answers of windows. Links of all bodies are numbered
+// as one.
 #pragma once
 
 #include <cstdint>
-#include <set>
+#include <map>
+#include <optional>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "middleware/contact.h"
+#include "tools/touches/touch_strength.h"
 #include "tools/touches/touch_tracker.h"
+#include "tools/world/world_intervals.h"
 #include "tools/world/world_windows.h"
 
 namespace foretouch::tools {
@@ -36,6 +41,14 @@ struct TouchSides {
   LinkId linkOfA = 0, linkOfB = 0;
 };
 
+/// `link` and `other` are LinkNumbers, of bodies in this order; -1: the scene.
+struct WorldTouch : Touch {
+  WorldContact first;  ///< That it begins with.
+  // Where the world was followed.
+  std::optional<TouchStrength> strength;  ///< Of that.
+  WorldTime until;                        ///< `endS`, exactly.
+};
+
 /// Counts of a whole replay.
 struct WorldTouchCounts {
   std::int64_t scene = 0, bodies = 0, own = 0;  ///< With the scene, of two bodies, of own links.
@@ -44,37 +57,50 @@ struct WorldTouchCounts {
 
 class WorldTouches {
  public:
-  /// `world` outlives it.
-  explicit WorldTouches(const LoadedWorld& world);
+  /// `world` and `followed` outlive it. `followed`: all that is told of the time of the windows,
+  /// after its finish(); null: the world is not followed.
+  WorldTouches(const LoadedWorld& world, const WorldIntervals* followed);
 
-  /// Windows in order. Returns the places of the contacts of the answer that begin touches; valid
-  /// until the next call.
-  const std::vector<std::size_t>& add(const WorldStep& step);
+  /// Windows in order.
+  void add(const WorldStep& step);
   /// After the last one.
   void finish();
 
-  /// After finish(), by begin; `link` and `other` are LinkNumbers, of bodies in this order.
-  [[nodiscard]] const std::vector<Touch>& listed() const { return listed_; }
+  /// After finish(), by begin.
+  [[nodiscard]] const std::vector<WorldTouch>& listed() const { return listed_; }
   [[nodiscard]] const WorldTouchCounts& counts() const { return counts_; }
   [[nodiscard]] TouchSides sidesOf(const TouchPair& touch) const;
 
  private:
-  using Pair = std::pair<LinkId, LinkId>;  // -1: the scene
+  using Key = std::tuple<LinkId, LinkId, std::string>;           // as TouchPair
+  using PairKey = std::tuple<LinkId, BodyId, LinkId, ObjectId>;  // as intervals tell them apart
+  void takeIntervals();
+  void addFollowed(const WorldStep& step);
+  void addAsked(const WorldStep& step);
+  void placeInWindows(WorldTouch& touch) const;
   void addRow(const WorldContact& contact, const WorldStep& step);
   void addUnknown(const WorldStep& step);
+  [[nodiscard]] PairKey pairOf(const WorldContact& contact) const;
   [[nodiscard]] bool isCarried(BodyId body, BodyId carrier, LinkId link, std::int64_t us) const;
+  [[nodiscard]] std::string objectOf(const WorldContact& contact) const;
   void keepEnded();
+  void count(const Touch& touch);
 
   const LoadedWorld& world_;
+  const WorldIntervals* followed_;
   LinkNumbers numbers_;
-  TouchTracker tracker_;
-  std::multiset<Pair> open_;
-  std::vector<Touch> listed_;
+  std::vector<WorldTouch> listed_;
   WorldTouchCounts counts_;
+  // Where the world is followed.
+  std::vector<std::int64_t> cuts_;  // where windows begin, and the last one ends
+  std::map<PairKey, std::vector<std::size_t>> placesOf_;  // in `listed_`, by begin
+  // Where it is not.
+  TouchTracker tracker_;
+  std::map<Key, WorldContact> open_;  // with the contact it begins with
   // Of the window that is being added.
   TouchStep step_;
   std::vector<LinkContact> contacts_;
-  std::vector<std::size_t> rowOf_, begunRows_, begun_;
+  std::vector<std::size_t> rowOf_, begunRows_;
   std::vector<Touch> ended_;
 };
 

@@ -4,7 +4,7 @@ import type { Avatar, ViewDocument } from "./data/document.js";
 import type { Contact } from "./contacts/contact.js";
 import { allContacts, longestStep } from "./contacts/contact.js";
 import type { Touch, TouchCount } from "./contacts/touch.js";
-import { countTouches, matches, mergedTouches, recordedTouches, touchOfRow } from "./contacts/touch.js";
+import { countTouches, matches, mergedTouches, recordedStays, recordedTouches, touchOfRow } from "./contacts/touch.js";
 import type { Clip } from "./motion/clip.js";
 import type { Place } from "./motion/placing.js";
 import { placeFrom } from "./motion/placing.js";
@@ -20,8 +20,10 @@ export class Model {
   private readonly trackedList: (Clip | null)[];
   private contactList: Contact[];
   private touchList: Touch[];
+  /** Touches, and who is in triggers: by begin. */
+  private barList: readonly Touch[];
   private touchOfContact = new Map<Contact, Touch>();
-  private shown: { search: string; showsGround: boolean; of: Touch[]; touches: readonly Touch[] } | null = null;
+  private shown: { search: string; showsGround: boolean; of: readonly Touch[]; touches: readonly Touch[] } | null = null;
   private longest: number;
   private zero: number | null = null;
 
@@ -31,6 +33,7 @@ export class Model {
     this.trackedList = document.avatars.map(trackedOf);
     this.contactList = allContacts(this.avatars, this.clips);
     this.touchList = this.touchesOf(this.contactList);
+    this.barList = this.barsOf();
     this.longest = longestStep(this.contactList);
   }
 
@@ -80,13 +83,23 @@ export class Model {
     return this.isLive || this.document.touches !== null;
   }
 
-  /** Those that a search and the choice of the ground leave. */
+  /** Bodies: nobody touches a trigger. */
+  get bodies(): readonly Avatar[] {
+    return this.avatarList.filter(({ outline }) => outline === null);
+  }
+
+  private barsOf(): readonly Touch[] {
+    const stays = recordedStays(this.document.stays, this.avatarList);
+    return stays.length === 0 ? this.touchList : [...this.touchList, ...stays].sort((a, b) => a.begin - b.begin);
+  }
+
+  /** Of touches and of who is in triggers those that a search and the choice of the ground leave. */
   shownTouches(search: string, showsGround: boolean): readonly Touch[] {
     const { shown } = this;
-    if (shown !== null && shown.search === search && shown.showsGround === showsGround && shown.of === this.touchList) return shown.touches;
+    if (shown !== null && shown.search === search && shown.showsGround === showsGround && shown.of === this.barList) return shown.touches;
     const isAll = search.trim() === "" && showsGround;
-    const touches = isAll ? this.touchList : this.touchList.filter((touch) => (showsGround || !touch.isGround) && matches(touch, search.trim()));
-    this.shown = { search, showsGround, of: this.touchList, touches };
+    const touches = isAll ? this.barList : this.barList.filter((touch) => (showsGround || !touch.isGround) && matches(touch, search.trim()));
+    this.shown = { search, showsGround, of: this.barList, touches };
     return touches;
   }
 
@@ -112,6 +125,7 @@ export class Model {
   replaceContacts(contacts: Contact[]): void {
     this.contactList = contacts;
     this.touchList = this.touchesOf(contacts);
+    this.barList = this.barsOf();
     this.longest = longestStep(contacts);
   }
 

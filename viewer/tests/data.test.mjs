@@ -8,7 +8,7 @@ import { allContacts, contactsAt, firstAfter, longestStep } from "../build/conta
 import { discreteCount, isSeenAtPose, touchingLinks } from "../build/contacts/discrete.js";
 import { mostTelling } from "../build/contacts/telling.js";
 import { RecordedClip } from "../build/motion/recorded_clip.js";
-import { matches, mergedTouches, recordedTouches, touchOfRow } from "../build/contacts/touch.js";
+import { countTouches, matches, mergedTouches, recordedStays, recordedTouches, touchOfRow } from "../build/contacts/touch.js";
 import { densityOf, nearestTouch, rowsOf, ticks, zoomed } from "../build/timeline/rows.js";
 import { f32, f64, inspection, live, pageWith, replay, stepEvent, u16, u32, withTouches } from "./fixture.mjs";
 
@@ -16,6 +16,50 @@ const whole = replay({ seconds: 2, rate: 10 });
 const touched = withTouches(whole);
 const copy = () => structuredClone(touched);
 const decoded = (value) => decodeDocument(JSON.stringify(value));
+
+/** The same, followed from enter to leave, with a trigger. */
+const followed = () => {
+  const value = world(), [avatar] = value.avatars;
+  value.avatars.push({ ...structuredClone(avatar), name: "zone", contacts: [], lss: [], outline: f32([0, 0, 0, 1, 0, 0]) });
+  Object.assign(value.touches[0], { approach: { speed: 1.5, lower: -0.25, upper: null }, effective_mass: 4, impulse: 6 });
+  value.touches.push({ link: 2, object: "everybody", begin: 1, end: 1.5, rows: [], unresolved: "gap" });
+  value.stays = [{ trigger: 2, avatar: 1, link: 3, begin: 0.2, end: 0.9, begins: "inside", ends: "open" }];
+  return value;
+};
+
+test("strengths, what is unresolved and who is in a trigger are read, and belong together", () => {
+  const view = decoded(followed());
+  assert.deepEqual(view.touches[0].strength, { speed: 1.5, lower: -0.25, upper: null, effectiveMass: 4, impulse: 6 });
+  assert.equal(view.touches.at(-1).unresolved, "gap");
+  assert.equal(view.touches[1].strength, null);
+  assert.deepEqual([...view.avatars[2].outline], [0, 0, 0, 1, 0, 0]);
+  assert.deepEqual(view.stays, [{ trigger: 2, avatar: 1, link: 3, begin: 0.2, end: 0.9, begins: "inside", ends: "open", isUnresolved: false }]);
+  assert.deepEqual(decoded(whole).stays, []);
+
+  const wrongly = (change, expected) => {
+    const value = followed();
+    change(value);
+    assert.throws(() => decoded(value), expected);
+  };
+  wrongly((v) => (v.stays[0].trigger = 1), /no trigger/);
+  wrongly((v) => (v.stays[0].trigger = 3), /trigger/);
+  wrongly((v) => (v.stays[0].link = 16), /link/);
+  wrongly((v) => (v.stays[0].end = 0.1), /end/);
+  wrongly((v) => (v.stays[0].ends = "gone"), /ends/);
+  wrongly((v) => (v.touches[0].approach.speed = "fast"), /speed/);
+  wrongly((v) => (v.avatars[2].outline = f32([0, 0, 0, 1])), /within a line/);
+});
+
+test("a trigger has a row of its own, and neither that nor what is unresolved counts as a touch", () => {
+  const view = decoded(followed()), clips = view.avatars.map((avatar) => new RecordedClip(avatar.links, avatar.track));
+  const touches = recordedTouches(view.touches, view.avatars, allContacts(view.avatars, clips));
+  const bars = [...touches, ...recordedStays(view.stays, view.avatars)];
+  assert.equal(countTouches(bars).all + countTouches(bars).ground, view.touches.length - 1);
+  const rows = rowsOf(bars, view.avatars, "link", new Set());
+  assert.deepEqual(rows.filter(({ touches }) => touches.some(({ isStay }) => isStay)).map(({ avatar, link }) => [avatar, link]), [[2, 0]]);
+  const groups = rowsOf(bars, view.avatars, "limb", new Set()).filter(({ isHeading }) => isHeading).map(({ name }) => name);
+  assert.equal(groups.at(-1), "triggers");
+});
 
 test("documents of every kind are read", () => {
   const view = decoded(whole);

@@ -23,6 +23,7 @@ from foretouch._types import (
     Lss,
     NearFeatures,
     Occupant,
+    OpenPart,
     PairRadius,
     PairRadiusLike,
     Policy,
@@ -36,12 +37,14 @@ from foretouch._types import (
     SweptSurface,
     TriggerEvent,
     WorldContacts,
+    WorldEvents,
 )
 
 _Path = Union[str, bytes, os.PathLike[str], os.PathLike[bytes]]
 _LssLike = Union[Lss, tuple[npt.ArrayLike, npt.ArrayLike, float]]
 
 __version__: str
+EVERY_BODY: int
 
 class Error(Exception):
     code: Optional[str]
@@ -482,6 +485,24 @@ class World:
     @property
     def tolerance(self) -> float: ...
     def depth(self, utime_us: int, body: int, other: Optional[int] = None) -> Depth: ...
+
+class Follower:
+    def __init__(
+        self, world: World, from_us: int, *, threads: int = 1, cut_us: int = 0
+    ) -> None: ...
+    def weigh(
+        self,
+        body: int,
+        kg: float,
+        *,
+        center: Optional[npt.ArrayLike] = None,
+        inertia: Optional[npt.ArrayLike] = None,
+    ) -> None: ...
+    def follow(self, until_us: int) -> WorldEvents: ...
+    @property
+    def open(self) -> list[OpenPart]: ...
+    @property
+    def followed_until(self) -> int: ...
 
 class Triggers:
     def __init__(self, world: World, from_us: int) -> None: ...

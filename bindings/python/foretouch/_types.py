@@ -297,6 +297,99 @@ class WorldContacts(NamedTuple):
     """Work done, by kind."""
 
 
+class EventPoint(NamedTuple):
+    """Two points, one of each side, that are near at an event's instant. World frame."""
+
+    a: Doubles
+    b: Doubles
+    separation: float
+    """Metres; below zero where the two overlap."""
+
+
+class WorldEvent(NamedTuple):
+    """One thing that happens to two links, or to a link and an object of a mesh or of what stands
+    still. Metres, seconds, kilograms, world frame."""
+
+    kind: str
+    """'enter': the two were free. 'leave': they are, from here on. 'starts_inside': they are in
+    contact where they are known first. 'unresolved_from', 'unresolved_to': nothing is claimed."""
+    time_us: int
+    """Whole microseconds. An enter is never later than it is, a leave never earlier."""
+    fraction: float
+    """Of one microsecond more, in [0, 1)."""
+    since_us: int
+    """When that began which ends here; else as the time."""
+    since_fraction: float
+    a: ContactSide
+    b: ContactSide
+    """Of what is unresolved its body may be EVERY_BODY: whatever a is asked about."""
+    separation: float
+    penetration: float
+    normal: Doubles
+    """(3,), unit, from b to a; zero if none is told."""
+    velocity: Doubles
+    """(3,), of a's point less b's, m/s."""
+    approach_speed: float
+    """Along the normal, above zero while the two approach, m/s."""
+    approach_lower: float
+    """If these two points touch, they do so at a speed between this one and the next. Below zero: a
+    graze, perhaps."""
+    approach_upper: float
+    effective_mass: float
+    """Along the normal, of those that were weighed; infinite if neither was."""
+    points: list[EventPoint]
+    """Up to four, the nearest first."""
+    reason: Optional[str]
+    """Of what is unresolved."""
+    is_not_asked: bool
+    """Of a leave: the two are not known to be apart; one carries the other, or ask() says so."""
+    is_assumed: bool
+
+
+class WorldPart(NamedTuple):
+    """What two do in a part of the time. Everything else is free: proven."""
+
+    kind: str
+    """'contact': at most twice the tolerance apart throughout. 'unresolved': nothing is claimed."""
+    from_us: int
+    from_fraction: float
+    to_us: int
+    to_fraction: float
+    since_us: int
+    """When it began: at its begin or before."""
+    since_fraction: float
+    a: ContactSide
+    b: ContactSide
+    reason: Optional[str]
+    began_before: bool
+    goes_on: bool
+    """It ends where the time that was asked does."""
+    is_assumed: bool
+
+
+class OpenPart(NamedTuple):
+    """A contact, or something unresolved, that has not ended."""
+
+    kind: str
+    since_us: int
+    since_fraction: float
+    a: ContactSide
+    b: ContactSide
+    reason: Optional[str]
+
+
+class WorldEvents(NamedTuple):
+    """What happened from one Follower.follow() to the next."""
+
+    from_us: int
+    to_us: int
+    events: list[WorldEvent]
+    """The earliest first; at one instant what ends comes before what begins."""
+    parts: list[WorldPart]
+    """By pair, then by time."""
+    silent: list[SilentBody]
+
+
 class TriggerEvent(NamedTuple):
     """Who enters or leaves a trigger. An enter is never later than it is, a leave never earlier."""
 

@@ -68,13 +68,15 @@ inline std::uint64_t rejectsFor(const ServiceCounts& counts, Reject reason) {
 class Stage {
  public:
   explicit Stage(std::int32_t avatars = 1, ServiceOptions options = {}, bool isRecorded = false,
-                 StepObserver* observer = nullptr, bool areSolid = false) {
+                 StepObserver* observer = nullptr, bool areSolid = false,
+                 std::optional<WorldSolver> world = std::nullopt) {
     ServiceParts parts;
     parts.receiver = std::make_unique<FakeReceiver>(inbox);
     parts.publisher = std::make_unique<FakePublisher>(outbox);
     if (isRecorded) parts.journal = std::make_unique<FakeSink>(book);
     parts.clock = &clock;
     parts.observer = observer;
+    parts.world = std::move(world);
     service_.emplace(
         Service::start(solversOf(avatars, areSolid), std::move(parts), options).value());
   }

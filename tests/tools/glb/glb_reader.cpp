@@ -142,7 +142,9 @@ void GlbReader::checkMeshes() const {
       EXPECT_TRUE(root_["accessors"][positions].contains("min"));
       const std::size_t vertices = floats(positions).size() / 3;
       const std::vector<std::uint32_t> corners = indices(primitive.at("indices"));
-      EXPECT_EQ(corners.size() % 3, 0u);
+      constexpr int kLines = 1, kTriangles = 4;
+      const bool areLines = primitive.value("mode", kTriangles) == kLines;
+      EXPECT_EQ(corners.size() % (areLines ? 2 : 3), 0u);
       EXPECT_LT(*std::max_element(corners.begin(), corners.end()), vertices);
       if (primitive.contains("material")) {
         EXPECT_LT(primitive["material"].get<std::size_t>(), sizeOf(root_, "materials"));

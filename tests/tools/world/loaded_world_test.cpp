@@ -254,7 +254,7 @@ TEST(WorldWindows, GoFromPoseToPoseOfAnybody) {
   }
 }
 
-std::vector<tools::Touch> touchesOf(const LoadedWorld& world, tools::WorldTouches& touches) {
+std::vector<tools::WorldTouch> touchesOf(const LoadedWorld& world, tools::WorldTouches& touches) {
   const auto cuts = tools::windowsOf(world, {100.0, {}, {}});
   EXPECT_TRUE(cuts.ok());
   EXPECT_TRUE(tools::replayWorld(world, cuts.value(), [&](const tools::WorldStep& step) {
@@ -274,7 +274,7 @@ TEST(WorldTouchesTest, EndWhereTheTwoPartAndStayOpenWhereNobodyKnows) {
                   "position = [0.3, 0, 0]\n[[body.attach]]\ntime = 0.2\nto = \"man\"\nlink = "
                   "\"Hips\"\n"));
   ASSERT_TRUE(world.ok()) << describe(world.error());
-  tools::WorldTouches touches(world.value());
+  tools::WorldTouches touches(world.value(), nullptr);
   touchesOf(world.value(), touches);
   ASSERT_EQ(touches.listed().size(), 2u);
   const tools::Touch &ball = touches.listed()[0], &cup = touches.listed()[1];
@@ -301,7 +301,7 @@ TEST(WorldTouchesTest, StayOpenWhereSomebodyIsSilentOrHangsOnSomebodySilent) {
       sphereNamed("post", "position = [0.05, 10, 0]\n");
   const auto loaded = stage.load(world);
   ASSERT_TRUE(loaded.ok()) << describe(loaded.error());
-  tools::WorldTouches touches(loaded.value());
+  tools::WorldTouches touches(loaded.value(), nullptr);
   const auto listed = touchesOf(loaded.value(), touches);
   ASSERT_EQ(listed.size(), 1u);
   EXPECT_EQ(touches.sidesOf(listed[0]).a, 2);

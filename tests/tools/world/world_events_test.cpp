@@ -13,88 +13,15 @@
 #include "tests/support/holds.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_inputs.h"
-#include "tests/tools/world/small_stage.h"
+#include "tests/tools/world/followed_stage.h"
 
 namespace foretouch::test {
 namespace {
 
-using nlohmann::json;
-
 constexpr double kTolerance = 1e-3;
 constexpr double kSpeed = 5.0;  // of the man, m/s
 
-/// A file of events, as a reader of docs/formats.md takes it.
-struct EventsFile {
-  json header, summary;
-  std::vector<json> events, intervals, stays;
-};
-
-EventsFile readEvents(const std::string& text) {
-  EventsFile file;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    json one = json::parse(line);
-    if (file.header.is_null()) {
-      file.header = std::move(one);
-    } else if (one.count("event") != 0) {
-      file.events.push_back(std::move(one));
-    } else if (one.count("interval") != 0) {
-      file.intervals.push_back(one["interval"]);
-    } else if (one.count("stay") != 0) {
-      file.stays.push_back(one["stay"]);
-    } else {
-      file.summary = one.at("summary");
-    }
-  }
-  return file;
-}
-
-std::string nameOf(const json& side) {
-  return side.value("body", "") + " " + side.value("link", side.value("object", ""));
-}
-
-/// Which two an event or an interval is about.
-std::string pairOf(const json& of) {
-  if (of.count("trigger") != 0) return of["trigger"].get<std::string>() + ": " + nameOf(of["who"]);
-  return nameOf(of["a"]) + ", " + nameOf(of["b"]) + " " + of["b"].value("object", "");
-}
-
-std::pair<std::int64_t, double> exactTime(const json& of) {
-  return {of.at("utime").get<std::int64_t>(), of.at("fraction").get<double>()};
-}
-
-int orderOf(const std::string& kind) {
-  const std::vector<std::string> order{"leave", "unresolved_to", "starts_inside", "enter",
-                                       "unresolved_from"};
-  return static_cast<int>(std::find(order.begin(), order.end(), kind) - order.begin());
-}
-
-class WorldEventsFile : public testing::Test {
- protected:
-  [[nodiscard]] EventsFile follow(const std::string& world,
-                                  const std::vector<std::string>& more = {}) const {
-    const std::string events = folder_ / "events.jsonl";
-    std::vector<std::string> arguments{"world",    "replay", world, "-o", folder_ / "out.jsonl",
-                                       "--events", events};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Ended ended = runForetouch(arguments);
-    EXPECT_EQ(ended.exitCode, 0) << ended.err;
-    return readEvents(contentOf(events));
-  }
-
-  SmallStage stage_;
-  TempFolder folder_;
-};
-
-const json& find(const std::vector<json>& events, const std::string& kind,
-                 const std::string& pair) {
-  for (const json& event : events) {
-    if (event["event"] == kind && pairOf(event) == pair) return event;
-  }
-  static const json kNone;
-  ADD_FAILURE() << kind << " of " << pair;
-  return kNone;
-}
+using WorldEventsFile = FollowedStage;
 
 /// Hips of 0.1 m at x = -0.75 + 5 t pass a ball of 0.05 m at x = -0.3, and a trigger around it.
 TEST_F(WorldEventsFile, TellsOfAContactFromEnterToLeave) {
@@ -211,6 +138,97 @@ TEST_F(WorldEventsFile, DoesNotDependOnWindows) {
   EXPECT_EQ(poses.intervals, fine.intervals);
 }
 
+/// The lift is known until 0.1 s; who rides on it, in contact with a post, lets go at 0.2 s.
+TEST_F(WorldEventsFile, SaysWhereNothingIsKnown) {
+  const std::string world =
+      stage_.write(sphereNamed("lift", "when_silent = \"undecided\"\n" + poseAt(0, "0, 9, 0") +
+                                           poseAt(0.1, "0, 9, 0")) +
+                   sphereNamed("rider",
+                               "[[body.attach]]\ntime = 0\nto = \"lift\"\nposition = [0, 1, 0]\n"
+                               "[[body.detach]]\ntime = 0.2\nposition = [0, 10, 0]\n") +
+                   sphereNamed("post", poseAt(0, "0.05, 10, 0") + poseAt(0.3, "0.05, 10, 0")));
+  const EventsFile file = follow(world);
+  std::vector<std::string> told;
+  for (const json& event : file.events) {
+    const std::string kind = event["event"];
+    told.push_back(kind + " " + std::to_string(event["utime"].get<std::int64_t>()));
+    const bool isTold = kind == "starts_inside";
+    EXPECT_EQ(event.count("reason"), isTold ? 0u : 1u) << event;
+    for (const char* key : {"separation", "normal", "velocity", "approach", "points"}) {
+      EXPECT_EQ(event.count(key), isTold ? 1u : 0u) << event;
+    }
+    EXPECT_EQ(event.value("reason", "gap"), "gap");
+  }
+  EXPECT_EQ(told, (std::vector<std::string>{"starts_inside 0", "unresolved_from 100000",
+                                            "unresolved_from 100000", "unresolved_to 200000",
+                                            "starts_inside 200000"}));
+  const json &lift = file.events.at(1), &rider = file.events.at(2), &again = file.events.at(3);
+  EXPECT_EQ(lift["a"], (json{{"body", "lift"}}));
+  EXPECT_EQ(lift["b"], (json{{"everybody", true}}));
+  EXPECT_EQ(rider["a"], (json{{"body", "rider"}}));
+  EXPECT_EQ(rider["b"], (json{{"body", "post"}}));
+  EXPECT_EQ(again["since"]["utime"], 100000);
+  EXPECT_EQ(again["a"], rider["a"]);
+  std::map<std::string, std::vector<std::int64_t>> unresolved;
+  for (const json& interval : file.intervals) {
+    if (interval["kind"] != "unresolved") continue;
+    EXPECT_EQ(interval["reason"], "gap");
+    unresolved[interval["a"]["body"]] = {interval["from"]["utime"], interval["to"]["utime"]};
+  }
+  EXPECT_EQ(unresolved, (std::map<std::string, std::vector<std::int64_t>>{
+                            {"lift", {100000, 300000}}, {"rider", {100000, 200000}}}));
+  EXPECT_EQ(file.summary["events"]["unresolved_from"], 2);
+  EXPECT_EQ(file.summary["events"]["unresolved_to"], 1);
+}
+
+/// A contact that becomes unresolved ends without a leave.
+TEST_F(WorldEventsFile, ClaimsNoLeaveOfWhoFallsSilent) {
+  const std::string world = stage_.write(
+      kManWalks + sphereNamed("ball", "when_silent = \"undecided\"\n" + poseAt(0, "-0.3, 0, 0") +
+                                          poseAt(0.08, "-0.3, 0, 0")));
+  const EventsFile file = follow(world);
+  find(file.events, "enter", "man Hips, ball  ");
+  for (const json& event : file.events) EXPECT_NE(event["event"], "leave") << event;
+  ASSERT_GE(file.intervals.size(), 2u);
+  const json& contact = file.intervals[0];
+  EXPECT_EQ(contact["kind"], "contact");
+  EXPECT_EQ(contact["to"]["utime"], 80000);
+  EXPECT_EQ(contact.count("goes_on"), 0u);
+}
+
+/// The cup lies where the man's hips are at 0.2 s, where he takes it.
+TEST_F(WorldEventsFile, SaysWhyAContactEndsThatNobodyAsksAbout) {
+  const std::string world =
+      stage_.write(kManWalks +
+                   sphereNamed("cup",
+                               "position = [0.3, 0, 0]\n[[body.attach]]\ntime = 0.2\nto = "
+                               "\"man\"\nlink = \"Hips\"\n") +
+                   sphereNamed("ball", "position = [-0.3, 0, 0]\n"));
+  const EventsFile file = follow(world);
+  const json& taken = find(file.events, "leave", "man Hips, cup  ");
+  EXPECT_EQ(taken["cause"], "not_asked");
+  EXPECT_EQ(taken["utime"], 200000);
+  EXPECT_EQ(find(file.events, "leave", "man Hips, ball  ").count("cause"), 0u);
+}
+
+/// The ball is known until 0.05 s, and taken to stay; the man meets it at 0.06 s.
+TEST_F(WorldEventsFile, MarksWhatRestsOnWhoHoldsStill) {
+  const std::string ball =
+      sphereNamed("ball", "when_silent = \"hold-still\"\n" + poseAt(0, "-0.3, 0, 0") +
+                              poseAt(0.05, "-0.3, 0, 0"));
+  const std::string wall = "[scene]\nfile = \"wall.obj\"\n";
+  const EventsFile file = follow(stage_.write(wall + kManWalks + ball));
+  EXPECT_EQ(find(file.events, "enter", "man Hips, ball  ")["assumed"], true);
+  EXPECT_EQ(find(file.events, "enter", "man Hips,  wall wall").count("assumed"), 0u);
+  int assumed = 0;
+  for (const json& interval : file.intervals) {
+    if (interval["b"].value("body", "") != "ball") continue;
+    EXPECT_EQ(interval.value("assumed", false), true);
+    ++assumed;
+  }
+  EXPECT_EQ(assumed, 1);
+}
+
 /// From within a contact on: it was there already; and it goes on at the end.
 TEST_F(WorldEventsFile, SaysWhatStartsInsideAndWhatGoesOn) {
   const std::string world =
@@ -232,23 +250,46 @@ TEST_F(WorldEventsFile, SaysWhatStartsInsideAndWhatGoesOn) {
   }
 }
 
-/// Triggers are nobody for who asks who touches whom.
+/// Triggers are nobody for who asks who touches whom. Their poses cut the time of who is followed,
+/// so that roundings differ.
 TEST_F(WorldEventsFile, TriggersChangeNoResults) {
   const std::string bodies = "[scene]\nfile = \"wall.obj\"\n" + kManWalks +
                              sphereNamed("ball", "position = [-0.3, 0, 0]\n");
+  struct Results {
+    std::string windows;
+    std::vector<json> touches;
+  };
   const auto resultsOf = [&](const std::string& text) {
     const std::string out = folder_ / "out.jsonl";
     const Ended ended = runForetouch({"world", "replay", stage_.write(text), "-o", out});
     EXPECT_EQ(ended.exitCode, 0) << ended.err;
-    std::string lines;
+    Results results;
     std::istringstream stream(contentOf(out));
-    for (std::string line; std::getline(stream, line);) lines += withoutLatency(line) + "\n";
-    return lines;
+    for (std::string line; std::getline(stream, line);) {
+      const json one = json::parse(line);
+      if (one.count("touch") != 0) {
+        results.touches.push_back(one["touch"]);
+      } else {
+        results.windows += withoutLatency(line) + "\n";
+      }
+    }
+    return results;
   };
-  EXPECT_EQ(resultsOf(bodies),
-            resultsOf(bodies + "[[trigger]]\nname = \"zone\"\nsphere = 0.4\n" +
-                      "[[trigger.pose]]\ntime = 0.017\nposition = [-0.3, 0, 0]\n"
-                      "[[trigger.pose]]\ntime = 0.21\nposition = [-0.3, 0.1, 0]\n"));
+  const Results without = resultsOf(bodies);
+  const Results with = resultsOf(bodies + "[[trigger]]\nname = \"zone\"\nsphere = 0.4\n" +
+                                 "[[trigger.pose]]\ntime = 0.017\nposition = [-0.3, 0, 0]\n"
+                                 "[[trigger.pose]]\ntime = 0.21\nposition = [-0.3, 0.1, 0]\n");
+  EXPECT_EQ(without.windows, with.windows);
+  ASSERT_EQ(without.touches.size(), with.touches.size());
+  ASSERT_EQ(without.touches.size(), 3u);
+  for (std::size_t i = 0; i < with.touches.size(); ++i) {
+    EXPECT_EQ(without.touches[i]["a"], with.touches[i]["a"]);
+    EXPECT_EQ(without.touches[i]["b"], with.touches[i]["b"]);
+    EXPECT_EQ(without.touches[i]["contacts"], with.touches[i]["contacts"]);
+    for (const char* end : {"begin", "end"}) {
+      EXPECT_NEAR(without.touches[i][end].get<double>(), with.touches[i][end].get<double>(), 1e-9);
+    }
+  }
 }
 
 TEST_F(WorldEventsFile, SaysWhatIsWrongWithATrigger) {

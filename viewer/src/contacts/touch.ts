@@ -1,7 +1,7 @@
 // Touches: a link and an object from their first contact to where it ends, over all steps. The
 // contacts of the single steps are the rows of a touch.
 
-import type { Avatar, RecordedTouch } from "../data/document.js";
+import type { Avatar, RecordedStay, RecordedTouch, Strength } from "../data/document.js";
 import type { Contact } from "./contact.js";
 
 export interface Touch {
@@ -20,9 +20,14 @@ export interface Touch {
   readonly isGround: boolean;
   /** A check of the poses alone sees nothing of it; null where nobody looked. */
   readonly isMissed: boolean | null;
+  /** Nothing is claimed of the two: it is no touch. */
   readonly isUndecided: boolean;
   /** In order of time; those that the document carries. */
   readonly rows: readonly Contact[];
+  /** Where it begins; null where nobody looked. */
+  readonly strength: Strength | null;
+  /** Somebody is in a trigger: it is no touch. */
+  readonly isStay: boolean;
 }
 
 /** Of the document, in its order: by begin. `contacts` as allContacts() has them. */
@@ -39,10 +44,33 @@ export function recordedTouches(
       rows,
       linkName: avatars[touch.avatar].links[touch.link].name,
       isOwn: touch.other !== null && touch.otherAvatar === null,
-      isUndecided: false,
+      isUndecided: touch.unresolved !== null,
+      isStay: false,
     };
   });
   return touches.sort((a, b) => a.begin - b.begin);
+}
+
+/** Who is in triggers, as bars. */
+export function recordedStays(stays: readonly RecordedStay[], avatars: readonly Avatar[]): Touch[] {
+  return stays.map((stay): Touch => ({
+    avatar: stay.avatar,
+    link: stay.link,
+    linkName: avatars[stay.avatar].name,
+    object: avatars[stay.trigger].name,
+    isOwn: false,
+    otherAvatar: stay.trigger,
+    begin: stay.begin,
+    end: stay.end,
+    begins: stay.begins === "inside" ? "inside" : "contact",
+    ends: stay.ends,
+    isGround: false,
+    isMissed: null,
+    isUndecided: stay.isUnresolved,
+    rows: [],
+    strength: null,
+    isStay: true,
+  }));
 }
 
 /** Where a document knows no touches, each contact is one. */
@@ -62,6 +90,8 @@ export function touchOfRow(contact: Contact): Touch {
     isMissed: contact.verdict === "contact" ? contact.missedByPoses : null,
     isUndecided: contact.verdict === "undecided",
     rows: [contact],
+    strength: null,
+    isStay: false,
   };
 }
 
@@ -121,7 +151,7 @@ export interface TouchCount {
 
 /** As the program counts: touches of own links are another question, and the ground is counted apart. */
 export function countTouches(touches: readonly Touch[]): TouchCount {
-  const ofScene = touches.filter((touch) => !touch.isOwn);
+  const ofScene = touches.filter((touch) => !touch.isOwn && !touch.isStay && (!touch.isUndecided || touch.rows.length > 0));
   const met = ofScene.filter((touch) => !touch.isGround);
   return {
     all: met.length,

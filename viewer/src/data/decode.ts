@@ -4,7 +4,7 @@ import type { Avatar, Kind, SummaryLine, ViewDocument } from "./document.js";
 import { Malformed, Reader } from "./reader.js";
 import { decodeAvatar } from "./decode_avatar.js";
 import { decodeScene, emptyScene } from "./decode_scene.js";
-import { decodeCheck, decodeTouch } from "./decode_touch.js";
+import { decodeCheck, decodeStay, decodeTouch } from "./decode_touch.js";
 
 export const formatName = "foretouch-view";
 export const formatVersion = 1;
@@ -42,6 +42,7 @@ function decodeValue(value: unknown): ViewDocument {
     scene: scene === null ? emptyScene : decodeScene(scene),
     avatars,
     touches: root.optional("touches")?.items().map((item) => decodeTouch(item, avatars)) ?? null,
+    stays: (root.optional("stays")?.items() ?? []).map((item) => decodeStay(item, avatars)),
     checks: (root.optional("checks")?.items() ?? []).map(decodeCheck),
     events: kind === "live" ? eventsAddress(root) : null,
   };

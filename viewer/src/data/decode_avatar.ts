@@ -32,7 +32,17 @@ export function decodeAvatar(reader: Reader): Avatar {
       decodeSwept(item, links.length, steps),
     ),
     carried: (reader.optional("carried")?.items() ?? []).map(decodeCarried),
+    outline: decodeOutline(reader),
   };
+}
+
+/** Whole lines: two points of three numbers. */
+function decodeOutline(reader: Reader): Float32Array | null {
+  const outline = reader.optional("outline");
+  if (outline === null) return null;
+  const points = outline.typed("f32");
+  if (points.length % 6 !== 0) outline.fail("ends within a line");
+  return points;
 }
 
 /** Who carries is checked where all avatars are known. */

@@ -1,4 +1,4 @@
-import type { Avatar, Check, RecordedTouch } from "./document.js";
+import type { Avatar, Check, RecordedStay, RecordedTouch, Strength } from "./document.js";
 import type { Reader } from "./reader.js";
 
 /** What rounding may put the end of a touch before its begin, seconds. */
@@ -25,6 +25,42 @@ export function decodeTouch(item: Reader, avatars: readonly Avatar[]): RecordedT
     isGround: item.optional("ground")?.flag() ?? false,
     isMissed: item.optional("missed")?.flag() ?? false,
     rows: (item.optional("rows")?.items() ?? []).map((row) => row.index(contacts.length)),
+    strength: decodeStrength(item),
+    unresolved: item.optional("unresolved")?.text() ?? null,
+  };
+}
+
+function decodeStrength(item: Reader): Strength | null {
+  const approach = item.optional("approach");
+  if (approach === null) return null;
+  return {
+    speed: finite(approach, "speed"),
+    lower: finite(approach, "lower"),
+    upper: finite(approach, "upper"),
+    effectiveMass: finite(item, "effective_mass"),
+    impulse: finite(item, "impulse"),
+  };
+}
+
+/** Null for what is absent or null: no number stands for infinity. */
+function finite(item: Reader, name: string): number | null {
+  const field = item.optional(name);
+  return field === null || field.value === null ? null : field.number();
+}
+
+export function decodeStay(item: Reader, avatars: readonly Avatar[]): RecordedStay {
+  const trigger = item.field("trigger"), index = trigger.index(avatars.length);
+  if (avatars[index].outline === null) trigger.fail("is no trigger");
+  const avatar = item.field("avatar").index(avatars.length), begin = item.field("begin").number();
+  return {
+    trigger: index,
+    avatar,
+    link: item.optional("link")?.index(avatars[avatar].links.length) ?? 0,
+    begin,
+    end: Math.max(begin, item.field("end").number(begin - rounding)),
+    begins: item.optional("begins")?.oneOf(["enter", "inside"] as const) ?? "enter",
+    ends: item.optional("ends")?.oneOf(["left", "open"] as const) ?? "left",
+    isUnresolved: item.optional("unresolved")?.flag() ?? false,
   };
 }
 

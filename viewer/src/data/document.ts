@@ -17,6 +17,8 @@ export interface ViewDocument {
   readonly avatars: readonly Avatar[];
   /** Null where the document has none: then every contact stands for itself. */
   readonly touches: readonly RecordedTouch[] | null;
+  /** Who is in triggers, by begin. */
+  readonly stays: readonly RecordedStay[];
   /** Of inspections: what the program says about unit, axis and place. */
   readonly checks: readonly Check[];
   /** Where live events come from; null where the document is no live one. */
@@ -79,6 +81,8 @@ export interface Avatar {
   readonly swept: readonly SweptSurface[];
   /** When others carry it: its poses are then in the frame of a link of theirs. */
   readonly carried: readonly Carried[];
+  /** Of a trigger, which nobody touches: its outline, two points (x, y, z) per line; else null. */
+  readonly outline: Float32Array | null;
 }
 
 export interface Carried {
@@ -179,6 +183,18 @@ export interface RecordedContact extends ContactFields {
   readonly step: number;
 }
 
+/** How hard two meet: metres a second along the normal, kilograms, newton seconds; null where it is not known. */
+export interface Strength {
+  /** Above zero while they approach; if they touch, it is proven to be between the next two. */
+  readonly speed: number | null;
+  readonly lower: number | null;
+  readonly upper: number | null;
+  /** That meets the other along the normal; null where nothing of the two has a mass. */
+  readonly effectiveMass: number | null;
+  /** That would take the approach away. */
+  readonly impulse: number | null;
+}
+
 /** A link and an object (or another link, of the same avatar or of another one) from first contact to where it ends. */
 export interface RecordedTouch {
   readonly avatar: number;
@@ -200,6 +216,24 @@ export interface RecordedTouch {
   readonly isMissed: boolean;
   /** Indices into the avatar's contacts. */
   readonly rows: readonly number[];
+  /** Where it begins; null where nobody looked. */
+  readonly strength: Strength | null;
+  /** Why nothing is claimed of the two in this time, which is then no touch; null of touches. */
+  readonly unresolved: string | null;
+}
+
+/** Somebody is in a trigger, or nothing is known of that. */
+export interface RecordedStay {
+  /** Indices into the document's avatars. */
+  readonly trigger: number;
+  readonly avatar: number;
+  /** Whose entering it begins with. */
+  readonly link: number;
+  readonly begin: number;
+  readonly end: number;
+  readonly begins: "enter" | "inside";
+  readonly ends: "left" | "open";
+  readonly isUnresolved: boolean;
 }
 
 /** One verdict of an inspection, and what to try where it is no good one. */

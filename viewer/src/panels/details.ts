@@ -8,7 +8,18 @@ import type { LinkChoice, Store } from "../state.js";
 import type { Touch } from "../contacts/touch.js";
 import { chooseContact } from "./choosing.js";
 import { button, definitionTable, element } from "./dom.js";
-import { count, length, plural, seconds, tally, vector } from "./words.js";
+import { count, length, plural, seconds, speed, tally, vector } from "./words.js";
+
+/** How hard the two meet. */
+function linesOfForce({ strength }: Touch): Line[] {
+  if (strength === null) return [];
+  const { speed: at, lower, upper, effectiveMass, impulse } = strength;
+  const lines: Line[] = [];
+  if (at !== null) lines.push(["approach", speed(at), lower === null || upper === null ? "" : `where they touch, proven between ${speed(lower)} and ${speed(upper)}`]);
+  if (effectiveMass !== null) lines.push(["effective mass", `${effectiveMass.toPrecision(3)} kg`, "that meets the other along the normal"]);
+  if (impulse !== null) lines.push(["impulse", `${impulse.toPrecision(3)} N s`, "that would take the approach away"]);
+  return lines;
+}
 
 /** Of one touch, in the list of its contacts. */
 const maxRows = 40;
@@ -48,16 +59,19 @@ export class Details {
 
   private ofTouch(touch: Touch, contact: Contact | null): Node[] {
     const zero = this.model.timeZero;
+    const kind = touch.isStay ? "trigger" : touch.isGround ? "ground" : touch.isUndecided ? "undecided" : touch.begins === "inside" ? "starts_in_contact" : "contact";
     const parts: Node[] = [element("p", { class: "who" },
-      element("span", { class: `swatch ${touch.isGround ? "ground" : touch.begins === "inside" ? "starts_in_contact" : "contact"}` }),
+      element("span", { class: `swatch ${kind}` }),
       element("strong", { text: touch.linkName }),
-      element("span", { text: touch.object === "" ? "" : ` × ${touch.object}` }),
+      element("span", { text: touch.object === "" ? "" : touch.isStay ? ` in ${touch.object}` : ` × ${touch.object}` }),
     )];
+    if (touch.isUndecided) parts.push(element("p", { class: "badge", text: "Nothing is claimed in this time" }));
     if (touch.isMissed === true) parts.push(element("p", { class: "badge", text: "A check of the poses misses it" }));
     parts.push(definitionTable([
-      ["begins", seconds(touch.begin - zero), touch.begins === "inside" ? "it touched already when somebody first looked" : ""],
-      ["ends", seconds(touch.end - zero), touch.ends === "open" ? "it still touches" : `after ${seconds(touch.end - touch.begin)}`],
+      ["begins", seconds(touch.begin - zero), touch.begins === "inside" ? `it ${touch.isStay ? "was inside" : "touched"} already when somebody first looked` : ""],
+      ["ends", seconds(touch.end - zero), touch.ends === "open" ? (touch.isStay ? "it is still inside" : "it still touches") : `after ${seconds(touch.end - touch.begin)}`],
       ...(touch.isGround ? [["ground", "yes", "it stands on what it touches"] as const] : []),
+      ...linesOfForce(touch),
     ]));
     if (touch.rows.length > 0) parts.push(this.rowsOf(touch, contact));
     if (contact !== null) parts.push(element("h3", { text: `The contact in step ${count(contact.step)}` }), definitionTable(this.linesOf(contact)));

@@ -31,10 +31,10 @@ function ofSolid(model: Model): string {
 
 /** Who moves among others touches them, and the scene. */
 function ofWorld(model: Model): string {
-  const { all, missed, ground } = model.countTouches(), bodies = plural(model.avatars.length, "body", "bodies");
+  const { all, missed, ground } = model.countTouches(), bodies = plural(model.bodies.length, "body", "bodies");
   if (model.document.touches === null) return `${bodies} that move; who touches whom was not asked.`;
   if (all + ground === 0) return `${bodies}, and nobody touches anything.`;
-  const met = model.touches.filter((touch) => touch.otherAvatar !== null).length;
+  const met = model.touches.filter((touch) => touch.otherAvatar !== null && !touch.isUndecided).length;
   const scene = all + ground - met;
   const others = met === 0 ? "do not touch each other" : `touch each other ${times(met)}`;
   const rest = scene === 0 ? "" : `${met === 0 ? "; they touch" : ", and"} the ${placeOf(model.document.scene.name)} ${times(scene)}`;

@@ -51,10 +51,11 @@ export class Legend {
         this.entry("asked", "pose asked for", meaningOf("pose asked for"), (state.showsGhosts && hasStep && isStill) || (state.showsDiscrete && !state.isPlaying)),
         this.entry("at-contact", "pose at the contact", "The body where it first touches.", state.showsGhosts && isElsewhere && isStill),
       ]),
+      ...(model.bodies.length < model.avatars.length ? [this.entry("trigger", "trigger", meaningOf("trigger"), true)] : []),
       ...(hasSwept ? [this.entry("swept", "swept volume", meaningOf("swept volume"), state.showsSwept && state.contact !== null)] : []),
       this.entry("mark contact", "contact", "Where a link first touches in a step; small and pale: at another instant.", true),
       this.entry("mark starts_in_contact", "starts in contact", meaningOf("starts in contact"), true),
-      this.entry("normal", "normal", meaningOf("normal"), true),
+      this.entry("normal", "normal", `${meaningOf("normal")}${model.touches.some(({ strength }) => strength !== null) ? " Where a touch begins: the longer, the faster the two approach." : ""}`, true),
     ];
   }
 

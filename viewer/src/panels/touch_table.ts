@@ -6,15 +6,16 @@ import type { Store } from "../state.js";
 import { chooseTouch } from "./choosing.js";
 import { csvOf, type Cells } from "./csv.js";
 import { button, element, explained, offerFile } from "./dom.js";
-import { count, length, seconds } from "./words.js";
+import { count, length, seconds, speed } from "./words.js";
 
 const rowsPerPage = 50;
-const columns = ["begin", "lasts", "link", "object", "begins", "separation", "at poses"];
+const columns = ["begin", "lasts", "link", "object", "begins", "separation", "at poses"], forceColumns = ["approach", "impulse"];
 
 export class TouchTable {
   readonly node = element("details", { class: "card touch-table" });
   private readonly body = element("tbody");
   private readonly place = element("span", { class: "quiet" });
+  private readonly hasForces: boolean;
   private page = 0;
 
   constructor(
@@ -22,7 +23,8 @@ export class TouchTable {
     private readonly store: Store,
   ) {
     const word = model.knowsTouches ? "touches" : "contacts";
-    const head = element("tr", {}, ...columns.map((name) => element("th", {}, explained(name))));
+    this.hasForces = model.touches.some(({ strength }) => strength !== null);
+    const head = element("tr", {}, ...[...columns, ...(this.hasForces ? forceColumns : [])].map((name) => element("th", {}, explained(name))));
     head.querySelectorAll("th").forEach((cell) => (cell.scope = "col"));
     const table = element("table", { class: "rows", label: `All ${word}` }, element("thead", {}, head), this.body);
     const pages = element("div", { class: "pages" },
@@ -69,22 +71,28 @@ export class TouchTable {
   private texts(touch: Touch): string[] {
     const { separation } = touch.rows[0] ?? { separation: null };
     const lasts = `${seconds(touch.end - touch.begin)}${touch.ends === "open" ? " +" : ""}`;
-    const begins = touch.isUndecided ? "undecided" : touch.begins === "inside" ? "inside" : "contact";
+    const begins = touch.isUndecided ? "undecided" : touch.isStay ? (touch.begins === "inside" ? "inside the trigger" : "enters the trigger") : touch.begins === "inside" ? "inside" : "contact";
     const atPoses = touch.isMissed === null ? "" : touch.isMissed ? "missed" : "seen";
-    return [lasts, touch.linkName, touch.object, touch.isGround ? `${begins}, ground` : begins, separation === null ? "" : length(separation), atPoses];
+    return [lasts, touch.linkName, touch.object, touch.isGround ? `${begins}, ground` : begins, separation === null ? "" : length(separation), atPoses, ...(this.hasForces ? forcesOf(touch) : [])];
   }
 
   /** In seconds and metres, with a dot, in full. */
   private save(): void {
     const zero = this.model.timeZero;
-    const head = ["begin_s", "end_s", "avatar", "link", "object", "begins", "ends", "ground", "missed", "separation_m", "x_m", "y_m", "z_m"];
+    const head = ["begin_s", "end_s", "avatar", "link", "object", "begins", "ends", "ground", "missed", "separation_m", "x_m", "y_m", "z_m", "trigger", "approach_m_s", "effective_mass_kg", "impulse_N_s"];
     const lines = this.touches().map((touch): Cells => {
       const row = touch.rows[0], point = row?.point ?? [null, null, null];
       return [
         touch.begin - zero, touch.end - zero, this.model.avatars[touch.avatar].name, touch.linkName, touch.object,
         touch.isUndecided ? "undecided" : touch.begins, touch.ends, touch.isGround, touch.isMissed, row?.separation ?? null, ...point,
+        touch.isStay, touch.strength?.speed ?? null, touch.strength?.effectiveMass ?? null, touch.strength?.impulse ?? null,
       ];
     });
     offerFile(`${this.model.document.title}.csv`, new Blob([csvOf([head, ...lines])], { type: "text/csv" }));
   }
+}
+
+function forcesOf({ strength }: Touch): string[] {
+  if (strength === null) return ["", ""];
+  return [strength.speed === null ? "" : speed(strength.speed), strength.impulse === null ? "" : `${strength.impulse.toPrecision(3)} N s`];
 }

@@ -2,7 +2,7 @@
 
 import type { Contact } from "../contacts/contact.js";
 import type { Touch } from "../contacts/touch.js";
-import type { Vector, Verdict } from "../data/document.js";
+import type { Strength, Vector, Verdict } from "../data/document.js";
 
 export function seconds(value: number): string {
   return `${value.toFixed(3)} s`;
@@ -82,6 +82,8 @@ export function story(contact: Contact, timeZero: number): string {
 export function storyOfTouch(touch: Touch, timeZero: number): string {
   const object = touch.object === "" ? "the scene" : touch.object;
   const from = seconds(touch.begin - timeZero), to = seconds(touch.end - timeZero);
+  if (touch.isStay) return touch.isUndecided ? `It is not known whether ${touch.linkName} is in ${object} from ${from} to ${to}.` : `${touch.linkName} is in ${object} from ${from} to ${to}${touch.ends === "open" ? ", and still when the clip ends" : ""}.`;
+  if (touch.isUndecided && touch.rows.length === 0) return `Nothing is claimed of ${touch.linkName} and ${object} from ${from} to ${to}.`;
   const begins = touch.begins === "inside" ? `touches ${object} already at ${from}` : `touches ${object} from ${from}`;
   const ends = touch.ends === "open" ? ", and still when the clip ends" : ` to ${to}`;
   const fate = touch.isMissed === true ? " No pose lies in between: a check of the poses misses it." : "";
@@ -94,6 +96,24 @@ const unseen = "a check of the poses sees no contact";
 function nearPose({ linkName, separation }: Contact, object: string, at: string, isAfter: boolean): string {
   const side = isAfter ? "right after" : "right before";
   return `${linkName} comes within ${length(separation ?? 0)} of ${object} ${side} the pose at ${at}: near enough to count as a contact.`;
+}
+
+/** Metres a second. */
+export function speed(value: number): string {
+  return Math.abs(value) < 0.001 ? "0.000 m/s" : `${value.toPrecision(3)} m/s`;
+}
+
+/** How hard two meet, a line a fact; nothing of what is not known. */
+export function forceOf({ speed: at, lower, upper, effectiveMass, impulse }: Strength): string[] {
+  const lines: string[] = [];
+  if (at !== null) lines.push(at > 0 ? `approach at ${speed(at)}${between(lower, upper)}` : `do not approach (${speed(at)})`);
+  if (effectiveMass !== null) lines.push(`${effectiveMass.toPrecision(3)} kg meet${impulse === null || impulse === 0 ? "" : `: an impulse of ${impulse.toPrecision(3)} N s`}`);
+  return lines;
+}
+
+function between(lower: number | null, upper: number | null): string {
+  if (lower === null || upper === null) return "";
+  return lower < 0 ? `, perhaps a graze (${speed(lower)} to ${speed(upper)})` : `, proven ${speed(lower)} to ${speed(upper)}`;
 }
 
 /** How many there are of each verdict. */

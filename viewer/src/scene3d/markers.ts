@@ -28,6 +28,7 @@ export class Markers {
   private readonly heads: THREE.InstancedMesh;
   private readonly arrowMaterial = new THREE.MeshBasicMaterial();
   private thicknessOf: (contact: Contact) => number = () => unhidden;
+  private lengthOf: (contact: Contact) => number = () => 1;
   private palette: Palette | null = null;
   private shown: readonly Contact[] = [];
 
@@ -48,9 +49,13 @@ export class Markers {
     this.group.add(this.traces, this.current, this.shafts, this.heads);
   }
 
-  /** `origin` is the world's point that the view has at zero; thickness in metres of the link that a marker may hide. */
-  setContacts(contacts: readonly Contact[], origin: Vector, thicknessOf: (contact: Contact) => number): void {
+  /**
+   * `origin` is the world's point that the view has at zero; thickness in metres of the link that a marker may hide;
+   * length of an arrow, as a share of the usual one.
+   */
+  setContacts(contacts: readonly Contact[], origin: Vector, thicknessOf: (contact: Contact) => number, lengthOf: (contact: Contact) => number): void {
     this.thicknessOf = thicknessOf;
+    this.lengthOf = lengthOf;
     // What starts in contact goes on from the step before: as a trace it only hides where contacts begin.
     const begun = contacts.filter(({ verdict, point }) => verdict !== "starts_in_contact" && point !== null);
     this.fill(this.traces, begun, origin, () => dim);
@@ -92,8 +97,8 @@ export class Markers {
       const [x, y, z] = contact.point ?? origin;
       turn.setFromUnitVectors(up, new THREE.Vector3(...(contact.normal ?? [0, 1, 0])).normalize());
       const at = new THREE.Vector3(x - origin[0], y - origin[1], z - origin[2]);
-      const width = length * Math.min(1, Math.max(thinnest, this.thicknessOf(contact) / thickLink));
-      matrix.compose(at, turn, new THREE.Vector3(width, length, width));
+      const long = length * this.lengthOf(contact), width = length * Math.min(1, Math.max(thinnest, this.thicknessOf(contact) / thickLink));
+      matrix.compose(at, turn, new THREE.Vector3(width, long, width));
       if (this.palette !== null) colour.set(this.palette.ink);
       for (const arrows of [this.shafts, this.heads]) {
         arrows.setMatrixAt(i, matrix);

@@ -22,6 +22,8 @@ export interface Palette {
   readonly halo: string;
   /** Of touches that are ground contact. */
   readonly ground: string;
+  /** Of triggers, and who is in them. */
+  readonly trigger: string;
   readonly ink: string;
   readonly faint: string;
   readonly verdicts: Record<Verdict, string>;
@@ -50,6 +52,7 @@ export const palettes: Record<Theme, Palette> = {
     swept: "#e69f00",
     halo: "#ffffff",
     ground: "#c9c2b6",
+    trigger: "#009e73",
     ink: "#1d2530",
     faint: "#6b7584",
     verdicts,
@@ -70,6 +73,7 @@ export const palettes: Record<Theme, Palette> = {
     swept: "#f0b93a",
     halo: "#14181e",
     ground: "#5d574f",
+    trigger: "#1fc297",
     ink: "#e7ebf0",
     faint: "#98a2b0",
     verdicts: { contact: "#f0772b", starts_in_contact: "#dd94bd", undecided: "#f0b93a" },

@@ -9,6 +9,7 @@ import { AvatarBody, bodyGeometry, bodyStencil, LinkColours } from "./avatar_bod
 import { boundsOfPosture } from "./bounds.js";
 import type { GhostName } from "./ghosts.js";
 import { Ghost } from "./ghosts.js";
+import { Outline } from "./outline.js";
 import type { Palette } from "./palette.js";
 import { linkMaterial } from "./shading.js";
 
@@ -29,6 +30,8 @@ export class Performer {
   private readonly ghosts: Record<GhostName, Ghost>;
   private readonly ghostPosture: Posture;
   private readonly trackedPosture: Posture | null;
+  /** Of a trigger, which has no body. */
+  private readonly outline: Outline | null;
   private shown: THREE.BufferGeometry;
   private isCoarse = false;
 
@@ -51,6 +54,7 @@ export class Performer {
     material.uniforms["colours"].value = this.colours.texture;
     this.body = new AvatarBody(this.shown, links, material);
     this.group.add(this.body.mesh);
+    this.outline = avatar.outline === null ? null : new Outline(avatar.outline, this.group);
     const ghost = (name: GhostName): Ghost => new Ghost(name, this.shown, links, this.group);
     this.ghosts = { before: ghost("before"), asked: ghost("asked"), atContact: ghost("atContact"), tracked: ghost("tracked") };
     this.group.visible = clip.hasPose;
@@ -84,6 +88,7 @@ export class Performer {
     if (!this.clip.hasPose) return;
     this.instant = this.posture.moveTo(time);
     this.body.place(this.posture.world, this.origin);
+    this.outline?.place(this.posture.world, this.origin);
   }
 
   get isSolid(): boolean {
@@ -131,6 +136,7 @@ export class Performer {
   }
 
   paintGhosts(palette: Palette): void {
+    this.outline?.paint(palette);
     for (const ghost of Object.values(this.ghosts)) ghost.paint(palette);
   }
 

@@ -21,6 +21,8 @@ import { SweptView } from "./swept_view.js";
 const afterglow = 0.3;
 /** Of an avatar's size. */
 const arrowLength = 0.11;
+/** Where the strength is known, of the usual arrow: at rest, and from 2 m/s on. */
+const shortestArrow = 0.6, longestArrow = 2;
 
 /** The links of an avatar that these contacts are of, on either side. */
 function touchingOf(avatar: number, contacts: readonly Contact[]): ReadonlySet<number> {
@@ -63,7 +65,7 @@ export class Staging {
   }
 
   setContacts(): void {
-    this.markers.setContacts(this.model.contacts, this.origin, (contact) => this.thickness(contact));
+    this.markers.setContacts(this.model.contacts, this.origin, (contact) => this.thickness(contact), (contact) => this.strength(contact));
   }
 
   setShape(): void {
@@ -116,7 +118,7 @@ export class Staging {
   }
 
   castShadows(renderer: THREE.WebGLRenderer): void {
-    const casting = this.performers.filter(({ clip }) => clip.hasPose);
+    const casting = this.performers.filter(({ clip, avatar }) => clip.hasPose && avatar.outline === null);
     const bounds = casting.map((one) => one.bounds()).reduce(union, emptyBounds);
     const local = (point: Vector): Vector => [point[0] - this.origin[0], point[1] - this.origin[1], point[2] - this.origin[2]];
     const box: Bounds | null = casting.length === 0 ? null : { min: local(bounds.min), max: local(bounds.max) };
@@ -162,6 +164,12 @@ export class Staging {
   private poseAtPlace(performer: Performer): void {
     const { place } = this.store.state;
     if (place !== null) performer.showGhostAt("asked", carried(performer.posture.world, this.model.place, place));
+  }
+
+  /** Of a contact's arrow, where a touch begins with it: by the speed at which the two approach. */
+  private strength(contact: Contact): number {
+    const touch = this.model.touchOf(contact), speed = touch?.rows[0] === contact ? (touch.strength?.speed ?? null) : null;
+    return speed === null ? 1 : Math.min(longestArrow, shortestArrow + Math.sqrt(Math.max(0, speed)));
   }
 
   /** Of the thickest LSS of the link in contact; where it has none nothing is small. Metres. */

@@ -62,7 +62,7 @@ export class Subjects {
   }
 
   private bodies(): Bounds[] {
-    return this.performers.filter((one) => one.clip.hasPose).map((one) => one.bounds());
+    return this.performers.filter((one) => one.clip.hasPose && one.avatar.outline === null).map((one) => one.bounds());
   }
 
   /** All limbs but the one in contact and the one it moves with, as they are posed. */

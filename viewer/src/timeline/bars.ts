@@ -5,6 +5,10 @@ import type { Verdict } from "../data/document.js";
 import type { Palette } from "../scene3d/palette.js";
 
 const minBarWidth = 3;
+/** Of a spike: the speed (m/s) at which it is as high as the room above a bar allows; CSS pixels. */
+const fullSpikeSpeed = 2, spikeHeight = 5, spikeWidth = 6;
+/** Of full height; less is not seen. */
+const leastSpike = 0.15;
 
 export class BarPainter {
   private readonly hatches = new Map<string, CanvasPattern>();
@@ -18,29 +22,43 @@ export class BarPainter {
   bar(touch: Touch, x0: number, x1: number, y: number, height: number, isHollow: boolean): void {
     const { context } = this;
     const width = Math.max(minBarWidth, x1 - x0);
-    const verdict = verdictOf(touch), colour = touch.isGround ? this.palette.ground : this.palette.verdicts[verdict];
+    const verdict = verdictOf(touch), colour = touch.isGround ? this.palette.ground : touch.isStay ? this.palette.trigger : this.palette.verdicts[verdict];
     context.strokeStyle = colour;
     context.lineWidth = 1;
     if (isHollow) {
       context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
       return;
     }
-    context.fillStyle = touch.isGround ? colour : this.fill(verdict, colour);
+    context.fillStyle = touch.isGround ? colour : this.fill(verdict, colour, touch.isStay);
     context.fillRect(x0, y, width, height);
     if (verdict !== "contact" && width > 2 * minBarWidth) context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
     if (verdict === "contact" && !touch.isGround && width > 8) {
       context.fillStyle = this.palette.ink;
       context.fillRect(x0, y - 2, 2, height + 4);
     }
+    this.spike(touch, x0, y);
   }
 
-  private fill(verdict: Verdict, colour: string): string | CanvasPattern {
+  /** How fast two approach where they meet, as the height of a spike above the bar's begin. */
+  private spike({ strength }: Touch, x0: number, y: number): void {
+    const share = Math.min(1, Math.max(0, strength?.speed ?? 0) / fullSpikeSpeed);
+    if (share < leastSpike) return;
+    const { context } = this;
+    context.fillStyle = this.palette.ink;
+    context.beginPath();
+    context.moveTo(x0, y);
+    context.lineTo(x0, y - share * spikeHeight);
+    context.lineTo(x0 + spikeWidth, y);
+    context.fill();
+  }
+
+  private fill(verdict: Verdict, colour: string, isStay: boolean): string | CanvasPattern {
     if (verdict === "contact") return colour;
-    const known = this.hatches.get(verdict);
+    const key = `${verdict} ${isStay}`, known = this.hatches.get(key);
     if (known !== undefined) return known;
     const pattern = this.context.createPattern(verdict === "undecided" ? dots(colour) : stripes(colour), "repeat");
     if (pattern === null) return colour;
-    this.hatches.set(verdict, pattern);
+    this.hatches.set(key, pattern);
     return pattern;
   }
 }

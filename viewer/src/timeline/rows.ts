@@ -23,6 +23,9 @@ export interface Row {
   readonly touches: readonly Touch[];
 }
 
+/** Of bodies of one link, and of triggers. */
+const thingGroup = "things", triggerGroup = "triggers";
+
 /** Without the rows of `folded` groups. */
 export function rowsOf(
   touches: readonly Touch[],
@@ -55,15 +58,16 @@ function rowsOfObjects(touches: readonly Touch[]): Row[] {
 }
 
 function rowsOfLinks(touches: readonly Touch[], avatars: readonly Avatar[]): Row[] {
-  const groups = gathered(touches, ({ avatar, link }) => `${avatar}:${link}`);
-  return avatars.flatMap(({ links, name: body }, avatar) => {
+  // Who is in a trigger is told in the trigger's own row.
+  const groups = gathered(touches, (touch) => touch.isStay ? `${touch.otherAvatar}:0` : `${touch.avatar}:${touch.link}`);
+  return avatars.flatMap(({ links, name: body, outline }, avatar) => {
     const short = shortNames(links.map(({ name }) => name)), limbOf = limbsOf(links);
-    const before = avatars.length > 1 ? `${body}: ` : "";
+    const before = avatars.length > 1 ? `${body}: ` : "", isThing = avatars.length > 1 && links.length === 1;
     return links.map((one, link): Row => ({
       isHeading: false,
-      name: before + short[link],
-      fullName: before + one.name,
-      group: before + limbOf[link],
+      name: isThing ? body : before + short[link],
+      fullName: isThing ? body : before + one.name,
+      group: outline !== null ? triggerGroup : isThing ? thingGroup : before + limbOf[link],
       avatar,
       link,
       touches: groups.get(`${avatar}:${link}`) ?? [],
@@ -75,7 +79,8 @@ function byGroup(rows: readonly Row[], folded: ReadonlySet<string>): Row[] {
   const groups = [...new Set(rows.map(({ group }) => group))];
   const place = (group: string): number => limbs.findIndex((limb) => group.endsWith(limb));
   const bodyOf = (group: string): string => group.slice(0, group.length - (limbs[place(group)] ?? "").length);
-  groups.sort((a, b) => bodyOf(a).localeCompare(bodyOf(b)) || place(a) - place(b));
+  const isLast = (group: string): number => (group === triggerGroup ? 2 : group === thingGroup ? 1 : 0);
+  groups.sort((a, b) => isLast(a) - isLast(b) || bodyOf(a).localeCompare(bodyOf(b)) || place(a) - place(b));
   return groups.flatMap((group) => {
     const members = rows.filter((row) => row.group === group);
     const touches = members.flatMap((row) => row.touches).sort((a, b) => a.begin - b.begin);

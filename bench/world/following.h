@@ -1,0 +1,24 @@
+// bench/world/following.h: what a world tells from enter to leave, beside a game that looks 90
+// times per second at the newest sample of each body, and beside the truth; and what following
+// costs.
+#pragma once
+
+#include <cstdint>
+
+#include "bench/report.h"
+#include "bench/world/people.h"
+
+namespace foretouch::tools {
+
+struct EventsTable {
+  BenchTable table;
+  std::uint64_t violations = 0;  ///< Of the world's promise.
+};
+/// Enters and leaves of meetings (meeting.h) of 0.8 s, as many as fill `windows` of 0.2 s.
+[[nodiscard]] EventsTable eventsTable(const WorldCast& cast, int windows);
+
+/// Crowds that touch, and crowds in which nobody does: what following costs beside asking for first
+/// contacts, and how many distances it takes for each interval of contact.
+[[nodiscard]] BenchTable followingTable(const WorldCast& cast);
+
+}  // namespace foretouch::tools
