@@ -28,9 +28,9 @@ function(foretouch_precompiled_as target other)
   endif()
 endfunction()
 
-# What waits for files and terminals, and tests that do not compute at length, gain nothing from the
-# last optimizations, which cost a quarter of their compile time. Not for the kernel, nor for what a
-# stream or a benchmark passes through.
+# What waits for files and terminals, and tests, which leave what is computed at length to the kernel
+# and to the judge, gain nothing from the last optimizations, which cost a quarter of their compile
+# time. Not for the kernel and the judge, nor for what a stream or a benchmark passes through.
 function(foretouch_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()

@@ -14,8 +14,8 @@ foreach(header IN LISTS headers)
   get_filename_component(folder "${header}" DIRECTORY)
   file(READ "${source}/${header}" text)
   string(REGEX REPLACE "#include \"((${folders})/[^\"\n]+)\"" "#include <foretouch/\\1>" text "${text}")
-  # The one header that stands for the others has no folder in its name.
-  if(header STREQUAL "assets/foretouch.hpp")
+  # The one header that stands for the others has no folder in its name, nor has that for OMPL.
+  if(header MATCHES "^(assets/foretouch.hpp|planning/ompl.h)$")
     set(folder "")
   endif()
   get_filename_component(name "${header}" NAME)

@@ -72,6 +72,8 @@ std::optional<ModelQuestion> modelQuestion(int argc, char** argv) {
     const std::string_view option = argv[i];
     if (option == "--visual") {
       question.visual = true;
+    } else if (option == "--robot") {
+      question.isRobot = true;
     } else if (option == "--package" && i + 1 < argc) {
       question.packagePaths.emplace_back(argv[++i]);
     } else {
@@ -100,7 +102,7 @@ int main(int argc, char** argv) {
   if (!isQuestion || std::string_view(argv[1]) == "--help" || isatty(STDOUT_FILENO) != 0) {
     std::fputs(
         "usage: foretouch-import FILE\n"
-        "       foretouch-import --model FILE [--visual] [--package DIR]...\n"
+        "       foretouch-import --model FILE [--visual] [--robot] [--package DIR]...\n"
         "Writes the triangles, or the rigged model, of a file to standard output, in a binary\n"
         "form that the foretouch library reads. Not meant to be run by hand.\n",
         stderr);

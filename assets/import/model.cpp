@@ -243,6 +243,7 @@ class AssimpModel {
 void ModelBuilder::count(const ModelSize& more) {
   size_.nodes += more.nodes;
   size_.lss += more.lss;
+  size_.mimics += more.mimics;
   size_.meshes += more.meshes;
   size_.vertices += more.vertices;
   size_.triangles += more.triangles;

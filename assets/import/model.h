@@ -14,7 +14,8 @@ namespace foretouch::internal {
 /// The parent's request.
 struct ModelQuestion {
   std::string path;
-  bool visual = false;  ///< Of a URDF: its visual description rather than its collision one.
+  bool visual = false;   ///< Of a URDF: its visual description rather than its collision one.
+  bool isRobot = false;  ///< Refuse what ModelImportOptions::isRobot says.
   std::vector<std::string> packagePaths;
 };
 

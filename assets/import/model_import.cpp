@@ -21,6 +21,7 @@ using internal::importError;
 std::vector<std::string> argumentsFor(const std::string& path, const ModelImportOptions& options) {
   std::vector<std::string> arguments{"--model", path};
   if (options.urdfSurface == UrdfSurface::Visual) arguments.emplace_back("--visual");
+  if (options.isRobot) arguments.emplace_back("--robot");
   for (const std::string& folder : options.packagePaths) {
     arguments.emplace_back("--package");
     arguments.push_back(folder);
@@ -37,6 +38,15 @@ void scaleLengths(Model& model, double scale) {
       node.lowerLimit *= scale;
       node.upperLimit *= scale;
     }
+  }
+  const auto inMetres = [&model](std::int32_t node) {
+    return model.nodes[slotOf(node)].joint == ModelJointType::Prismatic;
+  };
+  for (ModelMimic& mimic : model.mimics) {
+    if (inMetres(mimic.node)) mimic.offset *= scale;
+    // Metres per radian, or radians per metre.
+    if (inMetres(mimic.node) && !inMetres(mimic.leader)) mimic.factor *= scale;
+    if (!inMetres(mimic.node) && inMetres(mimic.leader)) mimic.factor /= scale;
   }
   for (ModelMesh& mesh : model.meshes) {
     for (Vector3d& vertex : mesh.vertices) vertex *= scale;

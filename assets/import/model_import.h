@@ -18,6 +18,10 @@ enum class UrdfSurface : std::uint8_t { Collision, Visual };
 struct ModelImportOptions {
   SceneImportOptions import;  ///< scale, up, limits and the importer's place, as for scenes.
   UrdfSurface urdfSurface = UrdfSurface::Collision;
+  /// Of a URDF: refuses by name what an avatar can do without, with a note, and a robot that moves
+  /// by joint coordinates cannot: missing or unreadable meshes, limits the wrong way round, equal
+  /// or absent, a floating joint, a mimic of a joint that is not there.
+  bool isRobot = false;
   /// Folders to search for package://NAME/..., as FOLDER/NAME/... and FOLDER/...; after them the
   /// URDF's own folder and its parents.
   std::vector<std::string> packagePaths;

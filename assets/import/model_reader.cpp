@@ -24,6 +24,7 @@ void ModelReader::parseFrame(std::uint32_t type, std::string_view payload) {
   ++frames_;
   switch (type) {
     case kNode: return parseNode(payload);
+    case kMimic: return parseMimic(payload);
     case kMesh: return parseMesh(payload);
     case kVertices: return parseVertices(payload);
     case kTriangles: return parseTriangles(payload);
@@ -70,7 +71,9 @@ void ModelReader::parseAll(std::string_view payload, std::uint64_t& left, Take t
 
 void ModelReader::parseNode(std::string_view payload) {
   if (payload.size() < sizeof(NodeHead)) return breakOff("a node of a wrong size");
-  if (!model_.meshes.empty() || !model_.animations.empty()) return breakOff("a node too late");
+  if (!model_.mimics.empty() || !model_.meshes.empty() || !model_.animations.empty()) {
+    return breakOff("a node too late");
+  }
   const auto head = valueIn<NodeHead>(payload);
   payload.remove_prefix(sizeof head);
   const std::size_t lssBytes = std::size_t{head.lss} * sizeof(LssRecord);
@@ -85,9 +88,9 @@ void ModelReader::parseNode(std::string_view payload) {
   node.lowerLimit = head.lowerLimit;
   node.upperLimit = head.upperLimit;
   node.joint = static_cast<ModelJointType>(head.joint);
-  if (head.joint > static_cast<std::uint32_t>(ModelJointType::Prismatic) ||
-      !isFinite(node.toParent) || !(std::abs(node.axis.norm() - 1.0) < 1e-6) ||
-      !std::isfinite(head.lowerLimit) || !std::isfinite(head.upperLimit)) {
+  if (head.joint > static_cast<std::uint32_t>(ModelJointType::Planar) || !isFinite(node.toParent) ||
+      !(std::abs(node.axis.norm() - 1.0) < 1e-6) || !std::isfinite(head.lowerLimit) ||
+      !std::isfinite(head.upperLimit)) {
     return breakOff("a node whose joint or frame cannot be");
   }
   for (std::uint32_t i = 0; i < head.lss; ++i, payload.remove_prefix(sizeof(LssRecord))) {
@@ -99,6 +102,19 @@ void ModelReader::parseNode(std::string_view payload) {
   model_.nodes.push_back(std::move(node));
   ++size_.nodes;
   size_.lss += head.lss;
+  checkSize();
+}
+
+void ModelReader::parseMimic(std::string_view payload) {
+  if (payload.size() != sizeof(MimicRecord)) return breakOff("a mimic of a wrong size");
+  if (!model_.meshes.empty() || !model_.animations.empty()) return breakOff("a mimic too late");
+  const auto record = valueIn<MimicRecord>(payload);
+  if (!isNode(record.node) || !isNode(record.leader) || !std::isfinite(record.factor) ||
+      !std::isfinite(record.offset)) {
+    return breakOff("a mimic that cannot be");
+  }
+  model_.mimics.push_back({record.node, record.leader, record.factor, record.offset});
+  ++size_.mimics;
   checkSize();
 }
 

@@ -25,7 +25,8 @@ enum ModelFrame : std::uint32_t {
   kPositions,
   kScales,
   kRotations,
-  kNote
+  kNote,
+  kMimic
 };
 
 using AffineRecord =
@@ -38,6 +39,10 @@ struct NodeHead {
   std::uint32_t joint, lss, nameBytes;  // LSS, the name and the joint's name follow
 };
 using LssRecord = std::array<double, 7>;
+struct MimicRecord {
+  double factor, offset;
+  std::int32_t node, leader;
+};
 struct MeshHead {
   std::uint64_t vertices, triangles, bones;
   std::int64_t node;

@@ -1,7 +1,8 @@
 // assets/import/model_stream.h: the stream in which foretouch-import sends a model to its parent.
 // Not installed.
 //
-// In the frames of assets/import/stream.h: nodes, parents first; then each mesh, its vertices, its
+// In the frames of assets/import/stream.h: nodes, parents first; then whose joints follow
+// others'; then each mesh, its vertices, its
 // triangles and its bones, each bone with its weights; then each animation, its tracks, each with
 // its keys; then notes. Every container states the number of its parts first; the trailer counts
 // the frames.
@@ -25,7 +26,7 @@ inline constexpr std::size_t kMaxModelNoteBytes = 512;
 /// The sizes of a model's parts.
 struct ModelSize {
   std::uint64_t nodes = 0, lss = 0, meshes = 0, vertices = 0, triangles = 0, bones = 0, weights = 0;
-  std::uint64_t animations = 0, tracks = 0, keys = 0, nameBytes = 0, notes = 0;
+  std::uint64_t animations = 0, tracks = 0, keys = 0, nameBytes = 0, notes = 0, mimics = 0;
 
   /// The part that exceeds its limit, such as "more than 65536 nodes"; empty if none does.
   [[nodiscard]] std::string excess() const;
@@ -71,6 +72,7 @@ class ModelReader : public FrameReader {
   void parseFrame(std::uint32_t type, std::string_view payload) override;
   [[nodiscard]] bool isWhole(std::uint64_t count) const override;
   void parseNode(std::string_view payload);
+  void parseMimic(std::string_view payload);
   void parseMesh(std::string_view payload);
   void parseVertices(std::string_view payload);
   void parseTriangles(std::string_view payload);

@@ -23,7 +23,8 @@ std::string ModelSize::excess() const {
         check(weights, 128 * kMillion, "bone weights"), check(animations, 65536, "animations"),
         check(tracks, kMillion, "animation tracks"), check(keys, 64 * kMillion, "animation keys"),
         check(nameBytes, kMaxImportNameBytes, "bytes of names"),
-        check(notes, kMaxModelNotes, "notes")}) {
+        check(notes, kMaxModelNotes, "notes"),
+        check(mimics, kMaxModelNodes, "joints that follow another")}) {
     if (!found.empty()) return found;
   }
   return "";
@@ -96,6 +97,9 @@ void ModelWriter::writeTrack(const ModelTrack& track) {
 
 bool ModelWriter::write(const Model& model) {
   for (const ModelNode& node : model.nodes) writeNode(node);
+  for (const ModelMimic& m : model.mimics) {
+    countedFrame(kMimic, bytesOf(MimicRecord{m.factor, m.offset, m.node, m.leader}));
+  }
   for (const ModelMesh& mesh : model.meshes) writeMesh(mesh);
   for (const ModelAnimation& animation : model.animations) {
     std::string payload(bytesOf(AnimationHead{animation.durationS, animation.tracks.size()}));

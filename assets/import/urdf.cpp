@@ -2,6 +2,7 @@
 #include <cmath>
 #include <console_bridge/console.h>
 #include <exception>
+#include <map>
 #include <set>
 #include <string>
 #include <urdf_parser/urdf_parser.h>
@@ -88,8 +89,9 @@ Vector3d axisOf(const urdf::Joint& joint) {
 
 class RobotTree {
  public:
-  RobotTree(const urdf::ModelInterface& robot, UrdfSurface& surface, ModelBuilder& builder)
-      : robot_(robot), surface_(surface), builder_(builder) {}
+  RobotTree(const urdf::ModelInterface& robot, bool isStrict, UrdfSurface& surface,
+            ModelBuilder& builder)
+      : robot_(robot), isStrict_(isStrict), surface_(surface), builder_(builder) {}
 
   /// Depth first from the root, on an explicit stack.
   void add() {
@@ -120,6 +122,7 @@ class RobotTree {
       refuse("the links form a cycle: " + std::to_string(robot_.links_.size() - reached.size()) +
              " of them hang on no root");
     }
+    addMimics();
   }
 
  private:
@@ -144,15 +147,50 @@ class RobotTree {
       case urdf::Joint::REVOLUTE: node.joint = ModelJointType::Revolute; break;
       case urdf::Joint::CONTINUOUS: node.joint = ModelJointType::Continuous; break;
       case urdf::Joint::PRISMATIC: node.joint = ModelJointType::Prismatic; break;
-      case urdf::Joint::PLANAR:
-        builder_.note("joint " + quotedName(joint.name) + " is planar: read as free to move");
-        return;
+      case urdf::Joint::PLANAR: node.joint = ModelJointType::Planar; break;
       case urdf::Joint::FLOATING:
-      case urdf::Joint::UNKNOWN: return;
+      case urdf::Joint::UNKNOWN:
+        if (isStrict_) {
+          refuse("joint " + quotedName(joint.name) +
+                 " is floating; expected one that is fixed, revolute, continuous, prismatic or "
+                 "planar");
+        }
+        return;
     }
     node.axis = axisOf(joint);
-    if (node.joint != ModelJointType::Continuous && joint.limits != nullptr) {
-      setLimits(joint, node);
+    const bool isLimited =
+        node.joint == ModelJointType::Revolute || node.joint == ModelJointType::Prismatic;
+    if (isLimited && joint.limits != nullptr) setLimits(joint, node);
+    if (isLimited && isStrict_ && node.lowerLimit == node.upperLimit) {
+      refuse("joint " + quotedName(joint.name) +
+             " states no limits, or equal ones; expected a lower one below an upper one, or a "
+             "joint that is continuous or fixed");
+    }
+  }
+
+  /// Once all nodes are known: a leader may come later.
+  void addMimics() {
+    std::map<std::string, std::int32_t> nodeOf;
+    const auto& nodes = builder_.model.nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (nodes[i].parent >= 0) nodeOf.emplace(nodes[i].jointName, static_cast<std::int32_t>(i));
+    }
+    for (const auto& [name, node] : nodeOf) {
+      const auto mimic = robot_.getJoint(name)->mimic;
+      if (mimic == nullptr) continue;
+      const auto leader = nodeOf.find(mimic->joint_name);
+      if (leader == nodeOf.end()) {
+        if (!isStrict_) continue;
+        refuse("joint " + quotedName(name) + " mimics " + quotedName(mimic->joint_name) +
+               ", which the file does not hold");
+      }
+      if (!std::isfinite(mimic->multiplier) || !std::isfinite(mimic->offset)) {
+        refuse("joint " + quotedName(name) + " mimics another one by a number that is not finite");
+      }
+      ModelSize more;
+      more.mimics = 1;
+      builder_.count(more);
+      builder_.model.mimics.push_back({node, leader->second, mimic->multiplier, mimic->offset});
     }
   }
 
@@ -160,6 +198,9 @@ class RobotTree {
     const double lower = joint.limits->lower, upper = joint.limits->upper;
     if (!std::isfinite(lower) || !std::isfinite(upper)) {
       refuse("joint " + quotedName(joint.name) + " has a limit that is not finite");
+    }
+    if (lower > upper && isStrict_) {
+      refuse("joint " + quotedName(joint.name) + " has its lower limit above its upper one");
     }
     if (lower > upper) {
       builder_.note("joint " + quotedName(joint.name) +
@@ -171,6 +212,7 @@ class RobotTree {
   }
 
   const urdf::ModelInterface& robot_;
+  bool isStrict_;  // as ModelImportOptions::isRobot says
   UrdfSurface& surface_;
   ModelBuilder& builder_;
 };
@@ -190,7 +232,7 @@ Model readUrdf(const ModelQuestion& question) {
   ModelBuilder builder;
   for (const std::string& note : reduced.notes) builder.note(note);
   UrdfSurface surface(question, reduced, builder);
-  RobotTree(*robot, surface, builder).add();
+  RobotTree(*robot, question.isRobot, surface, builder).add();
   return builder.take();
 }
 

@@ -178,17 +178,22 @@ void UrdfSurface::addMesh(const Shape& shape, const FlatMesh& mesh, const Vector
   builder_.model.meshes.push_back(std::move(out));
 }
 
+void UrdfSurface::lose(const std::string& what) {
+  if (question_.isRobot) throw Failure{ImportFailure::Refused, what};
+  builder_.note(what);
+}
+
 const FlatMesh* UrdfSurface::meshOf(const std::string& reference, const std::string& link) {
   const std::string about = "mesh " + quotedName(reference) + " of link " + quotedName(link);
   const std::string path = find(reference);
   if (path.empty()) {
-    builder_.note(about + " was not found");
+    lose(about + " was not found");
     return nullptr;
   }
   if (!isWithin(foldersBeside(question_.path, question_.packagePaths), path)) {
-    builder_.note(about +
-                  " is not read: it is neither beside the file nor in its package, nor in a "
-                  "folder of packages that was named");
+    lose(about +
+         " is not read: it is neither beside the file nor in its package, nor in a "
+         "folder of packages that was named");
     return nullptr;
   }
   auto found = meshes_.find(path);
@@ -200,13 +205,13 @@ const FlatMesh* UrdfSurface::meshOf(const std::string& reference, const std::str
       if (failure.kind != ImportFailure::Refused && failure.kind != ImportFailure::UnknownFormat) {
         throw;
       }
-      builder_.note(about + " cannot be read: " + failure.text);
+      lose(about + " cannot be read: " + failure.text);
     }
     found = meshes_.emplace(path, std::move(mesh)).first;
   }
   if (!found->second.has_value()) return nullptr;
   if (found->second->triangles.empty()) {
-    builder_.note(about + " holds no triangles");
+    lose(about + " holds no triangles");
     return nullptr;
   }
   return &*found->second;

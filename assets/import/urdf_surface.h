@@ -60,9 +60,11 @@ class UrdfSurface {
   void addRound(const Shape& shape, double halfLength, double radius, std::int32_t node);
   void addMesh(const Shape& shape, const FlatMesh& mesh, const Eigen::Vector3d& scale,
                std::int32_t node);
-  /// Null, with a note, if the file is missing or unreadable.
+  /// Null, with a note, if the file is missing or unreadable; throws if the question says so.
   const FlatMesh* meshOf(const std::string& reference, const std::string& link);
   [[nodiscard]] std::string find(const std::string& reference) const;
+  /// A note; of a robot, a refusal.
+  void lose(const std::string& what);
 
   const ModelQuestion& question_;
   const UrdfText& text_;

@@ -46,7 +46,7 @@ class Reducer {
     if (TiXmlElement* mimic = keep(joint, "mimic", copy)) {
       out_.notes.push_back("joint '" + readableText(attributeOf(joint, "name"), 80) + "' mimics '" +
                            readableText(attributeOf(*mimic, "joint"), 80) +
-                           "': it is read as a joint of its own");
+                           "': a pose may move it by itself");
     }
     addLimit(joint, copy);
   }

@@ -30,7 +30,7 @@ struct Affine {
 };
 
 /// How a node may move against its parent; files without joints (all but URDF) leave it Free.
-enum class ModelJointType : std::uint8_t { Free, Fixed, Revolute, Continuous, Prismatic };
+enum class ModelJointType : std::uint8_t { Free, Fixed, Revolute, Continuous, Prismatic, Planar };
 
 struct ModelNode {
   std::string name;          ///< UTF-8 without control characters; may be empty or repeated.
@@ -42,6 +42,13 @@ struct ModelNode {
   std::string jointName;  ///< URDF names joints apart from links; else empty.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of the joint, in the node's frame, unit.
   double lowerLimit = 0.0, upperLimit = 0.0;        ///< Radians or metres; equal: none stated.
+};
+
+/// A node's joint that goes along with another one's: its coordinate is factor * (the other's) +
+/// offset.
+struct ModelMimic {
+  std::int32_t node = -1, leader = -1;
+  double factor = 1.0, offset = 0.0;  ///< Finite; the offset in radians or metres.
 };
 
 /// The vertices of a mesh that a bone moves, with their weights.
@@ -88,6 +95,7 @@ struct ModelAnimation {
 
 struct Model {
   std::vector<ModelNode> nodes;  ///< Parents before children.
+  std::vector<ModelMimic> mimics;
   std::vector<ModelMesh> meshes;
   std::vector<ModelAnimation> animations;
   /// Faults that the reader skipped, one sentence each (a missing mesh file, faces with indices out

@@ -233,6 +233,10 @@ Result<Done> checkModel(const Model& model) {
     }
   }
   const auto isNode = [&](std::int32_t node) { return node >= 0 && node < count; };
+  for (const ModelMimic& mimic : model.mimics) {
+    if (isNode(mimic.node) && isNode(mimic.leader)) continue;
+    return Error::of(ErrorCode::OutOfRange, "a joint follows one of a node that is not there");
+  }
   for (const ModelMesh& mesh : model.meshes) {
     bool isSound = isNode(mesh.node);
     for (const auto& triangle : mesh.triangles) {

@@ -4,29 +4,12 @@
 
 #include <Eigen/Geometry>
 
+#include "bindings/c/contact.h"
 #include "bindings/c/last_step.h"
 #include "bindings/c/sized_struct.h"
 #include "lss/index.h"
 
 namespace foretouch::c {
-namespace {
-
-static_assert(static_cast<int>(Verdict::Clear) == FT_VERDICT_CLEAR);
-static_assert(static_cast<int>(Verdict::Contact) == FT_VERDICT_CONTACT);
-static_assert(static_cast<int>(Verdict::StartsInContact) == FT_VERDICT_STARTS_IN_CONTACT);
-static_assert(static_cast<int>(Verdict::Undecided) == FT_VERDICT_UNDECIDED);
-static_assert(static_cast<int>(UndecidedReason::None) == FT_REASON_NONE);
-static_assert(static_cast<int>(UndecidedReason::WorkBudget) == FT_REASON_WORK_BUDGET);
-static_assert(static_cast<int>(UndecidedReason::Resolution) == FT_REASON_RESOLUTION);
-static_assert(static_cast<int>(UndecidedReason::AfterFirst) == FT_REASON_AFTER_FIRST);
-static_assert(static_cast<int>(FeatureKind::Vertex) == FT_FEATURE_VERTEX);
-static_assert(static_cast<int>(FeatureKind::Edge) == FT_FEATURE_EDGE);
-static_assert(static_cast<int>(FeatureKind::Face) == FT_FEATURE_FACE);
-
-ft_status checkedTime(double t) {
-  if (t >= 0.0 && t <= 1.0) return FT_OK;
-  return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "t: expected 0 to 1, found %g", t);
-}
 
 ft_contact contactOf(const LinkContact& contact, const Scene& scene) {
   ft_contact c{};
@@ -49,12 +32,30 @@ ft_contact contactOf(const LinkContact& contact, const Scene& scene) {
   return c;
 }
 
-/// The other link's triangle is none of the scene's.
 ft_contact contactOf(PairContact contact, const Scene& scene) {
   const TriangleId triangle = std::exchange(contact.triangle, -1);
   ft_contact c = contactOf(static_cast<const LinkContact&>(contact), scene);
   c.triangle = triangle;
   return c;
+}
+
+namespace {
+
+static_assert(static_cast<int>(Verdict::Clear) == FT_VERDICT_CLEAR);
+static_assert(static_cast<int>(Verdict::Contact) == FT_VERDICT_CONTACT);
+static_assert(static_cast<int>(Verdict::StartsInContact) == FT_VERDICT_STARTS_IN_CONTACT);
+static_assert(static_cast<int>(Verdict::Undecided) == FT_VERDICT_UNDECIDED);
+static_assert(static_cast<int>(UndecidedReason::None) == FT_REASON_NONE);
+static_assert(static_cast<int>(UndecidedReason::WorkBudget) == FT_REASON_WORK_BUDGET);
+static_assert(static_cast<int>(UndecidedReason::Resolution) == FT_REASON_RESOLUTION);
+static_assert(static_cast<int>(UndecidedReason::AfterFirst) == FT_REASON_AFTER_FIRST);
+static_assert(static_cast<int>(FeatureKind::Vertex) == FT_FEATURE_VERTEX);
+static_assert(static_cast<int>(FeatureKind::Edge) == FT_FEATURE_EDGE);
+static_assert(static_cast<int>(FeatureKind::Face) == FT_FEATURE_FACE);
+
+ft_status checkedTime(double t) {
+  if (t >= 0.0 && t <= 1.0) return FT_OK;
+  return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "t: expected 0 to 1, found %g", t);
 }
 
 /// Writes `count` contacts; `at(i)` returns the i-th. Precondition: there is room.

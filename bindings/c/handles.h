@@ -38,6 +38,8 @@ enum class Mark : std::uint64_t {
   Near = 0x007261656e746600u,
   Solid = 0x0064696c6f746600u,
   World = 0x646c726f57746600u,
+  Robot = 0x00746f626f526600u,
+  Edges = 0x0073656764456600u,
 };
 
 }  // namespace foretouch::c

@@ -205,4 +205,14 @@ void refuseName(const std::string& what, const char* kind, const std::string& na
          inQuotes(name) + " is no " + kind + hint + (hint.empty() ? "" : "?"));
 }
 
+Lss lssFrom(py::handle given, const std::string& what) {
+  const std::vector<py::object> parts = items(given, what);
+  if (parts.size() != 3) {
+    refuse(ErrorCode::Mismatch, what,
+           "expected (a, b, radius), found " + std::to_string(parts.size()) + " items");
+  }
+  return {point(parts[0], what + ".a"), point(parts[1], what + ".b"),
+          number(parts[2], what + ".radius")};
+}
+
 }  // namespace foretouch::python

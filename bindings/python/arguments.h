@@ -33,6 +33,8 @@ using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::force
 /// The same for integers; refuses floats, even whole ones.
 [[nodiscard]] Integers integers(py::handle given, const std::string& what, const Shape& shape);
 
+/// (a, b, radius).
+[[nodiscard]] Lss lssFrom(py::handle given, const std::string& what);
 [[nodiscard]] Eigen::Vector3d point(py::handle given, const std::string& what);
 /// One number, finite or not: the library judges it.
 [[nodiscard]] double number(py::handle given, const std::string& what);

@@ -66,16 +66,6 @@ RawSkeleton skeletonFrom(const Shown<shown::Texts>& names, const Shown<shown::Ar
   return raw;
 }
 
-Lss lssFrom(py::handle given, const std::string& what) {
-  const std::vector<py::object> parts = items(given, what);
-  if (parts.size() != 3) {
-    refuse(ErrorCode::Mismatch, what,
-           "expected (a, b, radius), found " + std::to_string(parts.size()) + " items");
-  }
-  return {point(parts[0], what + ".a"), point(parts[1], what + ".b"),
-          number(parts[2], what + ".radius")};
-}
-
 std::vector<std::vector<Lss>> lssPerLinkFrom(const py::object& given) {
   std::vector<std::vector<Lss>> perLink;
   for (const py::object& link : items(given, "lss")) {

@@ -22,5 +22,6 @@ void bindSweep(pybind11::module_& module);
 void bindSolid(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 void bindTriggers(pybind11::module_& module);
+void bindRobots(pybind11::module_& module);
 
 }  // namespace foretouch::python

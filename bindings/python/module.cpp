@@ -25,5 +25,6 @@ PYBIND11_MODULE(_foretouch, module) {
   bindSolid(module);
   bindWorld(module);
   bindTriggers(module);
+  bindRobots(module);
   py::delattr(module, "__module__");
 }

@@ -8,6 +8,7 @@
 
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"
+#include "bindings/python/query_options.h"
 #include "bindings/python/world.h"
 #include "middleware/events/world_follower.h"
 #include "middleware/triggers/volume_parts.h"

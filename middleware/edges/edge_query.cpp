@@ -49,6 +49,7 @@ Result<EdgeQuery> EdgeQuery::build(const Robot& robot, const Scene& scene,
   QueryOptions asked;
   asked.tolerance = options.tolerance;
   asked.ignored = options.ignored;
+  asked.scope = Scope::FirstOfAvatar;
   FORETOUCH_TRY(const auto whole, grown(robot.avatar(), options.clearance + robot.poseRounding()));
   FORETOUCH_TRY(edges.scene_, Query::build(whole, scene, asked));
   if (!options.self) return edges;
@@ -60,6 +61,7 @@ Result<EdgeQuery> EdgeQuery::build(const Robot& robot, const Scene& scene,
   FORETOUCH_TRY(const auto own, grown(robot.avatar(), half));
   FORETOUCH_TRY(asked.self, grownRules(own, *options.self, half));
   asked.ignored.clear();
+  asked.scope = Scope::EveryLink;
   for (LinkId link = 0; link < own.numLinks(); ++link) asked.ignored.push_back({link});
   FORETOUCH_TRY(edges.self_, Query::build(own, scene, asked));
   return edges;
@@ -102,7 +104,9 @@ void EdgeQuery::answerPart(EdgeScratch& scratch, EdgeAnswer& answer, int part, i
   scratch.motion.assign(robot_->avatar().skeleton(), scratch.from, scratch.to);
   scene_->answer(scratch.motion, scratch.query, scratch.step);
   for (const LinkContact& contact : scratch.step.links) {
-    if (contact.verdict == Verdict::Clear) continue;
+    // What is not looked at is so because another link meets something earlier, which is taken.
+    if (contact.verdict == Verdict::Clear || contact.reason == UndecidedReason::AfterFirst)
+      continue;
     PairContact met;
     static_cast<LinkContact&>(met) = contact;
     take(met, answer);

@@ -62,7 +62,7 @@ struct alignas(128) Worker {
   BodiesTracer tracer;
   std::vector<WorldEvent> events;
   EventCounters counters;
-  internal::FirstFailure failure;
+  internal::FirstFailure failure{"window"};
 };
 
 }  // namespace
@@ -122,7 +122,7 @@ struct WorldFollower::Impl {
     } catch (const std::exception& broken) {
       scratch.emplace();  // may be half written, and so may these
       for (const auto& worker : workers) *worker = Worker();
-      return internal::brokenOff(broken);
+      return internal::brokenOff("window", broken);
     }
   }
 

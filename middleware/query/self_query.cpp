@@ -24,8 +24,9 @@ constexpr int kProposingNodes[] = {3, 0, 7};
 constexpr float kBendInflation = 1.0F + 0x1p-21F;
 
 /// The nodes are relative to the scene's middle. Where that is so far away that their places lose
-/// more than this (m), a contact's points are found from the links' own states.
-constexpr double kStartRounding = 1e-11;
+/// more than this (m), a contact's points are found from the links' own states. The bound grows with
+/// the chain: forty joints on end are at 2e-11 before they are anywhere.
+constexpr double kStartRounding = 1e-10;
 
 /// Steps along curves before doubles look: two that slide along each other take many.
 constexpr int kMostRounds = 200;

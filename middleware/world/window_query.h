@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "articulated/result.h"
+#include "middleware/query/first_failure.h"
 #include "middleware/query/worker_threads.h"
 #include "middleware/world/bodies_apart.h"
 #include "middleware/world/body_sweep.h"
 #include "middleware/world/box_sweep.h"
-#include "middleware/world/first_failure.h"
 #include "middleware/world/system_query.h"
 #include "middleware/world/world.h"
 #include "middleware/world/world_contacts.h"
@@ -25,7 +25,7 @@ struct alignas(128) WindowWorker {
   BodiesApart apart;
   std::vector<WorldContact> contacts;
   WorldCounters counters;
-  FirstFailure failure;
+  FirstFailure failure{"window"};
 };
 
 /// Where a contact comes among all: sorted in its place, as it is four times as large.

@@ -27,7 +27,7 @@ ModelNode randomNode(Random& random, std::int32_t index) {
   for (int i = random.below(3); i > 0; --i) {
     node.lss.push_back({random.inBox(1), random.inBox(1), random.uniform(0, 2)});
   }
-  node.joint = static_cast<ModelJointType>(random.below(5));
+  node.joint = static_cast<ModelJointType>(random.below(6));
   node.jointName = "joint " + std::to_string(index);
   node.axis = random.direction();
   node.lowerLimit = random.uniform(-3, 0);
@@ -83,6 +83,10 @@ bool same(const ModelNode& a, const ModelNode& b) {
                     [](const Lss& x, const Lss& y) { return sameBits(x, y); }) &&
          a.joint == b.joint && a.jointName == b.jointName && sameBits(a.axis, b.axis) &&
          a.lowerLimit == b.lowerLimit && a.upperLimit == b.upperLimit;
+}
+
+bool same(const ModelMimic& a, const ModelMimic& b) {
+  return a.node == b.node && a.leader == b.leader && a.factor == b.factor && a.offset == b.offset;
 }
 
 bool same(const ModelBone& a, const ModelBone& b) {
@@ -145,6 +149,10 @@ Model randomModel(std::uint64_t seed) {
   Model model;
   const std::int32_t nodes = 1 + random.below(20);
   for (std::int32_t i = 0; i < nodes; ++i) model.nodes.push_back(randomNode(random, i));
+  for (int i = random.below(3); i > 0; --i) {
+    model.mimics.push_back(
+        {random.below(nodes), random.below(nodes), random.uniform(-2, 2), random.uniform(-1, 1)});
+  }
   for (int i = random.below(4); i > 0; --i) model.meshes.push_back(randomMesh(random, nodes));
   for (int i = random.below(3); i > 0; --i) {
     ModelAnimation animation{"animation", random.uniform(0, 9), {}};
@@ -158,7 +166,8 @@ Model randomModel(std::uint64_t seed) {
 
 std::string difference(const Model& a, const Model& b) {
   for (const std::string& found :
-       {differenceOf("nodes", a.nodes, b.nodes), differenceOf("meshes", a.meshes, b.meshes),
+       {differenceOf("nodes", a.nodes, b.nodes), differenceOf("mimics", a.mimics, b.mimics),
+        differenceOf("meshes", a.meshes, b.meshes),
         differenceOf("animations", a.animations, b.animations)}) {
     if (!found.empty()) return found;
   }

@@ -120,6 +120,14 @@ TEST(ModelReader, RefusesIndicesOutOfRange) {
   EXPECT_EQ(stateWith([](Model& m) { m.animations[0].tracks[0].node = -1; }), State::Broken);
 }
 
+TEST(ModelReader, RefusesJointsThatFollowNone) {
+  EXPECT_EQ(stateWith([](Model& m) { m.mimics = {{1, 0, 2.0, 0.1}}; }), State::Complete);
+  EXPECT_EQ(stateWith([](Model& m) { m.mimics = {{2, 0, 2.0, 0.1}}; }), State::Broken);
+  EXPECT_EQ(stateWith([](Model& m) { m.mimics = {{1, -1, 2.0, 0.1}}; }), State::Broken);
+  EXPECT_EQ(stateWith([](Model& m) { m.mimics = {{1, 0, std::nan(""), 0.1}}; }), State::Broken);
+  EXPECT_EQ(stateWith([](Model& m) { m.mimics = {{1, 0, 2.0, INFINITY}}; }), State::Broken);
+}
+
 TEST(ModelReader, RefusesFramesAndVolumesThatCannotBe) {
   const double nan = std::nan("");
   EXPECT_EQ(stateWith([&](Model& m) { m.nodes[0].toParent.linear(1, 1) = nan; }), State::Broken);

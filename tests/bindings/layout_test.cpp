@@ -2,6 +2,7 @@
 // these lines only ever get company.
 #include <cstddef>
 #include <foretouch/mechanics.h>
+#include <foretouch/robots.h>
 #include <foretouch/solid.h>
 #include <foretouch/triggers.h>
 #include <foretouch/world.h>
@@ -349,6 +350,51 @@ AT(ft_collision_impulse, on_a, 8);
 AT(ft_collision_impulse, restitution, 32);
 AT(ft_collision_impulse, friction, 40);
 AT(ft_collision_impulse, effective_mass, 48);
+
+static_assert(sizeof(ft_robot_joint) == 64);
+AT(ft_robot_joint, mimic_of, 4);
+AT(ft_robot_joint, axis, 8);
+AT(ft_robot_joint, lower, 32);
+AT(ft_robot_joint, upper, 40);
+AT(ft_robot_joint, mimic_factor, 48);
+AT(ft_robot_joint, mimic_offset, 56);
+
+static_assert(sizeof(ft_urdf_options) == 40);
+AT(ft_urdf_options, max_lss_per_link, 4);
+AT(ft_urdf_options, import, 8);
+AT(ft_urdf_options, package_paths, 16);
+AT(ft_urdf_options, package_count, 24);
+AT(ft_urdf_options, use_visual, 32);
+AT(ft_urdf_options, reserved, 36);
+
+static_assert(sizeof(ft_robot_coordinate) == 40);
+AT(ft_robot_coordinate, joint, 4);
+AT(ft_robot_coordinate, name, 8);
+AT(ft_robot_coordinate, lower, 16);
+AT(ft_robot_coordinate, upper, 24);
+AT(ft_robot_coordinate, is_angle, 32);
+AT(ft_robot_coordinate, is_periodic, 36);
+
+static_assert(sizeof(ft_edge_options) == 48);
+AT(ft_edge_options, threads, 4);
+AT(ft_edge_options, tolerance, 8);
+AT(ft_edge_options, clearance, 16);
+AT(ft_edge_options, self, 24);
+AT(ft_edge_options, ignored, 32);
+AT(ft_edge_options, ignored_count, 40);
+
+static_assert(sizeof(ft_edge) == 32);
+AT(ft_edge, verdict, 4);
+AT(ft_edge, reason, 8);
+AT(ft_edge, is_usable, 12);
+AT(ft_edge, free_until, 16);
+AT(ft_edge, breach_at_0, 24);
+AT(ft_edge, breach_at_1, 28);
+
+static_assert(sizeof(ft_path) == 24);
+AT(ft_path, verdict, 4);
+AT(ft_path, edge, 8);
+AT(ft_path, free_until, 16);
 
 namespace {
 

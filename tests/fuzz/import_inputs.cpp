@@ -72,6 +72,10 @@ void checkModel(const Model& model) {
     const std::int32_t parent = model.nodes[static_cast<std::size_t>(i)].parent;
     require(parent >= -1 && parent < i, "parents come before their children");
   }
+  for (const ModelMimic& mimic : model.mimics) {
+    require(mimic.node >= 0 && mimic.node < nodes && mimic.leader >= 0 && mimic.leader < nodes,
+            "joints follow joints");
+  }
   for (const ModelMesh& mesh : model.meshes) {
     require(mesh.node >= 0 && mesh.node < nodes, "a mesh is placed by a node");
     const auto vertices = static_cast<std::int32_t>(mesh.vertices.size());

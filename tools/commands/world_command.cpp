@@ -1,6 +1,8 @@
 #include "tools/commands/world_command.h"
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,7 +18,10 @@
 #include "tools/report/report_file.h"
 #include "tools/report/world_report.h"
 #include "tools/results_output.h"
+#include "tools/world/followed_world.h"
 #include "tools/world/world_audit.h"
+#include "tools/world/world_event_lines.h"
+#include "tools/world/world_intervals.h"
 #include "tools/world/world_results.h"
 #include "tools/world/world_summary.h"
 
@@ -32,6 +37,7 @@ struct AskedWorld {
   double tolerance = kDefaultTolerance;
   WindowRequest windows;
   std::string outputPath;
+  std::string eventsPath;
   ReportOptions report;
   GlbRequest glb;
   bool asJson = false;
@@ -70,24 +76,54 @@ Result<Done> checkPlaces(const AskedWorld& asked, const LoadedWorld& world) {
   std::vector<std::string> inputs = inputsOf(world.file);
   FORETOUCH_CHECK(checkOutputs(asked.outputPath, asked.report.path, inputs));
   inputs.push_back(asked.report.path);
-  return checkOutputs(asked.outputPath, asked.glb.path, inputs);
+  FORETOUCH_CHECK(checkOutputs(asked.outputPath, asked.glb.path, inputs));
+  inputs.push_back(asked.glb.path);
+  return checkOutputs(asked.outputPath, asked.eventsPath, inputs);
 }
 
 void tellFound(const AskedWorld& asked, const WorldSummary& summary) {
   const std::string& report = asked.report.path;
   const bool outIsTaken = isStandardOutput(asked.outputPath) || isStandardOutput(report) ||
-                          isStandardOutput(asked.glb.path);
+                          isStandardOutput(asked.glb.path) || isStandardOutput(asked.eventsPath);
   std::string text = asked.asJson ? summary.jsonLine(asked.outputPath, report) : summary.text();
   if (!asked.asJson && !outIsTaken) {
     text += "\nresults: " + asked.outputPath + "\n";
+    if (!asked.eventsPath.empty()) text += "events:  " + asked.eventsPath + "\n";
     if (!report.empty()) text += "report:  " + report + "\n";
   }
   outIsTaken ? printAside(text) : printOut(text);
 }
 
+/// Follows the world from enter to leave, into the file of events if one is asked for. Not for an
+/// interrupted replay: then nothing is told.
+Result<Done> follow(const AskedWorld& asked, const std::vector<std::int64_t>& cuts,
+                    const InterruptGuard& guard, LoadedWorld& world, WorldIntervals& intervals) {
+  std::optional<PendingFile> file;
+  if (!asked.eventsPath.empty()) {
+    FORETOUCH_TRY(auto created, PendingFile::create(asked.eventsPath));
+    file.emplace(std::move(created));
+    file->write(eventsHeader(world, cuts.front(), cuts.back()));
+  }
+  ProgressBar progress("follow", cuts.back() - cuts.front());
+  FORETOUCH_CHECK(followWorld(world, cuts.front(), cuts.back(), [&](const FollowedStretch& of) {
+    if (file) file->write(eventLines(world, of));
+    intervals.add(of);
+    progress.advanceTo(of.contacts.toUs - cuts.front());
+    return !guard.requested();
+  }));
+  if (guard.requested()) return Done{};
+  intervals.finish(cuts.back());
+  if (!file) return Done{};
+  file->write(intervalLines(world, intervals));
+  return file->commit();
+}
+
 Result<Done> replay(const AskedWorld& asked, const Settings& settings) {
-  FORETOUCH_TRY(const auto world, load(asked, settings));
+  FORETOUCH_TRY(auto world, load(asked, settings));
   FORETOUCH_CHECK(checkPlaces(asked, world));
+  if (!asked.eventsPath.empty()) {
+    FORETOUCH_CHECK(checkFollowed(world));
+  }
   FORETOUCH_TRY(const auto cuts, windowsOf(world, asked.windows));
   const std::string header = worldHeader(world, asked.windows, cuts);
   WorldSummary summary(world);
@@ -107,6 +143,10 @@ Result<Done> replay(const AskedWorld& asked, const Settings& settings) {
       progress.advanceTo(step.window + 1);
       return !guard.requested();
     }));
+    WorldIntervals intervals(world);
+    if (!asked.eventsPath.empty() && !guard.requested()) {
+      FORETOUCH_CHECK(follow(asked, cuts, guard, world, intervals));
+    }
     if (!guard.requested()) {
       touches.finish();
       summary.add(touches);
@@ -213,6 +253,9 @@ Command replayWorldCommand() {
   addWindowSettings(settings, asked->windows);
   addToleranceSetting(settings, *asked);
   settings.output("-o,--output", "FILE", asked->outputPath, "Results, as lines of JSON").required();
+  settings.output("--events", "FILE", asked->eventsPath,
+                  "Also what begins and ends, with its strength: who enters and leaves whom, and "
+                  "triggers; as lines of JSON");
   settings.output("--report", "FILE", asked->report.path,
                   "Also a report: a page for a browser, all in one file");
   addReportTriangles(settings, asked->report);
@@ -221,6 +264,7 @@ Command replayWorldCommand() {
   Command command{"replay", "Find who touches whom in a world, and when",
                   "Examples:\n"
                   "  foretouch world replay stage.toml -o contacts.jsonl --report stage.html\n"
+                  "  foretouch world replay stage.toml -o contacts.jsonl --events events.jsonl\n"
                   "  foretouch world replay stage.toml --rate 30 --from 2 --until 4 -o part.jsonl",
                   std::move(settings)};
   command.run = [asked](const Settings& given) {

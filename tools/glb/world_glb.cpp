@@ -56,7 +56,7 @@ class BodyNodes {
 
   Result<Done> addAll(TriangleBudget& budget, std::vector<std::string>& notes) {
     addMeshes(budget, notes);
-    for (std::size_t body = 0; body < world_.bodies.size(); ++body) {
+    for (std::size_t body = 0; body < world_.numBodies(); ++body) {
       for (std::size_t i = 0; i < world_.bodies[body].stretches.size(); ++i) {
         FORETOUCH_CHECK(add(static_cast<BodyId>(body), i));
       }
@@ -83,7 +83,7 @@ class BodyNodes {
   void addMeshes(TriangleBudget& budget, std::vector<std::string>& notes) {
     const std::size_t lss = content_.addMaterial(kBodyLss), mesh = content_.addMaterial(kBodyMesh);
     std::size_t leftOut = 0;
-    for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < world_.numBodies(); ++i) {
       const BodyShape& shape = world_.bodies[i].shape;
       const std::string& name = world_.file.bodies[i].name;
       if (shape.avatar) {
@@ -174,7 +174,7 @@ std::vector<Vector3d> placesOf(const LoadedWorld& world) {
   std::vector<Vector3d> found;
   for (std::int64_t i = 0; i <= kPlaces; ++i) {
     const std::int64_t us = world.beginUs + (world.endUs - world.beginUs) / kPlaces * i;
-    for (std::size_t body = 0; body < world.bodies.size(); ++body) {
+    for (std::size_t body = 0; body < world.numBodies(); ++body) {
       const auto id = static_cast<BodyId>(body);
       if (places.isThere(id, us)) found.push_back(places.linkAt(id, 0, us).translation);
     }

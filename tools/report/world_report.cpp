@@ -182,7 +182,7 @@ std::vector<ViewRow> settingsOf(const LoadedWorld& world) {
     for (ViewRow& row : sceneSettings(world.file.scene)) rows.push_back(std::move(row));
   }
   rows.push_back({"tolerance", fmt::format("{:g} m", world.file.tolerance), ""});
-  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < world.numBodies(); ++i) {
     const FileBody& body = world.file.bodies[i];
     std::string text = madeOf(body.shape);
     for (const std::string& path : {fileOf(body.shape), body.clip.motionPath, body.posesPath}) {
@@ -250,7 +250,7 @@ void WorldReport::add(const WorldStep& step) {
 void WorldReport::addBodies(ViewDocument& document, Eigen::AlignedBox3d& action,
                             const ReportProgress& progress) const {
   const std::vector<const BodyStretches*> stretches = world_.stretches();
-  const auto count = static_cast<std::int64_t>(world_.bodies.size());
+  const auto count = static_cast<std::int64_t>(world_.numBodies());
   for (BodyId id = 0; id < count; ++id) {
     if (!progress(id, count)) return;
     const LoadedBody& body = world_.bodies[slotOf(id)];
@@ -333,7 +333,7 @@ ViewDocument WorldReport::document(const WorldSummary* summary, const WorldTouch
   if (summary != nullptr) document.summary = rowsOf(*summary);
   Eigen::AlignedBox3d action;
   addBodies(document, action, progress);
-  if (document.avatars.size() < world_.bodies.size()) return document;  // interrupted
+  if (document.avatars.size() < world_.numBodies()) return document;  // interrupted
   if (touches != nullptr) addFound(*touches, document);
   if (numLeftOut_ > 0) {
     if (document.touches) leaveOutBareTouches(*document.touches);

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "articulated/avatar.h"
 #include "assets/text_file.h"
 #include "tools/settings/config_reading.h"
@@ -19,8 +21,8 @@ Eigen::Vector3d vectorOf(const std::vector<double>& numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-void readLss(TomlSection& section, FileShape& shape) {
-  for (TomlSection& one : section.tables("lss", "[[body.lss]]", kMaxLssPerLink)) {
+void readLss(TomlSection& section, const std::string& title, FileShape& shape) {
+  for (TomlSection& one : section.tables("lss", title, kMaxLssPerLink)) {
     one.allowOnly({"a", "b", "radius"});
     std::vector<double> a, b;
     Lss lss;
@@ -60,14 +62,14 @@ void readBox(TomlSection& section, FileShape& shape) {
 
 }  // namespace
 
-void readShape(TomlSection& section, const std::string& file, FileShape& shape) {
+void readShape(TomlSection& section, const std::string& file, bool isTrigger, FileShape& shape) {
   const std::array<const char*, 5> kinds{"avatar", "mesh", "sphere", "lss", "box"};
   const auto given = std::count_if(kinds.begin(), kinds.end(),
                                    [&](const char* key) { return hasKey(section, key); });
   if (given != 1) {
     section.fail(ErrorCode::Mismatch,
-                 "expected exactly one of avatar, mesh, sphere, lss and box, found " +
-                     std::to_string(given));
+                 fmt::format("expected exactly one of {}mesh, sphere, lss and box, found {}",
+                             isTrigger ? "" : "avatar, ", given));
   }
   for (const auto& [key, path] :
        {std::make_pair("avatar", &shape.avatarPath), std::make_pair("mesh", &shape.meshPath)}) {
@@ -94,7 +96,7 @@ void readShape(TomlSection& section, const std::string& file, FileShape& shape) 
         [](double radius) { return radius > 0.0 && radius <= kMaxCoordinate; },
         shape.lss.emplace_back().radius);
   }
-  readLss(section, shape);
+  readLss(section, isTrigger ? "[[trigger.lss]]" : "[[body.lss]]", shape);
   readBox(section, shape);
 }
 

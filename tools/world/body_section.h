@@ -15,8 +15,8 @@ namespace foretouch::tools {
   return section.find(key) != nullptr;
 }
 
-/// What a body is made of. `file`: the world's, to which paths are relative.
-void readShape(TomlSection& section, const std::string& file, FileShape& shape);
+/// What a body, or a trigger, is made of. `file`: the world's, to which paths are relative.
+void readShape(TomlSection& section, const std::string& file, bool isTrigger, FileShape& shape);
 
 /// position, rotation or yaw; nothing if none of them is there.
 [[nodiscard]] std::optional<RigidPose> readPlace(TomlSection& section);

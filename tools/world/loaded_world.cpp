@@ -14,6 +14,7 @@
 #include "tools/inputs/replay_inputs.h"
 #include "tools/microseconds.h"
 #include "tools/world/body_knots.h"
+#include "tools/world/file_triggers.h"
 
 namespace foretouch::tools {
 namespace {
@@ -171,16 +172,16 @@ Result<Carrier> WorldMaker::carrierOf(BodyId body, const FileChange& change) {
   const auto found = std::find(names.begin(), names.end(), change.carrier);
   if (found == names.end()) {
     return Error::inLine(loaded_.file.path, change.line, ErrorCode::UnknownName,
-                         "[[body.attach]] to: expected the name of a body, found " +
+                         fileOf(body).title("attach") + " to: expected the name of a body, found " +
                              inQuotes(change.carrier) + didYouMean(change.carrier, names));
   }
   Carrier carrier;
   carrier.body = static_cast<BodyId>(found - names.begin());
   carrier.movesInFrame = change.movesInFrame;
   if (carrier.body == body) {
-    return Error::inLine(
-        loaded_.file.path, change.line, ErrorCode::BadHierarchy,
-        "[[body.attach]] to: expected another body than " + inQuotes(change.carrier) + " itself");
+    return Error::inLine(loaded_.file.path, change.line, ErrorCode::BadHierarchy,
+                         fileOf(body).title("attach") + " to: expected another body than " +
+                             inQuotes(change.carrier) + " itself");
   }
   const Skeleton& skeleton = bodyOf(carrier.body).shape.skeleton;
   if (change.link.empty() && skeleton.numJoints() == 1) return carrier;
@@ -192,7 +193,7 @@ Result<Carrier> WorldMaker::carrierOf(BodyId body, const FileChange& change) {
   for (LinkId link = 0; link < skeleton.numJoints(); ++link) links.push_back(skeleton.name(link));
   return Error::inLine(
       loaded_.file.path, change.line, ErrorCode::UnknownName,
-      fmt::format("[[body.attach]] link: expected a link of {}, found {}{}",
+      fmt::format("{} link: expected a link of {}, found {}{}", fileOf(body).title("attach"),
                   inQuotes(change.carrier), inQuotes(change.link), didYouMean(change.link, links)));
 }
 
@@ -265,11 +266,13 @@ Result<BodyGroup> groupOf(const std::string& name, std::int64_t line, LoadedWorl
   const auto known = std::find(groups.begin(), groups.end(), name);
   const auto group = static_cast<BodyGroup>(known - groups.begin());
   if (known != groups.end()) return group;
-  if (group == kNumBodyGroups) {
+  const auto most =
+      static_cast<BodyGroup>(loaded.file.hasTriggers() ? kTriggerGroup : kNumBodyGroups);
+  if (group == most) {
     return Error::inLine(
         loaded.file.path, line, ErrorCode::LimitExceeded,
-        fmt::format("[[body]] group: expected at most {} groups, found {} as one more",
-                    kNumBodyGroups, inQuotes(name)));
+        fmt::format("[[body]] group: expected at most {} groups{}, found {} as one more", most,
+                    loaded.file.hasTriggers() ? " beside triggers" : "", inQuotes(name)));
   }
   groups.push_back(name);
   return group;
@@ -309,8 +312,17 @@ Result<LoadedWorld> emptyWorld(WorldFile file) {
   options.tolerance = file.tolerance;
   options.askMeshes = file.askMeshes;
   FORETOUCH_TRY(auto world, World::build(scene, options));
-  return LoadedWorld{
-      std::move(file), std::move(scene), frame, {}, {}, std::move(world), 0, 0, std::nullopt, {}};
+  return LoadedWorld{std::move(file),
+                     std::move(scene),
+                     frame,
+                     {},
+                     {},
+                     std::move(world),
+                     0,
+                     0,
+                     std::nullopt,
+                     {},
+                     {}};
 }
 
 /// Reads what the body is and what is told of it, and adds it to the world.
@@ -319,6 +331,12 @@ Result<BodyKnots> addBody(const FileBody& body, ShapeLoader& shapes, KnotLoader&
   const std::string& path = loaded.file.path;
   FORETOUCH_TRY(auto shape, shapes.load(body, path));
   FORETOUCH_TRY(auto told, knots.load(body, shape, path));
+  if (body.trigger) {
+    FORETOUCH_CHECK(addTrigger(body, shape, path, loaded.world, loaded.triggers));
+    loaded.remarks.insert(loaded.remarks.end(), told.remarks.begin(), told.remarks.end());
+    loaded.bodies.push_back({std::move(shape), {}, {}, kTriggerGroup});
+    return told;
+  }
   FORETOUCH_TRY(const auto group, groupOf(body.group, body.line, loaded));
   BodyOptions options;
   options.group = group;
@@ -354,6 +372,9 @@ Result<LoadedWorld> loadWorld(WorldFile file) {
     knots.push_back(std::move(told));
   }
   FORETOUCH_CHECK(applyAsks(loaded));
+  std::vector<const Skeleton*> skeletons;
+  for (const LoadedBody& body : loaded.bodies) skeletons.push_back(&body.shape.skeleton);
+  FORETOUCH_CHECK(watchAll(loaded.file, skeletons, loaded.world, loaded.triggers));
   FORETOUCH_CHECK(WorldMaker(loaded, std::move(knots)).make());
   return loaded;
 }
@@ -367,24 +388,6 @@ std::vector<const BodyStretches*> LoadedWorld::stretches() const {
 std::string LoadedWorld::linkNameOf(BodyId body, LinkId link) const {
   const Skeleton& skeleton = bodies[slotOf(body)].shape.skeleton;
   return skeleton.numJoints() == 1 ? "" : skeleton.name(link);
-}
-
-Error named(Error error, const WorldFile& file) {
-  constexpr std::string_view kBody = "body ";
-  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
-  std::string& text = error.message;
-  for (std::size_t at = text.find(kBody); at != std::string::npos; at = text.find(kBody, at + 1)) {
-    const std::size_t first = at + kBody.size();
-    std::size_t end = first;
-    while (end < text.size() && isDigit(text[end]) && end < first + 6) ++end;
-    if (end == first) continue;
-    const auto body = static_cast<std::size_t>(std::stoul(text.substr(first, end - first)));
-    if (body >= file.bodies.size()) continue;
-    const std::string name = inQuotes(file.bodies[body].name);
-    text.replace(at, end - at, name);
-    at += name.size() - 1;
-  }
-  return error;
 }
 
 }  // namespace foretouch::tools

@@ -9,6 +9,7 @@
 #include "articulated/pair_rules.h"
 #include "articulated/result.h"
 #include "lss/index.h"
+#include "middleware/triggers/triggers.h"
 #include "middleware/world/world.h"
 #include "tools/microseconds.h"
 #include "tools/world/body_shapes.h"
@@ -40,9 +41,16 @@ struct LoadedWorld {
   /// Whose poses end there, though others go on; nothing if all end there.
   std::optional<BodyId> waitsFor;
   std::vector<std::string> remarks;  ///< What a user should know, a sentence each.
+  Triggers triggers;                 ///< Of the file, in its order.
 
   [[nodiscard]] const std::string& nameOf(BodyId body) const {
     return file.bodies[slotOf(body)].name;
+  }
+  /// It is a volume that tells who is in it, and touches nobody.
+  [[nodiscard]] bool isTrigger(BodyId body) const { return triggers.triggerOf(body) >= 0; }
+  /// Bodies without triggers, which come behind them.
+  [[nodiscard]] std::size_t numBodies() const {
+    return bodies.size() - countOf(triggers.numTriggers());
   }
   /// For BodyPlaces: valid until the bodies change.
   [[nodiscard]] std::vector<const BodyStretches*> stretches() const;
@@ -56,8 +64,5 @@ struct LoadedWorld {
 
 /// Reads all that the file names. Errors name the file and, if it is the world's, the line.
 [[nodiscard]] Result<LoadedWorld> loadWorld(WorldFile file);
-
-/// The error of a world with its bodies' names in place of their numbers.
-[[nodiscard]] Error named(Error error, const WorldFile& file);
 
 }  // namespace foretouch::tools

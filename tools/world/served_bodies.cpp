@@ -54,7 +54,7 @@ WorldSetup servedBodies(const LoadedWorld& world) {
   setup.build = [scene = world.scene, tolerance = world.file.tolerance, asks = asksOf(world)] {
     return emptyWorld(scene, tolerance, asks);
   };
-  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < world.numBodies(); ++i) {
     const LoadedBody& body = world.bodies[i];
     setup.shapes.push_back(
         {world.file.bodies[i].name, body.shape.avatar, body.shape.mesh, body.group, body.self});
@@ -68,7 +68,7 @@ WorldSetup servedBodies(const LoadedWorld& world) {
 std::vector<std::string> remarksOnServing(const LoadedWorld& world) {
   std::vector<std::string> remarks;
   std::string moved;
-  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < world.numBodies(); ++i) {
     const FileBody& body = world.file.bodies[i];
     const bool isPlaced = world.bodies[i].numPoses > 0 || body.place || !body.changes.empty();
     if (isPlaced) moved += (moved.empty() ? "" : ", ") + inQuotes(body.name);
@@ -77,6 +77,11 @@ std::vector<std::string> remarksOnServing(const LoadedWorld& world) {
     remarks.push_back(
         fmt::format("{}: where it says that bodies are does not count, their streams do: {}",
                     world.file.path, moved));
+  }
+  for (std::size_t i = world.numBodies(); i < world.bodies.size(); ++i) {
+    remarks.push_back(fmt::format("{}:{}: a service tells of no triggers: {} does not count",
+                                  world.file.path, world.file.bodies[i].line,
+                                  inQuotes(world.file.bodies[i].name)));
   }
   return remarks;
 }

@@ -37,11 +37,12 @@ std::string bodyRow(const LoadedWorld& world, BodyId id) {
   const FileBody& file = world.file.bodies[slotOf(id)];
   const LoadedBody& body = world.bodies[slotOf(id)];
   const ToldTime told = toldTime(body);
-  return fmt::format(
-      "  {:<18}{:<8}{:<12}{:>9}{:>9}{:>10}  {:>9}{:>9}  {}\n", file.name, madeOf(file.shape),
-      file.group, file.massKg ? fmt::format("{:g} kg", *file.massKg) : "", body.numPoses,
-      rateOf(body), fmt::format("{:.3f}", LoadedWorld::secondsOf(told.firstUs)),
-      fmt::format("{:.3f}", LoadedWorld::secondsOf(told.lastUs)), toString(file.whenSilent));
+  return fmt::format("  {:<18}{:<8}{:<12}{:>9}{:>9}{:>10}  {:>9}{:>9}  {}\n", file.name,
+                     madeOf(file.shape), file.trigger ? "(trigger)" : file.group,
+                     file.massKg ? fmt::format("{:g} kg", *file.massKg) : "", body.numPoses,
+                     rateOf(body), fmt::format("{:.3f}", LoadedWorld::secondsOf(told.firstUs)),
+                     fmt::format("{:.3f}", LoadedWorld::secondsOf(told.lastUs)),
+                     toString(file.whenSilent));
 }
 
 std::string sideInWords(const LoadedWorld& world, const ContactSide& side) {
@@ -95,8 +96,9 @@ std::string overlapsInWords(const LoadedWorld& world, const std::vector<WorldCon
 
 /// Pairs that a world is not asked about unless its file says so.
 std::string notAskedInWords(const LoadedWorld& world) {
-  const auto meshes = std::count_if(world.bodies.begin(), world.bodies.end(),
-                                    [](const LoadedBody& body) { return body.isMesh(); });
+  const auto meshes = std::count_if(
+      world.bodies.begin(), world.bodies.begin() + static_cast<std::ptrdiff_t>(world.numBodies()),
+      [](const LoadedBody& body) { return body.isMesh(); });
   if (meshes == 0 || world.file.askMeshes) return "";
   std::string text = auditRow("not asked", "");
   if (meshes > 1) {
@@ -128,7 +130,10 @@ std::string describe(const LoadedWorld& world, const std::vector<WorldContact>& 
       auditRow("scene", world.scene ? fmt::format("{}, {} triangles", world.file.scene.scenePath,
                                                   world.scene->audit().triangles)
                                     : "none");
-  text += auditRow("bodies", std::to_string(world.bodies.size()));
+  text += auditRow("bodies", std::to_string(world.numBodies()));
+  if (world.file.hasTriggers()) {
+    text += auditRow("triggers", std::to_string(world.triggers.numTriggers()));
+  }
   text += timeInWords(world);
   text += auditRow("tolerance", fmt::format("{:g} m", world.file.tolerance));
   for (const FileAsk& ask : world.file.asks) {
@@ -165,6 +170,7 @@ std::string auditLine(const LoadedWorld& world, const std::vector<WorldContact>&
     out.field("made_of", madeOf(file.shape));
     if (file.fidelity == Fidelity::Exact) out.field("fidelity", toString(file.fidelity));
     if (!file.group.empty()) out.field("group", file.group);
+    if (file.trigger) out.field("trigger", true);
     if (file.massKg) out.field("mass", *file.massKg);
     out.field("poses", body.numPoses);
     out.field("from", LoadedWorld::secondsOf(told.firstUs));

@@ -47,6 +47,10 @@ class WorldReading {
       world_.bodies.push_back(readBody(section));
       if (reading_.error) break;
     }
+    for (TomlSection& section : root_.tables("trigger", "[[trigger]]", kMaxFileTriggers)) {
+      if (reading_.error) break;
+      world_.bodies.push_back(readTrigger(section));
+    }
     readAsks();
     checkNames();
     if (reading_.error) return *reading_.error;
@@ -64,6 +68,9 @@ class WorldReading {
 
   void readHead();
   FileBody readBody(TomlSection& section);
+  FileBody readTrigger(TomlSection& section);
+  void readNameAndShape(TomlSection& section, FileBody& body);
+  static void readSilence(TomlSection& section, FileBody& body);
   void readMotion(TomlSection& section, FileBody& body);
   void readClip(TomlSection& section, FileBody& body);
   void readTiming(TomlSection& section, ClipTiming& timing);
@@ -79,7 +86,7 @@ class WorldReading {
 };
 
 void WorldReading::readHead() {
-  root_.allowOnly({"format", "version", "scene", "query", "body", "ask", "ask_meshes"});
+  root_.allowOnly({"format", "version", "scene", "query", "body", "trigger", "ask", "ask_meshes"});
   std::string format;
   root_.word<std::string>("format", {kFormat}, {kFormat}, format);
   if (format.empty()) {
@@ -109,9 +116,7 @@ FileBody WorldReading::readBody(TomlSection& section) {
                      "sphere", "lss",         "box",    "group",  "mass",    "self",
                      "pairs",  "when_silent", "clip",   "poses",  "pose",    "position",
                      "yaw",    "rotation",    "attach", "detach", "fidelity"});
-  section.text("name", body.name, false);
-  if (body.name.empty()) section.fail(ErrorCode::Empty, "expected a name");
-  readShape(section, reading_.file, body.shape);
+  readNameAndShape(section, body);
   section.text("group", body.group, false);
   if (body.group == kSceneWord) {
     section.outOfRange("group", "another word, as this one means the scene", inQuotes(body.group),
@@ -122,9 +127,7 @@ FileBody WorldReading::readBody(TomlSection& section) {
         "mass", "a finite number of kilograms greater than 0, at most 1e9",
         [](double kg) { return kg > 0.0 && kg <= kMostMassKg; }, body.massKg.emplace());
   }
-  section.word<WhenSilent>("when_silent", {"wait", "hold-still", "undecided"},
-                           {WhenSilent::Wait, WhenSilent::HoldStill, WhenSilent::Undecided},
-                           body.whenSilent);
+  readSilence(section, body);
   section.word<Fidelity>("fidelity", {"link", "exact"}, {Fidelity::Link, Fidelity::Exact},
                          body.fidelity);
   if (body.fidelity == Fidelity::Exact && body.shape.avatarPath.empty()) {
@@ -146,6 +149,49 @@ FileBody WorldReading::readBody(TomlSection& section) {
   readMotion(section, body);
   readChanges(section, body);
   return body;
+}
+
+/// A trigger moves as a prop does, and who does not hear of it any more takes it to stand still.
+FileBody WorldReading::readTrigger(TomlSection& section) {
+  FileBody body;
+  body.line = section.line();
+  body.trigger.emplace();
+  body.whenSilent = WhenSilent::HoldStill;
+  section.allowOnly({"name", "mesh", "node", "scale", "up", "sphere", "lss", "box", "when_silent",
+                     "clip", "poses", "pose", "position", "yaw", "rotation", "attach", "detach",
+                     "by_link", "watches"});
+  readNameAndShape(section, body);
+  readSilence(section, body);
+  std::optional<bool> byLink;
+  section.truth("by_link", byLink);
+  body.trigger->byLink = byLink.value_or(false);
+  for (TomlSection& one : section.tables("watches", body.title("watches"), kMaxFileBodies)) {
+    one.allowOnly({"body", "link"});
+    FileWatch watch;
+    watch.line = one.line();
+    one.text("body", watch.body, false);
+    if (watch.body.empty()) one.fail(ErrorCode::Empty, "expected a body");
+    one.text("link", watch.link, false);
+    body.trigger->watched.push_back(std::move(watch));
+  }
+  if (hasKey(section, "watches") && body.trigger->watched.empty()) {
+    section.fail(ErrorCode::Empty, "expected somebody in watches");
+  }
+  readMotion(section, body);
+  readChanges(section, body);
+  return body;
+}
+
+void WorldReading::readNameAndShape(TomlSection& section, FileBody& body) {
+  section.text("name", body.name, false);
+  if (body.name.empty()) section.fail(ErrorCode::Empty, "expected a name");
+  readShape(section, reading_.file, body.trigger.has_value(), body.shape);
+}
+
+void WorldReading::readSilence(TomlSection& section, FileBody& body) {
+  section.word<WhenSilent>("when_silent", {"wait", "hold-still", "undecided"},
+                           {WhenSilent::Wait, WhenSilent::HoldStill, WhenSilent::Undecided},
+                           body.whenSilent);
 }
 
 std::int64_t WorldReading::readTime(TomlSection& section) {
@@ -211,7 +257,7 @@ void WorldReading::readTiming(TomlSection& section, ClipTiming& timing) {
 }
 
 void WorldReading::readPoses(TomlSection& section, FileBody& body) {
-  for (TomlSection& one : section.tables("pose", "[[body.pose]]", kMaxFilePoses)) {
+  for (TomlSection& one : section.tables("pose", body.title("pose"), kMaxFilePoses)) {
     one.allowOnly({"time", "position", "rotation", "yaw"});
     const std::int64_t utimeUs = readTime(one);
     if (!body.poses.empty() && utimeUs <= body.poses.back().utimeUs) {
@@ -225,7 +271,7 @@ void WorldReading::readPoses(TomlSection& section, FileBody& body) {
 }
 
 void WorldReading::readChanges(TomlSection& section, FileBody& body) {
-  for (TomlSection& one : section.tables("attach", "[[body.attach]]", kMaxFileChanges)) {
+  for (TomlSection& one : section.tables("attach", body.title("attach"), kMaxFileChanges)) {
     one.allowOnly({"time", "to", "link", "moves", "position", "rotation", "yaw"});
     FileChange change;
     change.isAttached = true;
@@ -240,7 +286,7 @@ void WorldReading::readChanges(TomlSection& section, FileBody& body) {
     change.pose = readPlace(one);
     body.changes.push_back(std::move(change));
   }
-  for (TomlSection& one : section.tables("detach", "[[body.detach]]", kMaxFileChanges)) {
+  for (TomlSection& one : section.tables("detach", body.title("detach"), kMaxFileChanges)) {
     one.allowOnly({"time", "position", "rotation", "yaw"});
     FileChange change;
     change.line = one.line();
@@ -255,7 +301,7 @@ void WorldReading::readChanges(TomlSection& section, FileBody& body) {
       [](const FileChange& x, const FileChange& y) { return x.utimeUs == y.utimeUs; });
   if (twice == body.changes.end()) return;
   reading_.fail(ErrorCode::DuplicateName, std::next(twice)->line,
-                "[[body]]: expected one attach or detach at an instant, found two");
+                body.title() + ": expected one attach or detach at an instant, found two");
 }
 
 void WorldReading::readAsks() {
@@ -279,17 +325,40 @@ void WorldReading::readAsks() {
 }
 
 void WorldReading::checkNames() {
-  if (world_.bodies.empty()) reading_.fail(ErrorCode::Empty, -1, "expected at least one [[body]]");
+  const bool isNobodyThere = world_.bodies.empty() || world_.bodies.front().trigger;
+  if (isNobodyThere) reading_.fail(ErrorCode::Empty, -1, "expected at least one [[body]]");
   std::set<std::string> names;
   for (const FileBody& body : world_.bodies) {
     if (names.insert(body.name).second) continue;
     reading_.fail(
         ErrorCode::DuplicateName, body.line,
-        "[[body]] name: expected one that no other body has, found " + inQuotes(body.name));
+        body.title() + " name: expected one that no other body has, found " + inQuotes(body.name));
   }
 }
 
 }  // namespace
+
+std::string FileBody::title(const std::string& inner) const {
+  return (trigger ? "[[trigger" : "[[body") + (inner.empty() ? "" : "." + inner) + "]]";
+}
+
+Error named(Error error, const WorldFile& file) {
+  constexpr std::string_view kBody = "body ";
+  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+  std::string& text = error.message;
+  for (std::size_t at = text.find(kBody); at != std::string::npos; at = text.find(kBody, at + 1)) {
+    const std::size_t first = at + kBody.size();
+    std::size_t end = first;
+    while (end < text.size() && isDigit(text[end]) && end < first + 6) ++end;
+    if (end == first) continue;
+    const auto body = static_cast<std::size_t>(std::stoul(text.substr(first, end - first)));
+    if (body >= file.bodies.size()) continue;
+    const std::string name = inQuotes(file.bodies[body].name);
+    text.replace(at, end - at, name);
+    at += name.size() - 1;
+  }
+  return error;
+}
 
 Setting& addWorldTolerance(Settings& settings, double& tolerance) {
   static constexpr NumberRange kRange{kMinWorldTolerance, kMaxTolerance, "metres", "m"};

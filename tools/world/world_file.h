@@ -19,8 +19,9 @@
 
 namespace foretouch::tools {
 
-/// Bodies of one file, and poses, changes of carriers and LSS of one body.
+/// Bodies and triggers of one file, and poses, changes of carriers and LSS of one body.
 inline constexpr std::size_t kMaxFileBodies = 4096;
+inline constexpr std::size_t kMaxFileTriggers = 256;
 inline constexpr std::size_t kMaxFilePoses = 65536;
 inline constexpr std::size_t kMaxFileChanges = 65536;
 /// Instants of a file are within this of zero (s), as those of tracks are.
@@ -50,6 +51,16 @@ struct ClipTiming {
   double speed = 1.0;            ///< 2: twice as fast as recorded.
 };
 
+/// Whom a trigger looks at.
+struct FileWatch {
+  std::string body, link;  ///< Names; an empty link: all of them.
+  std::int64_t line = -1;
+};
+struct FileTrigger {
+  bool byLink = false;             ///< TriggerOptions::byLink.
+  std::vector<FileWatch> watched;  ///< Empty: everybody.
+};
+
 struct FileBody {
   std::string name;
   std::int64_t line = -1;
@@ -71,6 +82,11 @@ struct FileBody {
   std::optional<RigidPose> place;  ///< Where it stands.
 
   std::vector<FileChange> changes;  ///< By time; of one instant as the file has them.
+
+  std::optional<FileTrigger> trigger;  ///< It is a volume that tells who is in it.
+
+  /// "[[body]]" or "[[trigger]]", and of a table in it "[[trigger.pose]]": for errors.
+  [[nodiscard]] std::string title(const std::string& inner = "") const;
 };
 
 /// Bodies of two groups are not asked, or are again; an empty `with`: the scene.
@@ -84,10 +100,17 @@ struct WorldFile {
   std::string path;
   WorldRequest scene;  ///< Of which the scene's file and how to read it; no path: there is none.
   double tolerance = kDefaultTolerance;
-  bool askMeshes = false;  ///< WorldOptions::askMeshes.
-  std::vector<FileBody> bodies;
+  bool askMeshes = false;        ///< WorldOptions::askMeshes.
+  std::vector<FileBody> bodies;  ///< Triggers behind all others.
   std::vector<FileAsk> asks;
+
+  [[nodiscard]] bool hasTriggers() const {
+    return !bodies.empty() && bodies.back().trigger.has_value();
+  }
 };
+
+/// The error of a world with its bodies' names in place of their numbers.
+[[nodiscard]] Error named(Error error, const WorldFile& file);
 
 /// --tolerance, and [query] tolerance of a file.
 Setting& addWorldTolerance(Settings& settings, double& tolerance);

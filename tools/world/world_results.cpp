@@ -7,30 +7,6 @@
 namespace foretouch::tools {
 namespace {
 
-/// The instant in seconds, for people, and exactly.
-void writeInstant(const char* name, const WorldTime& time, JsonWriter& out) {
-  out.field(name, (static_cast<double>(time.us) + time.fraction) / kUsPerS);
-  out.field("utime", time.us);
-  out.field("fraction", time.fraction);
-}
-
-void writeContactSide(const LoadedWorld& world, const ContactSide& side, bool isTold,
-                      JsonWriter& out) {
-  out.beginObject();
-  writeSide(world, {side.body, side.link}, out);
-  if (isTold) {
-    if (side.lss >= 0) out.field("lss", side.lss);
-    if (side.triangle >= 0) {
-      out.field("triangle", side.triangle);
-      const std::optional<Scene>& mesh =
-          side.body == kStillScene ? world.scene : world.bodies[slotOf(side.body)].shape.mesh;
-      if (mesh) out.field("object", mesh->objectNames()[slotOf(mesh->object(side.triangle))]);
-    }
-    out.field("point", side.p_W);
-  }
-  out.endObject();
-}
-
 void writeBody(const LoadedWorld& world, BodyId id, JsonWriter& out) {
   const FileBody& file = world.file.bodies[slotOf(id)];
   const LoadedBody& body = world.bodies[slotOf(id)];
@@ -72,11 +48,33 @@ void writeSide(const LoadedWorld& world, const NamedSide& side, JsonWriter& out)
   if (!link.empty()) out.field("link", link);
 }
 
-std::string worldHeader(const LoadedWorld& world, const WindowRequest& request,
-                        const std::vector<std::int64_t>& cuts) {
-  std::string text;
-  JsonWriter out(text);
-  beginResults(out, "foretouch-world-results");
+void writeInstant(const char* name, const WorldTime& time, JsonWriter& out) {
+  out.field(name, (static_cast<double>(time.us) + time.fraction) / kUsPerS);
+  out.field("utime", time.us);
+  out.field("fraction", time.fraction);
+}
+
+void writeContactSide(const LoadedWorld& world, const ContactSide& side, bool isTold,
+                      JsonWriter& out) {
+  out.beginObject();
+  writeSide(world, {side.body, side.link}, out);
+  if (isTold) {
+    if (side.lss >= 0) out.field("lss", side.lss);
+    if (side.triangle >= 0) {
+      out.field("triangle", side.triangle);
+      const std::optional<Scene>& mesh = meshOf(world, side.body);
+      if (mesh) out.field("object", mesh->objectNames()[slotOf(mesh->object(side.triangle))]);
+    }
+    out.field("point", side.p_W);
+  }
+  out.endObject();
+}
+
+const std::optional<Scene>& meshOf(const LoadedWorld& world, BodyId body) {
+  return body == kStillScene ? world.scene : world.bodies[slotOf(body)].shape.mesh;
+}
+
+void writeWorldFields(const LoadedWorld& world, JsonWriter& out) {
   writeFileName("world", world.file.path, out);
   if (world.scene) {
     WorldRequest scene = world.file.scene;
@@ -85,17 +83,31 @@ std::string worldHeader(const LoadedWorld& world, const WindowRequest& request,
     writeHeaderFields(settings, {"scene", "scene_scale", "up"}, out);
   }
   out.field("tolerance", world.file.tolerance);
+}
+
+void writeBodies(const LoadedWorld& world, JsonWriter& out) {
+  out.key("bodies");
+  out.beginArray();
+  for (std::size_t body = 0; body < world.numBodies(); ++body) {
+    writeBody(world, static_cast<BodyId>(body), out);
+  }
+  out.endArray();
+  writeAsks(world, out);
+}
+
+std::string worldHeader(const LoadedWorld& world, const WindowRequest& request,
+                        const std::vector<std::int64_t>& cuts) {
+  std::string text;
+  JsonWriter out(text);
+  beginResults(out, "foretouch-world-results");
+  writeWorldFields(world, out);
   if (world.file.askMeshes) out.field("ask_meshes", true);
   out.key("rate");
   request.rateHz ? out.value(*request.rateHz) : out.null();
   out.field("from", LoadedWorld::secondsOf(cuts.front()));
   out.field("until", LoadedWorld::secondsOf(cuts.back()));
   out.field("windows", cuts.size() - 1);
-  out.key("bodies");
-  out.beginArray();
-  for (BodyId body = 0; body < world.world.numBodies(); ++body) writeBody(world, body, out);
-  out.endArray();
-  writeAsks(world, out);
+  writeBodies(world, out);
   out.endObject();
   return text + "\n";
 }

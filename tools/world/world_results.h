@@ -21,6 +21,18 @@ struct NamedSide {
 /// Writes "body" and, where it has several, "link" into an open object; nothing of the scene.
 void writeSide(const LoadedWorld& world, const NamedSide& side, JsonWriter& out);
 
+/// What a body is made of triangles of, or the static scene; nothing of others.
+[[nodiscard]] const std::optional<Scene>& meshOf(const LoadedWorld& world, BodyId body);
+/// The instant in seconds under this name, for people, and exactly.
+void writeInstant(const char* name, const WorldTime& time, JsonWriter& out);
+/// An object. `isTold`: with where on it the contact is.
+void writeContactSide(const LoadedWorld& world, const ContactSide& side, bool isTold,
+                      JsonWriter& out);
+
+/// Fields of a first line: which world it is, and its bodies without triggers.
+void writeWorldFields(const LoadedWorld& world, JsonWriter& out);
+void writeBodies(const LoadedWorld& world, JsonWriter& out);
+
 /// The first line.
 [[nodiscard]] std::string worldHeader(const LoadedWorld& world, const WindowRequest& request,
                                       const std::vector<std::int64_t>& cuts);

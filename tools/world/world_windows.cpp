@@ -45,13 +45,15 @@ Result<AskedTime> askedTime(const LoadedWorld& world, const WindowRequest& reque
 
 /// Where a body appears or changes its carrier.
 void addChanges(const LoadedWorld& world, std::vector<std::int64_t>& cuts) {
-  for (const LoadedBody& body : world.bodies) {
+  for (std::size_t i = 0; i < world.numBodies(); ++i) {
+    const LoadedBody& body = world.bodies[i];
     for (const BodyStretch& stretch : body.stretches) cuts.push_back(stretch.beginUs);
   }
 }
 
 void addKnots(const LoadedWorld& world, std::vector<std::int64_t>& cuts) {
-  for (const LoadedBody& body : world.bodies) {
+  for (std::size_t i = 0; i < world.numBodies(); ++i) {
+    const LoadedBody& body = world.bodies[i];
     if (body.numPoses == 0) continue;
     for (const BodyStretch& stretch : body.stretches) {
       const Track& track = stretch.track;
@@ -61,6 +63,21 @@ void addKnots(const LoadedWorld& world, std::vector<std::int64_t>& cuts) {
       }
     }
   }
+}
+
+/// Who is in a trigger touches nothing by that.
+void leaveOutTriggers(const LoadedWorld& world, WorldContacts& answer) {
+  const auto isOne = [&](BodyId body) { return world.isTrigger(body); };
+  auto& contacts = answer.contacts;
+  contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
+                                [&](const WorldContact& contact) {
+                                  return isOne(contact.a.body) || isOne(contact.b.body);
+                                }),
+                 contacts.end());
+  auto& silent = answer.silent;
+  silent.erase(std::remove_if(silent.begin(), silent.end(),
+                              [&](const SilentBody& one) { return isOne(one.body); }),
+               silent.end());
 }
 
 }  // namespace
@@ -105,6 +122,7 @@ Result<Done> replayWorld(const LoadedWorld& world, const std::vector<std::int64_
       error.file = world.file.path;
       return error;
     }
+    if (world.file.hasTriggers()) leaveOutTriggers(world, answer);
     const WorldStep step{static_cast<std::int64_t>(i), cuts[i], cuts[i + 1], answer, took.count()};
     if (!take(step)) break;
   }
@@ -113,8 +131,8 @@ Result<Done> replayWorld(const LoadedWorld& world, const std::vector<std::int64_
 
 Result<std::vector<WorldContact>> overlapsAtStart(const LoadedWorld& world) {
   std::set<std::int64_t> appearances;
-  for (const LoadedBody& body : world.bodies) {
-    appearances.insert(body.stretches.front().beginUs);
+  for (std::size_t i = 0; i < world.numBodies(); ++i) {
+    appearances.insert(world.bodies[i].stretches.front().beginUs);
   }
   std::vector<WorldContact> found;
   const auto appears = [&](const ContactSide& side, std::int64_t utimeUs) {

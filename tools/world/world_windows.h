@@ -34,7 +34,8 @@ struct WorldStep {
   double latencyUs = 0.0;
 };
 
-/// Asks window by window, in order, until `take` returns false. Errors name the body.
+/// Asks window by window, in order, who touches whom, without triggers, until `take` returns false.
+/// Errors name the body.
 [[nodiscard]] Result<Done> replayWorld(const LoadedWorld& world,
                                        const std::vector<std::int64_t>& cuts,
                                        const std::function<bool(const WorldStep&)>& take);

@@ -13,6 +13,7 @@ from foretouch._types import (
     ContactDetails,
     Depth,
     Doubles,
+    Edges,
     IgnoredLike,
     JointMatch,
     LeftOutLike,
@@ -505,3 +506,49 @@ def swept_surface(
     single_precision: bool = False,
     max_triangles: int = 50000000,
 ) -> SweptSurface: ...
+
+class Robot:
+    @staticmethod
+    def load_urdf(
+        path: _Path,
+        *,
+        packages: Sequence[str] = (),
+        visual: bool = False,
+        max_lss: int = 4,
+        importer: Optional[_Path] = None,
+    ) -> Robot: ...
+    @staticmethod
+    def from_joints(avatar: Avatar, joints: Sequence[Mapping[str, Any]]) -> Robot: ...
+    def with_tool(self, link: LinkLike, name: str, lss: Sequence[_LssLike]) -> Robot: ...
+    def pose(self, q: npt.ArrayLike) -> Pose: ...
+    @property
+    def num_coordinates(self) -> int: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def lower(self) -> Doubles: ...
+    @property
+    def upper(self) -> Doubles: ...
+    @property
+    def is_periodic(self) -> npt.NDArray[np.bool_]: ...
+    @property
+    def avatar(self) -> Avatar: ...
+
+class EdgeQuery:
+    def __init__(
+        self,
+        robot: Robot,
+        scene: Scene,
+        *,
+        tolerance: float = 0.001,
+        clearance: float = 0.0,
+        self_pairs: Optional[PairRules] = None,
+        ignore: Iterable[IgnoredLike] = (),
+        threads: int = 1,
+    ) -> None: ...
+    def answer(self, q0: npt.ArrayLike, q1: npt.ArrayLike) -> Edges: ...
+    def answer_path(self, q: npt.ArrayLike) -> tuple[float, Edges]: ...
+    @property
+    def robot(self) -> Robot: ...
+    @property
+    def scene(self) -> Scene: ...

@@ -62,6 +62,25 @@ class Poses(Sequence[Pose]):
         return f"<foretouch.Poses: {len(self)} poses of {self.rotations.shape[1]} joints>"
 
 
+class Edges(NamedTuple):
+    """Answers to n edges of a robot. Metres, world; of clear edges the last four say nothing."""
+
+    verdicts: npt.NDArray[np.uint8]
+    """(n,), each a Verdict."""
+    free_until: Doubles
+    """(n,): free on [0, free_until), never too late; 1: clear."""
+    usable: npt.NDArray[np.bool_]
+    """(n,): clear, and both ends within the joints' limits."""
+    links: npt.NDArray[np.int32]
+    """(n,), that meet something; -1: none."""
+    others: npt.NDArray[np.int32]
+    """(n,), the own link that is met; -1: the scene, or nothing."""
+    triangles: npt.NDArray[np.int32]
+    """(n,), of the scene; -1: none."""
+    points: Doubles
+    """(n, 3), where."""
+
+
 class NearFeatures(NamedTuple):
     """The k places where links are near the scene, by link, LSS, gap and triangle. Metres, world."""
 

@@ -80,7 +80,16 @@ class RandomArguments(unittest.TestCase):
         query = foretouch.Query(avatar, scene)
         step = query.first_contacts(motion)
         rest = avatar.rest_pose()
+        robot = foretouch.Robot.from_joints(avatar, [{"kind": "continuous"}, {"kind": "fixed"}])
+        edges = foretouch.EdgeQuery(robot, scene)
         functions = [
+            lambda v: foretouch.Robot.from_joints(avatar, v()),
+            lambda v: foretouch.Robot.from_joints(avatar, [{"kind": "fixed", "axis": v()}, v()]),
+            lambda v: robot.with_tool(v(), v(), v()),
+            lambda v: robot.pose(v()),
+            lambda v: foretouch.EdgeQuery(robot, scene, tolerance=v(), clearance=v(), ignore=v()),
+            lambda v: edges.answer(v(), v()),
+            lambda v: edges.answer_path(v()),
             lambda v: foretouch.Scene.from_arrays(v(), v(), v(), v()),
             lambda v: foretouch.Scene.from_arrays(np.eye(3), v()),
             lambda v: foretouch.Scene.from_arrays(np.eye(3), [[0, 1, 2]], v(), v()),
@@ -114,7 +123,7 @@ class RandomArguments(unittest.TestCase):
             random = np.random.default_rng(seed)
             function = functions[seed % len(functions)]
             answered += self.attempt(seed, function, lambda: random_value(random)) is not None
-        self.assertGreater(answered, CASES // 100)
+        self.assertGreater(answered, CASES // 200)
 
     def test_nearly_right_ones_are_answered_or_refused(self):
         avatar = arm()

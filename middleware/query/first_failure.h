@@ -1,4 +1,4 @@
-// middleware/world/first_failure.h: tasks that several threads share: of those that fail, the one
+// middleware/query/first_failure.h: tasks that several threads share: of those that fail, the one
 // with the least number tells why, whoever took it. Not installed.
 #pragma once
 
@@ -12,14 +12,16 @@
 
 namespace foretouch::internal {
 
-/// Memory ran out in a question about a window.
-[[nodiscard]] inline Error brokenOff(const std::exception& broken) {
-  return Error::in("window", ErrorCode::DeviceFailed, std::string("broken off: ") + broken.what());
+/// Memory ran out in a question about `what`.
+[[nodiscard]] inline Error brokenOff(const char* what, const std::exception& broken) {
+  return Error::in(what, ErrorCode::DeviceFailed, std::string("broken off: ") + broken.what());
 }
 
 /// Of the tasks that one thread took.
 class FirstFailure {
  public:
+  /// `what` the tasks are about: a literal.
+  explicit FirstFailure(const char* what) : what_(what) {}
   void clear() { error_.reset(); }
 
   /// Does the task, which returns a Result<Done>. `renew`: what it may have left half written.
@@ -31,7 +33,7 @@ class FirstFailure {
       if (!done.ok()) error = done.error();
     } catch (const std::exception& broken) {
       renew();
-      error = brokenOff(broken);
+      error = brokenOff(what_, broken);
     }
     if (!error || (error_ && number_ < number)) return;
     error_ = std::move(error);
@@ -52,6 +54,7 @@ class FirstFailure {
   }
 
  private:
+  const char* what_;
   std::optional<Error> error_;
   std::size_t number_ = 0;
 };

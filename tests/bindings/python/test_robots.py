@@ -1,0 +1,109 @@
+"""Robots by joint coordinates, and edges of a planner. Expected values are closed forms."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import foretouch
+from support import arm, wall
+
+URDF = """<robot name="r"><link name="base"><collision><geometry><sphere radius="0.1"/></geometry>
+</collision></link><link name="arm"><collision><origin xyz="0.2 0 0"/><geometry>
+<sphere radius="0.05"/></geometry></collision></link><joint name="turn" type="revolute">
+<parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>
+<limit lower="{lower}" upper="3" effort="1" velocity="1"/></joint></robot>"""
+
+TURN = {"kind": "continuous", "axis": (0, 1, 0)}
+
+
+def swinging():
+    """Of support.arm(): the upper arm turns about +Y, the forearm slides out along +X."""
+    slide = {"kind": "prismatic", "name": "out", "axis": (1, 0, 0), "lower": 0.0, "upper": 0.5}
+    return foretouch.Robot.from_joints(arm(), [TURN, slide])
+
+
+class Robots(unittest.TestCase):
+    def test_coordinates_and_poses(self):
+        robot = swinging()
+        self.assertEqual(robot.names, ["upper", "out"])
+        np.testing.assert_array_equal(robot.lower, [-np.inf, 0.0])
+        np.testing.assert_array_equal(robot.is_periodic, [True, False])
+        pose = robot.pose([np.pi / 2, 0.25])
+        half = np.sqrt(0.5)
+        np.testing.assert_allclose(pose.rotations[0], [half, 0, half, 0], atol=1e-15)
+        np.testing.assert_allclose(pose.translations[1], [0.55, 0, 0], atol=1e-15)
+
+    def test_edges_meet_a_wall_where_sines_say(self):
+        robot = swinging()
+        edges = foretouch.EdgeQuery(robot, wall(-0.3))
+        # About +Y, +X turns to -Z: the tip at 0.6 m, 4 cm thick, meets z = -0.3.
+        answer = edges.answer([[0, 0], [0, 0], [0, 0.5]], [[1, 0], [-1, 0], [0, 0.6]])
+        self.assertEqual(list(answer.verdicts), [1, 0, 0])
+        touch = np.arcsin(0.26 / 0.6)
+        self.assertLessEqual(answer.free_until[0], touch)
+        self.assertGreater(answer.free_until[0], touch - 0.004)
+        self.assertEqual(list(answer.usable), [False, True, False])  # the last is out of limits
+        self.assertEqual(list(answer.links), [1, -1, -1])
+        self.assertEqual(answer.points.shape, (3, 3))
+        np.testing.assert_allclose(answer.points[0, 2], -0.3, atol=1e-12)
+
+    def test_paths_and_threads_answer_alike(self):
+        robot = swinging()
+        random = np.random.default_rng(1)
+        q = random.uniform([-1, 0], [1, 0.5], (200, 2))
+        one, two = (foretouch.EdgeQuery(robot, wall(), threads=n) for n in (1, 2))
+        first, second = one.answer(q[:-1], q[1:]), two.answer(q[:-1], q[1:])
+        for a, b in zip(first, second):
+            np.testing.assert_array_equal(a, b)
+        clear = first.verdicts == foretouch.Verdict.CLEAR
+        self.assertTrue(20 < clear.sum() < 180)
+        expected = int(np.argmin(clear))
+        free_until, met = two.answer_path(q)
+        self.assertTrue(expected <= free_until <= expected + first.free_until[expected])
+        self.assertEqual(met.verdicts[0], first.verdicts[expected])
+
+    def test_clearance_tools_and_own_links(self):
+        robot = swinging()
+        near = [[np.arcsin(0.255 / 0.6), 0.0]]  # 5 mm from the wall
+        for clearance, verdict in ((0.0, 0), (0.003, 0), (0.007, 2)):
+            edges = foretouch.EdgeQuery(robot, wall(), clearance=clearance, tolerance=1e-4)
+            self.assertEqual(edges.answer(near, near).verdicts[0], verdict)
+        tooled = robot.with_tool("fore", "rod", [((0.3, 0, 0), (0.6, 0, 0), 0.01)])
+        self.assertEqual(tooled.avatar.names[-1], "rod")
+        rules = foretouch.PairRules.derive(tooled.avatar)
+        edges = foretouch.EdgeQuery(tooled, wall(), self_pairs=rules, ignore=["upper"])
+        self.assertEqual(edges.answer(near, near).links[0], 2)
+
+    def test_bad_input(self):
+        robot = swinging()
+        edges = foretouch.EdgeQuery(robot, wall())
+        for q0, q1 in (([[0]], [[0]]), ([[0, 0]], [[0, np.nan]]), ([[0, 0]], [[0, 0], [1, 0]]),
+                       ([[0, 2000]], [[0, 0]]), ("no", "numbers")):
+            with self.assertRaises(foretouch.InputError):
+                edges.answer(q0, q1)
+        with self.assertRaises(foretouch.InputError):
+            edges.answer_path([[0, 0]])
+        for joints in ([TURN], [TURN, {"kind": "round"}], [TURN, {"kind": "fixed", "axes": 1}],
+                       [TURN, {"kind": "revolute", "lower": 1, "upper": -1}],
+                       [TURN, {"kind": "revolute", "mimic_of": "hand"}]):
+            with self.assertRaises(foretouch.InputError):
+                foretouch.Robot.from_joints(arm(), joints)
+        for options in ({"clearance": -1}, {"threads": 0}, {"self_pairs": 3}):
+            with self.assertRaises(foretouch.InputError):
+                foretouch.EdgeQuery(robot, wall(), **options)
+
+    def test_urdf(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "arm.urdf"
+            path.write_text(URDF.format(lower=-3))
+            robot = foretouch.Robot.load_urdf(path)
+            self.assertEqual((robot.names, list(robot.lower)), (["turn"], [-3.0]))
+            path.write_text(URDF.format(lower=4))
+            with self.assertRaisesRegex(foretouch.InputError, "'turn' has its lower limit"):
+                foretouch.Robot.load_urdf(path)
+
+
+if __name__ == "__main__":
+    unittest.main()

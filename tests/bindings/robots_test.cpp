@@ -1,0 +1,239 @@
+// Robots and edges in C: what C++ answers, and bad input is refused.
+#include <cmath>
+#include <foretouch/robots.h>
+#include <string>
+#include <vector>
+
+#include "middleware/edges/edge_query.h"
+#include "tests/bindings/c_world.h"
+#include "tests/middleware/edges/arm_among_wires.h"
+#include "tests/support/temp_folder.h"
+
+namespace foretouch {
+namespace {
+
+struct Release {
+  void operator()(ft_robot* robot) const { ft_robot_destroy(robot); }
+  void operator()(ft_edges* edges) const { ft_edges_destroy(edges); }
+};
+using RobotHandle = std::unique_ptr<ft_robot, Release>;
+using EdgesHandle = std::unique_ptr<ft_edges, Release>;
+
+std::vector<ft_robot_joint> jointsOf(const Robot& robot) {
+  std::vector<ft_robot_joint> joints;
+  for (const RobotJoint& joint : robot.joints()) {
+    ft_robot_joint c{};
+    c.kind = static_cast<std::int32_t>(joint.kind);
+    c.mimic_of = joint.mimicOf;
+    for (int i = 0; i < 3; ++i) c.axis[i] = joint.axis[i];
+    c.lower = joint.lower;
+    c.upper = joint.upper;
+    c.mimic_factor = joint.mimicFactor;
+    c.mimic_offset = joint.mimicOffset;
+    joints.push_back(c);
+  }
+  return joints;
+}
+
+RobotHandle makeRobot(const Robot& robot) {
+  const auto avatar = test::makeAvatar(robot.avatar());
+  const auto joints = jointsOf(robot);
+  ft_robot* made = nullptr;
+  EXPECT_EQ(ft_robot_create(avatar.get(), joints.data(), joints.size(), nullptr, &made), FT_OK)
+      << ft_last_error();
+  return RobotHandle(made);
+}
+
+class CRobots : public testing::Test {
+ protected:
+  CRobots() {
+    for (const auto& [x, y] : {std::pair(0.7, 0.5), std::pair(-0.6, 0.7), std::pair(0.1, -0.9)}) {
+      std::vector<oracle::Triangle> judged;
+      test::addWire(x, y, raw_, judged);
+    }
+    raw_.objectNames = {"wires"};
+    scene_ = test::makeScene(raw_);
+  }
+  EdgesHandle edges(const ft_edge_options* options = nullptr) {
+    ft_edges* made = nullptr;
+    EXPECT_EQ(ft_edges_create(robot_.get(), scene_.get(), options, &made), FT_OK)
+        << ft_last_error();
+    return EdgesHandle(made);
+  }
+  Robot known_ = test::arm(-2.9, 2.9);
+  RobotHandle robot_ = makeRobot(known_);
+  RawScene raw_;
+  test::SceneHandle scene_;
+};
+
+TEST_F(CRobots, TellTheirCoordinates) {
+  size_t count = 0;
+  ASSERT_EQ(ft_robot_coordinate_count(robot_.get(), &count), FT_OK);
+  ASSERT_EQ(count, 3U);
+  std::vector<ft_robot_coordinate> all(3);
+  all[0].size = sizeof all[0];
+  ASSERT_EQ(ft_robot_coordinates(robot_.get(), all.data(), 3, &count), FT_OK);
+  EXPECT_STREQ(all[2].name, "j2");
+  EXPECT_EQ(all[1].lower, -2.9);
+  EXPECT_EQ(all[1].is_angle, 1);
+  EXPECT_EQ(all[1].is_periodic, 0);
+  const double q[3] = {test::kPi / 2, 0, 0};
+  double rotations[12], translations[9];
+  ASSERT_EQ(ft_robot_pose(robot_.get(), q, 3, rotations, translations, 3, &count), FT_OK);
+  EXPECT_NEAR(rotations[0], std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(rotations[3], std::sqrt(0.5), 1e-15);
+}
+
+TEST_F(CRobots, AnswerEdgesAsCppDoes) {
+  constexpr std::size_t kEdges = 300;
+  const auto q0 = test::randomConfigurations(1, kEdges), q1 = test::randomConfigurations(2, kEdges);
+  ft_avatar* links = nullptr;
+  ASSERT_EQ(ft_robot_avatar(robot_.get(), &links), FT_OK);
+  const test::AvatarHandle avatar(links);
+  ft_pair_rules* rules = nullptr;
+  ASSERT_EQ(ft_pair_rules_create(links, nullptr, &rules), FT_OK) << ft_last_error();
+  const test::RulesHandle self(rules);
+  ft_edge_options options;
+  ASSERT_EQ(ft_edge_options_init(&options, sizeof options), FT_OK);
+  options.self = rules;
+  options.clearance = 0.01;
+  options.threads = 3;
+  const auto asked = edges(&options);
+  std::vector<ft_edge> answers(kEdges);
+  answers[0].size = sizeof answers[0];
+  ASSERT_EQ(ft_edges_answer(asked.get(), q0.data(), q1.data(), kEdges, 3, answers.data()), FT_OK)
+      << ft_last_error();
+
+  EdgeOptions same;
+  same.self = PairRules::derive(known_.avatar()).value();
+  same.clearance = 0.01;
+  const auto cpp = EdgeQuery::build(known_, Scene::build(raw_).value(), same).value();
+  EdgeScratch scratch;
+  int clear = 0;
+  for (std::size_t i = 0; i < kEdges; ++i) {
+    const auto expected = cpp.answer(&q0[3 * i], &q1[3 * i], 3, scratch).value();
+    ASSERT_EQ(answers[i].verdict, static_cast<std::int32_t>(expected.verdict)) << i;
+    ASSERT_EQ(answers[i].free_until, expected.freeUntil) << i;
+    ASSERT_EQ(answers[i].is_usable, expected.isUsable() ? 1 : 0) << i;
+    ASSERT_EQ(answers[i].breach_at_0, expected.breachAt0.joint) << i;
+    ASSERT_EQ(answers[i].breach_at_1, expected.breachAt1.joint) << i;
+    ft_contact contact{};
+    contact.size = sizeof contact;
+    ft_other_link other{};
+    const auto status = ft_edges_contact(asked.get(), i, &contact, &other);
+    if (expected.verdict == Verdict::Clear) {
+      ++clear;
+      ASSERT_EQ(status, FT_ERROR_MISMATCH);
+      continue;
+    }
+    ASSERT_EQ(status, FT_OK) << ft_last_error();
+    ASSERT_EQ(contact.link, expected.contact.link);
+    ASSERT_EQ(contact.toi, expected.contact.toi);
+    ASSERT_EQ(contact.triangle, expected.contact.triangle);
+    ASSERT_EQ(other.link, expected.contact.other);
+    ASSERT_EQ(contact.object, expected.contact.other < 0 ? 0 : -1);
+  }
+  EXPECT_GT(clear, 20);
+  EXPECT_LT(clear, 280);
+}
+
+TEST_F(CRobots, SayHowFarAPathIsFree) {
+  const auto asked = edges();
+  const double q[12] = {-2.0, 0, 0, -1.7, 0, 0, -1.6, 0, 0, -1.0, 0, 0};
+  ft_path path{};
+  path.size = sizeof path;
+  ASSERT_EQ(ft_edges_answer_path(asked.get(), q, 4, 3, &path), FT_OK) << ft_last_error();
+  EXPECT_EQ(path.verdict, FT_VERDICT_CONTACT);  // the wire below, at an angle of -1.46
+  EXPECT_EQ(path.edge, 2U);
+  EXPECT_GT(path.free_until, 2.0);
+  EXPECT_LT(path.free_until, 3.0);
+  ASSERT_EQ(ft_edges_answer_path(asked.get(), q, 3, 3, &path), FT_OK);
+  EXPECT_EQ(path.verdict, FT_VERDICT_CLEAR);
+  EXPECT_EQ(path.edge, 2U);
+  EXPECT_EQ(path.free_until, 2.0);
+}
+
+TEST_F(CRobots, RefuseBadInput) {
+  const auto asked = edges();
+  double q0[6] = {0, 0, 0, 0, 0, 0};
+  double q1[6] = {0, 0, 0, 0, std::nan(""), 0};
+  ft_edge answers[2] = {};
+  answers[0].size = sizeof answers[0];
+  EXPECT_EQ(ft_edges_contact(asked.get(), 0, nullptr, nullptr), FT_ERROR_NO_STEP);
+  EXPECT_EQ(ft_edges_answer(asked.get(), q0, q1, 2, 3, answers), FT_ERROR_NON_FINITE);
+  EXPECT_EQ(ft_last_error_index(), 1);
+  EXPECT_EQ(ft_edges_answer(asked.get(), q0, q1, 3, 2, answers), FT_ERROR_MISMATCH);
+  EXPECT_EQ(ft_edges_answer(asked.get(), nullptr, q1, 1, 3, answers), FT_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(ft_edges_answer(asked.get(), q0, q1, 1, 3, nullptr), FT_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(ft_edges_answer(asked.get(), q0, q1, SIZE_MAX, 3, answers), FT_ERROR_LIMIT_EXCEEDED);
+  EXPECT_EQ(ft_edges_answer(asked.get(), q0, q1, 1, 3, answers), FT_OK);  // of no length
+  EXPECT_EQ(answers[0].verdict, FT_VERDICT_CLEAR);
+  ft_path path{};
+  path.size = sizeof path;
+  EXPECT_EQ(ft_edges_answer_path(asked.get(), q0, 1, 3, &path), FT_ERROR_EMPTY);
+
+  ft_edge_options options;
+  ft_edge_options_init(&options, sizeof options);
+  ft_edges* none = nullptr;
+  options.threads = 0;
+  EXPECT_EQ(ft_edges_create(robot_.get(), scene_.get(), &options, &none), FT_ERROR_OUT_OF_RANGE);
+  ft_edge_options_init(&options, sizeof options);
+  options.clearance = -1.0;
+  EXPECT_EQ(ft_edges_create(robot_.get(), scene_.get(), &options, &none), FT_ERROR_OUT_OF_RANGE);
+  // Rules of another avatar, and handles of another kind.
+  const test::SmallWorld other;
+  EXPECT_EQ(
+      ft_edges_create(reinterpret_cast<ft_robot*>(scene_.get()), scene_.get(), nullptr, &none),
+      FT_ERROR_WRONG_HANDLE);
+  EXPECT_EQ(none, nullptr);
+
+  const auto avatar = test::makeAvatar(known_.avatar());
+  auto joints = jointsOf(known_);
+  ft_robot* made = nullptr;
+  EXPECT_EQ(ft_robot_create(avatar.get(), joints.data(), 2, nullptr, &made), FT_ERROR_MISMATCH);
+  joints[1].lower = 5.0;
+  EXPECT_EQ(ft_robot_create(avatar.get(), joints.data(), 3, nullptr, &made), FT_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(ft_last_error_index(), 1);
+  joints[1].kind = 5;
+  EXPECT_EQ(ft_robot_create(avatar.get(), joints.data(), 3, nullptr, &made), FT_ERROR_OUT_OF_RANGE);
+  joints = jointsOf(known_);
+  joints[2].mimic_of = 2;
+  EXPECT_EQ(ft_robot_create(avatar.get(), joints.data(), 3, nullptr, &made),
+            FT_ERROR_BAD_HIERARCHY);
+  const ft_lss rod = {{0.4, 0, 0}, {0.8, 0, 0}, 0.01};
+  EXPECT_EQ(ft_robot_create_with_tool(robot_.get(), 7, "rod", &rod, 1, &made),
+            FT_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(made, nullptr);
+  ASSERT_EQ(ft_robot_create_with_tool(robot_.get(), 2, "rod", &rod, 1, &made), FT_OK);
+  ft_robot_destroy(made);
+}
+
+TEST_F(CRobots, AreReadFromUrdf) {
+  const test::TempFolder folder;
+  const std::string path = folder.write(
+      "arm.urdf",
+      "<robot name=\"r\"><link name=\"a\"><collision><geometry><sphere radius=\"0.1\"/></geometry>"
+      "</collision></link><link name=\"b\"/><joint name=\"turn\" type=\"continuous\">"
+      "<parent link=\"a\"/><child link=\"b\"/></joint></robot>");
+  ft_import_options import;
+  ft_import_options_init(&import, sizeof import);
+  import.importer = FORETOUCH_TEST_IMPORTER;
+  ft_urdf_options options;
+  ASSERT_EQ(ft_urdf_options_init(&options, sizeof options), FT_OK);
+  options.import = &import;
+  ft_robot* made = nullptr;
+  ASSERT_EQ(ft_robot_create_from_urdf(path.c_str(), &options, &made), FT_OK) << ft_last_error();
+  const RobotHandle robot(made);
+  size_t count = 0;
+  ft_robot_coordinate coordinate{};
+  coordinate.size = sizeof coordinate;
+  ASSERT_EQ(ft_robot_coordinates(made, &coordinate, 1, &count), FT_OK);
+  EXPECT_STREQ(coordinate.name, "turn");
+  EXPECT_EQ(coordinate.is_periodic, 1);
+  options.use_visual = 2;
+  EXPECT_EQ(ft_robot_create_from_urdf(path.c_str(), &options, &made), FT_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(ft_robot_create_from_urdf("absent.urdf", nullptr, &made), FT_ERROR_FILE_NOT_FOUND);
+}
+
+}  // namespace
+}  // namespace foretouch

@@ -1,0 +1,246 @@
+#include "tools/world/world_event_lines.h"
+
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "lss/index.h"
+#include "tools/replay/results_writer.h"
+#include "tools/world/world_results.h"
+
+namespace foretouch::tools {
+namespace {
+
+void writeFinite(const char* name, double value, JsonWriter& out) {
+  out.key(name);
+  std::isfinite(value) ? out.value(value) : out.null();
+}
+
+void writeInstantObject(const char* name, const WorldTime& time, JsonWriter& out) {
+  out.key(name);
+  out.beginObject();
+  writeInstant("time", time, out);
+  out.endObject();
+}
+
+bool isTold(EventKind kind) {
+  return kind != EventKind::UnresolvedFrom && kind != EventKind::UnresolvedTo;
+}
+
+bool ends(EventKind kind) {
+  return kind == EventKind::Leave || kind == EventKind::UnresolvedTo;
+}
+
+/// Who it is. The object, if any, is b's, or a's where a is a mesh.
+void writeWho(const LoadedWorld& world, const ContactSide& side, ObjectId object, JsonWriter& out) {
+  if (side.body == kEveryBody) {
+    out.field("everybody", true);
+    return;
+  }
+  writeSide(world, {side.body, side.link}, out);
+  const std::optional<Scene>& mesh = meshOf(world, side.body);
+  if (object >= 0 && mesh) out.field("object", mesh->objectNames()[slotOf(object)]);
+}
+
+void writeEventSide(const LoadedWorld& world, const ContactSide& side, const WorldEvent& event,
+                    JsonWriter& out) {
+  if (isTold(event.kind)) return writeContactSide(world, side, true, out);
+  out.beginObject();
+  writeWho(world, side, event.object, out);
+  out.endObject();
+}
+
+void writeContactFields(const WorldEvent& event, JsonWriter& out) {
+  out.field("separation", event.separation);
+  if (event.penetration > 0.0) out.field("penetration", event.penetration);
+  out.field("normal", event.nhat_BA_W);
+  out.field("velocity", event.velocity_W);
+  out.key("approach");
+  out.beginObject();
+  writeFinite("speed", event.approachSpeed, out);
+  writeFinite("lower", event.approachLower, out);
+  writeFinite("upper", event.approachUpper, out);
+  out.endObject();
+  writeFinite("effective_mass", event.effectiveMass, out);
+  out.key("points");
+  out.beginArray();
+  for (std::size_t i = 0; i < event.numPoints; ++i) {
+    const EventPoint& point = event.points[i];
+    out.beginObject();
+    out.field("a", point.p_WA);
+    out.field("b", point.p_WB);
+    out.field("separation", point.separation);
+    out.endObject();
+  }
+  out.endArray();
+}
+
+void write(const LoadedWorld& world, const WorldEvent& event, JsonWriter& out) {
+  out.beginObject();
+  out.field("event", toString(event.kind));
+  writeInstant("time", event.time, out);
+  if (ends(event.kind)) writeInstantObject("since", event.since, out);
+  out.key("a");
+  writeEventSide(world, event.a, event, out);
+  out.key("b");
+  writeEventSide(world, event.b, event, out);
+  if (isTold(event.kind)) {
+    writeContactFields(event, out);
+  } else {
+    out.field("reason", toString(event.reason));
+  }
+  if (event.kind == EventKind::Leave && event.cause == LeaveCause::NotAsked) {
+    out.field("cause", "not_asked");
+  }
+  if (event.isAssumed) out.field("assumed", true);
+  out.endObject();
+}
+
+/// Whose volume it is, and who is in it.
+void writeTriggerSides(const LoadedWorld& world, TriggerId trigger, const NamedSide& who,
+                       JsonWriter& out) {
+  out.field("trigger", world.nameOf(world.triggers.body(trigger)));
+  out.key("who");
+  out.beginObject();
+  writeSide(world, who, out);
+  out.endObject();
+}
+
+void write(const LoadedWorld& world, const TriggerEvent& event, JsonWriter& out) {
+  out.beginObject();
+  out.field("event", toString(event.kind));
+  writeInstant("time", event.time, out);
+  if (ends(event.kind)) writeInstantObject("since", event.since, out);
+  writeTriggerSides(world, event.trigger, {event.body, event.link}, out);
+  if (event.isAssumed) out.field("assumed", true);
+  out.endObject();
+}
+
+void writeTrigger(const LoadedWorld& world, TriggerId trigger, JsonWriter& out) {
+  const FileBody& file = world.file.bodies[slotOf(world.triggers.body(trigger))];
+  out.beginObject();
+  out.field("name", file.name);
+  out.field("made_of", madeOf(file.shape));
+  if (const std::string path = fileOf(file.shape); !path.empty()) {
+    writeFileName("file", path, out);
+  }
+  out.field("by_link", file.trigger->byLink);
+  if (!file.trigger->watched.empty()) {
+    out.list("watches", file.trigger->watched, [&](const FileWatch& watch) {
+      out.beginObject();
+      out.field("body", watch.body);
+      if (!watch.link.empty()) out.field("link", watch.link);
+      out.endObject();
+    });
+  }
+  out.endObject();
+}
+
+void writeCounts(const char* name, const std::int64_t (&counts)[kNumEventKinds], JsonWriter& out) {
+  out.key(name);
+  out.beginObject();
+  for (std::size_t kind = 0; kind < kNumEventKinds; ++kind) {
+    out.field(toString(static_cast<EventKind>(kind)), counts[kind]);
+  }
+  out.endObject();
+}
+
+/// How it begins and ends.
+template <typename Interval>
+void writeCourse(const Interval& of, bool startsInside, JsonWriter& out) {
+  writeInstantObject("from", of.from, out);
+  writeInstantObject("to", of.to, out);
+  if (startsInside) out.field("starts_inside", true);
+  if (of.goesOn) out.field("goes_on", true);
+  if (of.isAssumed) out.field("assumed", true);
+}
+
+}  // namespace
+
+std::string eventsHeader(const LoadedWorld& world, std::int64_t fromUs, std::int64_t untilUs) {
+  std::string text;
+  JsonWriter out(text);
+  beginResults(out, "foretouch-events");
+  writeWorldFields(world, out);
+  out.field("from", LoadedWorld::secondsOf(fromUs));
+  out.field("until", LoadedWorld::secondsOf(untilUs));
+  writeBodies(world, out);
+  out.key("triggers");
+  out.beginArray();
+  for (TriggerId trigger = 0; trigger < world.triggers.numTriggers(); ++trigger) {
+    writeTrigger(world, trigger, out);
+  }
+  out.endArray();
+  out.endObject();
+  return text + "\n";
+}
+
+std::string eventLines(const LoadedWorld& world, const FollowedStretch& stretch) {
+  std::string text;
+  const auto line = [&](const auto& event) {
+    JsonWriter out(text);
+    write(world, event, out);
+    text += "\n";
+  };
+  const auto isBefore = [](const auto& x, const auto& y) {
+    return std::tie(x.time, x.kind) < std::tie(y.time, y.kind);
+  };
+  auto trigger = stretch.triggers.events.begin();
+  for (const WorldEvent& event : stretch.contacts.events) {
+    for (; trigger != stretch.triggers.events.end() && isBefore(*trigger, event); ++trigger) {
+      line(*trigger);
+    }
+    if (!isOfTrigger(world, event)) line(event);
+  }
+  for (; trigger != stretch.triggers.events.end(); ++trigger) line(*trigger);
+  return text;
+}
+
+void writeInterval(const LoadedWorld& world, const ContactInterval& interval, JsonWriter& out) {
+  const WorldPart& part = interval.part;
+  const bool isContact = part.kind == PartKind::Contact;
+  out.field("kind", isContact ? "contact" : "unresolved");
+  if (!isContact) out.field("reason", toString(part.reason));
+  for (const auto& [name, side] : {std::make_pair("a", &part.a), std::make_pair("b", &part.b)}) {
+    out.key(name);
+    out.beginObject();
+    writeWho(world, *side, part.object, out);
+    out.endObject();
+  }
+  writeCourse(part, interval.startsInside, out);
+}
+
+void writeStay(const LoadedWorld& world, const TriggerStay& stay, JsonWriter& out) {
+  out.field("kind", stay.isUnresolved ? "unresolved" : "inside");
+  writeTriggerSides(world, stay.trigger, {stay.body, stay.link}, out);
+  writeCourse(stay, stay.startsInside, out);
+}
+
+std::string intervalLines(const LoadedWorld& world, const WorldIntervals& intervals) {
+  std::string text;
+  const auto line = [&](const char* name, const auto& writeFields) {
+    JsonWriter out(text);
+    out.beginObject();
+    out.key(name);
+    out.beginObject();
+    writeFields(out);
+    out.endObject();
+    out.endObject();
+    text += "\n";
+  };
+  for (const ContactInterval& interval : intervals.contacts()) {
+    line("interval", [&](JsonWriter& out) { writeInterval(world, interval, out); });
+  }
+  for (const TriggerStay& stay : intervals.stays()) {
+    line("stay", [&](JsonWriter& out) { writeStay(world, stay, out); });
+  }
+  line("summary", [&](JsonWriter& out) {
+    writeCounts("events", intervals.counts().ofContacts, out);
+    writeCounts("trigger_events", intervals.counts().ofTriggers, out);
+    out.field("intervals", intervals.contacts().size());
+    out.field("stays", intervals.stays().size());
+  });
+  return text;
+}
+
+}  // namespace foretouch::tools
