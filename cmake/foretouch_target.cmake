@@ -88,6 +88,18 @@ function(foretouch_compile_options target)
   endif()
 endfunction()
 
+# Highway chooses among a processor's vectors at run time on x86-64 alone. Elsewhere the build settles
+# for what all processors of the architecture have (NEON, SIMD128): GCC does not compile the choice
+# there, and SVE's vectors cannot lie in the structs of our lanes.
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_compile_definitions(HWY_COMPILE_ONLY_STATIC)
+endif()
+# Highway's NEON includes AES, which nothing here uses: without the flag, GCC refuses to inline what it
+# declares.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  add_compile_options(-march=armv8-a+crypto)
+endif()
+
 # The headers under the name that they have for others, <foretouch/...>, without an installation: for
 # projects that add this one as a folder, and for the examples.
 set(foretouch_built_headers ${PROJECT_BINARY_DIR}/include)

@@ -2,7 +2,12 @@
 // bits of mantissa in a class, so that templates find its functions.
 #pragma once
 
+#if __has_include(<quadmath.h>)
 #include <quadmath.h>
+#else
+#include <cmath>
+#include <limits>
+#endif
 
 namespace foretouch::oracle {
 
@@ -27,11 +32,29 @@ class Wide {
   friend bool operator>(const Wide& a, const Wide& b) { return a.value_ > b.value_; }
   friend bool operator<=(const Wide& a, const Wide& b) { return a.value_ <= b.value_; }
   friend bool operator>=(const Wide& a, const Wide& b) { return a.value_ >= b.value_; }
-  friend Wide sqrt(const Wide& x) { return of(sqrtq(x.value_)); }
-  friend Wide abs(const Wide& x) { return of(fabsq(x.value_)); }
+#if __has_include(<quadmath.h>)
+  friend Wide sqrt(const Wide& x) {
+    return of(sqrtq(x.value_));
+  }
+  friend Wide abs(const Wide& x) {
+    return of(fabsq(x.value_));
+  }
 
  private:
   __extension__ using Float = __float128;
+#else
+  // Where GCC has no such library, long double is that format.
+  static_assert(std::numeric_limits<long double>::digits == 113);
+  friend Wide sqrt(const Wide& x) {
+    return of(std::sqrt(x.value_));
+  }
+  friend Wide abs(const Wide& x) {
+    return of(std::fabs(x.value_));
+  }
+
+ private:
+  using Float = long double;
+#endif
   static Wide of(Float value) {
     Wide wide;
     wide.value_ = value;

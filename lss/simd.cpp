@@ -26,20 +26,25 @@ namespace {
 
 HWY_EXPORT(compiledTarget);
 
-constexpr std::array<std::pair<Simd, std::int64_t>, 5> kTargets{{
-    {Simd::Scalar, HWY_STATIC_TARGET},
+// The last is what every processor of this architecture has: one lane, where nothing before it is.
+constexpr std::array<std::pair<Simd, std::int64_t>, 7> kTargets{{
     {Simd::Ssse3, HWY_SSSE3},
     {Simd::Sse4, HWY_SSE4},
     {Simd::Avx2, HWY_AVX2},
     {Simd::Avx512, HWY_AVX3},
+    {Simd::Neon, HWY_NEON},
+    {Simd::Simd128, HWY_WASM},
+    {Simd::Scalar, HWY_STATIC_TARGET},
 }};
 
-constexpr std::array<std::pair<Simd, const char*>, 6> kNames{{
+constexpr std::array<std::pair<Simd, const char*>, 8> kNames{{
     {Simd::Scalar, "scalar"},
     {Simd::Ssse3, "ssse3"},
     {Simd::Sse4, "sse4"},
     {Simd::Avx2, "avx2"},
     {Simd::Avx512, "avx512"},
+    {Simd::Neon, "neon"},
+    {Simd::Simd128, "simd128"},
     {Simd::Other, "other"},
 }};
 

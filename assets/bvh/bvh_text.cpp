@@ -1,13 +1,13 @@
 #include "assets/bvh/bvh_text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
 #include "articulated/clip.h"
 #include "assets/bvh/bvh_limits.h"
+#include "assets/decimal.h"
 #include "assets/text_file.h"
 
 namespace foretouch::internal {
@@ -140,7 +140,7 @@ BvhNumber readBvhNumber(std::string_view word) {
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
   BvhNumber number;
   const char* end = digits.data() + digits.size();
-  const auto [stop, status] = std::from_chars(digits.data(), end, number.value);
+  const auto [stop, status] = readDecimal(digits.data(), end, number.value);
   // Microsoft's runtime writes 1.#QNAN, -1.#IND and 1.#INF.
   const bool isMicrosoftNan = stop != end && digits.find(".#") != digits.npos;
   if (status == std::errc::invalid_argument || (stop != end && !isMicrosoftNan) ||

@@ -1,32 +1,12 @@
 #include "bindings/c/import_options.h"
 
 #include <cstdlib>
-#include <dlfcn.h>
-#include <filesystem>
 #include <string>
-#include <system_error>
+
+#include "bindings/c/importer_place.h"
 
 namespace foretouch::c {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Engines keep plugins in folders of their own: the importer may be beside this library, or in an
-/// installation's place. Empty if it is not: then the places of SceneImportOptions count.
-std::string importerNearLibrary() {
-  Dl_info library{};
-  if (dladdr(reinterpret_cast<const void*>(&ft_version), &library) == 0) return "";
-  if (library.dli_fname == nullptr) return "";
-  const fs::path folder = fs::path(library.dli_fname).parent_path();
-  const fs::path installed = "libexec/foretouch/foretouch-import";
-  // lib/, or lib/x86_64-linux-gnu/
-  for (const fs::path& place :
-       {folder / "foretouch-import", folder / ".." / installed, folder / "../.." / installed}) {
-    std::error_code unknown;
-    if (fs::is_regular_file(place, unknown)) return place.string();
-  }
-  return "";
-}
 
 std::string importerPlace(const char* named) {
   if (named != nullptr && *named != '\0') return named;
@@ -51,8 +31,8 @@ ft_import_options defaultImportOptions() {
 ft_status readUpAxis(std::int32_t given, std::optional<UpAxis>& up) {
   if (given == FT_UP_FILE) return FT_OK;
   if (given != FT_UP_Y && given != FT_UP_Z) {
-    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "up: expected FT_UP_FILE, FT_UP_Y or FT_UP_Z, found %d",
-                   given);
+    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex,
+                   "up: expected FT_UP_FILE, FT_UP_Y or FT_UP_Z, found %d", given);
   }
   up = given == FT_UP_Z ? UpAxis::Z : UpAxis::Y;
   return FT_OK;

@@ -8,10 +8,9 @@ namespace foretouch::c {
 namespace {
 
 using Size = std::uint32_t;
-constexpr std::size_t kWord = 8;
 
 ft_status checkedSize(std::size_t size, const char* name) {
-  if (size >= kWord && size <= kMaxStructSize && size % kWord == 0) return FT_OK;
+  if (size >= kStructWord && size <= kMaxStructSize && size % kStructWord == 0) return FT_OK;
   return failure(
       FT_ERROR_STRUCT_SIZE, kNoIndex,
       "%s: expected its size in bytes in the first field, found %zu; was it initialised?", name,

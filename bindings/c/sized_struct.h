@@ -10,7 +10,11 @@
 
 namespace foretouch::c {
 
-static_assert(sizeof(void*) == 8, "a size in words of eight bytes never cuts a field in two");
+/// Sizes are in such words. Of structs that any version of the header declares, none ends within a
+/// field: all of them end where their widest field may, which is at eight bytes, or, where pointers
+/// have four, at four.
+inline constexpr std::size_t kStructWord = sizeof(void*);
+static_assert(kStructWord == 8 || kStructWord == 4);
 
 /// No struct will ever be larger; a larger size means that nobody set it.
 inline constexpr std::size_t kMaxStructSize = 4096;

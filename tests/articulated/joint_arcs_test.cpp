@@ -55,7 +55,7 @@ TEST(JointArcs, AreTheSameForAnyNumberOfJointsAtEveryWidth) {
       const ChainMotion motion(m.skeleton, m.from, m.to);
       for (JointId j = 0; j < motion.numLinks(); ++j) {
         SCOPED_TRACE(j);
-        ASSERT_TRUE(useSimd(Simd::Scalar));
+        ASSERT_TRUE(useSimd(supportedSimd().front()));
         const JointArc expected = alone(m, j).arc(0);
         expectSame(motion.arc(j), expected);
         ASSERT_EQ(motion.arc(j).parent, m.skeleton.parent(j));

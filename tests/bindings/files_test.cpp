@@ -7,6 +7,7 @@
 #include "assets/bvh/bvh_reader.h"
 #include "assets/mesh/link_mesh.h"
 #include "tests/bindings/c_world.h"
+#include "tests/bindings/importer.h"
 #include "tests/support/temp_folder.h"
 
 namespace foretouch {
@@ -23,6 +24,7 @@ ft_import_options withImporter() {
 }
 
 TEST(CFiles, ScenesAreImported) {
+  FORETOUCH_REQUIRE_IMPORTER();
   const test::TempFolder folder;
   const std::string path = folder.write("table.obj", kTable);
   ft_import_options options = withImporter();
@@ -44,6 +46,7 @@ TEST(CFiles, ScenesAreImported) {
 }
 
 TEST(CFiles, TheImporterIsFoundWhereItIsSaidToBe) {
+  FORETOUCH_REQUIRE_IMPORTER();
   const test::TempFolder folder;
   const std::string path = folder.write("table.obj", kTable);
   ft_scene* scene = nullptr;
@@ -62,6 +65,7 @@ TEST(CFiles, TheImporterIsFoundWhereItIsSaidToBe) {
 }
 
 TEST(CFiles, BadScenesAreRefused) {
+  FORETOUCH_REQUIRE_IMPORTER();
   const test::TempFolder folder;
   const std::string path = folder.write("bad.obj", "f 1 2 3\n");
   ft_scene* scene = nullptr;
@@ -106,6 +110,7 @@ std::string writeStick(const test::TempFolder& folder) {
 }
 
 TEST(CFiles, AvatarsBringTheirMeshesWhereTheyAreAskedFor) {
+  FORETOUCH_REQUIRE_IMPORTER();
   const test::TempFolder folder;
   const std::string path = writeStick(folder);
   const ft_import_options meshes = withImporter();
@@ -135,6 +140,7 @@ TEST(CFiles, AvatarsBringTheirMeshesWhereTheyAreAskedFor) {
 }
 
 TEST(CFiles, ClipsOfModelsAreReadByTheImporter) {
+  FORETOUCH_REQUIRE_IMPORTER();
   const test::TempFolder folder;
   ft_avatar* made = nullptr;
   ASSERT_EQ(ft_avatar_create_from_file(writeStick(folder).c_str(), nullptr, &made), FT_OK);
@@ -142,6 +148,28 @@ TEST(CFiles, ClipsOfModelsAreReadByTheImporter) {
   ft_clip* clip = nullptr;
   expectRefused(ft_clip_create_from_file((folder / "stick.glb").c_str(), made, nullptr, &clip),
                 FT_ERROR_EMPTY, {"stick.glb", "animation"});
+  EXPECT_EQ(clip, nullptr);
+}
+
+TEST(CFiles, WithoutAnImporterWhatItWouldReadIsRefused) {
+  if (FORETOUCH_TEST_IMPORTER[0] != '\0') GTEST_SKIP() << "built with the importer";
+  const test::TempFolder folder;
+  const std::string table = folder.write("table.obj", kTable);
+  const std::string stick = writeStick(folder), mesh = folder / "stick.glb";
+  ft_scene* scene = nullptr;
+  expectRefused(ft_scene_create_from_file(table.c_str(), nullptr, &scene), FT_ERROR_IMPORT_FAILED,
+                {table, "without the importer"});
+  const ft_import_options meshes = test::initialised(ft_import_options_init);
+  ft_avatar *full = nullptr, *bare = nullptr;
+  expectRefused(ft_avatar_create_from_file(stick.c_str(), &meshes, &full), FT_ERROR_IMPORT_FAILED,
+                {mesh, "without the importer"});
+  ASSERT_EQ(ft_avatar_create_from_file(stick.c_str(), nullptr, &bare), FT_OK) << ft_last_error();
+  const test::AvatarHandle avatar(bare);
+  ft_clip* clip = nullptr;
+  expectRefused(ft_clip_create_from_file(mesh.c_str(), bare, nullptr, &clip),
+                FT_ERROR_IMPORT_FAILED, {mesh, "without the importer"});
+  EXPECT_EQ(scene, nullptr);
+  EXPECT_EQ(full, nullptr);
   EXPECT_EQ(clip, nullptr);
 }
 

@@ -6,6 +6,7 @@
 
 #include "middleware/edges/edge_query.h"
 #include "tests/bindings/c_world.h"
+#include "tests/bindings/importer.h"
 #include "tests/middleware/edges/arm_among_wires.h"
 #include "tests/support/temp_folder.h"
 
@@ -209,6 +210,7 @@ TEST_F(CRobots, RefuseBadInput) {
 }
 
 TEST_F(CRobots, AreReadFromUrdf) {
+  FORETOUCH_REQUIRE_IMPORTER();
   const test::TempFolder folder;
   const std::string path = folder.write(
       "arm.urdf",

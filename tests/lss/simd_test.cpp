@@ -18,7 +18,8 @@ TEST(Simd, EveryWidthThatTheProcessorHasCanBeChosenAndTheWidestIsTakenByItself) 
 }
 
 TEST(Simd, NamesAreReadBack) {
-  for (const Simd simd : {Simd::Scalar, Simd::Ssse3, Simd::Sse4, Simd::Avx2, Simd::Avx512}) {
+  for (const Simd simd : {Simd::Scalar, Simd::Ssse3, Simd::Sse4, Simd::Avx2, Simd::Avx512,
+                          Simd::Neon, Simd::Simd128}) {
     EXPECT_EQ(simdFromName(toString(simd)), simd);
   }
   EXPECT_FALSE(simdFromName("mmx"));

@@ -36,7 +36,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(_WIN32)
+#if defined(FT_BUILDS_LIBRARY)
+#define FT_API __declspec(dllexport)
+#else
+#define FT_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
 #define FT_API __attribute__((visibility("default")))
 #else
 #define FT_API

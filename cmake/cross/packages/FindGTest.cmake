@@ -1,0 +1,15 @@
+# GoogleTest, from the sources that Debian has a package of.
+if(NOT TARGET GTest::gtest)
+  set(source ${FORETOUCH_CROSS_SOURCES}/usr/src/googletest/googletest)
+  add_library(foretouch_gtest STATIC EXCLUDE_FROM_ALL ${source}/src/gtest-all.cc)
+  add_library(foretouch_gtest_main STATIC EXCLUDE_FROM_ALL ${source}/src/gtest_main.cc)
+  foreach(name gtest gtest_main)
+    target_include_directories(foretouch_${name} SYSTEM PUBLIC ${source}/include PRIVATE ${source})
+    target_compile_features(foretouch_${name} PUBLIC cxx_std_17)
+    add_library(GTest::${name} ALIAS foretouch_${name})
+  endforeach()
+  # Where boost lies, which the judge's numbers need.
+  target_include_directories(foretouch_gtest SYSTEM PUBLIC ${FORETOUCH_CROSS_SOURCES}/usr/include)
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(GTest REQUIRED_VARS FORETOUCH_CROSS_SOURCES)
