@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <fcntl.h>
+#include <filesystem>
 #include <linux/audit.h>
 #include <linux/seccomp.h>
 #include <sys/ioctl.h>
@@ -324,6 +325,9 @@ Cage::Cage(const std::string& program, const std::vector<std::string>& readable,
     if (end > begin) doors_.push_back({libraries.substr(begin, end - begin), false});
     begin = end + 1;
   }
+  // What a relocatable installation brings along: PREFIX/lib/foretouch, beside PREFIX/libexec.
+  const auto prefix = std::filesystem::path(program).parent_path().parent_path().parent_path();
+  if (!prefix.empty()) doors_.push_back({(prefix / "lib/foretouch").string(), false});
   doors_.push_back({program, true});
   for (const std::string& path : readable) doors_.push_back({path, false});
   if (parts_.seccomp) writeReadersFilter(filter_, ownIds_);

@@ -30,8 +30,10 @@ std::string importerPlace(py::handle argument) {
   const char* const named = std::getenv("FORETOUCH_IMPORTER");
   const fs::path folder = packageFolder();
   if ((named != nullptr && *named != '\0') || folder.empty()) return "";
+  // The first is that of a wheel, which has all of an installation inside.
   for (const char* place :
-       {FORETOUCH_INSTALLED_IMPORTER_FROM_PACKAGE, FORETOUCH_BUILT_IMPORTER_FROM_PACKAGE}) {
+       {"_installed/libexec/foretouch/foretouch-import", FORETOUCH_INSTALLED_IMPORTER_FROM_PACKAGE,
+        FORETOUCH_BUILT_IMPORTER_FROM_PACKAGE}) {
     std::error_code failure;
     const fs::path importer = (folder / place).lexically_normal();
     if (fs::is_regular_file(importer, failure)) return importer.string();

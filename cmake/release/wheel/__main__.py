@@ -1,0 +1,3 @@
+from foretouch._command import main
+
+main()
