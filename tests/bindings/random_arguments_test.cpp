@@ -1,6 +1,9 @@
 // Calls with arguments drawn from what callers get wrong (random_caller.h). Whatever comes, the
 // answer is a status of the list, and a handle where and only where it is FT_OK.
 #include <array>
+#include <foretouch/events.h>
+#include <foretouch/mechanics.h>
+#include <foretouch/triggers.h>
 #include <limits>
 #include <string>
 
