@@ -242,12 +242,11 @@ class Caller : public test::RandomCaller {
     ASSERT_EQ(world != nullptr, status == FT_OK);
     if (world == nullptr) return;
     const test::WorldHandle owner(world);
+    follow(world, random_.chance(0.8));
     for (int i = 0; i < 3; ++i) addBody(small, world);
     if (random_.chance(0.5)) addTriggers(small, world);
-    if (random_.chance(0.8)) follow(world, true);
     for (int i = 0; i < 12; ++i) tellWorld(small, world);
     askWorld(world);
-    follow(world, false);
     collide();
   }
   void addTriggers(test::SmallWorld& small, ft_world* world) {
@@ -281,7 +280,8 @@ class Caller : public test::RandomCaller {
     made.size = sizeOr(sizeof made);
     if (random_.chance(0.2)) made.threads = random_.below(4);
     if (random_.chance(0.2)) made.cut_us = instant();
-    // Near instants alone: a window of ages is followed cut by cut, and would not end.
+    // Near instants alone: a window of ages, from a pose of long ago, is followed
+    // cut by cut, and would not end.
     if (begins) take(ft_world_follow_from(maybe(world), 100 * now_, maybe(&made)));
     fillNumbers();
     const std::int32_t body = random_.chance(0.8) ? random_.below(3) : index();
