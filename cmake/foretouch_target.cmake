@@ -140,3 +140,13 @@ function(foretouch_library folder)
           ARCHIVE COMPONENT dev
           LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev)
 endfunction()
+
+# What is built where it can be: the cache variable <name> is AUTO, ON (demanded) or OFF.
+#   foretouch_optional(<name> <what it builds>)
+function(foretouch_optional name what)
+  set(${name} AUTO CACHE STRING "${what}: AUTO (where it can be), ON or OFF")
+  set_property(CACHE ${name} PROPERTY STRINGS AUTO ON OFF)
+  if(NOT ${name} MATCHES "^(AUTO|ON|OFF)$")
+    message(FATAL_ERROR "${name} is '${${name}}'; expected AUTO, ON or OFF")
+  endif()
+endfunction()
