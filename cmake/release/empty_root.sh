@@ -3,7 +3,7 @@
 # and what every Linux has: the C library of this machine, with its loader, and an empty /tmp.
 set -euo pipefail
 archive=$1 root=$2
-mkdir -p "$root"/{opt,tmp,proc,work,etc}
+mkdir -p "$root"/{opt,tmp,proc,data,etc}
 chmod 1777 "$root/tmp"
 tar -xJf "$archive" -C "$root/opt" --no-same-owner
 mv "$root"/opt/foretouch-* "$root/opt/foretouch"
@@ -14,4 +14,4 @@ for library in ld-linux-x86-64.so.2 libc.so.6 libm.so.6 libdl.so.2 libpthread.so
 done
 mkdir -p "$root/lib64"
 ln -s ../lib/x86_64-linux-gnu/ld-linux-x86-64.so.2 "$root/lib64/ld-linux-x86-64.so.2"
-echo 'root:x:0:0:root:/work:/bin/false' >"$root/etc/passwd"
+echo 'root:x:0:0:root:/data:/bin/false' >"$root/etc/passwd"

@@ -10,7 +10,7 @@ find "$scratch/root" -exec touch -h -d "@$SOURCE_DATE_EPOCH" {} +
 tools=(--root "$scratch/storage" --runroot "$scratch/run" --storage-driver vfs)
 container=$(buildah "${tools[@]}" from scratch)
 buildah "${tools[@]}" copy --quiet "$container" "$scratch/root" / >&2
-buildah "${tools[@]}" config --entrypoint '["/opt/foretouch/bin/foretouch"]' --cmd '["--help"]' --workingdir /work \
+buildah "${tools[@]}" config --entrypoint '["/opt/foretouch/bin/foretouch"]' --cmd '["--help"]' --workingdir /data \
   --label org.opencontainers.image.version="$version" --label org.opencontainers.image.title=foretouch \
   --history-comment '' "$container"
 rm -f "$output"

@@ -54,10 +54,11 @@ def libraries_of(files):
     included, but for those of the system."""
     found = {}
     for file in files:
-        for name, path in re.findall(r"^\s*(\S+) => (\S+) \(0x", output_of("ldd", str(file)), re.MULTILINE):
+        told = output_of("ldd", str(file))
+        for name, path in re.findall(r"^\s*(\S+) => (\S+) \(0x", told, re.MULTILINE):
             if not OF_THE_SYSTEM.match(name):
                 found[name] = path
-        lost = re.findall(r"^\s*(\S+) => not found", output_of("ldd", str(file)), re.MULTILINE)
+        lost = re.findall(r"^\s*(\S+) => not found", told, re.MULTILINE)
         if lost:
             sys.exit(f"release_files: {file}: {', '.join(lost)} not found; expected the machine of the build")
     return found
@@ -170,7 +171,7 @@ def make_wheel(installed, version, output):
         inside = package / "_installed"
         for part in ("bin", "libexec", "share/foretouch/examples"):
             shutil.copytree(installed / part, inside / part, symlinks=True)
-        bring_libraries(inside, [path for path in sorted(package.glob("*.so"))])
+        bring_libraries(inside, sorted(package.glob("*.so")))
         licences(inside)
         about = root / f"foretouch-{version}.dist-info"
         about.mkdir()

@@ -11,7 +11,7 @@ say() { echo "try_release: $*"; }
 of() { find "$folder" -maxdepth 1 -name "$1" | sort | tail -n 1; }
 archive=$(of 'foretouch-*-linux-x86_64.tar.xz') wheel=$(of 'foretouch-*.whl') image=$(of 'foretouch-*-image.oci.tar')
 examples=/opt/foretouch/share/foretouch/examples
-bare=(/usr/bin/env -i HOME=/work PATH=/nowhere)
+bare=(/usr/bin/env -i HOME=/data PATH=/nowhere)
 
 # A body that meets furniture, its report, and a scene that the importer read in its cage.
 is_answer() {  # is_answer FOLDER
@@ -32,10 +32,10 @@ if [ "$(id -u)" -eq 0 ]; then
   unpacked=$(date +%s.%N)
   # shellcheck disable=SC2046
   unshare --mount --pid --fork bash -c 'mount -t proc proc "$1/proc" && shift && exec chroot "$@"' - "$scratch/root" \
-    "$scratch/root" /opt/foretouch/bin/foretouch $(replay_of $examples /work) >"$scratch/replay.txt"
-  is_answer "$scratch/root/work"
+    "$scratch/root" /opt/foretouch/bin/foretouch $(replay_of $examples /data) >"$scratch/replay.txt"
+  is_answer "$scratch/root/data"
   say "from unpacked to the report in $(seconds_since "$unpacked") s, unpacking in $(awk -v a="$began" -v b="$unpacked" 'BEGIN { printf "%.1f", b - a }') s"
-  cp "$scratch/root/work/contacts.jsonl" "$scratch/contacts.jsonl"
+  cp "$scratch/root/data/contacts.jsonl" "$scratch/contacts.jsonl"
   say "the archive once more over itself, which changes nothing"
   (cd "$scratch/root/opt" && find . -type f -exec sha256sum {} + | sort >"$scratch/before")
   mv "$scratch/root/opt/foretouch" "$scratch/root/opt/$(basename "$archive" .tar.xz)"
@@ -52,10 +52,10 @@ if [ "$(id -u)" -eq 0 ] && [ -n "$image" ] && command -v buildah >/dev/null; the
   container=$(buildah "${tools[@]}" from "oci-archive:$image")
   place=$(buildah "${tools[@]}" mount "$container")
   # shellcheck disable=SC2046
-  buildah "${tools[@]}" run --isolation chroot "$container" -- /opt/foretouch/bin/foretouch $(replay_of $examples /work) \
+  buildah "${tools[@]}" run --isolation chroot "$container" -- /opt/foretouch/bin/foretouch $(replay_of $examples /data) \
     >"$scratch/image.txt"
-  is_answer "$place/work"
-  cmp "$place/work/contacts.jsonl" "$scratch/contacts.jsonl"
+  is_answer "$place/data"
+  cmp "$place/data/contacts.jsonl" "$scratch/contacts.jsonl"
   buildah "${tools[@]}" rm "$container" >/dev/null
 fi
 
