@@ -319,6 +319,8 @@ BenchTable followingTable(const WorldCast& cast) {
                     {"follow_us", "followed, us per window", 1},
                     {"ratio", "ratio", 2},
                     {"intervals", "intervals", 0},
+                    {"stretches", "stretches of them, each between two poses", 0},
+                    {"looks_per_stretch", "looks per such stretch", 2},
                     {"looks", "looks per interval", 2}},
                    {}};
   constexpr int kPeople = 10, kWindows = 60;
@@ -326,10 +328,13 @@ BenchTable followingTable(const WorldCast& cast) {
   for (const auto& [name, spacing] : {std::pair{"near", 1.0}, std::pair{"far", 4.0}}) {
     const CrowdCost cost = followedCrowd(crowdOf(clips, kPeople, spacing), kWindows);
     const auto looks = static_cast<double>(cost.counters.contactLooks + cost.counters.freeLooks);
-    const auto intervals = static_cast<double>(std::max<std::uint64_t>(1, cost.counters.contacts));
+    const auto per = [&](std::uint64_t n) {
+      return looks / static_cast<double>(std::max<std::uint64_t>(1, n));
+    };
     table.rows.push_back({std::string(name), cell(cost.events), cost.askUs / kWindows,
                           cost.followUs / kWindows, cost.followUs / std::max(cost.askUs, 1e-9),
-                          cell(cost.counters.contacts), looks / intervals});
+                          cell(cost.counters.contacts), cell(cost.counters.stretches),
+                          per(cost.counters.stretches), per(cost.counters.contacts)});
   }
   return table;
 }

@@ -116,6 +116,7 @@ WorldPart partOf(const OpenPart& open, std::int64_t untilUs) {
   WorldPart part;
   part.kind = open.kind;
   part.reason = open.reason;
+  part.isAssumed = open.isAssumed;
   part.goesOn = true;
   part.a = open.a;
   part.b = open.b;

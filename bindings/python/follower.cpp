@@ -73,7 +73,7 @@ class Tales {
     py::list all;
     for (const OpenPart& p : parts) {
       all.append(type(kindOf(p.kind), p.since.us, p.since.fraction, sideOf(p.a, p.object),
-                      sideOf(p.b, p.object), reasonOf(p.reason)));
+                      sideOf(p.b, p.object), reasonOf(p.reason), p.isAssumed));
     }
     return all;
   }

@@ -38,24 +38,27 @@ struct BodiesTracer::Asked {
   const BodyMasses& masses;
   const TraceWindow& window;
   const TracedBodies& bodies;
-  std::vector<WorldEvent>& events;
-  EventCounters& counters;
+  TraceAnswer& answer;
 
   [[nodiscard]] const TracedPair& pair(std::size_t i) const {
     return window.pairs[bodies.first + i];
+  }
+  [[nodiscard]] PairKey keyOf(const Following& followed) const {
+    const LinkPair& links = pair(followed.pair).links;
+    return {bodies.bodies.a, links.a, bodies.bodies.b, links.b, followed.object};
   }
 };
 
 Result<Done> BodiesTracer::trace(const WorldParts& world, SystemPlans& plans,
                                  const BodyMasses& masses, const TraceWindow& window,
-                                 const TracedBodies& bodies, std::vector<WorldEvent>& events,
-                                 EventCounters& counters) {
-  const Asked asked{world, masses, window, bodies, events, counters};
+                                 const TracedBodies& bodies, TraceAnswer& answer) {
+  const Asked asked{world, masses, window, bodies, answer};
+  isAssumed_ = isFresh_ = false;  // not as the last bodies left them
   beginFollowing(asked);
   SpanSides span(world, plans, system_);
   const std::uint64_t looks = sides_.looks;
   const Result<Done> done = traceSpans(asked, span);
-  counters.pairs += sides_.looks - looks;
+  answer.counters.pairs += sides_.looks - looks;
   return done;
 }
 
@@ -168,7 +171,7 @@ void BodiesTracer::traceOne(const Asked& asked, SpanSides& span, Following& foll
       IntervalTolerance::of(asked.world.options.tolerance, span.off());
   parts_.clear();
   const double from = followed.isOpen ? 0.0 : partAt(spans, followed.from);
-  tracer_.trace(sides_, tolerance, from, start, parts_, asked.counters);
+  tracer_.trace(sides_, tolerance, from, start, parts_, asked.answer.counters);
   const bool wasUnknown = start == TraceStart::Unknown;
   const bool isStillUnknown = wasUnknown && !parts_.empty() &&
                               parts_.front().kind == PartKind::Unresolved &&
@@ -190,25 +193,28 @@ void BodiesTracer::takeParts(const Asked& asked, SpanSides& span, bool wasUnknow
             UndecidedReason::Resolution, followed);
       continue;
     }
-    ++asked.counters.stretches;
+    ++asked.answer.counters.stretches;
     const bool goesOnFromBefore = i == 0 && followed.isOpen;
     if (!goesOnFromBefore) {
       const bool isInside = part.from == 0.0 && (isFresh_ || wasUnknown);
-      ++asked.counters.contacts;
+      ++asked.answer.counters.contacts;
       begin(asked, isInside ? EventKind::StartsInside : EventKind::Enter,
             earliestTimeAt(spans, part.from), UndecidedReason::None, followed);
       details_.fill(span, sides_, part.from, asked.world.options.tolerance, asked.masses,
-                    asked.events.back());
+                    asked.answer.events.back());
     }
     const bool isLost = i + 1 < parts_.size() && parts_[i + 1].kind == PartKind::Unresolved &&
                         parts_[i + 1].from == part.to;
+    if (part.goesOn && isAssumed_) {
+      asked.answer.assumed.push_back({asked.keyOf(followed), {spans.endUs(), 0.0}});
+    }
     if (part.goesOn || isLost) continue;
     WorldTime time = latestTimeAt(spans, part.to);
     if (!(followed.since < time)) {
       time = {followed.since.us, std::nextafter(followed.since.fraction, 1.0)};
     }
     end(asked, EventKind::Leave, time, followed);
-    details_.fill(span, sides_, part.to, tolerance.limit, asked.masses, asked.events.back());
+    details_.fill(span, sides_, part.to, tolerance.limit, asked.masses, asked.answer.events.back());
   }
   if (!followed.isOpen) followed.from = {spans.endUs(), 0.0};
 }
@@ -221,7 +227,7 @@ void BodiesTracer::endOpen(const Asked& asked, std::size_t pair, const WorldTime
       end(asked, EventKind::UnresolvedTo, time, followed);
     } else if (followed.isOpen) {
       end(asked, EventKind::Leave, time, followed);
-      asked.events.back().cause = cause;
+      asked.answer.events.back().cause = cause;
     }
     followed.from = std::max(followed.from, time);
   }
@@ -253,8 +259,8 @@ void BodiesTracer::end(const Asked& asked, EventKind kind, const WorldTime& time
 WorldEvent& BodiesTracer::tell(const Asked& asked, EventKind kind, const WorldTime& time,
                                const Following& followed) {
   const LinkPair& links = asked.pair(followed.pair).links;
-  asked.events.emplace_back();
-  WorldEvent& event = asked.events.back();
+  asked.answer.events.emplace_back();
+  WorldEvent& event = asked.answer.events.back();
   event.kind = kind;
   event.reason = followed.reason;
   event.isAssumed = isAssumed_;

@@ -9,6 +9,7 @@
 #include "articulated/result.h"
 #include "middleware/events/event_details.h"
 #include "middleware/events/interval_tracer.h"
+#include "middleware/events/pair_key.h"
 #include "middleware/events/span_sides.h"
 #include "middleware/events/world_event.h"
 
@@ -34,13 +35,30 @@ struct TraceWindow {
   const std::vector<OpenPart>* open = nullptr;
 };
 
+/// A contact that goes on at the instant, after a motion that is assumed.
+struct AssumedContact {
+  PairKey pair;
+  WorldTime time;
+};
+
+struct TraceAnswer {
+  std::vector<WorldEvent> events;
+  std::vector<AssumedContact> assumed;
+  EventCounters counters;
+
+  void clear() {
+    events.clear();
+    assumed.clear();
+    counters = {};
+  }
+};
+
 /// For one thread; keeps its memory.
 class BodiesTracer {
  public:
-  /// Appends the events of the pairs. Errors: as SystemPlans::planOf().
+  /// Appends what happens to the pairs. Errors: as SystemPlans::planOf().
   Result<Done> trace(const WorldParts& world, SystemPlans& plans, const BodyMasses& masses,
-                     const TraceWindow& window, const TracedBodies& bodies,
-                     std::vector<WorldEvent>& events, EventCounters& counters);
+                     const TraceWindow& window, const TracedBodies& bodies, TraceAnswer& answer);
   /// Forgets what belongs to a world.
   void clear() { system_.motions.clear(); }
 

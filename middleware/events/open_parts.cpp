@@ -32,15 +32,20 @@ void OpenParts::take(const WorldEvent& event, std::vector<WorldPart>& parts) {
   const std::size_t place = placeOf(key);
   const auto offset = static_cast<std::ptrdiff_t>(place);
   if (has(key)) {
+    OpenPart& ended = open_[place];
+    if (ended.kind == PartKind::Contact && event.isAssumed) ended.isAssumed = true;
     close(place, event.time, false, parts);
     open_.erase(open_.begin() + offset);
-    areAssumed_.erase(areAssumed_.begin() + offset);
   }
   if (event.kind == EventKind::Leave || event.kind == EventKind::UnresolvedTo) return;
   const bool isUnresolved = event.kind == EventKind::UnresolvedFrom;
-  open_.insert(open_.begin() + offset, {isUnresolved ? PartKind::Unresolved : PartKind::Contact,
-                                        event.reason, event.a, event.b, event.object, event.time});
-  areAssumed_.insert(areAssumed_.begin() + offset, event.isAssumed);
+  open_.insert(open_.begin() + offset,
+               {isUnresolved ? PartKind::Unresolved : PartKind::Contact, event.reason,
+                event.isAssumed, event.a, event.b, event.object, event.time});
+}
+
+void OpenParts::assume(const PairKey& key) {
+  if (has(key)) open_[placeOf(key)].isAssumed = true;
 }
 
 void OpenParts::close(std::size_t place, const WorldTime& to, bool goesOn,
@@ -49,7 +54,7 @@ void OpenParts::close(std::size_t place, const WorldTime& to, bool goesOn,
   WorldPart part;
   part.kind = open.kind;
   part.reason = open.reason;
-  part.isAssumed = areAssumed_[place];
+  part.isAssumed = open.isAssumed;
   part.beganBefore = open.since < from_;
   part.goesOn = goesOn;
   part.a = open.a;

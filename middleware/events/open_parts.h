@@ -20,6 +20,8 @@ class OpenParts {
   void beginTime(std::int64_t fromUs);
   /// Takes in an event, and appends the part that it ends. Events of one pair come in order.
   void take(const WorldEvent& event, std::vector<WorldPart>& parts);
+  /// What is open there rests on a motion that is assumed.
+  void assume(const PairKey& key);
   /// Time is followed until here: appends the parts that go on, and sorts all by pair and time.
   void endTime(std::int64_t toUs, std::vector<WorldPart>& parts);
 
@@ -29,7 +31,6 @@ class OpenParts {
              std::vector<WorldPart>& parts) const;
 
   std::vector<OpenPart> open_;
-  std::vector<bool> areAssumed_;  // per open part
   WorldTime from_;
 };
 

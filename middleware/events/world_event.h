@@ -96,7 +96,7 @@ enum class PartKind : std::uint8_t { Contact, Unresolved };
 struct WorldPart {
   PartKind kind = PartKind::Contact;
   UndecidedReason reason = UndecidedReason::None;  ///< Of Unresolved.
-  bool isAssumed = false;
+  bool isAssumed = false;    ///< Some of it, since it began, rests on a motion that is assumed.
   bool beganBefore = false;  ///< It goes on from before the time that was asked.
   bool goesOn = false;       ///< Its end is that of the time that was asked.
   ContactSide a, b;          ///< As where it began.
@@ -109,6 +109,7 @@ struct WorldPart {
 struct OpenPart {
   PartKind kind = PartKind::Contact;
   UndecidedReason reason = UndecidedReason::None;  ///< Of Unresolved.
+  bool isAssumed = false;                          ///< As WorldPart::isAssumed, until now.
   ContactSide a, b;                                ///< As where it began.
   ObjectId object = -1;                            ///< As WorldEvent::object.
   WorldTime since;

@@ -19,10 +19,12 @@
 
 namespace foretouch {
 
+using internal::AssumedContact;
 using internal::BodiesTracer;
 using internal::BodyMasses;
 using internal::OpenParts;
 using internal::PairKey;
+using internal::TraceAnswer;
 using internal::TracedBodies;
 using internal::TracedPair;
 using internal::TraceWindow;
@@ -60,8 +62,7 @@ bool isOfEveryLink(const PairKey& key) {
 /// One thread's memory, and its part of a window's events.
 struct alignas(128) Worker {
   BodiesTracer tracer;
-  std::vector<WorldEvent> events;
-  EventCounters counters;
+  TraceAnswer answer;
   internal::FirstFailure failure{"window"};
 };
 
@@ -83,9 +84,17 @@ struct WorldFollower::Impl {
   std::vector<std::unique_ptr<Worker>> workers;
   std::vector<WorldEvent> own;  // of bodies altogether
   std::vector<const WorldEvent*> order;
+  std::vector<AssumedContact> assumed;
 
   [[nodiscard]] std::int64_t endOf(std::int64_t wantedUs) const {
     return options.cutUs > 0 ? multipleBefore(wantedUs, options.cutUs) : wantedUs;
+  }
+  [[nodiscard]] Result<Done> checkedCuts(std::int64_t endUs) const {
+    if (options.cutUs == 0 || (endUs - untilUs) / options.cutUs <= kMostCuts) return Done{};
+    return Error::in("untilUs", ErrorCode::OutOfRange,
+                     "expected at most " + std::to_string(kMostCuts) + " cuts of " +
+                         std::to_string(options.cutUs) + " us in one call, found " +
+                         std::to_string(untilUs) + " to " + std::to_string(endUs) + " us");
   }
   [[nodiscard]] std::int64_t nextUs(const WorldParts& parts, std::int64_t endUs) const {
     const std::int64_t next = options.cutUs > 0
@@ -135,8 +144,7 @@ struct WorldFollower::Impl {
     tellUnknown();
     plan();
     for (const auto& worker : workers) {
-      worker->events.clear();
-      worker->counters = {};
+      worker->answer.clear();
       worker->failure.clear();
     }
     return traceAll(parts);
@@ -260,7 +268,7 @@ struct WorldFollower::Impl {
             i,
             [&] {
               return worker.tracer.trace(parts, scratch->plans, masses, window, tasks[i],
-                                         worker.events, worker.counters);
+                                         worker.answer);
             },
             [&] { worker.tracer = BodiesTracer(); });
       }
@@ -275,17 +283,26 @@ struct WorldFollower::Impl {
 
   void takeEvents(WorldEvents& answer) {
     order.clear();
+    assumed.clear();
     for (const WorldEvent& event : own) order.push_back(&event);
     for (const auto& worker : workers) {
-      for (const WorldEvent& event : worker->events) order.push_back(&event);
-      answer.counters.add(worker->counters);
+      const TraceAnswer& traced = worker->answer;
+      for (const WorldEvent& event : traced.events) order.push_back(&event);
+      assumed.insert(assumed.end(), traced.assumed.begin(), traced.assumed.end());
+      answer.counters.add(traced.counters);
     }
     std::sort(order.begin(), order.end(),
               [](const WorldEvent* x, const WorldEvent* y) { return comesBefore(*x, *y); });
+    std::sort(assumed.begin(), assumed.end(),
+              [](const AssumedContact& x, const AssumedContact& y) { return x.time < y.time; });
+    auto next = assumed.begin();
     for (const WorldEvent* const event : order) {
+      // Before the event: it may end what goes on until there.
+      for (; next != assumed.end() && !(event->time < next->time); ++next) open.assume(next->pair);
       open.take(*event, answer.parts);
       answer.events.push_back(*event);
     }
+    for (; next != assumed.end(); ++next) open.assume(next->pair);
   }
 };
 
@@ -337,7 +354,10 @@ Result<Done> WorldFollower::follow(const World& world, std::int64_t untilUs, Wor
   FORETOUCH_CHECK(impl.masses.checked(parts));
   FORETOUCH_CHECK(internal::checkedSides(parts));
   const std::int64_t endUs = impl.endOf(untilUs), fromUs = impl.untilUs;
-  if (endUs > fromUs) FORETOUCH_CHECK(internal::checkedWindow(world, fromUs, endUs));
+  if (endUs > fromUs) {
+    FORETOUCH_CHECK(internal::checkedWindow(world, fromUs, endUs));
+    FORETOUCH_CHECK(impl.checkedCuts(endUs));
+  }
   impl.world = parts.identity;
   impl.openBefore = impl.open;
   answer.fromUs = fromUs;

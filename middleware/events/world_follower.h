@@ -19,12 +19,14 @@ namespace foretouch {
 struct FollowOptions {
   /// Where time is cut. 0: at every pose of any body. Else at the multiples of so many
   /// microseconds, up to kMostCutUs: less work for many bodies with clocks of their own; what is
-  /// after the last multiple waits.
+  /// after the last multiple waits. One call follows at most kMostCuts of them.
   std::int64_t cutUs = 0;
   /// In [1, kMaxPoolThreads] (query_pool.h), the calling one among them.
   int threads = 1;
 };
 inline constexpr std::int64_t kMostCutUs = 10'000'000;
+/// A wrong clock would be followed cut by cut for years: refused, while hours at 1 ms are not.
+inline constexpr std::int64_t kMostCuts = 10'000'000;
 
 /// For one thread at a time; nobody changes the world while it is asked. Memory is bounded by the
 /// bodies and by who touches, and nothing is allocated once it has grown.
@@ -48,8 +50,9 @@ class WorldFollower {
   /// which they came; and not on the calls, as long as each ends where time is cut
   /// (World::knownUntilUs() is a pose). Until then the world must keep what it knows
   /// (World::forgetBefore()). `answer` is filled anew; its memory is kept.
-  /// Errors: as worldContacts(); another world than in the last call, one that asks whether meshes
-  /// meet, or a body that touches by its triangles (Mismatch). Then nothing has been followed.
+  /// Errors: as worldContacts(); more than kMostCuts cuts (OutOfRange); another world than in the
+  /// last call, one that asks whether meshes meet, or a body that touches by its triangles
+  /// (Mismatch). Then nothing has been followed.
   Result<Done> follow(const World& world, std::int64_t untilUs, WorldEvents& answer);
 
   /// Until where it has followed.

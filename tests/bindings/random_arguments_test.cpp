@@ -242,10 +242,10 @@ class Caller : public test::RandomCaller {
     ASSERT_EQ(world != nullptr, status == FT_OK);
     if (world == nullptr) return;
     const test::WorldHandle owner(world);
-    follow(world, random_.chance(0.8));
     for (int i = 0; i < 3; ++i) addBody(small, world);
     if (random_.chance(0.5)) addTriggers(small, world);
     for (int i = 0; i < 12; ++i) tellWorld(small, world);
+    for (int i = 0; i < 3; ++i) follow(world, i == 0 || random_.chance(0.2));
     askWorld(world);
     collide();
   }
@@ -280,14 +280,15 @@ class Caller : public test::RandomCaller {
     made.size = sizeOr(sizeof made);
     if (random_.chance(0.2)) made.threads = random_.below(4);
     if (random_.chance(0.2)) made.cut_us = instant();
-    // Near instants alone: a window of ages, from a pose of long ago, is followed
-    // cut by cut, and would not end.
-    if (begins) take(ft_world_follow_from(maybe(world), 100 * now_, maybe(&made)));
+    if (begins) {
+      const std::int64_t from = random_.chance(0.5) ? instant() : 100 * now_;
+      take(ft_world_follow_from(maybe(world), from, maybe(&made)));
+    }
     fillNumbers();
     const std::int32_t body = random_.chance(0.8) ? random_.below(3) : index();
     take(ft_world_weigh(world, body, number(), maybe(numbers_.data()), maybe(numbers_.data() + 4)));
     take(ft_world_weigh_avatar(world, body, number()));
-    std::int64_t known = 100 * ++now_;
+    std::int64_t known = instant();
     if (random_.chance(0.8)) take(ft_world_known_until(world, &known, nullptr));
     take(ft_world_follow(maybe(world), known));
     std::array<ft_event, kRoom> events{};

@@ -376,6 +376,7 @@ class OpenPart(NamedTuple):
     a: ContactSide
     b: ContactSide
     reason: Optional[str]
+    is_assumed: bool
 
 
 class WorldEvents(NamedTuple):

@@ -52,6 +52,12 @@ World worldOf(std::optional<Scene> still = std::nullopt) {
 WorldFollower followerFrom(std::int64_t fromUs, const FollowOptions& options = {}) {
   return WorldFollower::start(fromUs, options).value();
 }
+BodyOptions holdingStill() {
+  BodyOptions options;
+  options.whenSilent = WhenSilent::HoldStill;
+  return options;
+}
+
 WorldEvents followed(WorldFollower& follower, const World& world, std::int64_t untilUs) {
   WorldEvents answer;
   const auto done = follower.follow(world, untilUs, answer);
@@ -198,6 +204,41 @@ TEST(WorldFollower, ClaimsNothingOfWhomNobodyKnows) {
   EXPECT_EQ(answer.events[0].time.us, 30'000);
   EXPECT_EQ(answer.events[2].time.us, 30'000);
   EXPECT_EQ(follower.open().size(), 1u);
+}
+
+// A contact that began while all was known, and goes on with somebody who is silent.
+TEST(WorldFollower, SaysWhatRestsOnWhoIsTakenToHoldStill) {
+  for (const std::int64_t cutUs : {0, 15'000, 100'000}) {
+    World world = worldOf();
+    const BodyId seen = world.add(ball(0.1)).value();
+    const BodyId silent = world.add(ball(0.1), holdingStill()).value();
+    for (const int i : {0, 1, 2, 3}) {
+      ASSERT_TRUE(world.push(seen, 50'000 * i, at(i < 3 ? 0.0 : 9.0)).ok());
+    }
+    for (const int i : {0, 1}) ASSERT_TRUE(world.push(silent, 10'000 * i, at(0.15)).ok());
+    FollowOptions options;
+    options.cutUs = cutUs;
+    WorldFollower follower = WorldFollower::start(0, options).value();
+    WorldEvents answer;
+    if (cutUs == 0) {
+      answer = followed(follower, world, 10'000);
+      ASSERT_EQ(follower.open().size(), 1u);
+      EXPECT_FALSE(follower.open()[0].isAssumed);
+      EXPECT_FALSE(answer.parts.at(0).isAssumed);
+    }
+    answer = followed(follower, world, cutUs == 0 ? 60'000 : 100'000);
+    EXPECT_EQ(kindsOf(answer), cutUs == 0 ? "" : "starts_inside ");
+    ASSERT_EQ(answer.parts.size(), 1u);
+    EXPECT_TRUE(answer.parts[0].isAssumed);
+    ASSERT_EQ(follower.open().size(), 1u);
+    EXPECT_TRUE(follower.open()[0].isAssumed);
+    if (cutUs != 0) continue;
+    // It rested on that, whatever is known when it ends.
+    answer = followed(follower, world, 150'000);
+    EXPECT_EQ(kindsOf(answer), "leave ");
+    ASSERT_EQ(answer.parts.size(), 1u);
+    EXPECT_TRUE(answer.parts[0].isAssumed);
+  }
 }
 
 TEST(WorldFollower, EndsWhatIsNotAskedAnyMore) {
@@ -386,6 +427,28 @@ TEST(WorldFollower, RefusesWhatItCannotFollow) {
   ASSERT_FALSE(unknown.ok());
   EXPECT_EQ(unknown.error().code, ErrorCode::Mismatch);
   EXPECT_EQ(unknown.error().index, 7);
+}
+
+TEST(WorldFollower, RefusesMoreCutsThanItCouldEverFollow) {
+  World world = worldOf();
+  const BodyId old = world.add(ball(0.1), holdingStill()).value();
+  const BodyId late = world.add(ball(0.1)).value();
+  ASSERT_TRUE(world.push(old, -kMostUtimeUs, at(0.0)).ok());
+  ASSERT_TRUE(world.push(late, kMostUtimeUs, at(0.0)).ok());
+  FollowOptions options;
+  options.cutUs = 1'000;
+  WorldFollower fine = WorldFollower::start(-kMostUtimeUs, options).value();
+  WorldEvents answer;
+  for (const std::int64_t until : {kMostUtimeUs, -kMostUtimeUs + (kMostCuts + 2) * 1'000}) {
+    const auto ages = fine.follow(world, until, answer);
+    ASSERT_FALSE(ages.ok());
+    EXPECT_EQ(ages.error().code, ErrorCode::OutOfRange);
+    EXPECT_EQ(fine.followedUntilUs(), -kMostUtimeUs);
+  }
+  ASSERT_TRUE(fine.follow(world, -kMostUtimeUs + 5'000, answer).ok());  // in pieces it goes on
+  WorldFollower whole = WorldFollower::start(-kMostUtimeUs).value();
+  ASSERT_TRUE(whole.follow(world, kMostUtimeUs, answer).ok());  // nothing is cut
+  EXPECT_EQ(answer.counters.windows, 1u);
 }
 
 TEST(WorldFollower, RefusesWorldsThatTouchByTriangles) {

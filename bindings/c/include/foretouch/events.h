@@ -40,7 +40,8 @@ FT_API ft_status ft_world_weigh_avatar(ft_world* world, int32_t body, double kg)
 /* Finds everything that happens from where the last call ended until `until_us`; nothing if that is
  * not later. What is told depends on the poses alone: not on threads, on the order in which poses
  * came, nor on the calls, as long as each ends where time is cut (ft_world_known_until() is a
- * pose). Errors: as ft_world_answer(); then nothing has been followed. */
+ * pose). Errors: as ft_world_answer(), and more than 10^7 cuts in one call; then nothing has been
+ * followed. */
 FT_API ft_status ft_world_follow(ft_world* world, int64_t until_us);
 /* Stores from and until where the last call has followed. Either may be NULL. */
 FT_API ft_status ft_world_followed(const ft_world* world, int64_t* from_us, int64_t* until_us);
@@ -105,9 +106,9 @@ FT_API ft_status ft_world_events(const ft_world* world, ft_event* events, size_t
  * throughout. Contact: it is at most twice the tolerance throughout. */
 typedef struct ft_part {
   uint32_t size;
-  int32_t is_contact; /* 1; 0: unresolved */
-  int32_t reason;     /* of what is unresolved: FT_REASON_* */
-  int32_t is_assumed;
+  int32_t is_contact;   /* 1; 0: unresolved */
+  int32_t reason;       /* of what is unresolved: FT_REASON_* */
+  int32_t is_assumed;   /* 1: some of it, since it began, rests on a motion that is assumed */
   int32_t began_before; /* 1: it goes on from before the last call's time */
   int32_t goes_on;      /* 1: it ends where that time does */
   int64_t from_us;
