@@ -17,7 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace hwy::HWY_NAMESPACE {
 
 // Loads, stores, shuffles, selections and what works on bits are Highway's own: they ask only how
-// wide a lane is. Its names for what follows (Add(), Lt(), MaxOfLanes()...) call these.
+// wide a lane is (but for GetLane(), which takes eight bytes for a whole number). Its names for
+// what follows (Add(), Lt(), MaxOfLanes()...) call these.
 using DoublePair = Vec128<double, 2>;
 using DoublePairMask = Mask128<double, 2>;
 using DoublePairTag = Simd<double, 2, 0>;
@@ -75,6 +76,9 @@ HWY_API DoublePairMask operator<=(DoublePair a, DoublePair b) {
 }
 HWY_API DoublePairMask operator>=(DoublePair a, DoublePair b) {
   return {wasm_f64x2_ge(a.raw, b.raw)};
+}
+HWY_API double GetLane(DoublePair a) {
+  return wasm_f64x2_extract_lane(a.raw, 0);
 }
 HWY_API Vec128<float, 2> DemoteTo(FloatPairTag /* tag */, DoublePair a) {
   return {wasm_f32x4_demote_f64x2_zero(a.raw)};

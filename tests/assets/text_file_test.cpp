@@ -54,6 +54,7 @@ TEST_F(ReadWholeFile, RefusesWhatIsMissingOrNoFileOrTooLarge) {
 
 TEST_F(ReadWholeFile, DoesNotWaitForAPipe) {
   ASSERT_EQ(::mkfifo(file("pipe").c_str(), 0600), 0);
+  if (!fs::is_fifo(file("pipe"))) GTEST_SKIP() << "no pipes here";
   EXPECT_EQ(readWholeFile(file("pipe"), 10).error().code, ErrorCode::FileUnreadable);
 }
 
