@@ -14,6 +14,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "lss/double_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace foretouch::HWY_NAMESPACE {
 

@@ -1,8 +1,10 @@
 #include "articulated/quoted.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <cstdio>
 
 namespace foretouch {
 namespace {
@@ -59,9 +61,15 @@ std::string inQuotes(std::string_view text) {
 
 std::string inDigits(double number, int digits) {
   std::array<char, 32> text;  // 17 digits, sign, point and exponent need 24
+#if defined(__cpp_lib_to_chars)
   const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
                                  std::chars_format::general, digits);
   return {text.data(), end.ptr};
+#else  // the same digits, but for the point, which a locale may choose
+  const int length = std::snprintf(text.data(), text.size(), "%.*g", digits, number);
+  std::replace(text.begin(), text.end(), ',', '.');
+  return {text.data(), static_cast<std::size_t>(length)};
+#endif
 }
 
 }  // namespace foretouch

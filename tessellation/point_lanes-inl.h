@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "articulated/chain_nodes.h"
+#include "lss/double_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace foretouch::HWY_NAMESPACE {

@@ -264,7 +264,7 @@ bool PairsSax::endPair() {
   }
   const LeftOutPair pair{std::min(at_.a, at_.b), std::max(at_.a, at_.b), reason_};
   const std::string both = nameOf(at_.a) + " and " + nameOf(at_.b);
-  if (!listed_.insert(slotOf(pair.a) << 32 | slotOf(pair.b)).second) {
+  if (!listed_.insert(std::uint64_t{slotOf(pair.a)} << 32 | slotOf(pair.b)).second) {
     return fail(ErrorCode::DuplicateName, "expected each pair once, found " + both + " again");
   }
   if (!reasons_.isTrue(pair)) {

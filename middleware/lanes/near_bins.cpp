@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "lss/double_lanes-inl.h"
 #include "middleware/lanes/points-inl.h"
 
 HWY_BEFORE_NAMESPACE();

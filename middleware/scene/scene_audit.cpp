@@ -157,8 +157,9 @@ void measure(const Triangle& triangle, SceneAudit& audit) {
     const Vector3d edge = triangle.vertices[(k + 1) % 3] - vertex;
     audit.boxMin = audit.boxMin.cwiseMin(vertex);
     audit.boxMax = audit.boxMax.cwiseMax(vertex);
-    // hypot: squares of tiny and of huge coordinates leave the range of doubles, lengths do not.
-    const double length = std::hypot(edge.x(), edge.y(), edge.z());
+    // hypot: squares of tiny and of huge coordinates leave the range of doubles, lengths do not. Of
+    // two: not every standard library's of three keeps that.
+    const double length = std::hypot(std::hypot(edge.x(), edge.y()), edge.z());
     audit.longestEdge = std::max(audit.longestEdge, length);
     if (length > 0.0) audit.shortestEdge = std::min(audit.shortestEdge, length);
   }

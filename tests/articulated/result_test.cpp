@@ -18,16 +18,17 @@ Result<Skeleton> withParentThatIsMissing() {
 TEST(ResultDeathTest, ValueOfAFailureSaysTheErrorAndStops) {
   const Result<Skeleton> result = withParentThatIsMissing();
   ASSERT_FALSE(result.ok());
-  EXPECT_DEATH((void)result.value(), "value\\(\\) of a Result that failed: .*hand");
+  EXPECT_DEATH_IF_SUPPORTED((void)result.value(), "value\\(\\) of a Result that failed: .*hand");
 }
 
 TEST(ResultDeathTest, ValueOfATemporaryStopsToo) {
-  EXPECT_DEATH((void)withParentThatIsMissing().value(), "value\\(\\) of a Result that failed");
+  EXPECT_DEATH_IF_SUPPORTED((void)withParentThatIsMissing().value(),
+                            "value\\(\\) of a Result that failed");
 }
 
 TEST(ResultDeathTest, ErrorOfASuccessStops) {
   const Result<int> result = 3;
-  EXPECT_DEATH((void)result.error(), "error\\(\\) of a Result that is ok");
+  EXPECT_DEATH_IF_SUPPORTED((void)result.error(), "error\\(\\) of a Result that is ok");
 }
 
 }  // namespace

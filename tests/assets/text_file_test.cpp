@@ -54,6 +54,7 @@ TEST_F(ReadWholeFile, RefusesWhatIsMissingOrNoFileOrTooLarge) {
 
 TEST_F(ReadWholeFile, DoesNotWaitForAPipe) {
   ASSERT_EQ(::mkfifo(file("pipe").c_str(), 0600), 0);
+  if (!fs::is_fifo(file("pipe"))) GTEST_SKIP() << "no pipes here";
   EXPECT_EQ(readWholeFile(file("pipe"), 10).error().code, ErrorCode::FileUnreadable);
 }
 
@@ -133,7 +134,11 @@ TEST_F(PendingFileTest, RefusesAStrangersLinkInASharedFolder) {
     return link;
   };
   constexpr uid_t kStranger = 12345;
-  const auto refused = PendingFile::create(linkIn("shared", 01777, kStranger));
+  const std::string strangers = linkIn("shared", 01777, kStranger);
+  struct stat state {};
+  ASSERT_EQ(::lstat(strangers.c_str(), &state), 0);
+  if (state.st_uid != kStranger) GTEST_SKIP() << "no files of others here";
+  const auto refused = PendingFile::create(strangers);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::FileUnwritable);
   EXPECT_NE(refused.error().message.find("another user's link"), std::string::npos);
@@ -174,6 +179,11 @@ TEST_F(PendingFileTest, FollowsLinksOnTheWayAndEndsInARing) {
 TEST_F(PendingFileTest, WritesIntoAPipeThatHasNoNameOfItsOwn) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
+  struct stat end {
+  }, named{};
+  ::fstat(ends[1], &end);
+  ::stat(("/dev/fd/" + std::to_string(ends[1])).c_str(), &named);
+  if (end.st_ino != named.st_ino) GTEST_SKIP() << "no names for pipes here";
   auto pending = PendingFile::create("/dev/fd/" + std::to_string(ends[1]));
   ASSERT_TRUE(pending.ok()) << describe(pending.error());
   pending.value().write("new");

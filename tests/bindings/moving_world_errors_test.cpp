@@ -79,8 +79,8 @@ TEST(CMovingWorldErrors, OfBodies) {
   }
   refuse<AddingBody>([](AddingBody& a) { a.options.fidelity = FT_FIDELITY_EXACT; },
                      FT_ERROR_MISMATCH, {"fidelity", "triangles of the avatar"});
-  refuse<AddingBody>([](AddingBody& a) { a.options.size = 12; }, FT_ERROR_STRUCT_SIZE,
-                     {"ft_body_options"});
+  refuse<AddingBody>([](AddingBody& a) { a.options.size = 3 * sizeof(void*) / 2; },
+                     FT_ERROR_STRUCT_SIZE, {"ft_body_options"});
   refuse<AddingBody>(
       [](AddingBody& a) {
         a.options.self = reinterpret_cast<const ft_pair_rules*>(a.small.scene.get());
@@ -221,8 +221,8 @@ TEST(CMovingWorldErrors, OfCarriers) {
   }
   refuse<AttachingBody>([](AttachingBody& a) { a.carrier.moves_in_frame = 2; },
                         FT_ERROR_OUT_OF_RANGE, {"moves_in_frame"});
-  refuse<AttachingBody>([](AttachingBody& a) { a.carrier.size = 4; }, FT_ERROR_STRUCT_SIZE,
-                        {"ft_carrier"});
+  refuse<AttachingBody>([](AttachingBody& a) { a.carrier.size = sizeof(void*) / 2; },
+                        FT_ERROR_STRUCT_SIZE, {"ft_carrier"});
   refuse<AttachingBody>([](AttachingBody& a) { a.body = 7; }, FT_ERROR_UNKNOWN_NAME, {"body"});
   for (const std::int64_t us : {std::int64_t{0}, std::int64_t{1001}, std::int64_t{-5}}) {
     refuse<AttachingBody>([&](AttachingBody& a) { a.utime = us; }, FT_ERROR_OUT_OF_RANGE,

@@ -11,6 +11,7 @@
 #include "lss/index.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/own_body.h"
+#include "tests/support/threads.h"
 
 namespace foretouch {
 namespace {
@@ -258,6 +259,7 @@ std::vector<std::int64_t> timesIn(const test::SceneHandle& door, const test::Ava
 }
 
 TEST(CMovingWorld, ThreadsThatShareScenesAndAvatarsGetTheAnswersOfOne) {
+  if (!test::kHasThreads) GTEST_SKIP() << "no threads here";
   const auto door = test::makeScene(test::doorScene());
   const auto thrown = test::makeAvatar(ball());
   std::vector<std::vector<std::int64_t>> times(4);

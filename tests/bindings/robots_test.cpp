@@ -9,6 +9,7 @@
 #include "tests/bindings/importer.h"
 #include "tests/middleware/edges/arm_among_wires.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/threads.h"
 
 namespace foretouch {
 namespace {
@@ -98,7 +99,7 @@ TEST_F(CRobots, AnswerEdgesAsCppDoes) {
   ASSERT_EQ(ft_edge_options_init(&options, sizeof options), FT_OK);
   options.self = rules;
   options.clearance = 0.01;
-  options.threads = 3;
+  options.threads = test::kHasThreads ? 3 : 1;
   const auto asked = edges(&options);
   std::vector<ft_edge> answers(kEdges);
   answers[0].size = sizeof answers[0];

@@ -7,6 +7,7 @@
 
 #include "tests/bindings/same_answers.h"
 #include "tests/bindings/solid_world.h"
+#include "tests/support/threads.h"
 
 namespace foretouch {
 namespace {
@@ -328,6 +329,7 @@ std::vector<double> shownBy(const SolidWorld& world) {
 }
 
 TEST(CSolid, ThreadsThatShareASceneAndAnAvatarGetTheTicksOfOne) {
+  if (!test::kHasThreads) GTEST_SKIP() << "no threads here";
   const SolidWorld world;
   std::vector<std::vector<double>> shown(4);
   std::vector<std::thread> threads;

@@ -1,5 +1,7 @@
 // Many threads, each with queries of its own, on one scene and one avatar: the same answers as one
 // thread gets. Under ThreadSanitizer (./run sanitize tsan) a race fails the test.
+#include "tests/support/threads.h"
+
 #include <cstring>
 #include <string>
 #include <thread>
@@ -39,6 +41,7 @@ std::vector<ft_contact> answersOf(const ft_scene* scene, const ft_avatar* avatar
 }
 
 TEST(CThreads, GetTheAnswersOfOne) {
+  if (!test::kHasThreads) GTEST_SKIP() << "no threads here";
   test::Random random(5);
   const RawScene raw = test::clutter(random, 1500, 3, Eigen::Vector3d::Zero());
   const test::RandomBody body = test::bodyInClutter(random, 6, Eigen::Vector3d::Zero());
@@ -64,6 +67,7 @@ TEST(CThreads, GetTheAnswersOfOne) {
 }
 
 TEST(CThreads, EachHasItsOwnLastError) {
+  if (!test::kHasThreads) GTEST_SKIP() << "no threads here";
   ft_scene* scene = nullptr;
   test::expectRefused(ft_scene_create(nullptr, &scene), FT_ERROR_NULL_ARGUMENT,
                       {"ft_scene_create"});
@@ -77,6 +81,7 @@ TEST(CThreads, EachHasItsOwnLastError) {
 }
 
 TEST(CThreads, MayReleaseTheSceneWhileOthersQueryIt) {
+  if (!test::kHasThreads) GTEST_SKIP() << "no threads here";
   test::SmallWorld world;
   std::vector<test::QueryHandle> queries;
   for (int i = 0; i < kThreads; ++i) queries.push_back(test::makeQuery(world.scene, world.avatar));

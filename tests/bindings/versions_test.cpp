@@ -1,5 +1,6 @@
 // Programs that are older or newer than the library.
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <foretouch/solid.h>
 #include <foretouch/world.h>
@@ -50,10 +51,11 @@ TEST(CVersions, AnOlderProgramGetsDefaultsForWhatItDoesNotKnow) {
 TEST(CVersions, AProgramOlderThanPassSeparatingDoesNotPass) {
   test::SmallWorld world;
   ft_query_options options = test::initialised(ft_query_options_init);
-  options.size = 88;
+  constexpr std::size_t kOlder = offsetof(ft_query_options, pass_separating);
+  options.size = kOlder;
   options.pass_separating = options.reserved_end = 77;  // beyond what the older program has
   EXPECT_NE(test::makeQuery(world.scene, world.avatar, &options), nullptr);
-  ASSERT_EQ(ft_query_options_init(&options, 88), FT_OK);
+  ASSERT_EQ(ft_query_options_init(&options, kOlder), FT_OK);
   EXPECT_EQ(options.pass_separating, 77) << "written past the end";
 }
 
@@ -113,10 +115,13 @@ TEST(CVersions, ANewerProgramIsHeardWhereItAsksForNothingNew) {
   EXPECT_EQ(query, nullptr);
 }
 
+/// Structs end where a pointer may.
+constexpr std::uint32_t kHalfWord = sizeof(void*) / 2;
+
 TEST(CVersions, SizesThatNoVersionHasAreRefused) {
   test::SmallWorld world;
   ft_query_options options = test::initialised(ft_query_options_init);
-  for (const std::uint32_t size : {0u, 1u, 4u, 12u, 4097u, 4104u, 0xffffffffu}) {
+  for (const std::uint32_t size : {0u, 1u, kHalfWord, 3 * kHalfWord, 4097u, 4104u, 0xffffffffu}) {
     options.size = size;
     ft_query* query = nullptr;
     test::expectRefused(ft_query_create(world.scene.get(), world.avatar.get(), &options, &query),
@@ -124,8 +129,8 @@ TEST(CVersions, SizesThatNoVersionHasAreRefused) {
     test::expectRefused(ft_query_options_init(&options, size), FT_ERROR_STRUCT_SIZE,
                         {"ft_query_options_init"});
   }
-  test::expectRefused(ft_query_options_init(&options, std::size_t{1} << 40), FT_ERROR_STRUCT_SIZE,
-                      {"ft_query_options"});
+  test::expectRefused(ft_query_options_init(&options, std::numeric_limits<std::size_t>::max() - 7),
+                      FT_ERROR_STRUCT_SIZE, {"ft_query_options"});
 }
 
 template <typename Struct>

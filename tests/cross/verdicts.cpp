@@ -1,16 +1,19 @@
-// verdicts CASES: what every link meets in every step of every case (cases.h), through the C
-// library alone and without the importer, on standard output. compare.py holds two machines'
+// verdicts CASES [--times]: what every link meets in every step of every case (cases.h), through
+// the C library alone and without the importer, on standard output. compare.py holds two machines'
 // answers against each other, judge_verdicts judges each.
 //   case NUMBER
 //   pose FRAME rotations translations     of all joints
 //   link LINK VERDICT toi free_until separation penetration lss triangle scene[3] link[3] normal[3]
 // Numbers are written to the last bit. A pose ends the step that the lines of links behind it tell
-// of.
+// of. With --times instead: how long the steps took.
+#include <algorithm>
+#include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <exception>
 #include <foretouch/foretouch.h>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "tests/cross/cases.h"
@@ -79,9 +82,15 @@ class Played {
     return static_cast<std::size_t>(info.frame_count);
   }
 
-  void stepTo(std::size_t frame) {
+  /// Returns how long it took (s).
+  double stepTo(std::size_t frame) {
     must(ft_clip_pose(clip_, frame, rotations_.data(), translations_.data(), joints_, nullptr));
+    const auto begin = std::chrono::steady_clock::now();
     must(ft_query_step(query_, frame == 0 ? &pose_ : nullptr, &pose_));
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  void tellOf(std::size_t frame) {
     std::printf("pose %zu", frame);
     print(rotations_);
     print(translations_);
@@ -112,7 +121,9 @@ class Played {
   ft_pose pose_{};
 };
 
-void answer(const std::vector<CrossCase>& cases) {
+/// What `answer` does with each case's steps, in the cases' order.
+template <typename Answer>
+void play(const std::vector<CrossCase>& cases, const Answer& answer) {
   must(FT_CHECK_ABI());
   ft_scene* scene = nullptr;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -120,26 +131,52 @@ void answer(const std::vector<CrossCase>& cases) {
       ft_scene_destroy(scene);
       scene = sceneOf(cases[i].scene);
     }
-    std::printf("case %zu\n", i);
     Played played(cases[i], scene);
     const std::size_t frames = played.numFrames();
     for (std::size_t frame = 0; frame < frames;
          frame += static_cast<std::size_t>(cases[i].stride)) {
-      played.stepTo(frame);
+      answer(i, frame, played);
     }
   }
   ft_scene_destroy(scene);
 }
 
+void answer(std::size_t number, std::size_t frame, Played& played) {
+  if (frame == 0) std::printf("case %zu\n", number);
+  played.stepTo(frame);
+  played.tellOf(frame);
+}
+
+void tellTimes(const std::vector<CrossCase>& cases) {
+  std::vector<double> times;
+  play(cases, [&](std::size_t, std::size_t frame, Played& played) {
+    const double time = played.stepTo(frame);
+    if (frame != 0) times.push_back(1e6 * time);
+  });
+  if (times.empty()) throw std::runtime_error("the cases have no steps");
+  std::sort(times.begin(), times.end());
+  double sum = 0.0;
+  for (const double time : times) sum += time;
+  const auto count = static_cast<double>(times.size());
+  std::printf("%zu steps: mean %.1f us, median %.1f us, 99 %% within %.1f us\n", times.size(),
+              sum / count, times[times.size() / 2], times[times.size() * 99 / 100]);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count != 2) {
-    std::fprintf(stderr, "verdicts CASES\n");
+  const bool isTimed = count == 3 && std::string(arguments[2]) == "--times";
+  if (count != 2 && !isTimed) {
+    std::fprintf(stderr, "verdicts CASES [--times]\n");
     return 2;
   }
   try {
-    answer(foretouch::test::readCases(arguments[1]));
+    const auto cases = foretouch::test::readCases(arguments[1]);
+    if (isTimed) {
+      tellTimes(cases);
+    } else {
+      play(cases, answer);
+    }
   } catch (const std::exception& failed) {
     std::fprintf(stderr, "verdicts: %s\n", failed.what());
     return 1;

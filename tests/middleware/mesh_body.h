@@ -27,8 +27,7 @@ inline std::vector<std::vector<Triangle>> meshWithin(const Avatar& avatar, Rando
         const double along = random.uniform(0.0, 1.0);
         for (Eigen::Vector3d& v : triangle.vertices) {
           const double s = std::min(1.0, std::max(0.0, along + random.uniform(-0.1, 0.1)));
-          v = lss.a + s * (lss.b - lss.a) +
-              random.uniform(0.0, share) * lss.radius * random.direction();
+          v = lss.a + s * (lss.b - lss.a) + lss.radius * random.arrow(0.0, share);
         }
         meshes[static_cast<std::size_t>(link)].push_back(triangle);
       }

@@ -35,8 +35,7 @@ RandomBody bodyInClutter(Random& random, int links, const Vector3d& center) {
   std::vector<std::vector<Lss>> lss;
   for (int j = 0; j < links; ++j) {
     const JointId parent = j == 0 ? kNoParent : (random.chance(0.6) ? j - 1 : random.below(j));
-    const Vector3d offset = j == 0 ? center + random.inBox(1.0)
-                                   : Vector3d(random.uniform(0.05, 0.4) * random.direction());
+    const Vector3d offset = j == 0 ? center + random.inBox(1.0) : random.arrow(0.05, 0.4);
     raw.joints.push_back({"link" + std::to_string(j), parent, offset, random.rotation()});
     lss.emplace_back();
     for (int k = 0; k <= random.below(3); ++k) {

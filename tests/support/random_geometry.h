@@ -1,5 +1,6 @@
 // tests/support/random_geometry.h: random inputs, many of them awkward. The seed is the case's
-// index, so a failing case replays alone.
+// index, so a failing case replays alone. Draw one by one, not as arguments of one call or one
+// product: compilers choose the order of these, and would draw other cases on other machines.
 #pragma once
 
 #include <array>
@@ -33,6 +34,11 @@ class Random {
       const Eigen::Vector3d v = inBox(1.0);
       if (v.norm() > 0.1 && v.norm() < 1.0) return v.normalized();
     }
+  }
+  /// In any direction, of any length between these.
+  Eigen::Vector3d arrow(double least, double most) {
+    const Eigen::Vector3d along = direction();
+    return uniform(least, most) * along;
   }
   Eigen::Quaternion<double, Eigen::DontAlign> rotation() { return turn(uniform(0.0, 3.1)); }
   Eigen::Quaternion<double, Eigen::DontAlign> turn(double angle) {

@@ -45,8 +45,9 @@ inline RandomMotion randomMotion(Random& random, int joints) {
     m.to.rotations.push_back(end);
     m.from.translations.push_back(raw.joints.back().offset);
     const bool drifts = j == 0 || random.chance(0.3);
-    m.to.translations.push_back(raw.joints.back().offset +
-                                (drifts ? random.magnitude(1e-6, 0.5) : 0.0) * random.direction());
+    const Eigen::Vector3d away = random.direction();
+    const double drift = drifts ? random.magnitude(1e-6, 0.5) : 0.0;
+    m.to.translations.push_back(raw.joints.back().offset + drift * away);
   }
   m.skeleton = Skeleton::build(raw).value();
   m.precise = plainJoints(m.skeleton, m.from, m.to);

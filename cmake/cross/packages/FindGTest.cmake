@@ -8,8 +8,6 @@ if(NOT TARGET GTest::gtest)
     target_compile_features(foretouch_${name} PUBLIC cxx_std_17)
     add_library(GTest::${name} ALIAS foretouch_${name})
   endforeach()
-  # Where boost lies, which the judge's numbers need.
-  target_include_directories(foretouch_gtest SYSTEM PUBLIC ${FORETOUCH_CROSS_SOURCES}/usr/include)
 endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(GTest REQUIRED_VARS FORETOUCH_CROSS_SOURCES)

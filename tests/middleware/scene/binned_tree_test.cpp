@@ -185,7 +185,8 @@ TEST(BinnedTree, IsTheSameOnEveryMachine) {
   RawScene raw;
   raw.objectNames = {"chips"};
   for (int i = 0; i < 30000; ++i) {
-    const Vector3d corner(random.uniform(-4, 4), random.uniform(0, 3), random.uniform(-2, 2));
+    const double z = random.uniform(-2, 2), y = random.uniform(0, 3), x = random.uniform(-4, 4);
+    const Vector3d corner(x, y, z);
     Triangle triangle;
     for (Vector3d& vertex : triangle.vertices) {
       vertex = corner;
