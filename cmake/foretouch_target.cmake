@@ -73,6 +73,8 @@ function(foretouch_compile_options target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
     -Woverloaded-virtual -ffp-contract=off
+    # As GCC's -Wall, which has it for C alone: braces may be left out in C++.
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-missing-braces>
     $<$<BOOL:${FORETOUCH_WERROR}>:-Werror>)
   if(FORETOUCH_HARDENED)
     foretouch_harden(${target})

@@ -35,7 +35,7 @@ bool isListOption(const Setting& setting) {
 
 class ManifestReading {
  public:
-  ManifestReading(const std::string& path, Settings& replay) : replay_(replay) {
+  ManifestReading(const std::string& path, Settings& replay) {
     manifest_.path = path;
     manifest_.folder = std::filesystem::path(path).parent_path().string();
     if (manifest_.folder.empty()) manifest_.folder = ".";
@@ -67,7 +67,6 @@ class ManifestReading {
   Result<std::vector<std::string>> pathsFor(const std::string& option, const std::string& text);
   Result<Done> addJobs(const std::vector<GivenOption>& own);
 
-  Settings& replay_;
   std::map<std::string, std::size_t> byName_;
   std::vector<Known> known_;
   std::vector<std::string> names_;  // for misspelt ones
