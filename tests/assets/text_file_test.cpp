@@ -179,12 +179,13 @@ TEST_F(PendingFileTest, FollowsLinksOnTheWayAndEndsInARing) {
 TEST_F(PendingFileTest, WritesIntoAPipeThatHasNoNameOfItsOwn) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
-  struct stat end {
-  }, named{};
-  ::fstat(ends[1], &end);
-  ::stat(("/dev/fd/" + std::to_string(ends[1])).c_str(), &named);
-  if (end.st_ino != named.st_ino) GTEST_SKIP() << "no names for pipes here";
-  auto pending = PendingFile::create("/dev/fd/" + std::to_string(ends[1]));
+  const std::string name = "/dev/fd/" + std::to_string(ends[1]);
+  struct stat opened {};
+  struct stat named {};
+  ::fstat(ends[1], &opened);
+  ::stat(name.c_str(), &named);
+  if (opened.st_ino != named.st_ino) GTEST_SKIP() << "no names for pipes here";
+  auto pending = PendingFile::create(name);
   ASSERT_TRUE(pending.ok()) << describe(pending.error());
   pending.value().write("new");
   EXPECT_TRUE(pending.value().commit().ok());
