@@ -5,19 +5,19 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fcntl.h>
 #include <new>
 #include <optional>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <utility>
 
-#include <climits>
-
+#include "assets/system_files.h"
 #include "lss/assert.h"
 #include "lss/index.h"
 
 namespace foretouch {
+
+using internal::FileKind;
+using internal::FileState;
+
 namespace {
 
 constexpr std::size_t kChunkBytes = 1u << 20;
@@ -29,7 +29,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    if (descriptor_ >= 0) static_cast<void>(internal::closeFile(descriptor_));
   }
   [[nodiscard]] int get() const { return descriptor_; }
 
@@ -46,8 +46,7 @@ Result<std::string> readAll(int descriptor, const std::string& path, std::size_t
   // One byte more than there is, to see the end at once.
   std::string chunk(std::min(kChunkBytes, sizeHint + 1), '\0');
   for (;;) {
-    const ssize_t got = ::read(descriptor, chunk.data(), chunk.size());
-    if (got < 0 && errno == EINTR) continue;
+    const std::int64_t got = internal::readSome(descriptor, chunk.data(), chunk.size());
     if (got < 0) {
       return Error::in(path, ErrorCode::FileUnreadable,
                        std::string("reading failed: ") + std::strerror(errno));
@@ -61,103 +60,45 @@ Result<std::string> readAll(int descriptor, const std::string& path, std::size_t
   }
 }
 
-std::string folderOf(const std::string& path) {
-  const std::size_t slash = path.find_last_of('/');
-  return slash == std::string::npos ? "./" : path.substr(0, slash + 1);
-}
-
-/// In a folder that everybody may write to, such as /tmp, a link of somebody else is a trap: it
-/// leads to a file of ours. open() refuses to follow it where fs.protected_symlinks is set, but
-/// only as a path's last name; reading the link, as we must, is always allowed.
-bool isOfAStranger(const struct stat& link, const std::string& path) {
-  struct stat folder {};
-  if (::stat(folderOf(path).c_str(), &folder) != 0) return true;
-  const bool isShared = (folder.st_mode & S_IWOTH) != 0 && (folder.st_mode & S_ISVTX) != 0;
-  return isShared && link.st_uid != ::geteuid() && link.st_uid != folder.st_uid;
-}
-
-/// Where the link `path` leads; nothing if its text does not say: those of /proc lead to pipes and
-/// to files without a name.
-std::optional<std::string> targetOf(const std::string& path) {
-  std::string text(PATH_MAX, '\0');
-  const ssize_t length = ::readlink(path.c_str(), text.data(), text.size());
-  if (length <= 0) return std::nullopt;
-  text.resize(countOf(length));
-  const std::string target = text.front() == '/' ? text : folderOf(path) + text;
-  struct stat unused {};
-  const bool isThere = ::stat(path.c_str(), &unused) == 0;
-  return isThere && ::lstat(target.c_str(), &unused) != 0 ? std::nullopt : std::optional(target);
-}
-
-/// The path without links, as far as there is one yet. Nothing if one of them, on the way or at the
-/// end, is another user's trap.
-std::optional<std::string> resolved(std::string path) {
-  constexpr int kMostLinks = 40;  // as the kernel, which refuses one more
-  int links = 0;
-  for (std::size_t end = 0; end < path.size();) {
-    end = std::min(path.find('/', end + 1), path.size());
-    const std::string upTo = path.substr(0, end);
-    struct stat status {};
-    if (::lstat(upTo.c_str(), &status) != 0) break;
-    if (!S_ISLNK(status.st_mode)) continue;
-    if (isOfAStranger(status, upTo)) return std::nullopt;
-    const auto target = targetOf(upTo);
-    if (!target || ++links > kMostLinks) break;
-    path = *target + path.substr(end);
-    end = 0;
-  }
-  return path;
-}
-
 struct Opened {
   std::string temporary;
   int descriptor = -1;
 };
 
-/// O_EXCL: never writes through a file or link planted under the name. The number makes the name
-/// unique within this process, the process id among processes.
-Opened openTemporary(const std::string& target, mode_t mode) {
+/// Never writes through a file or link planted under the name. The number makes the name unique
+/// within this process, the process id among processes.
+Opened openTemporary(const std::string& target, unsigned permissions) {
   static std::atomic<std::uint64_t> counter{0};
   constexpr int kAttempts = 64;  // only leftovers of earlier processes with our id collide
   Opened opened;
   for (int i = 0; i < kAttempts; ++i) {
-    opened.temporary =
-        target + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter.fetch_add(1));
-    opened.descriptor =
-        ::open(opened.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    opened.temporary = target + ".part-" + std::to_string(internal::processNumber()) + "-" +
+                       std::to_string(counter.fetch_add(1));
+    opened.descriptor = internal::openNew(opened.temporary, permissions);
     if (opened.descriptor >= 0 || errno != EEXIST) break;
   }
   return opened;
 }
 
-/// The rename is on the disk only once the folder is. Not every file system can do this, and the
-/// file is complete either way, so a failure is not an error.
-void syncFolderOf(const std::string& target) {
-  const Descriptor descriptor(::open(folderOf(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (descriptor.get() >= 0) static_cast<void>(::fsync(descriptor.get()));
-}
-
 }  // namespace
 
 Result<std::string> readWholeFile(const std::string& path, std::size_t limitBytes) {
-  // O_NONBLOCK: opening a pipe without a writer would wait for ever.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  const Descriptor file(internal::openToRead(path));
   if (file.get() < 0) {
     return Error::in(path, ErrorCode::FileNotFound,
                      std::string("cannot be opened: ") + std::strerror(errno));
   }
-  struct stat status {};
-  if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+  const FileState state = internal::stateOf(file.get());
+  if (state.kind != FileKind::Regular) {
     return Error::in(path, ErrorCode::FileUnreadable, "is not a regular file");
   }
-  const auto size = static_cast<std::uint64_t>(status.st_size);
-  if (size > limitBytes) {
-    return Error::in(
-        path, ErrorCode::LimitExceeded,
-        "expected at most " + std::to_string(limitBytes) + " bytes, found " + std::to_string(size));
+  if (state.bytes > limitBytes) {
+    return Error::in(path, ErrorCode::LimitExceeded,
+                     "expected at most " + std::to_string(limitBytes) + " bytes, found " +
+                         std::to_string(state.bytes));
   }
   try {
-    return readAll(file.get(), path, static_cast<std::size_t>(size), limitBytes);
+    return readAll(file.get(), path, static_cast<std::size_t>(state.bytes), limitBytes);
   } catch (const std::bad_alloc&) {
     return Error::in(path, ErrorCode::LimitExceeded, "does not fit into memory");
   }
@@ -183,35 +124,35 @@ PendingFile::~PendingFile() {
 }
 
 Result<PendingFile> PendingFile::create(const std::string& path) {
-  const std::optional<std::string> followed = resolved(path);
+  const std::optional<std::string> followed = internal::withoutLinks(path);
   if (!followed) {
     return Error::in(path, ErrorCode::FileUnwritable,
                      "is another user's link in a folder that all may write to; expected a file of "
                      "yours, or a new name");
   }
   const std::string& target = *followed;
-  struct stat status {};
-  const bool exists = ::stat(target.c_str(), &status) == 0;
-  if (!exists && errno == ELOOP) {
+  const FileState state = internal::stateOf(target);
+  if (state.kind == FileKind::RingOfLinks) {
     return Error::in(path, ErrorCode::FileUnwritable,
                      "is a ring of links, expected a file to write");
   }
-  if (exists && S_ISDIR(status.st_mode)) {
+  if (state.kind == FileKind::Folder) {
     return Error::in(path, ErrorCode::FileUnwritable, "is a folder, expected a file to write");
   }
   Opened opened;
   if (path == "/dev/stdout") {
     // Not the file behind it: a shell opened it, perhaps to append, and wants no other in its
     // place.
-    opened.descriptor = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
-  } else if (exists && !S_ISREG(status.st_mode)) {
-    opened.descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    opened.descriptor = internal::openStandardOutput();
+  } else if (state.kind == FileKind::Other) {
+    opened.descriptor = internal::openToWrite(target);
   } else {
-    opened = openTemporary(target, exists ? status.st_mode & 0777 : 0666);
-  }
-  // open() applied the umask to the mode; a replaced file keeps its mode.
-  if (opened.descriptor >= 0 && exists && !opened.temporary.empty()) {
-    static_cast<void>(::fchmod(opened.descriptor, status.st_mode & 0777));
+    const bool isNew = state.kind == FileKind::Missing;
+    opened = openTemporary(target, isNew ? 0666 : state.permissions);
+    // The system took the umask off; a replaced file keeps its permissions.
+    if (opened.descriptor >= 0 && !isNew) {
+      internal::setPermissions(opened.descriptor, state.permissions);
+    }
   }
   if (opened.descriptor < 0) {
     return Error::in(path, ErrorCode::FileUnwritable,
@@ -228,10 +169,10 @@ void PendingFile::write(const std::string& text) {
 void PendingFile::flush() {
   std::string_view rest = buffer_;
   while (!rest.empty() && failure_ == 0) {
-    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    const std::int64_t written = internal::writeSome(descriptor_, rest.data(), rest.size());
     if (written >= 0) {
       rest.remove_prefix(countOf(written));
-    } else if (errno != EINTR) {
+    } else {
       failure_ = errno;
     }
   }
@@ -242,12 +183,11 @@ Result<Done> PendingFile::commit() {
   FORETOUCH_ASSERT(descriptor_ >= 0);  // once only
   flush();
   const bool inPlace = temporary_.empty();
-  if (failure_ == 0 && !inPlace && ::fsync(descriptor_) != 0) failure_ = errno;
-  if (::close(std::exchange(descriptor_, -1)) != 0 && failure_ == 0) failure_ = errno;
+  if (failure_ == 0 && !inPlace && !internal::syncFile(descriptor_)) failure_ = errno;
+  if (!internal::closeFile(std::exchange(descriptor_, -1)) && failure_ == 0) failure_ = errno;
   if (failure_ == 0 && !inPlace) {
-    if (::rename(temporary_.c_str(), target_.c_str()) == 0) {
+    if (internal::replaceFile(temporary_, target_)) {
       temporary_.clear();
-      syncFolderOf(target_);
     } else {
       failure_ = errno;
     }
@@ -259,8 +199,8 @@ Result<Done> PendingFile::commit() {
 }
 
 void PendingFile::discard() noexcept {
-  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (descriptor_ >= 0) static_cast<void>(internal::closeFile(std::exchange(descriptor_, -1)));
+  if (!temporary_.empty()) internal::removeFile(temporary_);
   temporary_.clear();
 }
 

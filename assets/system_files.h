@@ -1,0 +1,49 @@
+// assets/system_files.h: what text_file.h asks of the system, which each has its own way for
+// (system_files_posix.cpp, system_files_windows.cpp). Paths are UTF-8. Failures are those of errno.
+// Not installed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace foretouch::internal {
+
+enum class FileKind : std::uint8_t { Missing, Regular, Folder, Other, RingOfLinks };
+
+struct FileState {
+  FileKind kind = FileKind::Missing;
+  std::uint64_t bytes = 0;
+  unsigned permissions = 0;
+};
+
+/// Of what the path leads to, through links.
+[[nodiscard]] FileState stateOf(const std::string& path);
+[[nodiscard]] FileState stateOf(int descriptor);
+
+/// Descriptors, below zero on failure. None waits for the other end of a pipe to be read from, or
+/// is passed on to programs that are started.
+[[nodiscard]] int openToRead(const std::string& path);
+[[nodiscard]] int openToWrite(const std::string& path);
+/// Only where nothing has that name, be it a link.
+[[nodiscard]] int openNew(const std::string& path, unsigned permissions);
+[[nodiscard]] int openStandardOutput();
+
+/// How many bytes, below zero on failure. An interrupted call begins anew.
+[[nodiscard]] std::int64_t readSome(int descriptor, char* to, std::size_t most);
+[[nodiscard]] std::int64_t writeSome(int descriptor, const char* from, std::size_t most);
+[[nodiscard]] bool closeFile(int descriptor);
+/// On the disk, not only on its way there.
+[[nodiscard]] bool syncFile(int descriptor);
+void setPermissions(int descriptor, unsigned permissions);
+void removeFile(const std::string& path);
+/// The file takes the other name, and the place of what has it.
+[[nodiscard]] bool replaceFile(const std::string& from, const std::string& to);
+[[nodiscard]] std::uint64_t processNumber();
+
+/// The path without links, as far as there is one yet. Nothing if one of them, on the way or at the
+/// end, is another user's trap.
+[[nodiscard]] std::optional<std::string> withoutLinks(const std::string& path);
+
+}  // namespace foretouch::internal
