@@ -84,6 +84,9 @@ Opened openTemporary(const std::string& target, unsigned permissions) {
 
 Result<std::string> readWholeFile(const std::string& path, std::size_t limitBytes) {
   const Descriptor file(internal::openToRead(path));
+  if (file.get() < 0 && internal::stateOf(path).kind == FileKind::Folder) {
+    return Error::in(path, ErrorCode::FileUnreadable, "is not a regular file");
+  }
   if (file.get() < 0) {
     return Error::in(path, ErrorCode::FileNotFound,
                      std::string("cannot be opened: ") + std::strerror(errno));

@@ -19,6 +19,7 @@
 #include "assets/import/process.h"
 #include "assets/import/scene_import.h"
 #include "tests/assets/import_files.h"
+#include "tests/support/environment.h"
 
 namespace foretouch::test {
 namespace {
@@ -57,9 +58,9 @@ class ImporterCage : public testing::Test {
     folder_.write("model/SECRETS",
                   folder_ / "secrets" + "\n" + std::to_string(listener_.port()) + "\n");
     model_ = folder_.write("model/t.obj", kTriangleObj);
-    setenv("FORETOUCH_TEST_TOKEN", "secret", 1);
+    test::setVariable("FORETOUCH_TEST_TOKEN", "secret");
   }
-  void TearDown() override { unsetenv("FORETOUCH_TEST_TOKEN"); }
+  void TearDown() override { test::unsetVariable("FORETOUCH_TEST_TOKEN"); }
 
   /// Everything of the stand-in's last line behind "done:".
   static std::string doneIn(const std::string& text) {

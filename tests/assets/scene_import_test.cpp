@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/assets/import_files.h"
+#include "tests/support/environment.h"
 
 namespace foretouch::test {
 namespace {
@@ -330,17 +331,17 @@ TEST_F(ImportScene, NamesTheNamelessAfterTheFile) {
 }
 
 TEST_F(ImportScene, FindsTheImporterBesideTheRunningProgram) {
-  unsetenv("FORETOUCH_IMPORTER");
+  test::unsetVariable("FORETOUCH_IMPORTER");
   EXPECT_EQ(written("t.obj", kTriangleObj, SceneImportOptions{}).scene.triangles.size(), 1U);
 }
 
 TEST_F(ImportScene, PrefersTheOptionToTheEnvironmentToTheRest) {
   const std::string named = folder_.script("from-environment", "exit 9");
   const std::string model = folder_.write("t.obj", kTriangleObj);
-  setenv("FORETOUCH_IMPORTER", named.c_str(), 1);
+  test::setVariable("FORETOUCH_IMPORTER", named);
   const auto fromEnvironment = importScene(model);
   const auto fromOption = importScene(model, withImporter());
-  unsetenv("FORETOUCH_IMPORTER");
+  test::unsetVariable("FORETOUCH_IMPORTER");
   EXPECT_TRUE(fromOption.ok());
   ASSERT_FALSE(fromEnvironment.ok());
   EXPECT_NE(fromEnvironment.error().message.find("status 9"), std::string::npos);

@@ -8,6 +8,7 @@
 #include "assets/mesh/link_mesh.h"
 #include "tests/bindings/c_world.h"
 #include "tests/bindings/importer.h"
+#include "tests/support/environment.h"
 #include "tests/support/temp_folder.h"
 
 namespace foretouch {
@@ -58,10 +59,10 @@ TEST(CFiles, TheImporterIsFoundWhereItIsSaidToBe) {
   options.importer = absent.c_str();
   expectRefused(ft_scene_create_from_file(path.c_str(), &options, &scene), FT_ERROR_FILE_NOT_FOUND,
                 {absent, "FORETOUCH_IMPORTER"});
-  ASSERT_EQ(::setenv("FORETOUCH_IMPORTER", absent.c_str(), 1), 0);
+  test::setVariable("FORETOUCH_IMPORTER", absent);
   expectRefused(ft_scene_create_from_file(path.c_str(), nullptr, &scene), FT_ERROR_FILE_NOT_FOUND,
                 {absent});
-  ::unsetenv("FORETOUCH_IMPORTER");
+  test::unsetVariable("FORETOUCH_IMPORTER");
 }
 
 TEST(CFiles, BadScenesAreRefused) {
@@ -162,7 +163,7 @@ TEST(CFiles, WithoutAnImporterWhatItWouldReadIsRefused) {
   const ft_import_options meshes = test::initialised(ft_import_options_init);
   ft_avatar *full = nullptr, *bare = nullptr;
   expectRefused(ft_avatar_create_from_file(stick.c_str(), &meshes, &full), FT_ERROR_IMPORT_FAILED,
-                {mesh, "without the importer"});
+                {"stick.glb", "without the importer"});
   ASSERT_EQ(ft_avatar_create_from_file(stick.c_str(), nullptr, &bare), FT_OK) << ft_last_error();
   const test::AvatarHandle avatar(bare);
   ft_clip* clip = nullptr;

@@ -26,10 +26,12 @@ namespace fs = std::filesystem;
 
 using Files = std::map<std::string, std::vector<DefinedName>>;  // what they define, by path
 
-/// Compiled instead of other files where Embree or the importer is not: they define the same names.
+/// Compiled instead of other files where Embree, the importer or POSIX is not: they define the same
+/// names.
 const std::set<std::string>& standIns() {
   static const std::set<std::string> files = {"no_import.cpp", "no_importer_place.cpp",
-                                              "no_ray_yardstick.cpp", "point_query_plain.cpp"};
+                                              "no_ray_yardstick.cpp", "point_query_plain.cpp",
+                                              "system_files_windows.cpp"};
   return files;
 }
 

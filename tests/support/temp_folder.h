@@ -3,9 +3,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <set>
 #include <sstream>
-#include <stdlib.h>
 #include <string>
 #include <string_view>
 
@@ -16,9 +16,13 @@ namespace foretouch::test {
 class TempFolder {
  public:
   TempFolder() {
-    std::string name = testing::TempDir() + "/foretouch-test-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
-    path_ = name;
+    std::random_device random;
+    for (int attempt = 0; path_.empty() && attempt < 8; ++attempt) {
+      const std::string name = testing::TempDir() + "/foretouch-test-" + std::to_string(random());
+      std::error_code failed;
+      if (std::filesystem::create_directory(name, failed)) path_ = name;
+    }
+    if (path_.empty()) ADD_FAILURE() << "no temporary folder";
   }
   TempFolder(const TempFolder&) = delete;
   TempFolder& operator=(const TempFolder&) = delete;

@@ -26,10 +26,16 @@ double asDouble(const Real& x) {
   return static_cast<double>(x);
 }
 
+/// The product of floats is exact in doubles. Not every library's std::fma() of floats is.
+float fusedSum(float x, float y, float add) {
+  return static_cast<float>(static_cast<double>(x) * static_cast<double>(y) +
+                            static_cast<double>(add));
+}
+
 float horner(const float* c, float u, bool fused) {
   float sum = c[kCoefficients - 1];
   for (int j = kCoefficients - 2; j >= 0; --j) {
-    sum = fused ? std::fma(sum, u, c[j]) : static_cast<float>(sum * u) + c[j];
+    sum = fused ? fusedSum(sum, u, c[j]) : static_cast<float>(sum * u) + c[j];
   }
   return sum;
 }
@@ -113,7 +119,7 @@ void checkFrame(const FramePolynomials& got, const ChainNodes& nodes, const Prec
         const float entry = horner(got.R[3 * i + j], u, fused);
         const auto coordinate = static_cast<float>(p_L[j]);
         sum =
-            fused ? std::fma(entry, coordinate, sum) : sum + static_cast<float>(entry * coordinate);
+            fused ? fusedSum(entry, coordinate, sum) : sum + static_cast<float>(entry * coordinate);
       }
       point[i] = static_cast<double>(sum);
     }
