@@ -30,10 +30,10 @@ def disagreements(source):
     presets = {preset["name"] for preset in
                json.loads((source / "CMakePresets.json").read_text())["configurePresets"]
                if preset.get("inherits") == "cross"}
-    body = re.search(r"^cross\(\) \{.*?^\}", run, re.MULTILINE | re.DOTALL).group(0)
+    body = re.search(r"^prepare_cross\(\) \{.*?^\}", run, re.MULTILINE | re.DOTALL).group(0)
     machines = re.findall(r"^    (\w+)\)$", body, re.MULTILINE)
     if not machines:
-        yield "run: cross() knows no machine"
+        yield "run: prepare_cross() knows no machine"
     for machine in machines:
         if machine not in presets:
             yield f"{machine}: no preset of that name inherits 'cross'"
