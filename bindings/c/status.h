@@ -4,9 +4,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 
 #include "articulated/result.h"
 #include "bindings/c/include/foretouch/foretouch.h"
+
+/// As printf() takes it: on Windows, what stands in for it.
+#ifdef __MINGW_PRINTF_FORMAT
+#define FORETOUCH_PRINTF_FORMAT __MINGW_PRINTF_FORMAT
+#else
+#define FORETOUCH_PRINTF_FORMAT printf
+#endif
 
 namespace foretouch::c {
 
@@ -16,8 +24,9 @@ inline constexpr std::size_t kMessageBytes = 1024;
 /// Stores the message for this thread, prefixed with the current C function's name, and returns
 /// `status`. `index`: of the joint, link, frame, triangle or body at fault; kNoIndex: none.
 inline constexpr std::int64_t kNoIndex = -1;
-[[gnu::format(printf, 3, 4)]] ft_status failure(ft_status status, std::int64_t index,
-                                                const char* format, ...) noexcept;
+[[gnu::format(FORETOUCH_PRINTF_FORMAT, 3, 4)]] ft_status failure(ft_status status,
+                                                                 std::int64_t index,
+                                                                 const char* format, ...) noexcept;
 /// The same for the library's own errors. May throw std::bad_alloc.
 ft_status failure(const Error& error);
 /// The same for the current exception, in a catch block.
